@@ -1,0 +1,39 @@
+# One folder = one static library = one namespace. Includes are written from the top of the tree:
+# #include "common/geometry/pose2.hpp".
+
+include(GoogleTest)
+
+# slammot_library(common_geometry SOURCES a.cpp b.cpp LINK Eigen3::Eigen)
+function(slammot_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  target_link_libraries(${name} PUBLIC ${ARG_LINK})
+endfunction()
+
+# slammot_service(ingest SOURCES ingest.cpp ingest_service.cpp LINK ...): library service_ingest and, from
+# main.cpp, the executable slammot-ingest.
+function(slammot_service name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  slammot_library(service_${name} SOURCES ${ARG_SOURCES} LINK ${ARG_LINK})
+  string(REPLACE "_" "-" dashed ${name})
+  add_executable(slammot-${dashed} main.cpp)
+  target_link_libraries(slammot-${dashed} PRIVATE service_${name} common_app)
+endfunction()
+
+# slammot_test(unit_geometry SOURCES ... LINK ...): a GoogleTest executable whose tests ctest knows one by one.
+function(slammot_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 60)
+  endif()
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+endfunction()

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/flow/ids.hpp"
+#include "common/geometry/uncertain_pose2.hpp"
+
+namespace slammot::flow {
+
+enum class ConstraintKind : std::uint8_t { kOdometric, kLoop };
+
+/// Relative pose between two submaps, with its covariance in the frame of `from`.
+struct Constraint {
+  SubmapId from;
+  SubmapId to;
+  ConstraintKind kind = ConstraintKind::kOdometric;
+  geometry::UncertainPose2 from_to;  ///< from_from_to: maps points of submap `to` into submap `from`.
+};
+
+struct CorrectedSubmap {
+  SubmapId submap_id;
+  geometry::Pose2 map_from_submap;
+};
+
+/// Where loop closing now believes the submaps to be.
+struct GraphCorrection {
+  std::uint32_t sequence = 0;            ///< Grows with every correction.
+  geometry::Pose2 map_from_odom;         ///< For the newest submap of the graph, and so for what is being driven now.
+  std::vector<CorrectedSubmap> submaps;  ///< All submaps of the graph, ascending.
+};
+
+}  // namespace slammot::flow

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/flow/segmented_scan.hpp"
+
+namespace slammot::flow {
+
+/// Points of an earlier scan that were held to be moving and turn out to be stationary after all.
+struct RestoredPoints {
+  std::uint32_t sequence = 0;
+  std::vector<std::uint16_t> beams;
+};
+
+/// What each point of a scan is, as tracking now believes: decides which points go to the SO-map and which to the MO-map.
+struct ScanLabels {
+  std::int64_t stamp_ns = 0;
+  std::uint32_t sequence = 0;
+  std::vector<PointLabel> labels;        ///< One a beam.
+  std::vector<RestoredPoints> restored;  ///< At most 64 earlier scans.
+};
+
+}  // namespace slammot::flow

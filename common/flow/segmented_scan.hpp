@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry/uncertain_pose2.hpp"
+
+namespace slammot::flow {
+
+enum class PointLabel : std::uint8_t {
+  kNoEcho,
+  kStationary,
+  kMoving,
+  kUnknown,  ///< Where the map cannot say.
+};
+
+/// Neighbouring beams that ended on one thing, as far as one scan can tell.
+struct Segment {
+  std::uint32_t segment_id = 0;                  ///< Index in the scan.
+  PointLabel label = PointLabel::kUnknown;
+  std::vector<std::uint16_t> beams;              ///< Ascending.
+  Eigen::Vector2d centroid_in_odom_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d centroid_covariance_m2 = Eigen::Matrix2d::Zero();  ///< Laser noise and pose together.
+  Eigen::Vector2d box_centre_in_odom_m = Eigen::Vector2d::Zero();    ///< Of the visible part's oriented box.
+  double box_heading_rad = 0.0;                  ///< Of its longer side, in odom; sense is not known.
+  double box_length_m = 0.0;
+  double box_width_m = 0.0;
+  double moving_share = 0.0;                     ///< Moving points among those about which the map can say.
+  bool occluded_at_start = false;                ///< The neighbour before beams.front() is nearer: part may be hidden.
+  bool occluded_at_end = false;
+};
+
+/// One scan cut into segments, stationary ones too.
+struct SegmentedScan {
+  std::int64_t stamp_ns = 0;
+  std::uint32_t sequence = 0;
+  std::string scanner_id;
+  geometry::Pose2 base_from_laser;
+  double max_range_m = 0.0;
+  double beam_step_rad = 0.0;
+  geometry::UncertainPose2 odom_from_base;
+  geometry::Pose2 map_from_odom;
+  std::vector<Eigen::Vector2f> points_in_base_m;  ///< One a beam.
+  std::vector<float> range_m;                     ///< One a beam; 0 for no echo.
+  std::vector<PointLabel> labels;                 ///< One a beam.
+  std::vector<Segment> segments;
+};
+
+}  // namespace slammot::flow

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/flow/ids.hpp"
+#include "common/geometry/pose2.hpp"
+
+namespace slammot::flow {
+
+enum class Motion : std::uint8_t { kMoving, kStopped };
+enum class ObjectClass : std::uint8_t { kUnknown, kPedestrian, kBicycle, kCar, kTruckOrBus };
+
+struct PredictedPosition {
+  double after_s = 0.0;
+  Eigen::Vector2d position_in_odom_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
+};
+
+/// One object as tracking believes it to be at the stamp of the message.
+struct TrackedObject {
+  TrackId track_id;
+  bool confirmed = false;
+  double existence = 0.0;                                        ///< Probability, [0, 1].
+  Eigen::Vector2d position_in_odom_m = Eigen::Vector2d::Zero();  ///< Estimated centre of the object's box.
+  Eigen::Vector2d velocity_in_odom_mps = Eigen::Vector2d::Zero();
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();          ///< (x, y [m], vx, vy [m/s]) in odom, pose uncertainty compounded in.
+  Eigen::Vector2d acceleration_in_odom_mps2 = Eigen::Vector2d::Zero();
+  double heading_in_odom_rad = 0.0;                              ///< Of the box's length, in the sense of motion where known.
+  double length_m = 0.0;
+  double width_m = 0.0;
+  Motion motion = Motion::kMoving;
+  ObjectClass object_class = ObjectClass::kUnknown;
+  std::array<double, 3> mode_probability = {0.0, 0.0, 0.0};      ///< Constant velocity, constant acceleration, coordinated turn.
+  std::int64_t first_seen_ns = 0;
+  std::int64_t last_seen_ns = 0;                                 ///< Last scan in which a segment was associated.
+  std::vector<Eigen::Vector2f> contour_in_odom_m;                ///< At most 64 points seen on the object.
+  std::vector<PredictedPosition> predicted_path;                 ///< At most 16, ascending in time.
+};
+
+struct TrackedObjects {
+  std::int64_t stamp_ns = 0;
+  std::uint32_t sequence = 0;         ///< Of the scan.
+  geometry::Pose2 map_from_odom;      ///< As of that scan: map_from_odom * position_in_odom is the position in map.
+  geometry::Pose2 odom_from_base;
+  std::vector<TrackedObject> objects; ///< Tentative ones too.
+};
+
+}  // namespace slammot::flow

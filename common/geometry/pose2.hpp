@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace slammot::geometry {
+
+using Vector2 = Eigen::Vector2d;
+using Matrix2 = Eigen::Matrix2d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// Angle brought into (-pi, pi].
+double wrap_angle(double angle_rad);
+
+/// Rigid motion in the plane. A variable is named target_from_source and maps points of source to target.
+struct Pose2 {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;  ///< In (-pi, pi] when made by the functions here.
+
+  static Pose2 identity() { return {}; }
+  Vector2 translation_m() const { return {x_m, y_m}; }
+};
+
+bool operator==(const Pose2& a, const Pose2& b);
+
+/// a_from_c = a_from_b ∘ b_from_c; Wang 2004, Eq. (2.2).
+Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c);
+
+/// Point of b expressed in a.
+Vector2 operator*(const Pose2& a_from_b, const Vector2& point_in_b);
+
+/// b_from_a; Wang 2004, Eq. (2.6).
+Pose2 inverse(const Pose2& a_from_b);
+
+/// 2x2 matrix that turns by angle_rad, counter-clockwise.
+Matrix2 rotation(double angle_rad);
+
+/// Pose at fraction (0 gives from, 1 gives to; outside extrapolates) of the way, x, y and heading each linear,
+/// heading the short way round.
+Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction);
+
+}  // namespace slammot::geometry

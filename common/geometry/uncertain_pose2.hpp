@@ -1,0 +1,31 @@
+#pragma once
+
+#include "common/geometry/pose2.hpp"
+
+namespace slammot::geometry {
+
+/// Gaussian over a pose. The covariance is 3x3 over (x [m], y [m], heading [rad]) in the frame named first.
+struct UncertainPose2 {
+  Pose2 pose;
+  Matrix3 covariance = Matrix3::Zero();
+};
+
+/// Jacobian of (a_from_b ∘ b_from_c) with respect to a_from_b; Wang 2004, Eq. (2.4).
+Matrix3 compound_jacobian_first(const Pose2& a_from_b, const Pose2& b_from_c);
+
+/// Jacobian of (a_from_b ∘ b_from_c) with respect to b_from_c; Wang 2004, Eq. (2.5).
+Matrix3 compound_jacobian_second(const Pose2& a_from_b);
+
+/// Jacobian of the inverse; Wang 2004, Eq. (2.8).
+Matrix3 inverse_jacobian(const Pose2& a_from_b);
+
+/// Chains two independent uncertain poses, to first order; Wang 2004, Eqs. (2.1)-(2.5).
+UncertainPose2 compound(const UncertainPose2& a_from_b, const UncertainPose2& b_from_c);
+
+/// b_from_a with its covariance, to first order; Wang 2004, Eqs. (2.6)-(2.8).
+UncertainPose2 inverse(const UncertainPose2& a_from_b);
+
+/// b_from_c from two independent poses that share the frame a (tail-to-tail); Wang 2004, Eqs. (2.9)-(2.10).
+UncertainPose2 tail_to_tail(const UncertainPose2& a_from_b, const UncertainPose2& a_from_c);
+
+}  // namespace slammot::geometry

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/geometry/pose2.hpp"
+
+namespace slammot::sensing {
+
+/// How one planar scanner is mounted and how it sweeps. Travels with every scan, so no consumer keeps state.
+struct Scanner {
+  std::string scanner_id = "front";   ///< Frame laser_<scanner_id>; at most 31 characters.
+  geometry::Pose2 base_from_laser;
+  double first_beam_rad = 0.0;        ///< Direction of beam 0 in the laser frame, counter-clockwise.
+  double beam_step_rad = 0.0;         ///< May be negative for a scanner that sweeps clockwise.
+  double max_range_m = 0.0;           ///< A reading at or beyond it is "no echo".
+  double sweep_s = 0.0;               ///< From the first to the last beam's firing; 0 when unknown or at once.
+};
+
+/// One sweep of one scanner.
+struct LaserScan {
+  std::int64_t stamp_ns = 0;          ///< Firing of the first beam, source clock.
+  std::uint32_t sequence = 0;         ///< Counts the scans of this scanner from 0, without gaps at the source.
+  Scanner scanner;
+  std::vector<float> range_m;         ///< One a beam. No echo: NaN, <= 0 or >= max_range_m.
+};
+
+/// What the wheels (and a gyro, where one is fused on the vehicle) say, integrated from an arbitrary start.
+struct Odometry {
+  std::int64_t stamp_ns = 0;
+  geometry::Pose2 wheel_from_base;    ///< Drifts without bound and may jump when the source restarts.
+};
+
+/// Whether this reading is an echo from something.
+bool is_echo(float range_m, double max_range_m);
+
+/// Direction of a beam in the laser frame.
+double beam_angle_rad(const Scanner& scanner, std::size_t beam);
+
+/// Time from the first beam's firing to this one's. beam_count > 1 for a sweep that takes time.
+double beam_delay_s(const Scanner& scanner, std::size_t beam, std::size_t beam_count);
+
+}  // namespace slammot::sensing

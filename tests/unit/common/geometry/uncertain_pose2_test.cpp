@@ -1,0 +1,90 @@
+#include "common/geometry/uncertain_pose2.hpp"
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "tests/support/matchers.hpp"
+
+namespace slammot::geometry {
+namespace {
+
+using slammot::testing::MatrixNear;
+
+Eigen::Vector3d as_vector(const Pose2& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
+Pose2 as_pose(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Matrix3 numerical_jacobian(const std::function<Pose2(const Pose2&)>& function, const Pose2& at) {
+  constexpr double kStep = 1e-6;
+  Matrix3 jacobian;
+  for (int column = 0; column < 3; ++column) {
+    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(column);
+    Eigen::Vector3d difference =
+        as_vector(function(as_pose(as_vector(at) + step))) - as_vector(function(as_pose(as_vector(at) - step)));
+    difference.z() = wrap_angle(difference.z());
+    jacobian.col(column) = difference / (2.0 * kStep);
+  }
+  return jacobian;
+}
+
+Matrix3 example_covariance() {
+  Matrix3 covariance;
+  covariance << 0.04, 0.01, 0.001, 0.01, 0.09, -0.002, 0.001, -0.002, 0.0016;
+  return covariance;
+}
+
+const Pose2 kFirst{3.0, -1.0, 0.8};
+const Pose2 kSecond{5.0, 2.0, -1.9};
+
+TEST(CompoundJacobians, AgreeWithNumericalOnes) {
+  EXPECT_THAT(compound_jacobian_first(kFirst, kSecond),
+              MatrixNear(numerical_jacobian([](const Pose2& p) { return p * kSecond; }, kFirst), 1e-8));
+  EXPECT_THAT(compound_jacobian_second(kFirst),
+              MatrixNear(numerical_jacobian([](const Pose2& p) { return kFirst * p; }, kSecond), 1e-8));
+}
+
+TEST(InverseJacobian, AgreesWithTheNumericalOne) {
+  EXPECT_THAT(inverse_jacobian(kFirst),
+              MatrixNear(numerical_jacobian([](const Pose2& p) { return inverse(p); }, kFirst), 1e-8));
+}
+
+TEST(Compound, TurnsHeadingErrorIntoLateralErrorAtTheEndOfALeverArm) {
+  UncertainPose2 map_from_base;
+  map_from_base.covariance(2, 2) = 0.010 * 0.010;  // one sigma 0.010 rad
+  const UncertainPose2 base_from_laser{Pose2{10.0, 0.0, 0.0}, Matrix3::Zero()};
+  EXPECT_NEAR(std::sqrt(compound(map_from_base, base_from_laser).covariance(1, 1)), 0.10, 1e-9);
+}
+
+TEST(Compound, AgreesWithMonteCarlo) {
+  const UncertainPose2 first{kFirst, example_covariance()};
+  const UncertainPose2 second{kSecond, 0.5 * example_covariance()};
+  const Matrix3 root_first = first.covariance.llt().matrixL();
+  const Matrix3 root_second = second.covariance.llt().matrixL();
+  const UncertainPose2 predicted = compound(first, second);
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
+  Matrix3 scatter = Matrix3::Zero();
+  constexpr int kDraws = 40000;
+  for (int i = 0; i < kDraws; ++i) {
+    const Pose2 sample = as_pose(as_vector(kFirst) + root_first * draw()) * as_pose(as_vector(kSecond) + root_second * draw());
+    Eigen::Vector3d error = as_vector(sample) - as_vector(predicted.pose);
+    error.z() = wrap_angle(error.z());
+    scatter += error * error.transpose() / kDraws;
+  }
+  EXPECT_THAT(scatter, MatrixNear(predicted.covariance, 0.02 * predicted.covariance.trace()));
+}
+
+TEST(TailToTail, RecoversThePoseThatWasCompounded) {
+  const UncertainPose2 exact_first{kFirst, Matrix3::Zero()};
+  const UncertainPose2 second{kSecond, example_covariance()};
+  const UncertainPose2 recovered = tail_to_tail(exact_first, compound(exact_first, second));
+  EXPECT_THAT(recovered.pose, slammot::testing::PoseNear(kSecond, 1e-12));
+  EXPECT_THAT(recovered.covariance, MatrixNear(second.covariance, 1e-12));
+}
+
+}  // namespace
+}  // namespace slammot::geometry
