@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace slammot::config {
+
+/// Both ends belong to it. In the field's own unit.
+struct Range {
+  double lowest = std::numeric_limits<double>::lowest();
+  double highest = std::numeric_limits<double>::max();
+};
+
+inline constexpr Range kPositive{std::numeric_limits<double>::min(), std::numeric_limits<double>::max()};
+inline constexpr Range kNotNegative{0.0, std::numeric_limits<double>::max()};
+inline constexpr Range kShare{0.0, 1.0};
+
+/// Where a setting is kept. Points into a configuration struct and is valid as long as that is.
+using Value = std::variant<bool*, int*, std::uint32_t*, std::int64_t*, std::uint64_t*, float*, double*, std::string*>;
+
+/// One row of a stage's field table: {"name as in slammot.proto", member, "meaning", range}. The member is a pointer to
+/// member or, for members of members, a function that takes Config& and returns a reference. The meaning is one line, with
+/// the unit where the name does not end in it. The range is not used for bool and string.
+template <class Config>
+struct Field {
+  template <class Member>
+  Field(std::string_view name_, Member member, std::string_view meaning_, Range range_ = {})
+      : name(name_),
+        value_of([member](Config& config) { return Value{&std::invoke(member, config)}; }),
+        meaning(meaning_),
+        range(range_) {}
+
+  std::string_view name;
+  std::function<Value(Config&)> value_of;
+  std::string_view meaning;
+  Range range;
+};
+
+template <class Config>
+using FieldTable = std::vector<Field<Config>>;
+
+/// A setting of one particular struct.
+struct BoundField {
+  std::string_view name;
+  Value value;
+  std::string_view meaning;
+  Range range;
+};
+
+/// All settings of one stage's struct, under the stage's name in Profile.
+struct BoundStage {
+  std::string_view stage;
+  std::vector<BoundField> fields;
+};
+
+template <class Config>
+BoundStage bind_stage(std::string_view stage, const FieldTable<Config>& table, Config& config) {
+  BoundStage bound{stage, {}};
+  for (const Field<Config>& row : table) bound.fields.push_back({row.name, row.value_of(config), row.meaning, row.range});
+  return bound;
+}
+
+/// The number as the range check sees it; nothing for bool and string.
+std::optional<double> number_in(const BoundField& field);
+
+/// "cell_size_m = 7 is outside [0.02, 1]: Edge of a cell." or nothing when the value may be used. NaN never may.
+std::optional<std::string> find_fault(const BoundField& field);
+
+/// The first fault of the stage, with the stage's name in front.
+std::optional<std::string> find_fault(const BoundStage& stage);
+
+}  // namespace slammot::config

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/config/fields.hpp"
+
+namespace slammot::config {
+
+/// Why a configuration cannot be used, and where it says so.
+struct Fault {
+  std::string file;
+  int line = 0;    ///< From 1; 0 when the fault is the whole file's.
+  int column = 0;  ///< From 1.
+  std::string message;
+
+  /// "file:line:column: message", as compilers write it.
+  std::string text() const;
+};
+
+/// Overlays what the text sets onto the bound stages. Stages that are not bound are checked for syntax and names only.
+/// On a fault (the first one) the stages may be partly overlaid and must not be used.
+std::optional<Fault> overlay_text(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages);
+
+/// The same for a file. A file that cannot be read is a fault.
+std::optional<Fault> overlay_file(const std::filesystem::path& file, std::span<const BoundStage> stages);
+
+/// Where a field table and slammot.proto differ in names or types, one line each; empty when they agree.
+std::vector<std::string> differences_from_proto(const BoundStage& stage);
+
+/// Names of the stages that slammot.proto knows.
+std::vector<std::string> stages_in_proto();
+
+}  // namespace slammot::config

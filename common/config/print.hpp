@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "common/config/fields.hpp"
+
+namespace slammot::config {
+
+/// Every setting as it is now, in the text format that overlay_text() reads, each with its meaning as a comment.
+/// Read back it gives exactly the same values. Precondition: tables and slammot.proto agree.
+std::string print(std::span<const BoundStage> stages);
+
+}  // namespace slammot::config

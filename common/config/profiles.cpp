@@ -1,0 +1,62 @@
+#include "common/config/profiles.hpp"
+
+#include <cstdlib>
+#include <set>
+
+namespace slammot::config {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view kExtension = ".textproto";
+
+fs::path folder_of_this_program() {
+  std::error_code unreadable;
+  return fs::read_symlink("/proc/self/exe", unreadable).parent_path();
+}
+
+}  // namespace
+
+std::vector<fs::path> profile_folders() {
+  std::vector<fs::path> folders;
+  if (const char* set_by_user = std::getenv("SLAMMOT_PROFILES")) folders.emplace_back(set_by_user);
+  const fs::path bin = folder_of_this_program();
+  folders.push_back(bin.parent_path() / "share/slammot/profiles");
+  for (fs::path above = bin; above.has_relative_path(); above = above.parent_path()) {
+    folders.push_back(above / "deploy/profiles");
+  }
+  return folders;
+}
+
+std::optional<fs::path> find_profile(const std::string& name_or_path) {
+  std::error_code not_there;
+  const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(kExtension);
+  if (is_path) return fs::is_regular_file(name_or_path, not_there) ? std::optional<fs::path>(name_or_path) : std::nullopt;
+  for (const fs::path& folder : profile_folders()) {
+    const fs::path file = folder / (name_or_path + std::string(kExtension));
+    if (fs::is_regular_file(file, not_there)) return file;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> profile_names() {
+  std::set<std::string> names;
+  for (const fs::path& folder : profile_folders()) {
+    std::error_code not_there;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, not_there)) {
+      if (entry.path().extension() == kExtension) names.insert(entry.path().stem().string());
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+std::string unknown_profile(std::string_view name) {
+  std::string text = "unknown profile '" + std::string(name) + "'; there are: ";
+  std::string_view separator;
+  for (const std::string& known : profile_names()) {
+    text += std::string(separator) + known;
+    separator = ", ";
+  }
+  return text;
+}
+
+}  // namespace slammot::config

@@ -1,0 +1,102 @@
+#include "common/config/overlay.hpp"
+
+#include <array>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/common/config/example_stage.hpp"
+
+namespace slammot::config {
+namespace {
+
+/// What overlaying the text says: "" when it is accepted.
+std::string fault_of(std::string_view text, ExampleConfig& config) {
+  const std::array stages = {bind_example(config)};
+  const auto fault = overlay_text(text, "drive.textproto", stages);
+  return fault ? fault->text() : "";
+}
+
+std::string fault_of(std::string_view text) {
+  ExampleConfig config;
+  return fault_of(text, config);
+}
+
+TEST(Overlay, OfAnEmptyFileLeavesTheDefaults) {
+  ExampleConfig config;
+  EXPECT_EQ(fault_of("", config), "");
+  EXPECT_EQ(config.window_scans, ExampleConfig{}.window_scans);
+  EXPECT_EQ(config.resend_after_s, ExampleConfig{}.resend_after_s);
+}
+
+TEST(Overlay, ChangesOnlyWhatTheFileSets) {
+  ExampleConfig config;
+  EXPECT_EQ(fault_of("ingest { window_scans: 3 wait_for_readers_s: 0 }  # a comment", config), "");
+  EXPECT_EQ(config.window_scans, 3);
+  EXPECT_EQ(config.inner.wait_for_readers_s, 0.0);
+  EXPECT_EQ(config.resend_after_s, 1.0);
+}
+
+TEST(Overlay, LetsTheLaterFileWin) {
+  ExampleConfig config;
+  EXPECT_EQ(fault_of("ingest { window_scans: 3 resend_after_s: 2.5 }", config), "");
+  EXPECT_EQ(fault_of("ingest { window_scans: 4 }", config), "");
+  EXPECT_EQ(config.window_scans, 4);
+  EXPECT_EQ(config.resend_after_s, 2.5);
+}
+
+TEST(Overlay, SaysWhereAnUnknownFieldStands) {
+  EXPECT_THAT(fault_of("# first line\ningest {\n  windw_scans: 3\n}"),
+              ::testing::AllOf(::testing::StartsWith("drive.textproto:3:"), ::testing::HasSubstr("windw_scans")));
+}
+
+TEST(Overlay, SaysWhereAnUnknownStageStands) {
+  EXPECT_THAT(fault_of("ingest {}\nlocalisation {}"),
+              ::testing::AllOf(::testing::StartsWith("drive.textproto:2:"), ::testing::HasSubstr("localisation")));
+}
+
+TEST(Overlay, SaysWhereTheSyntaxBreaks) {
+  EXPECT_THAT(fault_of("ingest {\n  window_scans 3\n}"), ::testing::StartsWith("drive.textproto:2:16: "));
+  EXPECT_THAT(fault_of("ingest {\n  window_scans: three\n}"), ::testing::StartsWith("drive.textproto:2:17: "));
+  EXPECT_THAT(fault_of("ingest {"), ::testing::StartsWith("drive.textproto:1:"));
+}
+
+TEST(Overlay, SaysWhereAValueOutOfRangeStands) {
+  EXPECT_EQ(fault_of("ingest {\n  resend_after_s: 1\n  window_scans: 0\n}"),
+            "drive.textproto:3:3: ingest.window_scans = 0 is outside [1, 100]: Scans in flight.");
+  EXPECT_THAT(fault_of("ingest { resend_after_s: nan }"), ::testing::StartsWith("drive.textproto:1:10: "));
+}
+
+TEST(Overlay, RefusesAFieldThatIsSetTwice) {
+  EXPECT_THAT(fault_of("ingest { window_scans: 3\nwindow_scans: 4 }"), ::testing::StartsWith("drive.textproto:2:"));
+}
+
+TEST(Overlay, ChecksTheNamesInStagesThatAreNotBound) {
+  EXPECT_EQ(fault_of("map_store { busy_timeout_s: 1 }"), "");
+  EXPECT_NE(fault_of("map_store { busy_timeout: 1 }"), "");
+}
+
+TEST(Overlay, SaysSoWhenTheFileCannotBeRead) {
+  EXPECT_EQ(overlay_file("/nowhere/at.textproto", {})->text(), "/nowhere/at.textproto: cannot be read");
+  EXPECT_EQ(overlay_file("/", {})->text(), "/: cannot be read");
+}
+
+TEST(DifferencesFromProto, FindsWhatIsOnlyInTheTable) {
+  double strange = 0.0;
+  BoundStage stage{"map_store", {{"no_such_field", &strange, "", {}}}};
+  EXPECT_THAT(differences_from_proto(stage), ::testing::Contains("map_store.no_such_field: only in the table"));
+}
+
+TEST(DifferencesFromProto, FindsWhatIsOnlyInTheProto) {
+  EXPECT_THAT(differences_from_proto(BoundStage{"map_store", {}}),
+              ::testing::Contains("map_store.busy_timeout_s: not once in the table"));
+}
+
+TEST(DifferencesFromProto, FindsTypesThatDiffer) {
+  bool not_a_number = false;
+  BoundStage stage{"map_store", {{"busy_timeout_s", &not_a_number, "", {}}}};
+  EXPECT_THAT(differences_from_proto(stage), ::testing::Contains("map_store.busy_timeout_s: types differ, or not optional"));
+}
+
+}  // namespace
+}  // namespace slammot::config
