@@ -1,0 +1,219 @@
+#include "common/files/carmen_record.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace slammot::files {
+namespace {
+
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+constexpr std::int64_t kMaxStampSeconds = 9'000'000'000;
+constexpr double kMaxCoordinateM = 1e7;  // a quarter of the way round the earth
+constexpr std::size_t kPoseNumbers = 3;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\r'; }
+
+/// Hands out the words of a line one after the other; an empty word is the line's end.
+class Words {
+ public:
+  explicit Words(std::string_view line) : rest_(line) {}
+
+  std::string_view next() {
+    std::size_t begin = 0;
+    while (begin < rest_.size() && is_space(rest_[begin])) ++begin;
+    std::size_t end = begin;
+    while (end < rest_.size() && !is_space(rest_[end])) ++end;
+    const std::string_view word = rest_.substr(begin, end - begin);
+    rest_.remove_prefix(end);
+    return word;
+  }
+
+  std::size_t count_left() const {
+    Words copy = *this;
+    std::size_t count = 0;
+    while (!copy.next().empty()) ++count;
+    return count;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+template <typename Number>
+std::optional<Number> parse_number(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  Number number{};
+  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (fault == std::errc::invalid_argument || end != word.data() + word.size()) return std::nullopt;
+  if (fault == std::errc::result_out_of_range) {
+    if constexpr (std::is_floating_point_v<Number>) return std::numeric_limits<Number>::quiet_NaN();
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::optional<double> next_finite(Words& words) {
+  const std::optional<double> number = parse_number<double>(words.next());
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+std::optional<geometry::Pose2> next_pose(Words& words) {
+  const auto x_m = next_finite(words);
+  const auto y_m = next_finite(words);
+  const auto heading_rad = next_finite(words);
+  if (!x_m || !y_m || !heading_rad) return std::nullopt;
+  if (std::abs(*x_m) > kMaxCoordinateM || std::abs(*y_m) > kMaxCoordinateM || std::abs(*heading_rad) > 1e6) return std::nullopt;
+  return geometry::Pose2{*x_m, *y_m, geometry::wrap_angle(*heading_rad)};
+}
+
+CarmenStamps next_stamps(Words& words) {
+  CarmenStamps stamps;
+  stamps.ipc_ns = parse_stamp_ns(words.next());
+  words.next();  // host name
+  stamps.logger_ns = parse_stamp_ns(words.next());
+  return stamps;
+}
+
+std::optional<std::vector<float>> next_ranges(Words& words) {
+  const auto count = parse_number<std::uint64_t>(words.next());
+  if (!count || *count < 2 || *count > kMaxBeams) return std::nullopt;
+  std::vector<float> range_m;
+  range_m.reserve(*count);
+  for (std::uint64_t beam = 0; beam < *count; ++beam) {
+    const auto reading = parse_number<float>(words.next());
+    if (!reading) return std::nullopt;
+    range_m.push_back(*reading);
+  }
+  return range_m;
+}
+
+CarmenRecord parse_flaser(Words words) {
+  LaserRecord record;
+  record.kind = LaserRecordKind::kFlaser;
+  auto range_m = next_ranges(words);
+  if (!range_m) return MalformedLine{};
+  record.range_m = std::move(*range_m);
+  // The first pose may have been corrected by a mapper since, the second one is what the wheels said.
+  if (!next_pose(words)) return MalformedLine{};
+  const auto wheel_from_base = next_pose(words);
+  if (!wheel_from_base || words.count_left() == 0) return MalformedLine{};
+  record.wheel_from_base = *wheel_from_base;
+  record.stamps = next_stamps(words);
+  return record;
+}
+
+/// What the record says about its beams, as exactly as its three rounded numbers allow; nullopt where they contradict
+/// each other or make no sense.
+std::optional<BeamLayout> layout_of_record(double first_beam_rad, double field_rad, double step_rad, std::size_t beam_count) {
+  constexpr double kFullCircle = 2.0 * std::numbers::pi;
+  if (std::abs(first_beam_rad) > kFullCircle || field_rad <= 0.0 || field_rad > kFullCircle + 0.01) return std::nullopt;
+  const double n = static_cast<double>(beam_count);
+  if (step_rad <= 0.0) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
+  const double half_a_step_rad = 0.5 * step_rad;
+  if (std::abs(step_rad * (n - 1.0) - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
+  if (std::abs(step_rad * n - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / n};
+  if (step_rad * (n - 1.0) > kFullCircle) return std::nullopt;
+  return BeamLayout{first_beam_rad, step_rad};  // a part of the scanner's field was logged
+}
+
+/// Goes past the remissions, if the record counts any. Older records have no such count.
+bool skip_remissions(Words& words) {
+  constexpr std::size_t kWordsAfter = 2 * kPoseNumbers + 5 + 3;
+  const std::size_t left = words.count_left();
+  if (left < kWordsAfter) return false;
+  if (left == kWordsAfter) return true;
+  Words ahead = words;
+  const auto remissions = parse_number<std::uint64_t>(ahead.next());
+  if (!remissions || *remissions > left - 1 - kWordsAfter) return true;
+  for (std::uint64_t i = 0; i < *remissions; ++i) ahead.next();
+  words = ahead;
+  return true;
+}
+
+CarmenRecord parse_robotlaser1(Words words) {
+  LaserRecord record;
+  record.kind = LaserRecordKind::kRobotLaser1;
+  words.next();  // type of scanner: says nothing that the other fields do not
+  const auto first_beam_rad = next_finite(words);
+  const auto field_rad = next_finite(words);
+  const auto step_rad = next_finite(words);
+  const auto max_range_m = parse_number<float>(words.next());  // float: a reading of the same digits must compare equal
+  words.next();  // accuracy
+  words.next();  // remission mode
+  auto range_m = next_ranges(words);
+  if (!first_beam_rad || !field_rad || !step_rad || !max_range_m || !range_m || !skip_remissions(words)) return MalformedLine{};
+  record.range_m = std::move(*range_m);
+  record.layout = layout_of_record(*first_beam_rad, *field_rad, *step_rad, record.range_m.size());
+  record.max_range_m = *max_range_m > 0.0F && std::isfinite(*max_range_m) ? static_cast<double>(*max_range_m) : 0.0;
+  const auto wheel_from_laser = next_pose(words);
+  const auto wheel_from_base = next_pose(words);
+  if (!wheel_from_laser || !wheel_from_base) return MalformedLine{};
+  record.wheel_from_base = *wheel_from_base;
+  record.base_from_laser = inverse(*wheel_from_base) * *wheel_from_laser;
+  for (int i = 0; i < 5; ++i) words.next();  // speeds, safety distances, turn axis
+  record.stamps = next_stamps(words);
+  return record;
+}
+
+CarmenRecord parse_odom(Words words) {
+  const auto wheel_from_base = next_pose(words);
+  for (int i = 0; i < 3; ++i) words.next();  // speeds and acceleration
+  if (!wheel_from_base || words.count_left() == 0) return MalformedLine{};
+  return OdometryRecord{*wheel_from_base, next_stamps(words)};
+}
+
+CarmenRecord parse_param(Words words) {
+  const std::string_view name = words.next();
+  const std::string_view value = words.next();
+  if (value.empty()) return MalformedLine{};
+  return ParamRecord{name, value};
+}
+
+std::optional<std::int64_t> parse_stamp_in_exponent_form(std::string_view text) {
+  const auto seconds = parse_number<double>(text);
+  if (!seconds || !(std::abs(*seconds) < static_cast<double>(kMaxStampSeconds))) return std::nullopt;
+  return std::llround(*seconds * 1e9);
+}
+
+}  // namespace
+
+std::optional<std::int64_t> parse_stamp_ns(std::string_view text) {
+  const std::string_view whole = text;
+  const bool is_negative = !text.empty() && text.front() == '-';
+  if (is_negative) text.remove_prefix(1);
+  if (text.empty() || !(is_digit(text.front()) || text.front() == '.')) return std::nullopt;
+  std::int64_t seconds = 0;
+  std::size_t at = 0;
+  for (; at < text.size() && is_digit(text[at]); ++at) {
+    seconds = seconds * 10 + (text[at] - '0');
+    if (seconds > kMaxStampSeconds) return std::nullopt;
+  }
+  std::int64_t fraction_ns = 0;
+  if (at < text.size() && text[at] == '.') {
+    std::int64_t digit_ns = kNanosecondsPerSecond / 10;
+    for (++at; at < text.size() && is_digit(text[at]); ++at, digit_ns /= 10) fraction_ns += digit_ns * (text[at] - '0');
+  }
+  if (at < text.size()) return parse_stamp_in_exponent_form(whole);
+  const std::int64_t stamp_ns = seconds * kNanosecondsPerSecond + fraction_ns;
+  return is_negative ? -stamp_ns : stamp_ns;
+}
+
+CarmenRecord parse_carmen_line(std::string_view line) {
+  Words words(line);
+  const std::string_view keyword = words.next();
+  if (keyword == "FLASER") return parse_flaser(words);
+  if (keyword == "ROBOTLASER1") return parse_robotlaser1(words);
+  if (keyword == "ODOM") return parse_odom(words);
+  if (keyword == "PARAM") return parse_param(words);
+  return IgnoredLine{};
+}
+
+BeamLayout layout_by_convention(std::size_t beam_count, double field_of_view_rad) {
+  const std::size_t steps = beam_count % 2 == 0 ? beam_count : beam_count - 1;
+  return {-0.5 * field_of_view_rad, field_of_view_rad / static_cast<double>(steps > 0 ? steps : 1)};
+}
+
+}  // namespace slammot::files

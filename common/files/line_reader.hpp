@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/files/result.hpp"
+
+struct gzFile_s;
+
+namespace slammot::files {
+
+/// Reads a text file line by line, plain or compressed by gzip; which of the two is seen from its first bytes.
+class LineReader {
+ public:
+  /// Longer lines are skipped and counted: no record of a scanner is that long.
+  static constexpr std::size_t kMaxLineBytes = 1 << 20;
+
+  /// Fails for what is missing, unreadable or not a regular file.
+  static Result<LineReader> open(const std::filesystem::path& path);
+
+  /// The next line without its end ("\n" or "\r\n"), valid until the next call; nullopt at the end of what can be read.
+  std::optional<std::string_view> next();
+
+  /// Of the line last returned, from 1.
+  std::uint64_t line_number() const { return line_number_; }
+  std::uint64_t overlong_lines() const { return overlong_lines_; }
+
+  /// Whether the last line returned had no line end: the file may have been cut there.
+  bool last_line_is_unfinished() const { return last_line_is_unfinished_; }
+
+  /// Whether the compressed data ended too early or were damaged, so that the rest of the file could not be read.
+  bool is_cut() const { return is_cut_; }
+
+  /// Share of the file's bytes taken in so far, [0, 1].
+  double fraction_read() const;
+
+ private:
+  struct Close {
+    void operator()(gzFile_s* file) const;
+  };
+
+  explicit LineReader(std::unique_ptr<gzFile_s, Close> file, std::uintmax_t file_bytes);
+  bool fill();
+  void keep(std::string_view piece);
+  std::optional<std::string_view> finish_line(std::string_view piece);
+
+  std::unique_ptr<gzFile_s, Close> file_;
+  std::uintmax_t file_bytes_ = 0;
+  std::vector<char> chunk_;
+  std::size_t begin_ = 0;  // of what is not yet returned, in chunk_
+  std::size_t end_ = 0;
+  std::string partial_;    // start of a line that goes on in the next chunk
+  bool skips_line_ = false;
+  std::uint64_t line_number_ = 0;
+  std::uint64_t overlong_lines_ = 0;
+  bool last_line_is_unfinished_ = false;
+  bool is_cut_ = false;
+};
+
+}  // namespace slammot::files
