@@ -20,6 +20,7 @@ function(slammot_service name)
   string(REPLACE "_" "-" dashed ${name})
   add_executable(slammot-${dashed} main.cpp)
   target_link_libraries(slammot-${dashed} PRIVATE service_${name} common_app)
+  add_dependencies(executables slammot-${dashed})
 endfunction()
 
 # slammot_test(unit_geometry SOURCES ... LINK ...): a GoogleTest executable whose tests ctest knows one by one.
