@@ -1,0 +1,179 @@
+#include "services/map_store/store.hpp"
+
+#include <cmath>
+
+#include "services/map_store/sqlite_statement.hpp"
+#include "services/map_store/submap_record.hpp"
+
+namespace slammot::map_store {
+namespace {
+
+constexpr std::int64_t kSchemaVersion = 1;
+constexpr std::int64_t kPageBytes = 4096;
+
+constexpr std::string_view kSchema =
+    "CREATE TABLE IF NOT EXISTS submap ("
+    " vehicle_id TEXT NOT NULL, drive INTEGER NOT NULL, submap_id INTEGER NOT NULL,"
+    " first_stamp_ns INTEGER NOT NULL, last_stamp_ns INTEGER NOT NULL, record BLOB NOT NULL,"
+    " PRIMARY KEY (vehicle_id, drive, submap_id))";
+
+std::int64_t latest_drive(sqlite3* database, std::string_view vehicle_id) {
+  Statement query(database, "SELECT COALESCE(MAX(drive), 0) FROM submap WHERE vehicle_id = ?");
+  query << vehicle_id;
+  query.step();
+  return query.integer(0);
+}
+
+/// Within a drive submaps follow each other in time. A submap done again after a restart overlaps its first version.
+bool contradicts(sqlite3* database, std::string_view vehicle_id, std::int64_t drive, const flow::Submap& submap) {
+  Statement query(database,
+                  "SELECT COUNT(*) FROM submap WHERE vehicle_id = ?1 AND drive = ?2 AND ("
+                  " (submap_id = ?3 AND (last_stamp_ns < ?4 OR first_stamp_ns > ?5)) OR"
+                  " (submap_id < ?3 AND first_stamp_ns > ?5) OR"
+                  " (submap_id > ?3 AND last_stamp_ns < ?4))");
+  query << vehicle_id << drive << std::int64_t{submap.submap_id.value} << submap.first_stamp_ns << submap.last_stamp_ns;
+  query.step();
+  return query.integer(0) > 0;
+}
+
+/// What was taken for the end of the last drive before the new one's beginning was known.
+void move_later_submaps(sqlite3* database, std::string_view vehicle_id, std::int64_t new_drive, std::int64_t from_ns) {
+  Statement update(database, "UPDATE submap SET drive = ? WHERE vehicle_id = ? AND drive = ? AND first_stamp_ns >= ?");
+  update << new_drive << vehicle_id << (new_drive - 1) << from_ns;
+  update.step();
+}
+
+/// Rolls back unless committed.
+class Transaction {
+ public:
+  explicit Transaction(sqlite3* database) : database_(database) { Statement(database, "BEGIN IMMEDIATE").step(); }
+  ~Transaction() {
+    if (open_) sqlite3_exec(database_, "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit() {
+    Statement(database_, "COMMIT").step();
+    open_ = false;
+  }
+
+ private:
+  sqlite3* database_;
+  bool open_ = true;
+};
+
+}  // namespace
+
+void Store::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+
+std::variant<Store, std::string> Store::open(const std::filesystem::path& file, const MapStoreConfig& config) {
+  std::error_code cannot_make;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), cannot_make);
+  sqlite3* handle = nullptr;
+  const int result = sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  Store store{std::unique_ptr<sqlite3, Close>(handle)};
+  if (result != SQLITE_OK) return file.string() + ": " + sqlite3_errstr(result);
+  if (const auto fault = store.prepare(config)) return file.string() + ": " + *fault;
+  return store;
+}
+
+std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
+  sqlite3* database = database_.get();
+  try {
+    sqlite3_busy_timeout(database, static_cast<int>(std::lround(config.busy_timeout_s * 1e3)));
+    Statement(database, "PRAGMA journal_mode = WAL").step();
+    // FULL: a commit is on the disk, also when the power fails next. Submaps come every few seconds, so it costs nothing.
+    Statement(database, "PRAGMA synchronous = FULL").step();
+    if (config.max_database_mb > 0) {
+      const std::int64_t pages = std::int64_t{config.max_database_mb} * 1024 * 1024 / kPageBytes;
+      Statement(database, "PRAGMA max_page_count = " + std::to_string(pages)).step();
+    }
+    Statement version(database, "PRAGMA user_version");
+    version.step();
+    if (version.integer(0) > kSchemaVersion) return "made by a later version of slammot";
+    Statement(database, kSchema).step();
+    Statement(database, "PRAGMA user_version = " + std::to_string(kSchemaVersion)).step();
+  } catch (const SqliteError& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+std::int64_t Store::drive_for(std::string_view vehicle_id, const flow::Submap& submap) {
+  const std::int64_t latest = latest_drive(database_.get(), vehicle_id);
+  if (!contradicts(database_.get(), vehicle_id, latest, submap)) return latest;
+  move_later_submaps(database_.get(), vehicle_id, latest + 1, submap.first_stamp_ns);
+  return latest + 1;
+}
+
+PutResult Store::put_in_transaction(std::string_view vehicle_id, const flow::Submap& submap) {
+  const std::string blob = to_blob(submap);
+  Transaction transaction(database_.get());
+  const std::int64_t drive = drive_for(vehicle_id, submap);
+  {
+    Statement known(database_.get(),
+                    "SELECT last_stamp_ns, record FROM submap WHERE vehicle_id = ? AND drive = ? AND submap_id = ?");
+    known << vehicle_id << drive << std::int64_t{submap.submap_id.value};
+    if (known.step()) {
+      if (known.bytes(1) == blob) return PutResult::kKnown;
+      if (known.integer(0) > submap.last_stamp_ns) return PutResult::kOlder;
+    }
+  }
+  Statement insert(database_.get(), "INSERT OR REPLACE INTO submap VALUES (?, ?, ?, ?, ?, ?)");
+  insert << vehicle_id << drive << std::int64_t{submap.submap_id.value} << submap.first_stamp_ns << submap.last_stamp_ns;
+  insert.bind_blob(blob).step();
+  transaction.commit();
+  return PutResult::kStored;
+}
+
+PutResult Store::put(std::string_view vehicle_id, const flow::Submap& submap) {
+  last_fault_.clear();
+  try {
+    return put_in_transaction(vehicle_id, submap);
+  } catch (const SqliteError& error) {
+    last_fault_ = error.what();
+    return PutResult::kFailed;
+  }
+}
+
+std::optional<flow::Submap> Store::get(std::string_view vehicle_id, flow::SubmapId submap_id) {
+  last_fault_.clear();
+  try {
+    Statement query(database_.get(), "SELECT record FROM submap WHERE vehicle_id = ? AND submap_id = ? AND drive = ?");
+    query << vehicle_id << std::int64_t{submap_id.value} << latest_drive(database_.get(), vehicle_id);
+    if (!query.step()) return std::nullopt;
+    std::optional<flow::Submap> submap = from_blob(query.bytes(0));
+    if (!submap) last_fault_ = "submap " + std::to_string(submap_id.value) + " is damaged";
+    return submap;
+  } catch (const SqliteError& error) {
+    last_fault_ = error.what();
+    return std::nullopt;
+  }
+}
+
+std::vector<flow::SubmapId> Store::list(std::string_view vehicle_id) {
+  last_fault_.clear();
+  std::vector<flow::SubmapId> submaps;
+  try {
+    Statement query(database_.get(), "SELECT submap_id FROM submap WHERE vehicle_id = ? AND drive = ? ORDER BY submap_id");
+    query << vehicle_id << latest_drive(database_.get(), vehicle_id);
+    while (query.step()) submaps.push_back({static_cast<std::uint32_t>(query.integer(0))});
+  } catch (const SqliteError& error) {
+    last_fault_ = error.what();
+  }
+  return submaps;
+}
+
+std::vector<std::string> Store::vehicles() {
+  last_fault_.clear();
+  std::vector<std::string> vehicles;
+  try {
+    Statement query(database_.get(), "SELECT DISTINCT vehicle_id FROM submap ORDER BY vehicle_id");
+    while (query.step()) vehicles.emplace_back(query.bytes(0));
+  } catch (const SqliteError& error) {
+    last_fault_ = error.what();
+  }
+  return vehicles;
+}
+
+}  // namespace slammot::map_store

@@ -1,0 +1,165 @@
+#include "services/map_store/store.hpp"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "tests/support/example_submap.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace slammot::map_store {
+namespace {
+
+using flow::SubmapId;
+using ::testing::ElementsAre;
+using slammot::testing::example_submap;
+using slammot::testing::same_submap;
+
+constexpr std::int64_t kHourNs = 3'600'000'000'000;
+
+class StoreTest : public ::testing::Test {
+ protected:
+  Store open(const MapStoreConfig& config = {}) {
+    auto store = Store::open(file_, config);
+    if (const auto* fault = std::get_if<std::string>(&store)) throw std::runtime_error(*fault);
+    return std::move(std::get<Store>(store));
+  }
+
+  slammot::testing::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_ / "new folder/map.sqlite";
+};
+
+TEST_F(StoreTest, GivesBackWhatWasPut) {
+  Store store = open();
+  EXPECT_EQ(store.put("car", example_submap(4)), PutResult::kStored);
+  const auto submap = store.get("car", SubmapId{4});
+  ASSERT_TRUE(submap);
+  EXPECT_TRUE(same_submap(*submap, example_submap(4)));
+}
+
+TEST_F(StoreTest, HasNothingOfWhatWasNotPut) {
+  Store store = open();
+  EXPECT_FALSE(store.get("car", SubmapId{0}));
+  EXPECT_THAT(store.list("car"), ElementsAre());
+  EXPECT_EQ(store.last_fault(), "");
+}
+
+TEST_F(StoreTest, StillHasItAfterItWasClosed) {
+  open().put("car", example_submap(0));
+  EXPECT_TRUE(open().get("car", SubmapId{0}));
+}
+
+TEST_F(StoreTest, KeepsVehiclesApart) {
+  Store store = open();
+  store.put("car", example_submap(0));
+  store.put("bus", example_submap(0, kHourNs));
+  store.put("bus", example_submap(1, kHourNs));
+  EXPECT_THAT(store.vehicles(), ElementsAre("bus", "car"));
+  EXPECT_THAT(store.list("bus"), ElementsAre(SubmapId{0}, SubmapId{1}));
+  EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}));
+}
+
+TEST_F(StoreTest, ListsAscendingWhateverTheOrderOfArrival) {
+  Store store = open();
+  for (const std::uint32_t id : {2U, 0U, 1U}) store.put("car", example_submap(id));
+  EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}, SubmapId{1}, SubmapId{2}));
+}
+
+TEST_F(StoreTest, ChangesNothingWhenASubmapComesAgain) {
+  Store store = open();
+  store.put("car", example_submap(0));
+  EXPECT_EQ(store.put("car", example_submap(0)), PutResult::kKnown);
+  EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}));
+}
+
+TEST_F(StoreTest, KeepsTheNewerOfTwoVersions) {
+  flow::Submap older = example_submap(0);
+  flow::Submap newer = older;
+  newer.last_stamp_ns += 1;
+  newer.travelled_m += 0.5;
+  Store store = open();
+  EXPECT_EQ(store.put("car", older), PutResult::kStored);
+  EXPECT_EQ(store.put("car", newer), PutResult::kStored);
+  EXPECT_EQ(store.put("car", older), PutResult::kOlder);
+  EXPECT_TRUE(same_submap(*store.get("car", SubmapId{0}), newer));
+}
+
+TEST_F(StoreTest, BeginsANewDriveWhenTimeContradictsTheStoredOne) {
+  Store store = open();
+  for (const std::uint32_t id : {0U, 1U, 2U}) store.put("car", example_submap(id));
+  EXPECT_EQ(store.put("car", example_submap(0, kHourNs)), PutResult::kStored);
+  EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}));
+  EXPECT_TRUE(same_submap(*store.get("car", SubmapId{0}), example_submap(0, kHourNs)));
+}
+
+TEST_F(StoreTest, BeginsANewDriveAlsoWhenALogFromBeforeIsReplayed) {
+  Store store = open();
+  store.put("car", example_submap(0, kHourNs));
+  store.put("car", example_submap(0, 0));
+  store.put("car", example_submap(1, 0));
+  EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}, SubmapId{1}));
+}
+
+TEST_F(StoreTest, GathersANewDriveWhoseSubmapsArriveOutOfOrder) {
+  Store store = open();
+  for (const std::uint32_t id : {0U, 1U}) store.put("car", example_submap(id));
+  for (const std::uint32_t id : {3U, 1U, 0U, 2U}) store.put("car", example_submap(id, kHourNs));
+  EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}, SubmapId{1}, SubmapId{2}, SubmapId{3}));
+  EXPECT_TRUE(same_submap(*store.get("car", SubmapId{1}), example_submap(1, kHourNs)));
+}
+
+TEST_F(StoreTest, SaysSoWhenAnotherProgramHasTheDatabaseLockedAndGoesOnAfterwards) {
+  MapStoreConfig impatient;
+  impatient.busy_timeout_s = 0.01;
+  Store store = open(impatient);
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  EXPECT_EQ(store.put("car", example_submap(0)), PutResult::kFailed);
+  EXPECT_EQ(store.last_fault(), "database is locked");
+  sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr);
+  EXPECT_EQ(store.put("car", example_submap(0)), PutResult::kStored);
+  EXPECT_EQ(store.last_fault(), "");
+  sqlite3_close(other);
+}
+
+TEST_F(StoreTest, SaysSoWhenThereIsNoRoomAndKeepsWhatItHas) {
+  MapStoreConfig small;
+  small.max_database_mb = 1;
+  Store store = open(small);
+  std::uint32_t id = 0;
+  PutResult result = PutResult::kStored;
+  while (result == PutResult::kStored && id < 20) result = store.put("car", example_submap(id++, 0, 600));
+  EXPECT_EQ(result, PutResult::kFailed);
+  EXPECT_EQ(store.last_fault(), "database or disk is full");
+  EXPECT_EQ(store.list("car").size(), id - 1);
+  EXPECT_TRUE(store.get("car", SubmapId{0}));
+}
+
+TEST_F(StoreTest, RefusesAFileThatIsNoDatabase) {
+  std::filesystem::create_directories(file_.parent_path());
+  std::ofstream(file_) << "This is a letter, and has been one for longer than a database header would be.\n";
+  const auto store = Store::open(file_, {});
+  ASSERT_TRUE(std::holds_alternative<std::string>(store));
+  EXPECT_EQ(std::get<std::string>(store), file_.string() + ": file is not a database");
+}
+
+TEST_F(StoreTest, RefusesAPathThatCannotBe) {
+  EXPECT_TRUE(std::holds_alternative<std::string>(Store::open("/proc/no/map.sqlite", {})));
+}
+
+TEST_F(StoreTest, SaysWhichSubmapIsDamaged) {
+  Store store = open();
+  store.put("car", example_submap(0));
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "UPDATE submap SET record = x'00112233445566'", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(other);
+  EXPECT_FALSE(store.get("car", SubmapId{0}));
+  EXPECT_EQ(store.last_fault(), "submap 0 is damaged");
+}
+
+}  // namespace
+}  // namespace slammot::map_store
