@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "common/flow/segmented_scan.hpp"
@@ -16,9 +17,10 @@ struct RestoredPoints {
 /// What each point of a scan is, as tracking now believes: decides which points go to the SO-map and which to the MO-map.
 struct ScanLabels {
   std::int64_t stamp_ns = 0;
-  std::uint32_t sequence = 0;
+  std::uint32_t sequence = 0;            ///< Of the scan, counted by its scanner.
+  std::string scanner_id;
   std::vector<PointLabel> labels;        ///< One a beam.
-  std::vector<RestoredPoints> restored;  ///< At most 64 earlier scans.
+  std::vector<RestoredPoints> restored;  ///< At most 64 earlier scans of the same scanner.
 };
 
 }  // namespace slammot::flow

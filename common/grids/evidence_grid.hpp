@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/grids/grid_window.hpp"
+
+namespace slammot::grids {
+
+/// Log-odds in steps of 1/16: what one byte a cell can hold, and finer than any sensor model is known.
+constexpr double kLogOddsStep = 1.0 / 16.0;
+
+/// Nearest whole number of steps.
+int steps_of_log_odds(double log_odds);
+
+struct EvidenceModel {
+  double hit_log_odds = 0.85;       ///< Added where a stationary echo ended; Wang 2004, Eq. (3.12).
+  double free_log_odds = 0.30;      ///< Taken off where a beam passed, once a scan and cell.
+  double limit_log_odds = 5.0;      ///< No cell is surer than this, so that the world may change.
+  double moving_gain = 0.25;        ///< Share of the missing evidence that one moving echo adds to the MO-map.
+};
+
+enum class Echo : std::uint8_t { kNone, kStationary, kMoving };
+
+/// One beam to integrate, in the grid's frame.
+struct Ray {
+  Eigen::Vector2d end_m = Eigen::Vector2d::Zero();  ///< Where the echo came from, or where the free part is cut off.
+  Echo echo = Echo::kNone;                          ///< kNone: the beam tells about free space only.
+};
+
+/// The stationary-object map (SO-map) and the moving-object map (MO-map) of one window, side by side; Wang 2004, 6.3.
+class EvidenceGrid {
+ public:
+  EvidenceGrid() = default;
+  EvidenceGrid(const GridWindow& window, const EvidenceModel& model);
+
+  const GridWindow& window() const { return window_; }
+
+  /// Adds one scan. Each cell changes at most once a scan, and an echo wins over a beam that passed.
+  void integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays);
+
+  /// Adds one stationary echo without its beam: a point given back by tracking.
+  void restore_stationary(const Eigen::Vector2d& point_m);
+
+  /// In steps of kLogOddsStep, positive = occupied, 0 = never seen or outside.
+  int so_steps(Cell cell) const { return window_.contains(cell) ? so_[window_.index(cell)] : 0; }
+
+  /// In [0, 255]: how often something moved here.
+  std::uint8_t moving(Cell cell) const { return window_.contains(cell) ? mo_[window_.index(cell)] : std::uint8_t{0}; }
+
+  /// Highest SO evidence within radius cells (a square) of the cell, in steps.
+  int highest_so_steps(Cell cell, int radius) const;
+
+  /// Distance along direction (unit vector) to the first cell with at least occupied_steps (> 0), or max_range_m.
+  double distance_to_occupied(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double max_range_m,
+                              int occupied_steps) const;
+
+  /// Same evidence in another window of the same lattice: what lies in both is kept.
+  EvidenceGrid moved_to(const GridWindow& window) const;
+
+  /// Cells of the window, row-major. set_cells needs as many as the window has.
+  const std::vector<std::int8_t>& so_cells() const { return so_; }
+  const std::vector<std::uint8_t>& mo_cells() const { return mo_; }
+  void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo);
+
+ private:
+  static constexpr int kBlockShift = 3;  ///< Blocks of 8 x 8 cells, to step over what is empty.
+
+  void begin_scan();
+  void mark_echo(const Ray& ray);
+  void mark_free(const Eigen::Vector2d& origin_m, const Ray& ray);
+  void raise_so(Cell cell, int steps);
+  std::size_t block_index(Cell cell) const;
+
+  GridWindow window_;
+  EvidenceModel model_;
+  int hit_steps_ = 0;
+  int free_steps_ = 0;
+  int limit_steps_ = 0;
+  std::int32_t block_columns_ = 0;
+  std::int32_t block_rows_ = 0;
+  std::vector<std::int8_t> so_;
+  std::vector<std::uint8_t> mo_;
+  std::vector<std::uint8_t> touched_;          ///< Mark of the scan that changed the cell last.
+  std::vector<std::uint8_t> block_has_echoes_; ///< Whether a block ever held positive evidence.
+  std::uint8_t scan_mark_ = 0;
+};
+
+}  // namespace slammot::grids

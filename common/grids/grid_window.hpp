@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace slammot::grids {
+
+/// Cell of the endless lattice laid over a frame: (column, row) covers [column, column + 1) * cell size of x, and so of y.
+struct Cell {
+  std::int32_t column = 0;
+  std::int32_t row = 0;
+  bool operator==(const Cell&) const = default;
+};
+
+/// Rectangle of that lattice which a grid holds, row-major from the lowest row. Two windows with the same cell size
+/// share the lattice, so copying from one to the other never resamples.
+struct GridWindow {
+  double cell_size_m = 0.2;
+  Cell first;                 ///< Lowest column and row.
+  std::int32_t columns = 0;
+  std::int32_t rows = 0;
+
+  bool operator==(const GridWindow&) const = default;
+
+  std::size_t cell_count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+
+  Cell cell_at(double x_m, double y_m) const {
+    return {static_cast<std::int32_t>(std::floor(x_m / cell_size_m)),
+            static_cast<std::int32_t>(std::floor(y_m / cell_size_m))};
+  }
+
+  bool contains(Cell cell) const {
+    return static_cast<std::uint32_t>(cell.column - first.column) < static_cast<std::uint32_t>(columns) &&
+           static_cast<std::uint32_t>(cell.row - first.row) < static_cast<std::uint32_t>(rows);
+  }
+
+  /// Place in the array; the cell must be inside.
+  std::size_t index(Cell cell) const {
+    return static_cast<std::size_t>(cell.row - first.row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(cell.column - first.column);
+  }
+
+  Eigen::Vector2d centre_of(Cell cell) const {
+    return {(cell.column + 0.5) * cell_size_m, (cell.row + 0.5) * cell_size_m};
+  }
+};
+
+/// Square window of side_m around a point.
+GridWindow window_around(const Eigen::Vector2d& centre_m, double side_m, double cell_size_m);
+
+/// What two windows of one lattice share; no columns or rows when nothing.
+GridWindow intersection(const GridWindow& a, const GridWindow& b);
+
+}  // namespace slammot::grids

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/grids/grid_window.hpp"
+
+namespace slammot::grids {
+
+/// Where a surface was seen in a cell: mean of its echoes and the direction of the surface there.
+struct SurfelView {
+  Cell cell;
+  Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();   ///< Unit length; zero where the neighbourhood has no direction.
+  double spread_m2 = 0.0;                             ///< Variance of the echoes along the normal.
+  double weight = 0.0;                                ///< Echoes in the mean, at most the limit.
+  double own_echoes = 0.0;                            ///< Echoes since the map was moved to this window.
+};
+
+/// First and second moments of one cell's echoes about the cell's centre.
+struct CellMoments {
+  float weight = 0.0F;
+  float x = 0.0F, y = 0.0F;                 ///< Sums [m].
+  float xx = 0.0F, xy = 0.0F, yy = 0.0F;    ///< Sums [m^2].
+  float own_echoes = 0.0F;
+};
+
+/// Echoes of stationary surfaces, kept as moments by cell: sub-cell accuracy for matching at constant memory.
+/// The normal comes from the 3 x 3 neighbourhood, as in the normal distributions transform (Biber and Strasser 2003)
+/// but shared between neighbours so that it does not jump at cell borders.
+class SurfelMap {
+ public:
+  SurfelMap() = default;
+  /// weight_limit: echoes after which a mean becomes a running one.
+  SurfelMap(const GridWindow& window, double weight_limit);
+
+  const GridWindow& window() const { return window_; }
+  std::size_t capacity_in_use() const { return moments_.size(); }
+
+  /// Adds one echo; nothing happens outside the window.
+  void add(const Eigen::Vector2d& point_m);
+
+  /// Forgets the surface in a cell.
+  void erase(Cell cell);
+
+  /// Surfel with its mean nearest to the point among the cells within radius; none when there is no echo.
+  std::optional<SurfelView> nearest(const Eigen::Vector2d& point_m, int radius) const;
+
+  /// Every surfel, in the order of the lattice.
+  std::vector<SurfelView> all() const;
+
+  /// Same surfels in another window of the same lattice; counts of own echoes begin anew.
+  SurfelMap moved_to(const GridWindow& window) const;
+
+  /// For checkpoints: null where there never was an echo.
+  const CellMoments* moments_at(Cell cell) const;
+  void set_moments(Cell cell, const CellMoments& moments);
+
+ private:
+  struct Shape {
+    float normal_x = 0.0F, normal_y = 0.0F, spread_m2 = 0.0F;
+    bool stale = true;
+  };
+
+  std::int32_t slot_of(Cell cell) const { return window_.contains(cell) ? slots_[window_.index(cell)] : -1; }
+  bool is_empty(std::int32_t slot) const { return slot < 0 || moments_[static_cast<std::size_t>(slot)].weight <= 0.0F; }
+  std::int32_t make_slot(Cell cell);
+  void mark_stale_around(Cell cell);
+  Shape shape_at(Cell cell) const;
+  Eigen::Vector2d mean_of(Cell cell, std::int32_t slot) const;
+  SurfelView view_of(Cell cell, std::int32_t slot) const;
+
+  GridWindow window_;
+  float weight_limit_ = 40.0F;
+  std::vector<std::int32_t> slots_;     ///< By cell: place in moments_, -1 for none.
+  std::vector<CellMoments> moments_;
+  mutable std::vector<Shape> shapes_;   ///< Computed when first looked at after a change.
+};
+
+}  // namespace slammot::grids

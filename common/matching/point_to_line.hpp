@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "common/geometry/uncertain_pose2.hpp"
+#include "common/grids/surfel_map.hpp"
+
+namespace slammot::matching {
+
+/// One point of the scan with the standard deviation of its position across the surface.
+struct MatchPoint {
+  geometry::Vector2 in_base_m;
+  double sigma_m = 0.03;
+};
+
+struct PointToLineConfig {
+  int coarse_steps = 4;            ///< Gauss-Newton steps with the wide gate,
+  int fine_steps = 8;              ///< then with the narrow one.
+  double coarse_gate_m = 0.6;      ///< Points farther than this from the nearest surfel do not count.
+  double fine_gate_m = 0.2;
+  double robust_scale_m = 0.10;    ///< Residual at which a point's weight has fallen to a quarter.
+  double information_share = 0.10; ///< Points of one scan share the map's error: together they count for this share.
+  double converged_m = 1e-4;
+};
+
+struct PointToLineResult {
+  geometry::UncertainPose2 map_from_base;
+  Eigen::Matrix3d scan_information = Eigen::Matrix3d::Zero();  ///< What the points alone say, shared error included.
+  int matched_points = 0;
+  double matched_share = 0.0;      ///< Of the points given.
+  double rms_residual_m = 0.0;     ///< Of the matched points, across the surface.
+};
+
+/// Registers points against surfels by Gauss-Newton on point-to-line distances with a Gaussian prior; Wang 2004,
+/// section 3.2.1 describes the closed-form ICP that this replaces. Where a surfel has no direction the distance to its
+/// mean counts. The result is the prior when nothing matches.
+PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
+                                      const geometry::UncertainPose2& prior_map_from_base, const PointToLineConfig& config);
+
+}  // namespace slammot::matching
