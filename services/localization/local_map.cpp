@@ -1,0 +1,212 @@
+#include "services/localization/local_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Vector2;
+
+constexpr std::uint32_t kScansBetweenCleanings = 10;
+
+grids::GridWindow evidence_window(const LocalMapConfig& config, const Vector2& centre_m) {
+  return grids::window_around(centre_m, config.side_m, config.cell_size_m);
+}
+
+grids::GridWindow surfel_window(const LocalMapConfig& config, const Vector2& centre_m) {
+  return grids::window_around(centre_m, config.side_m, config.surfel_size_m);
+}
+
+geometry::Pose2 pose_of_window(const grids::GridWindow& window) {
+  const Vector2 centre_m = window.centre_of({window.first.column + window.columns / 2, window.first.row + window.rows / 2});
+  return {centre_m.x(), centre_m.y(), 0.0};
+}
+
+/// Smallest window that holds every cell in which something was seen.
+grids::GridWindow bounds_of_seen(const grids::GridWindow& window, const std::vector<std::int8_t>& so, const std::vector<std::uint8_t>& mo) {
+  std::int32_t low_column = window.columns, high_column = -1, low_row = window.rows, high_row = -1;
+  for (std::int32_t row = 0; row < window.rows; ++row) {
+    for (std::int32_t column = 0; column < window.columns; ++column) {
+      const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns) + static_cast<std::size_t>(column);
+      if (so[index] == 0 && mo[index] == 0) continue;
+      low_column = std::min(low_column, column);
+      high_column = std::max(high_column, column);
+      low_row = std::min(low_row, row);
+      high_row = std::max(high_row, row);
+    }
+  }
+  grids::GridWindow bounds = window;
+  bounds.columns = std::max(0, high_column - low_column + 1);
+  bounds.rows = std::max(0, high_row - low_row + 1);
+  if (bounds.columns > 0) bounds.first = {window.first.column + low_column, window.first.row + low_row};
+  return bounds;
+}
+
+}  // namespace
+
+LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m)
+    : config_(config),
+      evidence_(evidence_window(config, centre_in_odom_m), config.evidence),
+      surfels_(surfel_window(config, centre_in_odom_m), config.surfel_weight_limit),
+      inherited_so_(evidence_.so_cells()),
+      inherited_mo_(evidence_.mo_cells()),
+      odom_from_submap_(pose_of_window(evidence_.window())) {}
+
+Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
+
+void LocalMap::integrate(std::int64_t stamp_ns, const Vector2& origin_m, const std::vector<grids::Ray>& rays) {
+  if (scans_ == 0) first_stamp_ns_ = stamp_ns;
+  last_stamp_ns_ = stamp_ns;
+  ++scans_;
+  evidence_.integrate(origin_m, rays);
+  for (const grids::Ray& ray : rays) {
+    if (ray.echo == grids::Echo::kStationary) surfels_.add(ray.end_m);
+  }
+  if (scans_ % kScansBetweenCleanings == 0) forget_surfels_in_free_space();
+}
+
+void LocalMap::forget_surfels_in_free_space() {
+  const int free_steps = grids::steps_of_log_odds(config_.free_log_odds);
+  for (const grids::SurfelView& surfel : surfels_.all()) {
+    const grids::Cell cell = evidence_.window().cell_at(surfel.mean_m.x(), surfel.mean_m.y());
+    if (evidence_.highest_so_steps(cell, 1) <= -free_steps) surfels_.erase(surfel.cell);
+  }
+}
+
+void LocalMap::restore_stationary(const Vector2& point_in_odom_m) {
+  evidence_.restore_stationary(point_in_odom_m);
+  surfels_.add(point_in_odom_m);
+}
+
+void LocalMap::expect(const Vector2& origin_in_odom_m, const Vector2& end_in_odom_m, bool has_echo, double max_range_m,
+                      flow::LocalizedBeam& beam) const {
+  const Vector2 way_m = end_in_odom_m - origin_in_odom_m;
+  const int occupied_steps = grids::steps_of_log_odds(config_.occupied_log_odds);
+  beam.expected_range_m = static_cast<float>(
+      evidence_.distance_to_occupied(origin_in_odom_m, way_m.normalized(), max_range_m, occupied_steps));
+  if (!has_echo) {
+    beam.end_cell = flow::EndCell::kNoEcho;
+    return;
+  }
+  const grids::Cell cell = evidence_.window().cell_at(end_in_odom_m.x(), end_in_odom_m.y());
+  const int so_steps = evidence_.so_steps(cell);
+  beam.free_evidence = static_cast<float>(-so_steps * grids::kLogOddsStep);
+  beam.moving_evidence = static_cast<float>(evidence_.moving(cell)) / 255.0F;
+  const int tolerance = static_cast<int>(std::ceil(config_.end_cell_tolerance_m / config_.cell_size_m - 0.5));
+  if (evidence_.highest_so_steps(cell, tolerance) >= occupied_steps) {
+    beam.end_cell = flow::EndCell::kOccupied;
+  } else {
+    const bool is_free = so_steps <= -grids::steps_of_log_odds(config_.free_log_odds);
+    beam.end_cell = is_free ? flow::EndCell::kFree : flow::EndCell::kUnseen;
+  }
+}
+
+bool LocalMap::is_outgrown(const Vector2& position_in_odom_m, double travelled_m) const {
+  return travelled_m >= config_.new_map_after_travel_m ||
+         (position_in_odom_m - window_centre_m()).norm() >= config_.new_map_after_m;
+}
+
+flow::Submap LocalMap::submap() const {
+  const grids::GridWindow& window = evidence_.window();
+  std::vector<std::int8_t> own_so(window.cell_count());
+  std::vector<std::uint8_t> own_mo(window.cell_count());
+  for (std::size_t i = 0; i < own_so.size(); ++i) {
+    own_so[i] = static_cast<std::int8_t>(std::clamp(evidence_.so_cells()[i] - inherited_so_[i], -127, 127));
+    own_mo[i] = evidence_.mo_cells()[i] > inherited_mo_[i] ? evidence_.mo_cells()[i] : std::uint8_t{0};
+  }
+  const grids::GridWindow bounds = bounds_of_seen(window, own_so, own_mo);
+  flow::Submap submap;
+  submap.submap_id = submap_id_;
+  submap.first_stamp_ns = first_stamp_ns_;
+  submap.last_stamp_ns = last_stamp_ns_;
+  submap.odom_from_submap = odom_from_submap_;
+  submap.cell_size_m = window.cell_size_m;
+  submap.min_x_m = bounds.first.column * window.cell_size_m - odom_from_submap_.x_m;
+  submap.min_y_m = bounds.first.row * window.cell_size_m - odom_from_submap_.y_m;
+  submap.columns = static_cast<std::uint32_t>(bounds.columns);
+  submap.rows = static_cast<std::uint32_t>(bounds.rows);
+  for (std::int32_t row = 0; row < bounds.rows; ++row) {
+    const auto first = static_cast<std::ptrdiff_t>(window.index({bounds.first.column, bounds.first.row + row}));
+    submap.so_log_odds.insert(submap.so_log_odds.end(), own_so.begin() + first, own_so.begin() + first + bounds.columns);
+    submap.mo_evidence.insert(submap.mo_evidence.end(), own_mo.begin() + first, own_mo.begin() + first + bounds.columns);
+  }
+  for (const grids::SurfelView& surfel : surfels_.all()) {
+    if (surfel.own_echoes <= 0.0) continue;
+    const Vector2 at_m = surfel.mean_m - odom_from_submap_.translation_m();
+    submap.surfels.push_back({static_cast<float>(at_m.x()), static_cast<float>(at_m.y()), static_cast<float>(surfel.normal.x()),
+                              static_cast<float>(surfel.normal.y()), static_cast<float>(surfel.own_echoes)});
+  }
+  return submap;
+}
+
+void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
+  evidence_ = evidence_.moved_to(evidence_window(config_, centre_in_odom_m));
+  surfels_ = surfels_.moved_to(surfel_window(config_, centre_in_odom_m));
+  inherited_so_ = evidence_.so_cells();
+  inherited_mo_ = evidence_.mo_cells();
+  odom_from_submap_ = pose_of_window(evidence_.window());
+  ++submap_id_.value;
+  scans_ = 0;
+}
+
+void LocalMap::write(std::vector<std::byte>& bytes) const {
+  put(bytes, evidence_.window());
+  put_all(bytes, evidence_.so_cells());
+  put_all(bytes, evidence_.mo_cells());
+  put_all(bytes, inherited_so_);
+  put_all(bytes, inherited_mo_);
+  put(bytes, surfels_.window());
+  std::vector<grids::Cell> cells;
+  std::vector<grids::CellMoments> moments;
+  for (const grids::SurfelView& surfel : surfels_.all()) {
+    cells.push_back(surfel.cell);
+    moments.push_back(*surfels_.moments_at(surfel.cell));
+  }
+  put_all(bytes, cells);
+  put_all(bytes, moments);
+  put(bytes, submap_id_);
+  put(bytes, odom_from_submap_);
+  put(bytes, first_stamp_ns_);
+  put(bytes, last_stamp_ns_);
+  put(bytes, scans_);
+}
+
+std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from) {
+  LocalMap map;
+  map.config_ = config;
+  grids::GridWindow window;
+  grids::GridWindow surfel_lattice;
+  std::vector<std::int8_t> so;
+  std::vector<std::uint8_t> mo;
+  std::vector<grids::Cell> cells;
+  std::vector<grids::CellMoments> moments;
+  from.get(window);
+  from.get_all(so);
+  from.get_all(mo);
+  from.get_all(map.inherited_so_);
+  from.get_all(map.inherited_mo_);
+  from.get(surfel_lattice);
+  from.get_all(cells);
+  from.get_all(moments);
+  from.get(map.submap_id_);
+  from.get(map.odom_from_submap_);
+  from.get(map.first_stamp_ns_);
+  from.get(map.last_stamp_ns_);
+  from.get(map.scans_);
+  const grids::GridWindow expected = evidence_window(config, {0.0, 0.0});
+  const grids::GridWindow expected_surfels = surfel_window(config, {0.0, 0.0});
+  const bool fits = from.ok() && window.cell_size_m == expected.cell_size_m && window.columns == expected.columns &&
+                    window.rows == expected.rows && surfel_lattice.cell_size_m == expected_surfels.cell_size_m &&
+                    surfel_lattice.columns == expected_surfels.columns && surfel_lattice.rows == expected_surfels.rows &&
+                    so.size() == window.cell_count() && mo.size() == so.size() && map.inherited_so_.size() == so.size() &&
+                    map.inherited_mo_.size() == so.size() && cells.size() == moments.size();
+  if (!fits) return std::nullopt;
+  map.evidence_ = grids::EvidenceGrid(window, config.evidence);
+  map.evidence_.set_cells(std::move(so), std::move(mo));
+  map.surfels_ = grids::SurfelMap(surfel_lattice, config.surfel_weight_limit);
+  for (std::size_t i = 0; i < cells.size(); ++i) map.surfels_.set_moments(cells[i], moments[i]);
+  return map;
+}
+
+}  // namespace slammot::localization

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/flow/localized_scan.hpp"
+#include "common/flow/submap.hpp"
+#include "common/grids/evidence_grid.hpp"
+#include "common/grids/surfel_map.hpp"
+#include "services/localization/byte_stream.hpp"
+
+namespace slammot::localization {
+
+struct LocalMapConfig {
+  double side_m = 240.0;                ///< Of the square held around the vehicle.
+  double cell_size_m = 0.2;             ///< Of SO-map and MO-map.
+  double surfel_size_m = 0.2;           ///< Of the cells whose echoes are averaged for matching.
+  double surfel_weight_limit = 40.0;    ///< Echoes after which a surfel's mean becomes a running one.
+  double new_map_after_m = 60.0;        ///< Distance from the map's centre at which a new one begins, or
+  double new_map_after_travel_m = 100.0;///< distance travelled in it.
+  double no_echo_free_m = 40.0;         ///< A beam without echo tells that this much is free.
+  double occupied_log_odds = 0.5;       ///< From here on a cell counts as occupied,
+  double free_log_odds = 0.8;           ///< and with this much against it as free.
+  double end_cell_tolerance_m = 0.25;   ///< An occupied cell this near explains an echo.
+  grids::EvidenceModel evidence;
+};
+
+
+/// The map around the vehicle in odom: SO-map, MO-map and surfels in one window that moves on when the vehicle nears
+/// its edge. What has been seen since it last moved makes the submap in progress. Wang 2004, sections 3.4 and 6.3.
+class LocalMap {
+ public:
+  LocalMap() = default;
+  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m);
+
+  const grids::EvidenceGrid& evidence() const { return evidence_; }
+  const grids::SurfelMap& surfels() const { return surfels_; }
+  flow::SubmapId submap_id() const { return submap_id_; }
+  const geometry::Pose2& odom_from_submap() const { return odom_from_submap_; }
+
+  /// Adds one scan whose laser stood at origin_m; rays and echoes in odom.
+  void integrate(std::int64_t stamp_ns, const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays);
+
+  /// Gives back a point that was held to be moving.
+  void restore_stationary(const geometry::Vector2& point_in_odom_m);
+
+  /// What the map expects of a beam that ended at end_in_odom_m (has_echo) or nowhere.
+  void expect(const geometry::Vector2& origin_in_odom_m, const geometry::Vector2& end_in_odom_m, bool has_echo,
+              double max_range_m, flow::LocalizedBeam& beam) const;
+
+  /// Whether the vehicle has gone far enough for a new map.
+  bool is_outgrown(const geometry::Vector2& position_in_odom_m, double travelled_m) const;
+
+  bool has_echoes() const { return scans_ > 0; }
+
+  /// The submap in progress. Pose constraints and travel are the caller's to fill in.
+  flow::Submap submap() const;
+
+  /// Moves the window to the vehicle and begins the next submap with what the windows share.
+  void begin_next(const geometry::Vector2& centre_in_odom_m);
+
+  /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.
+  void write(std::vector<std::byte>& bytes) const;
+  /// None when the bytes are not a map of this configuration.
+  static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from);
+
+ private:
+  void forget_surfels_in_free_space();
+  geometry::Vector2 window_centre_m() const;
+
+  LocalMapConfig config_;
+  grids::EvidenceGrid evidence_;
+  grids::SurfelMap surfels_;
+  std::vector<std::int8_t> inherited_so_;   ///< What the window held when the submap began,
+  std::vector<std::uint8_t> inherited_mo_;  ///< so that a submap tells only what was seen in it.
+  flow::SubmapId submap_id_;
+  geometry::Pose2 odom_from_submap_;
+  std::int64_t first_stamp_ns_ = 0;
+  std::int64_t last_stamp_ns_ = 0;
+  std::uint32_t scans_ = 0;
+};
+
+}  // namespace slammot::localization

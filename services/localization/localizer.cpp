@@ -1,0 +1,335 @@
+#include "services/localization/localizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace slammot::localization {
+namespace {
+
+using flow::EndCell;
+using flow::PointLabel;
+using geometry::Pose2;
+using geometry::UncertainPose2;
+using geometry::Vector2;
+
+constexpr double kNanosecond_s = 1e-9;
+constexpr std::size_t kScansKeptForRestoring = 80;
+
+UncertainPose2 exactly(const Pose2& pose) { return {pose, geometry::Matrix3::Zero()}; }
+
+/// What a point does to the maps.
+grids::Echo echo_of(PointLabel label) {
+  switch (label) {
+    case PointLabel::kNoEcho: return grids::Echo::kNone;
+    case PointLabel::kMoving: return grids::Echo::kMoving;
+    case PointLabel::kStationary:
+    case PointLabel::kUnknown: break;  // nothing contradicts that it stands there
+  }
+  return grids::Echo::kStationary;
+}
+
+/// Without anybody's labels: what the map does not explain stays out of it.
+grids::Echo unexplained_out(EndCell end_cell) {
+  return end_cell == EndCell::kNoEcho || end_cell == EndCell::kFree ? grids::Echo::kNone : grids::Echo::kStationary;
+}
+
+bool is_inside_box(const Vector2& offset_m, double heading_rad, double half_length_m, double half_width_m) {
+  const Vector2 in_box_m = geometry::rotation(-heading_rad) * offset_m;
+  return std::abs(in_box_m.x()) <= half_length_m && std::abs(in_box_m.y()) <= half_width_m;
+}
+
+}  // namespace
+
+Localizer::Localizer(const LocalizerConfig& config) : config_(config), calibration_(sensing::uncalibrated(config.motion)) {}
+
+void Localizer::add_odometry(const sensing::Odometry& sample) { odometry_.add(sample); }
+
+void Localizer::expect(const flow::TrackedObjects& objects) { expected_objects_ = objects; }
+
+bool Localizer::is_usable(const sensing::LaserScan& scan) {
+  if (last_ && scan.stamp_ns == last_->stamp_ns) ++counters_.duplicate_scans;
+  if (last_ && scan.stamp_ns < last_->stamp_ns) ++counters_.out_of_order_scans;
+  return !last_ || scan.stamp_ns > last_->stamp_ns;
+}
+
+Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
+  Step step;
+  step.duration_s = static_cast<double>(stamp_ns - last_->stamp_ns) * kNanosecond_s;
+  if (step.duration_s > config_.longest_step_s) ++counters_.gaps;
+  if (wheel_from_base && last_->has_wheels) {
+    const Pose2 by_wheels = geometry::inverse(last_->wheel_from_base) * *wheel_from_base;
+    if (std::hypot(by_wheels.x_m, by_wheels.y_m) <= config_.fastest_mps * step.duration_s) {
+      step.by_wheels = by_wheels;
+      step.before_from_base = sensing::predict_step(by_wheels, step.duration_s, calibration_, config_.motion);
+      return step;
+    }
+    ++counters_.odometry_jumps;
+  } else {
+    ++counters_.without_odometry;
+  }
+  step.before_from_base =
+      sensing::predict_step_at_velocity(last_->speed_mps, last_->yaw_rate_radps, step.duration_s, config_.motion);
+  return step;
+}
+
+bool Localizer::is_masked(const Vector2& point_in_odom_m, std::int64_t stamp_ns) const {
+  const double after_s = static_cast<double>(stamp_ns - expected_objects_.stamp_ns) * kNanosecond_s;
+  return std::any_of(expected_objects_.objects.begin(), expected_objects_.objects.end(), [&](const flow::TrackedObject& object) {
+    const Vector2 centre_m = object.position_in_odom_m + after_s * object.velocity_in_odom_mps;
+    return object.confirmed && is_inside_box(point_in_odom_m - centre_m, object.heading_in_odom_rad,
+                                             0.5 * object.length_m + config_.mask_margin_m, 0.5 * object.width_m + config_.mask_margin_m);
+  });
+}
+
+void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_from_base) {
+  match_points_.clear();
+  for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
+    const float range_m = scan.range_m[beam];
+    if (!sensing::is_echo(range_m, std::min(config_.match_range_m, scan.scanner.max_range_m)) || range_m < config_.min_range_m) continue;
+    if (is_masked(odom_from_base * points_in_base_m_[beam], scan.stamp_ns)) continue;
+    match_points_.push_back({points_in_base_m_[beam], config_.range_noise_m + config_.range_noise_per_m * static_cast<double>(range_m)});
+  }
+}
+
+UncertainPose2 Localizer::match(const UncertainPose2& prior) {
+  if (static_cast<int>(match_points_.size()) < config_.min_echoes) {
+    ++counters_.too_few_echoes;
+    return prior;
+  }
+  const matching::PointToLineResult result = matching::match_point_to_line(match_points_, map_.surfels(), prior, config_.match);
+  if (result.matched_share < config_.least_matched_share) {
+    ++counters_.lost_matches;
+    return prior;
+  }
+  return result.map_from_base;
+}
+
+void Localizer::learn(const Step& step, const Pose2& before_from_base) {
+  if (step.by_wheels) {
+    calibration_ = sensing::calibrated(calibration_, *step.by_wheels, before_from_base, step.duration_s, config_.motion);
+  }
+  const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
+  travelled_m_ += moved_m;
+  const double position_m2 = config_.drift_m_per_sqrt_m * config_.drift_m_per_sqrt_m * moved_m;
+  const double heading_rad2 = config_.drift_rad_per_sqrt_m * config_.drift_rad_per_sqrt_m * moved_m;
+  previous_from_submap_.covariance.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
+}
+
+flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base) const {
+  flow::LocalizedScan localized;
+  localized.stamp_ns = scan.stamp_ns;
+  localized.sequence = scan.sequence;
+  localized.scanner_id = scan.scanner.scanner_id;
+  localized.base_from_laser = scan.scanner.base_from_laser;
+  localized.max_range_m = scan.scanner.max_range_m;
+  localized.beam_step_rad = scan.scanner.beam_step_rad;
+  localized.odom_from_base = odom_from_base;
+  localized.map_from_odom = map_from_odom_;
+  localized.speed_mps = last_->speed_mps;
+  localized.yaw_rate_radps = last_->yaw_rate_radps;
+  localized.submap_id = map_.submap_id();
+  localized.submap_from_base = geometry::inverse(map_.odom_from_submap()) * odom_from_base.pose;
+  const Pose2 odom_from_laser = odom_from_base.pose * scan.scanner.base_from_laser;
+  const Vector2 origin_in_odom_m = odom_from_laser.translation_m();
+  localized.beams.resize(scan.range_m.size());
+  for (std::size_t i = 0; i < localized.beams.size(); ++i) {
+    flow::LocalizedBeam& beam = localized.beams[i];
+    const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) && scan.range_m[i] >= config_.min_range_m;
+    const double angle_rad = sensing::beam_angle_rad(scan.scanner, i);
+    const Vector2 far_end_m = odom_from_laser * Vector2(scan.scanner.max_range_m * std::cos(angle_rad), scan.scanner.max_range_m * std::sin(angle_rad));
+    beam.point_in_base_m = points_in_base_m_[i].cast<float>();
+    beam.range_m = has_echo ? scan.range_m[i] : 0.0F;
+    map_.expect(origin_in_odom_m, has_echo ? odom_from_base.pose * points_in_base_m_[i] : far_end_m, has_echo, scan.scanner.max_range_m, beam);
+  }
+  return localized;
+}
+
+void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized) {
+  const Pose2 odom_from_laser = localized.odom_from_base.pose * scan.scanner.base_from_laser;
+  PendingScan pending;
+  pending.stamp_ns = scan.stamp_ns;
+  pending.sequence = scan.sequence;
+  pending.scanner_id = scan.scanner.scanner_id;
+  pending.origin_in_odom_m = odom_from_laser.translation_m();
+  pending.rays.resize(localized.beams.size());
+  pending.end_cells.resize(localized.beams.size());
+  for (std::size_t i = 0; i < localized.beams.size(); ++i) {
+    const flow::LocalizedBeam& beam = localized.beams[i];
+    pending.end_cells[i] = beam.end_cell;
+    if (beam.end_cell != EndCell::kNoEcho) {
+      pending.rays[i].end_m = localized.odom_from_base.pose * points_in_base_m_[i];
+      continue;
+    }
+    // Nearer echoes than the least range tell nothing, not even that there is free space.
+    const bool is_too_near = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m);
+    const double free_m = is_too_near ? 0.0 : std::min(config_.map.no_echo_free_m, scan.scanner.max_range_m);
+    const double angle_rad = sensing::beam_angle_rad(scan.scanner, i);
+    pending.rays[i].end_m = odom_from_laser * Vector2(free_m * std::cos(angle_rad), free_m * std::sin(angle_rad));
+  }
+  pending_.push_back(std::move(pending));
+}
+
+std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan) {
+  if (!is_usable(scan)) return std::nullopt;
+  ++counters_.scans;
+  while (static_cast<int>(pending_.size()) >= config_.max_pending) {
+    ++counters_.fallback_integrations;
+    integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback);
+  }
+  begin_next_submap_if_outgrown();
+  const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(scan.stamp_ns);
+  UncertainPose2 odom_from_base;
+  State now{scan.stamp_ns, {}, wheel_from_base.has_value(), wheel_from_base.value_or(Pose2{}), 0.0, 0.0};
+  if (!last_) {
+    map_ = LocalMap(config_.map, Vector2::Zero());
+    sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
+  } else {
+    const Step step = predict(scan.stamp_ns, wheel_from_base);
+    const UncertainPose2 prior = geometry::compound(exactly(last_->odom_from_base), step.before_from_base);
+    now.speed_mps = step.before_from_base.pose.x_m / step.duration_s;
+    now.yaw_rate_radps = step.before_from_base.pose.heading_rad / step.duration_s;
+    sensing::deskew(scan, now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
+    select_points(scan, prior.pose);
+    odom_from_base = match(prior);
+    const Pose2 before_from_base = geometry::inverse(last_->odom_from_base) * odom_from_base.pose;
+    learn(step, before_from_base);
+    if (!step.by_wheels) {
+      now.speed_mps = before_from_base.x_m / step.duration_s;
+      now.yaw_rate_radps = before_from_base.heading_rad / step.duration_s;
+    }
+  }
+  now.odom_from_base = odom_from_base.pose;
+  last_ = now;
+  flow::LocalizedScan localized = describe(scan, odom_from_base);
+  remember(scan, localized);
+  return localized;
+}
+
+void Localizer::note(const flow::SegmentedScan& segmented) {
+  for (PendingScan& scan : pending_) {
+    const bool is_it = scan.sequence == segmented.sequence && scan.scanner_id == segmented.scanner_id;
+    if (is_it && segmented.labels.size() == scan.rays.size()) scan.fallback = segmented.labels;
+  }
+}
+
+void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
+  PendingScan& scan = pending_.front();
+  for (std::size_t i = 0; i < scan.rays.size(); ++i) {
+    grids::Echo echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
+    if (scan.end_cells[i] == EndCell::kNoEcho) echo = grids::Echo::kNone;
+    const bool is_far = (scan.rays[i].end_m - scan.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
+    scan.rays[i].echo = is_far ? grids::Echo::kNone : echo;
+  }
+  map_.integrate(scan.stamp_ns, scan.origin_in_odom_m, scan.rays);
+  integrated_.push_back(std::move(scan));
+  pending_.pop_front();
+  if (integrated_.size() > kScansKeptForRestoring) integrated_.pop_front();
+}
+
+void Localizer::integrate(const flow::ScanLabels& labels) {
+  const auto is_labelled = [&](const PendingScan& scan) {
+    return scan.sequence == labels.sequence && scan.scanner_id == labels.scanner_id && scan.rays.size() == labels.labels.size();
+  };
+  const bool is_awaited = std::any_of(pending_.begin(), pending_.end(), is_labelled);
+  while (is_awaited && !is_labelled(pending_.front())) {
+    ++counters_.fallback_integrations;
+    integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback);
+  }
+  if (is_awaited) integrate_first(&labels.labels);
+  restore_points(labels);
+}
+
+void Localizer::restore_points(const flow::ScanLabels& labels) {
+  for (const flow::RestoredPoints& restored : labels.restored) {
+    const auto scan = std::find_if(integrated_.begin(), integrated_.end(), [&](const PendingScan& one) {
+      return one.sequence == restored.sequence && one.scanner_id == labels.scanner_id;
+    });
+    if (scan == integrated_.end()) continue;
+    for (const std::uint16_t beam : restored.beams) {
+      if (beam >= scan->rays.size() || scan->end_cells[beam] == EndCell::kNoEcho) continue;
+      map_.restore_stationary(scan->rays[beam].end_m);
+      ++counters_.restored_points;
+    }
+  }
+}
+
+void Localizer::begin_next_submap_if_outgrown() {
+  if (!last_ || !map_.is_outgrown(last_->odom_from_base.translation_m(), travelled_m_)) return;
+  end_submap();
+  const Pose2 odom_from_previous = map_.odom_from_submap();
+  map_.begin_next(last_->odom_from_base.translation_m());
+  const geometry::Matrix3 covariance = geometry::Matrix3(previous_from_submap_.covariance);
+  previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), covariance};
+}
+
+void Localizer::end_submap() {
+  flow::Submap submap = map_.submap();
+  submap.previous_from_submap = previous_from_submap_;
+  submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * last_->odom_from_base;
+  submap.travelled_m = travelled_m_;
+  finished_.push_back(std::move(submap));
+  travelled_m_ = 0.0;
+  ++counters_.submaps;
+}
+
+std::optional<flow::Submap> Localizer::take_finished_submap() {
+  if (finished_.empty()) return std::nullopt;
+  flow::Submap submap = std::move(finished_.front());
+  finished_.erase(finished_.begin());
+  return submap;
+}
+
+void Localizer::finish() {
+  while (!pending_.empty()) integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback);
+  if (last_ && map_.has_echoes()) end_submap();
+}
+
+void Localizer::correct(const flow::GraphCorrection& correction) {
+  if (correction.sequence <= correction_sequence_) return;
+  correction_sequence_ = correction.sequence;
+  map_from_odom_ = correction.map_from_odom;
+}
+
+std::vector<std::byte> Localizer::checkpoint() const {
+  std::vector<std::byte> bytes;
+  put(bytes, last_.has_value());
+  if (!last_) return bytes;
+  put(bytes, *last_);
+  put(bytes, calibration_.state);
+  put(bytes, calibration_.covariance);
+  put(bytes, map_from_odom_);
+  put(bytes, correction_sequence_);
+  put(bytes, previous_from_submap_.pose);
+  put(bytes, previous_from_submap_.covariance);
+  put(bytes, travelled_m_);
+  put(bytes, counters_);
+  map_.write(bytes);
+  return bytes;
+}
+
+bool Localizer::restore(std::span<const std::byte> bytes) {
+  ByteReader from(bytes.data(), bytes.data() + bytes.size());
+  bool has_state = false;
+  Localizer restored(config_);
+  State last;
+  from.get(has_state);
+  from.get(last);
+  from.get(restored.calibration_.state);
+  from.get(restored.calibration_.covariance);
+  from.get(restored.map_from_odom_);
+  from.get(restored.correction_sequence_);
+  from.get(restored.previous_from_submap_.pose);
+  from.get(restored.previous_from_submap_.covariance);
+  from.get(restored.travelled_m_);
+  from.get(restored.counters_);
+  std::optional<LocalMap> map = has_state ? LocalMap::restored(config_.map, from) : std::nullopt;
+  if (!map || !from.ok() || !from.at_end()) return false;
+  restored.last_ = last;
+  restored.map_ = std::move(*map);
+  *this = std::move(restored);
+  return true;
+}
+
+}  // namespace slammot::localization

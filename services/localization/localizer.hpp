@@ -1,0 +1,161 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/flow/graph_correction.hpp"
+#include "common/flow/localized_scan.hpp"
+#include "common/flow/scan_labels.hpp"
+#include "common/flow/segmented_scan.hpp"
+#include "common/flow/submap.hpp"
+#include "common/flow/tracked_objects.hpp"
+#include "common/matching/point_to_line.hpp"
+#include "common/sensing/deskew.hpp"
+#include "common/sensing/motion_model.hpp"
+#include "common/sensing/odometry_buffer.hpp"
+#include "common/sensing/scan.hpp"
+#include "services/localization/local_map.hpp"
+
+namespace slammot::localization {
+
+struct LocalizerConfig {
+  double match_range_m = 80.0;            ///< Echoes beyond it are not matched,
+  double map_range_m = 80.0;              ///< and beyond this not mapped.
+  double min_range_m = 0.3;               ///< Nearer echoes come from the vehicle itself.
+  double range_noise_m = 0.03;            ///< One sigma at the scanner,
+  double range_noise_per_m = 0.001;       ///< and what each metre of range adds.
+  int min_echoes = 10;                    ///< With fewer, the prediction is the pose.
+  double least_matched_share = 0.3;       ///< With fewer points matched, the match is not believed.
+  double search_when_sigma_m = 0.15;      ///< A prediction less sure than this is searched for by correlation first,
+  double search_when_heading_sigma_rad = 0.02;  ///< or less sure of the heading than this.
+  double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
+  double longest_step_s = 2.0;            ///< A gap longer than this makes the prediction's uncertainty grow with it.
+  double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
+  int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
+  double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
+  double drift_rad_per_sqrt_m = 0.0007;
+  LocalMapConfig map;
+  sensing::MotionModelConfig motion;
+  matching::PointToLineConfig match;
+};
+
+/// What happened so far; all grow only.
+struct LocalizerCounters {
+  std::uint64_t scans = 0;
+  std::uint64_t duplicate_scans = 0;      ///< Same stamp as one before: dropped.
+  std::uint64_t out_of_order_scans = 0;   ///< Older than one before: dropped.
+  std::uint64_t too_few_echoes = 0;       ///< Dead reckoning instead of a match.
+  std::uint64_t lost_matches = 0;         ///< Too few points matched: dead reckoning.
+  std::uint64_t searches = 0;             ///< Correlative searches.
+  std::uint64_t odometry_jumps = 0;       ///< Steps taken at constant velocity instead.
+  std::uint64_t without_odometry = 0;
+  std::uint64_t gaps = 0;                 ///< Steps longer than longest_step_s.
+  std::uint64_t fallback_integrations = 0;///< Labels came too late or not at all.
+  std::uint64_t restored_points = 0;      ///< Given back by tracking.
+  std::uint64_t submaps = 0;
+};
+
+/// Estimates the pose of the vehicle and the map around it, scan by scan. Not thread-safe; reads no clock.
+class Localizer {
+ public:
+  explicit Localizer(const LocalizerConfig& config);
+
+  void add_odometry(const sensing::Odometry& sample);
+
+  /// Whether waiting for more odometry could still improve the prediction at the stamp.
+  bool has_odometry_for(std::int64_t stamp_ns) const { return odometry_.reaches(stamp_ns); }
+
+  /// Pose of the scan, its points without the sweep's motion, and what the map expected of each beam.
+  /// None for a scan that is a duplicate or out of order. Remembers the scan until its labels come.
+  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan);
+
+  /// What tracking predicts to be there: left out of the next matches.
+  void expect(const flow::TrackedObjects& objects);
+
+  /// Labels by detection, used when tracking's do not come.
+  void note(const flow::SegmentedScan& segmented);
+
+  /// Adds the scan, and any that still wait before it, to the maps. Unknown scans are ignored.
+  void integrate(const flow::ScanLabels& labels);
+
+  /// Submap that was finished since the last call.
+  std::optional<flow::Submap> take_finished_submap();
+
+  /// Integrates what still waits and ends the submap in progress, as at the end of a drive.
+  void finish();
+
+  void correct(const flow::GraphCorrection& correction);
+
+  const geometry::Pose2& map_from_odom() const { return map_from_odom_; }
+  const sensing::MotionCalibration& calibration() const { return calibration_; }
+  const LocalizerCounters& counters() const { return counters_; }
+  const LocalMap& local_map() const { return map_; }
+
+  /// Everything that is needed to go on after a crash, in a form of this build.
+  std::vector<std::byte> checkpoint() const;
+  /// False, and nothing changed, when the bytes are no checkpoint of this configuration.
+  bool restore(std::span<const std::byte> bytes);
+
+ private:
+  struct State {
+    std::int64_t stamp_ns = 0;
+    geometry::Pose2 odom_from_base;
+    bool has_wheels = false;
+    geometry::Pose2 wheel_from_base;
+    double speed_mps = 0.0;
+    double yaw_rate_radps = 0.0;
+  };
+
+  struct PendingScan {
+    std::int64_t stamp_ns = 0;
+    std::uint32_t sequence = 0;
+    std::string scanner_id;
+    geometry::Vector2 origin_in_odom_m;
+    std::vector<grids::Ray> rays;               ///< All as kNone; ends in odom.
+    std::vector<flow::EndCell> end_cells;
+    std::vector<flow::PointLabel> fallback;     ///< By detection; empty when it has said nothing.
+  };
+
+  struct Step {
+    geometry::UncertainPose2 before_from_base;
+    std::optional<geometry::Pose2> by_wheels;
+    double duration_s = 0.0;
+  };
+
+  bool is_usable(const sensing::LaserScan& scan);
+  Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
+  geometry::UncertainPose2 match(const geometry::UncertainPose2& prior);
+  void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
+  bool is_masked(const geometry::Vector2& point_in_odom_m, std::int64_t stamp_ns) const;
+  void learn(const Step& step, const geometry::Pose2& before_from_base);
+  flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base) const;
+  void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
+  void integrate_first(const std::vector<flow::PointLabel>* labels);
+  void restore_points(const flow::ScanLabels& labels);
+  void begin_next_submap_if_outgrown();
+  void end_submap();
+
+  LocalizerConfig config_;
+  LocalizerCounters counters_;
+  sensing::OdometryBuffer odometry_;
+  sensing::MotionCalibration calibration_;
+  std::optional<State> last_;
+  LocalMap map_;
+  geometry::Pose2 map_from_odom_;
+  geometry::UncertainPose2 previous_from_submap_;    ///< Of the submap in progress.
+  double travelled_m_ = 0.0;                         ///< In this submap.
+  std::uint32_t correction_sequence_ = 0;
+  flow::TrackedObjects expected_objects_;
+  std::deque<PendingScan> pending_;
+  std::deque<PendingScan> integrated_;               ///< The last ones, for points that tracking gives back.
+  std::vector<flow::Submap> finished_;
+  std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
+  std::vector<matching::MatchPoint> match_points_;
+};
+
+}  // namespace slammot::localization
