@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "common/flow/graph_correction.hpp"
+#include "common/flow/ids.hpp"
+#include "common/geometry/pose2.hpp"
+
+namespace slammot::graphs {
+
+struct PoseGraphConfig {
+  double loop_loss_scale = 3.0;  ///< Sigmas at which a loop constraint begins to lose its say (Cauchy); 0: never.
+  int max_iterations = 50;
+};
+
+struct OptimisationSummary {
+  double initial_cost = 0.0;     ///< Half the sum of squared (loops: robustified) normalised errors.
+  double final_cost = 0.0;
+  int iterations = 0;
+  bool has_converged = false;
+};
+
+/// Submaps as nodes, relative poses between them as constraints (Wang 2004, section 6.1; Grisetti et al. 2010).
+/// The first node added stays where it is. Single-threaded: the same calls give the same bits.
+class PoseGraph {
+ public:
+  explicit PoseGraph(const PoseGraphConfig& config);
+
+  /// Adds a node at its first guess. Precondition: the id is new.
+  void add_node(flow::SubmapId id, const geometry::Pose2& map_from_node);
+
+  /// Adds what was measured between two nodes. Preconditions: both are known, the covariance is positive definite.
+  void add_constraint(const flow::Constraint& constraint);
+
+  /// Moves the nodes to the nearest minimum of the cost.
+  OptimisationSummary optimise();
+
+  bool contains(flow::SubmapId id) const { return index_of_.contains(id); }
+  const geometry::Pose2& map_from_node(flow::SubmapId id) const;
+
+  /// All nodes, ascending ids.
+  std::vector<flow::CorrectedSubmap> nodes() const;
+  const std::vector<flow::Constraint>& constraints() const { return constraints_; }
+
+ private:
+  PoseGraphConfig config_;
+  std::map<flow::SubmapId, std::size_t> index_of_;
+  std::vector<geometry::Pose2> map_from_node_;
+  std::vector<flow::Constraint> constraints_;
+};
+
+/// Squared Mahalanobis distance between what a constraint measured and what poses say; chi-square with 3 degrees of
+/// freedom where the constraint's covariance is all there is.
+double squared_error(const flow::Constraint& constraint, const geometry::Pose2& map_from_from,
+                     const geometry::Pose2& map_from_to);
+
+}  // namespace slammot::graphs
