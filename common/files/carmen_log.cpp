@@ -101,13 +101,14 @@ void CarmenLog::take(const OdometryRecord& record) {
 
 void CarmenLog::note_malformed() {
   ++faults_.malformed_lines;
+  last_malformed_line_ = lines_.line_number();
   if (faults_.first_malformed_lines.size() < LogFaults::kNamedLines) faults_.first_malformed_lines.push_back(lines_.line_number());
 }
 
 void CarmenLog::finish_reading() {
   is_finished_ = true;
   // A last line that has no end and makes no sense was cut in the middle.
-  const bool last_line_is_broken = !faults_.first_malformed_lines.empty() && lines_.last_line_is_unfinished();
+  const bool last_line_is_broken = lines_.last_line_is_unfinished() && last_malformed_line_ == lines_.line_number();
   faults_.is_cut = lines_.is_cut() || last_line_is_broken;
   put_waiting_scans(0);
 }

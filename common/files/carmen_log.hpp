@@ -78,6 +78,7 @@ class CarmenLog {
   LogPlan plan_;
   CarmenLogOptions options_;
   LogFaults faults_;
+  std::uint64_t last_malformed_line_ = 0;
   bool is_finished_ = false;
   std::uint32_t scans_ = 0;
   std::deque<LogEvent> ready_;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace slammot::files {
@@ -197,11 +198,12 @@ LogFigures CarmenSurvey::figures(const Lasers& lasers, const LogPlan& plan, doub
   LogFigures figures;
   figures.scans = lasers.scans;
   figures.odom_lines = odom_lines_;
+  figures.has_clock = plan.clock != LogClock::kNominal;
   if (lasers.scans == 0) return figures;
   std::map<double, std::uint64_t> scans_by_beams(lasers.scans_by_beams.begin(), lasers.scans_by_beams.end());
   figures.beams = static_cast<std::size_t>(most_frequent(scans_by_beams));
   const BeamLayout layout = lasers.layout.value_or(layout_by_convention(figures.beams, fallback_field_of_view_rad));
-  figures.field_of_view_rad = std::min(layout.beam_step_rad * static_cast<double>(figures.beams), 2.0 * 3.14159265358979323846);
+  figures.field_of_view_rad = std::min(layout.beam_step_rad * static_cast<double>(figures.beams), 2.0 * std::numbers::pi);
   figures.max_range_m = plan.max_range_m;
   const auto echo_bins = static_cast<std::size_t>(std::max(0.0, plan.max_range_m * 100.0 + 0.5));
   figures.median_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins, 0.5);

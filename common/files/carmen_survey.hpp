@@ -31,6 +31,7 @@ struct LogFigures {
   std::uint64_t scans = 0;
   std::uint64_t odom_lines = 0;
   std::size_t beams = 0;               ///< Of most scans.
+  bool has_clock = false;              ///< Its own one, not the nominal one.
   double field_of_view_rad = 0.0;      ///< beams * step: 2 pi for a scanner that sees all around.
   double max_range_m = 0.0;
   double median_range_m = 0.0;         ///< Of the echoes.

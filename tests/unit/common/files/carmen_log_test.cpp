@@ -1,0 +1,188 @@
+#include "common/files/carmen_log.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/matchers.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/common/files/log_text.hpp"
+
+namespace slammot::files {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using geometry::Pose2;
+using sensing::LaserScan;
+using sensing::Odometry;
+using testing::FlaserLine;
+using testing::PoseNear;
+using testing::straight_drive;
+using testing::write_file;
+using testing::write_gz;
+
+struct Reading {
+  std::vector<Odometry> odometry;
+  std::vector<LaserScan> scans;
+  std::string order;  // 'o' and 's' as they came
+  LogFaults faults;
+  LogPlan plan;
+};
+
+class CarmenLogTest : public ::testing::Test {
+ protected:
+  Reading read(const std::string& content) {
+    write_file(file_, content);
+    return read();
+  }
+
+  Reading read() {
+    Reading reading;
+    auto log = CarmenLog::open(file_);
+    EXPECT_TRUE(log);
+    if (!log) return reading;
+    while (const auto event = log->next()) {
+      if (const auto* scan = std::get_if<LaserScan>(&*event)) reading.scans.push_back(*scan);
+      if (const auto* odometry = std::get_if<Odometry>(&*event)) reading.odometry.push_back(*odometry);
+      reading.order += std::holds_alternative<LaserScan>(*event) ? 's' : 'o';
+    }
+    reading.faults = log->faults();
+    reading.plan = log->plan();
+    return reading;
+  }
+
+  std::string refusal(const std::string& content) {
+    write_file(file_, content);
+    const auto log = CarmenLog::open(file_);
+    EXPECT_FALSE(log);
+    return log ? "" : log.error().message;
+  }
+
+  testing::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_ / "drive.log";
+};
+
+TEST_F(CarmenLogTest, GivesEachScanRightAfterTheOdometryOfItsStamp) {
+  const Reading reading = read(straight_drive(3));
+  EXPECT_EQ(reading.order, "ososos");
+  EXPECT_EQ(reading.scans[1].stamp_ns, 1'000'100'000'000);
+  EXPECT_EQ(reading.odometry[1].stamp_ns, reading.scans[1].stamp_ns);
+  EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.1, 0.0, 0.0}, 1e-12));
+  EXPECT_EQ(reading.scans[2].sequence, 2u);
+  EXPECT_NEAR(reading.scans[0].scanner.first_beam_rad, -std::numbers::pi / 2.0, 1e-12);
+  EXPECT_THAT(reading.scans[0].range_m, ElementsAre(1.0F, 2.0F, 3.0F, 4.0F));
+}
+
+TEST_F(CarmenLogTest, ReadsCompressedLogsAlike) {
+  write_gz(file_, straight_drive(3));
+  EXPECT_EQ(read().order, "ososos");
+}
+
+TEST_F(CarmenLogTest, GivesBackTheLogsOwnDigitsOfAStamp) {
+  const Reading reading = read(FlaserLine{.ipc = "1575810072.324471"}.text() + FlaserLine{.ipc = "1575810072.404310"}.text());
+  ASSERT_EQ(reading.scans.size(), 2u);
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6f", static_cast<double>(reading.scans[1].stamp_ns) * 1e-9);
+  EXPECT_STREQ(text, "1575810072.404310");
+}
+
+TEST_F(CarmenLogTest, ReadsTheLaserOffsetWhereverItStands) {
+  const Reading reading = read(straight_drive(2) + "PARAM robot_frontlaser_offset 2.150\n");
+  EXPECT_THAT(reading.scans[0].scanner.base_from_laser, PoseNear(Pose2{2.15, 0.0, 0.0}, 1e-12));
+}
+
+TEST_F(CarmenLogTest, PutsOdomLinesThatAgreeBetweenTheScansInOrderOfTime) {
+  const Reading reading = read(
+      "ODOM 0.0 0 0 0 0 0 0.9 h 0.9\n" + FlaserLine{.pose = "0.1 0 0", .ipc = "1.0"}.text() +  //
+      "ODOM 0.2 0 0 0 0 0 1.1 h 1.1\nODOM 0.1 0 0 0 0 0 1.0 h 1.0\nODOM 0.4 0 0 0 0 0 1.3 h 1.3\n" +
+      FlaserLine{.pose = "0.3 0 0", .ipc = "1.2"}.text() + FlaserLine{.pose = "0.5 0 0", .ipc = "1.4"}.text());
+  EXPECT_EQ(reading.plan.odometry, OdometrySource::kBoth);
+  EXPECT_EQ(reading.order, "oosoosoos");
+  for (std::size_t i = 1; i < reading.odometry.size(); ++i) EXPECT_GT(reading.odometry[i].stamp_ns, reading.odometry[i - 1].stamp_ns);
+  EXPECT_EQ(reading.faults.stale_odometry, 1u);
+}
+
+TEST_F(CarmenLogTest, LeavesOutOdomLinesThatContradictTheLaserRecords) {
+  const Reading reading = read(FlaserLine{.pose = "0.1 0 0", .ipc = "1.0"}.text() + "ODOM 7 0 0 0 0 0 1.05 h 1\n" +
+                               FlaserLine{.pose = "0.2 0 0", .ipc = "1.1"}.text() + "ODOM 8 0 0 0 0 0 1.15 h 1\n");
+  EXPECT_EQ(reading.order, "osos");
+}
+
+TEST_F(CarmenLogTest, InterpolatesOdomLinesForScansWhoseOwnPoseStandsStill) {
+  const Reading reading = read("ODOM 0 0 0 0 0 0 1.0 h 0\n" + FlaserLine{.ipc = "1.25"}.text() + "ODOM 1 0 0 0 0 0 2.0 h 0\n" +
+                               FlaserLine{.ipc = "2.5"}.text());
+  EXPECT_EQ(reading.plan.odometry, OdometrySource::kOdomLines);
+  EXPECT_EQ(reading.order, "oosoos");
+  EXPECT_EQ(reading.odometry[1].stamp_ns, reading.scans[0].stamp_ns);
+  EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.25, 0.0, 0.0}, 1e-12));
+  EXPECT_THAT(reading.odometry[3].wheel_from_base, PoseNear(Pose2{1.0, 0.0, 0.0}, 1e-12));  // held: nothing newer
+}
+
+TEST_F(CarmenLogTest, GivesScansOfALogThatNeverMovesWithoutOdometry) {
+  EXPECT_EQ(read(FlaserLine{.ipc = "1.0"}.text() + FlaserLine{.ipc = "1.1"}.text()).order, "ss");
+}
+
+TEST_F(CarmenLogTest, GivesNumberedScansATimeAtTheNominalRate) {
+  std::string content;
+  for (int i = 0; i < 5; ++i) content += FlaserLine{.pose = std::to_string(i) + " 0 0", .ipc = std::to_string(i), .logger = std::to_string(i)}.text();
+  const Reading reading = read(content);
+  EXPECT_EQ(reading.plan.clock, LogClock::kNominal);
+  EXPECT_EQ(reading.scans[0].stamp_ns, 0);
+  EXPECT_EQ(reading.scans[4].stamp_ns, 400'000'000);
+  EXPECT_EQ(reading.order, "ososososos");
+}
+
+TEST_F(CarmenLogTest, KeepsDuplicateAndLateScansWithTheirOwnStampButWithoutOdometry) {
+  std::string content = straight_drive(20);
+  content += FlaserLine{.pose = "1.9 0 0", .ipc = "1001.9"}.text() + FlaserLine{.pose = "1.7 0 0", .ipc = "1001.7"}.text();
+  const Reading reading = read(content);
+  ASSERT_EQ(reading.scans.size(), 22u);
+  EXPECT_EQ(reading.odometry.size(), 20u);
+  EXPECT_EQ(reading.scans[21].stamp_ns, 1'001'700'000'000);
+}
+
+TEST_F(CarmenLogTest, SkipsMalformedLinesAndNamesTheFirstOnes) {
+  std::string content = straight_drive(3);
+  for (int i = 0; i < 7; ++i) content += "FLASER 3 1 2\n";
+  const Reading reading = read(content + straight_drive(1));
+  EXPECT_EQ(reading.scans.size(), 4u);
+  EXPECT_EQ(reading.faults.malformed_lines, 7u);
+  EXPECT_THAT(reading.faults.first_malformed_lines, ElementsAre(4, 5, 6, 7, 8));
+  EXPECT_FALSE(reading.faults.is_cut);
+}
+
+TEST_F(CarmenLogTest, SaysThatACutLogIsCut) {
+  write_gz(file_, straight_drive(5'000));
+  std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
+  const Reading reading = read();
+  EXPECT_GT(reading.scans.size(), 100u);
+  EXPECT_LT(reading.scans.size(), 5'000u);
+  EXPECT_TRUE(reading.faults.is_cut);
+}
+
+TEST_F(CarmenLogTest, SaysThatAPlainLogEndsInTheMiddleOfARecord) {
+  const std::string whole = straight_drive(5);
+  const Reading reading = read(whole.substr(0, whole.size() - 20));
+  EXPECT_EQ(reading.scans.size(), 4u);
+  EXPECT_TRUE(reading.faults.is_cut);
+  EXPECT_FALSE(read(whole.substr(0, whole.size() - 1)).faults.is_cut);
+}
+
+TEST_F(CarmenLogTest, RefusesFilesWithoutAScanInOneLine) {
+  EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
+  EXPECT_THAT(refusal("# CARMEN Logfile\nODOM 0 0 0 0 0 0 1 h 1\n"), HasSubstr("no laser scan"));
+  EXPECT_THAT(refusal("FLASER 3 1 2\n"), HasSubstr("1 of them malformed"));
+  EXPECT_THAT(refusal(std::string("\x00\x01\xff\xfe garbage\n\x00", 13)), HasSubstr("no laser scan"));
+  write_gz(file_, straight_drive(50));
+  std::filesystem::resize_file(file_, 30);
+  EXPECT_THAT(CarmenLog::open(file_).error().message, HasSubstr("cut off or damaged"));
+}
+
+}  // namespace
+}  // namespace slammot::files

@@ -1,0 +1,160 @@
+#include "common/files/carmen_record.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <variant>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/matchers.hpp"
+
+namespace slammot::files {
+namespace {
+
+using ::testing::ElementsAre;
+using geometry::Pose2;
+using std::numbers::pi;
+using testing::PoseNear;
+
+const std::string kHead = "ROBOTLASER1 0 -1.570796 3.141593 0.785398 81.83 0.01 0 5 1 2 3 4 81.83 ";
+const std::string kTail = "3 4 1.570796 3 2 1.570796 0.5 0.1 1 1 0 12.345678 host 7.5";
+
+bool is_malformed(const std::string& line) { return std::holds_alternative<MalformedLine>(parse_carmen_line(line)); }
+LaserRecord laser(const std::string& line) { return std::get<LaserRecord>(parse_carmen_line(line)); }
+
+TEST(ParseStamp, KeepsEveryDigitThatADoubleWouldLose) {
+  EXPECT_EQ(parse_stamp_ns("1575810072.324471"), 1'575'810'072'324'471'000);
+  EXPECT_EQ(parse_stamp_ns("21.0199"), 21'019'900'000);
+  EXPECT_EQ(parse_stamp_ns("0.000246"), 246'000);
+  EXPECT_EQ(parse_stamp_ns("17"), 17'000'000'000);
+  EXPECT_EQ(parse_stamp_ns(".5"), 500'000'000);
+  EXPECT_EQ(parse_stamp_ns("-1.25"), -1'250'000'000);
+  EXPECT_EQ(parse_stamp_ns("1.1234567899"), 1'123'456'789);
+  EXPECT_EQ(parse_stamp_ns("1.5e3"), 1'500'000'000'000);
+}
+
+TEST(ParseStamp, RefusesWhatIsNoTime) {
+  for (const char* text : {"", "-", "nan", "inf", "abc", "12x", "1e40", "99999999999999999999", "1.2.3", "0x10"}) {
+    EXPECT_EQ(parse_stamp_ns(text), std::nullopt) << text;
+  }
+}
+
+TEST(ParseCarmenLine, ReadsFlaserWithTheWheelsPoseAndBothClocks) {
+  const auto record = laser("FLASER 3 1.5 2.5 81.83 9 9 9 1.0 2.0 0.5 12.25 host 3.5");
+  EXPECT_EQ(record.kind, LaserRecordKind::kFlaser);
+  EXPECT_THAT(record.range_m, ElementsAre(1.5F, 2.5F, 81.83F));
+  EXPECT_THAT(record.wheel_from_base, PoseNear(Pose2{1.0, 2.0, 0.5}, 1e-12));
+  EXPECT_FALSE(record.layout);
+  EXPECT_EQ(record.max_range_m, 0.0);
+  EXPECT_EQ(record.stamps.ipc_ns, 12'250'000'000);
+  EXPECT_EQ(record.stamps.logger_ns, 3'500'000'000);
+}
+
+TEST(ParseCarmenLine, ReadsRobotLaserWithoutRemissionCount) {
+  const auto record = laser(kHead + kTail);
+  EXPECT_THAT(record.range_m, ElementsAre(1.0F, 2.0F, 3.0F, 4.0F, 81.83F));
+  EXPECT_THAT(record.wheel_from_base, PoseNear(Pose2{3.0, 2.0, pi / 2.0}, 1e-6));
+  ASSERT_TRUE(record.base_from_laser);
+  EXPECT_THAT(*record.base_from_laser, PoseNear(Pose2{2.0, 0.0, 0.0}, 1e-5));
+  ASSERT_TRUE(record.layout);
+  EXPECT_NEAR(record.layout->first_beam_rad, -pi / 2.0, 1e-6);
+  EXPECT_NEAR(record.layout->beam_step_rad, pi / 4.0, 1e-6);
+  EXPECT_EQ(record.stamps.ipc_ns, 12'345'678'000);
+}
+
+TEST(ParseCarmenLine, ReadsTheSameWithRemissionsOrWithACountOfNone) {
+  for (const char* remissions : {"0 ", "5 10 20 30 40 50 ", "2 0.5 0.25 "}) {
+    const auto record = laser(kHead + remissions + kTail);
+    EXPECT_THAT(record.wheel_from_base, PoseNear(Pose2{3.0, 2.0, pi / 2.0}, 1e-6)) << remissions;
+    EXPECT_EQ(record.stamps.ipc_ns, 12'345'678'000) << remissions;
+  }
+}
+
+TEST(ParseCarmenLine, ComparesAReadingOfTheMaximumRangeAsNoEcho) {
+  const auto record = laser(kHead + kTail);
+  EXPECT_FALSE(static_cast<double>(record.range_m.back()) < record.max_range_m);
+}
+
+TEST(ParseCarmenLine, TakesTheStepThatFieldAndBeamCountAgreeOn) {
+  const std::string tail = " 1 2 3 4 " + kTail;
+  const auto step = [&](const std::string& field, const std::string& recorded_step) {
+    return laser("ROBOTLASER1 0 -3.1 " + field + " " + recorded_step + " 30 0 0 4" + tail).layout->beam_step_rad;
+  };
+  EXPECT_NEAR(step("3.0", "1.0"), 1.0, 1e-12);          // both ends are in
+  EXPECT_NEAR(step("6.283185", "1.5708"), pi / 2.0, 1e-6);  // full circle, the first beam is not repeated
+  EXPECT_NEAR(step("3.0", "0"), 1.0, 1e-12);            // not said
+  EXPECT_NEAR(step("3.0", "0.1"), 0.1, 1e-12);          // part of the field
+}
+
+TEST(ParseCarmenLine, LeavesTheLayoutToConventionWhereTheRecordMakesNoSense) {
+  const std::string tail = " 81.83 0.01 0 5 1 2 3 4 5 " + kTail;
+  EXPECT_FALSE(laser("ROBOTLASER1 0 -90 180 1" + tail).layout);
+  EXPECT_FALSE(laser("ROBOTLASER1 0 0 0 0" + tail).layout);
+}
+
+TEST(ParseCarmenLine, ReadsOdomAndParam) {
+  const auto odom = std::get<OdometryRecord>(parse_carmen_line("ODOM 1 2 0.5 0.3 0 0 12.5 host 3.5"));
+  EXPECT_THAT(odom.wheel_from_base, PoseNear(Pose2{1.0, 2.0, 0.5}, 1e-12));
+  EXPECT_EQ(odom.stamps.ipc_ns, 12'500'000'000);
+  const auto line = std::string("PARAM robot_frontlaser_offset 2.15  12.0 host 0.1");
+  const auto param = std::get<ParamRecord>(parse_carmen_line(line));
+  EXPECT_EQ(param.name, "robot_frontlaser_offset");
+  EXPECT_EQ(param.value, "2.15");
+}
+
+TEST(ParseCarmenLine, IgnoresCommentsAndOtherMessages) {
+  for (const char* line : {"", "   ", "# CARMEN Logfile", "TRUEPOS 1 2 3", "RLASER 2 1 1", "\x01\x02\xff"}) {
+    EXPECT_TRUE(std::holds_alternative<IgnoredLine>(parse_carmen_line(line))) << line;
+  }
+}
+
+TEST(ParseCarmenLine, RefusesTooFewNumbersAndPosesThatCannotBe) {
+  EXPECT_TRUE(is_malformed("FLASER"));
+  EXPECT_TRUE(is_malformed("FLASER 3 1 2"));
+  EXPECT_TRUE(is_malformed("FLASER 3 1 2 3 0 0 0 0 0 0"));
+  EXPECT_TRUE(is_malformed("FLASER 0 0 0 0 0 0 0 1 h 1"));
+  EXPECT_TRUE(is_malformed("FLASER -3 1 2 3 0 0 0 0 0 0 1 h 1"));
+  EXPECT_TRUE(is_malformed("FLASER 99999999999 1 2 3 0 0 0 0 0 0 1 h 1"));
+  EXPECT_TRUE(is_malformed("FLASER 3 1 x 3 0 0 0 0 0 0 1 h 1"));
+  EXPECT_TRUE(is_malformed("FLASER 3 1 2 3 0 0 0 nan 0 0 1 h 1"));
+  EXPECT_TRUE(is_malformed("FLASER 3 1 2 3 0 0 0 0 1e300 0 1 h 1"));
+  EXPECT_TRUE(is_malformed(kHead));
+  EXPECT_TRUE(is_malformed(kHead + "0 3 4 1.57 3 2 1.57"));
+  EXPECT_TRUE(is_malformed("ODOM 1 2"));
+  EXPECT_TRUE(is_malformed("ODOM inf 2 0 0 0 0 1 h 1"));
+  EXPECT_TRUE(is_malformed("PARAM lonely"));
+}
+
+TEST(ParseCarmenLine, KeepsScansWithReadingsThatAreNoRanges) {
+  const auto record = laser("FLASER 6 nan -1.5 inf 1e300 1e-300 2 0 0 0 0 0 0 1 h 1");
+  EXPECT_TRUE(std::isnan(record.range_m[0]));
+  EXPECT_EQ(record.range_m[1], -1.5F);
+  EXPECT_TRUE(std::isinf(record.range_m[2]));
+  EXPECT_TRUE(std::isnan(record.range_m[3]));
+  EXPECT_EQ(record.range_m[5], 2.0F);
+}
+
+TEST(ParseCarmenLine, SurvivesEveryCutAndManyChangesOfARecord) {
+  const std::string whole = kHead + "2 1 2 " + kTail;
+  for (std::size_t length = 0; length <= whole.size(); ++length) parse_carmen_line(whole.substr(0, length));
+  std::mt19937 random(1);
+  for (int i = 0; i < 20'000; ++i) {
+    std::string changed = whole;
+    for (int k = 0; k < 3; ++k) changed[random() % changed.size()] = static_cast<char>(random() % 256);
+    parse_carmen_line(changed);
+  }
+}
+
+TEST(LayoutByConvention, SpreadsEvenCountsOneStepShortAndOddCountsOverTheWholeField) {
+  EXPECT_NEAR(layout_by_convention(180, pi).beam_step_rad, pi / 180.0, 1e-12);
+  EXPECT_NEAR(layout_by_convention(181, pi).beam_step_rad, pi / 180.0, 1e-12);
+  EXPECT_NEAR(layout_by_convention(360, pi).beam_step_rad, pi / 360.0, 1e-12);
+  EXPECT_NEAR(layout_by_convention(361, pi).beam_step_rad, pi / 360.0, 1e-12);
+  EXPECT_NEAR(layout_by_convention(361, pi).first_beam_rad, -pi / 2.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace slammot::files

@@ -1,0 +1,154 @@
+#include "common/files/carmen_survey.hpp"
+
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/matchers.hpp"
+
+namespace slammot::files {
+namespace {
+
+using geometry::Pose2;
+using std::numbers::pi;
+using testing::PoseNear;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+struct Drive {
+  int scans = 50;
+  double step_m = 0.1;
+  std::int64_t period_ns = kSecond / 10;
+  std::int64_t first_ipc_ns = 1'000 * kSecond;
+};
+
+LaserRecord scan_of_drive(const Drive& drive, int i) {
+  LaserRecord record;
+  record.range_m = {1.0F + 0.01F * static_cast<float>(i), 2.0F + 0.03F * static_cast<float>(i), 81.83F, 81.83F};
+  record.wheel_from_base = {drive.step_m * i, 0.0, 0.0};
+  record.stamps = {drive.first_ipc_ns + i * drive.period_ns, i * drive.period_ns};
+  return record;
+}
+
+LogPlan plan_of(const Drive& drive) {
+  CarmenSurvey survey;
+  for (int i = 0; i < drive.scans; ++i) survey.add(scan_of_drive(drive, i));
+  return survey.conclude(pi);
+}
+
+/// A drive whose scans and ODOM lines were changed before the survey saw them.
+template <typename Change>
+LogPlan plan_of_changed_scans(Change change) {
+  CarmenSurvey survey;
+  for (int i = 0; i < 50; ++i) {
+    LaserRecord record = scan_of_drive({}, i);
+    change(record, i);
+    survey.add(record);
+  }
+  return survey.conclude(pi);
+}
+
+TEST(CarmenSurvey, TellsTheFiguresOfADrive) {
+  const LogFigures figures = plan_of({.scans = 101, .step_m = 0.5}).figures;
+  EXPECT_EQ(figures.scans, 101u);
+  EXPECT_EQ(figures.beams, 4u);
+  EXPECT_NEAR(figures.scan_period_s, 0.1, 1e-9);
+  EXPECT_NEAR(figures.scan_period_spread, 0.0, 1e-9);
+  EXPECT_NEAR(figures.duration_s, 10.0, 1e-9);
+  EXPECT_NEAR(figures.distance_m, 50.0, 1e-9);
+  EXPECT_NEAR(figures.cruising_speed_mps, 5.0, 1e-9);
+  EXPECT_NEAR(figures.field_of_view_rad, pi, 1e-9);
+  EXPECT_NEAR(figures.median_range_m, 2.0, 0.05);
+}
+
+TEST(CarmenSurvey, TakesTheIpcClockWhenItRuns) { EXPECT_EQ(plan_of({}).clock, LogClock::kIpc); }
+
+TEST(CarmenSurvey, TakesTheLoggersClockWhenIpcStandsStillOrIsMissing) {
+  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.stamps.ipc_ns = 0; }).clock, LogClock::kLogger);
+  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.stamps.ipc_ns.reset(); }).clock, LogClock::kLogger);
+}
+
+TEST(CarmenSurvey, TakesNoClockFromScansThatAreOnlyNumbered) {
+  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i * kSecond; });
+  EXPECT_EQ(plan.clock, LogClock::kNominal);
+  EXPECT_NEAR(plan.figures.scan_period_s, 1.0 / kNominalRateHz, 1e-12);
+  EXPECT_EQ(plan.figures.cruising_speed_mps, 0.0);
+  EXPECT_FALSE(plan.figures.has_clock);
+}
+
+TEST(CarmenSurvey, TakesNoClockFromStampsThatRepeatOrStartAnew) {
+  const auto coarse = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i / 10 * kSecond; });
+  EXPECT_EQ(coarse.clock, LogClock::kNominal);
+  const auto joined = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i % 25 * kSecond / 10; });
+  EXPECT_EQ(joined.clock, LogClock::kNominal);
+}
+
+TEST(CarmenSurvey, KeepsAClockThatRepeatsNowAndThen) {
+  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) {
+    if (i % 20 == 0) *r.stamps.ipc_ns -= kSecond / 10;
+  });
+  EXPECT_EQ(plan.clock, LogClock::kIpc);
+}
+
+TEST(CarmenSurvey, FindsTheReadingThatMeansNoEcho) {
+  EXPECT_EQ(plan_of({}).max_range_m, static_cast<double>(81.83F));
+  const auto several = plan_of_changed_scans([](LaserRecord& r, int i) { r.range_m[3] = i % 2 ? 81.91F : 81.83F; });
+  EXPECT_EQ(several.max_range_m, static_cast<double>(81.83F));
+}
+
+TEST(CarmenSurvey, TakesEveryReadingForAnEchoWhereTheFarEndDoesNotRepeat) {
+  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.range_m[2] = r.range_m[3] = 5.0F + 0.07F * static_cast<float>(i); });
+  EXPECT_GT(plan.max_range_m, static_cast<double>(5.0F + 0.07F * 49.0F));
+}
+
+TEST(CarmenSurvey, BelievesTheRecordsMaximumUnlessTheDataKnowASmallerOne) {
+  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.max_range_m = 50.0; }).max_range_m, 50.0);
+  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.max_range_m = 100.0; }).max_range_m, static_cast<double>(81.83F));
+}
+
+TEST(CarmenSurvey, PlacesTheLaserByParamElseByTheRecordsTwoPoses) {
+  const auto by_record = plan_of_changed_scans([](LaserRecord& r, int) { r.base_from_laser = Pose2{0.3, 0.1, 0.2}; });
+  EXPECT_THAT(by_record.base_from_laser, PoseNear(Pose2{0.3, 0.1, 0.2}, 1e-12));
+  const auto corrected = plan_of_changed_scans([](LaserRecord& r, int i) { r.base_from_laser = Pose2{0.3 * i, 0.1, 0.2}; });
+  EXPECT_THAT(corrected.base_from_laser, PoseNear(Pose2{}, 1e-12));
+  CarmenSurvey survey;
+  survey.add(ParamRecord{"robot_frontlaser_offset", "2.15"});
+  LaserRecord record = scan_of_drive({}, 0);
+  record.base_from_laser = Pose2{0.3, 0.1, 0.2};
+  survey.add(record);
+  EXPECT_THAT(survey.conclude(pi).base_from_laser, PoseNear(Pose2{2.15, 0.0, 0.0}, 1e-12));
+}
+
+TEST(CarmenSurvey, ReadsTheKindOfLaserRecordThatIsMoreFrequent) {
+  CarmenSurvey survey;
+  for (int i = 0; i < 10; ++i) {
+    LaserRecord record = scan_of_drive({}, i);
+    record.kind = i < 7 ? LaserRecordKind::kRobotLaser1 : LaserRecordKind::kFlaser;
+    survey.add(record);
+  }
+  EXPECT_EQ(survey.conclude(pi).laser, LaserRecordKind::kRobotLaser1);
+  EXPECT_EQ(survey.conclude(pi).figures.scans, 7u);
+}
+
+/// ODOM lines 5 ms after each scan, displaced by an offset that grows with the scan.
+OdometrySource odometry_source(double laser_step_m, double odom_step_m) {
+  CarmenSurvey survey;
+  for (int i = 0; i < 50; ++i) {
+    const LaserRecord record = scan_of_drive({.step_m = laser_step_m}, i);
+    survey.add(record);
+    survey.add(OdometryRecord{{odom_step_m * i, 0.0, 0.0}, {*record.stamps.ipc_ns + 5'000'000, std::nullopt}});
+  }
+  return survey.conclude(pi).odometry;
+}
+
+TEST(CarmenSurvey, UsesOdomLinesOnlyWhereTheyDoNotContradictTheLaserRecords) {
+  EXPECT_EQ(odometry_source(0.1, 0.1), OdometrySource::kBoth);
+  EXPECT_EQ(odometry_source(0.1, 0.5), OdometrySource::kLaserRecords);
+  EXPECT_EQ(odometry_source(0.1, 0.0), OdometrySource::kLaserRecords);
+  EXPECT_EQ(odometry_source(0.0, 0.1), OdometrySource::kOdomLines);
+  EXPECT_EQ(odometry_source(0.0, 0.0), OdometrySource::kNone);
+}
+
+}  // namespace
+}  // namespace slammot::files
