@@ -3,63 +3,25 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-say() { printf '\n==> %s\n' "$*"; }
+# shellcheck source-path=SCRIPTDIR source=packages.sh
+source "$root/deploy/packages.sh"
 
-die() {
-  printf 'error: %s\n' "$*" >&2
-  exit 1
+# Objects compiled in another checkout serve this one too.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+
+# Further arguments are cmake's.
+configure_preset() {
+  local preset=$1
+  shift
+  say "Configuring the preset '$preset' in build/$preset"
+  cmake -S "$root" --preset "$preset" --log-level=WARNING "$@"
 }
 
-# Prints the packages of the named sections of packages.txt, one a line.
-packages_of() {
-  local section
-  for section in "$@"; do
-    grep -q "^\[$section\]" "$root/deploy/packages.txt" || die "deploy/packages.txt has no section [$section]"
-    sed -n "/^\[$section\]/,/^\[/{/^\[/d;s/[[:space:]]*#.*//;/^$/d;p}" "$root/deploy/packages.txt"
-  done
-}
-
-# Those of the given packages that dpkg does not hold as installed.
-missing_of() {
-  local package
-  for package in "$@"; do
-    [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || echo "$package"
-  done
-}
-
-as_root() {
-  if [[ $(id -u) == 0 ]]; then
-    "$@"
-  elif command -v sudo >/dev/null; then
-    sudo "$@"
-  else
-    die "packages are missing and have to be installed: run this as root, or install sudo"
-  fi
-}
-
-# Installs what is missing of the named sections, and nothing when nothing is: no network is needed then.
-install_packages() {
-  local packages missing
-  mapfile -t packages < <(packages_of "$@")
-  mapfile -t missing < <(missing_of "${packages[@]}")
-  if [[ ${#missing[@]} == 0 ]]; then
-    say "All ${#packages[@]} Debian packages are installed"
-    return
-  fi
-  command -v apt-get >/dev/null || die "this is not Debian; install what corresponds to: ${missing[*]}"
-  say "Installing ${#missing[@]} of ${#packages[@]} Debian packages: ${missing[*]}"
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"
-}
-
-# Configures and builds the preset; further arguments are ninja's targets (none: everything).
+# Further arguments are targets; everything when there are none.
 build_preset() {
   local preset=$1
   shift
-  say "Building the preset '$preset' in build/$preset"
-  # Objects compiled in another checkout serve this one too.
-  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
-  cmake -S "$root" --preset "$preset" --log-level=WARNING
+  say "Building ${*:-everything} in build/$preset"
   cmake --build "$root/build/$preset" ${1:+--target "$@"}
 }
 
