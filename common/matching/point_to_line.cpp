@@ -74,12 +74,14 @@ Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
 }  // namespace
 
 PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
-                                      const geometry::UncertainPose2& prior_map_from_base, const PointToLineConfig& config) {
+                                      const geometry::UncertainPose2& prior_map_from_base,
+                                      const Pose2& initial_map_from_base, const PointToLineConfig& config) {
   const Matrix3 prior_information = prior_map_from_base.covariance.inverse();
   const Pose2& prior = prior_map_from_base.pose;
   PointToLineResult result;
   result.map_from_base = prior_map_from_base;
   Pose2& pose = result.map_from_base.pose;
+  pose = initial_map_from_base;
   NormalEquations equations;
   for (int step = 0; step < config.coarse_steps + config.fine_steps; ++step) {
     const bool is_coarse = step < config.coarse_steps;
@@ -93,6 +95,7 @@ PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, con
       step = config.coarse_steps - 1;
     }
   }
+  if (equations.matched == 0) pose = prior;
   result.scan_information = equations.H;
   result.map_from_base.covariance = (equations.H + prior_information).inverse();
   result.matched_points = equations.matched;

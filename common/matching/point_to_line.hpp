@@ -33,8 +33,9 @@ struct PointToLineResult {
 
 /// Registers points against surfels by Gauss-Newton on point-to-line distances with a Gaussian prior; Wang 2004,
 /// section 3.2.1 describes the closed-form ICP that this replaces. Where a surfel has no direction the distance to its
-/// mean counts. The result is the prior when nothing matches.
+/// mean counts. The iteration starts at initial_map_from_base. The result is the prior when nothing matches.
 PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
-                                      const geometry::UncertainPose2& prior_map_from_base, const PointToLineConfig& config);
+                                      const geometry::UncertainPose2& prior_map_from_base,
+                                      const geometry::Pose2& initial_map_from_base, const PointToLineConfig& config);
 
 }  // namespace slammot::matching

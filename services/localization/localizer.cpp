@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/LU>
 
@@ -42,7 +43,8 @@ bool is_inside_box(const Vector2& offset_m, double heading_rad, double half_leng
 
 }  // namespace
 
-Localizer::Localizer(const LocalizerConfig& config) : config_(config), calibration_(sensing::uncalibrated(config.motion)) {}
+Localizer::Localizer(const LocalizerConfig& config)
+    : config_(config), calibration_(sensing::uncalibrated(config.motion)), searcher_(config.search) {}
 
 void Localizer::add_odometry(const sensing::Odometry& sample) { odometry_.add(sample); }
 
@@ -93,12 +95,35 @@ void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_
   }
 }
 
+bool Localizer::is_vague(const UncertainPose2& prior) const {
+  const double position_m2 = std::max(prior.covariance(0, 0), prior.covariance(1, 1));
+  return position_m2 > config_.search_when_sigma_m * config_.search_when_sigma_m ||
+         prior.covariance(2, 2) > config_.search_when_heading_sigma_rad * config_.search_when_heading_sigma_rad;
+}
+
+Pose2 Localizer::search(const UncertainPose2& prior) {
+  ++counters_.searches;
+  const auto reach = [&](int axis) { return config_.search_sigmas * std::sqrt(prior.covariance(axis, axis)); };
+  const matching::SearchWindow window{reach(0), reach(1), std::min(reach(2), std::numbers::pi)};
+  std::vector<matching::TargetPoint> targets;
+  for (const grids::SurfelView& surfel : map_.surfels().all()) {
+    targets.push_back({static_cast<float>(surfel.mean_m.x()), static_cast<float>(surfel.mean_m.y()), 1.0F});
+  }
+  searcher_.set_target(targets, {prior.pose.translation_m(), config_.search_reach_m, config_.search_reach_m, std::max(reach(0), reach(1))});
+  std::vector<Eigen::Vector2f> points;
+  for (const matching::MatchPoint& point : match_points_) points.push_back(point.in_base_m.cast<float>());
+  const std::vector<matching::Peak> peaks = searcher_.search(points, prior.pose, window);
+  return peaks.empty() ? prior.pose : peaks.front().target_from_source.pose;
+}
+
 UncertainPose2 Localizer::match(const UncertainPose2& prior) {
   if (static_cast<int>(match_points_.size()) < config_.min_echoes) {
     ++counters_.too_few_echoes;
     return prior;
   }
-  const matching::PointToLineResult result = matching::match_point_to_line(match_points_, map_.surfels(), prior, config_.match);
+  const Pose2 initial = is_vague(prior) ? search(prior) : prior.pose;
+  const matching::PointToLineResult result =
+      matching::match_point_to_line(match_points_, map_.surfels(), prior, initial, config_.match);
   if (result.matched_share < config_.least_matched_share) {
     ++counters_.lost_matches;
     return prior;

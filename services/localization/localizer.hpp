@@ -14,6 +14,7 @@
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/submap.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "common/matching/correlative.hpp"
 #include "common/matching/point_to_line.hpp"
 #include "common/sensing/deskew.hpp"
 #include "common/sensing/motion_model.hpp"
@@ -33,6 +34,8 @@ struct LocalizerConfig {
   double least_matched_share = 0.3;       ///< With fewer points matched, the match is not believed.
   double search_when_sigma_m = 0.15;      ///< A prediction less sure than this is searched for by correlation first,
   double search_when_heading_sigma_rad = 0.02;  ///< or less sure of the heading than this.
+  double search_reach_m = 25.0;           ///< Half side of the square of the map that is searched.
+  double search_sigmas = 3.0;             ///< Half width of the search window in standard deviations of the prediction.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
   double longest_step_s = 2.0;            ///< A gap longer than this makes the prediction's uncertainty grow with it.
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
@@ -40,6 +43,7 @@ struct LocalizerConfig {
   double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
   double drift_rad_per_sqrt_m = 0.0007;
   LocalMapConfig map;
+  matching::CorrelativeConfig search;
   sensing::MotionModelConfig motion;
   matching::PointToLineConfig match;
 };
@@ -130,6 +134,8 @@ class Localizer {
   bool is_usable(const sensing::LaserScan& scan);
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
   geometry::UncertainPose2 match(const geometry::UncertainPose2& prior);
+  bool is_vague(const geometry::UncertainPose2& prior) const;
+  geometry::Pose2 search(const geometry::UncertainPose2& prior);
   void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
   bool is_masked(const geometry::Vector2& point_in_odom_m, std::int64_t stamp_ns) const;
   void learn(const Step& step, const geometry::Pose2& before_from_base);
@@ -154,6 +160,7 @@ class Localizer {
   std::deque<PendingScan> pending_;
   std::deque<PendingScan> integrated_;               ///< The last ones, for points that tracking gives back.
   std::vector<flow::Submap> finished_;
+  matching::CorrelativeMatcher searcher_;
   std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
   std::vector<matching::MatchPoint> match_points_;
 };
