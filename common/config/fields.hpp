@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -24,19 +25,17 @@ inline constexpr Range kShare{0.0, 1.0};
 /// Where a setting is kept. Points into a configuration struct and is valid as long as that is.
 using Value = std::variant<bool*, int*, std::uint32_t*, std::int64_t*, std::uint64_t*, float*, double*, std::string*>;
 
-/// One row of a stage's field table: {"name as in slammot.proto", member, "meaning", range}. The member is a pointer to
-/// member or, for members of members, a function that takes Config& and returns a reference. The meaning is one line, with
-/// the unit where the name does not end in it. The range is not used for bool and string.
+/// One row of a stage's field table: {"name as in slammot.proto", pointer to member, "meaning", range}. The meaning is one
+/// line, with the unit where the name does not end in it. The range is not used for bool and string.
 template <class Config>
 struct Field {
   template <class Member>
-  Field(std::string_view name_, Member member, std::string_view meaning_, Range range_ = {})
-      : name(name_),
-        value_of([member](Config& config) { return Value{&std::invoke(member, config)}; }),
-        meaning(meaning_),
-        range(range_) {}
+  Field(std::string_view name_, Member Config::*member, std::string_view meaning_, Range range_ = {})
+      : name(name_), value_of([member](Config& config) { return Value{&(config.*member)}; }), meaning(meaning_), range(range_) {}
+  Field(std::string name_, std::function<Value(Config&)> value_of_, std::string_view meaning_, Range range_)
+      : name(std::move(name_)), value_of(std::move(value_of_)), meaning(meaning_), range(range_) {}
 
-  std::string_view name;
+  std::string name;  ///< "outer.inner" for a member of a member.
   std::function<Value(Config&)> value_of;
   std::string_view meaning;
   Range range;
@@ -45,9 +44,21 @@ struct Field {
 template <class Config>
 using FieldTable = std::vector<Field<Config>>;
 
+/// The table with the rows of a member that is a struct itself added: under "name.", as a message of its own in the proto.
+template <class Config, class Inner>
+FieldTable<Config> with_nested(FieldTable<Config> table, std::string_view name, Inner Config::*member,
+                               const FieldTable<Inner>& inner_table) {
+  for (const Field<Inner>& inner : inner_table) {
+    table.emplace_back(std::string(name) + "." + inner.name,
+                       [member, value_of = inner.value_of](Config& config) { return value_of(config.*member); },
+                       inner.meaning, inner.range);
+  }
+  return table;
+}
+
 /// A setting of one particular struct.
 struct BoundField {
-  std::string_view name;
+  std::string name;
   Value value;
   std::string_view meaning;
   Range range;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <type_traits>
 
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
@@ -28,17 +27,37 @@ class FirstError : public pb::io::ErrorCollector {
   std::optional<Fault> fault_;
 };
 
-/// Copies what the message sets, field by field; a fault is located through the parser's record of lines and columns.
+/// A field that the text sets, and where it does so.
+struct SetField {
+  const pb::Message* message;
+  const pb::FieldDescriptor* descriptor;
+  pb::TextFormat::ParseLocation location;
+};
+
+std::optional<SetField> find_set_field(const pb::Message& stage, const pb::TextFormat::ParseInfoTree* locations,
+                                       std::string_view dotted_name) {
+  SetField at{&stage, nullptr, {}};
+  for (const std::string& name : path_of(dotted_name)) {
+    if (at.descriptor != nullptr) {
+      locations = locations->GetTreeForNested(at.descriptor, -1);
+      at.message = &at.message->GetReflection()->GetMessage(*at.message, at.descriptor);
+    }
+    at.descriptor = at.message->GetDescriptor()->FindFieldByName(name);
+    if (at.descriptor == nullptr || !at.message->GetReflection()->HasField(*at.message, at.descriptor)) return std::nullopt;
+  }
+  at.location = locations->GetLocation(at.descriptor, -1);
+  return at;
+}
+
+/// Copies what the text sets, field by field.
 std::optional<Fault> overlay_stage(const pb::Message& message, const pb::TextFormat::ParseInfoTree* locations,
                                    const BoundStage& stage) {
   for (const BoundField& field : stage.fields) {
-    const pb::FieldDescriptor* descriptor = message.GetDescriptor()->FindFieldByName(std::string(field.name));
-    if (descriptor == nullptr || !message.GetReflection()->HasField(message, descriptor)) continue;
-    copy_from_message(message, *descriptor, field.value);
+    const std::optional<SetField> set = find_set_field(message, locations, field.name);
+    if (!set) continue;
+    copy_from_message(*set->message, *set->descriptor, field.value);
     if (const auto fault = find_fault(field)) {
-      const pb::TextFormat::ParseLocation location =
-          locations != nullptr ? locations->GetLocation(descriptor, -1) : pb::TextFormat::ParseLocation{};
-      return Fault{{}, location.line + 1, location.column + 1, std::string(stage.stage) + "." + *fault};
+      return Fault{{}, set->location.line + 1, set->location.column + 1, std::string(stage.stage) + "." + *fault};
     }
   }
   return std::nullopt;
@@ -93,20 +112,17 @@ std::vector<std::string> differences_from_proto(const BoundStage& stage) {
   const pb::FieldDescriptor* stage_field = stage_in_proto(stage.stage);
   if (stage_field == nullptr) return {std::string(stage.stage) + ": no such message in Profile"};
   std::vector<std::string> differences;
-  const pb::Descriptor& message = *stage_field->message_type();
+  const std::string prefix = std::string(stage.stage) + ".";
   for (const BoundField& field : stage.fields) {
-    const pb::FieldDescriptor* descriptor = message.FindFieldByName(std::string(field.name));
+    const pb::FieldDescriptor* descriptor = find_field(*stage_field->message_type(), field.name);
     if (descriptor == nullptr) {
-      differences.push_back(std::string(stage.stage) + "." + std::string(field.name) + ": only in the table");
+      differences.push_back(prefix + field.name + ": only in the table");
     } else if (descriptor->cpp_type() != cpp_type_of(field.value) || !descriptor->has_presence()) {
-      differences.push_back(std::string(stage.stage) + "." + std::string(field.name) + ": types differ, or not optional");
+      differences.push_back(prefix + field.name + ": types differ, or not optional");
     }
   }
-  for (int i = 0; i < message.field_count(); ++i) {
-    const auto same_name = [&](const BoundField& field) { return field.name == message.field(i)->name(); };
-    if (std::ranges::count_if(stage.fields, same_name) != 1) {
-      differences.push_back(std::string(stage.stage) + "." + message.field(i)->name() + ": not once in the table");
-    }
+  for (const std::string& name : leaf_names(*stage_field->message_type())) {
+    if (std::ranges::count(stage.fields, name, &BoundField::name) != 1) differences.push_back(prefix + name + ": not once in the table");
   }
   return differences;
 }

@@ -21,6 +21,42 @@ const FieldDescriptor* stage_in_proto(std::string_view stage) {
   return is_stage ? field : nullptr;
 }
 
+std::vector<std::string> path_of(std::string_view dotted_name) {
+  std::vector<std::string> path(1);
+  for (const char c : dotted_name) {
+    if (c == '.') {
+      path.emplace_back();
+    } else {
+      path.back() += c;
+    }
+  }
+  return path;
+}
+
+const FieldDescriptor* find_field(const pb::Descriptor& message, std::string_view dotted_name) {
+  const pb::Descriptor* level = &message;
+  const FieldDescriptor* field = nullptr;
+  for (const std::string& name : path_of(dotted_name)) {
+    field = level != nullptr ? level->FindFieldByName(name) : nullptr;
+    if (field == nullptr) return nullptr;
+    level = field->message_type();  // nullptr for what is no message
+  }
+  return field;
+}
+
+std::vector<std::string> leaf_names(const pb::Descriptor& message) {
+  std::vector<std::string> names;
+  for (int i = 0; i < message.field_count(); ++i) {
+    const FieldDescriptor& field = *message.field(i);
+    if (field.message_type() == nullptr) {
+      names.push_back(field.name());
+    } else {
+      for (const std::string& inner : leaf_names(*field.message_type())) names.push_back(field.name() + "." + inner);
+    }
+  }
+  return names;
+}
+
 FieldDescriptor::CppType cpp_type_of(const Value& value) {
   return std::visit(Overloaded{[](const bool*) { return FieldDescriptor::CPPTYPE_BOOL; },
                                [](const int*) { return FieldDescriptor::CPPTYPE_INT32; },

@@ -2,7 +2,9 @@
 
 // Private to common/config: the only header that knows both protobuf and the field tables.
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -14,6 +16,15 @@ namespace slammot::config {
 
 /// Profile's field for a stage; nullptr when there is none.
 const google::protobuf::FieldDescriptor* stage_in_proto(std::string_view stage);
+
+/// The names in "outer.inner", outermost first.
+std::vector<std::string> path_of(std::string_view dotted_name);
+
+/// The field under a dotted name, or nullptr.
+const google::protobuf::FieldDescriptor* find_field(const google::protobuf::Descriptor& message, std::string_view dotted_name);
+
+/// All fields that are no messages, with dotted names, in the order of their declaration.
+std::vector<std::string> leaf_names(const google::protobuf::Descriptor& message);
 
 google::protobuf::FieldDescriptor::CppType cpp_type_of(const Value& value);
 

@@ -4,25 +4,29 @@
 
 namespace slammot::config {
 
-/// Stands for a stage's configuration. It goes by the name of a stage whose message has fields of these names and types.
+struct ExampleInnerConfig {
+  double x_m = 10.0;
+};
+
+/// Stands for a stage's configuration; message Example in slammot.proto is there for it.
 struct ExampleConfig {
   int window_scans = 1;
   double resend_after_s = 1.0;
-  struct {
-    double wait_for_readers_s = 10.0;
-  } inner;
+  bool loops = false;
+  std::string name = "front";
+  ExampleInnerConfig offset;
 };
 
-inline const FieldTable<ExampleConfig>& example_fields() {
-  static const FieldTable<ExampleConfig> table = {
-      {"window_scans", &ExampleConfig::window_scans, "Scans in flight.", Range{1, 100}},
-      {"resend_after_s", &ExampleConfig::resend_after_s, "Silence.", kPositive},
-      {"wait_for_readers_s", [](ExampleConfig& c) -> double& { return c.inner.wait_for_readers_s; }, "Patience.",
-            kNotNegative},
-  };
-  return table;
+inline FieldTable<ExampleConfig> example_fields() {
+  using C = ExampleConfig;
+  const FieldTable<ExampleInnerConfig> inner = {{"x_m", &ExampleInnerConfig::x_m, "Ahead.", kNotNegative}};
+  return with_nested<C>({{"window_scans", &C::window_scans, "Scans in flight.", Range{1, 100}},
+                         {"resend_after_s", &C::resend_after_s, "Silence.", kPositive},
+                         {"loops", &C::loops, "Again and again."},
+                         {"name", &C::name, "Of the scanner."}},
+                        "offset", &C::offset, inner);
 }
 
-inline BoundStage bind_example(ExampleConfig& config) { return bind_stage("ingest", example_fields(), config); }
+inline BoundStage bind_example(ExampleConfig& config) { return bind_stage("example", example_fields(), config); }
 
 }  // namespace slammot::config

@@ -18,7 +18,7 @@ TEST(FindFault, AcceptsTheDefaults) {
 TEST(FindFault, NamesTheStageTheFieldItsValueItsRangeAndItsMeaning) {
   ExampleConfig config;
   config.window_scans = 101;
-  EXPECT_EQ(find_fault(bind_example(config)), "ingest.window_scans = 101 is outside [1, 100]: Scans in flight.");
+  EXPECT_EQ(find_fault(bind_example(config)), "example.window_scans = 101 is outside [1, 100]: Scans in flight.");
 }
 
 TEST(FindFault, AcceptsBothEndsOfARange) {
@@ -39,17 +39,17 @@ TEST(FindFault, NeverAcceptsNanOrInfinity) {
 
 TEST(FindFault, TakesZeroForNotPositiveButForNotNegative) {
   ExampleConfig config;
-  config.inner.wait_for_readers_s = 0.0;
+  config.offset.x_m = 0.0;
   EXPECT_EQ(find_fault(bind_example(config)), std::nullopt);
   config.resend_after_s = 0.0;
-  EXPECT_EQ(find_fault(bind_example(config)), "ingest.resend_after_s = 0 is not above 0: Silence.");
+  EXPECT_EQ(find_fault(bind_example(config)), "example.resend_after_s = 0 is not above 0: Silence.");
 }
 
 TEST(BindStage, PointsIntoTheStructItWasGiven) {
   ExampleConfig config;
   const BoundStage stage = bind_example(config);
-  *std::get<double*>(stage.fields[2].value) = 3.5;
-  EXPECT_EQ(config.inner.wait_for_readers_s, 3.5);
+  *std::get<double*>(stage.fields[4].value) = 3.5;
+  EXPECT_EQ(config.offset.x_m, 3.5);
 }
 
 }  // namespace

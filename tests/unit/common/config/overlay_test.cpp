@@ -31,22 +31,22 @@ TEST(Overlay, OfAnEmptyFileLeavesTheDefaults) {
 
 TEST(Overlay, ChangesOnlyWhatTheFileSets) {
   ExampleConfig config;
-  EXPECT_EQ(fault_of("ingest { window_scans: 3 wait_for_readers_s: 0 }  # a comment", config), "");
+  EXPECT_EQ(fault_of("example { window_scans: 3 offset { x_m: 0 } }  # a comment", config), "");
   EXPECT_EQ(config.window_scans, 3);
-  EXPECT_EQ(config.inner.wait_for_readers_s, 0.0);
+  EXPECT_EQ(config.offset.x_m, 0.0);
   EXPECT_EQ(config.resend_after_s, 1.0);
 }
 
 TEST(Overlay, LetsTheLaterFileWin) {
   ExampleConfig config;
-  EXPECT_EQ(fault_of("ingest { window_scans: 3 resend_after_s: 2.5 }", config), "");
-  EXPECT_EQ(fault_of("ingest { window_scans: 4 }", config), "");
+  EXPECT_EQ(fault_of("example { window_scans: 3 resend_after_s: 2.5 }", config), "");
+  EXPECT_EQ(fault_of("example { window_scans: 4 }", config), "");
   EXPECT_EQ(config.window_scans, 4);
   EXPECT_EQ(config.resend_after_s, 2.5);
 }
 
 TEST(Overlay, SaysWhereAnUnknownFieldStands) {
-  EXPECT_THAT(fault_of("# first line\ningest {\n  windw_scans: 3\n}"),
+  EXPECT_THAT(fault_of("# first line\nexample {\n  windw_scans: 3\n}"),
               ::testing::AllOf(::testing::StartsWith("drive.textproto:3:"), ::testing::HasSubstr("windw_scans")));
 }
 
@@ -56,19 +56,24 @@ TEST(Overlay, SaysWhereAnUnknownStageStands) {
 }
 
 TEST(Overlay, SaysWhereTheSyntaxBreaks) {
-  EXPECT_THAT(fault_of("ingest {\n  window_scans 3\n}"), ::testing::StartsWith("drive.textproto:2:16: "));
-  EXPECT_THAT(fault_of("ingest {\n  window_scans: three\n}"), ::testing::StartsWith("drive.textproto:2:17: "));
-  EXPECT_THAT(fault_of("ingest {"), ::testing::StartsWith("drive.textproto:1:"));
+  EXPECT_THAT(fault_of("example {\n  window_scans 3\n}"), ::testing::StartsWith("drive.textproto:2:16: "));
+  EXPECT_THAT(fault_of("example {\n  window_scans: three\n}"), ::testing::StartsWith("drive.textproto:2:17: "));
+  EXPECT_THAT(fault_of("example {"), ::testing::StartsWith("drive.textproto:1:"));
 }
 
 TEST(Overlay, SaysWhereAValueOutOfRangeStands) {
-  EXPECT_EQ(fault_of("ingest {\n  resend_after_s: 1\n  window_scans: 0\n}"),
-            "drive.textproto:3:3: ingest.window_scans = 0 is outside [1, 100]: Scans in flight.");
-  EXPECT_THAT(fault_of("ingest { resend_after_s: nan }"), ::testing::StartsWith("drive.textproto:1:10: "));
+  EXPECT_EQ(fault_of("example {\n  resend_after_s: 1\n  window_scans: 0\n}"),
+            "drive.textproto:3:3: example.window_scans = 0 is outside [1, 100]: Scans in flight.");
+  EXPECT_THAT(fault_of("example { resend_after_s: nan }"), ::testing::StartsWith("drive.textproto:1:11: "));
+}
+
+TEST(Overlay, SaysWhereAValueOutOfRangeStandsInANestedMessage) {
+  EXPECT_EQ(fault_of("example {\n  offset {\n    x_m: -1\n  }\n}"),
+            "drive.textproto:3:5: example.offset.x_m = -1 is below 0: Ahead.");
 }
 
 TEST(Overlay, RefusesAFieldThatIsSetTwice) {
-  EXPECT_THAT(fault_of("ingest { window_scans: 3\nwindow_scans: 4 }"), ::testing::StartsWith("drive.textproto:2:"));
+  EXPECT_THAT(fault_of("example { window_scans: 3\nwindow_scans: 4 }"), ::testing::StartsWith("drive.textproto:2:"));
 }
 
 TEST(Overlay, ChecksTheNamesInStagesThatAreNotBound) {
@@ -79,6 +84,11 @@ TEST(Overlay, ChecksTheNamesInStagesThatAreNotBound) {
 TEST(Overlay, SaysSoWhenTheFileCannotBeRead) {
   EXPECT_EQ(overlay_file("/nowhere/at.textproto", {})->text(), "/nowhere/at.textproto: cannot be read");
   EXPECT_EQ(overlay_file("/", {})->text(), "/: cannot be read");
+}
+
+TEST(DifferencesFromProto, FindsNoneWhereTheyAgree) {
+  ExampleConfig config;
+  EXPECT_THAT(differences_from_proto(bind_example(config)), ::testing::IsEmpty());
 }
 
 TEST(DifferencesFromProto, FindsWhatIsOnlyInTheTable) {

@@ -1,0 +1,116 @@
+#include "services/localization/localization_fields.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using config::FieldTable;
+using config::kNotNegative;
+using config::kPositive;
+using config::kShare;
+using config::Range;
+using config::with_nested;
+
+FieldTable<grids::EvidenceModel> evidence_fields() {
+  using C = grids::EvidenceModel;
+  return {
+      {"hit_log_odds", &C::hit_log_odds, "Added where a stationary echo ended.", Range{0.01, 7.9}},
+      {"free_log_odds", &C::free_log_odds, "Taken off where a beam passed, once a scan and cell.", Range{0.01, 7.9}},
+      {"limit_log_odds", &C::limit_log_odds, "No cell is surer than this, so that the world may change.", Range{0.1, 7.9}},
+      {"moving_gain", &C::moving_gain, "Share of the missing evidence that one moving echo adds to the MO-map.", kShare},
+  };
+}
+
+FieldTable<LocalMapConfig> map_fields() {
+  using C = LocalMapConfig;
+  return with_nested<C>(
+      {
+          {"side_m", &C::side_m, "Of the square held around the vehicle.", Range{10.0, 1000.0}},
+          {"cell_size_m", &C::cell_size_m, "Of SO-map and MO-map.", Range{0.02, 1.0}},
+          {"surfel_size_m", &C::surfel_size_m, "Of the cells whose echoes are averaged for matching.", Range{0.02, 2.0}},
+          {"surfel_weight_limit", &C::surfel_weight_limit, "Echoes after which a surfel's mean becomes a running one.",
+           Range{1.0, 1e6}},
+          {"new_map_after_m", &C::new_map_after_m, "Distance from the map's centre at which a new map begins.",
+           Range{1.0, 500.0}},
+          {"new_map_after_travel_m", &C::new_map_after_travel_m, "Distance travelled in a map after which a new one begins.",
+           Range{1.0, 1e4}},
+          {"no_echo_free_m", &C::no_echo_free_m, "A beam without echo tells that this much is free.", Range{0.0, 200.0}},
+          {"occupied_log_odds", &C::occupied_log_odds, "From here on a cell counts as occupied.", Range{0.01, 7.9}},
+          {"free_log_odds", &C::free_log_odds, "With this much against it a cell counts as free.", Range{0.01, 7.9}},
+          {"end_cell_tolerance_m", &C::end_cell_tolerance_m, "An occupied cell this near explains an echo.", Range{0.0, 5.0}},
+      },
+      "evidence", &C::evidence, evidence_fields());
+}
+
+FieldTable<sensing::MotionModelConfig> motion_fields() {
+  using C = sensing::MotionModelConfig;
+  return {
+      {"position_noise_m", &C::position_noise_m, "One sigma of a step of any length.", kPositive},
+      {"position_noise_per_m", &C::position_noise_per_m, "What each metre of the step adds to it.", kNotNegative},
+      {"heading_noise_rad", &C::heading_noise_rad, "One sigma of the heading of any step.", kPositive},
+      {"heading_noise_per_m", &C::heading_noise_per_m, "What each metre of the step adds to it [rad/m].", kNotNegative},
+      {"heading_noise_per_rad", &C::heading_noise_per_rad, "What each radian turned adds to it.", kNotNegative},
+      {"scale_prior", &C::scale_prior, "One sigma of the factor on wheel distance, about 1.", kNotNegative},
+      {"heading_rate_bias_prior_radps", &C::heading_rate_bias_prior_radps, "One sigma of the gyro's bias.", kNotNegative},
+      {"heading_per_metre_bias_prior", &C::heading_per_metre_bias_prior, "One sigma of what unequal wheels turn [rad/m].",
+       kNotNegative},
+      {"match_position_noise_m", &C::match_position_noise_m, "How far the matched step is off, as calibration sees it.",
+       kPositive},
+      {"match_heading_noise_rad", &C::match_heading_noise_rad, "The same for its heading.", kPositive},
+      {"standstill_acceleration_mps2", &C::standstill_acceleration_mps2,
+       "Without odometry: how much the speed may have changed.", kPositive},
+      {"standstill_turn_acceleration_radps2", &C::standstill_turn_acceleration_radps2,
+       "Without odometry: how much the turn rate may have changed.", kPositive},
+  };
+}
+
+FieldTable<matching::PointToLineConfig> match_fields() {
+  using C = matching::PointToLineConfig;
+  return {
+      {"coarse_steps", &C::coarse_steps, "Gauss-Newton steps with the wide gate.", Range{0, 100}},
+      {"fine_steps", &C::fine_steps, "Gauss-Newton steps with the narrow gate.", Range{0, 100}},
+      {"coarse_gate_m", &C::coarse_gate_m, "Points farther than this from the nearest surfel do not count at first.",
+       Range{0.01, 10.0}},
+      {"fine_gate_m", &C::fine_gate_m, "Points farther than this from the nearest surfel do not count in the end.",
+       Range{0.01, 10.0}},
+      {"robust_scale_m", &C::robust_scale_m, "Residual at which a point's weight has fallen to a quarter.", kPositive},
+      {"information_share", &C::information_share, "Points of one scan share the map's error: they count for this share.",
+       Range{1e-6, 1.0}},
+      {"converged_m", &C::converged_m, "A step shorter than this is the last.", kNotNegative},
+  };
+}
+
+FieldTable<LocalizerConfig> own_fields() {
+  using C = LocalizerConfig;
+  return {
+      {"match_range_m", &C::match_range_m, "Echoes beyond it are not matched.", kPositive},
+      {"map_range_m", &C::map_range_m, "Echoes beyond it are not mapped.", kPositive},
+      {"min_range_m", &C::min_range_m, "Nearer echoes come from the vehicle itself.", kNotNegative},
+      {"range_noise_m", &C::range_noise_m, "One sigma at the scanner.", kPositive},
+      {"range_noise_per_m", &C::range_noise_per_m, "What each metre of range adds to it.", kNotNegative},
+      {"min_echoes", &C::min_echoes, "With fewer, the prediction is the pose.", Range{1, 4096}},
+      {"least_matched_share", &C::least_matched_share, "With fewer points matched, the match is not believed.", kShare},
+      {"search_when_sigma_m", &C::search_when_sigma_m, "A prediction less sure than this is searched for by correlation.",
+       kPositive},
+      {"search_when_heading_sigma_rad", &C::search_when_heading_sigma_rad, "So is one less sure of its heading than this.",
+       kPositive},
+      {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},
+      {"longest_step_s", &C::longest_step_s, "A longer gap makes the prediction's uncertainty grow with it.", kPositive},
+      {"fastest_mps", &C::fastest_mps, "Odometry that says more has jumped.", kPositive},
+      {"max_pending", &C::max_pending, "Scans that wait for labels before the map goes on without.", Range{1, 100}},
+      {"drift_m_per_sqrt_m", &C::drift_m_per_sqrt_m, "One sigma that dead reckoning by matching adds to constraints.",
+       kPositive},
+      {"drift_rad_per_sqrt_m", &C::drift_rad_per_sqrt_m, "The same for their heading.", kPositive},
+  };
+}
+
+}  // namespace
+
+const FieldTable<LocalizerConfig>& localization_fields() {
+  using C = LocalizerConfig;
+  static const FieldTable<C> table = with_nested<C>(
+      with_nested<C>(with_nested<C>(own_fields(), "map", &C::map, map_fields()), "motion", &C::motion, motion_fields()), "match",
+      &C::match, match_fields());
+  return table;
+}
+
+}  // namespace slammot::localization

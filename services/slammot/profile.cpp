@@ -1,0 +1,17 @@
+#include "services/slammot/profile.hpp"
+
+#include "services/ingest/ingest_fields.hpp"
+#include "services/localization/localization_fields.hpp"
+#include "services/map_store/map_store_fields.hpp"
+
+namespace slammot {
+
+std::vector<config::BoundStage> bind_stages(Profile& profile) {
+  return {
+      config::bind_stage("ingest", ingest::ingest_fields(), profile.ingest),
+      config::bind_stage("localization", localization::localization_fields(), profile.localization),
+      config::bind_stage("map_store", map_store::map_store_fields(), profile.map_store),
+  };
+}
+
+}  // namespace slammot

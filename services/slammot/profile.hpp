@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "common/config/overlay.hpp"
+#include "services/ingest/ingest_config.hpp"
+#include "services/localization/localizer.hpp"
+#include "services/map_store/map_store_config.hpp"
+
+namespace slammot {
+
+/// The settings of all stages, for what runs all of them.
+struct Profile {
+  ingest::IngestConfig ingest;
+  localization::LocalizerConfig localization;
+  map_store::MapStoreConfig map_store;
+};
+
+/// Every stage of the profile, for config::overlay_file(), config::print() and config::find_fault(). Points into it.
+std::vector<config::BoundStage> bind_stages(Profile& profile);
+
+}  // namespace slammot
