@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace slammot::association {
+
+/// Squared length of a residual in units of its covariance (positive definite); Wang 2004, Eq. (5.8).
+template <int M>
+double mahalanobis_squared(const Eigen::Matrix<double, M, 1>& residual, const Eigen::Matrix<double, M, M>& covariance) {
+  return residual.dot(covariance.llt().solve(residual));
+}
+
+/// Gate that lets through the given share (in (0, 1)) of true pairs in the plane; Wang 2004, Eq. (5.9).
+/// The quantile of chi-square with two degrees of freedom, which has a closed form.
+inline double planar_gate(double share) { return -2.0 * std::log(1.0 - share); }
+
+}  // namespace slammot::association

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace slammot::filters {
+
+/// Normal distribution over a state of N numbers.
+template <int N>
+struct Gaussian {
+  Eigen::Matrix<double, N, 1> mean = Eigen::Matrix<double, N, 1>::Zero();
+  Eigen::Matrix<double, N, N> covariance = Eigen::Matrix<double, N, N>::Zero();
+};
+
+/// What a measurement says about a prediction, before it is used.
+template <int M>
+struct Innovation {
+  Eigen::Matrix<double, M, 1> residual = Eigen::Matrix<double, M, 1>::Zero();      ///< Measured minus predicted.
+  Eigen::Matrix<double, M, M> covariance = Eigen::Matrix<double, M, M>::Identity();
+  double nis = 0.0;             ///< Normalized innovation squared; chi-square with M degrees when the filter is honest.
+  double log_likelihood = 0.0;  ///< Natural logarithm of the density of the measurement.
+};
+
+/// Weighs a residual by its covariance, which must be positive definite.
+template <int M>
+Innovation<M> innovation(const Eigen::Matrix<double, M, 1>& residual, const Eigen::Matrix<double, M, M>& covariance) {
+  const Eigen::LLT<Eigen::Matrix<double, M, M>> root(covariance);
+  const Eigen::Matrix<double, M, 1> white = root.matrixL().solve(residual);
+  const double log_root_determinant = root.matrixLLT().diagonal().array().log().sum();
+  const double nis = white.squaredNorm();
+  return {residual, covariance, nis, -0.5 * (nis + M * std::log(2.0 * std::numbers::pi)) - log_root_determinant};
+}
+
+}  // namespace slammot::filters

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "common/filters/gaussian.hpp"
+#include "common/filters/motion_models.hpp"
+
+namespace slammot::filters {
+
+inline constexpr std::size_t kMaxModels = 3;
+
+/// The set of motions among which an object is believed to switch.
+struct ModelSet {
+  std::array<MotionModel, kMaxModels> models;
+  std::size_t size = 0;              ///< Models in use, from the front; at least 1.
+  double mean_stay_s = 1.0;          ///< Mean time for which an object keeps to one model before it switches, > 0.
+};
+
+/// One estimate for each model and how probable each is.
+struct ImmState {
+  std::array<MotionState, kMaxModels> modes;
+  std::array<double, kMaxModels> probability = {};
+};
+
+struct ImmUpdate {
+  ImmState posterior;
+  Innovation<2> innovation;  ///< Of the combined prediction.
+  double log_likelihood = 0.0;  ///< Of the measurement under the mixture.
+};
+
+/// Every model starts from the same estimate, all models equally probable.
+ImmState imm_start(const ModelSet& set, const MotionState& estimate);
+
+/// Mixing (Wang 2004, Eqs. 2.49-2.51) and mode-matched prediction over time_s >= 0. The probability of a switch
+/// follows from the time and the mean stay, not from the number of scans.
+ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s);
+
+/// Mode-matched update with a measured position (covariance R, positive definite) and the models' probabilities;
+/// Wang 2004, Eqs. (2.46)-(2.47).
+ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted, const Eigen::Vector2d& position_m,
+                     const Eigen::Matrix2d& R);
+
+/// Moment-matched mean and covariance of the mixture; Wang 2004, Eqs. (2.52)-(2.53).
+MotionState imm_combine(const ModelSet& set, const ImmState& state);
+
+/// Moves every mode's position by the same known amount: the same object seen from another reference point.
+void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m);
+
+}  // namespace slammot::filters

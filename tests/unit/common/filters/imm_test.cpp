@@ -1,0 +1,164 @@
+#include "common/filters/imm.hpp"
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/filters/kalman.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace slammot::filters {
+namespace {
+
+using slammot::testing::MatrixNear;
+
+constexpr double kSigmaM = 0.1;  // of the measured position, as in Wang 2004, Section 4.3
+constexpr double kPeriodS = 0.1;
+
+ModelSet velocity_and_acceleration() {
+  ModelSet set;
+  set.models[0] = {MotionKind::kConstantVelocity, 0.05, 3.0};
+  set.models[1] = {MotionKind::kConstantAcceleration, 20.0, 0.0};
+  set.size = 2;
+  set.mean_stay_s = 2.0;
+  return set;
+}
+
+struct Sample {
+  Vector6 truth;
+  MotionState estimate;
+  std::array<double, kMaxModels> probability;
+  double nis;
+};
+
+/// Tracks a simulated object and returns what happened at every scan.
+std::vector<Sample> simulate(const std::function<Vector6(double)>& truth_at, int scans, unsigned seed) {
+  const ModelSet set = velocity_and_acceleration();
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  MotionState start;
+  start.mean = truth_at(0.0);
+  start.covariance = 0.01 * Matrix6::Identity();
+  ImmState state = imm_start(set, start);
+  std::vector<Sample> samples;
+  for (int scan = 1; scan <= scans; ++scan) {
+    const Vector6 truth = truth_at(scan * kPeriodS);
+    const Eigen::Vector2d z = truth.head<2>() + kSigmaM * Eigen::Vector2d(normal(random), normal(random));
+    const ImmUpdate update =
+        imm_update(set, imm_predict(set, state, kPeriodS), z, kSigmaM * kSigmaM * Eigen::Matrix2d::Identity());
+    state = update.posterior;
+    samples.push_back({truth, imm_combine(set, state), state.probability, update.innovation.nis});
+  }
+  return samples;
+}
+
+Vector6 accelerating(double t) {
+  Vector6 state;
+  state << 5.0 * t + 5.0 * t * t, 0.0, 5.0 + 10.0 * t, 0.0, 10.0, 0.0;
+  return state;
+}
+
+Vector6 cruising(double t) {
+  Vector6 state;
+  state << 15.0 * t, 0.0, 15.0, 0.0, 0.0, 0.0;
+  return state;
+}
+
+Vector6 turning(double t) {
+  const double rate = 18.0 * M_PI / 180.0;
+  const double angle = rate * t;
+  Vector6 state;
+  state << 15.0 / rate * std::sin(angle), 15.0 / rate * (1.0 - std::cos(angle)), 15.0 * std::cos(angle),
+      15.0 * std::sin(angle), -15.0 * rate * std::sin(angle), 15.0 * rate * std::cos(angle);
+  return state;
+}
+
+double mean_over(const std::vector<Sample>& samples, std::size_t from, const std::function<double(const Sample&)>& value) {
+  double sum = 0.0;
+  for (std::size_t i = from; i < samples.size(); ++i) sum += value(samples[i]);
+  return sum / static_cast<double>(samples.size() - from);
+}
+
+double velocity_error_mps(const Sample& sample) {
+  return (sample.truth.segment<2>(2) - sample.estimate.mean.segment<2>(2)).norm();
+}
+
+TEST(Imm, HoldsAnAcceleratingObjectToAccelerate) {  // Wang 2004, Figures 4.2 and 4.3
+  const auto samples = simulate(accelerating, 60, 1);
+  EXPECT_GT(mean_over(samples, 20, [](const Sample& s) { return s.probability[1]; }), 0.85);
+  EXPECT_LT(mean_over(samples, 20, velocity_error_mps), 0.6);
+}
+
+TEST(Imm, HoldsACruisingObjectToCruise) {  // Figures 4.4 and 4.5
+  const auto samples = simulate(cruising, 100, 2);
+  EXPECT_GT(mean_over(samples, 20, [](const Sample& s) { return s.probability[0]; }), 0.7);
+  EXPECT_LT(mean_over(samples, 20, velocity_error_mps), 0.2);
+}
+
+TEST(Imm, FollowsATurnThatNeitherModelDescribes) {  // Figures 4.6 and 4.7
+  const auto samples = simulate(turning, 100, 3);
+  EXPECT_LT(mean_over(samples, 20, [](const Sample& s) { return (s.truth - s.estimate.mean).head<2>().norm(); }), 0.13);
+  EXPECT_LT(mean_over(samples, 20, velocity_error_mps), 0.7);
+}
+
+TEST(Imm, HasInnovationsAsLargeAsItSays) {
+  double nis = 0.0;
+  constexpr int kRuns = 40;
+  for (unsigned run = 0; run < kRuns; ++run)
+    nis += mean_over(simulate(cruising, 60, 100 + run), 10, [](const Sample& s) { return s.nis; }) / kRuns;
+  EXPECT_GT(nis, 1.3);  // conservative while the models are mixed,
+  EXPECT_LT(nis, 2.06); // but never over-confident: upper end of the 95 % band of 2000 scans
+}
+
+TEST(Imm, IsAKalmanFilterWhenThereIsOneModel) {
+  ModelSet set;
+  set.models[0] = {MotionKind::kConstantAcceleration, 0.5, 0.0};
+  set.size = 1;
+  MotionState start;
+  start.covariance = Matrix6::Identity();
+  const Eigen::Vector2d z{0.4, -0.2};
+  const Eigen::Matrix2d R = 0.04 * Eigen::Matrix2d::Identity();
+  const ImmUpdate update = imm_update(set, imm_predict(set, imm_start(set, start), 0.3), z, R);
+  Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();
+  H(0, 0) = H(1, 1) = 1.0;
+  const auto expected = kalman_update<6, 2>(predict(set.models[0], start, 0.3), z, H, R);
+  const MotionState combined = imm_combine(set, update.posterior);
+  EXPECT_THAT(combined.mean, MatrixNear(expected.posterior.mean, 1e-12));
+  EXPECT_THAT(combined.covariance, MatrixNear(expected.posterior.covariance, 1e-12));
+  EXPECT_NEAR(update.log_likelihood, expected.innovation.log_likelihood, 1e-12);
+  EXPECT_NEAR(update.innovation.nis, expected.innovation.nis, 1e-9);
+}
+
+TEST(Imm, MovesWithTheWorld) {
+  const ModelSet set = velocity_and_acceleration();
+  MotionState start;
+  start.covariance = Matrix6::Identity();
+  const Eigen::Vector2d shift{100.0, -40.0};
+  MotionState moved_start = start;
+  moved_start.mean.head<2>() += shift;
+  const Eigen::Matrix2d R = 0.04 * Eigen::Matrix2d::Identity();
+  ImmUpdate here = imm_update(set, imm_predict(set, imm_start(set, start), 0.2), {0.5, 0.1}, R);
+  const ImmUpdate there =
+      imm_update(set, imm_predict(set, imm_start(set, moved_start), 0.2), Eigen::Vector2d(0.5, 0.1) + shift, R);
+  imm_shift(set, here.posterior, shift);
+  EXPECT_THAT(imm_combine(set, here.posterior).mean, MatrixNear(imm_combine(set, there.posterior).mean, 1e-9));
+  EXPECT_NEAR(here.posterior.probability[0], there.posterior.probability[0], 1e-12);
+}
+
+TEST(Imm, SwitchesAsMuchInOneLongStepAsInManyShortOnes) {
+  const ModelSet set = velocity_and_acceleration();
+  MotionState start;
+  start.covariance = Matrix6::Identity();
+  ImmState once = imm_start(set, start);
+  once.probability = {1.0, 0.0, 0.0};
+  ImmState often = once;
+  once = imm_predict(set, once, 0.01);
+  for (int i = 0; i < 10; ++i) often = imm_predict(set, often, 0.001);
+  EXPECT_NEAR(once.probability[1], often.probability[1], 1e-4);
+}
+
+}  // namespace
+}  // namespace slammot::filters

@@ -1,0 +1,75 @@
+#include "common/filters/motion_models.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/matchers.hpp"
+
+namespace slammot::filters {
+namespace {
+
+using slammot::testing::MatrixNear;
+
+MotionState example_state() {
+  MotionState state;
+  state.mean << 1.0, 2.0, 8.0, -3.0, 0.6, 1.1;
+  state.covariance = 0.2 * Matrix6::Identity();
+  state.covariance(0, 2) = state.covariance(2, 0) = 0.05;
+  return state;
+}
+
+TEST(ConstantAcceleration, GivesTheSameInOneStepAsInTwo) {
+  const MotionModel model{MotionKind::kConstantAcceleration, 0.7, 0.0};
+  const MotionState once = predict(model, example_state(), 0.5);
+  const MotionState twice = predict(model, predict(model, example_state(), 0.2), 0.3);
+  EXPECT_THAT(once.mean, MatrixNear(twice.mean, 1e-12));
+  EXPECT_THAT(once.covariance, MatrixNear(twice.covariance, 1e-12));
+}
+
+TEST(ConstantVelocity, GivesTheSameInOneStepAsInTwo) {
+  const MotionModel model{MotionKind::kConstantVelocity, 1.3, 0.8};
+  const MotionState once = predict(model, example_state(), 0.5);
+  const MotionState twice = predict(model, predict(model, example_state(), 0.2), 0.3);
+  EXPECT_THAT(once.mean, MatrixNear(twice.mean, 1e-12));
+  EXPECT_THAT(once.covariance, MatrixNear(twice.covariance, 1e-12));
+}
+
+TEST(ConstantVelocity, ForgetsTheAccelerationButNotThatItMayBeThere) {
+  const MotionState after = predict({MotionKind::kConstantVelocity, 1.0, 2.0}, example_state(), 0.1);
+  EXPECT_EQ(after.mean(4), 0.0);
+  EXPECT_NEAR(after.covariance(4, 4), 4.0, 1e-12);
+}
+
+TEST(CoordinatedTurn, KeepsSpeedAndClosesTheCircle) {
+  Vector6 state = Vector6::Zero();
+  const double speed_mps = 15.0;
+  const double turn_rate_radps = 18.0 * M_PI / 180.0;  // Wang 2004, Figure 4.6
+  state(2) = speed_mps;
+  state(5) = speed_mps * turn_rate_radps;
+  const Vector6 quarter = turned(state, M_PI / 2.0 / turn_rate_radps);
+  const double radius_m = speed_mps / turn_rate_radps;
+  EXPECT_NEAR(quarter(0), radius_m, 1e-9);
+  EXPECT_NEAR(quarter(1), radius_m, 1e-9);
+  EXPECT_NEAR(quarter(3), speed_mps, 1e-9);
+  EXPECT_THAT(turned(state, 2.0 * M_PI / turn_rate_radps), MatrixNear(state, 1e-9));
+}
+
+TEST(CoordinatedTurn, GoesStraightWithoutAcceleration) {
+  Vector6 state = Vector6::Zero();
+  state(2) = 3.0;
+  const Vector6 after = turned(state, 2.0);
+  EXPECT_NEAR(after(0), 6.0, 1e-12);
+  EXPECT_NEAR(after(1), 0.0, 1e-12);
+}
+
+TEST(MotionModels, DoNotMoveWhenNoTimePasses) {
+  for (const MotionKind kind : {MotionKind::kConstantAcceleration, MotionKind::kCoordinatedTurn}) {
+    const MotionState after = predict({kind, 1.0, 1.0}, example_state(), 0.0);
+    EXPECT_THAT(after.mean, MatrixNear(example_state().mean, 1e-12));
+    EXPECT_THAT(after.covariance, MatrixNear(example_state().covariance, 1e-9));
+  }
+}
+
+}  // namespace
+}  // namespace slammot::filters
