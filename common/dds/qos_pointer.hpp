@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include <dds/dds.h>
+
+#include "common/dds/qos.hpp"
+
+namespace slammot::dds {
+
+using QosPointer = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+/// The profile as the C library wants it; only for the sources of this folder.
+QosPointer make_qos(const QosProfile& profile);
+
+}  // namespace slammot::dds

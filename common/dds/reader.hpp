@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "common/dds/endpoint.hpp"
+
+namespace slammot::dds {
+
+enum class History {
+  kProfile,   ///< As the topic's profile says.
+  kRecorder,  ///< The last 10,000 samples a key, for a reader that must not miss any.
+};
+
+struct ReaderCounters {
+  std::uint64_t taken = 0;
+  std::uint64_t lost = 0;      ///< Overwritten or never arrived, as far as the library can tell.
+  std::uint64_t rejected = 0;  ///< Refused because the reader's history was full.
+};
+
+struct SampleInfo {
+  std::int64_t source_time_ns = 0;   ///< The writer's system clock when it wrote.
+  std::uint64_t writer_handle = 0;   ///< Tells writers apart while they live.
+  bool has_value = false;            ///< False: the key ended, or lost its last writer; only the key can be read.
+};
+
+class ReaderBase;
+
+/// Samples lent by a reader, given back at the end. Must not outlive the reader.
+class LoanBase {
+ public:
+  static constexpr std::size_t kMost = 32;
+
+  explicit LoanBase(ReaderBase& reader);
+  ~LoanBase();
+  LoanBase(const LoanBase&) = delete;
+  LoanBase& operator=(const LoanBase&) = delete;
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const SampleInfo& info(std::size_t index) const { return infos_[index]; }
+
+ protected:
+  const void* sample(std::size_t index) const { return samples_[index]; }
+
+ private:
+  Entity::Handle reader_;
+  std::array<void*, kMost> samples_{};
+  std::array<SampleInfo, kMost> infos_{};
+  std::size_t size_ = 0;
+};
+
+template <typename Sample>
+class Loan : public LoanBase {
+ public:
+  using LoanBase::LoanBase;
+  const Sample& operator[](std::size_t index) const { return *static_cast<const Sample*>(sample(index)); }
+};
+
+class ReaderBase : public Endpoint {
+ public:
+  std::uint32_t matched_writers() const;
+  /// Waits until at least `count` writers are connected; false at the timeout.
+  bool wait_for_writers(std::uint32_t count, std::chrono::nanoseconds timeout) const;
+  /// Writers met that could not be connected.
+  std::optional<QosMismatch> mismatch() const;
+  /// Waits for the first one; false at the timeout.
+  bool wait_for_mismatch(std::chrono::nanoseconds timeout) const;
+  ReaderCounters counters() const;
+
+ protected:
+  ReaderBase(const Participant& participant, const TopicInfo& info, History history);
+
+ private:
+  friend class LoanBase;
+  friend class WaitSet;
+  std::uint64_t taken_ = 0;
+  Entity data_available_;  // condition: there are samples to take
+};
+
+/// Reads samples of one topic with the topic's own QoS. Not for several threads at once.
+template <typename Sample>
+class Reader : public ReaderBase {
+ public:
+  Reader(const Participant& participant, const Topic<Sample>& topic, History history = History::kProfile)
+      : ReaderBase(participant, topic, history) {}
+
+  /// The oldest samples that wait, at most LoanBase::kMost; does not wait for any.
+  Loan<Sample> take() { return Loan<Sample>(*this); }
+
+  /// Calls `handle(sample)` for every value that waits, oldest first. Returns how many there were.
+  template <typename Handle>
+  std::size_t take_each(Handle&& handle) {
+    std::size_t count = 0;
+    for (;;) {
+      const Loan<Sample> loan = take();
+      if (loan.empty()) return count;
+      for (std::size_t i = 0; i < loan.size(); ++i) {
+        if (!loan.info(i).has_value) continue;
+        handle(loan[i]);
+        ++count;
+      }
+    }
+  }
+};
+
+}  // namespace slammot::dds

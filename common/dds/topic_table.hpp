@@ -1,0 +1,73 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "common/dds/qos.hpp"
+#include "idl/detection.h"
+#include "idl/localization.h"
+#include "idl/mapping.h"
+#include "idl/sensor.h"
+#include "idl/service.h"
+#include "idl/tracking.h"
+
+namespace slammot::dds {
+
+enum class Recorded { kNo, kYes };
+
+struct TopicInfo {
+  std::string_view name;
+  const dds_topic_descriptor* type;  ///< The C library's, as idlc generated it.
+  Flow flow;
+  Recorded recorded;  ///< By the recorder, unless told otherwise.
+
+  std::string_view type_name() const { return type->m_typename; }
+};
+
+/// A row of the topic table that knows its type.
+template <typename Sample>
+struct Topic : TopicInfo {};
+
+namespace topics {
+
+inline constexpr Topic<slammot_LaserScan> kLaserScan{
+    {"slammot/laser_scan", &slammot_LaserScan_desc, Flow::kSensor, Recorded::kYes}};
+inline constexpr Topic<slammot_Odometry> kOdometry{
+    {"slammot/odometry", &slammot_Odometry_desc, Flow::kSensor, Recorded::kYes}};
+inline constexpr Topic<slammot_LocalizedScan> kLocalizedScan{
+    {"slammot/localized_scan", &slammot_LocalizedScan_desc, Flow::kEstimate, Recorded::kYes}};
+inline constexpr Topic<slammot_SegmentedScan> kSegmentedScan{
+    {"slammot/segmented_scan", &slammot_SegmentedScan_desc, Flow::kEstimate, Recorded::kNo}};
+inline constexpr Topic<slammot_TrackedObjects> kTrackedObjects{
+    {"slammot/tracked_objects", &slammot_TrackedObjects_desc, Flow::kEstimate, Recorded::kYes}};
+inline constexpr Topic<slammot_TrackedObjects> kStoredTrackedObjects{
+    {"slammot/stored_tracked_objects", &slammot_TrackedObjects_desc, Flow::kGraph, Recorded::kNo}};
+inline constexpr Topic<slammot_ScanLabels> kScanLabels{
+    {"slammot/scan_labels", &slammot_ScanLabels_desc, Flow::kEstimate, Recorded::kNo}};
+inline constexpr Topic<slammot_SubmapTile> kSubmapTile{
+    {"slammot/submap_tile", &slammot_SubmapTile_desc, Flow::kTile, Recorded::kNo}};
+inline constexpr Topic<slammot_SubmapTile> kStoredSubmapTile{
+    {"slammot/stored_submap_tile", &slammot_SubmapTile_desc, Flow::kTile, Recorded::kYes}};
+inline constexpr Topic<slammot_Constraint> kConstraint{
+    {"slammot/constraint", &slammot_Constraint_desc, Flow::kGraph, Recorded::kYes}};
+inline constexpr Topic<slammot_GraphCorrection> kGraphCorrection{
+    {"slammot/graph_correction", &slammot_GraphCorrection_desc, Flow::kGraph, Recorded::kYes}};
+inline constexpr Topic<slammot_Heartbeat> kHeartbeat{
+    {"slammot/heartbeat", &slammot_Heartbeat_desc, Flow::kHeartbeat, Recorded::kNo}};
+inline constexpr Topic<slammot_ServiceStatus> kStatus{
+    {"slammot/status", &slammot_ServiceStatus_desc, Flow::kStatus, Recorded::kYes}};
+inline constexpr Topic<slammot_Command> kCommand{
+    {"slammot/command", &slammot_Command_desc, Flow::kCommand, Recorded::kYes}};
+inline constexpr Topic<slammot_Reply> kReply{
+    {"slammot/reply", &slammot_Reply_desc, Flow::kCommand, Recorded::kYes}};
+
+}  // namespace topics
+
+/// Every topic there is; idl/README.md says what each is for.
+std::span<const TopicInfo* const> topic_table();
+
+/// The row of that name; null when there is none.
+const TopicInfo* find_topic(std::string_view name);
+
+}  // namespace slammot::dds
