@@ -9,6 +9,23 @@
 
 namespace slammot::grids {
 
+namespace {
+
+/// How far a ray that starts inside goes before it leaves the window; 0 when it starts outside.
+double distance_to_border(const GridWindow& window, const Eigen::Vector2d& start_m, const Eigen::Vector2d& direction) {
+  if (!window.contains(window.cell_at(start_m.x(), start_m.y()))) return 0.0;
+  const auto along = [&](double start, double step, std::int32_t first, std::int32_t count) {
+    if (step == 0.0) return std::numeric_limits<double>::infinity();
+    const double border = (first + (step > 0.0 ? count : 0)) * window.cell_size_m;
+    return (border - start) / step;
+  };
+  // A little short of it: the walk must not step outside by rounding.
+  return std::min(along(start_m.x(), direction.x(), window.first.column, window.columns),
+                  along(start_m.y(), direction.y(), window.first.row, window.rows)) - 1e-6;
+}
+
+}  // namespace
+
 int steps_of_log_odds(double log_odds) { return static_cast<int>(std::lround(log_odds / kLogOddsStep)); }
 
 EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model)
@@ -19,9 +36,8 @@ EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model)
       limit_steps_(std::min(127, steps_of_log_odds(model.limit_log_odds))),
       block_columns_((window.columns >> kBlockShift) + 1),
       block_rows_((window.rows >> kBlockShift) + 1),
-      so_(window.cell_count(), 0),
+      so_(window.cell_count()),
       mo_(window.cell_count(), 0),
-      touched_(window.cell_count(), 0),
       block_has_echoes_(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_), 0) {}
 
 std::size_t EvidenceGrid::block_index(Cell cell) const {
@@ -31,14 +47,14 @@ std::size_t EvidenceGrid::block_index(Cell cell) const {
 
 void EvidenceGrid::begin_scan() {
   if (scan_mark_ == 255) {
-    std::fill(touched_.begin(), touched_.end(), std::uint8_t{0});
+    for (SoCell& cell : so_) cell.touched = 0;
     scan_mark_ = 0;
   }
   ++scan_mark_;
 }
 
 void EvidenceGrid::raise_so(Cell cell, int steps) {
-  std::int8_t& so = so_[window_.index(cell)];
+  std::int8_t& so = so_[window_.index(cell)].steps;
   so = static_cast<std::int8_t>(std::min(limit_steps_, so + steps));
   if (so > 0) block_has_echoes_[block_index(cell)] = 1;
 }
@@ -47,8 +63,8 @@ void EvidenceGrid::mark_echo(const Ray& ray) {
   const Cell cell = window_.cell_at(ray.end_m.x(), ray.end_m.y());
   if (!window_.contains(cell)) return;
   const std::size_t index = window_.index(cell);
-  if (touched_[index] == scan_mark_) return;
-  touched_[index] = scan_mark_;
+  if (so_[index].touched == scan_mark_) return;
+  so_[index].touched = scan_mark_;
   if (ray.echo == Echo::kStationary) {
     raise_so(cell, hit_steps_);
   } else {
@@ -57,27 +73,59 @@ void EvidenceGrid::mark_echo(const Ray& ray) {
   }
 }
 
-void EvidenceGrid::mark_free(const Eigen::Vector2d& origin_m, const Ray& ray) {
-  const Eigen::Vector2d way_m = ray.end_m - origin_m;
-  const double length_m = way_m.norm();
-  // An echo's own cell, and the one that a shallow beam crosses just before it, are not free.
-  const double free_m = ray.echo == Echo::kNone ? length_m : length_m - 1.5 * window_.cell_size_m;
-  if (free_m <= 0.0) return;
-  RayWalk walk(origin_m, way_m / length_m, window_.cell_size_m);
-  for (; walk.distance_m() < free_m && window_.contains(walk.cell()); walk.advance()) {
-    const std::size_t index = window_.index(walk.cell());
-    if (touched_[index] == scan_mark_) continue;
-    touched_[index] = scan_mark_;
-    so_[index] = static_cast<std::int8_t>(std::max(-limit_steps_, so_[index] - free_steps_));
+void EvidenceGrid::mark_free(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& end_m, double from_m, double to_m) {
+  const Eigen::Vector2d direction = (end_m - origin_m).normalized();
+  const Eigen::Vector2d start_m = origin_m + from_m * direction;
+  const double length_m = std::min(to_m - from_m, distance_to_border(window_, start_m, direction));
+  if (length_m <= 0.0) return;
+  // Amanatides and Woo 1987, with the array's index in place of the cell: this loop is most of a scan's integration,
+  // see tests/bench/grids_bench.cpp.
+  RayWalk walk(start_m, direction, window_.cell_size_m);
+  auto index = static_cast<std::ptrdiff_t>(window_.index(walk.cell()));
+  const RayWalk::Axis columns = walk.columns();
+  const RayWalk::Axis rows = walk.rows();
+  const std::ptrdiff_t column_stride = columns.step;
+  const std::ptrdiff_t row_stride = static_cast<std::ptrdiff_t>(rows.step) * window_.columns;
+  double next_column_m = columns.next_border_m;
+  double next_row_m = rows.next_border_m;
+  double entered_m = 0.0;
+  while (entered_m < length_m) {
+    SoCell& cell = so_[static_cast<std::size_t>(index)];
+    const int lowered = std::max(-limit_steps_, cell.steps - free_steps_);
+    cell.steps = static_cast<std::int8_t>(cell.touched == scan_mark_ ? cell.steps : lowered);
+    cell.touched = scan_mark_;
+    const bool by_column = next_column_m < next_row_m;
+    entered_m = by_column ? next_column_m : next_row_m;
+    index += by_column ? column_stride : row_stride;
+    next_column_m += by_column ? columns.per_cell_m : 0.0;
+    next_row_m += by_column ? 0.0 : rows.per_cell_m;
   }
 }
 
-void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays) {
+void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
   begin_scan();
   for (const Ray& ray : rays) {
     if (ray.echo != Echo::kNone) mark_echo(ray);
   }
-  for (const Ray& ray : rays) mark_free(origin_m, ray);
+  if (!window_.contains(window_.cell_at(origin_m.x(), origin_m.y()))) return;
+  free_m_.resize(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const double length_m = (rays[i].end_m - origin_m).norm();
+    // An echo's own cell, and the one that a shallow beam crosses just before it, are not free.
+    free_m_[i] = rays[i].echo == Echo::kNone ? length_m : length_m - 1.5 * window_.cell_size_m;
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (free_m_[i] <= 0.0) continue;
+    mark_free(origin_m, rays[i].end_m, left_to_neighbours_m(i, std::abs(beam_step_rad)), free_m_[i]);
+  }
+}
+
+double EvidenceGrid::left_to_neighbours_m(std::size_t ray, double beam_step_rad) const {
+  if (ray == 0 || beam_step_rad <= 0.0) return 0.0;
+  const std::size_t stride = ray & (~ray + 1);  // a neighbour on each side belongs to twice this stride
+  if (ray + stride >= free_m_.size()) return 0.0;
+  const double crowded_m = 0.7 * window_.cell_size_m / (2.0 * beam_step_rad * static_cast<double>(stride));
+  return std::max(0.0, std::min({crowded_m, free_m_[ray - stride], free_m_[ray + stride]}) - window_.cell_size_m);
 }
 
 void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {
@@ -131,20 +179,26 @@ EvidenceGrid EvidenceGrid::moved_to(const GridWindow& window) const {
       const std::size_t to = window.index(cell);
       moved.so_[to] = so_[from];
       moved.mo_[to] = mo_[from];
-      if (so_[from] > 0) moved.block_has_echoes_[moved.block_index(cell)] = 1;
+      if (so_[from].steps > 0) moved.block_has_echoes_[moved.block_index(cell)] = 1;
     }
   }
   return moved;
 }
 
+std::vector<std::int8_t> EvidenceGrid::so_cells() const {
+  std::vector<std::int8_t> cells(so_.size());
+  std::transform(so_.begin(), so_.end(), cells.begin(), [](const SoCell& cell) { return cell.steps; });
+  return cells;
+}
+
 void EvidenceGrid::set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo) {
   assert(so.size() == window_.cell_count() && mo.size() == window_.cell_count());
-  so_ = std::move(so);
+  for (std::size_t i = 0; i < so.size(); ++i) so_[i] = {so[i], 0};
   mo_ = std::move(mo);
   for (std::int32_t row = 0; row < window_.rows; ++row) {
     for (std::int32_t column = 0; column < window_.columns; ++column) {
       const Cell cell{window_.first.column + column, window_.first.row + row};
-      if (so_[window_.index(cell)] > 0) block_has_echoes_[block_index(cell)] = 1;
+      if (so_[window_.index(cell)].steps > 0) block_has_echoes_[block_index(cell)] = 1;
     }
   }
 }

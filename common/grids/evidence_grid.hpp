@@ -38,14 +38,15 @@ class EvidenceGrid {
 
   const GridWindow& window() const { return window_; }
 
-  /// Adds one scan. Each cell changes at most once a scan, and an echo wins over a beam that passed.
-  void integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays);
+  /// Adds one scan, rays in the order of the beams. Each cell changes at most once a scan, and an echo wins over a beam
+  /// that passed. Near the scanner, where beams are closer together than cells, neighbours stand in for each other.
+  void integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
 
   /// Adds one stationary echo without its beam: a point given back by tracking.
   void restore_stationary(const Eigen::Vector2d& point_m);
 
   /// In steps of kLogOddsStep, positive = occupied, 0 = never seen or outside.
-  int so_steps(Cell cell) const { return window_.contains(cell) ? so_[window_.index(cell)] : 0; }
+  int so_steps(Cell cell) const { return window_.contains(cell) ? so_[window_.index(cell)].steps : 0; }
 
   /// In [0, 255]: how often something moved here.
   std::uint8_t moving(Cell cell) const { return window_.contains(cell) ? mo_[window_.index(cell)] : std::uint8_t{0}; }
@@ -61,16 +62,23 @@ class EvidenceGrid {
   EvidenceGrid moved_to(const GridWindow& window) const;
 
   /// Cells of the window, row-major. set_cells needs as many as the window has.
-  const std::vector<std::int8_t>& so_cells() const { return so_; }
+  std::vector<std::int8_t> so_cells() const;
   const std::vector<std::uint8_t>& mo_cells() const { return mo_; }
   void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo);
 
  private:
   static constexpr int kBlockShift = 3;  ///< Blocks of 8 x 8 cells, to step over what is empty.
 
+  /// Evidence beside the mark of the scan that changed it last, so that looking at both costs one cache line.
+  struct SoCell {
+    std::int8_t steps = 0;
+    std::uint8_t touched = 0;
+  };
+
   void begin_scan();
   void mark_echo(const Ray& ray);
-  void mark_free(const Eigen::Vector2d& origin_m, const Ray& ray);
+  void mark_free(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& end_m, double from_m, double to_m);
+  double left_to_neighbours_m(std::size_t ray, double beam_step_rad) const;
   void raise_so(Cell cell, int steps);
   std::size_t block_index(Cell cell) const;
 
@@ -81,11 +89,11 @@ class EvidenceGrid {
   int limit_steps_ = 0;
   std::int32_t block_columns_ = 0;
   std::int32_t block_rows_ = 0;
-  std::vector<std::int8_t> so_;
+  std::vector<SoCell> so_;
   std::vector<std::uint8_t> mo_;
-  std::vector<std::uint8_t> touched_;          ///< Mark of the scan that changed the cell last.
   std::vector<std::uint8_t> block_has_echoes_; ///< Whether a block ever held positive evidence.
   std::uint8_t scan_mark_ = 0;
+  std::vector<double> free_m_;  ///< By ray of the scan at hand; kept to reuse the memory.
 };
 
 }  // namespace slammot::grids

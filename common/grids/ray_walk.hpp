@@ -26,7 +26,6 @@ class RayWalk {
     nearer.cell += nearer.step;
   }
 
- private:
   struct Axis {
     Axis(double origin_m, double direction, double cell_size_m)
         : cell(static_cast<std::int32_t>(std::floor(origin_m / cell_size_m))), step(direction > 0.0 ? 1 : -1) {
@@ -40,6 +39,10 @@ class RayWalk {
     double next_border_m = std::numeric_limits<double>::infinity();
   };
 
+  const Axis& columns() const { return columns_; }
+  const Axis& rows() const { return rows_; }
+
+ private:
   Axis columns_;
   Axis rows_;
   double distance_m_ = 0.0;

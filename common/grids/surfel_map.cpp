@@ -15,6 +15,7 @@ std::int32_t SurfelMap::make_slot(Cell cell) {
   if (slot < 0) {
     slot = static_cast<std::int32_t>(moments_.size());
     moments_.emplace_back();
+    cells_.push_back(cell);
     shapes_.emplace_back();
   }
   return slot;
@@ -55,9 +56,10 @@ void SurfelMap::erase(Cell cell) {
   mark_stale_around(cell);
 }
 
-Eigen::Vector2d SurfelMap::mean_of(Cell cell, std::int32_t slot) const {
-  const CellMoments& moments = moments_[static_cast<std::size_t>(slot)];
-  return window_.centre_of(cell) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight);
+Eigen::Vector2d SurfelMap::mean_of(std::int32_t slot) const {
+  const auto place = static_cast<std::size_t>(slot);
+  const CellMoments& moments = moments_[place];
+  return window_.centre_of(cells_[place]) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight);
 }
 
 SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
@@ -96,43 +98,44 @@ SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
   return shape;
 }
 
-SurfelView SurfelMap::view_of(Cell cell, std::int32_t slot) const {
+SurfelView SurfelMap::view_of(std::int32_t slot) const {
   const auto place = static_cast<std::size_t>(slot);
-  if (shapes_[place].stale) shapes_[place] = shape_at(cell);
+  if (shapes_[place].stale) shapes_[place] = shape_at(cells_[place]);
   const Shape& shape = shapes_[place];
-  return {cell, mean_of(cell, slot), {shape.normal_x, shape.normal_y}, shape.spread_m2, moments_[place].weight,
+  return {cells_[place], mean_of(slot), {shape.normal_x, shape.normal_y}, shape.spread_m2, moments_[place].weight,
           moments_[place].own_echoes};
 }
 
-std::optional<SurfelView> SurfelMap::nearest(const Eigen::Vector2d& point_m, int radius) const {
+std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius) const {
   const Cell centre = window_.cell_at(point_m.x(), point_m.y());
   double best_m2 = std::numeric_limits<double>::infinity();
-  Cell best_cell;
   std::int32_t best_slot = -1;
   for (std::int32_t row = centre.row - radius; row <= centre.row + radius; ++row) {
     for (std::int32_t column = centre.column - radius; column <= centre.column + radius; ++column) {
       const std::int32_t slot = slot_of({column, row});
       if (is_empty(slot)) continue;
-      const double distance_m2 = (mean_of({column, row}, slot) - point_m).squaredNorm();
+      const double distance_m2 = (mean_of(slot) - point_m).squaredNorm();
       if (distance_m2 >= best_m2) continue;
       best_m2 = distance_m2;
-      best_cell = {column, row};
       best_slot = slot;
     }
   }
-  if (best_slot < 0) return std::nullopt;
-  return view_of(best_cell, best_slot);
+  return best_slot;
+}
+
+std::optional<SurfelView> SurfelMap::nearest(const Eigen::Vector2d& point_m, int radius) const {
+  std::int32_t slot = nearest_slot(point_m, 1);
+  if (slot < 0 && radius > 1) slot = nearest_slot(point_m, radius);
+  if (slot < 0) return std::nullopt;
+  return view_of(slot);
 }
 
 std::vector<SurfelView> SurfelMap::all() const {
   std::vector<SurfelView> surfels;
   surfels.reserve(moments_.size());
-  for (std::int32_t row = 0; row < window_.rows; ++row) {
-    for (std::int32_t column = 0; column < window_.columns; ++column) {
-      const Cell cell{window_.first.column + column, window_.first.row + row};
-      const std::int32_t slot = slots_[window_.index(cell)];
-      if (!is_empty(slot)) surfels.push_back(view_of(cell, slot));
-    }
+  for (std::size_t place = 0; place < moments_.size(); ++place) {
+    const auto slot = static_cast<std::int32_t>(place);
+    if (!is_empty(slot)) surfels.push_back(view_of(slot));
   }
   return surfels;
 }
@@ -141,17 +144,13 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
   assert(window.cell_size_m == window_.cell_size_m);
   SurfelMap moved(window, weight_limit_);
   moved.moments_.reserve(moments_.size());
+  moved.cells_.reserve(moments_.size());
   moved.shapes_.reserve(moments_.size());
-  const GridWindow shared = intersection(window, window_);
-  for (std::int32_t row = 0; row < shared.rows; ++row) {
-    for (std::int32_t column = 0; column < shared.columns; ++column) {
-      const Cell cell{shared.first.column + column, shared.first.row + row};
-      const std::int32_t slot = slots_[window_.index(cell)];
-      if (is_empty(slot)) continue;
-      CellMoments moments = moments_[static_cast<std::size_t>(slot)];
-      moments.own_echoes = 0.0F;
-      moved.moments_[static_cast<std::size_t>(moved.make_slot(cell))] = moments;
-    }
+  for (std::size_t place = 0; place < moments_.size(); ++place) {
+    if (is_empty(static_cast<std::int32_t>(place)) || !window.contains(cells_[place])) continue;
+    CellMoments moments = moments_[place];
+    moments.own_echoes = 0.0F;
+    moved.moments_[static_cast<std::size_t>(moved.make_slot(cells_[place]))] = moments;
   }
   return moved;
 }

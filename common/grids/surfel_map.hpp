@@ -46,10 +46,11 @@ class SurfelMap {
   /// Forgets the surface in a cell.
   void erase(Cell cell);
 
-  /// Surfel with its mean nearest to the point among the cells within radius; none when there is no echo.
+  /// Surfel with its mean nearest to the point among the 3 x 3 cells around it, or, when these hold none, among the
+  /// cells within radius; none when there is no echo.
   std::optional<SurfelView> nearest(const Eigen::Vector2d& point_m, int radius) const;
 
-  /// Every surfel, in the order of the lattice.
+  /// Every surfel, in the order in which they were first seen.
   std::vector<SurfelView> all() const;
 
   /// Same surfels in another window of the same lattice; counts of own echoes begin anew.
@@ -68,15 +69,17 @@ class SurfelMap {
   std::int32_t slot_of(Cell cell) const { return window_.contains(cell) ? slots_[window_.index(cell)] : -1; }
   bool is_empty(std::int32_t slot) const { return slot < 0 || moments_[static_cast<std::size_t>(slot)].weight <= 0.0F; }
   std::int32_t make_slot(Cell cell);
+  std::int32_t nearest_slot(const Eigen::Vector2d& point_m, int radius) const;
   void mark_stale_around(Cell cell);
   Shape shape_at(Cell cell) const;
-  Eigen::Vector2d mean_of(Cell cell, std::int32_t slot) const;
-  SurfelView view_of(Cell cell, std::int32_t slot) const;
+  Eigen::Vector2d mean_of(std::int32_t slot) const;
+  SurfelView view_of(std::int32_t slot) const;
 
   GridWindow window_;
   float weight_limit_ = 40.0F;
   std::vector<std::int32_t> slots_;     ///< By cell: place in moments_, -1 for none.
   std::vector<CellMoments> moments_;
+  std::vector<Cell> cells_;             ///< Of each of the moments.
   mutable std::vector<Shape> shapes_;   ///< Computed when first looked at after a change.
 };
 

@@ -55,11 +55,11 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m
 
 Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
 
-void LocalMap::integrate(std::int64_t stamp_ns, const Vector2& origin_m, const std::vector<grids::Ray>& rays) {
+void LocalMap::integrate(std::int64_t stamp_ns, const Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
   if (scans_ == 0) first_stamp_ns_ = stamp_ns;
   last_stamp_ns_ = stamp_ns;
   ++scans_;
-  evidence_.integrate(origin_m, rays);
+  evidence_.integrate(origin_m, rays, beam_step_rad);
   for (const grids::Ray& ray : rays) {
     if (ray.echo == grids::Echo::kStationary) surfels_.add(ray.end_m);
   }
@@ -109,10 +109,10 @@ bool LocalMap::is_outgrown(const Vector2& position_in_odom_m, double travelled_m
 
 flow::Submap LocalMap::submap() const {
   const grids::GridWindow& window = evidence_.window();
-  std::vector<std::int8_t> own_so(window.cell_count());
+  std::vector<std::int8_t> own_so = evidence_.so_cells();
   std::vector<std::uint8_t> own_mo(window.cell_count());
   for (std::size_t i = 0; i < own_so.size(); ++i) {
-    own_so[i] = static_cast<std::int8_t>(std::clamp(evidence_.so_cells()[i] - inherited_so_[i], -127, 127));
+    own_so[i] = static_cast<std::int8_t>(std::clamp(own_so[i] - inherited_so_[i], -127, 127));
     own_mo[i] = evidence_.mo_cells()[i] > inherited_mo_[i] ? evidence_.mo_cells()[i] : std::uint8_t{0};
   }
   const grids::GridWindow bounds = bounds_of_seen(window, own_so, own_mo);

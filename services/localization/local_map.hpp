@@ -39,8 +39,8 @@ class LocalMap {
   flow::SubmapId submap_id() const { return submap_id_; }
   const geometry::Pose2& odom_from_submap() const { return odom_from_submap_; }
 
-  /// Adds one scan whose laser stood at origin_m; rays and echoes in odom.
-  void integrate(std::int64_t stamp_ns, const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays);
+  /// Adds one scan whose laser stood at origin_m; rays in odom, in the order of the beams.
+  void integrate(std::int64_t stamp_ns, const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad);
 
   /// Gives back a point that was held to be moving.
   void restore_stationary(const geometry::Vector2& point_in_odom_m);

@@ -177,6 +177,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   pending.stamp_ns = scan.stamp_ns;
   pending.sequence = scan.sequence;
   pending.scanner_id = scan.scanner.scanner_id;
+  pending.beam_step_rad = scan.scanner.beam_step_rad;
   pending.origin_in_odom_m = odom_from_laser.translation_m();
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());
@@ -247,7 +248,7 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
     const bool is_far = (scan.rays[i].end_m - scan.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
     scan.rays[i].echo = is_far ? grids::Echo::kNone : echo;
   }
-  map_.integrate(scan.stamp_ns, scan.origin_in_odom_m, scan.rays);
+  map_.integrate(scan.stamp_ns, scan.origin_in_odom_m, scan.rays, scan.beam_step_rad);
   integrated_.push_back(std::move(scan));
   pending_.pop_front();
   if (integrated_.size() > kScansKeptForRestoring) integrated_.pop_front();

@@ -119,6 +119,7 @@ class Localizer {
     std::int64_t stamp_ns = 0;
     std::uint32_t sequence = 0;
     std::string scanner_id;
+    double beam_step_rad = 0.0;
     geometry::Vector2 origin_in_odom_m;
     std::vector<grids::Ray> rays;               ///< All as kNone; ends in odom.
     std::vector<flow::EndCell> end_cells;
