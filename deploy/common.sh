@@ -25,16 +25,21 @@ build_preset() {
   cmake --build "$root/build/$preset" ${1:+--target "$@"}
 }
 
-# A small drive through a simulated town, with its truth: made once by the given slammot, used by demo and compose.
+# A small drive through a simulated town, with its truth. Made once for each version of the program.
 drive_folder=out/drive
-drive_log=$drive_folder/drive.log.gz
+drive_log=$drive_folder/demo.log
+# make_drive VERSION COMMAND...: the command is slammot and may see the folder under another name, $drive_seen_as.
 make_drive() {
-  if [[ -s $drive_log ]]; then
+  local version=$1
+  shift
+  if [[ $(cat "$drive_folder/made-by" 2>/dev/null) == "$version" ]]; then
     say "The drive is there: $drive_log"
     return
   fi
   say "Simulating a small drive into $drive_folder"
-  "$1" simulate --output "$drive_folder"
+  mkdir -p "$drive_folder"
+  "$@" simulate demo --output "${drive_seen_as:-$drive_folder}"
+  echo "$version" >"$drive_folder/made-by"
 }
 
 engine_runs() { command -v docker >/dev/null && timeout 20 docker info >/dev/null 2>&1; }
