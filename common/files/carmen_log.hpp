@@ -50,6 +50,9 @@ class CarmenLog {
   /// Fails for a file that cannot be read or that holds no scan.
   static Result<CarmenLog> open(const std::filesystem::path& path, const CarmenLogOptions& options = {});
 
+  /// Replaces the options, which a profile may know only once plan() has chosen it. Before the first next().
+  void set_options(const CarmenLogOptions& options) { options_ = options; }
+
   /// The next event; nullopt at the end of what can be read.
   std::optional<LogEvent> next();
 

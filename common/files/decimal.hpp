@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace slammot::files {
+
+/// Seconds with six decimals, as logs and truth files write them; nine where the stamp is finer than a microsecond.
+std::string stamp_text(std::int64_t stamp_ns);
+
+/// The number with a fixed count of decimals, never "-0.000".
+std::string fixed_text(double value, int decimals);
+
+}  // namespace slammot::files

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/files/result.hpp"
+#include "common/flow/submap.hpp"
+#include "common/geometry/pose2.hpp"
+
+namespace slammot::files {
+
+/// Values of map_server's pictures: probability of being occupied is (255 - pixel) / 255.
+inline constexpr std::uint8_t kOccupiedPixel = 0;
+inline constexpr std::uint8_t kUnknownPixel = 205;
+inline constexpr std::uint8_t kFreePixel = 254;
+
+/// A picture of the ground from above, x to the right, y up; the first row of pixels is the top one.
+struct MapImage {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  double resolution_m = 0.0;
+  double min_x_m = 0.0;                ///< Lower left corner in map.
+  double min_y_m = 0.0;
+  std::vector<std::uint8_t> pixels;    ///< Row-major.
+};
+
+struct MapImages {
+  MapImage stationary;  ///< SO-map: occupied, free, unknown.
+  MapImage moving;      ///< MO-map: the darker the more often something moved there; unknown where nothing was seen.
+};
+
+struct PlacedSubmap {
+  const flow::Submap* submap = nullptr;  ///< Not null.
+  geometry::Pose2 map_from_submap;
+};
+
+/// At most this many pixels a picture; larger maps are drawn at two, three, ... times the cell size.
+inline constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 26;
+
+/// Joins the submaps into one picture: log-odds of overlapping cells are added, of moving evidence the strongest counts.
+/// Covers just what was seen. No submaps, or empty ones, give a picture of one unknown pixel.
+MapImages draw_map(const std::vector<PlacedSubmap>& submaps, std::uint64_t max_pixels = kMaxPixels);
+
+/// Portable grey map, binary.
+std::string to_pgm(const MapImage& image);
+
+/// The same as PNG.
+Result<std::string> to_png(const MapImage& image);
+
+/// What map_server wants to know about the picture.
+std::string to_map_server_yaml(const MapImage& image, const std::string& image_file);
+
+}  // namespace slammot::files

@@ -1,0 +1,125 @@
+#include "common/files/run_outputs.hpp"
+
+#include <cmath>
+#include <initializer_list>
+
+#include <Eigen/Cholesky>
+
+#include "common/files/atomic_file.hpp"
+#include "common/files/decimal.hpp"
+#include "common/files/map_image.hpp"
+
+namespace slammot::files {
+namespace {
+
+const char* name_of(flow::Motion motion) { return motion == flow::Motion::kMoving ? "moving" : "stopped"; }
+
+const char* name_of(flow::ObjectClass object_class) {
+  switch (object_class) {
+    case flow::ObjectClass::kUnknown: return "unknown";
+    case flow::ObjectClass::kPedestrian: return "pedestrian";
+    case flow::ObjectClass::kBicycle: return "bicycle";
+    case flow::ObjectClass::kCar: return "car";
+    case flow::ObjectClass::kTruckOrBus: return "truck_or_bus";
+  }
+  return "unknown";
+}
+
+geometry::Matrix3 information_at_end(const geometry::UncertainPose2& from_to) {
+  geometry::Matrix3 turn = geometry::Matrix3::Identity();
+  turn.topLeftCorner<2, 2>() = geometry::rotation(-from_to.pose.heading_rad);
+  constexpr double kLeastVariance = 1e-9;  // a covariance of zero would be infinite information
+  const geometry::Matrix3 covariance = turn * from_to.covariance * turn.transpose() + kLeastVariance * geometry::Matrix3::Identity();
+  return covariance.ldlt().solve(geometry::Matrix3::Identity());
+}
+
+std::optional<Error> write_map_files(const std::filesystem::path& folder, const std::string& name, const MapImage& image) {
+  const Result<std::string> png = to_png(image);
+  if (!png) return png.error();
+  if (auto fault = write_file_atomically(folder / (name + ".pgm"), to_pgm(image))) return fault;
+  if (auto fault = write_file_atomically(folder / (name + ".png"), *png)) return fault;
+  return write_file_atomically(folder / (name + ".yaml"), to_map_server_yaml(image, name + ".pgm"));
+}
+
+std::string pose_text(const geometry::Pose2& pose) {
+  return fixed_text(pose.x_m, 9) + " " + fixed_text(pose.y_m, 9) + " " + fixed_text(pose.heading_rad, 9);
+}
+
+/// The fields with commas between them, and the line's end.
+void append_joined(std::string& text, std::initializer_list<std::string> fields) {
+  for (const std::string& field : fields) text.append(field).append(1, ',');
+  text.back() = '\n';
+}
+
+}  // namespace
+
+std::string to_tum(const std::vector<StampedPose>& trajectory) {
+  std::string text;
+  text.reserve(trajectory.size() * 64);
+  for (const auto& [stamp_ns, pose] : trajectory) {
+    text += stamp_text(stamp_ns) + " " + fixed_text(pose.x_m, 6) + " " + fixed_text(pose.y_m, 6) + " 0 0 0 " +
+            fixed_text(std::sin(0.5 * pose.heading_rad), 9) + " " + fixed_text(std::cos(0.5 * pose.heading_rad), 9) + "\n";
+  }
+  return text;
+}
+
+std::string to_tracks_csv(const std::vector<TrackRow>& rows) {
+  std::string text = "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class\n";
+  for (const TrackRow& row : rows) {
+    const geometry::Pose2& pose = row.map_from_object;
+    const geometry::Vector2& velocity_mps = row.velocity_in_map_mps;
+    append_joined(text, {stamp_text(row.stamp_ns), std::to_string(row.track_id.value), fixed_text(pose.x_m, 3), fixed_text(pose.y_m, 3),
+                         fixed_text(pose.heading_rad, 5), fixed_text(velocity_mps.x(), 3), fixed_text(velocity_mps.y(), 3),
+                         fixed_text(row.length_m, 3), fixed_text(row.width_m, 3), name_of(row.motion), fixed_text(row.existence, 4),
+                         name_of(row.object_class)});
+  }
+  return text;
+}
+
+std::string to_g2o(const RunRecord& record) {
+  std::string text;
+  for (const auto& [id, submap] : record.submaps()) {
+    text.append("VERTEX_SE2 ").append(std::to_string(id.value)).append(" ").append(pose_text(record.map_from_submap(submap))).append("\n");
+  }
+  if (!record.submaps().empty()) text.append("FIX ").append(std::to_string(record.submaps().begin()->first.value)).append("\n");
+  for (const flow::Constraint& constraint : record.constraints()) {
+    text.append("EDGE_SE2 ").append(std::to_string(constraint.from.value)).append(" ").append(std::to_string(constraint.to.value));
+    text.append(" ").append(pose_text(constraint.from_to.pose));
+    const geometry::Matrix3 information = information_at_end(constraint.from_to);
+    for (int row = 0; row < 3; ++row) {
+      for (int column = row; column < 3; ++column) text.append(" ").append(fixed_text(information(row, column), 6));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+double travelled_m(const std::vector<StampedPose>& trajectory) {
+  constexpr double kCountedStepM = 0.1;  // the noise of a vehicle at rest is no travel
+  if (trajectory.empty()) return 0.0;
+  double sum_m = 0.0;
+  geometry::Vector2 counted_m = trajectory.front().map_from_base.translation_m();
+  for (const StampedPose& stamped : trajectory) {
+    const double step_m = (stamped.map_from_base.translation_m() - counted_m).norm();
+    if (step_m < kCountedStepM) continue;
+    sum_m += step_m;
+    counted_m = stamped.map_from_base.translation_m();
+  }
+  return sum_m;
+}
+
+std::optional<Error> write_outputs(const std::filesystem::path& folder, const RunRecord& record, const RunReport& report) {
+  const std::vector<StampedPose> corrected = record.corrected_trajectory();
+  if (auto fault = write_file_atomically(folder / "online.tum", to_tum(record.online_trajectory()))) return fault;
+  if (auto fault = write_file_atomically(folder / "trajectory.tum", to_tum(corrected))) return fault;
+  if (auto fault = write_file_atomically(folder / "tracks.csv", to_tracks_csv(record.track_rows()))) return fault;
+  if (auto fault = write_file_atomically(folder / "graph.g2o", to_g2o(record))) return fault;
+  std::vector<PlacedSubmap> placed;
+  for (const auto& [id, submap] : record.submaps()) placed.push_back({&submap, record.map_from_submap(submap)});
+  const MapImages images = draw_map(placed);
+  if (auto fault = write_map_files(folder, "map", images.stationary)) return fault;
+  if (auto fault = write_map_files(folder, "moving", images.moving)) return fault;
+  return write_file_atomically(folder / "report.json", to_json_text(record, report, travelled_m(corrected)));
+}
+
+}  // namespace slammot::files

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/files/result.hpp"
+#include "common/files/run_record.hpp"
+#include "common/files/run_report.hpp"
+
+namespace slammot::files {
+
+/// One line "stamp x y z qx qy qz qw" a pose: the TUM benchmark's form, as evo and others read it.
+std::string to_tum(const std::vector<StampedPose>& trajectory);
+
+/// Header and one line a row: timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class.
+std::string to_tracks_csv(const std::vector<TrackRow>& rows);
+
+/// Vertices are the submaps where they are now, edges the constraints. The information of EDGE_SE2 counts in the frame
+/// of the edge's end, so covariances, which count in the frame of its beginning, are turned.
+std::string to_g2o(const RunRecord& record);
+
+/// Distance along the trajectory; what a vehicle at rest seems to tremble is not counted.
+double travelled_m(const std::vector<StampedPose>& trajectory);
+
+/// Writes online.tum, trajectory.tum, tracks.csv, graph.g2o, map.{pgm,png,yaml}, moving.{pgm,png,yaml} and report.json
+/// into the folder, which must exist. Stops at the first file that cannot be written.
+std::optional<Error> write_outputs(const std::filesystem::path& folder, const RunRecord& record, const RunReport& report);
+
+}  // namespace slammot::files

@@ -1,0 +1,111 @@
+#include "common/files/run_record.hpp"
+
+#include <iterator>
+#include <set>
+
+namespace slammot::files {
+namespace {
+
+TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& tracked) {
+  const geometry::Pose2 odom_from_object{object.position_in_odom_m.x(), object.position_in_odom_m.y(), object.heading_in_odom_rad};
+  TrackRow row;
+  row.stamp_ns = tracked.stamp_ns;
+  row.track_id = object.track_id;
+  row.map_from_object = tracked.map_from_odom * odom_from_object;
+  row.velocity_in_map_mps = geometry::rotation(tracked.map_from_odom.heading_rad) * object.velocity_in_odom_mps;
+  row.length_m = object.length_m;
+  row.width_m = object.width_m;
+  row.motion = object.motion;
+  row.existence = object.existence;
+  row.object_class = object.object_class;
+  return row;
+}
+
+/// Between the two poses nearest in time; the nearest one before the first and after the last.
+geometry::Pose2 pose_at(const std::map<std::int64_t, geometry::Pose2>& poses_by_stamp, std::int64_t stamp_ns) {
+  const auto after = poses_by_stamp.lower_bound(stamp_ns);
+  if (after == poses_by_stamp.end()) return poses_by_stamp.empty() ? geometry::Pose2::identity() : poses_by_stamp.rbegin()->second;
+  if (after->first == stamp_ns || after == poses_by_stamp.begin()) return after->second;
+  const auto before = std::prev(after);
+  const double fraction = static_cast<double>(stamp_ns - before->first) / static_cast<double>(after->first - before->first);
+  return geometry::interpolate(before->second, after->second, fraction);
+}
+
+}  // namespace
+
+void RunRecord::add(const flow::LocalizedScan& scan) {
+  poses_[scan.stamp_ns] = {scan.map_from_odom * scan.odom_from_base.pose, scan.odom_from_base.pose, scan.submap_id, scan.submap_from_base};
+}
+
+void RunRecord::add(const flow::TrackedObjects& tracked) {
+  std::vector<TrackRow> rows;
+  for (const flow::TrackedObject& object : tracked.objects) {
+    if (object.confirmed) rows.push_back(row_of(object, tracked));
+  }
+  tracks_[tracked.stamp_ns] = std::move(rows);
+}
+
+void RunRecord::add(flow::Submap submap) {
+  const flow::SubmapId id = submap.submap_id;
+  submaps_.insert_or_assign(id, std::move(submap));
+}
+
+void RunRecord::add(const flow::Constraint& constraint) { constraints_[{constraint.from, constraint.to, constraint.kind}] = constraint; }
+
+void RunRecord::add(const flow::GraphCorrection& correction) {
+  if (correction.sequence < correction_.sequence) return;
+  correction_ = correction;
+  for (const flow::CorrectedSubmap& submap : correction.submaps) corrected_submaps_[submap.submap_id] = submap.map_from_submap;
+}
+
+std::vector<flow::Constraint> RunRecord::constraints() const {
+  std::vector<flow::Constraint> all;
+  for (const auto& [ends, constraint] : constraints_) all.push_back(constraint);
+  return all;
+}
+
+std::vector<TrackRow> RunRecord::track_rows() const {
+  std::vector<TrackRow> all;
+  for (const auto& [stamp_ns, rows] : tracks_) all.insert(all.end(), rows.begin(), rows.end());
+  return all;
+}
+
+std::uint64_t RunRecord::confirmed_tracks() const {
+  std::set<flow::TrackId> ids;
+  for (const auto& [stamp_ns, rows] : tracks_) {
+    for (const TrackRow& row : rows) ids.insert(row.track_id);
+  }
+  return ids.size();
+}
+
+geometry::Pose2 RunRecord::map_from_submap(const flow::Submap& submap) const {
+  const auto known = corrected_submaps_.find(submap.submap_id);
+  return known != corrected_submaps_.end() ? known->second : correction_.map_from_odom * submap.odom_from_submap;
+}
+
+geometry::Pose2 RunRecord::corrected(const LocalizedPose& pose) const {
+  const auto known = corrected_submaps_.find(pose.submap_id);
+  if (known != corrected_submaps_.end()) return known->second * pose.submap_from_base;
+  return correction_.map_from_odom * pose.odom_from_base;
+}
+
+std::vector<StampedPose> RunRecord::online_trajectory() const {
+  std::map<std::int64_t, geometry::Pose2> poses;
+  for (const auto& [stamp_ns, pose] : poses_) poses.emplace_hint(poses.end(), stamp_ns, pose.map_from_base);
+  return one_pose_a_scan(poses);
+}
+
+std::vector<StampedPose> RunRecord::corrected_trajectory() const {
+  std::map<std::int64_t, geometry::Pose2> poses;
+  for (const auto& [stamp_ns, pose] : poses_) poses.emplace_hint(poses.end(), stamp_ns, corrected(pose));
+  return one_pose_a_scan(poses);
+}
+
+std::vector<StampedPose> RunRecord::one_pose_a_scan(const std::map<std::int64_t, geometry::Pose2>& poses_by_stamp) const {
+  std::vector<StampedPose> trajectory;
+  trajectory.reserve(scan_stamps_ns_.size());
+  for (const std::int64_t stamp_ns : scan_stamps_ns_) trajectory.push_back({stamp_ns, pose_at(poses_by_stamp, stamp_ns)});
+  return trajectory;
+}
+
+}  // namespace slammot::files

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/files/carmen_log.hpp"
+#include "common/files/carmen_survey.hpp"
+#include "common/files/run_record.hpp"
+
+namespace slammot::files {
+
+/// How long one stage took for a scan.
+struct StageLatency {
+  std::string stage;
+  std::uint64_t calls = 0;
+  double p50_ms = 0.0;
+  double p99_ms = 0.0;
+  double max_ms = 0.0;
+};
+
+/// Read from the machine's clock and so different from run to run.
+struct MeasuredRun {
+  std::vector<StageLatency> stages;
+  double wall_s = 0.0;
+  double real_time_factor = 0.0;  ///< Seconds of driving done in one second.
+  double peak_memory_mb = 0.0;
+};
+
+/// Everything about a run that is not in RunRecord.
+struct RunReport {
+  std::string command;         ///< "run" or "bench".
+  std::string version;
+  std::string input;           ///< File name, without its folder.
+  std::string profile;
+  std::string profile_reason;
+  LogPlan plan;
+  LogFaults faults;
+  std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
+  MeasuredRun measured;
+};
+
+/// Order statistics of one stage's durations.
+StageLatency summarize_latency(std::string stage, std::vector<double> durations_ms);
+
+/// The report as JSON. Everything but its last member, "measured", is the same for the same input and configuration.
+std::string to_json_text(const RunRecord& record, const RunReport& report, double travelled_m);
+
+}  // namespace slammot::files

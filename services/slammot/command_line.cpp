@@ -1,0 +1,23 @@
+#include "services/slammot/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "services/slammot/run_command.hpp"
+
+namespace slammot {
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"Localization, mapping and moving object tracking from a vehicle's laser scanners", "slammot"};
+  app.set_version_flag("--version", "slammot " SLAMMOT_VERSION);
+  app.require_subcommand(1);
+  int exit_code = kExitDone;
+  add_run_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& fault) {
+    return app.exit(fault) == 0 ? kExitDone : kExitFault;
+  }
+  return exit_code;
+}
+
+}  // namespace slammot

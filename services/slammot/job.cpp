@@ -1,0 +1,123 @@
+#include "services/slammot/job.hpp"
+
+#include <cmath>
+#include <charconv>
+#include <cstdio>
+#include <numbers>
+
+#include <CLI/CLI.hpp>
+#include <sys/resource.h>
+
+#include "common/config/overlay.hpp"
+#include "common/config/profiles.hpp"
+#include "common/files/atomic_file.hpp"
+#include "common/files/log_profile.hpp"
+
+namespace slammot {
+namespace {
+
+using files::Error;
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[512];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+/// nullopt inside for "max"; Error for what is neither that nor a positive number.
+files::Result<std::optional<double>> parse_speed(const std::string& speed) {
+  if (speed == "max") return std::optional<double>();
+  double times = 0.0;
+  const auto [end, fault] = std::from_chars(speed.data(), speed.data() + speed.size(), times);
+  const bool is_number = fault == std::errc() && end == speed.data() + speed.size();
+  if (!is_number || !std::isfinite(times) || times <= 0.0) return Error{"--speed " + speed + ": neither a number above 0 nor max"};
+  return std::optional<double>(times);
+}
+
+std::optional<Error> load_settings(const JobOptions& options, const std::string& profile_name, Profile& profile) {
+  const std::vector<config::BoundStage> stages = bind_stages(profile);
+  const auto profile_file = config::find_profile(profile_name);
+  if (!profile_file) return Error{config::unknown_profile(profile_name)};
+  if (const auto fault = config::overlay_file(*profile_file, stages)) return Error{fault->text()};
+  if (options.config.empty()) return std::nullopt;
+  if (const auto fault = config::overlay_file(options.config, stages)) return Error{fault->text()};
+  return std::nullopt;
+}
+
+std::string describe_faults(const files::LogFaults& faults) {
+  std::string lines;
+  if (faults.malformed_lines > 0) {
+    lines += text("warning: %llu malformed lines of the log were skipped, the first:", static_cast<unsigned long long>(faults.malformed_lines));
+    for (const std::uint64_t line : faults.first_malformed_lines) lines += text(" %llu", static_cast<unsigned long long>(line));
+    lines += "\n";
+  }
+  if (faults.overlong_lines > 0) lines += text("warning: %llu lines of the log were skipped as too long\n", static_cast<unsigned long long>(faults.overlong_lines));
+  return lines;
+}
+
+}  // namespace
+
+void add_job_options(CLI::App& command, JobOptions& options) {
+  command.add_option("--input", options.input, "Recorded drive: a CARMEN log, plain or .gz")->required()->type_name("FILE");
+  command.add_option("--output", options.output, "Folder for the results; made where it is missing")->required()->type_name("DIR");
+  command.add_option("--profile", options.profile, "urban, indoor, another name, or a file; chosen by the log when not given")->type_name("NAME");
+  command.add_option("--config", options.config, "Settings that replace some of the profile's")->type_name("FILE");
+  command.add_option("--speed", options.speed, "Times the recorded rate, or max")->type_name("X|max")->capture_default_str();
+}
+
+files::Result<Job> prepare_job(const JobOptions& options) {
+  const auto speed = parse_speed(options.speed);
+  if (!speed) return speed.error();
+  if (!options.profile.empty() && !config::find_profile(options.profile)) return Error{config::unknown_profile(options.profile)};
+  auto log = files::CarmenLog::open(options.input);
+  if (!log) return log.error();
+  const files::LogFigures& figures = log->plan().figures;
+  const files::ProfileChoice choice = options.profile.empty() ? files::choose_profile(figures) : files::ProfileChoice{options.profile, "as asked for"};
+  Profile profile;
+  if (auto fault = load_settings(options, choice.profile, profile)) return *fault;
+  log->set_options({profile.ingest.scanner_id, profile.ingest.fallback_field_of_view_rad});
+  const double sweep_s = files::sweep_s_for(figures, profile.ingest.sweep_s);
+  if (auto fault = files::prepare_output_folder(options.output)) return *fault;
+  return Job{std::move(*log), std::move(profile), choice.profile, choice.reason, sweep_s, *speed};
+}
+
+std::string describe_job(const Job& job, const JobOptions& options) {
+  const files::LogFigures& figures = job.log.plan().figures;
+  std::string lines = text("log:      %s: %llu scans of %zu beams over %.0f degrees, %.0f s, %.0f m by odometry\n", options.input.filename().c_str(),
+                           static_cast<unsigned long long>(figures.scans), figures.beams, std::floor(figures.field_of_view_rad * 180.0 / std::numbers::pi + 0.25),
+                           figures.duration_s, figures.distance_m);
+  if (!figures.has_clock) lines += text("          its stamps are no clock: a scan is taken to come every %.2f s\n", 1.0 / files::kNominalRateHz);
+  return lines + text("profile:  %s (%s)\n", job.profile_name.c_str(), job.profile_reason.c_str());
+}
+
+files::RunReport report_of(const Job& job, const JobOptions& options, const std::string& command) {
+  files::RunReport report;
+  report.command = command;
+  report.version = SLAMMOT_VERSION;
+  report.input = options.input.filename().string();
+  report.profile = job.profile_name;
+  report.profile_reason = job.profile_reason;
+  report.plan = job.log.plan();
+  report.faults = job.log.faults();
+  return report;
+}
+
+std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report, const std::filesystem::path& output) {
+  std::string lines = text("%-14s %10s %10s %10s\n", "stage", "p50 [ms]", "p99 [ms]", "max [ms]");
+  for (const files::StageLatency& stage : report.measured.stages) {
+    lines += text("%-14s %10.3f %10.3f %10.3f\n", stage.stage.c_str(), stage.p50_ms, stage.p99_ms, stage.max_ms);
+  }
+  lines += text("%llu scans, %llu of them localized; %llu confirmed tracks; %zu submaps\n", static_cast<unsigned long long>(record.scans()),
+                static_cast<unsigned long long>(record.localized_scans()), static_cast<unsigned long long>(record.confirmed_tracks()), record.submaps().size());
+  lines += text("%.1f s of work, %.1f times real time, %.0f MB at most\n", report.measured.wall_s, report.measured.real_time_factor, report.measured.peak_memory_mb);
+  return lines + describe_faults(report.faults) + "results are in " + output.string() + "\n";
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts kilobytes
+}
+
+}  // namespace slammot

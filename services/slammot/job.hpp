@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/files/carmen_log.hpp"
+#include "common/files/result.hpp"
+#include "common/files/run_record.hpp"
+#include "common/files/run_report.hpp"
+#include "services/slammot/profile.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace slammot {
+
+/// What `run` and `bench` are asked for.
+struct JobOptions {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::string profile;           ///< Name or file; empty: the log's own figures choose.
+  std::filesystem::path config;  ///< Overlaid onto the profile; may be empty.
+  std::string speed = "max";     ///< Times the recorded rate, or "max".
+};
+
+/// A recorded drive, understood, and the settings to work on it with.
+struct Job {
+  files::CarmenLog log;
+  Profile profile;
+  std::string profile_name;
+  std::string profile_reason;
+  double sweep_s = 0.0;
+  std::optional<double> speed;   ///< Times the recorded rate; none: as fast as possible.
+};
+
+void add_job_options(CLI::App& command, JobOptions& options);
+
+/// Opens the log, chooses and loads the settings, and makes the output folder: every fault a user can make shows here,
+/// before the work.
+files::Result<Job> prepare_job(const JobOptions& options);
+
+/// "log: ..." and "profile: ..." for the terminal.
+std::string describe_job(const Job& job, const JobOptions& options);
+
+/// The report's part that is known from the job.
+files::RunReport report_of(const Job& job, const JobOptions& options, const std::string& command);
+
+/// What the user wants to know at the end: counts, latencies, speed, what was wrong with the log, where the outputs are.
+std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report, const std::filesystem::path& output);
+
+/// Memory this process had at most.
+double peak_memory_mb();
+
+}  // namespace slammot

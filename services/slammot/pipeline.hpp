@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "common/files/run_record.hpp"
+#include "common/sensing/scan.hpp"
+#include "services/localization/localizer.hpp"
+#include "services/slammot/profile.hpp"
+#include "services/slammot/stage_times.hpp"
+
+namespace slammot {
+
+/// All stages in one process: what goes over the bus between the services is handed on by value, in the same order
+/// every time.
+class Pipeline {
+ public:
+  explicit Pipeline(const Profile& profile);
+
+  void take(const sensing::Odometry& odometry);
+
+  /// Localizes, detects, tracks and maps one scan, and closes loops when that finished a submap.
+  void take(const sensing::LaserScan& scan);
+
+  /// At the end of the drive: the submap in progress ends, too.
+  void finish();
+
+  const files::RunRecord& record() const { return record_; }
+  const StageTimes& times() const { return times_; }
+  std::map<std::string, std::map<std::string, std::uint64_t>> counters() const;
+
+ private:
+  void close_loops();
+
+  localization::Localizer localizer_;
+  files::RunRecord record_;
+  StageTimes times_;
+};
+
+}  // namespace slammot
