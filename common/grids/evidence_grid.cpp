@@ -34,15 +34,20 @@ EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model)
       hit_steps_(steps_of_log_odds(model.hit_log_odds)),
       free_steps_(steps_of_log_odds(model.free_log_odds)),
       limit_steps_(std::min(127, steps_of_log_odds(model.limit_log_odds))),
+      occupied_steps_(std::max(1, steps_of_log_odds(model.occupied_log_odds))),
       block_columns_((window.columns >> kBlockShift) + 1),
       block_rows_((window.rows >> kBlockShift) + 1),
       so_(window.cell_count()),
       mo_(window.cell_count(), 0),
-      block_has_echoes_(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_), 0) {}
+      occupied_bits_(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_), 0) {}
 
-std::size_t EvidenceGrid::block_index(Cell cell) const {
-  return static_cast<std::size_t>((cell.row - window_.first.row) >> kBlockShift) * static_cast<std::size_t>(block_columns_) +
-         static_cast<std::size_t>((cell.column - window_.first.column) >> kBlockShift);
+void EvidenceGrid::note_occupied(std::size_t index) {
+  const auto row = static_cast<std::int32_t>(index / static_cast<std::size_t>(window_.columns));
+  const auto column = static_cast<std::int32_t>(index % static_cast<std::size_t>(window_.columns));
+  std::uint64_t& block = occupied_bits_[static_cast<std::size_t>(row >> kBlockShift) * static_cast<std::size_t>(block_columns_) +
+                                        static_cast<std::size_t>(column >> kBlockShift)];
+  const std::uint64_t bit = bit_of(column, row);
+  block = so_[index].steps >= occupied_steps_ ? block | bit : block & ~bit;
 }
 
 void EvidenceGrid::begin_scan() {
@@ -54,9 +59,9 @@ void EvidenceGrid::begin_scan() {
 }
 
 void EvidenceGrid::raise_so(Cell cell, int steps) {
-  std::int8_t& so = so_[window_.index(cell)].steps;
-  so = static_cast<std::int8_t>(std::min(limit_steps_, so + steps));
-  if (so > 0) block_has_echoes_[block_index(cell)] = 1;
+  const std::size_t index = window_.index(cell);
+  so_[index].steps = static_cast<std::int8_t>(std::min(limit_steps_, so_[index].steps + steps));
+  note_occupied(index);
 }
 
 void EvidenceGrid::mark_echo(const Ray& ray) {
@@ -91,9 +96,11 @@ void EvidenceGrid::mark_free(const Eigen::Vector2d& origin_m, const Eigen::Vecto
   double entered_m = 0.0;
   while (entered_m < length_m) {
     SoCell& cell = so_[static_cast<std::size_t>(index)];
-    const int lowered = std::max(-limit_steps_, cell.steps - free_steps_);
-    cell.steps = static_cast<std::int8_t>(cell.touched == scan_mark_ ? cell.steps : lowered);
+    const int before = cell.steps;
+    const int lowered = std::max(-limit_steps_, before - free_steps_);
+    cell.steps = static_cast<std::int8_t>(cell.touched == scan_mark_ ? before : lowered);
     cell.touched = scan_mark_;
+    if (before >= occupied_steps_) note_occupied(static_cast<std::size_t>(index));
     const bool by_column = next_column_m < next_row_m;
     entered_m = by_column ? next_column_m : next_row_m;
     index += by_column ? column_stride : row_stride;
@@ -144,25 +151,20 @@ int EvidenceGrid::highest_so_steps(Cell cell, int radius) const {
 }
 
 double EvidenceGrid::distance_to_occupied(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction,
-                                          double max_range_m, int occupied_steps) const {
-  assert(occupied_steps > 0);
+                                          double max_range_m) const {
   const double size_m = window_.cell_size_m;
-  const Eigen::Vector2d lowest_m(window_.first.column * size_m, window_.first.row * size_m);
-  RayWalk blocks(origin_m - lowest_m, direction, size_m * (1 << kBlockShift));
+  const Eigen::Vector2d in_window_m = origin_m - size_m * Eigen::Vector2d(window_.first.column, window_.first.row);
+  RayWalk blocks(in_window_m, direction, size_m * (1 << kBlockShift));
   for (; blocks.distance_m() < max_range_m; blocks.advance()) {
     const Cell block = blocks.cell();
     if (block.column < 0 || block.row < 0 || block.column >= block_columns_ || block.row >= block_rows_) break;
-    const std::size_t index = static_cast<std::size_t>(block.row) * static_cast<std::size_t>(block_columns_) +
-                              static_cast<std::size_t>(block.column);
-    if (block_has_echoes_[index] == 0) continue;
+    const std::uint64_t bits = occupied_bits_[static_cast<std::size_t>(block.row) * static_cast<std::size_t>(block_columns_) +
+                                              static_cast<std::size_t>(block.column)];
+    if (bits == 0) continue;
     const double entered_m = blocks.distance_m() + 1e-6;  // just inside, whatever the rounding
-    RayWalk walk(origin_m + entered_m * direction, direction, size_m);
-    const auto in_block = [&](Cell cell) {
-      return (cell.column - window_.first.column) >> kBlockShift == block.column &&
-             (cell.row - window_.first.row) >> kBlockShift == block.row;
-    };
-    for (; in_block(walk.cell()); walk.advance()) {
-      if (so_steps(walk.cell()) >= occupied_steps) return std::min(max_range_m, entered_m + walk.distance_m());
+    RayWalk walk(in_window_m + entered_m * direction, direction, size_m);
+    for (; walk.cell().column >> kBlockShift == block.column && walk.cell().row >> kBlockShift == block.row; walk.advance()) {
+      if (bits & bit_of(walk.cell().column, walk.cell().row)) return std::min(max_range_m, entered_m + walk.distance_m());
     }
   }
   return max_range_m;
@@ -177,9 +179,9 @@ EvidenceGrid EvidenceGrid::moved_to(const GridWindow& window) const {
       const Cell cell{shared.first.column + column, shared.first.row + row};
       const std::size_t from = window_.index(cell);
       const std::size_t to = window.index(cell);
-      moved.so_[to] = so_[from];
+      moved.so_[to].steps = so_[from].steps;
       moved.mo_[to] = mo_[from];
-      if (so_[from].steps > 0) moved.block_has_echoes_[moved.block_index(cell)] = 1;
+      if (so_[from].steps >= occupied_steps_) moved.note_occupied(to);
     }
   }
   return moved;
@@ -193,13 +195,10 @@ std::vector<std::int8_t> EvidenceGrid::so_cells() const {
 
 void EvidenceGrid::set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo) {
   assert(so.size() == window_.cell_count() && mo.size() == window_.cell_count());
-  for (std::size_t i = 0; i < so.size(); ++i) so_[i] = {so[i], 0};
   mo_ = std::move(mo);
-  for (std::int32_t row = 0; row < window_.rows; ++row) {
-    for (std::int32_t column = 0; column < window_.columns; ++column) {
-      const Cell cell{window_.first.column + column, window_.first.row + row};
-      if (so_[window_.index(cell)].steps > 0) block_has_echoes_[block_index(cell)] = 1;
-    }
+  for (std::size_t i = 0; i < so.size(); ++i) {
+    so_[i] = {so[i], 0};
+    note_occupied(i);
   }
 }
 

@@ -19,6 +19,7 @@ struct EvidenceModel {
   double hit_log_odds = 0.85;       ///< Added where a stationary echo ended; Wang 2004, Eq. (3.12).
   double free_log_odds = 0.30;      ///< Taken off where a beam passed, once a scan and cell.
   double limit_log_odds = 5.0;      ///< No cell is surer than this, so that the world may change.
+  double occupied_log_odds = 0.5;   ///< From here on a cell counts as occupied.
   double moving_gain = 0.25;        ///< Share of the missing evidence that one moving echo adds to the MO-map.
 };
 
@@ -54,9 +55,11 @@ class EvidenceGrid {
   /// Highest SO evidence within radius cells (a square) of the cell, in steps.
   int highest_so_steps(Cell cell, int radius) const;
 
-  /// Distance along direction (unit vector) to the first cell with at least occupied_steps (> 0), or max_range_m.
-  double distance_to_occupied(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double max_range_m,
-                              int occupied_steps) const;
+  /// Whether any cell within radius cells (a square) of the cell is occupied.
+  bool is_occupied_near(Cell cell, int radius) const { return highest_so_steps(cell, radius) >= occupied_steps_; }
+
+  /// Distance along direction (unit vector) to the first occupied cell, or max_range_m.
+  double distance_to_occupied(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double max_range_m) const;
 
   /// Same evidence in another window of the same lattice: what lies in both is kept.
   EvidenceGrid moved_to(const GridWindow& window) const;
@@ -67,7 +70,9 @@ class EvidenceGrid {
   void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo);
 
  private:
-  static constexpr int kBlockShift = 3;  ///< Blocks of 8 x 8 cells, to step over what is empty.
+  /// Blocks of 8 x 8 cells with a bit for each occupied one: casting a ray looks at blocks, and at bits where there are any.
+  static constexpr int kBlockShift = 3;
+  static constexpr std::int32_t kInBlock = (1 << kBlockShift) - 1;
 
   /// Evidence beside the mark of the scan that changed it last, so that looking at both costs one cache line.
   struct SoCell {
@@ -80,18 +85,22 @@ class EvidenceGrid {
   void mark_free(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& end_m, double from_m, double to_m);
   double left_to_neighbours_m(std::size_t ray, double beam_step_rad) const;
   void raise_so(Cell cell, int steps);
-  std::size_t block_index(Cell cell) const;
+  void note_occupied(std::size_t index);
+  static std::uint64_t bit_of(std::int32_t column, std::int32_t row) {
+    return std::uint64_t{1} << (((row & kInBlock) << kBlockShift) | (column & kInBlock));
+  }
 
   GridWindow window_;
   EvidenceModel model_;
   int hit_steps_ = 0;
   int free_steps_ = 0;
   int limit_steps_ = 0;
+  int occupied_steps_ = 1;
   std::int32_t block_columns_ = 0;
   std::int32_t block_rows_ = 0;
   std::vector<SoCell> so_;
   std::vector<std::uint8_t> mo_;
-  std::vector<std::uint8_t> block_has_echoes_; ///< Whether a block ever held positive evidence.
+  std::vector<std::uint64_t> occupied_bits_;   ///< By block.
   std::uint8_t scan_mark_ = 0;
   std::vector<double> free_m_;  ///< By ray of the scan at hand; kept to reuse the memory.
 };

@@ -82,9 +82,8 @@ void LocalMap::restore_stationary(const Vector2& point_in_odom_m) {
 void LocalMap::expect(const Vector2& origin_in_odom_m, const Vector2& end_in_odom_m, bool has_echo, double max_range_m,
                       flow::LocalizedBeam& beam) const {
   const Vector2 way_m = end_in_odom_m - origin_in_odom_m;
-  const int occupied_steps = grids::steps_of_log_odds(config_.occupied_log_odds);
   beam.expected_range_m = static_cast<float>(
-      evidence_.distance_to_occupied(origin_in_odom_m, way_m.normalized(), max_range_m, occupied_steps));
+      evidence_.distance_to_occupied(origin_in_odom_m, way_m.normalized(), max_range_m));
   if (!has_echo) {
     beam.end_cell = flow::EndCell::kNoEcho;
     return;
@@ -94,7 +93,7 @@ void LocalMap::expect(const Vector2& origin_in_odom_m, const Vector2& end_in_odo
   beam.free_evidence = static_cast<float>(-so_steps * grids::kLogOddsStep);
   beam.moving_evidence = static_cast<float>(evidence_.moving(cell)) / 255.0F;
   const int tolerance = static_cast<int>(std::ceil(config_.end_cell_tolerance_m / config_.cell_size_m - 0.5));
-  if (evidence_.highest_so_steps(cell, tolerance) >= occupied_steps) {
+  if (evidence_.is_occupied_near(cell, tolerance)) {
     beam.end_cell = flow::EndCell::kOccupied;
   } else {
     const bool is_free = so_steps <= -grids::steps_of_log_odds(config_.free_log_odds);

@@ -20,8 +20,7 @@ struct LocalMapConfig {
   double new_map_after_m = 60.0;        ///< Distance from the map's centre at which a new one begins, or
   double new_map_after_travel_m = 100.0;///< distance travelled in it.
   double no_echo_free_m = 40.0;         ///< A beam without echo tells that this much is free.
-  double occupied_log_odds = 0.5;       ///< From here on a cell counts as occupied,
-  double free_log_odds = 0.8;           ///< and with this much against it as free.
+  double free_log_odds = 0.8;           ///< With this much against it a cell counts as free.
   double end_cell_tolerance_m = 0.25;   ///< An occupied cell this near explains an echo.
   grids::EvidenceModel evidence;
 };

@@ -16,6 +16,7 @@ FieldTable<grids::EvidenceModel> evidence_fields() {
       {"hit_log_odds", &C::hit_log_odds, "Added where a stationary echo ended.", Range{0.01, 7.9}},
       {"free_log_odds", &C::free_log_odds, "Taken off where a beam passed, once a scan and cell.", Range{0.01, 7.9}},
       {"limit_log_odds", &C::limit_log_odds, "No cell is surer than this, so that the world may change.", Range{0.1, 7.9}},
+      {"occupied_log_odds", &C::occupied_log_odds, "From here on a cell counts as occupied.", Range{0.01, 7.9}},
       {"moving_gain", &C::moving_gain, "Share of the missing evidence that one moving echo adds to the MO-map.", kShare},
   };
 }
@@ -34,7 +35,6 @@ FieldTable<LocalMapConfig> map_fields() {
           {"new_map_after_travel_m", &C::new_map_after_travel_m, "Distance travelled in a map after which a new one begins.",
            Range{1.0, 1e4}},
           {"no_echo_free_m", &C::no_echo_free_m, "A beam without echo tells that this much is free.", Range{0.0, 200.0}},
-          {"occupied_log_odds", &C::occupied_log_odds, "From here on a cell counts as occupied.", Range{0.01, 7.9}},
           {"free_log_odds", &C::free_log_odds, "With this much against it a cell counts as free.", Range{0.01, 7.9}},
           {"end_cell_tolerance_m", &C::end_cell_tolerance_m, "An occupied cell this near explains an echo.", Range{0.0, 5.0}},
       },
