@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+
+#include "common/flow/submap.hpp"
+#include "common/geometry/uncertain_pose2.hpp"
+#include "services/loop_closing/surfel_index.hpp"
+
+namespace slammot::loop_closing {
+
+struct RegistrationConfig {
+  int coarse_steps = 6;
+  int fine_steps = 10;
+  double coarse_gate_m = 1.0;          ///< Surfels farther apart are no pair,
+  double fine_gate_m = 0.4;            ///< in the last steps.
+  double surfel_sigma_m = 0.06;        ///< Of the distance between two surfels of one wall, across the wall.
+  double independent_spacing_m = 2.0;  ///< Surfels nearer than this on a wall share their error.
+  double position_floor_m = 0.02;      ///< No submap is more rigid than this,
+  double heading_floor_rad = 0.002;    ///< nor than this.
+};
+
+struct Registration {
+  geometry::UncertainPose2 target_from_source;
+  double matched_share = 0.0;   ///< Of the source's surfels.
+  double rms_m = 0.0;           ///< Of the distances of the matched across the wall.
+};
+
+/// Moves the source's surfels onto the target's by Gauss-Newton on point-to-line distances. Along directions in which
+/// the walls say nothing (down a corridor) the pose stays at the initial one and the covariance is metres wide.
+/// source_spacing_m is the distance between neighbouring surfels of the source.
+Registration register_surfels(std::span<const flow::Surfel> source, double source_spacing_m, const SurfelIndex& target,
+                              const geometry::Pose2& initial_target_from_source, const RegistrationConfig& config);
+
+}  // namespace slammot::loop_closing

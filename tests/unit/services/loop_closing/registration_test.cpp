@@ -1,0 +1,73 @@
+#include "services/loop_closing/registration.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/floor_plan.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace slammot::loop_closing {
+namespace {
+
+using geometry::Pose2;
+using slammot::testing::FloorPlan;
+using slammot::testing::PoseNear;
+using slammot::testing::submap_seen_from;
+
+FloorPlan room() {
+  FloorPlan plan;
+  plan.add_box({-6, -4}, {6, 4});
+  plan.add_box({2, 1}, {3, 2.5});
+  return plan;
+}
+
+FloorPlan corridor() {
+  FloorPlan plan;
+  plan.add({-40, -1}, {40, -1});
+  plan.add({-40, 1}, {40, 1});
+  return plan;
+}
+
+const Pose2 kFirst{0.0, 0.0, 0.0};
+const Pose2 kSecond{1.0, -0.5, 0.4};
+
+Registration registered(const FloorPlan& plan, const Pose2& guess_error) {
+  const auto target = submap_seen_from(plan, 0, {kFirst});
+  const auto source = submap_seen_from(plan, 1, {kSecond});
+  return register_surfels(source.surfels, source.cell_size_m, SurfelIndex(target.surfels, 1.0), kSecond * guess_error, {});
+}
+
+TEST(RegisterSurfels, PullsANoisyGuessToTheTruth) {
+  const Registration registration = registered(room(), {0.15, -0.1, 0.04});
+  EXPECT_THAT(registration.target_from_source.pose, PoseNear(kSecond, 0.01));
+  EXPECT_GT(registration.matched_share, 0.9);
+  EXPECT_LT(registration.rms_m, 0.03);
+}
+
+TEST(RegisterSurfels, HoldsItsErrorWithinItsCovariance) {
+  const Registration registration = registered(room(), {0.1, 0.1, -0.03});
+  const Pose2& pose = registration.target_from_source.pose;
+  const geometry::Matrix3& covariance = registration.target_from_source.covariance;
+  EXPECT_LT(std::abs(pose.x_m - kSecond.x_m), 3.0 * std::sqrt(covariance(0, 0)));
+  EXPECT_LT(std::abs(pose.y_m - kSecond.y_m), 3.0 * std::sqrt(covariance(1, 1)));
+  EXPECT_LT(std::abs(pose.heading_rad - kSecond.heading_rad), 3.0 * std::sqrt(covariance(2, 2)));
+  EXPECT_LT(std::sqrt(covariance(0, 0)), 0.1);
+}
+
+TEST(RegisterSurfels, SaysThatItDoesNotKnowWhereInACorridorItIs) {
+  const Registration registration = registered(corridor(), {0.0, 0.1, 0.02});
+  EXPECT_GT(std::sqrt(registration.target_from_source.covariance(0, 0)), 1.0);
+  EXPECT_LT(std::sqrt(registration.target_from_source.covariance(1, 1)), 0.1);
+  EXPECT_NEAR(registration.target_from_source.pose.y_m, kSecond.y_m, 0.02);
+}
+
+TEST(RegisterSurfels, StaysAtTheGuessWhenNothingMatches) {
+  const auto source = submap_seen_from(room(), 1, {kSecond});
+  const Registration registration = register_surfels(source.surfels, 0.1, SurfelIndex({}, 1.0), kSecond, {});
+  EXPECT_EQ(registration.matched_share, 0.0);
+  EXPECT_THAT(registration.target_from_source.pose, PoseNear(kSecond, 1e-12));
+}
+
+}  // namespace
+}  // namespace slammot::loop_closing
