@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace slammot::app {
+
+enum class CommandOutcome : std::uint8_t { kDone, kRefused, kUnknownVerb };
+
+struct CommandResult {
+  CommandOutcome outcome = CommandOutcome::kDone;
+  std::string explanation;
+};
+
+struct CommandRequest {
+  std::string requester;
+  std::uint64_t number = 0;
+  std::string verb;
+  std::string argument;
+};
+
+/// Does what is asked by a command, once: a request that is repeated because its answer was lost gets the same answer.
+class CommandDesk {
+ public:
+  using Handler = std::function<CommandResult(std::string_view argument)>;
+
+  void on(const std::string& verb, Handler handler) { handlers_[verb] = std::move(handler); }
+  CommandResult answer(const CommandRequest& request);
+
+ private:
+  static constexpr std::size_t kRemembered = 64;
+  struct Answered {
+    std::string requester;
+    std::uint64_t number;
+    CommandResult result;
+  };
+
+  std::map<std::string, Handler> handlers_;
+  std::deque<Answered> answered_;
+};
+
+}  // namespace slammot::app

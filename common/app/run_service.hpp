@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/app/service_context.hpp"
+#include "common/config/fields.hpp"
+
+namespace slammot::app {
+
+/// A bad command line or configuration; also that of a StartupFailure.
+inline constexpr int kExitUsage = 2;
+/// Something that should not fail did: be restarted.
+inline constexpr int kExitFailure = 1;
+
+/// A service cannot start: one line for the user, then exit code kExitUsage. Thrown by constructors of services.
+class StartupFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What distinguishes one service's main from another's.
+struct ServiceDescription {
+  std::string name;     ///< As in slammot-<name>, with '_'.
+  std::string purpose;  ///< One sentence for --help.
+  std::vector<config::BoundStage> stages;
+  std::function<void(CLI::App&)> add_options;
+  std::function<std::shared_ptr<void>(ServiceContext&)> make;
+};
+
+/// Command line, configuration, log, signals, bus, loop, exit: everything in a service that is not the service.
+int run_service(int argc, char** argv, const ServiceDescription& description);
+
+/// The same for a class that has
+///   struct Settings                                             its configuration and options, with defaults,
+///   static constexpr const char* kName, *kPurpose,
+///   static std::vector<config::BoundStage> stages(Settings&),
+///   static void add_options(CLI::App&, Settings&),
+///   Service(ServiceContext&, const Settings&)                   which says what it reads, writes and does periodically.
+template <typename Service>
+int run_service(int argc, char** argv) {
+  typename Service::Settings settings;
+  return run_service(argc, argv,
+                     {Service::kName, Service::kPurpose, Service::stages(settings),
+                      [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
+                      [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); }});
+}
+
+}  // namespace slammot::app

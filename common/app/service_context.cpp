@@ -1,0 +1,128 @@
+#include "common/app/service_context.hpp"
+
+#include <algorithm>
+
+#include <spdlog/spdlog.h>
+
+#include "common/app/bounded_text.hpp"
+
+namespace slammot::app {
+namespace {
+
+slammot_Reply reply_to(const slammot_Command& command, const CommandResult& result) {
+  slammot_Reply reply{};
+  copy_text(command.vehicle_id, reply.vehicle_id);
+  copy_text(command.requester, reply.requester);
+  reply.request_number = command.request_number;
+  copy_text(command.service_name, reply.service_name);
+  reply.result = static_cast<slammot_Outcome>(result.outcome);
+  copy_text(result.explanation, reply.explanation);
+  return reply;
+}
+
+/// Without what changes from second to second, so that a lasting state is written once: digits do not count.
+std::string without_digits(std::string text) {
+  std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+  return text;
+}
+
+}  // namespace
+
+ServiceContext::ServiceContext(const std::string& service, const ServiceOptions& options)
+    : options_(options),
+      service_(service),
+      participant_({options.domain_id, "slammot-" + service, options.dds_config}),
+      wait_set_(participant_),
+      publisher_(participant_, {options.vehicle_id, service, options.instance}) {
+  publisher_.beat(ServiceState::kStarting);
+  publisher_.report(board_, ServiceState::kStarting);
+  auto& replies = write(dds::topics::kReply);
+  const auto commands = std::make_shared<dds::Reader<slammot_Command>>(participant_, dds::topics::kCommand);
+  wait_set_.on_data(*commands, [this, commands = commands.get(), &replies] {
+    commands->take_each([&](const slammot_Command& command) {
+      if (vehicle_id() != command.vehicle_id || service_ != command.service_name) return;
+      const CommandResult result = desk_.answer({command.requester, command.request_number, command.verb, command.argument});
+      replies.write(reply_to(command, result));
+    });
+  });
+  keep(commands);
+  every(StatusPublisher::kHeartbeatPeriod, [this] { publisher_.beat(board_.state(std::chrono::steady_clock::now())); });
+  every(StatusPublisher::kStatusPeriod, [this] { report(); });
+}
+
+void ServiceContext::every(std::chrono::nanoseconds period, std::function<void()> work) {
+  timers_.push_back({std::chrono::steady_clock::now() + period, period, std::move(work)});
+}
+
+void ServiceContext::after(std::chrono::nanoseconds delay, std::function<void()> work) {
+  timers_.push_back({std::chrono::steady_clock::now() + delay, std::nullopt, std::move(work)});
+}
+
+void ServiceContext::warn(const std::string& counter, std::string_view line) {
+  ++board_.counter(counter);
+  const std::string text = rate_limit_.pass(counter, line, std::chrono::steady_clock::now());
+  if (!text.empty()) spdlog::warn(text);
+}
+
+void ServiceContext::stop(int exit_code) {
+  exit_code_ = exit_code;
+  stop();
+}
+
+std::chrono::nanoseconds ServiceContext::until_next_timer() const {
+  const auto next = std::ranges::min_element(timers_, {}, &Timer::due);
+  return std::max(next->due - std::chrono::steady_clock::now(), std::chrono::nanoseconds(0));
+}
+
+void ServiceContext::run_due_timers() {
+  const SteadyTime now = std::chrono::steady_clock::now();
+  std::vector<std::function<void()>> due;  // first gathered: work may add timers
+  for (Timer& timer : timers_) {
+    if (timer.due > now) continue;
+    due.push_back(timer.work);
+    if (timer.period) timer.due = std::max(timer.due + *timer.period, now);
+  }
+  std::erase_if(timers_, [now](const Timer& timer) { return !timer.period && timer.due <= now; });
+  for (const auto& work : due) work();
+}
+
+void ServiceContext::report() {
+  const SteadyTime now = std::chrono::steady_clock::now();
+  report_changes(board_.explanation(now));
+  report_mismatches();
+  publisher_.report(board_, board_.state(now));
+}
+
+void ServiceContext::report_changes(const std::string& explanation) {
+  if (without_digits(explanation) == without_digits(last_explanation_)) return;
+  if (explanation.empty()) {
+    spdlog::info("works again ({})", last_explanation_);
+  } else {
+    spdlog::warn("{}", explanation);
+  }
+  last_explanation_ = explanation;
+}
+
+void ServiceContext::report_mismatches() {
+  std::uint32_t total = 0;
+  std::string last;
+  for (const auto& find_mismatch : mismatches_) {
+    const auto mismatch = find_mismatch();
+    if (!mismatch) continue;
+    total += mismatch->total;
+    last = mismatch->text();
+  }
+  if (total > mismatches_reported_) spdlog::warn("{}", last);
+  mismatches_reported_ = total;
+  board_.counter("incompatible_endpoints") = total;
+}
+
+void ServiceContext::run() {
+  publisher_.beat(board_.state(std::chrono::steady_clock::now()));
+  report();
+  while (wait_set_.wait(until_next_timer()) != dds::WaitSet::Wake::kStopped) run_due_timers();
+  publisher_.beat(ServiceState::kStopping);
+  publisher_.report(board_, ServiceState::kStopping);
+}
+
+}  // namespace slammot::app

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/app/command.hpp"
+#include "common/app/log.hpp"
+#include "common/app/service_options.hpp"
+#include "common/app/status_board.hpp"
+#include "common/app/status_publisher.hpp"
+#include "common/dds/participant.hpp"
+#include "common/dds/reader.hpp"
+#include "common/dds/wait_set.hpp"
+#include "common/dds/writer.hpp"
+
+namespace slammot::app {
+
+/// What a service stands on: its place on the bus, its loop, its status. A service says in its constructor what it reads,
+/// writes and does periodically; everything happens in the thread that calls run().
+class ServiceContext {
+ public:
+  ServiceContext(const std::string& service, const ServiceOptions& options);
+  ServiceContext(const ServiceContext&) = delete;
+  ServiceContext& operator=(const ServiceContext&) = delete;
+
+  const ServiceOptions& options() const { return options_; }
+  const std::string& vehicle_id() const { return options_.vehicle_id; }
+  const dds::Participant& participant() const { return participant_; }
+  StatusBoard& status() { return board_; }
+
+  /// Calls handle(sample) for every sample of this vehicle. The reader lives as long as the context.
+  template <typename Sample, typename Handle>
+  dds::Reader<Sample>& read(const dds::Topic<Sample>& topic, Input kind, Handle handle,
+                            dds::History history = dds::History::kProfile) {
+    const auto reader = std::make_shared<dds::Reader<Sample>>(participant_, topic, history);
+    InputWatch& input = board_.input(std::string(topic.name), kind, std::chrono::steady_clock::now());
+    wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle] {
+      reader->take_each([&](const Sample& sample) {
+        if (vehicle_id() != sample.vehicle_id) return;
+        input.came(std::chrono::steady_clock::now());
+        handle(sample);
+      });
+    });
+    keep(reader);
+    return *reader;
+  }
+
+  /// The writer lives as long as the context.
+  template <typename Sample>
+  dds::Writer<Sample>& write(const dds::Topic<Sample>& topic) {
+    const auto writer = std::make_shared<dds::Writer<Sample>>(participant_, topic);
+    keep(writer);
+    return *writer;
+  }
+
+  /// Calls what is to be done again and again, the first time one period from now. Late calls are not made up for.
+  void every(std::chrono::nanoseconds period, std::function<void()> work);
+  /// Calls it once, `delay` from now.
+  void after(std::chrono::nanoseconds delay, std::function<void()> work);
+  void on_command(const std::string& verb, CommandDesk::Handler handler) { desk_.on(verb, std::move(handler)); }
+
+  /// Counts under `counter` and warns at a limited rate.
+  void warn(const std::string& counter, std::string_view line);
+
+  /// Ends run(), from any thread.
+  void stop() { wait_set_.stop(); }
+  /// The same, with an exit code for the process. From the loop's thread.
+  void stop(int exit_code);
+  int exit_code() const { return exit_code_; }
+
+  /// Works until stopped.
+  void run();
+
+ private:
+  struct Timer {
+    SteadyTime due;
+    std::optional<std::chrono::nanoseconds> period;
+    std::function<void()> work;
+  };
+
+  template <typename Side>
+  void keep(const std::shared_ptr<Side>& endpoint) {
+    mismatches_.push_back([side = endpoint.get()] { return side->mismatch(); });
+    endpoints_.push_back(endpoint);
+  }
+  std::chrono::nanoseconds until_next_timer() const;
+  void run_due_timers();
+  void report();
+  void report_changes(const std::string& explanation);
+  void report_mismatches();
+
+  ServiceOptions options_;
+  std::string service_;
+  dds::Participant participant_;
+  dds::WaitSet wait_set_;
+  StatusBoard board_;
+  StatusPublisher publisher_;
+  CommandDesk desk_;
+  RateLimit rate_limit_;
+  std::vector<std::shared_ptr<void>> endpoints_;
+  std::vector<std::function<std::optional<dds::QosMismatch>()>> mismatches_;
+  std::uint32_t mismatches_reported_ = 0;
+  std::vector<Timer> timers_;
+  std::string last_explanation_;
+  int exit_code_ = 0;
+};
+
+}  // namespace slammot::app

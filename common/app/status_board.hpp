@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/app/input_watch.hpp"
+#include "common/app/latency_histogram.hpp"
+
+namespace slammot::app {
+
+enum class ServiceState : std::uint8_t { kStarting, kRunning, kDegraded, kStopping };
+
+std::string_view name_of(ServiceState state);
+
+/// What a service counts, measures and misses. Of the loop's thread only. References stay valid.
+class StatusBoard {
+ public:
+  static constexpr std::chrono::seconds kPatience{2};
+
+  /// A count under a name of at most 48 characters, from 0.
+  std::uint64_t& counter(const std::string& name) { return counters_[name]; }
+  LatencyHistogram& latency(const std::string& stage) { return latencies_[stage]; }
+  InputWatch& input(const std::string& topic_name, Input kind, SteadyTime now);
+
+  /// A trouble that makes the service degraded until it is cleared, in a few words.
+  void set_trouble(const std::string& what, const std::string& words) { troubles_[what] = words; }
+  void clear_trouble(const std::string& what) { troubles_.erase(what); }
+
+  /// Running, or degraded while an input is missing or there is trouble.
+  ServiceState state(SteadyTime now) const { return explanation(now).empty() ? ServiceState::kRunning : ServiceState::kDegraded; }
+  /// Why it is degraded; empty when it is not.
+  std::string explanation(SteadyTime now) const;
+  std::vector<const InputWatch*> missing_inputs(SteadyTime now) const;
+
+  const std::map<std::string, std::uint64_t>& counters() const { return counters_; }
+  const std::map<std::string, LatencyHistogram>& latencies() const { return latencies_; }
+
+ private:
+  std::map<std::string, std::uint64_t> counters_;
+  std::map<std::string, LatencyHistogram> latencies_;
+  std::list<InputWatch> inputs_;
+  std::map<std::string, std::string> troubles_;
+};
+
+}  // namespace slammot::app

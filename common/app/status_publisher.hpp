@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/app/status_board.hpp"
+#include "common/dds/writer.hpp"
+
+namespace slammot::app {
+
+/// Who a service is, on the topics about services.
+struct ServiceIdentity {
+  std::string vehicle_id;
+  std::string service;
+  std::string instance;
+};
+
+/// Puts a service's heartbeats and its status on the bus. Called in the thread that does the work, so that a hung one
+/// falls silent.
+class StatusPublisher {
+ public:
+  static constexpr std::chrono::milliseconds kHeartbeatPeriod{200};
+  static constexpr std::chrono::seconds kStatusPeriod{1};
+
+  StatusPublisher(const dds::Participant& participant, ServiceIdentity identity);
+
+  void beat(ServiceState state);
+  /// With the state and explanation as they are now, or `state` when stopping.
+  void report(const StatusBoard& board, ServiceState state);
+
+ private:
+  ServiceIdentity identity_;
+  std::int64_t started_ns_;
+  std::uint32_t beats_ = 0;
+  dds::Writer<slammot_Heartbeat> heartbeats_;
+  dds::Writer<slammot_ServiceStatus> statuses_;
+};
+
+}  // namespace slammot::app

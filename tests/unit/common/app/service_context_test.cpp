@@ -1,0 +1,136 @@
+#include "common/app/service_context.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/dds.hpp"
+
+namespace slammot::app {
+namespace {
+
+using namespace std::chrono_literals;
+using slammot::testing::assign;
+using slammot::testing::kForever;
+using slammot::testing::PrivateBus;
+
+slammot_Odometry odometry(const char* vehicle_id, std::int64_t stamp_ns) {
+  slammot_Odometry sample{};
+  assign(sample.vehicle_id, vehicle_id);
+  sample.stamp_ns = stamp_ns;
+  return sample;
+}
+
+struct ContextOnTheBus : ::testing::Test {
+  PrivateBus bus;
+  dds::Participant neighbour = bus.join();
+  ServiceContext context{"example", options()};
+
+  ServiceOptions options() const {
+    ServiceOptions options;
+    options.vehicle_id = "car";
+    options.domain_id = bus.domain_id;
+    options.dds_config = bus.config;
+    return options;
+  }
+  /// Runs the loop until something in it stops it; a test that waits for too long fails.
+  void run() {
+    context.after(kForever, [this] { context.stop(99); });
+    context.run();
+    EXPECT_NE(context.exit_code(), 99) << "nothing came";
+  }
+};
+
+TEST_F(ContextOnTheBus, HandlesSamplesOfItsOwnVehicleOnly) {
+  std::vector<std::int64_t> stamps;
+  context.read(dds::topics::kOdometry, Input::kSteady, [&](const slammot_Odometry& sample) {
+    stamps.push_back(sample.stamp_ns);
+    if (sample.stamp_ns == 3) context.stop();
+  });
+  dds::Writer<slammot_Odometry> writer(neighbour, dds::topics::kOdometry);
+  ASSERT_TRUE(writer.wait_for_readers(1, kForever));
+  writer.write(odometry("car", 1));
+  writer.write(odometry("bus", 2));
+  writer.write(odometry("car", 3));
+  run();
+  EXPECT_THAT(stamps, ::testing::ElementsAre(1, 3));
+}
+
+TEST_F(ContextOnTheBus, BeatsAndReportsCountersLatenciesAndWhatIsMissing) {
+  context.read(dds::topics::kOdometry, Input::kSteady, [](const slammot_Odometry&) {});
+  context.status().counter("scans") = 12;
+  context.status().latency("localize").add(3ms);
+  context.status().set_trouble("database", "disk is full");
+  dds::Reader<slammot_ServiceStatus> statuses(neighbour, dds::topics::kStatus);
+  dds::Reader<slammot_Heartbeat> heartbeats(neighbour, dds::topics::kHeartbeat);
+  context.every(50ms, [&] {
+    bool has_beaten = false;
+    heartbeats.take_each([&](const slammot_Heartbeat& beat) {
+      EXPECT_STREQ(beat.service_name, "example");
+      has_beaten = true;
+    });
+    bool is_complete = false;
+    statuses.take_each([&](const slammot_ServiceStatus& status) {
+      EXPECT_STREQ(status.vehicle_id, "car");
+      EXPECT_STREQ(status.instance_name, "main");
+      if (status.missing_inputs._length == 0 || status.counters._length == 0) return;
+      EXPECT_EQ(status.state, slammot_SERVICE_STATE_DEGRADED);
+      EXPECT_STREQ(status.explanation, "disk is full, no slammot/odometry yet");
+      EXPECT_STREQ(status.missing_inputs._buffer[0].topic_name, "slammot/odometry");
+      EXPECT_STREQ(status.stage_latencies._buffer[0].stage_name, "localize");
+      EXPECT_EQ(status.stage_latencies._buffer[0].p99_ms, 3.0);
+      is_complete = true;
+    });
+    if (is_complete && !has_beaten) ADD_FAILURE() << "a status without heartbeats";
+    if (is_complete) context.stop();
+  });
+  run();
+}
+
+TEST_F(ContextOnTheBus, AnswersCommandsToItself) {
+  context.on_command("finish", [](std::string_view argument) {
+    return CommandResult{CommandOutcome::kDone, "finished " + std::string(argument)};
+  });
+  dds::Writer<slammot_Command> commands(neighbour, dds::topics::kCommand);
+  dds::Reader<slammot_Reply> replies(neighbour, dds::topics::kReply);
+  ASSERT_TRUE(commands.wait_for_readers(1, kForever));
+  ASSERT_TRUE(replies.wait_for_writers(1, kForever));
+  slammot_Command command{};
+  assign(command.vehicle_id, "car");
+  assign(command.service_name, "example");
+  assign(command.requester, "test");
+  command.request_number = 7;
+  assign(command.verb, "finish");
+  assign(command.argument, "it");
+  commands.write(command);
+  context.every(10ms, [&] {
+    replies.take_each([&](const slammot_Reply& reply) {
+      EXPECT_EQ(reply.request_number, 7U);
+      EXPECT_STREQ(reply.requester, "test");
+      EXPECT_EQ(reply.result, slammot_OUTCOME_DONE);
+      EXPECT_STREQ(reply.explanation, "finished it");
+      context.stop();
+    });
+  });
+  run();
+}
+
+TEST_F(ContextOnTheBus, DoesOnceWhatIsToBeDoneOnceAndAgainWhatIsToBeDoneAgain) {
+  int once = 0;
+  int again = 0;
+  context.after(1ms, [&] { ++once; });
+  context.every(5ms, [&] {
+    if (++again == 4) context.stop();
+  });
+  run();
+  EXPECT_EQ(once, 1);
+  EXPECT_EQ(again, 4);
+}
+
+TEST_F(ContextOnTheBus, StopsWithTheExitCodeItWasGiven) {
+  context.after(1ms, [&] { context.stop(3); });
+  run();
+  EXPECT_EQ(context.exit_code(), 3);
+}
+
+}  // namespace
+}  // namespace slammot::app
