@@ -97,6 +97,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"longest_step_s", &C::longest_step_s, "A longer gap makes the prediction's uncertainty grow with it.", kPositive},
       {"fastest_mps", &C::fastest_mps, "Odometry that says more has jumped.", kPositive},
       {"max_pending", &C::max_pending, "Scans that wait for labels before the map goes on without.", Range{1, 100}},
+      {"longest_label_wait_s", &C::longest_label_wait_s, "Nor does it wait longer than this, by the scans' stamps.", Range{0.0, 10.0}},
       {"drift_m_per_sqrt_m", &C::drift_m_per_sqrt_m, "One sigma that dead reckoning by matching adds to constraints.",
        kPositive},
       {"drift_rad_per_sqrt_m", &C::drift_rad_per_sqrt_m, "The same for their heading.", kPositive},

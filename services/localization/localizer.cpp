@@ -200,10 +200,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
 std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan) {
   if (!is_usable(scan)) return std::nullopt;
   ++counters_.scans;
-  while (static_cast<int>(pending_.size()) >= config_.max_pending) {
-    ++counters_.fallback_integrations;
-    integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback);
-  }
+  integrate_overdue(scan.stamp_ns);
   begin_next_submap_if_outgrown();
   const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(scan.stamp_ns);
   UncertainPose2 odom_from_base;
@@ -254,15 +251,25 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
   if (integrated_.size() > kScansKeptForRestoring) integrated_.pop_front();
 }
 
+void Localizer::integrate_first_without_tracking() {
+  ++counters_.fallback_integrations;
+  integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback);
+}
+
+void Localizer::integrate_overdue(std::int64_t now_ns) {
+  const auto is_overdue = [&] {
+    const double waited_s = static_cast<double>(now_ns - pending_.front().stamp_ns) * kNanosecond_s;
+    return static_cast<int>(pending_.size()) >= config_.max_pending || waited_s > config_.longest_label_wait_s;
+  };
+  while (!pending_.empty() && is_overdue()) integrate_first_without_tracking();
+}
+
 void Localizer::integrate(const flow::ScanLabels& labels) {
   const auto is_labelled = [&](const PendingScan& scan) {
     return scan.sequence == labels.sequence && scan.scanner_id == labels.scanner_id && scan.rays.size() == labels.labels.size();
   };
   const bool is_awaited = std::any_of(pending_.begin(), pending_.end(), is_labelled);
-  while (is_awaited && !is_labelled(pending_.front())) {
-    ++counters_.fallback_integrations;
-    integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback);
-  }
+  while (is_awaited && !is_labelled(pending_.front())) integrate_first_without_tracking();
   if (is_awaited) integrate_first(&labels.labels);
   restore_points(labels);
 }
@@ -308,7 +315,7 @@ std::optional<flow::Submap> Localizer::take_finished_submap() {
 }
 
 void Localizer::finish() {
-  while (!pending_.empty()) integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback);
+  while (!pending_.empty()) integrate_first_without_tracking();
   if (last_ && map_.has_echoes()) end_submap();
 }
 

@@ -40,6 +40,7 @@ struct LocalizerConfig {
   double longest_step_s = 2.0;            ///< A gap longer than this makes the prediction's uncertainty grow with it.
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
   int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
+  double longest_label_wait_s = 0.15;     ///< Nor does it wait longer than this, by the scans' stamps.
   double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
   double drift_rad_per_sqrt_m = 0.0007;
   LocalMapConfig map;
@@ -143,6 +144,8 @@ class Localizer {
   flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base) const;
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
+  void integrate_first_without_tracking();
+  void integrate_overdue(std::int64_t now_ns);
   void restore_points(const flow::ScanLabels& labels);
   void begin_next_submap_if_outgrown();
   void end_submap();
