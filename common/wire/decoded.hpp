@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace slammot::wire {
+
+/// Why a sample from the bus is refused; a literal.
+struct Fault {
+  std::string_view reason;
+};
+
+/// A value taken from the bus, or why it was refused. What comes from the bus is checked in full: sizes that must
+/// agree, enumerators, finite numbers, variances that are none. So the algorithms need not.
+template <typename Value>
+class Decoded {
+ public:
+  Decoded(Value value) : value_(std::move(value)) {}
+  Decoded(Fault fault) : fault_(fault.reason) {}
+
+  explicit operator bool() const { return value_.has_value(); }
+  const Value& operator*() const { return *value_; }
+  Value& operator*() { return *value_; }
+  const Value* operator->() const { return &*value_; }
+  /// Empty when there is a value.
+  std::string_view fault() const { return fault_; }
+
+ private:
+  std::optional<Value> value_;
+  std::string_view fault_;
+};
+
+}  // namespace slammot::wire

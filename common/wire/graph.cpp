@@ -1,0 +1,108 @@
+#include "common/wire/graph.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "common/wire/parts.hpp"
+#include "common/wire/text.hpp"
+
+namespace slammot::wire {
+namespace {
+
+// A correction that newer ones overtake before it is complete never gets its last part.
+constexpr std::size_t kMostIncomplete = 4;
+
+static_assert(static_cast<int>(flow::ConstraintKind::kOdometric) == slammot_CONSTRAINT_KIND_ODOMETRIC);
+static_assert(static_cast<int>(flow::ConstraintKind::kLoop) == slammot_CONSTRAINT_KIND_LOOP);
+
+std::string_view fault_of(const slammot_GraphCorrection& part) {
+  if (part.part_count == 0 || part.part_count > kMostParts) return "part_count is not within 1 and 64";
+  if (part.part_index >= part.part_count) return "part_index is not below part_count";
+  if (!is_sound(part.map_from_odom)) return "map_from_odom is not finite";
+  for (const slammot_CorrectedSubmap& submap : elements(part.submaps)) {
+    if (!is_sound(submap.map_from_submap)) return "map_from_submap is not finite";
+  }
+  return "";
+}
+
+bool is_ascending(const std::vector<flow::CorrectedSubmap>& submaps) {
+  const auto is_not_below = [](const flow::CorrectedSubmap& a, const flow::CorrectedSubmap& b) {
+    return a.submap_id >= b.submap_id;
+  };
+  return std::adjacent_find(submaps.begin(), submaps.end(), is_not_below) == submaps.end();
+}
+
+}  // namespace
+
+slammot_Constraint encode(std::string_view vehicle_id, const flow::Constraint& constraint) {
+  slammot_Constraint sample{};
+  set_text(sample.vehicle_id, vehicle_id);
+  sample.from_submap_id = constraint.from.value;
+  sample.to_submap_id = constraint.to.value;
+  sample.kind = static_cast<slammot_ConstraintKind>(constraint.kind);
+  sample.from_from_to = encode(constraint.from_to);
+  return sample;
+}
+
+Decoded<flow::Constraint> decode(const slammot_Constraint& sample) {
+  if (!is_enumerator(sample.kind, slammot_CONSTRAINT_KIND_LOOP)) return Fault{"kind is unknown"};
+  if (sample.from_submap_id == sample.to_submap_id) return Fault{"a submap is constrained to itself"};
+  if (!is_sound(sample.from_from_to)) return Fault{"from_from_to or its covariance is unsound"};
+  return flow::Constraint{.from = {sample.from_submap_id},
+                          .to = {sample.to_submap_id},
+                          .kind = static_cast<flow::ConstraintKind>(sample.kind),
+                          .from_to = decode(sample.from_from_to)};
+}
+
+void GraphCorrectionEncoder::encode(std::string_view vehicle_id, const flow::GraphCorrection& correction,
+                                    const std::function<void(const slammot_GraphCorrection&)>& write) {
+  const std::size_t submaps = correction.submaps.size();
+  const std::size_t parts = std::max<std::size_t>(1, (submaps + kMostSubmapsOfPart - 1) / kMostSubmapsOfPart);
+  if (parts > kMostParts) throw std::length_error("a graph correction has more submaps than fit on the bus");
+  set_text(sample_.vehicle_id, vehicle_id);
+  sample_.sequence_number = correction.sequence;
+  sample_.part_count = static_cast<std::uint32_t>(parts);
+  sample_.map_from_odom = wire::encode(correction.map_from_odom);
+  for (std::size_t part = 0; part < parts; ++part) {
+    submaps_.clear();
+    const std::size_t end = std::min(submaps, (part + 1) * kMostSubmapsOfPart);
+    for (std::size_t i = part * kMostSubmapsOfPart; i < end; ++i) {
+      submaps_.push_back({correction.submaps[i].submap_id.value, wire::encode(correction.submaps[i].map_from_submap)});
+    }
+    sample_.part_index = static_cast<std::uint32_t>(part);
+    show(sample_.submaps, submaps_);
+    write(sample_);
+  }
+}
+
+GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(const slammot_GraphCorrection& part) {
+  const geometry::Pose2 map_from_odom = decode(part.map_from_odom);
+  const auto known = partial_.find(part.sequence_number);
+  if (known != partial_.end()) {
+    Partial& partial = known->second;
+    if (partial.parts.size() == part.part_count && partial.map_from_odom == map_from_odom) return partial;
+    // A loop closing service that started again counts from the beginning: what it says replaces the old.
+    partial_.erase(known);
+  }
+  if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());
+  return partial_[part.sequence_number] = Partial{map_from_odom, std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
+}
+
+GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_GraphCorrection& part) {
+  if (const std::string_view fault = fault_of(part); !fault.empty()) return {std::nullopt, fault};
+  Partial& partial = partial_of(part);
+  std::vector<flow::CorrectedSubmap>& submaps = partial.parts[part.part_index].emplace();
+  for (const slammot_CorrectedSubmap& submap : elements(part.submaps)) {
+    submaps.push_back({{submap.submap_id}, decode(submap.map_from_submap)});
+  }
+  const auto has_come = [](const auto& one) { return one.has_value(); };
+  if (!std::all_of(partial.parts.begin(), partial.parts.end(), has_come)) return {};
+
+  flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {}};
+  for (const auto& one : partial.parts) correction.submaps.insert(correction.submaps.end(), one->begin(), one->end());
+  partial_.erase(part.sequence_number);
+  if (!is_ascending(correction.submaps)) return {std::nullopt, "submaps are not in ascending order"};
+  return {std::move(correction), ""};
+}
+
+}  // namespace slammot::wire

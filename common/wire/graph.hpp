@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "common/flow/graph_correction.hpp"
+#include "common/wire/decoded.hpp"
+#include "idl/mapping.h"
+
+namespace slammot::wire {
+
+/// Most corrected submaps in one part.
+inline constexpr std::uint32_t kMostSubmapsOfPart = 4000;
+/// Most parts of one correction.
+inline constexpr std::uint32_t kMostParts = 64;
+
+slammot_Constraint encode(std::string_view vehicle_id, const flow::Constraint& constraint);
+Decoded<flow::Constraint> decode(const slammot_Constraint& sample);
+
+/// Cuts corrections into parts that fit on the bus; keeps its buffers.
+class GraphCorrectionEncoder {
+ public:
+  /// Calls `write` with each part, which is good only during the call. Throws std::length_error for more than
+  /// kMostParts * kMostSubmapsOfPart submaps.
+  void encode(std::string_view vehicle_id, const flow::GraphCorrection& correction,
+              const std::function<void(const slammot_GraphCorrection&)>& write);
+
+ private:
+  slammot_GraphCorrection sample_{};
+  std::vector<slammot_CorrectedSubmap> submaps_;
+};
+
+/// Puts corrections together again from their parts, which come in any order. One for each vehicle.
+class GraphCorrectionAssembler {
+ public:
+  /// The correction when this was its last part; nothing (and no fault) when more are to come.
+  struct Added {
+    std::optional<flow::GraphCorrection> correction;
+    std::string_view fault;  ///< Why the part was refused; empty when it was not.
+  };
+  Added add(const slammot_GraphCorrection& part);
+
+ private:
+  struct Partial {
+    geometry::Pose2 map_from_odom;
+    std::vector<std::optional<std::vector<flow::CorrectedSubmap>>> parts;
+  };
+
+  Partial& partial_of(const slammot_GraphCorrection& part);
+
+  std::map<std::uint32_t, Partial> partial_;  // by sequence number
+};
+
+}  // namespace slammot::wire

@@ -1,0 +1,94 @@
+#include "common/wire/localized_scan.hpp"
+
+#include <stdexcept>
+
+#include "common/wire/parts.hpp"
+#include "common/wire/sensor.hpp"
+#include "common/wire/text.hpp"
+
+namespace slammot::wire {
+namespace {
+
+static_assert(static_cast<int>(flow::EndCell::kNoEcho) == slammot_END_CELL_NO_ECHO);
+static_assert(static_cast<int>(flow::EndCell::kUnseen) == slammot_END_CELL_UNSEEN);
+static_assert(static_cast<int>(flow::EndCell::kFree) == slammot_END_CELL_FREE);
+static_assert(static_cast<int>(flow::EndCell::kOccupied) == slammot_END_CELL_OCCUPIED);
+
+slammot_LocalizedBeam encode_beam(const flow::LocalizedBeam& beam) {
+  return {encode(beam.point_in_base_m), beam.range_m,         beam.expected_range_m,
+          beam.free_evidence,           beam.moving_evidence, static_cast<slammot_EndCell>(beam.end_cell)};
+}
+
+flow::LocalizedBeam decode_beam(const slammot_LocalizedBeam& beam) {
+  return {decode(beam.point_in_base), beam.range_m,         beam.expected_range_m,
+          beam.free_evidence,         beam.moving_evidence, static_cast<flow::EndCell>(beam.end_cell)};
+}
+
+std::string_view fault_of(const slammot_LocalizedBeam& beam) {
+  if (!is_sound(beam.point_in_base)) return "an end point is not finite";
+  if (!is_amount(beam.range_m) || !is_amount(beam.expected_range_m)) return "a range is negative or not finite";
+  if (!is_sound(beam.free_evidence)) return "free_evidence is not finite";
+  if (!is_probability(beam.moving_evidence)) return "moving_evidence is not within 0 and 1";
+  if (!is_enumerator(beam.end_cell, slammot_END_CELL_OCCUPIED)) return "end_cell is unknown";
+  return "";
+}
+
+std::string_view fault_of(const slammot_LocalizedScan& sample) {
+  if (!is_sound(sample.base_from_laser)) return "base_from_laser is not finite";
+  if (!is_amount(sample.max_range_m)) return "max_range_m is negative or not finite";
+  if (!is_sound(sample.beam_step_rad)) return "beam_step_rad is not finite";
+  if (!is_sound(sample.odom_from_base)) return "odom_from_base or its covariance is unsound";
+  if (!is_sound(sample.map_from_odom)) return "map_from_odom is not finite";
+  if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps)) return "the velocity is not finite";
+  if (!is_sound(sample.submap_from_base)) return "submap_from_base is not finite";
+  for (const slammot_LocalizedBeam& beam : elements(sample.beams)) {
+    if (const std::string_view fault = fault_of(beam); !fault.empty()) return fault;
+  }
+  return "";
+}
+
+}  // namespace
+
+const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehicle_id,
+                                                          const flow::LocalizedScan& scan) {
+  if (scan.beams.size() > kMostBeams) throw std::length_error("a localized scan has more beams than fit on the bus");
+  beams_.clear();
+  for (const flow::LocalizedBeam& beam : scan.beams) beams_.push_back(encode_beam(beam));
+  set_text(sample_.vehicle_id, vehicle_id);
+  set_text(sample_.scanner_id, scan.scanner_id);
+  sample_.stamp_ns = scan.stamp_ns;
+  sample_.sequence_number = scan.sequence;
+  sample_.base_from_laser = wire::encode(scan.base_from_laser);
+  sample_.max_range_m = scan.max_range_m;
+  sample_.beam_step_rad = scan.beam_step_rad;
+  sample_.odom_from_base = wire::encode(scan.odom_from_base);
+  sample_.map_from_odom = wire::encode(scan.map_from_odom);
+  sample_.speed_mps = scan.speed_mps;
+  sample_.yaw_rate_radps = scan.yaw_rate_radps;
+  sample_.submap_id = scan.submap_id.value;
+  sample_.submap_from_base = wire::encode(scan.submap_from_base);
+  show(sample_.beams, beams_);
+  return sample_;
+}
+
+Decoded<flow::LocalizedScan> decode(const slammot_LocalizedScan& sample) {
+  if (const std::string_view fault = fault_of(sample); !fault.empty()) return Fault{fault};
+  flow::LocalizedScan scan{.stamp_ns = sample.stamp_ns,
+                           .sequence = sample.sequence_number,
+                           .scanner_id = std::string(text(sample.scanner_id)),
+                           .base_from_laser = decode(sample.base_from_laser),
+                           .max_range_m = sample.max_range_m,
+                           .beam_step_rad = sample.beam_step_rad,
+                           .odom_from_base = decode(sample.odom_from_base),
+                           .map_from_odom = decode(sample.map_from_odom),
+                           .speed_mps = sample.speed_mps,
+                           .yaw_rate_radps = sample.yaw_rate_radps,
+                           .submap_id = {sample.submap_id},
+                           .submap_from_base = decode(sample.submap_from_base),
+                           .beams = {}};
+  scan.beams.reserve(sample.beams._length);
+  for (const slammot_LocalizedBeam& beam : elements(sample.beams)) scan.beams.push_back(decode_beam(beam));
+  return scan;
+}
+
+}  // namespace slammot::wire

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "common/flow/localized_scan.hpp"
+#include "common/wire/decoded.hpp"
+#include "idl/localization.h"
+
+namespace slammot::wire {
+
+/// Puts localized scans on the wire; keeps its buffers.
+class LocalizedScanEncoder {
+ public:
+  /// The result is good until the next call. Throws std::length_error for more than kMostBeams.
+  const slammot_LocalizedScan& encode(std::string_view vehicle_id, const flow::LocalizedScan& scan);
+
+ private:
+  slammot_LocalizedScan sample_{};
+  std::vector<slammot_LocalizedBeam> beams_;
+};
+
+Decoded<flow::LocalizedScan> decode(const slammot_LocalizedScan& sample);
+
+}  // namespace slammot::wire

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/geometry/uncertain_pose2.hpp"
+#include "idl/geometry.h"
+
+/// What the conversions of this folder share; not for use outside.
+namespace slammot::wire {
+
+slammot_Pose2 encode(const geometry::Pose2& pose);
+slammot_UncertainPose2 encode(const geometry::UncertainPose2& pose);
+slammot_Vector2 encode(const Eigen::Vector2d& vector);
+slammot_Point2f encode(const Eigen::Vector2f& point);
+
+geometry::Pose2 decode(const slammot_Pose2& pose);
+geometry::UncertainPose2 decode(const slammot_UncertainPose2& pose);
+Eigen::Vector2d decode(const slammot_Vector2& vector);
+Eigen::Vector2f decode(const slammot_Point2f& point);
+
+/// Probabilities may miss [0, 1], and variances 0, by as much as sums of rounding errors do.
+inline constexpr double kRounding = 1e-6;
+
+/// Whether every number is finite, and for a covariance the variances not negative.
+bool is_sound(double number);
+bool is_sound(const slammot_Pose2& pose);
+bool is_sound(const slammot_UncertainPose2& pose);
+bool is_sound(const slammot_Vector2& vector);
+bool is_sound(const slammot_Point2f& point);
+
+/// Whether a number is finite and not below zero.
+bool is_amount(double number);
+bool is_probability(double number);
+
+/// Square matrices travel row by row.
+template <int kRows, typename Matrix>
+void encode_matrix(const Matrix& matrix, double (&field)[kRows * kRows]) {
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kRows; ++column) field[row * kRows + column] = matrix(row, column);
+  }
+}
+
+template <int kRows>
+Eigen::Matrix<double, kRows, kRows> decode_matrix(const double (&field)[kRows * kRows]) {
+  return Eigen::Map<const Eigen::Matrix<double, kRows, kRows, Eigen::RowMajor>>(field);
+}
+
+template <int kRows>
+bool is_covariance(const double (&field)[kRows * kRows]) {
+  for (const double number : field) {
+    if (!std::isfinite(number)) return false;
+  }
+  for (int i = 0; i < kRows; ++i) {
+    if (field[i * (kRows + 1)] < -kRounding) return false;
+  }
+  return true;
+}
+
+/// The elements of a generated sequence.
+template <typename Sequence>
+auto elements(const Sequence& sequence) {
+  using Element = std::remove_pointer_t<decltype(sequence._buffer)>;
+  return std::span<const Element>(sequence._buffer, sequence._length);
+}
+
+/// Lets a generated sequence show `buffer`, which keeps its ownership and must outlive the sequence's use.
+template <typename Sequence, typename Element>
+void show(Sequence& sequence, std::vector<Element>& buffer) {
+  const auto size = static_cast<std::uint32_t>(buffer.size());
+  sequence = {size, size, buffer.data(), false};
+}
+
+/// Whether a generated enumerator is one of 0 to `last`. The library checks too, but not every writer is the library.
+template <typename Enum>
+bool is_enumerator(Enum value, Enum last) {
+  const auto number = static_cast<std::int64_t>(value);
+  return number >= 0 && number <= static_cast<std::int64_t>(last);
+}
+
+}  // namespace slammot::wire

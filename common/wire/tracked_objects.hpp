@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "common/flow/tracked_objects.hpp"
+#include "common/wire/decoded.hpp"
+#include "idl/tracking.h"
+
+namespace slammot::wire {
+
+inline constexpr std::size_t kMostObjects = 192;
+inline constexpr std::size_t kMostContourPoints = 64;    ///< Of one object.
+inline constexpr std::size_t kMostPredictedPositions = 16;  ///< Of one object.
+
+/// Puts tracks on the wire; keeps its buffers.
+class TrackedObjectsEncoder {
+ public:
+  /// The result is good until the next call. Where objects are so many that not all fits, contours are thinned, paths
+  /// shortened, all objects' alike, and of more than kMostObjects the confirmed and then the likeliest travel.
+  const slammot_TrackedObjects& encode(std::string_view vehicle_id, const flow::TrackedObjects& objects);
+
+ private:
+  void choose(const std::vector<flow::TrackedObject>& objects);
+  void encode_contour(const flow::TrackedObject& object, slammot_TrackedObject& sample);
+  void encode_path(const flow::TrackedObject& object, slammot_TrackedObject& sample);
+
+  slammot_TrackedObjects sample_{};
+  std::vector<const flow::TrackedObject*> chosen_;
+  std::vector<slammot_TrackedObject> objects_;
+  std::vector<slammot_Point2f> contour_points_;
+  std::vector<slammot_PredictedPosition> path_points_;
+};
+
+Decoded<flow::TrackedObjects> decode(const slammot_TrackedObjects& sample);
+
+}  // namespace slammot::wire
