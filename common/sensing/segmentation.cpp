@@ -1,0 +1,95 @@
+#include "common/sensing/segmentation.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace slammot::sensing {
+namespace {
+
+/// The outermost echoes of a span towards one end: the last, the one before it, and one a few echoes further in.
+struct Tip {
+  Eigen::Vector2f end_m;
+  Eigen::Vector2f next_m;
+  Eigen::Vector2f inner_m;
+  bool is_line = false;  ///< There are three different echoes.
+};
+
+/// step +1: the end with the highest beam; -1: with the lowest.
+Tip tip_of(const BeamSpan& span, int step, std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m) {
+  constexpr int kEchoesLookedAt = 5;
+  Tip tip;
+  int found = 0;
+  int beam = step > 0 ? span.last : span.first;
+  for (; beam >= span.first && beam <= span.last && found < kEchoesLookedAt; beam -= step) {
+    const auto index = static_cast<std::size_t>(beam);
+    if (range_m[index] <= 0.0F) continue;
+    if (found == 0) tip.end_m = points_m[index];
+    if (found == 1) tip.next_m = points_m[index];
+    tip.inner_m = points_m[index];
+    ++found;
+  }
+  tip.is_line = found >= 3;
+  return tip;
+}
+
+bool goes_on_at(const Tip& tip, const Eigen::Vector2f& point_m, const SegmentationConfig& config) {
+  if (!tip.is_line) return false;
+  const Eigen::Vector2f gap = point_m - tip.end_m;
+  const float widest_m = std::min(static_cast<float>(config.line_gap_m),
+                                  static_cast<float>(config.line_gap_growth) * (tip.end_m - tip.next_m).norm());
+  const Eigen::Vector2f direction = (tip.end_m - tip.inner_m).normalized();
+  const float along_m = direction.dot(gap);
+  const float across_m = direction.x() * gap.y() - direction.y() * gap.x();
+  return along_m > 0.0F && along_m <= widest_m && std::abs(across_m) <= static_cast<float>(config.line_tolerance_m);
+}
+
+void join_along_lines(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
+                      const SegmentationConfig& config, std::vector<BeamSpan>& spans) {
+  const auto are_near = [&](const BeamSpan& a, const BeamSpan& b) { return b.first - a.last <= config.bridged_beams + 1; };
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < spans.size(); ++i) {
+    if (are_near(spans[kept], spans[i]) && goes_on_at(tip_of(spans[kept], +1, points_m, range_m), points_m[spans[i].first], config))
+      spans[kept].last = spans[i].last;
+    else
+      spans[++kept] = spans[i];
+  }
+  if (!spans.empty()) spans.resize(kept + 1);
+  std::reverse(spans.begin(), spans.end());
+  kept = 0;
+  for (std::size_t i = 1; i < spans.size(); ++i) {
+    if (are_near(spans[i], spans[kept]) && goes_on_at(tip_of(spans[kept], -1, points_m, range_m), points_m[spans[i].last], config))
+      spans[kept].first = spans[i].first;
+    else
+      spans[++kept] = spans[i];
+  }
+  if (!spans.empty()) spans.resize(kept + 1);
+  std::reverse(spans.begin(), spans.end());
+}
+
+}  // namespace
+
+void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
+                         const SegmentationConfig& config, std::vector<BeamSpan>& spans) {
+  assert(points_m.size() == range_m.size());
+  spans.clear();
+  for (std::size_t beam = 0; beam < range_m.size(); ++beam) {
+    if (range_m[beam] <= 0.0F) continue;
+    const auto index = static_cast<std::uint16_t>(beam);
+    if (!spans.empty() && index - spans.back().last <= config.bridged_beams + 1) {
+      const std::size_t before = spans.back().last;
+      const double spacing_m = std::abs(beam_step_rad) * static_cast<double>(std::max(range_m[before], range_m[beam]));
+      const double gap_m = std::min(config.widest_gap_m, config.gap_m + config.gap_beam_spacings * spacing_m);
+      if ((points_m[beam] - points_m[before]).squaredNorm() <= static_cast<float>(gap_m * gap_m)) {
+        spans.back().last = index;
+        continue;
+      }
+    }
+    spans.push_back({index, index});
+  }
+  join_along_lines(points_m, range_m, config, spans);
+}
+
+}  // namespace slammot::sensing

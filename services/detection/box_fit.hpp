@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace slammot::detection {
+
+/// Oriented rectangle around points.
+struct OrientedBox {
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
+  double heading_rad = 0.0;  ///< Of the longer side, in (-pi/2, pi/2].
+  double length_m = 0.0;     ///< Of the longer side.
+  double width_m = 0.0;
+};
+
+/// Tightest rectangle of the given heading around the points; at least one point.
+OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double heading_rad);
+
+/// Rectangle whose sides the points lie closest to: the visible L or I of a vehicle. Search over the heading in two
+/// stages with the closeness criterion of Zhang, Xu, Dong, Dolan (IV 2017), Algorithm 4. At least one point.
+OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m);
+
+}  // namespace slammot::detection

@@ -1,0 +1,293 @@
+#include "services/detection/detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "services/detection/box_fit.hpp"
+
+namespace slammot::detection {
+namespace {
+
+using flow::EndCell;
+using flow::LocalizedBeam;
+using flow::LocalizedScan;
+using flow::PointLabel;
+using flow::Segment;
+using flow::SegmentedScan;
+using geometry::Matrix2;
+using geometry::Vector2;
+using sensing::BeamSpan;
+
+/// Neighbouring echoes of one label, as indices into the segment's beams.
+struct Run {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  bool is_moving = false;
+};
+
+PointLabel label_of(const LocalizedBeam& beam, const DetectionConfig& config) {
+  switch (beam.end_cell) {
+    case EndCell::kNoEcho: return PointLabel::kNoEcho;
+    case EndCell::kOccupied: return PointLabel::kStationary;
+    case EndCell::kFree:
+      return beam.free_evidence >= config.least_free_log_odds ? PointLabel::kMoving : PointLabel::kUnknown;
+    case EndCell::kUnseen: break;
+  }
+  return PointLabel::kUnknown;
+}
+
+/// Where the map expects each beam to end, in base; only where it expects an end.
+class ExpectedOutline {
+ public:
+  explicit ExpectedOutline(const LocalizedScan& scan) : scan_(scan) {
+    for (std::size_t i = 0; i < scan.beams.size(); ++i) {
+      if (scan.beams[i].range_m <= 0.0F) continue;
+      const Vector2 way = scan.beams[i].point_in_base_m.cast<double>() - scan.base_from_laser.translation_m();
+      first_beam_rad_ = std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan.beam_step_rad;
+      break;
+    }
+  }
+
+  /// Whether the echo lies near the line through what neighbouring beams should have met: a wall at a grazing angle is
+  /// met far from where one beam expects it, but never far from its line.
+  bool explains(std::size_t beam, const DetectionConfig& config) const {
+    const LocalizedBeam& echo = scan_.beams[beam];
+    const double within_m = config.explained_within_m + config.explained_within_per_m * static_cast<double>(echo.range_m);
+    const Vector2 point = echo.point_in_base_m.cast<double>();
+    const std::size_t first = beam < kNeighbours ? 0 : beam - kNeighbours;
+    const std::size_t last = std::min(beam + kNeighbours + 1, scan_.beams.size());
+    for (std::size_t i = first; i < last; ++i) {
+      if (!has_end(i)) continue;
+      const Vector2 end = end_of(i);
+      if ((point - end).squaredNorm() < within_m * within_m) return true;
+      if (i + 1 == last || !has_end(i + 1)) continue;
+      const Vector2 way = end_of(i + 1) - end;
+      const double length2 = way.squaredNorm();
+      if (length2 > kLongestFaceM * kLongestFaceM) continue;
+      const double share = std::clamp(way.dot(point - end) / std::max(length2, 1e-9), 0.0, 1.0);
+      if ((point - end - share * way).squaredNorm() < within_m * within_m) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kNeighbours = 2;
+  static constexpr double kLongestFaceM = 6.0;  ///< Between neighbouring beams; what is longer is two things.
+  bool has_end(std::size_t beam) const {
+    return static_cast<double>(scan_.beams[beam].expected_range_m) < scan_.max_range_m - 0.5;
+  }
+  Vector2 end_of(std::size_t beam) const {
+    const double angle_rad = first_beam_rad_ + static_cast<double>(beam) * scan_.beam_step_rad;
+    return scan_.base_from_laser.translation_m() +
+           static_cast<double>(scan_.beams[beam].expected_range_m) * Vector2(std::cos(angle_rad), std::sin(angle_rad));
+  }
+  const LocalizedScan& scan_;
+  double first_beam_rad_ = 0.0;
+};
+
+SegmentedScan copy_of_header(const LocalizedScan& scan) {
+  SegmentedScan segmented;
+  segmented.stamp_ns = scan.stamp_ns;
+  segmented.sequence = scan.sequence;
+  segmented.scanner_id = scan.scanner_id;
+  segmented.base_from_laser = scan.base_from_laser;
+  segmented.max_range_m = scan.max_range_m;
+  segmented.beam_step_rad = scan.beam_step_rad;
+  segmented.odom_from_base = scan.odom_from_base;
+  segmented.map_from_odom = scan.map_from_odom;
+  return segmented;
+}
+
+void label_points(const LocalizedScan& scan, const DetectionConfig& config, SegmentedScan& segmented) {
+  segmented.points_in_base_m.resize(scan.beams.size());
+  segmented.range_m.resize(scan.beams.size());
+  segmented.labels.resize(scan.beams.size());
+  const ExpectedOutline outline(scan);
+  for (std::size_t i = 0; i < scan.beams.size(); ++i) {
+    segmented.points_in_base_m[i] = scan.beams[i].point_in_base_m;
+    segmented.range_m[i] = scan.beams[i].range_m;
+    segmented.labels[i] = label_of(scan.beams[i], config);
+    if (segmented.labels[i] == PointLabel::kMoving && outline.explains(i, config)) segmented.labels[i] = PointLabel::kStationary;
+  }
+}
+
+void merge_with_equal_neighbours(std::vector<Run>& runs) {
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    if (runs[i].is_moving == runs[kept].is_moving) runs[kept].count += runs[i].count;
+    else runs[++kept] = runs[i];
+  }
+  if (!runs.empty()) runs.resize(kept + 1);
+}
+
+/// Runs of moving and not moving beams; where the map cannot say, a beam goes with the one before.
+/// Runs too short to be a thing of their own take the label of their neighbours.
+void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& scan, const DetectionConfig& config,
+                    std::vector<Run>& runs) {
+  runs.clear();
+  std::size_t undecided = 0;
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const PointLabel label = scan.labels[beams[i]];
+    if (label == PointLabel::kUnknown && runs.empty()) {
+      ++undecided;
+      continue;
+    }
+    const bool is_moving = label == PointLabel::kUnknown ? runs.back().is_moving : label == PointLabel::kMoving;
+    if (runs.empty()) runs.push_back({0, undecided + 1, is_moving});
+    else if (runs.back().is_moving == is_moving) ++runs.back().count;
+    else runs.push_back({i, 1, is_moving});
+  }
+  if (runs.empty()) runs.push_back({0, beams.size(), false});
+  for (int pass = 0; pass < 2 && runs.size() > 1; ++pass) {
+    for (Run& run : runs) {
+      const int least = run.is_moving ? config.least_moving_run : config.least_stationary_run;
+      if (static_cast<int>(run.count) < least) run.is_moving = !run.is_moving;
+    }
+    merge_with_equal_neighbours(runs);
+  }
+}
+
+double moving_share(const Segment& segment, const SegmentedScan& scan) {
+  int moving = 0;
+  int decidable = 0;
+  for (const std::uint16_t beam : segment.beams) {
+    moving += scan.labels[beam] == PointLabel::kMoving ? 1 : 0;
+    decidable += scan.labels[beam] == PointLabel::kUnknown ? 0 : 1;
+  }
+  return decidable == 0 ? 0.0 : static_cast<double>(moving) / decidable;
+}
+
+double mean_moving_evidence(const Segment& segment, const LocalizedScan& scan) {
+  double sum = 0.0;
+  for (const std::uint16_t beam : segment.beams) sum += static_cast<double>(scan.beams[beam].moving_evidence);
+  return sum / static_cast<double>(segment.beams.size());
+}
+
+PointLabel label_of_segment(const Segment& segment, const LocalizedScan& localized, const SegmentedScan& scan,
+                            const DetectionConfig& config) {
+  if (segment.moving_share > config.moving_share) return PointLabel::kMoving;
+  const bool is_stationary = std::any_of(segment.beams.begin(), segment.beams.end(), [&](std::uint16_t beam) {
+    return scan.labels[beam] == PointLabel::kStationary;
+  });
+  if (is_stationary) return PointLabel::kStationary;
+  const bool moved_here_before = static_cast<int>(segment.beams.size()) <= config.largest_by_moving_evidence &&
+                                 mean_moving_evidence(segment, localized) >= config.least_moving_evidence;
+  return moved_here_before ? PointLabel::kMoving : PointLabel::kUnknown;
+}
+
+/// Whether the neighbour `step` (+1 or -1) beams on, where there is an echo, lies in front of the beam's.
+bool is_hidden_beyond(std::uint16_t beam, int step, const SegmentedScan& scan, const DetectionConfig& config) {
+  constexpr int kBeamsLookedAt = 2;
+  for (int i = 1; i <= kBeamsLookedAt; ++i) {
+    const int neighbour = static_cast<int>(beam) + i * step;
+    if (neighbour < 0 || neighbour >= static_cast<int>(scan.range_m.size())) return true;  // the field of view ends
+    const double range_m = static_cast<double>(scan.range_m[static_cast<std::size_t>(neighbour)]);
+    if (range_m > 0.0) return range_m < static_cast<double>(scan.range_m[beam]) - config.occluder_margin_m;
+  }
+  return false;
+}
+
+/// Noise of one echo along and across its beam, in odom, without the pose's.
+Matrix2 echo_covariance(const Vector2& way_m, double beam_step_rad, const DetectionConfig& config) {
+  const double range_m = std::max(way_m.norm(), 1e-3);
+  const Vector2 along = way_m / range_m;
+  const double sigma_along_m = config.range_noise_m + config.range_noise_per_m * range_m;
+  const double sigma_across_m = range_m * std::abs(beam_step_rad) / std::sqrt(12.0);  // somewhere in the beam's share
+  return sigma_along_m * sigma_along_m * along * along.transpose() +
+         sigma_across_m * sigma_across_m * (Matrix2::Identity() - along * along.transpose());
+}
+
+/// Covariance of a point in odom from that of the vehicle's pose; Wang 2004, Eq. (2.3).
+Matrix2 pose_contribution(const geometry::UncertainPose2& odom_from_base, const Vector2& point_in_base_m) {
+  const geometry::Matrix3 J =
+      geometry::compound_jacobian_first(odom_from_base.pose, {point_in_base_m.x(), point_in_base_m.y(), 0.0});
+  return (J * odom_from_base.covariance * J.transpose()).topLeftCorner<2, 2>();
+}
+
+void describe_shape(Segment& segment, const SegmentedScan& scan, const DetectionConfig& config, std::vector<Vector2>& points_in_odom_m) {
+  points_in_odom_m.clear();
+  const Matrix2 R = geometry::rotation(scan.odom_from_base.pose.heading_rad);
+  const Vector2 t = scan.odom_from_base.pose.translation_m();
+  Vector2 sum = Vector2::Zero();
+  for (const std::uint16_t beam : segment.beams) {
+    points_in_odom_m.push_back(R * scan.points_in_base_m[beam].cast<double>() + t);
+    sum += points_in_odom_m.back();
+  }
+  const auto count = static_cast<double>(segment.beams.size());
+  segment.centroid_in_odom_m = sum / count;
+  const Vector2 laser_in_odom_m = R * scan.base_from_laser.translation_m() + t;
+  const Vector2 centroid_in_base_m = R.transpose() * (segment.centroid_in_odom_m - t);
+  segment.centroid_covariance_m2 =
+      echo_covariance(segment.centroid_in_odom_m - laser_in_odom_m, scan.beam_step_rad, config) / count +
+      pose_contribution(scan.odom_from_base, centroid_in_base_m);
+  // Only what may become a track needs the searched heading; the ends of the rest tell enough.
+  const Vector2 way = points_in_odom_m.back() - points_in_odom_m.front();
+  const OrientedBox box = segment.label == PointLabel::kMoving ? fit_box(points_in_odom_m)
+                                                               : box_at_heading(points_in_odom_m, std::atan2(way.y(), way.x()));
+  segment.box_centre_in_odom_m = box.centre_m;
+  segment.box_heading_rad = box.heading_rad;
+  segment.box_length_m = box.length_m;
+  segment.box_width_m = box.width_m;
+}
+
+/// Whether these echoes look like the line in which a pitching scanner's plane meets the ground; Wang 2004, Section 6.6.
+bool is_like_ground(const Segment& segment, const SegmentedScan& scan, const DetectionConfig& config) {
+  const double in_base_rad = segment.box_heading_rad - scan.odom_from_base.pose.heading_rad;
+  const double off_square_rad = std::abs(std::remainder(in_base_rad - 0.5 * std::numbers::pi, std::numbers::pi));
+  if (segment.box_length_m < config.ground_least_width_m || segment.box_width_m > config.ground_thickness_m) return false;
+  const Vector2 first = scan.points_in_base_m[segment.beams.front()].cast<double>();
+  const bool is_ahead = first.x() - scan.base_from_laser.x_m > config.ground_nearest_m;
+  return is_ahead && off_square_rad < config.ground_heading_rad;
+}
+
+void set_label(const Segment& segment, PointLabel label, SegmentedScan& scan) {
+  for (const std::uint16_t beam : segment.beams) scan.labels[beam] = label;
+}
+
+void finish_segment(Segment& segment, const LocalizedScan& localized, const DetectionConfig& config, SegmentedScan& scan,
+                    std::vector<Vector2>& points_in_odom_m) {
+  segment.moving_share = moving_share(segment, scan);
+  segment.label = label_of_segment(segment, localized, scan, config);
+  segment.occluded_at_start = is_hidden_beyond(segment.beams.front(), -1, scan, config);
+  segment.occluded_at_end = is_hidden_beyond(segment.beams.back(), +1, scan, config);
+  describe_shape(segment, scan, config, points_in_odom_m);
+  if (segment.label != PointLabel::kMoving) return;
+  if (is_like_ground(segment, scan, config)) {
+    segment.label = PointLabel::kNoEcho;
+    set_label(segment, PointLabel::kNoEcho, scan);
+  } else if (segment.box_length_m > config.longest_mover_m) {
+    segment.label = PointLabel::kUnknown;
+  }
+}
+
+}  // namespace
+
+SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config) {
+  SegmentedScan segmented = copy_of_header(scan);
+  label_points(scan, config, segmented);
+  std::vector<BeamSpan> spans;
+  sensing::segment_by_distance(segmented.points_in_base_m, segmented.range_m, scan.beam_step_rad, config.segmentation, spans);
+  segmented.segments.reserve(spans.size() + 16);
+  std::vector<std::uint16_t> beams;
+  std::vector<Run> runs;
+  std::vector<Vector2> points_in_odom_m;
+  for (const BeamSpan& span : spans) {
+    beams.clear();
+    for (std::uint16_t beam = span.first; beam <= span.last; ++beam)
+      if (segmented.range_m[beam] > 0.0F) beams.push_back(beam);
+    split_by_label(beams, segmented, config, runs);
+    for (const Run& run : runs) {
+      Segment& segment = segmented.segments.emplace_back();
+      const auto first = beams.begin() + static_cast<std::ptrdiff_t>(run.first);
+      segment.beams.assign(first, first + static_cast<std::ptrdiff_t>(run.count));
+      finish_segment(segment, scan, config, segmented, points_in_odom_m);
+    }
+  }
+  for (std::size_t i = 0; i < segmented.segments.size(); ++i) segmented.segments[i].segment_id = static_cast<std::uint32_t>(i);
+  return segmented;
+}
+
+}  // namespace slammot::detection

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/filters/imm.hpp"
+#include "common/flow/scan_labels.hpp"
+#include "common/flow/segmented_scan.hpp"
+#include "common/flow/tracked_objects.hpp"
+#include "services/tracking/body.hpp"
+#include "services/tracking/scan_view.hpp"
+#include "services/tracking/tracking_config.hpp"
+
+namespace slammot::tracking {
+
+/// One object that is followed, or supposed to be one.
+struct Track {
+  flow::TrackId track_id;
+  filters::ImmState motion;
+  filters::MotionState estimate;             ///< Of the modes together, as of the last predict or update.
+  Body body;
+  double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
+  bool confirmed = false;
+  flow::Motion state = flow::Motion::kMoving;
+  flow::ObjectClass object_class = flow::ObjectClass::kUnknown;
+  int hits = 0;                              ///< Scans with echoes from it,
+  int moving_hits = 0;                       ///< and such that contradicted the map.
+  std::int64_t first_seen_ns = 0;
+  std::int64_t last_seen_ns = 0;
+  Eigen::Vector2d birth_position_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d birth_covariance_m2 = Eigen::Matrix2d::Identity();
+  double fastest_mps = 0.0;                  ///< Since it was confirmed.
+  double farthest_m = 0.0;                   ///< From where it began.
+  double largest_extent_m = 0.0;
+  std::vector<Eigen::Vector2f> contour_in_odom_m;
+  std::deque<flow::RestoredPoints> past;     ///< Points of a track not yet confirmed, newest last.
+
+  Eigen::Vector2d position_m() const { return estimate.mean.head<2>(); }
+  Eigen::Vector2d velocity_mps() const { return estimate.mean.segment<2>(2); }
+  Eigen::Matrix2d position_covariance_m2() const { return estimate.covariance.topLeftCorner<2, 2>(); }
+  Eigen::Matrix2d velocity_covariance() const { return estimate.covariance.block<2, 2>(2, 2); }
+};
+
+filters::ModelSet motion_models(const TrackingConfig& config);
+
+/// A supposed object at these echoes, at rest as far as known.
+Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
+            const TrackingConfig& config);
+
+/// Moves the track over time_s >= 0.
+void predict(Track& track, double time_s, const TrackingConfig& config);
+
+/// Corrects position, velocity, heading, size and motion state by the echoes that are its own.
+void update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
+            const TrackingConfig& config);
+
+/// Score after a scan with echoes, most of them in segments of this label.
+void score_hit(Track& track, flow::PointLabel label, const TrackingConfig& config);
+
+/// Score after time_s without echoes where it was predicted; what hides it excuses it.
+void score_miss(Track& track, const Visibility& visibility, double time_s, const TrackingConfig& config);
+
+/// Whether what has been seen suffices to publish the track as an object that moves.
+bool has_proven_to_move(const Track& track, const TrackingConfig& config);
+
+flow::ObjectClass likely_class(const Track& track);
+
+/// The track as it is published.
+flow::TrackedObject described(const Track& track, const TrackingConfig& config);
+
+/// A track as far as what was published of it tells.
+Track resumed(const flow::TrackedObject& object, const TrackingConfig& config);
+
+double existence_of(double score);
+
+}  // namespace slammot::tracking

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "common/flow/scan_labels.hpp"
+#include "common/flow/segmented_scan.hpp"
+#include "common/flow/tracked_objects.hpp"
+#include "services/tracking/scan_view.hpp"
+#include "services/tracking/track.hpp"
+#include "services/tracking/tracking_config.hpp"
+
+namespace slammot::tracking {
+
+struct TrackingResult {
+  flow::TrackedObjects objects;
+  flow::ScanLabels labels;
+};
+
+/// What happened so far; all grow only.
+struct TrackerCounters {
+  std::uint64_t scans = 0;
+  std::uint64_t late_scans = 0;       ///< Older than one before: labelled as detection did, nothing tracked.
+  std::uint64_t tracks_begun = 0;
+  std::uint64_t tracks_confirmed = 0;
+  std::uint64_t tracks_merged = 0;
+  std::uint64_t tracks_rejected = 0;  ///< Never confirmed; their points were given back.
+  std::uint64_t points_restored = 0;
+};
+
+/// Follows moving objects from scan to scan of one vehicle. Deterministic; reads no clock.
+/// Association by gating and global nearest neighbour (Wang 2004, Section 5.1), motion by IMM (Section 2.3), existence by
+/// the object score (Eqs. 5.1-5.5); bodies grow with what is seen of them, so that the position is the object's centre.
+class Tracker {
+ public:
+  explicit Tracker(const TrackingConfig& config);
+
+  /// Takes one scan and tells what is believed after it, and what each of its points is.
+  TrackingResult track(const flow::SegmentedScan& scan);
+
+  /// Goes on with what was published last, after a restart: ids stay and are not given again. Forgets all else.
+  void take_up(const flow::TrackedObjects& objects);
+
+  const TrackerCounters& counters() const { return counters_; }
+
+ private:
+  /// Which segments, and which of their beams, belong to which track.
+  struct Shares {
+    std::vector<std::vector<std::uint16_t>> beams_of_track;
+    std::vector<flow::PointLabel> label_of_track;  ///< Moving if any of its segments does, else stationary if any is.
+    std::vector<std::size_t> track_of_segment;     ///< kUnassigned where none.
+  };
+  struct PastPoints {
+    std::uint32_t sequence = 0;
+    std::vector<std::uint16_t> beams;
+  };
+
+  void associate(const ScanView& view);
+  void give_whole_segments(const ScanView& view);
+  void divide_shared_segments(const ScanView& view);
+  void begin_tracks(const ScanView& view);
+  void merge_duplicates();
+  void remove_dead(flow::ScanLabels& labels);
+  flow::ScanLabels label(const ScanView& view) const;
+  flow::TrackedObjects describe(const flow::SegmentedScan& scan) const;
+
+  TrackingConfig config_;
+  TrackerCounters counters_;
+  std::vector<Track> tracks_;
+  Shares shares_;
+  std::uint32_t next_id_ = 1;
+  std::int64_t last_stamp_ns_ = 0;
+  bool has_scan_ = false;
+};
+
+}  // namespace slammot::tracking
