@@ -1,8 +1,11 @@
 #include "services/slammot/pipeline.hpp"
 
+#include <utility>
+
 namespace slammot {
 
-Pipeline::Pipeline(const Profile& profile) : localizer_(profile.localization) {}
+Pipeline::Pipeline(const Profile& profile)
+    : localizer_(profile.localization), loop_closer_(loop_closing::LoopClosingConfig{}) {}
 
 void Pipeline::take(const sensing::Odometry& odometry) { localizer_.add_odometry(odometry); }
 
@@ -17,27 +20,43 @@ void Pipeline::take(const sensing::LaserScan& scan) {
 void Pipeline::finish() {
   localizer_.finish();
   close_loops();
+  for (const flow::Constraint& constraint : loop_closer_.constraints()) record_.add(constraint);
 }
 
 void Pipeline::close_loops() {
-  while (auto submap = localizer_.take_finished_submap()) record_.add(std::move(*submap));
+  while (auto submap = localizer_.take_finished_submap()) {
+    const auto correction = times_.measure("loop_closing", [&] { return loop_closer_.add(*submap); });
+    localizer_.correct(correction);
+    record_.add(correction);
+    record_.add(std::move(*submap));
+  }
 }
 
 std::map<std::string, std::map<std::string, std::uint64_t>> Pipeline::counters() const {
-  const localization::LocalizerCounters& c = localizer_.counters();
+  const localization::LocalizerCounters& l = localizer_.counters();
+  const loop_closing::LoopClosingCounters& c = loop_closer_.counters();
   return {{"localization",
-           {{"scans", c.scans},
-            {"duplicate_scans", c.duplicate_scans},
-            {"out_of_order_scans", c.out_of_order_scans},
-            {"too_few_echoes", c.too_few_echoes},
-            {"lost_matches", c.lost_matches},
+           {{"scans", l.scans},
+            {"duplicate_scans", l.duplicate_scans},
+            {"out_of_order_scans", l.out_of_order_scans},
+            {"too_few_echoes", l.too_few_echoes},
+            {"lost_matches", l.lost_matches},
+            {"searches", l.searches},
+            {"odometry_jumps", l.odometry_jumps},
+            {"without_odometry", l.without_odometry},
+            {"gaps", l.gaps},
+            {"fallback_integrations", l.fallback_integrations},
+            {"restored_points", l.restored_points},
+            {"submaps", l.submaps}}},
+          {"loop_closing",
+           {{"submaps", c.submaps},
+            {"repeated_submaps", c.repeated_submaps},
             {"searches", c.searches},
-            {"odometry_jumps", c.odometry_jumps},
-            {"without_odometry", c.without_odometry},
-            {"gaps", c.gaps},
-            {"fallback_integrations", c.fallback_integrations},
-            {"restored_points", c.restored_points},
-            {"submaps", c.submaps}}}};
+            {"hypotheses", c.hypotheses},
+            {"ambiguous", c.ambiguous},
+            {"inconsistent", c.inconsistent},
+            {"closures", c.closures},
+            {"optimisations", c.optimisations}}}};
 }
 
 }  // namespace slammot

@@ -7,6 +7,7 @@
 #include "common/files/run_record.hpp"
 #include "common/sensing/scan.hpp"
 #include "services/localization/localizer.hpp"
+#include "services/loop_closing/loop_closer.hpp"
 #include "services/slammot/profile.hpp"
 #include "services/slammot/stage_times.hpp"
 
@@ -34,6 +35,7 @@ class Pipeline {
   void close_loops();
 
   localization::Localizer localizer_;
+  loop_closing::LoopCloser loop_closer_;
   files::RunRecord record_;
   StageTimes times_;
 };
