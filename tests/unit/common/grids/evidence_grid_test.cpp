@@ -1,0 +1,325 @@
+#include "common/grids/evidence_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/synthetic_world.hpp"
+#include "tests/unit/common/grids/slow_ray.hpp"
+
+namespace slammot::grids {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kCell_m = 0.25;  // a power of two: moving by whole cells is exact
+const EvidenceModel kModel;
+const int kHit = steps_of_log_odds(kModel.hit_log_odds);
+const int kFree = steps_of_log_odds(kModel.free_log_odds);
+const int kLimit = steps_of_log_odds(kModel.limit_log_odds);
+
+EvidenceGrid empty_grid(double side_m = 20.0) { return {window_around({0.0, 0.0}, side_m, kCell_m), kModel}; }
+
+template <class Visit>
+void for_each_cell(const GridWindow& window, const Visit& visit) {
+  for (std::int32_t row = window.first.row; row < window.first.row + window.rows; ++row) {
+    for (std::int32_t column = window.first.column; column < window.first.column + window.columns; ++column) visit(Cell{column, row});
+  }
+}
+
+/// A full turn of beams in a room, some without echo.
+std::vector<Ray> rays_in_a_room(const Vector2d& origin_m, int beams, const slammot::testing::World& world) {
+  std::vector<Ray> rays;
+  for (int i = 0; i < beams; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * i / beams;
+    const double range_m = slammot::testing::range_m(world, origin_m, angle_rad);
+    const Vector2d direction(std::cos(angle_rad), std::sin(angle_rad));
+    if (i % 7 == 0) {
+      rays.push_back({origin_m + 3.0 * direction, Echo::kNone});
+    } else {
+      rays.push_back({origin_m + range_m * direction, i % 11 == 0 ? Echo::kMoving : Echo::kStationary});
+    }
+  }
+  return rays;
+}
+
+std::vector<Ray> rays_in_a_room(const Vector2d& origin_m, int beams) {
+  return rays_in_a_room(origin_m, beams, slammot::testing::room());
+}
+
+std::vector<Ray> shifted(std::vector<Ray> rays, const Vector2d& by_m) {
+  for (Ray& ray : rays) ray.end_m += by_m;
+  return rays;
+}
+
+/// What a single scan does to an empty grid, cell by cell and ray by ray. Cells that a ray only touches are undecided.
+enum class Expected { kUntouched, kFree, kOccupied, kMoved, kUndecided };
+
+Expected expected_of(Cell cell, const Vector2d& origin_m, const std::vector<Ray>& rays) {
+  constexpr double kGraze_m = 2e-6;
+  const GridWindow lattice{.cell_size_m = kCell_m};
+  for (const Ray& ray : rays) {
+    if (ray.echo == Echo::kNone || lattice.cell_at(ray.end_m.x(), ray.end_m.y()) != cell) continue;
+    return ray.echo == Echo::kStationary ? Expected::kOccupied : Expected::kMoved;
+  }
+  Expected expected = Expected::kUntouched;
+  for (const Ray& ray : rays) {
+    const double length_m = (ray.end_m - origin_m).norm();
+    const double free_m = ray.echo == Echo::kNone ? length_m : length_m - 1.5 * kCell_m;
+    const auto passage = passage_through(cell, kCell_m, origin_m, (ray.end_m - origin_m) / length_m);
+    if (!passage || passage->in_m > free_m + kGraze_m) continue;
+    if (passage->in_m < free_m - kGraze_m && passage->length_m() > kGraze_m) return Expected::kFree;
+    expected = Expected::kUndecided;
+  }
+  return expected;
+}
+
+TEST(EvidenceGrid, MarksWhatASlowRayCasterMarks) {
+  for (const Vector2d& origin_m : {Vector2d(0.1, 0.2), {-5.03, 3.3}, {7.0, -4.9}}) {
+    EvidenceGrid grid = empty_grid();
+    const auto rays = rays_in_a_room(origin_m, 97);
+    grid.integrate(origin_m, rays, 0.0);
+    for_each_cell(grid.window(), [&](Cell cell) {
+      switch (expected_of(cell, origin_m, rays)) {
+        case Expected::kUntouched: ASSERT_EQ(grid.so_steps(cell), 0); break;
+        case Expected::kFree: ASSERT_EQ(grid.so_steps(cell), -kFree); break;
+        case Expected::kOccupied: ASSERT_EQ(grid.so_steps(cell), kHit); break;
+        case Expected::kMoved: ASSERT_GT(grid.moving(cell), 0); break;
+        case Expected::kUndecided: break;
+      }
+    });
+  }
+}
+
+TEST(EvidenceGrid, LetsNeighboursStandInForEachOtherAlmostWithoutLoss) {
+  const Vector2d origin_m(0.1, 0.2);
+  constexpr int kBeams = 720;
+  const auto rays = rays_in_a_room(origin_m, kBeams);
+  EvidenceGrid all_of_each_beam = empty_grid();
+  all_of_each_beam.integrate(origin_m, rays, 0.0);
+  EvidenceGrid grid = empty_grid();
+  grid.integrate(origin_m, rays, 2.0 * std::numbers::pi / kBeams);
+  int free_cells = 0;
+  int lost_cells = 0;
+  for_each_cell(grid.window(), [&](Cell cell) {
+    if (all_of_each_beam.so_steps(cell) >= 0) {
+      EXPECT_EQ(grid.so_steps(cell), all_of_each_beam.so_steps(cell));
+      return;
+    }
+    ++free_cells;
+    if (grid.so_steps(cell) == 0) ++lost_cells;
+  });
+  EXPECT_GT(free_cells, 1000);
+  EXPECT_LT(lost_cells, free_cells / 100);
+}
+
+TEST(EvidenceGrid, ChangesACellOnceAScanHoweverManyBeamsMeetThere) {
+  EvidenceGrid grid = empty_grid();
+  grid.integrate({0.1, 0.1}, std::vector<Ray>(50, {{5.1, 0.1}, Echo::kStationary}), 0.0);
+  EXPECT_EQ(grid.so_steps({20, 0}), kHit);
+  EXPECT_EQ(grid.so_steps({10, 0}), -kFree);
+}
+
+TEST(EvidenceGrid, LetsAnEchoWinOverABeamThatPassed) {
+  for (const bool echo_first : {true, false}) {
+    std::vector<Ray> rays = {{{5.1, 0.1}, Echo::kStationary}, {{9.0, 0.1}, Echo::kStationary}};
+    if (!echo_first) std::swap(rays[0], rays[1]);
+    EvidenceGrid grid = empty_grid();
+    grid.integrate({0.1, 0.1}, rays, 0.0);
+    EXPECT_EQ(grid.so_steps({20, 0}), kHit);
+  }
+}
+
+TEST(EvidenceGrid, IsNeverSurerThanItsLimit) {
+  EvidenceGrid grid = empty_grid();
+  for (int i = 0; i < 300; ++i) grid.integrate({0.1, 0.1}, {{{5.1, 0.1}, Echo::kStationary}}, 0.0);
+  EXPECT_EQ(grid.so_steps({20, 0}), kLimit);
+  EXPECT_EQ(grid.so_steps({10, 0}), -kLimit);
+}
+
+TEST(EvidenceGrid, ForgetsAWallThatIsGone) {
+  EvidenceGrid grid = empty_grid();
+  for (int i = 0; i < 50; ++i) grid.integrate({0.1, 0.1}, {{{5.1, 0.1}, Echo::kStationary}}, 0.0);
+  for (int i = 0; i < 50; ++i) grid.integrate({0.1, 0.1}, {{{9.1, 0.1}, Echo::kStationary}}, 0.0);
+  EXPECT_EQ(grid.so_steps({20, 0}), -kLimit);
+  EXPECT_NEAR(grid.distance_to_occupied({0.1, 0.1}, {1.0, 0.0}, 15.0), 9.0 - 0.1, 1e-9);
+}
+
+TEST(EvidenceGrid, GathersMovingEvidenceWithoutOccupyingTheCell) {
+  EvidenceGrid grid = empty_grid();
+  int before = 0;
+  for (int i = 0; i < 40; ++i) {
+    grid.integrate({0.1, 0.1}, {{{5.1, 0.1}, Echo::kMoving}}, 0.0);
+    EXPECT_TRUE(grid.moving({20, 0}) > before || before == 255);
+    before = grid.moving({20, 0});
+  }
+  EXPECT_EQ(before, 255);
+  EXPECT_EQ(grid.so_steps({20, 0}), 0);
+  EXPECT_EQ(grid.so_steps({10, 0}), -kLimit);
+}
+
+TEST(EvidenceGrid, SeesNoDifferenceBetweenTheFirstScanAndTheThreeHundredth) {
+  // The mark of a scan is one byte: cells last seen 255 scans ago must not look as if they had been seen in this one.
+  for (const int scans_between : {253, 254, 255, 256, 510}) {
+    EvidenceGrid grid = empty_grid();
+    const std::vector<Ray> east = {{{5.1, 0.1}, Echo::kStationary}};
+    const std::vector<Ray> north = {{{0.1, 5.1}, Echo::kStationary}};
+    grid.integrate({0.1, 0.1}, east, 0.0);
+    for (int i = 0; i < scans_between; ++i) grid.integrate({0.1, 0.1}, north, 0.0);
+    grid.integrate({0.1, 0.1}, east, 0.0);
+    EXPECT_EQ(grid.so_steps({20, 0}), 2 * kHit) << scans_between;
+    EXPECT_EQ(grid.so_steps({10, 0}), -2 * kFree) << scans_between;
+  }
+}
+
+TEST(EvidenceGrid, CutsRaysAtItsBorder) {
+  EvidenceGrid grid = empty_grid(4.0);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 360; ++i) {
+    const double angle_rad = i * std::numbers::pi / 180.0;
+    rays.push_back({100.0 * Vector2d(std::cos(angle_rad), std::sin(angle_rad)), Echo::kStationary});
+  }
+  grid.integrate({0.1, 0.1}, rays, 0.0);
+  int untouched = 0;
+  for_each_cell(grid.window(), [&](Cell cell) { untouched += grid.so_steps(cell) != -kFree; });
+  EXPECT_EQ(untouched, 0);
+  EXPECT_EQ(grid.so_steps({1000, 0}), 0);
+}
+
+TEST(EvidenceGrid, TakesTheEchoesOfAScannerOutsideButNotItsBeams) {
+  EvidenceGrid grid = empty_grid(4.0);
+  grid.integrate({-50.0, 0.1}, {{{1.1, 0.1}, Echo::kStationary}}, 0.0);
+  EXPECT_EQ(grid.so_steps({4, 0}), kHit);
+  EXPECT_EQ(grid.so_steps({0, 0}), 0);
+}
+
+TEST(EvidenceGrid, TakesABeamThatEndsAtTheScanner) {
+  EvidenceGrid grid = empty_grid(4.0);
+  grid.integrate({0.1, 0.1}, {{{0.1, 0.1}, Echo::kNone}, {{0.1, 0.1}, Echo::kStationary}}, 0.01);
+  EXPECT_EQ(grid.so_steps({0, 0}), kHit);
+}
+
+TEST(EvidenceGrid, GivesBackAPointAsAnEcho) {
+  EvidenceGrid grid = empty_grid();
+  grid.integrate({0.1, 0.1}, {{{5.1, 0.1}, Echo::kNone}}, 0.0);
+  const int before = grid.so_steps({10, 0});
+  grid.restore_stationary({2.6, 0.1});
+  EXPECT_EQ(grid.so_steps({10, 0}), before + kHit);
+  grid.restore_stationary({1e6, 0.0});  // outside: nothing happens
+}
+
+TEST(EvidenceGrid, MovesWithTheWorld) {
+  const Vector2d by_m(37 * kCell_m, -91 * kCell_m);
+  const Vector2d origin_m(0.125, 0.25);
+  const auto rays = rays_in_a_room(origin_m, 181);
+  EvidenceGrid here = empty_grid();
+  here.integrate(origin_m, rays, 0.0);
+  EvidenceGrid there(window_around(by_m, 20.0, kCell_m), kModel);
+  there.integrate(origin_m + by_m, shifted(rays, by_m), 0.0);
+  int differences = 0;
+  for_each_cell(here.window(), [&](Cell cell) {
+    differences += here.so_steps(cell) != there.so_steps({cell.column + 37, cell.row - 91});
+  });
+  EXPECT_LE(differences, 4);  // cells that a ray only grazes
+}
+
+TEST(EvidenceGrid, MovedToAnotherWindowGoesOnAsIfItHadAlwaysBeenThere) {
+  // Wide apart beams, so that many cells seen in one scan are not seen in the next.
+  const GridWindow next_window = window_around({3.0, -2.0}, 24.0, kCell_m);
+  for (const int scans_before : {1, 2, 7, 254, 255, 256}) {
+    EvidenceGrid moved_last = empty_grid(40.0);
+    for (int i = 0; i < scans_before; ++i) moved_last.integrate({0.1, 0.1}, rays_in_a_room({0.1, 0.1}, 31 + i % 3), 0.0);
+    EvidenceGrid moved_first = moved_last.moved_to(next_window);
+    for (int i = 0; i < 5; ++i) {
+      const Vector2d origin_m(0.4 + 0.1 * i, -0.3);
+      moved_last.integrate(origin_m, rays_in_a_room(origin_m, 37), 0.0);
+      moved_first.integrate(origin_m, rays_in_a_room(origin_m, 37), 0.0);
+    }
+    EXPECT_EQ(moved_first.so_cells(), moved_last.moved_to(next_window).so_cells()) << scans_before;
+    EXPECT_EQ(moved_first.mo_cells(), moved_last.moved_to(next_window).mo_cells()) << scans_before;
+  }
+}
+
+TEST(EvidenceGrid, IsWhatItsCellsAre) {
+  EvidenceGrid grid = empty_grid();
+  for (int i = 0; i < 20; ++i) grid.integrate({0.1, 0.1}, rays_in_a_room({0.1, 0.1}, 180), 0.0);
+  EvidenceGrid copy = empty_grid();
+  copy.set_cells(grid.so_cells(), grid.mo_cells());
+  EXPECT_EQ(copy.so_cells(), grid.so_cells());
+  for (int i = 0; i < 360; ++i) {
+    const Vector2d direction(std::cos(i), std::sin(i));
+    EXPECT_EQ(copy.distance_to_occupied({0.4, 0.3}, direction, 30.0), grid.distance_to_occupied({0.4, 0.3}, direction, 30.0));
+  }
+}
+
+TEST(HighestSoSteps, LooksAtTheWholeSquare) {
+  EvidenceGrid grid = empty_grid();
+  grid.integrate({0.1, 0.1}, {{{5.1, 0.1}, Echo::kStationary}}, 0.0);
+  EXPECT_EQ(grid.highest_so_steps({18, 2}, 2), kHit);
+  EXPECT_EQ(grid.highest_so_steps({17, 2}, 2), 0);
+  EXPECT_EQ(grid.highest_so_steps({10, 0}, 0), -kFree);
+  EXPECT_TRUE(grid.is_occupied_near({18, 2}, 2));
+  EXPECT_FALSE(grid.is_occupied_near({17, 2}, 2));
+}
+
+/// The nearest occupied cell on the ray, found by cutting the ray with every occupied cell.
+double slow_distance_m(const EvidenceGrid& grid, const Vector2d& origin_m, const Vector2d& direction, double max_range_m) {
+  double nearest_m = max_range_m;
+  for_each_cell(grid.window(), [&](Cell cell) {
+    if (!grid.is_occupied_near(cell, 0)) return;
+    const auto passage = passage_through(cell, kCell_m, origin_m, direction);
+    if (passage && passage->length_m() > 1e-5) nearest_m = std::min(nearest_m, passage->in_m);
+  });
+  return nearest_m;
+}
+
+TEST(DistanceToOccupied, IsWhatASlowRayCasterMeasures) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> place(-10.0, 10.0);
+  std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi);
+  EvidenceGrid grid = empty_grid();
+  for (int i = 0; i < 150; ++i) grid.restore_stationary({place(random), place(random)});
+  grid.integrate({0.0, 0.0}, rays_in_a_room({0.0, 0.0}, 60), 0.0);  // and some of it seen to be free again
+  for (int i = 0; i < 2000; ++i) {
+    const Vector2d origin_m(place(random), place(random));
+    const double angle_rad = angle(random);
+    const Vector2d direction(std::cos(angle_rad), std::sin(angle_rad));
+    const double max_range_m = 2.0 + std::abs(place(random));
+    ASSERT_NEAR(grid.distance_to_occupied(origin_m, direction, max_range_m), slow_distance_m(grid, origin_m, direction, max_range_m), 2e-5);
+  }
+}
+
+TEST(DistanceToOccupied, IsTheWholeRangeWhereNothingStands) {
+  EXPECT_EQ(empty_grid().distance_to_occupied({0.1, 0.1}, {0.6, 0.8}, 7.5), 7.5);
+  EXPECT_EQ(empty_grid().distance_to_occupied({0.1, 0.1}, {0.6, 0.8}, 1e4), 1e4);
+  EXPECT_EQ(empty_grid().distance_to_occupied({1e4, 0.1}, {0.6, 0.8}, 50.0), 50.0);
+}
+
+TEST(DistanceToOccupied, IsNothingInsideAnOccupiedCell) {
+  EvidenceGrid grid = empty_grid();
+  grid.restore_stationary({0.1, 0.1});
+  EXPECT_NEAR(grid.distance_to_occupied({0.12, 0.1}, {1.0, 0.0}, 10.0), 0.0, 1e-5);
+}
+
+TEST(DistanceToOccupied, WorksOnAxisParallelRays) {
+  EvidenceGrid grid = empty_grid();
+  for (const Vector2d& wall_m : {Vector2d(5.1, 0.1), {-5.1, 0.1}, {0.1, 5.1}, {0.1, -5.1}}) grid.restore_stationary(wall_m);
+  EXPECT_NEAR(grid.distance_to_occupied({0.1, 0.1}, {1.0, 0.0}, 10.0), 4.9, 1e-5);
+  EXPECT_NEAR(grid.distance_to_occupied({0.1, 0.1}, {-1.0, 0.0}, 10.0), 5.1, 1e-5);
+  EXPECT_NEAR(grid.distance_to_occupied({0.1, 0.1}, {0.0, 1.0}, 10.0), 4.9, 1e-5);
+  EXPECT_NEAR(grid.distance_to_occupied({0.1, 0.1}, {0.0, -1.0}, 10.0), 5.1, 1e-5);
+}
+
+TEST(StepsOfLogOdds, RoundsToTheNearestStep) {
+  EXPECT_EQ(steps_of_log_odds(0.0), 0);
+  EXPECT_EQ(steps_of_log_odds(1.0), 16);
+  EXPECT_EQ(steps_of_log_odds(-0.5), -8);
+  EXPECT_EQ(steps_of_log_odds(0.30), 5);
+}
+
+}  // namespace
+}  // namespace slammot::grids

@@ -1,0 +1,212 @@
+#include "common/grids/surfel_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace slammot::grids {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kCell_m = 0.25;
+constexpr double kManyEchoes = 1000.0;
+
+SurfelMap empty_map(double side_m = 20.0, double weight_limit = kManyEchoes) {
+  return {window_around({0.0, 0.0}, side_m, kCell_m), weight_limit};
+}
+
+Vector2d unit(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
+/// A wall through a point, seen every 5 cm, with noise across it.
+SurfelMap map_of_wall(const Vector2d& through_m, double angle_rad, double noise_m, int passes = 10) {
+  SurfelMap map = empty_map();
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise(0.0, noise_m);
+  const Vector2d across(-std::sin(angle_rad), std::cos(angle_rad));
+  for (int pass = 0; pass < passes; ++pass) {
+    for (double along_m = -5.0; along_m < 5.0; along_m += 0.05) {
+      map.add(through_m + (along_m + 0.005 * pass) * unit(angle_rad) + noise(random) * across);
+    }
+  }
+  return map;
+}
+
+std::vector<Vector2d> scattered_points(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-8.0, 8.0);
+  std::vector<Vector2d> points;
+  for (int i = 0; i < count; ++i) points.emplace_back(place(random), place(random));
+  return points;
+}
+
+TEST(SurfelMap, HoldsTheMeanOfTheEchoesInACell) {
+  SurfelMap map = empty_map();
+  map.add({0.05, 0.10});
+  map.add({0.15, 0.20});
+  map.add({0.10, 0.12});
+  const auto surfels = map.all();
+  ASSERT_EQ(surfels.size(), 1U);
+  EXPECT_NEAR((surfels[0].mean_m - Vector2d(0.10, 0.14)).norm(), 0.0, 1e-7);
+  EXPECT_EQ(surfels[0].weight, 3.0);
+  EXPECT_EQ(surfels[0].own_echoes, 3.0);
+}
+
+TEST(SurfelMap, IgnoresWhatIsOutside) {
+  SurfelMap map = empty_map(4.0);
+  map.add({100.0, 0.0});
+  EXPECT_TRUE(map.all().empty());
+  EXPECT_FALSE(map.nearest({100.0, 0.0}, 3));
+}
+
+TEST(SurfelMap, FindsTheNearestLikeASearchThroughAll) {
+  SurfelMap map = empty_map();
+  for (const Vector2d& point_m : scattered_points(800, 6)) map.add(point_m);
+  const auto all = map.all();
+  for (const Vector2d& point_m : scattered_points(2000, 7)) {
+    const Cell centre = map.window().cell_at(point_m.x(), point_m.y());
+    const auto nearest_within = [&](int radius) -> const SurfelView* {
+      const SurfelView* nearest = nullptr;
+      for (const SurfelView& one : all) {
+        if (std::max(std::abs(one.cell.column - centre.column), std::abs(one.cell.row - centre.row)) > radius) continue;
+        if (!nearest || (one.mean_m - point_m).norm() < (nearest->mean_m - point_m).norm()) nearest = &one;
+      }
+      return nearest;
+    };
+    const SurfelView* expected = nearest_within(1) ? nearest_within(1) : nearest_within(3);
+    const auto found = map.nearest(point_m, 3);
+    ASSERT_EQ(found.has_value(), expected != nullptr);
+    if (expected) ASSERT_EQ(found->cell, expected->cell);
+  }
+}
+
+TEST(SurfelMap, KnowsTheDirectionOfAWall) {
+  for (int degrees = -90; degrees < 90; degrees += 10) {
+    const double angle_rad = degrees * std::numbers::pi / 180.0;
+    const SurfelMap map = map_of_wall({0.13, 0.07}, angle_rad, 0.01);
+    for (double along_m = -4.0; along_m < 4.0; along_m += 0.3) {
+      const auto surfel = map.nearest(Vector2d(0.13, 0.07) + along_m * unit(angle_rad), 1);
+      ASSERT_TRUE(surfel);
+      EXPECT_NEAR(surfel->normal.norm(), 1.0, 1e-6);
+      EXPECT_LT(std::abs(surfel->normal.dot(unit(angle_rad))), std::sin(5.0 * std::numbers::pi / 180.0)) << degrees;
+    }
+  }
+}
+
+TEST(SurfelMap, KnowsHowThickAWallLooks) {
+  const double noise_m = 0.04;
+  const SurfelMap map = map_of_wall({0.0, 0.125}, 0.0, noise_m, 100);
+  double sum_m2 = 0.0;
+  int count = 0;
+  for (double along_m = -4.0; along_m < 4.0; along_m += 0.25, ++count) sum_m2 += map.nearest({along_m, 0.125}, 1)->spread_m2;
+  EXPECT_NEAR(std::sqrt(sum_m2 / count), noise_m, 0.1 * noise_m);
+}
+
+TEST(SurfelMap, GivesDotsAndBlobsNoDirection) {
+  SurfelMap dot = empty_map();
+  for (int i = 0; i < 20; ++i) dot.add({1.0 + 0.001 * i, 1.0});
+  EXPECT_TRUE(dot.all().front().normal.isZero());
+  SurfelMap blob = empty_map();
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> place(-0.4, 0.4);
+  for (int i = 0; i < 2000; ++i) blob.add({place(random), place(random)});
+  EXPECT_TRUE(blob.nearest({0.0, 0.0}, 1)->normal.isZero());
+}
+
+TEST(SurfelMap, FollowsASurfaceThatMovesOnceTheLimitIsReached) {
+  SurfelMap map = empty_map(20.0, 10.0);
+  for (int i = 0; i < 100; ++i) map.add({0.05, 0.1});
+  for (int i = 0; i < 100; ++i) map.add({0.20, 0.1});
+  const SurfelView surfel = map.all().front();
+  EXPECT_NEAR(surfel.mean_m.x(), 0.20, 0.001);
+  EXPECT_NEAR(surfel.weight, 10.0, 1e-3);
+  EXPECT_EQ(surfel.own_echoes, 200.0);
+}
+
+TEST(SurfelMap, ForgetsWhatIsErasedAndLearnsItAnew) {
+  SurfelMap map = empty_map();
+  map.add({0.05, 0.05});
+  map.add({1.05, 0.05});
+  map.erase({0, 0});
+  map.erase({0, 0});
+  map.erase({3, 3});
+  EXPECT_EQ(map.all().size(), 1U);
+  EXPECT_FALSE(map.nearest({0.05, 0.05}, 2));
+  map.add({0.20, 0.20});
+  EXPECT_NEAR((map.nearest({0.2, 0.2}, 1)->mean_m - Vector2d(0.20, 0.20)).norm(), 0.0, 1e-7);
+}
+
+TEST(SurfelMap, ChangesTheDirectionWhenANeighbourChanges) {
+  SurfelMap map = empty_map();
+  map.add({0.125, 0.125});
+  map.add({0.375, 0.125});
+  EXPECT_NEAR(std::abs(map.nearest({0.125, 0.125}, 1)->normal.y()), 1.0, 1e-6);
+  map.erase({1, 0});
+  map.add({0.125, 0.375});
+  EXPECT_NEAR(std::abs(map.nearest({0.125, 0.125}, 1)->normal.x()), 1.0, 1e-6);
+}
+
+TEST(SurfelMap, MovesWithTheWorld) {
+  const Vector2d by_m(400 * kCell_m, -12 * kCell_m);
+  SurfelMap here = empty_map();
+  SurfelMap there(window_around(by_m, 20.0, kCell_m), kManyEchoes);
+  for (const Vector2d& point_m : scattered_points(500, 12)) {
+    here.add(point_m);
+    there.add(point_m + by_m);
+  }
+  const auto all_here = here.all();
+  const auto all_there = there.all();
+  ASSERT_EQ(all_here.size(), all_there.size());
+  for (std::size_t i = 0; i < all_here.size(); ++i) {
+    EXPECT_NEAR((all_here[i].mean_m + by_m - all_there[i].mean_m).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((all_here[i].normal - all_there[i].normal).norm(), 0.0, 1e-3);
+  }
+}
+
+TEST(SurfelMap, MovedToAnotherWindowKeepsWhatLiesInBoth) {
+  SurfelMap map = empty_map();
+  for (const Vector2d& point_m : scattered_points(500, 13)) map.add(point_m);
+  const GridWindow next_window = window_around({5.0, 3.0}, 10.0, kCell_m);
+  const SurfelMap next = map.moved_to(next_window);
+  std::size_t shared = 0;
+  for (const SurfelView& surfel : map.all()) {
+    if (!next_window.contains(surfel.cell)) continue;
+    ++shared;
+    const auto kept = next.nearest(surfel.mean_m, 1);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->mean_m, surfel.mean_m);
+    EXPECT_EQ(kept->weight, surfel.weight);
+    EXPECT_EQ(kept->own_echoes, 0.0);
+  }
+  EXPECT_GT(shared, 50U);
+  EXPECT_EQ(next.all().size(), shared);
+}
+
+TEST(SurfelMap, IsWhatItsMomentsAre) {
+  SurfelMap map = map_of_wall({0.1, 0.2}, 0.5, 0.03);
+  SurfelMap copy = empty_map();
+  for (const SurfelView& surfel : map.all()) copy.set_moments(surfel.cell, *map.moments_at(surfel.cell));
+  const auto expected = map.all();
+  const auto copied = copy.all();
+  ASSERT_EQ(copied.size(), expected.size());
+  for (std::size_t i = 0; i < copied.size(); ++i) {
+    EXPECT_EQ(copied[i].mean_m, expected[i].mean_m);
+    EXPECT_EQ(copied[i].normal, expected[i].normal);
+    EXPECT_EQ(copied[i].own_echoes, expected[i].own_echoes);
+  }
+}
+
+TEST(SurfelMap, HasNoMomentsWhereThereWasNoEcho) {
+  SurfelMap map = empty_map();
+  EXPECT_EQ(map.moments_at({0, 0}), nullptr);
+  EXPECT_EQ(map.moments_at({100000, 0}), nullptr);
+  map.add({0.1, 0.1});
+  map.erase({0, 0});
+  EXPECT_EQ(map.moments_at({0, 0}), nullptr);
+}
+
+}  // namespace
+}  // namespace slammot::grids
