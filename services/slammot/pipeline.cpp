@@ -5,7 +5,7 @@
 namespace slammot {
 
 Pipeline::Pipeline(const Profile& profile)
-    : localizer_(profile.localization), loop_closer_(loop_closing::LoopClosingConfig{}) {}
+    : localizer_(profile.localization), loop_closer_(profile.loop_closing) {}
 
 void Pipeline::take(const sensing::Odometry& odometry) { localizer_.add_odometry(odometry); }
 

@@ -2,6 +2,7 @@
 
 #include "services/ingest/ingest_fields.hpp"
 #include "services/localization/localization_fields.hpp"
+#include "services/loop_closing/loop_closing_fields.hpp"
 #include "services/map_store/map_store_fields.hpp"
 
 namespace slammot {
@@ -10,6 +11,7 @@ std::vector<config::BoundStage> bind_stages(Profile& profile) {
   return {
       config::bind_stage("ingest", ingest::ingest_fields(), profile.ingest),
       config::bind_stage("localization", localization::localization_fields(), profile.localization),
+      config::bind_stage("loop_closing", loop_closing::loop_closing_fields(), profile.loop_closing),
       config::bind_stage("map_store", map_store::map_store_fields(), profile.map_store),
   };
 }

@@ -5,6 +5,7 @@
 #include "common/config/overlay.hpp"
 #include "services/ingest/ingest_config.hpp"
 #include "services/localization/localizer.hpp"
+#include "services/loop_closing/loop_closer.hpp"
 #include "services/map_store/map_store_config.hpp"
 
 namespace slammot {
@@ -13,6 +14,7 @@ namespace slammot {
 struct Profile {
   ingest::IngestConfig ingest;
   localization::LocalizerConfig localization;
+  loop_closing::LoopClosingConfig loop_closing;
   map_store::MapStoreConfig map_store;
 };
 
