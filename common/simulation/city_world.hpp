@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/simulation/street_plan.hpp"
+#include "common/simulation/surface.hpp"
+
+namespace slammot::simulation {
+
+/// Everything in the city that stands still for the whole drive, in the world frame: buildings with irregular fronts,
+/// parks, trees, lamps, signal poles and parked cars.
+Outline build_city(const StreetPlan& plan, std::uint64_t seed);
+
+/// Straight segments with a class each, as the walls file lists them: round things become octagons.
+std::vector<Segment> true_segments(const Outline& outline_in_world);
+
+}  // namespace slammot::simulation

@@ -1,0 +1,118 @@
+#include "common/simulation/drive.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "common/simulation/city_world.hpp"
+
+namespace slammot::simulation {
+namespace {
+
+using geometry::Pose2;
+
+std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
+
+std::vector<ObjectTruth> objects_hit(const ScannedWorld& scanned, const Moment& moment) {
+  std::map<int, int> points;  // by index of the object
+  for (const int source : scanned.source) {
+    if (source >= 0) ++points[source];
+  }
+  std::vector<ObjectTruth> truth;
+  for (const auto& [index, count] : points) {
+    const MovingObject& object = moment.objects[static_cast<std::size_t>(index)];
+    const double range_m =
+        (object.world_from_object.translation_m() - moment.world_from_base.translation_m()).norm();
+    truth.push_back({object.id, object.kind, object.size, object.world_from_object, object.speed_mps, count, range_m});
+  }
+  return truth;
+}
+
+}  // namespace
+
+struct Drive::World {
+  explicit World(const ScenarioConfig& config)
+      : scenario(config),
+        plan(config.city, config.seed),
+        stationary_in_world(build_city(plan, config.seed)),
+        ray_caster(stationary_in_world),
+        traffic(plan, {config.traffic, config.route, config.seed}),
+        walkers(pavements(plan), config.walkers, config.seed),
+        suspension(config.suspension),
+        odometer(config.odometry, config.seed),
+        random(config.seed, Purpose::scanner),
+        step_s(1.0 / config.scanner.rate_hz) {
+    const auto unrecorded = static_cast<int>(config.warm_up_s / step_s);
+    for (int i = 0; i < unrecorded; ++i) advance();
+    before = moment();
+    odometer = WheelOdometer(config.odometry, config.seed);  // starts at zero where the recording starts
+    scans = static_cast<std::size_t>(std::floor(config.duration_s * config.scanner.rate_hz));
+  }
+
+  void advance() {
+    traffic.advance(step_s, walkers.on_road());
+    walkers.advance(step_s, [this](const Crossing& crossing) { return traffic.may_cross(crossing); });
+    const double speed_mps = traffic.objects().front().speed_mps;
+    nose_down_rad = suspension.advance((speed_mps - last_speed_mps) / step_s, step_s);
+    last_speed_mps = speed_mps;
+  }
+
+  /// The vehicle apart from the others: it does not see itself.
+  Moment moment() const {
+    Moment now;
+    now.world_from_base = traffic.objects().front().world_from_object;
+    now.nose_down_rad = nose_down_rad;
+    now.objects.assign(traffic.objects().begin() + 1, traffic.objects().end());
+    const std::vector<MovingObject> people = walkers.objects(static_cast<int>(traffic.objects().size()));
+    now.objects.insert(now.objects.end(), people.begin(), people.end());
+    return now;
+  }
+
+  SimulatedScan record() {
+    advance();
+    Moment after = moment();
+    const ScannedWorld scanned = scan_world(scenario.scanner, ray_caster, {before, after, step_s}, random);
+    SimulatedScan result;
+    const std::int64_t stamp_ns = nanoseconds(scenario.start_stamp_s + static_cast<double>(recorded) * step_s);
+    result.scan = {stamp_ns, static_cast<std::uint32_t>(recorded), scanner_of(scenario.scanner), scanned.range_m};
+    result.odometry = {stamp_ns, odometer.wheel_from_base()};
+    result.odometry_speed_mps = odometer.speed_mps();
+    result.odometry_yaw_rate_radps = odometer.yaw_rate_radps();
+    result.world_from_base = before.world_from_base;
+    result.objects = objects_hit(scanned, before);
+    odometer.advance(inverse(before.world_from_base) * after.world_from_base, step_s);
+    before = std::move(after);
+    ++recorded;
+    return result;
+  }
+
+  ScenarioConfig scenario;
+  StreetPlan plan;
+  Outline stationary_in_world;
+  RayCaster ray_caster;
+  Traffic traffic;
+  Walkers walkers;
+  Suspension suspension;
+  WheelOdometer odometer;
+  Random random;
+  double step_s;
+  double nose_down_rad = 0.0;
+  double last_speed_mps = 0.0;
+  Moment before;
+  std::size_t scans = 0;
+  std::size_t recorded = 0;
+};
+
+Drive::Drive(const ScenarioConfig& scenario) : world_(std::make_unique<World>(scenario)) {}
+Drive::~Drive() = default;
+Drive::Drive(Drive&&) noexcept = default;
+Drive& Drive::operator=(Drive&&) noexcept = default;
+
+std::optional<SimulatedScan> Drive::next() {
+  if (world_->recorded >= world_->scans) return std::nullopt;
+  return world_->record();
+}
+
+const Outline& Drive::stationary_in_world() const { return world_->stationary_in_world; }
+std::size_t Drive::scan_count() const { return world_->scans; }
+
+}  // namespace slammot::simulation

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+
+namespace slammot::simulation {
+
+/// What a sequence of random numbers is for. Each purpose has a sequence of its own, so that, for instance, one car
+/// more does not change the noise of the scanner.
+enum class Purpose : std::uint64_t { world = 1, traffic, pedestrians, vehicle, odometry, scanner, route };
+
+/// Random numbers that are the same on every platform: std::mt19937_64, whose sequence the C++ standard fixes, and
+/// distributions written out here, since those of the standard library differ between implementations.
+class Random {
+ public:
+  Random(std::uint64_t seed, Purpose purpose);
+
+  /// Uniform in [0, 1), a multiple of 2^-53.
+  double uniform();
+  /// Uniform in [low, high).
+  double uniform(double low, double high);
+  /// Standard normal; Box and Muller 1958, both values of a pair are used.
+  double normal();
+  /// True with this probability.
+  bool chance(double probability);
+  /// Uniform in 0 .. count-1; count > 0.
+  std::size_t index(std::size_t count);
+
+ private:
+  std::mt19937_64 engine_;
+  double spare_normal_ = 0.0;
+  bool has_spare_normal_ = false;
+};
+
+}  // namespace slammot::simulation

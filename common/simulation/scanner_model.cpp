@@ -1,0 +1,194 @@
+#include "common/simulation/scanner_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace slammot::simulation {
+namespace {
+
+using geometry::Pose2;
+using geometry::Vector2;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSplit_m = 0.4;           ///< A spot's rays further apart than this lie on two surfaces.
+constexpr double kGroundDropOut = 0.3;     ///< The road is met at a grazing angle.
+constexpr double kFoliageDropOut = 0.1;
+constexpr double kFoliageDepth_m = 0.4;    ///< Leaves let the beam in this far.
+
+struct Echo {
+  double range_m = kInfinity;
+  Material material = Material::wall;
+  int source = kNothing;
+};
+
+/// Index range of the beams that may meet each object, so that a beam tests few objects.
+class Candidates {
+ public:
+  Candidates(const ScannerConfig& config, const Step& step) : by_beam_(static_cast<std::size_t>(config.beams)) {
+    for (std::size_t i = 0; i < step.before.objects.size(); ++i) add(config, step, static_cast<int>(i));
+  }
+  const std::vector<int>& of_beam(int beam) const { return by_beam_[static_cast<std::size_t>(beam)]; }
+
+ private:
+  void add(const ScannerConfig& config, const Step& step, int object) {
+    const MovingObject& before = step.before.objects[static_cast<std::size_t>(object)];
+    const MovingObject& after = step.after.objects[static_cast<std::size_t>(object)];
+    const Pose2 world_from_laser = step.before.world_from_base * Pose2{config.ahead_m, 0.0, 0.0};
+    const Vector2 in_laser = inverse(world_from_laser) * before.world_from_object.translation_m();
+    // Whatever moves or turns during the sweep stays within this distance of where it was; a stride reaches furthest
+    // out of a small box.
+    const double moved_m = (after.world_from_object.translation_m() - before.world_from_object.translation_m()).norm() +
+                           (step.after.world_from_base.translation_m() - step.before.world_from_base.translation_m()).norm();
+    const double radius_m = 0.5 * std::hypot(before.size.length_m, before.size.width_m) + moved_m + 0.5;
+    const double distance_m = in_laser.norm();
+    if (distance_m > config.max_range_m + radius_m) return;
+    int first = 0;
+    int last = config.beams - 1;
+    if (distance_m > radius_m) {
+      const double turned_rad =
+          std::abs(geometry::wrap_angle(step.after.world_from_base.heading_rad - step.before.world_from_base.heading_rad));
+      const double half_rad = std::asin(radius_m / distance_m) + turned_rad + config.spot_rad;
+      const double beam_step_rad = config.field_of_view_rad / (config.beams - 1);
+      const double bearing_rad = std::atan2(in_laser.y(), in_laser.x());
+      first = std::max(first, static_cast<int>(std::floor((bearing_rad - half_rad - config.first_beam_rad) / beam_step_rad)));
+      last = std::min(last, static_cast<int>(std::ceil((bearing_rad + half_rad - config.first_beam_rad) / beam_step_rad)));
+      // Behind a half-circle scanner the interval is empty; a full-circle scanner would see it across the cut.
+      if (config.field_of_view_rad > 3.2) first = 0, last = config.beams - 1;
+    }
+    for (int beam = first; beam <= last; ++beam) by_beam_[static_cast<std::size_t>(beam)].push_back(object);
+  }
+
+  std::vector<std::vector<int>> by_beam_;
+};
+
+/// The world as one beam finds it: everything where it is when the beam fires.
+struct BeamView {
+  Pose2 world_from_laser;
+  double nose_down_rad;
+  double fraction;                    ///< Of the step that has passed.
+  const std::vector<int>& candidates;
+};
+
+double range_to_object(const MovingObject& object, const Pose2& world_from_object, const Vector2& origin,
+                       const Vector2& direction) {
+  const Pose2 object_from_world = inverse(world_from_object);
+  const Vector2 origin_in_object = object_from_world * origin;
+  const Vector2 direction_in_object = geometry::rotation(object_from_world.heading_rad) * direction;
+  double range_m = kInfinity;
+  for (const Segment& segment : object.outline_in_object.segments) {
+    range_m = std::min(range_m, distance_along_ray(segment, origin_in_object, direction_in_object));
+  }
+  for (const Circle& circle : object.outline_in_object.circles) {
+    range_m = std::min(range_m, distance_along_ray(circle, origin_in_object, direction_in_object));
+  }
+  return range_m;
+}
+
+double range_to_ground(const ScannerConfig& config, double nose_down_rad, double beam_rad) {
+  const double fall = std::sin(nose_down_rad) * std::cos(beam_rad);
+  return fall > 0.0 ? config.height_m / fall : kInfinity;
+}
+
+class Sweep {
+ public:
+  Sweep(const ScannerConfig& config, const RayCaster& stationary, const Step& step, Random& random)
+      : config_(config), stationary_(stationary), step_(step), random_(random), candidates_(config, step) {}
+
+  ScannedWorld run() {
+    ScannedWorld scanned;
+    for (int beam = 0; beam < config_.beams; ++beam) {
+      const Echo echo = fire(beam);
+      scanned.range_m.push_back(static_cast<float>(echo.range_m));
+      scanned.source.push_back(echo.source);
+    }
+    return scanned;
+  }
+
+ private:
+  Echo fire(int beam) {
+    const double delay_s = config_.sweep_s * beam / (config_.beams - 1);
+    const double fraction = delay_s / step_.duration_s;
+    const Pose2 world_from_base = interpolate(step_.before.world_from_base, step_.after.world_from_base, fraction);
+    const BeamView view{world_from_base * Pose2{config_.ahead_m, 0.0, 0.0},
+                        step_.before.nose_down_rad + fraction * (step_.after.nose_down_rad - step_.before.nose_down_rad),
+                        fraction, candidates_.of_beam(beam)};
+    const double beam_rad = config_.first_beam_rad + config_.field_of_view_rad * beam / (config_.beams - 1);
+    const double edge_rad = 0.4 * config_.spot_rad;
+    return measured(over_spot({cast(view, beam_rad - edge_rad), cast(view, beam_rad), cast(view, beam_rad + edge_rad)}));
+  }
+
+  Echo cast(const BeamView& view, double beam_rad) const {
+    const double heading_rad = view.world_from_laser.heading_rad + beam_rad;
+    const Vector2 direction{std::cos(heading_rad), std::sin(heading_rad)};
+    const Vector2 origin = view.world_from_laser.translation_m();
+    Echo nearest;
+    const double ground_m = range_to_ground(config_, view.nose_down_rad, beam_rad);
+    if (ground_m < config_.max_range_m) nearest = {ground_m, Material::ground, kStationary};
+    const Hit hit = stationary_.cast(origin, direction, config_.max_range_m);
+    if (hit.range_m < nearest.range_m) nearest = {hit.range_m, hit.material, kStationary};
+    for (const int index : view.candidates) {
+      const MovingObject& before = step_.before.objects[static_cast<std::size_t>(index)];
+      const MovingObject& after = step_.after.objects[static_cast<std::size_t>(index)];
+      const Pose2 world_from_object = interpolate(before.world_from_object, after.world_from_object, view.fraction);
+      const double range_m = range_to_object(before, world_from_object, origin, direction);
+      if (range_m < nearest.range_m) nearest = {range_m, Material::body, index};
+    }
+    return nearest;
+  }
+
+  /// What the whole spot returns: its middle's echo, or, where an edge splits it, sometimes a range in between.
+  Echo over_spot(const std::array<Echo, 3>& rays) {
+    const auto [nearest, furthest] = std::minmax_element(
+        rays.begin(), rays.end(), [](const Echo& a, const Echo& b) { return a.range_m < b.range_m; });
+    const bool split = furthest->range_m - nearest->range_m > kSplit_m;
+    if (!split || !random_.chance(config_.mixed_share)) return rays[1];
+    if (furthest->range_m > config_.max_range_m) return *nearest;
+    Echo mixed = *nearest;
+    mixed.range_m += random_.uniform() * (furthest->range_m - nearest->range_m);
+    mixed.source = kStationary;  // belongs to neither
+    return mixed;
+  }
+
+  Echo measured(Echo echo) {
+    const Echo nothing{config_.max_range_m, Material::wall, kNothing};
+    if (echo.range_m >= config_.max_range_m || random_.chance(drop_out(echo))) return nothing;
+    if (echo.material == Material::foliage) echo.range_m += random_.uniform(0.0, kFoliageDepth_m);
+    echo.range_m += (config_.noise_floor_m + config_.noise_per_m * echo.range_m) * random_.normal();
+    echo.range_m = config_.resolution_m * std::round(std::max(0.0, echo.range_m) / config_.resolution_m);
+    return echo.range_m < config_.max_range_m ? echo : nothing;
+  }
+
+  double drop_out(const Echo& echo) const {
+    if (echo.material == Material::ground) return kGroundDropOut;
+    if (echo.material == Material::foliage) return kFoliageDropOut;
+    const double far = echo.range_m / config_.max_range_m;
+    const bool car = echo.material == Material::body || echo.material == Material::parked_car;
+    return config_.drop_out + (car ? config_.dark_drop_out : 0.1 * config_.dark_drop_out) * far * far;
+  }
+
+  const ScannerConfig& config_;
+  const RayCaster& stationary_;
+  const Step& step_;
+  Random& random_;
+  Candidates candidates_;
+};
+
+}  // namespace
+
+sensing::Scanner scanner_of(const ScannerConfig& config) {
+  sensing::Scanner scanner;
+  scanner.scanner_id = config.scanner_id;
+  scanner.base_from_laser = {config.ahead_m, 0.0, 0.0};
+  scanner.first_beam_rad = config.first_beam_rad;
+  scanner.beam_step_rad = config.field_of_view_rad / (config.beams - 1);
+  scanner.max_range_m = config.max_range_m;
+  scanner.sweep_s = config.sweep_s;
+  return scanner;
+}
+
+ScannedWorld scan_world(const ScannerConfig& config, const RayCaster& stationary, const Step& step, Random& random) {
+  return Sweep(config, stationary, step, random).run();
+}
+
+}  // namespace slammot::simulation

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/sensing/scan.hpp"
+#include "common/simulation/moving_object.hpp"
+#include "common/simulation/random.hpp"
+#include "common/simulation/ray_caster.hpp"
+
+namespace slammot::simulation {
+
+/// One planar scanner; the defaults are a SICK LMS291 (datasheet: 0.5 degrees, spots of about 0.44 degrees, 1/75 s
+/// for 180 degrees) with the noise seen in recordings of one.
+struct ScannerConfig {
+  std::string scanner_id = "front";
+  double ahead_m = 2.15;              ///< Of the vehicle's centre, looking straight ahead.
+  double height_m = 0.6;
+  int beams = 361;
+  double first_beam_rad = -1.570796;
+  double field_of_view_rad = 3.141593;
+  double rate_hz = 37.5;
+  double sweep_s = 1.0 / 75.0;        ///< From the first to the last beam.
+  double max_range_m = 81.83;         ///< Reading for "no echo".
+  double resolution_m = 0.01;
+  double noise_floor_m = 0.012;       ///< One sigma at no distance.
+  double noise_per_m = 0.0013;        ///< Growth of sigma with range.
+  double spot_rad = 0.0077;           ///< Full width of the beam.
+  double mixed_share = 0.4;           ///< Of the spots split over an edge: reading between the two surfaces.
+  double drop_out = 0.002;            ///< Echo lost at no distance.
+  double dark_drop_out = 0.15;        ///< Echo from a car lost at maximum range; grows with the square of range.
+};
+
+/// The moving part of the world at one time.
+struct Moment {
+  geometry::Pose2 world_from_base;
+  double nose_down_rad = 0.0;
+  std::vector<MovingObject> objects;  ///< The same objects in the same order at every moment.
+};
+
+/// A step of the simulation: things move evenly from one moment to the other.
+struct Step {
+  const Moment& before;
+  const Moment& after;
+  double duration_s;                  ///< At least the sweep.
+};
+
+constexpr int kStationary = -1;
+constexpr int kNothing = -2;
+
+struct ScannedWorld {
+  std::vector<float> range_m;         ///< One a beam.
+  std::vector<int> source;            ///< What each beam met: index of a moving object, kStationary or kNothing.
+};
+
+/// The scanner's geometry as it travels with its scans.
+sensing::Scanner scanner_of(const ScannerConfig& config);
+
+/// One sweep that starts with the step: beams fire one after the other while vehicle and objects move, each spot is
+/// as wide as the real one's and may be split by an edge, braking tips the beams into the road.
+ScannedWorld scan_world(const ScannerConfig& config, const RayCaster& stationary, const Step& step, Random& random);
+
+}  // namespace slammot::simulation
