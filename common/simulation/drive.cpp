@@ -50,7 +50,7 @@ struct Drive::World {
 
   void advance() {
     traffic.advance(step_s, walkers.on_road());
-    walkers.advance(step_s, [this](const Crossing& crossing) { return traffic.may_cross(crossing); });
+    walkers.advance(step_s, traffic.street_view());
     const double speed_mps = traffic.objects().front().speed_mps;
     nose_down_rad = suspension.advance((speed_mps - last_speed_mps) / step_s, step_s);
     last_speed_mps = speed_mps;

@@ -35,10 +35,11 @@ double turn_speed_mps(TurnKind kind, double straight_mps) {
   return straight_mps;
 }
 
-/// Below this distance between centre lines two bodies could touch.
-double conflict_distance_m(RoadUser a, RoadUser b) {
-  if (a == RoadUser::motor && b == RoadUser::motor) return 3.2;
-  return a == b ? 1.2 : 1.7;
+/// Below this distance between centre lines two bodies could touch. A long vehicle's ends swing out in a turn.
+double conflict_distance_m(const Lane& a, const Lane& b) {
+  if (a.user == RoadUser::motor && b.user == RoadUser::motor) return 3.2;
+  if (a.user == b.user) return 1.2;
+  return a.turn == TurnKind::straight && b.turn == TurnKind::straight ? 1.7 : 2.6;
 }
 
 bool come_close(const Path& a, const Path& b, double distance_m) {
@@ -120,6 +121,7 @@ void RoadNetwork::add_turn_lanes(const StreetPlan& plan, RoadUser user) {
       lanes_[i].next.push_back(static_cast<int>(lanes_.size()));
       lanes_.push_back(std::move(lane));
     }
+    for (const int turn : lanes_[i].next) lanes_[static_cast<std::size_t>(turn)].siblings = lanes_[i].next;
   }
 }
 
@@ -129,7 +131,7 @@ void RoadNetwork::find_conflicts() {
       if (lanes_[a].kind != LaneKind::turn || lanes_[b].kind != LaneKind::turn) continue;
       if (lanes_[a].junction != lanes_[b].junction) continue;
       const bool follow_each_other = lanes_[a].user == lanes_[b].user && lanes_[a].travel == lanes_[b].travel;
-      const double distance_m = conflict_distance_m(lanes_[a].user, lanes_[b].user);
+      const double distance_m = conflict_distance_m(lanes_[a], lanes_[b]);
       if (follow_each_other || !come_close(lanes_[a].path_in_world, lanes_[b].path_in_world, distance_m)) continue;
       lanes_[a].conflicts.push_back(static_cast<int>(b));
       lanes_[b].conflicts.push_back(static_cast<int>(a));

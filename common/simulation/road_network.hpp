@@ -22,6 +22,7 @@ struct Lane {
   Direction travel = Direction::east;       ///< Direction in which it starts.
   double speed_limit_mps = 0.0;
   std::vector<int> next;                    ///< Lanes that start where this one ends.
+  std::vector<int> siblings;                ///< Of a turn lane: all that start where it does, itself too.
   std::vector<int> conflicts;               ///< Turn lanes that must not be used at the same time.
 };
 

@@ -19,6 +19,7 @@ constexpr double kStandstillGap_m = 2.0;
 constexpr double kSight_m = 60.0;
 constexpr double kFar_m = 1e6;
 constexpr std::size_t kPlannedLanes = 4;
+constexpr double kWaysPart_m = 8.5;  ///< Past the stop line a left turn is a car's width away from straight on.
 
 BoxSize size_of(ObjectClass kind, Random& random) {
   switch (kind) {
@@ -102,7 +103,7 @@ Traffic::Driver Traffic::make_driver(ObjectClass kind, const TrafficConfig& conf
   const BoxSize size = size_of(kind, random_);
   driver.length_m = size.length_m;
   driver.half_width_m = 0.5 * size.width_m;
-  const double spread_m = kind == ObjectClass::bus ? 0.03 : 0.12;
+  const double spread_m = kind == ObjectClass::car ? 0.12 : 0.03;
   driver.sideways_m = std::clamp(spread_m * random_.normal(), -2.0 * spread_m, 2.0 * spread_m);
   driver.speed_factor = std::clamp(1.0 + 0.12 * random_.normal(), 0.7, 1.25);
   if (kind == ObjectClass::bus) driver.speed_factor = 0.85;
@@ -178,7 +179,8 @@ void Traffic::advance(double dt_s, const std::vector<PersonOnRoad>& people) {
     Driver& driver = drivers_[i];
     ask_for_turn(driver);
     const double free_mps2 = acceleration_mps2(driver, people);
-    const double behind_mps2 = follow_mps2(driver, limit_mps(driver, driver.lanes.front()), leader(i));
+    const double limit = limit_mps(driver, driver.lanes.front());
+    const double behind_mps2 = std::min(follow_mps2(driver, limit, leader(i)), follow_mps2(driver, limit, turning_off(i)));
     accelerations_mps2.push_back(std::clamp(std::min(free_mps2, behind_mps2), -kHardestBraking_mps2, kAcceleration_mps2));
   }
   if (frightened(dt_s)) accelerations_mps2.front() = std::min(accelerations_mps2.front(), -route_.hard_brake_mps2);
@@ -246,34 +248,48 @@ Traffic::Obstacle Traffic::leader(std::size_t index) const {
       if (behind || other == index) continue;
       return {ahead_m - 0.5 * (driver.length_m + drivers_[other].length_m), drivers_[other].speed_mps};
     }
-    // Who has just turned off another way still stands in the way with its tail.
-    if (lane.kind == LaneKind::street) {
-      Obstacle nearest{kFar_m, 0.0};
-      const double end_m = lane_start_m + lane.path_in_world.length_m();
-      for (const int turn : lane.next) {
-        if (i + 1 < driver.lanes.size() && turn == driver.lanes[i + 1]) continue;
-        for (const std::size_t other : drivers_in_lane_[static_cast<std::size_t>(turn)]) {
-          const Driver& turning = drivers_[other];
-          if (turning.arc_m - 0.5 * turning.length_m > 5.0) continue;
-          const double gap_m = end_m + turning.arc_m - 0.5 * (driver.length_m + turning.length_m);
-          if (gap_m < nearest.gap_m) nearest = {gap_m, turning.speed_mps};
-        }
-      }
-      if (nearest.gap_m < kSight_m) return nearest;
-    }
     lane_start_m += lane.path_in_world.length_m();
   }
   return {kFar_m, 0.0};
 }
 
+Traffic::Obstacle Traffic::turning_off(std::size_t index) const {
+  const Driver& driver = drivers_[index];
+  const Lane& here = network_.lane(driver.lanes.front());
+  const bool on_street = here.kind == LaneKind::street;
+  const int own_turn = on_street ? driver.lanes[1] : driver.lanes.front();
+  const double line_ahead_m = (on_street ? here.path_in_world.length_m() : 0.0) - driver.arc_m;
+  Obstacle nearest{kFar_m, 0.0};
+  for (const int turn : network_.lane(own_turn).siblings) {
+    if (turn == own_turn) continue;
+    for (const std::size_t other : drivers_in_lane_[static_cast<std::size_t>(turn)]) {
+      const Driver& turning = drivers_[other];
+      const double ahead_m = line_ahead_m + turning.arc_m;
+      const bool apart = turning.arc_m - 0.5 * turning.length_m > kWaysPart_m;
+      if (apart || ahead_m < 0.0 || (ahead_m == 0.0 && other < index)) continue;
+      const double gap_m = ahead_m - 0.5 * (driver.length_m + turning.length_m);
+      if (gap_m < nearest.gap_m) nearest = {gap_m, turning.speed_mps};
+    }
+  }
+  return nearest;
+}
+
 void Traffic::ask_for_turn(Driver& driver) {
   const Lane& here = network_.lane(driver.lanes.front());
-  if (here.kind != LaneKind::street || driver.reserved_turn >= 0) return;
+  if (here.kind != LaneKind::street || driver.reserved_turn >= 0 || driver.stop_left_s > 0.0) return;
   const double to_line_m = here.path_in_world.length_m() - driver.arc_m - 0.5 * driver.length_m;
   const double braking_m = driver.speed_mps * driver.speed_mps / (2.0 * kComfortableBraking_mps2);
-  if (to_line_m > braking_m + 10.0 || !turn_is_free(driver, driver.lanes[1])) return;
+  if (to_line_m > braking_m + 10.0 || !is_next_to_go(driver) || !turn_is_free(driver, driver.lanes[1])) return;
   driver.reserved_turn = driver.lanes[1];
   ++reservations_[static_cast<std::size_t>(driver.reserved_turn)];
+}
+
+bool Traffic::is_next_to_go(const Driver& driver) const {
+  // Who is behind somebody that waits must not hold the turn that this one waits for: both would stand for ever.
+  const auto& lane = drivers_in_lane_[static_cast<std::size_t>(driver.lanes.front())];
+  return std::none_of(lane.begin(), lane.end(), [&](std::size_t other) {
+    return drivers_[other].arc_m > driver.arc_m && drivers_[other].reserved_turn != drivers_[other].lanes[1];
+  });
 }
 
 bool Traffic::turn_is_free(const Driver& driver, int turn) const {
@@ -328,6 +344,18 @@ bool Traffic::may_cross(const Crossing& crossing) const {
   });
 }
 
+bool Traffic::is_occupied(const Vector2& place_in_world) const {
+  return std::any_of(objects_.begin(), objects_.end(), [&](const MovingObject& object) {
+    const Vector2 in_object = inverse(object.world_from_object) * place_in_world;
+    return std::abs(in_object.x()) < 0.5 * object.size.length_m && std::abs(in_object.y()) < 0.5 * object.size.width_m;
+  });
+}
+
+StreetView Traffic::street_view() const {
+  return {[this](const Crossing& crossing) { return may_cross(crossing); },
+          [this](const Vector2& place_in_world) { return is_occupied(place_in_world); }};
+}
+
 double Traffic::person_gap_m(const Driver& driver, const std::vector<PersonOnRoad>& people) const {
   constexpr double kClearance_m = 0.7;
   const double braking_m = driver.speed_mps * driver.speed_mps / (2.0 * kComfortableBraking_mps2);
@@ -336,6 +364,10 @@ double Traffic::person_gap_m(const Driver& driver, const std::vector<PersonOnRoa
   double nearest_m = kFar_m;
   for (const PersonOnRoad& person : people) {
     if ((person.position_in_world - now.translation_m()).norm() > look_m + 6.0) continue;
+    // Nobody sets off while someone squeezes past.
+    const Vector2 beside = inverse(now) * person.position_in_world;
+    const bool touches = std::abs(beside.x()) < 0.5 * driver.length_m + 0.4 && std::abs(beside.y()) < driver.half_width_m + 0.3;
+    if (touches && driver.speed_mps < 1.0) return 0.0;
     for (double ahead_m = 0.5 * driver.length_m; ahead_m < std::min(look_m, nearest_m); ahead_m += 1.0) {
       const Pose2 world_from_place = pose_ahead(driver, ahead_m);
       const Vector2 in_place = inverse(world_from_place) * person.position_in_world;
@@ -381,6 +413,7 @@ void Traffic::move(Driver& driver, double acceleration, double dt_s) {
   const Lane& lane = network_.lane(driver.lanes.front());
   if (driver.arc_m >= lane.path_in_world.length_m()) {
     driver.arc_m -= lane.path_in_world.length_m();
+    driver.last_lane = driver.lanes.front();
     driver.lanes.erase(driver.lanes.begin());
     extend_plan(driver);
   }
@@ -394,12 +427,24 @@ void Traffic::move(Driver& driver, double acceleration, double dt_s) {
 
 Pose2 Traffic::pose_ahead(const Driver& driver, double ahead_m) const {
   double arc_m = driver.arc_m + ahead_m;
+  if (arc_m < 0.0 && driver.last_lane >= 0) {
+    const Path& last = network_.lane(driver.last_lane).path_in_world;
+    return last.pose_at(last.length_m() + arc_m) * Pose2{0.0, driver.sideways_m, 0.0};
+  }
   std::size_t i = 0;
   while (i + 1 < driver.lanes.size() && arc_m > network_.lane(driver.lanes[i]).path_in_world.length_m()) {
     arc_m -= network_.lane(driver.lanes[i]).path_in_world.length_m();
     ++i;
   }
   return network_.lane(driver.lanes[i]).path_in_world.pose_at(arc_m) * Pose2{0.0, driver.sideways_m, 0.0};
+}
+
+Pose2 Traffic::pose_on_axles(const Driver& driver) const {
+  const double to_axle_m = 0.42 * driver.length_m;
+  const Vector2 front = pose_ahead(driver, to_axle_m).translation_m();
+  const Vector2 rear = pose_ahead(driver, -to_axle_m).translation_m();
+  const Vector2 middle = 0.5 * (front + rear);
+  return {middle.x(), middle.y(), std::atan2((front - rear).y(), (front - rear).x())};
 }
 
 void Traffic::publish() {
@@ -414,7 +459,7 @@ void Traffic::publish() {
     }
   }
   for (std::size_t i = 0; i < drivers_.size(); ++i) {
-    objects_[i].world_from_object = pose_ahead(drivers_[i], 0.0);
+    objects_[i].world_from_object = pose_on_axles(drivers_[i]);
     objects_[i].speed_mps = drivers_[i].speed_mps;
   }
 }

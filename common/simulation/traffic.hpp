@@ -47,6 +47,11 @@ class Traffic {
   /// Signal or gap allows a person to start across now.
   bool may_cross(const Crossing& crossing) const;
 
+  /// Whether a vehicle's body covers a place.
+  bool is_occupied(const geometry::Vector2& place_in_world) const;
+  /// may_cross and is_occupied as people ask for them. Refers to this traffic, which must outlive it.
+  StreetView street_view() const;
+
   /// The vehicle that carries the scanners, then everybody else; ids from 0 on. Fixed order.
   const std::vector<MovingObject>& objects() const { return objects_; }
 
@@ -58,6 +63,7 @@ class Traffic {
     double half_width_m = 0.9;
     double sideways_m = 0.0;            ///< Place to the left of the lane's middle.
     double speed_factor = 1.0;
+    int last_lane = -1;                 ///< The one it came from.
     std::vector<int> lanes;             ///< The one it is in, then those it will take.
     double arc_m = 0.0;                 ///< Of its centre, in lanes.front().
     double speed_mps = 0.0;
@@ -88,8 +94,12 @@ class Traffic {
   double follow_mps2(const Driver& driver, double limit_mps, const Obstacle& obstacle) const;
   double limit_mps(const Driver& driver, int lane) const;
   double bend_braking_mps2(const Driver& driver) const;
+  /// The next on the same way.
   Obstacle leader(std::size_t index) const;
+  /// Who has just taken another way through the junction and still stands in this one's way with its tail.
+  Obstacle turning_off(std::size_t index) const;
   void ask_for_turn(Driver& driver);
+  bool is_next_to_go(const Driver& driver) const;
   bool turn_is_free(const Driver& driver, int turn) const;
   bool has_green(int junction, Direction travel) const;
   double person_gap_m(const Driver& driver, const std::vector<PersonOnRoad>& people) const;
@@ -97,6 +107,8 @@ class Traffic {
   void move(Driver& driver, double acceleration_mps2, double dt_s);
   bool frightened(double dt_s);
   geometry::Pose2 pose_ahead(const Driver& driver, double ahead_m) const;
+  /// Where the body is when both axles are on the way: a long one cuts corners instead of swinging out of its lane.
+  geometry::Pose2 pose_on_axles(const Driver& driver) const;
   void publish();
 
   StreetPlan plan_;

@@ -13,6 +13,8 @@ using geometry::Vector2;
 constexpr double kPavement_m = 8.15;       ///< From the street's centre line to the middle of the pavement.
 constexpr double kStride_m = 1.45;         ///< Two steps at normal speed.
 constexpr double kStep_m = 0.55;
+constexpr double kPersonalSpace_m = 0.9;   ///< People stop this far from a vehicle in their way.
+constexpr double kPatience_s = 3.0;
 constexpr double kArrived_m = 0.4;
 constexpr double kTurnRate_radps = 2.5;
 constexpr double kAcceleration_mps2 = 1.2;
@@ -133,18 +135,21 @@ void Walkers::choose_way(Group& group) {
   group.waits_to_cross = group.way.crossing.has_value();
 }
 
-void Walkers::advance(double dt_s, const MayCross& may_cross) {
-  for (Group& group : groups_) advance(group, dt_s, may_cross);
+void Walkers::advance(double dt_s, const StreetView& street) {
+  for (Group& group : groups_) advance(group, dt_s, street);
 }
 
-void Walkers::advance(Group& group, double dt_s, const MayCross& may_cross) {
-  if (group.waits_to_cross && may_cross(*group.way.crossing)) group.waits_to_cross = false;
+void Walkers::advance(Group& group, double dt_s, const StreetView& street) {
+  if (group.waits_to_cross && street.may_start(*group.way.crossing)) group.waits_to_cross = false;
   const bool crosses = group.way.crossing.has_value();
   if (group.pause_left_s <= 0.0 && !crosses && random_.chance(dt_s / config_.pause_every_s)) {
     group.pause_left_s = random_.uniform(0.3, 1.0) * config_.pause_s;
   }
   group.pause_left_s -= dt_s;
-  const bool stands = group.waits_to_cross || group.pause_left_s > 0.0;
+  // Somebody who and a vehicle that wait for each other would do so for ever; people squeeze past in the end.
+  const bool blocked = crosses && !group.waits_to_cross && vehicle_ahead(group, street) && group.blocked_s < kPatience_s;
+  group.blocked_s = crosses ? group.blocked_s + (blocked ? dt_s : 0.0) : 0.0;
+  const bool stands = group.waits_to_cross || group.pause_left_s > 0.0 || blocked;
 
   const Vector2 target =
       graph_.places_in_world[static_cast<std::size_t>(group.way.to)] + group.sideways_in_world;
@@ -162,6 +167,13 @@ void Walkers::advance(Group& group, double dt_s, const MayCross& may_cross) {
   group.position_in_world += step_m * Vector2{std::cos(group.heading_rad), std::sin(group.heading_rad)};
   group.phase_rad += 2.0 * std::numbers::pi * step_m / kStride_m;
   if (ahead.norm() < kArrived_m) choose_way(group);
+}
+
+bool Walkers::vehicle_ahead(const Group& group, const StreetView& street) {
+  const Pose2 world_from_group{group.position_in_world.x(), group.position_in_world.y(), group.heading_rad};
+  return std::any_of(group.members_in_group.begin(), group.members_in_group.end(), [&](const Vector2& member) {
+    return street.is_occupied(world_from_group * Vector2(member + Vector2{kPersonalSpace_m, 0.0}));
+  });
 }
 
 std::vector<MovingObject> Walkers::objects(int first_id) const {

@@ -50,14 +50,19 @@ struct PersonOnRoad {
   geometry::Vector2 velocity_in_world_mps;
 };
 
+/// What people see of the traffic before and while they cross.
+struct StreetView {
+  std::function<bool(const Crossing&)> may_start;                          ///< Signal or gap allows it.
+  std::function<bool(const geometry::Vector2& place_in_world)> is_occupied;  ///< A vehicle stands or passes here.
+};
+
 /// People who wander over a walk graph alone or in groups, pause, wait at crossings and cross.
 class Walkers {
  public:
   Walkers(WalkGraph graph, const WalkersConfig& config, std::uint64_t seed);
 
-  using MayCross = std::function<bool(const Crossing&)>;
-  /// Moves everybody on by dt_s; who stands at a crossing goes when may_cross says so.
-  void advance(double dt_s, const MayCross& may_cross);
+  /// Moves everybody on by dt_s.
+  void advance(double dt_s, const StreetView& street);
 
   /// Everybody, ids from first_id on, always in the same order.
   std::vector<MovingObject> objects(int first_id) const;
@@ -71,6 +76,7 @@ class Walkers {
     double speed_mps = 0.0;               ///< Now.
     double walking_speed_mps = 0.0;
     double pause_left_s = 0.0;
+    double blocked_s = 0.0;               ///< Held up by vehicles on this crossing.
     double phase_rad = 0.0;
     int from = 0;
     WalkGraph::Way way;
@@ -80,7 +86,8 @@ class Walkers {
 
   Group make_group(int members);
   void choose_way(Group& group);
-  void advance(Group& group, double dt_s, const MayCross& may_cross);
+  static bool vehicle_ahead(const Group& group, const StreetView& street);
+  void advance(Group& group, double dt_s, const StreetView& street);
 
   WalkGraph graph_;
   WalkersConfig config_;

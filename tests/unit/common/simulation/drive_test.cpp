@@ -1,0 +1,104 @@
+#include "common/simulation/drive.hpp"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace slammot::simulation {
+namespace {
+
+ScenarioConfig short_demo(std::uint64_t seed) {
+  ScenarioConfig scenario = *shipped_scenario("demo", seed);
+  scenario.duration_s = 4.0;
+  return scenario;
+}
+
+std::vector<SimulatedScan> all_scans(const ScenarioConfig& scenario) {
+  std::vector<SimulatedScan> scans;
+  Drive drive(scenario);
+  while (auto scan = drive.next()) scans.push_back(std::move(*scan));
+  return scans;
+}
+
+TEST(Drive, IsTheSameToTheLastBitForTheSameSeed) {
+  const auto first = all_scans(short_demo(5));
+  const auto second = all_scans(short_demo(5));
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].scan.range_m, second[i].scan.range_m);
+    EXPECT_TRUE(first[i].odometry.wheel_from_base == second[i].odometry.wheel_from_base);
+    EXPECT_TRUE(first[i].world_from_base == second[i].world_from_base);
+  }
+}
+
+TEST(Drive, DiffersFromSeedToSeed) {
+  EXPECT_NE(all_scans(short_demo(5)).back().scan.range_m, all_scans(short_demo(6)).back().scan.range_m);
+}
+
+TEST(Drive, HasOneScanForEachTurnOfTheScannerWithStampsInOrder) {
+  const auto scans = all_scans(short_demo(1));
+  ASSERT_EQ(scans.size(), 150U);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    EXPECT_EQ(scans[i].scan.sequence, i);
+    EXPECT_NEAR(static_cast<double>(scans[i].scan.stamp_ns) * 1e-9, 21.0 + static_cast<double>(i) / 37.5, 1e-8);
+    EXPECT_EQ(scans[i].odometry.stamp_ns, scans[i].scan.stamp_ns);
+  }
+}
+
+TEST(Drive, StartsItsOdometryAtZero) {
+  EXPECT_TRUE(all_scans(short_demo(1)).front().odometry.wheel_from_base == geometry::Pose2::identity());
+}
+
+TEST(Drive, ListsEachObjectThatAScanHitOnceWithItsPoints) {
+  for (const SimulatedScan& scan : all_scans(short_demo(1))) {
+    std::set<int> ids;
+    for (const ObjectTruth& object : scan.objects) {
+      EXPECT_TRUE(ids.insert(object.id).second);
+      EXPECT_GT(object.id, 0);  // the vehicle does not see itself
+      EXPECT_GE(object.points, 1);
+    }
+  }
+}
+
+/// Fraction of the points, placed by the true pose, that lie near a true surface or object: what the truth is worth.
+TEST(Drive, PlacesItsPointsOnTrueSurfaces) {
+  const ScenarioConfig scenario = short_demo(1);
+  Drive drive(scenario);
+  const Outline outline = drive.stationary_in_world();
+  int near = 0;
+  int stationary_echoes = 0;
+  while (const auto scan = drive.next()) {
+    if (scan->scan.sequence % 30 != 0) continue;
+    const auto count = scan->scan.range_m.size();
+    for (std::size_t beam = 0; beam < count; beam += 5) {
+      if (!sensing::is_echo(scan->scan.range_m[beam], scan->scan.scanner.max_range_m)) continue;
+      const double range_m = scan->scan.range_m[beam];
+      const double angle_rad = beam_angle_rad(scan->scan.scanner, beam);
+      const geometry::Pose2 world_from_laser = scan->world_from_base * scan->scan.scanner.base_from_laser;
+      const geometry::Vector2 point =
+          world_from_laser * geometry::Vector2{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
+      double nearest_m = 1e9;
+      for (const Segment& segment : outline.segments) {
+        const geometry::Vector2 along = segment.b - segment.a;
+        const double t = std::clamp((point - segment.a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        nearest_m = std::min(nearest_m, (point - segment.a - t * along).norm());
+      }
+      for (const Circle& circle : outline.circles) {
+        nearest_m = std::min(nearest_m, std::abs((point - circle.centre).norm() - circle.radius_m));
+      }
+      for (const ObjectTruth& object : scan->objects) {
+        const geometry::Vector2 in_object = inverse(object.world_from_object) * point;
+        const bool inside = std::abs(in_object.x()) < 0.5 * object.size.length_m + 0.5 &&
+                            std::abs(in_object.y()) < 0.5 * object.size.width_m + 0.5;
+        if (inside) nearest_m = 0.0;
+      }
+      ++stationary_echoes;
+      near += nearest_m < 0.4 ? 1 : 0;
+    }
+  }
+  // The rest are mixed pixels and the road.
+  EXPECT_GT(static_cast<double>(near) / stationary_echoes, 0.9);
+}
+
+}  // namespace
+}  // namespace slammot::simulation

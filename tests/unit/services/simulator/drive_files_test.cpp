@@ -1,0 +1,78 @@
+#include "services/simulator/drive_files.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace slammot::simulator {
+namespace {
+
+std::vector<std::string> lines_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+class WriteDrive : public ::testing::Test {
+ protected:
+  WriteDrive() {
+    scenario_ = *simulation::shipped_scenario("demo");
+    scenario_.duration_s = 2.0;
+  }
+  slammot::testing::TemporaryFolder folder_;
+  simulation::ScenarioConfig scenario_;
+};
+
+TEST_F(WriteDrive, WritesAScanAndATruePoseForEachTurnOfTheScanner) {
+  const auto files = write_drive(scenario_, folder_ / "new").files;
+  ASSERT_TRUE(files.has_value());
+  const auto log = lines_of(files->log);
+  const auto tum = lines_of(files->tum);
+  ASSERT_EQ(tum.size(), 75U);
+  ASSERT_EQ(log.size(), 4U + 75U);
+  EXPECT_EQ(log[1], "PARAM robot_frontlaser_offset 2.150");
+}
+
+TEST_F(WriteDrive, LaysOutScansAsCarmenReadsThem) {
+  const auto files = write_drive(scenario_, folder_.path()).files;
+  ASSERT_TRUE(files.has_value());
+  const auto words = words_of(lines_of(files->log)[4]);
+  ASSERT_EQ(words.size(), 9U + 361U + 15U);
+  EXPECT_EQ(words[0], "ROBOTLASER1");
+  EXPECT_EQ(words[4], "0.008727");
+  EXPECT_EQ(words[5], "81.83");
+  EXPECT_EQ(words[8], "361");
+  EXPECT_EQ(words[9 + 361], "0");                 // remissions
+  EXPECT_EQ(words[9 + 361 + 1], "2.150000");      // laser pose, then the robot's
+  EXPECT_EQ(words[9 + 361 + 4], "0.000000");
+  EXPECT_EQ(words[words.size() - 3], "21.000000");
+}
+
+TEST_F(WriteDrive, WritesTheSameBytesTwice) {
+  const auto first = write_drive(scenario_, folder_ / "a").files;
+  const auto second = write_drive(scenario_, folder_ / "b").files;
+  EXPECT_EQ(lines_of(first->log), lines_of(second->log));
+  EXPECT_EQ(lines_of(first->objects), lines_of(second->objects));
+  EXPECT_EQ(lines_of(first->walls), lines_of(second->walls));
+}
+
+TEST_F(WriteDrive, SaysWhyItCannotWrite) {
+  std::ofstream(folder_ / "file") << "in the way";
+  const auto result = write_drive(scenario_, folder_ / "file");
+  EXPECT_FALSE(result.files.has_value());
+  EXPECT_NE(result.fault.find("file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace slammot::simulator
