@@ -24,19 +24,21 @@ std::vector<JunctionId> along_streets(const std::vector<JunctionId>& corners) {
 
 ScenarioConfig demo() {
   ScenarioConfig scenario;
-  scenario.description = "once around a block and a little further, every kind of road user, 80 s";
-  scenario.duration_s = 80.0;
+  scenario.description = "once around a block and a little further, every kind of road user, 90 s";
+  scenario.seed = 5;  // meets a bus, a truck, bicycles and a fright, and closes its loop
+  scenario.duration_s = 90.0;
   scenario.city.blocks_east = 3;
   scenario.city.blocks_north = 3;
   scenario.city.block_pitch_m = 75.0;
   scenario.city.signalled_share = 0.3;
-  scenario.traffic.cars = 26;
+  scenario.traffic.cars = 30;
   scenario.traffic.buses = 2;
-  scenario.traffic.bicycles = 6;
-  scenario.traffic.car_ahead = true;
-  scenario.walkers.pedestrians = 70;
-  scenario.route.junctions = along_streets({{1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 2}});
-  scenario.route.hard_brake_every_s = 25.0;
+  scenario.traffic.bicycles = 8;
+  scenario.traffic.car_ahead = along_streets({{0, 1}, {3, 1}});
+  scenario.walkers.pedestrians = 90;
+  scenario.route.junctions = along_streets({{0, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 2}});
+  scenario.route.start_m = 30.0;
+  scenario.route.hard_brake_every_s = 15.0;
   return scenario;
 }
 

@@ -58,19 +58,22 @@ void Traffic::place_vehicle(const RouteConfig& route) {
   vehicle.length_m = route.length_m;
   vehicle.half_width_m = 0.5 * route.width_m;
   vehicle.speed_factor = route.speed_factor;
-  vehicle.route = route.junctions;
-  const bool free = route.junctions.size() < 2;
-  const JunctionId from = free ? JunctionId{0, 0} : route.junctions[0];
-  const Direction direction = free ? Direction::east : direction_between(from, route.junctions[1]);
-  vehicle.lanes = {network_.street_lane(RoadUser::motor, plan_.index(from), direction)};
-  vehicle.arc_m = route.start_m;
-  if (!free) vehicle.route.erase(vehicle.route.begin());
-  drivers_.push_back(std::move(vehicle));
-  extend_plan(drivers_.front());
+  place_on_route(vehicle, route.junctions, route.start_m);
+}
+
+void Traffic::place_on_route(Driver& driver, const std::vector<JunctionId>& route, double arc_m) {
+  const bool free = route.size() < 2;
+  const JunctionId from = free ? JunctionId{0, 0} : route[0];
+  const Direction direction = free ? Direction::east : direction_between(from, route[1]);
+  driver.lanes = {network_.street_lane(RoadUser::motor, plan_.index(from), direction)};
+  driver.arc_m = arc_m;
+  if (!free) driver.route.assign(route.begin() + 1, route.end());
+  drivers_.push_back(std::move(driver));
+  extend_plan(drivers_.back());
 }
 
 void Traffic::place_drivers(const TrafficConfig& config) {
-  if (config.car_ahead) place_car_ahead();
+  if (!config.car_ahead.empty()) place_car_ahead(config.car_ahead);
   const auto place = [&](ObjectClass kind, int count) {
     for (int i = 0; i < count; ++i) {
       Driver driver = make_driver(kind, config);
@@ -85,15 +88,12 @@ void Traffic::place_drivers(const TrafficConfig& config) {
   place(ObjectClass::bicycle, config.bicycles);
 }
 
-void Traffic::place_car_ahead() {
-  Driver car = drivers_.front();
-  car.length_m = 4.5;
-  car.half_width_m = 0.9;
-  car.arc_m += 14.0;
+void Traffic::place_car_ahead(const std::vector<JunctionId>& route) {
+  Driver car;
   car.speed_factor = 0.9;
   car.stop_every_m = 60.0;
-  car.next_stop_m = 40.0;
-  drivers_.push_back(std::move(car));
+  car.next_stop_m = 20.0;
+  place_on_route(car, route, route_.start_m + 12.0);
 }
 
 Traffic::Driver Traffic::make_driver(ObjectClass kind, const TrafficConfig& config) {
@@ -399,7 +399,7 @@ double Traffic::own_stop_gap_m(Driver& driver) {
 
 bool Traffic::frightened(double dt_s) {
   fright_left_s_ -= dt_s;
-  const bool may_start = fright_left_s_ <= 0.0 && route_.hard_brake_every_s > 0.0 && drivers_.front().speed_mps > 6.0;
+  const bool may_start = fright_left_s_ <= 0.0 && route_.hard_brake_every_s > 0.0 && drivers_.front().speed_mps > 5.0;
   if (may_start && random_.chance(dt_s / route_.hard_brake_every_s)) fright_left_s_ = random_.uniform(0.5, 1.3);
   return fright_left_s_ > 0.0;
 }
@@ -459,7 +459,8 @@ void Traffic::publish() {
     }
   }
   for (std::size_t i = 0; i < drivers_.size(); ++i) {
-    objects_[i].world_from_object = pose_on_axles(drivers_[i]);
+    // The vehicle's centre is where its odometry says it moves straight ahead, so that stays on the way itself.
+    objects_[i].world_from_object = i == 0 ? pose_ahead(drivers_[i], 0.0) : pose_on_axles(drivers_[i]);
     objects_[i].speed_mps = drivers_[i].speed_mps;
   }
 }

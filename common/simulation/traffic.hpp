@@ -15,7 +15,8 @@ struct TrafficConfig {
   int buses = 3;
   int bicycles = 8;
   double stopping_share = 0.15;       ///< Of the cars and trucks: those that stop in the lane now and then (delivery).
-  bool car_ahead = false;             ///< A car that stops and goes ahead of the vehicle, on the vehicle's route.
+  /// Route of a car that stops and goes right ahead of the vehicle, from the vehicle's first junction on; empty: none.
+  std::vector<JunctionId> car_ahead;
   double green_s = 13.0;              ///< Of each of the two axes at a signalled junction.
   double clearance_s = 3.0;           ///< Red for all after each green.
 };
@@ -81,8 +82,9 @@ class Traffic {
   };
 
   void place_vehicle(const RouteConfig& route);
+  void place_on_route(Driver& driver, const std::vector<JunctionId>& route, double arc_m);
   void place_drivers(const TrafficConfig& config);
-  void place_car_ahead();
+  void place_car_ahead(const std::vector<JunctionId>& route);
   Driver make_driver(ObjectClass kind, const TrafficConfig& config);
   bool place_at_random(Driver& driver);
 

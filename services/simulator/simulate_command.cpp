@@ -27,11 +27,11 @@ int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& er
   const auto scenario = simulation::shipped_scenario(options.scenario, options.seed);
   if (!scenario) {
     err << "slammot simulate: no scenario is named '" << options.scenario << "'; --list names them\n";
-    return 2;
+    return 1;
   }
   if (options.output.empty()) {
     err << "slammot simulate: say where to write with --output DIR\n";
-    return 2;
+    return 1;
   }
   const DriveFilesOrFault written = write_drive(*scenario, options.output);
   if (!written.files) {

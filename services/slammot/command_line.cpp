@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "services/simulator/simulate_command.hpp"
 #include "services/slammot/run_command.hpp"
 
 namespace slammot {
@@ -12,6 +13,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = kExitDone;
   add_run_command(app, exit_code);
+  simulator::add_simulate_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& fault) {
