@@ -1,0 +1,182 @@
+#include "services/ingest/ingest_service.hpp"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
+
+#include "common/wire/text.hpp"
+#include "services/ingest/ingest_fields.hpp"
+
+namespace slammot::ingest {
+namespace {
+
+using std::chrono::steady_clock;
+
+/// How long the end waits for readers that do not have the last scan yet.
+constexpr std::chrono::seconds kLastWords{1};
+
+std::chrono::nanoseconds nanoseconds_of(double seconds) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+}
+
+LogSource open_source(const IngestService::Settings& settings) {
+  if (settings.input.empty()) throw app::StartupFailure("--input FILE is needed: the drive to play");
+  auto source = LogSource::open(settings.input, settings.config);
+  if (!source) throw app::StartupFailure(source.error().message);
+  return std::move(*source);
+}
+
+Pace parse_pace(const std::string& speed) {
+  const auto pace = Pace::parse(speed);
+  if (!pace) throw app::StartupFailure("--speed " + speed + ": neither 'max' nor a number from 0.01 to 1000");
+  return *pace;
+}
+
+bool is_at_work(slammot_ServiceState state) {
+  return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
+}
+
+}  // namespace
+
+std::vector<config::BoundStage> IngestService::stages(Settings& settings) {
+  return {config::bind_stage("ingest", ingest_fields(), settings.config)};
+}
+
+void IngestService::add_options(CLI::App& command_line, Settings& settings) {
+  command_line.add_option("--input", settings.input, "CARMEN log, plain or .gz");
+  command_line.add_option("--speed", settings.speed, "Times the recorded speed, or 'max': as fast as the other services are done")
+      ->capture_default_str();
+  command_line.add_flag("--linger", settings.linger, "Stay after the end of the log until stopped");
+}
+
+IngestService::IngestService(app::ServiceContext& context, const Settings& settings)
+    : context_(context),
+      config_(settings.config),
+      linger_(settings.linger),
+      source_(open_source(settings)),
+      pace_(parse_pace(settings.speed)),
+      window_({static_cast<std::size_t>(config_.window_scans), nanoseconds_of(config_.resend_after_s)}),
+      scans_(context.write(dds::topics::kLaserScan)),
+      odometry_(context.write(dds::topics::kOdometry)),
+      give_up_waiting_at_(steady_clock::now() + nanoseconds_of(config_.wait_for_services_s)) {
+  context.status().counter("log_finished") = 0;
+  context.read(dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
+    readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
+  });
+  context.read(dds::topics::kScanLabels, app::Input::kOccasional, [this](const auto& labels) { take_labels(labels); });
+  context.every(std::chrono::milliseconds(50), [this] { has_begun_ ? check_progress() : wait_for_services(); });
+}
+
+void IngestService::wait_for_services() {
+  std::string missing = readiness_.missing();
+  if (scans_.matched_readers() == 0) missing = "a reader of " + std::string(scans_.topic().name) + ", " + missing;
+  if (!missing.empty() && steady_clock::now() < give_up_waiting_at_) {
+    context_.status().set_trouble("services", "waiting for " + missing);
+    return;
+  }
+  if (!missing.empty()) context_.warn("begun_without_all_services", "begins without " + missing);
+  context_.status().clear_trouble("services");
+  begin();
+}
+
+void IngestService::begin() {
+  has_begun_ = true;
+  spdlog::info("plays {} scans", source_.log().plan().figures.scans);
+  proceed();
+}
+
+void IngestService::proceed() { pace_.is_unlimited() ? proceed_with_room() : proceed_at_its_pace(); }
+
+void IngestService::proceed_at_its_pace() {
+  while (fetch()) {
+    const auto now = steady_clock::now();
+    const auto due = fetched_->scan ? pace_.due(fetched_->scan->stamp_ns, now) : now;
+    if (due > now) {
+      context_.after(due - now, [this] { proceed_at_its_pace(); });
+      return;
+    }
+    send_fetched();
+  }
+  finish();
+}
+
+void IngestService::proceed_with_room() {
+  while (window_.has_room() && fetch()) {
+    if (fetched_->scan) {
+      window_.sent(fetched_->scan->stamp_ns, steady_clock::now());
+      in_flight_.push_back(*fetched_);
+    }
+    send_fetched();
+  }
+  if (window_.is_empty()) finish();
+}
+
+/// Makes fetched_ the next step that nobody has done with; false at the end of the log. Started again in the middle of a
+/// drive, it so skips what localization had from the process before: the first answer tells how much that is.
+bool IngestService::fetch() {
+  while (!fetched_ || (fetched_->scan && acknowledged_ns_ && fetched_->scan->stamp_ns <= *acknowledged_ns_)) {
+    if (fetched_) ++context_.status().counter("skipped_scans");
+    fetched_ = source_.next();
+    if (!fetched_) return false;
+  }
+  return true;
+}
+
+void IngestService::send_fetched() {
+  send(*fetched_);
+  if (fetched_->scan) ++context_.status().counter("scans");
+  fetched_.reset();
+}
+
+void IngestService::send(const Step& step) {
+  const auto count_timeout = [this](dds::WriteResult result) {
+    if (result == dds::WriteResult::kTimedOut) context_.warn("slow_readers", "a reader is slow: a sample was not sent");
+  };
+  for (const sensing::Odometry& odometry : step.odometry) count_timeout(odometry_.write(wire::encode(context_.vehicle_id(), odometry)));
+  if (step.scan) count_timeout(scans_.write(encoder_.encode(context_.vehicle_id(), *step.scan)));
+}
+
+void IngestService::take_labels(const slammot_ScanLabels& labels) {
+  if (wire::text(labels.scanner_id) != config_.scanner_id) return;
+  const bool is_ahead = fetched_ && fetched_->scan && labels.stamp_ns >= fetched_->scan->stamp_ns;
+  acknowledged_ns_ = std::max(labels.stamp_ns, acknowledged_ns_.value_or(labels.stamp_ns));
+  const std::size_t done = window_.acknowledge(labels.stamp_ns, steady_clock::now());
+  in_flight_.erase(in_flight_.begin(), in_flight_.begin() + static_cast<std::ptrdiff_t>(done));
+  if (!has_begun_ || has_finished_) return;
+  if (pace_.is_unlimited()) {
+    if (done > 0) proceed_with_room();
+  } else if (is_ahead) {
+    pace_.restart();  // the pending timer sends what comes next
+  }
+}
+
+void IngestService::check_progress() {
+  const auto now = steady_clock::now();
+  if (has_finished_ || !window_.is_overdue(now)) return;
+  const std::size_t given_up = window_.resend(now);
+  for (std::size_t i = 0; i < given_up; ++i) {
+    context_.warn("given_up_scans", "nobody answers for scan " + std::to_string(in_flight_.front().scan->sequence));
+    in_flight_.pop_front();
+  }
+  if (!in_flight_.empty()) context_.warn("resent_scans", "no labels for too long: sends what is in flight again");
+  for (const Step& step : in_flight_) send(step);
+  proceed_with_room();
+}
+
+void IngestService::finish() {
+  if (has_finished_) return;
+  has_finished_ = true;
+  const files::LogFaults& faults = source_.log().faults();
+  auto& status = context_.status();
+  status.counter("malformed_lines") = faults.malformed_lines;
+  status.counter("log_is_cut") = faults.is_cut ? 1 : 0;
+  status.counter("log_finished") = 1;
+  if (faults.is_cut) spdlog::warn("the log is cut off; what could be read was played");
+  spdlog::info("finished {} scans", status.counter("scans"));
+  if (linger_) return;
+  scans_.wait_for_acknowledgements(kLastWords);
+  context_.stop(faults.is_cut ? kExitCut : 0);
+}
+
+}  // namespace slammot::ingest

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/app/run_service.hpp"
+#include "common/wire/sensor.hpp"
+#include "services/ingest/ingest_config.hpp"
+#include "services/ingest/log_source.hpp"
+#include "services/ingest/pace.hpp"
+#include "services/ingest/readiness.hpp"
+#include "services/ingest/scan_window.hpp"
+
+namespace slammot::ingest {
+
+/// Plays a recorded drive onto the bus.
+class IngestService {
+ public:
+  struct Settings {
+    IngestConfig config;
+    std::filesystem::path input;
+    std::string speed = "1";
+    bool linger = false;  ///< Stay after the end of the log.
+  };
+  static constexpr const char* kName = "ingest";
+  static constexpr const char* kPurpose = "Plays a recorded drive (a CARMEN log, plain or .gz) onto the bus.";
+  static constexpr int kExitCut = 3;  ///< The log ended early.
+  static std::vector<config::BoundStage> stages(Settings& settings);
+  static void add_options(CLI::App& command_line, Settings& settings);
+
+  /// Throws app::StartupFailure for a log that cannot be played.
+  IngestService(app::ServiceContext& context, const Settings& settings);
+
+ private:
+  void wait_for_services();
+  void begin();
+  void proceed();
+  void proceed_at_its_pace();
+  void proceed_with_room();
+  void take_labels(const slammot_ScanLabels& labels);
+  bool fetch();
+  void send_fetched();
+  void send(const Step& step);
+  void check_progress();
+  void finish();
+
+  app::ServiceContext& context_;
+  IngestConfig config_;
+  bool linger_;
+  LogSource source_;
+  Pace pace_;
+  ScanWindow window_;
+  Readiness readiness_{{"localization", "detection", "tracking"}};
+  dds::Writer<slammot_LaserScan>& scans_;
+  dds::Writer<slammot_Odometry>& odometry_;
+  wire::LaserScanEncoder encoder_;
+  std::chrono::steady_clock::time_point give_up_waiting_at_;
+  bool has_begun_ = false;
+  bool has_finished_ = false;
+  std::optional<Step> fetched_;                  ///< The next one to be sent.
+  std::deque<Step> in_flight_;                   ///< At speed max: sent and not acknowledged.
+  std::optional<std::int64_t> acknowledged_ns_;  ///< Newest scan that was done with.
+};
+
+}  // namespace slammot::ingest

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/files/carmen_log.hpp"
+#include "common/sensing/scan.hpp"
+#include "services/ingest/ingest_config.hpp"
+
+namespace slammot::ingest {
+
+/// A scan and the odometry that the log has between the scan before and it.
+struct Step {
+  std::vector<sensing::Odometry> odometry;
+  std::optional<sensing::LaserScan> scan;  ///< None for odometry after the last scan.
+};
+
+/// A recorded drive, scan by scan, as ingest sends it.
+class LogSource {
+ public:
+  static files::Result<LogSource> open(const std::filesystem::path& file, const IngestConfig& config);
+
+  /// None at the end of the log.
+  std::optional<Step> next();
+
+  const files::CarmenLog& log() const { return log_; }
+
+ private:
+  LogSource(files::CarmenLog log, double sweep_s) : log_(std::move(log)), sweep_s_(sweep_s) {}
+
+  files::CarmenLog log_;
+  double sweep_s_;
+};
+
+}  // namespace slammot::ingest

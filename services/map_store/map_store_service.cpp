@@ -1,0 +1,128 @@
+#include "services/map_store/map_store_service.hpp"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
+
+#include "common/wire/text.hpp"
+#include "services/map_store/map_store_fields.hpp"
+
+namespace slammot::map_store {
+namespace {
+
+Store open_store(const app::ServiceContext& context, const MapStoreService::Settings& settings) {
+  const auto file = settings.database.empty() ? context.options().state_dir / "map.sqlite" : settings.database;
+  auto opened = Store::open(file, settings.config);
+  if (const auto* fault = std::get_if<std::string>(&opened)) throw app::StartupFailure(*fault);
+  return std::move(std::get<Store>(opened));
+}
+
+}  // namespace
+
+std::vector<config::BoundStage> MapStoreService::stages(Settings& settings) {
+  return {config::bind_stage("map_store", map_store_fields(), settings.config)};
+}
+
+void MapStoreService::add_options(CLI::App& command_line, Settings& settings) {
+  command_line.add_option("--database", settings.database, "SQLite file; map.sqlite in the state folder when not given");
+}
+
+MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& settings)
+    : context_(context),
+      config_(settings.config),
+      store_(open_store(context, settings)),
+      stored_tiles_(context.write(dds::topics::kStoredSubmapTile)),
+      stored_objects_(context.write(dds::topics::kStoredTrackedObjects)) {
+  publish_stored();
+  context.read(dds::topics::kSubmapTile, app::Input::kOccasional, [this](const auto& tile) { take(tile); });
+  // The last tracks only pass through: this service outlives a crash of tracking, which takes them up again from here.
+  context.read(dds::topics::kTrackedObjects, app::Input::kOccasional,
+               [this](const slammot_TrackedObjects& objects) { stored_objects_.write(objects); });
+  context.every(std::chrono::nanoseconds(static_cast<std::int64_t>(config_.retry_after_s * 1e9)), [this] { retry(); });
+}
+
+void MapStoreService::take(const slammot_SubmapTile& tile) {
+  wire::SubmapAssembler::Added added = assembler_.add(tile);
+  if (!added.fault.empty()) context_.warn("faulty_tiles", "dropped a submap tile: " + std::string(added.fault));
+  context_.status().counter("tiles") = assembler_.counters().tiles;
+  context_.status().counter("incomplete_submaps") = assembler_.incomplete();
+  if (added.submap && !keep(*added.submap)) put_off(std::move(*added.submap));
+}
+
+/// False when the database does not take it now.
+bool MapStoreService::keep(const flow::Submap& submap) {
+  const app::Stopwatch stopwatch(context_.status().latency("put"));
+  const PutResult result = store_.put(context_.vehicle_id(), submap);
+  if (result == PutResult::kFailed) {
+    context_.warn("failed_writes", "cannot store submap " + std::to_string(submap.submap_id.value) + ": " + store_.last_fault());
+    context_.status().set_trouble("database", "cannot store submaps: " + store_.last_fault());
+    return false;
+  }
+  context_.status().clear_trouble("database");
+  if (result == PutResult::kStored) {
+    ++context_.status().counter("stored_submaps");
+    withdraw_what_is_no_more();
+    publish(submap);
+  }
+  return true;
+}
+
+void MapStoreService::put_off(flow::Submap submap) {
+  unwritten_.push_back(std::move(submap));
+  if (unwritten_.size() > static_cast<std::size_t>(config_.max_unwritten_submaps)) {
+    context_.warn("lost_submaps", "gave up submap " + std::to_string(unwritten_.front().submap_id.value) + ": never written");
+    unwritten_.pop_front();
+  }
+  context_.status().counter("unwritten_submaps") = unwritten_.size();
+}
+
+void MapStoreService::retry() {
+  while (!unwritten_.empty() && keep(unwritten_.front())) unwritten_.pop_front();
+  context_.status().counter("unwritten_submaps") = unwritten_.size();
+  for (const flow::SubmapId id : std::set<flow::SubmapId>(std::move(unpublished_))) {
+    if (const auto submap = store_.get(context_.vehicle_id(), id)) publish(*submap);
+  }
+}
+
+void MapStoreService::publish_stored() {
+  for (const flow::SubmapId id : store_.list(context_.vehicle_id())) {
+    if (const auto submap = store_.get(context_.vehicle_id(), id)) {
+      publish(*submap);
+    } else {
+      context_.warn("unreadable_submaps", store_.last_fault());
+    }
+  }
+  if (!published_.empty()) spdlog::info("{} submaps in the database", published_.size());
+}
+
+void MapStoreService::publish(const flow::Submap& submap) {
+  std::uint32_t tiles = 0;
+  bool all_written = true;
+  encoder_.encode(context_.vehicle_id(), submap, [&](const slammot_SubmapTile& tile) {
+    all_written = all_written && stored_tiles_.write(tile) == dds::WriteResult::kWritten;
+    ++tiles;
+  });
+  published_[submap.submap_id] = tiles;
+  if (!all_written) {
+    unpublished_.insert(submap.submap_id);
+    context_.warn("slow_readers", "a reader of stored submaps is slow; publishing again later");
+  } else {
+    unpublished_.erase(submap.submap_id);
+  }
+}
+
+/// A new drive has begun: late joiners must not mix it with the one before.
+void MapStoreService::withdraw_what_is_no_more() {
+  const std::vector<flow::SubmapId> stored = store_.list(context_.vehicle_id());
+  slammot_SubmapTile key{};
+  wire::set_text(key.vehicle_id, context_.vehicle_id());
+  std::erase_if(published_, [&](const auto& published) {
+    if (std::ranges::binary_search(stored, published.first)) return false;
+    key.submap_id = published.first.value;
+    for (key.tile_index = 0; key.tile_index < published.second; ++key.tile_index) stored_tiles_.end(key);
+    return true;
+  });
+}
+
+}  // namespace slammot::map_store
