@@ -5,7 +5,7 @@
 namespace slammot {
 
 Pipeline::Pipeline(const Profile& profile)
-    : localizer_(profile.localization), loop_closer_(profile.loop_closing) {}
+    : detection_(profile.detection), localizer_(profile.localization), tracker_(profile.tracking), loop_closer_(profile.loop_closing) {}
 
 void Pipeline::take(const sensing::Odometry& odometry) { localizer_.add_odometry(odometry); }
 
@@ -13,7 +13,12 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add_scan(scan.stamp_ns);
   const auto localized = times_.measure("localization", [&] { return localizer_.localize(scan); });
   if (!localized) return;
+  const auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_); });
+  const auto tracked = times_.measure("tracking", [&] { return tracker_.track(segmented); });
+  localizer_.expect(tracked.objects);
+  times_.measure("mapping", [&] { localizer_.integrate(tracked.labels); });
   record_.add(*localized);
+  record_.add(tracked.objects);
   close_loops();
 }
 
@@ -34,6 +39,7 @@ void Pipeline::close_loops() {
 
 std::map<std::string, std::map<std::string, std::uint64_t>> Pipeline::counters() const {
   const localization::LocalizerCounters& l = localizer_.counters();
+  const tracking::TrackerCounters& t = tracker_.counters();
   const loop_closing::LoopClosingCounters& c = loop_closer_.counters();
   return {{"localization",
            {{"scans", l.scans},
@@ -48,6 +54,14 @@ std::map<std::string, std::map<std::string, std::uint64_t>> Pipeline::counters()
             {"fallback_integrations", l.fallback_integrations},
             {"restored_points", l.restored_points},
             {"submaps", l.submaps}}},
+          {"tracking",
+           {{"scans", t.scans},
+            {"late_scans", t.late_scans},
+            {"tracks_begun", t.tracks_begun},
+            {"tracks_confirmed", t.tracks_confirmed},
+            {"tracks_merged", t.tracks_merged},
+            {"tracks_rejected", t.tracks_rejected},
+            {"points_restored", t.points_restored}}},
           {"loop_closing",
            {{"submaps", c.submaps},
             {"repeated_submaps", c.repeated_submaps},

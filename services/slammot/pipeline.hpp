@@ -6,10 +6,12 @@
 
 #include "common/files/run_record.hpp"
 #include "common/sensing/scan.hpp"
+#include "services/detection/detector.hpp"
 #include "services/localization/localizer.hpp"
 #include "services/loop_closing/loop_closer.hpp"
 #include "services/slammot/profile.hpp"
 #include "services/slammot/stage_times.hpp"
+#include "services/tracking/tracker.hpp"
 
 namespace slammot {
 
@@ -34,7 +36,9 @@ class Pipeline {
  private:
   void close_loops();
 
+  detection::DetectionConfig detection_;
   localization::Localizer localizer_;
+  tracking::Tracker tracker_;
   loop_closing::LoopCloser loop_closer_;
   files::RunRecord record_;
   StageTimes times_;

@@ -3,10 +3,12 @@
 #include <vector>
 
 #include "common/config/overlay.hpp"
+#include "services/detection/detector.hpp"
 #include "services/ingest/ingest_config.hpp"
 #include "services/localization/localizer.hpp"
 #include "services/loop_closing/loop_closer.hpp"
 #include "services/map_store/map_store_config.hpp"
+#include "services/tracking/tracking_config.hpp"
 
 namespace slammot {
 
@@ -14,6 +16,8 @@ namespace slammot {
 struct Profile {
   ingest::IngestConfig ingest;
   localization::LocalizerConfig localization;
+  detection::DetectionConfig detection;
+  tracking::TrackingConfig tracking;
   loop_closing::LoopClosingConfig loop_closing;
   map_store::MapStoreConfig map_store;
 };
