@@ -9,6 +9,7 @@ namespace {
 using geometry::Vector2;
 
 constexpr std::uint32_t kScansBetweenCleanings = 10;
+constexpr double kInheritedShareOfLimit = 0.75;
 
 grids::GridWindow evidence_window(const LocalMapConfig& config, const Vector2& centre_m) {
   return grids::window_around(centre_m, config.side_m, config.cell_size_m);
@@ -43,6 +44,23 @@ grids::GridWindow bounds_of_seen(const grids::GridWindow& window, const std::vec
   return bounds;
 }
 
+struct StoredSurfel {
+  grids::Cell cell;
+  grids::CellMoments moments;
+};
+
+void put_surfels(std::vector<std::byte>& bytes, const grids::SurfelMap& map) {
+  std::vector<StoredSurfel> surfels;
+  for (const grids::SurfelView& surfel : map.all()) surfels.push_back({surfel.cell, *map.moments_at(surfel.cell)});
+  put_all(bytes, surfels);
+}
+
+std::vector<StoredSurfel> get_surfels(ByteReader& from) {
+  std::vector<StoredSurfel> surfels;
+  from.get_all(surfels);
+  return surfels;
+}
+
 }  // namespace
 
 LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m)
@@ -51,6 +69,7 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m
       surfels_(surfel_window(config, centre_in_odom_m), config.surfel_weight_limit),
       inherited_so_(evidence_.so_cells()),
       inherited_mo_(evidence_.mo_cells()),
+      inherited_surfels_(surfels_),
       odom_from_submap_(pose_of_window(evidence_.window())) {}
 
 Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
@@ -131,19 +150,46 @@ flow::Submap LocalMap::submap() const {
     submap.mo_evidence.insert(submap.mo_evidence.end(), own_mo.begin() + first, own_mo.begin() + first + bounds.columns);
   }
   for (const grids::SurfelView& surfel : surfels_.all()) {
-    if (surfel.own_echoes <= 0.0) continue;
-    const Vector2 at_m = surfel.mean_m - odom_from_submap_.translation_m();
-    submap.surfels.push_back({static_cast<float>(at_m.x()), static_cast<float>(at_m.y()), static_cast<float>(surfel.normal.x()),
-                              static_cast<float>(surfel.normal.y()), static_cast<float>(surfel.own_echoes)});
+    if (const auto own = own_surfel(surfel)) submap.surfels.push_back(*own);
   }
   return submap;
 }
 
+std::optional<flow::Surfel> LocalMap::own_surfel(const grids::SurfelView& surfel) const {
+  if (surfel.own_echoes <= 0.0) return std::nullopt;
+  const grids::CellMoments& all = *surfels_.moments_at(surfel.cell);
+  const grids::CellMoments* inherited = inherited_surfels_.moments_at(surfel.cell);
+  Vector2 mean_m = surfel.mean_m;
+  // A cell that was erased or became a running mean since can no longer be told apart.
+  if (inherited != nullptr && std::abs(all.weight - inherited->weight - all.own_echoes) < 0.5F) {
+    mean_m = surfels_.window().centre_of(surfel.cell) + Vector2(all.x - inherited->x, all.y - inherited->y) / all.own_echoes;
+  }
+  const Vector2 at_m = mean_m - odom_from_submap_.translation_m();
+  return flow::Surfel{static_cast<float>(at_m.x()), static_cast<float>(at_m.y()), static_cast<float>(surfel.normal.x()),
+                      static_cast<float>(surfel.normal.y()), static_cast<float>(surfel.own_echoes)};
+}
+
+void LocalMap::leave_behind_what_was_not_seen() {
+  // Short of the limit, so that whatever the next submap sees moves the cell and can be told from what it took over.
+  const int most_steps = grids::steps_of_log_odds(kInheritedShareOfLimit * config_.evidence.limit_log_odds);
+  std::vector<std::int8_t> so = evidence_.so_cells();
+  for (std::size_t i = 0; i < so.size(); ++i) {
+    const bool was_seen = so[i] != inherited_so_[i];
+    so[i] = was_seen ? static_cast<std::int8_t>(std::clamp<int>(so[i], -most_steps, most_steps)) : std::int8_t{0};
+  }
+  evidence_.set_cells(std::move(so), evidence_.mo_cells());
+  for (const grids::SurfelView& surfel : surfels_.all()) {
+    if (surfel.own_echoes <= 0.0) surfels_.erase(surfel.cell);
+  }
+}
+
 void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
+  leave_behind_what_was_not_seen();
   evidence_ = evidence_.moved_to(evidence_window(config_, centre_in_odom_m));
   surfels_ = surfels_.moved_to(surfel_window(config_, centre_in_odom_m));
   inherited_so_ = evidence_.so_cells();
   inherited_mo_ = evidence_.mo_cells();
+  inherited_surfels_ = surfels_;
   odom_from_submap_ = pose_of_window(evidence_.window());
   ++submap_id_.value;
   scans_ = 0;
@@ -156,14 +202,8 @@ void LocalMap::write(std::vector<std::byte>& bytes) const {
   put_all(bytes, inherited_so_);
   put_all(bytes, inherited_mo_);
   put(bytes, surfels_.window());
-  std::vector<grids::Cell> cells;
-  std::vector<grids::CellMoments> moments;
-  for (const grids::SurfelView& surfel : surfels_.all()) {
-    cells.push_back(surfel.cell);
-    moments.push_back(*surfels_.moments_at(surfel.cell));
-  }
-  put_all(bytes, cells);
-  put_all(bytes, moments);
+  put_surfels(bytes, surfels_);
+  put_surfels(bytes, inherited_surfels_);
   put(bytes, submap_id_);
   put(bytes, odom_from_submap_);
   put(bytes, first_stamp_ns_);
@@ -178,16 +218,14 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
   grids::GridWindow surfel_lattice;
   std::vector<std::int8_t> so;
   std::vector<std::uint8_t> mo;
-  std::vector<grids::Cell> cells;
-  std::vector<grids::CellMoments> moments;
   from.get(window);
   from.get_all(so);
   from.get_all(mo);
   from.get_all(map.inherited_so_);
   from.get_all(map.inherited_mo_);
   from.get(surfel_lattice);
-  from.get_all(cells);
-  from.get_all(moments);
+  const std::vector<StoredSurfel> surfels = get_surfels(from);
+  const std::vector<StoredSurfel> inherited_surfels = get_surfels(from);
   from.get(map.submap_id_);
   from.get(map.odom_from_submap_);
   from.get(map.first_stamp_ns_);
@@ -199,12 +237,14 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
                     window.rows == expected.rows && surfel_lattice.cell_size_m == expected_surfels.cell_size_m &&
                     surfel_lattice.columns == expected_surfels.columns && surfel_lattice.rows == expected_surfels.rows &&
                     so.size() == window.cell_count() && mo.size() == so.size() && map.inherited_so_.size() == so.size() &&
-                    map.inherited_mo_.size() == so.size() && cells.size() == moments.size();
+                    map.inherited_mo_.size() == so.size();
   if (!fits) return std::nullopt;
   map.evidence_ = grids::EvidenceGrid(window, config.evidence);
   map.evidence_.set_cells(std::move(so), std::move(mo));
   map.surfels_ = grids::SurfelMap(surfel_lattice, config.surfel_weight_limit);
-  for (std::size_t i = 0; i < cells.size(); ++i) map.surfels_.set_moments(cells[i], moments[i]);
+  map.inherited_surfels_ = map.surfels_;
+  for (const StoredSurfel& surfel : surfels) map.surfels_.set_moments(surfel.cell, surfel.moments);
+  for (const StoredSurfel& surfel : inherited_surfels) map.inherited_surfels_.set_moments(surfel.cell, surfel.moments);
   return map;
 }
 

@@ -56,7 +56,8 @@ class LocalMap {
   /// The submap in progress. Pose constraints and travel are the caller's to fill in.
   flow::Submap submap() const;
 
-  /// Moves the window to the vehicle and begins the next submap with what the windows share.
+  /// Moves the window to the vehicle and begins the next submap with what the last one has seen itself. What is older
+  /// has drifted by now: matching against it would bend the new submap towards it, which is for loop closing to judge.
   void begin_next(const geometry::Vector2& centre_in_odom_m);
 
   /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.
@@ -66,13 +67,16 @@ class LocalMap {
 
  private:
   void forget_surfels_in_free_space();
+  void leave_behind_what_was_not_seen();
+  std::optional<flow::Surfel> own_surfel(const grids::SurfelView& surfel) const;
   geometry::Vector2 window_centre_m() const;
 
   LocalMapConfig config_;
   grids::EvidenceGrid evidence_;
   grids::SurfelMap surfels_;
   std::vector<std::int8_t> inherited_so_;   ///< What the window held when the submap began,
-  std::vector<std::uint8_t> inherited_mo_;  ///< so that a submap tells only what was seen in it.
+  std::vector<std::uint8_t> inherited_mo_;
+  grids::SurfelMap inherited_surfels_;      ///< so that a submap tells only what was seen in it.
   flow::SubmapId submap_id_;
   geometry::Pose2 odom_from_submap_;
   std::int64_t first_stamp_ns_ = 0;
