@@ -48,11 +48,11 @@ std::optional<Error> load_settings(const JobOptions& options, const std::string&
 std::string describe_faults(const files::LogFaults& faults) {
   std::string lines;
   if (faults.malformed_lines > 0) {
-    lines += text("warning: %llu malformed lines of the log were skipped, the first:", static_cast<unsigned long long>(faults.malformed_lines));
+    lines += text("warning:  malformed lines of the log, skipped: %llu; the first:", static_cast<unsigned long long>(faults.malformed_lines));
     for (const std::uint64_t line : faults.first_malformed_lines) lines += text(" %llu", static_cast<unsigned long long>(line));
     lines += "\n";
   }
-  if (faults.overlong_lines > 0) lines += text("warning: %llu lines of the log were skipped as too long\n", static_cast<unsigned long long>(faults.overlong_lines));
+  if (faults.overlong_lines > 0) lines += text("warning:  overlong lines of the log, skipped: %llu\n", static_cast<unsigned long long>(faults.overlong_lines));
   return lines;
 }
 

@@ -1,0 +1,165 @@
+// The command as a user calls it, on small logs made here.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include "services/slammot/command_line.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/services/slammot/room_log.hpp"
+
+namespace slammot {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::room_log;
+
+struct Outcome {
+  int exit_code = 0;
+  std::string standard_output;
+  std::string standard_error;
+};
+
+class RunCommand : public ::testing::Test {
+ protected:
+  RunCommand() { ::setenv("SLAMMOT_PROFILES", SLAMMOT_SOURCE_DIR "/deploy/profiles", 1); }
+
+  void write(const std::string& content) const { std::ofstream(log_, std::ios::binary) << content; }
+
+  std::string read(const std::filesystem::path& path) const {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  static Outcome call(std::vector<std::string> words) {
+    words.insert(words.begin(), "slammot");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    Outcome outcome;
+    outcome.exit_code = run_command_line(static_cast<int>(argv.size()), argv.data());
+    std::fflush(stdout);
+    outcome.standard_output = ::testing::internal::GetCapturedStdout();
+    outcome.standard_error = ::testing::internal::GetCapturedStderr();
+    return outcome;
+  }
+
+  Outcome run(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words{"run", "--input", log_.string(), "--output", (folder_ / "out").string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return call(words);
+  }
+
+  static void expect_one_line(const std::string& text) { EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text; }
+
+  testing::TemporaryFolder folder_;
+  std::filesystem::path log_ = folder_ / "drive.log";
+};
+
+TEST_F(RunCommand, WritesEveryOutputAndSaysWhereAndWhy) {
+  write(room_log(60));
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_THAT(outcome.standard_output, HasSubstr("profile:  indoor ("));
+  EXPECT_THAT(outcome.standard_output, HasSubstr("results are in " + (folder_ / "out").string()));
+  EXPECT_EQ(outcome.standard_error, "");
+  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "map.png", "map.yaml", "moving.pgm", "moving.png",
+                           "moving.yaml", "graph.g2o", "report.json"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / file)) << file;
+  }
+  const std::string online = read(folder_ / "out" / "online.tum");
+  EXPECT_EQ(std::count(online.begin(), online.end(), '\n'), 60);
+  EXPECT_THAT(online, HasSubstr("\n105.900000 "));
+  const auto report = nlohmann::json::parse(read(folder_ / "out" / "report.json"));
+  EXPECT_EQ(report["counts"]["localized_scans"], 60);
+  EXPECT_EQ(report["profile"], "indoor");
+  EXPECT_NEAR(report["distance_m"].get<double>(), 2.95, 0.2);
+  EXPECT_TRUE(report["measured"]["stage_latency"].contains("tracking"));
+}
+
+TEST_F(RunCommand, MakesTheSameBytesEveryTime) {
+  write(room_log(60));
+  std::vector<std::string> first;
+  for (const bool again : {false, true}) {
+    ASSERT_EQ(run().exit_code, kExitDone);
+    std::size_t i = 0;
+    for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "map.png", "moving.png", "graph.g2o"}) {
+      const std::string content = read(folder_ / "out" / file);
+      if (!again) first.push_back(content);
+      EXPECT_EQ(content, first.at(i++)) << file;
+    }
+  }
+}
+
+TEST_F(RunCommand, ProcessesWhatCanBeReadOfACutLogAndSaysSoLast) {
+  const gzFile file = gzopen(log_.c_str(), "wb");
+  const std::string content = room_log(100);
+  gzwrite(file, content.data(), static_cast<unsigned>(content.size()));
+  gzclose(file);
+  std::filesystem::resize_file(log_, std::filesystem::file_size(log_) / 2);
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.exit_code, kExitLogIsCut);
+  EXPECT_THAT(outcome.standard_error, HasSubstr("is cut off or damaged"));
+  const std::string online = read(folder_ / "out" / "online.tum");
+  EXPECT_GT(std::count(online.begin(), online.end(), '\n'), 10);
+}
+
+TEST_F(RunCommand, SkipsMalformedLinesAndNamesThem) {
+  write("FLASER 181 1 2\n" + room_log(20));
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_THAT(outcome.standard_output, HasSubstr("malformed lines of the log, skipped: 1; the first: 1"));
+}
+
+TEST_F(RunCommand, SurvivesScansFullOfNonsense) {
+  std::string content = room_log(5);
+  for (int i = 0; i < 20; ++i) {
+    const std::string stamp = std::to_string(101 + i);
+    content += "FLASER 4 nan -1 inf 1e30 0 0 0 0 0 0 " + stamp + ".25 host 1\n";
+    content += "FLASER 4 0.001 0 99999 -0 1e6 1e6 3 -9e6 1e6 3 " + stamp + ".5 host 1\n";
+    content += "FLASER 2 1 1 0 0 0 0 0 0 " + stamp + ".5 host 1\n";
+  }
+  write(content);
+  EXPECT_EQ(run().exit_code, kExitDone);
+  const std::string online = read(folder_ / "out" / "online.tum");
+  EXPECT_EQ(std::count(online.begin(), online.end(), '\n'), 65);
+}
+
+TEST_F(RunCommand, RefusesBadInputInOneLine) {
+  const auto expect_refused = [&](const std::vector<std::string>& more, const std::string& reason) {
+    const Outcome outcome = run(more);
+    EXPECT_EQ(outcome.exit_code, kExitFault) << reason;
+    EXPECT_THAT(outcome.standard_error, HasSubstr(reason));
+    expect_one_line(outcome.standard_error);
+  };
+  expect_refused({}, "no such file");
+  write("");
+  expect_refused({}, "the file is empty");
+  write(room_log(5));
+  expect_refused({"--profile", "moon"}, "unknown profile 'moon'");
+  expect_refused({"--speed", "0"}, "neither a number above 0 nor max");
+  expect_refused({"--config", (folder_ / "missing").string()}, "cannot be read");
+  std::ofstream(folder_ / "settings") << "localization { fancy: 3 }";
+  expect_refused({"--config", (folder_ / "settings").string()}, "settings:1:");
+  std::ofstream(folder_ / "out") << "a file in the way";
+  expect_refused({}, "cannot make the folder");
+}
+
+TEST(CommandLine, SaysWhatIsMissingAndReturnsAFault) {
+  std::string name = "slammot";
+  std::vector<char*> argv{name.data()};
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(run_command_line(1, argv.data()), kExitFault);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(), HasSubstr("subcommand is required"));
+}
+
+}  // namespace
+}  // namespace slammot
