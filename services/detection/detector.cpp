@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/detection/box_fit.hpp"
+#include "services/detection/ground.hpp"
 
 namespace slammot::detection {
 namespace {
@@ -123,6 +124,30 @@ void merge_with_equal_neighbours(std::vector<Run>& runs) {
   if (!runs.empty()) runs.resize(kept + 1);
 }
 
+bool lies_on_line(const Eigen::Vector2f& from, const Eigen::Vector2f& to, const Eigen::Vector2f& point, double within_m) {
+  const Eigen::Vector2f way = to - from;
+  const Eigen::Vector2f off = point - from;
+  return std::abs(way.x() * off.y() - way.y() * off.x()) <= static_cast<float>(within_m) * way.norm();
+}
+
+/// Whether the moving run only goes on with the line that the stationary runs around it make: a wall of which the map
+/// does not know all cells yet.
+bool goes_on_with_a_wall(std::size_t index, const std::vector<Run>& runs, std::span<const std::uint16_t> beams,
+                         const SegmentedScan& scan, const DetectionConfig& config) {
+  constexpr std::size_t kBack = 4;
+  const auto point = [&](std::size_t i) { return scan.points_in_base_m[beams[i]]; };
+  const Run& run = runs[index];
+  const std::size_t end = run.first + run.count;
+  const bool has_before = index > 0;
+  const bool has_after = index + 1 < runs.size();
+  if ((!has_before && !has_after) || (has_before != has_after && runs[has_before ? index - 1 : index + 1].count < 3)) return false;
+  const std::size_t from = has_before ? run.first - (has_after ? 1 : std::min(kBack, runs[index - 1].count)) : end + std::min(kBack, runs[index + 1].count) - 1;
+  const std::size_t to = has_after ? end : run.first - 1;
+  for (std::size_t i = run.first; i < end; ++i)
+    if (!lies_on_line(point(from), point(to), point(i), config.explained_within_m)) return false;
+  return true;
+}
+
 /// Runs of moving and not moving beams; where the map cannot say, a beam goes with the one before.
 /// Runs too short to be a thing of their own take the label of their neighbours.
 void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& scan, const DetectionConfig& config,
@@ -141,6 +166,9 @@ void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& s
     else runs.push_back({i, 1, is_moving});
   }
   if (runs.empty()) runs.push_back({0, beams.size(), false});
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (runs[i].is_moving && goes_on_with_a_wall(i, runs, beams, scan, config)) runs[i].is_moving = false;
+  merge_with_equal_neighbours(runs);
   for (int pass = 0; pass < 2 && runs.size() > 1; ++pass) {
     for (Run& run : runs) {
       const int least = run.is_moving ? config.least_moving_run : config.least_stationary_run;
@@ -233,20 +261,6 @@ void describe_shape(Segment& segment, const SegmentedScan& scan, const Detection
   segment.box_width_m = box.width_m;
 }
 
-/// Whether these echoes look like the line in which a pitching scanner's plane meets the ground; Wang 2004, Section 6.6.
-bool is_like_ground(const Segment& segment, const SegmentedScan& scan, const DetectionConfig& config) {
-  const double in_base_rad = segment.box_heading_rad - scan.odom_from_base.pose.heading_rad;
-  const double off_square_rad = std::abs(std::remainder(in_base_rad - 0.5 * std::numbers::pi, std::numbers::pi));
-  if (segment.box_length_m < config.ground_least_width_m || segment.box_width_m > config.ground_thickness_m) return false;
-  const Vector2 first = scan.points_in_base_m[segment.beams.front()].cast<double>();
-  const bool is_ahead = first.x() - scan.base_from_laser.x_m > config.ground_nearest_m;
-  return is_ahead && off_square_rad < config.ground_heading_rad;
-}
-
-void set_label(const Segment& segment, PointLabel label, SegmentedScan& scan) {
-  for (const std::uint16_t beam : segment.beams) scan.labels[beam] = label;
-}
-
 void finish_segment(Segment& segment, const LocalizedScan& localized, const DetectionConfig& config, SegmentedScan& scan,
                     std::vector<Vector2>& points_in_odom_m) {
   segment.moving_share = moving_share(segment, scan);
@@ -254,13 +268,7 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
   segment.occluded_at_start = is_hidden_beyond(segment.beams.front(), -1, scan, config);
   segment.occluded_at_end = is_hidden_beyond(segment.beams.back(), +1, scan, config);
   describe_shape(segment, scan, config, points_in_odom_m);
-  if (segment.label != PointLabel::kMoving) return;
-  if (is_like_ground(segment, scan, config)) {
-    segment.label = PointLabel::kNoEcho;
-    set_label(segment, PointLabel::kNoEcho, scan);
-  } else if (segment.box_length_m > config.longest_mover_m) {
-    segment.label = PointLabel::kUnknown;
-  }
+  if (segment.label == PointLabel::kMoving && segment.box_length_m > config.longest_mover_m) segment.label = PointLabel::kUnknown;
 }
 
 }  // namespace
@@ -268,8 +276,15 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
 SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config) {
   SegmentedScan segmented = copy_of_header(scan);
   label_points(scan, config, segmented);
+  const std::vector<char> is_ground = find_ground(segmented, config);
+  std::vector<float> range_without_ground_m = segmented.range_m;
+  for (std::size_t i = 0; i < is_ground.size(); ++i) {
+    if (!is_ground[i]) continue;
+    segmented.labels[i] = PointLabel::kNoEcho;
+    range_without_ground_m[i] = 0.0F;
+  }
   std::vector<BeamSpan> spans;
-  sensing::segment_by_distance(segmented.points_in_base_m, segmented.range_m, scan.beam_step_rad, config.segmentation, spans);
+  sensing::segment_by_distance(segmented.points_in_base_m, range_without_ground_m, scan.beam_step_rad, config.segmentation, spans);
   segmented.segments.reserve(spans.size() + 16);
   std::vector<std::uint16_t> beams;
   std::vector<Run> runs;
@@ -277,7 +292,7 @@ SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config) {
   for (const BeamSpan& span : spans) {
     beams.clear();
     for (std::uint16_t beam = span.first; beam <= span.last; ++beam)
-      if (segmented.range_m[beam] > 0.0F) beams.push_back(beam);
+      if (range_without_ground_m[beam] > 0.0F) beams.push_back(beam);
     split_by_label(beams, segmented, config, runs);
     for (const Run& run : runs) {
       Segment& segment = segmented.segments.emplace_back();

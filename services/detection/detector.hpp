@@ -20,17 +20,17 @@ struct DetectionConfig {
   double longest_mover_m = 16.0;        ///< What is longer does not move as one thing.
   double range_noise_m = 0.03;          ///< One sigma at the scanner,
   double range_noise_per_m = 0.001;     ///< and what each metre of range adds.
-  double ground_least_width_m = 4.0;    ///< Across the vehicle's axis; a pitching scanner's line on the ground is wide,
-  double ground_thickness_m = 0.6;      ///< thin,
-  double ground_heading_rad = 0.2;      ///< square to the vehicle's axis,
-  double ground_nearest_m = 4.0;        ///< and not right in front of the bumper.
+  double ground_least_width_m = 3.0;    ///< Across the vehicle's axis; a pitching scanner's line on the ground is wide,
+  double ground_thickness_m = 0.4;      ///< thin,
+  double ground_heading_rad = 0.25;     ///< square to the vehicle's axis,
+  double ground_nearest_m = 3.0;        ///< not right in front of the bumper,
+  double ground_most_beyond = 0.2;      ///< and the end of sight: of the beams on it, so many at most see beyond.
   double occluder_margin_m = 0.5;       ///< A neighbouring echo nearer by this hides what lies behind it.
 };
 
 /// Cuts the scan into segments and tells which of them contradict the map, and so move. Stateless.
-/// Consistency-based and MO-map-based detection of Wang 2004, Section 6.2. Every echo is in exactly one segment.
-/// Long thin lines in free space square to the vehicle's axis are taken for the ground (Section 6.6): such a segment
-/// and its points are labelled kNoEcho, because they tell of nothing that stands or moves.
+/// Consistency-based and MO-map-based detection of Wang 2004, Section 6.2. Every other echo is in exactly one segment.
+/// Echoes from the ground (Section 6.6) are labelled kNoEcho and in no segment, because they tell of nothing that stands or moves.
 flow::SegmentedScan detect(const flow::LocalizedScan& scan, const DetectionConfig& config);
 
 }  // namespace slammot::detection

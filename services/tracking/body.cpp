@@ -14,6 +14,8 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr double kFaceDepthM = 0.2;       ///< Points this near the outermost one lie on the same side.
+constexpr double kLeastShareSeen = 0.5;   ///< Of a side that should be in view, for its end to count as seen.
+constexpr double kFewestBeams = 3.0;       ///< That a side should return, for its end to count as seen.
 constexpr double kUnknownSigmaM = 3.0;    ///< Of a coordinate about which a glimpse says nothing.
 
 /// The glimpse along one axis of the body, relative to the predicted centre.
@@ -69,7 +71,8 @@ Size updated_size(const Size& size, double seen_m, bool both_edges_seen, double 
   } else if (seen_m > size.value_m) {
     updated.value_m += 0.3 * (seen_m - size.value_m);
   }
-  updated.value_m = std::min(updated.value_m, longest_m);
+  constexpr double kSmallestM = 0.4;
+  updated.value_m = std::clamp(updated.value_m, kSmallestM, longest_m);
   return updated;
 }
 
@@ -78,7 +81,8 @@ AxisMeasurement measure_from_low_side(const Size& size, const Shadow& shadow, bo
                                       double far_variance_m2, double longest_m) {
   AxisMeasurement axis;
   const bool low_is_seen = !shadow.low_is_end || shadow.low_count >= 3;
-  const bool high_is_seen = far_is_visible && !shadow.high_is_end;
+  // Where the flank is not seen for what it should be, the far edge is not seen either.
+  const bool high_is_seen = far_is_visible && !shadow.high_is_end && shadow.high_m - shadow.low_m > kLeastShareSeen * size.value_m;
   const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
   axis.size = updated_size(size, shadow.high_m - low_m, low_is_seen && high_is_seen, far_variance_m2, longest_m);
   const double half_m = 0.5 * axis.size.value_m;
@@ -97,8 +101,9 @@ AxisMeasurement measure_from_low_side(const Size& size, const Shadow& shadow, bo
 /// The laser lies beside the body: both edges are outlines of the flank.
 AxisMeasurement measure_from_beside(const Size& size, const Shadow& shadow, double edge_variance_m2, double longest_m) {
   AxisMeasurement axis;
-  const bool low_is_seen = !shadow.low_is_end;
-  const bool high_is_seen = !shadow.high_is_end;
+  const bool is_whole = shadow.high_m - shadow.low_m > kLeastShareSeen * size.value_m;
+  const bool low_is_seen = !shadow.low_is_end && (is_whole || shadow.high_is_end);
+  const bool high_is_seen = !shadow.high_is_end && (is_whole || shadow.low_is_end);
   axis.size = updated_size(size, shadow.high_m - shadow.low_m, low_is_seen && high_is_seen, 2.0 * edge_variance_m2, longest_m);
   const double half_m = 0.5 * axis.size.value_m;
   if (low_is_seen && high_is_seen) {
@@ -147,8 +152,10 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   const double beam_width_m = range_m * glimpse.beam_step_rad;
   const double sigma_m = std::hypot(echo_sigma_m(range_m, config), config.shape_noise_m);
   constexpr double kLeastIncidence = 0.05;
-  const bool flank_is_visible = std::abs(across.dot(to_laser_m)) > 0.5 * body.width.value_m + 0.3;
-  const bool face_is_visible = std::abs(along.dot(to_laser_m)) > 0.5 * body.length.value_m + 0.3;
+  const bool flank_is_visible = std::abs(across.dot(to_laser_m)) > 0.5 * body.width.value_m + 0.3 &&
+                                body.length.value_m * sight_across > kFewestBeams * beam_width_m;
+  const bool face_is_visible = std::abs(along.dot(to_laser_m)) > 0.5 * body.length.value_m + 0.3 &&
+                               body.width.value_m * sight_along > kFewestBeams * beam_width_m;
   const AxisMeasurement u = measure_axis(body.length, shadow_of(glimpse, predicted_centre_m, along), along.dot(to_laser_m), flank_is_visible,
                                          sigma_m * sigma_m, beam_width_m / std::max(sight_across, kLeastIncidence), config.longest_body_m);
   const AxisMeasurement v = measure_axis(body.width, shadow_of(glimpse, predicted_centre_m, across), across.dot(to_laser_m), face_is_visible,

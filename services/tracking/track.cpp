@@ -182,18 +182,17 @@ void score_hit(Track& track, flow::PointLabel label, const TrackingConfig& confi
   track.moving_hits += is_moving ? 1 : 0;
   track.farthest_m = std::max(track.farthest_m, (track.position_m() - track.birth_position_m).norm());
   double gain = is_moving ? config.moving_hit_score : config.other_hit_score;
-  if (!is_moving && track.farthest_m < config.travel_to_trust_m) gain = config.idle_score;
+  const bool is_trusted = track.farthest_m >= config.travel_to_trust_m && track.moving_hits >= config.moving_hits_to_trust;
+  if (!is_moving && !is_trusted) gain = config.idle_score;
   if (label == flow::PointLabel::kStationary && track.velocity_mps().norm() > 1.5) gain = config.contradiction_score;
   track.score = std::min(config.most_score, track.score + gain);
 }
 
 void score_miss(Track& track, const Visibility& visibility, double time_s, const TrackingConfig& config) {
   track.score += (visibility.beams == 0 ? config.out_of_view_score_per_s : config.occluded_score_per_s) * time_s;
-  // Each beam that went through where the body should be speaks against it, together at most like a sure miss.
-  constexpr double kPerBeam = 0.25;
-  constexpr double kSureMiss = 1.0;
+  // What hides the body before and behind counts less: a share of the beams decides how sure the miss is.
   const double share = visibility.beams == 0 ? 0.0 : static_cast<double>(visibility.passed) / visibility.beams;
-  track.score -= std::min(kSureMiss, kPerBeam * visibility.passed) * share;
+  track.score += std::max(config.most_passed_score, config.passed_beam_score * visibility.passed) * share;
 }
 
 bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
@@ -219,10 +218,11 @@ flow::ObjectClass likely_class(const Track& track) {
   return flow::ObjectClass::kCar;
 }
 
-flow::TrackedObject described(const Track& track, const TrackingConfig& config) {
+flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
   flow::TrackedObject object;
   object.track_id = track.track_id;
-  object.confirmed = track.confirmed;
+  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
+  object.confirmed = track.confirmed && track.score >= config.publish_score && unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);
   object.position_in_odom_m = track.position_m();
   object.velocity_in_odom_mps = track.velocity_mps();

@@ -70,7 +70,7 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config);
 flow::ObjectClass likely_class(const Track& track);
 
 /// The track as it is published.
-flow::TrackedObject described(const Track& track, const TrackingConfig& config);
+flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
 
 /// A track as far as what was published of it tells.
 Track resumed(const flow::TrackedObject& object, const TrackingConfig& config);

@@ -30,10 +30,13 @@ struct TrackingConfig {
   double moving_hit_score = 0.8;            ///< A segment that moves,
   double other_hit_score = 0.1;             ///< or any other, where the track should be.
   double contradiction_score = -0.3;        ///< It should be moving, but stands where the map knows something that stands.
-  double idle_score = -0.05;                ///< It stands, and has never come further than its travel_to_trust.
-  double travel_to_trust_m = 3.0;
-  double occluded_score_per_s = -0.5;
-  double out_of_view_score_per_s = -8.0;
+  double idle_score = -0.1;                 ///< It no longer contradicts the map, and has never
+  double travel_to_trust_m = 3.0;           ///< come so far
+  int moving_hits_to_trust = 20;            ///< nor contradicted the map in so many scans.
+  double occluded_score_per_s = -1.0;
+  double out_of_view_score_per_s = -30.0;
+  double passed_beam_score = -0.6;          ///< For each beam that went through where the body should be,
+  double most_passed_score = -2.0;          ///< in one scan at most.
   int least_points_at_birth = 2;
   double most_score = 8.0;
   double confirm_score = 2.0;
@@ -44,6 +47,8 @@ struct TrackingConfig {
   double least_travel_per_extent = 0.2;     ///< and this share of its extent,
   double least_travel_sigmas = 3.0;         ///< and so many of its own standard deviations.
   double longest_unseen_s = 3.0;            ///< Without a segment before a track ends, however well it is explained.
+  double longest_unseen_published_s = 1.0;  ///< After which it is followed, but not published as confirmed.
+  double publish_score = 0.0;               ///< Nor with a score below this.
   double longest_unseen_tentative_s = 0.4;
   double longest_tentative_s = 1.5;         ///< What has not proven to move by then is rejected.
 

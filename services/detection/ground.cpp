@@ -1,0 +1,117 @@
+#include "services/detection/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "services/detection/detector.hpp"
+
+namespace slammot::detection {
+namespace {
+
+using geometry::Vector2;
+
+/// x = distance + slope * y, in a frame at the laser parallel to base.
+struct Line {
+  double distance_m = 0.0;
+  double slope = 0.0;
+};
+
+enum class Side { kInFront, kOn, kBeyond, kNoEcho, kNotCrossed };
+
+class Ground {
+ public:
+  Ground(const flow::SegmentedScan& scan, const DetectionConfig& config) : scan_(scan), config_(config) {
+    for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+      if (scan.range_m[i] <= 0.0F) continue;
+      const Vector2 way = from_laser_m(i);
+      first_beam_rad_ = std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan.beam_step_rad;
+      break;
+    }
+  }
+
+  Vector2 from_laser_m(std::size_t beam) const {
+    return scan_.points_in_base_m[beam].cast<double>() - scan_.base_from_laser.translation_m();
+  }
+
+  bool is_candidate(std::size_t beam) const {
+    return scan_.labels[beam] == flow::PointLabel::kMoving && from_laser_m(beam).x() > config_.ground_nearest_m;
+  }
+
+  /// Line through the run of moving echoes that begins here, where it is straight and square to the axis.
+  std::optional<Line> line_from(std::size_t first, std::size_t last) const {
+    double n = 0.0, sy = 0.0, sx = 0.0, syy = 0.0, sxy = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      if (!is_candidate(i)) continue;
+      const Vector2 p = from_laser_m(i);
+      n += 1.0, sy += p.y(), sx += p.x(), syy += p.y() * p.y(), sxy += p.x() * p.y();
+    }
+    const double spread = syy - sy * sy / n;
+    const double slope = (sxy - sx * sy / n) / std::max(spread, 1e-9);
+    if (std::abs(slope) > std::tan(config_.ground_heading_rad)) return std::nullopt;
+    return Line{(sx - slope * sy) / n, slope};
+  }
+
+  Side side_of(std::size_t beam, const Line& line) const {
+    const double angle_rad = first_beam_rad_ + static_cast<double>(beam) * scan_.beam_step_rad;
+    const double approach = std::cos(angle_rad) - line.slope * std::sin(angle_rad);
+    constexpr double kSteepest = 0.2;  // beams nearly along the line meet it too far away to tell
+    if (approach < kSteepest) return Side::kNotCrossed;
+    const double crossing_m = line.distance_m / approach;
+    if (crossing_m > 0.9 * scan_.max_range_m) return Side::kNotCrossed;
+    const auto range_m = static_cast<double>(scan_.range_m[beam]);
+    const double tolerance_m = config_.ground_thickness_m + 0.02 * crossing_m;
+    if (range_m <= 0.0) return Side::kNoEcho;  // dark asphalt may give none
+    if (range_m > crossing_m + tolerance_m) return Side::kBeyond;
+    return range_m < crossing_m - tolerance_m ? Side::kInFront : Side::kOn;
+  }
+
+  bool is_ground(const Line& line) const {
+    int on = 0;
+    int beyond = 0;
+    int without_echo = 0;
+    double low_y = 1e9;
+    double high_y = -1e9;
+    for (std::size_t i = 0; i < scan_.range_m.size(); ++i) {
+      const Side side = side_of(i, line);
+      beyond += side == Side::kBeyond ? 1 : 0;
+      without_echo += side == Side::kNoEcho ? 1 : 0;
+      if (side != Side::kOn) continue;
+      ++on;
+      low_y = std::min(low_y, from_laser_m(i).y()), high_y = std::max(high_y, from_laser_m(i).y());
+    }
+    return high_y - low_y >= config_.ground_least_width_m && beyond <= config_.ground_most_beyond * on && without_echo <= on;
+  }
+
+ private:
+  const flow::SegmentedScan& scan_;
+  const DetectionConfig& config_;
+  double first_beam_rad_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<char> find_ground(const flow::SegmentedScan& scan, const DetectionConfig& config) {
+  std::vector<char> is_ground(scan.range_m.size(), 0);
+  const Ground ground(scan, config);
+  constexpr std::size_t kFewestEchoes = 4;
+  constexpr std::size_t kMostEchoes = 12;   // enough for a line, short enough to follow one that bends
+  for (std::size_t first = 0; first + kFewestEchoes <= scan.range_m.size(); ++first) {
+    if (is_ground[first] || !ground.is_candidate(first)) continue;
+    std::size_t last = first;
+    while (last + 1 < scan.range_m.size() && last + 1 < first + kMostEchoes && ground.is_candidate(last + 1) &&
+           std::abs(ground.from_laser_m(last + 1).x() - ground.from_laser_m(last).x()) < config.ground_thickness_m)
+      ++last;
+    if (last + 1 < first + kFewestEchoes) continue;
+    const std::optional<Line> line = ground.line_from(first, last);
+    if (line && ground.is_ground(*line)) {
+      for (std::size_t i = 0; i < scan.range_m.size(); ++i)
+        if (ground.is_candidate(i) && ground.side_of(i, *line) == Side::kOn) is_ground[i] = 1;
+    }
+    first = last;
+  }
+  return is_ground;
+}
+
+}  // namespace slammot::detection
