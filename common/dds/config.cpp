@@ -9,10 +9,7 @@ namespace slammot::dds {
 namespace {
 
 // One receive thread: with several, deleting the participant hangs when its interface is down.
-// Shared memory is off: it blocks start-up where its daemon is not running.
-constexpr std::string_view kInternal =
-    "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></Internal>"
-    "<SharedMemory><Enable>false</Enable></SharedMemory>";
+constexpr std::string_view kInternal = "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></Internal>";
 
 // Measured: a link cut for 25 s is matched again 0.4 s after it heals instead of 3.9 s.
 constexpr std::string_view kDiscoveryTimes = "<LeaseDuration>3s</LeaseDuration><SPDPInterval>1s</SPDPInterval>";

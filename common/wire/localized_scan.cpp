@@ -15,13 +15,12 @@ static_assert(static_cast<int>(flow::EndCell::kFree) == slammot_END_CELL_FREE);
 static_assert(static_cast<int>(flow::EndCell::kOccupied) == slammot_END_CELL_OCCUPIED);
 
 slammot_LocalizedBeam encode_beam(const flow::LocalizedBeam& beam) {
-  return {encode(beam.point_in_base_m), beam.range_m,         beam.expected_range_m,
-          beam.free_evidence,           beam.moving_evidence, static_cast<slammot_EndCell>(beam.end_cell)};
+  return {encode(beam.point_in_base_m), beam.range_m, beam.expected_range_m, beam.free_evidence, beam.moving_evidence};
 }
 
-flow::LocalizedBeam decode_beam(const slammot_LocalizedBeam& beam) {
+flow::LocalizedBeam decode_beam(const slammot_LocalizedBeam& beam, slammot_EndCell end_cell) {
   return {decode(beam.point_in_base), beam.range_m,         beam.expected_range_m,
-          beam.free_evidence,         beam.moving_evidence, static_cast<flow::EndCell>(beam.end_cell)};
+          beam.free_evidence,         beam.moving_evidence, static_cast<flow::EndCell>(end_cell)};
 }
 
 std::string_view fault_of(const slammot_LocalizedBeam& beam) {
@@ -29,7 +28,6 @@ std::string_view fault_of(const slammot_LocalizedBeam& beam) {
   if (!is_amount(beam.range_m) || !is_amount(beam.expected_range_m)) return "a range is negative or not finite";
   if (!is_sound(beam.free_evidence)) return "free_evidence is not finite";
   if (!is_probability(beam.moving_evidence)) return "moving_evidence is not within 0 and 1";
-  if (!is_enumerator(beam.end_cell, slammot_END_CELL_OCCUPIED)) return "end_cell is unknown";
   return "";
 }
 
@@ -41,6 +39,10 @@ std::string_view fault_of(const slammot_LocalizedScan& sample) {
   if (!is_sound(sample.map_from_odom)) return "map_from_odom is not finite";
   if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps)) return "the velocity is not finite";
   if (!is_sound(sample.submap_from_base)) return "submap_from_base is not finite";
+  if (sample.end_cells._length != sample.beams._length) return "beams and end_cells are not equally many";
+  for (const slammot_EndCell end_cell : elements(sample.end_cells)) {
+    if (!is_enumerator(end_cell, slammot_END_CELL_OCCUPIED)) return "an end cell is unknown";
+  }
   for (const slammot_LocalizedBeam& beam : elements(sample.beams)) {
     if (const std::string_view fault = fault_of(beam); !fault.empty()) return fault;
   }
@@ -53,7 +55,11 @@ const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehic
                                                           const flow::LocalizedScan& scan) {
   if (scan.beams.size() > kMostBeams) throw std::length_error("a localized scan has more beams than fit on the bus");
   beams_.clear();
-  for (const flow::LocalizedBeam& beam : scan.beams) beams_.push_back(encode_beam(beam));
+  end_cells_.clear();
+  for (const flow::LocalizedBeam& beam : scan.beams) {
+    beams_.push_back(encode_beam(beam));
+    end_cells_.push_back(static_cast<slammot_EndCell>(beam.end_cell));
+  }
   set_text(sample_.vehicle_id, vehicle_id);
   set_text(sample_.scanner_id, scan.scanner_id);
   sample_.stamp_ns = scan.stamp_ns;
@@ -68,6 +74,7 @@ const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehic
   sample_.submap_id = scan.submap_id.value;
   sample_.submap_from_base = wire::encode(scan.submap_from_base);
   show(sample_.beams, beams_);
+  show(sample_.end_cells, end_cells_);
   return sample_;
 }
 
@@ -86,8 +93,10 @@ Decoded<flow::LocalizedScan> decode(const slammot_LocalizedScan& sample) {
                            .submap_id = {sample.submap_id},
                            .submap_from_base = decode(sample.submap_from_base),
                            .beams = {}};
-  scan.beams.reserve(sample.beams._length);
-  for (const slammot_LocalizedBeam& beam : elements(sample.beams)) scan.beams.push_back(decode_beam(beam));
+  const auto beams = elements(sample.beams);
+  const auto end_cells = elements(sample.end_cells);
+  scan.beams.reserve(beams.size());
+  for (std::size_t i = 0; i < beams.size(); ++i) scan.beams.push_back(decode_beam(beams[i], end_cells[i]));
   return scan;
 }
 

@@ -18,6 +18,7 @@ class LocalizedScanEncoder {
  private:
   slammot_LocalizedScan sample_{};
   std::vector<slammot_LocalizedBeam> beams_;
+  std::vector<slammot_EndCell> end_cells_;
 };
 
 Decoded<flow::LocalizedScan> decode(const slammot_LocalizedScan& sample);

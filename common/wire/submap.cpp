@@ -1,6 +1,7 @@
 #include "common/wire/submap.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
@@ -120,7 +121,7 @@ std::string_view fault_of(const slammot_SubmapTile& tile) {
     return "the tile is outside its submap";
   }
   const std::uint32_t cells = tile.column_count * tile.row_count;
-  if (tile.so_log_odds._length != cells || tile.mo_evidence._length != cells) return "the tile's grids have a wrong size";
+  if (tile.so_log_odds_plus_128._length != cells || tile.mo_evidence._length != cells) return "the tile's grids have a wrong size";
   if (!is_inside(tile.first_surfel, tile.surfels._length, header.surfel_count)) return "surfels are outside their list";
   for (const slammot_Surfel& surfel : elements(tile.surfels)) {
     if (!is_sound(surfel.x_m) || !is_sound(surfel.y_m) || !is_sound(surfel.normal_x) || !is_sound(surfel.normal_y) ||
@@ -136,7 +137,9 @@ void copy_into(flow::Submap& submap, const slammot_SubmapTile& tile) {
   for (std::uint32_t row = 0; row < tile.row_count; ++row) {
     const std::size_t from = std::size_t{row} * tile.column_count;
     const std::size_t to = (std::size_t{tile.first_row} + row) * submap.columns + tile.first_column;
-    std::copy_n(tile.so_log_odds._buffer + from, tile.column_count, submap.so_log_odds.begin() + to);
+    std::transform(tile.so_log_odds_plus_128._buffer + from, tile.so_log_odds_plus_128._buffer + from + tile.column_count,
+                   submap.so_log_odds.begin() + to,
+                   [](std::uint8_t plus_128) { return static_cast<std::int8_t>(plus_128 - 128); });
     std::copy_n(tile.mo_evidence._buffer + from, tile.column_count, submap.mo_evidence.begin() + to);
   }
   auto next = submap.surfels.begin() + tile.first_surfel;
@@ -196,20 +199,21 @@ void SubmapEncoder::find_rectangles(const flow::Submap& submap) {
 }
 
 void SubmapEncoder::fill_rectangle(const flow::Submap& submap, const Rectangle& rectangle) {
-  so_log_odds_.clear();
+  so_log_odds_plus_128_.clear();
   mo_evidence_.clear();
   for (std::uint32_t row = 0; row < rectangle.rows; ++row) {
     const std::size_t first = std::size_t{rectangle.first_row + row} * submap.columns + rectangle.first_column;
     const auto so = submap.so_log_odds.begin() + first;
     const auto mo = submap.mo_evidence.begin() + first;
-    so_log_odds_.insert(so_log_odds_.end(), so, so + rectangle.columns);
+    std::transform(so, so + rectangle.columns, std::back_inserter(so_log_odds_plus_128_),
+                   [](std::int8_t log_odds) { return static_cast<std::uint8_t>(log_odds + 128); });
     mo_evidence_.insert(mo_evidence_.end(), mo, mo + rectangle.columns);
   }
   sample_.first_column = rectangle.first_column;
   sample_.first_row = rectangle.first_row;
   sample_.column_count = rectangle.columns;
   sample_.row_count = rectangle.rows;
-  show(sample_.so_log_odds, so_log_odds_);
+  show(sample_.so_log_odds_plus_128, so_log_odds_plus_128_);
   show(sample_.mo_evidence, mo_evidence_);
 }
 

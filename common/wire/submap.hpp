@@ -39,7 +39,7 @@ class SubmapEncoder {
 
   slammot_SubmapTile sample_{};
   std::vector<Rectangle> rectangles_;
-  std::vector<std::int8_t> so_log_odds_;
+  std::vector<std::uint8_t> so_log_odds_plus_128_;
   std::vector<std::uint8_t> mo_evidence_;
   std::vector<slammot_Surfel> surfels_;
 };

@@ -6,7 +6,7 @@
 
 #include "common/wire/sensor.hpp"
 #include "tests/support/matchers.hpp"
-#include "tests/unit/common/wire/values.hpp"
+#include "tests/support/values.hpp"
 
 namespace slammot::wire {
 namespace {
@@ -74,7 +74,8 @@ TEST_F(LocalizedScanOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].expected_range_m = kNanF; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].free_evidence = kNanF; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].moving_evidence = 1.5F; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].end_cell = static_cast<slammot_EndCell>(4); }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.end_cells._buffer[3] = static_cast<slammot_EndCell>(4); }), "");
+  EXPECT_NE(fault_after([](auto& s) { --s.end_cells._length; }), "");
 }
 
 TEST_F(LocalizedScanOnTheWire, DoesNotTakeMoreBeamsThanFit) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/matchers.hpp"
-#include "tests/unit/common/wire/values.hpp"
+#include "tests/support/values.hpp"
 
 namespace slammot::wire {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "common/wire/text.hpp"
 #include "tests/support/matchers.hpp"
-#include "tests/unit/common/wire/values.hpp"
+#include "tests/support/values.hpp"
 
 namespace slammot::wire {
 namespace {

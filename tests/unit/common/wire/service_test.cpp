@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/common/wire/values.hpp"
+#include "tests/support/values.hpp"
 
 namespace slammot::wire {
 namespace {

@@ -10,7 +10,7 @@
 #include "common/wire/service.hpp"
 #include "common/wire/submap.hpp"
 #include "common/wire/tracked_objects.hpp"
-#include "tests/unit/common/wire/values.hpp"
+#include "tests/support/values.hpp"
 
 namespace slammot::wire {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/matchers.hpp"
-#include "tests/unit/common/wire/values.hpp"
+#include "tests/support/values.hpp"
 
 namespace slammot::wire {
 namespace {
@@ -19,19 +19,19 @@ using slammot::testing::kNanF;
 /// A tile with its own copy of what the encoder lends.
 struct KeptTile {
   explicit KeptTile(const slammot_SubmapTile& tile)
-      : so(tile.so_log_odds._buffer, tile.so_log_odds._buffer + tile.so_log_odds._length),
+      : so(tile.so_log_odds_plus_128._buffer, tile.so_log_odds_plus_128._buffer + tile.so_log_odds_plus_128._length),
         mo(tile.mo_evidence._buffer, tile.mo_evidence._buffer + tile.mo_evidence._length),
         surfels(tile.surfels._buffer, tile.surfels._buffer + tile.surfels._length),
         sample(tile) {}
 
   slammot_SubmapTile& shown() {
-    sample.so_log_odds._buffer = so.data();
+    sample.so_log_odds_plus_128._buffer = so.data();
     sample.mo_evidence._buffer = mo.data();
     sample.surfels._buffer = surfels.data();
     return sample;
   }
 
-  std::vector<std::int8_t> so;
+  std::vector<std::uint8_t> so;
   std::vector<std::uint8_t> mo;
   std::vector<slammot_Surfel> surfels;
   slammot_SubmapTile sample;
@@ -212,7 +212,7 @@ TEST_F(SubmapInTiles, AreRefusedWhereTheyAreUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.column_count = 129; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.first_column = 0xFFFFFFFF; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.first_row = 199; }), "");
-  EXPECT_NE(fault_after([](auto& s) { --s.so_log_odds._length; }), "");
+  EXPECT_NE(fault_after([](auto& s) { --s.so_log_odds_plus_128._length; }), "");
   EXPECT_NE(fault_after([](auto& s) { --s.mo_evidence._length; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.first_surfel = 0xFFFFFFFF; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.surfels._buffer[0].weight = kNanF; }), "");
@@ -229,7 +229,7 @@ TEST_F(SubmapInTiles, AreRefusedWhereTheirHeadersDisagree) {
 }
 
 TEST_F(SubmapInTiles, AreRefusedWhereTheyDoNotAddUp) {
-  tiles[2].so[5] = static_cast<std::int8_t>(tiles[2].so[5] + 1);
+  tiles[2].so[5] = static_cast<std::uint8_t>(tiles[2].so[5] + 1);
   std::string_view fault;
   for (KeptTile& tile : tiles) fault = assembler.add(tile.shown()).fault;
   EXPECT_NE(fault, "");
