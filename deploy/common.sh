@@ -6,8 +6,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source-path=SCRIPTDIR source=packages.sh
 source "$root/deploy/packages.sh"
 
-# Objects compiled in another checkout serve this one too.
-export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+# Objects compiled in another checkout serve this one too, and those of this one serve the image (build/objects is part
+# of what the engine is handed).
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content
+export CCACHE_REMOTE_STORAGE="file:$root/build/objects" CCACHE_RESHARE=1
 
 # Further arguments are cmake's.
 configure_preset() {
