@@ -1,9 +1,11 @@
 #include "services/slammot/profile.hpp"
 
+#include "services/detection/detection_fields.hpp"
 #include "services/ingest/ingest_fields.hpp"
 #include "services/localization/localization_fields.hpp"
 #include "services/loop_closing/loop_closing_fields.hpp"
 #include "services/map_store/map_store_fields.hpp"
+#include "services/tracking/tracking_fields.hpp"
 
 namespace slammot {
 
@@ -11,6 +13,8 @@ std::vector<config::BoundStage> bind_stages(Profile& profile) {
   return {
       config::bind_stage("ingest", ingest::ingest_fields(), profile.ingest),
       config::bind_stage("localization", localization::localization_fields(), profile.localization),
+      config::bind_stage("detection", detection::detection_fields(), profile.detection),
+      config::bind_stage("tracking", tracking::tracking_fields(), profile.tracking),
       config::bind_stage("loop_closing", loop_closing::loop_closing_fields(), profile.loop_closing),
       config::bind_stage("map_store", map_store::map_store_fields(), profile.map_store),
   };

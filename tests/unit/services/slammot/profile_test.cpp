@@ -1,6 +1,9 @@
 #include "services/slammot/profile.hpp"
 
 #include <filesystem>
+#include <map>
+#include <set>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +13,55 @@
 
 namespace slammot {
 namespace {
+
+/// Stands for a value of any type where a struct is initialised member by member.
+struct Anything {
+  template <class Type>
+  operator Type() const;  // not defined: never called
+};
+
+template <class Struct, std::size_t... kIndices>
+constexpr bool takes(std::index_sequence<kIndices...>) {
+  return requires { Struct{(static_cast<void>(kIndices), Anything{})...}; };
+}
+
+/// Number of members of a plain struct.
+template <class Struct, std::size_t kCount = 100>
+constexpr std::size_t members() {
+  if constexpr (takes<Struct>(std::make_index_sequence<kCount>())) {
+    return kCount;
+  } else {
+    return members<Struct, kCount - 1>();
+  }
+}
+
+/// Number of settings and nested messages directly under a prefix ("" or "map.") of a stage.
+std::size_t settings_under(const config::BoundStage& stage, const std::string& prefix) {
+  std::set<std::string> names;
+  for (const config::BoundField& field : stage.fields) {
+    if (!field.name.starts_with(prefix)) continue;
+    const std::string rest = field.name.substr(prefix.size());
+    names.insert(rest.substr(0, rest.find('.')));
+  }
+  return names.size();
+}
+
+TEST(Profile, HasASettingForEveryMemberOfEveryStruct) {
+  Profile profile;
+  std::map<std::string, config::BoundStage> stages;
+  for (config::BoundStage& stage : bind_stages(profile)) stages[std::string(stage.stage)] = std::move(stage);
+  EXPECT_EQ(settings_under(stages["ingest"], ""), members<ingest::IngestConfig>());
+  EXPECT_EQ(settings_under(stages["localization"], ""), members<localization::LocalizerConfig>());
+  EXPECT_EQ(settings_under(stages["localization"], "map."), members<localization::LocalMapConfig>());
+  EXPECT_EQ(settings_under(stages["localization"], "map.evidence."), members<grids::EvidenceModel>());
+  EXPECT_EQ(settings_under(stages["localization"], "motion."), members<sensing::MotionModelConfig>());
+  EXPECT_EQ(settings_under(stages["localization"], "match."), members<matching::PointToLineConfig>());
+  EXPECT_EQ(settings_under(stages["detection"], ""), members<detection::DetectionConfig>());
+  EXPECT_EQ(settings_under(stages["detection"], "segmentation."), members<sensing::SegmentationConfig>());
+  EXPECT_EQ(settings_under(stages["tracking"], ""), members<tracking::TrackingConfig>());
+  EXPECT_EQ(settings_under(stages["loop_closing"], ""), members<loop_closing::LoopClosingConfig>());
+  EXPECT_EQ(settings_under(stages["map_store"], ""), members<map_store::MapStoreConfig>());
+}
 
 TEST(Profile, TablesAndProtoAgreeFieldByField) {
   Profile profile;

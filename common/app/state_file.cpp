@@ -1,0 +1,99 @@
+#include "common/app/state_file.hpp"
+
+#include <array>
+#include <cstring>
+#include <fstream>
+
+#include <zlib.h>
+
+namespace slammot::app {
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'s', 'l', 'a', 'm', 'm', 'o', 't', '1'};
+
+/// Before the bytes. Written and read on the same machine, by the same build.
+struct Header {
+  std::array<char, 8> magic = kMagic;
+  std::int64_t stamp_ns = 0;
+  std::uint64_t size = 0;
+  std::uint64_t checksum = 0;
+};
+
+std::uint64_t checksum_of(const std::vector<std::byte>& bytes) {
+  return ::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+}
+
+}  // namespace
+
+StateFile::StateFile(std::filesystem::path path) : path_(std::move(path)), thread_([this] { write_states(); }) {}
+
+StateFile::~StateFile() {
+  {
+    const std::scoped_lock lock(mutex_);
+    is_closing_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+std::optional<SavedState> StateFile::read() const {
+  std::ifstream file(path_, std::ios::binary);
+  Header header;
+  if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != kMagic) return std::nullopt;
+  std::error_code unreadable;
+  if (std::filesystem::file_size(path_, unreadable) != sizeof header + header.size) return std::nullopt;
+  SavedState state{header.stamp_ns, std::vector<std::byte>(header.size)};
+  if (!file.read(reinterpret_cast<char*>(state.bytes.data()), static_cast<std::streamsize>(header.size))) return std::nullopt;
+  if (checksum_of(state.bytes) != header.checksum) return std::nullopt;
+  return state;
+}
+
+bool StateFile::is_busy() const {
+  const std::scoped_lock lock(mutex_);
+  return next_.has_value() || is_writing_;
+}
+
+void StateFile::save(SavedState state) {
+  {
+    const std::scoped_lock lock(mutex_);
+    next_ = std::move(state);
+  }
+  changed_.notify_all();
+}
+
+std::string StateFile::fault() const {
+  const std::scoped_lock lock(mutex_);
+  return fault_;
+}
+
+void StateFile::write_states() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return next_ || is_closing_; });
+    if (!next_) return;
+    const SavedState state = std::move(*next_);
+    next_.reset();
+    is_writing_ = true;
+    lock.unlock();
+    std::string fault = write(state);
+    lock.lock();
+    is_writing_ = false;
+    fault_ = std::move(fault);
+  }
+}
+
+std::string StateFile::write(const SavedState& state) const {
+  std::error_code fault;
+  if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), fault);
+  const std::filesystem::path unfinished = path_.string() + ".unfinished";
+  const Header header{kMagic, state.stamp_ns, state.bytes.size(), checksum_of(state.bytes)};
+  std::ofstream file(unfinished, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(&header), sizeof header);
+  file.write(reinterpret_cast<const char*>(state.bytes.data()), static_cast<std::streamsize>(state.bytes.size()));
+  file.close();
+  if (!file) return "cannot write " + unfinished.string() + ": " + std::strerror(errno);
+  std::filesystem::rename(unfinished, path_, fault);
+  return fault ? "cannot write " + path_.string() + ": " + fault.message() : std::string();
+}
+
+}  // namespace slammot::app

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "common/app/run_service.hpp"
+#include "common/wire/segmented_scan.hpp"
+#include "services/detection/detector.hpp"
+
+namespace slammot::detection {
+
+/// Cuts localized scans into segments. Keeps nothing from scan to scan.
+class DetectionService {
+ public:
+  struct Settings {
+    DetectionConfig config;
+  };
+  static constexpr const char* kName = "detection";
+  static constexpr const char* kPurpose = "Cuts scans into segments and tells which of them contradict the map, and so move.";
+  static std::vector<config::BoundStage> stages(Settings& settings);
+  static void add_options(CLI::App&, Settings&) {}
+
+  DetectionService(app::ServiceContext& context, const Settings& settings);
+
+ private:
+  void take(const slammot_LocalizedScan& sample);
+
+  app::ServiceContext& context_;
+  DetectionConfig config_;
+  dds::Writer<slammot_SegmentedScan>& segmented_scans_;
+  wire::SegmentedScanEncoder encoder_;
+};
+
+}  // namespace slammot::detection

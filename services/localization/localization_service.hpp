@@ -1,0 +1,76 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/app/run_service.hpp"
+#include "common/app/state_file.hpp"
+#include "common/wire/graph.hpp"
+#include "common/wire/localized_scan.hpp"
+#include "common/wire/submap.hpp"
+#include "services/localization/localizer.hpp"
+
+namespace slammot::localization {
+
+/// Localizes the scans of one vehicle, and keeps a checkpoint to come back from.
+class LocalizationService {
+ public:
+  struct Settings {
+    LocalizerConfig config;
+  };
+  static constexpr const char* kName = "localization";
+  static constexpr const char* kPurpose = "Estimates the pose of the vehicle and the map around it, scan by scan.";
+  static std::vector<config::BoundStage> stages(Settings& settings);
+  static void add_options(CLI::App&, Settings&) {}
+
+  LocalizationService(app::ServiceContext& context, const Settings& settings);
+
+ private:
+  struct WaitingScan {
+    sensing::LaserScan scan;
+    app::SteadyTime since;
+  };
+
+  void take(const slammot_LaserScan& sample);
+  void take(const slammot_Odometry& sample);
+  void take(const slammot_SegmentedScan& sample);
+  void take(const slammot_TrackedObjects& sample);
+  void take(const slammot_ScanLabels& sample);
+  void take(const slammot_GraphCorrection& sample);
+  template <typename Value>
+  bool is_good(const wire::Decoded<Value>& decoded, std::string_view topic);
+
+  void localize_waiting();
+  bool may_localize(const WaitingScan& waiting) const;
+  void localize(const sensing::LaserScan& scan);
+  void come_back(std::int64_t stamp_ns);
+  void save_checkpoint(std::int64_t stamp_ns);
+  void correct_if_driven_so_far();
+  void publish_finished_submaps();
+  app::CommandResult finish_submap();
+  void copy_counters();
+
+  app::ServiceContext& context_;
+  Localizer localizer_;
+  app::StateFile checkpoint_;
+  dds::Writer<slammot_LocalizedScan>& localized_scans_;
+  dds::Writer<slammot_SubmapTile>& tiles_;
+  wire::LocalizedScanEncoder scan_encoder_;
+  wire::SubmapEncoder submap_encoder_;
+  wire::GraphCorrectionAssembler corrections_;
+  std::deque<WaitingScan> waiting_;
+  int waited_in_vain_ = 0;                                      ///< Scans for which no odometry came, one after the other.
+  bool has_begun_ = false;
+  std::optional<flow::GraphCorrection> newest_correction_;
+  std::map<std::string, flow::LocalizedScan> last_published_;   ///< By scanner.
+  flow::SubmapId submap_in_use_;
+  std::optional<std::int64_t> last_done_ns_;                    ///< Newest scan that was published.
+  std::optional<std::int64_t> saved_ns_;
+};
+
+}  // namespace slammot::localization

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "common/app/run_service.hpp"
+#include "common/wire/graph.hpp"
+#include "common/wire/submap.hpp"
+#include "services/loop_closing/loop_closer.hpp"
+
+namespace slammot::loop_closing {
+
+/// Looks for revisits among the stored submaps of one vehicle. Its graph is rebuilt from them when it starts.
+class LoopClosingService {
+ public:
+  struct Settings {
+    LoopClosingConfig config;
+  };
+  static constexpr const char* kName = "loop_closing";
+  static constexpr const char* kPurpose = "Finds places seen before, and corrects where all submaps are.";
+  static std::vector<config::BoundStage> stages(Settings& settings);
+  static void add_options(CLI::App&, Settings&) {}
+
+  LoopClosingService(app::ServiceContext& context, const Settings& settings);
+
+ private:
+  struct TimeSpan {
+    std::int64_t first_ns;
+    std::int64_t last_ns;
+  };
+
+  void take(const slammot_SubmapTile& tile);
+  bool is_of_another_drive(const flow::Submap& submap) const;
+  void begin_again();
+  void add_waiting();
+  void add(const flow::Submap& submap);
+  void publish_new_constraints();
+  void copy_counters();
+
+  app::ServiceContext& context_;
+  LoopClosingConfig config_;
+  LoopCloser closer_;
+  wire::SubmapAssembler assembler_;
+  wire::GraphCorrectionEncoder correction_encoder_;
+  dds::Writer<slammot_Constraint>& constraints_;
+  dds::Writer<slammot_GraphCorrection>& corrections_;
+  std::map<flow::SubmapId, flow::Submap> waiting_;  ///< For those before them.
+  std::vector<TimeSpan> added_;                     ///< By submap number.
+  std::size_t published_constraints_ = 0;
+};
+
+}  // namespace slammot::loop_closing

@@ -1,0 +1,3 @@
+#include "services/tracking/tracking_service.hpp"
+
+int main(int argc, char** argv) { return slammot::app::run_service<slammot::tracking::TrackingService>(argc, argv); }
