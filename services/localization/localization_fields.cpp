@@ -1,5 +1,7 @@
 #include "services/localization/localization_fields.hpp"
 
+#include <utility>
+
 namespace slammot::localization {
 namespace {
 
@@ -79,6 +81,22 @@ FieldTable<matching::PointToLineConfig> match_fields() {
   };
 }
 
+FieldTable<matching::CorrelativeConfig> search_fields() {
+  using C = matching::CorrelativeConfig;
+  return {
+      {"resolution_m", &C::resolution_m, "Cell of the finest grid and step of the search.", Range{0.01, 2.0}},
+      {"smear_sigma_m", &C::smear_sigma_m, "Of the Gaussian around every target point.", kPositive},
+      {"heading_step_rad", &C::heading_step_rad, "0: the step that moves the far points by one cell.", Range{0.0, 1.0}},
+      {"min_score", &C::min_score, "Peaks below it are not looked for.", kShare},
+      {"max_peaks", &C::max_peaks, "Poses that are looked for.", Range{1, 100}},
+      {"min_peak_ratio", &C::min_peak_ratio, "Further peaks score at least this share of the best one.", kShare},
+      {"peak_separation_m", &C::peak_separation_m, "Further peaks differ by more than this in x or y.", kNotNegative},
+      {"peak_separation_rad", &C::peak_separation_rad, "Further peaks may differ by more than this in heading instead.",
+       kNotNegative},
+      {"independent_points", &C::independent_points, "Points that err independently; scales the covariance.", kPositive},
+  };
+}
+
 FieldTable<LocalizerConfig> own_fields() {
   using C = LocalizerConfig;
   return {
@@ -93,6 +111,9 @@ FieldTable<LocalizerConfig> own_fields() {
        kPositive},
       {"search_when_heading_sigma_rad", &C::search_when_heading_sigma_rad, "So is one less sure of its heading than this.",
        kPositive},
+      {"search_reach_m", &C::search_reach_m, "Half side of the square of the map that is searched.", Range{1.0, 200.0}},
+      {"search_sigmas", &C::search_sigmas, "Half width of the search window in standard deviations of the prediction.",
+       Range{0.1, 20.0}},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},
       {"longest_step_s", &C::longest_step_s, "A longer gap makes the prediction's uncertainty grow with it.", kPositive},
       {"fastest_mps", &C::fastest_mps, "Odometry that says more has jumped.", kPositive},
@@ -108,9 +129,12 @@ FieldTable<LocalizerConfig> own_fields() {
 
 const FieldTable<LocalizerConfig>& localization_fields() {
   using C = LocalizerConfig;
-  static const FieldTable<C> table = with_nested<C>(
-      with_nested<C>(with_nested<C>(own_fields(), "map", &C::map, map_fields()), "motion", &C::motion, motion_fields()), "match",
-      &C::match, match_fields());
+  static const FieldTable<C> table = [] {
+    FieldTable<C> fields = with_nested<C>(own_fields(), "map", &C::map, map_fields());
+    fields = with_nested<C>(std::move(fields), "search", &C::search, search_fields());
+    fields = with_nested<C>(std::move(fields), "motion", &C::motion, motion_fields());
+    return with_nested<C>(std::move(fields), "match", &C::match, match_fields());
+  }();
   return table;
 }
 

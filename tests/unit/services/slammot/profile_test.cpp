@@ -56,10 +56,15 @@ TEST(Profile, HasASettingForEveryMemberOfEveryStruct) {
   EXPECT_EQ(settings_under(stages["localization"], "map.evidence."), members<grids::EvidenceModel>());
   EXPECT_EQ(settings_under(stages["localization"], "motion."), members<sensing::MotionModelConfig>());
   EXPECT_EQ(settings_under(stages["localization"], "match."), members<matching::PointToLineConfig>());
+  EXPECT_EQ(settings_under(stages["localization"], "search."), members<matching::CorrelativeConfig>());
   EXPECT_EQ(settings_under(stages["detection"], ""), members<detection::DetectionConfig>());
   EXPECT_EQ(settings_under(stages["detection"], "segmentation."), members<sensing::SegmentationConfig>());
   EXPECT_EQ(settings_under(stages["tracking"], ""), members<tracking::TrackingConfig>());
   EXPECT_EQ(settings_under(stages["loop_closing"], ""), members<loop_closing::LoopClosingConfig>());
+  EXPECT_EQ(settings_under(stages["loop_closing"], "place."), members<loop_closing::PlaceConfig>());
+  EXPECT_EQ(settings_under(stages["loop_closing"], "revisit."), members<loop_closing::RevisitConfig>());
+  EXPECT_EQ(settings_under(stages["loop_closing"], "revisit.registration."), members<loop_closing::RegistrationConfig>());
+  EXPECT_EQ(settings_under(stages["loop_closing"], "graph."), members<graphs::PoseGraphConfig>());
   EXPECT_EQ(settings_under(stages["map_store"], ""), members<map_store::MapStoreConfig>());
 }
 
