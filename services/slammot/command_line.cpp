@@ -3,6 +3,9 @@
 #include <CLI/CLI.hpp>
 
 #include "services/simulator/simulate_command.hpp"
+#include "services/slammot/bench_command.hpp"
+#include "services/slammot/collect_command.hpp"
+#include "services/slammot/health_command.hpp"
 #include "services/slammot/run_command.hpp"
 
 namespace slammot {
@@ -13,6 +16,9 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = kExitDone;
   add_run_command(app, exit_code);
+  add_bench_command(app, exit_code);
+  add_collect_command(app, exit_code);
+  add_health_command(app, exit_code);
   simulator::add_simulate_command(app, exit_code);
   try {
     app.parse(argc, argv);

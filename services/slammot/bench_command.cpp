@@ -1,0 +1,159 @@
+#include "services/slammot/bench_command.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+
+#include "common/app/stop_signal.hpp"
+#include "common/dds/config.hpp"
+#include "common/files/run_outputs.hpp"
+#include "services/slammot/collector.hpp"
+#include "services/slammot/command_line.hpp"
+#include "services/slammot/job.hpp"
+#include "services/slammot/progress_bar.hpp"
+#include "services/slammot/service_processes.hpp"
+
+namespace slammot {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kExitInterrupted = 130;
+constexpr auto kPatienceAtTheEnd = 30s;
+constexpr const char* kVehicle = "bench";
+
+struct BenchOptions : JobOptions {
+  std::uint32_t domain_id = 0;
+};
+
+int fail(const std::string& line) {
+  std::fprintf(stderr, "slammot: %s\n", line.c_str());
+  return kExitFault;
+}
+
+std::vector<std::int64_t> stamps_of(files::CarmenLog& log) {
+  std::vector<std::int64_t> stamps_ns;
+  while (const auto event = log.next()) {
+    if (const auto* scan = std::get_if<sensing::LaserScan>(&*event)) stamps_ns.push_back(scan->stamp_ns);
+  }
+  return stamps_ns;
+}
+
+std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& options, const std::filesystem::path& state_folder) {
+  std::vector<ServiceProcess> services;
+  for (const std::string name : {"map-store", "loop-closing", "localization", "detection", "tracking", "ingest"}) {
+    std::vector<std::string> arguments = {folder_of_this_program() / ("slammot-" + name), "--vehicle", kVehicle,
+                                          "--domain", std::to_string(options.domain_id), "--state-dir", state_folder,
+                                          "--profile", job.profile_name};
+    if (!options.config.empty()) arguments.insert(arguments.end(), {"--config", options.config});
+    const bool is_ingest = name == "ingest";
+    if (is_ingest) arguments.insert(arguments.end(), {"--input", options.input, "--speed", options.speed});
+    services.push_back({name, std::move(arguments), is_ingest});
+  }
+  return services;
+}
+
+/// Until the drive has ended; otherwise the line that says why it has not.
+std::optional<std::string> attend(Collector& collector, ServiceProcesses& services, const std::vector<std::int64_t>& stamps_ns) {
+  ProgressBar progress("slammot bench");
+  const double duration_ns = static_cast<double>(std::max<std::int64_t>(1, stamps_ns.back() - stamps_ns.front()));
+  auto look_after_services_at = Clock::now();
+  while (!collector.has_drive_ended()) {
+    if (!collector.wait(100ms)) return std::nullopt;
+    if (collector.last_localized_ns()) progress.show(static_cast<double>(*collector.last_localized_ns() - stamps_ns.front()) / duration_ns);
+    if (Clock::now() < look_after_services_at) continue;
+    if (auto fault = services.restart_dead()) return fault;
+    look_after_services_at = Clock::now() + 20ms;
+  }
+  return std::nullopt;
+}
+
+double peak_memory_of_services_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);  // the largest of those that have ended
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+files::RunReport make_report(const Job& job, const BenchOptions& options, const Collector& collector, const ServiceProcesses& services) {
+  files::RunReport report = report_of(job, options, "bench");
+  report.counters = collector.counters();
+  for (const auto& [name, count] : services.restarts()) report.counters["bench"]["restarts_of_" + name] = count;
+  return report;
+}
+
+int write(const BenchOptions& options, const files::RunRecord& record, const files::RunReport& report) {
+  if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
+  std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
+  for (const auto& [name, count] : report.counters.at("bench")) {
+    if (count > 0) std::printf("%s: %llu\n", name.c_str(), static_cast<unsigned long long>(count));
+  }
+  std::fflush(stdout);
+  if (!report.faults.is_cut) return kExitDone;
+  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed\n", options.input.c_str());
+  return kExitLogIsCut;
+}
+
+int bench(const BenchOptions& options) {
+  const auto start = Clock::now();
+  std::atomic<bool> is_interrupted = false;
+  std::atomic<Collector*> to_stop = nullptr;
+  const app::StopSignal stop_signal([&] {
+    is_interrupted = true;
+    if (Collector* collector = to_stop) collector->stop();
+  });
+  auto job = prepare_job(options);
+  if (!job) return fail(job.error().message);
+  std::fputs(describe_job(*job, options).c_str(), stdout);
+  std::fflush(stdout);
+  const std::vector<std::int64_t> stamps_ns = stamps_of(job->log);
+
+  const TemporaryFolder folder("slammot-bench-");
+  const std::string dds_config = dds::loopback_config("slammot-bench-" + std::to_string(getpid()));
+  Collector collector({kVehicle, options.domain_id, dds_config});
+  to_stop = &collector;
+  std::optional<ServiceProcesses> services;
+  services.emplace(services_for(*job, options, folder.path()), folder.path(), std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
+  if (const auto fault = attend(collector, *services, stamps_ns)) return fail(*fault);
+  const bool is_complete = !is_interrupted && collector.finish(kPatienceAtTheEnd);
+  to_stop = nullptr;
+  if (is_interrupted) {
+    std::fprintf(stderr, "slammot: interrupted\n");
+    return kExitInterrupted;
+  }
+  files::RunReport report = make_report(*job, options, collector, *services);
+  services.reset();
+  const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+  report.measured = {collector.latencies(), wall_s, report.plan.figures.duration_s / wall_s, std::max(peak_memory_mb(), peak_memory_of_services_mb())};
+  const int exit_code = write(options, collector.record(stamps_ns), report);
+  if (!is_complete) return fail("the last submap did not come: the map lacks the end of the drive");
+  return exit_code;
+}
+
+int bench_or_say_why_not(const BenchOptions& options) {
+  try {
+    return bench(options);
+  } catch (const std::runtime_error& fault) {
+    return fail(fault.what());
+  }
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, int& exit_code) {
+  CLI::App* const command = app.add_subcommand("bench", "Take a recorded drive through the real services, over DDS on this machine");
+  const auto options = std::make_shared<BenchOptions>();
+  add_job_options(*command, *options);
+  command->add_option("--domain", options->domain_id, "DDS domain, on loopback and closed to others")->check(CLI::Range(0, 230))->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = bench_or_say_why_not(*options); });
+}
+
+}  // namespace slammot

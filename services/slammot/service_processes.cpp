@@ -1,0 +1,151 @@
+#include "services/slammot/service_processes.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+extern char** environ;
+
+namespace slammot {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kAtOnce = 2s;       ///< A service that dies sooner has not worked.
+constexpr int kMostFailedStarts = 3;
+constexpr auto kPatience = 2s;
+
+std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
+  std::vector<char*> pointers;
+  for (const std::string& string : strings) pointers.push_back(const_cast<char*>(string.c_str()));
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// In the child, between fork and exec: nothing but system calls.
+[[noreturn]] void become(char* const* arguments, char* const* environment, int log, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);  // it died before the line above
+  setpgid(0, 0);                        // Ctrl-C is for the parent, which then ends its children in order
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  dup2(log, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  execve(arguments[0], arguments, environment);
+  _exit(127);
+}
+
+}  // namespace
+
+ServiceProcesses::ServiceProcesses(std::vector<ServiceProcess> services, std::filesystem::path log_folder,
+                                   std::map<std::string, std::string> environment)
+    : log_folder_(std::move(log_folder)) {
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string text = *variable;
+    if (!environment.contains(text.substr(0, text.find('=')))) environment_.push_back(text);
+  }
+  for (const auto& [name, value] : environment) environment_.push_back(name + "=" + value);
+  for (ServiceProcess& service : services) {
+    if (access(service.arguments.front().c_str(), X_OK) != 0) {
+      throw std::runtime_error("cannot start " + service.arguments.front() + ": " + std::strerror(errno));
+    }
+    restarts_[service.name] = 0;
+    all_.push_back({std::move(service), 0, std::nullopt, {}, 0});
+  }
+  for (Running& running : all_) start(running);
+}
+
+void ServiceProcesses::start(Running& running) {
+  const std::filesystem::path log_file = log_folder_ / (running.service.name + ".log");
+  const int log = open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  const std::vector<char*> arguments = pointers_to(running.service.arguments);
+  const std::vector<char*> environment = pointers_to(environment_);
+  const pid_t parent = getpid();
+  running.started = std::chrono::steady_clock::now();
+  running.process = fork();
+  if (running.process == 0) become(arguments.data(), environment.data(), log, parent);
+  if (log >= 0) close(log);
+  if (running.process < 0) {
+    running.process = 0;
+    throw std::runtime_error("cannot start " + running.service.name + ": " + std::strerror(errno));
+  }
+}
+
+std::optional<std::string> ServiceProcesses::restart_dead() {
+  for (Running& running : all_) {
+    int status = 0;
+    if (running.process == 0 || waitpid(running.process, &status, WNOHANG) != running.process) continue;
+    running.process = 0;
+    const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    if (running.service.may_end && (exit_code == 0 || exit_code == 3)) {
+      running.exit_code = exit_code;
+      continue;
+    }
+    const bool has_failed_at_once = exit_code > 0 && std::chrono::steady_clock::now() - running.started < kAtOnce;
+    running.failed_at_once = has_failed_at_once ? running.failed_at_once + 1 : 0;
+    if (running.failed_at_once >= kMostFailedStarts || ++restarts_[running.service.name] > kMostRestarts) {
+      return running.service.name + " does not keep running (" + last_words(running.service.name) + ")";
+    }
+    start(running);
+  }
+  return std::nullopt;
+}
+
+std::optional<int> ServiceProcesses::ended(const std::string& name) const {
+  for (const Running& running : all_) {
+    if (running.service.name == name) return running.exit_code;
+  }
+  return std::nullopt;
+}
+
+std::string ServiceProcesses::last_words(const std::string& name) const {
+  std::ifstream file(log_folder_ / (name + ".log"));
+  std::string last = "it said nothing";
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+ServiceProcesses::~ServiceProcesses() {
+  const auto has_ended = [](Running& running) {
+    if (running.process != 0 && waitpid(running.process, nullptr, WNOHANG) == running.process) running.process = 0;
+    return running.process == 0;
+  };
+  for (const Running& running : all_) {
+    if (running.process != 0) kill(running.process, SIGTERM);
+  }
+  const auto give_up_at = std::chrono::steady_clock::now() + kPatience;
+  while (!std::ranges::all_of(all_, has_ended) && std::chrono::steady_clock::now() < give_up_at) std::this_thread::sleep_for(10ms);
+  for (Running& running : all_) {
+    if (running.process == 0) continue;
+    kill(running.process, SIGKILL);
+    waitpid(running.process, nullptr, 0);
+  }
+}
+
+TemporaryFolder::TemporaryFolder(const std::string& prefix) {
+  std::string name = (std::filesystem::temp_directory_path() / (prefix + "XXXXXX")).string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder like " + name + ": " + std::strerror(errno));
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::filesystem::path folder_of_this_program() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
+
+}  // namespace slammot
