@@ -150,6 +150,14 @@ def path_faults(source):
             yield f"{source.path}:{number}: an absolute path of somebody's machine: {line.strip()[:80]}"
 
 
+def link_faults(source, root):
+    """Links of a page to files of this tree lead somewhere."""
+    for number, line in enumerate(source.text.splitlines(), 1):
+        for target in re.findall(r"\]\(([^)#\s]+)", line):
+            if ":" not in target and not (root / source.path).parent.joinpath(target).exists():
+                yield f"{source.path}:{number}: a link to nothing: {target}"
+
+
 def tree_faults(sources, root):
     services = {source.path.split("/")[1] for source in sources if re.fullmatch(r"services/\w+/.+", source.path)}
     for service in sorted(services):
@@ -171,6 +179,8 @@ def faults_of(sources, root):
             yield from main_faults(source)
         if source.path.endswith(".idl"):
             yield from idl_faults(source)
+        if source.path.endswith(".md"):
+            yield from link_faults(source, root)
         yield from path_faults(source)
     yield from tree_faults(sources, root)
 

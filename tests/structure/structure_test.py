@@ -95,6 +95,11 @@ class Tree(unittest.TestCase):
         self.assertEqual(1, len(faults_in({"docs/a.md": f"see {path}\n"})))
         self.assertEqual([], faults_in({"docs/a.md": 'see "$(mktemp -d)"/x and build/home/x\n'}))
 
+    def test_links_its_pages_to_files_that_exist(self):
+        page = "[here](b.md) and [there](https://example.org) and [below](#below)\n"
+        self.assertEqual(["docs/a.md:1: a link to nothing: b.md"], faults_in({"docs/a.md": page}))
+        self.assertEqual([], faults_in({"docs/a.md": page, "docs/b.md": ""}))
+
     def test_mirrors_the_code_in_its_unit_tests(self):
         self.assertEqual(1, len(faults_in({"tests/unit/common/gone/a_test.cpp": ""})))
 
