@@ -3,12 +3,16 @@
 #include <cmath>
 #include <map>
 
-#include "common/simulation/city_world.hpp"
+#include "common/simulation/scene.hpp"
 
 namespace slammot::simulation {
 namespace {
 
 using geometry::Pose2;
+
+std::unique_ptr<Scene> make_scene(const ScenarioConfig& scenario) {
+  return scenario.place == Place::office ? make_office_scene(scenario) : make_city_scene(scenario);
+}
 
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
@@ -32,11 +36,8 @@ std::vector<ObjectTruth> objects_hit(const ScannedWorld& scanned, const Moment& 
 struct Drive::World {
   explicit World(const ScenarioConfig& config)
       : scenario(config),
-        plan(config.city, config.seed),
-        stationary_in_world(build_city(plan, config.seed)),
-        ray_caster(stationary_in_world),
-        traffic(plan, {config.traffic, config.route, config.seed}),
-        walkers(pavements(plan), config.walkers, config.seed),
+        scene(make_scene(config)),
+        ray_caster(scene->stationary_in_world()),
         suspension(config.suspension),
         odometer(config.odometry, config.seed),
         random(config.seed, Purpose::scanner),
@@ -49,23 +50,13 @@ struct Drive::World {
   }
 
   void advance() {
-    traffic.advance(step_s, walkers.on_road());
-    walkers.advance(step_s, traffic.street_view());
-    const double speed_mps = traffic.objects().front().speed_mps;
+    scene->advance(step_s);
+    const double speed_mps = scene->vehicle().speed_mps;
     nose_down_rad = suspension.advance((speed_mps - last_speed_mps) / step_s, step_s);
     last_speed_mps = speed_mps;
   }
 
-  /// The vehicle apart from the others: it does not see itself.
-  Moment moment() const {
-    Moment now;
-    now.world_from_base = traffic.objects().front().world_from_object;
-    now.nose_down_rad = nose_down_rad;
-    now.objects.assign(traffic.objects().begin() + 1, traffic.objects().end());
-    const std::vector<MovingObject> people = walkers.objects(static_cast<int>(traffic.objects().size()));
-    now.objects.insert(now.objects.end(), people.begin(), people.end());
-    return now;
-  }
+  Moment moment() const { return {scene->vehicle().world_from_object, nose_down_rad, scene->others()}; }
 
   SimulatedScan record() {
     advance();
@@ -86,11 +77,8 @@ struct Drive::World {
   }
 
   ScenarioConfig scenario;
-  StreetPlan plan;
-  Outline stationary_in_world;
+  std::unique_ptr<Scene> scene;
   RayCaster ray_caster;
-  Traffic traffic;
-  Walkers walkers;
   Suspension suspension;
   WheelOdometer odometer;
   Random random;
@@ -112,7 +100,7 @@ std::optional<SimulatedScan> Drive::next() {
   return world_->record();
 }
 
-const Outline& Drive::stationary_in_world() const { return world_->stationary_in_world; }
+const Outline& Drive::stationary_in_world() const { return world_->scene->stationary_in_world(); }
 std::size_t Drive::scan_count() const { return world_->scans; }
 
 }  // namespace slammot::simulation

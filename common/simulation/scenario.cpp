@@ -72,11 +72,59 @@ ScenarioConfig quiet() {
   return scenario;
 }
 
+/// A small robot with the scanner and odometry of the indoor logs that everybody knows.
+ScenarioConfig indoor() {
+  ScenarioConfig scenario;
+  scenario.place = Place::office;
+  scenario.start_stamp_s = 1.0;
+  scenario.log_record = LogRecord::flaser;
+  scenario.scanner.ahead_m = 0.0;
+  scenario.scanner.height_m = 0.35;
+  scenario.scanner.beams = 180;
+  scenario.scanner.field_of_view_rad = 3.124139;  // 179 steps of one degree
+  scenario.scanner.rate_hz = 5.0;
+  scenario.scanner.noise_floor_m = 0.01;
+  scenario.scanner.noise_per_m = 0.001;
+  scenario.scanner.spot_rad = 0.0115;
+  scenario.suspension.pitch_per_mps2_rad = 0.0;
+  scenario.odometry.scale_error_low = 0.01;
+  scenario.odometry.scale_error_high = 0.03;
+  scenario.odometry.distance_noise = 0.03;
+  scenario.odometry.heading_noise_rad = 0.003;
+  scenario.odometry.rate_bias_sigma_radps = 0.0015;
+  scenario.odometry.rate_bias_walk_radps = 0.0003;
+  scenario.walkers.speed_mps = 1.1;
+  scenario.walkers.runner_share = 0.0;
+  scenario.walkers.trio_share = 0.0;
+  scenario.walkers.pair_share = 0.15;
+  scenario.walkers.sideways_m = 0.35;
+  return scenario;
+}
+
+ScenarioConfig office() {
+  ScenarioConfig scenario = indoor();
+  scenario.description = "a slow robot twice around the corridors of an office, people walking";
+  scenario.duration_s = 480.0;
+  scenario.walkers.pedestrians = 9;
+  scenario.robot_way = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 0}, {1, 0}};
+  return scenario;
+}
+
+ScenarioConfig corridor() {
+  ScenarioConfig scenario = indoor();
+  scenario.description = "a slow robot along corridors without coming back, people walking";
+  scenario.duration_s = 170.0;
+  scenario.office.length_m = 60.0;
+  scenario.walkers.pedestrians = 8;
+  scenario.robot_way = {{0, 1}, {0, 0}, {2, 0}};
+  return scenario;
+}
+
 struct Shipped {
   std::string_view name;
   ScenarioConfig (*make)();
 };
-constexpr Shipped kShipped[] = {{"demo", demo}, {"city", city}, {"quiet", quiet}};
+constexpr Shipped kShipped[] = {{"demo", demo}, {"city", city}, {"quiet", quiet}, {"office", office}, {"corridor", corridor}};
 
 }  // namespace
 

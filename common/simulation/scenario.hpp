@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/simulation/office_plan.hpp"
+#include "common/simulation/robot.hpp"
 #include "common/simulation/scanner_model.hpp"
 #include "common/simulation/street_plan.hpp"
 #include "common/simulation/traffic.hpp"
@@ -13,6 +15,10 @@
 #include "common/simulation/walkers.hpp"
 
 namespace slammot::simulation {
+
+enum class Place { city, office };
+/// Which CARMEN record a log of the drive has.
+enum class LogRecord { robotlaser1, flaser };
 
 /// Everything a simulated drive depends on. The same scenario gives the same bytes.
 struct ScenarioConfig {
@@ -22,13 +28,18 @@ struct ScenarioConfig {
   double duration_s = 80.0;
   double start_stamp_s = 21.0;        ///< Clock at the first scan; a log's clock does not start at 0 either.
   double warm_up_s = 10.0;            ///< The world moves this long before the vehicle sets out, unrecorded.
-  CityConfig city;
-  TrafficConfig traffic;
+  Place place = Place::city;
   WalkersConfig walkers;
+  CityConfig city;                    ///< These three of a city,
+  TrafficConfig traffic;
   RouteConfig route;
+  OfficeConfig office;                ///< these three of an office.
+  RobotConfig robot;
+  std::vector<OfficeCorner> robot_way;
   SuspensionConfig suspension;
   OdometryConfig odometry;
   ScannerConfig scanner;
+  LogRecord log_record = LogRecord::robotlaser1;
 };
 
 /// Shipped scenarios, in the order in which they are listed.

@@ -15,6 +15,7 @@ constexpr double kStride_m = 1.45;         ///< Two steps at normal speed.
 constexpr double kStep_m = 0.55;
 constexpr double kPersonalSpace_m = 0.9;   ///< People stop this far from a vehicle in their way.
 constexpr double kPatience_s = 3.0;
+constexpr double kSidestep_mps = 0.6;
 constexpr double kArrived_m = 0.4;
 constexpr double kTurnRate_radps = 2.5;
 constexpr double kAcceleration_mps2 = 1.2;
@@ -147,8 +148,9 @@ void Walkers::advance(Group& group, double dt_s, const StreetView& street) {
   }
   group.pause_left_s -= dt_s;
   // Somebody who and a vehicle that wait for each other would do so for ever; people squeeze past in the end.
-  const bool blocked = crosses && !group.waits_to_cross && vehicle_ahead(group, street) && group.blocked_s < kPatience_s;
-  group.blocked_s = crosses ? group.blocked_s + (blocked ? dt_s : 0.0) : 0.0;
+  const bool blocked = !group.waits_to_cross && vehicle_ahead(group, street) && group.blocked_s < kPatience_s;
+  group.blocked_s = blocked ? group.blocked_s + dt_s : std::max(0.0, group.blocked_s - 0.2 * dt_s);
+  if (blocked && !crosses) step_aside(group, dt_s);
   const bool stands = group.waits_to_cross || group.pause_left_s > 0.0 || blocked;
 
   const Vector2 target =
@@ -167,6 +169,14 @@ void Walkers::advance(Group& group, double dt_s, const StreetView& street) {
   group.position_in_world += step_m * Vector2{std::cos(group.heading_rad), std::sin(group.heading_rad)};
   group.phase_rad += 2.0 * std::numbers::pi * step_m / kStride_m;
   if (ahead.norm() < kArrived_m) choose_way(group);
+}
+
+void Walkers::step_aside(Group& group, double dt_s) const {
+  const Vector2 right{std::sin(group.heading_rad), -std::cos(group.heading_rad)};
+  const Vector2 moved = group.sideways_in_world + kSidestep_mps * dt_s * right;
+  if (moved.norm() > config_.step_aside_m) return;
+  group.position_in_world += moved - group.sideways_in_world;
+  group.sideways_in_world = moved;
 }
 
 bool Walkers::vehicle_ahead(const Group& group, const StreetView& street) {

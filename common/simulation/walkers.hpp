@@ -19,7 +19,8 @@ struct WalkersConfig {
   double trio_share = 0.08;
   double pause_every_s = 60.0;        ///< Mean time between pauses.
   double pause_s = 6.0;               ///< Longest pause.
-  double sideways_m = 0.5;            ///< People keep up to this far from the middle of the way.
+  double sideways_m = 0.5;            ///< People keep up to this far from the middle of the way,
+  double step_aside_m = 0.75;         ///< and step this far to their right to let a vehicle pass.
 };
 
 /// Crossing of the street that leaves a junction in a direction.
@@ -76,7 +77,7 @@ class Walkers {
     double speed_mps = 0.0;               ///< Now.
     double walking_speed_mps = 0.0;
     double pause_left_s = 0.0;
-    double blocked_s = 0.0;               ///< Held up by vehicles on this crossing.
+    double blocked_s = 0.0;               ///< Held up by vehicles of late.
     double phase_rad = 0.0;
     int from = 0;
     WalkGraph::Way way;
@@ -86,6 +87,7 @@ class Walkers {
 
   Group make_group(int members);
   void choose_way(Group& group);
+  void step_aside(Group& group, double dt_s) const;
   static bool vehicle_ahead(const Group& group, const StreetView& street);
   void advance(Group& group, double dt_s, const StreetView& street);
 

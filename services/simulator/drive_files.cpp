@@ -45,14 +45,26 @@ std::string log_header(const simulation::ScenarioConfig& scenario) {
   return text;
 }
 
+void append_ranges(std::string& text, const SimulatedScan& drive) {
+  text += std::to_string(drive.scan.range_m.size()) + ' ';
+  for (const float range_m : drive.scan.range_m) append_all(text, {range_m}, 2, ' ');
+}
+
+void append_clocks(std::string& text, const SimulatedScan& drive) {
+  append(text, seconds(drive.scan.stamp_ns), 6);
+  text += " sim ";
+  append(text, seconds(drive.scan.stamp_ns), 6);
+  text += '\n';
+}
+
 /// ROBOTLASER1 type start field_of_view step max_range accuracy remission_mode n ranges... m laser_pose robot_pose tv rv
 /// forward_safety side_safety turn_axis ipc_timestamp host logger_timestamp.
-std::string log_line(const SimulatedScan& drive, const simulation::ScannerConfig& config) {
+std::string robotlaser1_line(const SimulatedScan& drive, const simulation::ScannerConfig& config) {
   std::string text = "ROBOTLASER1 0 ";
   append_all(text, {config.first_beam_rad, config.field_of_view_rad, drive.scan.scanner.beam_step_rad}, 6, ' ');
   append_all(text, {config.max_range_m, config.resolution_m}, 2, ' ');
-  text += "0 " + std::to_string(drive.scan.range_m.size()) + ' ';
-  for (const float range_m : drive.scan.range_m) append_all(text, {range_m}, 2, ' ');
+  text += "0 ";
+  append_ranges(text, drive);
   text += "0 ";
   const Pose2& base = drive.odometry.wheel_from_base;
   const Pose2 laser = base * drive.scan.scanner.base_from_laser;
@@ -60,10 +72,25 @@ std::string log_line(const SimulatedScan& drive, const simulation::ScannerConfig
   append_all(text, {drive.odometry_speed_mps}, 3, ' ');
   append_all(text, {drive.odometry_yaw_rate_radps}, 4, ' ');
   text += "1.0 0.5 0.0 ";
-  append(text, seconds(drive.scan.stamp_ns), 6);
-  text += " sim ";
-  append(text, seconds(drive.scan.stamp_ns), 6);
-  return text + '\n';
+  append_clocks(text, drive);
+  return text;
+}
+
+/// FLASER n ranges... x y theta odom_x odom_y odom_theta ipc_timestamp host logger_timestamp; no beam directions: by
+/// convention the first of 180 looks 90 degrees to the right, one degree apart.
+std::string flaser_line(const SimulatedScan& drive) {
+  std::string text = "FLASER ";
+  append_ranges(text, drive);
+  const Pose2& base = drive.odometry.wheel_from_base;
+  const Pose2 laser = base * drive.scan.scanner.base_from_laser;
+  append_all(text, {laser.x_m, laser.y_m, laser.heading_rad, base.x_m, base.y_m, base.heading_rad}, 6, ' ');
+  append_clocks(text, drive);
+  return text;
+}
+
+std::string log_line(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
+  const bool flaser = scenario.log_record == simulation::LogRecord::flaser;
+  return flaser ? flaser_line(drive) : robotlaser1_line(drive, scenario.scanner);
 }
 
 std::string tum_line(const SimulatedScan& drive) {
@@ -124,7 +151,7 @@ DriveFilesOrFault write_drive(const simulation::ScenarioConfig& scenario, const 
   walls << wall_lines(drive.stationary_in_world());
   std::optional<Pose2> last;
   while (const auto scan = drive.next()) {
-    log << log_line(*scan, scenario.scanner);
+    log << log_line(*scan, scenario);
     tum << tum_line(*scan);
     objects << object_lines(*scan);
     if (last) files.distance_m += (scan->world_from_base.translation_m() - last->translation_m()).norm();

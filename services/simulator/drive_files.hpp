@@ -10,7 +10,7 @@ namespace slammot::simulator {
 
 /// Where a drive's files were written, and how much it was.
 struct DriveFiles {
-  std::filesystem::path log;       ///< CARMEN: PARAM and ROBOTLASER1 lines, poses by odometry.
+  std::filesystem::path log;       ///< CARMEN: PARAM and ROBOTLASER1 or FLASER lines, poses by odometry.
   std::filesystem::path tum;       ///< True pose of the vehicle's centre for each scan, world frame.
   std::filesystem::path objects;   ///< CSV, one row for each moving object that a scan hit.
   std::filesystem::path walls;     ///< CSV, true segments: class 0 walls, 1 parked cars, 2 trees, bushes and poles (as octagons).

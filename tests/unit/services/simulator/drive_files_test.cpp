@@ -59,6 +59,18 @@ TEST_F(WriteDrive, LaysOutScansAsCarmenReadsThem) {
   EXPECT_EQ(words[words.size() - 3], "21.000000");
 }
 
+TEST_F(WriteDrive, LaysOutIndoorScansAsTheOldRecord) {
+  scenario_ = *simulation::shipped_scenario("corridor");
+  scenario_.duration_s = 2.0;
+  const auto files = write_drive(scenario_, folder_.path()).files;
+  ASSERT_TRUE(files.has_value());
+  const auto words = words_of(lines_of(files->log)[4]);
+  ASSERT_EQ(words.size(), 2U + 180U + 9U);
+  EXPECT_EQ(words[0], "FLASER");
+  EXPECT_EQ(words[1], "180");
+  EXPECT_EQ(words[words.size() - 3], "1.000000");
+}
+
 TEST_F(WriteDrive, WritesTheSameBytesTwice) {
   const auto first = write_drive(scenario_, folder_ / "a").files;
   const auto second = write_drive(scenario_, folder_ / "b").files;
