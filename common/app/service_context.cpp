@@ -117,12 +117,21 @@ void ServiceContext::report_mismatches() {
   board_.counter("incompatible_endpoints") = total;
 }
 
+void ServiceContext::run_for(std::chrono::nanoseconds duration) {
+  const SteadyTime end = std::chrono::steady_clock::now() + duration;
+  for (SteadyTime now = std::chrono::steady_clock::now(); now < end; now = std::chrono::steady_clock::now()) {
+    wait_set_.wait(std::min<std::chrono::nanoseconds>(until_next_timer(), end - now));
+    run_due_timers();
+  }
+}
+
 void ServiceContext::run() {
   publisher_.beat(board_.state(std::chrono::steady_clock::now()));
   report();
   while (wait_set_.wait(until_next_timer()) != dds::WaitSet::Wake::kStopped) run_due_timers();
   publisher_.beat(ServiceState::kStopping);
   publisher_.report(board_, ServiceState::kStopping);
+  publisher_.wait_until_heard(std::chrono::milliseconds(500));
 }
 
 }  // namespace slammot::app

@@ -75,6 +75,8 @@ class ServiceContext {
 
   /// Works until stopped.
   void run();
+  /// Works for about so long, for tests that are neighbours in the same thread.
+  void run_for(std::chrono::nanoseconds duration);
 
  private:
   struct Timer {

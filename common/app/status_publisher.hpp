@@ -27,6 +27,8 @@ class StatusPublisher {
   void beat(ServiceState state);
   /// With the state and explanation as they are now, or `state` when stopping.
   void report(const StatusBoard& board, ServiceState state);
+  /// Waits until everybody has the last status, or the time is over: what is not sent when the writer goes is lost.
+  void wait_until_heard(std::chrono::milliseconds timeout) const { statuses_.wait_for_acknowledgements(timeout); }
 
  private:
   ServiceIdentity identity_;

@@ -61,6 +61,7 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
       odometry_(context.write(dds::topics::kOdometry)),
       give_up_waiting_at_(steady_clock::now() + nanoseconds_of(config_.wait_for_services_s)) {
   context.status().counter("log_finished") = 0;
+  context.status().counter("log_scans") = source_.log().plan().figures.scans;
   context.read(dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
     readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
   });

@@ -1,0 +1,101 @@
+#include "services/map_store/map_store_service.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "tests/support/example_submap.hpp"
+#include "tests/support/service_on_the_bus.hpp"
+
+namespace slammot::map_store {
+namespace {
+
+using slammot::testing::assign;
+using slammot::testing::example_submap;
+using slammot::testing::kForever;
+
+struct MapStoreOnTheBus : slammot::testing::ServiceOnTheBus {
+  dds::Writer<slammot_SubmapTile> tiles{neighbour_, dds::topics::kSubmapTile};
+  std::map<flow::SubmapId, flow::Submap> stored;
+
+  /// What a reader gets that comes now.
+  struct LateReader {
+    dds::Reader<slammot_SubmapTile> reader;
+    wire::SubmapAssembler assembler;
+  };
+  LateReader late{{neighbour_, dds::topics::kStoredSubmapTile}, {}};
+
+  bool has_stored(std::size_t count) {
+    late.reader.take_each([&](const slammot_SubmapTile& tile) {
+      if (auto added = late.assembler.add(tile); added.submap) stored[added.submap->submap_id] = std::move(*added.submap);
+    });
+    return stored.size() >= count;
+  }
+  void finish(const flow::Submap& submap) {
+    wire::SubmapEncoder().encode("car", submap, [this](const slammot_SubmapTile& tile) { tiles.write(tile); });
+  }
+};
+
+TEST_F(MapStoreOnTheBus, PublishesASubmapOnceItIsCommitted) {
+  start<MapStoreService>("map_store");
+  finish(example_submap(0, 0, 300));
+  ASSERT_TRUE(comes_to([&] { return has_stored(1); }));
+  EXPECT_TRUE(slammot::testing::same_submap(stored.at({0}), example_submap(0, 0, 300)));
+  auto store = Store::open(folder_ / "map.sqlite", {});
+  EXPECT_TRUE(std::get<Store>(store).get("car", {0}));
+}
+
+TEST_F(MapStoreOnTheBus, PublishesAllThatIsStoredWhenItStartsAgain) {
+  start<MapStoreService>("map_store");
+  for (const std::uint32_t id : {0U, 1U, 2U}) finish(example_submap(id));
+  ASSERT_TRUE(comes_to([&] { return has_stored(3); }));
+  stop();
+  stored.clear();
+  late.assembler = {};
+  start<MapStoreService>("map_store");
+  EXPECT_TRUE(comes_to([&] { return has_stored(3); }));
+}
+
+TEST_F(MapStoreOnTheBus, KeepsASubmapInMemoryWhileTheDatabaseIsLocked) {
+  MapStoreService::Settings impatient;
+  impatient.config.busy_timeout_s = 0.01;
+  impatient.config.retry_after_s = 0.05;
+  start<MapStoreService>("map_store", impatient);
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open((folder_ / "map.sqlite").c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  finish(example_submap(0));
+  ASSERT_TRUE(comes_to([&] { return context_->status().counter("unwritten_submaps") == 1; }));
+  EXPECT_EQ(context_->status().state(std::chrono::steady_clock::now()), app::ServiceState::kDegraded);
+  EXPECT_FALSE(has_stored(1));
+  sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr);
+  sqlite3_close(other);
+  ASSERT_TRUE(comes_to([&] { return has_stored(1); }));
+  EXPECT_EQ(context_->status().state(std::chrono::steady_clock::now()), app::ServiceState::kRunning);
+}
+
+TEST_F(MapStoreOnTheBus, KeepsTheLastTracksForATrackingServiceThatStartsLater) {
+  start<MapStoreService>("map_store");
+  dds::Writer<slammot_TrackedObjects> objects(neighbour_, dds::topics::kTrackedObjects);
+  ASSERT_TRUE(objects.wait_for_readers(1, kForever));
+  slammot_TrackedObjects sample{};
+  assign(sample.vehicle_id, "car");
+  sample.stamp_ns = 42;
+  objects.write(sample);
+  ASSERT_TRUE(comes_to([&] { return objects.wait_for_acknowledgements(std::chrono::milliseconds(1)); }));
+  dds::Reader<slammot_TrackedObjects> late_reader(neighbour_, dds::topics::kStoredTrackedObjects);
+  std::int64_t stamp_ns = 0;
+  EXPECT_TRUE(comes_to([&] {
+    late_reader.take_each([&](const slammot_TrackedObjects& kept) { stamp_ns = kept.stamp_ns; });
+    return stamp_ns == 42;
+  }));
+}
+
+TEST_F(MapStoreOnTheBus, CannotStartWithoutItsDatabase) {
+  MapStoreService::Settings settings;
+  settings.database = "/proc/no/map.sqlite";
+  EXPECT_THROW(start<MapStoreService>("map_store", settings), app::StartupFailure);
+}
+
+}  // namespace
+}  // namespace slammot::map_store
