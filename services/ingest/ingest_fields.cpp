@@ -11,6 +11,8 @@ const config::FieldTable<IngestConfig>& ingest_fields() {
        Range{0.05, 60.0}},
       {"wait_for_services_s", &C::wait_for_services_s, "Before the first scan, for the other services to be there.",
        Range{0.0, 3600.0}},
+      {"graph_patience_s", &C::graph_patience_s, "At speed max: a finished submap's place in the graph is waited for this long.",
+       Range{0.0, 600.0}},
       {"scanner_id", &C::scanner_id, "Names the scanner; its frame is laser_<scanner_id>."},
       {"fallback_field_of_view_rad", &C::fallback_field_of_view_rad, "First to last beam, where the log does not say.",
        Range{0.01, 6.2832}},

@@ -57,6 +57,7 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
       source_(open_source(settings)),
       pace_(parse_pace(settings.speed)),
       window_({static_cast<std::size_t>(config_.window_scans), nanoseconds_of(config_.resend_after_s)}),
+      graph_(nanoseconds_of(config_.graph_patience_s)),
       scans_(context.write(dds::topics::kLaserScan)),
       odometry_(context.write(dds::topics::kOdometry)),
       give_up_waiting_at_(steady_clock::now() + nanoseconds_of(config_.wait_for_services_s)) {
@@ -64,9 +65,21 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
   context.status().counter("log_scans") = source_.log().plan().figures.scans;
   context.read(dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
     readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
+    if (wire::text(beat.service_name) == "loop_closing") graph_.heard(steady_clock::now());
   });
   context.read(dds::topics::kScanLabels, app::Input::kOccasional, [this](const auto& labels) { take_labels(labels); });
+  if (pace_.is_unlimited()) watch_graph();
   context.every(std::chrono::milliseconds(50), [this] { has_begun_ ? check_progress() : wait_for_services(); });
+}
+
+void IngestService::watch_graph() {
+  context_.read(dds::topics::kLocalizedScan, app::Input::kOccasional,
+                [this](const slammot_LocalizedScan& scan) { graph_.is_in_use(scan.submap_id, steady_clock::now()); });
+  context_.read(dds::topics::kGraphCorrection, app::Input::kOccasional, [this](const slammot_GraphCorrection& part) {
+    if (part.part_index + 1 != part.part_count || part.submaps._length == 0) return;
+    graph_.is_placed(part.submaps._buffer[part.submaps._length - 1].submap_id);
+    if (has_begun_ && !has_finished_) proceed_with_room();
+  });
 }
 
 void IngestService::wait_for_services() {
@@ -103,7 +116,9 @@ void IngestService::proceed_at_its_pace() {
 }
 
 void IngestService::proceed_with_room() {
-  while (window_.has_room() && fetch()) {
+  while (window_.has_room()) {
+    if (graph_.is_behind(steady_clock::now())) return;
+    if (!fetch()) break;
     if (fetched_->scan) {
       window_.sent(fetched_->scan->stamp_ns, steady_clock::now());
       in_flight_.push_back(*fetched_);
@@ -154,6 +169,8 @@ void IngestService::take_labels(const slammot_ScanLabels& labels) {
 
 void IngestService::check_progress() {
   const auto now = steady_clock::now();
+  if (has_finished_ || !pace_.is_unlimited()) return;
+  if (window_.has_room()) proceed_with_room();  // the wait for the graph has ended by itself
   if (has_finished_ || !window_.is_overdue(now)) return;
   const std::size_t given_up = window_.resend(now);
   for (std::size_t i = 0; i < given_up; ++i) {

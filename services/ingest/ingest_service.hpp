@@ -9,6 +9,7 @@
 
 #include "common/app/run_service.hpp"
 #include "common/wire/sensor.hpp"
+#include "services/ingest/graph_watch.hpp"
 #include "services/ingest/ingest_config.hpp"
 #include "services/ingest/log_source.hpp"
 #include "services/ingest/pace.hpp"
@@ -42,6 +43,7 @@ class IngestService {
   void proceed_at_its_pace();
   void proceed_with_room();
   void take_labels(const slammot_ScanLabels& labels);
+  void watch_graph();
   bool fetch();
   void send_fetched();
   void send(const Step& step);
@@ -54,6 +56,7 @@ class IngestService {
   LogSource source_;
   Pace pace_;
   ScanWindow window_;
+  GraphWatch graph_;
   Readiness readiness_{{"localization", "detection", "tracking"}};
   dds::Writer<slammot_LaserScan>& scans_;
   dds::Writer<slammot_Odometry>& odometry_;

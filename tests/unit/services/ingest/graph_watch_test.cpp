@@ -1,0 +1,47 @@
+#include "services/ingest/graph_watch.hpp"
+
+#include <gtest/gtest.h>
+
+namespace slammot::ingest {
+namespace {
+
+using namespace std::chrono_literals;
+
+const GraphWatch::Time kStart{100s};
+
+GraphWatch watch_with_finished_submap() {
+  GraphWatch watch(5s);
+  watch.heard(kStart);
+  watch.is_in_use(1, kStart);
+  return watch;
+}
+
+TEST(GraphWatch, IsNotBehindInTheFirstSubmap) {
+  GraphWatch watch(5s);
+  watch.heard(kStart);
+  watch.is_in_use(0, kStart);
+  EXPECT_FALSE(watch.is_behind(kStart));
+}
+
+TEST(GraphWatch, IsBehindUntilTheFinishedSubmapIsPlaced) {
+  GraphWatch watch = watch_with_finished_submap();
+  EXPECT_TRUE(watch.is_behind(kStart + 1s));
+  watch.is_placed(0);
+  EXPECT_FALSE(watch.is_behind(kStart + 1s));
+  watch.is_in_use(2, kStart + 1s);
+  EXPECT_TRUE(watch.is_behind(kStart + 1s));
+}
+
+TEST(GraphWatch, GivesUpWhenItsPatienceEnds) {
+  GraphWatch watch = watch_with_finished_submap();
+  watch.heard(kStart + 5s);
+  EXPECT_FALSE(watch.is_behind(kStart + 5s));
+}
+
+TEST(GraphWatch, DoesNotWaitForALoopClosingThatIsNotThere) {
+  const GraphWatch watch = watch_with_finished_submap();
+  EXPECT_FALSE(watch.is_behind(kStart + 2s));
+}
+
+}  // namespace
+}  // namespace slammot::ingest
