@@ -1,0 +1,121 @@
+#include "services/localization/localization_service.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/wire/sensor.hpp"
+#include "tests/support/service_on_the_bus.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using slammot::testing::kForever;
+
+constexpr std::int64_t kPeriodNs = 100'000'000;
+
+std::int64_t stamp_ns_of(std::uint32_t sequence) { return 100'000'000'000 + std::int64_t{sequence} * kPeriodNs; }
+
+/// Of a vehicle that stands in the middle of a room of 10 m by 10 m.
+sensing::LaserScan room_scan(std::uint32_t sequence) {
+  sensing::LaserScan scan;
+  scan.stamp_ns = stamp_ns_of(sequence);
+  scan.sequence = sequence;
+  scan.scanner.first_beam_rad = -std::numbers::pi / 2.0;
+  scan.scanner.beam_step_rad = std::numbers::pi / 180.0;
+  scan.scanner.max_range_m = 30.0;
+  for (std::size_t beam = 0; beam < 181; ++beam) {
+    const double angle_rad = sensing::beam_angle_rad(scan.scanner, beam);
+    scan.range_m.push_back(static_cast<float>(5.0 / std::max(std::abs(std::cos(angle_rad)), std::abs(std::sin(angle_rad)))));
+  }
+  return scan;
+}
+
+struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
+  dds::Writer<slammot_LaserScan> scans{neighbour_, dds::topics::kLaserScan};
+  dds::Writer<slammot_Odometry> odometry{neighbour_, dds::topics::kOdometry};
+  dds::Reader<slammot_LocalizedScan> localized{neighbour_, dds::topics::kLocalizedScan};
+  std::vector<std::uint32_t> sequences;
+
+  void begin() {
+    start<LocalizationService>("localization");
+    ASSERT_TRUE(scans.wait_for_readers(1, kForever));
+    ASSERT_TRUE(odometry.wait_for_readers(1, kForever));
+    ASSERT_TRUE(localized.wait_for_writers(1, kForever));
+  }
+  void send(std::uint32_t sequence) {
+    odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(sequence), {}}));
+    scans.write(wire::LaserScanEncoder().encode("car", room_scan(sequence)));
+  }
+  bool has_localized(std::size_t count) {
+    localized.take_each([this](const slammot_LocalizedScan& scan) { sequences.push_back(scan.sequence_number); });
+    return sequences.size() >= count;
+  }
+  void localize(std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t sequence = first; sequence < end; ++sequence) {
+      const std::size_t so_far = sequences.size();
+      send(sequence);
+      ASSERT_TRUE(comes_to([&] { return has_localized(so_far + 1); }));
+    }
+  }
+  std::uint64_t count(const std::string& name) { return context_->status().counter(name); }
+};
+
+TEST_F(LocalizationOnTheBus, LocalizesEveryScan) {
+  begin();
+  localize(0, 3);
+  EXPECT_THAT(sequences, ::testing::ElementsAre(0, 1, 2));
+}
+
+TEST_F(LocalizationOnTheBus, AnswersAScanThatIsDoneWithTheNewestOne) {
+  begin();
+  localize(0, 3);
+  send(2);
+  ASSERT_TRUE(comes_to([this] { return has_localized(4); }));
+  send(0);
+  ASSERT_TRUE(comes_to([this] { return has_localized(5); }));
+  EXPECT_THAT(sequences, ::testing::ElementsAre(0, 1, 2, 2, 2));
+}
+
+TEST_F(LocalizationOnTheBus, DoesWithoutOdometry) {
+  begin();
+  scans.write(wire::LaserScanEncoder().encode("car", room_scan(0)));
+  EXPECT_TRUE(comes_to([this] { return has_localized(1); }));
+}
+
+TEST_F(LocalizationOnTheBus, ComesBackFromItsCheckpointInTheSameDrive) {
+  begin();
+  localize(0, 25);  // 2.5 s
+  stop();
+  begin();
+  localize(26, 27);
+  EXPECT_EQ(count("restored_checkpoints"), 1U);
+}
+
+TEST_F(LocalizationOnTheBus, BeginsAnewInAnotherDrive) {
+  begin();
+  localize(0, 25);
+  stop();
+  begin();
+  localize(10'000, 10'001);
+  EXPECT_EQ(count("restored_checkpoints"), 0U);
+}
+
+TEST_F(LocalizationOnTheBus, PublishesTheSubmapInUseWhenToldToFinishIt) {
+  begin();
+  localize(0, 5);
+  dds::Reader<slammot_SubmapTile> tiles(neighbour_, dds::topics::kSubmapTile);
+  dds::Writer<slammot_Command> commands(neighbour_, dds::topics::kCommand);
+  ASSERT_TRUE(commands.wait_for_readers(1, kForever));
+  slammot_Command command{};
+  slammot::testing::assign(command.vehicle_id, "car");
+  slammot::testing::assign(command.service_name, "localization");
+  slammot::testing::assign(command.verb, "finish_submap");
+  commands.write(command);
+  EXPECT_TRUE(comes_to([&] { return tiles.take_each([](const auto&) {}) > 0; }));
+}
+
+}  // namespace
+}  // namespace slammot::localization

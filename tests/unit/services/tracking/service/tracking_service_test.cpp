@@ -1,0 +1,102 @@
+#include "services/tracking/tracking_service.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/wire/segmented_scan.hpp"
+#include "tests/support/service_on_the_bus.hpp"
+
+namespace slammot::tracking {
+namespace {
+
+using slammot::testing::kForever;
+
+constexpr std::int64_t kScanNs = 100'000'000'000;
+
+flow::SegmentedScan empty_scan(std::uint32_t sequence) {
+  flow::SegmentedScan scan;
+  scan.stamp_ns = kScanNs + std::int64_t{sequence} * 100'000'000;
+  scan.sequence = sequence;
+  scan.scanner_id = "front";
+  scan.max_range_m = 50.0;
+  scan.beam_step_rad = 0.01;
+  scan.points_in_base_m.assign(10, Eigen::Vector2f::Zero());
+  scan.range_m.assign(10, 0.0F);
+  scan.labels.assign(10, flow::PointLabel::kNoEcho);
+  return scan;
+}
+
+flow::TrackedObjects one_car(std::int64_t stamp_ns) {
+  flow::TrackedObject car;
+  car.track_id = {17};
+  car.confirmed = true;
+  car.existence = 0.99;
+  car.position_in_odom_m = {20.0, 5.0};
+  car.velocity_in_odom_mps = {8.0, 0.0};
+  car.covariance = Eigen::Matrix4d::Identity() * 0.1;
+  car.length_m = 4.5;
+  car.width_m = 1.8;
+  car.first_seen_ns = stamp_ns - 3'000'000'000;
+  car.last_seen_ns = stamp_ns;
+  flow::TrackedObjects objects;
+  objects.stamp_ns = stamp_ns;
+  objects.objects = {car};
+  return objects;
+}
+
+struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
+  dds::Writer<slammot_SegmentedScan> scans{neighbour_, dds::topics::kSegmentedScan};
+  dds::Writer<slammot_TrackedObjects> stored{neighbour_, dds::topics::kStoredTrackedObjects};
+  dds::Reader<slammot_TrackedObjects> objects{neighbour_, dds::topics::kTrackedObjects};
+  dds::Reader<slammot_ScanLabels> labels{neighbour_, dds::topics::kScanLabels};
+  std::vector<flow::TrackedObjects> published;
+  std::vector<std::uint32_t> labelled;
+
+  void begin() {
+    start<TrackingService>("tracking");
+    ASSERT_TRUE(scans.wait_for_readers(1, kForever));
+    ASSERT_TRUE(objects.wait_for_writers(1, kForever));
+    ASSERT_TRUE(labels.wait_for_writers(1, kForever));
+  }
+  void send(std::uint32_t sequence) { scans.write(wire::SegmentedScanEncoder().encode("car", empty_scan(sequence))); }
+  bool has_labelled(std::size_t count) {
+    objects.take_each([this](const auto& sample) { published.push_back(*wire::decode(sample)); });
+    labels.take_each([this](const slammot_ScanLabels& sample) { labelled.push_back(sample.sequence_number); });
+    return labelled.size() >= count;
+  }
+};
+
+TEST_F(TrackingOnTheBus, LabelsEveryScan) {
+  begin();
+  for (const std::uint32_t sequence : {0U, 1U, 2U}) send(sequence);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(3); }));
+  EXPECT_THAT(labelled, ::testing::ElementsAre(0, 1, 2));
+}
+
+TEST_F(TrackingOnTheBus, GivesTheSameAnswerToAScanThatComesAgain) {
+  begin();
+  for (const std::uint32_t sequence : {0U, 1U, 1U, 0U}) send(sequence);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(4); }));
+  EXPECT_THAT(labelled, ::testing::ElementsAre(0, 1, 1, 1)) << "the newest answer tells how far tracking is";
+}
+
+TEST_F(TrackingOnTheBus, TakesUpTheTracksOfTheProcessBefore) {
+  stored.write(wire::TrackedObjectsEncoder().encode("car", one_car(kScanNs - 100'000'000)));
+  begin();
+  send(0);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
+  ASSERT_EQ(published.front().objects.size(), 1U);
+  EXPECT_EQ(published.front().objects.front().track_id, flow::TrackId{17});
+  EXPECT_NEAR(published.front().objects.front().position_in_odom_m.x(), 20.8, 0.3) << "predicted over the gap";
+}
+
+TEST_F(TrackingOnTheBus, LeavesTracksOfAnotherDriveAlone) {
+  stored.write(wire::TrackedObjectsEncoder().encode("car", one_car(kScanNs - 500'000'000'000)));
+  begin();
+  send(0);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
+  EXPECT_THAT(published.front().objects, ::testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace slammot::tracking
