@@ -32,10 +32,9 @@ std::string loopback_config(std::string_view tag) {
   if (tag.size() > 200 || !std::all_of(tag.begin(), tag.end(), is_tag_character)) {
     throw std::invalid_argument("not a DDS discovery tag: " + std::string(tag));
   }
-  return domain(
-      "<Interfaces><NetworkInterface name=\"lo\"/></Interfaces><AllowMulticast>false</AllowMulticast>",
-      "<ParticipantIndex>auto</ParticipantIndex><Peers><Peer Address=\"127.0.0.1\"/></Peers><Tag>" + std::string(tag) +
-          "</Tag>");
+  return domain("<Interfaces><NetworkInterface name=\"lo\"/></Interfaces><AllowMulticast>false</AllowMulticast>",
+                "<ParticipantIndex>auto</ParticipantIndex><Peers><Peer Address=\"127.0.0.1\"/></Peers><Tag>" +
+                    std::string(tag) + "</Tag>");
 }
 
 std::string config_from_environment() {

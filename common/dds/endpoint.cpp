@@ -23,9 +23,9 @@ Endpoint::Endpoint(const Participant& participant, const TopicInfo& info, Side s
   const bool reads = side == Side::kReader;
   entity_ = reads ? Entity(dds_create_reader(participant.handle(), topic_.handle(), qos, nullptr), "reader of " + name)
                   : Entity(dds_create_writer(participant.handle(), topic_.handle(), qos, nullptr), "writer of " + name);
-  const std::uint32_t others_come_and_go =
-      reads ? DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS
-            : DDS_PUBLICATION_MATCHED_STATUS | DDS_OFFERED_INCOMPATIBLE_QOS_STATUS;
+  const std::uint32_t others_come_and_go = reads
+                                               ? DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS
+                                               : DDS_PUBLICATION_MATCHED_STATUS | DDS_OFFERED_INCOMPATIBLE_QOS_STATUS;
   check(dds_set_status_mask(handle(), others_come_and_go), describe("dds_set_status_mask"));
 }
 

@@ -11,9 +11,11 @@ using namespace std::chrono_literals;
 QosProfile qos_profile(Flow flow) {
   switch (flow) {
     case Flow::kSensor:
-      return {.depth = 20};
+      return {.reader_depth = 20, .writer_depth = 20};
     case Flow::kEstimate:
-      return {.depth = 4};
+      // Readers want the newest, writers repair: of localized scans at 75 Hz over a link that loses 5 % of its packets,
+      // 1.5 % never arrived with a writer's depth of 4, and none with 20.
+      return {.reader_depth = 4, .writer_depth = 20};
     case Flow::kTile:
     case Flow::kGraph:
     case Flow::kStatus:
@@ -21,43 +23,57 @@ QosProfile qos_profile(Flow flow) {
     case Flow::kHeartbeat:
       return {.manual_liveliness = 1000ms};
     case Flow::kCommand:
-      return {.depth = 8, .lifespan = 10s};
+      return {.reader_depth = 8, .writer_depth = 8, .lifespan = 10s};
   }
   return {};
 }
 
 std::string qos_policy_name(std::uint32_t policy_id) {
   // The order of Cyclone's dds_qos_policy_id_t, which is that of DDS 1.4 as far as that goes.
-  static constexpr std::array kNames = {
-      "invalid",           "user data",
-      "durability",        "presentation",
-      "deadline",          "latency budget",
-      "ownership",         "ownership strength",
-      "liveliness",        "time-based filter",
-      "partition",         "reliability",
-      "destination order", "history",
-      "resource limits",   "entity factory",
-      "writer lifecycle",  "reader lifecycle",
-      "topic data",        "group data",
-      "transport priority", "lifespan",
-      "durability service", "property",
-      "type",              "data representation"};
+  static constexpr std::array kNames = {"invalid",
+                                        "user data",
+                                        "durability",
+                                        "presentation",
+                                        "deadline",
+                                        "latency budget",
+                                        "ownership",
+                                        "ownership strength",
+                                        "liveliness",
+                                        "time-based filter",
+                                        "partition",
+                                        "reliability",
+                                        "destination order",
+                                        "history",
+                                        "resource limits",
+                                        "entity factory",
+                                        "writer lifecycle",
+                                        "reader lifecycle",
+                                        "topic data",
+                                        "group data",
+                                        "transport priority",
+                                        "lifespan",
+                                        "durability service",
+                                        "property",
+                                        "type",
+                                        "data representation"};
   return policy_id < kNames.size() ? kNames[policy_id] : "policy " + std::to_string(policy_id);
 }
 
-QosPointer make_qos(const QosProfile& profile) {
+namespace {
+
+QosPointer make_qos(const QosProfile& profile, std::int32_t depth) {
   const auto nanoseconds = [](std::chrono::milliseconds time) { return std::chrono::nanoseconds(time).count(); };
   QosPointer qos(dds_create_qos(), dds_delete_qos);
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, nanoseconds(profile.max_blocking));
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, profile.depth);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
   // By the reader's clock: with clocks 2 s apart a neighbour's samples would be dropped as old.
   dds_qset_destination_order(qos.get(), DDS_DESTINATIONORDER_BY_RECEPTION_TIMESTAMP);
   // A writer that dies takes nothing back.
   dds_qset_writer_data_lifecycle(qos.get(), false);
   if (profile.durability == Durability::kTransientLocal) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, profile.depth, DDS_LENGTH_UNLIMITED,
-                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED,
+                                DDS_LENGTH_UNLIMITED);
   }
   if (profile.lifespan) dds_qset_lifespan(qos.get(), nanoseconds(*profile.lifespan));
   if (profile.manual_liveliness) {
@@ -65,5 +81,10 @@ QosPointer make_qos(const QosProfile& profile) {
   }
   return qos;
 }
+
+}  // namespace
+
+QosPointer make_reader_qos(const QosProfile& profile) { return make_qos(profile, profile.reader_depth); }
+QosPointer make_writer_qos(const QosProfile& profile) { return make_qos(profile, profile.writer_depth); }
 
 }  // namespace slammot::dds

@@ -24,10 +24,12 @@ enum class Durability { kVolatile, kTransientLocal };
 /// with keep-all one stopped reader starves the others.
 struct QosProfile {
   Durability durability = Durability::kVolatile;
-  std::int32_t depth = 1;                                    ///< Samples kept per key.
-  std::chrono::milliseconds max_blocking{100};               ///< A write waits so long for slow readers.
-  std::optional<std::chrono::milliseconds> lifespan = std::nullopt;           ///< Older samples are dropped.
-  std::optional<std::chrono::milliseconds> manual_liveliness = std::nullopt;  ///< Asserted by each write; automatic when not set.
+  std::int32_t reader_depth = 1;                ///< Samples kept per key for a reader that is late.
+  std::int32_t writer_depth = 1;                ///< Samples kept per key to be sent again where the link lost them.
+  std::chrono::milliseconds max_blocking{100};  ///< A write waits so long for slow readers.
+  std::optional<std::chrono::milliseconds> lifespan = std::nullopt;  ///< Older samples are dropped.
+  /// Asserted by each write; automatic when not set.
+  std::optional<std::chrono::milliseconds> manual_liveliness = std::nullopt;
 };
 
 QosProfile qos_profile(Flow flow);

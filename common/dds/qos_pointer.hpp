@@ -11,6 +11,7 @@ namespace slammot::dds {
 using QosPointer = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 /// The profile as the C library wants it; only for the sources of this folder.
-QosPointer make_qos(const QosProfile& profile);
+QosPointer make_reader_qos(const QosProfile& profile);
+QosPointer make_writer_qos(const QosProfile& profile);
 
 }  // namespace slammot::dds

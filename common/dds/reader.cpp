@@ -9,7 +9,7 @@ constexpr std::int32_t kRecorderDepth = 10'000;
 constexpr std::int32_t kRecorderMaxSamples = 100'000;  // over all keys; at 2 kB a sample 200 MB
 
 QosPointer reader_qos(const TopicInfo& info, History history) {
-  QosPointer qos = make_qos(qos_profile(info.flow));
+  QosPointer qos = make_reader_qos(qos_profile(info.flow));
   if (history == History::kRecorder) {
     dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kRecorderDepth);
     dds_qset_resource_limits(qos.get(), kRecorderMaxSamples, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);

@@ -22,9 +22,9 @@ struct ReaderCounters {
 };
 
 struct SampleInfo {
-  std::int64_t source_time_ns = 0;   ///< The writer's system clock when it wrote.
-  std::uint64_t writer_handle = 0;   ///< Tells writers apart while they live.
-  bool has_value = false;            ///< False: the key ended, or lost its last writer; only the key can be read.
+  std::int64_t source_time_ns = 0;  ///< The writer's system clock when it wrote.
+  std::uint64_t writer_handle = 0;  ///< Tells writers apart while they live.
+  bool has_value = false;           ///< False: the key ended, or lost its last writer; only the key can be read.
 };
 
 class ReaderBase;

@@ -8,16 +8,18 @@ namespace slammot::dds {
 std::span<const TopicInfo* const> topic_table() {
   using namespace topics;
   static constexpr std::array<const TopicInfo*, 15> kTable = {
-      &kLaserScan,  &kOdometry,   &kLocalizedScan,    &kSegmentedScan, &kTrackedObjects,
-      &kStoredTrackedObjects,     &kScanLabels,       &kSubmapTile,    &kStoredSubmapTile,
-      &kConstraint, &kGraphCorrection, &kHeartbeat,   &kStatus,        &kCommand,
-      &kReply};
+      &kLaserScan,     &kOdometry,        &kLocalizedScan,
+      &kSegmentedScan, &kTrackedObjects,  &kStoredTrackedObjects,
+      &kScanLabels,    &kSubmapTile,      &kStoredSubmapTile,
+      &kConstraint,    &kGraphCorrection, &kHeartbeat,
+      &kStatus,        &kCommand,         &kReply};
   return kTable;
 }
 
 const TopicInfo* find_topic(std::string_view name) {
   const auto table = topic_table();
-  const auto row = std::find_if(table.begin(), table.end(), [&](const TopicInfo* topic) { return topic->name == name; });
+  const auto row =
+      std::find_if(table.begin(), table.end(), [&](const TopicInfo* topic) { return topic->name == name; });
   return row == table.end() ? nullptr : *row;
 }
 

@@ -5,7 +5,7 @@
 namespace slammot::dds {
 
 WriterBase::WriterBase(const Participant& participant, const TopicInfo& info)
-    : Endpoint(participant, info, Side::kWriter, make_qos(qos_profile(info.flow)).get()) {}
+    : Endpoint(participant, info, Side::kWriter, make_writer_qos(qos_profile(info.flow)).get()) {}
 
 WriteResult WriterBase::write_sample(const void* sample) {
   const dds_return_t code = dds_write(handle(), sample);
@@ -43,7 +43,8 @@ bool WriterBase::wait_for_acknowledgements(std::chrono::nanoseconds timeout) con
 
 std::optional<QosMismatch> WriterBase::mismatch() const {
   dds_offered_incompatible_qos_status_t status{};
-  check(dds_get_offered_incompatible_qos_status(handle(), &status), describe("dds_get_offered_incompatible_qos_status"));
+  check(dds_get_offered_incompatible_qos_status(handle(), &status),
+        describe("dds_get_offered_incompatible_qos_status"));
   return Endpoint::mismatch(status.total_count, status.last_policy_id);
 }
 

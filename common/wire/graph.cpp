@@ -85,7 +85,8 @@ GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(const sl
     partial_.erase(known);
   }
   if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());
-  return partial_[part.sequence_number] = Partial{map_from_odom, std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
+  return partial_[part.sequence_number] =
+             Partial{map_from_odom, std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
 }
 
 GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_GraphCorrection& part) {

@@ -54,9 +54,8 @@ std::vector<const flow::Segment*> segments_that_travel(const std::vector<flow::S
   chosen.reserve(segments.size());
   for (const flow::Segment& segment : segments) chosen.push_back(&segment);
   if (chosen.size() <= kMostSegments) return chosen;
-  std::stable_sort(chosen.begin(), chosen.end(), [](const flow::Segment* a, const flow::Segment* b) {
-    return a->beams.size() > b->beams.size();
-  });
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [](const flow::Segment* a, const flow::Segment* b) { return a->beams.size() > b->beams.size(); });
   chosen.resize(kMostSegments);
   std::sort(chosen.begin(), chosen.end());
   return chosen;

@@ -34,16 +34,15 @@ Decoded<sensing::LaserScan> decode(const slammot_LaserScan& sample) {
   if (!is_amount(sample.sweep_s)) return Fault{"sweep_s is negative or not finite"};
   const auto ranges_m = elements(sample.ranges_m);
   if (ranges_m.empty()) return Fault{"no beams"};
-  return sensing::LaserScan{
-      .stamp_ns = sample.stamp_ns,
-      .sequence = sample.sequence_number,
-      .scanner = {.scanner_id = std::string(text(sample.scanner_id)),
-                  .base_from_laser = decode(sample.base_from_laser),
-                  .first_beam_rad = sample.first_beam_rad,
-                  .beam_step_rad = sample.beam_step_rad,
-                  .max_range_m = sample.max_range_m,
-                  .sweep_s = sample.sweep_s},
-      .range_m = {ranges_m.begin(), ranges_m.end()}};
+  return sensing::LaserScan{.stamp_ns = sample.stamp_ns,
+                            .sequence = sample.sequence_number,
+                            .scanner = {.scanner_id = std::string(text(sample.scanner_id)),
+                                        .base_from_laser = decode(sample.base_from_laser),
+                                        .first_beam_rad = sample.first_beam_rad,
+                                        .beam_step_rad = sample.beam_step_rad,
+                                        .max_range_m = sample.max_range_m,
+                                        .sweep_s = sample.sweep_s},
+                            .range_m = {ranges_m.begin(), ranges_m.end()}};
 }
 
 slammot_Odometry encode(std::string_view vehicle_id, const sensing::Odometry& odometry) {

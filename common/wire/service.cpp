@@ -121,9 +121,12 @@ Decoded<Command> decode(const slammot_Command& sample) {
 
 Decoded<Reply> decode(const slammot_Reply& sample) {
   if (!is_enumerator(sample.result, slammot_OUTCOME_UNKNOWN_VERB)) return Fault{"result is unknown"};
-  return Reply{std::string(text(sample.vehicle_id)),   std::string(text(sample.requester)),
-               sample.request_number,                  std::string(text(sample.service_name)),
-               static_cast<Outcome>(sample.result), std::string(text(sample.explanation))};
+  return Reply{std::string(text(sample.vehicle_id)),
+               std::string(text(sample.requester)),
+               sample.request_number,
+               std::string(text(sample.service_name)),
+               static_cast<Outcome>(sample.result),
+               std::string(text(sample.explanation))};
 }
 
 const slammot_ServiceStatus& StatusEncoder::encode(const ServiceStatus& status) {

@@ -61,9 +61,9 @@ struct ServiceStatus {
 
 struct Command {
   std::string vehicle_id;
-  std::string service;                ///< Who is asked.
-  std::string requester;              ///< Who asks: unique, at most 64 bytes.
-  std::uint64_t request_number = 0;   ///< Unique for the requester.
+  std::string service;               ///< Who is asked.
+  std::string requester;             ///< Who asks: unique, at most 64 bytes.
+  std::uint64_t request_number = 0;  ///< Unique for the requester.
   std::string verb;
   std::string argument;
 };

@@ -101,7 +101,8 @@ std::string_view fault_of(const slammot_SubmapHeader& header) {
   if (!is_sound(header.saliency)) return "saliency is not finite";
   if (std::uint64_t{header.column_count} * header.row_count > kMostCells) return "the grid is too large";
   if (header.surfel_count > kMostSurfels) return "there are too many surfels";
-  if (header.tile_count == 0 || header.tile_count > most_tiles(header.column_count, header.row_count, header.surfel_count)) {
+  if (header.tile_count == 0 ||
+      header.tile_count > most_tiles(header.column_count, header.row_count, header.surfel_count)) {
     return "tile_count does not go with the size";
   }
   return "";
@@ -121,7 +122,8 @@ std::string_view fault_of(const slammot_SubmapTile& tile) {
     return "the tile is outside its submap";
   }
   const std::uint32_t cells = tile.column_count * tile.row_count;
-  if (tile.so_log_odds_plus_128._length != cells || tile.mo_evidence._length != cells) return "the tile's grids have a wrong size";
+  if (tile.so_log_odds_plus_128._length != cells || tile.mo_evidence._length != cells)
+    return "the tile's grids have a wrong size";
   if (!is_inside(tile.first_surfel, tile.surfels._length, header.surfel_count)) return "surfels are outside their list";
   for (const slammot_Surfel& surfel : elements(tile.surfels)) {
     if (!is_sound(surfel.x_m) || !is_sound(surfel.y_m) || !is_sound(surfel.normal_x) || !is_sound(surfel.normal_y) ||
@@ -137,8 +139,8 @@ void copy_into(flow::Submap& submap, const slammot_SubmapTile& tile) {
   for (std::uint32_t row = 0; row < tile.row_count; ++row) {
     const std::size_t from = std::size_t{row} * tile.column_count;
     const std::size_t to = (std::size_t{tile.first_row} + row) * submap.columns + tile.first_column;
-    std::transform(tile.so_log_odds_plus_128._buffer + from, tile.so_log_odds_plus_128._buffer + from + tile.column_count,
-                   submap.so_log_odds.begin() + to,
+    std::transform(tile.so_log_odds_plus_128._buffer + from,
+                   tile.so_log_odds_plus_128._buffer + from + tile.column_count, submap.so_log_odds.begin() + to,
                    [](std::uint8_t plus_128) { return static_cast<std::int8_t>(plus_128 - 128); });
     std::copy_n(tile.mo_evidence._buffer + from, tile.column_count, submap.mo_evidence.begin() + to);
   }
@@ -185,7 +187,8 @@ void SubmapEncoder::find_rectangles(const flow::Submap& submap) {
       const std::size_t first = std::size_t{rectangle.first_row + row} * submap.columns + rectangle.first_column;
       const auto so = submap.so_log_odds.begin() + first;
       const auto mo = submap.mo_evidence.begin() + first;
-      if (!std::all_of(so, so + rectangle.columns, is_zero) || !std::all_of(mo, mo + rectangle.columns, is_zero)) return true;
+      if (!std::all_of(so, so + rectangle.columns, is_zero) || !std::all_of(mo, mo + rectangle.columns, is_zero))
+        return true;
     }
     return false;
   };
@@ -238,7 +241,8 @@ void SubmapEncoder::encode(std::string_view vehicle_id, const flow::Submap& subm
   }
   find_rectangles(submap);
   const auto surfels = static_cast<std::uint32_t>(submap.surfels.size());
-  const std::uint32_t tiles = std::max({static_cast<std::uint32_t>(rectangles_.size()), divide_up(surfels, kMostSurfelsOfTile), 1U});
+  const std::uint32_t tiles =
+      std::max({static_cast<std::uint32_t>(rectangles_.size()), divide_up(surfels, kMostSurfelsOfTile), 1U});
   const std::uint32_t surfels_of_tile = divide_up(surfels, tiles);
   set_text(sample_.vehicle_id, vehicle_id);
   sample_.submap_id = submap.submap_id.value;

@@ -22,8 +22,8 @@ inline constexpr std::uint32_t kMostSurfels = 1U << 20;
 /// Cuts submaps into tiles that fit on the bus; keeps its buffers.
 class SubmapEncoder {
  public:
-  /// Calls `write` with each tile, which is good only during the call. Tiles in which nothing was seen are left out, but
-  /// for an empty submap's only one. Throws std::length_error for a submap that is larger than the bus carries, and
+  /// Calls `write` with each tile, which is good only during the call. Tiles in which nothing was seen are left out,
+  /// but for an empty submap's only one. Throws std::length_error for a submap that is larger than the bus carries, and
   /// std::invalid_argument where its grids are not columns x rows.
   void encode(std::string_view vehicle_id, const flow::Submap& submap,
               const std::function<void(const slammot_SubmapTile&)>& write);
@@ -55,8 +55,8 @@ class SubmapAssembler {
     std::uint64_t replaced_submaps = 0;  ///< A new version of a submap came before the old one was complete.
   };
 
-  /// The submap when this was its last tile, nothing (and no fault) when more are to come or when it was complete before
-  /// and has not changed. Submaps become complete in any order.
+  /// The submap when this was its last tile, nothing (and no fault) when more are to come or when it was complete
+  /// before and has not changed. Submaps become complete in any order.
   struct Added {
     std::optional<flow::Submap> submap;
     std::string_view fault;  ///< Why the tile was refused; empty when it was not.

@@ -11,7 +11,7 @@
 namespace slammot::wire {
 
 inline constexpr std::size_t kMostObjects = 192;
-inline constexpr std::size_t kMostContourPoints = 64;    ///< Of one object.
+inline constexpr std::size_t kMostContourPoints = 64;       ///< Of one object.
 inline constexpr std::size_t kMostPredictedPositions = 16;  ///< Of one object.
 
 /// Puts tracks on the wire; keeps its buffers.

@@ -1,7 +1,7 @@
 /// For tests with tools that know nothing of this project: a participant that writes samples to every topic there is.
 ///     publish_every_topic DOMAIN TAG
-/// Prints the DDS configuration that a tool needs to see it, then "topic TOPIC TYPE" for each, then "ready"; goes on writing
-/// until its standard input ends.
+/// Prints the DDS configuration that a tool needs to see it, then "topic TOPIC TYPE" for each, then "ready"; goes on
+/// writing until its standard input ends.
 
 #include <chrono>
 #include <functional>
@@ -62,8 +62,9 @@ class EveryTopic {
 
   void add_sensors() {
     add_encoded<wire::LaserScanEncoder>(topics::kLaserScan, testing::laser_scan(random_, 5));
-    add(topics::kOdometry,
-        [](auto& writer) { writer.write(wire::encode(kVehicle, sensing::Odometry{1, {1.0, 2.0, 3.0}})); });
+    add(topics::kOdometry, [](auto& writer) {
+      writer.write(wire::encode(kVehicle, sensing::Odometry{1, {1.0, 2.0, 3.0}}));
+    });
   }
 
   void add_estimates() {
@@ -71,8 +72,8 @@ class EveryTopic {
     add_encoded<wire::SegmentedScanEncoder>(topics::kSegmentedScan, testing::segmented_scan(random_, 5));
     add_encoded<wire::TrackedObjectsEncoder>(topics::kTrackedObjects, testing::tracked_objects(random_, 2));
     add_encoded<wire::TrackedObjectsEncoder>(topics::kStoredTrackedObjects, testing::tracked_objects(random_, 2));
-    add_encoded<wire::ScanLabelsEncoder>(
-        topics::kScanLabels, flow::ScanLabels{1, 2, "front", {flow::PointLabel::kMoving}, {{1, {2, 3}}}});
+    add_encoded<wire::ScanLabelsEncoder>(topics::kScanLabels,
+                                         flow::ScanLabels{1, 2, "front", {flow::PointLabel::kMoving}, {{1, {2, 3}}}});
   }
 
   void add_maps() {
@@ -96,7 +97,8 @@ class EveryTopic {
     add(topics::kHeartbeat, [name](auto& writer) { writer.write(wire::encode(wire::Heartbeat{.name = name})); });
     add(topics::kStatus, [name](auto& writer) {
       wire::StatusEncoder encoder;
-      writer.write(encoder.encode({.name = name, .counters = {{"scans", 7}}, .latencies = {{"detect", 7, 0.1, 0.2, 0.3}}}));
+      writer.write(
+          encoder.encode({.name = name, .counters = {{"scans", 7}}, .latencies = {{"detect", 7, 0.1, 0.2, 0.3}}}));
     });
     add(topics::kCommand, [](auto& writer) {
       writer.write(wire::encode(wire::Command{kVehicle, "localization", "test-1", 1, "finish_submap", ""}));

@@ -173,8 +173,7 @@ inline flow::Submap submap(Random& random, std::uint32_t submap_id, std::uint32_
     map.mo_evidence.push_back(static_cast<std::uint8_t>(random()));
   }
   for (std::size_t i = 0; i < surfels; ++i) {
-    map.surfels.push_back(
-        {number_f(random), number_f(random), number_f(random), number_f(random), number_f(random)});
+    map.surfels.push_back({number_f(random), number_f(random), number_f(random), number_f(random), number_f(random)});
   }
   return map;
 }

@@ -18,7 +18,8 @@ TEST(LogHandler, GetsTheLibrarysWarnings) {
   });
   // Loopback, and multicast not switched off: worth a warning to the library, not a failure.
   const std::string config =
-      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces></General></Domain></CycloneDDS>";
+      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface "
+      "name=\"lo\"/></Interfaces></General></Domain></CycloneDDS>";
   { const Participant participant({.domain_id = 217, .name = "log", .config = config}); }
   set_log_handler([](LogLevel, std::string_view) {});
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("multicast")));

@@ -54,7 +54,8 @@ TEST(Participant, SaysThatItsPortIsInUse) {
   const auto config = [](const std::string& tag) {
     return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
            "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>5</ParticipantIndex>"
-           "<Ports><Base>51000</Base><DomainGain>0</DomainGain></Ports><Tag>" + tag + "</Tag></Discovery></Domain></CycloneDDS>";
+           "<Ports><Base>51000</Base><DomainGain>0</DomainGain></Ports><Tag>" +
+           tag + "</Tag></Discovery></Domain></CycloneDDS>";
   };
   const Participant first({.domain_id = 211, .name = "", .config = config("a")});
   EXPECT_THAT(reason_of_failure({.domain_id = 212, .name = "", .config = config("b")}), HasSubstr("port"));

@@ -14,10 +14,11 @@ TEST(QosProfile, KeepsForLateJoinersWhatIsAState) {
   }
 }
 
-TEST(QosProfile, HoldsEnoughToRepairALossyLink) {
-  EXPECT_GE(qos_profile(Flow::kSensor).depth, 8);
-  EXPECT_GE(qos_profile(Flow::kEstimate).depth, 4);
+TEST(QosProfile, LetsWritersRepairALossyLink) {
+  for (const Flow flow : {Flow::kSensor, Flow::kEstimate, Flow::kCommand}) EXPECT_GE(qos_profile(flow).writer_depth, 8);
 }
+
+TEST(QosProfile, KeepsEstimatesFresh) { EXPECT_LE(qos_profile(Flow::kEstimate).reader_depth, 4); }
 
 TEST(QosPolicyName, FollowsTheNumbersOfTheReports) {
   EXPECT_EQ(qos_policy_name(2), "durability");

@@ -176,8 +176,9 @@ TEST(Reader, NamesThePolicyThatKeepsItFromAWriter) {
   ASSERT_TRUE(writer.wait_for_mismatch(kForever));
   ASSERT_TRUE(reader.mismatch().has_value());
   EXPECT_EQ(reader.mismatch()->policy, "durability");
-  EXPECT_EQ(reader.mismatch()->text(),
-            "slammot/constraint: cannot be connected with another participant's endpoint because of durability (1 so far)");
+  EXPECT_EQ(
+      reader.mismatch()->text(),
+      "slammot/constraint: cannot be connected with another participant's endpoint because of durability (1 so far)");
   EXPECT_EQ(writer.mismatch()->policy, "durability");
   EXPECT_EQ(reader.matched_writers(), 0U);
 }

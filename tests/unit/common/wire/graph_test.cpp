@@ -63,7 +63,8 @@ struct GraphCorrectionInParts : ::testing::Test {
 
   static std::vector<KeptPart> parts_of(const flow::GraphCorrection& whole) {
     std::vector<KeptPart> parts;
-    GraphCorrectionEncoder().encode("car", whole, [&](const slammot_GraphCorrection& part) { parts.emplace_back(part); });
+    GraphCorrectionEncoder().encode("car", whole,
+                                    [&](const slammot_GraphCorrection& part) { parts.emplace_back(part); });
     return parts;
   }
 

@@ -26,14 +26,16 @@ struct SizeOfTheLargest : ::testing::Test {
 };
 
 TEST_F(SizeOfTheLargest, LaserScanFitsTheBus) {
-  EXPECT_LE(serialized_bytes(topics::kLaserScan, LaserScanEncoder().encode("car", testing::laser_scan(random, kMostBeams))),
-            kMostBytes);
+  EXPECT_LE(
+      serialized_bytes(topics::kLaserScan, LaserScanEncoder().encode("car", testing::laser_scan(random, kMostBeams))),
+      kMostBytes);
 }
 
 TEST_F(SizeOfTheLargest, LocalizedScanFitsTheBus) {
   LocalizedScanEncoder encoder;
-  EXPECT_LE(serialized_bytes(topics::kLocalizedScan, encoder.encode("car", testing::localized_scan(random, kMostBeams))),
-            kMostBytes);
+  EXPECT_LE(
+      serialized_bytes(topics::kLocalizedScan, encoder.encode("car", testing::localized_scan(random, kMostBeams))),
+      kMostBytes);
 }
 
 TEST_F(SizeOfTheLargest, SegmentedScanFitsTheBus) {

@@ -220,8 +220,9 @@ TEST_F(SubmapInTiles, AreRefusedWhereTheyAreUnsound) {
 
 TEST_F(SubmapInTiles, AreRefusedWhereTheirHeadersDisagree) {
   ASSERT_EQ(assembler.add(tiles[0].shown()).fault, "");
-  for (auto corrupt : {+[](slammot_SubmapHeader& h) { h.column_count = 299; }, +[](slammot_SubmapHeader& h) { h.row_count = 199; },
-                       +[](slammot_SubmapHeader& h) { h.surfel_count = 999; }, +[](slammot_SubmapHeader& h) { h.tile_count = 5; }}) {
+  for (auto corrupt :
+       {+[](slammot_SubmapHeader& h) { h.column_count = 299; }, +[](slammot_SubmapHeader& h) { h.row_count = 199; },
+        +[](slammot_SubmapHeader& h) { h.surfel_count = 999; }, +[](slammot_SubmapHeader& h) { h.tile_count = 5; }}) {
     KeptTile other = tiles[1];
     corrupt(other.shown().header);
     EXPECT_NE(assembler.add(other.sample).fault, "");
