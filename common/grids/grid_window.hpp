@@ -33,8 +33,9 @@ struct GridWindow {
   }
 
   bool contains(Cell cell) const {
-    return static_cast<std::uint32_t>(cell.column - first.column) < static_cast<std::uint32_t>(columns) &&
-           static_cast<std::uint32_t>(cell.row - first.row) < static_cast<std::uint32_t>(rows);
+    // Unsigned throughout: cells from anywhere must not overflow.
+    return static_cast<std::uint32_t>(cell.column) - static_cast<std::uint32_t>(first.column) < static_cast<std::uint32_t>(columns) &&
+           static_cast<std::uint32_t>(cell.row) - static_cast<std::uint32_t>(first.row) < static_cast<std::uint32_t>(rows);
   }
 
   /// Place in the array; the cell must be inside.

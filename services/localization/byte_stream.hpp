@@ -1,21 +1,32 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/geometry/pose2.hpp"
+
 namespace slammot::localization {
 
-/// Appends plain values to a checkpoint.
+inline void put_bytes(std::vector<std::byte>& bytes, const void* first, std::size_t count) {
+  const std::size_t end = bytes.size();
+  bytes.resize(end + count);
+  if (count > 0) std::memcpy(bytes.data() + end, first, count);
+}
+
+/// Appends plain values to a checkpoint. Not for structs with padding: its bytes would be others every time.
 template <class T>
 void put(std::vector<std::byte>& bytes, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
-  const auto* first = reinterpret_cast<const std::byte*>(&value);
-  bytes.insert(bytes.end(), first, first + sizeof(T));
+  put_bytes(bytes, &value, sizeof(T));
 }
 
 template <int kRows, int kColumns>
@@ -27,14 +38,13 @@ template <class T>
 void put_all(std::vector<std::byte>& bytes, const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
   put(bytes, static_cast<std::uint64_t>(values.size()));
-  const auto* first = reinterpret_cast<const std::byte*>(values.data());
-  bytes.insert(bytes.end(), first, first + values.size() * sizeof(T));
+  put_bytes(bytes, values.data(), values.size() * sizeof(T));
 }
 
 /// Reads them back; once it has run past the end, every further value is left as it was and ok() is false.
 class ByteReader {
  public:
-  ByteReader(const std::byte* first, const std::byte* last) : at_(first), end_(last) {}
+  explicit ByteReader(std::span<const std::byte> bytes) : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
 
   bool ok() const { return ok_; }
   bool at_end() const { return at_ == end_; }
@@ -45,6 +55,13 @@ class ByteReader {
     if (!has(sizeof(T))) return;
     std::memcpy(&value, at_, sizeof(T));
     at_ += sizeof(T);
+  }
+
+  /// Any byte but 0 is true: a bool made of other bytes would be undefined.
+  void get(bool& value) {
+    std::uint8_t byte = value ? 1 : 0;
+    get(byte);
+    value = byte != 0;
   }
 
   template <int kRows, int kColumns>
@@ -75,5 +92,44 @@ class ByteReader {
   const std::byte* end_;
   bool ok_ = true;
 };
+
+/// Whether a pose that was read can be worked with: finite, and near enough that cells of any size can be counted.
+inline bool is_believable(const geometry::Pose2& pose) {
+  constexpr double kFarthest_m = 1e7;
+  return std::abs(pose.x_m) < kFarthest_m && std::abs(pose.y_m) < kFarthest_m && std::isfinite(pose.heading_rad);
+}
+
+/// Whether a matrix that was read can be a covariance of a pose or of a calibration.
+inline bool is_believable(const geometry::Matrix3& covariance) {
+  constexpr double kLargest = 1e6;
+  for (int i = 0; i < 3; ++i) {
+    if (!(covariance(i, i) >= 0.0 && covariance(i, i) < kLargest)) return false;
+    for (int j = 0; j < 3; ++j) {
+      if (!(covariance(i, j) * covariance(i, j) <= 1.001 * covariance(i, i) * covariance(j, j))) return false;
+    }
+  }
+  return true;
+}
+
+/// Checksum of bytes, eight at a time: FNV-1a over 64-bit words, Fowler, Noll and Vo 1991. Against damage, not against malice.
+inline std::uint64_t checksum(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325U;
+  for (std::size_t done = 0; done < bytes.size(); done += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + done, std::min(sizeof word, bytes.size() - done));
+    sum = (sum ^ word) * 0x100000001b3U;
+  }
+  return sum;
+}
+
+/// What stands before the checksum that ends the bytes; none when it does not fit.
+inline std::optional<std::span<const std::byte>> unsealed(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0;
+  if (bytes.size() < sizeof sum) return std::nullopt;
+  const auto content = bytes.first(bytes.size() - sizeof sum);
+  std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
+  if (sum != checksum(content)) return std::nullopt;
+  return content;
+}
 
 }  // namespace slammot::localization

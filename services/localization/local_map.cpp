@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <utility>
 
 namespace slammot::localization {
 namespace {
@@ -59,6 +61,22 @@ std::vector<StoredSurfel> get_surfels(ByteReader& from) {
   std::vector<StoredSurfel> surfels;
   from.get_all(surfels);
   return surfels;
+}
+
+/// Same shape, and somewhere on the lattice where no index can overflow.
+bool is_like(const grids::GridWindow& window, const grids::GridWindow& expected) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 30;
+  const auto is_near = [](std::int64_t place) { return std::abs(place) < kFarthest; };
+  return window.cell_size_m == expected.cell_size_m && window.columns == expected.columns && window.rows == expected.rows &&
+         is_near(window.first.column) && is_near(window.first.row);
+}
+
+/// Whether these can be the moments of echoes in one cell.
+bool is_possible(const grids::CellMoments& moments, double cell_size_m) {
+  const double farthest_m = cell_size_m * static_cast<double>(moments.weight);
+  return moments.weight > 0.0F && std::isfinite(moments.weight) && std::abs(moments.x) <= farthest_m &&
+         std::abs(moments.y) <= farthest_m && std::isfinite(moments.xx) && std::isfinite(moments.xy) &&
+         std::isfinite(moments.yy) && std::isfinite(moments.own_echoes);
 }
 
 }  // namespace
@@ -149,7 +167,12 @@ flow::Submap LocalMap::submap() const {
     submap.so_log_odds.insert(submap.so_log_odds.end(), own_so.begin() + first, own_so.begin() + first + bounds.columns);
     submap.mo_evidence.insert(submap.mo_evidence.end(), own_mo.begin() + first, own_mo.begin() + first + bounds.columns);
   }
-  for (const grids::SurfelView& surfel : surfels_.all()) {
+  std::vector<grids::SurfelView> surfels = surfels_.all();
+  // By place: the order in which they were first seen is another after a restart.
+  std::sort(surfels.begin(), surfels.end(), [](const grids::SurfelView& a, const grids::SurfelView& b) {
+    return std::pair(a.cell.row, a.cell.column) < std::pair(b.cell.row, b.cell.column);
+  });
+  for (const grids::SurfelView& surfel : surfels) {
     if (const auto own = own_surfel(surfel)) submap.surfels.push_back(*own);
   }
   return submap;
@@ -231,13 +254,14 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
   from.get(map.first_stamp_ns_);
   from.get(map.last_stamp_ns_);
   from.get(map.scans_);
-  const grids::GridWindow expected = evidence_window(config, {0.0, 0.0});
-  const grids::GridWindow expected_surfels = surfel_window(config, {0.0, 0.0});
-  const bool fits = from.ok() && window.cell_size_m == expected.cell_size_m && window.columns == expected.columns &&
-                    window.rows == expected.rows && surfel_lattice.cell_size_m == expected_surfels.cell_size_m &&
-                    surfel_lattice.columns == expected_surfels.columns && surfel_lattice.rows == expected_surfels.rows &&
-                    so.size() == window.cell_count() && mo.size() == so.size() && map.inherited_so_.size() == so.size() &&
-                    map.inherited_mo_.size() == so.size();
+  const auto is_of_map = [&](std::size_t count) { return count == window.cell_count(); };
+  const auto is_of_surfels = [&](const StoredSurfel& one) { return is_possible(one.moments, config.surfel_size_m); };
+  const bool fits = from.ok() && is_like(window, evidence_window(config, {0.0, 0.0})) &&
+                    is_like(surfel_lattice, surfel_window(config, {0.0, 0.0})) && is_of_map(so.size()) && is_of_map(mo.size()) &&
+                    is_of_map(map.inherited_so_.size()) && is_of_map(map.inherited_mo_.size()) &&
+                    std::all_of(surfels.begin(), surfels.end(), is_of_surfels) &&
+                    std::all_of(inherited_surfels.begin(), inherited_surfels.end(), is_of_surfels) &&
+                    is_believable(map.odom_from_submap_);
   if (!fits) return std::nullopt;
   map.evidence_ = grids::EvidenceGrid(window, config.evidence);
   map.evidence_.set_cells(std::move(so), std::move(mo));

@@ -115,7 +115,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"search_sigmas", &C::search_sigmas, "Half width of the search window in standard deviations of the prediction.",
        Range{0.1, 20.0}},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},
-      {"longest_step_s", &C::longest_step_s, "A longer gap makes the prediction's uncertainty grow with it.", kPositive},
+      {"longest_step_s", &C::longest_step_s, "Without odometry nothing is extrapolated farther; longer gaps are counted.", kPositive},
       {"fastest_mps", &C::fastest_mps, "Odometry that says more has jumped.", kPositive},
       {"max_pending", &C::max_pending, "Scans that wait for labels before the map goes on without.", Range{1, 100}},
       {"longest_label_wait_s", &C::longest_label_wait_s, "Nor does it wait longer than this, by the scans' stamps.", Range{0.0, 10.0}},

@@ -17,6 +17,10 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7431;  // "slammot1": the digit counts the forms of a checkpoint
+constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
+constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
+constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
 
 UncertainPose2 exactly(const Pose2& pose) { return {pose, geometry::Matrix3::Zero()}; }
 
@@ -71,13 +75,19 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
   } else {
     ++counters_.without_odometry;
   }
+  const double extrapolated_s = std::min(step.duration_s, config_.longest_step_s);
   step.before_from_base =
-      sensing::predict_step_at_velocity(last_->speed_mps, last_->yaw_rate_radps, step.duration_s, config_.motion);
+      sensing::predict_step_at_velocity(last_->speed_mps, last_->yaw_rate_radps, extrapolated_s, config_.motion);
+  if (!last_->knows_velocity) {
+    const double sigma_m = config_.fastest_mps / 3.0 * extrapolated_s;  // a log may begin in full drive
+    step.before_from_base.covariance.topLeftCorner<2, 2>() += sigma_m * sigma_m * geometry::Matrix2::Identity();
+  }
   return step;
 }
 
 bool Localizer::is_masked(const Vector2& point_in_odom_m, std::int64_t stamp_ns) const {
   const double after_s = static_cast<double>(stamp_ns - expected_objects_.stamp_ns) * kNanosecond_s;
+  if (after_s > kLongestExpectation_s) return false;
   return std::any_of(expected_objects_.objects.begin(), expected_objects_.objects.end(), [&](const flow::TrackedObject& object) {
     const Vector2 centre_m = object.position_in_odom_m + after_s * object.velocity_in_odom_mps;
     return object.confirmed && is_inside_box(point_in_odom_m - centre_m, object.heading_in_odom_rad,
@@ -116,30 +126,27 @@ Pose2 Localizer::search(const UncertainPose2& prior) {
   return peaks.empty() ? prior.pose : peaks.front().target_from_source.pose;
 }
 
-UncertainPose2 Localizer::match(const UncertainPose2& prior) {
+Localizer::Match Localizer::match(const UncertainPose2& prior) {
   if (static_cast<int>(match_points_.size()) < config_.min_echoes) {
     ++counters_.too_few_echoes;
-    return prior;
+    return {prior, false};
   }
   const Pose2 initial = is_vague(prior) ? search(prior) : prior.pose;
   const matching::PointToLineResult result =
       matching::match_point_to_line(match_points_, map_.surfels(), prior, initial, config_.match);
   if (result.matched_share < config_.least_matched_share) {
     ++counters_.lost_matches;
-    return prior;
+    return {prior, false};
   }
-  return result.map_from_base;
+  return {result.map_from_base, true};
 }
 
-void Localizer::learn(const Step& step, const Pose2& before_from_base) {
-  if (step.by_wheels) {
-    calibration_ = sensing::calibrated(calibration_, *step.by_wheels, before_from_base, step.duration_s, config_.motion);
-  }
+void Localizer::travel(const Pose2& before_from_base) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
   travelled_m_ += moved_m;
   const double position_m2 = config_.drift_m_per_sqrt_m * config_.drift_m_per_sqrt_m * moved_m;
   const double heading_rad2 = config_.drift_rad_per_sqrt_m * config_.drift_rad_per_sqrt_m * moved_m;
-  previous_from_submap_.covariance.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
+  drift_.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
 }
 
 flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base) const {
@@ -201,10 +208,13 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   if (!is_usable(scan)) return std::nullopt;
   ++counters_.scans;
   integrate_overdue(scan.stamp_ns);
-  begin_next_submap_if_outgrown();
+  begin_next_submap_if_due();
   const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(scan.stamp_ns);
   UncertainPose2 odom_from_base;
-  State now{scan.stamp_ns, {}, wheel_from_base.has_value(), wheel_from_base.value_or(Pose2{}), 0.0, 0.0};
+  State now;
+  now.stamp_ns = scan.stamp_ns;
+  now.has_wheels = wheel_from_base.has_value();
+  now.wheel_from_base = wheel_from_base.value_or(Pose2{});
   if (!last_) {
     map_ = LocalMap(config_.map, Vector2::Zero());
     sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
@@ -215,9 +225,14 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     now.yaw_rate_radps = step.before_from_base.pose.heading_rad / step.duration_s;
     sensing::deskew(scan, now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
     select_points(scan, prior.pose);
-    odom_from_base = match(prior);
+    const Match matched = match(prior);
+    odom_from_base = matched.odom_from_base;
     const Pose2 before_from_base = geometry::inverse(last_->odom_from_base) * odom_from_base.pose;
-    learn(step, before_from_base);
+    travel(before_from_base);
+    now.knows_velocity = true;
+    if (step.by_wheels && matched.is_believed) {
+      calibration_ = sensing::calibrated(calibration_, *step.by_wheels, before_from_base, step.duration_s, config_.motion);
+    }
     if (!step.by_wheels) {
       now.speed_mps = before_from_base.x_m / step.duration_s;
       now.yaw_rate_radps = before_from_base.heading_rad / step.duration_s;
@@ -288,13 +303,16 @@ void Localizer::restore_points(const flow::ScanLabels& labels) {
   }
 }
 
-void Localizer::begin_next_submap_if_outgrown() {
-  if (!last_ || !map_.is_outgrown(last_->odom_from_base.translation_m(), travelled_m_)) return;
-  end_submap();
+void Localizer::begin_next_submap_if_due() {
+  if (!last_) return;
+  if (!submap_is_ended_ && !map_.is_outgrown(last_->odom_from_base.translation_m(), travelled_m_)) return;
+  if (!submap_is_ended_) end_submap();
   const Pose2 odom_from_previous = map_.odom_from_submap();
   map_.begin_next(last_->odom_from_base.translation_m());
-  const geometry::Matrix3 covariance = geometry::Matrix3(previous_from_submap_.covariance);
-  previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), covariance};
+  previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), drift_};
+  drift_.setZero();
+  travelled_m_ = 0.0;
+  submap_is_ended_ = false;
 }
 
 void Localizer::end_submap() {
@@ -303,7 +321,7 @@ void Localizer::end_submap() {
   submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * last_->odom_from_base;
   submap.travelled_m = travelled_m_;
   finished_.push_back(std::move(submap));
-  travelled_m_ = 0.0;
+  submap_is_ended_ = true;
   ++counters_.submaps;
 }
 
@@ -316,7 +334,7 @@ std::optional<flow::Submap> Localizer::take_finished_submap() {
 
 void Localizer::finish() {
   while (!pending_.empty()) integrate_first_without_tracking();
-  if (last_ && map_.has_echoes()) end_submap();
+  if (last_ && !submap_is_ended_ && map_.has_echoes()) end_submap();
 }
 
 void Localizer::correct(const flow::GraphCorrection& correction) {
@@ -327,38 +345,64 @@ void Localizer::correct(const flow::GraphCorrection& correction) {
 
 std::vector<std::byte> Localizer::checkpoint() const {
   std::vector<std::byte> bytes;
-  put(bytes, last_.has_value());
   if (!last_) return bytes;
-  put(bytes, *last_);
+  put(bytes, kCheckpointMark);
+  put(bytes, last_->stamp_ns);
+  put(bytes, last_->odom_from_base);
+  put(bytes, last_->has_wheels);
+  put(bytes, last_->wheel_from_base);
+  put(bytes, last_->knows_velocity);
+  put(bytes, last_->speed_mps);
+  put(bytes, last_->yaw_rate_radps);
   put(bytes, calibration_.state);
   put(bytes, calibration_.covariance);
   put(bytes, map_from_odom_);
   put(bytes, correction_sequence_);
   put(bytes, previous_from_submap_.pose);
   put(bytes, previous_from_submap_.covariance);
+  put(bytes, drift_);
   put(bytes, travelled_m_);
+  put(bytes, submap_is_ended_);
   put(bytes, counters_);
   map_.write(bytes);
+  put(bytes, checksum(bytes));
   return bytes;
 }
 
 bool Localizer::restore(std::span<const std::byte> bytes) {
-  ByteReader from(bytes.data(), bytes.data() + bytes.size());
-  bool has_state = false;
+  const auto content = unsealed(bytes);
+  if (!content) return false;
+  ByteReader from(*content);
   Localizer restored(config_);
+  std::uint64_t mark = 0;
   State last;
-  from.get(has_state);
-  from.get(last);
+  from.get(mark);
+  from.get(last.stamp_ns);
+  from.get(last.odom_from_base);
+  from.get(last.has_wheels);
+  from.get(last.wheel_from_base);
+  from.get(last.knows_velocity);
+  from.get(last.speed_mps);
+  from.get(last.yaw_rate_radps);
   from.get(restored.calibration_.state);
   from.get(restored.calibration_.covariance);
   from.get(restored.map_from_odom_);
   from.get(restored.correction_sequence_);
   from.get(restored.previous_from_submap_.pose);
   from.get(restored.previous_from_submap_.covariance);
+  from.get(restored.drift_);
   from.get(restored.travelled_m_);
+  from.get(restored.submap_is_ended_);
   from.get(restored.counters_);
-  std::optional<LocalMap> map = has_state ? LocalMap::restored(config_.map, from) : std::nullopt;
-  if (!map || !from.ok() || !from.at_end()) return false;
+  if (mark != kCheckpointMark) return false;
+  std::optional<LocalMap> map = LocalMap::restored(config_.map, from);
+  const bool is_sound = is_believable(last.odom_from_base) && is_believable(restored.map_from_odom_) &&
+                        is_believable(restored.previous_from_submap_.pose) &&
+                        is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.drift_) &&
+                        is_believable(restored.calibration_.covariance) && restored.calibration_.state.norm() < 1.0 &&
+                        std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
+                        std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.travelled_m_);
+  if (!map || !is_sound || !from.ok() || !from.at_end()) return false;
   restored.last_ = last;
   restored.map_ = std::move(*map);
   *this = std::move(restored);

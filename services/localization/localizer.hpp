@@ -37,7 +37,7 @@ struct LocalizerConfig {
   double search_reach_m = 25.0;           ///< Half side of the square of the map that is searched.
   double search_sigmas = 3.0;             ///< Half width of the search window in standard deviations of the prediction.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
-  double longest_step_s = 2.0;            ///< A gap longer than this makes the prediction's uncertainty grow with it.
+  double longest_step_s = 2.0;            ///< Without odometry nothing is extrapolated farther; longer gaps are counted.
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
   int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
   double longest_label_wait_s = 0.15;     ///< Nor does it wait longer than this, by the scans' stamps.
@@ -91,7 +91,8 @@ class Localizer {
   /// Submap that was finished since the last call.
   std::optional<flow::Submap> take_finished_submap();
 
-  /// Integrates what still waits and ends the submap in progress, as at the end of a drive.
+  /// Integrates what still waits and ends the submap in progress, as at the end of a drive. Should the drive go on, the
+  /// next scan begins the next submap.
   void finish();
 
   void correct(const flow::GraphCorrection& correction);
@@ -101,9 +102,10 @@ class Localizer {
   const LocalizerCounters& counters() const { return counters_; }
   const LocalMap& local_map() const { return map_; }
 
-  /// Everything that is needed to go on after a crash, in a form of this build.
+  /// Everything that is needed to go on after a crash, in a form of this build; empty before the first scan. Scans that
+  /// wait for their labels, and what tracking expects, are not in it.
   std::vector<std::byte> checkpoint() const;
-  /// False, and nothing changed, when the bytes are no checkpoint of this configuration.
+  /// False, and nothing changed, when the bytes are damaged or the map in them has another shape than this configuration's.
   bool restore(std::span<const std::byte> bytes);
 
  private:
@@ -112,8 +114,14 @@ class Localizer {
     geometry::Pose2 odom_from_base;
     bool has_wheels = false;
     geometry::Pose2 wheel_from_base;
+    bool knows_velocity = false;    ///< Not at the first scan.
     double speed_mps = 0.0;
     double yaw_rate_radps = 0.0;
+  };
+
+  struct Match {
+    geometry::UncertainPose2 odom_from_base;
+    bool is_believed = false;       ///< Otherwise it is the prediction.
   };
 
   struct PendingScan {
@@ -135,19 +143,19 @@ class Localizer {
 
   bool is_usable(const sensing::LaserScan& scan);
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
-  geometry::UncertainPose2 match(const geometry::UncertainPose2& prior);
+  Match match(const geometry::UncertainPose2& prior);
   bool is_vague(const geometry::UncertainPose2& prior) const;
   geometry::Pose2 search(const geometry::UncertainPose2& prior);
   void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
   bool is_masked(const geometry::Vector2& point_in_odom_m, std::int64_t stamp_ns) const;
-  void learn(const Step& step, const geometry::Pose2& before_from_base);
+  void travel(const geometry::Pose2& before_from_base);
   flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base) const;
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
   void integrate_first_without_tracking();
   void integrate_overdue(std::int64_t now_ns);
   void restore_points(const flow::ScanLabels& labels);
-  void begin_next_submap_if_outgrown();
+  void begin_next_submap_if_due();
   void end_submap();
 
   LocalizerConfig config_;
@@ -158,7 +166,9 @@ class Localizer {
   LocalMap map_;
   geometry::Pose2 map_from_odom_;
   geometry::UncertainPose2 previous_from_submap_;    ///< Of the submap in progress.
+  geometry::Matrix3 drift_ = geometry::Matrix3::Zero();  ///< Covariance of what was travelled in it, for the tie to the next.
   double travelled_m_ = 0.0;                         ///< In this submap.
+  bool submap_is_ended_ = false;                     ///< And the next one not yet begun.
   std::uint32_t correction_sequence_ = 0;
   flow::TrackedObjects expected_objects_;
   std::deque<PendingScan> pending_;

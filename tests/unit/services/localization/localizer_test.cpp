@@ -1,0 +1,535 @@
+#include "services/localization/localizer.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/example_submap.hpp"
+#include "tests/support/localizer_drive.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using flow::PointLabel;
+using geometry::Pose2;
+using geometry::Vector2;
+using slammot::testing::all_stationary;
+using slammot::testing::arc;
+using slammot::testing::drive_one;
+using slammot::testing::drive_through;
+using slammot::testing::DriveErrors;
+using slammot::testing::DriveSetup;
+using slammot::testing::PoseNear;
+using slammot::testing::SimulatedDrive;
+using slammot::testing::small_map_config;
+using slammot::testing::World;
+
+/// A robot that goes round in a room.
+DriveSetup round_in_a_room() {
+  return {.world = slammot::testing::room(), .world_from_base_at = arc({0.0, -3.0, 0.0}, 0.5, 0.2)};
+}
+
+/// A car with a sweeping scanner at its front bumper, on a road.
+DriveSetup along_a_street(double speed_mps = 8.0) {
+  DriveSetup setup{.world = slammot::testing::street(120.0), .world_from_base_at = arc({2.0, -1.0, 0.02}, speed_mps, 0.0)};
+  setup.scan_period_s = 0.05;
+  setup.scanner.base_from_laser = {2.15, 0.0, 0.0};
+  setup.scanner.sweep_s = 0.013;
+  setup.wheels = {.scale = 1.01, .heading_rate_bias_radps = 0.004};
+  return setup;
+}
+
+TEST(Localizer, KnowsWhereItIsInARoom) {
+  SimulatedDrive drive(round_in_a_room());
+  Localizer localizer(small_map_config());
+  const DriveErrors errors = drive_through(localizer, drive, 0, 150);
+  EXPECT_LT(errors.worst_m, 0.03);
+  EXPECT_LT(errors.worst_rad, 0.005);
+  EXPECT_EQ(localizer.counters().scans, 150U);
+  EXPECT_EQ(localizer.counters().lost_matches, 0U);
+}
+
+TEST(Localizer, KnowsWhereItIsAfterAHundredMetresOfStreetAndWhatIsWrongWithTheWheels) {
+  SimulatedDrive drive(along_a_street());
+  Localizer localizer(small_map_config());
+  const DriveErrors errors = drive_through(localizer, drive, 0, 250);
+  EXPECT_LT(errors.worst_m, 0.25);
+  EXPECT_LT(errors.worst_rad, 0.005);
+  EXPECT_NEAR(localizer.calibration().scale(), 1.01, 0.003);
+  const double bias_radps = localizer.calibration().state.y() + 8.0 * localizer.calibration().state.z();
+  EXPECT_NEAR(bias_radps, 0.004, 0.002);
+}
+
+TEST(Localizer, SaysHowFastItGoes) {
+  SimulatedDrive drive(along_a_street());
+  Localizer localizer(small_map_config());
+  std::optional<flow::LocalizedScan> localized;
+  for (std::uint32_t scan = 0; scan < 60; ++scan) localized = drive_one(localizer, drive, scan);
+  EXPECT_NEAR(localized->speed_mps, 8.0, 0.1);
+  EXPECT_NEAR(localized->yaw_rate_radps, 0.0, 0.01);
+}
+
+TEST(Localizer, GivesTheSameAnswerWhereverTheWorldLies) {
+  const Pose2 there_from_here{70.3, -12.9, 2.2};
+  DriveSetup setup = round_in_a_room();
+  SimulatedDrive here(setup);
+  const auto path_here = setup.world_from_base_at;
+  setup.world = slammot::testing::moved(setup.world, there_from_here);
+  setup.world_from_base_at = [=](double time_s) { return there_from_here * path_here(time_s); };
+  SimulatedDrive there(setup);
+  Localizer localizer_here(small_map_config());
+  Localizer localizer_there(small_map_config());
+  for (std::uint32_t scan = 0; scan < 60; ++scan) {
+    const Pose2 pose_here = drive_one(localizer_here, here, scan)->odom_from_base.pose;
+    EXPECT_THAT(drive_one(localizer_there, there, scan)->odom_from_base.pose, PoseNear(pose_here, 1e-3));
+  }
+}
+
+TEST(Localizer, CarriesTheScanOnAndAddsOneBeamForEach) {
+  SimulatedDrive drive(along_a_street());
+  Localizer localizer(small_map_config());
+  drive_one(localizer, drive, 0);
+  const auto scan = drive.scan(1);
+  const auto localized = drive_one(localizer, drive, 1);
+  EXPECT_EQ(localized->stamp_ns, scan.stamp_ns);
+  EXPECT_EQ(localized->sequence, 1U);
+  EXPECT_EQ(localized->scanner_id, "front");
+  EXPECT_EQ(localized->base_from_laser, scan.scanner.base_from_laser);
+  ASSERT_EQ(localized->beams.size(), scan.range_m.size());
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
+    const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m);
+    EXPECT_EQ(localized->beams[i].range_m, has_echo ? scan.range_m[i] : 0.0F);
+    EXPECT_EQ(localized->beams[i].end_cell == flow::EndCell::kNoEcho, !has_echo);
+  }
+}
+
+TEST(Localizer, DropsAndCountsDuplicatesAndScansOutOfOrder) {
+  SimulatedDrive drive(round_in_a_room());
+  Localizer disturbed(small_map_config());
+  Localizer undisturbed(small_map_config());
+  for (std::uint32_t scan = 0; scan < 40; ++scan) {
+    const auto expected = drive_one(undisturbed, drive, scan);
+    disturbed.add_odometry(drive.odometry(scan));
+    const auto localized = disturbed.localize(drive.scan(scan));
+    ASSERT_TRUE(localized);
+    EXPECT_EQ(localized->odom_from_base.pose, expected->odom_from_base.pose);
+    EXPECT_FALSE(disturbed.localize(drive.scan(scan)));
+    if (scan > 0) EXPECT_FALSE(disturbed.localize(drive.scan(scan - 1)));
+    disturbed.integrate(all_stationary(*localized));
+    disturbed.integrate(all_stationary(*localized));  // labels may come twice as well
+  }
+  EXPECT_EQ(disturbed.counters().scans, 40U);
+  EXPECT_EQ(disturbed.counters().duplicate_scans, 40U);
+  EXPECT_EQ(disturbed.counters().out_of_order_scans, 39U);
+}
+
+TEST(Localizer, WorksWithoutAnyOdometry) {
+  DriveSetup setup = round_in_a_room();
+  SimulatedDrive drive(setup);
+  Localizer localizer(small_map_config());
+  const DriveErrors errors = drive_through(localizer, drive, 0, 150, false);
+  EXPECT_LT(errors.worst_m, 0.05);
+  EXPECT_LT(errors.worst_rad, 0.01);
+  EXPECT_EQ(localizer.counters().without_odometry, 149U);
+}
+
+TEST(Localizer, WorksWithoutAnyOdometryWhenTheLogBeginsInFullDrive) {
+  DriveSetup setup = along_a_street();
+  setup.scan_period_s = 1.0 / 37.5;
+  setup.beams = 361;
+  setup.scanner.beam_step_rad *= 0.5;
+  SimulatedDrive drive(setup);
+  Localizer localizer(small_map_config());
+  const DriveErrors errors = drive_through(localizer, drive, 0, 200, false);
+  EXPECT_LT(errors.worst_m, 0.4);  // the sweep's motion is not known at first, and shears the first walls
+  EXPECT_LT(errors.worst_rad, 0.01);
+}
+
+TEST(Localizer, GoesOnAtConstantVelocityWhenOdometryJumps) {
+  SimulatedDrive drive(round_in_a_room());
+  Localizer localizer(small_map_config());
+  drive_through(localizer, drive, 0, 50);
+  const Pose2 jump{400.0, -30.0, 1.0};
+  for (std::uint32_t scan = 50; scan < 100; ++scan) {
+    sensing::Odometry odometry = drive.odometry(scan);
+    odometry.wheel_from_base = jump * odometry.wheel_from_base;
+    localizer.add_odometry(odometry);
+    const auto localized = localizer.localize(drive.scan(scan));
+    localizer.integrate(all_stationary(*localized));
+    EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.03));
+  }
+  EXPECT_EQ(localizer.counters().odometry_jumps, 1U);
+}
+
+TEST(Localizer, BridgesTwoSecondsWithoutScans) {
+  for (const bool with_odometry : {true, false}) {
+    SimulatedDrive drive(round_in_a_room());
+    Localizer localizer(small_map_config());
+    drive_through(localizer, drive, 0, 50, with_odometry);
+    const DriveErrors errors = drive_through(localizer, drive, 71, 120, with_odometry);
+    EXPECT_LT(errors.worst_m, 0.05) << with_odometry;
+    EXPECT_EQ(localizer.counters().gaps, 1U);
+  }
+}
+
+TEST(Localizer, FollowsTheWheelsWhenTheScannerSeesNextToNothing) {
+  SimulatedDrive drive(round_in_a_room());
+  Localizer localizer(small_map_config());
+  drive_through(localizer, drive, 0, 50);
+  for (std::uint32_t scan = 50; scan < 60; ++scan) {
+    localizer.add_odometry(drive.odometry(scan));
+    auto blinded = drive.scan(scan);
+    const std::size_t valid_beams = scan % 2 == 0 ? 3 : 0;
+    for (std::size_t i = valid_beams; i < blinded.range_m.size(); ++i) blinded.range_m[i] = static_cast<float>(blinded.scanner.max_range_m);
+    const auto localized = localizer.localize(blinded);
+    ASSERT_TRUE(localized);
+    localizer.integrate(all_stationary(*localized));
+    EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.03));
+  }
+  EXPECT_EQ(localizer.counters().too_few_echoes, 10U);
+  EXPECT_LT(drive_through(localizer, drive, 60, 90).worst_m, 0.03);
+}
+
+TEST(Localizer, TakesScansOfNonsense) {
+  SimulatedDrive drive(round_in_a_room());
+  Localizer localizer(small_map_config());
+  drive_through(localizer, drive, 0, 20);
+  auto scan = drive.scan(20);
+  const float strange[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0F, 0.0F, 1e30F};
+  for (std::size_t i = 0; i < scan.range_m.size(); ++i) scan.range_m[i] = strange[i % 5];
+  EXPECT_TRUE(localizer.localize(scan));
+  scan = drive.scan(21);
+  scan.range_m.clear();
+  EXPECT_TRUE(localizer.localize(scan)->beams.empty());
+  EXPECT_LT(drive_through(localizer, drive, 22, 40).worst_m, 0.05);
+}
+
+TEST(Localizer, LearnsNothingAboutTheWheelsWhereItDidNotMatch) {
+  SimulatedDrive drive(along_a_street());
+  Localizer localizer(small_map_config());
+  drive_through(localizer, drive, 0, 5);
+  const auto before = localizer.calibration();
+  for (std::uint32_t scan = 5; scan < 40; ++scan) {
+    localizer.add_odometry(drive.odometry(scan));
+    auto blinded = drive.scan(scan);
+    std::fill(blinded.range_m.begin(), blinded.range_m.end(), 50.0F);
+    localizer.localize(blinded);
+  }
+  EXPECT_EQ(localizer.calibration().state, before.state);
+  EXPECT_EQ(localizer.calibration().covariance, before.covariance);
+}
+
+TEST(Localizer, HasOdometryForWhatTheWheelsHaveReached) {
+  Localizer localizer(small_map_config());
+  EXPECT_FALSE(localizer.has_odometry_for(5));
+  localizer.add_odometry({5, {}});
+  EXPECT_TRUE(localizer.has_odometry_for(5));
+  EXPECT_FALSE(localizer.has_odometry_for(6));
+}
+
+/// Something that crosses the room while the robot stands, once the room is known.
+class WithAMover : public ::testing::Test {
+ protected:
+  WithAMover() : drive_({.world = slammot::testing::room(), .world_from_base_at = arc({-3.0, 0.0, 0.0}, 0.0, 0.0)}) {
+    drive_through(localizer_, drive_, 0, 20);
+  }
+
+  static Pose2 world_from_mover(std::uint32_t scan) { return {1.0, -3.5 + 0.15 * (scan - 20), 0.0}; }
+
+  /// The scan, and which of its beams met the mover.
+  std::pair<sensing::LaserScan, std::vector<bool>> scan_with_mover(std::uint32_t number) {
+    const auto without = drive_.scan(number);
+    DriveSetup setup = drive_.setup();
+    setup.world = joined(setup.world, slammot::testing::box(world_from_mover(number), 0.6, 0.6));
+    const auto with = SimulatedDrive(setup).scan(number);
+    std::vector<bool> on_mover;
+    for (std::size_t i = 0; i < with.range_m.size(); ++i) on_mover.push_back(with.range_m[i] < without.range_m[i] - 0.2F);
+    return {with, on_mover};
+  }
+
+  flow::ScanLabels labels(const flow::LocalizedScan& scan, const std::vector<bool>& on_mover) {
+    flow::ScanLabels labels = all_stationary(scan);
+    for (std::size_t i = 0; i < on_mover.size(); ++i) {
+      if (on_mover[i]) labels.labels[i] = PointLabel::kMoving;
+    }
+    return labels;
+  }
+
+  /// Surfels and occupied cells where only the mover ever was.
+  int traces_in_the_map() const {
+    int traces = 0;
+    const Pose2 odom_from_world = inverse(drive_.odom_from_base(0)) * inverse(Pose2{-3.0, 0.0, 0.0});
+    for (double y_m = -3.5; y_m < 1.0; y_m += 0.1) {
+      for (double x_m = 0.6; x_m < 1.4; x_m += 0.1) {
+        const Vector2 at_m = odom_from_world * Vector2(x_m, y_m);
+        const auto surfel = localizer_.local_map().surfels().nearest(at_m, 1);
+        const auto& evidence = localizer_.local_map().evidence();
+        traces += (surfel && (surfel->mean_m - at_m).norm() < 0.2) || evidence.so_steps(evidence.window().cell_at(at_m.x(), at_m.y())) > 0;
+      }
+    }
+    return traces;
+  }
+
+  double moving_evidence() const {
+    double sum = 0.0;
+    for (const std::uint8_t one : localizer_.local_map().evidence().mo_cells()) sum += one;
+    return sum;
+  }
+
+  SimulatedDrive drive_;
+  Localizer localizer_{small_map_config()};
+};
+
+TEST_F(WithAMover, LabelsDecideWhichMapAPointGoesTo) {
+  for (std::uint32_t scan = 20; scan < 45; ++scan) {
+    const auto [range, on_mover] = scan_with_mover(scan);
+    localizer_.integrate(labels(*localizer_.localize(range), on_mover));
+  }
+  EXPECT_EQ(traces_in_the_map(), 0);
+  EXPECT_GT(moving_evidence(), 1000.0);
+  EXPECT_EQ(localizer_.counters().fallback_integrations, 0U);
+}
+
+TEST_F(WithAMover, LabelledStationaryItLeavesTraces) {
+  for (std::uint32_t scan = 20; scan < 24; ++scan) localizer_.integrate(all_stationary(*localizer_.localize(scan_with_mover(scan).first)));
+  EXPECT_GT(traces_in_the_map(), 0);
+}
+
+TEST_F(WithAMover, StaysOutOfTheMapWhenLabelsNeverCome) {
+  for (std::uint32_t scan = 20; scan < 45; ++scan) EXPECT_TRUE(localizer_.localize(scan_with_mover(scan).first));
+  localizer_.finish();
+  EXPECT_EQ(traces_in_the_map(), 0);
+  EXPECT_EQ(moving_evidence(), 0.0);
+  EXPECT_EQ(localizer_.counters().fallback_integrations, 25U);
+}
+
+TEST_F(WithAMover, GoesToTheMovingMapByDetectionsLabelsWhenTrackingsNeverCome) {
+  for (std::uint32_t scan = 20; scan < 45; ++scan) {
+    const auto [range, on_mover] = scan_with_mover(scan);
+    const auto localized = localizer_.localize(range);
+    flow::SegmentedScan segmented;
+    segmented.sequence = scan;
+    segmented.scanner_id = localized->scanner_id;
+    segmented.labels = labels(*localized, on_mover).labels;
+    localizer_.note(segmented);
+  }
+  localizer_.finish();
+  EXPECT_EQ(traces_in_the_map(), 0);
+  EXPECT_GT(moving_evidence(), 1000.0);
+}
+
+TEST_F(WithAMover, TakesLabelsThatComeThreeScansLate) {
+  std::vector<flow::ScanLabels> late;
+  for (std::uint32_t scan = 20; scan < 45; ++scan) {
+    const auto [range, on_mover] = scan_with_mover(scan);
+    late.push_back(labels(*localizer_.localize(range), on_mover));
+    if (late.size() > 3) localizer_.integrate(late[late.size() - 4]);
+  }
+  for (const auto& one : late) localizer_.integrate(one);
+  EXPECT_EQ(traces_in_the_map(), 0);
+}
+
+TEST_F(WithAMover, IntegratesAScanWhoseLabelsWereLostWhenTheNextOnesCome) {
+  for (std::uint32_t scan = 20; scan < 40; ++scan) {
+    const auto [range, on_mover] = scan_with_mover(scan);
+    const auto localized = localizer_.localize(range);
+    if (scan % 2 == 1) localizer_.integrate(labels(*localized, on_mover));
+  }
+  EXPECT_EQ(localizer_.counters().fallback_integrations, 10U);
+  EXPECT_EQ(traces_in_the_map(), 0);
+}
+
+TEST_F(WithAMover, ComesBackIntoTheMapWhenTrackingFindsItStands) {
+  const auto [range, on_mover] = scan_with_mover(20);
+  localizer_.integrate(labels(*localizer_.localize(range), on_mover));
+  EXPECT_EQ(traces_in_the_map(), 0);
+  flow::RestoredPoints restored{20, {}};
+  for (std::size_t i = 0; i < on_mover.size(); ++i) {
+    if (on_mover[i]) restored.beams.push_back(static_cast<std::uint16_t>(i));
+  }
+  ASSERT_GT(restored.beams.size(), 2U);
+  auto later = labels(*localizer_.localize(scan_with_mover(21).first), scan_with_mover(21).second);
+  later.restored = {restored, {999, {1, 2, 3}}, {20, {60000}}};  // also a scan and a beam that never were
+  localizer_.integrate(later);
+  EXPECT_GT(traces_in_the_map(), 0);
+  EXPECT_EQ(localizer_.counters().restored_points, restored.beams.size());
+}
+
+TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
+  // A wall of a thing right before the scanner, that moves sideways with all its points and would pull the pose along.
+  DriveSetup setup = drive_.setup();
+  setup.world = joined(setup.world, slammot::testing::box({0.0, 0.0, 0.0}, 0.5, 8.0));
+  SimulatedDrive blocked(setup);
+  Localizer localizer(small_map_config());
+  drive_through(localizer, blocked, 0, 20);
+  const auto pulled_m = [&](bool with_track) {
+    Localizer copy = localizer;
+    flow::TrackedObjects objects;
+    objects.stamp_ns = blocked.scan(20).stamp_ns;
+    flow::TrackedObject object;
+    object.confirmed = true;
+    object.position_in_odom_m = {3.0, 0.0};
+    object.length_m = 1.2;
+    object.width_m = 9.0;
+    objects.objects = {object};
+    if (with_track) copy.expect(objects);
+    DriveSetup moved_setup = drive_.setup();
+    moved_setup.world = joined(moved_setup.world, slammot::testing::box({0.12, 0.0, 0.0}, 0.5, 8.0));
+    SimulatedDrive later(moved_setup);
+    copy.add_odometry(blocked.odometry(20));
+    return slammot::testing::distance_m(copy.localize(later.scan(20))->odom_from_base.pose, later.odom_from_base(20));
+  };
+  EXPECT_LT(pulled_m(true), 0.01);
+  EXPECT_GT(pulled_m(false), 2.0 * pulled_m(true));
+}
+
+TEST_F(WithAMover, IsNoLongerExpectedWhenTrackingHasFallenSilent) {
+  flow::TrackedObjects objects;
+  flow::TrackedObject everything;
+  everything.confirmed = true;
+  everything.length_m = everything.width_m = 100.0;
+  objects.stamp_ns = drive_.scan(19).stamp_ns;
+  objects.objects = {everything};
+  localizer_.expect(objects);
+  drive_through(localizer_, drive_, 20, 25);
+  const auto unmatched = localizer_.counters().too_few_echoes;
+  EXPECT_GT(unmatched, 0U);
+  drive_through(localizer_, drive_, 50, 60);
+  EXPECT_EQ(localizer_.counters().too_few_echoes, unmatched);
+}
+
+/// A street with a new map every 20 m.
+class OverSeveralSubmaps : public ::testing::Test {
+ protected:
+  static LocalizerConfig config() {
+    LocalizerConfig config = small_map_config();
+    config.map.new_map_after_m = 20.0;
+    return config;
+  }
+
+  std::vector<flow::Submap> submaps_of_drive(Localizer& localizer) {
+    SimulatedDrive drive(along_a_street());
+    std::vector<flow::Submap> submaps;
+    const auto take = [&] {
+      while (auto submap = localizer.take_finished_submap()) submaps.push_back(std::move(*submap));
+    };
+    for (std::uint32_t scan = 0; scan < 200; ++scan) {
+      scans_.push_back(*drive_one(localizer, drive, scan));
+      take();
+    }
+    localizer.finish();
+    take();
+    return submaps;
+  }
+
+  std::vector<flow::LocalizedScan> scans_;
+};
+
+TEST_F(OverSeveralSubmaps, ThePoseNeverJumpsWhereTheNextOneBegins) {
+  Localizer localizer(config());
+  submaps_of_drive(localizer);
+  int handovers = 0;
+  for (std::size_t i = 1; i < scans_.size(); ++i) {
+    const Pose2 step = inverse(scans_[i - 1].odom_from_base.pose) * scans_[i].odom_from_base.pose;
+    EXPECT_NEAR(step.x_m, 0.4, 0.05);
+    EXPECT_NEAR(step.y_m, 0.0, 0.05);
+    handovers += scans_[i].submap_id != scans_[i - 1].submap_id;
+  }
+  EXPECT_GE(handovers, 3);
+}
+
+TEST_F(OverSeveralSubmaps, EachBeginsWhereTheOneBeforeEndsAndIsTiedToIt) {
+  Localizer localizer(config());
+  const auto submaps = submaps_of_drive(localizer);
+  ASSERT_GE(submaps.size(), 4U);
+  EXPECT_EQ(localizer.counters().submaps, submaps.size());
+  EXPECT_EQ(submaps[0].previous_from_submap.pose, Pose2{});
+  for (std::size_t i = 0; i < submaps.size(); ++i) {
+    EXPECT_EQ(submaps[i].submap_id.value, i);
+    EXPECT_LE(submaps[i].first_stamp_ns, submaps[i].last_stamp_ns);
+    EXPECT_EQ(submaps[i].so_log_odds.size(), std::size_t{submaps[i].columns} * submaps[i].rows);
+    if (i == 0) continue;
+    EXPECT_GT(submaps[i].first_stamp_ns, submaps[i - 1].last_stamp_ns);
+    EXPECT_THAT(submaps[i - 1].odom_from_submap * submaps[i].previous_from_submap.pose, PoseNear(submaps[i].odom_from_submap, 1e-9));
+  }
+}
+
+TEST_F(OverSeveralSubmaps, EveryScanSaysItsPoseInTheSubmapThatItNames) {
+  Localizer localizer(config());
+  const auto submaps = submaps_of_drive(localizer);
+  for (const flow::LocalizedScan& scan : scans_) {
+    const Pose2& odom_from_submap = submaps.at(scan.submap_id.value).odom_from_submap;
+    EXPECT_THAT(odom_from_submap * scan.submap_from_base, PoseNear(scan.odom_from_base.pose, 1e-9));
+  }
+}
+
+TEST_F(OverSeveralSubmaps, TheUncertaintyOfATieGrowsWithTheWayOfThatTieOnly) {
+  Localizer localizer(config());
+  const auto submaps = submaps_of_drive(localizer);
+  ASSERT_GE(submaps.size(), 4U);
+  const auto drift = [&](double travelled_m) { return std::pow(config().drift_m_per_sqrt_m, 2) * travelled_m; };
+  for (std::size_t i = 1; i < submaps.size(); ++i) {
+    const auto& covariance = submaps[i].previous_from_submap.covariance;
+    EXPECT_NEAR(covariance(0, 0), drift(submaps[i - 1].travelled_m), 0.1 * drift(submaps[i - 1].travelled_m)) << i;
+    EXPECT_GT(covariance(2, 2), 0.0);
+  }
+}
+
+TEST_F(OverSeveralSubmaps, TheSameDriveGivesTheSameBits) {
+  Localizer first(config());
+  const auto first_submaps = submaps_of_drive(first);
+  const auto first_scans = std::exchange(scans_, {});
+  Localizer second(config());
+  const auto second_submaps = submaps_of_drive(second);
+  ASSERT_EQ(first_submaps.size(), second_submaps.size());
+  for (std::size_t i = 0; i < first_submaps.size(); ++i) EXPECT_TRUE(slammot::testing::same_submap(first_submaps[i], second_submaps[i]));
+  for (std::size_t i = 0; i < first_scans.size(); ++i) {
+    EXPECT_EQ(first_scans[i].odom_from_base.pose, scans_[i].odom_from_base.pose);
+    EXPECT_EQ(first_scans[i].odom_from_base.covariance, scans_[i].odom_from_base.covariance);
+  }
+  EXPECT_EQ(first.checkpoint(), second.checkpoint());
+}
+
+TEST_F(OverSeveralSubmaps, FinishingTwiceEndsTheLastOneOnce) {
+  Localizer localizer(config());
+  const auto submaps = submaps_of_drive(localizer);
+  localizer.finish();
+  EXPECT_FALSE(localizer.take_finished_submap());
+}
+
+TEST_F(OverSeveralSubmaps, AfterFinishingTheDriveMayGoOnInTheNextOne) {
+  Localizer localizer(config());
+  const auto submaps = submaps_of_drive(localizer);
+  SimulatedDrive drive(along_a_street());
+  drive_through(localizer, drive, 200, 210);
+  localizer.finish();
+  const auto next = localizer.take_finished_submap();
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->submap_id.value, submaps.back().submap_id.value + 1);
+  EXPECT_GT(next->first_stamp_ns, submaps.back().last_stamp_ns);
+}
+
+TEST(Localizer, FinishedBeforeItBeganHasNoSubmap) {
+  Localizer localizer(small_map_config());
+  localizer.finish();
+  EXPECT_FALSE(localizer.take_finished_submap());
+}
+
+TEST(Localizer, TakesTheNewestCorrectionOfTheMapWithoutMovingInOdom) {
+  SimulatedDrive drive(round_in_a_room());
+  Localizer localizer(small_map_config());
+  const auto before = drive_one(localizer, drive, 0);
+  EXPECT_EQ(before->map_from_odom, Pose2{});
+  localizer.correct({5, {1.0, 2.0, 0.1}, {}});
+  localizer.correct({4, {9.0, 9.0, 0.9}, {}});
+  const auto after = drive_one(localizer, drive, 1);
+  EXPECT_EQ(after->map_from_odom, (Pose2{1.0, 2.0, 0.1}));
+  EXPECT_THAT(after->odom_from_base.pose, PoseNear(drive.odom_from_base(1), 0.03));
+}
+
+}  // namespace
+}  // namespace slammot::localization
