@@ -84,7 +84,7 @@ void EvidenceGrid::mark_free(const Eigen::Vector2d& origin_m, const Eigen::Vecto
   const double length_m = std::min(to_m - from_m, distance_to_border(window_, start_m, direction));
   if (length_m <= 0.0) return;
   // Amanatides and Woo 1987, with the array's index in place of the cell: this loop is most of a scan's integration,
-  // see tests/bench/grids_bench.cpp.
+  // see tests/bench/common/grids/evidence_grid_bench.cpp.
   RayWalk walk(start_m, direction, window_.cell_size_m);
   auto index = static_cast<std::ptrdiff_t>(window_.index(walk.cell()));
   const RayWalk::Axis columns = walk.columns();
