@@ -37,24 +37,32 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const Carme
   if (plan.figures.scans == 0) return no_scans(path, *first_pass, malformed_lines);
   auto second_pass = LineReader::open(path);
   if (!second_pass) return second_pass.error();
-  return CarmenLog(std::move(*second_pass), plan, options);
+  return CarmenLog(std::make_unique<LineReader>(std::move(*second_pass)), plan, options);
 }
 
-CarmenLog::CarmenLog(LineReader lines, LogPlan plan, CarmenLogOptions options)
+CarmenLog CarmenLog::follow(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options) {
+  CarmenLog log(std::move(lines), std::move(plan), options);
+  log.survey_.emplace();
+  return log;
+}
+
+CarmenLog::CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, CarmenLogOptions options)
     : lines_(std::move(lines)), plan_(std::move(plan)), options_(std::move(options)) {}
 
 std::optional<LogEvent> CarmenLog::next() {
   while (ready_.empty() && !is_finished_) {
-    const auto line = lines_.next();
+    const auto line = lines_->next();
     if (!line) {
       finish_reading();
       continue;
     }
+    const CarmenRecord record = parse_carmen_line(*line);
+    if (survey_) survey_->add(record);
     std::visit(Overloaded{[this](const IgnoredLine&) { ++faults_.ignored_lines; }, [this](const MalformedLine&) { note_malformed(); },
                           [](const ParamRecord&) {},  // heeded by the survey
-                          [this](const auto& record) { take(record); }},
-               parse_carmen_line(*line));
-    faults_.overlong_lines = lines_.overlong_lines();
+                          [this](const auto& known) { take(known); }},
+               record);
+    faults_.overlong_lines = lines_->overlong_lines();
   }
   if (ready_.empty()) return std::nullopt;
   LogEvent event = std::move(ready_.front());
@@ -101,16 +109,17 @@ void CarmenLog::take(const OdometryRecord& record) {
 
 void CarmenLog::note_malformed() {
   ++faults_.malformed_lines;
-  last_malformed_line_ = lines_.line_number();
-  if (faults_.first_malformed_lines.size() < LogFaults::kNamedLines) faults_.first_malformed_lines.push_back(lines_.line_number());
+  last_malformed_line_ = lines_->line_number();
+  if (faults_.first_malformed_lines.size() < LogFaults::kNamedLines) faults_.first_malformed_lines.push_back(lines_->line_number());
 }
 
 void CarmenLog::finish_reading() {
   is_finished_ = true;
   // A last line that has no end and makes no sense was cut in the middle.
-  const bool last_line_is_broken = lines_.last_line_is_unfinished() && last_malformed_line_ == lines_.line_number();
-  faults_.is_cut = lines_.is_cut() || last_line_is_broken;
+  const bool last_line_is_broken = lines_->last_line_is_unfinished() && last_malformed_line_ == lines_->line_number();
+  faults_.is_cut = lines_->is_cut() || last_line_is_broken;
   put_waiting_scans(0);
+  if (survey_) plan_.figures = survey_->conclude(options_.fallback_field_of_view_rad).figures;
 }
 
 std::optional<std::int64_t> CarmenLog::stamp_ns(const CarmenStamps& stamps) const {

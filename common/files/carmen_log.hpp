@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -37,7 +38,8 @@ using LogEvent = std::variant<sensing::Odometry, sensing::LaserScan>;
 
 /// A CARMEN log as a stream of what the vehicle's sensors said, in the order of the log.
 ///
-/// Opening reads the whole log once (CarmenSurvey) and decides how to understand it; next() reads it again.
+/// Opening reads the whole log once (CarmenSurvey) and decides how to understand it; next() reads it again. Lines of a
+/// source that cannot be read twice are followed instead.
 /// - Stamps are the log's ipc_timestamp where that is a clock; see LogClock.
 /// - Where the log has odometry, each scan comes right after an Odometry of the scan's very stamp, and the stamps of
 ///   Odometry always grow; see OdometrySource for ODOM lines. A scan that is not newer than those before it comes
@@ -50,6 +52,10 @@ class CarmenLog {
   /// Fails for a file that cannot be read or that holds no scan.
   static Result<CarmenLog> open(const std::filesystem::path& path, const CarmenLogOptions& options = {});
 
+  /// Lines that can be read only once, so that what they are must be known: the plan without its figures. Those are known at
+  /// the end.
+  static CarmenLog follow(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options = {});
+
   /// Replaces the options, which a profile may know only once plan() has chosen it. Before the first next().
   void set_options(const CarmenLogOptions& options) { options_ = options; }
 
@@ -60,10 +66,10 @@ class CarmenLog {
   const LogFaults& faults() const { return faults_; }
 
   /// Share of the file taken in by next() so far, [0, 1].
-  double fraction_read() const { return lines_.fraction_read(); }
+  double fraction_read() const { return lines_->fraction_read(); }
 
  private:
-  CarmenLog(LineReader lines, LogPlan plan, CarmenLogOptions options);
+  CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, CarmenLogOptions options);
 
   void take(const LaserRecord& record);
   void take(const OdometryRecord& record);
@@ -77,7 +83,8 @@ class CarmenLog {
   void put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base);
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
 
-  LineReader lines_;
+  std::unique_ptr<LineSource> lines_;
+  std::optional<CarmenSurvey> survey_;               // of lines that were not surveyed before
   LogPlan plan_;
   CarmenLogOptions options_;
   LogFaults faults_;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/files/line_source.hpp"
 #include "common/files/result.hpp"
 
 struct gzFile_s;
@@ -16,7 +17,7 @@ struct gzFile_s;
 namespace slammot::files {
 
 /// Reads a text file line by line, plain or compressed by gzip; which of the two is seen from its first bytes.
-class LineReader {
+class LineReader : public LineSource {
  public:
   /// Longer lines are skipped and counted: no record of a scanner is that long.
   static constexpr std::size_t kMaxLineBytes = 1 << 20;
@@ -25,20 +26,20 @@ class LineReader {
   static Result<LineReader> open(const std::filesystem::path& path);
 
   /// The next line without its end ("\n" or "\r\n"), valid until the next call; nullopt at the end of what can be read.
-  std::optional<std::string_view> next();
+  std::optional<std::string_view> next() override;
 
   /// Of the line last returned, from 1.
-  std::uint64_t line_number() const { return line_number_; }
-  std::uint64_t overlong_lines() const { return overlong_lines_; }
+  std::uint64_t line_number() const override { return line_number_; }
+  std::uint64_t overlong_lines() const override { return overlong_lines_; }
 
   /// Whether the last line returned had no line end: the file may have been cut there.
-  bool last_line_is_unfinished() const { return last_line_is_unfinished_; }
+  bool last_line_is_unfinished() const override { return last_line_is_unfinished_; }
 
   /// Whether the compressed data ended too early or were damaged, so that the rest of the file could not be read.
-  bool is_cut() const { return is_cut_; }
+  bool is_cut() const override { return is_cut_; }
 
   /// Share of the file's bytes taken in so far, [0, 1].
-  double fraction_read() const;
+  double fraction_read() const override;
 
  private:
   struct Close {

@@ -78,6 +78,7 @@ ScenarioConfig indoor() {
   scenario.place = Place::office;
   scenario.start_stamp_s = 1.0;
   scenario.log_record = LogRecord::flaser;
+  scenario.profile = "indoor";
   scenario.scanner.ahead_m = 0.0;
   scenario.scanner.height_m = 0.35;
   scenario.scanner.beams = 180;

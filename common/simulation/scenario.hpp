@@ -39,6 +39,7 @@ struct ScenarioConfig {
   SuspensionConfig suspension;
   OdometryConfig odometry;
   ScannerConfig scanner;
+  std::string profile = "urban";      ///< Settings that suit the drive.
   LogRecord log_record = LogRecord::robotlaser1;
 };
 

@@ -23,8 +23,17 @@ struct DriveFilesOrFault {
   std::string fault;               ///< Why there are no files.
 };
 
-/// Drives the scenario and writes NAME.log, NAME.tum, NAME.objects.csv and NAME.walls.csv into a folder, which is made
+/// Without their endings.
+struct DriveFileNames {
+  std::string log;
+  std::string truth;
+};
+
+/// Drives the scenario and writes LOG.log, TRUTH.tum, TRUTH.objects.csv and TRUTH.walls.csv into a folder, which is made
 /// where it is missing. Files of the same name are replaced.
+DriveFilesOrFault write_drive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& folder, const DriveFileNames& names);
+
+/// The same with the scenario's name for all.
 DriveFilesOrFault write_drive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& folder);
 
 }  // namespace slammot::simulator

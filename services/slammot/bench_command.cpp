@@ -15,6 +15,7 @@
 #include "common/app/stop_signal.hpp"
 #include "common/dds/config.hpp"
 #include "common/files/run_outputs.hpp"
+#include "services/simulator/drive_files.hpp"
 #include "services/slammot/collector.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
@@ -102,14 +103,31 @@ int write(const BenchOptions& options, const files::RunRecord& record, const fil
   return kExitLogIsCut;
 }
 
-int bench(const BenchOptions& options) {
-  const auto start = Clock::now();
+/// Services of their own read a log, so a simulated drive is recorded first: drive.log and truth.* in the output folder.
+files::Result<BenchOptions> with_recorded_drive(BenchOptions options) {
+  if (options.scenario.empty() || !options.input.empty()) return options;
+  const auto scenario = scenario_of(options);
+  if (!scenario) return scenario.error();
+  const auto written = simulator::write_drive(*scenario, options.output, {"drive", "truth"});
+  if (!written.files) return files::Error{written.fault};
+  options.input = written.files->log;
+  if (options.profile.empty()) options.profile = scenario->profile;
+  options.scenario.clear();
+  options.seed.reset();
+  return options;
+}
+
+int bench(const BenchOptions& asked_for) {
   std::atomic<bool> is_interrupted = false;
   std::atomic<Collector*> to_stop = nullptr;
   const app::StopSignal stop_signal([&] {
     is_interrupted = true;
     if (Collector* collector = to_stop) collector->stop();
   });
+  const auto recorded = with_recorded_drive(asked_for);
+  if (!recorded) return fail(recorded.error().message);
+  const BenchOptions& options = *recorded;
+  const auto start = Clock::now();
   auto job = prepare_job(options);
   if (!job) return fail(job.error().message);
   std::fputs(describe_job(*job, options).c_str(), stdout);
@@ -149,7 +167,7 @@ int bench_or_say_why_not(const BenchOptions& options) {
 }  // namespace
 
 void add_bench_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("bench", "Take a recorded drive through the real services, over DDS on this machine");
+  CLI::App* const command = app.add_subcommand("bench", "Take a drive, recorded or simulated, through the real services, over DDS on this machine");
   const auto options = std::make_shared<BenchOptions>();
   add_job_options(*command, *options);
   command->add_option("--domain", options->domain_id, "DDS domain, on loopback and closed to others")->check(CLI::Range(0, 230))->capture_default_str();

@@ -12,6 +12,7 @@
 #include "common/config/profiles.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/log_profile.hpp"
+#include "services/simulator/live_drive.hpp"
 
 namespace slammot {
 namespace {
@@ -45,6 +46,49 @@ std::optional<Error> load_settings(const JobOptions& options, const std::string&
   return std::nullopt;
 }
 
+std::optional<Error> find_fault_of_source(const JobOptions& options) {
+  if (options.input.empty() && options.scenario.empty()) return Error{"say what to drive, with --input FILE or with --scenario NAME"};
+  if (!options.input.empty() && !options.scenario.empty()) return Error{"--input and --scenario exclude each other: a drive is recorded or simulated"};
+  if (options.seed && options.scenario.empty()) return Error{"--seed belongs to --scenario: a recorded drive has none"};
+  return std::nullopt;
+}
+
+/// What is to be driven, before the settings are known.
+struct OpenedDrive {
+  std::optional<files::CarmenLog> log;                  ///< Either this
+  std::optional<simulation::ScenarioConfig> scenario;   ///< or that.
+  files::LogPlan plan;
+  files::ProfileChoice profile;
+};
+
+files::Result<OpenedDrive> open_drive(const JobOptions& options) {
+  OpenedDrive drive;
+  if (!options.scenario.empty()) {
+    auto scenario = scenario_of(options);
+    if (!scenario) return scenario.error();
+    drive.plan = simulator::plan_of(*scenario);
+    drive.profile = {scenario->profile, "as the scenario says"};
+    drive.scenario = std::move(*scenario);
+  } else {
+    auto log = files::CarmenLog::open(options.input);
+    if (!log) return log.error();
+    drive.plan = log->plan();
+    drive.profile = files::choose_profile(drive.plan.figures);
+    drive.log = std::move(*log);
+  }
+  if (!options.profile.empty()) drive.profile = {options.profile, "as asked for"};
+  return drive;
+}
+
+files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options, const files::CarmenLogOptions& log_options) {
+  if (drive.scenario) {
+    auto lines = std::make_unique<simulator::LiveDrive>(*drive.scenario, options.output / "truth");
+    return files::CarmenLog::follow(std::move(lines), drive.plan, log_options);
+  }
+  drive.log->set_options(log_options);
+  return std::move(*drive.log);
+}
+
 std::string describe_faults(const files::LogFaults& faults) {
   std::string lines;
   if (faults.malformed_lines > 0) {
@@ -59,43 +103,56 @@ std::string describe_faults(const files::LogFaults& faults) {
 }  // namespace
 
 void add_job_options(CLI::App& command, JobOptions& options) {
-  command.add_option("--input", options.input, "Recorded drive: a CARMEN log, plain or .gz")->required()->type_name("FILE");
+  command.add_option("--input", options.input, "Recorded drive: a CARMEN log, plain or .gz")->type_name("FILE");
+  command.add_option("--scenario", options.scenario, "Simulated drive in place of a recorded one: see slammot simulate --list")->type_name("NAME");
+  command.add_option("--seed", options.seed, "Other world, traffic and noise than the scenario's own")->type_name("N");
   command.add_option("--output", options.output, "Folder for the results; made where it is missing")->required()->type_name("DIR");
-  command.add_option("--profile", options.profile, "urban, indoor, another name, or a file; chosen by the log when not given")->type_name("NAME");
+  command.add_option("--profile", options.profile, "urban, indoor, another name, or a file; chosen by the drive when not given")->type_name("NAME");
   command.add_option("--config", options.config, "Settings that replace some of the profile's")->type_name("FILE");
   command.add_option("--speed", options.speed, "Times the recorded rate, or max")->type_name("X|max")->capture_default_str();
+}
+
+files::Result<simulation::ScenarioConfig> scenario_of(const JobOptions& options) {
+  const auto scenario = simulation::shipped_scenario(options.scenario, options.seed);
+  if (!scenario) return Error{"no scenario is named '" + options.scenario + "'; slammot simulate --list names them"};
+  return *scenario;
 }
 
 files::Result<Job> prepare_job(const JobOptions& options) {
   const auto speed = parse_speed(options.speed);
   if (!speed) return speed.error();
   if (!options.profile.empty() && !config::find_profile(options.profile)) return Error{config::unknown_profile(options.profile)};
-  auto log = files::CarmenLog::open(options.input);
-  if (!log) return log.error();
-  const files::LogFigures& figures = log->plan().figures;
-  const files::ProfileChoice choice = options.profile.empty() ? files::choose_profile(figures) : files::ProfileChoice{options.profile, "as asked for"};
+  if (auto fault = find_fault_of_source(options)) return *fault;
+  auto drive = open_drive(options);
+  if (!drive) return drive.error();
   Profile profile;
-  if (auto fault = load_settings(options, choice.profile, profile)) return *fault;
-  log->set_options({profile.ingest.scanner_id, profile.ingest.fallback_field_of_view_rad});
-  const double sweep_s = files::sweep_s_for(figures, profile.ingest.sweep_s);
+  if (auto fault = load_settings(options, drive->profile.profile, profile)) return *fault;
+  const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
-  return Job{std::move(*log), std::move(profile), choice.profile, choice.reason, sweep_s, *speed};
+  const files::CarmenLogOptions log_options{profile.ingest.scanner_id, profile.ingest.fallback_field_of_view_rad};
+  return Job{begin(*drive, options, log_options), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};
 }
 
 std::string describe_job(const Job& job, const JobOptions& options) {
   const files::LogFigures& figures = job.log.plan().figures;
-  std::string lines = text("log:      %s: %llu scans of %zu beams over %.0f degrees, %.0f s, %.0f m by odometry\n", options.input.filename().c_str(),
-                           static_cast<unsigned long long>(figures.scans), figures.beams, std::floor(figures.field_of_view_rad * 180.0 / std::numbers::pi + 0.25),
-                           figures.duration_s, figures.distance_m);
+  std::string lines = text("%s %s: %llu scans of %zu beams over %.0f degrees, %.0f s", options.scenario.empty() ? "log:     " : "scenario:",
+                           name_of_drive(options).c_str(), static_cast<unsigned long long>(figures.scans), figures.beams,
+                           std::floor(figures.field_of_view_rad * 180.0 / std::numbers::pi + 0.25), figures.duration_s);
+  lines += options.scenario.empty() ? text(", %.0f m by odometry\n", figures.distance_m) : "\n";
   if (!figures.has_clock) lines += text("          its stamps are no clock: a scan is taken to come every %.2f s\n", 1.0 / files::kNominalRateHz);
   return lines + text("profile:  %s (%s)\n", job.profile_name.c_str(), job.profile_reason.c_str());
+}
+
+std::string name_of_drive(const JobOptions& options) {
+  if (options.scenario.empty()) return options.input.filename().string();
+  return options.scenario + (options.seed ? " (seed " + std::to_string(*options.seed) + ")" : "");
 }
 
 files::RunReport report_of(const Job& job, const JobOptions& options, const std::string& command) {
   files::RunReport report;
   report.command = command;
   report.version = SLAMMOT_VERSION;
-  report.input = options.input.filename().string();
+  report.input = name_of_drive(options);
   report.profile = job.profile_name;
   report.profile_reason = job.profile_reason;
   report.plan = job.log.plan();

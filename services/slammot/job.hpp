@@ -8,6 +8,7 @@
 #include "common/files/result.hpp"
 #include "common/files/run_record.hpp"
 #include "common/files/run_report.hpp"
+#include "common/simulation/scenario.hpp"
 #include "services/slammot/profile.hpp"
 
 namespace CLI {
@@ -18,14 +19,16 @@ namespace slammot {
 
 /// What `run` and `bench` are asked for.
 struct JobOptions {
-  std::filesystem::path input;
+  std::filesystem::path input;              ///< Of a recorded drive,
+  std::string scenario;                     ///< or of a simulated one; exactly one of the two is not empty.
+  std::optional<std::uint64_t> seed;        ///< In place of the scenario's own.
   std::filesystem::path output;
   std::string profile;           ///< Name or file; empty: the log's own figures choose.
   std::filesystem::path config;  ///< Overlaid onto the profile; may be empty.
   std::string speed = "max";     ///< Times the recorded rate, or "max".
 };
 
-/// A recorded drive, understood, and the settings to work on it with.
+/// A drive, recorded or simulated, understood, and the settings to work on it with.
 struct Job {
   files::CarmenLog log;
   Profile profile;
@@ -37,12 +40,19 @@ struct Job {
 
 void add_job_options(CLI::App& command, JobOptions& options);
 
-/// Opens the log, chooses and loads the settings, and makes the output folder: every fault a user can make shows here,
-/// before the work.
+/// The scenario that the options name; the fault that they name none, or a log, too.
+files::Result<simulation::ScenarioConfig> scenario_of(const JobOptions& options);
+
+/// Opens the log or begins to simulate, chooses and loads the settings, and makes the output folder: every fault a user can make shows here,
+/// before the work. The truth of a simulated drive is written into the output folder as it goes on: truth.tum,
+/// truth.objects.csv and truth.walls.csv.
 files::Result<Job> prepare_job(const JobOptions& options);
 
 /// "log: ..." and "profile: ..." for the terminal.
 std::string describe_job(const Job& job, const JobOptions& options);
+
+/// What was driven, as the report names it.
+std::string name_of_drive(const JobOptions& options);
 
 /// The report's part that is known from the job.
 files::RunReport report_of(const Job& job, const JobOptions& options, const std::string& command);

@@ -81,7 +81,7 @@ int run(const JobOptions& options) {
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("run", "Take a recorded drive through all stages in this one process");
+  CLI::App* const command = app.add_subcommand("run", "Take a drive, recorded or simulated, through all stages in this one process");
   const auto options = std::make_shared<JobOptions>();
   add_job_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -153,6 +153,47 @@ TEST_F(RunCommand, RefusesBadInputInOneLine) {
   expect_refused({}, "cannot make the folder");
 }
 
+class RunScenario : public RunCommand, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(RunScenario, GivesWhatTheRecordedDriveGives) {
+  const std::string recorded = folder_ / "recorded";
+  ASSERT_EQ(call({"simulate", GetParam(), "--output", recorded}).exit_code, kExitDone);
+  const std::string log = recorded + "/" + GetParam() + ".log";
+  const Outcome from_log = call({"run", "--input", log, "--output", recorded});
+  ASSERT_EQ(from_log.exit_code, kExitDone) << from_log.standard_error;
+  const Outcome outcome = call({"run", "--scenario", GetParam(), "--output", folder_ / "live"});
+  ASSERT_EQ(outcome.exit_code, kExitDone) << outcome.standard_error;
+  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "moving.pgm", "graph.g2o"}) {
+    EXPECT_EQ(read(folder_ / "live" / file), read(folder_ / "recorded" / file)) << file;
+  }
+  for (const char* ending : {".tum", ".objects.csv", ".walls.csv"}) {
+    EXPECT_EQ(read(folder_ / "live" / (std::string("truth") + ending)), read(folder_ / "recorded" / (GetParam() + std::string(ending)))) << ending;
+  }
+  auto live = nlohmann::json::parse(read(folder_ / "live" / "report.json"));
+  auto by_log = nlohmann::json::parse(read(folder_ / "recorded" / "report.json"));
+  for (auto* report : {&live, &by_log}) {
+    report->erase("measured");
+    report->erase("profile_reason");
+    (*report)["input"].erase("file");
+  }
+  EXPECT_EQ(live, by_log);
+}
+INSTANTIATE_TEST_SUITE_P(OutsideAndInside, RunScenario, ::testing::Values("demo", "corridor"), [](const auto& info) { return info.param; });
+
+TEST_F(RunCommand, WantsEitherALogOrAScenario) {
+  const auto expect_refused = [&](std::vector<std::string> words, const std::string& reason) {
+    words.insert(words.begin(), {"run", "--output", (folder_ / "out").string()});
+    const Outcome outcome = call(words);
+    EXPECT_EQ(outcome.exit_code, kExitFault) << reason;
+    EXPECT_THAT(outcome.standard_error, HasSubstr(reason));
+    expect_one_line(outcome.standard_error);
+  };
+  expect_refused({}, "say what to drive");
+  expect_refused({"--input", "a.log", "--scenario", "demo"}, "exclude each other");
+  expect_refused({"--input", "a.log", "--seed", "3"}, "--seed belongs to --scenario");
+  expect_refused({"--scenario", "atlantis"}, "no scenario is named 'atlantis'");
+}
+
 TEST(CommandLine, SaysWhatIsMissingAndReturnsAFault) {
   std::string name = "slammot";
   std::vector<char*> argv{name.data()};

@@ -1,0 +1,135 @@
+#include "services/simulator/drive_text.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "common/simulation/city_world.hpp"
+
+namespace slammot::simulator {
+
+using geometry::Pose2;
+using simulation::SimulatedScan;
+
+namespace {
+
+/// Decimal text with a fixed number of places, the same on every platform and in every locale.
+void append(std::string& text, double value, int places) {
+  std::array<char, 64> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, places);
+  text.append(digits.data(), end.ptr);
+}
+
+void append_all(std::string& text, std::initializer_list<double> values, int places, char separator) {
+  for (const double value : values) {
+    append(text, value, places);
+    text += separator;
+  }
+}
+
+double seconds(std::int64_t stamp_ns) { return static_cast<double>(stamp_ns) * 1e-9; }
+
+void append_ranges(std::string& text, const SimulatedScan& drive) {
+  text += std::to_string(drive.scan.range_m.size()) + ' ';
+  for (const float range_m : drive.scan.range_m) append_all(text, {range_m}, 2, ' ');
+}
+
+void append_clocks(std::string& text, const SimulatedScan& drive) {
+  append(text, seconds(drive.scan.stamp_ns), 6);
+  text += " sim ";
+  append(text, seconds(drive.scan.stamp_ns), 6);
+  text += '\n';
+}
+
+/// ROBOTLASER1 type start field_of_view step max_range accuracy remission_mode n ranges... m laser_pose robot_pose tv rv
+/// forward_safety side_safety turn_axis ipc_timestamp host logger_timestamp.
+std::string robotlaser1_line(const SimulatedScan& drive, const simulation::ScannerConfig& config) {
+  std::string text = "ROBOTLASER1 0 ";
+  append_all(text, {config.first_beam_rad, config.field_of_view_rad, drive.scan.scanner.beam_step_rad}, 6, ' ');
+  append_all(text, {config.max_range_m, config.resolution_m}, 2, ' ');
+  text += "0 ";
+  append_ranges(text, drive);
+  text += "0 ";
+  const Pose2& base = drive.odometry.wheel_from_base;
+  const Pose2 laser = base * drive.scan.scanner.base_from_laser;
+  append_all(text, {laser.x_m, laser.y_m, laser.heading_rad, base.x_m, base.y_m, base.heading_rad}, 6, ' ');
+  append_all(text, {drive.odometry_speed_mps}, 3, ' ');
+  append_all(text, {drive.odometry_yaw_rate_radps}, 4, ' ');
+  text += "1.0 0.5 0.0 ";
+  append_clocks(text, drive);
+  return text;
+}
+
+/// FLASER n ranges... x y theta odom_x odom_y odom_theta ipc_timestamp host logger_timestamp; no beam directions: by
+/// convention the first of 180 looks 90 degrees to the right, one degree apart.
+std::string flaser_line(const SimulatedScan& drive) {
+  std::string text = "FLASER ";
+  append_ranges(text, drive);
+  const Pose2& base = drive.odometry.wheel_from_base;
+  const Pose2 laser = base * drive.scan.scanner.base_from_laser;
+  append_all(text, {laser.x_m, laser.y_m, laser.heading_rad, base.x_m, base.y_m, base.heading_rad}, 6, ' ');
+  append_clocks(text, drive);
+  return text;
+}
+
+}  // namespace
+
+std::string log_header(const simulation::ScenarioConfig& scenario) {
+  std::string text = "# CARMEN Logfile\n";
+  const auto parameter = [&text](std::string_view name, double value, int places) {
+    text += "PARAM ";
+    text += name;
+    text += ' ';
+    append(text, value, places);
+    text += '\n';
+  };
+  parameter("robot_frontlaser_offset", scenario.scanner.ahead_m, 3);
+  parameter("robot_width", scenario.route.width_m, 1);
+  parameter("robot_length", scenario.route.length_m, 1);
+  return text;
+}
+
+std::string log_line(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
+  const bool flaser = scenario.log_record == simulation::LogRecord::flaser;
+  return flaser ? flaser_line(drive) : robotlaser1_line(drive, scenario.scanner);
+}
+
+std::string tum_line(const SimulatedScan& drive) {
+  std::string text;
+  append_all(text, {seconds(drive.scan.stamp_ns), drive.world_from_base.x_m, drive.world_from_base.y_m}, 6, ' ');
+  text += "0 0 0 ";
+  append_all(text, {std::sin(0.5 * drive.world_from_base.heading_rad)}, 9, ' ');
+  append(text, std::cos(0.5 * drive.world_from_base.heading_rad), 9);
+  return text + '\n';
+}
+
+std::string object_lines(const SimulatedScan& drive) {
+  std::string text;
+  for (const simulation::ObjectTruth& object : drive.objects) {
+    append_all(text, {seconds(drive.scan.stamp_ns)}, 6, ',');
+    text += std::to_string(object.id) + ',';
+    text += name(object.kind);
+    text += ',';
+    append_all(text, {object.world_from_object.x_m, object.world_from_object.y_m}, 3, ',');
+    append_all(text, {object.world_from_object.heading_rad}, 5, ',');
+    append_all(text, {object.speed_mps}, 3, ',');
+    append_all(text, {object.size.length_m, object.size.width_m}, 2, ',');
+    text += std::to_string(object.points) + ',';
+    append(text, object.range_m, 2);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string wall_lines(const simulation::Outline& stationary_in_world) {
+  std::string text = "ax,ay,bx,by,class\n";
+  for (const simulation::Segment& segment : simulation::true_segments(stationary_in_world)) {
+    append_all(text, {segment.a.x(), segment.a.y(), segment.b.x(), segment.b.y()}, 3, ',');
+    text += std::to_string(static_cast<int>(segment.material)) + '\n';
+  }
+  return text;
+}
+
+std::string objects_header() { return "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n"; }
+
+}  // namespace slammot::simulator

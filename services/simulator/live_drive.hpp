@@ -1,0 +1,50 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "common/files/carmen_log.hpp"
+#include "common/files/line_source.hpp"
+#include "common/simulation/drive.hpp"
+#include "services/simulator/truth_files.hpp"
+
+namespace slammot::simulator {
+
+/// A drive that is simulated while it is read: the lines that write_drive() would put into its log. A thread of its own
+/// works ahead of the reader by a few scans and writes the truth; who reads fast waits, so that the lines are the same
+/// whatever the speed.
+class LiveDrive : public files::LineSource {
+ public:
+  LiveDrive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& truth_prefix);
+
+  std::optional<std::string_view> next() override;
+  std::uint64_t line_number() const override { return line_number_; }
+  double fraction_read() const override;
+
+ private:
+  void simulate(const std::stop_token& stop);
+  bool put(std::string text, const std::stop_token& stop);
+
+  simulation::ScenarioConfig scenario_;
+  simulation::Drive drive_;
+  TruthFiles truth_;
+  std::uint64_t scans_;
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<std::string> ahead_;   // guarded by mutex_
+  bool has_ended_ = false;          // guarded by mutex_
+  std::string line_;
+  std::uint64_t line_number_ = 0;
+  std::jthread thread_;             // last: it uses all of the above
+};
+
+/// What a survey of the log would say of how to read it, and of its figures what is known before the drive.
+files::LogPlan plan_of(const simulation::ScenarioConfig& scenario);
+
+}  // namespace slammot::simulator
