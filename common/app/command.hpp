@@ -8,9 +8,11 @@
 #include <string>
 #include <string_view>
 
+#include "common/wire/service.hpp"
+
 namespace slammot::app {
 
-enum class CommandOutcome : std::uint8_t { kDone, kRefused, kUnknownVerb };
+using CommandOutcome = wire::Outcome;
 
 struct CommandResult {
   CommandOutcome outcome = CommandOutcome::kDone;

@@ -59,7 +59,7 @@ class Listener {
     const auto patience_s = std::chrono::duration_cast<std::chrono::seconds>(question_.patience).count();
     if (!state_) return {false, service_ + ": no heartbeat within " + std::to_string(patience_s) + " s"};
     const bool is_at_work = *state_ == ServiceState::kRunning || *state_ == ServiceState::kDegraded;
-    std::string text = service_ + ": " + std::string(name_of(*state_));
+    std::string text = service_ + ": " + std::string(to_string(*state_));
     if (*state_ == ServiceState::kDegraded && explanation_ && !explanation_->empty()) text += ", " + *explanation_;
     return {is_at_work, text};
   }

@@ -4,20 +4,16 @@
 
 #include <spdlog/spdlog.h>
 
-#include "common/app/bounded_text.hpp"
-
 namespace slammot::app {
 namespace {
 
 slammot_Reply reply_to(const slammot_Command& command, const CommandResult& result) {
-  slammot_Reply reply{};
-  copy_text(command.vehicle_id, reply.vehicle_id);
-  copy_text(command.requester, reply.requester);
-  reply.request_number = command.request_number;
-  copy_text(command.service_name, reply.service_name);
-  reply.result = static_cast<slammot_Outcome>(result.outcome);
-  copy_text(result.explanation, reply.explanation);
-  return reply;
+  return wire::encode(wire::Reply{.vehicle_id = command.vehicle_id,
+                                  .requester = command.requester,
+                                  .request_number = command.request_number,
+                                  .service = command.service_name,
+                                  .outcome = result.outcome,
+                                  .explanation = result.explanation});
 }
 
 /// Without what changes from second to second, so that a lasting state is written once: digits do not count.

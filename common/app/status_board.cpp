@@ -1,12 +1,9 @@
 #include "common/app/status_board.hpp"
 
-#include <array>
-
 namespace slammot::app {
 
-std::string_view name_of(ServiceState state) {
-  constexpr std::array<std::string_view, 4> kNames = {"starting", "running", "degraded", "stopping"};
-  return kNames[static_cast<std::size_t>(state)];
+void StatusBoard::set_counters(const std::map<std::string, std::uint64_t>& totals) {
+  for (const auto& [name, total] : totals) counters_[name] = total;
 }
 
 InputWatch& StatusBoard::input(const std::string& topic_name, Input kind, SteadyTime now) {

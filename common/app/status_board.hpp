@@ -8,12 +8,11 @@
 
 #include "common/app/input_watch.hpp"
 #include "common/app/latency_histogram.hpp"
+#include "common/wire/service.hpp"
 
 namespace slammot::app {
 
-enum class ServiceState : std::uint8_t { kStarting, kRunning, kDegraded, kStopping };
-
-std::string_view name_of(ServiceState state);
+using wire::ServiceState;
 
 /// What a service counts, measures and misses. Of the loop's thread only. References stay valid.
 class StatusBoard {
@@ -22,6 +21,8 @@ class StatusBoard {
 
   /// A count under a name of at most 48 characters, from 0.
   std::uint64_t& counter(const std::string& name) { return counters_[name]; }
+  /// Those of an algorithm, which counts for itself.
+  void set_counters(const std::map<std::string, std::uint64_t>& totals);
   LatencyHistogram& latency(const std::string& stage) { return latencies_[stage]; }
   InputWatch& input(const std::string& topic_name, Input kind, SteadyTime now);
 

@@ -1,19 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "common/app/status_board.hpp"
 #include "common/dds/writer.hpp"
+#include "common/wire/service.hpp"
 
 namespace slammot::app {
-
-/// Who a service is, on the topics about services.
-struct ServiceIdentity {
-  std::string vehicle_id;
-  std::string service;
-  std::string instance;
-};
 
 /// Puts a service's heartbeats and its status on the bus. Called in the thread that does the work, so that a hung one
 /// falls silent.
@@ -22,7 +15,7 @@ class StatusPublisher {
   static constexpr std::chrono::milliseconds kHeartbeatPeriod{200};
   static constexpr std::chrono::seconds kStatusPeriod{1};
 
-  StatusPublisher(const dds::Participant& participant, ServiceIdentity identity);
+  StatusPublisher(const dds::Participant& participant, wire::ServiceName name);
 
   void beat(ServiceState state);
   /// With the state and explanation as they are now, or `state` when stopping.
@@ -31,11 +24,12 @@ class StatusPublisher {
   void wait_until_heard(std::chrono::milliseconds timeout) const { statuses_.wait_for_acknowledgements(timeout); }
 
  private:
-  ServiceIdentity identity_;
+  wire::ServiceName name_;
   std::int64_t started_ns_;
   std::uint32_t beats_ = 0;
   dds::Writer<slammot_Heartbeat> heartbeats_;
   dds::Writer<slammot_ServiceStatus> statuses_;
+  wire::StatusEncoder encoder_;
 };
 
 }  // namespace slammot::app

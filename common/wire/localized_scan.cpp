@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/wire/parts.hpp"
+#include "common/wire/scan_header.hpp"
 #include "common/wire/sensor.hpp"
 #include "common/wire/text.hpp"
 
@@ -32,11 +33,7 @@ std::string_view fault_of(const slammot_LocalizedBeam& beam) {
 }
 
 std::string_view fault_of(const slammot_LocalizedScan& sample) {
-  if (!is_sound(sample.base_from_laser)) return "base_from_laser is not finite";
-  if (!is_amount(sample.max_range_m)) return "max_range_m is negative or not finite";
-  if (!is_sound(sample.beam_step_rad)) return "beam_step_rad is not finite";
-  if (!is_sound(sample.odom_from_base)) return "odom_from_base or its covariance is unsound";
-  if (!is_sound(sample.map_from_odom)) return "map_from_odom is not finite";
+  if (const std::string_view fault = fault_of_scan_header(sample); !fault.empty()) return fault;
   if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps)) return "the velocity is not finite";
   if (!is_sound(sample.submap_from_base)) return "submap_from_base is not finite";
   if (sample.end_cells._length != sample.beams._length) return "beams and end_cells are not equally many";
@@ -60,15 +57,7 @@ const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehic
     beams_.push_back(encode_beam(beam));
     end_cells_.push_back(static_cast<slammot_EndCell>(beam.end_cell));
   }
-  set_text(sample_.vehicle_id, vehicle_id);
-  set_text(sample_.scanner_id, scan.scanner_id);
-  sample_.stamp_ns = scan.stamp_ns;
-  sample_.sequence_number = scan.sequence;
-  sample_.base_from_laser = wire::encode(scan.base_from_laser);
-  sample_.max_range_m = scan.max_range_m;
-  sample_.beam_step_rad = scan.beam_step_rad;
-  sample_.odom_from_base = wire::encode(scan.odom_from_base);
-  sample_.map_from_odom = wire::encode(scan.map_from_odom);
+  encode_scan_header(vehicle_id, scan, sample_);
   sample_.speed_mps = scan.speed_mps;
   sample_.yaw_rate_radps = scan.yaw_rate_radps;
   sample_.submap_id = scan.submap_id.value;
@@ -80,19 +69,11 @@ const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehic
 
 Decoded<flow::LocalizedScan> decode(const slammot_LocalizedScan& sample) {
   if (const std::string_view fault = fault_of(sample); !fault.empty()) return Fault{fault};
-  flow::LocalizedScan scan{.stamp_ns = sample.stamp_ns,
-                           .sequence = sample.sequence_number,
-                           .scanner_id = std::string(text(sample.scanner_id)),
-                           .base_from_laser = decode(sample.base_from_laser),
-                           .max_range_m = sample.max_range_m,
-                           .beam_step_rad = sample.beam_step_rad,
-                           .odom_from_base = decode(sample.odom_from_base),
-                           .map_from_odom = decode(sample.map_from_odom),
-                           .speed_mps = sample.speed_mps,
-                           .yaw_rate_radps = sample.yaw_rate_radps,
-                           .submap_id = {sample.submap_id},
-                           .submap_from_base = decode(sample.submap_from_base),
-                           .beams = {}};
+  auto scan = decode_scan_header<flow::LocalizedScan>(sample);
+  scan.speed_mps = sample.speed_mps;
+  scan.yaw_rate_radps = sample.yaw_rate_radps;
+  scan.submap_id = {sample.submap_id};
+  scan.submap_from_base = decode(sample.submap_from_base);
   const auto beams = elements(sample.beams);
   const auto end_cells = elements(sample.end_cells);
   scan.beams.reserve(beams.size());

@@ -5,6 +5,7 @@
 
 #include "common/wire/labels.hpp"
 #include "common/wire/parts.hpp"
+#include "common/wire/scan_header.hpp"
 #include "common/wire/sensor.hpp"
 #include "common/wire/text.hpp"
 
@@ -85,11 +86,7 @@ std::string_view fault_of_segments(const slammot_SegmentedScan& sample) {
 }
 
 std::string_view fault_of(const slammot_SegmentedScan& sample) {
-  if (!is_sound(sample.base_from_laser)) return "base_from_laser is not finite";
-  if (!is_amount(sample.max_range_m)) return "max_range_m is negative or not finite";
-  if (!is_sound(sample.beam_step_rad)) return "beam_step_rad is not finite";
-  if (!is_sound(sample.odom_from_base)) return "odom_from_base or its covariance is unsound";
-  if (!is_sound(sample.map_from_odom)) return "map_from_odom is not finite";
+  if (const std::string_view fault = fault_of_scan_header(sample); !fault.empty()) return fault;
   const std::uint32_t beams = sample.ranges_m._length;
   if (sample.points_in_base._length != beams || sample.labels._length != beams) {
     return "points, ranges and labels are not equally many";
@@ -144,15 +141,7 @@ const slammot_SegmentedScan& SegmentedScanEncoder::encode(std::string_view vehic
   ranges_m_ = scan.range_m;
   encode_labels(scan.labels, labels_);
   encode_segments(scan.segments);
-  set_text(sample_.vehicle_id, vehicle_id);
-  set_text(sample_.scanner_id, scan.scanner_id);
-  sample_.stamp_ns = scan.stamp_ns;
-  sample_.sequence_number = scan.sequence;
-  sample_.base_from_laser = wire::encode(scan.base_from_laser);
-  sample_.max_range_m = scan.max_range_m;
-  sample_.beam_step_rad = scan.beam_step_rad;
-  sample_.odom_from_base = wire::encode(scan.odom_from_base);
-  sample_.map_from_odom = wire::encode(scan.map_from_odom);
+  encode_scan_header(vehicle_id, scan, sample_);
   show(sample_.points_in_base, points_in_base_);
   show(sample_.ranges_m, ranges_m_);
   show(sample_.labels, labels_);
@@ -164,18 +153,9 @@ const slammot_SegmentedScan& SegmentedScanEncoder::encode(std::string_view vehic
 Decoded<flow::SegmentedScan> decode(const slammot_SegmentedScan& sample) {
   if (const std::string_view fault = fault_of(sample); !fault.empty()) return Fault{fault};
   const auto ranges_m = elements(sample.ranges_m);
-  flow::SegmentedScan scan{.stamp_ns = sample.stamp_ns,
-                           .sequence = sample.sequence_number,
-                           .scanner_id = std::string(text(sample.scanner_id)),
-                           .base_from_laser = decode(sample.base_from_laser),
-                           .max_range_m = sample.max_range_m,
-                           .beam_step_rad = sample.beam_step_rad,
-                           .odom_from_base = decode(sample.odom_from_base),
-                           .map_from_odom = decode(sample.map_from_odom),
-                           .points_in_base_m = {},
-                           .range_m = {ranges_m.begin(), ranges_m.end()},
-                           .labels = decode_labels(elements(sample.labels)),
-                           .segments = {}};
+  auto scan = decode_scan_header<flow::SegmentedScan>(sample);
+  scan.range_m.assign(ranges_m.begin(), ranges_m.end());
+  scan.labels = decode_labels(elements(sample.labels));
   scan.points_in_base_m.reserve(ranges_m.size());
   for (const slammot_Point2f& point : elements(sample.points_in_base)) scan.points_in_base_m.push_back(decode(point));
   auto beams = elements(sample.segment_beams);

@@ -49,7 +49,7 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
   context.read(dds::topics::kOdometry, Input::kSteady, [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kLaserScan, Input::kSteady, [this](const auto& sample) { take(sample); });
   context.every(10ms, [this] { localize_waiting(); });
-  context.every(1s, [this] { copy_counters(); });
+  context.every(1s, [this] { context_.status().set_counters(named(localizer_.counters())); });
   context.on_command("finish_submap", [this](std::string_view) { return finish_submap(); });
 }
 
@@ -183,25 +183,8 @@ void LocalizationService::publish_finished_submaps() {
 app::CommandResult LocalizationService::finish_submap() {
   localizer_.finish();
   publish_finished_submaps();
-  copy_counters();
+  context_.status().set_counters(named(localizer_.counters()));
   return {app::CommandOutcome::kDone, std::to_string(localizer_.counters().submaps) + " submaps"};
-}
-
-void LocalizationService::copy_counters() {
-  const LocalizerCounters& from = localizer_.counters();
-  app::StatusBoard& to = context_.status();
-  to.counter("scans") = from.scans;
-  to.counter("duplicate_scans") = from.duplicate_scans;
-  to.counter("out_of_order_scans") = from.out_of_order_scans;
-  to.counter("too_few_echoes") = from.too_few_echoes;
-  to.counter("lost_matches") = from.lost_matches;
-  to.counter("searches") = from.searches;
-  to.counter("odometry_jumps") = from.odometry_jumps;
-  to.counter("without_odometry") = from.without_odometry;
-  to.counter("gaps") = from.gaps;
-  to.counter("fallback_integrations") = from.fallback_integrations;
-  to.counter("restored_points") = from.restored_points;
-  to.counter("submaps") = from.submaps;
 }
 
 }  // namespace slammot::localization

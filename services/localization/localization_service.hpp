@@ -53,7 +53,6 @@ class LocalizationService {
   void correct_if_driven_so_far();
   void publish_finished_submaps();
   app::CommandResult finish_submap();
-  void copy_counters();
 
   app::ServiceContext& context_;
   Localizer localizer_;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,6 +65,22 @@ struct LocalizerCounters {
   std::uint64_t restored_points = 0;      ///< Given back by tracking.
   std::uint64_t submaps = 0;
 };
+
+/// By the names of the members, as reports and statuses show them.
+inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& counters) {
+  return {{"scans", counters.scans},
+          {"duplicate_scans", counters.duplicate_scans},
+          {"out_of_order_scans", counters.out_of_order_scans},
+          {"too_few_echoes", counters.too_few_echoes},
+          {"lost_matches", counters.lost_matches},
+          {"searches", counters.searches},
+          {"odometry_jumps", counters.odometry_jumps},
+          {"without_odometry", counters.without_odometry},
+          {"gaps", counters.gaps},
+          {"fallback_integrations", counters.fallback_integrations},
+          {"restored_points", counters.restored_points},
+          {"submaps", counters.submaps}};
+}
 
 /// Estimates the pose of the vehicle and the map around it, scan by scan. Not thread-safe; reads no clock.
 class Localizer {

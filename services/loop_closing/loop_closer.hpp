@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "common/flow/graph_correction.hpp"
@@ -41,6 +42,18 @@ struct LoopClosingCounters {
   std::uint64_t closures = 0;
   std::uint64_t optimisations = 0;
 };
+
+/// By the names of the members, as reports and statuses show them.
+inline std::map<std::string, std::uint64_t> named(const LoopClosingCounters& counters) {
+  return {{"submaps", counters.submaps},
+          {"repeated_submaps", counters.repeated_submaps},
+          {"searches", counters.searches},
+          {"hypotheses", counters.hypotheses},
+          {"ambiguous", counters.ambiguous},
+          {"inconsistent", counters.inconsistent},
+          {"closures", counters.closures},
+          {"optimisations", counters.optimisations}};
+}
 
 /// Keeps the graph of submaps and looks for revisits. Wang 2004, section 6.4: gate by covariance, match at several
 /// scales, wait where it is ambiguous, and close over submaps as features of three degrees of freedom. Deterministic.

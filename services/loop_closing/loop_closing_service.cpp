@@ -62,7 +62,7 @@ void LoopClosingService::add(const flow::Submap& submap) {
   added_.push_back({submap.first_stamp_ns, submap.last_stamp_ns});
   publish_new_constraints();
   correction_encoder_.encode(context_.vehicle_id(), correction, [this](const auto& part) { corrections_.write(part); });
-  copy_counters();
+  context_.status().set_counters(named(closer_.counters()));
 }
 
 /// Constraints are only ever added at the end.
@@ -71,19 +71,6 @@ void LoopClosingService::publish_new_constraints() {
   for (; published_constraints_ < all.size(); ++published_constraints_) {
     constraints_.write(wire::encode(context_.vehicle_id(), all[published_constraints_]));
   }
-}
-
-void LoopClosingService::copy_counters() {
-  const LoopClosingCounters& from = closer_.counters();
-  app::StatusBoard& to = context_.status();
-  to.counter("submaps") = from.submaps;
-  to.counter("repeated_submaps") = from.repeated_submaps;
-  to.counter("searches") = from.searches;
-  to.counter("hypotheses") = from.hypotheses;
-  to.counter("ambiguous") = from.ambiguous;
-  to.counter("inconsistent") = from.inconsistent;
-  to.counter("closures") = from.closures;
-  to.counter("optimisations") = from.optimisations;
 }
 
 }  // namespace slammot::loop_closing

@@ -36,7 +36,6 @@ class LoopClosingService {
   void add_waiting();
   void add(const flow::Submap& submap);
   void publish_new_constraints();
-  void copy_counters();
 
   app::ServiceContext& context_;
   LoopClosingConfig config_;

@@ -38,39 +38,7 @@ void Pipeline::close_loops() {
 }
 
 std::map<std::string, std::map<std::string, std::uint64_t>> Pipeline::counters() const {
-  const localization::LocalizerCounters& l = localizer_.counters();
-  const tracking::TrackerCounters& t = tracker_.counters();
-  const loop_closing::LoopClosingCounters& c = loop_closer_.counters();
-  return {{"localization",
-           {{"scans", l.scans},
-            {"duplicate_scans", l.duplicate_scans},
-            {"out_of_order_scans", l.out_of_order_scans},
-            {"too_few_echoes", l.too_few_echoes},
-            {"lost_matches", l.lost_matches},
-            {"searches", l.searches},
-            {"odometry_jumps", l.odometry_jumps},
-            {"without_odometry", l.without_odometry},
-            {"gaps", l.gaps},
-            {"fallback_integrations", l.fallback_integrations},
-            {"restored_points", l.restored_points},
-            {"submaps", l.submaps}}},
-          {"tracking",
-           {{"scans", t.scans},
-            {"late_scans", t.late_scans},
-            {"tracks_begun", t.tracks_begun},
-            {"tracks_confirmed", t.tracks_confirmed},
-            {"tracks_merged", t.tracks_merged},
-            {"tracks_rejected", t.tracks_rejected},
-            {"points_restored", t.points_restored}}},
-          {"loop_closing",
-           {{"submaps", c.submaps},
-            {"repeated_submaps", c.repeated_submaps},
-            {"searches", c.searches},
-            {"hypotheses", c.hypotheses},
-            {"ambiguous", c.ambiguous},
-            {"inconsistent", c.inconsistent},
-            {"closures", c.closures},
-            {"optimisations", c.optimisations}}}};
+  return {{"localization", named(localizer_.counters())}, {"tracking", named(tracker_.counters())}, {"loop_closing", named(loop_closer_.counters())}};
 }
 
 }  // namespace slammot

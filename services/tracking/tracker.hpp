@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "common/flow/scan_labels.hpp"
@@ -29,6 +31,17 @@ struct TrackerCounters {
   std::uint64_t tracks_rejected = 0;  ///< Never confirmed; their points were given back.
   std::uint64_t points_restored = 0;
 };
+
+/// By the names of the members, as reports and statuses show them.
+inline std::map<std::string, std::uint64_t> named(const TrackerCounters& counters) {
+  return {{"scans", counters.scans},
+          {"late_scans", counters.late_scans},
+          {"tracks_begun", counters.tracks_begun},
+          {"tracks_confirmed", counters.tracks_confirmed},
+          {"tracks_merged", counters.tracks_merged},
+          {"tracks_rejected", counters.tracks_rejected},
+          {"points_restored", counters.points_restored}};
+}
 
 /// Follows moving objects from scan to scan of one vehicle. Deterministic; reads no clock.
 /// Association by gating and global nearest neighbour (Wang 2004, Section 5.1), motion by IMM (Section 2.3), existence by

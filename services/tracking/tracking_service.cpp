@@ -30,7 +30,7 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
   context.read(dds::topics::kStoredTrackedObjects, app::Input::kOccasional, [this](const auto& sample) { take_stored(sample); });
   context.read(dds::topics::kSegmentedScan, app::Input::kSteady, [this](const auto& sample) { take(sample); });
   context.after(kStoredTracksPatience, [this] { begin(); });
-  context.every(1s, [this] { copy_counters(); });
+  context.every(1s, [this] { context_.status().set_counters(named(tracker_.counters())); });
 }
 
 /// Of several that were kept the newest counts; once tracking goes on they are echoes of its own.
@@ -86,18 +86,6 @@ void TrackingService::track(const flow::SegmentedScan& scan) {
 void TrackingService::publish(const TrackingResult& result) {
   objects_.write(objects_encoder_.encode(context_.vehicle_id(), result.objects));
   labels_.write(labels_encoder_.encode(context_.vehicle_id(), result.labels));
-}
-
-void TrackingService::copy_counters() {
-  const TrackerCounters& from = tracker_.counters();
-  app::StatusBoard& to = context_.status();
-  to.counter("scans") = from.scans;
-  to.counter("late_scans") = from.late_scans;
-  to.counter("tracks_begun") = from.tracks_begun;
-  to.counter("tracks_confirmed") = from.tracks_confirmed;
-  to.counter("tracks_merged") = from.tracks_merged;
-  to.counter("tracks_rejected") = from.tracks_rejected;
-  to.counter("points_restored") = from.points_restored;
 }
 
 }  // namespace slammot::tracking

@@ -34,7 +34,6 @@ class TrackingService {
   void take_up(std::int64_t stamp_ns);
   void track(const flow::SegmentedScan& scan);
   void publish(const TrackingResult& result);
-  void copy_counters();
 
   app::ServiceContext& context_;
   Tracker tracker_;
