@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace slammot::metrics {
+
+/// Objects and tracks of one scan, each known by its index in the sequence.
+struct MotFrame {
+  std::int64_t stamp_ns = 0;
+  std::vector<std::size_t> objects;
+  std::vector<std::size_t> tracks;
+  Eigen::MatrixXd similarity;  ///< Row an object, column a track; in [0, 1].
+};
+
+struct MotSequence {
+  std::size_t object_count = 0;  ///< Indices are below it.
+  std::size_t track_count = 0;
+  std::vector<MotFrame> frames;
+
+  std::size_t object_rows() const;
+  std::size_t track_rows() const;
+};
+
+/// Row and column of a pair in one frame.
+struct Match {
+  std::size_t object = 0;
+  std::size_t track = 0;
+};
+
+/// Pairs rows with columns, each at most once, such that the sum of their scores is greatest; a pair of score zero or
+/// less is never made. Ascending rows.
+std::vector<Match> best_pairs(const Eigen::MatrixXd& score);
+
+}  // namespace slammot::metrics

@@ -1,0 +1,264 @@
+#include "services/evaluator/evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "services/evaluator/table_file.hpp"
+
+namespace slammot::evaluator {
+namespace {
+
+using files::Error;
+using geometry::Pose2;
+using metrics::PosePair;
+using metrics::Scene;
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[512];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+double seconds(std::int64_t stamp_ns) { return static_cast<double>(stamp_ns) * 1e-9; }
+
+std::vector<Pose2> true_poses(const std::vector<PosePair>& pairs) {
+  std::vector<Pose2> poses;
+  for (const PosePair& pair : pairs) poses.push_back(pair.truth);
+  return poses;
+}
+
+std::vector<Pose2> estimated_poses(const std::vector<PosePair>& pairs) {
+  std::vector<Pose2> poses;
+  for (const PosePair& pair : pairs) poses.push_back(pair.estimate);
+  return poses;
+}
+
+std::vector<double> translations_m(const std::vector<metrics::RelativeError>& errors) {
+  std::vector<double> values;
+  for (const auto& error : errors) values.push_back(error.translation_m);
+  return values;
+}
+
+std::vector<double> rotations_rad(const std::vector<metrics::RelativeError>& errors) {
+  std::vector<double> values;
+  for (const auto& error : errors) values.push_back(error.rotation_rad);
+  return values;
+}
+
+RelativeErrors relative(const std::vector<PosePair>& pairs, double delta_m) {
+  const auto consecutive = metrics::relative_errors(pairs, metrics::pairs_by_path(estimated_poses(pairs), delta_m, metrics::PathPairs::kConsecutive));
+  const auto all = metrics::relative_errors(pairs, metrics::pairs_by_path(true_poses(pairs), delta_m, metrics::PathPairs::kAll));
+  return {delta_m, metrics::summarize(translations_m(consecutive)), metrics::summarize(translations_m(all)), metrics::summarize(rotations_rad(all))};
+}
+
+TrajectoryEvaluation evaluate_trajectory(const metrics::Trajectory& truth, const metrics::Trajectory& estimate, std::int64_t max_difference_ns) {
+  TrajectoryEvaluation evaluation;
+  evaluation.matched = metrics::associate(truth, estimate, max_difference_ns);
+  evaluation.poses = estimate.size();
+  evaluation.pairs = evaluation.matched.size();
+  evaluation.world_from_map = metrics::align_rigidly(evaluation.matched);
+  evaluation.absolute_m = metrics::summarize(metrics::absolute_errors_m(evaluation.matched, evaluation.world_from_map));
+  evaluation.absolute_from_start_m = metrics::summarize(metrics::absolute_errors_m(evaluation.matched, metrics::align_first_pose(evaluation.matched)));
+  for (const double delta_m : {1.0, 10.0, 100.0}) evaluation.relative.push_back(relative(evaluation.matched, delta_m));
+  return evaluation;
+}
+
+std::string span_of(const metrics::Trajectory& trajectory) {
+  return text("%.3f to %.3f s", seconds(trajectory.front().stamp_ns), seconds(trajectory.back().stamp_ns));
+}
+
+/// Two drives, or two clocks, agree in nothing: motions of one differ from those of the other by as much as they are long.
+std::optional<Error> fault_of_motion(const std::vector<PosePair>& pairs) {
+  constexpr double kDeltaM = 10.0;
+  constexpr double kNotAlike = 0.5;  // public systems that drift badly are below 0.02
+  constexpr std::size_t kFewest = 5;
+  const auto ends = metrics::pairs_by_path(true_poses(pairs), kDeltaM, metrics::PathPairs::kConsecutive);
+  if (ends.size() < kFewest) return std::nullopt;
+  const double median_m = metrics::summarize(translations_m(metrics::relative_errors(pairs, ends))).median;
+  if (median_m < kNotAlike * kDeltaM) return std::nullopt;
+  return Error{text("the frames do not overlap: over 10 m of the true path the result is %.1f m off, so it is of another drive or its clock is shifted", median_m)};
+}
+
+std::optional<Error> fault_of_overlap(const RunResult& result, const Truth& truth, const std::vector<PosePair>& pairs) {
+  constexpr std::size_t kFewest = 3;
+  if (pairs.size() >= kFewest) return fault_of_motion(pairs);
+  return Error{text("the clocks do not overlap: %zu poses of the result (%s) have a true pose at their time (%s)", pairs.size(), span_of(result.online).c_str(),
+                    span_of(truth.trajectory).c_str())};
+}
+
+metrics::ReportedTrack in_world(const ResultTrack& track, std::size_t index, const Pose2& world_from_map) {
+  metrics::ReportedTrack reported;
+  reported.track = index;
+  reported.object_class = track.object_class;
+  reported.world_from_object = world_from_map * track.map_from_object;
+  const geometry::Matrix2 turn = geometry::rotation(world_from_map.heading_rad);
+  reported.velocity_in_world_mps = turn * track.velocity_in_map_mps;
+  reported.length_m = track.length_m;
+  reported.width_m = track.width_m;
+  reported.is_moving = track.is_moving;
+  if (track.position_covariance_m2) reported.position_covariance_m2 = turn * *track.position_covariance_m2 * turn.transpose();
+  return reported;
+}
+
+/// The element whose stamp is nearest, if it is near enough. Elements ascend.
+template <typename Element>
+const Element* at_stamp(const std::vector<Element>& elements, std::int64_t stamp_ns, std::int64_t max_difference_ns) {
+  auto after = std::lower_bound(elements.begin(), elements.end(), stamp_ns, [](const Element& element, std::int64_t stamp) { return element.stamp_ns < stamp; });
+  if (after != elements.begin() && (after == elements.end() || stamp_ns - std::prev(after)->stamp_ns < after->stamp_ns - stamp_ns)) --after;
+  return after != elements.end() && std::abs(after->stamp_ns - stamp_ns) <= max_difference_ns ? &*after : nullptr;
+}
+
+struct Scenes {
+  std::vector<Scene> scenes;
+  std::size_t track_count = 0;
+};
+
+Scenes make_scenes(const RunResult& result, const Truth& truth, std::int64_t max_difference_ns) {
+  constexpr std::int64_t kLongestTruthGapNs = 200'000'000;
+  // Stamps of one log are written alike; half of the shortest step between scans keeps neighbours apart.
+  constexpr std::int64_t kSameStampNs = 1'000'000;
+  Scenes made;
+  std::map<std::uint32_t, std::size_t> index_of_track;
+  for (const metrics::StampedPose& online : result.online) {
+    const auto world_from_base = metrics::pose_at(truth.trajectory, online.stamp_ns, kLongestTruthGapNs);
+    if (!world_from_base) continue;
+    Scene scene{online.stamp_ns, *world_from_base, {}, {}};
+    if (truth.objects) {
+      if (const ObjectsAt* at = at_stamp(*truth.objects, online.stamp_ns, std::min(max_difference_ns, kSameStampNs))) scene.objects = at->objects;
+    }
+    const Pose2 world_from_map = *world_from_base * geometry::inverse(online.pose);
+    if (const TracksAt* at = at_stamp(result.tracks, online.stamp_ns, kSameStampNs)) {
+      for (const ResultTrack& track : at->tracks) {
+        const std::size_t index = index_of_track.try_emplace(track.track_id, index_of_track.size()).first->second;
+        scene.tracks.push_back(in_world(track, index, world_from_map));
+      }
+    }
+    made.scenes.push_back(std::move(scene));
+  }
+  made.track_count = index_of_track.size();
+  return made;
+}
+
+/// Nothing that a scanner sees is this far away.
+constexpr double kBeyondAnyScannerM = 500.0;
+
+std::optional<Error> fault_of_objects(const std::vector<Scene>& scenes, bool has_objects) {
+  double nearest_object_m = std::numeric_limits<double>::infinity();
+  double nearest_track_m = std::numeric_limits<double>::infinity();
+  bool has_rows = false;
+  bool has_tracks = false;
+  for (const Scene& scene : scenes) {
+    const auto away_m = [&](const Pose2& pose) { return (pose.translation_m() - scene.world_from_base.translation_m()).norm(); };
+    for (const auto& object : scene.objects) nearest_object_m = std::min(nearest_object_m, away_m(object.world_from_object));
+    for (const auto& track : scene.tracks) nearest_track_m = std::min(nearest_track_m, away_m(track.world_from_object));
+    has_rows = has_rows || !scene.objects.empty();
+    has_tracks = has_tracks || !scene.tracks.empty();
+  }
+  if (has_objects && !has_rows) return Error{"the clocks do not overlap: no scan of the result has true objects at its time"};
+  if (has_rows && nearest_object_m > kBeyondAnyScannerM) return Error{text("the frames do not overlap: the nearest true object is %.0f m from the true trajectory", nearest_object_m)};
+  if (has_tracks && nearest_track_m > kBeyondAnyScannerM) return Error{text("the frames do not overlap: the nearest track is %.0f m from the online trajectory", nearest_track_m)};
+  return std::nullopt;
+}
+
+MeanGospa mean_gospa(const std::vector<metrics::CountedScene>& counted, double cutoff_m) {
+  MeanGospa mean;
+  const double share = counted.empty() ? 0.0 : 1.0 / static_cast<double>(counted.size());
+  for (const metrics::CountedScene& scene : counted) {
+    const metrics::Gospa one = metrics::gospa(scene.distance_m, cutoff_m);
+    mean.distance_m += share * one.distance_m;
+    mean.localization_m2 += share * one.localization_m2;
+    mean.missed_m2 += share * one.missed_m2;
+    mean.false_tracks_m2 += share * one.false_tracks_m2;
+  }
+  return mean;
+}
+
+TrackingEvaluation evaluate_tracking(const std::vector<Scene>& scenes, const std::vector<metrics::CountedScene>& counted, std::size_t object_count,
+                                     std::size_t track_count, const metrics::CountingRule& rule) {
+  metrics::MotSequence sequence{object_count, track_count, {}};
+  std::set<std::size_t> objects;
+  std::set<std::size_t> tracks;
+  for (const metrics::CountedScene& scene : counted) {
+    objects.insert(scene.frame.objects.begin(), scene.frame.objects.end());
+    tracks.insert(scene.frame.tracks.begin(), scene.frame.tracks.end());
+    sequence.frames.push_back(scene.frame);
+  }
+  const double least_similarity = 1.0 - rule.gate_m / rule.similarity_reach_m;
+  TrackingEvaluation evaluation;
+  evaluation.scans = scenes.size();
+  evaluation.objects = objects.size();
+  evaluation.tracks = tracks.size();
+  evaluation.clear = metrics::clear_mot(sequence, least_similarity);
+  evaluation.identity = metrics::identity(sequence, least_similarity);
+  evaluation.hota = metrics::hota(sequence);
+  evaluation.gospa = mean_gospa(counted, rule.similarity_reach_m);
+  evaluation.errors = metrics::object_errors(scenes, counted, evaluation.clear, {0.0, 10.0, 20.0, 30.0, 40.0}, rule.range_m);
+  return evaluation;
+}
+
+metrics::OccupancyCells to_cells(const files::MapImage& image) {
+  metrics::OccupancyCells cells{image.width, image.height, image.resolution_m, image.min_x_m, image.min_y_m, {}};
+  cells.state.reserve(image.pixels.size());
+  for (std::size_t row = 0; row < image.height; ++row) {
+    const auto first = image.pixels.begin() + static_cast<std::ptrdiff_t>((image.height - 1 - row) * image.width);
+    for (auto pixel = first; pixel != first + static_cast<std::ptrdiff_t>(image.width); ++pixel) {
+      cells.state.push_back(*pixel == files::kOccupiedPixel ? metrics::CellState::kOccupied
+                            : *pixel == files::kFreePixel   ? metrics::CellState::kFree
+                                                            : metrics::CellState::kUnknown);
+    }
+  }
+  return cells;
+}
+
+std::vector<metrics::TrueObject> moving_objects(const Truth& truth, double least_speed_mps) {
+  std::vector<metrics::TrueObject> moving;
+  if (!truth.objects) return moving;
+  for (const ObjectsAt& at : *truth.objects) {
+    for (const metrics::TrueObject& object : at.objects) {
+      if (std::abs(object.speed_mps) >= least_speed_mps) moving.push_back(object);
+    }
+  }
+  return moving;
+}
+
+void add_notes(const RunResult& result, const Truth& truth, Evaluation& evaluation) {
+  if (!truth.objects && !truth.other_car) evaluation.notes.push_back("no true objects: tracking is not evaluated");
+  if (!truth.walls) evaluation.notes.push_back("no true walls: the map is not evaluated");
+  if (truth.walls && !result.map) evaluation.notes.push_back("no map.pgm in the result: the map is not evaluated");
+  if (result.uncertain.empty()) evaluation.notes.push_back("no online_covariance.csv in the result: no NEES of poses");
+}
+
+}  // namespace
+
+files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EvaluationOptions& options) {
+  const std::int64_t max_difference_ns = to_ns(options.max_stamp_difference_s);
+  Evaluation evaluation;
+  evaluation.online = evaluate_trajectory(truth.trajectory, result.online, max_difference_ns);
+  if (auto fault = fault_of_overlap(result, truth, evaluation.online.matched)) return *fault;
+  evaluation.corrected = evaluate_trajectory(truth.trajectory, result.corrected, max_difference_ns);
+  if (!result.uncertain.empty()) {
+    constexpr std::int64_t kOneSecondNs = 1'000'000'000;
+    evaluation.relative_pose_nees = metrics::summarize_nees(metrics::relative_pose_nees(truth.trajectory, result.uncertain, kOneSecondNs, max_difference_ns), 3);
+  }
+  Scenes made = make_scenes(result, truth, max_difference_ns);
+  if (auto fault = fault_of_objects(made.scenes, truth.objects && !truth.objects->empty())) return *fault;
+  evaluation.scenes = metrics::fill_gaps(std::move(made.scenes), to_ns(options.longest_occlusion_s));
+  if (truth.objects) {
+    for (const Scene& scene : evaluation.scenes) evaluation.counted.push_back(metrics::count_scene(scene, options.rule));
+    evaluation.tracking = evaluate_tracking(evaluation.scenes, evaluation.counted, truth.object_count, made.track_count, options.rule);
+  }
+  if (truth.walls && result.map) {
+    evaluation.map = metrics::map_quality(to_cells(*result.map), evaluation.corrected.world_from_map, *truth.walls,
+                                          moving_objects(truth, options.rule.least_speed_mps), {}, options.map_tolerance_m);
+  }
+  add_notes(result, truth, evaluation);
+  return evaluation;
+}
+
+}  // namespace slammot::evaluator

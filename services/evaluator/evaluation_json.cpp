@@ -1,0 +1,142 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "services/evaluator/evaluation_text.hpp"
+
+namespace slammot::evaluator {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Six decimals are more than any figure is worth; -0 and what is not finite would not be the same everywhere.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  const double rounded = std::round(value * 1e6) / 1e6;
+  return rounded == 0.0 ? 0.0 : rounded;
+}
+
+Json to_json(const metrics::ErrorSummary& errors) {
+  if (errors.count == 0) return nullptr;
+  return {{"count", errors.count}, {"rmse", number(errors.rmse)},    {"mean", number(errors.mean)},
+          {"median", number(errors.median)}, {"p95", number(errors.p95)}, {"max", number(errors.max)}};
+}
+
+Json to_json(const metrics::NeesSummary& nees) {
+  if (nees.samples == 0) return nullptr;
+  return {{"samples", nees.samples}, {"degrees_of_freedom", nees.degrees_of_freedom}, {"mean", number(nees.mean)}, {"band_low", number(nees.band_low)},
+          {"band_high", number(nees.band_high)}, {"is_inside", nees.is_inside()}};
+}
+
+Json to_json(const TrajectoryEvaluation& trajectory) {
+  Json relative = Json::object();
+  for (const RelativeErrors& errors : trajectory.relative) {
+    const std::string name = std::to_string(static_cast<int>(errors.delta_m)) + "_m";
+    relative[name] = {{"rpe_m", to_json(errors.consecutive_m)}, {"drift_m", to_json(errors.drift_m)}, {"drift_rad", to_json(errors.drift_rad)}};
+  }
+  return {{"poses", trajectory.poses}, {"pairs", trajectory.pairs}, {"ate_m", to_json(trajectory.absolute_m)}, {"ate_first_pose_aligned_m", to_json(trajectory.absolute_from_start_m)},
+          {"over", relative}};
+}
+
+Json to_json(const metrics::ObjectErrors& errors) {
+  return {{"rows", errors.rows},
+          {"matched_rows", errors.matched_rows},
+          {"recall", number(errors.recall)},
+          {"right_class", number(errors.right_class)},
+          {"centre_m", to_json(errors.centre_m)},
+          {"velocity_mps", to_json(errors.velocity_mps)},
+          {"heading_rad", to_json(errors.heading_rad)},
+          {"length_m", to_json(errors.length_m)},
+          {"width_m", to_json(errors.width_m)},
+          {"position_nees", to_json(errors.position_nees)}};
+}
+
+Json to_json(const metrics::ClearMot& clear) {
+  return {{"mota", number(clear.mota)},
+          {"motp", number(clear.motp)},
+          {"recall", number(clear.recall)},
+          {"precision", number(clear.precision)},
+          {"true_positives", clear.true_positives},
+          {"false_positives", clear.false_positives},
+          {"misses", clear.misses},
+          {"switches", clear.switches},
+          {"fragmentations", clear.fragmentations},
+          {"mostly_tracked", clear.mostly_tracked},
+          {"mostly_lost", clear.mostly_lost}};
+}
+
+Json to_json(const metrics::Hota& hota) {
+  return {{"hota", number(hota.hota)},
+          {"detection_accuracy", number(hota.detection_accuracy)},
+          {"association_accuracy", number(hota.association_accuracy)},
+          {"detection_recall", number(hota.detection_recall)},
+          {"detection_precision", number(hota.detection_precision)},
+          {"localization_accuracy", number(hota.localization_accuracy)}};
+}
+
+Json to_json(const TrackingEvaluation& tracking) {
+  Json classes = Json::object();
+  for (const auto& [name, errors] : tracking.errors.by_class) classes[name] = to_json(errors);
+  Json bands = Json::array();
+  for (const metrics::DistanceBand& band : tracking.errors.by_distance) {
+    Json row = {{"from_m", band.from_m}, {"to_m", band.to_m}, {"false_rows", band.false_rows}};
+    row.update(to_json(band.errors));
+    bands.push_back(row);
+  }
+  return {{"scans", tracking.scans},
+          {"objects", tracking.objects},
+          {"tracks", tracking.tracks},
+          {"hota", to_json(tracking.hota)},
+          {"clear_mot", to_json(tracking.clear)},
+          {"identity", {{"f1", number(tracking.identity.f1)}, {"precision", number(tracking.identity.precision)}, {"recall", number(tracking.identity.recall)}}},
+          {"gospa",
+           {{"distance_m", number(tracking.gospa.distance_m)},
+            {"localization_m2", number(tracking.gospa.localization_m2)},
+            {"missed_m2", number(tracking.gospa.missed_m2)},
+            {"false_tracks_m2", number(tracking.gospa.false_tracks_m2)}}},
+          {"detection_delay_s", to_json(tracking.errors.detection_delay_s)},
+          {"never_detected", tracking.errors.never_detected},
+          {"all", to_json(tracking.errors.all)},
+          {"by_class", classes},
+          {"by_distance", bands}};
+}
+
+Json to_json(const OtherCarEvaluation& car) {
+  return {{"scans", car.scans},
+          {"matched_scans", car.matched_scans},
+          {"identities", car.identities},
+          {"position_m", to_json(car.position_m)},
+          {"velocity_mps", to_json(car.velocity_mps)},
+          {"false_moving_tracks_a_scan", number(car.false_moving_tracks_a_scan)}};
+}
+
+Json to_json(const metrics::MapQuality& map) {
+  return {{"precision", number(map.precision())}, {"recall", number(map.recall())}, {"residue", number(map.residue())}, {"occupied_cells", map.occupied_cells},
+          {"residue_cells", map.residue_cells}, {"wall_samples", map.wall_samples}};
+}
+
+Json to_json(const EvaluationOptions& options) {
+  return {{"range_m", options.rule.range_m},
+          {"least_speed_mps", options.rule.least_speed_mps},
+          {"least_points", options.rule.least_points},
+          {"dont_care_margin_m", options.rule.dont_care_margin_m},
+          {"gate_m", options.rule.gate_m},
+          {"similarity_reach_m", options.rule.similarity_reach_m},
+          {"max_stamp_difference_s", options.max_stamp_difference_s},
+          {"longest_occlusion_s", options.longest_occlusion_s},
+          {"map_tolerance_m", options.map_tolerance_m}};
+}
+
+}  // namespace
+
+std::string to_json_text(const Evaluation& evaluation, const EvaluationOptions& options) {
+  Json json = {{"rule", to_json(options)}, {"trajectory", to_json(evaluation.corrected)}, {"online_trajectory", to_json(evaluation.online)}};
+  if (evaluation.relative_pose_nees) json["relative_pose_nees"] = to_json(*evaluation.relative_pose_nees);
+  if (evaluation.tracking) json["tracking"] = to_json(*evaluation.tracking);
+  if (evaluation.other_car) json["other_car"] = to_json(*evaluation.other_car);
+  if (evaluation.map) json["map"] = to_json(*evaluation.map);
+  json["notes"] = evaluation.notes;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace slammot::evaluator

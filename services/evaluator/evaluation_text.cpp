@@ -1,0 +1,95 @@
+#include "services/evaluator/evaluation_text.hpp"
+
+#include <cstdio>
+#include <numbers>
+
+namespace slammot::evaluator {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[512];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+std::string error_row(const char* name, const metrics::ErrorSummary& errors, const char* unit, double scale = 1.0) {
+  if (errors.count == 0) return {};
+  return text("  %-34s %9.3f %9.3f %9.3f %9.3f  %s\n", name, errors.rmse * scale, errors.mean * scale, errors.median * scale, errors.max * scale, unit);
+}
+
+std::string describe(const char* title, const TrajectoryEvaluation& trajectory) {
+  std::string lines = text("%s: %zu of %zu poses have a true one\n  %-34s %9s %9s %9s %9s\n", title, trajectory.pairs, trajectory.poses, "", "rmse", "mean", "median", "max");
+  lines += error_row("ATE, rigidly aligned", trajectory.absolute_m, "m");
+  lines += error_row("ATE, first pose aligned", trajectory.absolute_from_start_m, "m");
+  for (const RelativeErrors& relative : trajectory.relative) {
+    lines += error_row(text("RPE over %g m, consecutive", relative.delta_m).c_str(), relative.consecutive_m, "m");
+    lines += error_row(text("drift over %g m, all pairs", relative.delta_m).c_str(), relative.drift_m, "m");
+    lines += error_row(text("heading drift over %g m", relative.delta_m).c_str(), relative.drift_rad, "deg", kDegrees);
+  }
+  return lines;
+}
+
+std::string describe_nees(const char* name, const metrics::NeesSummary& nees) {
+  if (nees.samples == 0) return {};
+  return text("%s: NEES %.3f over %zu samples, 95 %% band %.3f to %.3f: %s\n", name, nees.mean, nees.samples, nees.band_low, nees.band_high,
+              nees.is_inside() ? "inside" : "outside");
+}
+
+std::string object_row(const std::string& name, const metrics::ObjectErrors& errors) {
+  return text("  %-12s %7zu %7.3f %9.3f %9.3f %9.3f %9.1f %9.2f %9.2f %9.2f\n", name.c_str(), errors.rows, errors.recall, errors.centre_m.median, errors.velocity_mps.median,
+              errors.velocity_mps.rmse, errors.heading_rad.median * kDegrees, errors.length_m.median, errors.width_m.median, errors.position_nees.mean);
+}
+
+std::string describe(const TrackingEvaluation& tracking) {
+  const metrics::ClearMot& clear = tracking.clear;
+  std::string lines = text("tracking: %zu objects and %zu tracks that count, in %zu scans\n", tracking.objects, tracking.tracks, tracking.scans);
+  lines += text("  HOTA %.3f (detection %.3f, association %.3f, localization %.3f)   MOTA %.3f   MOTP %.3f   IDF1 %.3f\n", tracking.hota.hota, tracking.hota.detection_accuracy,
+                tracking.hota.association_accuracy, tracking.hota.localization_accuracy, clear.mota, clear.motp, tracking.identity.f1);
+  lines += text("  recall %.3f   precision %.3f   rows: %zu right, %zu false, %zu missed   switches %zu   fragmentations %zu\n", clear.recall, clear.precision, clear.true_positives,
+                clear.false_positives, clear.misses, clear.switches, clear.fragmentations);
+  lines += text("  objects tracked over 80 %% of the time %zu, under 20 %% %zu, never detected %zu   detection delay median %.2f s, 95 %% within %.2f s\n", clear.mostly_tracked,
+                clear.mostly_lost, tracking.errors.never_detected, tracking.errors.detection_delay_s.median, tracking.errors.detection_delay_s.p95);
+  lines += text("  GOSPA %.3f m   of %.2f m2 localization, %.2f m2 missed, %.2f m2 false\n", tracking.gospa.distance_m, tracking.gospa.localization_m2, tracking.gospa.missed_m2,
+                tracking.gospa.false_tracks_m2);
+  lines += "  " + describe_nees("position of tracks", tracking.errors.all.position_nees);
+  lines += text("  %-12s %7s %7s %9s %9s %9s %9s %9s %9s %9s\n", "", "rows", "recall", "centre", "velocity", "velocity", "heading", "length", "width", "NEES");
+  lines += text("  %-12s %7s %7s %9s %9s %9s %9s %9s %9s %9s\n", "", "", "", "med [m]", "med [m/s]", "rms [m/s]", "med [deg]", "med [m]", "med [m]", "(2 dof)");
+  lines += object_row("all", tracking.errors.all);
+  for (const auto& [name, errors] : tracking.errors.by_class) lines += object_row(name, errors);
+  for (const metrics::DistanceBand& band : tracking.errors.by_distance) lines += object_row(text("%g-%g m", band.from_m, band.to_m), band.errors);
+  return lines;
+}
+
+std::string describe(const OtherCarEvaluation& car) {
+  std::string lines = text("other car: matched in %zu of %zu scans, by %zu tracks; %.3f false moving tracks a scan\n  %-34s %9s %9s %9s %9s\n", car.matched_scans, car.scans,
+                           car.identities, car.false_moving_tracks_a_scan, "", "rmse", "mean", "median", "max");
+  lines += error_row("position", car.position_m, "m");
+  return lines + error_row("velocity", car.velocity_mps, "m/s");
+}
+
+std::string describe(const metrics::MapQuality& map) {
+  return text("map: precision %.3f of %zu occupied cells, recall %.3f of the walls seen, residue of movers %.2f %%\n", map.precision(), map.occupied_cells, map.recall(),
+              100.0 * map.residue());
+}
+
+}  // namespace
+
+std::string to_text(const Evaluation& evaluation, const EvaluationOptions& options) {
+  std::string lines = describe("trajectory after the last correction", evaluation.corrected);
+  lines += describe("trajectory as published live", evaluation.online);
+  if (evaluation.relative_pose_nees) lines += describe_nees("relative poses over 1 s", *evaluation.relative_pose_nees);
+  if (evaluation.tracking) {
+    lines += text("objects within %g m, at least %g m/s and %d echoes; a match is within %g m of the true box\n", options.rule.range_m, options.rule.least_speed_mps,
+                  options.rule.least_points, options.rule.gate_m);
+    lines += describe(*evaluation.tracking);
+  }
+  if (evaluation.other_car) lines += describe(*evaluation.other_car);
+  if (evaluation.map) lines += describe(*evaluation.map);
+  for (const std::string& note : evaluation.notes) lines += "note: " + note + "\n";
+  return lines;
+}
+
+}  // namespace slammot::evaluator

@@ -1,0 +1,129 @@
+#include "services/evaluator/result_files.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+#include "services/evaluator/table_file.hpp"
+#include "services/evaluator/truth_files.hpp"
+
+namespace slammot::evaluator {
+namespace {
+
+using files::Error;
+using files::Result;
+using std::filesystem::path;
+
+using TracksByStamp = std::map<std::int64_t, std::vector<ResultTrack>>;
+
+std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
+  return read_csv(file, {"timestamp", "track_id", "x", "y", "heading", "vx", "vy", "length", "width", "motion", "class"}, [&](auto fields) -> RowFault {
+    const auto row = numbers(fields.first(9));
+    if (!row) return "a field is no number";
+    const auto& v = *row;
+    ResultTrack track;
+    track.stamp_ns = to_ns(v[0]);
+    track.track_id = static_cast<std::uint32_t>(v[1]);
+    track.map_from_object = {v[2], v[3], v[4]};
+    track.velocity_in_map_mps = {v[5], v[6]};
+    track.length_m = v[7];
+    track.width_m = v[8];
+    track.is_moving = fields[9] == "moving";
+    track.object_class = fields[10];
+    tracks[track.stamp_ns].push_back(std::move(track));
+    return std::nullopt;
+  });
+}
+
+std::optional<Error> read_track_covariances(const path& file, TracksByStamp& tracks) {
+  return read_csv(file, {"timestamp", "track_id", "var_x", "cov_xy", "var_y"}, [&](auto fields) -> RowFault {
+    const auto row = numbers(fields);
+    if (!row) return "a field is no number";
+    const auto& v = *row;
+    const auto at = tracks.find(to_ns(v[0]));
+    if (at == tracks.end()) return "no such scan in tracks.csv";
+    for (ResultTrack& track : at->second) {
+      if (track.track_id == static_cast<std::uint32_t>(v[1])) track.position_covariance_m2 = (geometry::Matrix2() << v[2], v[3], v[3], v[4]).finished();
+    }
+    return std::nullopt;
+  });
+}
+
+std::optional<Error> read_online_covariance(const path& file, std::vector<metrics::UncertainStampedPose>& poses) {
+  return read_csv(file, {"timestamp", "x", "y", "heading", "var_x", "cov_xy", "cov_xh", "var_y", "cov_yh", "var_h"}, [&](auto fields) -> RowFault {
+    const auto row = numbers(fields);
+    if (!row) return "a field is no number";
+    const auto& v = *row;
+    geometry::UncertainPose2 pose{{v[1], v[2], v[3]}, geometry::Matrix3::Zero()};
+    pose.covariance << v[4], v[5], v[6], v[5], v[7], v[8], v[6], v[8], v[9];
+    poses.push_back({to_ns(v[0]), pose});
+    return std::nullopt;
+  });
+}
+
+std::optional<double> yaml_number(const std::string& yaml, const std::string& key) {
+  const std::size_t at = yaml.find(key + ":");
+  double value = 0.0;
+  if (at == std::string::npos || std::sscanf(yaml.c_str() + at + key.size() + 1, " %lf", &value) != 1) return std::nullopt;
+  return value;
+}
+
+std::string read_all(const path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+Result<files::MapImage> read_map(const path& yaml_file) {
+  const std::string yaml = read_all(yaml_file);
+  files::MapImage image;
+  const auto resolution_m = yaml_number(yaml, "resolution");
+  const std::size_t origin = yaml.find("origin:");
+  if (!resolution_m || origin == std::string::npos || std::sscanf(yaml.c_str() + origin, "origin: [%lf, %lf", &image.min_x_m, &image.min_y_m) != 2)
+    return Error{yaml_file.string() + ": no resolution or no origin"};
+  image.resolution_m = *resolution_m;
+  const path pgm_file = path(yaml_file).replace_extension(".pgm");
+  const std::string pgm = read_all(pgm_file);
+  unsigned depth = 0;
+  int header = 0;
+  if (std::sscanf(pgm.c_str(), "P5 %u %u %u%n", &image.width, &image.height, &depth, &header) != 3 || depth != 255)
+    return Error{pgm_file.string() + ": not a binary grey picture of 8 bits"};
+  const auto begin = static_cast<std::size_t>(header) + 1;  // one blank ends the header
+  const std::size_t pixels = std::size_t{image.width} * image.height;
+  if (pgm.size() < begin + pixels) return Error{pgm_file.string() + ": cut off"};
+  image.pixels.assign(pgm.begin() + static_cast<std::ptrdiff_t>(begin), pgm.begin() + static_cast<std::ptrdiff_t>(begin + pixels));
+  return image;
+}
+
+Result<RunResult> read_result(const path& folder) {
+  RunResult result;
+  auto online = read_tum(folder / "online.tum");
+  if (!online) return online.error();
+  auto corrected = read_tum(folder / "trajectory.tum");
+  if (!corrected) return corrected.error();
+  result.online = std::move(*online);
+  result.corrected = std::move(*corrected);
+  TracksByStamp tracks;
+  if (const auto file = plain_or_gz(folder / "tracks.csv")) {
+    if (auto fault = read_tracks(*file, tracks)) return *fault;
+  }
+  if (const auto file = plain_or_gz(folder / "track_details.csv")) {
+    if (auto fault = read_track_covariances(*file, tracks)) return *fault;
+  }
+  for (auto& [stamp_ns, rows] : tracks) result.tracks.push_back({stamp_ns, std::move(rows)});
+  if (const auto file = plain_or_gz(folder / "online_covariance.csv")) {
+    if (auto fault = read_online_covariance(*file, result.uncertain)) return *fault;
+  }
+  if (std::filesystem::exists(folder / "map.yaml")) {
+    auto map = read_map(folder / "map.yaml");
+    if (!map) return map.error();
+    result.map = std::move(*map);
+  }
+  return result;
+}
+
+}  // namespace slammot::evaluator

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/files/map_image.hpp"
+#include "common/files/result.hpp"
+#include "common/metrics/trajectory.hpp"
+
+namespace slammot::evaluator {
+
+/// A row of tracks.csv, and of track_details.csv where there is one; in the frame map.
+struct ResultTrack {
+  std::int64_t stamp_ns = 0;
+  std::uint32_t track_id = 0;
+  geometry::Pose2 map_from_object;
+  geometry::Vector2 velocity_in_map_mps = geometry::Vector2::Zero();
+  double length_m = 0.0;
+  double width_m = 0.0;
+  bool is_moving = true;
+  std::string object_class;
+  std::optional<geometry::Matrix2> position_covariance_m2;
+};
+
+struct TracksAt {
+  std::int64_t stamp_ns = 0;
+  std::vector<ResultTrack> tracks;
+};
+
+/// What `slammot run` or `bench` wrote.
+struct RunResult {
+  metrics::Trajectory online;     ///< map_from_base as published live; never empty.
+  metrics::Trajectory corrected;  ///< After the last correction; never empty.
+  std::vector<metrics::UncertainStampedPose> uncertain;  ///< Empty where it was not written.
+  std::vector<TracksAt> tracks;   ///< Ascending stamps; scans without tracks are not in it.
+  std::optional<files::MapImage> map;
+};
+
+files::Result<RunResult> read_result(const std::filesystem::path& folder);
+
+/// A picture as map_image writes it: NAME.pgm and NAME.yaml.
+files::Result<files::MapImage> read_map(const std::filesystem::path& yaml);
+
+}  // namespace slammot::evaluator
