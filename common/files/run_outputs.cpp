@@ -1,5 +1,7 @@
 #include "common/files/run_outputs.hpp"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <initializer_list>
 
@@ -41,6 +43,14 @@ std::optional<Error> write_map_files(const std::filesystem::path& folder, const 
   return write_file_atomically(folder / (name + ".yaml"), to_map_server_yaml(image, name + ".pgm"));
 }
 
+/// A file of an earlier run would be taken for one of this.
+std::optional<Error> write_labels(const std::filesystem::path& path, const std::vector<LabelRow>& rows) {
+  if (!rows.empty()) return write_file_atomically(path, to_labels_csv(rows));
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  return std::nullopt;
+}
+
 std::string pose_text(const geometry::Pose2& pose) {
   return fixed_text(pose.x_m, 9) + " " + fixed_text(pose.y_m, 9) + " " + fixed_text(pose.heading_rad, 9);
 }
@@ -49,6 +59,13 @@ std::string pose_text(const geometry::Pose2& pose) {
 void append_joined(std::string& text, std::initializer_list<std::string> fields) {
   for (const std::string& field : fields) text.append(field).append(1, ',');
   text.back() = '\n';
+}
+
+/// Five significant digits: variances span many powers of ten.
+void append_short(std::string& text, double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 5);
+  text.append(1, ',').append(digits.data(), end.ptr);
 }
 
 }  // namespace
@@ -73,6 +90,40 @@ std::string to_tracks_csv(const std::vector<TrackRow>& rows) {
                          fixed_text(row.length_m, 3), fixed_text(row.width_m, 3), name_of(row.motion), fixed_text(row.existence, 4),
                          name_of(row.object_class)});
   }
+  return text;
+}
+
+std::string to_track_details_csv(const std::vector<TrackRow>& rows) {
+  std::string text = "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy";
+  const std::size_t modes = rows.empty() ? 0 : rows.front().mode_probability.size();
+  for (std::size_t mode = 0; mode < modes; ++mode) text += ",mode_" + std::to_string(mode);
+  text += "\n";
+  for (const TrackRow& row : rows) {
+    text.append(stamp_text(row.stamp_ns)).append(1, ',').append(std::to_string(row.track_id.value));
+    const Eigen::Matrix4d& P = row.covariance_in_map;
+    for (const double value : {P(0, 0), P(0, 1), P(1, 1), P(2, 2), P(2, 3), P(3, 3)}) append_short(text, value);
+    for (std::size_t mode = 0; mode < modes; ++mode) append_short(text, mode < row.mode_probability.size() ? row.mode_probability[mode] : 0.0);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string to_online_covariance_csv(const std::vector<UncertainStampedPose>& poses) {
+  std::string text = "timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h\n";
+  for (const auto& [stamp_ns, odom_from_base] : poses) {
+    const geometry::Pose2& pose = odom_from_base.pose;
+    text.append(stamp_text(stamp_ns)).append(1, ',').append(fixed_text(pose.x_m, 6)).append(1, ',').append(fixed_text(pose.y_m, 6));
+    text.append(1, ',').append(fixed_text(pose.heading_rad, 7));
+    const geometry::Matrix3& P = odom_from_base.covariance;
+    for (const double value : {P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2)}) append_short(text, value);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string to_labels_csv(const std::vector<LabelRow>& rows) {
+  std::string text = "timestamp,detection,tracking\n";
+  for (const LabelRow& row : rows) text.append(stamp_text(row.stamp_ns)).append(1, ',').append(row.by_detection).append(1, ',').append(row.by_tracking).append(1, '\n');
   return text;
 }
 
@@ -112,7 +163,11 @@ std::optional<Error> write_outputs(const std::filesystem::path& folder, const Ru
   const std::vector<StampedPose> corrected = record.corrected_trajectory();
   if (auto fault = write_file_atomically(folder / "online.tum", to_tum(record.online_trajectory()))) return fault;
   if (auto fault = write_file_atomically(folder / "trajectory.tum", to_tum(corrected))) return fault;
-  if (auto fault = write_file_atomically(folder / "tracks.csv", to_tracks_csv(record.track_rows()))) return fault;
+  if (auto fault = write_file_atomically(folder / "online_covariance.csv", to_online_covariance_csv(record.uncertain_poses()))) return fault;
+  const std::vector<TrackRow> tracks = record.track_rows();
+  if (auto fault = write_file_atomically(folder / "tracks.csv", to_tracks_csv(tracks))) return fault;
+  if (auto fault = write_file_atomically(folder / "track_details.csv", to_track_details_csv(tracks))) return fault;
+  if (auto fault = write_labels(folder / "labels.csv", record.label_rows())) return fault;
   if (auto fault = write_file_atomically(folder / "graph.g2o", to_g2o(record))) return fault;
   std::vector<PlacedSubmap> placed;
   for (const auto& [id, submap] : record.submaps()) placed.push_back({&submap, record.map_from_submap(submap)});

@@ -18,7 +18,25 @@ TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& t
   row.motion = object.motion;
   row.existence = object.existence;
   row.object_class = object.object_class;
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Zero();
+  turn.topLeftCorner<2, 2>() = turn.bottomRightCorner<2, 2>() = geometry::rotation(tracked.map_from_odom.heading_rad);
+  row.covariance_in_map = turn * object.covariance * turn.transpose();
+  row.mode_probability.assign(object.mode_probability.begin(), object.mode_probability.end());
   return row;
+}
+
+std::string letters_of(const std::vector<flow::PointLabel>& labels) {
+  std::string letters;
+  letters.reserve(labels.size());
+  for (const flow::PointLabel label : labels) {
+    switch (label) {
+      case flow::PointLabel::kNoEcho: letters += '-'; break;
+      case flow::PointLabel::kStationary: letters += 's'; break;
+      case flow::PointLabel::kMoving: letters += 'm'; break;
+      case flow::PointLabel::kUnknown: letters += '?'; break;
+    }
+  }
+  return letters;
 }
 
 /// Between the two poses nearest in time; the nearest one before the first and after the last.
@@ -34,7 +52,7 @@ geometry::Pose2 pose_at(const std::map<std::int64_t, geometry::Pose2>& poses_by_
 }  // namespace
 
 void RunRecord::add(const flow::LocalizedScan& scan) {
-  poses_[scan.stamp_ns] = {scan.map_from_odom * scan.odom_from_base.pose, scan.odom_from_base.pose, scan.submap_id, scan.submap_from_base};
+  poses_[scan.stamp_ns] = {scan.map_from_odom * scan.odom_from_base.pose, scan.odom_from_base, scan.submap_id, scan.submap_from_base};
 }
 
 void RunRecord::add(const flow::TrackedObjects& tracked) {
@@ -43,6 +61,18 @@ void RunRecord::add(const flow::TrackedObjects& tracked) {
     if (object.confirmed) rows.push_back(row_of(object, tracked));
   }
   tracks_[tracked.stamp_ns] = std::move(rows);
+}
+
+void RunRecord::add(const flow::SegmentedScan& segmented) {
+  LabelRow& row = labels_[segmented.stamp_ns];
+  row.stamp_ns = segmented.stamp_ns;
+  row.by_detection = letters_of(segmented.labels);
+}
+
+void RunRecord::add(const flow::ScanLabels& labels) {
+  LabelRow& row = labels_[labels.stamp_ns];
+  row.stamp_ns = labels.stamp_ns;
+  row.by_tracking = letters_of(labels.labels);
 }
 
 void RunRecord::add(flow::Submap submap) {
@@ -70,6 +100,18 @@ std::vector<TrackRow> RunRecord::track_rows() const {
   return all;
 }
 
+std::vector<UncertainStampedPose> RunRecord::uncertain_poses() const {
+  std::vector<UncertainStampedPose> all;
+  for (const auto& [stamp_ns, pose] : poses_) all.push_back({stamp_ns, pose.odom_from_base});
+  return all;
+}
+
+std::vector<LabelRow> RunRecord::label_rows() const {
+  std::vector<LabelRow> all;
+  for (const auto& [stamp_ns, row] : labels_) all.push_back(row);
+  return all;
+}
+
 std::uint64_t RunRecord::confirmed_tracks() const {
   std::set<flow::TrackId> ids;
   for (const auto& [stamp_ns, rows] : tracks_) {
@@ -86,7 +128,7 @@ geometry::Pose2 RunRecord::map_from_submap(const flow::Submap& submap) const {
 geometry::Pose2 RunRecord::corrected(const LocalizedPose& pose) const {
   const auto known = corrected_submaps_.find(pose.submap_id);
   if (known != corrected_submaps_.end()) return known->second * pose.submap_from_base;
-  return correction_.map_from_odom * pose.odom_from_base;
+  return correction_.map_from_odom * pose.odom_from_base.pose;
 }
 
 std::vector<StampedPose> RunRecord::online_trajectory() const {

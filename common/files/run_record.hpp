@@ -3,12 +3,15 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <vector>
 
 #include "common/flow/graph_correction.hpp"
 #include "common/flow/ids.hpp"
 #include "common/flow/localized_scan.hpp"
+#include "common/flow/scan_labels.hpp"
+#include "common/flow/segmented_scan.hpp"
 #include "common/flow/submap.hpp"
 #include "common/flow/tracked_objects.hpp"
 #include "common/geometry/pose2.hpp"
@@ -31,6 +34,21 @@ struct TrackRow {
   flow::Motion motion = flow::Motion::kMoving;
   double existence = 0.0;
   flow::ObjectClass object_class = flow::ObjectClass::kUnknown;
+  Eigen::Matrix4d covariance_in_map = Eigen::Matrix4d::Zero();  ///< (x, y [m], vx, vy [m/s])
+  std::vector<double> mode_probability;                         ///< Of each motion model, as tracking orders them.
+};
+
+/// A pose as published live, with its covariance against the local map, and the frame that never jumps.
+struct UncertainStampedPose {
+  std::int64_t stamp_ns = 0;
+  geometry::UncertainPose2 odom_from_base;
+};
+
+/// What the points of one scan were held to be, a letter a beam: '-' no echo, 's' stationary, 'm' moving, '?' unknown.
+struct LabelRow {
+  std::int64_t stamp_ns = 0;
+  std::string by_detection;  ///< Empty where nothing came.
+  std::string by_tracking;
 };
 
 /// What came out of a drive, collected scan by scan from whoever made it: the stages of one process or the services on
@@ -43,6 +61,8 @@ class RunRecord {
 
   void add(const flow::LocalizedScan& scan);
   void add(const flow::TrackedObjects& tracked);  ///< Tentative tracks are left out.
+  void add(const flow::SegmentedScan& segmented);
+  void add(const flow::ScanLabels& labels);
   void add(flow::Submap submap);
   void add(const flow::Constraint& constraint);
   void add(const flow::GraphCorrection& correction);  ///< An older one than the last is ignored.
@@ -52,6 +72,8 @@ class RunRecord {
   const std::map<flow::SubmapId, flow::Submap>& submaps() const { return submaps_; }
   std::vector<flow::Constraint> constraints() const;
   std::vector<TrackRow> track_rows() const;
+  std::vector<UncertainStampedPose> uncertain_poses() const;  ///< Of the scans that were localized.
+  std::vector<LabelRow> label_rows() const;
   std::uint64_t confirmed_tracks() const;  ///< Different ones.
 
   /// Where the submap is after the last correction; by odometry where loop closing never heard of it.
@@ -67,7 +89,7 @@ class RunRecord {
  private:
   struct LocalizedPose {
     geometry::Pose2 map_from_base;
-    geometry::Pose2 odom_from_base;
+    geometry::UncertainPose2 odom_from_base;
     flow::SubmapId submap_id;
     geometry::Pose2 submap_from_base;
   };
@@ -78,6 +100,7 @@ class RunRecord {
   std::vector<std::int64_t> scan_stamps_ns_;
   std::map<std::int64_t, LocalizedPose> poses_;             // by stamp
   std::map<std::int64_t, std::vector<TrackRow>> tracks_;    // by stamp
+  std::map<std::int64_t, LabelRow> labels_;                 // by stamp
   std::map<flow::SubmapId, flow::Submap> submaps_;
   std::map<std::tuple<flow::SubmapId, flow::SubmapId, flow::ConstraintKind>, flow::Constraint> constraints_;
   flow::GraphCorrection correction_;

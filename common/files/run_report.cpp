@@ -44,6 +44,7 @@ Json input_of(const RunReport& report) {
           {"field_of_view_rad", short_number(figures.field_of_view_rad)},
           {"max_range_m", short_number(figures.max_range_m)},
           {"scan_period_s", short_number(figures.scan_period_s)},
+          {"sweep_s", short_number(report.sweep_s)},
           {"cruising_speed_mps", short_number(figures.cruising_speed_mps)},
           {"malformed_lines", report.faults.malformed_lines},
           {"first_malformed_lines", report.faults.first_malformed_lines},

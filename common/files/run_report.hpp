@@ -36,6 +36,7 @@ struct RunReport {
   std::string profile;
   std::string profile_reason;
   LogPlan plan;
+  double sweep_s = 0.0;        ///< From the first beam to the last, as was assumed.
   LogFaults faults;
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
   MeasuredRun measured;

@@ -9,6 +9,7 @@
 #include "common/files/atomic_file.hpp"
 #include "services/evaluator/evaluation.hpp"
 #include "services/evaluator/evaluation_text.hpp"
+#include "services/evaluator/table_file.hpp"
 
 namespace slammot::evaluator {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 struct EvalOptions {
   std::filesystem::path result;
   std::filesystem::path truth;
+  std::filesystem::path input;
   EvaluationOptions evaluation;
 };
 
@@ -24,12 +26,19 @@ int fail(const files::Error& fault) {
   return 1;
 }
 
+/// From the log asked for, or the one beside the truth.
+EchoSource echo_source(const EvalOptions& options, const RunResult& result, const Truth& truth) {
+  const auto log = options.input.empty() ? plain_or_gz(options.truth.string() + ".log") : std::optional(options.input);
+  if (!log) return {};
+  return [log = *log, &result, &truth](const auto& take) { return read_echoes(log, truth.trajectory, result.sweep_s, take); };
+}
+
 int evaluate_run(const EvalOptions& options) {
   const auto truth = read_truth(options.truth);
   if (!truth) return fail(truth.error());
   const auto result = read_result(options.result);
   if (!result) return fail(result.error());
-  const auto evaluation = evaluate(*result, *truth, options.evaluation);
+  const auto evaluation = evaluate(*result, *truth, echo_source(options, *result, *truth), options.evaluation);
   if (!evaluation) return fail(evaluation.error());
   std::fputs(to_text(*evaluation, options.evaluation).c_str(), stdout);
   const std::filesystem::path json = options.result / "evaluation.json";
@@ -42,6 +51,7 @@ void add_options(CLI::App& command, EvalOptions& options) {
   metrics::CountingRule& rule = options.evaluation.rule;
   command.add_option("--result", options.result, "Folder with the outputs of run or bench")->required()->type_name("DIR");
   command.add_option("--truth", options.truth, "Truth files without their endings: PREFIX.tum, PREFIX.objects.csv, ...")->required()->type_name("PREFIX");
+  command.add_option("--input", options.input, "Log of the drive, for what is judged echo by echo [PREFIX.log]")->type_name("FILE");
   command.add_option("--range", rule.range_m, "Objects farther away do not count [m]")->capture_default_str()->check(CLI::PositiveNumber);
   command.add_option("--min-speed", rule.least_speed_mps, "Slower objects do not count [m/s]")->capture_default_str()->check(CLI::NonNegativeNumber);
   command.add_option("--min-points", rule.least_points, "Objects with fewer echoes do not count")->capture_default_str()->check(CLI::NonNegativeNumber);

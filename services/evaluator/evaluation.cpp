@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 #include "services/evaluator/table_file.hpp"
@@ -106,6 +107,9 @@ metrics::ReportedTrack in_world(const ResultTrack& track, std::size_t index, con
   return reported;
 }
 
+/// Stamps of one log are written alike, up to the last digit; scans are farther apart.
+constexpr std::int64_t kSameStampNs = 1'000'000;
+
 /// The element whose stamp is nearest, if it is near enough. Elements ascend.
 template <typename Element>
 const Element* at_stamp(const std::vector<Element>& elements, std::int64_t stamp_ns, std::int64_t max_difference_ns) {
@@ -121,8 +125,6 @@ struct Scenes {
 
 Scenes make_scenes(const RunResult& result, const Truth& truth, std::int64_t max_difference_ns) {
   constexpr std::int64_t kLongestTruthGapNs = 200'000'000;
-  // Stamps of one log are written alike; half of the shortest step between scans keeps neighbours apart.
-  constexpr std::int64_t kSameStampNs = 1'000'000;
   Scenes made;
   std::map<std::uint32_t, std::size_t> index_of_track;
   for (const metrics::StampedPose& online : result.online) {
@@ -216,6 +218,94 @@ metrics::OccupancyCells to_cells(const files::MapImage& image) {
   return cells;
 }
 
+/// What one pass over the echoes of the drive tells.
+struct EchoSurvey {
+  std::optional<DetectionEvaluation> detection;
+  std::vector<geometry::Vector2> places_m;  ///< In world, one for each square of a wall that sent an echo.
+};
+
+/// One point for each square of the given size that holds a point.
+class Places {
+ public:
+  explicit Places(double size_m) : size_m_(size_m) {}
+
+  void add(const geometry::Vector2& point_m) {
+    const auto x = static_cast<std::int64_t>(std::floor(point_m.x() / size_m_));
+    const auto y = static_cast<std::int64_t>(std::floor(point_m.y() / size_m_));
+    if (keys_.insert(x * (std::int64_t{1} << 32) + y).second) points_m_.push_back(point_m);
+  }
+  std::vector<geometry::Vector2> take() { return std::move(points_m_); }
+
+ private:
+  double size_m_;
+  std::unordered_set<std::int64_t> keys_;
+  std::vector<geometry::Vector2> points_m_;
+};
+
+files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResult& result, const std::vector<Scene>& scenes, bool has_objects,
+                                        const EvaluationOptions& options) {
+  EchoSurvey survey;
+  if (!echoes) return survey;
+  if (has_objects && !result.labels.empty()) survey.detection.emplace();
+  Places places(0.25 * options.map_tolerance_m);
+  const auto least_points = static_cast<std::size_t>(options.rule.least_points);
+  const auto fault = echoes([&](const EchoesInWorld& scan) {
+    const Scene* const scene = at_stamp(scenes, scan.stamp_ns, kSameStampNs);
+    if (!scene) return;
+    const auto truth = metrics::beam_truth(scan.points_m, *scene, options.rule);
+    for (std::size_t beam = 0; beam < truth.size(); ++beam) {
+      if (truth[beam].kind == metrics::BeamKind::kStationary) places.add(*scan.points_m[beam]);
+    }
+    const LabelsAt* const labels = survey.detection ? at_stamp(result.labels, scan.stamp_ns, kSameStampNs) : nullptr;
+    if (!labels) return;
+    ++survey.detection->scans;
+    survey.detection->by_detection = metrics::add_scan(survey.detection->by_detection, truth, labels->by_detection, least_points);
+    survey.detection->by_tracking = metrics::add_scan(survey.detection->by_tracking, truth, labels->by_tracking, least_points);
+  });
+  if (fault) return *fault;
+  survey.places_m = places.take();
+  return survey;
+}
+
+OtherCarEvaluation evaluate_other_car(const std::vector<Scene>& scenes, const metrics::Trajectory& other_car) {
+  constexpr double kGateM = 0.5;  // about the length of such a car
+  constexpr std::int64_t kLongestTruthGapNs = 200'000'000;
+  constexpr std::int64_t kDifferenceNs = 50'000'000;  // motion capture trembles by millimetres
+  OtherCarEvaluation evaluation;
+  std::vector<double> position_m;
+  std::vector<double> velocity_mps;
+  std::set<std::size_t> identities;
+  std::optional<std::size_t> track_before;
+  std::size_t false_tracks = 0;
+  for (const Scene& scene : scenes) {
+    const auto now = metrics::pose_at(other_car, scene.stamp_ns, kLongestTruthGapNs);
+    const auto before = metrics::pose_at(other_car, scene.stamp_ns - kDifferenceNs, kLongestTruthGapNs);
+    const auto after = metrics::pose_at(other_car, scene.stamp_ns + kDifferenceNs, kLongestTruthGapNs);
+    if (!now || !before || !after) continue;
+    ++evaluation.scans;
+    const metrics::ReportedTrack* match = nullptr;
+    const auto away_m = [&](const metrics::ReportedTrack& track) { return (track.world_from_object.translation_m() - now->translation_m()).norm(); };
+    for (const metrics::ReportedTrack& track : scene.tracks) {
+      if (away_m(track) > kGateM) continue;
+      const bool goes_on = track_before && track.track == *track_before;
+      if (!match || goes_on || (match->track != track_before && away_m(track) < away_m(*match))) match = &track;
+    }
+    for (const metrics::ReportedTrack& track : scene.tracks) false_tracks += track.is_moving && &track != match ? 1 : 0;
+    if (!match) continue;
+    ++evaluation.matched_scans;
+    track_before = match->track;
+    identities.insert(match->track);
+    position_m.push_back(away_m(*match));
+    const geometry::Vector2 true_velocity_mps = (after->translation_m() - before->translation_m()) / (2e-9 * static_cast<double>(kDifferenceNs));
+    velocity_mps.push_back((match->velocity_in_world_mps - true_velocity_mps).norm());
+  }
+  evaluation.identities = identities.size();
+  evaluation.position_m = metrics::summarize(position_m);
+  evaluation.velocity_mps = metrics::summarize(velocity_mps);
+  if (evaluation.scans > 0) evaluation.false_moving_tracks_a_scan = static_cast<double>(false_tracks) / static_cast<double>(evaluation.scans);
+  return evaluation;
+}
+
 std::vector<metrics::TrueObject> moving_objects(const Truth& truth, double least_speed_mps) {
   std::vector<metrics::TrueObject> moving;
   if (!truth.objects) return moving;
@@ -227,8 +317,10 @@ std::vector<metrics::TrueObject> moving_objects(const Truth& truth, double least
   return moving;
 }
 
-void add_notes(const RunResult& result, const Truth& truth, Evaluation& evaluation) {
+void add_notes(const RunResult& result, const Truth& truth, const EchoSource& echoes, Evaluation& evaluation) {
   if (!truth.objects && !truth.other_car) evaluation.notes.push_back("no true objects: tracking is not evaluated");
+  if (truth.objects && !echoes) evaluation.notes.push_back("no log: labels of points are not evaluated, and walls count as seen where the map knows the place");
+  if (truth.objects && result.labels.empty()) evaluation.notes.push_back("no labels.csv in the result: labels of points are not evaluated");
   if (!truth.walls) evaluation.notes.push_back("no true walls: the map is not evaluated");
   if (truth.walls && !result.map) evaluation.notes.push_back("no map.pgm in the result: the map is not evaluated");
   if (result.uncertain.empty()) evaluation.notes.push_back("no online_covariance.csv in the result: no NEES of poses");
@@ -236,7 +328,7 @@ void add_notes(const RunResult& result, const Truth& truth, Evaluation& evaluati
 
 }  // namespace
 
-files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EvaluationOptions& options) {
+files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EchoSource& echoes, const EvaluationOptions& options) {
   const std::int64_t max_difference_ns = to_ns(options.max_stamp_difference_s);
   Evaluation evaluation;
   evaluation.online = evaluate_trajectory(truth.trajectory, result.online, max_difference_ns);
@@ -249,15 +341,19 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, 
   Scenes made = make_scenes(result, truth, max_difference_ns);
   if (auto fault = fault_of_objects(made.scenes, truth.objects && !truth.objects->empty())) return *fault;
   evaluation.scenes = metrics::fill_gaps(std::move(made.scenes), to_ns(options.longest_occlusion_s));
+  auto survey = survey_echoes(echoes, result, evaluation.scenes, truth.objects.has_value(), options);
+  if (!survey) return survey.error();
+  evaluation.detection = survey->detection;
+  if (truth.other_car) evaluation.other_car = evaluate_other_car(evaluation.scenes, *truth.other_car);
   if (truth.objects) {
     for (const Scene& scene : evaluation.scenes) evaluation.counted.push_back(metrics::count_scene(scene, options.rule));
     evaluation.tracking = evaluate_tracking(evaluation.scenes, evaluation.counted, truth.object_count, made.track_count, options.rule);
   }
   if (truth.walls && result.map) {
     evaluation.map = metrics::map_quality(to_cells(*result.map), evaluation.corrected.world_from_map, *truth.walls,
-                                          moving_objects(truth, options.rule.least_speed_mps), {}, options.map_tolerance_m);
+                                          moving_objects(truth, options.rule.least_speed_mps), survey->places_m, options.map_tolerance_m);
   }
-  add_notes(result, truth, evaluation);
+  add_notes(result, truth, echoes, evaluation);
   return evaluation;
 }
 

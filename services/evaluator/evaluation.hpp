@@ -2,16 +2,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/files/result.hpp"
+#include "common/metrics/detection.hpp"
 #include "common/metrics/gospa.hpp"
 #include "common/metrics/hota.hpp"
 #include "common/metrics/identity.hpp"
 #include "common/metrics/map_quality.hpp"
 #include "common/metrics/object_errors.hpp"
+#include "services/evaluator/echoes.hpp"
 #include "services/evaluator/result_files.hpp"
 #include "services/evaluator/truth_files.hpp"
 
@@ -70,11 +73,19 @@ struct OtherCarEvaluation {
   double false_moving_tracks_a_scan = 0.0;
 };
 
+/// Labels of points against what the points truly came from.
+struct DetectionEvaluation {
+  std::size_t scans = 0;
+  metrics::DetectionCounts by_detection;
+  metrics::DetectionCounts by_tracking;
+};
+
 /// A part is missing where there was no truth or no result for it; notes say so.
 struct Evaluation {
   TrajectoryEvaluation online;
   TrajectoryEvaluation corrected;
   std::optional<metrics::NeesSummary> relative_pose_nees;
+  std::optional<DetectionEvaluation> detection;
   std::optional<TrackingEvaluation> tracking;
   std::optional<OtherCarEvaluation> other_car;
   std::optional<metrics::MapQuality> map;
@@ -83,8 +94,11 @@ struct Evaluation {
   std::vector<metrics::CountedScene> counted;
 };
 
-/// Compares a run with the truth. Fails with one line where they cannot be of the same drive: no common time, other
+/// Hands over the echoes of every scan of the drive.
+using EchoSource = std::function<std::optional<files::Error>(const std::function<void(const EchoesInWorld&)>& take)>;
+
+/// Compares a run with the truth; without echoes, which may be empty, detection is not evaluated. Fails with one line where they cannot be of the same drive: no common time, other
 /// motion, or objects nowhere near.
-files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EvaluationOptions& options);
+files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EchoSource& echoes, const EvaluationOptions& options);
 
 }  // namespace slammot::evaluator

@@ -110,6 +110,19 @@ Json to_json(const OtherCarEvaluation& car) {
           {"false_moving_tracks_a_scan", number(car.false_moving_tracks_a_scan)}};
 }
 
+Json to_json(const metrics::DetectionCounts& counts) {
+  return {{"moving_precision", number(counts.moving_precision())},
+          {"moving_recall", number(counts.moving_recall())},
+          {"stationary_precision", number(counts.stationary_precision())},
+          {"stationary_recall", number(counts.stationary_recall())},
+          {"segment_precision", number(counts.segment_precision())},
+          {"segment_recall", number(counts.segment_recall())},
+          {"moving_points", counts.moving_as_moving + counts.moving_as_stationary + counts.moving_as_unknown},
+          {"stationary_points", counts.stationary_as_moving + counts.stationary_as_stationary + counts.stationary_as_unknown},
+          {"moving_points_unknown", counts.moving_as_unknown},
+          {"stationary_points_unknown", counts.stationary_as_unknown}};
+}
+
 Json to_json(const metrics::MapQuality& map) {
   return {{"precision", number(map.precision())}, {"recall", number(map.recall())}, {"residue", number(map.residue())}, {"occupied_cells", map.occupied_cells},
           {"residue_cells", map.residue_cells}, {"wall_samples", map.wall_samples}};
@@ -132,6 +145,9 @@ Json to_json(const EvaluationOptions& options) {
 std::string to_json_text(const Evaluation& evaluation, const EvaluationOptions& options) {
   Json json = {{"rule", to_json(options)}, {"trajectory", to_json(evaluation.corrected)}, {"online_trajectory", to_json(evaluation.online)}};
   if (evaluation.relative_pose_nees) json["relative_pose_nees"] = to_json(*evaluation.relative_pose_nees);
+  if (evaluation.detection) {
+    json["detection"] = {{"scans", evaluation.detection->scans}, {"by_detection", to_json(evaluation.detection->by_detection)}, {"by_tracking", to_json(evaluation.detection->by_tracking)}};
+  }
   if (evaluation.tracking) json["tracking"] = to_json(*evaluation.tracking);
   if (evaluation.other_car) json["other_car"] = to_json(*evaluation.other_car);
   if (evaluation.map) json["map"] = to_json(*evaluation.map);

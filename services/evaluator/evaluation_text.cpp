@@ -70,6 +70,17 @@ std::string describe(const OtherCarEvaluation& car) {
   return lines + error_row("velocity", car.velocity_mps, "m/s");
 }
 
+std::string label_row(const char* name, const metrics::DetectionCounts& counts) {
+  return text("  %-14s %9.3f %9.3f %11.4f %11.4f %9.3f %9.3f\n", name, counts.moving_precision(), counts.moving_recall(), counts.stationary_precision(),
+              counts.stationary_recall(), counts.segment_precision(), counts.segment_recall());
+}
+
+std::string describe(const DetectionEvaluation& detection) {
+  std::string lines = text("labels of echoes in %zu scans\n  %-14s %9s %9s %11s %11s %9s %9s\n", detection.scans, "", "moving", "moving", "stationary", "stationary", "segment", "segment");
+  lines += text("  %-14s %9s %9s %11s %11s %9s %9s\n", "", "precision", "recall", "precision", "recall", "precision", "recall");
+  return lines + label_row("by detection", detection.by_detection) + label_row("by tracking", detection.by_tracking);
+}
+
 std::string describe(const metrics::MapQuality& map) {
   return text("map: precision %.3f of %zu occupied cells, recall %.3f of the walls seen, residue of movers %.2f %%\n", map.precision(), map.occupied_cells, map.recall(),
               100.0 * map.residue());
@@ -81,6 +92,7 @@ std::string to_text(const Evaluation& evaluation, const EvaluationOptions& optio
   std::string lines = describe("trajectory after the last correction", evaluation.corrected);
   lines += describe("trajectory as published live", evaluation.online);
   if (evaluation.relative_pose_nees) lines += describe_nees("relative poses over 1 s", *evaluation.relative_pose_nees);
+  if (evaluation.detection) lines += describe(*evaluation.detection);
   if (evaluation.tracking) {
     lines += text("objects within %g m, at least %g m/s and %d echoes; a match is within %g m of the true box\n", options.rule.range_m, options.rule.least_speed_mps,
                   options.rule.least_points, options.rule.gate_m);

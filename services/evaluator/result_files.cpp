@@ -7,6 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "services/evaluator/table_file.hpp"
 #include "services/evaluator/truth_files.hpp"
 
@@ -64,6 +66,15 @@ std::optional<Error> read_online_covariance(const path& file, std::vector<metric
   });
 }
 
+std::optional<Error> read_labels(const path& file, std::vector<LabelsAt>& labels) {
+  return read_csv(file, {"timestamp", "detection", "tracking"}, [&](auto fields) -> RowFault {
+    const auto stamp = numbers(fields.first(1));
+    if (!stamp) return "a field is no number";
+    labels.push_back({to_ns(stamp->front()), std::string(fields[1]), std::string(fields[2])});
+    return std::nullopt;
+  });
+}
+
 std::optional<double> yaml_number(const std::string& yaml, const std::string& key) {
   const std::size_t at = yaml.find(key + ":");
   double value = 0.0;
@@ -74,6 +85,12 @@ std::optional<double> yaml_number(const std::string& yaml, const std::string& ke
 std::string read_all(const path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+double sweep_s_of(const path& report_json) {
+  const auto report = nlohmann::json::parse(read_all(report_json), nullptr, false);
+  const auto place = nlohmann::json::json_pointer("/input/sweep_s");
+  return report.is_object() && report.contains(place) && report[place].is_number() ? report[place].get<double>() : 0.0;
 }
 
 }  // namespace
@@ -118,6 +135,10 @@ Result<RunResult> read_result(const path& folder) {
   if (const auto file = plain_or_gz(folder / "online_covariance.csv")) {
     if (auto fault = read_online_covariance(*file, result.uncertain)) return *fault;
   }
+  if (const auto file = plain_or_gz(folder / "labels.csv")) {
+    if (auto fault = read_labels(*file, result.labels)) return *fault;
+  }
+  result.sweep_s = sweep_s_of(folder / "report.json");
   if (std::filesystem::exists(folder / "map.yaml")) {
     auto map = read_map(folder / "map.yaml");
     if (!map) return map.error();

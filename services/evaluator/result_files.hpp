@@ -32,13 +32,22 @@ struct TracksAt {
   std::vector<ResultTrack> tracks;
 };
 
+/// A row of labels.csv: a letter a beam, 's' stationary, 'm' moving, '?' unknown, '-' no echo.
+struct LabelsAt {
+  std::int64_t stamp_ns = 0;
+  std::string by_detection;
+  std::string by_tracking;
+};
+
 /// What `slammot run` or `bench` wrote.
 struct RunResult {
   metrics::Trajectory online;     ///< map_from_base as published live; never empty.
   metrics::Trajectory corrected;  ///< After the last correction; never empty.
   std::vector<metrics::UncertainStampedPose> uncertain;  ///< Empty where it was not written.
   std::vector<TracksAt> tracks;   ///< Ascending stamps; scans without tracks are not in it.
+  std::vector<LabelsAt> labels;   ///< Ascending stamps; empty where it was not written.
   std::optional<files::MapImage> map;
+  double sweep_s = 0.0;           ///< From the first beam of a scan to its last, as the run took it; 0 where it does not say.
 };
 
 files::Result<RunResult> read_result(const std::filesystem::path& folder);

@@ -155,6 +155,7 @@ files::RunReport report_of(const Job& job, const JobOptions& options, const std:
   report.input = name_of_drive(options);
   report.profile = job.profile_name;
   report.profile_reason = job.profile_reason;
+  report.sweep_s = job.sweep_s;
   report.plan = job.log.plan();
   report.faults = job.log.faults();
   return report;

@@ -18,6 +18,8 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   localizer_.expect(tracked.objects);
   times_.measure("mapping", [&] { localizer_.integrate(tracked.labels); });
   record_.add(*localized);
+  record_.add(segmented);
+  record_.add(tracked.labels);
   record_.add(tracked.objects);
   close_loops();
 }

@@ -45,6 +45,30 @@ TEST(ToTracksCsv, WritesOneRowATrackUnderTheAgreedHeader) {
             "1.500000,42,1.000,2.000,0.50000,3.000,-0.250,4.500,1.800,stopped,0.9750,car\n");
 }
 
+TEST(ToTrackDetailsCsv, WritesCovariancesAndTheProbabilityOfEachMode) {
+  TrackRow row;
+  row.stamp_ns = 1'500'000'000;
+  row.track_id = {42};
+  row.covariance_in_map.diagonal() << 0.04, 0.01, 1.0, 0.25;
+  row.covariance_in_map(0, 1) = -0.0012345678;
+  row.mode_probability = {0.75, 0.25};
+  EXPECT_EQ(to_track_details_csv({row}),
+            "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,mode_0,mode_1\n"
+            "1.500000,42,0.04,-0.0012346,0.01,1,0,0.25,0.75,0.25\n");
+}
+
+TEST(ToOnlineCovarianceCsv, WritesTheUpperTriangle) {
+  UncertainStampedPose pose{2'000'000'000, {{1.0, -2.0, 0.5}, Matrix3::Identity() * 1e-6}};
+  pose.odom_from_base.covariance(0, 2) = 2.5e-7;
+  EXPECT_EQ(to_online_covariance_csv({pose}),
+            "timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h\n"
+            "2.000000,1.000000,-2.000000,0.5000000,1e-06,0,2.5e-07,1e-06,0,1e-06\n");
+}
+
+TEST(ToLabelsCsv, WritesALetterABeam) {
+  EXPECT_EQ(to_labels_csv({{1'000'000'000, "-sm?", "-smm"}}), "timestamp,detection,tracking\n1.000000,-sm?,-smm\n");
+}
+
 /// The record of two submaps and a loop between them.
 RunRecord small_record() {
   RunRecord record;

@@ -1,5 +1,7 @@
 #include "common/files/run_record.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -114,6 +116,33 @@ TEST(RunRecord, ReportsConfirmedTracksInMapAsPublished) {
   EXPECT_NEAR(rows[0].map_from_object.x_m, 10.0, 1e-12);
   EXPECT_NEAR(rows[0].map_from_object.y_m, 1.0, 1e-12);
   EXPECT_NEAR(rows[0].velocity_in_map_mps.y(), 3.0, 1e-12);
+}
+
+TEST(RunRecord, TurnsCovariancesOfTracksIntoMap) {
+  RunRecord record;
+  flow::TrackedObjects message = tracked(100, {{7, true}});
+  message.map_from_odom = {0.0, 0.0, std::acos(0.0)};
+  message.objects[0].covariance.diagonal() << 4.0, 1.0, 0.5, 0.25;
+  record.add(message);
+  const Eigen::Matrix4d covariance = record.track_rows().at(0).covariance_in_map;
+  EXPECT_NEAR(covariance(0, 0), 1.0, 1e-12);
+  EXPECT_NEAR(covariance(1, 1), 4.0, 1e-12);
+  EXPECT_NEAR(covariance(3, 3), 0.5, 1e-12);
+}
+
+TEST(RunRecord, JoinsTheLabelsOfDetectionAndTracking) {
+  RunRecord record;
+  flow::SegmentedScan segmented;
+  segmented.stamp_ns = 100;
+  segmented.labels = {flow::PointLabel::kNoEcho, flow::PointLabel::kStationary, flow::PointLabel::kUnknown};
+  flow::ScanLabels labels;
+  labels.stamp_ns = 100;
+  labels.labels = {flow::PointLabel::kNoEcho, flow::PointLabel::kStationary, flow::PointLabel::kMoving};
+  record.add(segmented);
+  record.add(labels);
+  ASSERT_EQ(record.label_rows().size(), 1u);
+  EXPECT_EQ(record.label_rows()[0].by_detection, "-s?");
+  EXPECT_EQ(record.label_rows()[0].by_tracking, "-sm");
 }
 
 }  // namespace
