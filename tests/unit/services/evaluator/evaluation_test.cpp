@@ -1,0 +1,108 @@
+#include "services/evaluator/evaluation.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/services/evaluator/files.hpp"
+
+namespace slammot::evaluator {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The car ahead, tracked half a metre beside its box; the map begins where the world has x = 100 m.
+class Evaluate : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write(folder_ / "online.tum", straight_tum(0.0));
+    write(folder_ / "trajectory.tum", straight_tum(0.0));
+    write(folder_ / "tracks.csv", tracks_csv(0.0, 1.4));
+    write(folder_ / "drive.tum", straight_tum(100.0));
+    write(folder_ / "drive.objects.csv", car_ahead_csv(100.0));
+  }
+
+  files::Result<Evaluation> evaluated() {
+    const auto truth = read_truth(folder_ / "drive");
+    const auto result = read_result(folder_.path());
+    if (!truth) return truth.error();
+    if (!result) return result.error();
+    return evaluate(*result, *truth, {}, {});
+  }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(Evaluate, JoinsMapAndWorldByTheVehicle) {
+  const auto evaluation = evaluated();
+  ASSERT_TRUE(evaluation);
+  EXPECT_NEAR(evaluation->corrected.absolute_m.rmse, 0.0, 1e-9);
+  ASSERT_TRUE(evaluation->tracking);
+  EXPECT_DOUBLE_EQ(evaluation->tracking->clear.mota, 1.0);
+  EXPECT_NEAR(evaluation->tracking->clear.motp, 1.0 - 0.5 / 4.0, 1e-9);
+  EXPECT_NEAR(evaluation->tracking->errors.all.centre_m.rmse, 1.4, 1e-9);
+  EXPECT_NEAR(evaluation->tracking->errors.all.velocity_mps.rmse, 0.0, 1e-9);
+  EXPECT_NEAR(evaluation->tracking->gospa.localization_m2, 0.25, 1e-9);
+}
+
+TEST_F(Evaluate, RefusesAnotherClock) {
+  write(folder_ / "drive.tum", straight_tum(100.0, 5000.0));
+  const auto evaluation = evaluated();
+  ASSERT_FALSE(evaluation);
+  EXPECT_THAT(evaluation.error().message, HasSubstr("the clocks do not overlap"));
+}
+
+TEST_F(Evaluate, RefusesAnotherDrive) {
+  std::string circle;
+  for (int i = 0; i <= 300; ++i) {
+    const double turn = 0.1 * i;  // 10 m of radius
+    circle += std::to_string(0.1 * i) + " " + std::to_string(10.0 * std::sin(turn)) + " " + std::to_string(-10.0 * std::cos(turn)) + " 0 0 0 " +
+              std::to_string(std::sin(0.5 * turn)) + " " + std::to_string(std::cos(0.5 * turn)) + "\n";
+  }
+  write(folder_ / "drive.tum", circle);
+  const auto evaluation = evaluated();
+  ASSERT_FALSE(evaluation);
+  EXPECT_THAT(evaluation.error().message, HasSubstr("the frames do not overlap"));
+}
+
+TEST_F(Evaluate, RefusesObjectsOfAnotherFrame) {
+  write(folder_ / "drive.objects.csv", car_ahead_csv(90000.0));
+  const auto evaluation = evaluated();
+  ASSERT_FALSE(evaluation);
+  EXPECT_THAT(evaluation.error().message, HasSubstr("the nearest true object is"));
+}
+
+TEST_F(Evaluate, RefusesObjectsOfAnotherClock) {
+  write(folder_ / "drive.objects.csv", "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n900.0,1,car,110,0,0,10,4.5,1.8,20,10\n");
+  const auto evaluation = evaluated();
+  ASSERT_FALSE(evaluation);
+  EXPECT_THAT(evaluation.error().message, HasSubstr("no scan of the result has true objects at its time"));
+}
+
+TEST_F(Evaluate, SaysWhatItLeavesOut) {
+  std::filesystem::remove(folder_ / "drive.objects.csv");
+  const auto evaluation = evaluated();
+  ASSERT_TRUE(evaluation);
+  EXPECT_FALSE(evaluation->tracking);
+  EXPECT_THAT(evaluation->notes, ::testing::Contains(HasSubstr("no true objects")));
+}
+
+TEST_F(Evaluate, FollowsOneOtherCarOfMotionCapture) {
+  for (const char* file : {"drive.tum", "drive.objects.csv"}) std::filesystem::remove(folder_ / file);
+  write(folder_ / "drive.ego.tum", straight_tum(100.0));
+  write(folder_ / "drive.red.tum", straight_tum(110.0));
+  write(folder_ / "tracks.csv", tracks_csv(0.0, 0.1));
+  const auto evaluation = evaluated();
+  ASSERT_TRUE(evaluation);
+  ASSERT_TRUE(evaluation->other_car);
+  EXPECT_EQ(evaluation->other_car->matched_scans, evaluation->other_car->scans);
+  EXPECT_EQ(evaluation->other_car->identities, 1U);
+  EXPECT_NEAR(evaluation->other_car->position_m.rmse, 0.1, 1e-9);
+  EXPECT_NEAR(evaluation->other_car->velocity_mps.rmse, 0.0, 1e-6);
+  EXPECT_EQ(evaluation->other_car->false_moving_tracks_a_scan, 0.0);
+}
+
+}  // namespace
+}  // namespace slammot::evaluator
