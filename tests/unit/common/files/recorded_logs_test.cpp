@@ -20,6 +20,9 @@ struct RecordedLog {
   const char* profile;
 };
 
+/// Names the test.
+void PrintTo(const RecordedLog& log, std::ostream* to) { *to << log.file; }
+
 class RecordedLogs : public ::testing::TestWithParam<RecordedLog> {};
 
 TEST_P(RecordedLogs, AreUnderstoodWithoutBeingToldAnything) {
