@@ -16,6 +16,7 @@ struct Constraint {
   SubmapId to;
   ConstraintKind kind = ConstraintKind::kOdometric;
   geometry::UncertainPose2 from_to;  ///< from_from_to: maps points of submap `to` into submap `from`.
+  MapId map_id{};
 };
 
 struct CorrectedSubmap {
@@ -28,6 +29,7 @@ struct GraphCorrection {
   std::uint32_t sequence = 0;            ///< Grows with every correction.
   geometry::Pose2 map_from_odom;         ///< For the newest submap of the graph, and so for what is being driven now.
   std::vector<CorrectedSubmap> submaps;  ///< All submaps of the graph, ascending.
+  MapId map_id{};
 };
 
 }  // namespace slammot::flow

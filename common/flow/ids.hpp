@@ -5,10 +5,17 @@
 
 namespace slammot::flow {
 
-/// Counts the submaps of one vehicle from 0, in the order in which they were begun.
+/// Counts the submaps of one map from 0, in the order in which they were begun.
 struct SubmapId {
   std::uint32_t value = 0;
   auto operator<=>(const SubmapId&) const = default;
+};
+
+/// Names one map of a vehicle, from the first scan to the last: another one where localization began anew. 0 where there is
+/// only one, as in one process.
+struct MapId {
+  std::uint64_t value = 0;
+  auto operator<=>(const MapId&) const = default;
 };
 
 /// Names one tracked object of one vehicle for as long as it is believed; never used again.

@@ -41,6 +41,7 @@ struct LocalizedScan {
   geometry::Pose2 map_from_odom;                ///< Moves when a loop closes.
   double speed_mps = 0.0;                       ///< Forward, of the base.
   double yaw_rate_radps = 0.0;
+  MapId map_id{};
   SubmapId submap_id;                           ///< The local map in use,
   geometry::Pose2 submap_from_base;             ///< and the pose in it: what stays true when loops close.
   std::vector<LocalizedBeam> beams;             ///< One for each beam of the scan, in its order.

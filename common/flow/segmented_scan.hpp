@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "common/flow/ids.hpp"
 #include "common/geometry/uncertain_pose2.hpp"
 
 namespace slammot::flow {
@@ -43,6 +44,7 @@ struct SegmentedScan {
   double beam_step_rad = 0.0;
   geometry::UncertainPose2 odom_from_base;
   geometry::Pose2 map_from_odom;
+  MapId map_id{};
   std::vector<Eigen::Vector2f> points_in_base_m;  ///< One a beam.
   std::vector<float> range_m;                     ///< One a beam; 0 for no echo.
   std::vector<PointLabel> labels;                 ///< One a beam.

@@ -20,6 +20,7 @@ struct Surfel {
 /// A finished local map: what was seen while the vehicle was in it, and nothing that it took over from the one before.
 /// Cell (column, row) covers [column, column + 1) * cell_size_m + min_x_m of x, and so for y; row-major, row 0 lowest y.
 struct Submap {
+  MapId map_id{};
   SubmapId submap_id;
   std::int64_t first_stamp_ns = 0;
   std::int64_t last_stamp_ns = 0;

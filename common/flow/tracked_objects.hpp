@@ -47,6 +47,7 @@ struct TrackedObjects {
   geometry::Pose2 map_from_odom;      ///< As of that scan: map_from_odom * position_in_odom is the position in map.
   geometry::Pose2 odom_from_base;
   std::vector<TrackedObject> objects; ///< Tentative ones too.
+  MapId map_id{};
 };
 
 }  // namespace slammot::flow

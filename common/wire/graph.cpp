@@ -37,6 +37,7 @@ bool is_ascending(const std::vector<flow::CorrectedSubmap>& submaps) {
 slammot_Constraint encode(std::string_view vehicle_id, const flow::Constraint& constraint) {
   slammot_Constraint sample{};
   set_text(sample.vehicle_id, vehicle_id);
+  sample.map_id = constraint.map_id.value;
   sample.from_submap_id = constraint.from.value;
   sample.to_submap_id = constraint.to.value;
   sample.kind = static_cast<slammot_ConstraintKind>(constraint.kind);
@@ -51,7 +52,8 @@ Decoded<flow::Constraint> decode(const slammot_Constraint& sample) {
   return flow::Constraint{.from = {sample.from_submap_id},
                           .to = {sample.to_submap_id},
                           .kind = static_cast<flow::ConstraintKind>(sample.kind),
-                          .from_to = decode(sample.from_from_to)};
+                          .from_to = decode(sample.from_from_to),
+                          .map_id = {sample.map_id}};
 }
 
 void GraphCorrectionEncoder::encode(std::string_view vehicle_id, const flow::GraphCorrection& correction,
@@ -62,6 +64,7 @@ void GraphCorrectionEncoder::encode(std::string_view vehicle_id, const flow::Gra
   set_text(sample_.vehicle_id, vehicle_id);
   sample_.sequence_number = correction.sequence;
   sample_.part_count = static_cast<std::uint32_t>(parts);
+  sample_.map_id = correction.map_id.value;
   sample_.map_from_odom = wire::encode(correction.map_from_odom);
   for (std::size_t part = 0; part < parts; ++part) {
     submaps_.clear();
@@ -80,13 +83,13 @@ GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(const sl
   const auto known = partial_.find(part.sequence_number);
   if (known != partial_.end()) {
     Partial& partial = known->second;
-    if (partial.parts.size() == part.part_count && partial.map_from_odom == map_from_odom) return partial;
+    if (partial.parts.size() == part.part_count && partial.map_from_odom == map_from_odom && partial.map_id.value == part.map_id) return partial;
     // A loop closing service that started again counts from the beginning: what it says replaces the old.
     partial_.erase(known);
   }
   if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());
   return partial_[part.sequence_number] =
-             Partial{map_from_odom, std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
+             Partial{{part.map_id}, map_from_odom, std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
 }
 
 GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_GraphCorrection& part) {
@@ -99,7 +102,7 @@ GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_Grap
   const auto has_come = [](const auto& one) { return one.has_value(); };
   if (!std::all_of(partial.parts.begin(), partial.parts.end(), has_come)) return {};
 
-  flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {}};
+  flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {}, partial.map_id};
   for (const auto& one : partial.parts) correction.submaps.insert(correction.submaps.end(), one->begin(), one->end());
   partial_.erase(part.sequence_number);
   if (!is_ascending(correction.submaps)) return {std::nullopt, "submaps are not in ascending order"};

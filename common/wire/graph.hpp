@@ -46,6 +46,7 @@ class GraphCorrectionAssembler {
 
  private:
   struct Partial {
+    flow::MapId map_id;
     geometry::Pose2 map_from_odom;
     std::vector<std::optional<std::vector<flow::CorrectedSubmap>>> parts;
   };

@@ -20,6 +20,7 @@ void encode_scan_header(std::string_view vehicle_id, const Scan& scan, Sample& s
   sample.beam_step_rad = scan.beam_step_rad;
   sample.odom_from_base = encode(scan.odom_from_base);
   sample.map_from_odom = encode(scan.map_from_odom);
+  sample.map_id = scan.map_id.value;
 }
 
 template <typename Sample>
@@ -44,6 +45,7 @@ Scan decode_scan_header(const Sample& sample) {
   scan.beam_step_rad = sample.beam_step_rad;
   scan.odom_from_base = decode(sample.odom_from_base);
   scan.map_from_odom = decode(sample.map_from_odom);
+  scan.map_id = {sample.map_id};
   return scan;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,9 @@ inline constexpr std::size_t kMostBeams = 4096;
 /// Puts scans on the wire. Keeps its buffers, so that encoding does not allocate once it has seen the largest scan.
 class LaserScanEncoder {
  public:
+  /// For the scans of one drive.
+  explicit LaserScanEncoder(std::uint64_t drive_id = 0) { sample_.drive_id = drive_id; }
+
   /// The result is good until the next call. Throws std::length_error for more than kMostBeams.
   const slammot_LaserScan& encode(std::string_view vehicle_id, const sensing::LaserScan& scan);
 

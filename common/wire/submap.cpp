@@ -52,6 +52,7 @@ class Fnv1a {
 
 slammot_SubmapHeader encode_header(const flow::Submap& submap, std::uint32_t tiles) {
   slammot_SubmapHeader header{};
+  header.map_id = submap.map_id.value;
   header.first_stamp_ns = submap.first_stamp_ns;
   header.last_stamp_ns = submap.last_stamp_ns;
   header.odom_from_submap = encode(submap.odom_from_submap);
@@ -73,7 +74,8 @@ slammot_SubmapHeader encode_header(const flow::Submap& submap, std::uint32_t til
 /// A submap as its header says, with grids and surfels still to be filled in.
 flow::Submap empty_submap(flow::SubmapId submap_id, const slammot_SubmapHeader& header) {
   const std::size_t cells = std::size_t{header.column_count} * header.row_count;
-  return {.submap_id = submap_id,
+  return {.map_id = {header.map_id},
+          .submap_id = submap_id,
           .first_stamp_ns = header.first_stamp_ns,
           .last_stamp_ns = header.last_stamp_ns,
           .odom_from_submap = decode(header.odom_from_submap),
@@ -154,6 +156,7 @@ void copy_into(flow::Submap& submap, const slammot_SubmapTile& tile) {
 
 std::uint64_t content_hash(const flow::Submap& submap) {
   Fnv1a hash;
+  hash.add(submap.map_id.value);
   hash.add(submap.first_stamp_ns);
   hash.add(submap.last_stamp_ns);
   hash.add(submap.odom_from_submap);

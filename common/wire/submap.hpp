@@ -83,7 +83,7 @@ class SubmapAssembler {
   Counters counters_;
 };
 
-/// FNV-1a (64 bits) over all that a submap holds but its identity.
+/// FNV-1a (64 bits) over all that a submap holds but its number.
 std::uint64_t content_hash(const flow::Submap& submap);
 
 }  // namespace slammot::wire

@@ -154,6 +154,7 @@ const slammot_TrackedObjects& TrackedObjectsEncoder::encode(std::string_view veh
   sample_.sequence_number = objects.sequence;
   sample_.map_from_odom = wire::encode(objects.map_from_odom);
   sample_.odom_from_base = wire::encode(objects.odom_from_base);
+  sample_.map_id = objects.map_id.value;
   show(sample_.objects, objects_);
   show(sample_.contour_points, contour_points_);
   show(sample_.path_points, path_points_);
@@ -166,7 +167,8 @@ Decoded<flow::TrackedObjects> decode(const slammot_TrackedObjects& sample) {
                                .sequence = sample.sequence_number,
                                .map_from_odom = decode(sample.map_from_odom),
                                .odom_from_base = decode(sample.odom_from_base),
-                               .objects = {}};
+                               .objects = {},
+                               .map_id = {sample.map_id}};
   objects.objects.reserve(sample.objects._length);
   auto contour = elements(sample.contour_points);
   auto path = elements(sample.path_points);

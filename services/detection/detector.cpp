@@ -99,6 +99,7 @@ SegmentedScan copy_of_header(const LocalizedScan& scan) {
   segmented.beam_step_rad = scan.beam_step_rad;
   segmented.odom_from_base = scan.odom_from_base;
   segmented.map_from_odom = scan.map_from_odom;
+  segmented.map_id = scan.map_id;
   return segmented;
 }
 

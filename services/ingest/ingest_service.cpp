@@ -33,6 +33,18 @@ Pace parse_pace(const std::string& speed) {
   return *pace;
 }
 
+std::filesystem::path mark_path(const app::ServiceOptions& options) {
+  return options.state_dir / ("ingest-" + options.vehicle_id + "-" + options.instance + ".drive");
+}
+
+/// Tells one log from another, in one line.
+std::string describe(const std::filesystem::path& input, const files::LogFigures& figures) {
+  return input.filename().string() + " " + std::to_string(figures.scans) + " scans " + std::to_string(figures.duration_s) + " s " +
+         std::to_string(figures.distance_m) + " m";
+}
+
+std::uint64_t new_drive_id() { return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()); }
+
 bool is_at_work(slammot_ServiceState state) {
   return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
 }
@@ -47,6 +59,7 @@ void IngestService::add_options(CLI::App& command_line, Settings& settings) {
   command_line.add_option("--input", settings.input, "CARMEN log, plain or .gz");
   command_line.add_option("--speed", settings.speed, "Times the recorded speed, or 'max': as fast as the other services are done")
       ->capture_default_str();
+  command_line.add_flag("--forgive-cut", settings.forgive_cut, "End with 0 also where the log is cut off, for those who would start it again");
   command_line.add_flag("--linger", settings.linger, "Stay after the end of the log until stopped");
 }
 
@@ -54,12 +67,15 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
     : context_(context),
       config_(settings.config),
       linger_(settings.linger),
+      forgive_cut_(settings.forgive_cut),
       source_(open_source(settings)),
+      drive_(mark_path(context.options()), describe(settings.input, source_.log().plan().figures), new_drive_id()),
       pace_(parse_pace(settings.speed)),
       window_({static_cast<std::size_t>(config_.window_scans), nanoseconds_of(config_.resend_after_s)}),
       graph_(nanoseconds_of(config_.graph_patience_s)),
       scans_(context.write(dds::topics::kLaserScan)),
       odometry_(context.write(dds::topics::kOdometry)),
+      encoder_(drive_.drive_id()),
       give_up_waiting_at_(steady_clock::now() + nanoseconds_of(config_.wait_for_services_s)) {
   context.status().counter("log_finished") = 0;
   context.status().counter("log_scans") = source_.log().plan().figures.scans;
@@ -74,10 +90,10 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
 
 void IngestService::watch_graph() {
   context_.read(dds::topics::kLocalizedScan, app::Input::kOccasional,
-                [this](const slammot_LocalizedScan& scan) { graph_.is_in_use(scan.submap_id, steady_clock::now()); });
+                [this](const slammot_LocalizedScan& scan) { graph_.is_in_use({scan.map_id}, scan.submap_id, steady_clock::now()); });
   context_.read(dds::topics::kGraphCorrection, app::Input::kOccasional, [this](const slammot_GraphCorrection& part) {
     if (part.part_index + 1 != part.part_count || part.submaps._length == 0) return;
-    graph_.is_placed(part.submaps._buffer[part.submaps._length - 1].submap_id);
+    graph_.is_placed({part.map_id}, part.submaps._buffer[part.submaps._length - 1].submap_id);
     if (has_begun_ && !has_finished_) proceed_with_room();
   });
 }
@@ -194,7 +210,7 @@ void IngestService::finish() {
   spdlog::info("finished {} scans", status.counter("scans"));
   if (linger_) return;
   scans_.wait_for_acknowledgements(kLastWords);
-  context_.stop(faults.is_cut ? kExitCut : 0);
+  context_.stop(faults.is_cut && !forgive_cut_ ? kExitCut : 0);
 }
 
 }  // namespace slammot::ingest

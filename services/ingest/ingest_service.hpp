@@ -9,6 +9,7 @@
 
 #include "common/app/run_service.hpp"
 #include "common/wire/sensor.hpp"
+#include "services/ingest/drive_mark.hpp"
 #include "services/ingest/graph_watch.hpp"
 #include "services/ingest/ingest_config.hpp"
 #include "services/ingest/log_source.hpp"
@@ -25,7 +26,8 @@ class IngestService {
     IngestConfig config;
     std::filesystem::path input;
     std::string speed = "1";
-    bool linger = false;  ///< Stay after the end of the log.
+    bool linger = false;       ///< Stay after the end of the log.
+    bool forgive_cut = false;  ///< A log that ends early is no failure of this process.
   };
   static constexpr const char* kName = "ingest";
   static constexpr const char* kPurpose = "Plays a recorded drive (a CARMEN log, plain or .gz) onto the bus.";
@@ -53,7 +55,9 @@ class IngestService {
   app::ServiceContext& context_;
   IngestConfig config_;
   bool linger_;
+  bool forgive_cut_;
   LogSource source_;
+  DriveMark drive_;
   Pace pace_;
   ScanWindow window_;
   GraphWatch graph_;

@@ -13,6 +13,7 @@
 #include "common/wire/graph.hpp"
 #include "common/wire/localized_scan.hpp"
 #include "common/wire/submap.hpp"
+#include "services/localization/drive_watch.hpp"
 #include "services/localization/localizer.hpp"
 
 namespace slammot::localization {
@@ -33,7 +34,8 @@ class LocalizationService {
  private:
   struct WaitingScan {
     sensing::LaserScan scan;
-    app::SteadyTime since;
+    std::uint64_t drive_id;
+    int turns = 0;  ///< Of the service's loop: odometry had its chance so often.
   };
 
   void take(const slammot_LaserScan& sample);
@@ -47,14 +49,18 @@ class LocalizationService {
 
   void localize_waiting();
   bool may_localize(const WaitingScan& waiting) const;
+  bool is_of_this_drive(const WaitingScan& waiting);
   void localize(const sensing::LaserScan& scan);
-  void come_back(std::int64_t stamp_ns);
+  bool come_back(const WaitingScan& first);
+  void begin_map();
+  void add_odometry_of_new_drive();
   void save_checkpoint(std::int64_t stamp_ns);
-  void correct_if_driven_so_far();
+  void withdraw_submaps();
   void publish_finished_submaps();
   app::CommandResult finish_submap();
 
   app::ServiceContext& context_;
+  LocalizerConfig config_;
   Localizer localizer_;
   app::StateFile checkpoint_;
   dds::Writer<slammot_LocalizedScan>& localized_scans_;
@@ -63,11 +69,13 @@ class LocalizationService {
   wire::SubmapEncoder submap_encoder_;
   wire::GraphCorrectionAssembler corrections_;
   std::deque<WaitingScan> waiting_;
+  std::deque<sensing::Odometry> recent_odometry_;               ///< In the order of arrival.
   int waited_in_vain_ = 0;                                      ///< Scans for which no odometry came, one after the other.
-  bool has_begun_ = false;
-  std::optional<flow::GraphCorrection> newest_correction_;
+  DriveWatch drives_;
+  std::optional<flow::MapId> map_id_;                           ///< None before the first scan.
+  std::map<flow::MapId, flow::GraphCorrection> early_corrections_;  ///< Kept by the bus from before this process.
   std::map<std::string, flow::LocalizedScan> last_published_;   ///< By scanner.
-  flow::SubmapId submap_in_use_;
+  std::map<flow::SubmapId, std::uint32_t> published_tiles_;     ///< How many.
   std::optional<std::int64_t> last_done_ns_;                    ///< Newest scan that was published.
   std::optional<std::int64_t> saved_ns_;
 };

@@ -55,9 +55,15 @@ void Localizer::add_odometry(const sensing::Odometry& sample) { odometry_.add(sa
 void Localizer::expect(const flow::TrackedObjects& objects) { expected_objects_ = objects; }
 
 bool Localizer::is_usable(const sensing::LaserScan& scan) {
-  if (last_ && scan.stamp_ns == last_->stamp_ns) ++counters_.duplicate_scans;
-  if (last_ && scan.stamp_ns < last_->stamp_ns) ++counters_.out_of_order_scans;
-  return !last_ || scan.stamp_ns > last_->stamp_ns;
+  if (!last_ || scan.stamp_ns > last_->stamp_ns) return true;
+  if (scan.stamp_ns < last_->stamp_ns) {
+    ++counters_.out_of_order_scans;
+    return false;
+  }
+  // After a crash nobody knows whose scan it was.
+  const bool is_new = !scanners_at_last_.empty() && std::ranges::find(scanners_at_last_, scan.scanner.scanner_id) == scanners_at_last_.end();
+  if (!is_new) ++counters_.duplicate_scans;
+  return is_new;
 }
 
 Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
@@ -221,24 +227,27 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   } else {
     const Step step = predict(scan.stamp_ns, wheel_from_base);
     const UncertainPose2 prior = geometry::compound(exactly(last_->odom_from_base), step.before_from_base);
-    now.speed_mps = step.before_from_base.pose.x_m / step.duration_s;
-    now.yaw_rate_radps = step.before_from_base.pose.heading_rad / step.duration_s;
+    const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
+    now.speed_mps = is_later ? step.before_from_base.pose.x_m / step.duration_s : last_->speed_mps;
+    now.yaw_rate_radps = is_later ? step.before_from_base.pose.heading_rad / step.duration_s : last_->yaw_rate_radps;
     sensing::deskew(scan, now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
     select_points(scan, prior.pose);
     const Match matched = match(prior);
     odom_from_base = matched.odom_from_base;
     const Pose2 before_from_base = geometry::inverse(last_->odom_from_base) * odom_from_base.pose;
     travel(before_from_base);
-    now.knows_velocity = true;
-    if (step.by_wheels && matched.is_believed) {
+    now.knows_velocity = is_later || last_->knows_velocity;
+    if (is_later && step.by_wheels && matched.is_believed) {
       calibration_ = sensing::calibrated(calibration_, *step.by_wheels, before_from_base, step.duration_s, config_.motion);
     }
-    if (!step.by_wheels) {
+    if (is_later && !step.by_wheels) {
       now.speed_mps = before_from_base.x_m / step.duration_s;
       now.yaw_rate_radps = before_from_base.heading_rad / step.duration_s;
     }
   }
   now.odom_from_base = odom_from_base.pose;
+  if (!last_ || last_->stamp_ns != now.stamp_ns) scanners_at_last_.clear();
+  scanners_at_last_.push_back(scan.scanner.scanner_id);
   last_ = now;
   flow::LocalizedScan localized = describe(scan, odom_from_base);
   remember(scan, localized);
@@ -405,6 +414,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;
   restored.last_ = last;
   restored.map_ = std::move(*map);
+  if (!last_) restored.odometry_ = std::move(odometry_);  // it bridges what was missed
   *this = std::move(restored);
   return true;
 }

@@ -53,7 +53,7 @@ struct LocalizerConfig {
 /// What happened so far; all grow only.
 struct LocalizerCounters {
   std::uint64_t scans = 0;
-  std::uint64_t duplicate_scans = 0;      ///< Same stamp as one before: dropped.
+  std::uint64_t duplicate_scans = 0;      ///< Same scanner and stamp as one before: dropped.
   std::uint64_t out_of_order_scans = 0;   ///< Older than one before: dropped.
   std::uint64_t too_few_echoes = 0;       ///< Dead reckoning instead of a match.
   std::uint64_t lost_matches = 0;         ///< Too few points matched: dead reckoning.
@@ -93,7 +93,7 @@ class Localizer {
   bool has_odometry_for(std::int64_t stamp_ns) const { return odometry_.reaches(stamp_ns); }
 
   /// Pose of the scan, its points without the sweep's motion, and what the map expected of each beam.
-  /// None for a scan that is a duplicate or out of order. Remembers the scan until its labels come.
+  /// None for a scan that is a duplicate (of the same scanner and stamp) or out of order. Remembers the scan until its labels come.
   std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan);
 
   /// What tracking predicts to be there: left out of the next matches.
@@ -122,7 +122,7 @@ class Localizer {
   /// Everything that is needed to go on after a crash, in a form of this build; empty before the first scan. Scans that
   /// wait for their labels, and what tracking expects, are not in it.
   std::vector<std::byte> checkpoint() const;
-  /// False, and nothing changed, when the bytes are damaged or the map in them has another shape than this configuration's.
+  /// Odometry that came before the first scan is kept. False, and nothing changed, when the bytes are damaged or the map in them has another shape than this configuration's.
   bool restore(std::span<const std::byte> bytes);
 
  private:
@@ -180,6 +180,7 @@ class Localizer {
   sensing::OdometryBuffer odometry_;
   sensing::MotionCalibration calibration_;
   std::optional<State> last_;
+  std::vector<std::string> scanners_at_last_;        ///< Whose scans have the last stamp; empty after a restore.
   LocalMap map_;
   geometry::Pose2 map_from_odom_;
   geometry::UncertainPose2 previous_from_submap_;    ///< Of the submap in progress.

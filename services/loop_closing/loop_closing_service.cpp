@@ -23,43 +23,39 @@ void LoopClosingService::take(const slammot_SubmapTile& tile) {
   auto assembled = assembler_.add(tile);
   if (!assembled.fault.empty()) context_.warn("faulty_tiles", "dropped a submap tile: " + std::string(assembled.fault));
   if (!assembled.submap) return;
-  if (is_of_another_drive(*assembled.submap)) begin_again();
+  if (map_id_ != assembled.submap->map_id) begin_map(assembled.submap->map_id);
   waiting_[assembled.submap->submap_id] = std::move(*assembled.submap);
   add_waiting();
 }
 
-/// A submap that is done again after a restart of localization overlaps its first version in time.
-bool LoopClosingService::is_of_another_drive(const flow::Submap& submap) const {
-  if (submap.submap_id.value >= added_.size()) return false;
-  const TimeSpan& known = added_[submap.submap_id.value];
-  return submap.first_stamp_ns > known.last_ns || submap.last_stamp_ns < known.first_ns;
-}
-
-void LoopClosingService::begin_again() {
-  spdlog::info("a new drive: forgets {} submaps", added_.size());
+void LoopClosingService::begin_map(flow::MapId map_id) {
+  if (map_id_) spdlog::info("a new map: forgets {} submaps", added_);
   for (const flow::Constraint& constraint : closer_.constraints()) constraints_.end(wire::encode(context_.vehicle_id(), constraint));
   closer_ = LoopCloser(config_);
-  added_.clear();
+  waiting_.clear();
+  added_ = 0;
   published_constraints_ = 0;
+  map_id_ = map_id;
 }
 
 /// In ascending order, without gaps: each is bound to the one before it.
 void LoopClosingService::add_waiting() {
-  std::erase_if(waiting_, [this](const auto& waiting) { return waiting.first.value < added_.size(); });
-  for (auto next = waiting_.begin(); next != waiting_.end() && next->first.value == added_.size(); next = waiting_.erase(next)) {
+  std::erase_if(waiting_, [this](const auto& waiting) { return waiting.first.value < added_; });
+  for (auto next = waiting_.begin(); next != waiting_.end() && next->first.value == added_; next = waiting_.erase(next)) {
     add(next->second);
   }
   if (waiting_.empty()) {
     context_.status().clear_trouble("gap");
   } else {
-    context_.status().set_trouble("gap", "waits for submap " + std::to_string(added_.size()));
+    context_.status().set_trouble("gap", "waits for submap " + std::to_string(added_));
   }
 }
 
 void LoopClosingService::add(const flow::Submap& submap) {
   const app::Stopwatch stopwatch(context_.status().latency("add_submap"));
-  const flow::GraphCorrection correction = closer_.add(submap);
-  added_.push_back({submap.first_stamp_ns, submap.last_stamp_ns});
+  flow::GraphCorrection correction = closer_.add(submap);
+  correction.map_id = *map_id_;
+  ++added_;
   publish_new_constraints();
   correction_encoder_.encode(context_.vehicle_id(), correction, [this](const auto& part) { corrections_.write(part); });
   context_.status().set_counters(named(closer_.counters()));
@@ -69,7 +65,9 @@ void LoopClosingService::add(const flow::Submap& submap) {
 void LoopClosingService::publish_new_constraints() {
   const std::vector<flow::Constraint>& all = closer_.constraints();
   for (; published_constraints_ < all.size(); ++published_constraints_) {
-    constraints_.write(wire::encode(context_.vehicle_id(), all[published_constraints_]));
+    flow::Constraint constraint = all[published_constraints_];
+    constraint.map_id = *map_id_;
+    constraints_.write(wire::encode(context_.vehicle_id(), constraint));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "common/app/run_service.hpp"
@@ -25,14 +26,8 @@ class LoopClosingService {
   LoopClosingService(app::ServiceContext& context, const Settings& settings);
 
  private:
-  struct TimeSpan {
-    std::int64_t first_ns;
-    std::int64_t last_ns;
-  };
-
   void take(const slammot_SubmapTile& tile);
-  bool is_of_another_drive(const flow::Submap& submap) const;
-  void begin_again();
+  void begin_map(flow::MapId map_id);
   void add_waiting();
   void add(const flow::Submap& submap);
   void publish_new_constraints();
@@ -45,7 +40,8 @@ class LoopClosingService {
   dds::Writer<slammot_Constraint>& constraints_;
   dds::Writer<slammot_GraphCorrection>& corrections_;
   std::map<flow::SubmapId, flow::Submap> waiting_;  ///< For those before them.
-  std::vector<TimeSpan> added_;                     ///< By submap number.
+  std::optional<flow::MapId> map_id_;               ///< None before the first submap.
+  std::size_t added_ = 0;                           ///< Submaps in the graph: those with numbers below.
   std::size_t published_constraints_ = 0;
 };
 

@@ -112,7 +112,7 @@ void MapStoreService::publish(const flow::Submap& submap) {
   }
 }
 
-/// A new drive has begun: late joiners must not mix it with the one before.
+/// A new map has begun: late joiners must not mix it with the one before.
 void MapStoreService::withdraw_what_is_no_more() {
   const std::vector<flow::SubmapId> stored = store_.list(context_.vehicle_id());
   slammot_SubmapTile key{};

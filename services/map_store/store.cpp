@@ -8,39 +8,20 @@
 namespace slammot::map_store {
 namespace {
 
-constexpr std::int64_t kSchemaVersion = 1;
+constexpr std::int64_t kSchemaVersion = 2;
 constexpr std::int64_t kPageBytes = 4096;
 
 constexpr std::string_view kSchema =
     "CREATE TABLE IF NOT EXISTS submap ("
-    " vehicle_id TEXT NOT NULL, drive INTEGER NOT NULL, submap_id INTEGER NOT NULL,"
+    " vehicle_id TEXT NOT NULL, map_id INTEGER NOT NULL, submap_id INTEGER NOT NULL,"
     " first_stamp_ns INTEGER NOT NULL, last_stamp_ns INTEGER NOT NULL, record BLOB NOT NULL,"
-    " PRIMARY KEY (vehicle_id, drive, submap_id))";
+    " PRIMARY KEY (vehicle_id, map_id, submap_id))";
 
-std::int64_t latest_drive(sqlite3* database, std::string_view vehicle_id) {
-  Statement query(database, "SELECT COALESCE(MAX(drive), 0) FROM submap WHERE vehicle_id = ?");
+/// The map to which a submap was added last.
+std::int64_t latest_map(sqlite3* database, std::string_view vehicle_id) {
+  Statement query(database, "SELECT map_id FROM submap WHERE vehicle_id = ? ORDER BY rowid DESC LIMIT 1");
   query << vehicle_id;
-  query.step();
-  return query.integer(0);
-}
-
-/// Within a drive submaps follow each other in time. A submap done again after a restart overlaps its first version.
-bool contradicts(sqlite3* database, std::string_view vehicle_id, std::int64_t drive, const flow::Submap& submap) {
-  Statement query(database,
-                  "SELECT COUNT(*) FROM submap WHERE vehicle_id = ?1 AND drive = ?2 AND ("
-                  " (submap_id = ?3 AND (last_stamp_ns < ?4 OR first_stamp_ns > ?5)) OR"
-                  " (submap_id < ?3 AND first_stamp_ns > ?5) OR"
-                  " (submap_id > ?3 AND last_stamp_ns < ?4))");
-  query << vehicle_id << drive << std::int64_t{submap.submap_id.value} << submap.first_stamp_ns << submap.last_stamp_ns;
-  query.step();
-  return query.integer(0) > 0;
-}
-
-/// What was taken for the end of the last drive before the new one's beginning was known.
-void move_later_submaps(sqlite3* database, std::string_view vehicle_id, std::int64_t new_drive, std::int64_t from_ns) {
-  Statement update(database, "UPDATE submap SET drive = ? WHERE vehicle_id = ? AND drive = ? AND first_stamp_ns >= ?");
-  update << new_drive << vehicle_id << (new_drive - 1) << from_ns;
-  update.step();
+  return query.step() ? query.integer(0) : 0;
 }
 
 /// Rolls back unless committed.
@@ -91,6 +72,7 @@ std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
     Statement version(database, "PRAGMA user_version");
     version.step();
     if (version.integer(0) > kSchemaVersion) return "made by a later version of slammot";
+    if (version.integer(0) == 1) Statement(database, "ALTER TABLE submap RENAME COLUMN drive TO map_id").step();
     Statement(database, kSchema).step();
     Statement(database, "PRAGMA user_version = " + std::to_string(kSchemaVersion)).step();
   } catch (const SqliteError& error) {
@@ -99,28 +81,21 @@ std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
   return std::nullopt;
 }
 
-std::int64_t Store::drive_for(std::string_view vehicle_id, const flow::Submap& submap) {
-  const std::int64_t latest = latest_drive(database_.get(), vehicle_id);
-  if (!contradicts(database_.get(), vehicle_id, latest, submap)) return latest;
-  move_later_submaps(database_.get(), vehicle_id, latest + 1, submap.first_stamp_ns);
-  return latest + 1;
-}
-
 PutResult Store::put_in_transaction(std::string_view vehicle_id, const flow::Submap& submap) {
   const std::string blob = to_blob(submap);
   Transaction transaction(database_.get());
-  const std::int64_t drive = drive_for(vehicle_id, submap);
+  const auto map_id = static_cast<std::int64_t>(submap.map_id.value);
   {
     Statement known(database_.get(),
-                    "SELECT last_stamp_ns, record FROM submap WHERE vehicle_id = ? AND drive = ? AND submap_id = ?");
-    known << vehicle_id << drive << std::int64_t{submap.submap_id.value};
+                    "SELECT last_stamp_ns, record FROM submap WHERE vehicle_id = ? AND map_id = ? AND submap_id = ?");
+    known << vehicle_id << map_id << std::int64_t{submap.submap_id.value};
     if (known.step()) {
       if (known.bytes(1) == blob) return PutResult::kKnown;
       if (known.integer(0) > submap.last_stamp_ns) return PutResult::kOlder;
     }
   }
   Statement insert(database_.get(), "INSERT OR REPLACE INTO submap VALUES (?, ?, ?, ?, ?, ?)");
-  insert << vehicle_id << drive << std::int64_t{submap.submap_id.value} << submap.first_stamp_ns << submap.last_stamp_ns;
+  insert << vehicle_id << map_id << std::int64_t{submap.submap_id.value} << submap.first_stamp_ns << submap.last_stamp_ns;
   insert.bind_blob(blob).step();
   transaction.commit();
   return PutResult::kStored;
@@ -139,10 +114,12 @@ PutResult Store::put(std::string_view vehicle_id, const flow::Submap& submap) {
 std::optional<flow::Submap> Store::get(std::string_view vehicle_id, flow::SubmapId submap_id) {
   last_fault_.clear();
   try {
-    Statement query(database_.get(), "SELECT record FROM submap WHERE vehicle_id = ? AND submap_id = ? AND drive = ?");
-    query << vehicle_id << std::int64_t{submap_id.value} << latest_drive(database_.get(), vehicle_id);
+    Statement query(database_.get(), "SELECT record FROM submap WHERE vehicle_id = ? AND submap_id = ? AND map_id = ?");
+    const std::int64_t map_id = latest_map(database_.get(), vehicle_id);
+    query << vehicle_id << std::int64_t{submap_id.value} << map_id;
     if (!query.step()) return std::nullopt;
     std::optional<flow::Submap> submap = from_blob(query.bytes(0));
+    if (submap) submap->map_id = {static_cast<std::uint64_t>(map_id)};
     if (!submap) last_fault_ = "submap " + std::to_string(submap_id.value) + " is damaged";
     return submap;
   } catch (const SqliteError& error) {
@@ -155,8 +132,8 @@ std::vector<flow::SubmapId> Store::list(std::string_view vehicle_id) {
   last_fault_.clear();
   std::vector<flow::SubmapId> submaps;
   try {
-    Statement query(database_.get(), "SELECT submap_id FROM submap WHERE vehicle_id = ? AND drive = ? ORDER BY submap_id");
-    query << vehicle_id << latest_drive(database_.get(), vehicle_id);
+    Statement query(database_.get(), "SELECT submap_id FROM submap WHERE vehicle_id = ? AND map_id = ? ORDER BY submap_id");
+    query << vehicle_id << latest_map(database_.get(), vehicle_id);
     while (query.step()) submaps.push_back({static_cast<std::uint32_t>(query.integer(0))});
   } catch (const SqliteError& error) {
     last_fault_ = error.what();

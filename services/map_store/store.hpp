@@ -24,15 +24,14 @@ enum class PutResult {
 
 /// Finished submaps of all vehicles in one SQLite file.
 ///
-/// A vehicle's submaps belong to drives: a submap whose time contradicts what is stored under the same or neighbouring ids
-/// begins a new drive. get() and list() speak of the vehicle's latest drive; earlier ones stay in the file.
+/// get() and list() speak of the vehicle's latest map, the one to which a submap was added last; earlier ones stay in the file.
 /// One thread at a time. Several processes may have the same file open.
 class Store {
  public:
   /// Opens the database or makes it, folders too. Otherwise why that is not possible, in one line.
   static std::variant<Store, std::string> open(const std::filesystem::path& file, const MapStoreConfig& config);
 
-  /// Repeating it changes nothing. Of two versions of a submap the one with the later last stamp stays.
+  /// Repeating it changes nothing. Of two versions of a submap of one map the one with the later last stamp stays.
   PutResult put(std::string_view vehicle_id, const flow::Submap& submap);
 
   /// Nothing when there is none or it is damaged (then last_fault() is not empty).
@@ -55,7 +54,6 @@ class Store {
 
   std::optional<std::string> prepare(const MapStoreConfig& config);
   PutResult put_in_transaction(std::string_view vehicle_id, const flow::Submap& submap);
-  std::int64_t drive_for(std::string_view vehicle_id, const flow::Submap& submap);
 
   std::unique_ptr<sqlite3, Close> database_;
   std::string last_fault_;

@@ -24,6 +24,7 @@ geometry::Pose2 pose_of(const PoseRecord& record) { return {record.x_m(), record
 
 SubmapRecord to_record(const flow::Submap& submap) {
   SubmapRecord record;
+  record.set_map_id(submap.map_id.value);
   record.set_submap_id(submap.submap_id.value);
   record.set_first_stamp_ns(submap.first_stamp_ns);
   record.set_last_stamp_ns(submap.last_stamp_ns);
@@ -61,6 +62,7 @@ bool agrees_with_itself(const SubmapRecord& record) {
 
 flow::Submap from_record(const SubmapRecord& record) {
   flow::Submap submap;
+  submap.map_id.value = record.map_id();
   submap.submap_id.value = record.submap_id();
   submap.first_stamp_ns = record.first_stamp_ns();
   submap.last_stamp_ns = record.last_stamp_ns();

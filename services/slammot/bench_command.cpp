@@ -41,14 +41,6 @@ int fail(const std::string& line) {
   return kExitFault;
 }
 
-std::vector<std::int64_t> stamps_of(files::CarmenLog& log) {
-  std::vector<std::int64_t> stamps_ns;
-  while (const auto event = log.next()) {
-    if (const auto* scan = std::get_if<sensing::LaserScan>(&*event)) stamps_ns.push_back(scan->stamp_ns);
-  }
-  return stamps_ns;
-}
-
 std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& options, const std::filesystem::path& state_folder) {
   std::vector<ServiceProcess> services;
   for (const std::string name : {"map-store", "loop-closing", "localization", "detection", "tracking", "ingest"}) {

@@ -22,11 +22,42 @@ using namespace std::chrono_literals;
 
 struct CollectOptions : CollectorOptions {
   std::filesystem::path output;
+  std::filesystem::path input;  ///< The log that is played; may be empty.
 };
 
 int fail(const std::string& line) {
   std::fprintf(stderr, "slammot: %s\n", line.c_str());
   return kExitFault;
+}
+
+/// What the log says about the drive, where it is at hand: all its scans, heard of or not.
+files::Result<std::vector<std::int64_t>> scans_of_drive(const CollectOptions& options, const Collector& collector, files::RunReport& report) {
+  if (options.input.empty()) return collector.scan_stamps_ns();
+  auto log = files::CarmenLog::open(options.input);
+  if (!log) return log.error();
+  std::vector<std::int64_t> stamps_ns = stamps_of(*log);
+  report.input = options.input.filename().string();
+  report.plan = log->plan();
+  report.faults = log->faults();
+  return stamps_ns;
+}
+
+int write(const CollectOptions& options, Collector& collector, double wall_s) {
+  files::RunReport report;
+  report.command = "collect";
+  report.version = SLAMMOT_VERSION;
+  report.counters = collector.counters();
+  report.measured.stages = collector.latencies();
+  report.measured.wall_s = wall_s;
+  report.measured.peak_memory_mb = peak_memory_mb();
+  const auto stamps_ns = scans_of_drive(options, collector, report);
+  if (!stamps_ns) return fail(stamps_ns.error().message);
+  const files::RunRecord record = collector.record(*stamps_ns);
+  if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
+  collector.forget_journal();
+  std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
+  if (report.faults.is_cut) std::fprintf(stderr, "slammot: the log is cut off or damaged: only what could be read of it was processed\n");
+  return kExitDone;
 }
 
 int collect(const CollectOptions& options) {
@@ -36,7 +67,9 @@ int collect(const CollectOptions& options) {
     if (Collector* collector = to_stop) collector->stop();
   });
   if (const auto fault = files::prepare_output_folder(options.output)) return fail(fault->message);
-  Collector collector(options);
+  CollectorOptions with_journal = options;
+  with_journal.journal = options.output / "collected.journal";
+  Collector collector(with_journal);
   to_stop = &collector;
   std::printf("waits for the drive of vehicle %s\n", options.vehicle_id.c_str());
   std::fflush(stdout);
@@ -45,16 +78,8 @@ int collect(const CollectOptions& options) {
   // Interrupted, what has come so far is written all the same.
   const bool is_complete = collector.finish(60s);
   to_stop = nullptr;
-  const files::RunRecord record = collector.record(collector.scan_stamps_ns());
-  files::RunReport report;
-  report.command = "collect";
-  report.version = SLAMMOT_VERSION;
-  report.counters = collector.counters();
-  report.measured.stages = collector.latencies();
-  report.measured.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  report.measured.peak_memory_mb = peak_memory_mb();
-  if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
-  std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
+  const int exit_code = write(options, collector, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  if (exit_code != kExitDone) return exit_code;
   return is_complete ? kExitDone : fail("the last submap did not come: the map lacks the end of the drive");
 }
 
@@ -64,6 +89,7 @@ void add_collect_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand("collect", "Write what the services on the bus make of a drive, when it has ended");
   const auto options = std::make_shared<CollectOptions>();
   command->add_option("--output", options->output, "Folder for the results; made where it is missing")->required()->type_name("DIR");
+  command->add_option("--input", options->input, "The log that is played, so that scans that nobody heard of have their row, too")->type_name("FILE");
   command->add_option("--vehicle", options->vehicle_id, "Whose drive")->capture_default_str();
   command->add_option("--domain", options->domain_id, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
   command->callback([options, &exit_code] {

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "common/wire/localized_scan.hpp"
 #include "common/wire/text.hpp"
 #include "common/wire/tracked_objects.hpp"
@@ -13,6 +15,12 @@ using namespace std::chrono_literals;
 
 constexpr auto kSilenceAtTheEnd = 2s;    ///< After the log's end: no more answers are under way.
 constexpr auto kRepeatCommand = 500ms;
+constexpr auto kIngestIsGone = 30s;      ///< Without a heartbeat, in a drive taken up from a journal.
+
+/// Also where each process runs in a container of its own, with the same number every time.
+std::string unique_name() {
+  return "collector-" + std::to_string(getpid()) + "-" + std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
+}
 
 bool is_set(const wire::ServiceStatus& status, std::string_view counter) {
   for (const wire::Counter& one : status.counters) {
@@ -34,23 +42,25 @@ Collector::Collector(const CollectorOptions& options)
       constraints_(participant_, dds::topics::kConstraint),
       corrections_(participant_, dds::topics::kGraphCorrection),
       statuses_(participant_, dds::topics::kStatus),
+      heartbeats_(participant_, dds::topics::kHeartbeat),
       replies_(participant_, dds::topics::kReply),
       commands_(participant_, dds::topics::kCommand),
-      requester_("collector-" + std::to_string(getpid())),
+      last_ingest_(Clock::now()),
+      requester_(unique_name()),
       last_progress_(Clock::now()) {
+  if (!options.journal.empty()) journal_.emplace(options.journal);
+  if (const auto content = files::RunJournal::read(options.journal)) take_up(*content);
   read(laser_scans_, [this](const auto& sample) { take(sample); });
   read(localized_scans_, [this](const auto& sample) { take(sample); });
   read(tracked_objects_, [this](const auto& sample) { take(sample); });
   read(stored_tiles_, [this](const auto& sample) { take(sample); });
   read(constraints_, [this](const auto& sample) {
-    if (const auto constraint = wire::decode(sample)) record_.add(*constraint);
+    if (const auto constraint = wire::decode(sample)) records_[constraint->map_id].add(*constraint);
   });
   read(corrections_, [this](const auto& sample) { take(sample); });
-  read(statuses_, [this](const auto& sample) {
-    auto status = wire::decode(sample);
-    if (!status) return;
-    if (status->name.service == "ingest" && is_set(*status, "log_finished")) is_log_finished_ = true;
-    status_by_service_[status->name.service] = std::move(*status);
+  read(statuses_, [this](const auto& sample) { take(sample); });
+  read(heartbeats_, [this](const slammot_Heartbeat& beat) {
+    if (wire::text(beat.service_name) == "ingest") last_ingest_ = Clock::now();
   });
   read(replies_, [this](const auto& sample) {
     if (wire::text(sample.requester) == requester_ && sample.result == slammot_OUTCOME_DONE) is_submap_finished_ = true;
@@ -68,14 +78,61 @@ void Collector::read(dds::Reader<Sample>& reader, Handle handle) {
 
 bool Collector::wait(std::chrono::milliseconds longest) { return wait_set_.wait(longest) != dds::WaitSet::Wake::kStopped; }
 
-void Collector::take(const slammot_LaserScan& scan) {
-  if (stamps_by_sequence_.emplace(scan.sequence_number, scan.stamp_ns).second) seen_at_[scan.stamp_ns] = Clock::now();
+void Collector::take_up(const files::RunJournal::Content& content) {
+  is_taken_up_ = true;
+  map_id_ = content.map_id;
+  for (const files::JournalScan& scan : content.scans) remember(scan);
+  for (const flow::LocalizedScan& scan : content.localized_scans) {
+    records_[scan.map_id].add(scan);
+    last_localized_ns_ = scan.stamp_ns;
+    submap_in_use_ = scan.submap_id;
+  }
+  for (const flow::TrackedObjects& tracked : content.tracked_objects) {
+    records_[tracked.map_id].add(tracked);
+    last_tracked_ns_ = tracked.stamp_ns;
+  }
+  journal_->resume();
+}
+
+/// Of a drive that a scanner has left, nothing is kept.
+void Collector::remember(const files::JournalScan& scan) {
+  const auto drive = drives_.judge(scan.scanner_id, scan.drive_id);
+  if (drive == localization::DriveWatch::Scan::kOfEarlierDrive) return;
+  if (drive == localization::DriveWatch::Scan::kOfNewDrive) {
+    stamps_by_sequence_.clear();
+    seen_at_.clear();
+  }
+  stamps_by_sequence_[scan.scanner_id].emplace(scan.sequence, scan.stamp_ns);
+}
+
+void Collector::take(const slammot_LaserScan& sample) {
+  const files::JournalScan scan{std::string(wire::text(sample.scanner_id)), sample.drive_id, sample.sequence_number, sample.stamp_ns};
+  last_progress_ = Clock::now();
+  remember(scan);
+  seen_at_.emplace(scan.stamp_ns, Clock::now());
+  if (journal_ && map_id_) journal_->add(scan);
+}
+
+/// What was made of the drive before is not wanted any more.
+void Collector::begin_map(flow::MapId map_id) {
+  if (map_id_) records_.erase(*map_id_);
+  map_id_ = map_id;
+  last_localized_ns_.reset();
+  last_tracked_ns_.reset();
+  submap_in_use_.reset();
+  if (!journal_) return;
+  journal_->begin(map_id);
+  for (const auto& [scanner_id, stamps] : stamps_by_sequence_) {
+    for (const auto& [sequence, stamp_ns] : stamps) journal_->add(files::JournalScan{scanner_id, drives_.drives().at(scanner_id), sequence, stamp_ns});
+  }
 }
 
 void Collector::take(const slammot_LocalizedScan& sample) {
   const auto scan = wire::decode(sample);
   if (!scan) return;
-  record_.add(*scan);
+  if (map_id_ != scan->map_id) begin_map(scan->map_id);
+  records_[scan->map_id].add(*scan);
+  if (journal_) journal_->add(*scan);
   last_localized_ns_ = std::max(scan->stamp_ns, last_localized_ns_.value_or(scan->stamp_ns));
   submap_in_use_ = std::max(scan->submap_id, submap_in_use_.value_or(scan->submap_id));
   last_progress_ = Clock::now();
@@ -83,8 +140,9 @@ void Collector::take(const slammot_LocalizedScan& sample) {
 
 void Collector::take(const slammot_TrackedObjects& sample) {
   const auto objects = wire::decode(sample);
-  if (!objects) return;
-  record_.add(*objects);
+  if (!objects || objects->map_id != map_id_) return;
+  records_[objects->map_id].add(*objects);
+  if (journal_) journal_->add(*objects);
   last_tracked_ns_ = std::max(objects->stamp_ns, last_tracked_ns_.value_or(objects->stamp_ns));
   last_progress_ = Clock::now();
   const auto seen = seen_at_.find(objects->stamp_ns);
@@ -95,22 +153,45 @@ void Collector::take(const slammot_TrackedObjects& sample) {
 
 void Collector::take(const slammot_SubmapTile& tile) {
   auto added = submap_assembler_.add(tile);
-  if (added.submap) record_.add(std::move(*added.submap));
+  if (added.submap) records_[added.submap->map_id].add(std::move(*added.submap));
   last_progress_ = Clock::now();
 }
 
 void Collector::take(const slammot_GraphCorrection& part) {
   const auto added = correction_assembler_.add(part);
   if (!added.correction) return;
-  record_.add(*added.correction);
-  for (const flow::CorrectedSubmap& submap : added.correction->submaps) placed_submaps_.insert(submap.submap_id);
+  const flow::MapId map_id = added.correction->map_id;
+  records_[map_id].add(*added.correction);
+  for (const flow::CorrectedSubmap& submap : added.correction->submaps) placed_submaps_.emplace(map_id, submap.submap_id);
   last_progress_ = Clock::now();
 }
 
+void Collector::take(const slammot_ServiceStatus& sample) {
+  auto status = wire::decode(sample);
+  if (!status) return;
+  if (status->name.service == "ingest") is_log_finished_[status->name.instance] = is_set(*status, "log_finished");
+  status_by_service_[status->name.service] = std::move(*status);
+}
+
+bool Collector::is_log_finished() const {
+  return !is_log_finished_.empty() && std::ranges::all_of(is_log_finished_, [](const auto& one) { return one.second; });
+}
+
+bool Collector::is_last_scan_tracked() const {
+  return last_tracked_ns_ && std::ranges::all_of(stamps_by_sequence_, [this](const auto& of_scanner) {
+           return of_scanner.second.rbegin()->second <= *last_tracked_ns_;
+         });
+}
+
 bool Collector::has_drive_ended() const {
-  if (!is_log_finished_) return false;
-  const bool is_answered = !stamps_by_sequence_.empty() && last_tracked_ns_ && *last_tracked_ns_ >= stamps_by_sequence_.rbegin()->second;
-  return is_answered || Clock::now() - last_progress_ > kSilenceAtTheEnd;
+  if (stamps_by_sequence_.empty()) return false;
+  const auto now = Clock::now();
+  if (is_log_finished()) return is_last_scan_tracked() || now - last_progress_ > kSilenceAtTheEnd;
+  return is_taken_up_ && now - last_ingest_ > kIngestIsGone && now - last_progress_ > kIngestIsGone;
+}
+
+void Collector::forget_journal() {
+  if (journal_) journal_->remove();
 }
 
 void Collector::ask_to_finish_submap() {
@@ -124,7 +205,10 @@ void Collector::ask_to_finish_submap() {
 }
 
 bool Collector::is_complete() const {
-  return is_submap_finished_ && (!submap_in_use_ || (record_.submaps().contains(*submap_in_use_) && placed_submaps_.contains(*submap_in_use_)));
+  if (!is_submap_finished_) return false;
+  if (!map_id_ || !submap_in_use_) return true;
+  const auto record = records_.find(*map_id_);
+  return record->second.submaps().contains(*submap_in_use_) && placed_submaps_.contains({*map_id_, *submap_in_use_});
 }
 
 bool Collector::finish(std::chrono::seconds patience) {
@@ -142,14 +226,19 @@ bool Collector::finish(std::chrono::seconds patience) {
   return true;
 }
 
+/// One scanner's scans in the order in which it made them, those of several by time.
 std::vector<std::int64_t> Collector::scan_stamps_ns() const {
   std::vector<std::int64_t> stamps_ns;
-  for (const auto& [sequence, stamp_ns] : stamps_by_sequence_) stamps_ns.push_back(stamp_ns);
+  for (const auto& [scanner_id, stamps] : stamps_by_sequence_) {
+    for (const auto& [sequence, stamp_ns] : stamps) stamps_ns.push_back(stamp_ns);
+  }
+  if (stamps_by_sequence_.size() > 1) std::ranges::sort(stamps_ns);
   return stamps_ns;
 }
 
 files::RunRecord Collector::record(const std::vector<std::int64_t>& scan_stamps_ns) const {
-  files::RunRecord record = record_;
+  const auto made = map_id_ ? records_.find(*map_id_) : records_.end();
+  files::RunRecord record = made == records_.end() ? files::RunRecord() : made->second;
   for (const std::int64_t stamp_ns : scan_stamps_ns) record.add_scan(stamp_ns);
   return record;
 }

@@ -133,6 +133,14 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   return Job{begin(*drive, options, log_options), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};
 }
 
+std::vector<std::int64_t> stamps_of(files::CarmenLog& log) {
+  std::vector<std::int64_t> stamps_ns;
+  while (const auto event = log.next()) {
+    if (const auto* scan = std::get_if<sensing::LaserScan>(&*event)) stamps_ns.push_back(scan->stamp_ns);
+  }
+  return stamps_ns;
+}
+
 std::string describe_job(const Job& job, const JobOptions& options) {
   const files::LogFigures& figures = job.log.plan().figures;
   std::string lines = text("%s %s: %llu scans of %zu beams over %.0f degrees, %.0f s", options.scenario.empty() ? "log:     " : "scenario:",

@@ -48,6 +48,9 @@ files::Result<simulation::ScenarioConfig> scenario_of(const JobOptions& options)
 /// truth.objects.csv and truth.walls.csv.
 files::Result<Job> prepare_job(const JobOptions& options);
 
+/// Stamps of all scans of the log, in its order. The log is read to its end.
+std::vector<std::int64_t> stamps_of(files::CarmenLog& log);
+
 /// "log: ..." and "profile: ..." for the terminal.
 std::string describe_job(const Job& job, const JobOptions& options);
 

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 /// How long the first scans wait for the tracks of a process before this one.
 constexpr auto kStoredTracksPatience = 1s;
 constexpr std::size_t kMostEarlyScans = 100;
-/// Tracks older than this, by the data's clock, are of objects that are elsewhere by now, or of another drive.
+/// Tracks older than this, by the data's clock, are of objects that are elsewhere by now.
 constexpr std::int64_t kLongestAbsenceNs = 5'000'000'000;
 
 }  // namespace
@@ -24,6 +24,7 @@ std::vector<config::BoundStage> TrackingService::stages(Settings& settings) {
 
 TrackingService::TrackingService(app::ServiceContext& context, const Settings& settings)
     : context_(context),
+      config_(settings.config),
       tracker_(settings.config),
       objects_(context.write(dds::topics::kTrackedObjects)),
       labels_(context.write(dds::topics::kScanLabels)) {
@@ -57,10 +58,16 @@ void TrackingService::begin() {
   early_.clear();
 }
 
-/// If the stored tracks are of this drive: the first scan tells.
+/// Nothing of another map is known here, if its numbers are the same or not.
+void TrackingService::begin_map(const flow::SegmentedScan& first) {
+  tracker_ = Tracker(config_);
+  last_results_.clear();
+  map_id_ = first.map_id;
+  if (stored_ && stored_->map_id == first.map_id) take_up(first.stamp_ns);
+  stored_.reset();
+}
+
 void TrackingService::take_up(std::int64_t stamp_ns) {
-  has_begun_ = true;
-  if (!stored_) return;
   const std::int64_t absence_ns = stamp_ns - stored_->stamp_ns;
   if (absence_ns < 0 || absence_ns > kLongestAbsenceNs) return;
   tracker_.take_up(*stored_);
@@ -69,7 +76,7 @@ void TrackingService::take_up(std::int64_t stamp_ns) {
 }
 
 void TrackingService::track(const flow::SegmentedScan& scan) {
-  if (!has_begun_) take_up(scan.stamp_ns);
+  if (map_id_ != scan.map_id) begin_map(scan);
   const auto last = last_results_.find(scan.scanner_id);
   if (last != last_results_.end() && scan.stamp_ns <= last->second.labels.stamp_ns) {
     // Sent again because somebody missed the answer.

@@ -31,18 +31,20 @@ class TrackingService {
   void take(const slammot_SegmentedScan& sample);
   void take_stored(const slammot_TrackedObjects& sample);
   void begin();
+  void begin_map(const flow::SegmentedScan& first);
   void take_up(std::int64_t stamp_ns);
   void track(const flow::SegmentedScan& scan);
   void publish(const TrackingResult& result);
 
   app::ServiceContext& context_;
+  TrackingConfig config_;
   Tracker tracker_;
   dds::Writer<slammot_TrackedObjects>& objects_;
   dds::Writer<slammot_ScanLabels>& labels_;
   wire::TrackedObjectsEncoder objects_encoder_;
   wire::ScanLabelsEncoder labels_encoder_;
   bool waits_for_stored_tracks_ = true;
-  bool has_begun_ = false;
+  std::optional<flow::MapId> map_id_;                   ///< None before the first scan.
   std::optional<flow::TrackedObjects> stored_;
   std::deque<flow::SegmentedScan> early_;               ///< Came while waiting for stored tracks.
   std::map<std::string, TrackingResult> last_results_;  ///< By scanner.

@@ -13,6 +13,7 @@ namespace slammot::testing {
 inline flow::Submap example_submap(std::uint32_t id, std::int64_t drive_start_ns = 0, std::uint32_t columns = 70) {
   std::mt19937 random(id + 1);
   flow::Submap submap;
+  submap.map_id = {5};
   submap.submap_id = {id};
   submap.first_stamp_ns = drive_start_ns + std::int64_t{id} * 10'000'000'000;
   submap.last_stamp_ns = submap.first_stamp_ns + 10'000'000'000;
@@ -44,7 +45,7 @@ inline bool same_surfel(const flow::Surfel& a, const flow::Surfel& b) {
 
 /// Bit for bit.
 inline bool same_submap(const flow::Submap& a, const flow::Submap& b) {
-  return a.submap_id == b.submap_id && a.first_stamp_ns == b.first_stamp_ns && a.last_stamp_ns == b.last_stamp_ns &&
+  return a.map_id == b.map_id && a.submap_id == b.submap_id && a.first_stamp_ns == b.first_stamp_ns && a.last_stamp_ns == b.last_stamp_ns &&
          a.odom_from_submap == b.odom_from_submap && a.previous_from_submap.pose == b.previous_from_submap.pose &&
          a.previous_from_submap.covariance == b.previous_from_submap.covariance &&
          a.submap_from_base_at_end == b.submap_from_base_at_end && a.travelled_m == b.travelled_m &&

@@ -59,6 +59,7 @@ inline flow::LocalizedScan localized_scan(Random& random, std::size_t beams) {
                            .map_from_odom = pose(random),
                            .speed_mps = -3.0,
                            .yaw_rate_radps = -0.2,
+                           .map_id = {1'700'000'000'000'000'001},
                            .submap_id = {7},
                            .submap_from_base = pose(random),
                            .beams = {}};
@@ -94,6 +95,7 @@ inline flow::SegmentedScan segmented_scan(Random& random, std::size_t beams) {
                            .beam_step_rad = 0.01,
                            .odom_from_base = uncertain_pose(random),
                            .map_from_odom = pose(random),
+                           .map_id = {1'700'000'000'000'000'001},
                            .points_in_base_m = {},
                            .range_m = {},
                            .labels = {},
@@ -143,7 +145,8 @@ inline flow::TrackedObjects tracked_objects(Random& random, std::uint32_t object
                               .sequence = 42,
                               .map_from_odom = pose(random),
                               .odom_from_base = pose(random),
-                              .objects = {}};
+                              .objects = {},
+                              .map_id = {1'700'000'000'000'000'001}};
   for (std::uint32_t i = 0; i < objects; ++i) {
     tracks.objects.push_back(tracked_object(random, i, contour_points, path_points));
   }

@@ -15,9 +15,10 @@ using slammot::testing::kNan;
 
 TEST(ConstraintOnTheWire, ComesBackAsItWas) {
   testing::Random random(1);
-  const flow::Constraint constraint{{3}, {9}, flow::ConstraintKind::kLoop, testing::uncertain_pose(random)};
+  const flow::Constraint constraint{{3}, {9}, flow::ConstraintKind::kLoop, testing::uncertain_pose(random), {17}};
   const auto back = decode(encode("car", constraint));
   ASSERT_TRUE(back) << back.fault();
+  EXPECT_EQ(back->map_id, constraint.map_id);
   EXPECT_EQ(back->from, constraint.from);
   EXPECT_EQ(back->to, constraint.to);
   EXPECT_EQ(back->kind, constraint.kind);
@@ -56,7 +57,7 @@ struct GraphCorrectionInParts : ::testing::Test {
   GraphCorrectionAssembler assembler;
 
   flow::GraphCorrection correction(std::uint32_t sequence, std::uint32_t submaps) {
-    flow::GraphCorrection made{sequence, testing::pose(random), {}};
+    flow::GraphCorrection made{sequence, testing::pose(random), {}, {17}};
     for (std::uint32_t id = 0; id < submaps; ++id) made.submaps.push_back({{id}, testing::pose(random)});
     return made;
   }
@@ -80,6 +81,7 @@ struct GraphCorrectionInParts : ::testing::Test {
 
   static void expect_same(const flow::GraphCorrection& a, const flow::GraphCorrection& b) {
     EXPECT_EQ(a.sequence, b.sequence);
+    EXPECT_EQ(a.map_id, b.map_id);
     EXPECT_EQ(a.map_from_odom, b.map_from_odom);
     ASSERT_EQ(a.submaps.size(), b.submaps.size());
     for (std::size_t i = 0; i < a.submaps.size(); ++i) {

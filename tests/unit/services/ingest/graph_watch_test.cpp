@@ -8,27 +8,34 @@ namespace {
 using namespace std::chrono_literals;
 
 const GraphWatch::Time kStart{100s};
+constexpr flow::MapId kMap{7};
 
 GraphWatch watch_with_finished_submap() {
   GraphWatch watch(5s);
   watch.heard(kStart);
-  watch.is_in_use(1, kStart);
+  watch.is_in_use(kMap, 1, kStart);
   return watch;
 }
 
 TEST(GraphWatch, IsNotBehindInTheFirstSubmap) {
   GraphWatch watch(5s);
   watch.heard(kStart);
-  watch.is_in_use(0, kStart);
+  watch.is_in_use(kMap, 0, kStart);
   EXPECT_FALSE(watch.is_behind(kStart));
 }
 
 TEST(GraphWatch, IsBehindUntilTheFinishedSubmapIsPlaced) {
   GraphWatch watch = watch_with_finished_submap();
   EXPECT_TRUE(watch.is_behind(kStart + 1s));
-  watch.is_placed(0);
+  watch.is_placed(kMap, 0);
   EXPECT_FALSE(watch.is_behind(kStart + 1s));
-  watch.is_in_use(2, kStart + 1s);
+  watch.is_in_use(kMap, 2, kStart + 1s);
+  EXPECT_TRUE(watch.is_behind(kStart + 1s));
+}
+
+TEST(GraphWatch, TakesNoNoteOfTheGraphOfAnotherMap) {
+  GraphWatch watch = watch_with_finished_submap();
+  watch.is_placed({6}, 5);
   EXPECT_TRUE(watch.is_behind(kStart + 1s));
 }
 

@@ -72,6 +72,7 @@ struct IngestOnTheBus : ::testing::Test {
     options.vehicle_id = "car";
     options.domain_id = bus.domain_id;
     options.dds_config = bus.config;
+    options.state_dir = folder.path();
     return options;
   }
 

@@ -66,6 +66,19 @@ void expect_same_future(Localizer& a, Localizer& b, std::uint32_t first, std::ui
   EXPECT_EQ(a.calibration().state, b.calibration().state);
 }
 
+TEST(Checkpoint, IsBridgedByTheOdometryThatCameBeforeItWasTakenUp) {
+  SimulatedDrive drive(street_drive());
+  Localizer original(config_of_many_submaps());
+  drive_through(original, drive, 0, 60);
+  Localizer restored(config_of_many_submaps());
+  restored.add_odometry(drive.odometry(120));  // three seconds and 24 m later
+  ASSERT_TRUE(restored.restore(original.checkpoint()));
+  const auto localized = restored.localize(drive.scan(120));
+  ASSERT_TRUE(localized);
+  EXPECT_LT(slammot::testing::distance_m(localized->odom_from_base.pose, drive.odom_from_base(120)), 0.3);
+  EXPECT_EQ(restored.counters().without_odometry, original.counters().without_odometry);
+}
+
 TEST(Checkpoint, LetsARestoredLocalizerGoOnBitByBit) {
   for (const std::uint32_t scans : {1U, 20U, 60U}) {
     SimulatedDrive drive(street_drive());

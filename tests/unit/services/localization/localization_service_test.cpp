@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +38,9 @@ struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
   dds::Writer<slammot_LaserScan> scans{neighbour_, dds::topics::kLaserScan};
   dds::Writer<slammot_Odometry> odometry{neighbour_, dds::topics::kOdometry};
   dds::Reader<slammot_LocalizedScan> localized{neighbour_, dds::topics::kLocalizedScan};
+  std::uint64_t drive_id = 1;
   std::vector<std::uint32_t> sequences;
+  std::set<std::uint64_t> maps;
 
   void begin() {
     start<LocalizationService>("localization");
@@ -47,10 +50,13 @@ struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
   }
   void send(std::uint32_t sequence) {
     odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(sequence), {}}));
-    scans.write(wire::LaserScanEncoder().encode("car", room_scan(sequence)));
+    scans.write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(sequence)));
   }
   bool has_localized(std::size_t count) {
-    localized.take_each([this](const slammot_LocalizedScan& scan) { sequences.push_back(scan.sequence_number); });
+    localized.take_each([this](const slammot_LocalizedScan& scan) {
+      sequences.push_back(scan.sequence_number);
+      maps.insert(scan.map_id);
+    });
     return sequences.size() >= count;
   }
   void localize(std::uint32_t first, std::uint32_t end) {
@@ -94,13 +100,45 @@ TEST_F(LocalizationOnTheBus, ComesBackFromItsCheckpointInTheSameDrive) {
   EXPECT_EQ(count("restored_checkpoints"), 1U);
 }
 
-TEST_F(LocalizationOnTheBus, BeginsAnewInAnotherDrive) {
+TEST_F(LocalizationOnTheBus, ComesBackHoweverLongItWasAway) {
   begin();
   localize(0, 25);
   stop();
   begin();
   localize(10'000, 10'001);
+  EXPECT_EQ(count("restored_checkpoints"), 1U);
+  EXPECT_EQ(maps.size(), 1U);
+}
+
+TEST_F(LocalizationOnTheBus, TellsASourceThatBeginsItsDriveAgainHowFarItIsAlsoAfterItsOwnCrash) {
+  begin();
+  localize(0, 25);
+  stop();
+  begin();
+  localize(0, 1);
+  EXPECT_EQ(count("restored_checkpoints"), 1U);
+  EXPECT_GT(sequences.back(), 0U);
+}
+
+TEST_F(LocalizationOnTheBus, BeginsANewMapAfterACrashInAnotherDrive) {
+  begin();
+  localize(0, 25);
+  stop();
+  begin();
+  drive_id = 2;
+  localize(0, 1);
   EXPECT_EQ(count("restored_checkpoints"), 0U);
+  EXPECT_EQ(maps.size(), 2U);
+}
+
+TEST_F(LocalizationOnTheBus, BeginsANewMapWhenTheSameLogIsPlayedAgain) {
+  begin();
+  localize(0, 5);
+  drive_id = 2;
+  localize(0, 5);
+  EXPECT_THAT(sequences, ::testing::ElementsAre(0, 1, 2, 3, 4, 0, 1, 2, 3, 4));
+  EXPECT_EQ(maps.size(), 2U);
+  EXPECT_EQ(context_->status().counter("scans_of_earlier_drives"), 0U);
 }
 
 TEST_F(LocalizationOnTheBus, PublishesTheSubmapInUseWhenToldToFinishIt) {

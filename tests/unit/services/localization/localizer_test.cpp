@@ -107,6 +107,23 @@ TEST(Localizer, CarriesTheScanOnAndAddsOneBeamForEach) {
   }
 }
 
+TEST(Localizer, TakesScansOfTwoScannersAtTheSameTime) {
+  SimulatedDrive drive(along_a_street());
+  Localizer localizer(small_map_config());
+  for (std::uint32_t number = 0; number < 60; ++number) {
+    const auto front = drive_one(localizer, drive, number);
+    sensing::LaserScan second = drive.scan(number);
+    second.scanner.scanner_id = "second";
+    const auto localized = localizer.localize(second);
+    ASSERT_TRUE(localized);
+    localizer.integrate(all_stationary(*localized));
+    EXPECT_EQ(localized->speed_mps, front->speed_mps);
+    EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(number), 0.1));
+  }
+  EXPECT_EQ(localizer.counters().duplicate_scans, 0U);
+  EXPECT_EQ(localizer.counters().scans, 120U);
+}
+
 TEST(Localizer, DropsAndCountsDuplicatesAndScansOutOfOrder) {
   SimulatedDrive drive(round_in_a_room());
   Localizer disturbed(small_map_config());

@@ -19,6 +19,11 @@ using slammot::testing::same_submap;
 
 constexpr std::int64_t kHourNs = 3'600'000'000'000;
 
+flow::Submap of_map(std::uint64_t map_id, flow::Submap submap) {
+  submap.map_id = {map_id};
+  return submap;
+}
+
 class StoreTest : public ::testing::Test {
  protected:
   Store open(const MapStoreConfig& config = {}) {
@@ -86,28 +91,43 @@ TEST_F(StoreTest, KeepsTheNewerOfTwoVersions) {
   EXPECT_TRUE(same_submap(*store.get("car", SubmapId{0}), newer));
 }
 
-TEST_F(StoreTest, BeginsANewDriveWhenTimeContradictsTheStoredOne) {
+TEST_F(StoreTest, KeepsTheMapsOfOneVehicleApart) {
   Store store = open();
-  for (const std::uint32_t id : {0U, 1U, 2U}) store.put("car", example_submap(id));
-  EXPECT_EQ(store.put("car", example_submap(0, kHourNs)), PutResult::kStored);
+  for (const std::uint32_t id : {0U, 1U, 2U}) store.put("car", of_map(7, example_submap(id)));
+  EXPECT_EQ(store.put("car", of_map(8, example_submap(0))), PutResult::kStored) << "the same log, driven again";
   EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}));
-  EXPECT_TRUE(same_submap(*store.get("car", SubmapId{0}), example_submap(0, kHourNs)));
+  EXPECT_EQ(store.get("car", SubmapId{0})->map_id, flow::MapId{8});
 }
 
-TEST_F(StoreTest, BeginsANewDriveAlsoWhenALogFromBeforeIsReplayed) {
+TEST_F(StoreTest, TakesTheMapThatWasAddedToLastForTheLatestWhateverItsNumber) {
   Store store = open();
-  store.put("car", example_submap(0, kHourNs));
-  store.put("car", example_submap(0, 0));
-  store.put("car", example_submap(1, 0));
+  store.put("car", of_map(9, example_submap(0)));
+  store.put("car", of_map(4, example_submap(0, kHourNs)));
+  store.put("car", of_map(4, example_submap(1, kHourNs)));
   EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}, SubmapId{1}));
 }
 
-TEST_F(StoreTest, GathersANewDriveWhoseSubmapsArriveOutOfOrder) {
+TEST_F(StoreTest, DoesNotTakeASubmapThatItHasForANewOneOfAnEarlierMap) {
   Store store = open();
-  for (const std::uint32_t id : {0U, 1U}) store.put("car", example_submap(id));
-  for (const std::uint32_t id : {3U, 1U, 0U, 2U}) store.put("car", example_submap(id, kHourNs));
-  EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}, SubmapId{1}, SubmapId{2}, SubmapId{3}));
-  EXPECT_TRUE(same_submap(*store.get("car", SubmapId{1}), example_submap(1, kHourNs)));
+  store.put("car", of_map(7, example_submap(0)));
+  store.put("car", of_map(8, example_submap(0)));
+  EXPECT_EQ(store.put("car", of_map(7, example_submap(0))), PutResult::kKnown);
+  EXPECT_EQ(store.get("car", SubmapId{0})->map_id, flow::MapId{8});
+}
+
+TEST_F(StoreTest, ReadsTheDatabaseOfTheVersionBefore) {
+  std::filesystem::create_directories(file_.parent_path());
+  sqlite3* before = nullptr;
+  ASSERT_EQ(sqlite3_open(file_.c_str(), &before), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(before,
+                         "CREATE TABLE submap (vehicle_id TEXT NOT NULL, drive INTEGER NOT NULL, submap_id INTEGER NOT NULL,"
+                         " first_stamp_ns INTEGER NOT NULL, last_stamp_ns INTEGER NOT NULL, record BLOB NOT NULL,"
+                         " PRIMARY KEY (vehicle_id, drive, submap_id)); INSERT INTO submap VALUES ('car', 3, 0, 0, 1, x'00');"
+                         "PRAGMA user_version = 1",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  sqlite3_close(before);
+  EXPECT_THAT(open().list("car"), ElementsAre(SubmapId{0}));
 }
 
 TEST_F(StoreTest, SaysSoWhenAnotherProgramHasTheDatabaseLockedAndGoesOnAfterwards) {

@@ -40,6 +40,7 @@ flow::TrackedObjects one_car(std::int64_t stamp_ns) {
   car.last_seen_ns = stamp_ns;
   flow::TrackedObjects objects;
   objects.stamp_ns = stamp_ns;
+  objects.map_id = {7};
   objects.objects = {car};
   return objects;
 }
@@ -49,6 +50,7 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
   dds::Writer<slammot_TrackedObjects> stored{neighbour_, dds::topics::kStoredTrackedObjects};
   dds::Reader<slammot_TrackedObjects> objects{neighbour_, dds::topics::kTrackedObjects};
   dds::Reader<slammot_ScanLabels> labels{neighbour_, dds::topics::kScanLabels};
+  flow::MapId map_id{7};
   std::vector<flow::TrackedObjects> published;
   std::vector<std::uint32_t> labelled;
 
@@ -58,7 +60,11 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
     ASSERT_TRUE(objects.wait_for_writers(1, kForever));
     ASSERT_TRUE(labels.wait_for_writers(1, kForever));
   }
-  void send(std::uint32_t sequence) { scans.write(wire::SegmentedScanEncoder().encode("car", empty_scan(sequence))); }
+  void send(std::uint32_t sequence) {
+    flow::SegmentedScan scan = empty_scan(sequence);
+    scan.map_id = map_id;
+    scans.write(wire::SegmentedScanEncoder().encode("car", scan));
+  }
   bool has_labelled(std::size_t count) {
     objects.take_each([this](const auto& sample) { published.push_back(*wire::decode(sample)); });
     labels.take_each([this](const slammot_ScanLabels& sample) { labelled.push_back(sample.sequence_number); });
@@ -96,6 +102,25 @@ TEST_F(TrackingOnTheBus, LeavesTracksOfAnotherDriveAlone) {
   send(0);
   ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
   EXPECT_THAT(published.front().objects, ::testing::IsEmpty());
+}
+
+TEST_F(TrackingOnTheBus, LeavesTracksOfAnotherMapAloneThoughTheirTimeIsTheSame) {
+  flow::TrackedObjects of_earlier_map = one_car(kScanNs - 100'000'000);
+  of_earlier_map.map_id = {6};
+  stored.write(wire::TrackedObjectsEncoder().encode("car", of_earlier_map));
+  begin();
+  send(0);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
+  EXPECT_THAT(published.front().objects, ::testing::IsEmpty());
+}
+
+TEST_F(TrackingOnTheBus, BeginsAnewWithANewMapThoughItsTimeIsTheSame) {
+  begin();
+  for (const std::uint32_t sequence : {0U, 1U}) send(sequence);
+  map_id = {8};
+  for (const std::uint32_t sequence : {0U, 1U}) send(sequence);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(4); }));
+  EXPECT_THAT(labelled, ::testing::ElementsAre(0, 1, 0, 1));
 }
 
 }  // namespace

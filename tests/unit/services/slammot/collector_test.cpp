@@ -1,0 +1,134 @@
+#include "services/slammot/collector.hpp"
+
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/wire/localized_scan.hpp"
+#include "common/wire/sensor.hpp"
+#include "common/wire/service.hpp"
+#include "common/wire/tracked_objects.hpp"
+#include "tests/support/dds.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace slammot {
+namespace {
+
+using namespace std::chrono_literals;
+using slammot::testing::kForever;
+
+constexpr std::int64_t kPeriodNs = 100'000'000;
+
+/// Stands for ingest, localization and tracking of one vehicle.
+struct CollectorOnTheBus : ::testing::Test {
+  slammot::testing::TemporaryFolder folder;
+  slammot::testing::PrivateBus bus;
+  dds::Participant services = bus.join();
+  dds::Writer<slammot_LaserScan> scans{services, dds::topics::kLaserScan};
+  dds::Writer<slammot_LocalizedScan> localized_scans{services, dds::topics::kLocalizedScan};
+  dds::Writer<slammot_TrackedObjects> tracked_objects{services, dds::topics::kTrackedObjects};
+  dds::Writer<slammot_ServiceStatus> statuses{services, dds::topics::kStatus};
+  std::optional<Collector> collector;
+
+  void start() {
+    collector.reset();
+    while (scans.matched_readers() + localized_scans.matched_readers() + tracked_objects.matched_readers() > 0) std::this_thread::yield();
+    collector.emplace(CollectorOptions{"car", bus.domain_id, bus.config, folder / "journal"});
+    ASSERT_TRUE(scans.wait_for_readers(1, kForever));
+    ASSERT_TRUE(localized_scans.wait_for_readers(1, kForever));
+    ASSERT_TRUE(tracked_objects.wait_for_readers(1, kForever));
+  }
+
+  void say_that_log_is_finished(bool is_finished) {
+    wire::StatusEncoder encoder;
+    statuses.write(encoder.encode({.name = {"car", "ingest", "main"}, .counters = {{"log_finished", is_finished ? 1U : 0U}}}));
+  }
+
+  /// One scan through all services.
+  void drive(std::uint32_t sequence, std::uint64_t drive_id, flow::MapId map_id) {
+    sensing::LaserScan scan;
+    scan.stamp_ns = std::int64_t{sequence} * kPeriodNs;
+    scan.sequence = sequence;
+    scan.scanner = {.scanner_id = "front", .base_from_laser = {}, .first_beam_rad = 0.0, .beam_step_rad = 0.1, .max_range_m = 50.0, .sweep_s = 0.0};
+    scan.range_m = {5.0F};
+    flow::LocalizedScan localized;
+    localized.stamp_ns = scan.stamp_ns;
+    localized.scanner_id = "front";
+    localized.map_id = map_id;
+    flow::TrackedObjects objects;
+    objects.stamp_ns = scan.stamp_ns;
+    objects.map_id = map_id;
+    scans.write(wire::LaserScanEncoder(drive_id).encode("car", scan));
+    localized_scans.write(wire::LocalizedScanEncoder().encode("car", localized));
+    tracked_objects.write(wire::TrackedObjectsEncoder().encode("car", objects));
+  }
+
+  std::uint64_t localized_count() const { return collector->record({}).localized_scans(); }
+
+  ::testing::AssertionResult comes_to(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + kForever;
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) return ::testing::AssertionFailure() << "did not happen";
+      collector->wait(5ms);
+    }
+    return ::testing::AssertionSuccess();
+  }
+};
+
+TEST_F(CollectorOnTheBus, TakesALogThatWasFinishedBeforeItsTimeForNoDrive) {
+  say_that_log_is_finished(true);
+  start();
+  ASSERT_TRUE(comes_to([this] { return !collector->counters().empty(); }));
+  EXPECT_FALSE(collector->has_drive_ended());
+}
+
+TEST_F(CollectorOnTheBus, EndsWithTheLastScanOfTheLog) {
+  start();
+  for (const std::uint32_t sequence : {0U, 1U, 2U}) drive(sequence, 1, {7});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 3; }));
+  EXPECT_FALSE(collector->has_drive_ended());
+  say_that_log_is_finished(true);
+  EXPECT_TRUE(comes_to([this] { return collector->has_drive_ended(); }));
+}
+
+TEST_F(CollectorOnTheBus, ForgetsTheDriveBeforeWhenANewOneBegins) {
+  start();
+  for (const std::uint32_t sequence : {0U, 1U, 2U}) drive(sequence, 1, {7});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 3; }));
+  drive(0, 2, {8});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
+  EXPECT_EQ(collector->scan_stamps_ns().size(), 1U);
+}
+
+TEST_F(CollectorOnTheBus, GoesOnAfterACrashWithWhatItHad) {
+  start();
+  for (const std::uint32_t sequence : {0U, 1U, 2U}) drive(sequence, 1, {7});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 3 && collector->scan_stamps_ns().size() == 3; }));
+  start();
+  drive(3, 1, {7});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 4; }));
+  EXPECT_THAT(collector->scan_stamps_ns(), ::testing::ElementsAre(0, kPeriodNs, 2 * kPeriodNs, 3 * kPeriodNs));
+}
+
+TEST_F(CollectorOnTheBus, DoesNotMixADriveFromBeforeItsCrashWithANewOne) {
+  start();
+  for (const std::uint32_t sequence : {0U, 1U, 2U}) drive(sequence, 1, {7});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 3; }));
+  start();
+  drive(0, 2, {8});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
+  EXPECT_THAT(collector->scan_stamps_ns(), ::testing::ElementsAre(0));
+}
+
+TEST_F(CollectorOnTheBus, HasNothingToGoOnFromOnceItsResultsAreWritten) {
+  start();
+  drive(0, 1, {7});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
+  collector->forget_journal();
+  start();
+  EXPECT_EQ(localized_count(), 0U);
+}
+
+}  // namespace
+}  // namespace slammot
