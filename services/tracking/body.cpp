@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "common/geometry/pose2.hpp"
 #include "services/tracking/tracking_config.hpp"
 
 namespace slammot::tracking {
@@ -14,27 +16,39 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr double kFaceDepthM = 0.2;       ///< Points this near the outermost one lie on the same side.
-constexpr double kLeastShareSeen = 0.5;   ///< Of a side that should be in view, for its end to count as seen.
-constexpr double kFewestBeams = 3.0;       ///< That a side should return, for its end to count as seen.
 constexpr double kUnknownSigmaM = 3.0;    ///< Of a coordinate about which a glimpse says nothing.
+constexpr int kFewestOnFlank = 3;         ///< Echoes on a flank that tell where it ends.
+constexpr double kWidestM = 3.2;          ///< Nothing on the road is wider;
+constexpr double kWidestFaceM = 2.6;      ///< a side that is not longer may be a face.
+constexpr double kWholeSigmaM = 0.03;     ///< Errors of a size that is seen again and again do not average below this.
+
+/// Means and one sigma of the sizes of road users, and how common they are.
+struct KindOfBody {
+  Kind kind;
+  double share, length_m, length_sigma_m, width_m, width_sigma_m;
+};
+constexpr std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.15, 1.75, 0.2, 0.65, 0.15},
+                                               {Kind::kCar, 0.65, 4.4, 0.4, 1.8, 0.12},
+                                               {Kind::kTruck, 0.1, 7.0, 1.2, 2.35, 0.2},
+                                               {Kind::kBus, 0.1, 12.0, 1.2, 2.5, 0.12}}};
 
 /// The glimpse along one axis of the body, relative to the predicted centre.
 struct Shadow {
   double low_m = std::numeric_limits<double>::max();
   double high_m = std::numeric_limits<double>::lowest();
-  bool low_is_end = false;     ///< The outermost point is the first or last and hidden beyond.
-  bool high_is_end = false;
-  double low_face_m = 0.0;     ///< Mean of the points on the outermost side.
+  Edge low_edge = Edge::kOpen;   ///< Beyond the outermost point, where it is the first or last.
+  Edge high_edge = Edge::kOpen;
+  double low_face_m = 0.0;       ///< Mean of the points on the outermost side.
   double high_face_m = 0.0;
   int low_count = 0;
   int high_count = 0;
+  int count = 0;
 };
 
 struct AxisMeasurement {
   double centre_m = 0.0;
   double variance_m2 = kUnknownSigmaM * kUnknownSigmaM;
-  double recentring_m = 0.0;
-  Size size;
+  int held = 0;                  ///< -1: the low side was seen, +1: the high one; the size grows from there. 0: none or both.
 };
 
 Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis) {
@@ -42,9 +56,11 @@ Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2
   const std::size_t count = glimpse.points_m.size();
   for (std::size_t i = 0; i < count; ++i) {
     const double s = axis.dot(glimpse.points_m[i] - centre_m);
-    const bool is_hidden_end = (i == 0 && glimpse.occluded_at_start) || (i + 1 == count && glimpse.occluded_at_end);
-    if (s < shadow.low_m) shadow.low_m = s, shadow.low_is_end = is_hidden_end;
-    if (s > shadow.high_m) shadow.high_m = s, shadow.high_is_end = is_hidden_end;
+    Edge edge = Edge::kOpen;
+    if (i == 0) edge = glimpse.start;
+    if (i + 1 == count) edge = std::max(edge, glimpse.end);
+    if (s < shadow.low_m) shadow.low_m = s, shadow.low_edge = edge;
+    if (s > shadow.high_m) shadow.high_m = s, shadow.high_edge = edge;
   }
   for (const Vector2d& point : glimpse.points_m) {
     const double s = axis.dot(point - centre_m);
@@ -53,120 +69,187 @@ Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2
   }
   shadow.low_face_m /= shadow.low_count;
   shadow.high_face_m /= shadow.high_count;
+  shadow.count = static_cast<int>(count);
   return shadow;
 }
 
 Shadow mirrored(const Shadow& shadow) {
-  return {-shadow.high_m, -shadow.low_m, shadow.high_is_end, shadow.low_is_end,
-          -shadow.high_face_m, -shadow.low_face_m, shadow.high_count, shadow.low_count};
+  return {-shadow.high_m, -shadow.low_m, shadow.high_edge, shadow.low_edge,
+          -shadow.high_face_m, -shadow.low_face_m, shadow.high_count, shadow.low_count, shadow.count};
 }
 
-/// A size is corrected by what was seen from edge to edge, and never below what was seen at all.
-Size updated_size(const Size& size, double seen_m, bool both_edges_seen, double seen_variance_m2, double longest_m) {
-  Size updated = size;
-  if (both_edges_seen) {
-    const double gain = size.variance_m2 / (size.variance_m2 + seen_variance_m2);
-    updated.value_m += gain * (seen_m - size.value_m);
-    updated.variance_m2 = std::max(1e-4, (1.0 - gain) * size.variance_m2);
-  } else if (seen_m > size.value_m) {
-    updated.value_m += 0.3 * (seen_m - size.value_m);
-  }
-  constexpr double kSmallestM = 0.4;
-  updated.value_m = std::clamp(updated.value_m, kSmallestM, longest_m);
-  return updated;
+/// No body is smaller than what is seen of it; a single outlier does not make it larger.
+void note_seen(SizeEvidence& evidence, double seen_m) {
+  constexpr double kTrust = 0.3;
+  if (seen_m > evidence.least_m) evidence.least_m += evidence.least_m == 0.0 ? seen_m : kTrust * (seen_m - evidence.least_m);
 }
 
-/// The laser lies beyond the low edge, which so looks at it. far_is_visible: the flank can be seen up to the far edge.
-AxisMeasurement measure_from_low_side(const Size& size, const Shadow& shadow, bool far_is_visible, double edge_variance_m2,
-                                      double far_variance_m2, double longest_m) {
-  AxisMeasurement axis;
-  const bool low_is_seen = !shadow.low_is_end || shadow.low_count >= 3;
-  // Where the flank is not seen for what it should be, the far edge is not seen either.
-  const bool high_is_seen = far_is_visible && !shadow.high_is_end && shadow.high_m - shadow.low_m > kLeastShareSeen * size.value_m;
+void note_whole(SizeEvidence& evidence, double seen_m, double variance_m2) {
+  const double gain = evidence.whole.variance_m2 / (evidence.whole.variance_m2 + variance_m2);
+  evidence.whole.value_m += gain * (seen_m - evidence.whole.value_m);
+  evidence.whole.variance_m2 = std::max(kWholeSigmaM * kWholeSigmaM, (1.0 - gain) * evidence.whole.variance_m2);
+}
+
+/// One axis of a body and how the laser looks at it.
+struct AxisView {
+  double laser_at_m = 0.0;          ///< Relative to the predicted centre.
+  double face_variance_m2 = 0.0;    ///< Of one echo from a side across the axis.
+  double low_spacing_m = 0.0;       ///< Between the echoes of a side along the axis, at its low
+  double high_spacing_m = 0.0;      ///< and at its high end.
+  double clear_spacing_m = 0.5;     ///< Wider spaced echoes do not tell where a side ends.
+};
+
+/// The laser lies beyond the low side, which so looks at it; the high end is at the end of a flank, if that is in view.
+void note_sizes_from_low_side(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
-  axis.size = updated_size(size, shadow.high_m - low_m, low_is_seen && high_is_seen, far_variance_m2, longest_m);
-  const double half_m = 0.5 * axis.size.value_m;
-  if (low_is_seen) {
-    axis.centre_m = low_m + half_m;
-    axis.variance_m2 = edge_variance_m2;
-    axis.recentring_m = half_m - 0.5 * size.value_m;
-  } else if (high_is_seen) {
-    axis.centre_m = shadow.high_m - half_m;
-    axis.variance_m2 = far_variance_m2;
-    axis.recentring_m = 0.5 * size.value_m - half_m;
-  }
-  return axis;
+  note_seen(evidence, shadow.high_m - low_m);
+  const bool low_is_seen = shadow.low_edge == Edge::kOpen || shadow.low_count >= 3;
+  const bool high_is_seen = flank_is_visible && shadow.high_edge == Edge::kOpen && view.high_spacing_m < view.clear_spacing_m &&
+                            shadow.count - shadow.low_count >= kFewestOnFlank;
+  if (low_is_seen && high_is_seen)  // the flank ends somewhere between its last echo and where the next one would be
+    note_whole(evidence, shadow.high_m + 0.5 * view.high_spacing_m - low_m, view.face_variance_m2 + view.high_spacing_m * view.high_spacing_m / 12.0);
 }
 
-/// The laser lies beside the body: both edges are outlines of the flank.
-AxisMeasurement measure_from_beside(const Size& size, const Shadow& shadow, double edge_variance_m2, double longest_m) {
+void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view) {
+  note_seen(evidence, shadow.high_m - shadow.low_m);
+  const double spacing_m = std::max(view.low_spacing_m, view.high_spacing_m);
+  if (shadow.low_edge != Edge::kHidden && shadow.high_edge != Edge::kHidden && spacing_m < view.clear_spacing_m && shadow.count >= kFewestOnFlank)
+    note_whole(evidence, shadow.high_m - shadow.low_m + spacing_m, 2.0 * view.face_variance_m2 + spacing_m * spacing_m / 6.0);
+}
+
+AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   AxisMeasurement axis;
-  const bool is_whole = shadow.high_m - shadow.low_m > kLeastShareSeen * size.value_m;
-  const bool low_is_seen = !shadow.low_is_end && (is_whole || shadow.high_is_end);
-  const bool high_is_seen = !shadow.high_is_end && (is_whole || shadow.low_is_end);
-  axis.size = updated_size(size, shadow.high_m - shadow.low_m, low_is_seen && high_is_seen, 2.0 * edge_variance_m2, longest_m);
-  const double half_m = 0.5 * axis.size.value_m;
-  if (low_is_seen && high_is_seen) {
-    axis.centre_m = 0.5 * (shadow.low_m + shadow.high_m);
-    axis.variance_m2 = 0.5 * edge_variance_m2;
-  } else if (low_is_seen) {
-    axis.centre_m = shadow.low_m + half_m;
-    axis.variance_m2 = edge_variance_m2;
-    axis.recentring_m = half_m - 0.5 * size.value_m;
-  } else if (high_is_seen) {
-    axis.centre_m = shadow.high_m - half_m;
-    axis.variance_m2 = edge_variance_m2;
-    axis.recentring_m = 0.5 * size.value_m - half_m;
+  if (shadow.low_edge != Edge::kHidden || shadow.low_count >= 3) {
+    const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
+    axis.centre_m = low_m + 0.5 * size.value_m;
+    axis.variance_m2 = view.face_variance_m2;
+    axis.held = -1;
+  } else if (flank_is_visible && shadow.high_edge == Edge::kOpen) {
+    axis.centre_m = shadow.high_m + 0.5 * view.high_spacing_m - 0.5 * size.value_m;
+    axis.variance_m2 = view.face_variance_m2 + view.high_spacing_m * view.high_spacing_m / 12.0;
+    axis.held = 1;
   }
   return axis;
 }
 
-AxisMeasurement measure_axis(const Size& size, const Shadow& shadow, double laser_at_m, bool flank_is_visible,
-                             double edge_variance_m2, double spacing_m, double longest_m) {
-  const double spacing_variance_m2 = spacing_m * spacing_m / 3.0;  // the flank's end lies up to one spacing further
-  const double outline_variance_m2 = edge_variance_m2 + spacing_variance_m2;
-  if (std::abs(laser_at_m) <= 0.5 * size.value_m) return measure_from_beside(size, shadow, outline_variance_m2, longest_m);
-  if (laser_at_m < 0.0)
-    return measure_from_low_side(size, shadow, flank_is_visible, edge_variance_m2, outline_variance_m2, longest_m);
-  AxisMeasurement axis =
-      measure_from_low_side(size, mirrored(shadow), flank_is_visible, edge_variance_m2, outline_variance_m2, longest_m);
-  axis.centre_m = -axis.centre_m;
-  axis.recentring_m = -axis.recentring_m;
+/// The laser lies beside the body: both ends are outlines of the flank.
+AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const AxisView& view) {
+  AxisMeasurement axis;
+  const double low_m = shadow.low_m - 0.5 * view.low_spacing_m + 0.5 * size.value_m;
+  const double high_m = shadow.high_m + 0.5 * view.high_spacing_m - 0.5 * size.value_m;
+  const bool low_is_seen = shadow.low_edge != Edge::kHidden;
+  const bool high_is_seen = shadow.high_edge != Edge::kHidden;
+  const double low_variance_m2 = view.face_variance_m2 + view.low_spacing_m * view.low_spacing_m / 12.0;
+  const double high_variance_m2 = view.face_variance_m2 + view.high_spacing_m * view.high_spacing_m / 12.0;
+  // Where the two ends disagree, part of the body was not seen: the difference says how much the middle may be off.
+  if (low_is_seen && high_is_seen) {
+    axis.centre_m = 0.5 * (low_m + high_m);
+    axis.variance_m2 = 0.25 * (low_variance_m2 + high_variance_m2) + 0.25 * (low_m - high_m) * (low_m - high_m);
+  } else if (low_is_seen) {
+    axis.centre_m = low_m, axis.variance_m2 = low_variance_m2, axis.held = -1;
+  } else if (high_is_seen) {
+    axis.centre_m = high_m, axis.variance_m2 = high_variance_m2, axis.held = 1;
+  }
   return axis;
+}
+
+AxisView mirrored(const AxisView& view) {
+  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.clear_spacing_m};
+}
+
+AxisMeasurement mirrored(const AxisMeasurement& axis) { return {-axis.centre_m, axis.variance_m2, -axis.held}; }
+
+void note_sizes(SizeEvidence& evidence, const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
+  if (std::abs(view.laser_at_m) <= 0.5 * size.value_m) note_sizes_from_beside(evidence, shadow, view);
+  else if (view.laser_at_m < 0.0) note_sizes_from_low_side(evidence, shadow, view, flank_is_visible);
+  else note_sizes_from_low_side(evidence, mirrored(shadow), mirrored(view), flank_is_visible);
+}
+
+AxisMeasurement measure_axis(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
+  if (std::abs(view.laser_at_m) <= 0.5 * size.value_m) return centre_from_beside(size, shadow, view);
+  if (view.laser_at_m < 0.0) return centre_from_low_side(size, shadow, view, flank_is_visible);
+  return mirrored(centre_from_low_side(size, mirrored(shadow), mirrored(view), flank_is_visible));
 }
 
 double echo_sigma_m(double range_m, const TrackingConfig& config) {
   return config.range_noise_m + config.range_noise_per_m * range_m;
 }
 
+/// Between neighbouring echoes of a side along the axis, at the place.
+double spacing_m(const Glimpse& glimpse, const Vector2d& place_m, const Vector2d& axis) {
+  constexpr double kLeastIncidence = 0.05;
+  const Vector2d sight_m = place_m - glimpse.laser_m;
+  const double range_m = std::max(sight_m.norm(), 1e-3);
+  const double incidence = std::abs(axis.x() * sight_m.y() - axis.y() * sight_m.x()) / range_m;
+  return range_m * glimpse.beam_step_rad / std::max(incidence, kLeastIncidence);
+}
+
+double squared(double value) { return value * value; }
+
+Size likely_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
+  const double information = 1.0 / squared(sigma_m) + 1.0 / evidence.whole.variance_m2;
+  const double value_m = (mean_m / squared(sigma_m) + evidence.whole.value_m / evidence.whole.variance_m2) / information;
+  return {std::max(value_m, evidence.least_m), 1.0 / information};
+}
+
+/// Log-likelihood of what was seen of one size, under a kind's.
+double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
+  constexpr double kLeastSigmaM = 0.2;
+  const double variance_m2 = squared(sigma_m) + evidence.whole.variance_m2;
+  const double beyond_m = std::max(0.0, evidence.least_m - mean_m);
+  return -0.5 * squared(evidence.whole.value_m - mean_m) / variance_m2 - 0.5 * std::log(variance_m2) -
+         0.5 * squared(beyond_m) / (squared(sigma_m) + squared(kLeastSigmaM));
+}
+
 }  // namespace
+
+Body with_likely_sizes(Body body, const TrackingConfig& config) {
+  double best = std::numeric_limits<double>::lowest();
+  for (const KindOfBody& kind : kKinds) {
+    const double scale = config.size_scale;
+    const double fit = std::log(kind.share) +
+                       log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence) +
+                       log_likelihood_of_size(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence);
+    if (fit <= best) continue;
+    best = fit;
+    body.kind = kind.kind;
+    body.length = likely_size(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence);
+    body.width = likely_size(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence);
+  }
+  body.length.value_m = std::min(body.length.value_m, config.longest_body_m);
+  body.width.value_m = std::min(body.width.value_m, kWidestM * config.size_scale);
+  return body;
+}
 
 BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse,
                             const TrackingConfig& config) {
   const Vector2d along{std::cos(body.heading_rad), std::sin(body.heading_rad)};
   const Vector2d across{-along.y(), along.x()};
   const Vector2d to_laser_m = glimpse.laser_m - predicted_centre_m;
-  const double range_m = to_laser_m.norm();
-  const double sight_along = std::abs(along.dot(to_laser_m)) / std::max(range_m, 1e-6);
-  const double sight_across = std::abs(across.dot(to_laser_m)) / std::max(range_m, 1e-6);
-  const double beam_width_m = range_m * glimpse.beam_step_rad;
-  const double sigma_m = std::hypot(echo_sigma_m(range_m, config), config.shape_noise_m);
-  constexpr double kLeastIncidence = 0.05;
-  const bool flank_is_visible = std::abs(across.dot(to_laser_m)) > 0.5 * body.width.value_m + 0.3 &&
-                                body.length.value_m * sight_across > kFewestBeams * beam_width_m;
-  const bool face_is_visible = std::abs(along.dot(to_laser_m)) > 0.5 * body.length.value_m + 0.3 &&
-                               body.width.value_m * sight_along > kFewestBeams * beam_width_m;
-  const AxisMeasurement u = measure_axis(body.length, shadow_of(glimpse, predicted_centre_m, along), along.dot(to_laser_m), flank_is_visible,
-                                         sigma_m * sigma_m, beam_width_m / std::max(sight_across, kLeastIncidence), config.longest_body_m);
-  const AxisMeasurement v = measure_axis(body.width, shadow_of(glimpse, predicted_centre_m, across), across.dot(to_laser_m), face_is_visible,
-                                         sigma_m * sigma_m, beam_width_m / std::max(sight_along, kLeastIncidence), 3.5);
+  const double sigma_m = std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.shape_noise_m);
+  const Shadow u = shadow_of(glimpse, predicted_centre_m, along);
+  const Shadow v = shadow_of(glimpse, predicted_centre_m, across);
+  const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
+    return AxisView{axis.dot(to_laser_m), squared(sigma_m), spacing_m(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
+                    spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), 0.5 * config.size_scale};
+  };
+  const AxisView u_view = view_of(along, u);
+  const AxisView v_view = view_of(across, v);
+  const double clear_m = 0.3 * config.size_scale;
+  const bool flank_is_visible = std::abs(v_view.laser_at_m) > 0.5 * body.width.value_m + clear_m;
+  const bool face_is_visible = std::abs(u_view.laser_at_m) > 0.5 * body.length.value_m + clear_m;
   BodyMeasurement measurement;
-  measurement.centre_m = predicted_centre_m + u.centre_m * along + v.centre_m * across;
-  measurement.covariance_m2 = u.variance_m2 * along * along.transpose() + v.variance_m2 * across * across.transpose();
-  measurement.recentring_m = u.recentring_m * along + v.recentring_m * across;
   measurement.body = body;
-  measurement.body.length = u.size;
-  measurement.body.width = v.size;
+  note_sizes(measurement.body.length_evidence, body.length, u, u_view, flank_is_visible);
+  note_sizes(measurement.body.width_evidence, body.width, v, v_view, face_is_visible);
+  measurement.body = with_likely_sizes(measurement.body, config);
+  const AxisMeasurement at_u = measure_axis(measurement.body.length, u, u_view, flank_is_visible);
+  const AxisMeasurement at_v = measure_axis(measurement.body.width, v, v_view, face_is_visible);
+  measurement.centre_m = predicted_centre_m + at_u.centre_m * along + at_v.centre_m * across;
+  measurement.covariance_m2 = at_u.variance_m2 * along * along.transpose() + at_v.variance_m2 * across * across.transpose();
+  const double longer_m = measurement.body.length.value_m - body.length.value_m;
+  const double wider_m = measurement.body.width.value_m - body.width.value_m;
+  measurement.recentring_m = -0.5 * at_u.held * longer_m * along - 0.5 * at_v.held * wider_m * across;
   return measurement;
 }
 
@@ -193,25 +276,36 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
   return measurement;
 }
 
-Body likely_box(double heading_rad, double heading_variance_rad2, double seen_along_m, double seen_across_m) {
+Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config) {
+  const auto span_along = [&](double heading_rad) {
+    const Vector2d axis{std::cos(heading_rad), std::sin(heading_rad)};
+    const Shadow shadow = shadow_of(glimpse, glimpse.points_m.front(), axis);
+    return shadow.high_m - shadow.low_m;
+  };
+  constexpr double kQuarterRad = 0.5 * std::numbers::pi;
+  constexpr double kNarrowestM = 1.2;
+  const double longer_m = span_along(box_heading_rad);
+  const double shorter_m = span_along(box_heading_rad + kQuarterRad);
+  const bool is_face = longer_m > kNarrowestM * config.size_scale && longer_m < kWidestFaceM * config.size_scale &&
+                       shorter_m < 0.5 * longer_m;
   Body body;
   body.has_sides = true;
-  body.heading_rad = heading_rad;
-  body.heading_variance_rad2 = heading_variance_rad2;
-  // Means and one sigma of the kinds of road users; the side that is seen tells which is meant.
-  if (seen_across_m > 2.2 || seen_along_m > 6.0) {
-    body.length = {std::max(8.0, seen_along_m), 9.0};
-    body.width = {2.4, 0.04};
-  } else if (seen_across_m > 1.0 || seen_along_m > 2.2) {
-    body.length = {4.4, 0.3};
-    body.width = {1.8, 0.03};
-  } else {
-    body.length = {std::max(1.6, seen_along_m), 0.5};
-    body.width = {0.7, 0.1};
-  }
-  body.length.value_m = std::max(body.length.value_m, seen_along_m);
-  body.width.value_m = std::max(body.width.value_m, seen_across_m);
-  return body;
+  body.heading_rad = geometry::wrap_angle(box_heading_rad + (is_face ? kQuarterRad : 0.0));
+  body.heading_variance_rad2 = is_face ? 0.3 : 0.1;
+  body.length_evidence.least_m = is_face ? shorter_m : longer_m;
+  body.width_evidence.least_m = is_face ? longer_m : shorter_m;
+  return with_likely_sizes(body, config);
+}
+
+bool is_plausible(const Body& body, const TrackingConfig& config) {
+  return !body.has_sides || (body.width_evidence.least_m < kWidestM * config.size_scale && body.length_evidence.least_m < config.longest_body_m);
+}
+
+Body turned_by_a_quarter(Body body, double sense, const TrackingConfig& config) {
+  body.heading_rad = geometry::wrap_angle(body.heading_rad + std::copysign(0.5 * std::numbers::pi, sense));
+  body.heading_variance_rad2 = std::max(body.heading_variance_rad2, 0.3);
+  std::swap(body.length_evidence, body.width_evidence);
+  return with_likely_sizes(body, config);
 }
 
 double extent_of(std::span<const Vector2d> points_m) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
 #include <Eigen/Core>
@@ -8,10 +10,19 @@ namespace slammot::tracking {
 
 struct TrackingConfig;
 
+/// Kinds of road users with sides; what is smaller is a blob.
+enum class Kind : std::uint8_t { kBicycle, kCar, kTruck, kBus };
+
 /// A size of a body: how long or wide it is believed to be.
 struct Size {
   double value_m = 0.0;
   double variance_m2 = 1.0;
+};
+
+/// What the scans said of a size so far.
+struct SizeEvidence {
+  double least_m = 0.0;               ///< So much was seen at once: it is not smaller.
+  Size whole = {0.0, 100.0};          ///< Seen from edge to edge.
 };
 
 /// What is known of an object's outline: a box with sides, or a blob without.
@@ -19,8 +30,18 @@ struct Body {
   bool has_sides = false;
   double heading_rad = 0.0;           ///< Of the length, in odom.
   double heading_variance_rad2 = 10.0;
-  Size length;
+  Size length;                        ///< As believed, from the evidence and from what kinds of road users there are.
   Size width;
+  SizeEvidence length_evidence;
+  SizeEvidence width_evidence;
+  Kind kind = Kind::kCar;             ///< The likeliest, of a body with sides.
+};
+
+/// What the scan saw next to the outermost echo of an object.
+enum class Edge : std::uint8_t {
+  kOpen,     ///< Something farther: the object ends here.
+  kNoEcho,   ///< Nothing: it may end here, or go on without an echo.
+  kHidden,   ///< Something nearer, or the end of the field of view.
 };
 
 /// The echoes that belong to one object, in odom.
@@ -28,8 +49,9 @@ struct Glimpse {
   std::span<const Eigen::Vector2d> points_m;  ///< In the order of the beams; at least one.
   Eigen::Vector2d laser_m = Eigen::Vector2d::Zero();
   double beam_step_rad = 0.0;                 ///< Positive.
-  bool occluded_at_start = false;             ///< Something nearer hides what follows the first
-  bool occluded_at_end = false;               ///< or the last point.
+  Edge start = Edge::kOpen;                   ///< Before the first point
+  Edge end = Edge::kOpen;                     ///< and after the last.
+  std::optional<double> side_heading_rad;     ///< Of a long straight side, where one is seen; its sense is not known.
 };
 
 /// Where a glimpse puts the centre of a body, and what it tells of its size.
@@ -49,8 +71,19 @@ BodyMeasurement measure_box(const Body& body, const Eigen::Vector2d& predicted_c
 /// Middle of the echoes, pushed behind the surface that they lie on by what half the object's depth may be.
 BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const TrackingConfig& config);
 
-/// A box of likely size for something of which this much is seen along and across its heading.
-Body likely_box(double heading_rad, double heading_variance_rad2, double seen_along_m, double seen_across_m);
+/// Sizes and kind as they follow from the body's evidence: a mixture over the kinds of road users, of which the likeliest
+/// counts.
+Body with_likely_sizes(Body body, const TrackingConfig& config);
+
+/// A box around something first seen now. box_heading_rad: of the longer visible side; which way the body points along it
+/// is not known, and where only one short side is seen, that it is the width is only likely.
+Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config);
+
+/// Whether anything on the road has such a shape; what has not is made of echoes from several things.
+bool is_plausible(const Body& body, const TrackingConfig& config);
+
+/// The body turned by a quarter: what was held to be its length is its width.
+Body turned_by_a_quarter(Body body, double sense, const TrackingConfig& config);
 
 /// Largest distance between the points' bounding directions: a quick upper bound of what they span.
 double extent_of(std::span<const Eigen::Vector2d> points_m);

@@ -19,15 +19,14 @@ std::array<Vector2d, 4> corners_of(const Body& body, const Vector2d& centre_m, d
 
 }  // namespace
 
-ScanView::ScanView(const flow::SegmentedScan& scan)
-    : scan_(&scan),
+PolarView::PolarView(const flow::SegmentedScan& scan)
+    : range_m_(scan.range_m),
       laser_in_odom_m_(scan.odom_from_base.pose * scan.base_from_laser.translation_m()),
       beam_step_rad_(std::abs(scan.beam_step_rad)),
       is_clockwise_(scan.beam_step_rad < 0.0) {
   const Eigen::Matrix2d R = geometry::rotation(scan.odom_from_base.pose.heading_rad);
   const Vector2d t = scan.odom_from_base.pose.translation_m();
   points_in_odom_m_.resize(scan.range_m.size());
-  segment_of_beam_.assign(scan.range_m.size(), kNone);
   bool knows_direction = false;
   for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
     points_in_odom_m_[beam] = R * scan.points_in_base_m[beam].cast<double>() + t;
@@ -37,30 +36,76 @@ ScanView::ScanView(const flow::SegmentedScan& scan)
     first_beam_in_odom_rad_ = std::atan2(way.y(), way.x()) - static_cast<double>(beam) * scan.beam_step_rad;
     knows_direction = true;
   }
+}
+
+double PolarView::steps_towards(double direction_in_odom_rad) const {
+  const double turned = is_clockwise_ ? -1.0 : 1.0;
+  const double half_view_rad = 0.5 * beam_step_rad_ * static_cast<double>(range_m_.size());
+  return (half_view_rad + wrap_angle(turned * (direction_in_odom_rad - first_beam_in_odom_rad_) - half_view_rad)) / beam_step_rad_;
+}
+
+SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
+  constexpr double kSamePlaceM = 0.25;
+  constexpr double kSamePlacePerM = 0.005;
+  constexpr double kBeyondM = 0.5;
+  constexpr double kBeyondPerM = 0.01;
+  constexpr long kBeamsAside = 2;
+  const Vector2d way = point_in_odom_m - laser_in_odom_m_;
+  const double distance_m = way.norm();
+  const auto middle = std::lround(steps_towards(std::atan2(way.y(), way.x())));
+  const auto count = static_cast<long>(range_m_.size());
+  if (middle < 1 || middle + 1 >= count) return {};
+  const double near_m = kSamePlaceM + kSamePlacePerM * distance_m;
+  const long first = std::max(0L, middle - kBeamsAside);
+  const long last = std::min(count - 1, middle + kBeamsAside);
+  for (long i = first; i <= last; ++i) {
+    const auto beam = static_cast<std::size_t>(i);
+    if (range_m_[beam] <= 0.0F) continue;
+    const Vector2d off = point_in_odom_m - points_in_odom_m_[beam];
+    if (off.squaredNorm() < near_m * near_m) return {Sight::kThere, beam};
+    if (i == last || range_m_[beam + 1] <= 0.0F) continue;
+    // Between two echoes of one oblique surface the place was seen though no beam met it.
+    const Vector2d side = points_in_odom_m_[beam + 1] - points_in_odom_m_[beam];
+    const double length2 = side.squaredNorm();
+    constexpr double kLongestSideM = 3.0;
+    if (length2 > kLongestSideM * kLongestSideM) continue;
+    const double share = std::clamp(side.dot(off) / std::max(length2, 1e-9), 0.0, 1.0);
+    if ((off - share * side).squaredNorm() < near_m * near_m) return {Sight::kThere, beam};
+  }
+  const double margin_m = kBeyondM + kBeyondPerM * distance_m;
+  int through = 0;
+  for (long i = middle - 1; i <= middle + 1; ++i) {
+    const double range_m = static_cast<double>(range_m_[static_cast<std::size_t>(i)]);
+    if (range_m > 0.0 && range_m < distance_m - margin_m) return {Sight::kHidden, static_cast<std::size_t>(i)};
+    // A beam without echo does not tell that it went through: what it met may have been too dark.
+    if (range_m > distance_m + margin_m) ++through;
+  }
+  if (through >= 2 && range_m_[static_cast<std::size_t>(middle)] > 0.0F) return {Sight::kThrough, static_cast<std::size_t>(middle)};
+  return {};
+}
+
+ScanView::ScanView(const flow::SegmentedScan& scan) : scan_(&scan), polar_(scan) {
+  segment_of_beam_.assign(scan.range_m.size(), kNone);
   for (std::size_t segment = 0; segment < scan.segments.size(); ++segment)
     for (const std::uint16_t beam : scan.segments[segment].beams) segment_of_beam_[beam] = segment;
 }
 
 ScanView::Directions ScanView::directions_of(const Body& body, const Vector2d& centre_m, double margin_m) const {
-  const Vector2d to_centre_m = centre_m - laser_in_odom_m_;
+  const Vector2d to_centre_m = centre_m - laser_in_odom_m();
   const double middle_rad = std::atan2(to_centre_m.y(), to_centre_m.x());
-  double low = 0.0;
-  double high = 0.0;
+  const double middle = polar_.steps_towards(middle_rad);
+  const double sense = scan_->beam_step_rad < 0.0 ? -1.0 : 1.0;
+  double low = middle;
+  double high = middle;
   for (const Vector2d& corner : corners_of(body, centre_m, margin_m)) {
-    const Vector2d way = corner - laser_in_odom_m_;
-    const double off_rad = wrap_angle(std::atan2(way.y(), way.x()) - middle_rad);
-    low = std::min(low, off_rad), high = std::max(high, off_rad);
+    const Vector2d way = corner - laser_in_odom_m();
+    const double steps = middle + sense * wrap_angle(std::atan2(way.y(), way.x()) - middle_rad) / beam_step_rad();
+    low = std::min(low, steps), high = std::max(high, steps);
   }
-  const double turned = is_clockwise_ ? -1.0 : 1.0;
-  // Sense of the scan; the middle is brought within half a turn of the middle of the field of view.
-  const double half_view_rad = 0.5 * beam_step_rad_ * static_cast<double>(scan_->range_m.size());
-  const double in_view_rad = half_view_rad + wrap_angle(turned * (middle_rad - first_beam_in_odom_rad_) - half_view_rad);
-  const double from_rad = in_view_rad + (is_clockwise_ ? -high : low);
-  const double to_rad = in_view_rad + (is_clockwise_ ? -low : high);
   const auto count = static_cast<double>(scan_->range_m.size());
-  const double first = std::clamp(std::ceil(from_rad / beam_step_rad_ - 0.5), 0.0, count);
-  const double last = std::clamp(std::floor(to_rad / beam_step_rad_ + 0.5) + 1.0, first, count);
-  if (to_rad < 0.0 || from_rad > count * beam_step_rad_) return {};
+  if (high < 0.0 || low > count) return {};
+  const double first = std::clamp(std::ceil(low - 0.5), 0.0, count);
+  const double last = std::clamp(std::floor(high + 0.5) + 1.0, first, count);
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
 }
 
@@ -70,7 +115,7 @@ Visibility ScanView::visibility_of(const Body& body, const Vector2d& centre_m) c
   double nearest_m = 1e9;
   double farthest_m = 0.0;
   for (const Vector2d& corner : corners_of(body, centre_m, 0.0)) {
-    const double range_m = (corner - laser_in_odom_m_).norm();
+    const double range_m = (corner - laser_in_odom_m()).norm();
     nearest_m = std::min(nearest_m, range_m), farthest_m = std::max(farthest_m, range_m);
   }
   Visibility visibility;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,15 +18,56 @@ struct Visibility {
   int passed = 0;              ///< and so many went through to something behind it, or came back from nothing.
 };
 
-/// One scan in odom, with the means to ask what lies in a direction. Refers to the scan, which must outlive it.
+/// What a scan says about one place.
+enum class Sight : std::uint8_t {
+  kNothing,  ///< Out of view, or between what the beams can tell.
+  kThere,    ///< Something was echoed from here.
+  kThrough,  ///< The beams went on beyond it.
+  kHidden,   ///< Something nearer is in the way.
+};
+
+struct SightOfPlace {
+  Sight sight = Sight::kNothing;
+  std::size_t beam = 0;  ///< That tells it.
+};
+
+/// Where the beams of one scan ended, in odom, with the means to ask what lies in a direction. Owns what it tells of.
+class PolarView {
+ public:
+  explicit PolarView(const flow::SegmentedScan& scan);
+
+  std::size_t beam_count() const { return range_m_.size(); }
+  const Eigen::Vector2d& point_in_odom_m(std::size_t beam) const { return points_in_odom_m_[beam]; }
+  const Eigen::Vector2d& laser_in_odom_m() const { return laser_in_odom_m_; }
+  double range_m(std::size_t beam) const { return static_cast<double>(range_m_[beam]); }
+  double beam_step_rad() const { return beam_step_rad_; }   ///< Positive.
+
+  /// What this scan says about a place; consistency as in Wang 2004, Section 6.2, but between two scans, so that errors of
+  /// the map do not count.
+  SightOfPlace sight_of(const Eigen::Vector2d& point_in_odom_m) const;
+
+  /// Direction in steps from beam 0, ascending with the beams; within half a turn of the middle of the field of view.
+  double steps_towards(double direction_in_odom_rad) const;
+
+ private:
+  std::vector<Eigen::Vector2d> points_in_odom_m_;
+  std::vector<float> range_m_;
+  Eigen::Vector2d laser_in_odom_m_;
+  double first_beam_in_odom_rad_ = 0.0;
+  double beam_step_rad_ = 0.0;
+  bool is_clockwise_ = false;
+};
+
+/// The current scan in odom. Refers to the scan, which must outlive it.
 class ScanView {
  public:
   explicit ScanView(const flow::SegmentedScan& scan);
 
   const flow::SegmentedScan& scan() const { return *scan_; }
-  const Eigen::Vector2d& point_in_odom_m(std::size_t beam) const { return points_in_odom_m_[beam]; }
-  const Eigen::Vector2d& laser_in_odom_m() const { return laser_in_odom_m_; }
-  double beam_step_rad() const { return beam_step_rad_; }   ///< Positive.
+  const PolarView& polar() const { return polar_; }
+  const Eigen::Vector2d& point_in_odom_m(std::size_t beam) const { return polar_.point_in_odom_m(beam); }
+  const Eigen::Vector2d& laser_in_odom_m() const { return polar_.laser_in_odom_m(); }
+  double beam_step_rad() const { return polar_.beam_step_rad(); }   ///< Positive.
   /// Segment of the beam's echo; kNone without echo.
   std::size_t segment_of_beam(std::size_t beam) const { return segment_of_beam_[beam]; }
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -41,12 +83,8 @@ class ScanView {
 
  private:
   const flow::SegmentedScan* scan_;
-  std::vector<Eigen::Vector2d> points_in_odom_m_;
+  PolarView polar_;
   std::vector<std::size_t> segment_of_beam_;
-  Eigen::Vector2d laser_in_odom_m_;
-  double first_beam_in_odom_rad_ = 0.0;
-  double beam_step_rad_ = 0.0;
-  bool is_clockwise_ = false;
 };
 
 }  // namespace slammot::tracking

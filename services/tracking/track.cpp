@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/association/gating.hpp"
 #include "common/geometry/pose2.hpp"
 
 namespace slammot::tracking {
@@ -28,61 +29,69 @@ Course course_of(const Track& track) {
   return {std::atan2(velocity.y(), velocity.x()), across.dot(track.velocity_covariance() * across) / (speed2 * speed2)};
 }
 
+BodyMeasurement measure(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
+  return body.has_sides ? measure_box(body, predicted_centre_m, glimpse, config) : measure_blob(body, glimpse, config);
+}
+
+/// Draws the body anew; the sides that are seen stay where they are, so the centre moves and the velocity does not.
+void redraw(Track& track, const Body& body, const Glimpse& glimpse, const TrackingConfig& config) {
+  const Vector2d before_m = measure(track.body, track.position_m(), glimpse, config).centre_m;
+  const BodyMeasurement after = measure(body, track.position_m(), glimpse, config);
+  const filters::ModelSet models = motion_models(config);
+  track.body = after.body;
+  filters::imm_shift(models, track.motion, after.centre_m - before_m);
+  track.birth_position_m += after.centre_m - before_m;
+  track.estimate = filters::imm_combine(models, track.motion);
+}
+
+/// Brings the body's heading to that of the long side that is seen.
+void follow_side(Track& track, const Glimpse& glimpse) {
+  if (!glimpse.side_heading_rad) return;
+  Body& body = track.body;
+  const double off_rad = std::remainder(*glimpse.side_heading_rad - body.heading_rad, std::numbers::pi);
+  constexpr double kFarthestRad = 0.5;
+  constexpr double kVarianceRad2 = 0.04 * 0.04 * 10.0;  // the errors of one scan are those of the next
+  if (std::abs(off_rad) > kFarthestRad) return;
+  const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + kVarianceRad2);
+  body.heading_rad = wrap_angle(body.heading_rad + gain * off_rad);
+  body.heading_variance_rad2 *= 1.0 - gain;
+}
+
 /// Brings the body's heading to the course. A body that goes backwards or sideways was drawn the wrong way round.
-void follow_course(Track& track, const TrackingConfig& config) {
+void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
   if (track.velocity_mps().norm() < config.box_from_speed_mps) return;
   const Course course = course_of(track);
   if (course.variance_rad2 > 0.1) return;
-  Body& body = track.body;
-  double off_rad = wrap_angle(course.heading_rad - body.heading_rad);
+  double off_rad = wrap_angle(course.heading_rad - track.body.heading_rad);
   if (std::abs(off_rad) > 0.75 * std::numbers::pi) {
-    body.heading_rad = wrap_angle(body.heading_rad + std::numbers::pi);
+    track.body.heading_rad = wrap_angle(track.body.heading_rad + std::numbers::pi);
     off_rad = wrap_angle(off_rad + std::numbers::pi);
-  } else if (std::abs(off_rad) > 0.25 * std::numbers::pi && course.variance_rad2 < 0.03) {
-    body.heading_rad = wrap_angle(body.heading_rad + std::copysign(0.5 * std::numbers::pi, off_rad));
-    body.heading_variance_rad2 = 0.3;
-    std::swap(body.length, body.width);
-    body.width.value_m = std::min(body.width.value_m, 2.6);
-    body.length.variance_m2 = std::max(body.length.variance_m2, 1.0);
-    off_rad = wrap_angle(course.heading_rad - body.heading_rad);
+  } else if (std::abs(off_rad) > 0.3 * std::numbers::pi) {
+    const Body turned = turned_by_a_quarter(track.body, off_rad, config);
+    if (course.variance_rad2 > 0.03 || !is_plausible(turned, config)) return;
+    redraw(track, turned, glimpse, config);
+    off_rad = wrap_angle(course.heading_rad - track.body.heading_rad);
   }
+  Body& body = track.body;
   const double variance_rad2 = course.variance_rad2 + 0.002;  // wheels do not always roll where the body points
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + variance_rad2);
   body.heading_rad = wrap_angle(body.heading_rad + gain * off_rad);
   body.heading_variance_rad2 *= 1.0 - gain;
 }
 
-struct Spans {
-  double along_m = 0.0;
-  double across_m = 0.0;
-};
-
-Spans spans_of(const Glimpse& glimpse, double heading_rad) {
-  const Vector2d along{std::cos(heading_rad), std::sin(heading_rad)};
-  const Vector2d across{-along.y(), along.x()};
-  double low_u = 1e9, high_u = -1e9, low_v = 1e9, high_v = -1e9;
-  for (const Vector2d& point : glimpse.points_m) {
-    low_u = std::min(low_u, along.dot(point)), high_u = std::max(high_u, along.dot(point));
-    low_v = std::min(low_v, across.dot(point)), high_v = std::max(high_v, across.dot(point));
-  }
-  return {high_u - low_u, high_v - low_v};
-}
-
-/// Gives sides to a blob that has become large and whose course is known, without a jump: the echoes stay where they are.
+/// Gives sides to a blob that has become large.
 void draw_sides_when_known(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
-  const bool is_large = track.largest_extent_m > config.box_from_extent_m;
-  if (track.body.has_sides || !is_large || track.velocity_mps().norm() < config.box_from_speed_mps) return;
+  if (track.body.has_sides || track.largest_extent_m < config.box_from_extent_m) return;
+  const Vector2d way = glimpse.points_m.back() - glimpse.points_m.front();
+  Body body = likely_box(std::atan2(way.y(), way.x()), glimpse, config);
   const Course course = course_of(track);
-  if (course.variance_rad2 > 0.05) return;
-  const Spans spans = spans_of(glimpse, course.heading_rad);
-  const BodyMeasurement as_blob = measure_blob(track.body, glimpse, config);
-  track.body = likely_box(course.heading_rad, course.variance_rad2, spans.along_m, spans.across_m);
-  const BodyMeasurement as_box = measure_box(track.body, as_blob.centre_m, glimpse, config);
-  track.body = as_box.body;
-  const filters::ModelSet models = motion_models(config);
-  filters::imm_shift(models, track.motion, as_box.centre_m - as_blob.centre_m);
-  track.birth_position_m += as_box.centre_m - as_blob.centre_m;
-  track.estimate = filters::imm_combine(models, track.motion);
+  if (track.velocity_mps().norm() > config.box_from_speed_mps && course.variance_rad2 < 0.05) {
+    body = likely_box(course.heading_rad, glimpse, config);
+    if (std::abs(std::cos(body.heading_rad - course.heading_rad)) < 0.7) body = turned_by_a_quarter(body, 1.0, config);
+    body.heading_rad = course.heading_rad;
+    body.heading_variance_rad2 = course.variance_rad2;
+  }
+  redraw(track, body, glimpse, config);
 }
 
 void update_motion_state(Track& track, const TrackingConfig& config) {
@@ -113,6 +122,12 @@ std::vector<flow::PredictedPosition> predicted_path(const Track& track, const Tr
   return path;
 }
 
+/// Legs swing about the middle of who walks on them, the same way for many scans.
+bool walks(const Track& track) {
+  constexpr double kFastestMps = 2.7;
+  return !track.body.has_sides && track.largest_extent_m < 1.0 && track.velocity_mps().norm() < kFastestMps;
+}
+
 void observe(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse) {
   ++track.hits;
   track.last_seen_ns = stamp_ns;
@@ -131,8 +146,8 @@ filters::ModelSet motion_models(const TrackingConfig& config) {
   return set;
 }
 
-Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2,
-            const TrackingConfig& config) {
+Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
+            const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   Track track;
   track.track_id = track_id;
   track.first_seen_ns = stamp_ns;
@@ -140,16 +155,22 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
   const double extent_m = std::max(0.4, extent_of(glimpse.points_m));
   track.body.length = {extent_m, 1.0};
   track.body.width = {extent_m, 1.0};
-  const BodyMeasurement blob = measure_blob(track.body, glimpse, config);
+  BodyMeasurement first = measure_blob(track.body, glimpse, config);
+  if (extent_m > config.box_from_extent_m) {
+    track.body = likely_box(box_heading_rad, glimpse, config);
+    first = measure_box(track.body, first.centre_m, glimpse, config);
+    track.body = first.body;
+  }
   filters::MotionState start;
-  start.mean.head<2>() = blob.centre_m;
-  start.covariance.topLeftCorner<2, 2>() = blob.covariance_m2 + pose_covariance_m2;
-  start.covariance.block<2, 2>(2, 2) = 0.25 * config.fastest_mps * config.fastest_mps * Matrix2d::Identity();
+  start.mean.head<2>() = first.centre_m;
+  start.covariance.topLeftCorner<2, 2>() = first.covariance_m2 + pose_covariance_m2;
+  const double speed_sigma_mps = (track.body.has_sides ? 0.5 : 0.2) * config.fastest_mps;
+  start.covariance.block<2, 2>(2, 2) = speed_sigma_mps * speed_sigma_mps * Matrix2d::Identity();
   start.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
   track.motion = filters::imm_start(motion_models(config), start);
   track.estimate = start;
-  track.birth_position_m = blob.centre_m;
-  track.birth_covariance_m2 = blob.covariance_m2;
+  track.birth_position_m = first.centre_m;
+  track.birth_covariance_m2 = first.covariance_m2;
   observe(track, stamp_ns, glimpse);
   return track;
 }
@@ -161,30 +182,41 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
   track.body.heading_variance_rad2 = std::min(10.0, track.body.heading_variance_rad2 + kHeadingDriftRad2PerS * time_s);
 }
 
-void update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
+bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   const filters::ModelSet models = motion_models(config);
-  const BodyMeasurement measurement = track.body.has_sides ? measure_box(track.body, track.position_m(), glimpse, config)
-                                                           : measure_blob(track.body, glimpse, config);
+  const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
+  Matrix2d R = measurement.covariance_m2 + pose_covariance_m2;
+  if (walks(track)) R += config.gait_noise_m * config.gait_noise_m * Matrix2d::Identity();
+  const Vector2d surprise_m = measurement.centre_m - measurement.recentring_m - track.position_m();
+  const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + R);
+  if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
   filters::imm_shift(models, track.motion, measurement.recentring_m);
   track.birth_position_m += measurement.recentring_m;
   track.body = measurement.body;
-  track.motion = filters::imm_update(models, track.motion, measurement.centre_m, measurement.covariance_m2 + pose_covariance_m2).posterior;
+  track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.estimate = filters::imm_combine(models, track.motion);
   observe(track, stamp_ns, glimpse);
-  if (track.body.has_sides) follow_course(track, config);
+  if (track.body.has_sides) follow_side(track, glimpse);
+  if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
   update_motion_state(track, config);
+  if (track.velocity_mps().norm() > config.moving_above_mps || track.state == flow::Motion::kMoving) track.last_moving_ns = stamp_ns;
   track.object_class = likely_class(track);
+  return true;
 }
 
-void score_hit(Track& track, flow::PointLabel label, const TrackingConfig& config) {
-  const bool is_moving = label == flow::PointLabel::kMoving;
+void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config) {
+  const bool is_moving = label == flow::PointLabel::kMoving || evidence.moved > evidence.stood + evidence.undecided;
   track.moving_hits += is_moving ? 1 : 0;
   track.farthest_m = std::max(track.farthest_m, (track.position_m() - track.birth_position_m).norm());
+  const double fade = std::exp(-time_s / config.evidence_memory_s);
+  track.evidence.moved = fade * track.evidence.moved + evidence.moved;
+  track.evidence.stood = fade * track.evidence.stood + evidence.stood;
+  track.evidence.undecided = fade * track.evidence.undecided + evidence.undecided;
   double gain = is_moving ? config.moving_hit_score : config.other_hit_score;
-  const bool is_trusted = track.farthest_m >= config.travel_to_trust_m && track.moving_hits >= config.moving_hits_to_trust;
-  if (!is_moving && !is_trusted) gain = config.idle_score;
-  if (label == flow::PointLabel::kStationary && track.velocity_mps().norm() > 1.5) gain = config.contradiction_score;
+  const double stands_share = evidence.stood / std::max(1.0, evidence.stood + evidence.moved + evidence.undecided);
+  if (stands_share > 0.5 && track.velocity_mps().norm() > config.contradicted_above_mps) gain = config.contradiction_score;
+  if (!is_plausible(track.body, config) || track.velocity_mps().norm() > 2.0 * config.fastest_mps) gain = config.implausible_score;
   track.score = std::min(config.most_score, track.score + gain);
 }
 
@@ -200,22 +232,31 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   const double distance_m = travel_m.norm();
   const Vector2d way = travel_m / std::max(distance_m, 1e-6);
   const double sigma_m = std::sqrt(way.dot((track.position_covariance_m2() + track.birth_covariance_m2) * way));
-  const double least_travel_m = config.least_travel_m + config.least_travel_per_extent * track.largest_extent_m;
-  return track.hits >= config.least_hits && track.score >= config.confirm_score && distance_m >= least_travel_m &&
-         track.moving_hits >= config.least_moving_share * track.hits &&
-         distance_m >= config.least_travel_sigmas * sigma_m;
+  const double speed_sigma_mps = std::sqrt(0.5 * track.velocity_covariance().trace());
+  const MotionEvidence& evidence = track.evidence;
+  const bool has_moved = evidence.moved >= config.least_moved_votes &&
+                         evidence.moved >= config.least_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided);
+  // Nothing that stands comes to be where the beams went through a moment before.
+  const bool has_arrived = evidence.moved >= config.sure_moved_votes &&
+                           evidence.moved >= config.sure_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided);
+  const bool has_travelled = distance_m >= config.least_travel_m && distance_m >= config.least_travel_sigmas * sigma_m;
+  return track.hits >= config.least_hits && track.score >= config.confirm_score && has_moved && (has_arrived || has_travelled) &&
+         speed_sigma_mps <= config.most_speed_sigma_mps;
 }
 
 flow::ObjectClass likely_class(const Track& track) {
-  const double length_m = track.body.length.value_m;
   if (!track.body.has_sides) {
     const double fastest_mps = std::max(track.fastest_mps, track.velocity_mps().norm());
     if (track.largest_extent_m < 1.0) return fastest_mps < 2.7 ? flow::ObjectClass::kPedestrian : flow::ObjectClass::kBicycle;
     return flow::ObjectClass::kUnknown;
   }
-  if (length_m > 6.0) return flow::ObjectClass::kTruckOrBus;
-  if (length_m < 2.4 && track.body.width.value_m < 1.3) return flow::ObjectClass::kBicycle;
-  return flow::ObjectClass::kCar;
+  switch (track.body.kind) {
+    case Kind::kBicycle: return flow::ObjectClass::kBicycle;
+    case Kind::kCar: return flow::ObjectClass::kCar;
+    case Kind::kTruck:
+    case Kind::kBus: break;
+  }
+  return flow::ObjectClass::kTruckOrBus;
 }
 
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
@@ -255,6 +296,8 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
   track.object_class = object.object_class;
   track.first_seen_ns = object.first_seen_ns;
   track.last_seen_ns = object.last_seen_ns;
+  track.last_moving_ns = object.last_seen_ns;
+  track.farthest_m = config.least_travel_to_stand_m;
   track.hits = config.least_hits;
   track.largest_extent_m = object.length_m;
   track.body.has_sides = object.length_m > config.box_from_extent_m;
@@ -262,6 +305,11 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
   track.body.heading_variance_rad2 = 0.05;
   track.body.length = {object.length_m, 0.3};
   track.body.width = {object.width_m, 0.05};
+  if (track.body.has_sides) {
+    track.body.length_evidence.whole = {object.length_m, 0.3};
+    track.body.width_evidence.whole = {object.width_m, 0.05};
+    track.body = with_likely_sizes(track.body, config);
+  }
   filters::MotionState start;
   start.mean << object.position_in_odom_m, object.velocity_in_odom_mps, object.acceleration_in_odom_mps2;
   start.covariance.topLeftCorner<4, 4>() = object.covariance;

@@ -17,6 +17,13 @@
 
 namespace slammot::tracking {
 
+/// Echoes that say that an object has moved, comparing scans, and such that say that it stood.
+struct MotionEvidence {
+  double moved = 0.0;
+  double stood = 0.0;
+  double undecided = 0.0;
+};
+
 /// One object that is followed, or supposed to be one.
 struct Track {
   flow::TrackId track_id;
@@ -33,7 +40,9 @@ struct Track {
   std::int64_t last_seen_ns = 0;
   Eigen::Vector2d birth_position_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d birth_covariance_m2 = Eigen::Matrix2d::Identity();
+  MotionEvidence evidence;                   ///< Of the last moments, faded.
   double fastest_mps = 0.0;                  ///< Since it was confirmed.
+  std::int64_t last_moving_ns = 0;           ///< When it was last faster than something that stands.
   double farthest_m = 0.0;                   ///< From where it began.
   double largest_extent_m = 0.0;
   std::vector<Eigen::Vector2f> contour_in_odom_m;
@@ -47,19 +56,20 @@ struct Track {
 
 filters::ModelSet motion_models(const TrackingConfig& config);
 
-/// A supposed object at these echoes, at rest as far as known.
-Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
-            const TrackingConfig& config);
+/// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.
+Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
+            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config);
 
 /// Moves the track over time_s >= 0.
 void predict(Track& track, double time_s, const TrackingConfig& config);
 
-/// Corrects position, velocity, heading, size and motion state by the echoes that are its own.
-void update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
+/// Corrects position, velocity, heading, size and motion state by the echoes that are its own. False, and nothing changed,
+/// where they are too far from where a confirmed track must be.
+bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
             const TrackingConfig& config);
 
-/// Score after a scan with echoes, most of them in segments of this label.
-void score_hit(Track& track, flow::PointLabel label, const TrackingConfig& config);
+/// Score after a scan with echoes, most of them in segments of this label, time_s after the one before.
+void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config);
 
 /// Score after time_s without echoes where it was predicted; what hides it excuses it.
 void score_miss(Track& track, const Visibility& visibility, double time_s, const TrackingConfig& config);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -20,6 +22,10 @@ using flow::Segment;
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kMostPastScans = 64;
 
+constexpr double kLeastStoodShare = 0.6;   ///< Of a segment's echoes that were there before, for it to stand.
+constexpr double kLeastChangedShare = 0.3; ///< Of them that came or went, for the map not to be believed.
+constexpr double kMostMovingShare = 0.2;   ///< Of a segment's echoes that contradict the map, for it to stand.
+
 /// Pose uncertainty as it moves a point at this place; Wang 2004, Eq. (2.3).
 Matrix2d pose_covariance_at(const Vector2d& point_in_odom_m, const flow::SegmentedScan& scan) {
   const Vector2d point_in_base_m = geometry::inverse(scan.odom_from_base.pose) * point_in_odom_m;
@@ -33,6 +39,8 @@ bool is_backdrop(const Segment& segment, const TrackingConfig& config) {
   return segment.label == PointLabel::kNoEcho ||
          (segment.label != PointLabel::kMoving && segment.box_length_m > config.longest_body_m);
 }
+
+bool is_slow(const Track& track) { return track.velocity_mps().norm() < 1.5; }
 
 /// Cost of holding the segment for (a part of) the track's body; kForbidden outside the gate. Wang 2004, Eq. (5.10)
 /// without its constant: squared distance plus the logarithm of the spread, and what speaks against the pair.
@@ -60,8 +68,6 @@ PointLabel stronger(PointLabel a, PointLabel b) {
   return PointLabel::kUnknown;
 }
 
-bool is_slow(const Track& track) { return track.velocity_mps().norm() < 1.5; }
-
 /// How far into the body's neighbourhood a point may lie and still be the body's.
 double margin_of(const Track& track, const TrackingConfig& config) {
   const double sigma_m = std::sqrt(0.5 * track.position_covariance_m2().trace());
@@ -73,13 +79,40 @@ void add_beams(std::vector<std::uint16_t>& beams, const std::vector<std::uint16_
   std::sort(beams.begin(), beams.end());
 }
 
-/// The points of some beams, with what hides their ends.
-Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view, std::vector<Vector2d>& points_m) {
+/// Heading of a long side, if the beams are mostly those of one moving segment with one.
+std::optional<double> side_heading_of(const std::vector<std::uint16_t>& beams, const ScanView& view, double least_length_m) {
+  const Segment& segment = view.scan().segments[view.segment_of_beam(beams[beams.size() / 2])];
+  constexpr std::size_t kFewestEchoes = 6;
+  if (segment.beams.size() < kFewestEchoes || segment.box_length_m < least_length_m || 2 * segment.beams.size() < beams.size()) return std::nullopt;
+  if (segment.label == PointLabel::kMoving) return segment.box_heading_rad;
+  if (segment.box_width_m < 0.1 * segment.box_length_m) return segment.box_heading_rad;  // as good as a line
+  return std::nullopt;
+}
+
+/// What lies beside the echo of a beam, `step` (+1 or -1) beams on.
+Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view) {
+  constexpr int kBeamsLookedAt = 2;
+  constexpr double kFartherM = 0.5;
+  const auto count = static_cast<int>(view.beam_count());
+  Edge edge = Edge::kNoEcho;
+  for (int i = 1; i <= kBeamsLookedAt; ++i) {
+    const int neighbour = static_cast<int>(beam) + i * step;
+    if (neighbour < 0 || neighbour >= count) return Edge::kHidden;
+    const double range_m = view.range_m(static_cast<std::size_t>(neighbour));
+    if (range_m <= 0.0) continue;
+    if (range_m < view.range_m(beam) - kFartherM) return Edge::kHidden;
+    edge = Edge::kOpen;
+  }
+  return edge;
+}
+
+/// The points of some beams, with what lies beside them.
+Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view, double size_scale, std::vector<Vector2d>& points_m) {
+  constexpr double kLongSideM = 3.0;
   points_m.clear();
   for (const std::uint16_t beam : beams) points_m.push_back(view.point_in_odom_m(beam));
-  const Segment& first = view.scan().segments[view.segment_of_beam(beams.front())];
-  const Segment& last = view.scan().segments[view.segment_of_beam(beams.back())];
-  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), first.occluded_at_start, last.occluded_at_end};
+  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(beams.front(), -1, view.polar()),
+          edge_beyond(beams.back(), +1, view.polar()), side_heading_of(beams, view, kLongSideM * size_scale)};
 }
 
 bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
@@ -87,7 +120,8 @@ bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& confi
   const bool b_in_a = offset_from_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m()).isZero();
   const bool a_in_b = offset_from_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m()).isZero();
   if (a.body.has_sides || b.body.has_sides) return b_in_a || a_in_b;
-  return (a.position_m() - b.position_m()).norm() < config.merge_overlap_m;
+  const bool is_young = a.hits < 20 || b.hits < 20;  // two who walk side by side are not made one
+  return (a.position_m() - b.position_m()).norm() < (is_young ? config.stride_m : config.merge_overlap_m);
 }
 
 bool is_worth_more(const Track& a, const Track& b) {
@@ -99,11 +133,49 @@ bool is_worth_more(const Track& a, const Track& b) {
 
 Tracker::Tracker(const TrackingConfig& config) : config_(config) {}
 
+/// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
+bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
+  if (!past_of_segment_[segment].stands || is_slow(tracks_[track])) return false;
+  const EarlierScan* then = history_.older_than(view.scan().stamp_ns, 0.0);
+  if (then == nullptr) return false;
+  const std::vector<std::uint16_t>& beams = view.scan().segments[segment].beams;
+  constexpr std::size_t kMostAsked = 7;
+  const std::size_t stride = 1 + (beams.size() - 1) / kMostAsked;
+  int asked = 0;
+  int own = 0;
+  for (std::size_t i = 0; i < beams.size(); i += stride) {
+    const SightOfPlace before = then->view.sight_of(view.point_in_odom_m(beams[i]));
+    ++asked;
+    if (before.sight != Sight::kThere) continue;
+    const Owner& owner = then->owners[before.beam];
+    own += owner.is_owned && owner.track_id == tracks_[track].track_id ? 1 : 0;
+  }
+  return 2 * own < asked;
+}
+
+/// Whether the ends and the middle of the segment lie in the track's body.
+bool Tracker::lies_in_body(const Segment& segment, const Track& track, const ScanView& view) const {
+  if (segment.box_length_m > track.body.length.value_m + config_.gate_margin_m) return false;
+  const double margin_m = margin_of(track, config_);
+  const auto is_inside = [&](const Vector2d& point_m) { return offset_from_box(track.body, track.position_m(), margin_m, point_m).isZero(); };
+  return is_inside(segment.centroid_in_odom_m) && is_inside(view.point_in_odom_m(segment.beams.front())) &&
+         is_inside(view.point_in_odom_m(segment.beams.back()));
+}
+
+/// Whether the segment may be another leg of someone who walks.
+bool Tracker::is_leg(const Segment& segment, const Track& track) const {
+  return !track.body.has_sides && segment.box_length_m < config_.stride_m && track.largest_extent_m < 2.0 * config_.stride_m &&
+         (segment.centroid_in_odom_m - track.position_m()).norm() < config_.stride_m;
+}
+
 void Tracker::give_whole_segments(const ScanView& view) {
   const std::vector<Segment>& segments = view.scan().segments;
   association::CostMatrix costs(tracks_.size(), segments.size(), association::kForbidden);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    for (std::size_t s = 0; s < segments.size(); ++s) costs(t, s) = pair_cost(tracks_[t], segments[s], config_);
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      costs(t, s) = pair_cost(tracks_[t], segments[s], config_);
+      if (costs(t, s) != association::kForbidden && is_of_another_past(s, t, view)) costs(t, s) = association::kForbidden;
+    }
   const double cost_of_leaving_out = 25.0;
   const std::vector<std::size_t> segment_of_track = association::assign(costs, cost_of_leaving_out);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
@@ -113,9 +185,8 @@ void Tracker::give_whole_segments(const ScanView& view) {
     if (shares_.track_of_segment[s] != kUnassigned || is_backdrop(segments[s], config_)) continue;
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       const Track& track = tracks_[t];
-      if (!track.body.has_sides || (segments[s].label != PointLabel::kMoving && !is_slow(track))) continue;
-      if (segments[s].box_length_m > track.body.length.value_m + config_.gate_margin_m) continue;
-      if (!offset_from_box(track.body, track.position_m(), margin_of(track, config_), segments[s].centroid_in_odom_m).isZero()) continue;
+      if (track.body.has_sides ? !lies_in_body(segments[s], track, view) : !is_leg(segments[s], track)) continue;
+      if (is_of_another_past(s, t, view)) continue;
       shares_.track_of_segment[s] = t;
       break;
     }
@@ -143,7 +214,7 @@ void Tracker::divide_shared_segments(const ScanView& view) {
       if (!offset_from_box(track.body, track.position_m(), margin_m, point_m).isZero()) continue;
       const Segment& segment = view.scan().segments[s];
       const std::size_t owner = shares_.track_of_segment[s];
-      if (owner == kUnassigned && segment.label != PointLabel::kMoving && !is_slow(track)) continue;
+      if (owner == kUnassigned && is_of_another_past(s, t, view)) continue;
       if (owner != kUnassigned) {
         const double to_owner = (point_m - tracks_[owner].position_m()).norm() / std::max(0.3, tracks_[owner].body.width.value_m);
         const double to_track = (point_m - track.position_m()).norm() / std::max(0.3, track.body.width.value_m);
@@ -170,21 +241,121 @@ void Tracker::associate(const ScanView& view) {
   divide_shared_segments(view);
 }
 
+void Tracker::compare_with_past(const ScanView& view) {
+  const flow::SegmentedScan& scan = view.scan();
+  past_of_beam_.assign(scan.range_m.size(), Past::kUnknown);
+  past_of_segment_.assign(scan.segments.size(), {});
+  const EarlierScan* then = history_.older_than(scan.stamp_ns, config_.compare_after_s);
+  for (std::size_t s = 0; s < scan.segments.size(); ++s) {
+    SegmentPast& past = past_of_segment_[s];
+    for (const std::uint16_t beam : scan.segments[s].beams) {
+      if (then == nullptr) break;
+      past_of_beam_[beam] = past_of(beam, view.polar(), *then);
+      past.stood += past_of_beam_[beam] == Past::kStood ? 1 : 0;
+      past.arrived += past_of_beam_[beam] == Past::kArrived ? 1 : 0;
+      past.receded += past_of_beam_[beam] == Past::kReceded ? 1 : 0;
+    }
+    const Segment& segment = scan.segments[s];
+    const auto count = static_cast<double>(segment.beams.size());
+    const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
+    past.stood_before = past.stood > kLeastStoodShare * count;
+    past.stands = past.stood_before || (is_mapped && past.arrived + past.receded < kLeastChangedShare * count);
+  }
+}
+
+/// What contradicts the map, unless it stood there before; and what comes or goes where the map cannot say, or has not yet
+/// unlearnt what stood there.
+bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
+  const SegmentPast& past = past_of_segment_[index];
+  const auto count = static_cast<int>(segment.beams.size());
+  if (count < config_.least_points_at_birth) return false;
+  if (segment.label == PointLabel::kMoving) return !past.stood_before;
+  constexpr int kFewest = 4;
+  const int moved = past.arrived + past.receded;
+  return moved >= kFewest && moved > 0.6 * count && segment.box_length_m < config_.longest_body_m;
+}
+
 void Tracker::begin_tracks(const ScanView& view) {
   std::vector<Vector2d> points_m;
   for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
     const Segment& segment = view.scan().segments[s];
-    if (segment.label != PointLabel::kMoving || shares_.track_of_segment[s] != kUnassigned) continue;
-    if (static_cast<int>(segment.beams.size()) < config_.least_points_at_birth) continue;
-    const Glimpse glimpse = glimpse_of(segment.beams, view, points_m);
+    if (shares_.track_of_segment[s] != kUnassigned || !may_begin(segment, s)) continue;
+    const Glimpse glimpse = glimpse_of(segment.beams, view, config_.size_scale, points_m);
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
-    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, pose_covariance_m2, config_));
-    tracks_.back().moving_hits = 1;
+    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, segment.box_heading_rad, pose_covariance_m2, config_));
+    tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
     shares_.track_of_segment[s] = tracks_.size() - 1;
     shares_.beams_of_track.push_back(segment.beams);
-    shares_.label_of_track.push_back(PointLabel::kMoving);
+    shares_.label_of_track.push_back(segment.label);
     ++counters_.tracks_begun;
   }
+}
+
+/// Places that the track's echoes came from and that were seen through then, and places that its echoes came from then and
+/// that are seen through now, say that it has moved.
+MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const {
+  MotionEvidence evidence;
+  for (const std::uint16_t beam : shares_.beams_of_track[track]) {
+    const Past past = past_of(beam, view.polar(), then);
+    if (past == Past::kArrived) evidence.moved += 1.0;
+    else if (past == Past::kStood) evidence.stood += 1.0;
+    else evidence.undecided += 1.0;
+  }
+  for (std::size_t beam = 0; beam < then.owners.size(); ++beam) {
+    if (!then.owners[beam].is_owned || then.owners[beam].track_id != tracks_[track].track_id) continue;
+    if (view.polar().sight_of(then.view.point_in_odom_m(beam)).sight == Sight::kThrough) evidence.moved += 1.0;
+  }
+  return evidence;
+}
+
+MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) const {
+  MotionEvidence best;
+  double best_share = -1.0;
+  const std::int64_t stamp_ns = view.scan().stamp_ns;
+  if (tracks_[track].confirmed) {
+    for (const std::uint16_t beam : shares_.beams_of_track[track]) {
+      best.stood += past_of_beam_[beam] == Past::kStood ? 1.0 : 0.0;
+      best.moved += past_of_beam_[beam] == Past::kArrived ? 1.0 : 0.0;
+      best.undecided += past_of_beam_[beam] == Past::kUnknown ? 1.0 : 0.0;
+    }
+    return best;
+  }
+  for (const double age_s : {config_.compare_fast_after_s, config_.compare_after_s, config_.compare_slow_after_s}) {
+    const EarlierScan* then = history_.older_than(stamp_ns, age_s);
+    if (then == nullptr) continue;
+    const MotionEvidence evidence = evidence_against(*then, track, view);
+    const double share = evidence.moved / std::max(1.0, evidence.moved + evidence.stood);
+    if (share > best_share) best_share = share, best = evidence;
+  }
+  return best;
+}
+
+void Tracker::remember(const ScanView& view) {
+  std::vector<Owner> owners(view.scan().range_m.size());
+  for (std::size_t t = 0; t < tracks_.size(); ++t)
+    for (const std::uint16_t beam : shares_.beams_of_track[t]) owners[beam] = {tracks_[t].track_id, true, tracks_[t].confirmed};
+  history_.add(view.scan().stamp_ns, view.polar(), std::move(owners));
+}
+
+/// The echoes are of something else, which may become a track of its own.
+void Tracker::release(std::size_t index) {
+  tracks_[index].score += config_.surprise_score;
+  shares_.beams_of_track[index].clear();
+  std::replace(shares_.track_of_segment.begin(), shares_.track_of_segment.end(), index, kUnassigned);
+}
+
+void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
+  Track& track = tracks_[index];
+  const std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
+  if (beams.empty()) return score_miss(track, view.visibility_of(track.body, track.position_m()), time_s, config_);
+  std::vector<Vector2d> points_m;
+  const Glimpse glimpse = glimpse_of(beams, view, config_.size_scale, points_m);
+  if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return release(index);
+  score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
+  if (track.confirmed || !has_proven_to_move(track, config_)) return;
+  track.confirmed = true;
+  track.past.clear();
+  ++counters_.tracks_confirmed;
 }
 
 void Tracker::merge_duplicates() {
@@ -215,7 +386,9 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const double age_s = static_cast<double>(last_stamp_ns_ - track.first_seen_ns) * kNanosecond_s;
     const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
     const bool has_stood = !track.confirmed && age_s > config_.longest_tentative_s;
-    const bool is_dead = is_lost || has_stood || track.score < config_.reject_score;
+    const double idle_s = static_cast<double>(last_stamp_ns_ - track.last_moving_ns) * kNanosecond_s;
+    const bool never_moved = track.confirmed && track.farthest_m < config_.least_travel_to_stand_m && idle_s > config_.longest_stand_s;
+    const bool is_dead = is_lost || has_stood || never_moved || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {
       ++counters_.tracks_rejected;
       restore(track);
@@ -240,25 +413,12 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
   ++counters_.scans;
   const ScanView view(scan);
   for (Track& track : tracks_) predict(track, time_s, config_);
+  compare_with_past(view);
   associate(view);
-  std::vector<Vector2d> points_m;
-  for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    Track& track = tracks_[t];
-    const std::vector<std::uint16_t>& beams = shares_.beams_of_track[t];
-    if (beams.empty()) {
-      score_miss(track, view.visibility_of(track.body, track.position_m()), time_s, config_);
-      continue;
-    }
-    update(track, scan.stamp_ns, glimpse_of(beams, view, points_m), pose_covariance_at(track.position_m(), scan), config_);
-    score_hit(track, shares_.label_of_track[t], config_);
-    if (!track.confirmed && has_proven_to_move(track, config_)) {
-      track.confirmed = true;
-      track.past.clear();
-      ++counters_.tracks_confirmed;
-    }
-  }
+  for (std::size_t t = 0; t < tracks_.size(); ++t) correct(t, time_s, view);
   begin_tracks(view);
   merge_duplicates();
+  remember(view);
   result.labels = label(view);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     Track& track = tracks_[t];
@@ -274,11 +434,12 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
 flow::ScanLabels Tracker::label(const ScanView& view) const {
   const flow::SegmentedScan& scan = view.scan();
   flow::ScanLabels labels{scan.stamp_ns, scan.sequence, scan.scanner_id, scan.labels, {}};
-  for (const Segment& segment : scan.segments) {
+  for (std::size_t s = 0; s < scan.segments.size(); ++s) {
+    const Segment& segment = scan.segments[s];
     for (const std::uint16_t beam : segment.beams) {
       // A lone contradiction in something that stands is the map's error: let it learn.
       if (segment.label == PointLabel::kStationary && labels.labels[beam] == PointLabel::kMoving) labels.labels[beam] = PointLabel::kStationary;
-      if (segment.label == PointLabel::kMoving) labels.labels[beam] = PointLabel::kMoving;
+      if (segment.label == PointLabel::kMoving) labels.labels[beam] = past_of_segment_[s].stood_before ? PointLabel::kStationary : PointLabel::kMoving;
     }
   }
   for (std::size_t t = 0; t < tracks_.size(); ++t)
@@ -296,6 +457,7 @@ flow::TrackedObjects Tracker::describe(const flow::SegmentedScan& scan) const {
 
 void Tracker::take_up(const flow::TrackedObjects& objects) {
   tracks_.clear();
+  history_.clear();
   for (const flow::TrackedObject& object : objects.objects) {
     next_id_ = std::max(next_id_, object.track_id.value + 1);
     if (object.confirmed) tracks_.push_back(resumed(object, config_));

@@ -10,6 +10,7 @@
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "services/tracking/scan_history.hpp"
 #include "services/tracking/scan_view.hpp"
 #include "services/tracking/track.hpp"
 #include "services/tracking/tracking_config.hpp"
@@ -65,11 +66,25 @@ class Tracker {
     std::vector<flow::PointLabel> label_of_track;  ///< Moving if any of its segments does, else stationary if any is.
     std::vector<std::size_t> track_of_segment;     ///< kUnassigned where none.
   };
-  struct PastPoints {
-    std::uint32_t sequence = 0;
-    std::vector<std::uint16_t> beams;
+  /// What comparing with an earlier scan says of a segment.
+  struct SegmentPast {
+    int stood = 0;
+    int arrived = 0;
+    int receded = 0;
+    bool stood_before = false;  ///< By the earlier scan,
+    bool stands = false;        ///< or by the map.
   };
 
+  void compare_with_past(const ScanView& view);
+  bool may_begin(const flow::Segment& segment, std::size_t index) const;
+  MotionEvidence evidence_of(std::size_t track, const ScanView& view) const;
+  MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
+  void correct(std::size_t track, double time_s, const ScanView& view);
+  void release(std::size_t track);
+  void remember(const ScanView& view);
+  bool lies_in_body(const flow::Segment& segment, const Track& track, const ScanView& view) const;
+  bool is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const;
+  bool is_leg(const flow::Segment& segment, const Track& track) const;
   void associate(const ScanView& view);
   void give_whole_segments(const ScanView& view);
   void divide_shared_segments(const ScanView& view);
@@ -83,6 +98,9 @@ class Tracker {
   TrackerCounters counters_;
   std::vector<Track> tracks_;
   Shares shares_;
+  std::vector<Past> past_of_beam_;              ///< Of the current scan.
+  std::vector<SegmentPast> past_of_segment_;
+  ScanHistory history_;
   std::uint32_t next_id_ = 1;
   std::int64_t last_stamp_ns_ = 0;
   bool has_scan_ = false;

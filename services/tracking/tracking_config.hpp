@@ -4,10 +4,10 @@ namespace slammot::tracking {
 
 struct TrackingConfig {
   // Motion.
-  double velocity_noise_density = 0.5;      ///< Of white acceleration while cruising, m^2/s^3.
-  double jerk_noise_density = 6.0;          ///< While manoeuvring, m^2/s^5.
-  double idle_acceleration_mps2 = 1.0;      ///< One sigma of the acceleration that cruising leaves open.
-  double mean_stay_s = 1.5;                 ///< Mean time in one of the two.
+  double velocity_noise_density = 0.1;      ///< Of white acceleration while cruising, m^2/s^3.
+  double jerk_noise_density = 3.0;          ///< While manoeuvring, m^2/s^5.
+  double idle_acceleration_mps2 = 0.5;      ///< One sigma of the acceleration that cruising leaves open.
+  double mean_stay_s = 3.0;                  ///< Mean time in one of the two.
   double fastest_mps = 20.0;                ///< One sigma of a new track's speed is half of this.
   double stopped_below_mps = 0.3;           ///< Slower for a while is stopped,
   double moving_above_mps = 0.6;            ///< and faster moving again.
@@ -15,8 +15,9 @@ struct TrackingConfig {
   // Measurement.
   double range_noise_m = 0.03;              ///< One sigma at the scanner,
   double range_noise_per_m = 0.001;         ///< and what each metre of range adds.
-  double shape_noise_m = 0.05;              ///< One sigma of how far an edge may lie off a box.
+  double shape_noise_m = 0.03;              ///< One sigma of how far an edge may lie off a box.
   double blob_noise_share = 0.2;            ///< Of its extent: how the middle of something without known sides wanders.
+  double gait_noise_m = 0.3;                ///< How far who walks may be off the middle of the legs, for many scans alike.
 
   // Association.
   double gate_share = 0.999;                ///< Of true pairs that the gate lets through.
@@ -29,25 +30,34 @@ struct TrackingConfig {
   double birth_score = -1.0;
   double moving_hit_score = 0.8;            ///< A segment that moves,
   double other_hit_score = 0.1;             ///< or any other, where the track should be.
-  double contradiction_score = -0.3;        ///< It should be moving, but stands where the map knows something that stands.
-  double idle_score = -0.1;                 ///< It no longer contradicts the map, and has never
-  double travel_to_trust_m = 3.0;           ///< come so far
-  int moving_hits_to_trust = 20;            ///< nor contradicted the map in so many scans.
+  double contradiction_score = -0.5;        ///< It should be moving, but most of its echoes come from what stood there before.
+  double contradicted_above_mps = 1.5;      ///< What is faster does not lie on what stood there before.
   double occluded_score_per_s = -1.0;
   double out_of_view_score_per_s = -30.0;
   double passed_beam_score = -0.6;          ///< For each beam that went through where the body should be,
   double most_passed_score = -2.0;          ///< in one scan at most.
+  double most_surprise_sigmas = 6.0;        ///< Echoes so far off a confirmed track's prediction
+  double least_surprise_m = 0.6;            ///< and by so much are not its own,
+  double surprise_score = -0.5;             ///< and speak against it.
+  double implausible_score = -1.0;          ///< Its shape or speed is that of nothing on the road.
   int least_points_at_birth = 2;
   double most_score = 8.0;
   double confirm_score = 2.0;
   double reject_score = -3.0;
   int least_hits = 5;                       ///< Before a track can be confirmed.
-  double least_moving_share = 0.6;          ///< Of its scans that contradicted the map.
-  double least_travel_m = 0.35;             ///< It must have come this far from where it began,
-  double least_travel_per_extent = 0.2;     ///< and this share of its extent,
-  double least_travel_sigmas = 3.0;         ///< and so many of its own standard deviations.
+  double compare_after_s = 0.8;             ///< Between the scans that are compared to tell what moved.
+  double compare_fast_after_s = 0.25;       ///< The same for what moves fast, which need not be waited for,
+  double compare_slow_after_s = 1.6;        ///< and for what moves slowly.
+  double evidence_memory_s = 0.5;           ///< For which echoes that tell of motion count.
+  double least_moved_votes = 6.0;           ///< It must have so many that say that it has moved,
+  double least_moved_share = 0.3;           ///< against those that say that it stood,
+  double sure_moved_votes = 30.0;           ///< and either so many
+  double sure_moved_share = 0.7;            ///< and such a share,
+  double least_travel_m = 0.3;              ///< or must have come this far from where it began,
+  double least_travel_sigmas = 3.0;         ///< and so many of its own standard deviations,
+  double most_speed_sigma_mps = 1.5;        ///< with a velocity as well known as this.
   double longest_unseen_s = 3.0;            ///< Without a segment before a track ends, however well it is explained.
-  double longest_unseen_published_s = 1.0;  ///< After which it is followed, but not published as confirmed.
+  double longest_unseen_published_s = 0.02;  ///< After which it is followed, but not published as confirmed.
   double publish_score = 0.0;               ///< Nor with a score below this.
   double longest_unseen_tentative_s = 0.4;
   double longest_tentative_s = 1.5;         ///< What has not proven to move by then is rejected.
@@ -55,7 +65,11 @@ struct TrackingConfig {
   // Body.
   double box_from_extent_m = 1.2;           ///< Larger objects have sides; smaller ones are blobs.
   double box_from_speed_mps = 0.8;          ///< Their heading is that of motion above this speed.
+  double size_scale = 1.0;                  ///< Of all road users, against real ones: models on a laboratory's floor.
   double longest_body_m = 18.0;
+  double stride_m = 0.55;                   ///< Small things so near to someone who walks are a leg.
+  double least_travel_to_stand_m = 1.5;     ///< What has not come so far
+  double longest_stand_s = 1.5;             ///< and stands so long has never moved.
   double merge_overlap_m = 0.3;             ///< Bodies that reach this deep into each other with like motion are one.
 };
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "common/flow/ids.hpp"
+#include "services/tracking/scan_view.hpp"
+
+namespace slammot::tracking {
+
+/// To which object an echo belonged when it was seen.
+struct Owner {
+  flow::TrackId track_id;
+  bool is_owned = false;
+  bool is_confirmed = false;
+};
+
+/// An earlier scan, with what tracking then knew of its echoes.
+struct EarlierScan {
+  std::int64_t stamp_ns = 0;
+  PolarView view;
+  std::vector<Owner> owners;  ///< One a beam.
+};
+
+/// What two scans say about the echo of a beam.
+enum class Past : std::uint8_t {
+  kUnknown,
+  kStood,    ///< The earlier scan had an echo at the same place, from nothing that is known to move.
+  kArrived,  ///< The earlier scan saw through this place.
+  kReceded,  ///< Something nearer, not known to move, hid the place, and has gone.
+};
+
+/// Scans of the last seconds: comparing over a time in which slow motion shows (Wang 2004, Section 6.2) needs no map.
+class ScanHistory {
+ public:
+  /// Keeps the scan if enough time has passed since the one kept last.
+  void add(std::int64_t stamp_ns, const PolarView& view, std::vector<Owner> owners);
+
+  /// The youngest kept scan at least age_s older than the stamp; none where the history is shorter.
+  const EarlierScan* older_than(std::int64_t stamp_ns, double age_s) const;
+
+  void clear() { scans_.clear(); }
+
+ private:
+  std::deque<EarlierScan> scans_;  ///< Oldest first.
+};
+
+Past past_of(std::size_t beam, const PolarView& now, const EarlierScan& then);
+
+}  // namespace slammot::tracking
