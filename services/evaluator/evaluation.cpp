@@ -70,6 +70,12 @@ TrajectoryEvaluation evaluate_trajectory(const metrics::Trajectory& truth, const
   return evaluation;
 }
 
+metrics::Trajectory without_loops(const RunResult& result) {
+  metrics::Trajectory trajectory;
+  for (const metrics::UncertainStampedPose& pose : result.uncertain) trajectory.push_back({pose.stamp_ns, pose.odom_from_base.pose});
+  return trajectory;
+}
+
 std::string span_of(const metrics::Trajectory& trajectory) {
   return text("%.3f to %.3f s", seconds(trajectory.front().stamp_ns), seconds(trajectory.back().stamp_ns));
 }
@@ -120,7 +126,7 @@ const Element* at_stamp(const std::vector<Element>& elements, std::int64_t stamp
 
 struct Scenes {
   std::vector<Scene> scenes;
-  std::size_t track_count = 0;
+  std::vector<std::uint32_t> track_ids;
 };
 
 Scenes make_scenes(const RunResult& result, const Truth& truth, std::int64_t max_difference_ns) {
@@ -137,13 +143,14 @@ Scenes make_scenes(const RunResult& result, const Truth& truth, std::int64_t max
     const Pose2 world_from_map = *world_from_base * geometry::inverse(online.pose);
     if (const TracksAt* at = at_stamp(result.tracks, online.stamp_ns, kSameStampNs)) {
       for (const ResultTrack& track : at->tracks) {
-        const std::size_t index = index_of_track.try_emplace(track.track_id, index_of_track.size()).first->second;
+        const auto [known, is_new] = index_of_track.try_emplace(track.track_id, index_of_track.size());
+        if (is_new) made.track_ids.push_back(track.track_id);
+        const std::size_t index = known->second;
         scene.tracks.push_back(in_world(track, index, world_from_map));
       }
     }
     made.scenes.push_back(std::move(scene));
   }
-  made.track_count = index_of_track.size();
   return made;
 }
 
@@ -335,11 +342,13 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, 
   if (auto fault = fault_of_overlap(result, truth, evaluation.online.matched)) return *fault;
   evaluation.corrected = evaluate_trajectory(truth.trajectory, result.corrected, max_difference_ns);
   if (!result.uncertain.empty()) {
+    evaluation.without_loops = evaluate_trajectory(truth.trajectory, without_loops(result), max_difference_ns);
     constexpr std::int64_t kOneSecondNs = 1'000'000'000;
     evaluation.relative_pose_nees = metrics::summarize_nees(metrics::relative_pose_nees(truth.trajectory, result.uncertain, kOneSecondNs, max_difference_ns), 3);
   }
   Scenes made = make_scenes(result, truth, max_difference_ns);
   if (auto fault = fault_of_objects(made.scenes, truth.objects && !truth.objects->empty())) return *fault;
+  evaluation.track_ids = std::move(made.track_ids);
   evaluation.scenes = metrics::fill_gaps(std::move(made.scenes), to_ns(options.longest_occlusion_s));
   auto survey = survey_echoes(echoes, result, evaluation.scenes, truth.objects.has_value(), options);
   if (!survey) return survey.error();
@@ -347,7 +356,7 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, 
   if (truth.other_car) evaluation.other_car = evaluate_other_car(evaluation.scenes, *truth.other_car);
   if (truth.objects) {
     for (const Scene& scene : evaluation.scenes) evaluation.counted.push_back(metrics::count_scene(scene, options.rule));
-    evaluation.tracking = evaluate_tracking(evaluation.scenes, evaluation.counted, truth.object_count, made.track_count, options.rule);
+    evaluation.tracking = evaluate_tracking(evaluation.scenes, evaluation.counted, truth.object_count, evaluation.track_ids.size(), options.rule);
   }
   if (truth.walls && result.map) {
     evaluation.map = metrics::map_quality(to_cells(*result.map), evaluation.corrected.world_from_map, *truth.walls,

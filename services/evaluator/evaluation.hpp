@@ -84,6 +84,7 @@ struct DetectionEvaluation {
 struct Evaluation {
   TrajectoryEvaluation online;
   TrajectoryEvaluation corrected;
+  std::optional<TrajectoryEvaluation> without_loops;  ///< In odom, where no closed loop helps; needs online_covariance.csv.
   std::optional<metrics::NeesSummary> relative_pose_nees;
   std::optional<DetectionEvaluation> detection;
   std::optional<TrackingEvaluation> tracking;
@@ -91,6 +92,7 @@ struct Evaluation {
   std::optional<metrics::MapQuality> map;
   std::vector<std::string> notes;
   std::vector<metrics::Scene> scenes;    ///< Truth and tracks of each scan, in the world's frame.
+  std::vector<std::uint32_t> track_ids;  ///< Of the indices of tracks in the scenes.
   std::vector<metrics::CountedScene> counted;
 };
 

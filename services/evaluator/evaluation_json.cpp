@@ -144,6 +144,7 @@ Json to_json(const EvaluationOptions& options) {
 
 std::string to_json_text(const Evaluation& evaluation, const EvaluationOptions& options) {
   Json json = {{"rule", to_json(options)}, {"trajectory", to_json(evaluation.corrected)}, {"online_trajectory", to_json(evaluation.online)}};
+  if (evaluation.without_loops) json["trajectory_without_loops"] = to_json(*evaluation.without_loops);
   if (evaluation.relative_pose_nees) json["relative_pose_nees"] = to_json(*evaluation.relative_pose_nees);
   if (evaluation.detection) {
     json["detection"] = {{"scans", evaluation.detection->scans}, {"by_detection", to_json(evaluation.detection->by_detection)}, {"by_tracking", to_json(evaluation.detection->by_tracking)}};

@@ -91,6 +91,7 @@ std::string describe(const metrics::MapQuality& map) {
 std::string to_text(const Evaluation& evaluation, const EvaluationOptions& options) {
   std::string lines = describe("trajectory after the last correction", evaluation.corrected);
   lines += describe("trajectory as published live", evaluation.online);
+  if (evaluation.without_loops) lines += describe("trajectory without loops (frame odom)", *evaluation.without_loops);
   if (evaluation.relative_pose_nees) lines += describe_nees("relative poses over 1 s", *evaluation.relative_pose_nees);
   if (evaluation.detection) lines += describe(*evaluation.detection);
   if (evaluation.tracking) {

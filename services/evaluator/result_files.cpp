@@ -40,15 +40,21 @@ std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
   });
 }
 
-std::optional<Error> read_track_covariances(const path& file, TracksByStamp& tracks) {
-  return read_csv(file, {"timestamp", "track_id", "var_x", "cov_xy", "var_y"}, [&](auto fields) -> RowFault {
+std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks) {
+  const std::vector<std::string> modes = columns_beginning_with(file, "mode_");
+  std::vector<std::string_view> columns = {"timestamp", "track_id", "var_x", "cov_xy", "var_y"};
+  const auto first_mode = static_cast<std::ptrdiff_t>(columns.size());
+  columns.insert(columns.end(), modes.begin(), modes.end());
+  return read_csv(file, columns, [&](auto fields) -> RowFault {
     const auto row = numbers(fields);
     if (!row) return "a field is no number";
     const auto& v = *row;
     const auto at = tracks.find(to_ns(v[0]));
     if (at == tracks.end()) return "no such scan in tracks.csv";
     for (ResultTrack& track : at->second) {
-      if (track.track_id == static_cast<std::uint32_t>(v[1])) track.position_covariance_m2 = (geometry::Matrix2() << v[2], v[3], v[3], v[4]).finished();
+      if (track.track_id != static_cast<std::uint32_t>(v[1])) continue;
+      track.position_covariance_m2 = (geometry::Matrix2() << v[2], v[3], v[3], v[4]).finished();
+      track.mode_probability.assign(v.begin() + first_mode, v.end());
     }
     return std::nullopt;
   });
@@ -129,7 +135,7 @@ Result<RunResult> read_result(const path& folder) {
     if (auto fault = read_tracks(*file, tracks)) return *fault;
   }
   if (const auto file = plain_or_gz(folder / "track_details.csv")) {
-    if (auto fault = read_track_covariances(*file, tracks)) return *fault;
+    if (auto fault = read_track_details(*file, tracks)) return *fault;
   }
   for (auto& [stamp_ns, rows] : tracks) result.tracks.push_back({stamp_ns, std::move(rows)});
   if (const auto file = plain_or_gz(folder / "online_covariance.csv")) {

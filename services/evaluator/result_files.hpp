@@ -25,6 +25,7 @@ struct ResultTrack {
   bool is_moving = true;
   std::string object_class;
   std::optional<geometry::Matrix2> position_covariance_m2;
+  std::vector<double> mode_probability;   ///< Of each motion model; empty where it was not written.
 };
 
 struct TracksAt {

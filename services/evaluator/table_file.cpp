@@ -67,6 +67,18 @@ std::optional<Error> read_csv(const std::filesystem::path& path, const std::vect
   return cut_fault(path, *reader);
 }
 
+std::vector<std::string> columns_beginning_with(const std::filesystem::path& path, std::string_view beginning) {
+  auto reader = LineReader::open(path);
+  const auto header = reader ? reader->next() : std::nullopt;
+  std::vector<std::string_view> fields;
+  if (header) split_at_commas(*header, fields);
+  std::vector<std::string> names;
+  for (const std::string_view field : fields) {
+    if (field.starts_with(beginning)) names.emplace_back(field);
+  }
+  return names;
+}
+
 std::optional<Error> read_fields(const std::filesystem::path& path, std::size_t least_fields, const TakeRow& take) {
   auto reader = LineReader::open(path);
   if (!reader) return reader.error();

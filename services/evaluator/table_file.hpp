@@ -21,7 +21,10 @@ using TakeRow = std::function<RowFault(std::span<const std::string_view> fields)
 /// "FILE:LINE: what" at the first row that is malformed, and where a column is missing or the file is cut off.
 std::optional<files::Error> read_csv(const std::filesystem::path& path, const std::vector<std::string_view>& columns, const TakeRow& take);
 
-/// The same for a file with blanks between its fields and no header: lines that begin with # are left out, the others have
+/// Names in the header of such a file that begin like this; none where it cannot be read.
+std::vector<std::string> columns_beginning_with(const std::filesystem::path& path, std::string_view beginning);
+
+/// As read_csv, for a file with blanks between its fields and no header: lines that begin with # are left out, the others have
 /// at least so many fields.
 std::optional<files::Error> read_fields(const std::filesystem::path& path, std::size_t least_fields, const TakeRow& take);
 

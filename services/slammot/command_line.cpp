@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "services/evaluator/eval_command.hpp"
+#include "services/evaluator/report_command.hpp"
 #include "services/simulator/simulate_command.hpp"
 #include "services/slammot/bench_command.hpp"
 #include "services/slammot/collect_command.hpp"
@@ -22,6 +23,7 @@ int run_command_line(int argc, char** argv) {
   add_health_command(app, exit_code);
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);
+  evaluator::add_report_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& fault) {
