@@ -29,7 +29,7 @@ build_preset() {
 
 # A small drive through a simulated town, with its truth. Made once for each version of the program.
 drive_folder=out/drive
-drive_log=$drive_folder/demo.log
+drive_log=$drive_folder/block.log
 # make_drive VERSION COMMAND...: the command is slammot and may see the folder under another name, $drive_seen_as.
 make_drive() {
   local version=$1
@@ -40,7 +40,7 @@ make_drive() {
   fi
   say "Simulating a small drive into $drive_folder"
   mkdir -p "$drive_folder"
-  "$@" simulate demo --output "${drive_seen_as:-$drive_folder}"
+  "$@" simulate block --output "${drive_seen_as:-$drive_folder}"
   echo "$version" >"$drive_folder/made-by"
 }
 

@@ -22,13 +22,12 @@ std::string in_words(const Range& range) {
 
 std::optional<double> number_in(const BoundField& field) {
   return std::visit(
-      [](const auto* value) -> std::optional<double> {
-        using Type = std::remove_cvref_t<decltype(*value)>;
-        if constexpr (std::is_same_v<Type, bool> || std::is_same_v<Type, std::string>) {
-          return std::nullopt;
-        } else {
-          return static_cast<double>(*value);
+      [](const auto& value) -> std::optional<double> {
+        if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(value)>>) {
+          using Type = std::remove_cvref_t<decltype(*value)>;
+          if constexpr (!std::is_same_v<Type, bool> && !std::is_same_v<Type, std::string>) return static_cast<double>(*value);
         }
+        return std::nullopt;
       },
       field.value);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -22,16 +23,39 @@ inline constexpr Range kPositive{std::numeric_limits<double>::min(), std::numeri
 inline constexpr Range kNotNegative{0.0, std::numeric_limits<double>::max()};
 inline constexpr Range kShare{0.0, 1.0};
 
+struct BoundField;
+
+/// One of several names: an enum whose numbers are the same in C++ and in the proto.
+struct Choice {
+  std::function<int()> get;
+  std::function<void(int)> set;
+};
+
+/// Any number of structs of one kind. What a text lists replaces what was there.
+struct List {
+  std::function<void()> clear;
+  std::function<std::vector<BoundField>()> append;  ///< A further struct with its defaults, bound; until the next append.
+};
+
 /// Where a setting is kept. Points into a configuration struct and is valid as long as that is.
-using Value = std::variant<bool*, int*, std::uint32_t*, std::int64_t*, std::uint64_t*, float*, double*, std::string*>;
+using Value = std::variant<bool*, int*, std::uint32_t*, std::int64_t*, std::uint64_t*, float*, double*, std::string*, Choice, List>;
+
+template <class Member>
+Value value_in(Member& member) {
+  if constexpr (std::is_enum_v<Member>) {
+    return Choice{[&member] { return static_cast<int>(member); }, [&member](int number) { member = static_cast<Member>(number); }};
+  } else {
+    return &member;
+  }
+}
 
 /// One row of a stage's field table: {"name as in slammot.proto", pointer to member, "meaning", range}. The meaning is one
-/// line, with the unit where the name does not end in it. The range is not used for bool and string.
+/// line, with the unit where the name does not end in it. The range is not used for bool, string and names.
 template <class Config>
 struct Field {
   template <class Member>
   Field(std::string_view name_, Member Config::*member, std::string_view meaning_, Range range_ = {})
-      : name(name_), value_of([member](Config& config) { return Value{&(config.*member)}; }), meaning(meaning_), range(range_) {}
+      : name(name_), value_of([member](Config& config) { return value_in(config.*member); }), meaning(meaning_), range(range_) {}
   Field(std::string name_, std::function<Value(Config&)> value_of_, std::string_view meaning_, Range range_)
       : name(std::move(name_)), value_of(std::move(value_of_)), meaning(meaning_), range(range_) {}
 
@@ -71,13 +95,28 @@ struct BoundStage {
 };
 
 template <class Config>
-BoundStage bind_stage(std::string_view stage, const FieldTable<Config>& table, Config& config) {
-  BoundStage bound{stage, {}};
-  for (const Field<Config>& row : table) bound.fields.push_back({row.name, row.value_of(config), row.meaning, row.range});
+std::vector<BoundField> bind_fields(const FieldTable<Config>& table, Config& config) {
+  std::vector<BoundField> bound;
+  for (const Field<Config>& row : table) bound.push_back({row.name, row.value_of(config), row.meaning, row.range});
   return bound;
 }
 
-/// The number as the range check sees it; nothing for bool and string.
+template <class Config>
+BoundStage bind_stage(std::string_view stage, const FieldTable<Config>& table, Config& config) {
+  return {stage, bind_fields(table, config)};
+}
+
+/// Row for a member that is a vector of structs: a repeated message in the proto, each with the rows of the table.
+template <class Config, class Element>
+Field<Config> list_of(std::string_view name, std::vector<Element> Config::*member, const FieldTable<Element>& table, std::string_view meaning) {
+  const auto value_of = [member, table](Config& config) -> Value {
+    std::vector<Element>& elements = config.*member;
+    return List{[&elements] { elements.clear(); }, [&elements, table] { return bind_fields(table, elements.emplace_back()); }};
+  };
+  return {std::string(name), value_of, meaning, {}};
+}
+
+/// The number as the range check sees it; nothing for what is none.
 std::optional<double> number_in(const BoundField& field);
 
 /// "cell_size_m = 7 is outside [0.02, 1]: Edge of a cell." or nothing when the value may be used. NaN never may.

@@ -1,8 +1,10 @@
 #include "common/config/overlay.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <fstream>
 #include <iterator>
+#include <memory>
 
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
@@ -31,33 +33,57 @@ class FirstError : public pb::io::ErrorCollector {
 struct SetField {
   const pb::Message* message;
   const pb::FieldDescriptor* descriptor;
+  const pb::TextFormat::ParseInfoTree* siblings;  ///< Locations in the message that has it.
   pb::TextFormat::ParseLocation location;
 };
 
+bool is_set(const pb::Message& message, const pb::FieldDescriptor* field) {
+  if (field->is_repeated()) return message.GetReflection()->FieldSize(message, field) > 0;
+  return message.GetReflection()->HasField(message, field);
+}
+
 std::optional<SetField> find_set_field(const pb::Message& stage, const pb::TextFormat::ParseInfoTree* locations,
                                        std::string_view dotted_name) {
-  SetField at{&stage, nullptr, {}};
+  SetField at{&stage, nullptr, nullptr, {}};
   for (const std::string& name : path_of(dotted_name)) {
     if (at.descriptor != nullptr) {
       locations = locations->GetTreeForNested(at.descriptor, -1);
       at.message = &at.message->GetReflection()->GetMessage(*at.message, at.descriptor);
     }
     at.descriptor = at.message->GetDescriptor()->FindFieldByName(name);
-    if (at.descriptor == nullptr || !at.message->GetReflection()->HasField(*at.message, at.descriptor)) return std::nullopt;
+    if (at.descriptor == nullptr || !is_set(*at.message, at.descriptor)) return std::nullopt;
   }
-  at.location = locations->GetLocation(at.descriptor, -1);
+  at.siblings = locations;
+  at.location = locations->GetLocation(at.descriptor, at.descriptor->is_repeated() ? 0 : -1);
   return at;
 }
 
+std::optional<Fault> overlay_fields(const pb::Message& message, const pb::TextFormat::ParseInfoTree* locations, const std::string& place,
+                                    const std::vector<BoundField>& fields);
+
+std::optional<Fault> overlay_list(const SetField& set, const std::string& name, const List& list) {
+  list.clear();
+  const pb::Reflection& reflection = *set.message->GetReflection();
+  for (int i = 0; i < reflection.FieldSize(*set.message, set.descriptor); ++i) {
+    const pb::Message& element = reflection.GetRepeatedMessage(*set.message, set.descriptor, i);
+    if (auto fault = overlay_fields(element, set.siblings->GetTreeForNested(set.descriptor, i), name, list.append())) return fault;
+  }
+  return std::nullopt;
+}
+
 /// Copies what the text sets, field by field.
-std::optional<Fault> overlay_stage(const pb::Message& message, const pb::TextFormat::ParseInfoTree* locations,
-                                   const BoundStage& stage) {
-  for (const BoundField& field : stage.fields) {
+std::optional<Fault> overlay_fields(const pb::Message& message, const pb::TextFormat::ParseInfoTree* locations, const std::string& place,
+                                    const std::vector<BoundField>& fields) {
+  for (const BoundField& field : fields) {
     const std::optional<SetField> set = find_set_field(message, locations, field.name);
     if (!set) continue;
+    if (const List* list = std::get_if<List>(&field.value)) {
+      if (auto fault = overlay_list(*set, place + "." + field.name, *list)) return fault;
+      continue;
+    }
     copy_from_message(*set->message, *set->descriptor, field.value);
     if (const auto fault = find_fault(field)) {
-      return Fault{{}, set->location.line + 1, set->location.column + 1, std::string(stage.stage) + "." + *fault};
+      return Fault{{}, set->location.line + 1, set->location.column + 1, place + "." + *fault};
     }
   }
   return std::nullopt;
@@ -69,9 +95,46 @@ std::optional<Fault> overlay_stages(const Profile& profile, pb::TextFormat::Pars
     const pb::FieldDescriptor* descriptor = stage_in_proto(stage.stage);
     if (descriptor == nullptr || !profile.GetReflection()->HasField(profile, descriptor)) continue;
     const pb::Message& message = profile.GetReflection()->GetMessage(profile, descriptor);
-    if (auto fault = overlay_stage(message, locations.GetTreeForNested(descriptor, -1), stage)) return fault;
+    if (auto fault = overlay_fields(message, locations.GetTreeForNested(descriptor, -1), std::string(stage.stage), stage.fields)) return fault;
   }
   return std::nullopt;
+}
+
+std::optional<Fault> parse(std::string_view text, pb::Message& message, pb::TextFormat::ParseInfoTree& locations) {
+  FirstError errors;
+  pb::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&errors);
+  parser.WriteLocationsTo(&locations);
+  pb::io::ArrayInputStream input(text.data(), static_cast<int>(text.size()));
+  if (parser.Parse(&input, &message)) return std::nullopt;
+  return errors.fault().value_or(Fault{{}, 0, 0, "not a configuration in protobuf text format"});
+}
+
+std::optional<std::string> text_of(const std::filesystem::path& file) {
+  std::error_code not_there;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file, not_there)) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> differences(const pb::Descriptor& message, const std::string& prefix, const std::vector<BoundField>& fields) {
+  std::vector<std::string> found;
+  for (const BoundField& field : fields) {
+    const pb::FieldDescriptor* descriptor = find_field(message, field.name);
+    const List* list = std::get_if<List>(&field.value);
+    if (descriptor == nullptr) {
+      found.push_back(prefix + field.name + ": only in the table");
+    } else if (descriptor->cpp_type() != cpp_type_of(field.value) || (list != nullptr ? !descriptor->is_repeated() : !descriptor->has_presence())) {
+      found.push_back(prefix + field.name + ": types differ, or not optional");
+    } else if (list != nullptr) {
+      const auto inner = differences(*descriptor->message_type(), prefix + field.name + ".", list->append());
+      found.insert(found.end(), inner.begin(), inner.end());
+    }
+  }
+  for (const std::string& name : leaf_names(message)) {
+    if (std::ranges::count(fields, name, &BoundField::name) != 1) found.push_back(prefix + name + ": not once in the table");
+  }
+  return found;
 }
 
 std::optional<Fault> in_file(std::optional<Fault> fault, const std::string& file_name) {
@@ -88,43 +151,34 @@ std::string Fault::text() const {
 
 std::optional<Fault> overlay_text(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages) {
   Profile profile;
-  FirstError errors;
   pb::TextFormat::ParseInfoTree locations;
-  pb::TextFormat::Parser parser;
-  parser.RecordErrorsTo(&errors);
-  parser.WriteLocationsTo(&locations);
-  pb::io::ArrayInputStream input(text.data(), static_cast<int>(text.size()));
-  if (!parser.Parse(&input, &profile)) {
-    return in_file(errors.fault().value_or(Fault{{}, 0, 0, "not a configuration in protobuf text format"}), file_name);
-  }
+  if (auto fault = parse(text, profile, locations)) return in_file(fault, file_name);
   return in_file(overlay_stages(profile, locations, stages), file_name);
 }
 
+std::optional<Fault> overlay_message_text(std::string_view text, const std::string& file_name, const BoundStage& stage) {
+  assert(prototype_of(stage.stage) != nullptr);
+  const std::unique_ptr<pb::Message> message(prototype_of(stage.stage)->New());
+  pb::TextFormat::ParseInfoTree locations;
+  if (auto fault = parse(text, *message, locations)) return in_file(fault, file_name);
+  return in_file(overlay_fields(*message, &locations, std::string(stage.stage), stage.fields), file_name);
+}
+
 std::optional<Fault> overlay_file(const std::filesystem::path& file, std::span<const BoundStage> stages) {
-  std::error_code not_there;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, not_there)) return Fault{file.string(), 0, 0, "cannot be read"};
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return overlay_text(text, file.string(), stages);
+  const auto text = text_of(file);
+  return text ? overlay_text(*text, file.string(), stages) : Fault{file.string(), 0, 0, "cannot be read"};
+}
+
+std::optional<Fault> overlay_message_file(const std::filesystem::path& file, const BoundStage& message) {
+  const auto text = text_of(file);
+  return text ? overlay_message_text(*text, file.string(), message) : Fault{file.string(), 0, 0, "cannot be read"};
 }
 
 std::vector<std::string> differences_from_proto(const BoundStage& stage) {
+  if (const pb::Message* message = prototype_of(stage.stage)) return differences(*message->GetDescriptor(), std::string(stage.stage) + ".", stage.fields);
   const pb::FieldDescriptor* stage_field = stage_in_proto(stage.stage);
   if (stage_field == nullptr) return {std::string(stage.stage) + ": no such message in Profile"};
-  std::vector<std::string> differences;
-  const std::string prefix = std::string(stage.stage) + ".";
-  for (const BoundField& field : stage.fields) {
-    const pb::FieldDescriptor* descriptor = find_field(*stage_field->message_type(), field.name);
-    if (descriptor == nullptr) {
-      differences.push_back(prefix + field.name + ": only in the table");
-    } else if (descriptor->cpp_type() != cpp_type_of(field.value) || !descriptor->has_presence()) {
-      differences.push_back(prefix + field.name + ": types differ, or not optional");
-    }
-  }
-  for (const std::string& name : leaf_names(*stage_field->message_type())) {
-    if (std::ranges::count(stage.fields, name, &BoundField::name) != 1) differences.push_back(prefix + name + ": not once in the table");
-  }
-  return differences;
+  return differences(*stage_field->message_type(), std::string(stage.stage) + ".", stage.fields);
 }
 
 std::vector<std::string> stages_in_proto() {

@@ -29,7 +29,11 @@ std::optional<Fault> overlay_text(std::string_view text, const std::string& file
 /// The same for a file. A file that cannot be read is a fault.
 std::optional<Fault> overlay_file(const std::filesystem::path& file, std::span<const BoundStage> stages);
 
-/// Where a field table and slammot.proto differ in names or types, one line each; empty when they agree.
+/// Overlays a text that is one message of its own in place of a Profile, such as a Scenario, onto its bound settings.
+std::optional<Fault> overlay_message_text(std::string_view text, const std::string& file_name, const BoundStage& message);
+std::optional<Fault> overlay_message_file(const std::filesystem::path& file, const BoundStage& message);
+
+/// Where a field table and slammot.proto differ in names or types, one line each; empty when they agree. Lists grow by a sample each.
 std::vector<std::string> differences_from_proto(const BoundStage& stage);
 
 /// Names of the stages that slammot.proto knows.

@@ -15,6 +15,13 @@ struct Overloaded : Functions... {
 
 }  // namespace
 
+const pb::Message* prototype_of(std::string_view message) {
+  for (const pb::Message* known : {static_cast<const pb::Message*>(&Scenario::default_instance())}) {
+    if (known->GetDescriptor()->name() == message) return known;
+  }
+  return nullptr;
+}
+
 const FieldDescriptor* stage_in_proto(std::string_view stage) {
   const FieldDescriptor* field = Profile::descriptor()->FindFieldByName(std::string(stage));
   const bool is_stage = field != nullptr && field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
@@ -48,7 +55,7 @@ std::vector<std::string> leaf_names(const pb::Descriptor& message) {
   std::vector<std::string> names;
   for (int i = 0; i < message.field_count(); ++i) {
     const FieldDescriptor& field = *message.field(i);
-    if (field.message_type() == nullptr) {
+    if (field.message_type() == nullptr || field.is_repeated()) {
       names.push_back(field.name());
     } else {
       for (const std::string& inner : leaf_names(*field.message_type())) names.push_back(field.name() + "." + inner);
@@ -65,7 +72,9 @@ FieldDescriptor::CppType cpp_type_of(const Value& value) {
                                [](const std::uint64_t*) { return FieldDescriptor::CPPTYPE_UINT64; },
                                [](const float*) { return FieldDescriptor::CPPTYPE_FLOAT; },
                                [](const double*) { return FieldDescriptor::CPPTYPE_DOUBLE; },
-                               [](const std::string*) { return FieldDescriptor::CPPTYPE_STRING; }},
+                               [](const std::string*) { return FieldDescriptor::CPPTYPE_STRING; },
+                               [](const Choice&) { return FieldDescriptor::CPPTYPE_ENUM; },
+                               [](const List&) { return FieldDescriptor::CPPTYPE_MESSAGE; }},
                     value);
 }
 
@@ -78,7 +87,9 @@ void copy_from_message(const pb::Message& message, const FieldDescriptor& field,
                         [&](std::uint64_t* to) { *to = from.GetUInt64(message, &field); },
                         [&](float* to) { *to = from.GetFloat(message, &field); },
                         [&](double* to) { *to = from.GetDouble(message, &field); },
-                        [&](std::string* to) { *to = from.GetString(message, &field); }},
+                        [&](std::string* to) { *to = from.GetString(message, &field); },
+                        [&](const Choice& to) { to.set(from.GetEnumValue(message, &field)); },
+                        [](const List&) {}},
              value);
 }
 
@@ -91,7 +102,9 @@ void copy_to_message(const Value& value, pb::Message& message, const FieldDescri
                         [&](const std::uint64_t* from) { to.SetUInt64(&message, &field, *from); },
                         [&](const float* from) { to.SetFloat(&message, &field, *from); },
                         [&](const double* from) { to.SetDouble(&message, &field, *from); },
-                        [&](const std::string* from) { to.SetString(&message, &field, *from); }},
+                        [&](const std::string* from) { to.SetString(&message, &field, *from); },
+                        [&](const Choice& from) { to.SetEnumValue(&message, &field, from.get()); },
+                        [](const List&) {}},
              value);
 }
 

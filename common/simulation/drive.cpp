@@ -11,7 +11,12 @@ namespace {
 using geometry::Pose2;
 
 std::unique_ptr<Scene> make_scene(const ScenarioConfig& scenario) {
-  return scenario.place == Place::office ? make_office_scene(scenario) : make_city_scene(scenario);
+  switch (scenario.place) {
+    case Place::city: return make_city_scene(scenario);
+    case Place::office: return make_office_scene(scenario);
+    case Place::script: break;
+  }
+  return make_script_scene(scenario);
 }
 
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
@@ -39,29 +44,34 @@ struct Drive::World {
         scene(make_scene(config)),
         ray_caster(scene->stationary_in_world()),
         suspension(config.suspension),
-        odometer(config.odometry, config.seed),
+        odometer(config.odometry, config.seed + static_cast<std::uint64_t>(config.ride)),
+        terrain(config.terrain),
         random(config.seed, Purpose::scanner),
-        step_s(1.0 / config.scanner.rate_hz) {
+        step_s(1.0 / config.scanner.rate_hz),
+        last_speed_mps(scene->vehicle().speed_mps) {
     const auto unrecorded = static_cast<int>(config.warm_up_s / step_s);
     for (int i = 0; i < unrecorded; ++i) advance();
     before = moment();
-    odometer = WheelOdometer(config.odometry, config.seed);  // starts at zero where the recording starts
+    odometer = WheelOdometer(config.odometry, config.seed + static_cast<std::uint64_t>(config.ride));  // starts at zero where the recording starts
     scans = static_cast<std::size_t>(std::floor(config.duration_s * config.scanner.rate_hz));
   }
 
   void advance() {
     scene->advance(step_s);
     const double speed_mps = scene->vehicle().speed_mps;
-    nose_down_rad = suspension.advance((speed_mps - last_speed_mps) / step_s, step_s);
+    dive_rad = suspension.advance((speed_mps - last_speed_mps) / step_s, step_s);
     last_speed_mps = speed_mps;
   }
 
-  Moment moment() const { return {scene->vehicle().world_from_object, nose_down_rad, scene->others()}; }
+  Moment moment() const {
+    const Pose2 world_from_base = scene->vehicle().world_from_object;
+    return {world_from_base, dive_rad + terrain.nose_down_rad(world_from_base), scene->others()};
+  }
 
   SimulatedScan record() {
     advance();
     Moment after = moment();
-    const ScannedWorld scanned = scan_world(scenario.scanner, ray_caster, {before, after, step_s}, random);
+    const ScannedWorld scanned = scan_world(scenario.scanner, ray_caster, {before, after, step_s, terrain}, random);
     SimulatedScan result;
     const std::int64_t stamp_ns = nanoseconds(scenario.start_stamp_s + static_cast<double>(recorded) * step_s);
     result.scan = {stamp_ns, static_cast<std::uint32_t>(recorded), scanner_of(scenario.scanner), scanned.range_m};
@@ -81,10 +91,11 @@ struct Drive::World {
   RayCaster ray_caster;
   Suspension suspension;
   WheelOdometer odometer;
+  Terrain terrain;
   Random random;
   double step_s;
-  double nose_down_rad = 0.0;
-  double last_speed_mps = 0.0;
+  double dive_rad = 0.0;              ///< Nose down, by the springs alone.
+  double last_speed_mps;
   Moment before;
   std::size_t scans = 0;
   std::size_t recorded = 0;

@@ -26,6 +26,28 @@ std::string_view name(ObjectClass kind) {
   return "pedestrian";
 }
 
+BoxSize usual_size(ObjectClass kind) {
+  switch (kind) {
+    case ObjectClass::car: return {4.4, 1.8};
+    case ObjectClass::truck: return {7.1, 2.4};
+    case ObjectClass::bus: return {12.0, 2.5};
+    case ObjectClass::bicycle: return {1.6, 0.6};
+    case ObjectClass::pedestrian: break;
+  }
+  return {0.35, 0.5};
+}
+
+double usual_height_m(ObjectClass kind) {
+  switch (kind) {
+    case ObjectClass::car: return 1.45;
+    case ObjectClass::truck: return 3.4;
+    case ObjectClass::bus: return 3.1;
+    case ObjectClass::bicycle:
+    case ObjectClass::pedestrian: break;
+  }
+  return 1.75;
+}
+
 Outline vehicle_outline(ObjectClass kind, const BoxSize& size) {
   Outline outline;
   const double front_m = 0.5 * size.length_m;

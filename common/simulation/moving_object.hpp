@@ -17,6 +17,11 @@ struct BoxSize {
   double width_m = 0.0;
 };
 
+/// Of its class; cars differ around it.
+BoxSize usual_size(ObjectClass kind);
+
+double usual_height_m(ObjectClass kind);
+
 /// Something that moves, or could. world_from_object is at the centre of its box, x forward.
 struct MovingObject {
   int id = 0;

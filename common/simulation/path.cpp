@@ -61,4 +61,23 @@ std::vector<Vector2> line(const Vector2& from, const Vector2& to, double spacing
   return bezier(from, from + (to - from) / 3.0, from + 2.0 * (to - from) / 3.0, to, spacing_m);
 }
 
+std::vector<Vector2> rounded_way(const std::vector<Vector2>& corners, double bend_m) {
+  std::vector<Vector2> points{corners.front()};
+  const auto extend = [&points](const std::vector<Vector2>& more) { points.insert(points.end(), more.begin() + 1, more.end()); };
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Vector2 in = (corners[i] - corners[i - 1]).normalized();
+    const Vector2 out = (corners[i + 1] - corners[i]).normalized();
+    const Vector2 enter = corners[i] - bend_m * in;
+    const Vector2 leave = corners[i] + bend_m * out;
+    extend(line(points.back(), enter, 0.2));
+    if (in.dot(out) > 0.999) {
+      extend(line(enter, leave, 0.2));
+    } else {
+      extend(bezier(enter, enter + 0.55 * bend_m * in, leave - 0.55 * bend_m * out, leave, 0.02));
+    }
+  }
+  extend(line(points.back(), corners.back(), 0.2));
+  return points;
+}
+
 }  // namespace slammot::simulation

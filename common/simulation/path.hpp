@@ -33,4 +33,7 @@ std::vector<geometry::Vector2> bezier(const geometry::Vector2& from, const geome
 /// Straight line's points, ends included, at most spacing_m apart.
 std::vector<geometry::Vector2> line(const geometry::Vector2& from, const geometry::Vector2& to, double spacing_m);
 
+/// Points from corner to corner, straight but for the last bend_m before and the first behind each corner.
+std::vector<geometry::Vector2> rounded_way(const std::vector<geometry::Vector2>& corners, double bend_m);
+
 }  // namespace slammot::simulation

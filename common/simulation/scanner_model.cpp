@@ -22,6 +22,8 @@ struct Echo {
   int source = kNothing;
 };
 
+Pose2 base_from_laser(const ScannerConfig& config) { return {config.ahead_m, config.left_m, config.heading_rad}; }
+
 /// Index range of the beams that may meet each object, so that a beam tests few objects.
 class Candidates {
  public:
@@ -29,18 +31,21 @@ class Candidates {
     for (std::size_t i = 0; i < step.before.objects.size(); ++i) add(config, step, static_cast<int>(i));
   }
   const std::vector<int>& of_beam(int beam) const { return by_beam_[static_cast<std::size_t>(beam)]; }
+  /// Whatever the object does during the sweep, it stays within this of where it was.
+  double reach_m(int object) const { return reaches_m_[static_cast<std::size_t>(object)]; }
 
  private:
   void add(const ScannerConfig& config, const Step& step, int object) {
     const MovingObject& before = step.before.objects[static_cast<std::size_t>(object)];
     const MovingObject& after = step.after.objects[static_cast<std::size_t>(object)];
-    const Pose2 world_from_laser = step.before.world_from_base * Pose2{config.ahead_m, 0.0, 0.0};
+    const Pose2 world_from_laser = step.before.world_from_base * base_from_laser(config);
     const Vector2 in_laser = inverse(world_from_laser) * before.world_from_object.translation_m();
     // Whatever moves or turns during the sweep stays within this distance of where it was; a stride reaches furthest
     // out of a small box.
     const double moved_m = (after.world_from_object.translation_m() - before.world_from_object.translation_m()).norm() +
                            (step.after.world_from_base.translation_m() - step.before.world_from_base.translation_m()).norm();
     const double radius_m = 0.5 * std::hypot(before.size.length_m, before.size.width_m) + moved_m + 0.5;
+    reaches_m_.push_back(radius_m);
     const double distance_m = in_laser.norm();
     if (distance_m > config.max_range_m + radius_m) return;
     int first = 0;
@@ -54,12 +59,15 @@ class Candidates {
       first = std::max(first, static_cast<int>(std::floor((bearing_rad - half_rad - config.first_beam_rad) / beam_step_rad)));
       last = std::min(last, static_cast<int>(std::ceil((bearing_rad + half_rad - config.first_beam_rad) / beam_step_rad)));
       // Behind a half-circle scanner the interval is empty; a full-circle scanner would see it across the cut.
-      if (config.field_of_view_rad > 3.2) first = 0, last = config.beams - 1;
+      // One that is tipped far looks elsewhere than its beams' numbers say.
+      const bool is_tipped = std::abs(config.left_up_rad) + std::abs(config.nose_down_rad) > 0.2;
+      if (config.field_of_view_rad > 3.2 || is_tipped) first = 0, last = config.beams - 1;
     }
     for (int beam = first; beam <= last; ++beam) by_beam_[static_cast<std::size_t>(beam)].push_back(object);
   }
 
   std::vector<std::vector<int>> by_beam_;
+  std::vector<double> reaches_m_;
 };
 
 /// The world as one beam finds it: everything where it is when the beam fires.
@@ -85,9 +93,28 @@ double range_to_object(const MovingObject& object, const Pose2& world_from_objec
   return range_m;
 }
 
-double range_to_ground(const ScannerConfig& config, double nose_down_rad, double beam_rad) {
-  const double fall = std::sin(nose_down_rad) * std::cos(beam_rad);
-  return fall > 0.0 ? config.height_m / fall : kInfinity;
+/// Whether the ray cannot meet anything within reach of where the object was.
+bool passes_by(const MovingObject& before, double reach_m, const Vector2& origin, const Vector2& direction) {
+  const Vector2 to_object = before.world_from_object.translation_m() - origin;
+  return std::abs(direction.x() * to_object.y() - direction.y() * to_object.x()) > reach_m;
+}
+
+/// A beam in space: over the ground it goes along a direction, and up by so much for each metre of that.
+struct BeamDirection {
+  Vector2 in_world;
+  double rise;
+  double level_share;                 ///< Of its length: the part along the ground.
+};
+
+/// heading_rad: of the scanner in the world. Right-handed turns: about x by left_up_rad, then about y by nose_down_rad.
+BeamDirection direction_of(double beam_rad, double heading_rad, double nose_down_rad, double left_up_rad) {
+  if (nose_down_rad == 0.0 && left_up_rad == 0.0) return {{std::cos(heading_rad + beam_rad), std::sin(heading_rad + beam_rad)}, 0.0, 1.0};
+  const double rolled_up = std::sin(beam_rad) * std::sin(left_up_rad);
+  const double ahead = std::cos(beam_rad) * std::cos(nose_down_rad) + rolled_up * std::sin(nose_down_rad);
+  const double left = std::sin(beam_rad) * std::cos(left_up_rad);
+  const double up = rolled_up * std::cos(nose_down_rad) - std::cos(beam_rad) * std::sin(nose_down_rad);
+  const double level = std::max(1e-6, std::hypot(ahead, left));
+  return {geometry::rotation(heading_rad) * Vector2(ahead / level, left / level), up / level, level};
 }
 
 class Sweep {
@@ -110,7 +137,7 @@ class Sweep {
     const double delay_s = config_.sweep_s * beam / (config_.beams - 1);
     const double fraction = delay_s / step_.duration_s;
     const Pose2 world_from_base = interpolate(step_.before.world_from_base, step_.after.world_from_base, fraction);
-    const BeamView view{world_from_base * Pose2{config_.ahead_m, 0.0, 0.0},
+    const BeamView view{world_from_base * base_from_laser(config_),
                         step_.before.nose_down_rad + fraction * (step_.after.nose_down_rad - step_.before.nose_down_rad),
                         fraction, candidates_.of_beam(beam)};
     const double beam_rad = config_.first_beam_rad + config_.field_of_view_rad * beam / (config_.beams - 1);
@@ -119,22 +146,44 @@ class Sweep {
   }
 
   Echo cast(const BeamView& view, double beam_rad) const {
-    const double heading_rad = view.world_from_laser.heading_rad + beam_rad;
-    const Vector2 direction{std::cos(heading_rad), std::sin(heading_rad)};
+    const BeamDirection beam = direction_of(beam_rad, view.world_from_laser.heading_rad, view.nose_down_rad + config_.nose_down_rad, config_.left_up_rad);
     const Vector2 origin = view.world_from_laser.translation_m();
+    const double z_m = step_.terrain.height_m(origin.x()) + config_.height_m;
+    const double reach_m = config_.max_range_m * beam.level_share;
     Echo nearest;
-    const double ground_m = range_to_ground(config_, view.nose_down_rad, beam_rad);
-    if (ground_m < config_.max_range_m) nearest = {ground_m, Material::ground, kStationary};
-    const Hit hit = stationary_.cast(origin, direction, config_.max_range_m);
+    const double ground_m = step_.terrain.distance_to_ground(origin, beam.in_world, z_m, beam.rise);
+    if (ground_m < reach_m) nearest = {ground_m, Material::ground, kStationary};
+    const Hit hit = first_not_below(origin, beam, z_m, reach_m);
     if (hit.range_m < nearest.range_m) nearest = {hit.range_m, hit.material, kStationary};
     for (const int index : view.candidates) {
       const MovingObject& before = step_.before.objects[static_cast<std::size_t>(index)];
       const MovingObject& after = step_.after.objects[static_cast<std::size_t>(index)];
+      if (passes_by(before, candidates_.reach_m(index), origin, beam.in_world)) continue;
       const Pose2 world_from_object = interpolate(before.world_from_object, after.world_from_object, view.fraction);
-      const double range_m = range_to_object(before, world_from_object, origin, direction);
-      if (range_m < nearest.range_m) nearest = {range_m, Material::body, index};
+      const double range_m = range_to_object(before, world_from_object, origin, beam.in_world);
+      if (range_m >= nearest.range_m || passes_over(origin, beam, z_m, range_m, usual_height_m(before.kind))) continue;
+      nearest = {range_m, Material::body, index};
     }
+    nearest.range_m /= beam.level_share;
     return nearest;
+  }
+
+  bool passes_over(const Vector2& origin, const BeamDirection& beam, double z_m, double level_m, double height_m) const {
+    const double road_m = step_.terrain.height_m(origin.x() + level_m * beam.in_world.x());
+    return z_m + beam.rise * level_m > road_m + height_m;
+  }
+
+  /// The first stationary surface that the beam does not pass over.
+  Hit first_not_below(const Vector2& origin, const BeamDirection& beam, double z_m, double reach_m) const {
+    constexpr double kBeyond_m = 0.01;
+    Hit hit = stationary_.cast(origin, beam.in_world, reach_m);
+    double passed_m = 0.0;
+    while (std::isfinite(hit.range_m) && passes_over(origin, beam, z_m, passed_m + hit.range_m, usual_height_m(hit.material))) {
+      passed_m += hit.range_m + kBeyond_m;
+      hit = stationary_.cast(Vector2(origin + passed_m * beam.in_world), beam.in_world, reach_m - passed_m);
+    }
+    hit.range_m += passed_m;
+    return hit;
   }
 
   /// What the whole spot returns: its middle's echo, or, where an edge splits it, sometimes a range in between.
@@ -179,7 +228,7 @@ class Sweep {
 sensing::Scanner scanner_of(const ScannerConfig& config) {
   sensing::Scanner scanner;
   scanner.scanner_id = config.scanner_id;
-  scanner.base_from_laser = {config.ahead_m, 0.0, 0.0};
+  scanner.base_from_laser = base_from_laser(config);
   scanner.first_beam_rad = config.first_beam_rad;
   scanner.beam_step_rad = config.field_of_view_rad / (config.beams - 1);
   scanner.max_range_m = config.max_range_m;

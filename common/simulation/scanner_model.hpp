@@ -7,6 +7,7 @@
 #include "common/simulation/moving_object.hpp"
 #include "common/simulation/random.hpp"
 #include "common/simulation/ray_caster.hpp"
+#include "common/simulation/terrain.hpp"
 
 namespace slammot::simulation {
 
@@ -14,7 +15,11 @@ namespace slammot::simulation {
 /// for 180 degrees) with the noise seen in recordings of one.
 struct ScannerConfig {
   std::string scanner_id = "front";
-  double ahead_m = 2.15;              ///< Of the vehicle's centre, looking straight ahead.
+  double ahead_m = 2.15;              ///< Of the vehicle's centre,
+  double left_m = 0.0;                ///< and beside it.
+  double heading_rad = 0.0;           ///< Where it looks, counter-clockwise from straight ahead,
+  double nose_down_rad = 0.0;         ///< how far it is tipped forward,
+  double left_up_rad = 0.0;           ///< and to its right; a quarter turn makes it scan a vertical profile.
   double height_m = 0.6;
   int beams = 361;
   double first_beam_rad = -1.570796;
@@ -34,7 +39,7 @@ struct ScannerConfig {
 /// The moving part of the world at one time.
 struct Moment {
   geometry::Pose2 world_from_base;
-  double nose_down_rad = 0.0;
+  double nose_down_rad = 0.0;         ///< Of the body, by the road and by its springs.
   std::vector<MovingObject> objects;  ///< The same objects in the same order at every moment.
 };
 
@@ -43,6 +48,7 @@ struct Step {
   const Moment& before;
   const Moment& after;
   double duration_s;                  ///< At least the sweep.
+  const Terrain& terrain = kLevelRoad;
 };
 
 constexpr int kStationary = -1;
@@ -53,11 +59,12 @@ struct ScannedWorld {
   std::vector<int> source;            ///< What each beam met: index of a moving object, kStationary or kNothing.
 };
 
-/// The scanner's geometry as it travels with its scans.
+/// The scanner's geometry as it travels with its scans; how it is tipped does not.
 sensing::Scanner scanner_of(const ScannerConfig& config);
 
 /// One sweep that starts with the step: beams fire one after the other while vehicle and objects move, each spot is
-/// as wide as the real one's and may be split by an edge, braking tips the beams into the road.
+/// as wide as the real one's and may be split by an edge, braking and slopes tip the beams into the road or over
+/// what is low.
 ScannedWorld scan_world(const ScannerConfig& config, const RayCaster& stationary, const Step& step, Random& random);
 
 }  // namespace slammot::simulation

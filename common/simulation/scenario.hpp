@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/simulation/office_plan.hpp"
 #include "common/simulation/robot.hpp"
 #include "common/simulation/scanner_model.hpp"
+#include "common/simulation/script.hpp"
 #include "common/simulation/street_plan.hpp"
 #include "common/simulation/traffic.hpp"
 #include "common/simulation/vehicle_model.hpp"
@@ -16,7 +15,7 @@
 
 namespace slammot::simulation {
 
-enum class Place { city, office };
+enum class Place { city, office, script };
 /// Which CARMEN record a log of the drive has.
 enum class LogRecord { robotlaser1, flaser };
 
@@ -36,17 +35,14 @@ struct ScenarioConfig {
   OfficeConfig office;                ///< these three of an office.
   RobotConfig robot;
   std::vector<OfficeCorner> robot_way;
+  ScriptConfig script;                ///< All of a scripted scene.
+  int ride = 0;                       ///< Of a script's vehicles with scanners: which one; 0 is the vehicle.
+  std::vector<HeightAt> terrain;      ///< Empty: level.
   SuspensionConfig suspension;
   OdometryConfig odometry;
   ScannerConfig scanner;
   std::string profile = "urban";      ///< Settings that suit the drive.
   LogRecord log_record = LogRecord::robotlaser1;
 };
-
-/// Shipped scenarios, in the order in which they are listed.
-std::vector<std::string> scenario_names();
-
-/// A shipped scenario with its own seed, or with another one; none where there is no such name.
-std::optional<ScenarioConfig> shipped_scenario(std::string_view name, std::optional<std::uint64_t> seed = std::nullopt);
 
 }  // namespace slammot::simulation

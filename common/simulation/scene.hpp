@@ -28,4 +28,7 @@ std::unique_ptr<Scene> make_city_scene(const ScenarioConfig& scenario);
 /// A floor of corridors and rooms with a robot and people.
 std::unique_ptr<Scene> make_office_scene(const ScenarioConfig& scenario);
 
+/// What the scenario's script says.
+std::unique_ptr<Scene> make_script_scene(const ScenarioConfig& scenario);
+
 }  // namespace slammot::simulation

@@ -42,6 +42,20 @@ Vector2 unit_vector(Direction direction) {
   return {0.0, -1.0};
 }
 
+std::vector<JunctionId> along_streets(const std::vector<JunctionId>& corners) {
+  if (corners.empty()) return {};
+  std::vector<JunctionId> route{corners.front()};
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    while (!(route.back() == corners[i])) {
+      JunctionId next = route.back();
+      next.column += (corners[i].column > next.column) - (corners[i].column < next.column);
+      if (next.column == route.back().column) next.row += (corners[i].row > next.row) - (corners[i].row < next.row);
+      route.push_back(next);
+    }
+  }
+  return route;
+}
+
 StreetPlan::StreetPlan(const CityConfig& config, std::uint64_t seed) : config_(config) {
   Random random(seed, Purpose::world);
   columns_in_plan_m_ = street_positions_m(config.blocks_east, config, random);

@@ -42,6 +42,9 @@ struct JunctionId {
   bool operator==(const JunctionId&) const = default;
 };
 
+/// Every junction along straight streets from corner to corner, each once, both ends included.
+std::vector<JunctionId> along_streets(const std::vector<JunctionId>& corners);
+
 /// Where the streets are: a grid in plan coordinates (straight streets), bent smoothly into the world.
 class StreetPlan {
  public:

@@ -13,6 +13,18 @@ double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() 
 
 }  // namespace
 
+double usual_height_m(Material material) {
+  switch (material) {
+    case Material::wall: return 12.0;
+    case Material::parked_car: return 1.45;
+    case Material::post: return 5.0;
+    case Material::foliage: return 2.2;
+    case Material::ground: return 0.0;
+    case Material::body: break;
+  }
+  return 1.5;
+}
+
 void add_polygon(Outline& outline, const std::vector<Vector2>& corners, Material material) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     outline.segments.push_back({corners[i], corners[(i + 1) % corners.size()], material});

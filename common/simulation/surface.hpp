@@ -10,6 +10,9 @@ namespace slammot::simulation {
 /// What a beam may meet. The numbers of the first three are the classes of the walls file.
 enum class Material : std::uint8_t { wall = 0, parked_car = 1, post = 2, foliage, ground, body };
 
+/// Of the top of what is made of it, above the road; of a moving body its class says more.
+double usual_height_m(Material material);
+
 /// Straight piece of a surface, in the frame of what it belongs to.
 struct Segment {
   geometry::Vector2 a;

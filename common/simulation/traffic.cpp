@@ -22,13 +22,7 @@ constexpr std::size_t kPlannedLanes = 4;
 constexpr double kWaysPart_m = 8.5;  ///< Past the stop line a left turn is a car's width away from straight on.
 
 BoxSize size_of(ObjectClass kind, Random& random) {
-  switch (kind) {
-    case ObjectClass::truck: return {7.1, 2.4};
-    case ObjectClass::bus: return {12.0, 2.5};
-    case ObjectClass::bicycle: return {1.6, 0.6};
-    case ObjectClass::pedestrian: return {0.35, 0.5};
-    case ObjectClass::car: break;
-  }
+  if (kind != ObjectClass::car) return usual_size(kind);
   return {random.uniform(4.0, 4.8), random.uniform(1.7, 1.9)};
 }
 
@@ -58,7 +52,7 @@ void Traffic::place_vehicle(const RouteConfig& route) {
   vehicle.length_m = route.length_m;
   vehicle.half_width_m = 0.5 * route.width_m;
   vehicle.speed_factor = route.speed_factor;
-  place_on_route(vehicle, route.junctions, route.start_m);
+  place_on_route(vehicle, along_streets(route.junctions), route.start_m);
 }
 
 void Traffic::place_on_route(Driver& driver, const std::vector<JunctionId>& route, double arc_m) {
@@ -73,7 +67,7 @@ void Traffic::place_on_route(Driver& driver, const std::vector<JunctionId>& rout
 }
 
 void Traffic::place_drivers(const TrafficConfig& config) {
-  if (!config.car_ahead.empty()) place_car_ahead(config.car_ahead);
+  if (!config.car_ahead.empty()) place_car_ahead(along_streets(config.car_ahead));
   const auto place = [&](ObjectClass kind, int count) {
     for (int i = 0; i < count; ++i) {
       Driver driver = make_driver(kind, config);
@@ -346,6 +340,8 @@ bool Traffic::may_cross(const Crossing& crossing) const {
 
 bool Traffic::is_occupied(const Vector2& place_in_world) const {
   return std::any_of(objects_.begin(), objects_.end(), [&](const MovingObject& object) {
+    const double reach_m = object.size.length_m + object.size.width_m;
+    if ((place_in_world - object.world_from_object.translation_m()).squaredNorm() > reach_m * reach_m) return false;
     const Vector2 in_object = inverse(object.world_from_object) * place_in_world;
     return std::abs(in_object.x()) < 0.5 * object.size.length_m && std::abs(in_object.y()) < 0.5 * object.size.width_m;
   });
@@ -370,6 +366,8 @@ double Traffic::person_gap_m(const Driver& driver, const std::vector<PersonOnRoa
     if (touches && driver.speed_mps < 1.0) return 0.0;
     for (double ahead_m = 0.5 * driver.length_m; ahead_m < std::min(look_m, nearest_m); ahead_m += 1.0) {
       const Pose2 world_from_place = pose_ahead(driver, ahead_m);
+      const double far_m = driver.half_width_m + kClearance_m + 0.8 + 3.0 * person.velocity_in_world_mps.norm();
+      if ((person.position_in_world - world_from_place.translation_m()).squaredNorm() > far_m * far_m) continue;
       const Vector2 in_place = inverse(world_from_place) * person.position_in_world;
       if (std::abs(in_place.x()) > 0.8) continue;
       const Vector2 velocity = geometry::rotation(-world_from_place.heading_rad) * person.velocity_in_world_mps;

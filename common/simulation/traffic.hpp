@@ -15,7 +15,7 @@ struct TrafficConfig {
   int buses = 3;
   int bicycles = 8;
   double stopping_share = 0.15;       ///< Of the cars and trucks: those that stop in the lane now and then (delivery).
-  /// Route of a car that stops and goes right ahead of the vehicle, from the vehicle's first junction on; empty: none.
+  /// Corners of the route of a car that stops and goes right ahead of the vehicle, from its first junction on; empty: none.
   std::vector<JunctionId> car_ahead;
   double green_s = 13.0;              ///< Of each of the two axes at a signalled junction.
   double clearance_s = 3.0;           ///< Red for all after each green.
@@ -23,7 +23,7 @@ struct TrafficConfig {
 
 /// Where the vehicle goes and how it is driven.
 struct RouteConfig {
-  std::vector<JunctionId> junctions;  ///< Neighbours in turn; goes on at random after the last. Empty: all at random.
+  std::vector<JunctionId> junctions;  ///< Corners in turn, straight streets between; goes on at random after the last. Empty: all at random.
   double start_m = 12.0;              ///< Behind the stop line of the first junction.
   double speed_factor = 0.95;         ///< Of the limit.
   double hard_brake_every_s = 45.0;   ///< Mean time between moments in which the driver is frightened.

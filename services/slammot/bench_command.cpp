@@ -16,6 +16,7 @@
 #include "common/dds/config.hpp"
 #include "common/files/run_outputs.hpp"
 #include "services/simulator/drive_files.hpp"
+#include "services/simulator/scenario_files.hpp"
 #include "services/slammot/collector.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
@@ -98,7 +99,7 @@ int write(const BenchOptions& options, const files::RunRecord& record, const fil
 /// Services of their own read a log, so a simulated drive is recorded first: drive.log and truth.* in the output folder.
 files::Result<BenchOptions> with_recorded_drive(BenchOptions options) {
   if (options.scenario.empty() || !options.input.empty()) return options;
-  const auto scenario = scenario_of(options);
+  const auto scenario = simulator::load_scenario(options.scenario, options.seed);
   if (!scenario) return scenario.error();
   const auto written = simulator::write_drive(*scenario, options.output, {"drive", "truth"});
   if (!written.files) return files::Error{written.fault};

@@ -13,6 +13,7 @@
 #include "common/files/atomic_file.hpp"
 #include "common/files/log_profile.hpp"
 #include "services/simulator/live_drive.hpp"
+#include "services/simulator/scenario_files.hpp"
 
 namespace slammot {
 namespace {
@@ -64,7 +65,7 @@ struct OpenedDrive {
 files::Result<OpenedDrive> open_drive(const JobOptions& options) {
   OpenedDrive drive;
   if (!options.scenario.empty()) {
-    auto scenario = scenario_of(options);
+    auto scenario = simulator::load_scenario(options.scenario, options.seed);
     if (!scenario) return scenario.error();
     drive.plan = simulator::plan_of(*scenario);
     drive.profile = {scenario->profile, "as the scenario says"};
@@ -110,12 +111,6 @@ void add_job_options(CLI::App& command, JobOptions& options) {
   command.add_option("--profile", options.profile, "urban, indoor, another name, or a file; chosen by the drive when not given")->type_name("NAME");
   command.add_option("--config", options.config, "Settings that replace some of the profile's")->type_name("FILE");
   command.add_option("--speed", options.speed, "Times the recorded rate, or max")->type_name("X|max")->capture_default_str();
-}
-
-files::Result<simulation::ScenarioConfig> scenario_of(const JobOptions& options) {
-  const auto scenario = simulation::shipped_scenario(options.scenario, options.seed);
-  if (!scenario) return Error{"no scenario is named '" + options.scenario + "'; slammot simulate --list names them"};
-  return *scenario;
 }
 
 files::Result<Job> prepare_job(const JobOptions& options) {

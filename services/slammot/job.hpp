@@ -8,7 +8,6 @@
 #include "common/files/result.hpp"
 #include "common/files/run_record.hpp"
 #include "common/files/run_report.hpp"
-#include "common/simulation/scenario.hpp"
 #include "services/slammot/profile.hpp"
 
 namespace CLI {
@@ -39,9 +38,6 @@ struct Job {
 };
 
 void add_job_options(CLI::App& command, JobOptions& options);
-
-/// The scenario that the options name; the fault that they name none, or a log, too.
-files::Result<simulation::ScenarioConfig> scenario_of(const JobOptions& options);
 
 /// Opens the log or begins to simulate, chooses and loads the settings, and makes the output folder: every fault a user can make shows here,
 /// before the work. The truth of a simulated drive is written into the output folder as it goes on: truth.tum,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Takes the demo drive through the real services over DDS, each on a closed bus of its own, and compares with one process.
+"""Takes a small drive through the real services over DDS, each on a closed bus of its own, and compares with one process.
 
 usage: bench_test.py SLAMMOT
 """
@@ -50,8 +50,8 @@ class Bench(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="slammot-bench-test-")
         cls.work = pathlib.Path(cls.folder.name)
-        subprocess.run([cls.slammot, "simulate", "demo", "--output", cls.work], check=True, stdout=subprocess.DEVNULL)
-        subprocess.run([cls.slammot, "run", "--input", cls.work / "demo.log", "--output", cls.work / "run"],
+        subprocess.run([cls.slammot, "simulate", "block", "--output", cls.work], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([cls.slammot, "run", "--input", cls.work / "block.log", "--output", cls.work / "run"],
                        check=True, stdout=subprocess.DEVNULL)
 
     @classmethod
@@ -59,7 +59,7 @@ class Bench(unittest.TestCase):
         cls.folder.cleanup()
 
     def start(self, name):
-        return subprocess.Popen([self.slammot, "bench", "--input", self.work / "demo.log", "--output", self.work / name],
+        return subprocess.Popen([self.slammot, "bench", "--input", self.work / "block.log", "--output", self.work / name],
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def end(self, bench, children):
@@ -75,7 +75,7 @@ class Bench(unittest.TestCase):
         return wait_until(all_there, "six services")
 
     def ate_m(self, name):
-        return aligned_rmse_m(read_tum(self.work / name / "trajectory.tum"), read_tum(self.work / "demo.tum"))
+        return aligned_rmse_m(read_tum(self.work / name / "trajectory.tum"), read_tum(self.work / "block.tum"))
 
     def confirmed_tracks(self, name):
         with open(self.work / name / "tracks.csv", newline="") as file:

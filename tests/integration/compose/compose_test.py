@@ -174,7 +174,7 @@ def main(root, slammot, work):
     remove_leftovers()
     run(str(root / "deploy/image"), timeout=WHOLE_TEST_S)
     work.mkdir(parents=True, exist_ok=True)
-    drive, truth = root / "out/drive/demo.log", read_tum(root / "out/drive/demo.tum")
+    drive, truth = root / "out/drive/block.log", read_tum(root / "out/drive/block.tum")
     reference = work / "one_process"
     run(slammot, "run", "--input", str(drive), "--output", str(reference), "--profile", "urban")
     test_containers_agree_with_one_process(root, work, drive, truth, reference)

@@ -6,6 +6,7 @@
 
 #include "common/simulation/city_world.hpp"
 #include "common/simulation/drive.hpp"
+#include "services/simulator/scenario_files.hpp"
 
 namespace slammot::simulation {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Beams of whole scans along a street of the demo city, stationary surfaces only. The yardstick is 2 million beams a
 /// second on one core.
 void cast_in_demo_city(benchmark::State& state) {
-  const ScenarioConfig scenario = *shipped_scenario("demo");
+  const ScenarioConfig scenario = *simulator::load_scenario("block");
   const StreetPlan plan(scenario.city, scenario.seed);
   const RayCaster caster(build_city(plan, scenario.seed), static_cast<double>(state.range(0)));
   const geometry::Vector2 from = plan.junction_in_plan({1, 1});
@@ -38,7 +39,7 @@ BENCHMARK(cast_in_demo_city)->ArgName("cell_m")->Arg(1)->Arg(2)->Arg(3)->Arg(4)-
 
 /// Whole simulated scans: three rays a beam, moving objects, noise, traffic and people.
 void simulate_demo_scans(benchmark::State& state) {
-  const ScenarioConfig scenario = *shipped_scenario("demo");
+  const ScenarioConfig scenario = *simulator::load_scenario("block");
   Drive drive(scenario);
   for (auto _ : state) {
     auto scan = drive.next();

@@ -1,4 +1,5 @@
 #include "common/simulation/drive.hpp"
+#include "services/simulator/scenario_files.hpp"
 
 #include <set>
 
@@ -7,8 +8,8 @@
 namespace slammot::simulation {
 namespace {
 
-ScenarioConfig short_demo(std::uint64_t seed) {
-  ScenarioConfig scenario = *shipped_scenario("demo", seed);
+ScenarioConfig short_drive(std::uint64_t seed) {
+  ScenarioConfig scenario = *simulator::load_scenario("block", seed);
   scenario.duration_s = 4.0;
   return scenario;
 }
@@ -21,8 +22,8 @@ std::vector<SimulatedScan> all_scans(const ScenarioConfig& scenario) {
 }
 
 TEST(Drive, IsTheSameToTheLastBitForTheSameSeed) {
-  const auto first = all_scans(short_demo(5));
-  const auto second = all_scans(short_demo(5));
+  const auto first = all_scans(short_drive(5));
+  const auto second = all_scans(short_drive(5));
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].scan.range_m, second[i].scan.range_m);
@@ -32,11 +33,11 @@ TEST(Drive, IsTheSameToTheLastBitForTheSameSeed) {
 }
 
 TEST(Drive, DiffersFromSeedToSeed) {
-  EXPECT_NE(all_scans(short_demo(5)).back().scan.range_m, all_scans(short_demo(6)).back().scan.range_m);
+  EXPECT_NE(all_scans(short_drive(5)).back().scan.range_m, all_scans(short_drive(6)).back().scan.range_m);
 }
 
 TEST(Drive, HasOneScanForEachTurnOfTheScannerWithStampsInOrder) {
-  const auto scans = all_scans(short_demo(1));
+  const auto scans = all_scans(short_drive(1));
   ASSERT_EQ(scans.size(), 150U);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     EXPECT_EQ(scans[i].scan.sequence, i);
@@ -46,11 +47,11 @@ TEST(Drive, HasOneScanForEachTurnOfTheScannerWithStampsInOrder) {
 }
 
 TEST(Drive, StartsItsOdometryAtZero) {
-  EXPECT_TRUE(all_scans(short_demo(1)).front().odometry.wheel_from_base == geometry::Pose2::identity());
+  EXPECT_TRUE(all_scans(short_drive(1)).front().odometry.wheel_from_base == geometry::Pose2::identity());
 }
 
 TEST(Drive, ListsEachObjectThatAScanHitOnceWithItsPoints) {
-  for (const SimulatedScan& scan : all_scans(short_demo(1))) {
+  for (const SimulatedScan& scan : all_scans(short_drive(1))) {
     std::set<int> ids;
     for (const ObjectTruth& object : scan.objects) {
       EXPECT_TRUE(ids.insert(object.id).second);
@@ -62,7 +63,7 @@ TEST(Drive, ListsEachObjectThatAScanHitOnceWithItsPoints) {
 
 /// Fraction of the points, placed by the true pose, that lie near a true surface or object: what the truth is worth.
 TEST(Drive, PlacesItsPointsOnTrueSurfaces) {
-  const ScenarioConfig scenario = short_demo(1);
+  const ScenarioConfig scenario = short_drive(1);
   Drive drive(scenario);
   const Outline outline = drive.stationary_in_world();
   int near = 0;

@@ -9,6 +9,7 @@
 #include "common/simulation/scenario.hpp"
 #include "common/simulation/scene.hpp"
 #include "tests/support/matchers.hpp"
+#include "services/simulator/scenario_files.hpp"
 
 namespace slammot::simulation {
 namespace {
@@ -58,7 +59,7 @@ TEST(Robot, WaitsForSomebodyInItsWay) {
 class OfficeScenario : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(OfficeScenario, KeepsRobotAndPeopleApartAndTheRobotOnItsWay) {
-  const ScenarioConfig scenario = *shipped_scenario(GetParam());
+  const ScenarioConfig scenario = *simulator::load_scenario(GetParam());
   const auto scene = make_office_scene(scenario);
   double nearest_m = 1e9;
   double travelled_m = 0.0;

@@ -92,6 +92,66 @@ TEST(ScanWorld, HitsTheRoadWhenTheNoseIsDown) {
   EXPECT_NEAR(scanned.range_m[kStraightAhead + 1], 0.6 / 0.02, 0.1);
 }
 
+TEST(ScanWorld, LooksFromWhereTheScannerIsMounted) {
+  ScannerConfig config = exact_scanner();
+  config.ahead_m = 1.0;
+  config.left_m = 2.0;
+  config.heading_rad = M_PI_2;
+  Moment still;
+  still.world_from_base = {0.0, 0.0, -M_PI_2};  // so that it looks along x, from (2, -1)
+  const ScannedWorld scanned = scan(config, wall_ahead(20.0), still, still);
+  EXPECT_NEAR(scanned.range_m[kStraightAhead], 18.0, 1e-4);
+  EXPECT_TRUE(scanner_of(config).base_from_laser == Pose2(1.0, 2.0, M_PI_2));
+}
+
+TEST(ScanWorld, MeasuresAlongTheBeamOfATippedScanner) {
+  ScannerConfig config = exact_scanner();
+  config.nose_down_rad = -0.3;
+  const Moment still;
+  const ScannedWorld scanned = scan(config, wall_ahead(20.0), still, still);
+  EXPECT_NEAR(scanned.range_m[kStraightAhead], 20.0 / std::cos(0.3), 1e-4);
+  config.nose_down_rad = 0.0;
+  config.left_up_rad = 0.05;  // the right side looks down: 0.6 m under it after 0.6 / sin(0.05)
+  const ScannedWorld rolled = scan(config, {}, still, still);
+  EXPECT_NEAR(rolled.range_m[0], 0.6 / std::sin(0.05), 1e-3);
+  EXPECT_EQ(rolled.source[360], kNothing);
+}
+
+TEST(ScanWorld, SeesOverWhatIsLowAndNotOverWhatIsHigh) {
+  ScannerConfig config = exact_scanner();
+  config.nose_down_rad = -0.1;
+  Outline outline = wall_ahead(60.0);
+  outline.circles.push_back({{30.0, 0.0}, 0.5, Material::foliage});  // the beam is 3.5 m up there
+  Moment still;
+  still.objects = {car_at({20.0, 0.0, 0.0})};
+  const ScannedWorld over = scan(config, outline, still, still);
+  EXPECT_NEAR(over.range_m[kStraightAhead], 60.0 / std::cos(0.1), 1e-4);
+  config.nose_down_rad = -0.01;
+  EXPECT_EQ(scan(config, outline, still, still).source[kStraightAhead], 0);
+}
+
+TEST(ScanWorld, ScansAVerticalProfileWhenTurnedOnItsSide) {
+  ScannerConfig config = exact_scanner();
+  config.left_up_rad = M_PI_2;
+  config.height_m = 2.0;
+  const Moment still;
+  const ScannedWorld scanned = scan(config, wall_ahead(8.0), still, still);
+  EXPECT_NEAR(scanned.range_m[kStraightAhead], 8.0, 1e-4);
+  EXPECT_NEAR(scanned.range_m[kStraightAhead + 80], 8.0 / std::cos(80.0 / 360.0 * M_PI), 1e-3);  // 40 degrees up the wall
+  EXPECT_EQ(scanned.source[kStraightAhead + 120], kNothing);                                     // 60 degrees: over its 12 m
+  EXPECT_NEAR(scanned.range_m[0], 2.0, 1e-3);                                                    // straight down
+  EXPECT_NEAR(scanned.range_m[kStraightAhead - 120], 2.0 / std::sin(M_PI / 3.0), 1e-3);          // the road at 60 degrees
+}
+
+TEST(ScanWorld, MeetsARisingRoad) {
+  const Terrain ramp({{20.0, 0.0}, {40.0, 2.0}});
+  const Moment still;
+  Random random(1, Purpose::scanner);
+  const ScannedWorld scanned = scan_world(exact_scanner(), RayCaster(wall_ahead(60.0)), {still, still, kStep_s, ramp}, random);
+  const auto from_road = std::count_if(scanned.range_m.begin() + 170, scanned.range_m.begin() + 190, [](float range_m) { return std::abs(range_m - 26.0F) < 0.2F; });
+  EXPECT_GT(from_road, 10);  // some 30 % give no echo from so flat a surface
+}
+
 TEST(ScanWorld, PutsMixedPixelsBetweenTheTwoSurfacesOfASplitSpot) {
   ScannerConfig config = exact_scanner();
   config.mixed_share = 1.0;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/simulation/scenario.hpp"
+#include "services/simulator/scenario_files.hpp"
 
 namespace slammot::simulation {
 namespace {
@@ -66,7 +67,7 @@ struct Streets {
 
 class TrafficOfScenario : public ::testing::TestWithParam<const char*> {
  protected:
-  ScenarioConfig scenario_ = *shipped_scenario(GetParam());
+  ScenarioConfig scenario_ = *simulator::load_scenario(GetParam());
   Streets streets_{scenario_};
 };
 
@@ -116,7 +117,7 @@ TEST_P(TrafficOfScenario, KeepsFlowing) {
   EXPECT_GT(travelled_m / drivers, 150.0);  // in 100 s
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, TrafficOfScenario, ::testing::Values("demo", "city", "quiet"),
+INSTANTIATE_TEST_SUITE_P(Shipped, TrafficOfScenario, ::testing::Values("block", "city", "quiet"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

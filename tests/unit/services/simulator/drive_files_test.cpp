@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/simulator/scenario_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace slammot::simulator {
@@ -27,7 +28,7 @@ std::vector<std::string> words_of(const std::string& line) {
 class WriteDrive : public ::testing::Test {
  protected:
   WriteDrive() {
-    scenario_ = *simulation::shipped_scenario("demo");
+    scenario_ = *load_scenario("block");
     scenario_.duration_s = 2.0;
   }
   slammot::testing::TemporaryFolder folder_;
@@ -60,7 +61,7 @@ TEST_F(WriteDrive, LaysOutScansAsCarmenReadsThem) {
 }
 
 TEST_F(WriteDrive, LaysOutIndoorScansAsTheOldRecord) {
-  scenario_ = *simulation::shipped_scenario("corridor");
+  scenario_ = *load_scenario("corridor");
   scenario_.duration_s = 2.0;
   const auto files = write_drive(scenario_, folder_.path()).files;
   ASSERT_TRUE(files.has_value());

@@ -178,7 +178,7 @@ TEST_P(RunScenario, GivesWhatTheRecordedDriveGives) {
   }
   EXPECT_EQ(live, by_log);
 }
-INSTANTIATE_TEST_SUITE_P(OutsideAndInside, RunScenario, ::testing::Values("demo", "corridor"), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(OutsideAndInside, RunScenario, ::testing::Values("far_crossing", "corridor"), [](const auto& info) { return info.param; });
 
 TEST_F(RunCommand, WantsEitherALogOrAScenario) {
   const auto expect_refused = [&](std::vector<std::string> words, const std::string& reason) {

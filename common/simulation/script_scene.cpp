@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "common/simulation/path.hpp"
+#include "common/simulation/random.hpp"
+#include "common/simulation/scenario.hpp"
+#include "common/simulation/scene.hpp"
+
+namespace slammot::simulation {
+namespace {
+
+using geometry::Pose2;
+using geometry::Vector2;
+
+constexpr double kStride_m = 1.45;
+constexpr double kStep_m = 0.55;
+
+double speed_at(const std::vector<SpeedAt>& profile, double time_s) {
+  if (profile.empty()) return 0.0;
+  const auto after = std::find_if(profile.begin(), profile.end(), [&](const SpeedAt& entry) { return entry.at_s > time_s; });
+  if (after == profile.begin()) return profile.front().mps;
+  if (after == profile.end()) return profile.back().mps;
+  const SpeedAt& before = *(after - 1);
+  return before.mps + (time_s - before.at_s) / (after->at_s - before.at_s) * (after->mps - before.mps);
+}
+
+/// One of the script's objects, or one of its copies.
+class Actor {
+ public:
+  Actor(const ScriptedObject& script, int id, double start_s, Random& random)
+      : script_(script),
+        ahead_m_(random.uniform(0.0, script.ahead_variation_m)),
+        sideways_m_(random.uniform(-script.sideways_variation_m, script.sideways_variation_m)),
+        speed_factor_(1.0 + random.uniform(-script.speed_variation, script.speed_variation)),
+        phase_rad_(random.uniform(0.0, 2.0 * std::numbers::pi)) {
+    std::vector<Vector2> corners;
+    for (const PlaceInWorld& place : script.way) corners.push_back({place.x_m, place.y_m});
+    if (corners.size() == 1) stays_at_ = Pose2{corners[0].x(), corners[0].y(), script.heading_rad};
+    if (corners.size() > 1) path_in_world_ = Path(rounded_way(corners, script.bend_m));
+    object_.id = id;
+    object_.kind = script.kind;
+    object_.size = usual_size(script.kind);
+    if (script.length_m > 0.0) object_.size.length_m = script.length_m;
+    if (script.width_m > 0.0) object_.size.width_m = script.width_m;
+    outline_in_object_ = vehicle_outline(script.kind, object_.size);
+    if (path_in_world_.length_m() > 0.0) speed_mps_ = speed_factor_ * speed_at(script.speed, start_s);
+  }
+
+  bool carries_scanner() const { return script_.carries_scanner; }
+
+  void advance(double time_s, double dt_s) {
+    if (path_in_world_.length_m() <= 0.0) return;
+    speed_mps_ = speed_factor_ * speed_at(script_.speed, time_s);
+    const double left_m = path_in_world_.length_m() - ahead_m_;
+    if (speed_mps_ * dt_s > left_m) speed_mps_ = 0.0;
+    ahead_m_ += speed_mps_ * dt_s;
+    phase_rad_ += 2.0 * std::numbers::pi * speed_mps_ * dt_s / kStride_m;
+  }
+
+  MovingObject object(double time_s) const {
+    MovingObject now = object_;
+    now.world_from_object = stays_at_ ? *stays_at_ : path_in_world_.pose_at(ahead_m_) * Pose2{0.0, sideways_m_, 0.0};
+    now.speed_mps = speed_mps_;
+    const bool is_there = time_s >= script_.from_s && time_s < script_.until_s;
+    if (is_there && now.kind == ObjectClass::pedestrian) {
+      now.outline_in_object = pedestrian_outline(phase_rad_, kStep_m * std::min(1.5, speed_mps_ / 1.35));
+    } else if (is_there) {
+      now.outline_in_object = outline_in_object_;
+    }
+    return now;
+  }
+
+ private:
+  ScriptedObject script_;
+  double ahead_m_;
+  double sideways_m_;
+  double speed_factor_;
+  double phase_rad_;
+  double speed_mps_ = 0.0;
+  std::optional<Pose2> stays_at_;
+  Path path_in_world_;
+  MovingObject object_;
+  Outline outline_in_object_;
+};
+
+class ScriptScene final : public Scene {
+ public:
+  explicit ScriptScene(const ScenarioConfig& config)
+      : stationary_in_world_(build_script(config.script, config.seed)), time_s_(-config.warm_up_s) {
+    Random random(config.seed, Purpose::traffic);
+    std::vector<std::size_t> vehicles;
+    const auto add = [&](const ScriptedObject& script) {
+      if (actors_.empty() || script.carries_scanner) vehicles.push_back(actors_.size());
+      actors_.emplace_back(script, static_cast<int>(actors_.size()), time_s_, random);
+    };
+    add(config.script.vehicle);
+    for (const ScriptedObject& script : config.script.objects) {
+      for (int i = 0; i < script.copies; ++i) add(script);
+    }
+    ridden_ = vehicles[std::min(vehicles.size() - 1, static_cast<std::size_t>(config.ride))];
+  }
+
+  const Outline& stationary_in_world() const override { return stationary_in_world_; }
+
+  void advance(double dt_s) override {
+    for (Actor& actor : actors_) actor.advance(time_s_, dt_s);
+    time_s_ += dt_s;
+  }
+
+  MovingObject vehicle() const override { return actors_[ridden_].object(time_s_); }
+
+  std::vector<MovingObject> others() const override {
+    std::vector<MovingObject> objects;
+    for (std::size_t i = 0; i < actors_.size(); ++i) {
+      if (i == ridden_) continue;
+      objects.push_back(actors_[i].object(time_s_));
+      if (i == 0) objects.back().id = static_cast<int>(actors_.size());  // the first vehicle, seen from another
+    }
+    return objects;
+  }
+
+ private:
+  Outline stationary_in_world_;
+  double time_s_;
+  std::vector<Actor> actors_;         ///< The first vehicle first.
+  std::size_t ridden_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Scene> make_script_scene(const ScenarioConfig& scenario) { return std::make_unique<ScriptScene>(scenario); }
+
+}  // namespace slammot::simulation

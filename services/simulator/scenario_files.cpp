@@ -1,0 +1,78 @@
+#include "services/simulator/scenario_files.hpp"
+
+#include <algorithm>
+
+#include "common/config/overlay.hpp"
+#include "common/config/profiles.hpp"
+#include "services/simulator/scenario_fields.hpp"
+
+namespace slammot::simulator {
+namespace {
+
+using simulation::JunctionId;
+using simulation::ScenarioConfig;
+using simulation::ScriptedObject;
+
+std::optional<std::string> find_fault_of_way(const std::vector<JunctionId>& corners, const simulation::CityConfig& city, const std::string& name) {
+  const std::vector<JunctionId> way = along_streets(corners);
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (way[i].column > city.blocks_east || way[i].row > city.blocks_north) return name + " leaves the city";
+    if (i > 1 && way[i] == way[i - 2]) return name + " turns back in a street";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> find_fault_of_object(const ScriptedObject& object, const std::string& name) {
+  if (object.way.empty()) return name + " has no way";
+  const auto same_place = [](const auto& a, const auto& b) { return a.x_m == b.x_m && a.y_m == b.y_m; };
+  if (std::adjacent_find(object.way.begin(), object.way.end(), same_place) != object.way.end()) return name + " has the same place twice in a row";
+  const auto not_later = [](const auto& a, const auto& b) { return a.at_s >= b.at_s; };
+  if (std::adjacent_find(object.speed.begin(), object.speed.end(), not_later) != object.speed.end()) return name + " has times of its speed out of order";
+  return std::nullopt;
+}
+
+std::optional<std::string> find_fault_of_script(const simulation::ScriptConfig& script) {
+  if (auto fault = find_fault_of_object(script.vehicle, "the vehicle")) return fault;
+  if (script.vehicle.copies != 1) return "the vehicle cannot have copies";
+  for (std::size_t i = 0; i < script.objects.size(); ++i) {
+    if (auto fault = find_fault_of_object(script.objects[i], "object " + std::to_string(i + 1))) return fault;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> find_fault(const ScenarioConfig& scenario) {
+  const auto not_further = [](const auto& a, const auto& b) { return a.x_m >= b.x_m; };
+  if (std::ranges::adjacent_find(scenario.terrain, not_further) != scenario.terrain.end()) return "the terrain's places do not go from west to east";
+  if (scenario.scanner.sweep_s * scenario.scanner.rate_hz > 1.0) return "a sweep of the scanner outlasts its scan";
+  switch (scenario.place) {
+    case simulation::Place::city: {
+      auto fault = find_fault_of_way(scenario.route.junctions, scenario.city, "the vehicle's way");
+      return fault ? fault : find_fault_of_way(scenario.traffic.car_ahead, scenario.city, "the way of the car ahead");
+    }
+    case simulation::Place::office: {
+      const bool is_inside = std::ranges::all_of(scenario.robot_way, [&](const auto& corner) { return corner.column <= scenario.office.cross_corridors + 1; });
+      return scenario.robot_way.size() < 2 || !is_inside ? std::optional<std::string>("the robot's way has under two corners, or leaves the office") : std::nullopt;
+    }
+    case simulation::Place::script: break;
+  }
+  return find_fault_of_script(scenario.script);
+}
+
+files::Result<ScenarioConfig> load_scenario(const std::string& name_or_path, std::optional<std::uint64_t> seed) {
+  const auto file = config::find_file(config::kScenarios, name_or_path);
+  if (!file) return files::Error{"no scenario is named '" + name_or_path + "'; slammot simulate --list names them"};
+  ScenarioConfig scenario;
+  if (const auto fault = config::overlay_message_file(*file, config::bind_stage("Scenario", scenario_fields(), scenario))) {
+    return files::Error{fault->text()};
+  }
+  if (const auto fault = find_fault(scenario)) return files::Error{file->string() + ": " + *fault};
+  scenario.name = file->stem().string();
+  scenario.seed = seed.value_or(scenario.seed);
+  return scenario;
+}
+
+std::vector<std::string> scenario_names() { return config::names_on(config::kScenarios); }
+
+}  // namespace slammot::simulator
