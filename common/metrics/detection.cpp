@@ -35,7 +35,8 @@ Judged judge(const geometry::Vector2& point_m, const Scene& scene, const Countin
     nearest = &object;
   }
   if (nearest_m > kOffObjectM) return {{BeamKind::kStationary}};
-  if (nearest_m > kOnObjectM || std::abs(nearest->speed_mps) < rule.least_speed_mps) return {{BeamKind::kDontCare}};
+  if (nearest_m > kOnObjectM) return {{BeamKind::kDontCare}};
+  if (std::abs(nearest->speed_mps) < rule.least_speed_mps) return {{BeamKind::kStanding}};
   return {{BeamKind::kMoving, nearest->object}, nearest_m};
 }
 

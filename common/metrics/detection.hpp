@@ -13,7 +13,8 @@ enum class BeamKind : unsigned char {
   kNoEcho,
   kStationary,
   kMoving,
-  kDontCare,  ///< Near a box or on an object too slow to count: either label is right.
+  kStanding,  ///< On an object too slow to count: either label is right,
+  kDontCare,  ///< as beside a box, or far away.
 };
 
 struct BeamTruth {

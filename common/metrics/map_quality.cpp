@@ -61,18 +61,6 @@ std::vector<char> cells_near_walls(const OccupancyCells& map, const std::vector<
   return is_near;
 }
 
-std::vector<char> cells_of_movers(const OccupancyCells& map, const Pose2& map_from_world, const std::vector<TrueObject>& moving) {
-  std::vector<char> is_mover(map.state.size(), 0);
-  for (TrueObject object : moving) {
-    object.world_from_object = map_from_world * object.world_from_object;
-    const double reach_m = 0.5 * std::hypot(object.length_m, object.width_m) + map.cell_size_m;
-    for_each_cell(map, cells_around(map, object.world_from_object.translation_m(), reach_m), [&](std::size_t cell, const Vector2& centre_m) {
-      if (map.state[cell] == CellState::kOccupied && distance_to_box_m(centre_m, object) <= 0.5 * map.cell_size_m) is_mover[cell] = 1;
-    });
-  }
-  return is_mover;
-}
-
 /// Places where echoes came from, as cells of their own size over the map's frame.
 class EchoPlaces {
  public:
@@ -93,11 +81,31 @@ class EchoPlaces {
 
  private:
   std::int64_t place(double coordinate_m) const { return static_cast<std::int64_t>(std::floor(coordinate_m / size_m_)); }
-  static std::int64_t key(std::int64_t x, std::int64_t y) { return x * (std::int64_t{1} << 32) + y; }
+  static std::uint64_t key(std::int64_t x, std::int64_t y) { return (static_cast<std::uint64_t>(x) << 32) + static_cast<std::uint64_t>(y); }
 
   double size_m_;
-  std::vector<std::int64_t> places_;
+  std::vector<std::uint64_t> places_;
 };
+
+std::vector<Vector2> moved(std::vector<Vector2> points_m, const Pose2& by) {
+  for (Vector2& point_m : points_m) point_m = by * point_m;
+  return points_m;
+}
+
+/// Occupied cells in which an object in motion was, and from which, where that is known, one sent an echo.
+std::vector<char> cells_of_movers(const OccupancyCells& map, const Pose2& map_from_world, const MapTruth& truth, double tolerance_m) {
+  const EchoPlaces echoes(moved(truth.object_echoes_m, map_from_world), tolerance_m);
+  std::vector<char> is_mover(map.state.size(), 0);
+  for (TrueObject object : truth.moving) {
+    object.world_from_object = map_from_world * object.world_from_object;
+    const double reach_m = 0.5 * std::hypot(object.length_m, object.width_m) + map.cell_size_m;
+    for_each_cell(map, cells_around(map, object.world_from_object.translation_m(), reach_m), [&](std::size_t cell, const Vector2& centre_m) {
+      if (map.state[cell] != CellState::kOccupied || is_mover[cell] || distance_to_box_m(centre_m, object) > 0.5 * map.cell_size_m) return;
+      is_mover[cell] = truth.object_echoes_m.empty() || echoes.is_near(centre_m) ? 1 : 0;
+    });
+  }
+  return is_mover;
+}
 
 }  // namespace
 
@@ -105,13 +113,12 @@ double MapQuality::precision() const { return share(right_cells, occupied_cells)
 double MapQuality::recall() const { return share(mapped_samples, wall_samples); }
 double MapQuality::residue() const { return share(residue_cells, occupied_cells); }
 
-MapQuality map_quality(const OccupancyCells& map, const Pose2& world_from_map, const std::vector<WallSegment>& walls,
-                       const std::vector<TrueObject>& moving, const std::vector<Vector2>& echoes_in_world_m, double tolerance_m) {
+MapQuality map_quality(const OccupancyCells& map, const Pose2& world_from_map, const MapTruth& truth, double tolerance_m) {
   const Pose2 map_from_world = geometry::inverse(world_from_map);
   std::vector<WallSegment> walls_in_map;
-  for (const WallSegment& wall : walls) walls_in_map.push_back({map_from_world * wall.from_m, map_from_world * wall.to_m});
+  for (const WallSegment& wall : truth.walls) walls_in_map.push_back({map_from_world * wall.from_m, map_from_world * wall.to_m});
   const std::vector<char> is_near_wall = cells_near_walls(map, walls_in_map, tolerance_m);
-  const std::vector<char> is_mover = cells_of_movers(map, map_from_world, moving);
+  const std::vector<char> is_mover = cells_of_movers(map, map_from_world, truth, tolerance_m);
   MapQuality quality;
   for (std::size_t cell = 0; cell < map.state.size(); ++cell) {
     if (map.state[cell] != CellState::kOccupied) continue;
@@ -119,9 +126,7 @@ MapQuality map_quality(const OccupancyCells& map, const Pose2& world_from_map, c
     quality.right_cells += is_near_wall[cell] ? 1 : 0;
     quality.residue_cells += !is_near_wall[cell] && is_mover[cell] ? 1 : 0;
   }
-  std::vector<Vector2> echoes_in_map_m;
-  for (const Vector2& echo_m : echoes_in_world_m) echoes_in_map_m.push_back(map_from_world * echo_m);
-  const EchoPlaces echoes(echoes_in_map_m, 0.5 * tolerance_m);
+  const EchoPlaces echoes(moved(truth.wall_echoes_m, map_from_world), 0.5 * tolerance_m);
   for (const WallSegment& wall : walls_in_map) {
     walk(wall, map.cell_size_m, [&](const Vector2& point_m) {
       bool is_known = false;
@@ -131,7 +136,7 @@ MapQuality map_quality(const OccupancyCells& map, const Pose2& world_from_map, c
         is_known = is_known || map.state[cell] != CellState::kUnknown;
         is_mapped = is_mapped || map.state[cell] == CellState::kOccupied;
       });
-      const bool is_seen = echoes_in_world_m.empty() ? is_known : echoes.is_near(point_m);
+      const bool is_seen = truth.wall_echoes_m.empty() ? is_known : echoes.is_near(point_m);
       if (!is_seen) return;
       ++quality.wall_samples;
       quality.mapped_samples += is_mapped ? 1 : 0;

@@ -40,10 +40,17 @@ struct MapQuality {
   double residue() const;          ///< Share of the occupied cells.
 };
 
-/// Compares occupied cells with true walls. A wall counts where it was seen: where one of the points in world, echoes cast
-/// from true poses, is within half the tolerance; without points, where a known cell is within the tolerance.
-/// Moving: every place in which an object was while it moved.
-MapQuality map_quality(const OccupancyCells& map, const geometry::Pose2& world_from_map, const std::vector<WallSegment>& walls,
-                       const std::vector<TrueObject>& moving, const std::vector<geometry::Vector2>& echoes_in_world_m, double tolerance_m);
+/// Everything in the world's frame.
+struct MapTruth {
+  std::vector<WallSegment> walls;
+  std::vector<TrueObject> moving;                  ///< Every place in which an object was while it moved.
+  std::vector<geometry::Vector2> wall_echoes_m;    ///< Echoes of what stands still, cast from true poses; empty where unknown,
+  std::vector<geometry::Vector2> object_echoes_m;  ///< and of objects, moving or not; empty where unknown.
+};
+
+/// Compares occupied cells with the truth. A wall counts where it was seen: an echo is within half the tolerance or, where
+/// echoes are unknown, a known cell is within the tolerance. An object leaves residue only where it sent an echo from, to
+/// within the tolerance, where echoes are known: the ground that a pitching scanner hits is not its doing.
+MapQuality map_quality(const OccupancyCells& map, const geometry::Pose2& world_from_map, const MapTruth& truth, double tolerance_m);
 
 }  // namespace slammot::metrics

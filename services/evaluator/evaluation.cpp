@@ -228,7 +228,8 @@ metrics::OccupancyCells to_cells(const files::MapImage& image) {
 /// What one pass over the echoes of the drive tells.
 struct EchoSurvey {
   std::optional<DetectionEvaluation> detection;
-  std::vector<geometry::Vector2> places_m;  ///< In world, one for each square of a wall that sent an echo.
+  std::vector<geometry::Vector2> wall_places_m;    // in world, one for each square that sent an echo
+  std::vector<geometry::Vector2> object_places_m;
 };
 
 /// One point for each square of the given size that holds a point.
@@ -239,13 +240,13 @@ class Places {
   void add(const geometry::Vector2& point_m) {
     const auto x = static_cast<std::int64_t>(std::floor(point_m.x() / size_m_));
     const auto y = static_cast<std::int64_t>(std::floor(point_m.y() / size_m_));
-    if (keys_.insert(x * (std::int64_t{1} << 32) + y).second) points_m_.push_back(point_m);
+    if (keys_.insert((static_cast<std::uint64_t>(x) << 32) + static_cast<std::uint64_t>(y)).second) points_m_.push_back(point_m);
   }
   std::vector<geometry::Vector2> take() { return std::move(points_m_); }
 
  private:
   double size_m_;
-  std::unordered_set<std::int64_t> keys_;
+  std::unordered_set<std::uint64_t> keys_;
   std::vector<geometry::Vector2> points_m_;
 };
 
@@ -254,14 +255,16 @@ files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResul
   EchoSurvey survey;
   if (!echoes) return survey;
   if (has_objects && !result.labels.empty()) survey.detection.emplace();
-  Places places(0.25 * options.map_tolerance_m);
+  Places walls(0.25 * options.map_tolerance_m);
+  Places objects(0.25 * options.map_tolerance_m);
   const auto least_points = static_cast<std::size_t>(options.rule.least_points);
   const auto fault = echoes([&](const EchoesInWorld& scan) {
     const Scene* const scene = at_stamp(scenes, scan.stamp_ns, kSameStampNs);
     if (!scene) return;
     const auto truth = metrics::beam_truth(scan.points_m, *scene, options.rule);
     for (std::size_t beam = 0; beam < truth.size(); ++beam) {
-      if (truth[beam].kind == metrics::BeamKind::kStationary) places.add(*scan.points_m[beam]);
+      if (truth[beam].kind == metrics::BeamKind::kStationary) walls.add(*scan.points_m[beam]);
+      if (truth[beam].kind == metrics::BeamKind::kMoving || truth[beam].kind == metrics::BeamKind::kStanding) objects.add(*scan.points_m[beam]);
     }
     const LabelsAt* const labels = survey.detection ? at_stamp(result.labels, scan.stamp_ns, kSameStampNs) : nullptr;
     if (!labels) return;
@@ -270,7 +273,8 @@ files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResul
     survey.detection->by_tracking = metrics::add_scan(survey.detection->by_tracking, truth, labels->by_tracking, least_points);
   });
   if (fault) return *fault;
-  survey.places_m = places.take();
+  survey.wall_places_m = walls.take();
+  survey.object_places_m = objects.take();
   return survey;
 }
 
@@ -359,8 +363,9 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, 
     evaluation.tracking = evaluate_tracking(evaluation.scenes, evaluation.counted, truth.object_count, evaluation.track_ids.size(), options.rule);
   }
   if (truth.walls && result.map) {
-    evaluation.map = metrics::map_quality(to_cells(*result.map), evaluation.corrected.world_from_map, *truth.walls,
-                                          moving_objects(truth, options.rule.least_speed_mps), survey->places_m, options.map_tolerance_m);
+    evaluation.map = metrics::map_quality(to_cells(*result.map), evaluation.corrected.world_from_map,
+                                          {*truth.walls, moving_objects(truth, options.rule.least_speed_mps), survey->wall_places_m, survey->object_places_m},
+                                          options.map_tolerance_m);
   }
   add_notes(result, truth, echoes, evaluation);
   return evaluation;

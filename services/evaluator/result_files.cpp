@@ -1,6 +1,7 @@
 #include "services/evaluator/result_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -19,6 +20,8 @@ using files::Error;
 using files::Result;
 using std::filesystem::path;
 
+constexpr double kLargestId = 4294967295.0;
+
 using TracksByStamp = std::map<std::int64_t, std::vector<ResultTrack>>;
 
 std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
@@ -26,6 +29,7 @@ std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
     const auto row = numbers(fields.first(9));
     if (!row) return "a field is no number";
     const auto& v = *row;
+    if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
     ResultTrack track;
     track.stamp_ns = to_ns(v[0]);
     track.track_id = static_cast<std::uint32_t>(v[1]);
@@ -49,6 +53,7 @@ std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks)
     const auto row = numbers(fields);
     if (!row) return "a field is no number";
     const auto& v = *row;
+    if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
     const auto at = tracks.find(to_ns(v[0]));
     if (at == tracks.end()) return "no such scan in tracks.csv";
     for (ResultTrack& track : at->second) {
@@ -108,6 +113,9 @@ Result<files::MapImage> read_map(const path& yaml_file) {
   const std::size_t origin = yaml.find("origin:");
   if (!resolution_m || origin == std::string::npos || std::sscanf(yaml.c_str() + origin, "origin: [%lf, %lf", &image.min_x_m, &image.min_y_m) != 2)
     return Error{yaml_file.string() + ": no resolution or no origin"};
+  constexpr double kFarM = 1e7;
+  if (!(*resolution_m >= 1e-3 && *resolution_m <= 1e3) || !(std::abs(image.min_x_m) <= kFarM && std::abs(image.min_y_m) <= kFarM))
+    return Error{yaml_file.string() + ": no resolution or origin of a map"};
   image.resolution_m = *resolution_m;
   const path pgm_file = path(yaml_file).replace_extension(".pgm");
   const std::string pgm = read_all(pgm_file);

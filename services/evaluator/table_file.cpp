@@ -35,6 +35,8 @@ void split_at_blanks(std::string_view line, std::vector<std::string_view>& field
   }
 }
 
+constexpr double kLargest = 9e9;  // as seconds still a count of nanoseconds in 64 bits
+
 std::optional<Error> cut_fault(const std::filesystem::path& path, const LineReader& reader) {
   if (reader.is_cut()) return Error{path.string() + ": the file is cut off or damaged"};
   return std::nullopt;
@@ -99,7 +101,7 @@ std::optional<std::vector<double>> numbers(std::span<const std::string_view> fie
   for (const std::string_view field : fields) {
     double value = 0.0;
     const auto [end, fault] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (fault != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) return std::nullopt;
+    if (fault != std::errc() || end != field.data() + field.size() || !(std::abs(value) <= kLargest)) return std::nullopt;
     values.push_back(value);
   }
   return values;

@@ -28,7 +28,7 @@ std::vector<std::string> columns_beginning_with(const std::filesystem::path& pat
 /// at least so many fields.
 std::optional<files::Error> read_fields(const std::filesystem::path& path, std::size_t least_fields, const TakeRow& take);
 
-/// The numbers in the fields; nullopt where one is no finite number.
+/// The numbers in the fields; nullopt where one is no finite number, or too large for a clock or a map of the earth.
 std::optional<std::vector<double>> numbers(std::span<const std::string_view> fields);
 
 /// Seconds as nanoseconds.

@@ -14,6 +14,8 @@ using files::Error;
 using files::Result;
 using std::filesystem::path;
 
+constexpr double kLongestWallM = 1e5;
+
 path with_ending(const path& prefix, const char* ending) { return prefix.string() + ending; }
 
 void sort_by_stamp(metrics::Trajectory& trajectory) {
@@ -65,6 +67,7 @@ std::optional<Error> read_walls(const path& file, Truth& truth) {
   return read_csv(file, {"ax", "ay", "bx", "by"}, [&](auto fields) -> RowFault {
     const auto row = numbers(fields);
     if (!row) return "a field is no number";
+    if (std::hypot((*row)[2] - (*row)[0], (*row)[3] - (*row)[1]) > kLongestWallM) return "a wall longer than a city";
     truth.walls->push_back({{(*row)[0], (*row)[1]}, {(*row)[2], (*row)[3]}});
     return std::nullopt;
   });

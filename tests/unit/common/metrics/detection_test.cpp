@@ -45,7 +45,7 @@ TEST(BeamTruth, TakesNoMoreEchoesThanTheObjectSent) {
 TEST(BeamTruth, DoesNotAskAboutAnObjectThatStands) {
   TrueObject car = car_at(10.0, 0.0);
   car.speed_mps = 0.1;
-  EXPECT_EQ(beam_truth({{{8.0, 0.0}}}, {0, {}, {car}, {}}, kRule)[0].kind, X);
+  EXPECT_EQ(beam_truth({{{8.0, 0.0}}}, {0, {}, {car}, {}}, kRule)[0].kind, BeamKind::kStanding);
 }
 
 TEST(Detection, CountsPointsByTruthAndLabel) {

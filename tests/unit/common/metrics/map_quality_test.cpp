@@ -24,7 +24,7 @@ OccupancyCells mapped_wall() {
 }
 
 TEST(MapQuality, OfAPerfectMapIsPerfect) {
-  const MapQuality quality = map_quality(mapped_wall(), {}, kWall, {}, {}, kToleranceM);
+  const MapQuality quality = map_quality(mapped_wall(), {}, {kWall, {}, {}, {}}, kToleranceM);
   EXPECT_EQ(quality.precision(), 1.0);
   EXPECT_EQ(quality.recall(), 1.0);
   EXPECT_EQ(quality.residue(), 0.0);
@@ -32,15 +32,15 @@ TEST(MapQuality, OfAPerfectMapIsPerfect) {
 
 TEST(MapQuality, MissesAWallThatIsKnownToBeFreeAndIgnoresAnUnknownOne) {
   OccupancyCells map = free_map();
-  EXPECT_EQ(map_quality(map, {}, kWall, {}, {}, kToleranceM).recall(), 0.0);
+  EXPECT_EQ(map_quality(map, {}, {kWall, {}, {}, {}}, kToleranceM).recall(), 0.0);
   map.state.assign(map.state.size(), CellState::kUnknown);
-  EXPECT_EQ(map_quality(map, {}, kWall, {}, {}, kToleranceM).wall_samples, 0U);
+  EXPECT_EQ(map_quality(map, {}, {kWall, {}, {}, {}}, kToleranceM).wall_samples, 0U);
 }
 
 TEST(MapQuality, AsksOnlyForWallsThatSentEchoesWhereTheseAreKnown) {
   OccupancyCells map = free_map();
   occupy(map, 10, 25);
-  const MapQuality quality = map_quality(map, {}, kWall, {}, {{2.1, 5.1}}, kToleranceM);
+  const MapQuality quality = map_quality(map, {}, {kWall, {}, {{2.1, 5.1}}, {}}, kToleranceM);
   EXPECT_GT(quality.wall_samples, 0U);
   EXPECT_LT(quality.wall_samples, 5U);
   EXPECT_EQ(quality.recall(), 1.0);
@@ -53,15 +53,24 @@ TEST(MapQuality, CallsItResidueWhereOnlyAMoverWas) {
   TrueObject walker = car_at(2.0, 2.0);
   walker.length_m = walker.width_m = 0.5;
   TrueObject along_the_wall = car_at(5.0, 5.1);
-  const MapQuality quality = map_quality(map, {}, kWall, {walker, along_the_wall}, {}, kToleranceM);
+  const MapQuality quality = map_quality(map, {}, {kWall, {walker, along_the_wall}, {}, {}}, kToleranceM);
   EXPECT_EQ(quality.residue_cells, 1U);
   EXPECT_EQ(quality.occupied_cells - quality.right_cells, 2U);
+}
+
+TEST(MapQuality, BlamesAMoverOnlyForCellsFromWhichItSentAnEcho) {
+  OccupancyCells map = free_map();
+  occupy(map, 10, 10);  // 2.1, 2.1
+  occupy(map, 20, 10);  // 4.1, 2.1
+  TrueObject bus = car_at(3.0, 2.0);
+  const MapQuality quality = map_quality(map, {}, {kWall, {bus}, {}, {{2.0, 2.0}}}, kToleranceM);
+  EXPECT_EQ(quality.residue_cells, 1U);
 }
 
 TEST(MapQuality, MovesWithTheWorld) {
   const geometry::Pose2 world_from_map{100.0, -50.0, 1.2};
   const std::vector<WallSegment> wall = {{world_from_map * kWall[0].from_m, world_from_map * kWall[0].to_m}};
-  const MapQuality quality = map_quality(mapped_wall(), world_from_map, wall, {}, {}, kToleranceM);
+  const MapQuality quality = map_quality(mapped_wall(), world_from_map, {wall, {}, {}, {}}, kToleranceM);
   EXPECT_EQ(quality.precision(), 1.0);
   EXPECT_EQ(quality.recall(), 1.0);
 }
