@@ -6,6 +6,14 @@
 #include <limits>
 
 namespace slammot::grids {
+namespace {
+
+double seen_over_m(const CellMoments& moments) {
+  if (moments.first_seen_at_m <= 0.0F) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(moments.last_seen_at_m) - static_cast<double>(moments.first_seen_at_m);
+}
+
+}  // namespace
 
 SurfelMap::SurfelMap(const GridWindow& window, double weight_limit)
     : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1) {}
@@ -30,10 +38,12 @@ void SurfelMap::mark_stale_around(Cell cell) {
   }
 }
 
-void SurfelMap::add(const Eigen::Vector2d& point_m) {
+void SurfelMap::add(const Eigen::Vector2d& point_m, double odometer_m) {
   const Cell cell = window_.cell_at(point_m.x(), point_m.y());
   if (!window_.contains(cell)) return;
   CellMoments& moments = moments_[static_cast<std::size_t>(make_slot(cell))];
+  if (moments.weight <= 0.0F) moments.first_seen_at_m = static_cast<float>(odometer_m);
+  moments.last_seen_at_m = static_cast<float>(odometer_m);
   if (moments.weight >= weight_limit_) {
     const float keep = (weight_limit_ - 1.0F) / moments.weight;
     for (float* sum : {&moments.weight, &moments.x, &moments.y, &moments.xx, &moments.xy, &moments.yy}) *sum *= keep;
@@ -103,7 +113,7 @@ SurfelView SurfelMap::view_of(std::int32_t slot) const {
   if (shapes_[place].stale) shapes_[place] = shape_at(cells_[place]);
   const Shape& shape = shapes_[place];
   return {cells_[place], mean_of(slot), {shape.normal_x, shape.normal_y}, shape.spread_m2, moments_[place].weight,
-          moments_[place].own_echoes};
+          moments_[place].own_echoes, seen_over_m(moments_[place])};
 }
 
 std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius) const {

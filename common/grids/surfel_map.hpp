@@ -18,6 +18,7 @@ struct SurfelView {
   double spread_m2 = 0.0;                             ///< Variance of the echoes along the normal.
   double weight = 0.0;                                ///< Echoes in the mean, at most the limit.
   double own_echoes = 0.0;                            ///< Echoes since the map was moved to this window.
+  double seen_over_m = 0.0;                           ///< Way of the vehicle between the first and the last echo.
 };
 
 /// First and second moments of one cell's echoes about the cell's centre.
@@ -26,6 +27,7 @@ struct CellMoments {
   float x = 0.0F, y = 0.0F;                 ///< Sums [m].
   float xx = 0.0F, xy = 0.0F, yy = 0.0F;    ///< Sums [m^2].
   float own_echoes = 0.0F;
+  float first_seen_at_m = 0.0F, last_seen_at_m = 0.0F;   ///< Odometer of the vehicle.
 };
 
 /// Echoes of stationary surfaces, kept as moments by cell: sub-cell accuracy for matching at constant memory.
@@ -40,8 +42,9 @@ class SurfelMap {
   const GridWindow& window() const { return window_; }
   std::size_t capacity_in_use() const { return moments_.size(); }
 
-  /// Adds one echo; nothing happens outside the window.
-  void add(const Eigen::Vector2d& point_m);
+  /// Adds one echo, seen when the vehicle's odometer stood at odometer_m; nothing happens outside the window. What is
+  /// seen at 0, where the drive begins, counts as seen for ever: there is nothing older to hold it against.
+  void add(const Eigen::Vector2d& point_m, double odometer_m = 0.0);
 
   /// Forgets the surface in a cell.
   void erase(Cell cell);

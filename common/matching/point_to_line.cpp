@@ -45,9 +45,10 @@ NormalEquations linearize(const std::vector<MatchPoint>& points, const grids::Su
     const geometry::Vector2 offset_m = at_m - surfel->mean_m;
     if (offset_m.squaredNorm() > gate_m * gate_m) continue;
     const geometry::Vector2 by_heading_m(-turned_m.y(), turned_m.x());
+    const double share = surfel->seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
     const auto add = [&](const geometry::Vector2& direction, double sigma_m) {
       const double residual_m = direction.dot(offset_m);
-      const double weight = robust_weight(residual_m, config.robust_scale_m) / (sigma_m * sigma_m);
+      const double weight = share * robust_weight(residual_m, config.robust_scale_m) / (sigma_m * sigma_m);
       equations.add({direction.x(), direction.y(), direction.dot(by_heading_m)}, residual_m, weight);
       return residual_m;
     };

@@ -18,7 +18,9 @@ struct PointToLineConfig {
   int fine_steps = 8;              ///< then with the narrow one.
   double coarse_gate_m = 0.6;      ///< Points farther than this from the nearest surfel do not count.
   double fine_gate_m = 0.2;
-  double robust_scale_m = 0.10;    ///< Residual at which a point's weight has fallen to a quarter.
+  double proven_after_m = 2.0;     ///< A surfel counts in full once it was seen from places this far apart.
+  double unproven_share = 0.02;    ///< Before, this much: what moves along with the vehicle looks as if it stood nearby.
+  double robust_scale_m = 0.05;    ///< Residual at which a point's weight has fallen to a quarter.
   double information_share = 0.10; ///< Points of one scan share the map's error: together they count for this share.
   double converged_m = 1e-4;
 };

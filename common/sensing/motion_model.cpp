@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 namespace slammot::sensing {
 namespace {
 
@@ -9,39 +11,42 @@ using geometry::Pose2;
 
 double squared(double value) { return value * value; }
 
-/// One scalar measurement of the Kalman filter.
-void update(MotionCalibration& calibration, const Eigen::Vector3d& h, double innovation, double variance) {
-  const Eigen::Vector3d Ph = calibration.covariance * h;
-  const double S = h.dot(Ph) + variance;
-  if (squared(innovation) > 9.0 * S) return;  // a wrong match or a slipping wheel tells nothing about the calibration
-  const Eigen::Vector3d K = Ph / S;
-  calibration.state += K * innovation;
-  calibration.covariance -= K * Ph.transpose();
+constexpr double kSurprise = 16.3;  // chi-square, 3 degrees of freedom, 99.9 %
+
+/// Derivative of the corrected step by the calibration.
+Eigen::Matrix3d step_by_calibration(const Pose2& by_wheels, double duration_s, const MotionCalibration& calibration) {
+  const double distance_m = std::hypot(by_wheels.x_m, by_wheels.y_m);
+  const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
+  const geometry::Vector2 turned_m = geometry::rotation(0.5 * turn_bias_rad) * by_wheels.translation_m();
+  const geometry::Vector2 by_turn_m = 0.5 * (1.0 + calibration.x()) * geometry::Vector2(-turned_m.y(), turned_m.x());
+  Eigen::Matrix3d J;
+  J << turned_m.x(), by_turn_m.x() * duration_s, by_turn_m.x() * distance_m,
+       turned_m.y(), by_turn_m.y() * duration_s, by_turn_m.y() * distance_m,
+       0.0, duration_s, distance_m;
+  return J;
 }
 
 }  // namespace
 
-MotionCalibration uncalibrated(const MotionModelConfig& config) {
-  MotionCalibration calibration;
-  calibration.covariance.diagonal() << squared(config.scale_prior), squared(config.heading_rate_bias_prior_radps),
+MotionEstimate at_start(const MotionModelConfig& config) {
+  MotionEstimate estimate;
+  estimate.covariance.diagonal().tail<3>() << squared(config.scale_prior), squared(config.heading_rate_bias_prior_radps),
       squared(config.heading_per_metre_bias_prior);
-  return calibration;
+  return estimate;
 }
 
 geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, double duration_s,
                                       const MotionCalibration& calibration, const MotionModelConfig& config) {
   const Pose2& wheels = before_from_base_by_wheels;
   const double distance_m = std::hypot(wheels.x_m, wheels.y_m);
-  const double turn_bias_rad = calibration.state.y() * duration_s + calibration.state.z() * distance_m;
+  const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
   // Half of the missing turn happened before the middle of the step.
-  const geometry::Vector2 moved_m = geometry::rotation(0.5 * turn_bias_rad) * wheels.translation_m() * calibration.scale();
+  const geometry::Vector2 moved_m = geometry::rotation(0.5 * turn_bias_rad) * wheels.translation_m() * (1.0 + calibration.x());
   geometry::UncertainPose2 step;
   step.pose = {moved_m.x(), moved_m.y(), geometry::wrap_angle(wheels.heading_rad + turn_bias_rad)};
-  const double position_m = config.position_noise_m + distance_m * (config.position_noise_per_m + std::sqrt(calibration.covariance(0, 0)));
+  const double position_m = config.position_noise_m + distance_m * config.position_noise_per_m;
   const double heading_rad = config.heading_noise_rad + config.heading_noise_per_m * distance_m +
-                             config.heading_noise_per_rad * std::abs(wheels.heading_rad) +
-                             std::sqrt(calibration.covariance(1, 1)) * duration_s +
-                             std::sqrt(calibration.covariance(2, 2)) * distance_m;
+                             config.heading_noise_per_rad * std::abs(wheels.heading_rad);
   step.covariance.diagonal() << squared(position_m), squared(position_m), squared(heading_rad);
   return step;
 }
@@ -58,21 +63,53 @@ geometry::UncertainPose2 predict_step_at_velocity(double speed_mps, double yaw_r
   return step;
 }
 
-MotionCalibration calibrated(const MotionCalibration& calibration, const Pose2& before_from_base_by_wheels,
-                             const Pose2& before_from_base_by_match, double duration_s, const MotionModelConfig& config) {
-  constexpr double kLeastStep_m = 0.02;
-  MotionCalibration learned = calibration;
+MotionEstimate moved_by_wheels(const MotionEstimate& before, const Pose2& before_from_base_by_wheels, double duration_s,
+                               const MotionModelConfig& config) {
+  const geometry::UncertainPose2 step = predict_step(before_from_base_by_wheels, duration_s, before.calibration, config);
+  MotionEstimate after = moved(before, step);
+  const geometry::Matrix3 by_calibration = geometry::compound_jacobian_second(before.odom_from_base) *
+                                           step_by_calibration(before_from_base_by_wheels, duration_s, before.calibration);
+  const geometry::Matrix3 cross = after.covariance.topRightCorner<3, 3>();
+  const geometry::Matrix3 of_calibration = before.covariance.bottomRightCorner<3, 3>();
+  const geometry::Matrix3 mixed = by_calibration * cross.transpose();
+  after.covariance.topLeftCorner<3, 3>() += by_calibration * of_calibration * by_calibration.transpose() + mixed + mixed.transpose();
+  after.covariance.topRightCorner<3, 3>() += by_calibration * of_calibration;
+  after.covariance.bottomLeftCorner<3, 3>() = after.covariance.topRightCorner<3, 3>().transpose();
   const double distance_m = std::hypot(before_from_base_by_wheels.x_m, before_from_base_by_wheels.y_m);
-  const double forward_m = before_from_base_by_wheels.x_m;
-  if (distance_m < kLeastStep_m) return learned;
-  update(learned, {forward_m, 0.0, 0.0}, before_from_base_by_match.x_m - forward_m * calibration.scale(),
-         squared(config.match_position_noise_m) + squared(config.position_noise_per_m * distance_m));
-  const double turn_rad = geometry::wrap_angle(before_from_base_by_match.heading_rad - before_from_base_by_wheels.heading_rad);
-  update(learned, {0.0, duration_s, distance_m},
-         turn_rad - calibration.state.y() * duration_s - calibration.state.z() * distance_m,
-         squared(config.match_heading_noise_rad) + squared(config.heading_noise_per_m * distance_m) +
-             squared(config.heading_noise_per_rad * before_from_base_by_wheels.heading_rad));
-  return learned;
+  after.covariance(3, 3) += squared(config.scale_walk_per_sqrt_m) * distance_m;
+  after.covariance(4, 4) += squared(config.heading_rate_bias_walk) * duration_s;
+  return after;
+}
+
+MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose2& before_from_base) {
+  MotionEstimate after = before;
+  after.odom_from_base = before.odom_from_base * before_from_base.pose;
+  const geometry::Matrix3 by_before = geometry::compound_jacobian_first(before.odom_from_base, before_from_base.pose);
+  const geometry::Matrix3 by_step = geometry::compound_jacobian_second(before.odom_from_base);
+  after.covariance.topLeftCorner<3, 3>() = by_before * before.covariance.topLeftCorner<3, 3>() * by_before.transpose() +
+                                           by_step * before_from_base.covariance * by_step.transpose();
+  after.covariance.topRightCorner<3, 3>() = by_before * before.covariance.topRightCorner<3, 3>();
+  after.covariance.bottomLeftCorner<3, 3>() = after.covariance.topRightCorner<3, 3>().transpose();
+  return after;
+}
+
+MotionEstimate matched(const MotionEstimate& predicted, const geometry::UncertainPose2& odom_from_base) {
+  MotionEstimate estimate = predicted;
+  estimate.odom_from_base = odom_from_base.pose;
+  const geometry::Matrix3 prior = predicted.covariance.topLeftCorner<3, 3>();
+  const geometry::Matrix3 cross = predicted.covariance.bottomLeftCorner<3, 3>();
+  const Eigen::Vector3d surprise(odom_from_base.pose.x_m - predicted.odom_from_base.x_m,
+                                 odom_from_base.pose.y_m - predicted.odom_from_base.y_m,
+                                 geometry::wrap_angle(odom_from_base.pose.heading_rad - predicted.odom_from_base.heading_rad));
+  const Eigen::LDLT<geometry::Matrix3> factors(prior);
+  const bool is_credible = surprise.dot(factors.solve(surprise)) < kSurprise;
+  const geometry::Matrix3 gain = is_credible ? geometry::Matrix3(factors.solve(cross.transpose()).transpose()) : geometry::Matrix3::Zero();
+  estimate.calibration += gain * surprise;
+  estimate.covariance.topLeftCorner<3, 3>() = odom_from_base.covariance;
+  estimate.covariance.bottomLeftCorner<3, 3>() = gain * odom_from_base.covariance;
+  estimate.covariance.topRightCorner<3, 3>() = estimate.covariance.bottomLeftCorner<3, 3>().transpose();
+  estimate.covariance.bottomRightCorner<3, 3>() -= gain * (prior - odom_from_base.covariance) * gain.transpose();
+  return estimate;
 }
 
 }  // namespace slammot::sensing

@@ -14,23 +14,33 @@ struct MotionModelConfig {
   double scale_prior = 0.02;                    ///< Of the factor on wheel distance, about 1.
   double heading_rate_bias_prior_radps = 0.005;
   double heading_per_metre_bias_prior = 0.02;   ///< [rad/m]: unequal wheels.
-  double match_position_noise_m = 0.015;        ///< How far the matched step from scan to scan is off,
-  double match_heading_noise_rad = 0.003;       ///< as calibration should see it.
+  double scale_walk_per_sqrt_m = 5e-5;          ///< How the scale wanders with the distance,
+  double heading_rate_bias_walk = 5e-5;         ///< and the heading-rate bias with time [rad/s per sqrt(s)].
   double standstill_acceleration_mps2 = 3.0;    ///< Without odometry: how much the velocity may have changed.
   double standstill_turn_acceleration_radps2 = 1.0;
 };
 
-/// Systematic errors of the odometry, estimated while driving: Kalman filter over
-/// (scale - 1 [-], heading-rate bias [rad/s], heading bias by distance [rad/m]).
-struct MotionCalibration {
-  Eigen::Vector3d state = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double scale() const { return 1.0 + state.x(); }
+/// Systematic errors of the odometry: (scale - 1 [-], heading-rate bias [rad/s], heading bias by distance [rad/m]).
+using MotionCalibration = Eigen::Vector3d;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Where the vehicle is and what is wrong with its odometry, as one Gaussian. They belong together: an odometry that is
+/// one percent short makes every prediction late by a little, and only what the laser says beyond all of these
+/// predictions, not the single step, tells it from noise. Taken apart, the prediction's error leaks into the map.
+struct MotionEstimate {
+  geometry::Pose2 odom_from_base;
+  MotionCalibration calibration = MotionCalibration::Zero();
+  Matrix6 covariance = Matrix6::Zero();   ///< Of (x [m], y [m], heading [rad], calibration); the pose against the local map.
+
+  geometry::UncertainPose2 uncertain_pose() const { return {odom_from_base, covariance.topLeftCorner<3, 3>()}; }
+  double scale() const { return 1.0 + calibration.x(); }
 };
 
-MotionCalibration uncalibrated(const MotionModelConfig& config);
+/// At the origin of odom, with nothing known of the odometry.
+MotionEstimate at_start(const MotionModelConfig& config);
 
-/// Motion over one step as odometry, corrected by the calibration, has it. The covariance is the step's own.
+/// Motion over one step as odometry, corrected by the calibration, has it. The covariance is the step's own: that of the
+/// calibration is not in it.
 /// before_from_base_by_wheels: difference of two odometry readings duration_s apart.
 geometry::UncertainPose2 predict_step(const geometry::Pose2& before_from_base_by_wheels, double duration_s,
                                       const MotionCalibration& calibration, const MotionModelConfig& config);
@@ -39,9 +49,15 @@ geometry::UncertainPose2 predict_step(const geometry::Pose2& before_from_base_by
 geometry::UncertainPose2 predict_step_at_velocity(double speed_mps, double yaw_rate_radps, double duration_s,
                                                   const MotionModelConfig& config);
 
-/// Learns from what the match says about the same step.
-MotionCalibration calibrated(const MotionCalibration& calibration, const geometry::Pose2& before_from_base_by_wheels,
-                             const geometry::Pose2& before_from_base_by_match, double duration_s,
-                             const MotionModelConfig& config);
+/// After a step by wheels, before the scan is matched.
+MotionEstimate moved_by_wheels(const MotionEstimate& before, const geometry::Pose2& before_from_base_by_wheels,
+                               double duration_s, const MotionModelConfig& config);
+
+/// After a step that tells nothing of the wheels.
+MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose2& before_from_base);
+
+/// What the match, which took the prediction's pose for its prior, says of the calibration too: conditional Gaussian.
+/// A surprise beyond what the prediction allows is a wrong match or a slipping wheel: it moves the pose alone.
+MotionEstimate matched(const MotionEstimate& predicted, const geometry::UncertainPose2& odom_from_base);
 
 }  // namespace slammot::sensing

@@ -99,12 +99,13 @@ inline bool is_believable(const geometry::Pose2& pose) {
   return std::abs(pose.x_m) < kFarthest_m && std::abs(pose.y_m) < kFarthest_m && std::isfinite(pose.heading_rad);
 }
 
-/// Whether a matrix that was read can be a covariance of a pose or of a calibration.
-inline bool is_believable(const geometry::Matrix3& covariance) {
+/// Whether a matrix that was read can be a covariance of a pose, or of a pose and a calibration.
+template <int size>
+bool is_believable(const Eigen::Matrix<double, size, size>& covariance) {
   constexpr double kLargest = 1e6;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < size; ++i) {
     if (!(covariance(i, i) >= 0.0 && covariance(i, i) < kLargest)) return false;
-    for (int j = 0; j < 3; ++j) {
+    for (int j = 0; j < size; ++j) {
       if (!(covariance(i, j) * covariance(i, j) <= 1.001 * covariance(i, i) * covariance(j, j))) return false;
     }
   }

@@ -76,7 +76,8 @@ bool is_possible(const grids::CellMoments& moments, double cell_size_m) {
   const double farthest_m = cell_size_m * static_cast<double>(moments.weight);
   return moments.weight > 0.0F && std::isfinite(moments.weight) && std::abs(moments.x) <= farthest_m &&
          std::abs(moments.y) <= farthest_m && std::isfinite(moments.xx) && std::isfinite(moments.xy) &&
-         std::isfinite(moments.yy) && std::isfinite(moments.own_echoes);
+         std::isfinite(moments.yy) && std::isfinite(moments.own_echoes) &&
+         std::isfinite(moments.first_seen_at_m) && std::isfinite(moments.last_seen_at_m);
 }
 
 }  // namespace
@@ -94,13 +95,22 @@ Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation
 
 void LocalMap::integrate(std::int64_t stamp_ns, const Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
   if (scans_ == 0) first_stamp_ns_ = stamp_ns;
+  count_way(origin_m);
   last_stamp_ns_ = stamp_ns;
   ++scans_;
   evidence_.integrate(origin_m, rays, beam_step_rad);
   for (const grids::Ray& ray : rays) {
-    if (ray.echo == grids::Echo::kStationary) surfels_.add(ray.end_m);
+    if (ray.echo == grids::Echo::kStationary) surfels_.add(ray.end_m, odometer_m_);
   }
   if (scans_ % kScansBetweenCleanings == 0) forget_surfels_in_free_space();
+}
+
+void LocalMap::count_way(const Vector2& origin_m) {
+  constexpr double kMoreThanJitter_m = 0.1;
+  const double way_m = counted_to_m_ ? (origin_m - *counted_to_m_).norm() : 0.0;
+  if (counted_to_m_ && way_m < kMoreThanJitter_m) return;
+  odometer_m_ += way_m;
+  counted_to_m_ = origin_m;
 }
 
 void LocalMap::forget_surfels_in_free_space() {
@@ -113,7 +123,7 @@ void LocalMap::forget_surfels_in_free_space() {
 
 void LocalMap::restore_stationary(const Vector2& point_in_odom_m) {
   evidence_.restore_stationary(point_in_odom_m);
-  surfels_.add(point_in_odom_m);
+  surfels_.add(point_in_odom_m, odometer_m_);
 }
 
 void LocalMap::expect(const Vector2& origin_in_odom_m, const Vector2& end_in_odom_m, bool has_echo, double max_range_m,
@@ -232,6 +242,9 @@ void LocalMap::write(std::vector<std::byte>& bytes) const {
   put(bytes, first_stamp_ns_);
   put(bytes, last_stamp_ns_);
   put(bytes, scans_);
+  put(bytes, odometer_m_);
+  put(bytes, counted_to_m_.has_value());
+  put(bytes, counted_to_m_.value_or(Vector2::Zero()));
 }
 
 std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from) {
@@ -254,6 +267,12 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
   from.get(map.first_stamp_ns_);
   from.get(map.last_stamp_ns_);
   from.get(map.scans_);
+  bool has_counted = false;
+  Vector2 counted_to_m = Vector2::Zero();
+  from.get(map.odometer_m_);
+  from.get(has_counted);
+  from.get(counted_to_m);
+  if (has_counted) map.counted_to_m_ = counted_to_m;
   const auto is_of_map = [&](std::size_t count) { return count == window.cell_count(); };
   const auto is_of_surfels = [&](const StoredSurfel& one) { return is_possible(one.moments, config.surfel_size_m); };
   const bool fits = from.ok() && is_like(window, evidence_window(config, {0.0, 0.0})) &&
@@ -261,7 +280,7 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
                     is_of_map(map.inherited_so_.size()) && is_of_map(map.inherited_mo_.size()) &&
                     std::all_of(surfels.begin(), surfels.end(), is_of_surfels) &&
                     std::all_of(inherited_surfels.begin(), inherited_surfels.end(), is_of_surfels) &&
-                    is_believable(map.odom_from_submap_);
+                    is_believable(map.odom_from_submap_) && map.odometer_m_ >= 0.0 && std::isfinite(map.odometer_m_) && counted_to_m.allFinite();
   if (!fits) return std::nullopt;
   map.evidence_ = grids::EvidenceGrid(window, config.evidence);
   map.evidence_.set_cells(std::move(so), std::move(mo));

@@ -15,7 +15,7 @@ namespace slammot::localization {
 struct LocalMapConfig {
   double side_m = 240.0;                ///< Of the square held around the vehicle.
   double cell_size_m = 0.2;             ///< Of SO-map and MO-map.
-  double surfel_size_m = 0.2;           ///< Of the cells whose echoes are averaged for matching.
+  double surfel_size_m = 0.5;           ///< Of the cells whose echoes are averaged for matching: docs/decisions/0007.
   double surfel_weight_limit = 1000.0;    ///< Echoes after which a surfel's mean becomes a running one.
   double new_map_after_m = 60.0;        ///< Distance from the map's centre at which a new one begins, or
   double new_map_after_travel_m = 100.0;///< distance travelled in it.
@@ -66,6 +66,7 @@ class LocalMap {
   static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from);
 
  private:
+  void count_way(const geometry::Vector2& origin_m);
   void forget_surfels_in_free_space();
   void leave_behind_what_was_not_seen();
   std::optional<flow::Surfel> own_surfel(const grids::SurfelView& surfel) const;
@@ -82,6 +83,8 @@ class LocalMap {
   std::int64_t first_stamp_ns_ = 0;
   std::int64_t last_stamp_ns_ = 0;
   std::uint32_t scans_ = 0;
+  double odometer_m_ = 0.0;                 ///< Way of the laser, in steps that are more than jitter.
+  std::optional<geometry::Vector2> counted_to_m_;
 };
 
 }  // namespace slammot::localization

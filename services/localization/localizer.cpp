@@ -17,12 +17,10 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7431;  // "slammot1": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7432;  // "slammot2": the digit counts the forms of a checkpoint
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
-
-UncertainPose2 exactly(const Pose2& pose) { return {pose, geometry::Matrix3::Zero()}; }
 
 /// What a point does to the maps.
 grids::Echo echo_of(PointLabel label) {
@@ -48,7 +46,7 @@ bool is_inside_box(const Vector2& offset_m, double heading_rad, double half_leng
 }  // namespace
 
 Localizer::Localizer(const LocalizerConfig& config)
-    : config_(config), calibration_(sensing::uncalibrated(config.motion)), searcher_(config.search) {}
+    : config_(config), estimate_(sensing::at_start(config.motion)), searcher_(config.search) {}
 
 void Localizer::add_odometry(const sensing::Odometry& sample) { odometry_.add(sample); }
 
@@ -73,8 +71,9 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
   if (wheel_from_base && last_->has_wheels) {
     const Pose2 by_wheels = geometry::inverse(last_->wheel_from_base) * *wheel_from_base;
     if (std::hypot(by_wheels.x_m, by_wheels.y_m) <= config_.fastest_mps * step.duration_s) {
-      step.by_wheels = by_wheels;
-      step.before_from_base = sensing::predict_step(by_wheels, step.duration_s, calibration_, config_.motion);
+      step.is_by_wheels = true;
+      step.after = sensing::moved_by_wheels(estimate_, by_wheels, step.duration_s, config_.motion);
+      step.before_from_base = geometry::inverse(estimate_.odom_from_base) * step.after.odom_from_base;
       return step;
     }
     ++counters_.odometry_jumps;
@@ -82,12 +81,14 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
     ++counters_.without_odometry;
   }
   const double extrapolated_s = std::min(step.duration_s, config_.longest_step_s);
-  step.before_from_base =
+  geometry::UncertainPose2 before_from_base =
       sensing::predict_step_at_velocity(last_->speed_mps, last_->yaw_rate_radps, extrapolated_s, config_.motion);
   if (!last_->knows_velocity) {
     const double sigma_m = config_.fastest_mps / 3.0 * extrapolated_s;  // a log may begin in full drive
-    step.before_from_base.covariance.topLeftCorner<2, 2>() += sigma_m * sigma_m * geometry::Matrix2::Identity();
+    before_from_base.covariance.topLeftCorner<2, 2>() += sigma_m * sigma_m * geometry::Matrix2::Identity();
   }
+  step.after = sensing::moved(estimate_, before_from_base);
+  step.before_from_base = before_from_base.pose;
   return step;
 }
 
@@ -120,12 +121,13 @@ bool Localizer::is_vague(const UncertainPose2& prior) const {
 Pose2 Localizer::search(const UncertainPose2& prior) {
   ++counters_.searches;
   const auto reach = [&](int axis) { return config_.search_sigmas * std::sqrt(prior.covariance(axis, axis)); };
-  const matching::SearchWindow window{reach(0), reach(1), std::min(reach(2), std::numbers::pi)};
+  const double farthest_m = config_.search_reach_m;  // beyond it there is no target, however unsure the prediction is
+  const matching::SearchWindow window{std::min(reach(0), farthest_m), std::min(reach(1), farthest_m), std::min(reach(2), std::numbers::pi)};
   std::vector<matching::TargetPoint> targets;
   for (const grids::SurfelView& surfel : map_.surfels().all()) {
     targets.push_back({static_cast<float>(surfel.mean_m.x()), static_cast<float>(surfel.mean_m.y()), 1.0F});
   }
-  searcher_.set_target(targets, {prior.pose.translation_m(), config_.search_reach_m, config_.search_reach_m, std::max(reach(0), reach(1))});
+  searcher_.set_target(targets, {prior.pose.translation_m(), config_.search_reach_m, config_.search_reach_m, std::max(window.half_x_m, window.half_y_m)});
   std::vector<Eigen::Vector2f> points;
   for (const matching::MatchPoint& point : match_points_) points.push_back(point.in_base_m.cast<float>());
   const std::vector<matching::Peak> peaks = searcher_.search(points, prior.pose, window);
@@ -216,7 +218,6 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   integrate_overdue(scan.stamp_ns);
   begin_next_submap_if_due();
   const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(scan.stamp_ns);
-  UncertainPose2 odom_from_base;
   State now;
   now.stamp_ns = scan.stamp_ns;
   now.has_wheels = wheel_from_base.has_value();
@@ -226,30 +227,26 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
   } else {
     const Step step = predict(scan.stamp_ns, wheel_from_base);
-    const UncertainPose2 prior = geometry::compound(exactly(last_->odom_from_base), step.before_from_base);
     const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
-    now.speed_mps = is_later ? step.before_from_base.pose.x_m / step.duration_s : last_->speed_mps;
-    now.yaw_rate_radps = is_later ? step.before_from_base.pose.heading_rad / step.duration_s : last_->yaw_rate_radps;
+    now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last_->speed_mps;
+    now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last_->yaw_rate_radps;
     sensing::deskew(scan, now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
+    const UncertainPose2 prior = step.after.uncertain_pose();
     select_points(scan, prior.pose);
-    const Match matched = match(prior);
-    odom_from_base = matched.odom_from_base;
-    const Pose2 before_from_base = geometry::inverse(last_->odom_from_base) * odom_from_base.pose;
+    const Match found = match(prior);
+    const Pose2 before_from_base = geometry::inverse(estimate_.odom_from_base) * found.odom_from_base.pose;
+    estimate_ = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
     travel(before_from_base);
     now.knows_velocity = is_later || last_->knows_velocity;
-    if (is_later && step.by_wheels && matched.is_believed) {
-      calibration_ = sensing::calibrated(calibration_, *step.by_wheels, before_from_base, step.duration_s, config_.motion);
-    }
-    if (is_later && !step.by_wheels) {
+    if (is_later && !step.is_by_wheels) {
       now.speed_mps = before_from_base.x_m / step.duration_s;
       now.yaw_rate_radps = before_from_base.heading_rad / step.duration_s;
     }
   }
-  now.odom_from_base = odom_from_base.pose;
   if (!last_ || last_->stamp_ns != now.stamp_ns) scanners_at_last_.clear();
   scanners_at_last_.push_back(scan.scanner.scanner_id);
   last_ = now;
-  flow::LocalizedScan localized = describe(scan, odom_from_base);
+  flow::LocalizedScan localized = describe(scan, estimate_.uncertain_pose());
   remember(scan, localized);
   return localized;
 }
@@ -314,10 +311,10 @@ void Localizer::restore_points(const flow::ScanLabels& labels) {
 
 void Localizer::begin_next_submap_if_due() {
   if (!last_) return;
-  if (!submap_is_ended_ && !map_.is_outgrown(last_->odom_from_base.translation_m(), travelled_m_)) return;
+  if (!submap_is_ended_ && !map_.is_outgrown(estimate_.odom_from_base.translation_m(), travelled_m_)) return;
   if (!submap_is_ended_) end_submap();
   const Pose2 odom_from_previous = map_.odom_from_submap();
-  map_.begin_next(last_->odom_from_base.translation_m());
+  map_.begin_next(estimate_.odom_from_base.translation_m());
   previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), drift_};
   drift_.setZero();
   travelled_m_ = 0.0;
@@ -327,7 +324,7 @@ void Localizer::begin_next_submap_if_due() {
 void Localizer::end_submap() {
   flow::Submap submap = map_.submap();
   submap.previous_from_submap = previous_from_submap_;
-  submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * last_->odom_from_base;
+  submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * estimate_.odom_from_base;
   submap.travelled_m = travelled_m_;
   finished_.push_back(std::move(submap));
   submap_is_ended_ = true;
@@ -357,14 +354,14 @@ std::vector<std::byte> Localizer::checkpoint() const {
   if (!last_) return bytes;
   put(bytes, kCheckpointMark);
   put(bytes, last_->stamp_ns);
-  put(bytes, last_->odom_from_base);
+  put(bytes, estimate_.odom_from_base);
+  put(bytes, estimate_.calibration);
+  put(bytes, estimate_.covariance);
   put(bytes, last_->has_wheels);
   put(bytes, last_->wheel_from_base);
   put(bytes, last_->knows_velocity);
   put(bytes, last_->speed_mps);
   put(bytes, last_->yaw_rate_radps);
-  put(bytes, calibration_.state);
-  put(bytes, calibration_.covariance);
   put(bytes, map_from_odom_);
   put(bytes, correction_sequence_);
   put(bytes, previous_from_submap_.pose);
@@ -387,14 +384,14 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   State last;
   from.get(mark);
   from.get(last.stamp_ns);
-  from.get(last.odom_from_base);
+  from.get(restored.estimate_.odom_from_base);
+  from.get(restored.estimate_.calibration);
+  from.get(restored.estimate_.covariance);
   from.get(last.has_wheels);
   from.get(last.wheel_from_base);
   from.get(last.knows_velocity);
   from.get(last.speed_mps);
   from.get(last.yaw_rate_radps);
-  from.get(restored.calibration_.state);
-  from.get(restored.calibration_.covariance);
   from.get(restored.map_from_odom_);
   from.get(restored.correction_sequence_);
   from.get(restored.previous_from_submap_.pose);
@@ -405,10 +402,10 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   from.get(restored.counters_);
   if (mark != kCheckpointMark) return false;
   std::optional<LocalMap> map = LocalMap::restored(config_.map, from);
-  const bool is_sound = is_believable(last.odom_from_base) && is_believable(restored.map_from_odom_) &&
+  const bool is_sound = is_believable(restored.estimate_.odom_from_base) && is_believable(restored.map_from_odom_) &&
                         is_believable(restored.previous_from_submap_.pose) &&
                         is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.drift_) &&
-                        is_believable(restored.calibration_.covariance) && restored.calibration_.state.norm() < 1.0 &&
+                        is_believable(restored.estimate_.covariance) && restored.estimate_.calibration.norm() < 1.0 &&
                         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
                         std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.travelled_m_);
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;

@@ -115,7 +115,7 @@ class Localizer {
   void correct(const flow::GraphCorrection& correction);
 
   const geometry::Pose2& map_from_odom() const { return map_from_odom_; }
-  const sensing::MotionCalibration& calibration() const { return calibration_; }
+  const sensing::MotionCalibration& calibration() const { return estimate_.calibration; }
   const LocalizerCounters& counters() const { return counters_; }
   const LocalMap& local_map() const { return map_; }
 
@@ -128,7 +128,6 @@ class Localizer {
  private:
   struct State {
     std::int64_t stamp_ns = 0;
-    geometry::Pose2 odom_from_base;
     bool has_wheels = false;
     geometry::Pose2 wheel_from_base;
     bool knows_velocity = false;    ///< Not at the first scan.
@@ -153,8 +152,9 @@ class Localizer {
   };
 
   struct Step {
-    geometry::UncertainPose2 before_from_base;
-    std::optional<geometry::Pose2> by_wheels;
+    sensing::MotionEstimate after;
+    geometry::Pose2 before_from_base;
+    bool is_by_wheels = false;
     double duration_s = 0.0;
   };
 
@@ -178,7 +178,7 @@ class Localizer {
   LocalizerConfig config_;
   LocalizerCounters counters_;
   sensing::OdometryBuffer odometry_;
-  sensing::MotionCalibration calibration_;
+  sensing::MotionEstimate estimate_;
   std::optional<State> last_;
   std::vector<std::string> scanners_at_last_;        ///< Whose scans have the last stamp; empty after a restore.
   LocalMap map_;

@@ -127,6 +127,22 @@ TEST(SurfelMap, FollowsASurfaceThatMovesOnceTheLimitIsReached) {
   EXPECT_EQ(surfel.own_echoes, 200.0);
 }
 
+TEST(SurfelMap, KnowsOverWhichPartOfTheWayASurfaceWasSeen) {
+  SurfelMap map = empty_map();
+  map.add({0.05, 0.05}, 3.0);
+  map.add({0.05, 0.05}, 7.5);
+  EXPECT_DOUBLE_EQ(map.all().front().seen_over_m, 4.5);
+  map.erase({0, 0});
+  map.add({0.05, 0.05}, 9.0);
+  EXPECT_DOUBLE_EQ(map.all().front().seen_over_m, 0.0);
+}
+
+TEST(SurfelMap, HoldsWhatWasThereWhereTheDriveBeganForProven) {
+  SurfelMap map = empty_map();
+  map.add({0.05, 0.05}, 0.0);
+  EXPECT_GT(map.all().front().seen_over_m, 1e9);
+}
+
 TEST(SurfelMap, ForgetsWhatIsErasedAndLearnsItAnew) {
   SurfelMap map = empty_map();
   map.add({0.05, 0.05});

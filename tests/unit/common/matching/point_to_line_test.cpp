@@ -271,5 +271,28 @@ TEST(PointToLine, WeighsPriorAndScanByTheirInformation) {
   EXPECT_LT(error_m(0.003), error_m(0.001));
 }
 
+TEST(MatchPointToLine, IsNotHeldBackByWhatHasOnlyBeenSeenFromHere) {
+  // A wall across the street that came along for the last half metre, as echoes of the ground do when a vehicle brakes;
+  // the fronts of houses beside the street, seen for longer, say that the vehicle has moved on by 4 cm.
+  grids::SurfelMap surfels(grids::window_around({0.0, 0.0}, 60.0, kCell_m), 1000.0);
+  std::vector<MatchPoint> points;
+  for (const double x_m : {6.1, 12.1}) {
+    for (double y_m = 5.0; y_m < 7.0; y_m += 0.1) {
+      for (const double side : {-1.0, 1.0}) {
+        for (const double odometer_m : {1.0, 4.0}) surfels.add({x_m, side * y_m}, odometer_m);
+        points.push_back({{x_m - 0.04, side * y_m}, 0.03});
+      }
+    }
+  }
+  for (double y_m = -4.0; y_m < 4.0; y_m += 0.1) {
+    for (const double odometer_m : {3.5, 4.0}) surfels.add({20.1, y_m}, odometer_m);
+    points.push_back({{20.1, y_m}, 0.03});
+  }
+  EXPECT_NEAR(match_from(points, surfels, Pose2{}).map_from_base.pose.x_m, 0.04, 0.004);
+  PointToLineConfig believes_all;
+  believes_all.unproven_share = 1.0;
+  EXPECT_LT(match_from(points, surfels, Pose2{}, believes_all).map_from_base.pose.x_m, 0.025);
+}
+
 }  // namespace
 }  // namespace slammot::matching

@@ -4,6 +4,7 @@
 #include <random>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,110 +23,149 @@ using slammot::testing::WheelErrors;
 constexpr double kStep_s = 0.1;
 const MotionModelConfig kConfig;
 
-/// A drive of many steps along arcs that turn both ways, by wheels with errors and by a match with noise.
-MotionCalibration after_driving(int steps, const WheelErrors& errors, const MotionModelConfig& config, double speed_mps = 8.0) {
-  std::mt19937 random(3);
+/// What a match whose own answer is `measured` makes of the prediction: product of the two Gaussians.
+geometry::UncertainPose2 fused(const geometry::UncertainPose2& prior, const geometry::UncertainPose2& measured) {
+  const Eigen::Matrix3d gain = prior.covariance * (prior.covariance + measured.covariance).inverse();
+  const Eigen::Vector3d difference(measured.pose.x_m - prior.pose.x_m, measured.pose.y_m - prior.pose.y_m,
+                                   geometry::wrap_angle(measured.pose.heading_rad - prior.pose.heading_rad));
+  const Eigen::Vector3d change = gain * difference;
+  return {{prior.pose.x_m + change.x(), prior.pose.y_m + change.y(), prior.pose.heading_rad + change.z()},
+          (Eigen::Matrix3d::Identity() - gain) * prior.covariance};
+}
+
+struct Laser {
+  double position_sigma_m = 0.02;
+  double heading_sigma_rad = 0.001;
+};
+
+/// A drive whose steps are `truth(i)`, by wheels with errors and by a laser that sees the pose in a known map.
+template <typename Truth>
+MotionEstimate after_driving(int steps, const WheelErrors& errors, const Truth& truth, const Laser& laser = {}, unsigned seed = 3) {
+  std::mt19937 random(seed);
   std::normal_distribution<double> noise(0.0, 1.0);
-  MotionCalibration calibration = uncalibrated(config);
+  MotionEstimate estimate = at_start(kConfig);
+  Pose2 odom_from_base;
+  const Eigen::Vector3d sigmas(laser.position_sigma_m, laser.position_sigma_m, laser.heading_sigma_rad);
   for (int i = 0; i < steps; ++i) {
-    const Pose2 truth = arc({}, speed_mps, 0.3 * std::sin(0.05 * i))(kStep_s);
-    const Pose2 by_match = truth * Pose2{0.005 * noise(random), 0.005 * noise(random), 0.001 * noise(random)};
-    calibration = calibrated(calibration, step_by_wheels(truth, kStep_s, errors), by_match, kStep_s, config);
+    const Pose2 step = truth(i);
+    odom_from_base = odom_from_base * step;
+    estimate = moved_by_wheels(estimate, step_by_wheels(step, kStep_s, errors), kStep_s, kConfig);
+    const Pose2 seen{odom_from_base.x_m + sigmas.x() * noise(random), odom_from_base.y_m + sigmas.y() * noise(random),
+                     odom_from_base.heading_rad + sigmas.z() * noise(random)};
+    estimate = matched(estimate, fused(estimate.uncertain_pose(), {seen, sigmas.cwiseAbs2().asDiagonal()}));
   }
-  return calibration;
+  return estimate;
 }
 
-TEST(MotionCalibration, BeginsAtThePrior) {
-  const MotionCalibration calibration = uncalibrated(kConfig);
-  EXPECT_EQ(calibration.scale(), 1.0);
-  EXPECT_DOUBLE_EQ(std::sqrt(calibration.covariance(0, 0)), kConfig.scale_prior);
-  EXPECT_DOUBLE_EQ(std::sqrt(calibration.covariance(1, 1)), kConfig.heading_rate_bias_prior_radps);
-  EXPECT_DOUBLE_EQ(std::sqrt(calibration.covariance(2, 2)), kConfig.heading_per_metre_bias_prior);
+Pose2 winding_street(int i) { return arc({}, 8.0, 0.3 * std::sin(0.05 * i))(kStep_s); }
+Pose2 stop_and_go(int i) { return arc({}, i % 100 < 50 ? 0.5 : 10.0, 0.0)(kStep_s); }
+
+TEST(MotionEstimate, BeginsAtThePrior) {
+  const MotionEstimate estimate = at_start(kConfig);
+  EXPECT_EQ(estimate.scale(), 1.0);
+  EXPECT_THAT(estimate.odom_from_base, PoseNear(Pose2{}, 1e-15));
+  EXPECT_EQ((estimate.covariance.topLeftCorner<3, 3>().norm()), 0.0);
+  EXPECT_DOUBLE_EQ(std::sqrt(estimate.covariance(3, 3)), kConfig.scale_prior);
+  EXPECT_DOUBLE_EQ(std::sqrt(estimate.covariance(4, 4)), kConfig.heading_rate_bias_prior_radps);
+  EXPECT_DOUBLE_EQ(std::sqrt(estimate.covariance(5, 5)), kConfig.heading_per_metre_bias_prior);
 }
 
-TEST(MotionCalibration, LearnsAScaleThatIsOnePercentOff) {
-  for (const double scale : {0.99, 1.01}) EXPECT_NEAR(after_driving(300, {.scale = scale}, kConfig).scale(), scale, 0.001);
+TEST(MotionEstimate, LearnsAScaleThatIsOnePercentOff) {
+  for (const double scale : {0.99, 1.01}) EXPECT_NEAR(after_driving(300, {.scale = scale}, winding_street).scale(), scale, 0.0005);
 }
 
-TEST(MotionCalibration, LearnsTheTurnThatABiasedGyroMisses) {
+TEST(MotionEstimate, LearnsTheScaleFromALaserThatIsFarLessSureThanASingleStep) {
+  // 0.3 m a match against 8 mm by which each step is short: only all the steps together show it.
+  EXPECT_NEAR(after_driving(600, {.scale = 1.01}, winding_street, {.position_sigma_m = 0.3}).scale(), 1.01, 0.003);
+}
+
+TEST(MotionEstimate, LearnsTheTurnThatABiasedGyroMisses) {
   const double bias_radps = 0.003;
-  const MotionCalibration calibration = after_driving(600, {.heading_rate_bias_radps = bias_radps}, kConfig, 2.0);
+  const MotionEstimate estimate =
+      after_driving(600, {.heading_rate_bias_radps = bias_radps}, [](int) { return arc({}, 2.0, 0.1)(kStep_s); });
   // At one speed a bias by time and one by distance are the same thing: only their sum can be known.
-  EXPECT_NEAR(calibration.state.y() + 2.0 * calibration.state.z(), bias_radps, 0.0012);
+  EXPECT_NEAR(estimate.calibration.y() + 2.0 * estimate.calibration.z(), bias_radps, 0.0012);
 }
 
-TEST(MotionCalibration, TellsABiasByTimeFromOneByDistanceWhenTheSpeedChanges) {
-  const MotionModelConfig config{.heading_rate_bias_prior_radps = 0.02};
-  MotionCalibration calibration = uncalibrated(config);
-  for (int i = 0; i < 2000; ++i) {
-    const Pose2 truth = arc({}, i % 100 < 50 ? 0.5 : 10.0, 0.0)(kStep_s);
-    calibration = calibrated(calibration, step_by_wheels(truth, kStep_s, {.heading_rate_bias_radps = 0.01}), truth, kStep_s, config);
-  }
-  EXPECT_NEAR(calibration.state.y(), 0.01, 0.002);
-  EXPECT_NEAR(calibration.state.z(), 0.0, 0.0005);
+TEST(MotionEstimate, TellsABiasByTimeFromOneByDistanceWhenTheSpeedChanges) {
+  const MotionEstimate estimate = after_driving(2000, {.heading_rate_bias_radps = 0.01}, stop_and_go);
+  EXPECT_NEAR(estimate.calibration.y(), 0.01, 0.002);
+  EXPECT_NEAR(estimate.calibration.z(), 0.0, 0.0005);
 }
 
-TEST(MotionCalibration, BecomesSurerWithEveryStepAndStaysACovariance) {
-  MotionCalibration calibration = uncalibrated(kConfig);
-  for (int i = 0; i < 1000; ++i) {
-    const Pose2 truth = arc({}, 5.0, 0.2)(kStep_s);
-    const MotionCalibration next = calibrated(calibration, truth, truth, kStep_s, kConfig);
-    for (int k = 0; k < 3; ++k) EXPECT_LE(next.covariance(k, k), calibration.covariance(k, k) * (1.0 + 1e-12));
-    calibration = next;
-  }
-  EXPECT_NEAR((calibration.covariance - calibration.covariance.transpose()).norm(), 0.0, 1e-15);
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(calibration.covariance).eigenvalues().minCoeff(), 0.0);
+TEST(MotionEstimate, StaysACovariance) {
+  const MotionEstimate estimate = after_driving(3000, {.scale = 1.01}, stop_and_go);
+  EXPECT_NEAR((estimate.covariance - estimate.covariance.transpose()).norm(), 0.0, 1e-12);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(estimate.covariance).eigenvalues().minCoeff(), 0.0);
 }
 
-TEST(MotionCalibration, IsAsUncertainAsItIsWrong) {
+TEST(MotionEstimate, IsAsUncertainAsItIsWrong) {
   std::mt19937 random(17);
   std::normal_distribution<double> noise(0.0, 1.0);
-  double squared_error_in_sigmas = 0.0;
-  constexpr int kRuns = 200;
+  constexpr int kRuns = 200, kSteps = 50;
+  double nees = 0.0;
   for (int run = 0; run < kRuns; ++run) {
     const double scale = 1.0 + kConfig.scale_prior * noise(random);
-    MotionCalibration calibration = uncalibrated(kConfig);
-    for (int i = 0; i < 50; ++i) {
+    Pose2 truth;
+    MotionEstimate estimate = at_start(kConfig);
+    for (int i = 0; i < kSteps; ++i) {
       const Pose2 by_wheels{0.5, 0.0, 0.0};
-      const double sigma_m = std::hypot(kConfig.match_position_noise_m, kConfig.position_noise_per_m * 0.5);
-      const Pose2 by_match{scale * 0.5 + sigma_m * noise(random), 0.0, 0.0};
-      calibration = calibrated(calibration, by_wheels, by_match, kStep_s, kConfig);
+      const Eigen::Matrix3d step_covariance = predict_step(by_wheels, kStep_s, estimate.calibration, kConfig).covariance;
+      const Eigen::Vector3d error = step_covariance.diagonal().cwiseSqrt().cwiseProduct(Eigen::Vector3d(noise(random), noise(random), noise(random)));
+      truth = truth * Pose2{scale * 0.5 + error.x(), error.y(), error.z()};
+      estimate = moved_by_wheels(estimate, by_wheels, kStep_s, kConfig);
+      const Pose2 seen{truth.x_m + 0.02 * noise(random), truth.y_m + 0.02 * noise(random), truth.heading_rad + 0.001 * noise(random)};
+      estimate = matched(estimate, fused(estimate.uncertain_pose(), {seen, Eigen::Vector3d(4e-4, 4e-4, 1e-6).asDiagonal()}));
     }
-    squared_error_in_sigmas += std::pow(calibration.scale() - scale, 2) / calibration.covariance(0, 0);
+    Eigen::Vector4d error(estimate.odom_from_base.x_m - truth.x_m, estimate.odom_from_base.y_m - truth.y_m,
+                          geometry::wrap_angle(estimate.odom_from_base.heading_rad - truth.heading_rad), estimate.scale() - scale);
+    nees += error.dot(Eigen::Matrix4d(estimate.covariance.topLeftCorner<4, 4>()).inverse() * error) / 4.0;
   }
-  // Chi-square with kRuns degrees of freedom: mean 1, sigma sqrt(2 / kRuns) = 0.1. Outliers are left out, so a little wider.
-  EXPECT_NEAR(squared_error_in_sigmas / kRuns, 1.0, 0.35);
+  // Chi-square with 4 kRuns degrees of freedom: mean 1, sigma sqrt(2 / (4 kRuns)) = 0.05. Surprises are left out: a little wider.
+  EXPECT_NEAR(nees / kRuns, 1.0, 0.2);
 }
 
-TEST(MotionCalibration, LearnsNothingFromAVehicleThatStands) {
-  const MotionCalibration before = uncalibrated(kConfig);
-  const MotionCalibration after = calibrated(before, {0.001, 0.0, 0.0}, {0.004, 0.0, 0.003}, kStep_s, kConfig);
-  EXPECT_EQ(after.state, before.state);
-  EXPECT_EQ(after.covariance, before.covariance);
+TEST(MotionEstimate, LearnsNothingFromAVehicleThatStands) {
+  const MotionEstimate after = after_driving(100, {}, [](int) { return Pose2{}; });
+  EXPECT_EQ(after.scale(), 1.0);
+  EXPECT_DOUBLE_EQ(std::sqrt(after.covariance(3, 3)), kConfig.scale_prior);
 }
 
-TEST(MotionCalibration, LearnsNothingFromAWrongMatch) {
-  const MotionCalibration before = after_driving(100, {.scale = 1.01}, kConfig);
-  const MotionCalibration after = calibrated(before, {0.8, 0.0, 0.0}, {1.6, 0.0, 0.7}, kStep_s, kConfig);
-  EXPECT_EQ(after.state, before.state);
+TEST(MotionEstimate, LearnsNothingFromAWrongMatch) {
+  MotionEstimate estimate = after_driving(100, {.scale = 1.01}, winding_street);
+  const MotionEstimate predicted = moved_by_wheels(estimate, {0.8, 0.0, 0.0}, kStep_s, kConfig);
+  const geometry::UncertainPose2 wrong{predicted.odom_from_base * Pose2{0.8, 0.0, 0.7}, Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal()};
+  const MotionEstimate after = matched(predicted, wrong);
+  EXPECT_EQ(after.calibration, predicted.calibration);
+  EXPECT_THAT(after.odom_from_base, PoseNear(wrong.pose, 1e-15));
+}
+
+TEST(MotionEstimate, GrowsUnsureOfThePoseWithoutALaser) {
+  MotionEstimate estimate = at_start(kConfig);
+  double before = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    estimate = moved_by_wheels(estimate, {0.8, 0.0, 0.0}, kStep_s, kConfig);
+    EXPECT_GT(estimate.covariance(0, 0), before);
+    before = estimate.covariance(0, 0);
+  }
+  EXPECT_GT(std::sqrt(before), 50 * 0.8 * kConfig.scale_prior);  // the scale is wrong in every step alike
 }
 
 TEST(PredictStep, UndoesTheErrorsThatItKnows) {
   const Pose2 truth = arc({}, 10.0, 0.4)(kStep_s);
-  MotionCalibration calibration;
-  calibration.state = {0.013, 0.02, 0.0};
+  const MotionCalibration calibration(0.013, 0.02, 0.0);
   const Pose2 by_wheels = step_by_wheels(truth, kStep_s, {.scale = 1.013, .heading_rate_bias_radps = 0.02});
   EXPECT_THAT(predict_step(by_wheels, kStep_s, calibration, kConfig).pose, PoseNear(truth, 1e-12));
 }
 
 TEST(PredictStep, WithoutKnownErrorsIsWhatTheWheelsSay) {
   const Pose2 by_wheels{0.7, -0.02, 0.05};
-  EXPECT_THAT(predict_step(by_wheels, kStep_s, uncalibrated(kConfig), kConfig).pose, PoseNear(by_wheels, 1e-15));
+  EXPECT_THAT(predict_step(by_wheels, kStep_s, MotionCalibration::Zero(), kConfig).pose, PoseNear(by_wheels, 1e-15));
 }
 
 TEST(PredictStep, IsLessSureTheFartherItGoes) {
   const auto sigma = [](double distance_m) {
-    const auto step = predict_step({distance_m, 0.0, 0.0}, kStep_s, uncalibrated(kConfig), kConfig);
+    const auto step = predict_step({distance_m, 0.0, 0.0}, kStep_s, MotionCalibration::Zero(), kConfig);
     return Eigen::Vector2d(std::sqrt(step.covariance(0, 0)), std::sqrt(step.covariance(2, 2)));
   };
   EXPECT_GE(sigma(0.0).x(), kConfig.position_noise_m);
@@ -133,12 +173,16 @@ TEST(PredictStep, IsLessSureTheFartherItGoes) {
   EXPECT_GT(sigma(1.0).y(), sigma(0.5).y());
 }
 
-TEST(PredictStep, IsSurerOnceItIsCalibrated) {
+TEST(MovedByWheels, IsSurerOnceItIsCalibrated) {
   const Pose2 by_wheels{0.8, 0.0, 0.0};
-  const auto before = predict_step(by_wheels, kStep_s, uncalibrated(kConfig), kConfig);
-  const auto after = predict_step(by_wheels, kStep_s, after_driving(300, {}, kConfig), kConfig);
-  EXPECT_LT(after.covariance(0, 0), before.covariance(0, 0));
-  EXPECT_LT(after.covariance(2, 2), before.covariance(2, 2));
+  const auto variance_added = [&](const MotionEstimate& before) {
+    const MotionEstimate after = moved_by_wheels(before, by_wheels, kStep_s, kConfig);
+    return Eigen::Vector2d(after.covariance(0, 0) - before.covariance(0, 0), after.covariance(2, 2) - before.covariance(2, 2));
+  };
+  const Eigen::Vector2d before = variance_added(at_start(kConfig));
+  const Eigen::Vector2d after = variance_added(after_driving(300, {}, [](int) { return Pose2{0.8, 0.0, 0.0}; }));
+  EXPECT_LT(after.x(), before.x());
+  EXPECT_LT(after.y(), before.y());
 }
 
 TEST(PredictStepAtVelocity, FollowsTheArc) {

@@ -63,7 +63,7 @@ void expect_same_future(Localizer& a, Localizer& b, std::uint32_t first, std::ui
   EXPECT_GT(submaps, 0);
   EXPECT_EQ(a.checkpoint(), b.checkpoint());
   EXPECT_EQ(a.counters().scans, b.counters().scans);
-  EXPECT_EQ(a.calibration().state, b.calibration().state);
+  EXPECT_EQ(a.calibration(), b.calibration());
 }
 
 TEST(Checkpoint, IsBridgedByTheOdometryThatCameBeforeItWasTakenUp) {

@@ -59,8 +59,8 @@ TEST(Localizer, KnowsWhereItIsAfterAHundredMetresOfStreetAndWhatIsWrongWithTheWh
   const DriveErrors errors = drive_through(localizer, drive, 0, 250);
   EXPECT_LT(errors.worst_m, 0.25);
   EXPECT_LT(errors.worst_rad, 0.005);
-  EXPECT_NEAR(localizer.calibration().scale(), 1.01, 0.003);
-  const double bias_radps = localizer.calibration().state.y() + 8.0 * localizer.calibration().state.z();
+  EXPECT_NEAR(1.0 + localizer.calibration().x(), 1.01, 0.003);
+  const double bias_radps = localizer.calibration().y() + 8.0 * localizer.calibration().z();
   EXPECT_NEAR(bias_radps, 0.004, 0.002);
 }
 
@@ -236,8 +236,7 @@ TEST(Localizer, LearnsNothingAboutTheWheelsWhereItDidNotMatch) {
     std::fill(blinded.range_m.begin(), blinded.range_m.end(), 50.0F);
     localizer.localize(blinded);
   }
-  EXPECT_EQ(localizer.calibration().state, before.state);
-  EXPECT_EQ(localizer.calibration().covariance, before.covariance);
+  EXPECT_EQ(localizer.calibration(), before);
 }
 
 TEST(Localizer, HasOdometryForWhatTheWheelsHaveReached) {
