@@ -95,8 +95,8 @@ std::string detection_figures(const ReportSource& source) {
 }
 
 std::string latency_figure(const ReportSource& source) {
-  const auto report = nlohmann::json::parse(source.report_json, nullptr, false);
-  const nlohmann::json::json_pointer place("/measured/stage_latency");
+  const auto report = nlohmann::ordered_json::parse(source.report_json, nullptr, false);  // stages in the order of a scan
+  const nlohmann::ordered_json::json_pointer place("/measured/stage_latency");
   if (!report.is_object() || !report.contains(place) || !report[place].is_object()) return {};
   std::vector<LogBar> bars;
   for (const auto& [stage, latency] : report[place].items()) bars.push_back({stage, latency.value("p50_ms", 0.0), latency.value("p99_ms", 0.0), latency.value("max_ms", 0.0)});

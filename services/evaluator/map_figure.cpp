@@ -13,22 +13,23 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr double kStepM = 0.5;  // finer a path need not be drawn
-
 /// SVG's y goes down.
 std::string place(const Vector2& point_in_map_m) { return svg_number(point_in_map_m.x()) + " " + svg_number(-point_in_map_m.y()); }
 
 /// Of points in map; those that are nearer than a step to the last one drawn are left out.
 class PathText {
  public:
+  explicit PathText(double step_m) : step_m_(step_m) {}
+
   void go_to(const Vector2& point_m) {
-    if (!text_.empty() && (point_m - last_m_).norm() < kStepM) return;
+    if (!text_.empty() && (point_m - last_m_).norm() < step_m_) return;
     text_.append(1, text_.empty() ? 'M' : 'L').append(place(point_m));
     last_m_ = point_m;
   }
   const std::string& text() const { return text_; }
 
  private:
+  double step_m_;
   std::string text_;
   Vector2 last_m_ = Vector2::Zero();
 };
@@ -37,8 +38,8 @@ std::string path(const std::string& d, const std::string& colour, const char* ki
   return "<path class=\"" + std::string(kind) + "\" stroke=\"" + colour + "\" d=\"" + d + "\"><title>" + escaped(title) + "</title></path>";
 }
 
-std::string trajectory_path(const metrics::Trajectory& trajectory, const Pose2& map_from_frame, const char* colour, const char* kind, const char* title) {
-  PathText text;
+std::string trajectory_path(const metrics::Trajectory& trajectory, const Pose2& map_from_frame, double step_m, const char* colour, const char* kind, const char* title) {
+  PathText text(step_m);
   for (const metrics::StampedPose& pose : trajectory) text.go_to(map_from_frame * pose.pose.translation_m());
   return path(text.text(), colour, kind, title);
 }
@@ -49,12 +50,12 @@ struct DrawnTrack {
 };
 
 /// Tracks hang on the corrected poses, as the map does.
-std::map<std::uint32_t, DrawnTrack> drawn_tracks(const RunResult& result) {
+std::map<std::uint32_t, DrawnTrack> drawn_tracks(const RunResult& result, double step_m) {
   std::map<std::uint32_t, DrawnTrack> drawn;
   for (const TracksAt& at : result.tracks) {
     const Pose2 corrected_from_online = pose_near(result.corrected, at.stamp_ns) * geometry::inverse(pose_near(result.online, at.stamp_ns));
     for (const ResultTrack& track : at.tracks) {
-      DrawnTrack& one = drawn[track.track_id];
+      DrawnTrack& one = drawn.try_emplace(track.track_id, DrawnTrack{PathText(step_m), {}}).first->second;
       one.path.go_to(corrected_from_online * track.map_from_object.translation_m());
       one.object_class = track.object_class;
     }
@@ -112,20 +113,21 @@ std::string map_figure(const ReportSource& source) {
   const RunResult& result = *source.result;
   const Frame frame = frame_of(result);
   const Vector2 size_m = frame.high_m - frame.low_m;
+  const double step_m = size_m.maxCoeff() / 1000.0;  // about a pixel
   std::string svg = "<svg class=\"map\" viewBox=\"" + place({frame.low_m.x(), frame.high_m.y()}) + " " + svg_number(size_m.x()) + " " + svg_number(size_m.y()) + "\" role=\"img\">";
   if (result.map && !source.map_png.empty()) {
     svg += "<image x=\"" + svg_number(frame.low_m.x()) + "\" y=\"" + svg_number(-frame.high_m.y()) + "\" width=\"" + svg_number(size_m.x()) + "\" height=\"" +
            svg_number(size_m.y()) + "\" href=\"data:image/png;base64," + to_base64(source.map_png) + "\"/>";
   }
   std::set<std::string> classes;
-  for (const auto& [id, track] : drawn_tracks(result)) {
+  for (const auto& [id, track] : drawn_tracks(result, step_m)) {
     svg += path(track.path.text(), colour_of(track.object_class), "track", "track " + std::to_string(id) + ", " + track.object_class);
     classes.insert(track.object_class);
   }
-  svg += trajectory_path(result.online, Pose2::identity(), "#e0a100", "thin", "as published live");
-  svg += trajectory_path(result.corrected, Pose2::identity(), "#1f5fa8", "way", "after the last correction");
+  svg += trajectory_path(result.online, Pose2::identity(), step_m, "#e0a100", "thin", "as published live");
+  svg += trajectory_path(result.corrected, Pose2::identity(), step_m, "#1f5fa8", "way", "after the last correction");
   if (source.truth && source.evaluation) {
-    svg += trajectory_path(source.truth->trajectory, geometry::inverse(source.evaluation->corrected.world_from_map), "#111", "dotted", "true trajectory");
+    svg += trajectory_path(source.truth->trajectory, geometry::inverse(source.evaluation->corrected.world_from_map), step_m, "#111", "dotted", "true trajectory");
   }
   svg += "</svg>";
   return "<section><h2>Map, trajectory and tracks</h2><figure>" + svg + class_legend(classes, source.truth != nullptr) +
