@@ -36,6 +36,8 @@ struct ScenarioConfig {
   RobotConfig robot;
   std::vector<OfficeCorner> robot_way;
   ScriptConfig script;                ///< All of a scripted scene.
+  std::string sumo_fcd;               ///< File that the script's recorded objects come from; as seen from the scenario's folder.
+  std::string sumo_vehicle;           ///< Which of them carries the scanner; empty: the script's own vehicle.
   int ride = 0;                       ///< Of a script's vehicles with scanners: which one; 0 is the vehicle.
   std::vector<HeightAt> terrain;      ///< Empty: level.
   SuspensionConfig suspension;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "common/simulation/moving_object.hpp"
@@ -37,6 +38,20 @@ struct ScriptedObject {
   double speed_variation = 0.0;       ///< is up to this share faster or slower.
 };
 
+/// Where something was at a time.
+struct RecordedPlace {
+  double at_s = 0.0;                  ///< After the first scan.
+  geometry::Pose2 world_from_object;  ///< Centre of its box.
+  double speed_mps = 0.0;
+};
+
+/// Something that does what another simulator says; in the world from its first place to its last.
+struct RecordedObject {
+  std::string name;                   ///< There.
+  ObjectClass kind = ObjectClass::car;
+  std::vector<RecordedPlace> places;  ///< Ascending at_s.
+};
+
 /// A house front, or a wall where its depth is 0.
 struct ScriptedFront {
   std::vector<PlaceInWorld> along;
@@ -61,6 +76,8 @@ struct ScriptedRow {
 struct ScriptConfig {
   ScriptedObject vehicle;
   std::vector<ScriptedObject> objects;
+  std::vector<RecordedObject> recorded;
+  int recorded_vehicle = -1;          ///< Which of these carries the scanner in place of `vehicle`; -1: none.
   std::vector<ScriptedFront> fronts;
   std::vector<ScriptedRow> rows;
 };

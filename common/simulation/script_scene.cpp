@@ -85,21 +85,47 @@ class Actor {
   Outline outline_in_object_;
 };
 
+/// An object that goes evenly from one recorded place to the next.
+MovingObject object_at(const RecordedObject& recorded, int id, double time_s) {
+  const auto& places = recorded.places;
+  const auto after = std::find_if(places.begin(), places.end(), [&](const RecordedPlace& place) { return place.at_s > time_s; });
+  const RecordedPlace& last = after == places.begin() ? places.front() : *(after - 1);
+  const bool is_there = after != places.begin() && (after != places.end() || last.at_s == time_s);
+  MovingObject object;
+  object.id = id;
+  object.kind = recorded.kind;
+  object.size = usual_size(recorded.kind);
+  object.world_from_object = last.world_from_object;
+  object.speed_mps = is_there ? last.speed_mps : 0.0;
+  if (!is_there) return object;
+  if (after != places.end()) {
+    const double fraction = (time_s - last.at_s) / (after->at_s - last.at_s);
+    object.world_from_object = interpolate(last.world_from_object, after->world_from_object, fraction);
+    object.speed_mps += fraction * (after->speed_mps - last.speed_mps);
+  }
+  const double phase_rad = 2.0 * std::numbers::pi * time_s * object.speed_mps / kStride_m;
+  object.outline_in_object = recorded.kind == ObjectClass::pedestrian ? pedestrian_outline(phase_rad, kStep_m) : vehicle_outline(recorded.kind, object.size);
+  return object;
+}
+
 class ScriptScene final : public Scene {
  public:
   explicit ScriptScene(const ScenarioConfig& config)
-      : stationary_in_world_(build_script(config.script, config.seed)), time_s_(-config.warm_up_s) {
+      : stationary_in_world_(build_script(config.script, config.seed)),
+        time_s_(-config.warm_up_s),
+        recorded_(config.script.recorded),
+        recorded_vehicle_(config.script.recorded_vehicle) {
     Random random(config.seed, Purpose::traffic);
     std::vector<std::size_t> vehicles;
     const auto add = [&](const ScriptedObject& script) {
-      if (actors_.empty() || script.carries_scanner) vehicles.push_back(actors_.size());
+      if (script.carries_scanner || &script == &config.script.vehicle) vehicles.push_back(actors_.size());
       actors_.emplace_back(script, static_cast<int>(actors_.size()), time_s_, random);
     };
-    add(config.script.vehicle);
+    if (!rides_recorded()) add(config.script.vehicle);
     for (const ScriptedObject& script : config.script.objects) {
       for (int i = 0; i < script.copies; ++i) add(script);
     }
-    ridden_ = vehicles[std::min(vehicles.size() - 1, static_cast<std::size_t>(config.ride))];
+    if (!rides_recorded()) ridden_ = vehicles[std::min(vehicles.size() - 1, static_cast<std::size_t>(config.ride))];
   }
 
   const Outline& stationary_in_world() const override { return stationary_in_world_; }
@@ -109,21 +135,31 @@ class ScriptScene final : public Scene {
     time_s_ += dt_s;
   }
 
-  MovingObject vehicle() const override { return actors_[ridden_].object(time_s_); }
+  MovingObject vehicle() const override { return rides_recorded() ? recorded(recorded_vehicle_) : actors_[ridden_].object(time_s_); }
 
   std::vector<MovingObject> others() const override {
     std::vector<MovingObject> objects;
     for (std::size_t i = 0; i < actors_.size(); ++i) {
-      if (i == ridden_) continue;
+      if (i == ridden_ && !rides_recorded()) continue;
       objects.push_back(actors_[i].object(time_s_));
       if (i == 0) objects.back().id = static_cast<int>(actors_.size());  // the first vehicle, seen from another
+    }
+    for (int i = 0; i < static_cast<int>(recorded_.size()); ++i) {
+      if (i != recorded_vehicle_) objects.push_back(recorded(i));
     }
     return objects;
   }
 
  private:
+  bool rides_recorded() const { return recorded_vehicle_ >= 0; }
+  MovingObject recorded(int index) const {
+    return object_at(recorded_[static_cast<std::size_t>(index)], static_cast<int>(actors_.size()) + 1 + index, time_s_);
+  }
+
   Outline stationary_in_world_;
   double time_s_;
+  std::vector<RecordedObject> recorded_;
+  int recorded_vehicle_;
   std::vector<Actor> actors_;         ///< The first vehicle first.
   std::size_t ridden_ = 0;
 };

@@ -231,6 +231,8 @@ FieldTable<ScenarioConfig> scenario_fields() {
       {"log_record", &ScenarioConfig::log_record, "Of a log of the drive."},
       list_of("robot_way", &ScenarioConfig::robot_way, office_corner_fields(), "Corners of the robot's way in turn."),
       list_of("terrain", &ScenarioConfig::terrain, height_fields(), "Height of the road from west to east; empty: level."),
+      {"sumo_fcd", &ScenarioConfig::sumo_fcd, "Traffic of a script from Eclipse SUMO: the file of its --fcd-output."},
+      {"sumo_vehicle", &ScenarioConfig::sumo_vehicle, "Whom of it to ride; empty: the script's own vehicle."},
       {"ride", &ScenarioConfig::ride, "Of a script's vehicles with scanners: which one; 0 is the vehicle.", {0, 100}},
   };
   table = with_nested(std::move(table), "city", &ScenarioConfig::city, city_fields());

@@ -5,6 +5,7 @@
 #include "common/config/overlay.hpp"
 #include "common/config/profiles.hpp"
 #include "services/simulator/scenario_fields.hpp"
+#include "services/simulator/sumo_traffic.hpp"
 
 namespace slammot::simulator {
 namespace {
@@ -31,8 +32,24 @@ std::optional<std::string> find_fault_of_object(const ScriptedObject& object, co
   return std::nullopt;
 }
 
+/// Reads the traffic that the scenario names; the fault, if there is one.
+std::optional<files::Error> add_recorded_traffic(ScenarioConfig& scenario, const std::filesystem::path& folder) {
+  if (scenario.sumo_fcd.empty()) return std::nullopt;
+  auto recorded = read_sumo_traffic(folder / scenario.sumo_fcd);
+  if (!recorded) return recorded.error();
+  simulation::ScriptConfig& script = scenario.script;
+  script.recorded = std::move(*recorded);
+  if (scenario.sumo_vehicle.empty()) return std::nullopt;
+  const auto vehicle = std::ranges::find(script.recorded, scenario.sumo_vehicle, &simulation::RecordedObject::name);
+  if (vehicle == script.recorded.end()) return files::Error{scenario.sumo_fcd + ": nobody is named '" + scenario.sumo_vehicle + "'"};
+  script.recorded_vehicle = static_cast<int>(vehicle - script.recorded.begin());
+  return std::nullopt;
+}
+
 std::optional<std::string> find_fault_of_script(const simulation::ScriptConfig& script) {
-  if (auto fault = find_fault_of_object(script.vehicle, "the vehicle")) return fault;
+  if (script.recorded_vehicle < 0) {
+    if (auto fault = find_fault_of_object(script.vehicle, "the vehicle")) return fault;
+  }
   if (script.vehicle.copies != 1) return "the vehicle cannot have copies";
   for (std::size_t i = 0; i < script.objects.size(); ++i) {
     if (auto fault = find_fault_of_object(script.objects[i], "object " + std::to_string(i + 1))) return fault;
@@ -67,6 +84,7 @@ files::Result<ScenarioConfig> load_scenario(const std::string& name_or_path, std
   if (const auto fault = config::overlay_message_file(*file, config::bind_stage("Scenario", scenario_fields(), scenario))) {
     return files::Error{fault->text()};
   }
+  if (const auto fault = add_recorded_traffic(scenario, file->parent_path())) return *fault;
   if (const auto fault = find_fault(scenario)) return files::Error{file->string() + ": " + *fault};
   scenario.name = file->stem().string();
   scenario.seed = seed.value_or(scenario.seed);
