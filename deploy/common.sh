@@ -7,8 +7,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/deploy/packages.sh"
 
 # Objects compiled in another checkout serve this one too, and those of this one serve the image (build/objects is part
-# of what the engine is handed).
-export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content
+# of what the engine is handed). Without the language of messages, which the image has none of.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content CCACHE_SLOPPINESS=locale
 export CCACHE_REMOTE_STORAGE="file:$root/build/objects" CCACHE_RESHARE=1
 
 # Further arguments are cmake's.
