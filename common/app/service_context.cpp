@@ -86,7 +86,12 @@ void ServiceContext::report() {
   const SteadyTime now = std::chrono::steady_clock::now();
   report_changes(board_.explanation(now));
   report_mismatches();
-  publisher_.report(board_, board_.state(now));
+  report_as(board_.state(now));
+}
+
+void ServiceContext::report_as(ServiceState state) {
+  for (const auto& work : before_report_) work();
+  publisher_.report(board_, state);
 }
 
 void ServiceContext::report_changes(const std::string& explanation) {
@@ -126,7 +131,7 @@ void ServiceContext::run() {
   report();
   while (wait_set_.wait(until_next_timer()) != dds::WaitSet::Wake::kStopped) run_due_timers();
   publisher_.beat(ServiceState::kStopping);
-  publisher_.report(board_, ServiceState::kStopping);
+  report_as(ServiceState::kStopping);
   publisher_.wait_until_heard(std::chrono::milliseconds(500));
 }
 

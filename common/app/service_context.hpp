@@ -62,6 +62,8 @@ class ServiceContext {
   void every(std::chrono::nanoseconds period, std::function<void()> work);
   /// Calls it once, `delay` from now.
   void after(std::chrono::nanoseconds delay, std::function<void()> work);
+  /// Calls it before each status, to bring counters up to date.
+  void before_report(std::function<void()> work) { before_report_.push_back(std::move(work)); }
   void on_command(const std::string& verb, CommandDesk::Handler handler) { desk_.on(verb, std::move(handler)); }
 
   /// Counts under `counter` and warns at a limited rate.
@@ -93,6 +95,7 @@ class ServiceContext {
   std::chrono::nanoseconds until_next_timer() const;
   void run_due_timers();
   void report();
+  void report_as(ServiceState state);
   void report_changes(const std::string& explanation);
   void report_mismatches();
 
@@ -108,6 +111,7 @@ class ServiceContext {
   std::vector<std::function<std::optional<dds::QosMismatch>()>> mismatches_;
   std::uint32_t mismatches_reported_ = 0;
   std::vector<Timer> timers_;
+  std::vector<std::function<void()>> before_report_;
   std::string last_explanation_;
   int exit_code_ = 0;
 };

@@ -23,6 +23,8 @@ constexpr auto kTurn = 10ms;
 constexpr int kOdometryPatience = 5;
 /// The first one waits longer: the bus finds the odometry's writer when it does, and after a crash nothing else bridges the gap.
 constexpr int kFirstOdometryPatience = 50;
+/// How many turns it waits for what tracking says about the scan before it.
+constexpr int kTrackingPatience = 3;
 /// How many wait in vain before none is expected any more.
 constexpr int kVainWaits = 3;
 /// A checkpoint is made when the last one is this old, by the data's clock.
@@ -64,7 +66,7 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
     for (WaitingScan& waiting : waiting_) ++waiting.turns;
     localize_waiting();
   });
-  context.every(1s, [this] { context_.status().set_counters(named(localizer_.counters())); });
+  context.before_report([this] { context_.status().set_counters(named(localizer_.counters())); });
   context.on_command("finish_submap", [this](std::string_view) { return finish_submap(); });
 }
 
@@ -98,7 +100,11 @@ void LocalizationService::take(const slammot_SegmentedScan& sample) {
 
 void LocalizationService::take(const slammot_TrackedObjects& sample) {
   const auto objects = wire::decode(sample);
-  if (is_good(objects, "tracked_objects")) localizer_.expect(*objects);
+  if (!is_good(objects, "tracked_objects")) return;
+  localizer_.expect(*objects);
+  newest_objects_ns_ = objects->stamp_ns;
+  if (!is_tracking_awaited()) waited_for_tracking_in_vain_ = 0;
+  localize_waiting();
 }
 
 void LocalizationService::take(const slammot_ScanLabels& sample) {
@@ -106,7 +112,10 @@ void LocalizationService::take(const slammot_ScanLabels& sample) {
   if (!is_good(labels, "scan_labels")) return;
   const app::Stopwatch stopwatch(context_.status().latency("integrate"));
   localizer_.integrate(*labels);
+  newest_labels_ns_ = labels->stamp_ns;
+  if (!is_tracking_awaited()) waited_for_tracking_in_vain_ = 0;
   publish_finished_submaps();
+  localize_waiting();
 }
 
 void LocalizationService::take(const slammot_GraphCorrection& sample) {
@@ -117,16 +126,26 @@ void LocalizationService::take(const slammot_GraphCorrection& sample) {
   else if (added.correction->map_id == *map_id_) localizer_.correct(*added.correction);
 }
 
-bool LocalizationService::may_localize(const WaitingScan& waiting) const {
-  return localizer_.has_odometry_for(waiting.scan.stamp_ns) || waited_in_vain_ >= kVainWaits ||
-         waiting.turns > (map_id_ ? kOdometryPatience : kFirstOdometryPatience);
+bool LocalizationService::awaits_odometry(const WaitingScan& waiting) const {
+  return !localizer_.has_odometry_for(waiting.scan.stamp_ns) && waited_in_vain_ < kVainWaits &&
+         waiting.turns <= (map_id_ ? kOdometryPatience : kFirstOdometryPatience);
+}
+
+/// Labels come by a way of their own, and so do the objects that tracking publishes before them.
+bool LocalizationService::is_tracking_awaited() const { return localizer_.awaits_labels() || newest_objects_ns_ < newest_labels_ns_; }
+
+/// What tracking says about a scan is better known before the next is matched. It is given a few turns, and nothing where
+/// scans queue up or it has been late.
+bool LocalizationService::awaits_tracking(const WaitingScan& waiting) const {
+  return is_tracking_awaited() && waiting_.size() == 1 && waiting.turns < kTrackingPatience && waited_for_tracking_in_vain_ < kVainWaits;
 }
 
 void LocalizationService::localize_waiting() {
-  while (!waiting_.empty() && may_localize(waiting_.front())) {
+  while (!waiting_.empty() && !awaits_odometry(waiting_.front()) && !awaits_tracking(waiting_.front())) {
     const WaitingScan waiting = std::move(waiting_.front());
     waiting_.pop_front();
     if (!localizer_.has_odometry_for(waiting.scan.stamp_ns)) ++waited_in_vain_;
+    if (is_tracking_awaited()) ++waited_for_tracking_in_vain_;
     if (is_of_this_drive(waiting)) localize(waiting.scan);
   }
 }
@@ -250,7 +269,6 @@ void LocalizationService::publish_finished_submaps() {
 app::CommandResult LocalizationService::finish_submap() {
   localizer_.finish();
   publish_finished_submaps();
-  context_.status().set_counters(named(localizer_.counters()));
   return {app::CommandOutcome::kDone, std::to_string(localizer_.counters().submaps) + " submaps"};
 }
 

@@ -48,7 +48,9 @@ class LocalizationService {
   bool is_good(const wire::Decoded<Value>& decoded, std::string_view topic);
 
   void localize_waiting();
-  bool may_localize(const WaitingScan& waiting) const;
+  bool awaits_odometry(const WaitingScan& waiting) const;
+  bool is_tracking_awaited() const;
+  bool awaits_tracking(const WaitingScan& waiting) const;
   bool is_of_this_drive(const WaitingScan& waiting);
   void localize(const sensing::LaserScan& scan);
   bool come_back(const WaitingScan& first);
@@ -71,6 +73,9 @@ class LocalizationService {
   std::deque<WaitingScan> waiting_;
   std::deque<sensing::Odometry> recent_odometry_;               ///< In the order of arrival.
   int waited_in_vain_ = 0;                                      ///< Scans for which no odometry came, one after the other.
+  std::int64_t newest_objects_ns_ = 0;
+  std::int64_t newest_labels_ns_ = 0;
+  int waited_for_tracking_in_vain_ = 0;                           ///< Scans one after the other, too.
   DriveWatch drives_;
   std::optional<flow::MapId> map_id_;                           ///< None before the first scan.
   std::map<flow::MapId, flow::GraphCorrection> early_corrections_;  ///< Kept by the bus from before this process.

@@ -102,6 +102,9 @@ class Localizer {
   /// Labels by detection, used when tracking's do not come.
   void note(const flow::SegmentedScan& segmented);
 
+  /// Whether a scan waits to be integrated.
+  bool awaits_labels() const { return !pending_.empty(); }
+
   /// Adds the scan, and any that still wait before it, to the maps. Unknown scans are ignored.
   void integrate(const flow::ScanLabels& labels);
 

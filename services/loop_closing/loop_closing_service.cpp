@@ -17,6 +17,7 @@ LoopClosingService::LoopClosingService(app::ServiceContext& context, const Setti
       constraints_(context.write(dds::topics::kConstraint)),
       corrections_(context.write(dds::topics::kGraphCorrection)) {
   context.read(dds::topics::kStoredSubmapTile, app::Input::kOccasional, [this](const auto& tile) { take(tile); });
+  context.before_report([this] { context_.status().set_counters(named(closer_.counters())); });
 }
 
 void LoopClosingService::take(const slammot_SubmapTile& tile) {
@@ -58,7 +59,6 @@ void LoopClosingService::add(const flow::Submap& submap) {
   ++added_;
   publish_new_constraints();
   correction_encoder_.encode(context_.vehicle_id(), correction, [this](const auto& part) { corrections_.write(part); });
-  context_.status().set_counters(named(closer_.counters()));
 }
 
 /// Constraints are only ever added at the end.

@@ -31,6 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitInterrupted = 130;
 constexpr auto kPatienceAtTheEnd = 30s;
+constexpr auto kLastWords = 50ms;
 constexpr const char* kVehicle = "bench";
 
 struct BenchOptions : JobOptions {
@@ -77,10 +78,10 @@ double peak_memory_of_services_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-files::RunReport make_report(const Job& job, const BenchOptions& options, const Collector& collector, const ServiceProcesses& services) {
+files::RunReport make_report(const Job& job, const BenchOptions& options, const Collector& collector, const std::map<std::string, std::uint64_t>& restarts) {
   files::RunReport report = report_of(job, options, "bench");
   report.counters = collector.counters();
-  for (const auto& [name, count] : services.restarts()) report.counters["bench"]["restarts_of_" + name] = count;
+  for (const auto& [name, count] : restarts) report.counters["bench"]["restarts_of_" + name] = count;
   return report;
 }
 
@@ -140,8 +141,10 @@ int bench(const BenchOptions& asked_for) {
     std::fprintf(stderr, "slammot: interrupted\n");
     return kExitInterrupted;
   }
-  files::RunReport report = make_report(*job, options, collector, *services);
+  const auto restarts = services->restarts();
   services.reset();
+  collector.wait(kLastWords);  // the services' last counters
+  files::RunReport report = make_report(*job, options, collector, restarts);
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
   report.measured = {collector.latencies(), wall_s, report.plan.figures.duration_s / wall_s, std::max(peak_memory_mb(), peak_memory_of_services_mb())};
   const int exit_code = write(options, collector.record(stamps_ns), report);

@@ -31,7 +31,7 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
   context.read(dds::topics::kStoredTrackedObjects, app::Input::kOccasional, [this](const auto& sample) { take_stored(sample); });
   context.read(dds::topics::kSegmentedScan, app::Input::kSteady, [this](const auto& sample) { take(sample); });
   context.after(kStoredTracksPatience, [this] { begin(); });
-  context.every(1s, [this] { context_.status().set_counters(named(tracker_.counters())); });
+  context.before_report([this] { context_.status().set_counters(named(tracker_.counters())); });
 }
 
 /// Of several that were kept the newest counts; once tracking goes on they are echoes of its own.
