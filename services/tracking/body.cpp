@@ -15,22 +15,24 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double kFaceDepthM = 0.2;       ///< Points this near the outermost one lie on the same side.
+constexpr double kFaceDepthM = 0.15;      ///< Points this near the outermost one lie on the same side,
+constexpr double kFaceDepthSigmas = 3.0;  ///< or so many of their own standard deviations.
+constexpr double kNothingKnownM2 = 1e6;   ///< Variance of a size that was never seen.
 constexpr double kUnknownSigmaM = 3.0;    ///< Of a coordinate about which a glimpse says nothing.
 constexpr int kFewestOnFlank = 3;         ///< Echoes on a flank that tell where it ends.
 constexpr double kWidestM = 3.2;          ///< Nothing on the road is wider;
 constexpr double kWidestFaceM = 2.6;      ///< a side that is not longer may be a face.
-constexpr double kWholeSigmaM = 0.03;     ///< Errors of a size that is seen again and again do not average below this.
+constexpr double kWholeSigmaM = 0.06;     ///< Errors of a size that is seen again and again do not average below this.
 
 /// Means and one sigma of the sizes of road users, and how common they are.
 struct KindOfBody {
   Kind kind;
   double share, length_m, length_sigma_m, width_m, width_sigma_m;
 };
-constexpr std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.15, 1.75, 0.2, 0.65, 0.15},
-                                               {Kind::kCar, 0.65, 4.4, 0.4, 1.8, 0.12},
-                                               {Kind::kTruck, 0.1, 7.0, 1.2, 2.35, 0.2},
-                                               {Kind::kBus, 0.1, 12.0, 1.2, 2.5, 0.12}}};
+constexpr std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.14, 1.75, 0.2, 0.65, 0.15},
+                                               {Kind::kCar, 0.75, 4.4, 0.4, 1.8, 0.12},
+                                               {Kind::kTruck, 0.07, 7.0, 1.2, 2.35, 0.2},
+                                               {Kind::kBus, 0.04, 12.0, 1.2, 2.5, 0.12}}};
 
 /// The glimpse along one axis of the body, relative to the predicted centre.
 struct Shadow {
@@ -51,7 +53,7 @@ struct AxisMeasurement {
   int held = 0;                  ///< -1: the low side was seen, +1: the high one; the size grows from there. 0: none or both.
 };
 
-Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis) {
+Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double sigma_m) {
   Shadow shadow;
   const std::size_t count = glimpse.points_m.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -62,10 +64,11 @@ Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2
     if (s < shadow.low_m) shadow.low_m = s, shadow.low_edge = edge;
     if (s > shadow.high_m) shadow.high_m = s, shadow.high_edge = edge;
   }
+  const double depth_m = kFaceDepthM + kFaceDepthSigmas * sigma_m;
   for (const Vector2d& point : glimpse.points_m) {
     const double s = axis.dot(point - centre_m);
-    if (s < shadow.low_m + kFaceDepthM) shadow.low_face_m += s, ++shadow.low_count;
-    if (s > shadow.high_m - kFaceDepthM) shadow.high_face_m += s, ++shadow.high_count;
+    if (s < shadow.low_m + depth_m) shadow.low_face_m += s, ++shadow.low_count;
+    if (s > shadow.high_m - depth_m) shadow.high_face_m += s, ++shadow.high_count;
   }
   shadow.low_face_m /= shadow.low_count;
   shadow.high_face_m /= shadow.high_count;
@@ -204,18 +207,30 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 }  // namespace
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
-  double best = std::numeric_limits<double>::lowest();
-  for (const KindOfBody& kind : kKinds) {
-    const double scale = config.size_scale;
-    const double fit = std::log(kind.share) +
-                       log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence) +
-                       log_likelihood_of_size(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence);
-    if (fit <= best) continue;
-    best = fit;
-    body.kind = kind.kind;
-    body.length = likely_size(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence);
-    body.width = likely_size(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence);
+  const double scale = config.size_scale;
+  std::array<double, kKinds.size()> fit;
+  std::array<Size, kKinds.size()> length;
+  std::array<Size, kKinds.size()> width;
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    const KindOfBody& kind = kKinds[i];
+    fit[i] = std::log(kind.share) + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence) +
+             log_likelihood_of_size(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence);
+    length[i] = likely_size(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence);
+    width[i] = likely_size(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence);
   }
+  const auto best = static_cast<std::size_t>(std::max_element(fit.begin(), fit.end()) - fit.begin());
+  body.kind = kKinds[best].kind;
+  body.length = {length[best].value_m, 0.0};
+  body.width = {width[best].value_m, 0.0};
+  double total = 0.0;
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {  // how far off the likeliest is, should another kind be true
+    const double weight = std::exp(fit[i] - fit[best]);
+    total += weight;
+    body.length.variance_m2 += weight * (length[i].variance_m2 + squared(length[i].value_m - body.length.value_m));
+    body.width.variance_m2 += weight * (width[i].variance_m2 + squared(width[i].value_m - body.width.value_m));
+  }
+  body.length.variance_m2 /= total;
+  body.width.variance_m2 /= total;
   body.length.value_m = std::min(body.length.value_m, config.longest_body_m);
   body.width.value_m = std::min(body.width.value_m, kWidestM * config.size_scale);
   return body;
@@ -227,8 +242,8 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   const Vector2d across{-along.y(), along.x()};
   const Vector2d to_laser_m = glimpse.laser_m - predicted_centre_m;
   const double sigma_m = std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.shape_noise_m);
-  const Shadow u = shadow_of(glimpse, predicted_centre_m, along);
-  const Shadow v = shadow_of(glimpse, predicted_centre_m, across);
+  const Shadow u = shadow_of(glimpse, predicted_centre_m, along, sigma_m);
+  const Shadow v = shadow_of(glimpse, predicted_centre_m, across, sigma_m);
   const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
     return AxisView{axis.dot(to_laser_m), squared(sigma_m), spacing_m(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
                     spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), 0.5 * config.size_scale};
@@ -242,6 +257,10 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   measurement.body = body;
   note_sizes(measurement.body.length_evidence, body.length, u, u_view, flank_is_visible);
   note_sizes(measurement.body.width_evidence, body.width, v, v_view, face_is_visible);
+  if (!body.is_oriented) {  // only what a body cannot be smaller than, whichever way it lies
+    measurement.body.length_evidence.whole = body.length_evidence.whole;
+    measurement.body.width_evidence.whole = body.width_evidence.whole;
+  }
   measurement.body = with_likely_sizes(measurement.body, config);
   const AxisMeasurement at_u = measure_axis(measurement.body.length, u, u_view, flank_is_visible);
   const AxisMeasurement at_v = measure_axis(measurement.body.width, v, v_view, face_is_visible);
@@ -279,7 +298,7 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
 Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config) {
   const auto span_along = [&](double heading_rad) {
     const Vector2d axis{std::cos(heading_rad), std::sin(heading_rad)};
-    const Shadow shadow = shadow_of(glimpse, glimpse.points_m.front(), axis);
+    const Shadow shadow = shadow_of(glimpse, glimpse.points_m.front(), axis, 0.0);
     return shadow.high_m - shadow.low_m;
   };
   constexpr double kQuarterRad = 0.5 * std::numbers::pi;
@@ -292,6 +311,7 @@ Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingCo
   body.has_sides = true;
   body.heading_rad = geometry::wrap_angle(box_heading_rad + (is_face ? kQuarterRad : 0.0));
   body.heading_variance_rad2 = is_face ? 0.3 : 0.1;
+  body.is_oriented = longer_m > kWidestM * config.size_scale;
   body.length_evidence.least_m = is_face ? shorter_m : longer_m;
   body.width_evidence.least_m = is_face ? longer_m : shorter_m;
   return with_likely_sizes(body, config);
@@ -301,10 +321,30 @@ bool is_plausible(const Body& body, const TrackingConfig& config) {
   return !body.has_sides || (body.width_evidence.least_m < kWidestM * config.size_scale && body.length_evidence.least_m < config.longest_body_m);
 }
 
+Vector2d supposed_centre_m(const Body& body, const Glimpse& glimpse) {
+  const Vector2d along{std::cos(body.heading_rad), std::sin(body.heading_rad)};
+  const Vector2d across{-along.y(), along.x()};
+  const Vector2d origin_m = glimpse.points_m.front();
+  const Shadow u = shadow_of(glimpse, origin_m, along, 0.0);
+  const Shadow v = shadow_of(glimpse, origin_m, across, 0.0);
+  const Vector2d middle_m = origin_m + 0.5 * (u.low_m + u.high_m) * along + 0.5 * (v.low_m + v.high_m) * across;
+  const Vector2d sight_m = middle_m - glimpse.laser_m;
+  const double unseen_along_m = std::max(0.0, body.length.value_m - (u.high_m - u.low_m));
+  const double unseen_across_m = std::max(0.0, body.width.value_m - (v.high_m - v.low_m));
+  // What is not seen of it lies behind what is.
+  const bool is_face = u.high_m - u.low_m < v.high_m - v.low_m;
+  const double back_along_m = is_face || std::abs(along.dot(sight_m)) > 0.5 * body.length.value_m ? 0.5 * unseen_along_m : 0.0;
+  const double back_across_m = is_face ? 0.0 : 0.5 * unseen_across_m;
+  return middle_m + std::copysign(back_along_m, along.dot(sight_m)) * along + std::copysign(back_across_m, across.dot(sight_m)) * across;
+}
+
 Body turned_by_a_quarter(Body body, double sense, const TrackingConfig& config) {
   body.heading_rad = geometry::wrap_angle(body.heading_rad + std::copysign(0.5 * std::numbers::pi, sense));
   body.heading_variance_rad2 = std::max(body.heading_variance_rad2, 0.3);
   std::swap(body.length_evidence, body.width_evidence);
+  body.length_evidence.whole = {};  // measured for a body that lay otherwise
+  body.width_evidence.whole = {};
+  body.length_evidence.whole.variance_m2 = body.width_evidence.whole.variance_m2 = kNothingKnownM2;
   return with_likely_sizes(body, config);
 }
 

@@ -22,7 +22,7 @@ struct Size {
 /// What the scans said of a size so far.
 struct SizeEvidence {
   double least_m = 0.0;               ///< So much was seen at once: it is not smaller.
-  Size whole = {0.0, 100.0};          ///< Seen from edge to edge.
+  Size whole = {0.0, 1e6};            ///< Seen from edge to edge; a huge variance where it never was.
 };
 
 /// What is known of an object's outline: a box with sides, or a blob without.
@@ -30,6 +30,7 @@ struct Body {
   bool has_sides = false;
   double heading_rad = 0.0;           ///< Of the length, in odom.
   double heading_variance_rad2 = 10.0;
+  bool is_oriented = false;           ///< Which side is the length is known: by its course, or because it is long.
   Size length;                        ///< As believed, from the evidence and from what kinds of road users there are.
   Size width;
   SizeEvidence length_evidence;
@@ -81,6 +82,9 @@ Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingCo
 
 /// Whether anything on the road has such a shape; what has not is made of echoes from several things.
 bool is_plausible(const Body& body, const TrackingConfig& config);
+
+/// Where the body's centre is if a glimpse is the first that is known of where it is.
+Eigen::Vector2d supposed_centre_m(const Body& body, const Glimpse& glimpse);
 
 /// The body turned by a quarter: what was held to be its length is its width.
 Body turned_by_a_quarter(Body body, double sense, const TrackingConfig& config);

@@ -36,7 +36,7 @@ BodyMeasurement measure(const Body& body, const Vector2d& predicted_centre_m, co
 /// Draws the body anew; the sides that are seen stay where they are, so the centre moves and the velocity does not.
 void redraw(Track& track, const Body& body, const Glimpse& glimpse, const TrackingConfig& config) {
   const Vector2d before_m = measure(track.body, track.position_m(), glimpse, config).centre_m;
-  const BodyMeasurement after = measure(body, track.position_m(), glimpse, config);
+  const BodyMeasurement after = measure(body, supposed_centre_m(body, glimpse), glimpse, config);
   const filters::ModelSet models = motion_models(config);
   track.body = after.body;
   filters::imm_shift(models, track.motion, after.centre_m - before_m);
@@ -48,9 +48,10 @@ void redraw(Track& track, const Body& body, const Glimpse& glimpse, const Tracki
 void follow_side(Track& track, const Glimpse& glimpse) {
   if (!glimpse.side_heading_rad) return;
   Body& body = track.body;
-  const double off_rad = std::remainder(*glimpse.side_heading_rad - body.heading_rad, std::numbers::pi);
+  // A rectangle has sides at right angles: it may be a face or a flank.
+  const double off_rad = std::remainder(*glimpse.side_heading_rad - body.heading_rad, 0.5 * std::numbers::pi);
   constexpr double kFarthestRad = 0.5;
-  constexpr double kVarianceRad2 = 0.04 * 0.04 * 10.0;  // the errors of one scan are those of the next
+  constexpr double kVarianceRad2 = 0.1 * 0.1;  // the errors of one scan are those of the next
   if (std::abs(off_rad) > kFarthestRad) return;
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + kVarianceRad2);
   body.heading_rad = wrap_angle(body.heading_rad + gain * off_rad);
@@ -73,6 +74,7 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
     off_rad = wrap_angle(course.heading_rad - track.body.heading_rad);
   }
   Body& body = track.body;
+  body.is_oriented = body.is_oriented || course.variance_rad2 < 0.03;
   const double variance_rad2 = course.variance_rad2 + 0.002;  // wheels do not always roll where the body points
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + variance_rad2);
   body.heading_rad = wrap_angle(body.heading_rad + gain * off_rad);
@@ -158,7 +160,7 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
   BodyMeasurement first = measure_blob(track.body, glimpse, config);
   if (extent_m > config.box_from_extent_m) {
     track.body = likely_box(box_heading_rad, glimpse, config);
-    first = measure_box(track.body, first.centre_m, glimpse, config);
+    first = measure_box(track.body, supposed_centre_m(track.body, glimpse), glimpse, config);
     track.body = first.body;
   }
   filters::MotionState start;
@@ -306,6 +308,7 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
   track.body.length = {object.length_m, 0.3};
   track.body.width = {object.width_m, 0.05};
   if (track.body.has_sides) {
+    track.body.is_oriented = true;
     track.body.length_evidence.whole = {object.length_m, 0.3};
     track.body.width_evidence.whole = {object.width_m, 0.05};
     track.body = with_likely_sizes(track.body, config);

@@ -108,7 +108,7 @@ Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view) {
 
 /// The points of some beams, with what lies beside them.
 Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view, double size_scale, std::vector<Vector2d>& points_m) {
-  constexpr double kLongSideM = 3.0;
+  constexpr double kLongSideM = 1.4;
   points_m.clear();
   for (const std::uint16_t beam : beams) points_m.push_back(view.point_in_odom_m(beam));
   return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(beams.front(), -1, view.polar()),
@@ -116,7 +116,8 @@ Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view
 }
 
 bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
-  if ((a.velocity_mps() - b.velocity_mps()).norm() > 1.5 + 0.2 * a.velocity_mps().norm()) return false;
+  const bool is_supposed = a.confirmed && (!b.confirmed || a.body.has_sides);  // nothing can be inside another
+  if (!is_supposed && (a.velocity_mps() - b.velocity_mps()).norm() > 1.5 + 0.2 * a.velocity_mps().norm()) return false;
   const bool b_in_a = offset_from_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m()).isZero();
   const bool a_in_b = offset_from_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m()).isZero();
   if (a.body.has_sides || b.body.has_sides) return b_in_a || a_in_b;
@@ -269,6 +270,10 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   const SegmentPast& past = past_of_segment_[index];
   const auto count = static_cast<int>(segment.beams.size());
   if (count < config_.least_points_at_birth) return false;
+  for (std::size_t t = 0; t < tracks_.size(); ++t)
+    if (tracks_[t].confirmed && tracks_[t].body.has_sides && !shares_.beams_of_track[t].empty() &&
+        offset_from_box(tracks_[t].body, tracks_[t].position_m(), config_.gate_margin_m, segment.centroid_in_odom_m).isZero())
+      return false;
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
   constexpr int kFewest = 4;
   const int moved = past.arrived + past.receded;

@@ -1,0 +1,76 @@
+#include "common/sensing/segmentation.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace slammot::sensing {
+namespace {
+
+constexpr double kStepRad = 0.5 * M_PI / 180.0;
+
+/// Half a turn from the right to the left, with whatever is met in each direction.
+struct Sweep {
+  std::vector<Eigen::Vector2f> points_m;
+  std::vector<float> range_m;
+
+  template <typename RangeAt>
+  explicit Sweep(RangeAt range_at) {
+    for (int beam = 0; beam <= 360; ++beam) {
+      const double angle = -0.5 * M_PI + beam * kStepRad;
+      const std::optional<double> range = range_at(angle);
+      range_m.push_back(static_cast<float>(range.value_or(0.0)));
+      points_m.emplace_back(range.value_or(0.0) * std::cos(angle), range.value_or(0.0) * std::sin(angle));
+    }
+  }
+  std::vector<BeamSpan> spans(const SegmentationConfig& config = {}) const {
+    std::vector<BeamSpan> spans;
+    segment_by_distance(points_m, range_m, kStepRad, config, spans);
+    return spans;
+  }
+};
+
+TEST(Segmentation, CutsWhereARangeJumps) {
+  const Sweep sweep([](double angle) -> std::optional<double> { return angle < 0.0 ? 10.0 : 14.0; });
+  const auto spans = sweep.spans();
+  ASSERT_EQ(spans.size(), 2U);
+  EXPECT_EQ(spans[0].first, 0);
+  EXPECT_EQ(spans[0].last + 1, spans[1].first);
+  EXPECT_EQ(spans[1].last, 360);
+}
+
+TEST(Segmentation, KeepsAWallAtAGrazingAngleWhole) {
+  // 2 m to the left, parallel to the direction of travel: the echoes ahead lie metres apart.
+  const Sweep sweep([](double angle) -> std::optional<double> {
+    return angle > 0.03 ? std::optional(2.0 / std::sin(angle)) : std::nullopt;
+  });
+  EXPECT_EQ(sweep.spans().size(), 1U);
+}
+
+TEST(Segmentation, BridgesBeamsWithoutEcho) {
+  SegmentationConfig config;
+  config.bridged_beams = 2;
+  int beam = 0;
+  const Sweep two([&](double) -> std::optional<double> { return ++beam == 100 || beam == 101 ? std::nullopt : std::optional(8.0); });
+  EXPECT_EQ(two.spans(config).size(), 1U);
+  beam = 0;
+  const Sweep three([&](double) -> std::optional<double> { return ++beam >= 100 && beam <= 102 ? std::nullopt : std::optional(8.0); });
+  EXPECT_EQ(three.spans(config).size(), 2U);
+}
+
+TEST(Segmentation, AllowsWiderGapsFartherAway) {
+  // Two things half a metre apart: two at 5 m; at 40 m neighbouring beams are as far apart as that.
+  const auto gap_at = [](double range_m) {
+    return Sweep([=](double angle) -> std::optional<double> { return std::abs(angle) * range_m < 0.25 || std::abs(angle) * range_m > 2.0 ? std::nullopt : std::optional(range_m); });
+  };
+  EXPECT_EQ(gap_at(5.0).spans().size(), 2U);
+  EXPECT_EQ(gap_at(40.0).spans().size(), 1U);
+}
+
+TEST(Segmentation, FindsNothingInAScanWithoutEchoes) {
+  EXPECT_TRUE(Sweep([](double) -> std::optional<double> { return std::nullopt; }).spans().empty());
+}
+
+}  // namespace
+}  // namespace slammot::sensing

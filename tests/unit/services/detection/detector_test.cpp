@@ -1,0 +1,125 @@
+#include "services/detection/detector.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/street.hpp"
+
+namespace slammot::detection {
+namespace {
+
+using flow::PointLabel;
+using testing::Street;
+using testing::StreetBox;
+
+const StreetBox kWall{{40.0, 0.0, M_PI / 2.0}, 80.0, 1.0};  // across the view, 39.5 m ahead
+
+const flow::Segment* segment_at(const flow::SegmentedScan& scan, const geometry::Vector2& place_m, double within_m) {
+  for (const flow::Segment& segment : scan.segments)
+    if ((segment.centroid_in_odom_m - place_m).norm() < within_m) return &segment;
+  return nullptr;
+}
+
+TEST(Detector, HoldsForMovingWhatStandsInSpaceKnownToBeFree) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{{20.0, 5.0, 0.3}}};
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  const flow::Segment* car = segment_at(scan, {20.0, 5.0}, 3.0);
+  ASSERT_NE(car, nullptr);
+  EXPECT_EQ(car->label, PointLabel::kMoving);
+  const flow::Segment* wall = segment_at(scan, {39.5, -10.0}, 15.0);
+  ASSERT_NE(wall, nullptr);
+  EXPECT_EQ(wall->label, PointLabel::kStationary);
+}
+
+TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {
+  Street street;
+  street.known = {kWall};
+  street.gone = {{{15.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};  // a fence that hid what is behind it and is no longer there
+  street.unknown = {{{22.0, 0.0, 0.0}}};
+  const flow::Segment* car = segment_at(detect(street.scan(0, 0), {}), {20.0, 0.0}, 2.0);
+  if (car != nullptr) EXPECT_NE(car->label, PointLabel::kMoving);
+}
+
+TEST(Detector, PutsEveryEchoIntoExactlyOneSegment) {
+  Street street;
+  street.known = {kWall, {{12.0, -8.0, 0.2}}};
+  street.unknown = {{{20.0, 5.0, 0.3}}, {{9.0, 2.0, 0.0}, 0.5, 0.5}};
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  std::vector<int> owners(scan.range_m.size(), 0);
+  for (const flow::Segment& segment : scan.segments) {
+    EXPECT_TRUE(std::is_sorted(segment.beams.begin(), segment.beams.end()));
+    for (const std::uint16_t beam : segment.beams) ++owners[beam];
+  }
+  for (std::size_t beam = 0; beam < owners.size(); ++beam) {
+    const bool is_echo = scan.range_m[beam] > 0.0F && scan.labels[beam] != PointLabel::kNoEcho;
+    EXPECT_EQ(owners[beam], is_echo ? 1 : 0) << beam;
+  }
+}
+
+TEST(Detector, SeesWhoWalksInFrontOfAWallAsAThingOfItsOwn) {
+  Street street;
+  street.known = {{{12.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};  // its face is 11.5 m ahead
+  street.unknown = {{{10.4, 0.0, 0.0}, 0.4, 0.5}};
+  const flow::Segment* walker = segment_at(detect(street.scan(0, 0), {}), {10.2, 0.0}, 0.3);
+  ASSERT_NE(walker, nullptr);
+  EXPECT_EQ(walker->label, PointLabel::kMoving);
+  EXPECT_LT(walker->box_length_m, 0.8);
+}
+
+TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -1.0, 0.0}, 0.4, 0.5}};  // somebody in front of a car seen from the side
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  const flow::Segment* right = segment_at(scan, {19.1, -2.2}, 0.5);
+  const flow::Segment* left = segment_at(scan, {19.1, 0.4}, 1.5);
+  ASSERT_NE(left, nullptr);
+  EXPECT_TRUE(left->occluded_at_start);
+  EXPECT_FALSE(left->occluded_at_end);
+  if (right != nullptr && right != left) EXPECT_TRUE(right->occluded_at_end);
+}
+
+/// A line square to the vehicle's axis, `distance_m` ahead, thin.
+StreetBox line_ahead(double distance_m, double width_m) { return {{distance_m, 0.0, M_PI / 2.0}, width_m, 0.1}; }
+
+TEST(Detector, TakesALineThatNothingIsSeenBeyondForTheGround) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {line_ahead(15.0, 200.0)};  // the whole width of the view: what a pitching scanner gets
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  EXPECT_EQ(scan.labels[180], PointLabel::kNoEcho);
+  EXPECT_EQ(segment_at(scan, {14.95, 0.0}, 5.0), nullptr);
+}
+
+TEST(Detector, DoesNotTakeTheBackOfATruckForTheGround) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{{18.5, 0.0, 0.0}, 7.0, 2.5}};  // its back is 15 m ahead, and much is seen beyond it on both sides
+  const flow::Segment* truck = segment_at(detect(street.scan(0, 0), {}), {15.0, 0.0}, 0.5);
+  ASSERT_NE(truck, nullptr);
+  EXPECT_EQ(truck->label, PointLabel::kMoving);
+}
+
+TEST(Detector, MovesWithTheWorld) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{{20.0, 5.0, 0.3}}};
+  const flow::SegmentedScan here = detect(street.scan(0, 0), {});
+  const geometry::Pose2 there_from_here{100.0, -50.0, 0.7};
+  for (auto* boxes : {&street.known, &street.unknown})
+    for (StreetBox& box : *boxes) box.odom_from_box = there_from_here * box.odom_from_box;
+  const flow::SegmentedScan there = detect(street.scan(0, 0, there_from_here), {});
+  ASSERT_EQ(there.segments.size(), here.segments.size());
+  for (std::size_t i = 0; i < here.segments.size(); ++i) {
+    EXPECT_EQ(there.segments[i].label, here.segments[i].label);
+    EXPECT_LT((there.segments[i].centroid_in_odom_m - there_from_here * here.segments[i].centroid_in_odom_m).norm(), 1e-3);
+    EXPECT_NEAR(there.segments[i].box_length_m, here.segments[i].box_length_m, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace slammot::detection

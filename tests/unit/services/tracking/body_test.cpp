@@ -1,0 +1,143 @@
+#include "services/tracking/body.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "services/tracking/tracking_config.hpp"
+
+namespace slammot::tracking {
+namespace {
+
+using Eigen::Vector2d;
+
+const TrackingConfig kConfig;
+constexpr double kStepRad = 0.5 * M_PI / 180.0;
+
+/// Echoes of a box at heading 0 as a laser at the origin gets them.
+std::vector<Vector2d> echoes_of(const Vector2d& centre_m, double length_m, double width_m) {
+  std::vector<Vector2d> points;
+  for (double angle = -M_PI / 2.0; angle <= M_PI / 2.0; angle += kStepRad) {
+    const Vector2d way{std::cos(angle), std::sin(angle)};
+    double near = 0.0, far = 1e9;
+    const double half[2] = {0.5 * length_m, 0.5 * width_m};
+    for (int axis = 0; axis < 2; ++axis) {
+      const double a = (centre_m[axis] - half[axis]) / way[axis], b = (centre_m[axis] + half[axis]) / way[axis];
+      near = std::max(near, std::min(a, b)), far = std::min(far, std::max(a, b));
+    }
+    if (near < far) points.push_back(near * way);
+  }
+  return points;
+}
+
+Glimpse glimpse_of(const std::vector<Vector2d>& points) {
+  Glimpse glimpse;
+  glimpse.points_m = points;
+  glimpse.beam_step_rad = kStepRad;
+  return glimpse;
+}
+
+/// Measured again and again until the belief has settled.
+BodyMeasurement settled(Body body, const Vector2d& predicted_m, const Glimpse& glimpse) {
+  body.is_oriented = true;
+  BodyMeasurement measurement;
+  Vector2d centre_m = predicted_m;
+  for (int i = 0; i < 20; ++i) {
+    measurement = measure_box(body, centre_m, glimpse, kConfig);
+    body = measurement.body;
+    centre_m = measurement.centre_m;
+  }
+  return measurement;
+}
+
+TEST(Body, IsAsLongAsACarWhenOnlyTheBackOfOneIsSeen) {
+  const auto points = echoes_of({20.0, 0.0}, 4.5, 1.8);
+  const Glimpse glimpse = glimpse_of(points);
+  const Body body = likely_box(M_PI / 2.0, glimpse, kConfig);  // the long side that is seen lies across the view
+  EXPECT_EQ(body.kind, Kind::kCar);
+  EXPECT_NEAR(std::abs(std::cos(body.heading_rad)), 1.0, 1e-6);
+  const BodyMeasurement measurement = settled(body, supposed_centre_m(body, glimpse), glimpse);
+  EXPECT_NEAR(measurement.centre_m.x(), 20.0, 0.15);
+  EXPECT_NEAR(measurement.centre_m.y(), 0.0, 0.1);
+  EXPECT_NEAR(measurement.body.width.value_m, 1.8, 0.15);
+}
+
+TEST(Body, IsLongerThanACarBehindABackThatIsWiderThanACars) {
+  const auto points = echoes_of({20.0, 0.0}, 12.0, 2.5);
+  const Body body = likely_box(M_PI / 2.0, glimpse_of(points), kConfig);
+  EXPECT_TRUE(body.kind == Kind::kTruck || body.kind == Kind::kBus);
+  EXPECT_GT(body.length.variance_m2, 1.0);  // which of the two is open
+}
+
+TEST(Body, IsAsLongAsItsFlankWhenThatIsSeenFromEndToEnd) {
+  const auto points = echoes_of({8.0, 12.0}, 5.2, 1.9);
+  const Glimpse glimpse = glimpse_of(points);
+  const BodyMeasurement measurement = settled(likely_box(0.0, glimpse, kConfig), {8.0, 12.0}, glimpse);
+  EXPECT_NEAR(measurement.body.length.value_m, 5.2, 0.15);
+  EXPECT_LT((measurement.centre_m - Vector2d(8.0, 12.0)).norm(), 0.2);
+}
+
+TEST(Body, DoesNotShrinkToThePartThatSomethingNearerLeavesInView) {
+  auto points = echoes_of({8.0, 12.0}, 5.2, 1.9);
+  Body body = settled(likely_box(0.0, glimpse_of(points), kConfig), {8.0, 12.0}, glimpse_of(points)).body;
+  points.resize(points.size() / 2);
+  Glimpse half = glimpse_of(points);
+  half.end = Edge::kHidden;
+  const BodyMeasurement measurement = settled(body, {8.0, 12.0}, half);
+  EXPECT_NEAR(measurement.body.length.value_m, 5.2, 0.2);
+}
+
+TEST(Body, KeepsTheSideThatIsSeenWhereItIsWhenItGrows) {
+  Body body;
+  body.has_sides = body.is_oriented = true;
+  body = with_likely_sizes(body, kConfig);
+  const Vector2d centre_m{20.0, 0.0};
+  const double back_m = centre_m.x() - 0.5 * body.length.value_m;
+  std::vector<Vector2d> points;
+  for (double y = -1.25; y <= 1.25; y += 0.1) points.emplace_back(back_m, y);  // wider than a car
+  const BodyMeasurement measurement = measure_box(body, centre_m, glimpse_of(points), kConfig);
+  ASSERT_GT(measurement.body.length.value_m, body.length.value_m + 1.0);
+  EXPECT_NEAR((centre_m + measurement.recentring_m).x() - 0.5 * measurement.body.length.value_m, back_m, 1e-6);
+}
+
+TEST(Body, KnowsTheLengthAsItsWidthAfterAQuarterTurn) {
+  Body body;
+  body.has_sides = true;
+  body.length_evidence.least_m = 1.9;
+  body = with_likely_sizes(body, kConfig);
+  const Body turned = turned_by_a_quarter(body, 1.0, kConfig);
+  EXPECT_NEAR(std::abs(std::sin(turned.heading_rad)), 1.0, 1e-9);
+  EXPECT_GE(turned.width.value_m, 1.9);
+  EXPECT_GT(turned.length.value_m, turned.width.value_m);
+}
+
+TEST(Body, ScalesWithTheRoadUsersOfALaboratory) {
+  TrackingConfig model_cars;
+  model_cars.size_scale = 0.1;
+  Body body;
+  body.has_sides = true;
+  EXPECT_NEAR(with_likely_sizes(body, model_cars).length.value_m, 0.1 * with_likely_sizes(body, kConfig).length.value_m, 1e-5);
+}
+
+TEST(Body, OfTwoThingsThatAreNoneOnTheRoadIsNotPlausible) {
+  Body body;
+  body.has_sides = true;
+  EXPECT_TRUE(is_plausible(body, kConfig));
+  body.width_evidence.least_m = 4.0;
+  EXPECT_FALSE(is_plausible(body, kConfig));
+}
+
+TEST(OffsetFromBox, IsZeroInsideAndLeadsFromTheNearestSideOutside) {
+  Body body;
+  body.heading_rad = M_PI / 2.0;
+  body.length.value_m = 4.0;
+  body.width.value_m = 2.0;
+  EXPECT_TRUE(offset_from_box(body, {1.0, 1.0}, 0.0, {1.5, 2.5}).isZero());
+  const Vector2d outside = offset_from_box(body, {1.0, 1.0}, 0.0, {4.0, 1.0});
+  EXPECT_NEAR(outside.x(), 2.0, 1e-9);
+  EXPECT_NEAR(outside.y(), 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace slammot::tracking

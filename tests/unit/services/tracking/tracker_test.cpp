@@ -1,0 +1,210 @@
+#include "services/tracking/tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "services/detection/detector.hpp"
+#include "tests/support/street.hpp"
+
+namespace slammot::tracking {
+namespace {
+
+using geometry::Pose2;
+using geometry::Vector2;
+using testing::Street;
+using testing::StreetBox;
+
+constexpr double kPeriodS = 1.0 / 37.5;
+const StreetBox kWall{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0};
+
+/// A street that plays before a scanner at rest.
+class Play {
+ public:
+  explicit Play(const TrackingConfig& config = {}) : tracker_(config) { street.known = {kWall}; }
+
+  /// Lets time pass; `scene` sets the street for each moment.
+  void run(double seconds, const std::function<void(Street&, double)>& scene) {
+    for (int i = 0; i < std::lround(seconds / kPeriodS); ++i) step(scene);
+  }
+
+  void step(const std::function<void(Street&, double)>& scene) {
+    scene(street, now_s());
+    const auto stamp_ns = static_cast<std::int64_t>(now_s() * 1e9);
+    result = tracker_.track(detection::detect(street.scan(stamp_ns, sequence_), {}));
+    ++sequence_;
+    for (const flow::TrackedObject& object : confirmed()) ids.insert(object.track_id.value);
+  }
+
+  double now_s() const { return sequence_ * kPeriodS; }
+  Tracker& tracker() { return tracker_; }
+
+  std::vector<flow::TrackedObject> confirmed() const {
+    std::vector<flow::TrackedObject> objects;
+    for (const flow::TrackedObject& object : result.objects.objects)
+      if (object.confirmed) objects.push_back(object);
+    return objects;
+  }
+
+  Street street;
+  TrackingResult result;
+  std::set<std::uint32_t> ids;  ///< Of all that were ever confirmed.
+
+ private:
+  Tracker tracker_;
+  std::uint32_t sequence_ = 0;
+};
+
+TEST(Tracker, KnowsWhereACarThatCrossesIsAndHowFast) {
+  Play play;
+  const auto scene = [](Street& street, double t) { street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}}; };
+  play.run(2.0, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackedObject car = play.confirmed().front();
+  const double t = play.now_s() - kPeriodS;
+  EXPECT_LT((car.position_in_odom_m - Vector2(20.0, -15.0 + 8.0 * t)).norm(), 0.3);
+  EXPECT_LT((car.velocity_in_odom_mps - Vector2(0.0, 8.0)).norm(), 0.3);
+  EXPECT_EQ(car.object_class, flow::ObjectClass::kCar);
+  EXPECT_NEAR(car.length_m, 4.5, 0.4);
+  EXPECT_EQ(play.ids.size(), 1U);
+}
+
+TEST(Tracker, IsSureOfACarWithinHalfASecond) {
+  Play play;
+  play.run(1.5, [](Street&, double) {});  // what was there before
+  int scans = 0;
+  for (; play.confirmed().empty() && scans < 40; ++scans)
+    play.step([](Street& street, double t) { street.unknown = {{{25.0, -12.0 + 8.0 * (t - 1.5), M_PI / 2.0}}}; });
+  EXPECT_LT(scans * kPeriodS, 0.5);
+}
+
+TEST(Tracker, NeverBelievesInAWallThatTheMapHoldsToBeFree) {
+  Play play;
+  const StreetBox forgotten{{15.0, 8.0, 0.0}, 10.0, 0.5};
+  play.run(4.0, [&](Street& street, double) { street.unknown = {forgotten}; });
+  EXPECT_TRUE(play.ids.empty());
+  std::size_t moving = 0;
+  for (const flow::PointLabel label : play.result.labels.labels) moving += label == flow::PointLabel::kMoving ? 1 : 0;
+  EXPECT_EQ(moving, 0U);  // so that the map learns it
+}
+
+TEST(Tracker, NeverBelievesInTheEndOfAWallThatComesIntoView) {
+  Play play;  // a van drives off and uncovers, bit by bit, a wall of which the map knows nothing
+  play.run(3.0, [&](Street& street, double t) {
+    street.unknown = {{{20.0, 8.0, M_PI / 2.0}, 10.0, 0.5}, {{12.0, 5.0 + 2.0 * t, M_PI / 2.0}, 5.0, 2.0}};
+  });
+  for (const flow::TrackedObject& object : play.confirmed()) EXPECT_LT(object.position_in_odom_m.x(), 15.0);
+}
+
+TEST(Tracker, FollowsACarThatStoodInTheMapAndStartsOff) {
+  Play play;
+  const StreetBox parked{{15.0, 0.0, 0.0}};
+  play.run(2.0, [&](Street& street, double) { street.known = {kWall, parked}; });
+  EXPECT_TRUE(play.ids.empty());
+  play.run(3.0, [&](Street& street, double t) {
+    street.known = {kWall};
+    street.gone = {parked};
+    street.unknown = {{{15.0 + 0.75 * (t - 2.0) * (t - 2.0), 0.0, 0.0}}};
+  });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.x(), 4.5, 0.6);
+}
+
+TEST(Tracker, KnowsSomebodyAgainWhoWasHidden) {
+  Play play;
+  play.street.known.push_back({{12.0, 0.0, M_PI / 2.0}, 2.0, 1.0});
+  bool was_hidden = false;
+  const auto scene = [](Street& street, double t) { street.unknown = {{{16.0, -5.0 + 1.5 * t, M_PI / 2.0}, 0.4, 0.5}}; };
+  for (int i = 0; i < 230; ++i) {
+    play.step(scene);
+    was_hidden = was_hidden || (i > 80 && play.confirmed().empty());
+  }
+  EXPECT_TRUE(was_hidden);
+  EXPECT_EQ(play.confirmed().size(), 1U);
+  EXPECT_EQ(play.ids.size(), 1U);
+}
+
+TEST(Tracker, StopsWithWhatStopsAndKeepsIt) {
+  Play play;  // 8 m/s, brakes at 2 m/s^2 from t = 1 s on, stands from t = 5 s on
+  const auto y_of = [](double t) {
+    const double braking = std::clamp(t - 1.0, 0.0, 4.0);
+    return -15.0 + 8.0 * std::min(t, 1.0) + 8.0 * braking - braking * braking;
+  };
+  play.run(9.0, [&](Street& street, double t) { street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}}; });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_LT(play.confirmed().front().velocity_in_odom_mps.norm(), 0.1);
+  EXPECT_EQ(play.confirmed().front().motion, flow::Motion::kStopped);
+  EXPECT_EQ(play.ids.size(), 1U);
+}
+
+TEST(Tracker, DoesNotTakeAParkedCarForOneThatLeavesTheView) {
+  Play play;
+  play.street.known.push_back({{6.0, 9.0, 0.0}});
+  play.run(4.0, [](Street& street, double t) { street.unknown = {{{14.0 - 8.0 * t, 5.5, M_PI}}}; });
+  EXPECT_TRUE(play.confirmed().empty());
+}
+
+TEST(Tracker, HoldsTwoLegsForOneWhoWalks) {
+  Play play;
+  play.run(4.0, [](Street& street, double t) {
+    const double swing_m = 0.25 * std::sin(2.0 * M_PI * t);
+    const double x_m = 14.0 - 1.3 * t;
+    street.unknown = {{{x_m + swing_m, 0.2, 0.0}, 0.15, 0.15}, {{x_m - swing_m, -0.1, 0.0}, 0.15, 0.15}};
+  });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_EQ(play.confirmed().front().object_class, flow::ObjectClass::kPedestrian);
+  EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.x(), -1.3, 0.3);
+}
+
+TEST(Tracker, GoesOnWithTheSameIdsAfterARestart) {
+  Play play;
+  const auto scene = [](Street& street, double t) { street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}}; };
+  play.run(1.5, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  play.tracker().take_up(play.result.objects);
+  play.run(1.0, scene);
+  EXPECT_EQ(play.confirmed().size(), 1U);
+  EXPECT_EQ(play.ids.size(), 1U);
+}
+
+TEST(Tracker, TellsTheSameWhenAskedTwice) {
+  const auto scene = [](Street& street, double t) {
+    street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}, {{12.0 - t, 3.0, 0.0}, 0.4, 0.5}};
+  };
+  Play first, second;
+  first.run(2.0, scene);
+  second.run(2.0, scene);
+  ASSERT_EQ(first.result.objects.objects.size(), second.result.objects.objects.size());
+  for (std::size_t i = 0; i < first.result.objects.objects.size(); ++i) {
+    EXPECT_EQ(first.result.objects.objects[i].track_id, second.result.objects.objects[i].track_id);
+    EXPECT_EQ(first.result.objects.objects[i].position_in_odom_m, second.result.objects.objects[i].position_in_odom_m);
+  }
+  EXPECT_EQ(first.result.labels.labels, second.result.labels.labels);
+}
+
+TEST(Tracker, LabelsAScanFromThePastAsDetectionDid) {
+  Play play;
+  play.run(0.5, [](Street&, double) {});
+  const flow::SegmentedScan old = detection::detect(play.street.scan(0, 0), {});
+  EXPECT_EQ(play.tracker().track(old).labels.labels, old.labels);
+  EXPECT_EQ(play.tracker().counters().late_scans, 1U);
+}
+
+TEST(Tracker, SaysWhereAnObjectWillBeAndHowSurely) {
+  Play play;
+  play.run(2.0, [](Street& street, double t) { street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}}; });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackedObject car = play.confirmed().front();
+  ASSERT_FALSE(car.predicted_path.empty());
+  EXPECT_NEAR(car.predicted_path.back().after_s, 3.0, 1e-9);
+  const Vector2 travelled_m = car.predicted_path.back().position_in_odom_m - car.position_in_odom_m;
+  EXPECT_LT((travelled_m - 3.0 * car.velocity_in_odom_mps).norm(), 0.5);
+  EXPECT_GT(car.predicted_path.back().covariance_m2.trace(), car.predicted_path.front().covariance_m2.trace());
+}
+
+}  // namespace
+}  // namespace slammot::tracking
