@@ -41,9 +41,9 @@ TEST(Segmentation, CutsWhereARangeJumps) {
 }
 
 TEST(Segmentation, KeepsAWallAtAGrazingAngleWhole) {
-  // 2 m to the left, parallel to the direction of travel: the echoes ahead lie metres apart.
+  // 2 m to the left, parallel to the direction of travel, up to 30 m ahead: there the echoes lie 4 m apart.
   const Sweep sweep([](double angle) -> std::optional<double> {
-    return angle > 0.03 ? std::optional(2.0 / std::sin(angle)) : std::nullopt;
+    return angle > 0.066 ? std::optional(2.0 / std::sin(angle)) : std::nullopt;
   });
   EXPECT_EQ(sweep.spans().size(), 1U);
 }
