@@ -392,7 +392,8 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
     const bool has_stood = !track.confirmed && age_s > config_.longest_tentative_s;
     const double idle_s = static_cast<double>(last_stamp_ns_ - track.last_moving_ns) * kNanosecond_s;
-    const bool never_moved = track.confirmed && track.farthest_m < config_.least_travel_to_stand_m && idle_s > config_.longest_stand_s;
+    const double least_travel_m = std::max(config_.least_travel_to_stand_m, 0.5 * track.body.length.value_m);
+    const bool never_moved = track.confirmed && track.farthest_m < least_travel_m && idle_s > config_.longest_stand_s;
     const bool is_dead = is_lost || has_stood || never_moved || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {
       ++counters_.tracks_rejected;
