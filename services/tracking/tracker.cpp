@@ -116,7 +116,9 @@ Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view
 }
 
 bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
-  const bool is_supposed = a.confirmed && (!b.confirmed || a.body.has_sides);  // nothing can be inside another
+  // Nothing can be inside a vehicle; what is smaller may be several who walk.
+  const bool is_vehicle = a.body.has_sides && a.body.kind != Kind::kBicycle;
+  const bool is_supposed = a.confirmed && is_vehicle;
   if (!is_supposed && (a.velocity_mps() - b.velocity_mps()).norm() > 1.5 + 0.2 * a.velocity_mps().norm()) return false;
   const bool b_in_a = offset_from_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m()).isZero();
   const bool a_in_b = offset_from_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m()).isZero();
@@ -271,7 +273,7 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   const auto count = static_cast<int>(segment.beams.size());
   if (count < config_.least_points_at_birth) return false;
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    if (tracks_[t].confirmed && tracks_[t].body.has_sides && !shares_.beams_of_track[t].empty() &&
+    if (tracks_[t].confirmed && tracks_[t].body.has_sides && tracks_[t].body.kind != Kind::kBicycle && !shares_.beams_of_track[t].empty() &&
         offset_from_box(tracks_[t].body, tracks_[t].position_m(), config_.gate_margin_m, segment.centroid_in_odom_m).isZero())
       return false;
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
