@@ -157,6 +157,11 @@ void Localizer::travel(const Pose2& before_from_base) {
   drift_.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
 }
 
+UncertainPose2 Localizer::published_pose() const {
+  const Eigen::Vector3d shared(config_.shared_error_forward, config_.shared_error_sideways, config_.shared_error_heading);
+  return {estimate_.odom_from_base, sensing::scaled(estimate_.uncertain_pose(), {variance_factors_.of_axis.cwiseProduct(shared)})};
+}
+
 flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base) const {
   flow::LocalizedScan localized;
   localized.stamp_ns = scan.stamp_ns;
@@ -236,6 +241,10 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     const Match found = match(prior);
     const Pose2 before_from_base = geometry::inverse(estimate_.odom_from_base) * found.odom_from_base.pose;
     estimate_ = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
+    if (found.is_believed) {
+      const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
+      variance_factors_ = sensing::learned(variance_factors_, prior, found.odom_from_base, share);
+    }
     travel(before_from_base);
     now.knows_velocity = is_later || last_->knows_velocity;
     if (is_later && !step.is_by_wheels) {
@@ -246,7 +255,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   if (!last_ || last_->stamp_ns != now.stamp_ns) scanners_at_last_.clear();
   scanners_at_last_.push_back(scan.scanner.scanner_id);
   last_ = now;
-  flow::LocalizedScan localized = describe(scan, estimate_.uncertain_pose());
+  flow::LocalizedScan localized = describe(scan, published_pose());
   remember(scan, localized);
   return localized;
 }
@@ -357,6 +366,7 @@ std::vector<std::byte> Localizer::checkpoint() const {
   put(bytes, estimate_.odom_from_base);
   put(bytes, estimate_.calibration);
   put(bytes, estimate_.covariance);
+  put(bytes, variance_factors_.of_axis);
   put(bytes, last_->has_wheels);
   put(bytes, last_->wheel_from_base);
   put(bytes, last_->knows_velocity);
@@ -387,6 +397,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   from.get(restored.estimate_.odom_from_base);
   from.get(restored.estimate_.calibration);
   from.get(restored.estimate_.covariance);
+  from.get(restored.variance_factors_.of_axis);
   from.get(last.has_wheels);
   from.get(last.wheel_from_base);
   from.get(last.knows_velocity);
@@ -406,6 +417,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
                         is_believable(restored.previous_from_submap_.pose) &&
                         is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.drift_) &&
                         is_believable(restored.estimate_.covariance) && restored.estimate_.calibration.norm() < 1.0 &&
+                        restored.variance_factors_.of_axis.minCoeff() >= 0.0 && restored.variance_factors_.of_axis.allFinite() &&
                         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
                         std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.travelled_m_);
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;

@@ -21,6 +21,7 @@
 #include "common/sensing/motion_model.hpp"
 #include "common/sensing/odometry_buffer.hpp"
 #include "common/sensing/scan.hpp"
+#include "common/sensing/variance_factor.hpp"
 #include "services/localization/local_map.hpp"
 
 namespace slammot::localization {
@@ -42,6 +43,10 @@ struct LocalizerConfig {
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
   int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
   double longest_label_wait_s = 0.15;     ///< Nor does it wait longer than this, by the scans' stamps.
+  double variance_memory_s = 2.0;         ///< Over which published covariances are fitted to the surprises seen.
+  double shared_error_forward = 20.0;     ///< Matches cannot be surprised by errors that the map shares with the scan: the
+  double shared_error_sideways = 4.0;     ///< published variances are this many times what surprises alone would say.
+  double shared_error_heading = 4.0;      ///< Measured by NEES on simulated drives: docs/results.md.
   double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
   double drift_rad_per_sqrt_m = 0.0007;
   LocalMapConfig map;
@@ -169,6 +174,7 @@ class Localizer {
   void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
   bool is_masked(const geometry::Vector2& point_in_odom_m, std::int64_t stamp_ns) const;
   void travel(const geometry::Pose2& before_from_base);
+  geometry::UncertainPose2 published_pose() const;
   flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base) const;
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
@@ -182,6 +188,7 @@ class Localizer {
   LocalizerCounters counters_;
   sensing::OdometryBuffer odometry_;
   sensing::MotionEstimate estimate_;
+  sensing::VarianceFactors variance_factors_;
   std::optional<State> last_;
   std::vector<std::string> scanners_at_last_;        ///< Whose scans have the last stamp; empty after a restore.
   LocalMap map_;

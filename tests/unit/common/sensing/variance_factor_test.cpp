@@ -1,0 +1,60 @@
+#include "common/sensing/variance_factor.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace slammot::sensing {
+namespace {
+
+using geometry::UncertainPose2;
+
+/// Factors after many matches whose errors are `true_sigma` times what prediction (variance 4) and match (1) say.
+VarianceFactors after_matches(double heading_rad, const Eigen::Vector3d& true_sigma_of_axis, int matches) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  VarianceFactors factors;
+  const Eigen::Vector3d unit(1e-4, 1e-4, 1e-6);
+  for (int i = 0; i < matches; ++i) {
+    const UncertainPose2 predicted{{10.0, -4.0, heading_rad}, (4.0 * unit).asDiagonal()};
+    const Eigen::Vector3d change = std::sqrt(3.0) * unit.cwiseSqrt().cwiseProduct(true_sigma_of_axis)
+                                       .cwiseProduct(Eigen::Vector3d(noise(random), noise(random), noise(random)));
+    const UncertainPose2 matched{predicted.pose * geometry::Pose2{change.x(), change.y(), change.z()}, unit.asDiagonal()};
+    factors = learned(factors, predicted, matched, 0.01);
+  }
+  return factors;
+}
+
+TEST(VarianceFactors, StayAtOneWhereSurprisesAreAsExpected) {
+  for (const double factor : after_matches(0.0, {1.0, 1.0, 1.0}, 3000).of_axis) EXPECT_NEAR(factor, 1.0, 0.25);
+}
+
+TEST(VarianceFactors, LearnForEachAxisOfTheVehicleHowFarOffTheFilterIs) {
+  const Eigen::Vector3d factors = after_matches(1.0, {3.0, 0.5, 1.0}, 3000).of_axis;
+  EXPECT_NEAR(factors.x(), 9.0, 2.5);
+  EXPECT_NEAR(factors.y(), 0.25, 0.07);
+  EXPECT_NEAR(factors.z(), 1.0, 0.25);
+}
+
+TEST(VarianceFactors, AreNotDrownedByOneWrongMatch) {
+  const UncertainPose2 predicted{{}, Eigen::Vector3d(4e-4, 4e-4, 4e-6).asDiagonal()};
+  const UncertainPose2 wrong{{5.0, 0.0, 0.0}, Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal()};
+  EXPECT_LT(learned({}, predicted, wrong, 0.01).of_axis.x(), 1.3);
+}
+
+TEST(VarianceFactors, KeepWhatTheyKnowWhereTheMatchSaidNothing) {
+  const UncertainPose2 predicted{{}, Eigen::Vector3d(4e-4, 4e-4, 4e-6).asDiagonal()};
+  EXPECT_EQ(learned({{2.0, 3.0, 4.0}}, predicted, predicted, 0.5).of_axis, Eigen::Vector3d(2.0, 3.0, 4.0));
+}
+
+TEST(VarianceFactors, ScaleAlongAndAcrossTheVehicle) {
+  const UncertainPose2 north{{0.0, 0.0, std::acos(-1.0) / 2.0}, Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal()};
+  const geometry::Matrix3 covariance = scaled(north, {{9.0, 4.0, 1.0}});
+  EXPECT_NEAR(covariance(0, 0), 4.0, 1e-12);
+  EXPECT_NEAR(covariance(1, 1), 9.0, 1e-12);
+  EXPECT_NEAR(covariance(0, 1), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace slammot::sensing
