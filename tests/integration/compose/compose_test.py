@@ -145,23 +145,44 @@ def check_same_drive(containers, reference, truth, ate_factor):
     assert ate <= max(expected * ate_factor, expected + 0.05), f"ATE {ate:.3f} m"
 
 
+def check_same_tracks(containers, reference):
+    tracks, expected = confirmed_tracks(containers), confirmed_tracks(reference)
+    assert abs(tracks - expected) <= 0.05 * expected, f"{tracks} confirmed tracks, one process has {expected}"
+
+
 def test_containers_agree_with_one_process(root, work, drive, truth, reference):
     print("containers, undisturbed, as fast as they go")
     with Containers(root, work / "undisturbed", drive, "max") as containers:
         containers.wait_for_outputs()
-    check_same_drive(work / "undisturbed", reference, truth, ate_factor=1.0)
-    tracks, expected = confirmed_tracks(work / "undisturbed"), confirmed_tracks(reference)
-    assert abs(tracks - expected) <= 0.05 * expected, f"{tracks} confirmed tracks, one process has {expected}"
+        check_same_drive(work / "undisturbed", reference, truth, ate_factor=1.0)
+        check_same_tracks(work / "undisturbed", reference)
+        print("the same drive again, with every service still running")
+        for output in (work / "undisturbed").iterdir():
+            output.unlink()
+        containers.compose("up", "-d")
+        containers.wait_for_outputs()
+        check_same_drive(work / "undisturbed", reference, truth, ate_factor=1.0)
+        check_same_tracks(work / "undisturbed", reference)
 
 
 def test_containers_may_die(root, work, drive, truth, reference):
     print("containers as fast as they go; localization crashes, map_store is killed and started")
     with Containers(root, work / "disturbed", drive, "max") as containers:
-        containers.wait_until_driving(3)
+        containers.wait_until_driving(0.5)
         containers.crash("localization")
         containers.kill_and_start("map_store")
         containers.wait_for_outputs()
     check_same_drive(work / "disturbed", reference, truth, ate_factor=1.2)
+
+
+def test_the_collector_may_die(root, work, drive, truth, reference):
+    # What is driven while it is down has the pose between: slowly, that is little.
+    print("containers at twice the recorded speed; the collector crashes")
+    with Containers(root, work / "collector_disturbed", drive, "2") as containers:
+        containers.wait_until_driving(10)
+        containers.crash("collector")
+        containers.wait_for_outputs()
+    check_same_drive(work / "collector_disturbed", reference, truth, ate_factor=1.2)
 
 
 def main(root, slammot, work):
@@ -179,6 +200,7 @@ def main(root, slammot, work):
     run(slammot, "run", "--input", str(drive), "--output", str(reference), "--profile", "urban")
     test_containers_agree_with_one_process(root, work, drive, truth, reference)
     test_containers_may_die(root, work, drive, truth, reference)
+    test_the_collector_may_die(root, work, drive, truth, reference)
     print("the containers do what one process does")
     return 0
 
