@@ -115,6 +115,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"search_reach_m", &C::search_reach_m, "Half side of the square of the map that is searched.", Range{1.0, 200.0}},
       {"search_sigmas", &C::search_sigmas, "Half width of the search window in standard deviations of the prediction.",
        Range{0.1, 20.0}},
+      {"leave_out_moving", &C::leave_out_moving, "Off, to see what it is worth: everything is mapped and matched as if it stood."},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},
       {"longest_step_s", &C::longest_step_s, "Without odometry nothing is extrapolated farther; longer gaps are counted.", kPositive},
       {"fastest_mps", &C::fastest_mps, "Odometry that says more has jumped.", kPositive},

@@ -94,7 +94,7 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
 
 bool Localizer::is_masked(const Vector2& point_in_odom_m, std::int64_t stamp_ns) const {
   const double after_s = static_cast<double>(stamp_ns - expected_objects_.stamp_ns) * kNanosecond_s;
-  if (after_s > kLongestExpectation_s) return false;
+  if (after_s > kLongestExpectation_s || !config_.leave_out_moving) return false;
   return std::any_of(expected_objects_.objects.begin(), expected_objects_.objects.end(), [&](const flow::TrackedObject& object) {
     const Vector2 centre_m = object.position_in_odom_m + after_s * object.velocity_in_odom_mps;
     return object.confirmed && is_inside_box(point_in_odom_m - centre_m, object.heading_in_odom_rad,
@@ -271,6 +271,7 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
   PendingScan& scan = pending_.front();
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     grids::Echo echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
+    if (!config_.leave_out_moving) echo = grids::Echo::kStationary;
     if (scan.end_cells[i] == EndCell::kNoEcho) echo = grids::Echo::kNone;
     const bool is_far = (scan.rays[i].end_m - scan.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
     scan.rays[i].echo = is_far ? grids::Echo::kNone : echo;

@@ -38,6 +38,7 @@ struct LocalizerConfig {
   double search_when_heading_sigma_rad = 0.02;  ///< or less sure of the heading than this.
   double search_reach_m = 25.0;           ///< Half side of the square of the map that is searched.
   double search_sigmas = 3.0;             ///< Half width of the search window in standard deviations of the prediction.
+  bool leave_out_moving = true;           ///< Off, to see what it is worth: everything is mapped and matched as if it stood.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
   double longest_step_s = 2.0;            ///< Without odometry nothing is extrapolated farther; longer gaps are counted.
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.

@@ -276,14 +276,15 @@ class WithAMover : public ::testing::Test {
   }
 
   /// Surfels and occupied cells where only the mover ever was.
-  int traces_in_the_map() const {
+  int traces_in_the_map() const { return traces_in_the_map(localizer_); }
+  int traces_in_the_map(const Localizer& localizer) const {
     int traces = 0;
     const Pose2 odom_from_world = inverse(drive_.odom_from_base(0)) * inverse(Pose2{-3.0, 0.0, 0.0});
     for (double y_m = -3.5; y_m < 1.0; y_m += 0.1) {
       for (double x_m = 0.6; x_m < 1.4; x_m += 0.1) {
         const Vector2 at_m = odom_from_world * Vector2(x_m, y_m);
-        const auto surfel = localizer_.local_map().surfels().nearest(at_m, 1);
-        const auto& evidence = localizer_.local_map().evidence();
+        const auto surfel = localizer.local_map().surfels().nearest(at_m, 1);
+        const auto& evidence = localizer.local_map().evidence();
         traces += (surfel && (surfel->mean_m - at_m).norm() < 0.2) || evidence.so_steps(evidence.window().cell_at(at_m.x(), at_m.y())) > 0;
       }
     }
@@ -401,6 +402,20 @@ TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
   };
   EXPECT_LT(pulled_m(true), 0.01);
   EXPECT_GT(pulled_m(false), 2.0 * pulled_m(true));
+}
+
+TEST_F(WithAMover, MapsItAsIfItStoodWhenToldTo) {
+  LocalizerConfig config = small_map_config();
+  config.leave_out_moving = false;
+  Localizer believes_all(config);
+  drive_through(believes_all, drive_, 0, 20);
+  for (Localizer* localizer : {&localizer_, &believes_all}) {
+    const auto [scan, on_mover] = scan_with_mover(20);
+    localizer->add_odometry(drive_.odometry(20));
+    localizer->integrate(labels(*localizer->localize(scan), on_mover));
+  }
+  EXPECT_EQ(traces_in_the_map(localizer_), 0);
+  EXPECT_GT(traces_in_the_map(believes_all), 0);
 }
 
 TEST_F(WithAMover, IsNoLongerExpectedWhenTrackingHasFallenSilent) {
