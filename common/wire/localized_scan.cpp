@@ -37,7 +37,7 @@ std::string_view fault_of(const slammot_LocalizedScan& sample) {
   if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps)) return "the velocity is not finite";
   if (!is_sound(sample.submap_from_base)) return "submap_from_base is not finite";
   if (sample.end_cells._length != sample.beams._length) return "beams and end_cells are not equally many";
-  for (const slammot_EndCell end_cell : elements(sample.end_cells)) {
+  for (const slammot_EndCell& end_cell : elements(sample.end_cells)) {
     if (!is_enumerator(end_cell, slammot_END_CELL_OCCUPIED)) return "an end cell is unknown";
   }
   for (const slammot_LocalizedBeam& beam : elements(sample.beams)) {

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -76,10 +79,12 @@ void show(Sequence& sequence, std::vector<Element>& buffer) {
 }
 
 /// Whether a generated enumerator is one of 0 to `last`. The library checks too, but not every writer is the library.
+/// By reference and by its bytes: to load a value that is none of the enumerators is undefined behaviour.
 template <typename Enum>
-bool is_enumerator(Enum value, Enum last) {
-  const auto number = static_cast<std::int64_t>(value);
-  return number >= 0 && number <= static_cast<std::int64_t>(last);
+bool is_enumerator(const Enum& value, Enum last) {
+  std::underlying_type_t<Enum> number{};
+  std::memcpy(&number, &value, sizeof number);
+  return std::cmp_greater_equal(number, 0) && std::cmp_less_equal(number, static_cast<std::int64_t>(last));
 }
 
 }  // namespace slammot::wire

@@ -108,7 +108,7 @@ flow::PointLabel decode(slammot_PointLabel label) { return static_cast<flow::Poi
 
 bool are_labels(std::span<const slammot_PointLabel> labels) {
   return std::all_of(labels.begin(), labels.end(),
-                     [](slammot_PointLabel label) { return is_enumerator(label, slammot_POINT_LABEL_UNKNOWN); });
+                     [](const slammot_PointLabel& label) { return is_enumerator(label, slammot_POINT_LABEL_UNKNOWN); });
 }
 
 void encode_labels(const std::vector<flow::PointLabel>& from, std::vector<slammot_PointLabel>& to) {

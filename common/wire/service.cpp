@@ -33,7 +33,7 @@ ServiceName name_of(const Sample& sample) {
           std::string(text(sample.instance_name))};
 }
 
-bool is_state(slammot_ServiceState state) { return is_enumerator(state, slammot_SERVICE_STATE_STOPPING); }
+bool is_state(const slammot_ServiceState& state) { return is_enumerator(state, slammot_SERVICE_STATE_STOPPING); }
 
 /// Encodes the first `most` of `from` into `to`, keeping its memory.
 template <typename From, typename To, typename Encode>

@@ -40,7 +40,8 @@ TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {
   street.known = {kWall};
   street.gone = {{{15.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};  // a fence that hid what is behind it and is no longer there
   street.unknown = {{{22.0, 0.0, 0.0}}};
-  const flow::Segment* car = segment_at(detect(street.scan(0, 0), {}), {20.0, 0.0}, 2.0);
+  const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
+  const flow::Segment* car = segment_at(segmented, {20.0, 0.0}, 2.0);
   if (car != nullptr) EXPECT_NE(car->label, PointLabel::kMoving);
 }
 
@@ -64,7 +65,8 @@ TEST(Detector, SeesWhoWalksInFrontOfAWallAsAThingOfItsOwn) {
   Street street;
   street.known = {{{12.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};  // its face is 11.5 m ahead
   street.unknown = {{{10.4, 0.0, 0.0}, 0.4, 0.5}};
-  const flow::Segment* walker = segment_at(detect(street.scan(0, 0), {}), {10.2, 0.0}, 0.3);
+  const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
+  const flow::Segment* walker = segment_at(segmented, {10.2, 0.0}, 0.3);
   ASSERT_NE(walker, nullptr);
   EXPECT_EQ(walker->label, PointLabel::kMoving);
   EXPECT_LT(walker->box_length_m, 0.8);
@@ -99,7 +101,8 @@ TEST(Detector, DoesNotTakeTheBackOfATruckForTheGround) {
   Street street;
   street.known = {kWall};
   street.unknown = {{{18.5, 0.0, 0.0}, 7.0, 2.5}};  // its back is 15 m ahead, and much is seen beyond it on both sides
-  const flow::Segment* truck = segment_at(detect(street.scan(0, 0), {}), {15.0, 0.0}, 0.5);
+  const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
+  const flow::Segment* truck = segment_at(segmented, {15.0, 0.0}, 0.5);
   ASSERT_NE(truck, nullptr);
   EXPECT_EQ(truck->label, PointLabel::kMoving);
 }
