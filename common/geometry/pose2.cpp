@@ -41,6 +41,10 @@ Matrix2 rotation(double angle_rad) {
   return Matrix2{{c, -s}, {s, c}};
 }
 
+Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
+  return {a.x_m - b.x_m, a.y_m - b.y_m, wrap_angle(a.heading_rad - b.heading_rad)};
+}
+
 Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction) {
   return {from.x_m + fraction * (to.x_m - from.x_m), from.y_m + fraction * (to.y_m - from.y_m),
           wrap_angle(from.heading_rad + fraction * wrap_angle(to.heading_rad - from.heading_rad))};

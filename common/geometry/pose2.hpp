@@ -35,6 +35,10 @@ Pose2 inverse(const Pose2& a_from_b);
 /// 2x2 matrix that turns by angle_rad, counter-clockwise.
 Matrix2 rotation(double angle_rad);
 
+/// (x [m], y [m], heading [rad]) of a less those of b, heading the short way round: an error in the axes of the frame
+/// that both are given in.
+Eigen::Vector3d difference(const Pose2& a, const Pose2& b);
+
 /// Pose at fraction (0 gives from, 1 gives to; outside extrapolates) of the way, x, y and heading each linear,
 /// heading the short way round.
 Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction);

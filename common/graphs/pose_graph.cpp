@@ -15,11 +15,6 @@ using geometry::Matrix3;
 using geometry::Pose2;
 using geometry::Vector2;
 
-Eigen::Vector3d error_of(const Pose2& measured_from_to, const Pose2& from_to) {
-  return {from_to.x_m - measured_from_to.x_m, from_to.y_m - measured_from_to.y_m,
-          geometry::wrap_angle(from_to.heading_rad - measured_from_to.heading_rad)};
-}
-
 /// Upper triangular root W of the information: W' W = covariance^-1.
 Matrix3 whitening_of(const Matrix3& covariance) {
   return Matrix3(covariance.inverse()).llt().matrixU();
@@ -35,7 +30,7 @@ class RelativePoseCost final : public ceres::SizedCostFunction<3, 3, 3> {
     const Pose2 map_from_from{blocks[0][0], blocks[0][1], blocks[0][2]};
     const Pose2 map_from_to{blocks[1][0], blocks[1][1], blocks[1][2]};
     const Pose2 from_to = geometry::inverse(map_from_from) * map_from_to;
-    Eigen::Map<Eigen::Vector3d>{residuals} = whitening_ * error_of(measured_, from_to);
+    Eigen::Map<Eigen::Vector3d>{residuals} = whitening_ * geometry::difference(from_to, measured_);
     if (jacobians == nullptr) return true;
     const Eigen::Matrix2d turn_back = geometry::rotation(-map_from_from.heading_rad);
     using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -125,7 +120,7 @@ std::vector<flow::CorrectedSubmap> PoseGraph::nodes() const {
 }
 
 double squared_error(const flow::Constraint& constraint, const Pose2& map_from_from, const Pose2& map_from_to) {
-  const Eigen::Vector3d error = error_of(constraint.from_to.pose, geometry::inverse(map_from_from) * map_from_to);
+  const Eigen::Vector3d error = geometry::difference(geometry::inverse(map_from_from) * map_from_to, constraint.from_to.pose);
   return error.dot(constraint.from_to.covariance.ldlt().solve(error));
 }
 

@@ -68,10 +68,6 @@ NormalEquations linearize(const std::vector<MatchPoint>& points, const grids::Su
   return equations;
 }
 
-Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
-  return {a.x_m - b.x_m, a.y_m - b.y_m, geometry::wrap_angle(a.heading_rad - b.heading_rad)};
-}
-
 }  // namespace
 
 PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
@@ -88,7 +84,7 @@ PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, con
     const bool is_coarse = step < config.coarse_steps;
     equations = linearize(points, surfels, pose, is_coarse ? config.coarse_gate_m : config.fine_gate_m, config);
     const Matrix3 H = equations.H + prior_information;
-    const Eigen::Vector3d change = -H.ldlt().solve(equations.g + prior_information * difference(pose, prior));
+    const Eigen::Vector3d change = -H.ldlt().solve(equations.g + prior_information * geometry::difference(pose, prior));
     pose = {pose.x_m + change.x(), pose.y_m + change.y(), geometry::wrap_angle(pose.heading_rad + change.z())};
     const double moved_m = change.head<2>().norm() + 10.0 * std::abs(change.z());  // as seen 10 m away
     if (moved_m < config.converged_m) {

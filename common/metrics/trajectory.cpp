@@ -154,8 +154,7 @@ std::vector<double> relative_pose_nees(const Trajectory& truth, const std::vecto
     if (from && to.stamp_ns - from->stamp_ns < interval_ns + interval_ns / 2) {
       const geometry::UncertainPose2 moved = geometry::tail_to_tail(from->odom_from_base, to.odom_from_base);
       const Pose2 truly_moved = motion(nearest(truth, from->stamp_ns, max_difference_ns)->pose, true_to->pose);
-      const Eigen::Vector3d error(moved.pose.x_m - truly_moved.x_m, moved.pose.y_m - truly_moved.y_m,
-                                  geometry::wrap_angle(moved.pose.heading_rad - truly_moved.heading_rad));
+      const Eigen::Vector3d error = geometry::difference(moved.pose, truly_moved);
       nees.push_back(error.dot(moved.covariance.ldlt().solve(error)));
     }
     from = &to;

@@ -98,9 +98,7 @@ MotionEstimate matched(const MotionEstimate& predicted, const geometry::Uncertai
   estimate.odom_from_base = odom_from_base.pose;
   const geometry::Matrix3 prior = predicted.covariance.topLeftCorner<3, 3>();
   const geometry::Matrix3 cross = predicted.covariance.bottomLeftCorner<3, 3>();
-  const Eigen::Vector3d surprise(odom_from_base.pose.x_m - predicted.odom_from_base.x_m,
-                                 odom_from_base.pose.y_m - predicted.odom_from_base.y_m,
-                                 geometry::wrap_angle(odom_from_base.pose.heading_rad - predicted.odom_from_base.heading_rad));
+  const Eigen::Vector3d surprise = geometry::difference(odom_from_base.pose, predicted.odom_from_base);
   const Eigen::LDLT<geometry::Matrix3> factors(prior);
   const bool is_credible = surprise.dot(factors.solve(surprise)) < kSurprise;
   const geometry::Matrix3 gain = is_credible ? geometry::Matrix3(factors.solve(cross.transpose()).transpose()) : geometry::Matrix3::Zero();

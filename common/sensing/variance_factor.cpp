@@ -21,8 +21,7 @@ VarianceFactors learned(const VarianceFactors& factors, const geometry::Uncertai
                         const geometry::UncertainPose2& matched, double share) {
   constexpr double kLargestSurprise = 25.0;  // one wrong match must not drown the rest
   const Matrix3 turn = vehicle_axes(predicted.pose.heading_rad);
-  const Eigen::Vector3d change = turn * Eigen::Vector3d(matched.pose.x_m - predicted.pose.x_m, matched.pose.y_m - predicted.pose.y_m,
-                                        geometry::wrap_angle(matched.pose.heading_rad - predicted.pose.heading_rad));
+  const Eigen::Vector3d change = turn * geometry::difference(matched.pose, predicted.pose);
   // Prediction and match are correlated: the variance of their difference is the difference of their variances.
   const Eigen::Vector3d expected = (turn * (predicted.covariance - matched.covariance) * turn.transpose()).diagonal();
   const Eigen::Vector3d known = (turn * predicted.covariance * turn.transpose()).diagonal();

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/simulation/path.hpp"
+#include "common/simulation/piecewise_linear.hpp"
 #include "common/simulation/random.hpp"
 #include "common/simulation/scenario.hpp"
 #include "common/simulation/scene.hpp"
@@ -18,12 +19,7 @@ constexpr double kStride_m = 1.45;
 constexpr double kStep_m = 0.55;
 
 double speed_at(const std::vector<SpeedAt>& profile, double time_s) {
-  if (profile.empty()) return 0.0;
-  const auto after = std::find_if(profile.begin(), profile.end(), [&](const SpeedAt& entry) { return entry.at_s > time_s; });
-  if (after == profile.begin()) return profile.front().mps;
-  if (after == profile.end()) return profile.back().mps;
-  const SpeedAt& before = *(after - 1);
-  return before.mps + (time_s - before.at_s) / (after->at_s - before.at_s) * (after->mps - before.mps);
+  return piecewise_linear(profile, &SpeedAt::at_s, &SpeedAt::mps, time_s);
 }
 
 /// One of the script's objects, or one of its copies.

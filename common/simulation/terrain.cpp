@@ -4,17 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "common/simulation/piecewise_linear.hpp"
+
 namespace slammot::simulation {
 
 using geometry::Vector2;
 
 double Terrain::height_m(double x_m) const {
-  if (heights_.empty()) return 0.0;
-  const auto after = std::find_if(heights_.begin(), heights_.end(), [&](const HeightAt& height) { return height.x_m > x_m; });
-  if (after == heights_.begin()) return heights_.front().z_m;
-  if (after == heights_.end()) return heights_.back().z_m;
-  const HeightAt& before = *(after - 1);
-  return before.z_m + (x_m - before.x_m) / (after->x_m - before.x_m) * (after->z_m - before.z_m);
+  return piecewise_linear(heights_, &HeightAt::x_m, &HeightAt::z_m, x_m);
 }
 
 double Terrain::nose_down_rad(const geometry::Pose2& world_from_body) const {

@@ -359,28 +359,33 @@ void Localizer::correct(const flow::GraphCorrection& correction) {
   map_from_odom_ = correction.map_from_odom;
 }
 
+template <typename Self, typename StateOfLast, typename Visitor>
+void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
+  visit(last.stamp_ns);
+  visit(self.estimate_.odom_from_base);
+  visit(self.estimate_.calibration);
+  visit(self.estimate_.covariance);
+  visit(self.variance_factors_.of_axis);
+  visit(last.has_wheels);
+  visit(last.wheel_from_base);
+  visit(last.knows_velocity);
+  visit(last.speed_mps);
+  visit(last.yaw_rate_radps);
+  visit(self.map_from_odom_);
+  visit(self.correction_sequence_);
+  visit(self.previous_from_submap_.pose);
+  visit(self.previous_from_submap_.covariance);
+  visit(self.drift_);
+  visit(self.travelled_m_);
+  visit(self.submap_is_ended_);
+  visit(self.counters_);
+}
+
 std::vector<std::byte> Localizer::checkpoint() const {
   std::vector<std::byte> bytes;
   if (!last_) return bytes;
   put(bytes, kCheckpointMark);
-  put(bytes, last_->stamp_ns);
-  put(bytes, estimate_.odom_from_base);
-  put(bytes, estimate_.calibration);
-  put(bytes, estimate_.covariance);
-  put(bytes, variance_factors_.of_axis);
-  put(bytes, last_->has_wheels);
-  put(bytes, last_->wheel_from_base);
-  put(bytes, last_->knows_velocity);
-  put(bytes, last_->speed_mps);
-  put(bytes, last_->yaw_rate_radps);
-  put(bytes, map_from_odom_);
-  put(bytes, correction_sequence_);
-  put(bytes, previous_from_submap_.pose);
-  put(bytes, previous_from_submap_.covariance);
-  put(bytes, drift_);
-  put(bytes, travelled_m_);
-  put(bytes, submap_is_ended_);
-  put(bytes, counters_);
+  for_each_part(*this, *last_, [&](const auto& part) { put(bytes, part); });
   map_.write(bytes);
   put(bytes, checksum(bytes));
   return bytes;
@@ -394,24 +399,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   std::uint64_t mark = 0;
   State last;
   from.get(mark);
-  from.get(last.stamp_ns);
-  from.get(restored.estimate_.odom_from_base);
-  from.get(restored.estimate_.calibration);
-  from.get(restored.estimate_.covariance);
-  from.get(restored.variance_factors_.of_axis);
-  from.get(last.has_wheels);
-  from.get(last.wheel_from_base);
-  from.get(last.knows_velocity);
-  from.get(last.speed_mps);
-  from.get(last.yaw_rate_radps);
-  from.get(restored.map_from_odom_);
-  from.get(restored.correction_sequence_);
-  from.get(restored.previous_from_submap_.pose);
-  from.get(restored.previous_from_submap_.covariance);
-  from.get(restored.drift_);
-  from.get(restored.travelled_m_);
-  from.get(restored.submap_is_ended_);
-  from.get(restored.counters_);
+  for_each_part(restored, last, [&](auto& part) { from.get(part); });
   if (mark != kCheckpointMark) return false;
   std::optional<LocalMap> map = LocalMap::restored(config_.map, from);
   const bool is_sound = is_believable(restored.estimate_.odom_from_base) && is_believable(restored.map_from_odom_) &&

@@ -185,6 +185,10 @@ class Localizer {
   void begin_next_submap_if_due();
   void end_submap();
 
+  /// The one list of what a checkpoint holds before the map, in its order.
+  template <typename Self, typename StateOfLast, typename Visitor>
+  static void for_each_part(Self& self, StateOfLast& last, Visitor visit);
+
   LocalizerConfig config_;
   LocalizerCounters counters_;
   sensing::OdometryBuffer odometry_;

@@ -73,8 +73,7 @@ matching::TargetRegion region_around(const std::vector<flow::Surfel>& surfels, d
 }
 
 bool are_same(const UncertainPose2& a, const UncertainPose2& b) {
-  const Eigen::Vector3d difference(a.pose.x_m - b.pose.x_m, a.pose.y_m - b.pose.y_m,
-                                   geometry::wrap_angle(a.pose.heading_rad - b.pose.heading_rad));
+  const Eigen::Vector3d difference = geometry::difference(a.pose, b.pose);
   return difference.dot(Matrix3(a.covariance + b.covariance).ldlt().solve(difference)) < kSameWithinSquaredSigmas;
 }
 

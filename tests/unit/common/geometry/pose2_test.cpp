@@ -33,6 +33,13 @@ TEST(Pose2, MovesPointsAsItCompounds) {
   EXPECT_NEAR(((kA * kB) * point_in_c - one_by_one).norm(), 0.0, 1e-12);
 }
 
+TEST(Pose2, DiffersTheShortWayRound) {
+  const Eigen::Vector3d ahead = difference({1.0, -2.0, 3.1}, {0.5, 1.0, -3.1});
+  EXPECT_NEAR((ahead - Eigen::Vector3d(0.5, -3.0, 6.2 - 2.0 * std::numbers::pi)).norm(), 0.0, 1e-12);
+  EXPECT_EQ(difference(kA, kA), Eigen::Vector3d::Zero());
+  EXPECT_EQ(difference(kA, kB), -difference(kB, kA));
+}
+
 TEST(WrapAngle, ReturnsTheAngleInTheHalfOpenInterval) {
   constexpr double kPi = std::numbers::pi;
   EXPECT_DOUBLE_EQ(wrap_angle(-kPi), kPi);
