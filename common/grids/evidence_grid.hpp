@@ -39,15 +39,16 @@ class EvidenceGrid {
 
   const GridWindow& window() const { return window_; }
 
-  /// Adds one scan, rays in the order of the beams. Each cell changes at most once a scan, and an echo wins over a beam
-  /// that passed. Near the scanner, where beams are closer together than cells, neighbours stand in for each other.
+  /// Adds one scan, rays in the order of the beams, beam_step_rad apart. Each cell changes at most once a scan, and an echo
+  /// wins over a beam that passed. Where beams are not much farther apart than cells, what lies between two of them is
+  /// free as far as the shorter one goes; with a step of 0 each beam tells of its own cells only.
   void integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
 
   /// Adds one stationary echo without its beam: a point given back by tracking.
   void restore_stationary(const Eigen::Vector2d& point_m);
 
   /// In steps of kLogOddsStep, positive = occupied, 0 = never seen or outside.
-  int so_steps(Cell cell) const { return window_.contains(cell) ? so_[window_.index(cell)].steps : 0; }
+  int so_steps(Cell cell) const { return window_.contains(cell) ? so_[window_.index(cell)] : 0; }
 
   /// In [0, 255]: how often something moved here.
   std::uint8_t moving(Cell cell) const { return window_.contains(cell) ? mo_[window_.index(cell)] : std::uint8_t{0}; }
@@ -65,7 +66,7 @@ class EvidenceGrid {
   EvidenceGrid moved_to(const GridWindow& window) const;
 
   /// Cells of the window, row-major. set_cells needs as many as the window has.
-  std::vector<std::int8_t> so_cells() const;
+  const std::vector<std::int8_t>& so_cells() const { return so_; }
   const std::vector<std::uint8_t>& mo_cells() const { return mo_; }
   void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo);
 
@@ -74,16 +75,32 @@ class EvidenceGrid {
   static constexpr int kBlockShift = 3;
   static constexpr std::int32_t kInBlock = (1 << kBlockShift) - 1;
 
-  /// Evidence beside the mark of the scan that changed it last, so that looking at both costs one cache line.
-  struct SoCell {
-    std::int8_t steps = 0;
-    std::uint8_t touched = 0;
+  /// One bit a cell, with what of each row is in use.
+  struct BitRows {
+    std::int32_t words_per_row = 0;
+    std::vector<std::uint64_t> words;
+    std::vector<std::int32_t> first_word;   ///< By row; first > last where the row is empty.
+    std::vector<std::int32_t> last_word;
+
+    BitRows() = default;
+    BitRows(std::int32_t columns, std::int32_t rows);
+    std::uint64_t* row(std::int32_t row) { return words.data() + static_cast<std::ptrdiff_t>(row) * words_per_row; }
+    void use(std::int32_t row, std::int32_t word);
+    void flip(std::int32_t column, std::int32_t row);
+    void set(std::int32_t column, std::int32_t row);
+    void clear(std::int32_t column, std::int32_t row);
+    bool is_set(std::int32_t column, std::int32_t row) const;
   };
 
-  void begin_scan();
-  void mark_echo(const Ray& ray);
-  void mark_free(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& end_m, double from_m, double to_m);
-  double left_to_neighbours_m(std::size_t ray, double beam_step_rad) const;
+  void measure_free_ways(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
+  void outline_free_space(const Eigen::Vector2d& origin_m);
+  void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  void fill_outline();
+  void walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double from_m, double to_m);
+  void keep_echoes_out(const std::vector<Ray>& rays);
+  void lower_free_cells();
+  void lower(std::int32_t row, std::int32_t first_column, std::int32_t count);
+  void raise_echoes(const std::vector<Ray>& rays);
   void raise_so(Cell cell, int steps);
   void note_occupied(std::size_t index);
   static std::uint64_t bit_of(std::int32_t column, std::int32_t row) {
@@ -98,11 +115,18 @@ class EvidenceGrid {
   int occupied_steps_ = 1;
   std::int32_t block_columns_ = 0;
   std::int32_t block_rows_ = 0;
-  std::vector<SoCell> so_;
+  std::vector<std::int8_t> so_;
   std::vector<std::uint8_t> mo_;
   std::vector<std::uint64_t> occupied_bits_;   ///< By block.
-  std::uint8_t scan_mark_ = 0;
-  std::vector<double> free_m_;  ///< By ray of the scan at hand; kept to reuse the memory.
+  // Of the scan at hand; kept to reuse the memory.
+  BitRows free_;                               ///< Cells that it passes. All clear between scans.
+  BitRows echoed_;                             ///< Cells that an echo came from. All clear between scans.
+  struct FreeWay {
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();
+    double length_m = 0.0;
+    double to_next_m = 0.0;                    ///< Free between this beam and the next.
+  };
+  std::vector<FreeWay> ways_;                  ///< By ray.
 };
 
 }  // namespace slammot::grids

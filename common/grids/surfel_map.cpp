@@ -8,6 +8,8 @@
 namespace slammot::grids {
 namespace {
 
+const Eigen::Vector2d kNowhere = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+
 double seen_over_m(const CellMoments& moments) {
   if (moments.first_seen_at_m <= 0.0F) return std::numeric_limits<double>::infinity();
   return static_cast<double>(moments.last_seen_at_m) - static_cast<double>(moments.first_seen_at_m);
@@ -24,6 +26,7 @@ std::int32_t SurfelMap::make_slot(Cell cell) {
     slot = static_cast<std::int32_t>(moments_.size());
     moments_.emplace_back();
     cells_.push_back(cell);
+    means_m_.push_back(kNowhere);
     shapes_.emplace_back();
   }
   return slot;
@@ -41,7 +44,8 @@ void SurfelMap::mark_stale_around(Cell cell) {
 void SurfelMap::add(const Eigen::Vector2d& point_m, double odometer_m) {
   const Cell cell = window_.cell_at(point_m.x(), point_m.y());
   if (!window_.contains(cell)) return;
-  CellMoments& moments = moments_[static_cast<std::size_t>(make_slot(cell))];
+  const auto place = static_cast<std::size_t>(make_slot(cell));
+  CellMoments& moments = moments_[place];
   if (moments.weight <= 0.0F) moments.first_seen_at_m = static_cast<float>(odometer_m);
   moments.last_seen_at_m = static_cast<float>(odometer_m);
   if (moments.weight >= weight_limit_) {
@@ -56,6 +60,7 @@ void SurfelMap::add(const Eigen::Vector2d& point_m, double odometer_m) {
   moments.xy += offset.x() * offset.y();
   moments.yy += offset.y() * offset.y();
   moments.own_echoes += 1.0F;
+  note_mean(place);
   mark_stale_around(cell);
 }
 
@@ -63,13 +68,14 @@ void SurfelMap::erase(Cell cell) {
   const std::int32_t slot = slot_of(cell);
   if (is_empty(slot)) return;
   moments_[static_cast<std::size_t>(slot)] = CellMoments{};
+  note_mean(static_cast<std::size_t>(slot));
   mark_stale_around(cell);
 }
 
-Eigen::Vector2d SurfelMap::mean_of(std::int32_t slot) const {
-  const auto place = static_cast<std::size_t>(slot);
+void SurfelMap::note_mean(std::size_t place) {
   const CellMoments& moments = moments_[place];
-  return window_.centre_of(cells_[place]) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight);
+  const bool is_anywhere = moments.weight > 0.0F;
+  means_m_[place] = is_anywhere ? window_.centre_of(cells_[place]) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight) : kNowhere;
 }
 
 SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
@@ -102,29 +108,42 @@ SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
   Shape shape{0.0F, 0.0F, static_cast<float>(small), false};
   const double least_extent_m = 0.25 * size_m;
   if (large < least_extent_m * least_extent_m || small > 0.25 * large) return shape;  // a dot or a blob: no direction
-  const double angle = 0.5 * std::atan2(2.0 * cxy, cxx - cyy);                        // of the larger axis
-  shape.normal_x = static_cast<float>(-std::sin(angle));
-  shape.normal_y = static_cast<float>(std::cos(angle));
+  // Sine and cosine of half the angle whose tangent is 2 cxy / (cxx - cyy): the direction of the larger axis.
+  const double cosine_of_twice = root > 0.0 ? 0.5 * (cxx - cyy) / root : 1.0;
+  shape.normal_x = static_cast<float>(-std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine_of_twice))), cxy));
+  shape.normal_y = static_cast<float>(std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine_of_twice))));
   return shape;
+}
+
+const SurfelMap::Shape& SurfelMap::fresh_shape(std::size_t place) const {
+  if (shapes_[place].stale) shapes_[place] = shape_at(cells_[place]);
+  return shapes_[place];
 }
 
 SurfelView SurfelMap::view_of(std::int32_t slot) const {
   const auto place = static_cast<std::size_t>(slot);
-  if (shapes_[place].stale) shapes_[place] = shape_at(cells_[place]);
-  const Shape& shape = shapes_[place];
-  return {cells_[place], mean_of(slot), {shape.normal_x, shape.normal_y}, shape.spread_m2, moments_[place].weight,
+  const Shape& shape = fresh_shape(place);
+  return {cells_[place], means_m_[place], {shape.normal_x, shape.normal_y}, shape.spread_m2, moments_[place].weight,
           moments_[place].own_echoes, seen_over_m(moments_[place])};
 }
 
 std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius) const {
   const Cell centre = window_.cell_at(point_m.x(), point_m.y());
+  const auto clamped = [](std::int64_t place, std::int32_t first, std::int32_t count) {  // wide: points may be anywhere
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(place - first, 0, count));
+  };
+  const std::int32_t first_column = clamped(std::int64_t{centre.column} - radius, window_.first.column, window_.columns);
+  const std::int32_t end_column = clamped(std::int64_t{centre.column} + radius + 1, window_.first.column, window_.columns);
+  const std::int32_t first_row = clamped(std::int64_t{centre.row} - radius, window_.first.row, window_.rows);
+  const std::int32_t end_row = clamped(std::int64_t{centre.row} + radius + 1, window_.first.row, window_.rows);
   double best_m2 = std::numeric_limits<double>::infinity();
   std::int32_t best_slot = -1;
-  for (std::int32_t row = centre.row - radius; row <= centre.row + radius; ++row) {
-    for (std::int32_t column = centre.column - radius; column <= centre.column + radius; ++column) {
-      const std::int32_t slot = slot_of({column, row});
-      if (is_empty(slot)) continue;
-      const double distance_m2 = (mean_of(slot) - point_m).squaredNorm();
+  for (std::int32_t row = first_row; row < end_row; ++row) {
+    const std::int32_t* const slots = slots_.data() + static_cast<std::ptrdiff_t>(row) * window_.columns;
+    for (std::int32_t column = first_column; column < end_column; ++column) {
+      const std::int32_t slot = slots[column];
+      if (slot < 0) continue;
+      const double distance_m2 = (means_m_[static_cast<std::size_t>(slot)] - point_m).squaredNorm();
       if (distance_m2 >= best_m2) continue;
       best_m2 = distance_m2;
       best_slot = slot;
@@ -133,11 +152,23 @@ std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius)
   return best_slot;
 }
 
+std::int32_t SurfelMap::find(const Eigen::Vector2d& point_m, int radius) const {
+  const std::int32_t slot = nearest_slot(point_m, 1);
+  return slot < 0 && radius > 1 ? nearest_slot(point_m, radius) : slot;
+}
+
 std::optional<SurfelView> SurfelMap::nearest(const Eigen::Vector2d& point_m, int radius) const {
-  std::int32_t slot = nearest_slot(point_m, 1);
-  if (slot < 0 && radius > 1) slot = nearest_slot(point_m, radius);
+  const std::int32_t slot = find(point_m, radius);
   if (slot < 0) return std::nullopt;
   return view_of(slot);
+}
+
+std::optional<SurfelMap::Surface> SurfelMap::nearest_surface(const Eigen::Vector2d& point_m, int radius) const {
+  const std::int32_t slot = find(point_m, radius);
+  if (slot < 0) return std::nullopt;
+  const auto place = static_cast<std::size_t>(slot);
+  const Shape& shape = fresh_shape(place);
+  return Surface{means_m_[place], {shape.normal_x, shape.normal_y}, shape.spread_m2, seen_over_m(moments_[place])};
 }
 
 std::vector<SurfelView> SurfelMap::all() const {
@@ -155,12 +186,15 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
   SurfelMap moved(window, weight_limit_);
   moved.moments_.reserve(moments_.size());
   moved.cells_.reserve(moments_.size());
+  moved.means_m_.reserve(moments_.size());
   moved.shapes_.reserve(moments_.size());
   for (std::size_t place = 0; place < moments_.size(); ++place) {
     if (is_empty(static_cast<std::int32_t>(place)) || !window.contains(cells_[place])) continue;
     CellMoments moments = moments_[place];
     moments.own_echoes = 0.0F;
-    moved.moments_[static_cast<std::size_t>(moved.make_slot(cells_[place]))] = moments;
+    const auto slot = static_cast<std::size_t>(moved.make_slot(cells_[place]));
+    moved.moments_[slot] = moments;
+    moved.means_m_[slot] = means_m_[place];
   }
   return moved;
 }
@@ -172,7 +206,9 @@ const CellMoments* SurfelMap::moments_at(Cell cell) const {
 
 void SurfelMap::set_moments(Cell cell, const CellMoments& moments) {
   if (!window_.contains(cell)) return;
-  moments_[static_cast<std::size_t>(make_slot(cell))] = moments;
+  const auto place = static_cast<std::size_t>(make_slot(cell));
+  moments_[place] = moments;
+  note_mean(place);
   mark_stale_around(cell);
 }
 

@@ -49,6 +49,24 @@ class SurfelMap {
   /// Forgets the surface in a cell.
   void erase(Cell cell);
 
+  /// A surface as matching sees it: SurfelView without the book-keeping.
+  struct Surface {
+    Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
+    Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+    double spread_m2 = 0.0;
+    double seen_over_m = 0.0;
+  };
+
+  /// Like nearest(), without what matching does not need.
+  std::optional<Surface> nearest_surface(const Eigen::Vector2d& point_m, int radius) const;
+
+  /// Forgets every surfel for whose mean is_gone(mean_m) holds.
+  template <typename Predicate>
+  void erase_where(Predicate is_gone) {
+    for (std::size_t place = 0; place < means_m_.size(); ++place)
+      if (!is_empty(static_cast<std::int32_t>(place)) && is_gone(means_m_[place])) erase(cells_[place]);
+  }
+
   /// Surfel with its mean nearest to the point among the 3 x 3 cells around it, or, when these hold none, among the
   /// cells within radius; none when there is no echo.
   std::optional<SurfelView> nearest(const Eigen::Vector2d& point_m, int radius) const;
@@ -75,14 +93,17 @@ class SurfelMap {
   std::int32_t nearest_slot(const Eigen::Vector2d& point_m, int radius) const;
   void mark_stale_around(Cell cell);
   Shape shape_at(Cell cell) const;
-  Eigen::Vector2d mean_of(std::int32_t slot) const;
+  const Shape& fresh_shape(std::size_t place) const;
+  void note_mean(std::size_t place);
+  std::int32_t find(const Eigen::Vector2d& point_m, int radius) const;
   SurfelView view_of(std::int32_t slot) const;
 
   GridWindow window_;
   float weight_limit_ = 40.0F;
   std::vector<std::int32_t> slots_;     ///< By cell: place in moments_, -1 for none.
   std::vector<CellMoments> moments_;
-  std::vector<Cell> cells_;             ///< Of each of the moments.
+  std::vector<Cell> cells_;             ///< Of each of the moments,
+  std::vector<Eigen::Vector2d> means_m_;///< and where its echoes are in the mean; infinitely far where there are none.
   mutable std::vector<Shape> shapes_;   ///< Computed when first looked at after a change.
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -12,17 +13,8 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 
-struct NormalEquations {
-  Matrix3 H = Matrix3::Zero();
-  Eigen::Vector3d g = Eigen::Vector3d::Zero();
-  int matched = 0;
-  double squared_residuals_m2 = 0.0;
+constexpr double kSamePairsWithin = 0.01;     ///< Of a surfel's cell: until the pose has moved so far the nearest surfels stay the nearest.
 
-  void add(const Eigen::Vector3d& J, double residual_m, double weight) {
-    H.noalias() += weight * J * J.transpose();
-    g.noalias() += weight * residual_m * J;
-  }
-};
 
 /// Weight of Geman and McClure: 1 at zero, a quarter at the scale.
 double robust_weight(double residual_m, double scale_m) {
@@ -31,36 +23,53 @@ double robust_weight(double residual_m, double scale_m) {
   return root * root;
 }
 
-NormalEquations linearize(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const Pose2& map_from_base,
-                          double gate_m, const PointToLineConfig& config) {
-  const double cell_m = surfels.window().cell_size_m;
-  const int radius = std::max(1, static_cast<int>(std::ceil(gate_m / cell_m - 0.5)));
+Pose2 moved(const Pose2& pose, const Eigen::Vector3d& change) {
+  return {pose.x_m + change.x(), pose.y_m + change.y(), geometry::wrap_angle(pose.heading_rad + change.z())};
+}
+
+double as_seen_10_m_away(const Eigen::Vector3d& change) { return change.head<2>().norm() + 10.0 * std::abs(change.z()); }
+
+}  // namespace
+
+void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const Pose2& map_from_base,
+                              double gate_m, const PointToLineConfig& config) {
+  const int radius = std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
+  const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
+  pairs_.clear();
+  for (const MatchPoint& point : points) {
+    const auto surface = surfels.nearest_surface(turn * point.in_base_m + map_from_base.translation_m(), radius);
+    if (!surface) continue;
+    const bool has_direction = !surface->normal.isZero();
+    // A surface without a direction is somewhere in its cell.
+    const double variance_m2 = has_direction ? point.sigma_m * point.sigma_m + surface->spread_m2
+                                             : std::pow(point.sigma_m + 0.5 * surfels.window().cell_size_m, 2);
+    const double share = surface->seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
+    pairs_.push_back({point.in_base_m, surface->mean_m, surface->normal, share / variance_m2, has_direction});
+  }
+}
+
+PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& map_from_base, double gate_m, const PointToLineConfig& config) const {
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
   NormalEquations equations;
-  for (const MatchPoint& point : points) {
-    const geometry::Vector2 turned_m = turn * point.in_base_m;
-    const geometry::Vector2 at_m = turned_m + map_from_base.translation_m();
-    const auto surfel = surfels.nearest(at_m, radius);
-    if (!surfel) continue;
-    const geometry::Vector2 offset_m = at_m - surfel->mean_m;
+  for (const Pair& pair : pairs_) {
+    const geometry::Vector2 turned_m = turn * pair.in_base_m;
+    const geometry::Vector2 offset_m = turned_m + map_from_base.translation_m() - pair.mean_m;
     if (offset_m.squaredNorm() > gate_m * gate_m) continue;
     const geometry::Vector2 by_heading_m(-turned_m.y(), turned_m.x());
-    const double share = surfel->seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
-    const auto add = [&](const geometry::Vector2& direction, double sigma_m) {
+    const auto add = [&](const geometry::Vector2& direction) {
       const double residual_m = direction.dot(offset_m);
-      const double weight = share * robust_weight(residual_m, config.robust_scale_m) / (sigma_m * sigma_m);
-      equations.add({direction.x(), direction.y(), direction.dot(by_heading_m)}, residual_m, weight);
+      equations.add({direction.x(), direction.y(), direction.dot(by_heading_m)}, residual_m,
+                    robust_weight(residual_m, config.robust_scale_m) * pair.information_per_m2);
       return residual_m;
     };
     ++equations.matched;
-    if (surfel->normal.isZero()) {
-      const double sigma_m = point.sigma_m + 0.5 * cell_m;
-      equations.squared_residuals_m2 += 0.5 * offset_m.squaredNorm();
-      add({1.0, 0.0}, sigma_m);
-      add({0.0, 1.0}, sigma_m);
-    } else {
-      const double residual_m = add(surfel->normal, std::sqrt(point.sigma_m * point.sigma_m + surfel->spread_m2));
+    if (pair.has_direction) {
+      const double residual_m = add(pair.normal);
       equations.squared_residuals_m2 += residual_m * residual_m;
+    } else {
+      equations.squared_residuals_m2 += 0.5 * offset_m.squaredNorm();
+      add({1.0, 0.0});
+      add({0.0, 1.0});
     }
   }
   equations.H *= config.information_share;
@@ -68,11 +77,9 @@ NormalEquations linearize(const std::vector<MatchPoint>& points, const grids::Su
   return equations;
 }
 
-}  // namespace
-
-PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
-                                      const geometry::UncertainPose2& prior_map_from_base,
-                                      const Pose2& initial_map_from_base, const PointToLineConfig& config) {
+PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
+                                            const geometry::UncertainPose2& prior_map_from_base, const Pose2& initial_map_from_base,
+                                            const PointToLineConfig& config) {
   const Matrix3 prior_information = prior_map_from_base.covariance.inverse();
   const Pose2& prior = prior_map_from_base.pose;
   PointToLineResult result;
@@ -80,13 +87,20 @@ PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, con
   Pose2& pose = result.map_from_base.pose;
   pose = initial_map_from_base;
   NormalEquations equations;
+  double moved_since_paired_m = std::numeric_limits<double>::infinity();
   for (int step = 0; step < config.coarse_steps + config.fine_steps; ++step) {
     const bool is_coarse = step < config.coarse_steps;
-    equations = linearize(points, surfels, pose, is_coarse ? config.coarse_gate_m : config.fine_gate_m, config);
+    const double gate_m = is_coarse ? config.coarse_gate_m : config.fine_gate_m;
+    if (moved_since_paired_m > kSamePairsWithin * surfels.window().cell_size_m) {
+      pair(points, surfels, pose, gate_m, config);
+      moved_since_paired_m = 0.0;
+    }
+    equations = linearize(pose, gate_m, config);
     const Matrix3 H = equations.H + prior_information;
     const Eigen::Vector3d change = -H.ldlt().solve(equations.g + prior_information * geometry::difference(pose, prior));
-    pose = {pose.x_m + change.x(), pose.y_m + change.y(), geometry::wrap_angle(pose.heading_rad + change.z())};
-    const double moved_m = change.head<2>().norm() + 10.0 * std::abs(change.z());  // as seen 10 m away
+    pose = moved(pose, change);
+    const double moved_m = as_seen_10_m_away(change);
+    moved_since_paired_m += moved_m;
     if (moved_m < config.converged_m) {
       if (!is_coarse) break;
       step = config.coarse_steps - 1;

@@ -35,9 +35,39 @@ struct PointToLineResult {
 
 /// Registers points against surfels by Gauss-Newton on point-to-line distances with a Gaussian prior; Wang 2004,
 /// section 3.2.1 describes the closed-form ICP that this replaces. Where a surfel has no direction the distance to its
-/// mean counts. The iteration starts at initial_map_from_base. The result is the prior when nothing matches.
-PointToLineResult match_point_to_line(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
-                                      const geometry::UncertainPose2& prior_map_from_base,
-                                      const geometry::Pose2& initial_map_from_base, const PointToLineConfig& config);
+/// mean counts. Holds nothing from one match to the next but memory.
+class PointToLineMatcher {
+ public:
+  /// The iteration starts at initial_map_from_base. The result is the prior when nothing matches.
+  PointToLineResult match(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
+                          const geometry::UncertainPose2& prior_map_from_base,
+                          const geometry::Pose2& initial_map_from_base, const PointToLineConfig& config);
+
+ private:
+  struct Pair {
+    geometry::Vector2 in_base_m;
+    geometry::Vector2 mean_m;
+    geometry::Vector2 normal;
+    double information_per_m2 = 0.0;
+    bool has_direction = false;
+  };
+  struct NormalEquations {
+    Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    int matched = 0;
+    double squared_residuals_m2 = 0.0;
+
+    void add(const Eigen::Vector3d& J, double residual_m, double weight) {
+      H.noalias() += weight * J * J.transpose();
+      g.noalias() += weight * residual_m * J;
+    }
+  };
+
+  void pair(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const geometry::Pose2& map_from_base,
+            double gate_m, const PointToLineConfig& config);
+  NormalEquations linearize(const geometry::Pose2& map_from_base, double gate_m, const PointToLineConfig& config) const;
+
+  std::vector<Pair> pairs_;
+};
 
 }  // namespace slammot::matching

@@ -1,6 +1,6 @@
 #include "common/sensing/deskew.hpp"
 
-#include <cmath>
+#include "common/sensing/turning_direction.hpp"
 
 namespace slammot::sensing {
 
@@ -8,20 +8,22 @@ void deskew(const LaserScan& scan, double speed_mps, double yaw_rate_radps, std:
   const Scanner& scanner = scan.scanner;
   const std::size_t beam_count = scan.range_m.size();
   points_in_base_m.resize(beam_count);
-  for (std::size_t beam = 0; beam < beam_count; ++beam) {
+  const double step_s = beam_count > 1 ? beam_delay_s(scanner, 1, beam_count) : 0.0;
+  const geometry::Vector2 mount_m = scanner.base_from_laser.translation_m();
+  TurningDirection beam_in_base(beam_angle_rad(scanner, 0) + scanner.base_from_laser.heading_rad, scanner.beam_step_rad + yaw_rate_radps * step_s);
+  TurningDirection half_turn(0.0, 0.5 * yaw_rate_radps * step_s);
+  for (std::size_t beam = 0; beam < beam_count; ++beam, beam_in_base.advance(), half_turn.advance()) {
     const float range_m = scan.range_m[beam];
     if (!is_echo(range_m, scanner.max_range_m)) {
-      points_in_base_m[beam] = scanner.base_from_laser.translation_m();
+      points_in_base_m[beam] = mount_m;
       continue;
     }
-    const double delay_s = beam_delay_s(scanner, beam, beam_count);
-    const double turned_rad = yaw_rate_radps * delay_s;
-    const double moved_m = speed_mps * delay_s;
-    const double mount_rad = scanner.base_from_laser.heading_rad;
-    const double direction_rad = beam_angle_rad(scanner, beam) + mount_rad + turned_rad;
-    const geometry::Vector2 laser_m = geometry::Pose2{moved_m * std::cos(0.5 * turned_rad), moved_m * std::sin(0.5 * turned_rad), turned_rad} *
-                                      scanner.base_from_laser.translation_m();
-    points_in_base_m[beam] = laser_m + static_cast<double>(range_m) * geometry::Vector2(std::cos(direction_rad), std::sin(direction_rad));
+    const double moved_m = speed_mps * step_s * static_cast<double>(beam);
+    const geometry::Vector2& half = half_turn.now();
+    const double cosine = half.x() * half.x() - half.y() * half.y();
+    const double sine = 2.0 * half.x() * half.y();
+    const geometry::Vector2 laser_m = moved_m * half + geometry::Vector2(cosine * mount_m.x() - sine * mount_m.y(), sine * mount_m.x() + cosine * mount_m.y());
+    points_in_base_m[beam] = laser_m + static_cast<double>(range_m) * beam_in_base.now();
   }
 }
 

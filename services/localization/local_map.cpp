@@ -115,10 +115,9 @@ void LocalMap::count_way(const Vector2& origin_m) {
 
 void LocalMap::forget_surfels_in_free_space() {
   const int free_steps = grids::steps_of_log_odds(config_.free_log_odds);
-  for (const grids::SurfelView& surfel : surfels_.all()) {
-    const grids::Cell cell = evidence_.window().cell_at(surfel.mean_m.x(), surfel.mean_m.y());
-    if (evidence_.highest_so_steps(cell, 1) <= -free_steps) surfels_.erase(surfel.cell);
-  }
+  surfels_.erase_where([&](const Vector2& mean_m) {
+    return evidence_.highest_so_steps(evidence_.window().cell_at(mean_m.x(), mean_m.y()), 1) <= -free_steps;
+  });
 }
 
 void LocalMap::restore_stationary(const Vector2& point_in_odom_m) {

@@ -6,6 +6,8 @@
 
 #include <Eigen/LU>
 
+#include "common/sensing/turning_direction.hpp"
+
 namespace slammot::localization {
 namespace {
 
@@ -36,11 +38,6 @@ grids::Echo echo_of(PointLabel label) {
 /// Without anybody's labels: what the map does not explain stays out of it.
 grids::Echo unexplained_out(EndCell end_cell) {
   return end_cell == EndCell::kNoEcho || end_cell == EndCell::kFree ? grids::Echo::kNone : grids::Echo::kStationary;
-}
-
-bool is_inside_box(const Vector2& offset_m, double heading_rad, double half_length_m, double half_width_m) {
-  const Vector2 in_box_m = geometry::rotation(-heading_rad) * offset_m;
-  return std::abs(in_box_m.x()) <= half_length_m && std::abs(in_box_m.y()) <= half_width_m;
 }
 
 }  // namespace
@@ -92,22 +89,32 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
   return step;
 }
 
-bool Localizer::is_masked(const Vector2& point_in_odom_m, std::int64_t stamp_ns) const {
+void Localizer::mask_expected_objects(std::int64_t stamp_ns) {
+  masks_.clear();
   const double after_s = static_cast<double>(stamp_ns - expected_objects_.stamp_ns) * kNanosecond_s;
-  if (after_s > kLongestExpectation_s || !config_.leave_out_moving) return false;
-  return std::any_of(expected_objects_.objects.begin(), expected_objects_.objects.end(), [&](const flow::TrackedObject& object) {
-    const Vector2 centre_m = object.position_in_odom_m + after_s * object.velocity_in_odom_mps;
-    return object.confirmed && is_inside_box(point_in_odom_m - centre_m, object.heading_in_odom_rad,
-                                             0.5 * object.length_m + config_.mask_margin_m, 0.5 * object.width_m + config_.mask_margin_m);
+  if (after_s > kLongestExpectation_s || !config_.leave_out_moving) return;
+  for (const flow::TrackedObject& object : expected_objects_.objects) {
+    if (!object.confirmed) continue;
+    masks_.push_back({object.position_in_odom_m + after_s * object.velocity_in_odom_mps, geometry::rotation(-object.heading_in_odom_rad),
+                      {0.5 * object.length_m + config_.mask_margin_m, 0.5 * object.width_m + config_.mask_margin_m}});
+  }
+}
+
+bool Localizer::is_masked(const Vector2& point_in_odom_m) const {
+  return std::any_of(masks_.begin(), masks_.end(), [&](const Mask& mask) {
+    const Vector2 in_box_m = mask.box_from_odom * (point_in_odom_m - mask.centre_in_odom_m);
+    return std::abs(in_box_m.x()) <= mask.half_m.x() && std::abs(in_box_m.y()) <= mask.half_m.y();
   });
 }
 
 void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_from_base) {
   match_points_.clear();
+  const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
+  mask_expected_objects(scan.stamp_ns);
   for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
     const float range_m = scan.range_m[beam];
     if (!sensing::is_echo(range_m, std::min(config_.match_range_m, scan.scanner.max_range_m)) || range_m < config_.min_range_m) continue;
-    if (is_masked(odom_from_base * points_in_base_m_[beam], scan.stamp_ns)) continue;
+    if (is_masked(odom_from_base.translation_m() + turn * points_in_base_m_[beam])) continue;
     match_points_.push_back({points_in_base_m_[beam], config_.range_noise_m + config_.range_noise_per_m * static_cast<double>(range_m)});
   }
 }
@@ -141,7 +148,7 @@ Localizer::Match Localizer::match(const UncertainPose2& prior) {
   }
   const Pose2 initial = is_vague(prior) ? search(prior) : prior.pose;
   const matching::PointToLineResult result =
-      matching::match_point_to_line(match_points_, map_.surfels(), prior, initial, config_.match);
+      matcher_.match(match_points_, map_.surfels(), prior, initial, config_.match);
   if (result.matched_share < config_.least_matched_share) {
     ++counters_.lost_matches;
     return {prior, false};
@@ -178,15 +185,16 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
   localized.submap_from_base = geometry::inverse(map_.odom_from_submap()) * odom_from_base.pose;
   const Pose2 odom_from_laser = odom_from_base.pose * scan.scanner.base_from_laser;
   const Vector2 origin_in_odom_m = odom_from_laser.translation_m();
+  const geometry::Matrix2 turn = geometry::rotation(odom_from_base.pose.heading_rad);
   localized.beams.resize(scan.range_m.size());
-  for (std::size_t i = 0; i < localized.beams.size(); ++i) {
+  sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
+  for (std::size_t i = 0; i < localized.beams.size(); ++i, beam_in_odom.advance()) {
     flow::LocalizedBeam& beam = localized.beams[i];
     const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) && scan.range_m[i] >= config_.min_range_m;
-    const double angle_rad = sensing::beam_angle_rad(scan.scanner, i);
-    const Vector2 far_end_m = odom_from_laser * Vector2(scan.scanner.max_range_m * std::cos(angle_rad), scan.scanner.max_range_m * std::sin(angle_rad));
+    const Vector2 far_end_m = origin_in_odom_m + scan.scanner.max_range_m * beam_in_odom.now();
     beam.point_in_base_m = points_in_base_m_[i].cast<float>();
     beam.range_m = has_echo ? scan.range_m[i] : 0.0F;
-    map_.expect(origin_in_odom_m, has_echo ? odom_from_base.pose * points_in_base_m_[i] : far_end_m, has_echo, scan.scanner.max_range_m, beam);
+    map_.expect(origin_in_odom_m, has_echo ? odom_from_base.pose.translation_m() + turn * points_in_base_m_[i] : far_end_m, has_echo, scan.scanner.max_range_m, beam);
   }
   return localized;
 }
@@ -201,18 +209,19 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   pending.origin_in_odom_m = odom_from_laser.translation_m();
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());
-  for (std::size_t i = 0; i < localized.beams.size(); ++i) {
+  const geometry::Matrix2 turn = geometry::rotation(localized.odom_from_base.pose.heading_rad);
+  sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
+  for (std::size_t i = 0; i < localized.beams.size(); ++i, beam_in_odom.advance()) {
     const flow::LocalizedBeam& beam = localized.beams[i];
     pending.end_cells[i] = beam.end_cell;
     if (beam.end_cell != EndCell::kNoEcho) {
-      pending.rays[i].end_m = localized.odom_from_base.pose * points_in_base_m_[i];
+      pending.rays[i].end_m = localized.odom_from_base.pose.translation_m() + turn * points_in_base_m_[i];
       continue;
     }
     // Nearer echoes than the least range tell nothing, not even that there is free space.
     const bool is_too_near = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m);
     const double free_m = is_too_near ? 0.0 : std::min(config_.map.no_echo_free_m, scan.scanner.max_range_m);
-    const double angle_rad = sensing::beam_angle_rad(scan.scanner, i);
-    pending.rays[i].end_m = odom_from_laser * Vector2(free_m * std::cos(angle_rad), free_m * std::sin(angle_rad));
+    pending.rays[i].end_m = pending.origin_in_odom_m + free_m * beam_in_odom.now();
   }
   pending_.push_back(std::move(pending));
 }

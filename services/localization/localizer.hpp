@@ -149,6 +149,13 @@ class Localizer {
     bool is_believed = false;       ///< Otherwise it is the prediction.
   };
 
+  /// Box of something that moves, with a margin.
+  struct Mask {
+    geometry::Vector2 centre_in_odom_m;
+    geometry::Matrix2 box_from_odom;
+    geometry::Vector2 half_m;
+  };
+
   struct PendingScan {
     std::int64_t stamp_ns = 0;
     std::uint32_t sequence = 0;
@@ -173,7 +180,8 @@ class Localizer {
   bool is_vague(const geometry::UncertainPose2& prior) const;
   geometry::Pose2 search(const geometry::UncertainPose2& prior);
   void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
-  bool is_masked(const geometry::Vector2& point_in_odom_m, std::int64_t stamp_ns) const;
+  void mask_expected_objects(std::int64_t stamp_ns);
+  bool is_masked(const geometry::Vector2& point_in_odom_m) const;
   void travel(const geometry::Pose2& before_from_base);
   geometry::UncertainPose2 published_pose() const;
   flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base) const;
@@ -208,8 +216,10 @@ class Localizer {
   std::deque<PendingScan> integrated_;               ///< The last ones, for points that tracking gives back.
   std::vector<flow::Submap> finished_;
   matching::CorrelativeMatcher searcher_;
+  matching::PointToLineMatcher matcher_;
   std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
   std::vector<matching::MatchPoint> match_points_;
+  std::vector<Mask> masks_;
 };
 
 }  // namespace slammot::localization

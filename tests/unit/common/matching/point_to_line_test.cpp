@@ -58,7 +58,7 @@ std::vector<MatchPoint> exact_scan_of(const World& world, const Pose2& world_fro
 
 PointToLineResult match_from(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const Pose2& prior,
                              const PointToLineConfig& config = {}) {
-  return match_point_to_line(points, surfels, {prior, kVague}, prior, config);
+  return PointToLineMatcher().match(points, surfels, {prior, kVague}, prior, config);
 }
 
 TEST(PointToLine, FindsThePoseFromAllAround) {
@@ -142,7 +142,7 @@ TEST(PointToLine, StopsWhereTheCostIsLeast) {
   const PointToLineConfig config;
   const UncertainPose2 prior{{-2.02, 1.03, 0.61}, Eigen::Vector3d(0.0004, 0.0004, 0.0001).asDiagonal()};
   const auto points = scan_of(room, {-2.0, 1.0, 0.6}, 360, 0.02, random);
-  const Pose2 found = match_point_to_line(points, surfels, prior, prior.pose, config).map_from_base.pose;
+  const Pose2 found = PointToLineMatcher().match(points, surfels, prior, prior.pose, config).map_from_base.pose;
   const double least = cost(points, surfels, prior, found, config);
   for (const double sign : {-1.0, 1.0}) {
     for (const Eigen::Vector3d& step : {Eigen::Vector3d(0.004, 0, 0), {0, 0.004, 0}, {0, 0, 0.001}, {0.003, 0.003, 0.0005}}) {
@@ -208,7 +208,7 @@ TEST(PointToLine, LeavesThePriorAloneAlongAFeaturelessCorridor) {
   auto points = exact_scan_of(corridor, truth);
   std::erase_if(points, [](const MatchPoint& point) { return point.in_base_m.norm() > 20.0; });
   const UncertainPose2 prior{{0.5, 0.2, 0.02}, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()};
-  const auto result = match_point_to_line(points, surfels, prior, prior.pose, {});
+  const auto result = PointToLineMatcher().match(points, surfels, prior, prior.pose, {});
   EXPECT_NEAR(result.map_from_base.pose.x_m, 0.5, 0.005);
   EXPECT_NEAR(result.map_from_base.pose.y_m, 0.1, 0.005);
   EXPECT_NEAR(result.map_from_base.pose.heading_rad, 0.0, 0.002);
@@ -241,7 +241,7 @@ TEST(PointToLine, GivesThePriorWhenNothingMatches) {
   const grids::SurfelMap empty(grids::window_around({0.0, 0.0}, 20.0, kCell_m), 1000.0);
   const auto far_away = surfels_of(slammot::testing::moved(slammot::testing::room(), {25.0, 25.0, 0.0}), {30.0, 30.0});
   for (const auto* surfels : {&empty, &far_away}) {
-    const auto result = match_point_to_line(points, *surfels, prior, {1.1, 2.1, 0.4}, {});
+    const auto result = PointToLineMatcher().match(points, *surfels, prior, {1.1, 2.1, 0.4}, {});
     EXPECT_EQ(result.map_from_base.pose, prior.pose);
     EXPECT_THAT(result.map_from_base.covariance, MatrixNear(prior.covariance, 1e-12));
     EXPECT_EQ(result.matched_points, 0);
@@ -252,7 +252,7 @@ TEST(PointToLine, GivesThePriorWhenNothingMatches) {
 
 TEST(PointToLine, GivesThePriorForAScanWithoutPoints) {
   const UncertainPose2 prior{{1.0, 2.0, 0.3}, kVague};
-  EXPECT_EQ(match_point_to_line({}, surfels_of(slammot::testing::room()), prior, prior.pose, {}).map_from_base.pose, prior.pose);
+  EXPECT_EQ(PointToLineMatcher().match({}, surfels_of(slammot::testing::room()), prior, prior.pose, {}).map_from_base.pose, prior.pose);
 }
 
 TEST(PointToLine, WeighsPriorAndScanByTheirInformation) {
@@ -263,7 +263,7 @@ TEST(PointToLine, WeighsPriorAndScanByTheirInformation) {
   const auto points = exact_scan_of(room, truth);
   const auto error_m = [&](double prior_sigma_m) {
     const Matrix3 covariance = (Eigen::Vector3d(1.0, 1.0, 0.01) * prior_sigma_m * prior_sigma_m).asDiagonal();
-    const auto result = match_point_to_line(points, surfels, {prior, covariance}, prior, {});
+    const auto result = PointToLineMatcher().match(points, surfels, {prior, covariance}, prior, {});
     return (result.map_from_base.pose.translation_m() - truth.translation_m()).norm();
   };
   EXPECT_NEAR(error_m(1e-5), 0.02, 1e-3);
