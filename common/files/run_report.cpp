@@ -97,6 +97,7 @@ std::string to_json_text(const RunRecord& record, const RunReport& report, doubl
                {"command", report.command},
                {"profile", report.profile},
                {"profile_reason", report.profile_reason},
+               {"is_interrupted", report.is_interrupted},
                {"input", input_of(report)},
                {"counts", counts_of(record)},
                {"distance_m", short_number(travelled_m)},

@@ -38,6 +38,7 @@ struct RunReport {
   LogPlan plan;
   double sweep_s = 0.0;        ///< From the first beam to the last, as was assumed.
   LogFaults faults;
+  bool is_interrupted = false; ///< The user stopped it: not the whole drive was processed.
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
   MeasuredRun measured;
 };

@@ -29,7 +29,6 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kExitInterrupted = 130;
 constexpr auto kPatienceAtTheEnd = 30s;
 constexpr auto kLastWords = 50ms;
 constexpr const char* kVehicle = "bench";

@@ -7,6 +7,7 @@ enum ExitCode : int {
   kExitDone = 0,
   kExitFault = 1,     ///< Nothing was made, or not everything could be written; one line on stderr says why.
   kExitLogIsCut = 3,  ///< The log ends early; what could be read of it was processed and written.
+  kExitInterrupted = 130,  ///< By SIGINT or SIGTERM; `run` has written what it had processed by then.
 };
 
 /// The command `slammot`: one subcommand a file, each adds itself.

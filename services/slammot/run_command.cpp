@@ -1,12 +1,16 @@
 #include "services/slammot/run_command.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <memory>
-#include <thread>
+#include <mutex>
+#include <stop_token>
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/stop_signal.hpp"
 #include "common/files/run_outputs.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
@@ -30,10 +34,13 @@ class Pace {
  public:
   Pace(std::optional<double> speed, std::int64_t first_stamp_ns) : speed_(speed), first_stamp_ns_(first_stamp_ns) {}
 
-  void wait_for(std::int64_t stamp_ns) const {
+  /// Until the scan is due, or no longer than until a stop is requested.
+  void wait_for(std::int64_t stamp_ns, const std::stop_token& stop) const {
     if (!speed_) return;
     const std::chrono::duration<double> due_after(static_cast<double>(stamp_ns - first_stamp_ns_) * 1e-9 / *speed_);
-    std::this_thread::sleep_until(start_ + std::chrono::duration_cast<Clock::duration>(due_after));
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any().wait_until(lock, stop, start_ + std::chrono::duration_cast<Clock::duration>(due_after), [] { return false; });
   }
 
  private:
@@ -42,40 +49,71 @@ class Pace {
   Clock::time_point start_ = Clock::now();
 };
 
-void drive(Job& job, Pipeline& pipeline) {
+/// How much of a drive was processed.
+struct Driven {
+  double duration_s = 0.0;
+  bool is_interrupted = false;  ///< There was more of it.
+};
+
+/// Takes the drive through all stages, to its end or until a stop is requested.
+Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
   ProgressBar progress("slammot run");
   std::optional<Pace> pace;
-  while (auto event = job.log.next()) {
+  std::int64_t first_stamp_ns = 0;
+  std::int64_t last_stamp_ns = 0;
+  auto event = job.log.next();
+  for (; event && !stop.stop_requested(); event = job.log.next()) {
     if (const auto* odometry = std::get_if<sensing::Odometry>(&*event)) pipeline.take(*odometry);
     if (auto* scan = std::get_if<sensing::LaserScan>(&*event)) {
       scan->scanner.sweep_s = job.sweep_s;
-      if (!pace) pace.emplace(job.speed, scan->stamp_ns);
-      pace->wait_for(scan->stamp_ns);
+      if (!pace) {
+        pace.emplace(job.speed, scan->stamp_ns);
+        first_stamp_ns = last_stamp_ns = scan->stamp_ns;
+      }
+      pace->wait_for(scan->stamp_ns, stop);
       pipeline.take(*scan);
+      last_stamp_ns = std::max(last_stamp_ns, scan->stamp_ns);
       progress.show(job.log.fraction_read());
     }
   }
   pipeline.finish();
+  return {static_cast<double>(last_stamp_ns - first_stamp_ns) * 1e-9, event.has_value()};
+}
+
+/// The last line of a run that did not have the whole drive, and its exit code.
+int end_of(const JobOptions& options, const files::RunReport& report, const Driven& driven) {
+  std::fflush(stdout);
+  if (driven.is_interrupted) {
+    std::fprintf(stderr, "slammot: interrupted: only the first %.1f s of the drive were processed\n", driven.duration_s);
+    return kExitInterrupted;
+  }
+  if (!report.faults.is_cut) return kExitDone;
+  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed\n", options.input.c_str());
+  return kExitLogIsCut;
 }
 
 int run(const JobOptions& options) {
   const auto start = Clock::now();
+  std::stop_source interruption;
+  const app::StopSignal stop_signal([&] { interruption.request_stop(); });
   auto job = prepare_job(options);
   if (!job) return fail(job.error());
   std::fputs(describe_job(*job, options).c_str(), stdout);
   std::fflush(stdout);
   Pipeline pipeline(job->profile);
-  drive(*job, pipeline);
+  const Driven driven = drive(*job, pipeline, interruption.get_token());
+  if (driven.is_interrupted && pipeline.record().scans() == 0) {
+    std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
+    return kExitInterrupted;
+  }
   files::RunReport report = report_of(*job, options, "run");
   report.counters = pipeline.counters();
+  report.is_interrupted = driven.is_interrupted;
   const double wall_s = seconds_since(start);
-  report.measured = {pipeline.times().summary(), wall_s, report.plan.figures.duration_s / wall_s, peak_memory_mb()};
+  report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s, peak_memory_mb()};
   if (const auto fault = files::write_outputs(options.output, pipeline.record(), report)) return fail(*fault);
   std::fputs(describe_outcome(pipeline.record(), report, options.output).c_str(), stdout);
-  if (!report.faults.is_cut) return kExitDone;
-  std::fflush(stdout);
-  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed\n", options.input.c_str());
-  return kExitLogIsCut;
+  return end_of(options, report, driven);
 }
 
 }  // namespace
