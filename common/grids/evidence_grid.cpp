@@ -200,17 +200,27 @@ void EvidenceGrid::lower_free_cells() {
   for (std::int32_t row = 0; row < window_.rows; ++row) {
     const auto at = static_cast<std::size_t>(row);
     std::uint64_t* const words = free_.row(row);
+    std::int32_t run_begin = 0;  // of a run that goes on from word to word
+    bool is_in_run = false;
+    const auto end_run = [&](std::int32_t column) {
+      if (is_in_run) lower(row, run_begin, std::min(column, window_.columns) - run_begin);
+      is_in_run = false;
+    };
     for (std::int32_t word = free_.first_word[at]; word <= free_.last_word[at]; ++word) {
-      std::uint64_t left = words[word];
-      words[word] = 0;
-      while (left != 0) {
-        const int first = std::countr_zero(left);
-        const int count = std::countr_one(left >> first);
-        lower(row, word * 64 + first, std::min(count, window_.columns - word * 64 - first));
-        if (first + count == 64) break;
-        left &= ~std::uint64_t{0} << (first + count);
+      const std::uint64_t bits = std::exchange(words[word], 0);
+      for (int bit = 0; bit < 64;) {
+        if (is_in_run) {
+          bit += std::countr_one(bits >> bit);
+          if (bit < 64) end_run(word * 64 + bit);
+        } else {
+          if (bits >> bit == 0) break;
+          bit += std::countr_zero(bits >> bit);
+          run_begin = word * 64 + bit;
+          is_in_run = true;
+        }
       }
     }
+    end_run((free_.last_word[at] + 1) * 64);
     free_.first_word[at] = free_.words_per_row;
     free_.last_word[at] = -1;
   }

@@ -16,6 +16,7 @@
 #include "services/slammot/job.hpp"
 #include "services/slammot/pipeline.hpp"
 #include "services/slammot/progress_bar.hpp"
+#include "services/slammot/read_ahead.hpp"
 
 namespace slammot {
 namespace {
@@ -61,10 +62,11 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
   std::optional<Pace> pace;
   std::int64_t first_stamp_ns = 0;
   std::int64_t last_stamp_ns = 0;
-  auto event = job.log.next();
-  for (; event && !stop.stop_requested(); event = job.log.next()) {
-    if (const auto* odometry = std::get_if<sensing::Odometry>(&*event)) pipeline.take(*odometry);
-    if (auto* scan = std::get_if<sensing::LaserScan>(&*event)) {
+  ReadAhead log(job.log);
+  auto read = log.next();
+  for (; read && !stop.stop_requested(); read = log.next()) {
+    if (const auto* odometry = std::get_if<sensing::Odometry>(&read->event)) pipeline.take(*odometry);
+    if (auto* scan = std::get_if<sensing::LaserScan>(&read->event)) {
       scan->scanner.sweep_s = job.sweep_s;
       if (!pace) {
         pace.emplace(job.speed, scan->stamp_ns);
@@ -73,11 +75,11 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
       pace->wait_for(scan->stamp_ns, stop);
       pipeline.take(*scan);
       last_stamp_ns = std::max(last_stamp_ns, scan->stamp_ns);
-      progress.show(job.log.fraction_read());
+      progress.show(read->fraction_read);
     }
   }
   pipeline.finish();
-  return {static_cast<double>(last_stamp_ns - first_stamp_ns) * 1e-9, event.has_value()};
+  return {static_cast<double>(last_stamp_ns - first_stamp_ns) * 1e-9, read.has_value()};
 }
 
 /// The last line of a run that did not have the whole drive, and its exit code.
