@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "services/detection/box_fit.hpp"
+#include "common/sensing/box_fit.hpp"
 #include "services/detection/ground.hpp"
 
 namespace slammot::detection {
@@ -254,8 +254,8 @@ void describe_shape(Segment& segment, const SegmentedScan& scan, const Detection
       pose_contribution(scan.odom_from_base, centroid_in_base_m);
   // Only what may become a track needs the searched heading; the ends of the rest tell enough.
   const Vector2 way = points_in_odom_m.back() - points_in_odom_m.front();
-  const OrientedBox box = segment.label == PointLabel::kMoving ? fit_box(points_in_odom_m)
-                                                               : box_at_heading(points_in_odom_m, std::atan2(way.y(), way.x()));
+  const sensing::OrientedBox box = segment.label == PointLabel::kMoving ? sensing::fit_box(points_in_odom_m)
+                                                               : sensing::box_at_heading(points_in_odom_m, std::atan2(way.y(), way.x()));
   segment.box_centre_in_odom_m = box.centre_m;
   segment.box_heading_rad = box.heading_rad;
   segment.box_length_m = box.length_m;

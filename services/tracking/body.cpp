@@ -42,6 +42,8 @@ struct Shadow {
   Edge high_edge = Edge::kOpen;
   double low_face_m = 0.0;       ///< Mean of the points on the outermost side.
   double high_face_m = 0.0;
+  double low_across_m = 0.0;     ///< How far these points lie apart across the axis: a side does, the end of a flank does not.
+  double high_across_m = 0.0;
   int low_count = 0;
   int high_count = 0;
   int count = 0;
@@ -51,6 +53,13 @@ struct AxisMeasurement {
   double centre_m = 0.0;
   double variance_m2 = kUnknownSigmaM * kUnknownSigmaM;
   int held = 0;                  ///< -1: the low side was seen, +1: the high one; the size grows from there. 0: none or both.
+};
+
+struct Spread {
+  double least_m = std::numeric_limits<double>::max();
+  double most_m = std::numeric_limits<double>::lowest();
+  void include(double value_m) { least_m = std::min(least_m, value_m), most_m = std::max(most_m, value_m); }
+  double width_m() const { return most_m - least_m; }
 };
 
 Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double sigma_m) {
@@ -65,11 +74,16 @@ Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2
     if (s > shadow.high_m) shadow.high_m = s, shadow.high_edge = edge;
   }
   const double depth_m = kFaceDepthM + kFaceDepthSigmas * sigma_m;
+  Spread low_across;
+  Spread high_across;
   for (const Vector2d& point : glimpse.points_m) {
     const double s = axis.dot(point - centre_m);
-    if (s < shadow.low_m + depth_m) shadow.low_face_m += s, ++shadow.low_count;
-    if (s > shadow.high_m - depth_m) shadow.high_face_m += s, ++shadow.high_count;
+    const double across_m = axis.x() * point.y() - axis.y() * point.x();
+    if (s < shadow.low_m + depth_m) shadow.low_face_m += s, ++shadow.low_count, low_across.include(across_m);
+    if (s > shadow.high_m - depth_m) shadow.high_face_m += s, ++shadow.high_count, high_across.include(across_m);
   }
+  shadow.low_across_m = low_across.width_m();
+  shadow.high_across_m = high_across.width_m();
   shadow.low_face_m /= shadow.low_count;
   shadow.high_face_m /= shadow.high_count;
   shadow.count = static_cast<int>(count);
@@ -78,7 +92,7 @@ Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2
 
 Shadow mirrored(const Shadow& shadow) {
   return {-shadow.high_m, -shadow.low_m, shadow.high_edge, shadow.low_edge,
-          -shadow.high_face_m, -shadow.low_face_m, shadow.high_count, shadow.low_count, shadow.count};
+          -shadow.high_face_m, -shadow.low_face_m, shadow.high_across_m, shadow.low_across_m, shadow.high_count, shadow.low_count, shadow.count};
 }
 
 /// No body is smaller than what is seen of it; a single outlier does not make it larger.
@@ -99,14 +113,20 @@ struct AxisView {
   double face_variance_m2 = 0.0;    ///< Of one echo from a side across the axis.
   double low_spacing_m = 0.0;       ///< Between the echoes of a side along the axis, at its low
   double high_spacing_m = 0.0;      ///< and at its high end.
+  double least_side_m = 0.4;        ///< What is narrower is no side.
   double clear_spacing_m = 0.5;     ///< Wider spaced echoes do not tell where a side ends.
 };
+
+/// Whether the low end is a side across the axis, and not where something hides the rest of a flank.
+bool is_side(const Shadow& shadow, const AxisView& view) {
+  return shadow.low_count >= 3 && shadow.low_across_m > view.least_side_m;
+}
 
 /// The laser lies beyond the low side, which so looks at it; the high end is at the end of a flank, if that is in view.
 void note_sizes_from_low_side(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
   note_seen(evidence, shadow.high_m - low_m);
-  const bool low_is_seen = shadow.low_edge == Edge::kOpen || shadow.low_count >= 3;
+  const bool low_is_seen = shadow.low_edge == Edge::kOpen || is_side(shadow, view);
   const bool high_is_seen = flank_is_visible && shadow.high_edge == Edge::kOpen && view.high_spacing_m < view.clear_spacing_m &&
                             shadow.count - shadow.low_count >= kFewestOnFlank;
   if (low_is_seen && high_is_seen)  // the flank ends somewhere between its last echo and where the next one would be
@@ -122,7 +142,7 @@ void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const 
 
 AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   AxisMeasurement axis;
-  if (shadow.low_edge != Edge::kHidden || shadow.low_count >= 3) {
+  if (shadow.low_edge != Edge::kHidden || is_side(shadow, view)) {
     const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
     axis.centre_m = low_m + 0.5 * size.value_m;
     axis.variance_m2 = view.face_variance_m2;
@@ -157,7 +177,7 @@ AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const
 }
 
 AxisView mirrored(const AxisView& view) {
-  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.clear_spacing_m};
+  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.least_side_m, view.clear_spacing_m};
 }
 
 AxisMeasurement mirrored(const AxisMeasurement& axis) { return {-axis.centre_m, axis.variance_m2, -axis.held}; }
@@ -246,7 +266,7 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   const Shadow v = shadow_of(glimpse, predicted_centre_m, across, sigma_m);
   const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
     return AxisView{axis.dot(to_laser_m), squared(sigma_m), spacing_m(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
-                    spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), 0.5 * config.size_scale};
+                    spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), 0.4 * config.size_scale, 0.5 * config.size_scale};
   };
   const AxisView u_view = view_of(along, u);
   const AxisView v_view = view_of(across, v);

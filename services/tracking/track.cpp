@@ -44,8 +44,23 @@ void redraw(Track& track, const Body& body, const Glimpse& glimpse, const Tracki
   track.estimate = filters::imm_combine(models, track.motion);
 }
 
+/// Turns the body about what is seen of it. Turned about its centre, a long body of which only one end is seen would seem
+/// to fly sideways, its course would follow, and its heading that.
+void turn(Track& track, double by_rad, const Glimpse& glimpse, const TrackingConfig& config) {
+  Vector2d seen_m = Vector2d::Zero();
+  for (const Vector2d& point : glimpse.points_m) seen_m += point;
+  seen_m /= static_cast<double>(glimpse.points_m.size());
+  const Vector2d to_centre_m = track.position_m() - seen_m;
+  const Vector2d shift_m = geometry::rotation(by_rad) * to_centre_m - to_centre_m;
+  const filters::ModelSet models = motion_models(config);
+  filters::imm_shift(models, track.motion, shift_m);
+  track.estimate = filters::imm_combine(models, track.motion);
+  track.birth_position_m += shift_m;
+  track.body.heading_rad = wrap_angle(track.body.heading_rad + by_rad);
+}
+
 /// Brings the body's heading to that of the long side that is seen.
-void follow_side(Track& track, const Glimpse& glimpse) {
+void follow_side(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
   if (!glimpse.side_heading_rad) return;
   Body& body = track.body;
   // A rectangle has sides at right angles: it may be a face or a flank.
@@ -54,7 +69,7 @@ void follow_side(Track& track, const Glimpse& glimpse) {
   constexpr double kVarianceRad2 = 0.1 * 0.1;  // the errors of one scan are those of the next
   if (std::abs(off_rad) > kFarthestRad) return;
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + kVarianceRad2);
-  body.heading_rad = wrap_angle(body.heading_rad + gain * off_rad);
+  turn(track, gain * off_rad, glimpse, config);
   body.heading_variance_rad2 *= 1.0 - gain;
 }
 
@@ -77,7 +92,7 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
   body.is_oriented = body.is_oriented || course.variance_rad2 < 0.03;
   const double variance_rad2 = course.variance_rad2 + 0.002;  // wheels do not always roll where the body points
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + variance_rad2);
-  body.heading_rad = wrap_angle(body.heading_rad + gain * off_rad);
+  turn(track, gain * off_rad, glimpse, config);
   body.heading_variance_rad2 *= 1.0 - gain;
 }
 
@@ -198,7 +213,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.estimate = filters::imm_combine(models, track.motion);
   observe(track, stamp_ns, glimpse);
-  if (track.body.has_sides) follow_side(track, glimpse);
+  if (track.body.has_sides) follow_side(track, glimpse, config);
   if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
   update_motion_state(track, config);

@@ -9,6 +9,7 @@
 
 #include "common/association/assignment.hpp"
 #include "common/association/gating.hpp"
+#include "common/sensing/box_fit.hpp"
 
 namespace slammot::tracking {
 namespace {
@@ -249,6 +250,7 @@ void Tracker::compare_with_past(const ScanView& view) {
   past_of_beam_.assign(scan.range_m.size(), Past::kUnknown);
   past_of_segment_.assign(scan.segments.size(), {});
   const EarlierScan* then = history_.older_than(scan.stamp_ns, config_.compare_after_s);
+  const EarlierScan* long_ago = history_.older_than(scan.stamp_ns, config_.compare_slow_after_s);
   for (std::size_t s = 0; s < scan.segments.size(); ++s) {
     SegmentPast& past = past_of_segment_[s];
     for (const std::uint16_t beam : scan.segments[s].beams) {
@@ -260,10 +262,44 @@ void Tracker::compare_with_past(const ScanView& view) {
     }
     const Segment& segment = scan.segments[s];
     const auto count = static_cast<double>(segment.beams.size());
+    if (segment.label != PointLabel::kMoving && then != nullptr && segment.box_length_m < config_.longest_body_m && segment.box_length_m > config_.box_from_extent_m) {
+      past.longest_arrival = longest_arrival(segment, view.polar(), *then);
+      if (long_ago != nullptr) past.longest_arrival = std::max(past.longest_arrival, longest_arrival(segment, view.polar(), *long_ago));
+    }
     const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
     past.stood_before = past.stood > kLeastStoodShare * count;
     past.stands = past.stood_before || (is_mapped && past.arrived + past.receded < kLeastChangedShare * count);
   }
+}
+
+int Tracker::longest_arrival(const Segment& segment, const PolarView& now, const EarlierScan& then) const {
+  int longest = 0;
+  int run = 0;
+  for (const std::uint16_t beam : segment.beams) {
+    run = past_of(beam, now, then) == Past::kArrived ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+/// Whether the echo lies on a side that points along the track's motion: there an object that moves looks as if it stood.
+bool Tracker::slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const {
+  if (!track.body.has_sides) return false;
+  const std::size_t segment = view.segment_of_beam(beam);
+  const auto is_beside = [&](int neighbour) {
+    return neighbour >= 0 && neighbour < static_cast<int>(view.polar().beam_count()) && view.segment_of_beam(static_cast<std::size_t>(neighbour)) == segment;
+  };
+  constexpr int kBeamsAside = 2;
+  int low = beam;
+  int high = beam;
+  for (int i = 1; i <= kBeamsAside; ++i) {
+    if (is_beside(beam - i)) low = beam - i;
+    if (is_beside(beam + i)) high = beam + i;
+  }
+  const Vector2d side = view.point_in_odom_m(static_cast<std::size_t>(high)) - view.point_in_odom_m(static_cast<std::size_t>(low));
+  const Vector2d along{std::cos(track.body.heading_rad), std::sin(track.body.heading_rad)};
+  constexpr double kCosine = 0.9;
+  return std::abs(side.dot(along)) > kCosine * side.norm() && side.squaredNorm() > 0.0;
 }
 
 /// What contradicts the map, unless it stood there before; and what comes or goes where the map cannot say, or has not yet
@@ -278,6 +314,8 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
       return false;
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
   constexpr int kFewest = 4;
+  constexpr double kLeastFaceShare = 0.15;
+  if (past.longest_arrival >= kFewest && past.longest_arrival >= kLeastFaceShare * count) return true;
   const int moved = past.arrived + past.receded;
   return moved >= kFewest && moved > 0.6 * count && segment.box_length_m < config_.longest_body_m;
 }
@@ -289,7 +327,9 @@ void Tracker::begin_tracks(const ScanView& view) {
     if (shares_.track_of_segment[s] != kUnassigned || !may_begin(segment, s)) continue;
     const Glimpse glimpse = glimpse_of(segment.beams, view, config_.size_scale, points_m);
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
-    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, segment.box_heading_rad, pose_covariance_m2, config_));
+    // Detection fits boxes to what moves only.
+    const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m).heading_rad;
+    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_));
     tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
     shares_.track_of_segment[s] = tracks_.size() - 1;
     shares_.beams_of_track.push_back(segment.beams);
@@ -305,7 +345,7 @@ MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t tr
   for (const std::uint16_t beam : shares_.beams_of_track[track]) {
     const Past past = past_of(beam, view.polar(), then);
     if (past == Past::kArrived) evidence.moved += 1.0;
-    else if (past == Past::kStood) evidence.stood += 1.0;
+    else if (past == Past::kStood) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? 0.0 : 1.0;
     else evidence.undecided += 1.0;
   }
   for (std::size_t beam = 0; beam < then.owners.size(); ++beam) {
@@ -321,7 +361,7 @@ MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) con
   const std::int64_t stamp_ns = view.scan().stamp_ns;
   if (tracks_[track].confirmed) {
     for (const std::uint16_t beam : shares_.beams_of_track[track]) {
-      best.stood += past_of_beam_[beam] == Past::kStood ? 1.0 : 0.0;
+      best.stood += past_of_beam_[beam] == Past::kStood && !slides_along_itself(beam, tracks_[track], view) ? 1.0 : 0.0;
       best.moved += past_of_beam_[beam] == Past::kArrived ? 1.0 : 0.0;
       best.undecided += past_of_beam_[beam] == Past::kUnknown ? 1.0 : 0.0;
     }

@@ -71,12 +71,15 @@ class Tracker {
     int stood = 0;
     int arrived = 0;
     int receded = 0;
+    int longest_arrival = 0;    ///< Neighbouring echoes that arrived: a face that comes, while its flank slides along itself.
     bool stood_before = false;  ///< By the earlier scan,
     bool stands = false;        ///< or by the map.
   };
 
   void compare_with_past(const ScanView& view);
   bool may_begin(const flow::Segment& segment, std::size_t index) const;
+  int longest_arrival(const flow::Segment& segment, const PolarView& now, const EarlierScan& then) const;
+  bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const;
   MotionEvidence evidence_of(std::size_t track, const ScanView& view) const;
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
   void correct(std::size_t track, double time_s, const ScanView& view);

@@ -1,4 +1,4 @@
-#include "services/detection/box_fit.hpp"
+#include "common/sensing/box_fit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace slammot::detection {
+namespace slammot::sensing {
 namespace {
 
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
@@ -93,4 +93,4 @@ OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m) {
   return box_at_heading(points_m, fine);
 }
 
-}  // namespace slammot::detection
+}  // namespace slammot::sensing

@@ -1,11 +1,11 @@
-#include "services/detection/box_fit.hpp"
+#include "common/sensing/box_fit.hpp"
 
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace slammot::detection {
+namespace slammot::sensing {
 namespace {
 
 using Eigen::Vector2d;
@@ -48,4 +48,4 @@ TEST(BoxAtHeading, CallsTheLongerSideItsLength) {
 }
 
 }  // namespace
-}  // namespace slammot::detection
+}  // namespace slammot::sensing

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace slammot::detection {
+namespace slammot::sensing {
 
 /// Oriented rectangle around points.
 struct OrientedBox {
@@ -21,4 +21,4 @@ OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double hea
 /// stages with the closeness criterion of Zhang, Xu, Dong, Dolan (IV 2017), Algorithm 4. At least one point.
 OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m);
 
-}  // namespace slammot::detection
+}  // namespace slammot::sensing
