@@ -102,6 +102,8 @@ void note_seen(SizeEvidence& evidence, double seen_m) {
 }
 
 void note_whole(SizeEvidence& evidence, double seen_m, double variance_m2) {
+  constexpr double kShorterM = 0.5;  // than what was seen before: a piece, or a side seen askew
+  if (seen_m < evidence.least_m - kShorterM) return;
   const double gain = evidence.whole.variance_m2 / (evidence.whole.variance_m2 + variance_m2);
   evidence.whole.value_m += gain * (seen_m - evidence.whole.value_m);
   evidence.whole.variance_m2 = std::max(kWholeSigmaM * kWholeSigmaM, (1.0 - gain) * evidence.whole.variance_m2);

@@ -45,6 +45,12 @@ enum class Edge : std::uint8_t {
   kHidden,   ///< Something nearer, or the end of the field of view.
 };
 
+/// A straight side of an object.
+struct Side {
+  double heading_rad = 0.0;  ///< Which way along it is not known.
+  double length_m = 0.0;     ///< As far as it is seen.
+};
+
 /// The echoes that belong to one object, in odom.
 struct Glimpse {
   std::span<const Eigen::Vector2d> points_m;  ///< In the order of the beams; at least one.
@@ -52,7 +58,7 @@ struct Glimpse {
   double beam_step_rad = 0.0;                 ///< Positive.
   Edge start = Edge::kOpen;                   ///< Before the first point
   Edge end = Edge::kOpen;                     ///< and after the last.
-  std::optional<double> side_heading_rad;     ///< Of a long straight side, where one is seen; its sense is not known.
+  std::optional<Side> side;                   ///< A long straight one, where one is seen.
 };
 
 /// Where a glimpse puts the centre of a body, and what it tells of its size.

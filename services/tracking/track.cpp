@@ -16,6 +16,8 @@ using geometry::wrap_angle;
 
 constexpr double kHeadingDriftRad2PerS = 0.1;  ///< How fast a body may turn, as a random walk.
 
+constexpr double kProgressM = 1.0;             ///< So far something must come once in a while that says to move.
+
 /// Heading at which the velocity and its covariance point, and how surely.
 struct Course {
   double heading_rad = 0.0;
@@ -41,34 +43,34 @@ void redraw(Track& track, const Body& body, const Glimpse& glimpse, const Tracki
   track.body = after.body;
   filters::imm_shift(models, track.motion, after.centre_m - before_m);
   track.birth_position_m += after.centre_m - before_m;
+  track.anchor_m += after.centre_m - before_m;
   track.estimate = filters::imm_combine(models, track.motion);
 }
 
-/// Turns the body about what is seen of it. Turned about its centre, a long body of which only one end is seen would seem
-/// to fly sideways, its course would follow, and its heading that.
+/// Turns the body; what is seen of it stays where it is. Turned about its centre, a long body of which only one end is
+/// seen would seem to fly sideways, its course would follow, and its heading that.
 void turn(Track& track, double by_rad, const Glimpse& glimpse, const TrackingConfig& config) {
-  Vector2d seen_m = Vector2d::Zero();
-  for (const Vector2d& point : glimpse.points_m) seen_m += point;
-  seen_m /= static_cast<double>(glimpse.points_m.size());
-  const Vector2d to_centre_m = track.position_m() - seen_m;
-  const Vector2d shift_m = geometry::rotation(by_rad) * to_centre_m - to_centre_m;
+  const Vector2d before_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m;
+  track.body.heading_rad = wrap_angle(track.body.heading_rad + by_rad);
+  const Vector2d shift_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m - before_m;
   const filters::ModelSet models = motion_models(config);
   filters::imm_shift(models, track.motion, shift_m);
   track.estimate = filters::imm_combine(models, track.motion);
   track.birth_position_m += shift_m;
-  track.body.heading_rad = wrap_angle(track.body.heading_rad + by_rad);
+  track.anchor_m += shift_m;
 }
 
 /// Brings the body's heading to that of the long side that is seen.
 void follow_side(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
-  if (!glimpse.side_heading_rad) return;
+  if (!glimpse.side) return;
   Body& body = track.body;
   // A rectangle has sides at right angles: it may be a face or a flank.
-  const double off_rad = std::remainder(*glimpse.side_heading_rad - body.heading_rad, 0.5 * std::numbers::pi);
+  const double off_rad = std::remainder(glimpse.side->heading_rad - body.heading_rad, 0.5 * std::numbers::pi);
   constexpr double kFarthestRad = 0.5;
-  constexpr double kVarianceRad2 = 0.1 * 0.1;  // the errors of one scan are those of the next
+  constexpr double kEndsOffM = 0.14;  // the errors of one scan are those of the next
+  const double sigma_rad = kEndsOffM * config.size_scale / glimpse.side->length_m;
   if (std::abs(off_rad) > kFarthestRad) return;
-  const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + kVarianceRad2);
+  const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + sigma_rad * sigma_rad);
   turn(track, gain * off_rad, glimpse, config);
   body.heading_variance_rad2 *= 1.0 - gain;
 }
@@ -112,6 +114,12 @@ void draw_sides_when_known(Track& track, const Glimpse& glimpse, const TrackingC
 }
 
 void update_motion_state(Track& track, const TrackingConfig& config) {
+  const double step_m = (track.position_m() - track.anchor_m).norm();
+  if (step_m > kProgressM * config.size_scale) {
+    track.way_m += std::min(step_m, 2.0 * kProgressM * config.size_scale);  // what jumps farther was not the same thing
+    track.anchor_m = track.position_m();
+    track.claimed_m = 0.0;
+  }
   const double speed = track.velocity_mps().norm();
   if (track.confirmed) track.fastest_mps = std::max(track.fastest_mps, speed);
   if (speed < config.stopped_below_mps) track.state = flow::Motion::kStopped;
@@ -186,7 +194,7 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
   start.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
   track.motion = filters::imm_start(motion_models(config), start);
   track.estimate = start;
-  track.birth_position_m = first.centre_m;
+  track.birth_position_m = track.anchor_m = first.centre_m;
   track.birth_covariance_m2 = first.covariance_m2;
   observe(track, stamp_ns, glimpse);
   return track;
@@ -197,10 +205,12 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
   track.motion = filters::imm_predict(models, track.motion, time_s);
   track.estimate = filters::imm_combine(models, track.motion);
   track.body.heading_variance_rad2 = std::min(10.0, track.body.heading_variance_rad2 + kHeadingDriftRad2PerS * time_s);
+  track.claimed_m += std::max(0.0, track.velocity_mps().norm() - config.moving_above_mps) * time_s;
 }
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   const filters::ModelSet models = motion_models(config);
+  if (track.body.has_sides) follow_side(track, glimpse, config);  // first: sizes are measured along the sides
   const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
   Matrix2d R = measurement.covariance_m2 + pose_covariance_m2;
   if (walks(track)) R += config.gait_noise_m * config.gait_noise_m * Matrix2d::Identity();
@@ -209,11 +219,11 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
   filters::imm_shift(models, track.motion, measurement.recentring_m);
   track.birth_position_m += measurement.recentring_m;
+  track.anchor_m += measurement.recentring_m;
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.estimate = filters::imm_combine(models, track.motion);
   observe(track, stamp_ns, glimpse);
-  if (track.body.has_sides) follow_side(track, glimpse, config);
   if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
   update_motion_state(track, config);
@@ -225,7 +235,6 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
 void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config) {
   const bool is_moving = label == flow::PointLabel::kMoving || evidence.moved > evidence.stood + evidence.undecided;
   track.moving_hits += is_moving ? 1 : 0;
-  track.farthest_m = std::max(track.farthest_m, (track.position_m() - track.birth_position_m).norm());
   const double fade = std::exp(-time_s / config.evidence_memory_s);
   track.evidence.moved = fade * track.evidence.moved + evidence.moved;
   track.evidence.stood = fade * track.evidence.stood + evidence.stood;
@@ -259,6 +268,11 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   const bool has_travelled = distance_m >= config.least_travel_m && distance_m >= config.least_travel_sigmas * sigma_m;
   return track.hits >= config.least_hits && track.score >= config.confirm_score && has_moved && (has_arrived || has_travelled) &&
          speed_sigma_mps <= config.most_speed_sigma_mps;
+}
+
+bool contradicts_itself(const Track& track, const TrackingConfig& config) {
+  constexpr double kMostTimesProgress = 4.0;
+  return track.claimed_m > kMostTimesProgress * kProgressM * config.size_scale;
 }
 
 flow::ObjectClass likely_class(const Track& track) {
@@ -314,7 +328,7 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
   track.first_seen_ns = object.first_seen_ns;
   track.last_seen_ns = object.last_seen_ns;
   track.last_moving_ns = object.last_seen_ns;
-  track.farthest_m = config.least_travel_to_stand_m;
+  track.way_m = config.least_travel_to_stand_m;
   track.hits = config.least_hits;
   track.largest_extent_m = object.length_m;
   track.body.has_sides = object.length_m > config.box_from_extent_m;
@@ -334,7 +348,7 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
   start.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
   track.motion = filters::imm_start(motion_models(config), start);
   track.estimate = start;
-  track.birth_position_m = object.position_in_odom_m;
+  track.birth_position_m = track.anchor_m = object.position_in_odom_m;
   return track;
 }
 

@@ -43,7 +43,9 @@ struct Track {
   MotionEvidence evidence;                   ///< Of the last moments, faded.
   double fastest_mps = 0.0;                  ///< Since it was confirmed.
   std::int64_t last_moving_ns = 0;           ///< When it was last faster than something that stands.
-  double farthest_m = 0.0;                   ///< From where it began.
+  double way_m = 0.0;                        ///< That it has come since it was confirmed, in steps that are more than jitter.
+  Eigen::Vector2d anchor_m = Eigen::Vector2d::Zero();  ///< Where it last got away from;
+  double claimed_m = 0.0;                    ///< the way that it says to have gone since.
   double largest_extent_m = 0.0;
   std::vector<Eigen::Vector2f> contour_in_odom_m;
   std::deque<flow::RestoredPoints> past;     ///< Points of a track not yet confirmed, newest last.
@@ -63,8 +65,8 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
 /// Moves the track over time_s >= 0.
 void predict(Track& track, double time_s, const TrackingConfig& config);
 
-/// Corrects position, velocity, heading, size and motion state by the echoes that are its own. False, and nothing changed,
-/// where they are too far from where a confirmed track must be.
+/// Corrects position, velocity, heading, size and motion state by the echoes that are its own. False, and nothing but the
+/// heading changed, where they are too far from where a confirmed track must be.
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
             const TrackingConfig& config);
 
@@ -76,6 +78,9 @@ void score_miss(Track& track, const Visibility& visibility, double time_s, const
 
 /// Whether what has been seen suffices to publish the track as an object that moves.
 bool has_proven_to_move(const Track& track, const TrackingConfig& config);
+
+/// Whether it says to move and stays where it is: something that stands, seen now here, now there.
+bool contradicts_itself(const Track& track, const TrackingConfig& config);
 
 flow::ObjectClass likely_class(const Track& track);
 

@@ -25,6 +25,7 @@ constexpr std::size_t kMostPastScans = 64;
 
 constexpr double kLeastStoodShare = 0.6;   ///< Of a segment's echoes that were there before, for it to stand.
 constexpr double kLeastChangedShare = 0.3; ///< Of them that came or went, for the map not to be believed.
+constexpr double kStoodIfSliding = 0.3;    ///< What an echo that stood counts if it may lie on a flank that slides along itself.
 constexpr double kMostMovingShare = 0.2;   ///< Of a segment's echoes that contradict the map, for it to stand.
 
 /// Pose uncertainty as it moves a point at this place; Wang 2004, Eq. (2.3).
@@ -80,13 +81,13 @@ void add_beams(std::vector<std::uint16_t>& beams, const std::vector<std::uint16_
   std::sort(beams.begin(), beams.end());
 }
 
-/// Heading of a long side, if the beams are mostly those of one moving segment with one.
-std::optional<double> side_heading_of(const std::vector<std::uint16_t>& beams, const ScanView& view, double least_length_m) {
+/// The long side, if the beams are mostly those of one moving segment with one.
+std::optional<Side> side_of(const std::vector<std::uint16_t>& beams, const ScanView& view, double least_length_m) {
   const Segment& segment = view.scan().segments[view.segment_of_beam(beams[beams.size() / 2])];
   constexpr std::size_t kFewestEchoes = 6;
   if (segment.beams.size() < kFewestEchoes || segment.box_length_m < least_length_m || 2 * segment.beams.size() < beams.size()) return std::nullopt;
-  if (segment.label == PointLabel::kMoving) return segment.box_heading_rad;
-  if (segment.box_width_m < 0.1 * segment.box_length_m) return segment.box_heading_rad;  // as good as a line
+  if (segment.label == PointLabel::kMoving) return Side{segment.box_heading_rad, segment.box_length_m};
+  if (segment.box_width_m < 0.1 * segment.box_length_m) return Side{segment.box_heading_rad, segment.box_length_m};  // as good as a line
   return std::nullopt;
 }
 
@@ -113,7 +114,7 @@ Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view
   points_m.clear();
   for (const std::uint16_t beam : beams) points_m.push_back(view.point_in_odom_m(beam));
   return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(beams.front(), -1, view.polar()),
-          edge_beyond(beams.back(), +1, view.polar()), side_heading_of(beams, view, kLongSideM * size_scale)};
+          edge_beyond(beams.back(), +1, view.polar()), side_of(beams, view, kLongSideM * size_scale)};
 }
 
 bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
@@ -284,7 +285,8 @@ int Tracker::longest_arrival(const Segment& segment, const PolarView& now, const
 
 /// Whether the echo lies on a side that points along the track's motion: there an object that moves looks as if it stood.
 bool Tracker::slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const {
-  if (!track.body.has_sides) return false;
+  constexpr double kSlowMps = 3.0;  // a faster one leaves the places where its flank was
+  if (!track.body.has_sides || track.velocity_mps().norm() > kSlowMps) return false;
   const std::size_t segment = view.segment_of_beam(beam);
   const auto is_beside = [&](int neighbour) {
     return neighbour >= 0 && neighbour < static_cast<int>(view.polar().beam_count()) && view.segment_of_beam(static_cast<std::size_t>(neighbour)) == segment;
@@ -345,7 +347,7 @@ MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t tr
   for (const std::uint16_t beam : shares_.beams_of_track[track]) {
     const Past past = past_of(beam, view.polar(), then);
     if (past == Past::kArrived) evidence.moved += 1.0;
-    else if (past == Past::kStood) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? 0.0 : 1.0;
+    else if (past == Past::kStood) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
     else evidence.undecided += 1.0;
   }
   for (std::size_t beam = 0; beam < then.owners.size(); ++beam) {
@@ -361,7 +363,7 @@ MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) con
   const std::int64_t stamp_ns = view.scan().stamp_ns;
   if (tracks_[track].confirmed) {
     for (const std::uint16_t beam : shares_.beams_of_track[track]) {
-      best.stood += past_of_beam_[beam] == Past::kStood && !slides_along_itself(beam, tracks_[track], view) ? 1.0 : 0.0;
+      if (past_of_beam_[beam] == Past::kStood) best.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
       best.moved += past_of_beam_[beam] == Past::kArrived ? 1.0 : 0.0;
       best.undecided += past_of_beam_[beam] == Past::kUnknown ? 1.0 : 0.0;
     }
@@ -401,6 +403,8 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (track.confirmed || !has_proven_to_move(track, config_)) return;
   track.confirmed = true;
+  track.way_m = 0.0;  // until now it may have been made of several things
+  track.anchor_m = track.position_m();
   track.past.clear();
   ++counters_.tracks_confirmed;
 }
@@ -434,9 +438,9 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
     const bool has_stood = !track.confirmed && age_s > config_.longest_tentative_s;
     const double idle_s = static_cast<double>(last_stamp_ns_ - track.last_moving_ns) * kNanosecond_s;
-    const double least_travel_m = std::max(config_.least_travel_to_stand_m, 0.5 * track.body.length.value_m);
-    const bool never_moved = track.confirmed && track.farthest_m < least_travel_m && idle_s > config_.longest_stand_s;
-    const bool is_dead = is_lost || has_stood || never_moved || track.score < config_.reject_score;
+    const double may_stand_s = config_.longest_stand_s * std::max(1.0, track.way_m / config_.least_travel_to_stand_m);
+    const bool never_moved = track.confirmed && idle_s > may_stand_s;
+    const bool is_dead = is_lost || has_stood || never_moved || contradicts_itself(track, config_) || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {
       ++counters_.tracks_rejected;
       restore(track);

@@ -68,8 +68,8 @@ struct TrackingConfig {
   double size_scale = 1.0;                  ///< Of all road users, against real ones: models on a laboratory's floor.
   double longest_body_m = 18.0;
   double stride_m = 0.55;                   ///< Small things so near to someone who walks are a leg.
-  double least_travel_to_stand_m = 1.5;     ///< What has not come so far
-  double longest_stand_s = 1.5;             ///< and stands so long has never moved.
+  double least_travel_to_stand_m = 1.5;     ///< For each time that it has come so far
+  double longest_stand_s = 2.0;             ///< something may stand so long, before it is held never to have moved.
   double merge_overlap_m = 0.3;             ///< Bodies that reach this deep into each other with like motion are one.
 };
 

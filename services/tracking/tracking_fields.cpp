@@ -72,8 +72,8 @@ const config::FieldTable<TrackingConfig>& tracking_fields() {
       {"size_scale", &C::size_scale, "Of all road users, against real ones.", kPositive},
       {"longest_body_m", &C::longest_body_m, "No object is longer.", kPositive},
       {"stride_m", &C::stride_m, "Small things so near to someone who walks are a leg.", kNotNegative},
-      {"least_travel_to_stand_m", &C::least_travel_to_stand_m, "A confirmed track that stands without having come so far has never moved.", kNotNegative},
-      {"longest_stand_s", &C::longest_stand_s, "How long it must stand for that.", kPositive},
+      {"least_travel_to_stand_m", &C::least_travel_to_stand_m, "For each time that it has come so far a confirmed track may stand as long as the next says.", kNotNegative},
+      {"longest_stand_s", &C::longest_stand_s, "After which it is held never to have moved.", kPositive},
       {"merge_overlap_m", &C::merge_overlap_m, "Bodies that reach this deep into each other with like motion are one.",
        kNotNegative},
   };
