@@ -88,6 +88,20 @@ TEST(Body, DoesNotShrinkToThePartThatSomethingNearerLeavesInView) {
   EXPECT_NEAR(measurement.body.length.value_m, 5.2, 0.2);
 }
 
+TEST(Body, IsNotTakenToEndWhereSomethingNearerCutsItsFlankOff) {
+  auto points = echoes_of({2.0, 4.0}, 4.5, 1.8);
+  std::erase_if(points, [](const Vector2d& point) { return point.x() < 1.5 || point.y() > 3.2; });  // the rear half of the flank
+  Glimpse glimpse = glimpse_of(points);
+  glimpse.start = Edge::kHidden;
+  glimpse.end = Edge::kHidden;
+  glimpse.laser_m = {-2.0, 0.0};  // beyond the low end, where a face would look at it
+  (points.front().x() > points.back().x() ? glimpse.start : glimpse.end) = Edge::kOpen;
+  Body body = likely_box(0.0, glimpse_of(echoes_of({2.0, 4.0}, 4.5, 1.8)), kConfig);
+  body.is_oriented = true;
+  const BodyMeasurement measurement = measure_box(body, {2.0, 4.0}, glimpse, kConfig);
+  EXPECT_NEAR(measurement.centre_m.x(), 2.0, 0.3);
+}
+
 TEST(Body, KeepsTheSideThatIsSeenWhereItIsWhenItGrows) {
   Body body;
   body.has_sides = body.is_oriented = true;

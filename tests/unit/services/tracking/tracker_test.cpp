@@ -114,6 +114,48 @@ TEST(Tracker, FollowsACarThatStoodInTheMapAndStartsOff) {
   EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.x(), 4.5, 0.6);
 }
 
+TEST(Tracker, NoticesACarThatCreepsHoweverFastTheMapLearns) {
+  Play play;  // its front comes, its flank slides along itself, and nothing contradicts the map
+  const auto creeps = [](Street& street, double t) { street.known = {kWall, {{14.0 - 0.8 * std::max(0.0, t - 2.0), 4.0, M_PI}}}; };
+  play.run(2.0, creeps);
+  EXPECT_TRUE(play.ids.empty());
+  play.run(3.0, creeps);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.x(), -0.8, 0.2);
+  EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.y(), 0.0, 0.2);
+}
+
+TEST(Tracker, DoesNotLetABusOfWhichItSeesTheBackSwingRound) {
+  Play play;
+  const StreetBox standing{{18.0, 1.0, 0.0}, 12.0, 2.5};
+  play.run(2.0, [&](Street& street, double) { street.known = {kWall, standing}; });
+  int scans = 0;
+  const auto starts = [&](Street& street, double t) {
+    street.known = {kWall};
+    street.gone = {standing};
+    street.unknown = {{{18.0 + 0.5 * (t - 2.0) * (t - 2.0), 1.0 + 0.02 * (scans % 3 - 1), 0.0}, 12.0, 2.5}};
+  };
+  for (; scans < 190; ++scans) {
+    play.step(starts);
+    for (const flow::TrackedObject& bus : play.confirmed()) {
+      ASSERT_LT(std::abs(std::sin(bus.heading_in_odom_rad)), 0.2) << play.now_s();
+      ASSERT_LT(std::abs(bus.velocity_in_odom_mps.y()), 0.6) << play.now_s();
+    }
+  }
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.x(), 5.0, 0.6);
+  EXPECT_GT(play.confirmed().front().length_m, 6.0);
+}
+
+TEST(Tracker, DropsSoonWhatStandsAndHasHardlyComeAnywhere) {
+  Play play;  // a car rolls 1.2 m and stays
+  play.run(2.0, [](Street& street, double) { street.known = {kWall}; });
+  const auto rolls = [](Street& street, double t) { street.unknown = {{{14.0 - std::min(1.2, 1.2 * (t - 2.0)), 4.0, M_PI}}}; };
+  play.run(1.5, rolls);
+  play.run(4.0, rolls);
+  EXPECT_TRUE(play.confirmed().empty());
+}
+
 TEST(Tracker, KnowsSomebodyAgainWhoWasHidden) {
   Play play;
   play.street.known.push_back({{12.0, 0.0, M_PI / 2.0}, 2.0, 1.0});
