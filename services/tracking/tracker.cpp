@@ -44,6 +44,17 @@ bool is_backdrop(const Segment& segment, const TrackingConfig& config) {
 
 bool is_slow(const Track& track) { return track.velocity_mps().norm() < 1.5; }
 
+/// Most echoes side by side that have arrived since.
+int longest_arrival_since(const EarlierScan& then, const Segment& segment, const PolarView& now) {
+  int longest = 0;
+  int run = 0;
+  for (const std::uint16_t beam : segment.beams) {
+    run = past_of(beam, now, then) == Past::kArrived ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
 /// Cost of holding the segment for (a part of) the track's body; kForbidden outside the gate. Wang 2004, Eq. (5.10)
 /// without its constant: squared distance plus the logarithm of the spread, and what speaks against the pair.
 double pair_cost(const Track& track, const Segment& segment, const TrackingConfig& config) {
@@ -254,33 +265,25 @@ void Tracker::compare_with_past(const ScanView& view) {
   const EarlierScan* long_ago = history_.older_than(scan.stamp_ns, config_.compare_slow_after_s);
   for (std::size_t s = 0; s < scan.segments.size(); ++s) {
     SegmentPast& past = past_of_segment_[s];
+    int arrival = 0;
     for (const std::uint16_t beam : scan.segments[s].beams) {
       if (then == nullptr) break;
       past_of_beam_[beam] = past_of(beam, view.polar(), *then);
       past.stood += past_of_beam_[beam] == Past::kStood ? 1 : 0;
       past.arrived += past_of_beam_[beam] == Past::kArrived ? 1 : 0;
       past.receded += past_of_beam_[beam] == Past::kReceded ? 1 : 0;
+      arrival = past_of_beam_[beam] == Past::kArrived ? arrival + 1 : 0;
+      past.longest_arrival = std::max(past.longest_arrival, arrival);
     }
     const Segment& segment = scan.segments[s];
     const auto count = static_cast<double>(segment.beams.size());
-    if (segment.label != PointLabel::kMoving && then != nullptr && segment.box_length_m < config_.longest_body_m && segment.box_length_m > config_.box_from_extent_m) {
-      past.longest_arrival = longest_arrival(segment, view.polar(), *then);
-      if (long_ago != nullptr) past.longest_arrival = std::max(past.longest_arrival, longest_arrival(segment, view.polar(), *long_ago));
-    }
+    const bool may_have_a_flank = segment.box_length_m > config_.box_from_extent_m && segment.box_length_m < config_.longest_body_m;
+    if (segment.label != PointLabel::kMoving && may_have_a_flank && long_ago != nullptr)
+      past.longest_arrival = std::max(past.longest_arrival, longest_arrival_since(*long_ago, segment, view.polar()));
     const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
     past.stood_before = past.stood > kLeastStoodShare * count;
     past.stands = past.stood_before || (is_mapped && past.arrived + past.receded < kLeastChangedShare * count);
   }
-}
-
-int Tracker::longest_arrival(const Segment& segment, const PolarView& now, const EarlierScan& then) const {
-  int longest = 0;
-  int run = 0;
-  for (const std::uint16_t beam : segment.beams) {
-    run = past_of(beam, now, then) == Past::kArrived ? run + 1 : 0;
-    longest = std::max(longest, run);
-  }
-  return longest;
 }
 
 /// Whether the echo lies on a side that points along the track's motion: there an object that moves looks as if it stood.
@@ -317,7 +320,8 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
   constexpr int kFewest = 4;
   constexpr double kLeastFaceShare = 0.15;
-  if (past.longest_arrival >= kFewest && past.longest_arrival >= kLeastFaceShare * count) return true;
+  const bool may_have_a_flank = segment.box_length_m > config_.box_from_extent_m && segment.box_length_m < config_.longest_body_m;
+  if (may_have_a_flank && past.longest_arrival >= kFewest && past.longest_arrival >= kLeastFaceShare * count) return true;
   const int moved = past.arrived + past.receded;
   return moved >= kFewest && moved > 0.6 * count && segment.box_length_m < config_.longest_body_m;
 }
