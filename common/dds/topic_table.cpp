@@ -7,8 +7,10 @@ namespace slammot::dds {
 
 std::span<const TopicInfo* const> topic_table() {
   using namespace topics;
-  static constexpr std::array<const TopicInfo*, 15> kTable = {
-      &kLaserScan,     &kOdometry,        &kLocalizedScan,
+  static constexpr std::array<const TopicInfo*, 20> kTable = {
+      &kLaserScan,     &kOdometry,        &kGnssFix,
+      &kCompassReading, &kTruePose,       &kTrueObjects,
+      &kTrueHits,      &kLocalizedScan,
       &kSegmentedScan, &kTrackedObjects,  &kStoredTrackedObjects,
       &kScanLabels,    &kSubmapTile,      &kStoredSubmapTile,
       &kConstraint,    &kGraphCorrection, &kHeartbeat,

@@ -11,6 +11,7 @@
 #include "idl/sensor.h"
 #include "idl/service.h"
 #include "idl/tracking.h"
+#include "idl/truth.h"
 
 namespace slammot::dds {
 
@@ -35,6 +36,16 @@ inline constexpr Topic<slammot_LaserScan> kLaserScan{
     {"slammot/laser_scan", &slammot_LaserScan_desc, Flow::kSensor, Recorded::kYes}};
 inline constexpr Topic<slammot_Odometry> kOdometry{
     {"slammot/odometry", &slammot_Odometry_desc, Flow::kSensor, Recorded::kYes}};
+inline constexpr Topic<slammot_GnssFix> kGnssFix{
+    {"slammot/gnss_fix", &slammot_GnssFix_desc, Flow::kSensor, Recorded::kYes}};
+inline constexpr Topic<slammot_CompassReading> kCompassReading{
+    {"slammot/compass_reading", &slammot_CompassReading_desc, Flow::kSensor, Recorded::kYes}};
+inline constexpr Topic<slammot_TruePose> kTruePose{
+    {"slammot/true_pose", &slammot_TruePose_desc, Flow::kSensor, Recorded::kYes}};
+inline constexpr Topic<slammot_TrueObjects> kTrueObjects{
+    {"slammot/true_objects", &slammot_TrueObjects_desc, Flow::kSensor, Recorded::kYes}};
+inline constexpr Topic<slammot_TrueHits> kTrueHits{
+    {"slammot/true_hits", &slammot_TrueHits_desc, Flow::kSensor, Recorded::kYes}};
 inline constexpr Topic<slammot_LocalizedScan> kLocalizedScan{
     {"slammot/localized_scan", &slammot_LocalizedScan_desc, Flow::kEstimate, Recorded::kYes}};
 inline constexpr Topic<slammot_SegmentedScan> kSegmentedScan{

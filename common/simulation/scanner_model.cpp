@@ -42,8 +42,9 @@ class Candidates {
     const Vector2 in_laser = inverse(world_from_laser) * before.world_from_object.translation_m();
     // Whatever moves or turns during the sweep stays within this distance of where it was; a stride reaches furthest
     // out of a small box.
-    const double moved_m = (after.world_from_object.translation_m() - before.world_from_object.translation_m()).norm() +
-                           (step.after.world_from_base.translation_m() - step.before.world_from_base.translation_m()).norm();
+    const double steps = std::max(1.0, (step.sweep_after_s + config.sweep_s) / step.duration_s);
+    const double moved_m = steps * ((after.world_from_object.translation_m() - before.world_from_object.translation_m()).norm() +
+                           (step.after.world_from_base.translation_m() - step.before.world_from_base.translation_m()).norm());
     const double radius_m = 0.5 * std::hypot(before.size.length_m, before.size.width_m) + moved_m + 0.5;
     reaches_m_.push_back(radius_m);
     const double distance_m = in_laser.norm();
@@ -52,7 +53,7 @@ class Candidates {
     int last = config.beams - 1;
     if (distance_m > radius_m) {
       const double turned_rad =
-          std::abs(geometry::wrap_angle(step.after.world_from_base.heading_rad - step.before.world_from_base.heading_rad));
+          steps * std::abs(geometry::wrap_angle(step.after.world_from_base.heading_rad - step.before.world_from_base.heading_rad));
       const double half_rad = std::asin(radius_m / distance_m) + turned_rad + config.spot_rad;
       const double beam_step_rad = config.field_of_view_rad / (config.beams - 1);
       const double bearing_rad = std::atan2(in_laser.y(), in_laser.x());
@@ -135,7 +136,7 @@ class Sweep {
  private:
   Echo fire(int beam) {
     const double delay_s = config_.sweep_s * beam / (config_.beams - 1);
-    const double fraction = delay_s / step_.duration_s;
+    const double fraction = (step_.sweep_after_s + delay_s) / step_.duration_s;
     const Pose2 world_from_base = interpolate(step_.before.world_from_base, step_.after.world_from_base, fraction);
     const BeamView view{world_from_base * base_from_laser(config_),
                         step_.before.nose_down_rad + fraction * (step_.after.nose_down_rad - step_.before.nose_down_rad),
@@ -195,7 +196,8 @@ class Sweep {
     if (furthest->range_m > config_.max_range_m) return *nearest;
     Echo mixed = *nearest;
     mixed.range_m += random_.uniform() * (furthest->range_m - nearest->range_m);
-    mixed.source = kStationary;  // belongs to neither
+    const bool are_stationary = nearest->source == kStationary && furthest->source == kStationary;
+    mixed.source = are_stationary ? kStationary : kMixed;  // belongs to neither
     return mixed;
   }
 
@@ -203,7 +205,7 @@ class Sweep {
     const Echo nothing{config_.max_range_m, Material::wall, kNothing};
     if (echo.range_m >= config_.max_range_m || random_.chance(drop_out(echo))) return nothing;
     if (echo.material == Material::foliage) echo.range_m += random_.uniform(0.0, kFoliageDepth_m);
-    echo.range_m += (config_.noise_floor_m + config_.noise_per_m * echo.range_m) * random_.normal();
+    echo.range_m += range_sigma_m(config_, echo.range_m) * random_.normal();
     echo.range_m = config_.resolution_m * std::round(std::max(0.0, echo.range_m) / config_.resolution_m);
     return echo.range_m < config_.max_range_m ? echo : nothing;
   }
@@ -234,6 +236,17 @@ sensing::Scanner scanner_of(const ScannerConfig& config) {
   scanner.max_range_m = config.max_range_m;
   scanner.sweep_s = config.sweep_s;
   return scanner;
+}
+
+double range_sigma_m(const ScannerConfig& config, double range_m) {
+  constexpr double kDataSheetM = 0.01;
+  constexpr double kConservativeShare = 0.01;
+  switch (config.noise) {
+    case RangeNoise::data_sheet: return kDataSheetM;
+    case RangeNoise::conservative: return kConservativeShare * range_m;
+    case RangeNoise::as_given: break;
+  }
+  return config.noise_floor_m + config.noise_per_m * range_m;
 }
 
 ScannedWorld scan_world(const ScannerConfig& config, const RayCaster& stationary, const Step& step, Random& random) {

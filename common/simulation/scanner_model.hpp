@@ -11,6 +11,13 @@
 
 namespace slammot::simulation {
 
+/// How much ranges vary.
+enum class RangeNoise {
+  as_given,                           ///< By noise_floor_m and noise_per_m.
+  data_sheet,                         ///< SICK LMS 2xx: 0.01 m, one sigma, at any range.
+  conservative,                       ///< 1 % of the range (Wang 2004, Section 3.1).
+};
+
 /// One planar scanner; the defaults are a SICK LMS291 (datasheet: 0.5 degrees, spots of about 0.44 degrees, 1/75 s
 /// for 180 degrees) with the noise seen in recordings of one.
 struct ScannerConfig {
@@ -25,9 +32,11 @@ struct ScannerConfig {
   double first_beam_rad = -1.570796;
   double field_of_view_rad = 3.141593;
   double rate_hz = 37.5;
+  double delay_s = 0.0;               ///< Of its first scan behind that of the vehicle's first scanner.
   double sweep_s = 1.0 / 75.0;        ///< From the first to the last beam.
   double max_range_m = 81.83;         ///< Reading for "no echo".
   double resolution_m = 0.01;
+  RangeNoise noise = RangeNoise::as_given;
   double noise_floor_m = 0.012;       ///< One sigma at no distance.
   double noise_per_m = 0.0013;        ///< Growth of sigma with range.
   double spot_rad = 0.0077;           ///< Full width of the beam.
@@ -43,26 +52,31 @@ struct Moment {
   std::vector<MovingObject> objects;  ///< The same objects in the same order at every moment.
 };
 
-/// A step of the simulation: things move evenly from one moment to the other.
+/// A step of the simulation: things move evenly from one moment to the other, and on after it.
 struct Step {
   const Moment& before;
   const Moment& after;
-  double duration_s;                  ///< At least the sweep.
+  double duration_s;
   const Terrain& terrain = kLevelRoad;
+  double sweep_after_s = 0.0;         ///< From `before` to the sweep's first beam.
 };
 
 constexpr int kStationary = -1;
 constexpr int kNothing = -2;
+constexpr int kMixed = -3;            ///< Two surfaces at once, not both stationary.
 
 struct ScannedWorld {
   std::vector<float> range_m;         ///< One a beam.
-  std::vector<int> source;            ///< What each beam met: index of a moving object, kStationary or kNothing.
+  std::vector<int> source;            ///< What each beam met: index of a moving object, kStationary, kNothing or kMixed.
 };
 
 /// The scanner's geometry as it travels with its scans; how it is tipped does not.
 sensing::Scanner scanner_of(const ScannerConfig& config);
 
-/// One sweep that starts with the step: beams fire one after the other while vehicle and objects move, each spot is
+/// One sigma at that range.
+double range_sigma_m(const ScannerConfig& config, double range_m);
+
+/// One sweep that starts in the step: beams fire one after the other while vehicle and objects move, each spot is
 /// as wide as the real one's and may be split by an edge, braking and slopes tip the beams into the road or over
 /// what is low.
 ScannedWorld scan_world(const ScannerConfig& config, const RayCaster& stationary, const Step& step, Random& random);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/simulation/compass.hpp"
+#include "common/simulation/gnss_receiver.hpp"
 #include "common/simulation/office_plan.hpp"
 #include "common/simulation/robot.hpp"
 #include "common/simulation/scanner_model.hpp"
@@ -42,9 +44,15 @@ struct ScenarioConfig {
   std::vector<HeightAt> terrain;      ///< Empty: level.
   SuspensionConfig suspension;
   OdometryConfig odometry;
-  ScannerConfig scanner;
+  ScannerConfig scanner;              ///< The first, whose scans beat the time.
+  std::vector<ScannerConfig> more_scanners;
+  GnssConfig gnss;
+  CompassConfig compass;
   std::string profile = "urban";      ///< Settings that suit the drive.
   LogRecord log_record = LogRecord::robotlaser1;
+
+  /// Of any of its scanners; 0 is the first.
+  const ScannerConfig& scanner_at(std::size_t index) const { return index == 0 ? scanner : more_scanners[index - 1]; }
 };
 
 }  // namespace slammot::simulation

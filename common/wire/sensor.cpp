@@ -1,5 +1,7 @@
 #include "common/wire/sensor.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -56,6 +58,55 @@ slammot_Odometry encode(std::string_view vehicle_id, const sensing::Odometry& od
 Decoded<sensing::Odometry> decode(const slammot_Odometry& sample) {
   if (!is_sound(sample.wheel_from_base)) return Fault{"wheel_from_base is not finite"};
   return sensing::Odometry{sample.stamp_ns, decode(sample.wheel_from_base)};
+}
+
+slammot_GnssFix encode(std::string_view vehicle_id, const sensing::GnssFix& fix) {
+  slammot_GnssFix sample{};
+  set_text(sample.vehicle_id, vehicle_id);
+  set_text(sample.receiver_id, fix.receiver_id);
+  sample.stamp_ns = fix.stamp_ns;
+  sample.quality = static_cast<slammot_GnssQuality>(fix.quality);
+  sample.latitude_deg = fix.position.latitude_deg;
+  sample.longitude_deg = fix.position.longitude_deg;
+  sample.altitude_m = fix.altitude_m;
+  encode_matrix<2>(fix.covariance_m2, sample.covariance_m2);
+  sample.hdop = fix.hdop;
+  sample.satellite_count = static_cast<std::uint16_t>(std::clamp(fix.satellites, 0, 0xffff));
+  return sample;
+}
+
+Decoded<sensing::GnssFix> decode(const slammot_GnssFix& sample) {
+  if (!is_enumerator(sample.quality, slammot_GNSS_QUALITY_RTK)) return Fault{"quality is none of the enumerators"};
+  sensing::GnssFix fix;
+  fix.stamp_ns = sample.stamp_ns;
+  fix.receiver_id = text(sample.receiver_id);
+  fix.quality = static_cast<sensing::GnssQuality>(sample.quality);
+  fix.satellites = sample.satellite_count;
+  if (fix.quality == sensing::GnssQuality::no_fix) return fix;
+  if (!(std::abs(sample.latitude_deg) <= 90.0) || !(std::abs(sample.longitude_deg) <= 360.0)) return Fault{"the position is not on the earth"};
+  if (!is_sound(sample.altitude_m) || !is_amount(sample.hdop)) return Fault{"altitude_m or hdop is unsound"};
+  if (!is_covariance<2>(sample.covariance_m2)) return Fault{"covariance_m2 is unsound"};
+  fix.position = {sample.latitude_deg, sample.longitude_deg};
+  fix.altitude_m = sample.altitude_m;
+  fix.covariance_m2 = decode_matrix<2>(sample.covariance_m2);
+  fix.hdop = sample.hdop;
+  return fix;
+}
+
+slammot_CompassReading encode(std::string_view vehicle_id, const sensing::CompassReading& reading) {
+  slammot_CompassReading sample{};
+  set_text(sample.vehicle_id, vehicle_id);
+  set_text(sample.compass_id, reading.compass_id);
+  sample.stamp_ns = reading.stamp_ns;
+  sample.heading_from_east_rad = reading.heading_from_east_rad;
+  sample.sigma_rad = reading.sigma_rad;
+  return sample;
+}
+
+Decoded<sensing::CompassReading> decode(const slammot_CompassReading& sample) {
+  if (!is_sound(sample.heading_from_east_rad)) return Fault{"heading_from_east_rad is not finite"};
+  if (!is_amount(sample.sigma_rad)) return Fault{"sigma_rad is negative or not finite"};
+  return sensing::CompassReading{sample.stamp_ns, std::string(text(sample.compass_id)), sample.heading_from_east_rad, sample.sigma_rad};
 }
 
 }  // namespace slammot::wire

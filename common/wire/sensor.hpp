@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/sensing/aids.hpp"
 #include "common/sensing/scan.hpp"
 #include "common/wire/decoded.hpp"
 #include "idl/sensor.h"
@@ -33,5 +34,11 @@ Decoded<sensing::LaserScan> decode(const slammot_LaserScan& sample);
 
 slammot_Odometry encode(std::string_view vehicle_id, const sensing::Odometry& odometry);
 Decoded<sensing::Odometry> decode(const slammot_Odometry& sample);
+
+slammot_GnssFix encode(std::string_view vehicle_id, const sensing::GnssFix& fix);
+Decoded<sensing::GnssFix> decode(const slammot_GnssFix& sample);
+
+slammot_CompassReading encode(std::string_view vehicle_id, const sensing::CompassReading& reading);
+Decoded<sensing::CompassReading> decode(const slammot_CompassReading& sample);
 
 }  // namespace slammot::wire

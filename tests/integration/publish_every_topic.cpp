@@ -22,6 +22,7 @@
 #include "common/wire/service.hpp"
 #include "common/wire/submap.hpp"
 #include "common/wire/tracked_objects.hpp"
+#include "common/wire/truth.hpp"
 #include "tests/support/values.hpp"
 
 namespace {
@@ -35,6 +36,7 @@ class EveryTopic {
  public:
   explicit EveryTopic(const dds::Participant& participant) : participant_(participant) {
     add_sensors();
+    add_truth();
     add_estimates();
     add_maps();
     add_services();
@@ -65,6 +67,19 @@ class EveryTopic {
     add(topics::kOdometry, [](auto& writer) {
       writer.write(wire::encode(kVehicle, sensing::Odometry{1, {1.0, 2.0, 3.0}}));
     });
+    add(topics::kGnssFix, [](auto& writer) { writer.write(wire::encode(kVehicle, sensing::GnssFix{.stamp_ns = 1})); });
+    add(topics::kCompassReading, [](auto& writer) { writer.write(wire::encode(kVehicle, sensing::CompassReading{.stamp_ns = 1})); });
+  }
+
+  void add_truth() {
+    simulation::SimulatedScan scan;
+    scan.scan = testing::laser_scan(random_, 3);
+    scan.objects.resize(1);
+    scan.hits = {0, 1, -1};
+    const auto encoder = std::make_shared<wire::TruthEncoder>();
+    add(topics::kTruePose, [encoder, scan](auto& writer) { writer.write(encoder->encode_pose(kVehicle, scan)); });
+    add(topics::kTrueObjects, [encoder, scan](auto& writer) { writer.write(encoder->encode_objects(kVehicle, scan)); });
+    add(topics::kTrueHits, [encoder, scan](auto& writer) { writer.write(encoder->encode_hits(kVehicle, scan)); });
   }
 
   void add_estimates() {

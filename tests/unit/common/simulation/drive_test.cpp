@@ -1,6 +1,8 @@
 #include "common/simulation/drive.hpp"
 #include "services/simulator/scenario_files.hpp"
 
+#include <algorithm>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -99,6 +101,86 @@ TEST(Drive, PlacesItsPointsOnTrueSurfaces) {
   }
   // The rest are mixed pixels and the road.
   EXPECT_GT(static_cast<double>(near) / stationary_echoes, 0.9);
+}
+
+TEST(Drive, SaysWhichObjectEachBeamHit) {
+  for (const SimulatedScan& scan : all_scans(short_drive(1))) {
+    ASSERT_EQ(scan.hits.size(), scan.scan.range_m.size());
+    for (const ObjectTruth& object : scan.objects) EXPECT_EQ(std::ranges::count(scan.hits, object.id), object.points);
+    for (std::size_t beam = 0; beam < scan.hits.size(); ++beam) {
+      const bool is_echo = sensing::is_echo(scan.scan.range_m[beam], scan.scan.scanner.max_range_m);
+      EXPECT_EQ(is_echo, scan.hits[beam] != kHitNothing);
+    }
+  }
+}
+
+TEST(Drive, KnowsAlsoWhoIsNotSeen) {
+  const auto scans = all_scans(short_drive(1));
+  const std::size_t all = scans[0].objects.size() + scans[0].unseen.size();
+  EXPECT_GT(scans[0].unseen.size(), 0U);
+  for (const SimulatedScan& scan : scans) EXPECT_EQ(scan.objects.size() + scan.unseen.size(), all);
+}
+
+/// A scanner at the back that looks backwards, a third as often, begun later.
+ScannerConfig rear_scanner() {
+  ScannerConfig rear;
+  rear.scanner_id = "rear";
+  rear.ahead_m = -2.2;
+  rear.heading_rad = std::numbers::pi;
+  rear.rate_hz = 12.5;
+  rear.delay_s = 0.01;
+  return rear;
+}
+
+TEST(Drive, HasFurtherScannersBesideTheFirstWhichStaysAsItWas) {
+  ScenarioConfig scenario = short_drive(1);
+  const auto alone = all_scans(scenario);
+  scenario.more_scanners = {rear_scanner()};
+  const auto both = all_scans(scenario);
+  EXPECT_TRUE(std::ranges::is_sorted(both, {}, [](const SimulatedScan& scan) { return scan.scan.stamp_ns; }));
+  std::vector<SimulatedScan> front, rear;
+  for (const SimulatedScan& scan : both) (scan.scanner == 0 ? front : rear).push_back(scan);
+  ASSERT_EQ(front.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_EQ(front[i].scan.range_m, alone[i].scan.range_m);
+  ASSERT_EQ(rear.size(), 50U);
+  for (std::size_t i = 0; i < rear.size(); ++i) {
+    EXPECT_EQ(rear[i].scan.sequence, i);
+    EXPECT_NEAR(static_cast<double>(rear[i].scan.stamp_ns) * 1e-9, 21.01 + static_cast<double>(i) / 12.5, 1e-8);
+    EXPECT_EQ(rear[i].scan.scanner.scanner_id, "rear");
+    EXPECT_EQ(rear[i].odometry.stamp_ns, rear[i].scan.stamp_ns);
+  }
+}
+
+TEST(Drive, TellsTheTruthAtTheStampsOfFurtherScanners) {
+  ScenarioConfig scenario = short_drive(1);
+  scenario.more_scanners = {rear_scanner()};
+  const auto scans = all_scans(scenario);
+  for (std::size_t i = 1; i + 1 < scans.size(); ++i) {
+    if (scans[i].scanner == 0) continue;
+    const auto &before = scans[i - 1], &after = scans[i + 1];
+    const double fraction = static_cast<double>(scans[i].scan.stamp_ns - before.scan.stamp_ns) / static_cast<double>(after.scan.stamp_ns - before.scan.stamp_ns);
+    const auto between = interpolate(before.world_from_base, after.world_from_base, fraction);
+    EXPECT_LT((between.translation_m() - scans[i].world_from_base.translation_m()).norm(), 1e-6);
+    const auto wheels = interpolate(before.odometry.wheel_from_base, after.odometry.wheel_from_base, fraction);
+    EXPECT_LT((wheels.translation_m() - scans[i].odometry.wheel_from_base.translation_m()).norm(), 1e-6);
+  }
+}
+
+TEST(Drive, HasReceiverAndCompassAtTheirOwnRates) {
+  ScenarioConfig scenario = short_drive(1);
+  const auto without = all_scans(scenario);
+  scenario.gnss.rate_hz = 2.0;
+  scenario.compass.rate_hz = 10.0;
+  std::size_t fixes = 0, readings = 0;
+  const auto scans = all_scans(scenario);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    EXPECT_EQ(scans[i].scan.range_m, without[i].scan.range_m);
+    for (const auto& fix : scans[i].gnss) EXPECT_EQ(fix.stamp_ns, scans[i].scan.stamp_ns);
+    fixes += scans[i].gnss.size();
+    readings += scans[i].compass.size();
+  }
+  EXPECT_EQ(fixes, 8U);
+  EXPECT_EQ(readings, 40U);
 }
 
 }  // namespace

@@ -188,5 +188,26 @@ TEST(ScannerOf, DescribesTheBeamsAsTheyAreFired) {
   EXPECT_DOUBLE_EQ(scanner.sweep_s, 1.0 / 75.0);
 }
 
+TEST(RangeSigma, IsOfTheDataSheetOrOnePerCentIfWanted) {
+  ScannerConfig config;
+  EXPECT_DOUBLE_EQ(range_sigma_m(config, 10.0), 0.025);
+  config.noise = RangeNoise::data_sheet;
+  EXPECT_DOUBLE_EQ(range_sigma_m(config, 10.0), 0.01);
+  EXPECT_DOUBLE_EQ(range_sigma_m(config, 80.0), 0.01);
+  config.noise = RangeNoise::conservative;
+  EXPECT_DOUBLE_EQ(range_sigma_m(config, 10.0), 0.1);
+}
+
+TEST(ScanWorld, FindsTheWorldWhereItIsWhenASweepBeginsLater) {
+  const Moment before;
+  Moment after;
+  after.world_from_base = {2.0, 0.0, 0.0};  // towards the wall
+  Random random(1, Purpose::scanner);
+  ScannerConfig config = exact_scanner();
+  config.sweep_s = 0.0;
+  const ScannedWorld scanned = scan_world(config, RayCaster(wall_ahead(20.0)), {before, after, kStep_s, kLevelRoad, 0.25 * kStep_s}, random);
+  EXPECT_NEAR(scanned.range_m[kStraightAhead], 19.5, 1e-4);
+}
+
 }  // namespace
 }  // namespace slammot::simulation

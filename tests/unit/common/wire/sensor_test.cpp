@@ -83,5 +83,49 @@ TEST(OdometryOnTheWire, IsRefusedWhereItIsNotFinite) {
   EXPECT_NE(decode(encode("car", sensing::Odometry{123, {1.0, kNan, 3.0}})).fault(), "");
 }
 
+struct GnssFixOnTheWire : ::testing::Test {
+  sensing::GnssFix fix{123, "roof", sensing::GnssQuality::differential, {40.1, -79.2}, 231.0, geometry::Matrix2{{4.0, 1.0}, {1.0, 9.0}}, 1.5, 9};
+};
+
+TEST_F(GnssFixOnTheWire, ComesBackAsItWas) {
+  const auto back = decode(encode("car", fix));
+  ASSERT_TRUE(back) << back.fault();
+  EXPECT_EQ(back->stamp_ns, 123);
+  EXPECT_EQ(back->receiver_id, "roof");
+  EXPECT_EQ(back->quality, sensing::GnssQuality::differential);
+  EXPECT_EQ(back->position.latitude_deg, 40.1);
+  EXPECT_EQ(back->position.longitude_deg, -79.2);
+  EXPECT_EQ(back->altitude_m, 231.0);
+  EXPECT_EQ(back->covariance_m2, fix.covariance_m2);
+  EXPECT_EQ(back->hdop, 1.5);
+  EXPECT_EQ(back->satellites, 9);
+}
+
+TEST_F(GnssFixOnTheWire, IsRefusedWhereItIsUnsound) {
+  const auto fault_after = [&](auto corrupt) {
+    slammot_GnssFix sample = encode("car", fix);
+    corrupt(sample);
+    return decode(sample).fault();
+  };
+  EXPECT_NE(fault_after([](auto& s) { s.latitude_deg = 91.0; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.longitude_deg = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.altitude_m = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.hdop = -1.0; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.covariance_m2[3] = -1.0; }), "");
+  EXPECT_NE(fault_after([](auto& s) { reinterpret_cast<std::uint32_t&>(s.quality) = 77; }), "");
+  EXPECT_EQ(fault_after([](auto& s) { s.quality = slammot_GNSS_QUALITY_NO_FIX, s.latitude_deg = kNan; }), "");  // means nothing then
+}
+
+TEST(CompassReadingOnTheWire, ComesBackAsItWasIfItIsSound) {
+  const auto back = decode(encode("car", sensing::CompassReading{123, "bow", 1.5, 0.1}));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->stamp_ns, 123);
+  EXPECT_EQ(back->compass_id, "bow");
+  EXPECT_EQ(back->heading_from_east_rad, 1.5);
+  EXPECT_EQ(back->sigma_rad, 0.1);
+  EXPECT_FALSE(decode(encode("car", sensing::CompassReading{123, "bow", kNan, 0.1})));
+  EXPECT_FALSE(decode(encode("car", sensing::CompassReading{123, "bow", 1.0, -0.1})));
+}
+
 }  // namespace
 }  // namespace slammot::wire

@@ -10,6 +10,7 @@
 #include "common/wire/service.hpp"
 #include "common/wire/submap.hpp"
 #include "common/wire/tracked_objects.hpp"
+#include "common/wire/truth.hpp"
 #include "tests/support/values.hpp"
 
 namespace slammot::wire {
@@ -54,6 +55,15 @@ TEST_F(SizeOfTheLargest, TrackedObjectsFitTheBus) {
     const auto tracks = testing::tracked_objects(random, objects, kMostContourPoints, kMostPredictedPositions);
     EXPECT_LE(serialized_bytes(topics::kTrackedObjects, encoder.encode("car", tracks)), kMostBytes);
   }
+}
+
+TEST_F(SizeOfTheLargest, TruthFitsTheBus) {
+  TruthEncoder encoder;
+  simulation::SimulatedScan scan;
+  scan.hits.assign(kMostBeams, 5);
+  scan.unseen.resize(kMostTrueObjects);
+  EXPECT_LE(serialized_bytes(topics::kTrueHits, encoder.encode_hits("car", scan)), kMostBytes);
+  EXPECT_LE(serialized_bytes(topics::kTrueObjects, encoder.encode_objects("car", scan)), kMostBytes);
 }
 
 TEST_F(SizeOfTheLargest, ScanLabelsFitTheBus) {
