@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/files/leg_tracker_log.hpp"
+
 namespace slammot::files {
 namespace {
 
@@ -14,7 +16,16 @@ struct Overloaded : Visitors... {
   using Visitors::operator()...;
 };
 
-Error no_scans(const std::filesystem::path& path, const LineReader& lines, std::uint64_t malformed_lines) {
+/// A CARMEN log, or a folder that can be told as one.
+Result<std::unique_ptr<LineSource>> open_lines(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return LegTrackerLog::open(path);
+  auto lines = LineReader::open(path);
+  if (!lines) return lines.error();
+  return std::unique_ptr<LineSource>(std::make_unique<LineReader>(std::move(*lines)));
+}
+
+Error no_scans(const std::filesystem::path& path, const LineSource& lines, std::uint64_t malformed_lines) {
   std::string message = path.string() + ": no laser scan (FLASER or ROBOTLASER1) in " + std::to_string(lines.line_number()) + " lines";
   if (malformed_lines > 0) message += ", " + std::to_string(malformed_lines) + " of them malformed";
   if (lines.is_cut()) message += "; the file is cut off or damaged";
@@ -24,8 +35,9 @@ Error no_scans(const std::filesystem::path& path, const LineReader& lines, std::
 }  // namespace
 
 Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const CarmenLogOptions& options) {
-  auto first_pass = LineReader::open(path);
-  if (!first_pass) return first_pass.error();
+  auto opened = open_lines(path);
+  if (!opened) return opened.error();
+  const std::unique_ptr<LineSource> first_pass = std::move(*opened);
   CarmenSurvey survey;
   std::uint64_t malformed_lines = 0;
   while (const auto line = first_pass->next()) {
@@ -35,9 +47,9 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const Carme
   }
   const LogPlan plan = survey.conclude(options.fallback_field_of_view_rad);
   if (plan.figures.scans == 0) return no_scans(path, *first_pass, malformed_lines);
-  auto second_pass = LineReader::open(path);
+  auto second_pass = open_lines(path);
   if (!second_pass) return second_pass.error();
-  return CarmenLog(std::make_unique<LineReader>(std::move(*second_pass)), plan, options);
+  return CarmenLog(std::move(*second_pass), plan, options);
 }
 
 CarmenLog CarmenLog::follow(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options) {

@@ -49,7 +49,7 @@ using LogEvent = std::variant<sensing::Odometry, sensing::LaserScan>;
 /// - sweep_s is left 0: a log does not say it. See sweep_s_for() in log_profile.hpp.
 class CarmenLog {
  public:
-  /// Fails for a file that cannot be read or that holds no scan.
+  /// Fails for a file that cannot be read or that holds no scan. A folder is read as LegTrackerLog does.
   static Result<CarmenLog> open(const std::filesystem::path& path, const CarmenLogOptions& options = {});
 
   /// Lines that can be read only once, so that what they are must be known: the plan without its figures. Those are known at

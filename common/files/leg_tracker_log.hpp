@@ -1,0 +1,49 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/files/line_reader.hpp"
+#include "common/files/line_source.hpp"
+#include "common/files/result.hpp"
+
+namespace slammot::files {
+
+/// A folder with a recording of the leg_tracker data set (Leigh et al. 2015) as text, told in lines of CARMEN: scan.txt ("bag
+/// stamp, header stamp, first beam and step [rad], beams, ranges [m]" a line) becomes ROBOTLASER1, odom.txt ("stamp x y heading
+/// speed yaw_rate") becomes ODOM; each plain or .gz, # begins a comment. Stamps are those of the bag, which the annotations
+/// have; odometry, whose stamps are those of the scans' headers, is shifted by as much as the first scan's two stamps differ.
+/// The laser's place on the base is not known: it is taken to be the base.
+class LegTrackerLog : public LineSource {
+ public:
+  static Result<std::unique_ptr<LineSource>> open(const std::filesystem::path& folder);
+
+  std::optional<std::string_view> next() override;
+  /// Of scan.txt.
+  std::uint64_t line_number() const override { return scans_.line_number(); }
+  double fraction_read() const override { return scans_.fraction_read(); }
+  std::uint64_t overlong_lines() const override { return scans_.overlong_lines() + odometry_.overlong_lines(); }
+  bool is_cut() const override { return scans_.is_cut() || odometry_.is_cut(); }
+
+ private:
+  struct Line {
+    double stamp_s = 0.0;
+    std::string text;                 ///< As CARMEN has it.
+  };
+  LegTrackerLog(LineReader scans, LineReader odometry) : scans_(std::move(scans)), odometry_(std::move(odometry)) {}
+
+  std::optional<Line> next_scan();
+  std::optional<Line> next_odometry();
+
+  LineReader scans_;
+  LineReader odometry_;
+  std::optional<double> bag_after_header_s_;
+  std::optional<Line> scan_;          ///< The next one of each, once it was read.
+  std::optional<Line> odom_;
+  std::string line_;
+};
+
+}  // namespace slammot::files
