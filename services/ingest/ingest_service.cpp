@@ -27,8 +27,8 @@ LogSource open_source(const IngestService::Settings& settings) {
   return std::move(*source);
 }
 
-Pace parse_pace(const std::string& speed) {
-  const auto pace = Pace::parse(speed);
+app::Pace parse_pace(const std::string& speed) {
+  const auto pace = app::Pace::parse(speed);
   if (!pace) throw app::StartupFailure("--speed " + speed + ": neither 'max' nor a number from 0.01 to 1000");
   return *pace;
 }

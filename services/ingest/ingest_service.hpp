@@ -13,8 +13,8 @@
 #include "services/ingest/graph_watch.hpp"
 #include "services/ingest/ingest_config.hpp"
 #include "services/ingest/log_source.hpp"
-#include "services/ingest/pace.hpp"
-#include "services/ingest/readiness.hpp"
+#include "common/app/pace.hpp"
+#include "common/app/readiness.hpp"
 #include "services/ingest/scan_window.hpp"
 
 namespace slammot::ingest {
@@ -58,10 +58,10 @@ class IngestService {
   bool forgive_cut_;
   LogSource source_;
   DriveMark drive_;
-  Pace pace_;
+  app::Pace pace_;
   ScanWindow window_;
   GraphWatch graph_;
-  Readiness readiness_{{"localization", "detection", "tracking"}};
+  app::Readiness readiness_{{"localization", "detection", "tracking"}};
   dds::Writer<slammot_LaserScan>& scans_;
   dds::Writer<slammot_Odometry>& odometry_;
   wire::LaserScanEncoder encoder_;

@@ -1,5 +1,6 @@
 #include "services/simulator/drive_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -74,7 +75,8 @@ std::string flaser_line(const SimulatedScan& drive) {
 
 }  // namespace
 
-std::string log_header(const simulation::ScenarioConfig& scenario) {
+std::string log_header(const simulation::ScenarioConfig& scenario, std::size_t scanner) {
+  const simulation::ScannerConfig& mounted = scenario.scanner_at(scanner);
   std::string text = "# CARMEN Logfile\n";
   const auto parameter = [&text](std::string_view name, double value, int places) {
     text += "PARAM ";
@@ -83,7 +85,9 @@ std::string log_header(const simulation::ScenarioConfig& scenario) {
     append(text, value, places);
     text += '\n';
   };
-  parameter("robot_frontlaser_offset", scenario.scanner.ahead_m, 3);
+  parameter("robot_frontlaser_offset", mounted.ahead_m, 3);
+  if (mounted.left_m != 0.0) parameter("robot_frontlaser_side_offset", mounted.left_m, 3);
+  if (mounted.heading_rad != 0.0) parameter("robot_frontlaser_angular_offset", mounted.heading_rad, 6);
   parameter("robot_width", scenario.route.width_m, 1);
   parameter("robot_length", scenario.route.length_m, 1);
   return text;
@@ -91,7 +95,7 @@ std::string log_header(const simulation::ScenarioConfig& scenario) {
 
 std::string log_line(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
   const bool flaser = scenario.log_record == simulation::LogRecord::flaser;
-  return flaser ? flaser_line(drive) : robotlaser1_line(drive, scenario.scanner);
+  return flaser ? flaser_line(drive) : robotlaser1_line(drive, scenario.scanner_at(drive.scanner));
 }
 
 std::string tum_line(const SimulatedScan& drive) {
@@ -128,6 +132,45 @@ std::string wall_lines(const simulation::Outline& stationary_in_world) {
     text += std::to_string(static_cast<int>(segment.material)) + '\n';
   }
   return text;
+}
+
+std::string hits_header() { return "timestamp,scanner,hits\n"; }
+
+std::string hits_line(const SimulatedScan& drive) {
+  std::string text;
+  append_all(text, {seconds(drive.scan.stamp_ns)}, 6, ',');
+  text += drive.scan.scanner.scanner_id + ',';
+  const auto& hits = drive.hits;
+  for (auto begin = hits.begin(); begin != hits.end();) {
+    const auto end = std::find_if(begin, hits.end(), [&](int hit) { return hit != *begin; });
+    if (begin != hits.begin()) text += ' ';
+    text += std::to_string(*begin) + '*' + std::to_string(end - begin);
+    begin = end;
+  }
+  return text + '\n';
+}
+
+std::string gnss_header() { return "timestamp,receiver,quality,latitude_deg,longitude_deg,altitude_m,east_variance_m2,north_variance_m2,covariance_m2,hdop,satellites\n"; }
+
+std::string gnss_line(const sensing::GnssFix& fix) {
+  std::string text;
+  append_all(text, {seconds(fix.stamp_ns)}, 6, ',');
+  text += fix.receiver_id + ',' + std::to_string(static_cast<int>(fix.quality)) + ',';
+  append_all(text, {fix.position.latitude_deg, fix.position.longitude_deg}, 9, ',');
+  append_all(text, {fix.altitude_m, fix.covariance_m2(0, 0), fix.covariance_m2(1, 1), fix.covariance_m2(0, 1)}, 3, ',');
+  append_all(text, {fix.hdop}, 2, ',');
+  return text + std::to_string(fix.satellites) + '\n';
+}
+
+std::string compass_header() { return "timestamp,compass,heading_from_east_rad,sigma_rad\n"; }
+
+std::string compass_line(const sensing::CompassReading& reading) {
+  std::string text;
+  append_all(text, {seconds(reading.stamp_ns)}, 6, ',');
+  text += reading.compass_id + ',';
+  append_all(text, {reading.heading_from_east_rad}, 5, ',');
+  append(text, reading.sigma_rad, 5);
+  return text + '\n';
 }
 
 std::string objects_header() { return "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n"; }

@@ -8,8 +8,8 @@ namespace slammot::simulator {
 
 // A drive as text: whole lines, the same on every platform and in every locale.
 
-/// First lines of a CARMEN log.
-std::string log_header(const simulation::ScenarioConfig& scenario);
+/// First lines of a CARMEN log of one of the scanners; 0 is the first.
+std::string log_header(const simulation::ScenarioConfig& scenario, std::size_t scanner = 0);
 /// ROBOTLASER1 or FLASER, as the scenario says; pose by odometry.
 std::string log_line(const simulation::SimulatedScan& drive, const simulation::ScenarioConfig& scenario);
 
@@ -19,6 +19,15 @@ std::string tum_line(const simulation::SimulatedScan& drive);
 std::string objects_header();
 /// One line for each moving object that the scan hit.
 std::string object_lines(const simulation::SimulatedScan& drive);
+
+std::string hits_header();
+/// What each beam hit, runs of the same together: "timestamp,scanner,hit*beams hit*beams ...".
+std::string hits_line(const simulation::SimulatedScan& drive);
+
+std::string gnss_header();
+std::string gnss_line(const sensing::GnssFix& fix);
+std::string compass_header();
+std::string compass_line(const sensing::CompassReading& reading);
 
 /// Header and one line for each segment of what stands still.
 std::string wall_lines(const simulation::Outline& stationary_in_world);

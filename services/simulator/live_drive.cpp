@@ -11,20 +11,25 @@ namespace {
 
 constexpr std::size_t kMostAhead = 64;
 
-/// As written to and read from the log's millimetres.
-double in_millimetres(double metres) { return std::round(metres * 1e3) / 1e3; }
+/// As written to and read from the log, with so many decimal places.
+double with_places(double value, int places) {
+  const double scale = std::pow(10.0, places);
+  return std::round(value * scale) / scale;
+}
 
 }  // namespace
 
 LiveDrive::LiveDrive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& truth_prefix)
     : scenario_(scenario),
       drive_(scenario),
-      truth_(truth_prefix, drive_.stationary_in_world()),
+      truth_(truth_prefix, drive_.stationary_in_world(), HitsFile::written),
+      log_(std::filesystem::path(truth_prefix) += ".log.gz"),
       scans_(drive_.scan_count()),
       thread_([this](const std::stop_token& stop) { simulate(stop); }) {}
 
 void LiveDrive::simulate(const std::stop_token& stop) {
-  std::string header = log_header(scenario_);
+  const std::string header = log_header(scenario_);
+  log_.write(header);
   for (std::size_t begin = 0; begin < header.size();) {
     const std::size_t end = header.find('\n', begin);
     put(header.substr(begin, end - begin), stop);
@@ -32,11 +37,14 @@ void LiveDrive::simulate(const std::stop_token& stop) {
   }
   while (const auto scan = drive_.next()) {
     truth_.add(*scan);
+    if (scan->scanner != 0) continue;
     std::string line = log_line(*scan, scenario_);
+    log_.write(line);
     line.pop_back();
     if (!put(std::move(line), stop)) break;
   }
   truth_.close();
+  log_.close();
   const std::lock_guard lock(mutex_);
   has_ended_ = true;
   changed_.notify_all();
@@ -72,7 +80,7 @@ files::LogPlan plan_of(const simulation::ScenarioConfig& scenario) {
   plan.laser = scenario.log_record == simulation::LogRecord::flaser ? files::LaserRecordKind::kFlaser : files::LaserRecordKind::kRobotLaser1;
   plan.clock = files::LogClock::kIpc;
   plan.odometry = files::OdometrySource::kLaserRecords;
-  plan.base_from_laser = {in_millimetres(scanner.ahead_m), 0.0, 0.0};
+  plan.base_from_laser = {with_places(scanner.ahead_m, 3), with_places(scanner.left_m, 3), with_places(scanner.heading_rad, 6)};
   plan.max_range_m = static_cast<double>(static_cast<float>(scanner.max_range_m));
   plan.figures.scans = static_cast<std::uint64_t>(std::floor(scenario.duration_s * scanner.rate_hz));
   plan.figures.beams = static_cast<std::size_t>(scanner.beams);

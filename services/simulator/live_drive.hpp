@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/files/carmen_log.hpp"
+#include "common/files/gz_writer.hpp"
 #include "common/files/line_source.hpp"
 #include "common/simulation/drive.hpp"
 #include "services/simulator/truth_files.hpp"
@@ -17,8 +18,8 @@
 namespace slammot::simulator {
 
 /// A drive that is simulated while it is read: the lines that write_drive() would put into its log. A thread of its own
-/// works ahead of the reader by a few scans and writes the truth; who reads fast waits, so that the lines are the same
-/// whatever the speed.
+/// works ahead of the reader by a few scans and writes the truth and, as PREFIX.log.gz, the lines; who reads fast waits, so that
+/// the lines are the same whatever the speed. Of several scanners it has the first one's.
 class LiveDrive : public files::LineSource {
  public:
   LiveDrive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& truth_prefix);
@@ -34,6 +35,7 @@ class LiveDrive : public files::LineSource {
   simulation::ScenarioConfig scenario_;
   simulation::Drive drive_;
   TruthFiles truth_;
+  files::GzWriter log_;
   std::uint64_t scans_;
   std::mutex mutex_;
   std::condition_variable_any changed_;

@@ -205,15 +205,45 @@ FieldTable<ScannerConfig> scanner_fields() {
       {"first_beam_rad", &ScannerConfig::first_beam_rad, "Direction of the first beam, counter-clockwise from straight ahead.", kAnyAngle},
       {"field_of_view_rad", &ScannerConfig::field_of_view_rad, "From the first to the last beam.", kAnyAngle},
       {"rate_hz", &ScannerConfig::rate_hz, "Scans in a second.", {1, 200}},
+      {"delay_s", &ScannerConfig::delay_s, "Of a further scanner's first scan behind that of the first one.", {0, 10}},
       {"sweep_s", &ScannerConfig::sweep_s, "From the first to the last beam.", kNotNegative},
       {"max_range_m", &ScannerConfig::max_range_m, "Reading for no echo.", kPositive},
       {"resolution_m", &ScannerConfig::resolution_m, "Step of the readings.", kPositive},
+      {"noise", &ScannerConfig::noise, "Of ranges: AS_GIVEN by the next two, DATA_SHEET (0.01 m) or CONSERVATIVE (1 % of the range)."},
       {"noise_floor_m", &ScannerConfig::noise_floor_m, "One sigma at no distance.", kNotNegative},
-      {"noise_per_m", &ScannerConfig::noise_per_m, "Growth of sigma with range; 0.01 is the conservative model.", kNotNegative},
+      {"noise_per_m", &ScannerConfig::noise_per_m, "Growth of sigma with range.", kNotNegative},
       {"spot_rad", &ScannerConfig::spot_rad, "Full width of the beam.", kNotNegative},
       {"mixed_share", &ScannerConfig::mixed_share, "Of the spots split over an edge: reading between the two surfaces.", kShare},
       {"drop_out", &ScannerConfig::drop_out, "Echo lost at no distance.", kShare},
       {"dark_drop_out", &ScannerConfig::dark_drop_out, "Echo from a car lost at maximum range; grows with the square of range.", kShare},
+  };
+}
+
+FieldTable<GnssConfig> gnss_fields() {
+  return {
+      {"rate_hz", &GnssConfig::rate_hz, "Fixes in a second, at most one a scan; 0: no receiver.", {0, 100}},
+      {"latitude_deg", &GnssConfig::latitude_deg, "Of the world's origin; its x goes east.", {-80, 80}},
+      {"longitude_deg", &GnssConfig::longitude_deg, "Of the world's origin.", {-180, 180}},
+      {"altitude_m", &GnssConfig::altitude_m, "Of the world's origin.", kMetres},
+      {"satellites", &GnssConfig::satellites, "Above the horizon.", {0, 100}},
+      {"lowest_rad", &GnssConfig::lowest_rad, "Lower ones are not used.", {0.01, 1.5}},
+      {"building_height_m", &GnssConfig::building_height_m, "What the sky is hidden by: every wall is so high.", kNotNegative},
+      {"antenna_height_m", &GnssConfig::antenna_height_m, "Above the road.", kNotNegative},
+      {"range_error_m", &GnssConfig::range_error_m, "Of one satellite, one sigma, anew for each fix.", kNotNegative},
+      {"wander_m", &GnssConfig::wander_m, "Slow error by the atmosphere, one sigma each way.", kNotNegative},
+      {"wander_s", &GnssConfig::wander_s, "It is alike over this time.", kPositive},
+      {"multipath_m", &GnssConfig::multipath_m, "Error by reflections, one sigma each way; times the share of satellites that are hidden.", kNotNegative},
+      {"multipath_length_m", &GnssConfig::multipath_length_m, "It is alike over this way.", kPositive},
+  };
+}
+
+FieldTable<CompassConfig> compass_fields() {
+  return {
+      {"rate_hz", &CompassConfig::rate_hz, "Readings in a second, at most one a scan; 0: no compass.", {0, 200}},
+      {"noise_rad", &CompassConfig::noise_rad, "Of each reading, one sigma.", kNotNegative},
+      {"bias_sigma_rad", &CompassConfig::bias_sigma_rad, "By its mounting and the vehicle's iron; drawn once a drive.", kNotNegative},
+      {"disturbance_rad", &CompassConfig::disturbance_rad, "By iron around the vehicle, one sigma.", kNotNegative},
+      {"disturbance_length_m", &CompassConfig::disturbance_length_m, "It is alike over this way.", kPositive},
   };
 }
 
@@ -231,6 +261,7 @@ FieldTable<ScenarioConfig> scenario_fields() {
       {"log_record", &ScenarioConfig::log_record, "Of a log of the drive."},
       list_of("robot_way", &ScenarioConfig::robot_way, office_corner_fields(), "Corners of the robot's way in turn."),
       list_of("terrain", &ScenarioConfig::terrain, height_fields(), "Height of the road from west to east; empty: level."),
+      list_of("more_scanners", &ScenarioConfig::more_scanners, scanner_fields(), "Each with an id of its own."),
       {"sumo_fcd", &ScenarioConfig::sumo_fcd, "Traffic of a script from Eclipse SUMO: the file of its --fcd-output."},
       {"sumo_vehicle", &ScenarioConfig::sumo_vehicle, "Whom of it to ride; empty: the script's own vehicle."},
       {"ride", &ScenarioConfig::ride, "Of a script's vehicles with scanners: which one; 0 is the vehicle.", {0, 100}},
@@ -244,6 +275,8 @@ FieldTable<ScenarioConfig> scenario_fields() {
   table = with_nested(std::move(table), "script", &ScenarioConfig::script, script_fields());
   table = with_nested(std::move(table), "suspension", &ScenarioConfig::suspension, suspension_fields());
   table = with_nested(std::move(table), "odometry", &ScenarioConfig::odometry, odometry_fields());
+  table = with_nested(std::move(table), "gnss", &ScenarioConfig::gnss, gnss_fields());
+  table = with_nested(std::move(table), "compass", &ScenarioConfig::compass, compass_fields());
   return with_nested(std::move(table), "scanner", &ScenarioConfig::scanner, scanner_fields());
 }
 

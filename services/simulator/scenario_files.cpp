@@ -1,6 +1,7 @@
 #include "services/simulator/scenario_files.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "common/config/overlay.hpp"
 #include "common/config/profiles.hpp"
@@ -9,6 +10,8 @@
 
 namespace slammot::simulator {
 namespace {
+
+constexpr std::size_t kLongestId = 32;  // of a scanner on the bus, with its end
 
 using simulation::JunctionId;
 using simulation::ScenarioConfig;
@@ -29,6 +32,19 @@ std::optional<std::string> find_fault_of_object(const ScriptedObject& object, co
   if (std::adjacent_find(object.way.begin(), object.way.end(), same_place) != object.way.end()) return name + " has the same place twice in a row";
   const auto not_later = [](const auto& a, const auto& b) { return a.at_s >= b.at_s; };
   if (std::adjacent_find(object.speed.begin(), object.speed.end(), not_later) != object.speed.end()) return name + " has times of its speed out of order";
+  return std::nullopt;
+}
+
+std::optional<std::string> find_fault_of_scanners(const ScenarioConfig& scenario) {
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i) {
+    const simulation::ScannerConfig& scanner = scenario.scanner_at(i);
+    const bool can_be_named = !scanner.scanner_id.empty() && scanner.scanner_id.size() < kLongestId &&
+                              scanner.scanner_id.find_first_of("/ ,") == std::string::npos;
+    if (!can_be_named) return "scanner " + std::to_string(i + 1) + " needs a scanner_id of at most 31 characters without blank, comma and slash";
+    if (!ids.insert(scanner.scanner_id).second) return "two scanners are named '" + scanner.scanner_id + "'";
+    if (scanner.sweep_s * scanner.rate_hz > 1.0) return "a sweep of the scanner outlasts its scan";
+  }
   return std::nullopt;
 }
 
@@ -62,7 +78,7 @@ std::optional<std::string> find_fault_of_script(const simulation::ScriptConfig& 
 std::optional<std::string> find_fault(const ScenarioConfig& scenario) {
   const auto not_further = [](const auto& a, const auto& b) { return a.x_m >= b.x_m; };
   if (std::ranges::adjacent_find(scenario.terrain, not_further) != scenario.terrain.end()) return "the terrain's places do not go from west to east";
-  if (scenario.scanner.sweep_s * scenario.scanner.rate_hz > 1.0) return "a sweep of the scanner outlasts its scan";
+  if (auto fault = find_fault_of_scanners(scenario)) return fault;
   switch (scenario.place) {
     case simulation::Place::city: {
       auto fault = find_fault_of_way(scenario.route.junctions, scenario.city, "the vehicle's way");

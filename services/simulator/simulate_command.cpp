@@ -36,8 +36,10 @@ std::vector<simulation::ScenarioConfig> drives_of(const simulation::ScenarioConf
 
 std::string describe(const simulation::ScenarioConfig& scenario, const DriveFiles& files) {
   std::ostringstream text;
+  std::string more;
+  for (const auto& path : files.more_sensors) more += ", " + path.filename().string();
   text << "simulated " << scenario.name << " (seed " << scenario.seed << "): " << files.scans << " scans, " << std::fixed
-       << std::setprecision(0) << files.distance_m << " m\n  log    " << files.log.string() << "\n  truth  " << files.tum.string()
+       << std::setprecision(0) << files.distance_m << " m\n  log    " << files.log.string() << more << "\n  truth  " << files.tum.string()
        << ", " << files.objects.filename().string() << ", " << files.walls.filename().string() << '\n';
   return text.str();
 }
@@ -59,7 +61,7 @@ int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& er
     return 1;
   }
   for (const simulation::ScenarioConfig& drive : drives_of(*scenario)) {
-    const DriveFilesOrFault written = write_drive(drive, options.output);
+    const DriveFilesOrFault written = write_drive(drive, options.output, options.hits ? HitsFile::written : HitsFile::left_out);
     if (!written.files) {
       err << "slammot simulate: " << written.fault << '\n';
       return 1;
@@ -76,6 +78,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   command->add_option("scenario", options->scenario, "Name of the scenario, or a file");
   command->add_option("--seed", options->seed, "Other world, traffic and noise than the scenario's own");
   command->add_option("--output", options->output, "Folder for NAME.log, .tum, .objects.csv and .walls.csv");
+  command->add_flag("--hits", options->hits, "Write NAME.hits.csv, too: which beam hit what");
   command->callback([options, &exit_code] { exit_code = simulate(*options, std::cout, std::cerr); });
 }
 

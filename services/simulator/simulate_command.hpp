@@ -16,6 +16,7 @@ struct SimulateOptions {
   std::string scenario;
   std::optional<std::uint64_t> seed;
   std::string output;
+  bool hits = false;
 };
 
 /// `slammot simulate`: names the scenarios or drives one and writes its files. Returns the process's exit code.

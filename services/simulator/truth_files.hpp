@@ -9,10 +9,14 @@
 
 namespace slammot::simulator {
 
-/// PREFIX.tum, PREFIX.objects.csv and PREFIX.walls.csv, written while the drive goes on. Files of these names are replaced.
+/// Whether the files say which beam hit what.
+enum class HitsFile { left_out, written };
+
+/// PREFIX.tum, PREFIX.objects.csv, PREFIX.walls.csv and, if wanted, PREFIX.hits.csv, written while the drive goes on. Files of
+/// these names are replaced. Poses and objects are those of the first scanner's scans, hits are of all.
 class TruthFiles {
  public:
-  TruthFiles(const std::filesystem::path& prefix, const simulation::Outline& stationary_in_world);
+  TruthFiles(const std::filesystem::path& prefix, const simulation::Outline& stationary_in_world, HitsFile hits);
 
   void add(const simulation::SimulatedScan& drive);
 
@@ -31,6 +35,7 @@ class TruthFiles {
   std::ofstream tum_;
   std::ofstream objects_;
   std::ofstream walls_;
+  std::optional<std::ofstream> hits_;
   std::optional<geometry::Pose2> last_;
   double distance_m_ = 0.0;
 };

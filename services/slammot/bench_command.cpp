@@ -96,12 +96,12 @@ int write(const BenchOptions& options, const files::RunRecord& record, const fil
   return kExitLogIsCut;
 }
 
-/// Services of their own read a log, so a simulated drive is recorded first: drive.log and truth.* in the output folder.
+/// Services of their own read a log, so a simulated drive is recorded first: truth.log and its truth in the output folder.
 files::Result<BenchOptions> with_recorded_drive(BenchOptions options) {
   if (options.scenario.empty() || !options.input.empty()) return options;
   const auto scenario = simulator::load_scenario(options.scenario, options.seed);
   if (!scenario) return scenario.error();
-  const auto written = simulator::write_drive(*scenario, options.output, {"drive", "truth"});
+  const auto written = simulator::write_drive(*scenario, options.output, {"truth", "truth"}, simulator::HitsFile::written);
   if (!written.files) return files::Error{written.fault};
   options.input = written.files->log;
   if (options.profile.empty()) options.profile = scenario->profile;

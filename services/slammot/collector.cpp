@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "common/wire/localized_scan.hpp"
+#include "common/wire/scan_labels.hpp"
+#include "common/wire/segmented_scan.hpp"
 #include "common/wire/text.hpp"
 #include "common/wire/tracked_objects.hpp"
 
@@ -22,6 +24,9 @@ std::string unique_name() {
   return "collector-" + std::to_string(getpid()) + "-" + std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
+/// Where scans come from: a log or a simulation.
+bool is_source(std::string_view service) { return service == "ingest" || service == "simulator"; }
+
 bool is_set(const wire::ServiceStatus& status, std::string_view counter) {
   for (const wire::Counter& one : status.counters) {
     if (one.name == counter) return one.total > 0;
@@ -38,6 +43,8 @@ Collector::Collector(const CollectorOptions& options)
       laser_scans_(participant_, dds::topics::kLaserScan, dds::History::kRecorder),
       localized_scans_(participant_, dds::topics::kLocalizedScan, dds::History::kRecorder),
       tracked_objects_(participant_, dds::topics::kTrackedObjects, dds::History::kRecorder),
+      segmented_scans_(participant_, dds::topics::kSegmentedScan, dds::History::kRecorder),
+      scan_labels_(participant_, dds::topics::kScanLabels, dds::History::kRecorder),
       stored_tiles_(participant_, dds::topics::kStoredSubmapTile),
       constraints_(participant_, dds::topics::kConstraint),
       corrections_(participant_, dds::topics::kGraphCorrection),
@@ -53,6 +60,13 @@ Collector::Collector(const CollectorOptions& options)
   read(laser_scans_, [this](const auto& sample) { take(sample); });
   read(localized_scans_, [this](const auto& sample) { take(sample); });
   read(tracked_objects_, [this](const auto& sample) { take(sample); });
+  read(segmented_scans_, [this](const auto& sample) {
+    if (const auto scan = wire::decode(sample)) records_[scan->map_id].add(*scan);
+  });
+  read(scan_labels_, [this](const auto& sample) {
+    const auto labels = wire::decode(sample);
+    if (labels && map_id_) records_[*map_id_].add(*labels);
+  });
   read(stored_tiles_, [this](const auto& sample) { take(sample); });
   read(constraints_, [this](const auto& sample) {
     if (const auto constraint = wire::decode(sample)) records_[constraint->map_id].add(*constraint);
@@ -60,7 +74,7 @@ Collector::Collector(const CollectorOptions& options)
   read(corrections_, [this](const auto& sample) { take(sample); });
   read(statuses_, [this](const auto& sample) { take(sample); });
   read(heartbeats_, [this](const slammot_Heartbeat& beat) {
-    if (wire::text(beat.service_name) == "ingest") last_ingest_ = Clock::now();
+    if (is_source(wire::text(beat.service_name))) last_ingest_ = Clock::now();
   });
   read(replies_, [this](const auto& sample) {
     if (wire::text(sample.requester) == requester_ && sample.result == slammot_OUTCOME_DONE) is_submap_finished_ = true;
@@ -169,7 +183,7 @@ void Collector::take(const slammot_GraphCorrection& part) {
 void Collector::take(const slammot_ServiceStatus& sample) {
   auto status = wire::decode(sample);
   if (!status) return;
-  if (status->name.service == "ingest") is_log_finished_[status->name.instance] = is_set(*status, "log_finished");
+  if (is_source(status->name.service)) is_log_finished_[status->name.instance] = is_set(*status, "log_finished");
   status_by_service_[status->name.service] = std::move(*status);
 }
 

@@ -89,6 +89,8 @@ class Collector {
   dds::Reader<slammot_LaserScan> laser_scans_;
   dds::Reader<slammot_LocalizedScan> localized_scans_;
   dds::Reader<slammot_TrackedObjects> tracked_objects_;
+  dds::Reader<slammot_SegmentedScan> segmented_scans_;
+  dds::Reader<slammot_ScanLabels> scan_labels_;
   dds::Reader<slammot_SubmapTile> stored_tiles_;
   dds::Reader<slammot_Constraint> constraints_;
   dds::Reader<slammot_GraphCorrection> corrections_;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/files/carmen_log.hpp"
 #include "services/simulator/scenario_files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -78,6 +79,46 @@ TEST_F(WriteDrive, WritesTheSameBytesTwice) {
   EXPECT_EQ(lines_of(first->log), lines_of(second->log));
   EXPECT_EQ(lines_of(first->objects), lines_of(second->objects));
   EXPECT_EQ(lines_of(first->walls), lines_of(second->walls));
+}
+
+TEST_F(WriteDrive, SaysWhatBeamsHitIfWanted) {
+  const auto files = write_drive(scenario_, folder_.path(), HitsFile::written).files;
+  ASSERT_TRUE(files.has_value());
+  const auto hits = lines_of(folder_ / "block.hits.csv");
+  ASSERT_EQ(hits.size(), 1U + 75U);
+  EXPECT_EQ(hits[0], "timestamp,scanner,hits");
+  EXPECT_EQ(hits[1].substr(0, 18), "21.000000,front,0*");
+  write_drive(scenario_, folder_ / "without");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "without/block.hits.csv"));
+}
+
+TEST_F(WriteDrive, WritesALogForEachScannerThatIsReadWithItsMounting) {
+  simulation::ScannerConfig rear;
+  rear.scanner_id = "rear";
+  rear.ahead_m = -2.2;
+  rear.left_m = 0.3;
+  rear.heading_rad = 3.141593;
+  rear.rate_hz = 12.5;
+  scenario_.more_scanners = {rear};
+  const auto files = write_drive(scenario_, folder_.path()).files;
+  ASSERT_TRUE(files.has_value());
+  EXPECT_EQ(files->more_sensors.at(0).filename(), "block.rear.log");
+  const auto front_log = files::CarmenLog::open(files->log);
+  const auto rear_log = files::CarmenLog::open(files->more_sensors.at(0));
+  ASSERT_TRUE(front_log && rear_log);
+  EXPECT_EQ(front_log->plan().figures.scans, 75U);
+  EXPECT_EQ(rear_log->plan().figures.scans, 25U);
+  EXPECT_EQ(rear_log->plan().base_from_laser, (geometry::Pose2{-2.2, 0.3, 3.141593}));
+  EXPECT_EQ(lines_of(files->tum).size(), 75U);  // of the first scanner's scans
+}
+
+TEST_F(WriteDrive, WritesWhatReceiverAndCompassSay) {
+  scenario_.gnss.rate_hz = 5.0;
+  scenario_.compass.rate_hz = 10.0;
+  const auto files = write_drive(scenario_, folder_.path()).files;
+  ASSERT_TRUE(files.has_value());
+  EXPECT_EQ(lines_of(folder_ / "block.gnss.csv").size(), 1U + 10U);
+  EXPECT_EQ(lines_of(folder_ / "block.compass.csv").size(), 1U + 20U);
 }
 
 TEST_F(WriteDrive, SaysWhyItCannotWrite) {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "common/wire/localized_scan.hpp"
+#include "common/wire/scan_labels.hpp"
+#include "common/wire/segmented_scan.hpp"
 #include "common/wire/sensor.hpp"
 #include "common/wire/service.hpp"
 #include "common/wire/tracked_objects.hpp"
@@ -99,6 +101,39 @@ TEST_F(CollectorOnTheBus, ForgetsTheDriveBeforeWhenANewOneBegins) {
   drive(0, 2, {8});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
   EXPECT_EQ(collector->scan_stamps_ns().size(), 1U);
+}
+
+TEST_F(CollectorOnTheBus, KeepsWhatDetectionAndTrackingHeldEchoesToBe) {
+  dds::Writer<slammot_SegmentedScan> segmented_scans(services, dds::topics::kSegmentedScan);
+  dds::Writer<slammot_ScanLabels> scan_labels(services, dds::topics::kScanLabels);
+  start();
+  ASSERT_TRUE(segmented_scans.wait_for_readers(1, kForever) && scan_labels.wait_for_readers(1, kForever));
+  drive(1, 1, {7});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
+  flow::SegmentedScan segmented;
+  segmented.stamp_ns = kPeriodNs;
+  segmented.scanner_id = "front";
+  segmented.map_id = {7};
+  segmented.points_in_base_m.resize(2);
+  segmented.range_m = {5.0F, 6.0F};
+  segmented.labels = {flow::PointLabel::kStationary, flow::PointLabel::kUnknown};
+  segmented_scans.write(wire::SegmentedScanEncoder().encode("car", segmented));
+  scan_labels.write(wire::ScanLabelsEncoder().encode("car", {kPeriodNs, 1, "front", {flow::PointLabel::kStationary, flow::PointLabel::kMoving}, {}}));
+  ASSERT_TRUE(comes_to([this] {
+    const auto rows = collector->record({}).label_rows();
+    return rows.size() == 1 && !rows[0].by_detection.empty() && !rows[0].by_tracking.empty();
+  }));
+  EXPECT_EQ(collector->record({}).label_rows()[0].by_detection, "s?");
+  EXPECT_EQ(collector->record({}).label_rows()[0].by_tracking, "sm");
+}
+
+TEST_F(CollectorOnTheBus, KnowsTheEndOfASimulatedDrive) {
+  start();
+  drive(0, 1, {7});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
+  wire::StatusEncoder encoder;
+  statuses.write(encoder.encode({.name = {"car", "simulator", "main"}, .counters = {{"log_finished", 1U}}}));
+  EXPECT_TRUE(comes_to([this] { return collector->has_drive_ended(); }));
 }
 
 TEST_F(CollectorOnTheBus, GoesOnAfterACrashWithWhatItHad) {

@@ -1,8 +1,8 @@
-#include "services/ingest/pace.hpp"
+#include "common/app/pace.hpp"
 
 #include <gtest/gtest.h>
 
-namespace slammot::ingest {
+namespace slammot::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -39,4 +39,4 @@ TEST(Pace, BeginsAnewWhenRestarted) {
 }
 
 }  // namespace
-}  // namespace slammot::ingest
+}  // namespace slammot::app

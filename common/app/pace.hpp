@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace slammot::ingest {
+namespace slammot::app {
 
 /// How fast a recorded drive is played. Time is a parameter.
 class Pace {
@@ -37,4 +37,4 @@ class Pace {
   std::int64_t last_stamp_ns_ = 0;
 };
 
-}  // namespace slammot::ingest
+}  // namespace slammot::app

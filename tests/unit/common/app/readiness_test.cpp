@@ -1,8 +1,8 @@
-#include "services/ingest/readiness.hpp"
+#include "common/app/readiness.hpp"
 
 #include <gtest/gtest.h>
 
-namespace slammot::ingest {
+namespace slammot::app {
 namespace {
 
 TEST(Readiness, NamesWhatIsNotAtWork) {
@@ -18,4 +18,4 @@ TEST(Readiness, NamesWhatIsNotAtWork) {
 }
 
 }  // namespace
-}  // namespace slammot::ingest
+}  // namespace slammot::app

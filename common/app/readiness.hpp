@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace slammot::ingest {
+namespace slammot::app {
 
 /// Which of the services that a drive needs are at work, by their heartbeats.
 class Readiness {
@@ -31,4 +31,4 @@ class Readiness {
   std::map<std::string, bool> at_work_;
 };
 
-}  // namespace slammot::ingest
+}  // namespace slammot::app

@@ -1,8 +1,8 @@
-#include "services/ingest/pace.hpp"
+#include "common/app/pace.hpp"
 
 #include <charconv>
 
-namespace slammot::ingest {
+namespace slammot::app {
 namespace {
 
 constexpr std::int64_t kLongestGapNs = 60'000'000'000;
@@ -28,4 +28,4 @@ Pace::Time Pace::due(std::int64_t stamp_ns, Time now) {
   return start_->time + std::chrono::nanoseconds(static_cast<std::int64_t>(since_start_ns));
 }
 
-}  // namespace slammot::ingest
+}  // namespace slammot::app

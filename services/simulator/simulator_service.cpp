@@ -1,0 +1,155 @@
+#include "services/simulator/simulator_service.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/spdlog.h>
+
+#include "common/wire/text.hpp"
+#include "services/simulator/scenario_files.hpp"
+
+namespace slammot::simulator {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kLastWords{1};     ///< How long the end waits for readers that do not have all yet.
+constexpr std::chrono::seconds kAnswerWithin{1};  ///< At speed max.
+
+simulation::ScenarioConfig scenario_of(const SimulatorService::Settings& settings) {
+  if (settings.scenario.empty()) throw app::StartupFailure("--scenario NAME is needed: the drive to simulate");
+  auto scenario = load_scenario(settings.scenario, settings.seed);
+  if (!scenario) throw app::StartupFailure(scenario.error().message);
+  if (settings.ride > 0) scenario->ride = settings.ride;
+  for (std::size_t i = 0; i <= scenario->more_scanners.size(); ++i) {
+    if (scenario->scanner_at(i).beams > static_cast<int>(wire::kMostBeams)) throw app::StartupFailure("a scanner has more beams than the bus carries");
+  }
+  return std::move(*scenario);
+}
+
+app::Pace parse_pace(const std::string& speed) {
+  const auto pace = app::Pace::parse(speed);
+  if (!pace) throw app::StartupFailure("--speed " + speed + ": neither 'max' nor a number from 0.01 to 1000");
+  return *pace;
+}
+
+std::uint64_t new_drive_id() { return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()); }
+
+bool is_at_work(slammot_ServiceState state) {
+  return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
+}
+
+}  // namespace
+
+void SimulatorService::add_options(CLI::App& command_line, Settings& settings) {
+  command_line.add_option("--scenario", settings.scenario, "Name (slammot simulate --list) or file");
+  command_line.add_option("--seed", settings.seed, "Other world, traffic and noise than the scenario's own");
+  command_line.add_option("--ride", settings.ride, "Which of the scenario's vehicles with scanners; 0 is the first")->check(CLI::Range(0, 100));
+  command_line.add_option("--speed", settings.speed, "Times the simulated clock, or 'max': as fast as the other services are done")->capture_default_str();
+  command_line.add_option("--wait-for-services", settings.wait_for_services_s, "Before the first scan [s]")->capture_default_str()->check(CLI::Range(0.0, 3600.0));
+  command_line.add_flag("--linger", settings.linger, "Stay after the end of the drive until stopped");
+}
+
+SimulatorService::SimulatorService(app::ServiceContext& context, const Settings& settings)
+    : context_(context),
+      pace_(parse_pace(settings.speed)),
+      linger_(settings.linger),
+      give_up_waiting_at_(steady_clock::now() + std::chrono::milliseconds(std::llround(1e3 * settings.wait_for_services_s))),
+      drive_(scenario_of(settings)),
+      scans_(context.write(dds::topics::kLaserScan)),
+      odometry_(context.write(dds::topics::kOdometry)),
+      fixes_(context.write(dds::topics::kGnssFix)),
+      compass_readings_(context.write(dds::topics::kCompassReading)),
+      true_poses_(context.write(dds::topics::kTruePose)),
+      true_objects_(context.write(dds::topics::kTrueObjects)),
+      true_hits_(context.write(dds::topics::kTrueHits)) {
+  const std::uint64_t drive_id = new_drive_id();
+  encoder_ = wire::LaserScanEncoder(drive_id);
+  truth_ = wire::TruthEncoder(drive_id);
+  context.status().counter("log_finished") = 0;
+  context.status().counter("log_scans") = drive_.scan_count();
+  context.read(dds::topics::kHeartbeat, app::Input::kOccasional,
+               [this](const slammot_Heartbeat& beat) { readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state)); });
+  context.read(dds::topics::kScanLabels, app::Input::kOccasional, [this](const auto& labels) { take_labels(labels); });
+  context.every(std::chrono::milliseconds(50), [this] { has_begun_ ? check_progress() : wait_for_services(); });
+}
+
+void SimulatorService::wait_for_services() {
+  std::string missing = readiness_.missing();
+  if (scans_.matched_readers() == 0) missing = "a reader of " + std::string(scans_.topic().name) + ", " + missing;
+  if (!missing.empty() && steady_clock::now() < give_up_waiting_at_) {
+    context_.status().set_trouble("services", "waiting for " + missing);
+    return;
+  }
+  if (!missing.empty()) context_.warn("begun_without_all_services", "begins without " + missing);
+  context_.status().clear_trouble("services");
+  begin();
+}
+
+void SimulatorService::begin() {
+  has_begun_ = true;
+  spdlog::info("drives {} scans", drive_.scan_count());
+  next_ = drive_.next();
+  schedule();
+}
+
+/// Sends the next scan when it is due, and at the earliest when all else has been looked after.
+void SimulatorService::schedule() {
+  if (!next_) return finish();
+  const auto now = steady_clock::now();
+  const auto due = pace_.is_unlimited() ? now : pace_.due(next_->scan.stamp_ns, now);
+  context_.after(std::max(due - now, steady_clock::duration::zero()), [this] { send_next(); });
+}
+
+void SimulatorService::send_next() {
+  send(*next_);
+  const bool is_waited_for = pace_.is_unlimited() && next_->scanner == 0;
+  if (is_waited_for) {
+    unanswered_ns_ = next_->scan.stamp_ns;
+    unanswered_since_ = steady_clock::now();
+  }
+  next_ = drive_.next();
+  if (!is_waited_for) schedule();
+}
+
+void SimulatorService::send(const simulation::SimulatedScan& drive) {
+  const auto count_timeout = [this](dds::WriteResult result) {
+    if (result == dds::WriteResult::kTimedOut) context_.warn("slow_readers", "a reader is slow: a sample was not sent");
+  };
+  const std::string& vehicle = context_.vehicle_id();
+  for (const sensing::GnssFix& fix : drive.gnss) count_timeout(fixes_.write(wire::encode(vehicle, fix)));
+  for (const sensing::CompassReading& reading : drive.compass) count_timeout(compass_readings_.write(wire::encode(vehicle, reading)));
+  count_timeout(odometry_.write(wire::encode(vehicle, drive.odometry)));
+  count_timeout(scans_.write(encoder_.encode(vehicle, drive.scan)));
+  if (drive.scanner == 0) count_timeout(true_poses_.write(truth_.encode_pose(vehicle, drive)));
+  count_timeout(true_objects_.write(truth_.encode_objects(vehicle, drive)));
+  count_timeout(true_hits_.write(truth_.encode_hits(vehicle, drive)));
+  if (drive.scanner == 0) ++context_.status().counter("scans");
+}
+
+void SimulatorService::take_labels(const slammot_ScanLabels& labels) {
+  if (!unanswered_ns_ || labels.stamp_ns < *unanswered_ns_) return;
+  unanswered_ns_.reset();
+  schedule();
+}
+
+void SimulatorService::check_progress() {
+  if (!unanswered_ns_ || steady_clock::now() - unanswered_since_ < kAnswerWithin) return;
+  context_.warn("unanswered_scans", "no labels for too long: drives on");
+  unanswered_ns_.reset();
+  schedule();
+}
+
+void SimulatorService::finish() {
+  if (has_finished_) return;
+  has_finished_ = true;
+  context_.status().counter("log_finished") = 1;
+  spdlog::info("finished {} scans", context_.status().counter("scans"));
+  if (linger_) return;
+  scans_.wait_for_acknowledgements(kLastWords);
+  true_hits_.wait_for_acknowledgements(kLastWords);
+  context_.stop(0);
+}
+
+}  // namespace slammot::simulator

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/app/pace.hpp"
+#include "common/app/readiness.hpp"
+#include "common/app/run_service.hpp"
+#include "common/simulation/drive.hpp"
+#include "common/wire/sensor.hpp"
+#include "common/wire/truth.hpp"
+
+namespace slammot::simulator {
+
+/// Simulates a drive onto the bus, in the place of ingest, and tells the truth beside it.
+class SimulatorService {
+ public:
+  struct Settings {
+    std::string scenario;               ///< Name or file.
+    std::optional<std::uint64_t> seed;  ///< In place of the scenario's own.
+    int ride = 0;                       ///< Which of the scenario's vehicles with scanners.
+    std::string speed = "1";
+    double wait_for_services_s = 20.0;
+    bool linger = false;                ///< Stay after the end of the drive.
+  };
+  static constexpr const char* kName = "simulator";
+  static constexpr const char* kPurpose = "Simulates a drive onto the bus: what its sensors say, and the truth.";
+  static std::vector<config::BoundStage> stages(Settings&) { return {}; }  ///< The scenario's file is all there is to set.
+  static void add_options(CLI::App& command_line, Settings& settings);
+
+  /// Throws app::StartupFailure for a scenario that cannot be driven.
+  SimulatorService(app::ServiceContext& context, const Settings& settings);
+
+ private:
+  using Time = app::Pace::Time;
+
+  void wait_for_services();
+  void begin();
+  void schedule();
+  void send_next();
+  void send(const simulation::SimulatedScan& drive);
+  void take_labels(const slammot_ScanLabels& labels);
+  void check_progress();
+  void finish();
+
+  app::ServiceContext& context_;
+  app::Pace pace_;
+  bool linger_;
+  Time give_up_waiting_at_;
+  simulation::Drive drive_;
+  app::Readiness readiness_{{"localization", "detection", "tracking"}};
+  dds::Writer<slammot_LaserScan>& scans_;
+  dds::Writer<slammot_Odometry>& odometry_;
+  dds::Writer<slammot_GnssFix>& fixes_;
+  dds::Writer<slammot_CompassReading>& compass_readings_;
+  dds::Writer<slammot_TruePose>& true_poses_;
+  dds::Writer<slammot_TrueObjects>& true_objects_;
+  dds::Writer<slammot_TrueHits>& true_hits_;
+  wire::LaserScanEncoder encoder_;
+  wire::TruthEncoder truth_;
+  bool has_begun_ = false;
+  bool has_finished_ = false;
+  std::optional<simulation::SimulatedScan> next_;
+  std::optional<std::int64_t> unanswered_ns_;  ///< At speed max: the scan whose labels are waited for, since
+  Time unanswered_since_{};
+};
+
+}  // namespace slammot::simulator
