@@ -40,6 +40,14 @@ Judged judge(const geometry::Vector2& point_m, const Scene& scene, const Countin
   return {{BeamKind::kMoving, nearest->object}, nearest_m};
 }
 
+BeamTruth judge(const BeamHit& hit, const Scene& scene, const CountingRule& rule) {
+  if (hit.on == BeamHit::On::kNothing) return {};
+  if (hit.on == BeamHit::On::kStationary) return {BeamKind::kStationary};
+  const auto object = std::ranges::find(scene.objects, hit.object, &TrueObject::object);
+  if (hit.on == BeamHit::On::kSeveral || object == scene.objects.end()) return {BeamKind::kDontCare};
+  return {std::abs(object->speed_mps) < rule.least_speed_mps ? BeamKind::kStanding : BeamKind::kMoving, hit.object};
+}
+
 /// The truth says how many echoes an object sent: where more are near its box, the farthest ones may be of what it passes.
 void doubt_surplus(const Scene& scene, std::map<std::size_t, std::vector<Candidate>> candidates, std::vector<BeamTruth>& truth) {
   for (const TrueObject& object : scene.objects) {
@@ -121,6 +129,17 @@ std::vector<BeamTruth> beam_truth(const std::vector<std::optional<geometry::Vect
     if (judged.truth.kind == BeamKind::kMoving) candidates[judged.truth.object].push_back({beam, judged.distance_m});
   }
   doubt_surplus(scene, std::move(candidates), truth);
+  return truth;
+}
+
+std::vector<BeamTruth> beam_truth(const std::vector<std::optional<geometry::Vector2>>& points_in_world_m, const std::vector<BeamHit>& hits, const Scene& scene,
+                                  const CountingRule& rule) {
+  std::vector<BeamTruth> truth(points_in_world_m.size());
+  for (std::size_t beam = 0; beam < truth.size(); ++beam) {
+    if (!points_in_world_m[beam]) continue;
+    const bool is_far = (*points_in_world_m[beam] - scene.world_from_base.translation_m()).norm() > rule.range_m;
+    truth[beam] = is_far ? BeamTruth{BeamKind::kDontCare} : judge(hits[beam], scene, rule);
+  }
   return truth;
 }
 

@@ -26,6 +26,17 @@ struct BeamTruth {
 /// is within 1 m. Of more echoes near a box than the object sent, those nearest to it are taken. Points in world, one a beam, none for no echo; points farther than the rule's range are don't care.
 std::vector<BeamTruth> beam_truth(const std::vector<std::optional<geometry::Vector2>>& points_in_world_m, const Scene& scene, const CountingRule& rule);
 
+/// What a beam hit, as a simulator knows it.
+struct BeamHit {
+  enum class On : unsigned char { kNothing, kStationary, kObject, kSeveral };
+  On on = On::kNothing;
+  std::size_t object = 0;  ///< Where it is kObject: which, as TrueObject::object.
+};
+
+/// The same where it is known what each beam hit: several things at once are don't care. As many hits as points.
+std::vector<BeamTruth> beam_truth(const std::vector<std::optional<geometry::Vector2>>& points_in_world_m, const std::vector<BeamHit>& hits, const Scene& scene,
+                                  const CountingRule& rule);
+
 /// Sums over scans of how labels fit the truth.
 struct DetectionCounts {
   std::size_t moving_as_moving = 0;       ///< Truly moving points with the label moving,

@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "services/evaluator/annotations.hpp"
 #include "services/evaluator/table_file.hpp"
 
 namespace slammot::evaluator {
@@ -250,27 +251,35 @@ class Places {
   std::vector<geometry::Vector2> points_m_;
 };
 
-files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResult& result, const std::vector<Scene>& scenes, bool has_objects,
+/// By what the beams are known to have hit, or else by where the echoes are.
+std::vector<metrics::BeamTruth> truth_of_beams(const EchoesInWorld& scan, const Truth& truth, const Scene& scene, const metrics::CountingRule& rule) {
+  const HitsAt* const at = truth.hits ? at_stamp(*truth.hits, scan.stamp_ns, kSameStampNs) : nullptr;
+  if (!at) return metrics::beam_truth(scan.points_m, scene, rule);
+  const std::vector<metrics::BeamHit> hits = at->hits();
+  return hits.size() == scan.points_m.size() ? metrics::beam_truth(scan.points_m, hits, scene, rule) : metrics::beam_truth(scan.points_m, scene, rule);
+}
+
+files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResult& result, const std::vector<Scene>& scenes, const Truth& truth,
                                         const EvaluationOptions& options) {
   EchoSurvey survey;
   if (!echoes) return survey;
-  if (has_objects && !result.labels.empty()) survey.detection.emplace();
+  if (truth.objects && !result.labels.empty()) survey.detection.emplace();
   Places walls(0.25 * options.map_tolerance_m);
   Places objects(0.25 * options.map_tolerance_m);
   const auto least_points = static_cast<std::size_t>(options.rule.least_points);
   const auto fault = echoes([&](const EchoesInWorld& scan) {
     const Scene* const scene = at_stamp(scenes, scan.stamp_ns, kSameStampNs);
     if (!scene) return;
-    const auto truth = metrics::beam_truth(scan.points_m, *scene, options.rule);
-    for (std::size_t beam = 0; beam < truth.size(); ++beam) {
-      if (truth[beam].kind == metrics::BeamKind::kStationary) walls.add(*scan.points_m[beam]);
-      if (truth[beam].kind == metrics::BeamKind::kMoving || truth[beam].kind == metrics::BeamKind::kStanding) objects.add(*scan.points_m[beam]);
+    const auto beams = truth_of_beams(scan, truth, *scene, options.rule);
+    for (std::size_t beam = 0; beam < beams.size(); ++beam) {
+      if (beams[beam].kind == metrics::BeamKind::kStationary) walls.add(*scan.points_m[beam]);
+      if (beams[beam].kind == metrics::BeamKind::kMoving || beams[beam].kind == metrics::BeamKind::kStanding) objects.add(*scan.points_m[beam]);
     }
     const LabelsAt* const labels = survey.detection ? at_stamp(result.labels, scan.stamp_ns, kSameStampNs) : nullptr;
     if (!labels) return;
     ++survey.detection->scans;
-    survey.detection->by_detection = metrics::add_scan(survey.detection->by_detection, truth, labels->by_detection, least_points);
-    survey.detection->by_tracking = metrics::add_scan(survey.detection->by_tracking, truth, labels->by_tracking, least_points);
+    survey.detection->by_detection = metrics::add_scan(survey.detection->by_detection, beams, labels->by_detection, least_points);
+    survey.detection->by_tracking = metrics::add_scan(survey.detection->by_tracking, beams, labels->by_tracking, least_points);
   });
   if (fault) return *fault;
   survey.wall_places_m = walls.take();
@@ -337,11 +346,8 @@ void add_notes(const RunResult& result, const Truth& truth, const EchoSource& ec
   if (result.uncertain.empty()) evaluation.notes.push_back("no online_covariance.csv in the result: no NEES of poses");
 }
 
-}  // namespace
-
-files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EchoSource& echoes, const EvaluationOptions& options) {
-  const std::int64_t max_difference_ns = to_ns(options.max_stamp_difference_s);
-  Evaluation evaluation;
+/// Fills the parts about the vehicle's own way.
+std::optional<Error> evaluate_way(const RunResult& result, const Truth& truth, std::int64_t max_difference_ns, Evaluation& evaluation) {
   evaluation.online = evaluate_trajectory(truth.trajectory, result.online, max_difference_ns);
   if (auto fault = fault_of_overlap(result, truth, evaluation.online.matched)) return *fault;
   evaluation.corrected = evaluate_trajectory(truth.trajectory, result.corrected, max_difference_ns);
@@ -350,11 +356,17 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, 
     constexpr std::int64_t kOneSecondNs = 1'000'000'000;
     evaluation.relative_pose_nees = metrics::summarize_nees(metrics::relative_pose_nees(truth.trajectory, result.uncertain, kOneSecondNs, max_difference_ns), 3);
   }
+  return std::nullopt;
+}
+
+/// Fills all other parts.
+std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth, const EchoSource& echoes, const EvaluationOptions& options, Evaluation& evaluation) {
+  const std::int64_t max_difference_ns = to_ns(options.max_stamp_difference_s);
   Scenes made = make_scenes(result, truth, max_difference_ns);
   if (auto fault = fault_of_objects(made.scenes, truth.objects && !truth.objects->empty())) return *fault;
   evaluation.track_ids = std::move(made.track_ids);
   evaluation.scenes = metrics::fill_gaps(std::move(made.scenes), to_ns(options.longest_occlusion_s));
-  auto survey = survey_echoes(echoes, result, evaluation.scenes, truth.objects.has_value(), options);
+  auto survey = survey_echoes(echoes, result, evaluation.scenes, truth, options);
   if (!survey) return survey.error();
   evaluation.detection = survey->detection;
   if (truth.other_car) evaluation.other_car = evaluate_other_car(evaluation.scenes, *truth.other_car);
@@ -368,6 +380,22 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, 
                                           options.map_tolerance_m);
   }
   add_notes(result, truth, echoes, evaluation);
+  return std::nullopt;
+}
+
+}  // namespace
+
+files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EchoSource& echoes, const EvaluationOptions& options) {
+  Evaluation evaluation;
+  if (truth.annotated) {
+    const Truth placed = place_annotations(truth, result.online, options.rule.least_points);
+    if (placed.objects->empty()) return Error{"the clocks do not overlap: no scan of the result (" + span_of(result.online) + ") is between two annotations"};
+    if (auto fault = evaluate_scenes(result, placed, echoes, options, evaluation)) return *fault;
+    evaluation.notes.push_back("annotated in the frame of the base: no trajectory is evaluated, and objects are placed by the result's own");
+    return evaluation;
+  }
+  if (auto fault = evaluate_way(result, truth, to_ns(options.max_stamp_difference_s), evaluation)) return *fault;
+  if (auto fault = evaluate_scenes(result, truth, echoes, options, evaluation)) return *fault;
   return evaluation;
 }
 

@@ -1,6 +1,7 @@
 #include "services/evaluator/truth_files.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <unordered_map>
@@ -36,10 +37,11 @@ Result<metrics::Trajectory> read_reference(const path& file) {
   return trajectory;
 }
 
-/// Fills truth.objects and truth.object_count.
-std::optional<Error> read_objects(const path& file, Truth& truth) {
+using IndexOfId = std::unordered_map<std::string, std::size_t>;
+
+/// Fills truth.objects, truth.object_count and the index of each object's id.
+std::optional<Error> read_objects(const path& file, Truth& truth, IndexOfId& index_of_id) {
   std::map<std::int64_t, std::vector<metrics::TrueObject>> by_stamp;
-  std::unordered_map<std::string, std::size_t> index_of_id;
   const auto fault = read_csv(file, {"timestamp", "x", "y", "yaw", "speed", "length", "width", "points", "id", "class"}, [&](auto fields) -> RowFault {
     const auto row = numbers(fields.first(8));
     if (!row) return "a field is no number";
@@ -62,6 +64,52 @@ std::optional<Error> read_objects(const path& file, Truth& truth) {
   return std::nullopt;
 }
 
+constexpr std::size_t kMostBeams = 100'000;
+
+/// "hit*beams"; nullopt for anything else.
+std::optional<HitsAt::Run> parse_run(std::string_view text, const IndexOfId& index_of_id) {
+  const std::size_t star = text.find('*');
+  if (star == std::string_view::npos) return std::nullopt;
+  const std::string_view hit = text.substr(0, star);
+  HitsAt::Run run;
+  const auto [end, fault] = std::from_chars(text.data() + star + 1, text.data() + text.size(), run.beams);
+  if (fault != std::errc() || end != text.data() + text.size() || run.beams == 0 || run.beams > kMostBeams) return std::nullopt;
+  using On = metrics::BeamHit::On;
+  if (hit == "-1") run.hit.on = On::kNothing;
+  else if (hit == "0") run.hit.on = On::kStationary;
+  else if (hit == "-2") run.hit.on = On::kSeveral;
+  else if (const auto known = index_of_id.find(std::string(hit)); known != index_of_id.end()) run.hit = {On::kObject, known->second};
+  else return std::nullopt;
+  return run;
+}
+
+std::optional<Error> read_hits(const path& file, const IndexOfId& index_of_id, Truth& truth) {
+  truth.hits.emplace();
+  std::string scanner;
+  const auto fault = read_csv(file, {"timestamp", "scanner", "hits"}, [&](auto fields) -> RowFault {
+    if (scanner.empty()) scanner = fields[1];
+    if (scanner != fields[1]) return std::nullopt;
+    const auto stamp = numbers(fields.first(1));
+    if (!stamp) return "the timestamp is no number";
+    HitsAt at{to_ns(stamp->front()), {}};
+    std::size_t beams = 0;
+    std::string_view rest = fields[2];
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find(' '), rest.size());
+      const auto run = parse_run(rest.substr(0, end), index_of_id);
+      if (!run) return "not a run of hits, or of an object that objects.csv does not have: " + std::string(rest.substr(0, end));
+      if ((beams += run->beams) > kMostBeams) return "more beams than any scanner has";
+      at.runs.push_back(*run);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    truth.hits->push_back(std::move(at));
+    return std::nullopt;
+  });
+  if (fault) return fault;
+  std::ranges::stable_sort(*truth.hits, {}, &HitsAt::stamp_ns);
+  return std::nullopt;
+}
+
 std::optional<Error> read_walls(const path& file, Truth& truth) {
   truth.walls.emplace();
   return read_csv(file, {"ax", "ay", "bx", "by"}, [&](auto fields) -> RowFault {
@@ -73,6 +121,30 @@ std::optional<Error> read_walls(const path& file, Truth& truth) {
   });
 }
 
+Result<Truth> read_people(const path& file) {
+  std::map<std::int64_t, std::vector<metrics::TrueObject>> by_stamp;
+  IndexOfId index_of_id;
+  const auto fault = read_fields(file, 4, [&](auto fields) -> RowFault {
+    const auto stamp = numbers(fields.first(1));
+    const auto place = numbers(fields.subspan(2, 2));
+    if (!stamp || !place) return "a field is no number";
+    metrics::TrueObject person;
+    person.object = index_of_id.try_emplace(std::string(fields[1]), index_of_id.size()).first->second;
+    person.object_class = "pedestrian";
+    person.world_from_object = {(*place)[0], (*place)[1], 0.0};
+    by_stamp[to_ns(stamp->front())].push_back(person);
+    return std::nullopt;
+  });
+  if (fault) return *fault;
+  if (by_stamp.empty()) return Error{file.string() + ": nobody is annotated"};
+  Truth truth;
+  truth.object_count = index_of_id.size();
+  truth.annotated.emplace();
+  for (auto& [stamp_ns, people] : by_stamp) truth.annotated->push_back({stamp_ns, std::move(people)});
+  truth.read.push_back(file.filename().string());
+  return truth;
+}
+
 Result<Truth> with_trajectory(Result<metrics::Trajectory> trajectory, const path& file) {
   if (!trajectory) return trajectory.error();
   Truth truth;
@@ -81,10 +153,16 @@ Result<Truth> with_trajectory(Result<metrics::Trajectory> trajectory, const path
   return truth;
 }
 
-std::optional<Error> add_objects_and_walls(const path& prefix, Truth& truth) {
+std::optional<Error> add_scene(const path& prefix, Truth& truth) {
+  IndexOfId index_of_id;
   if (const auto file = plain_or_gz(with_ending(prefix, ".objects.csv"))) {
-    if (auto fault = read_objects(*file, truth)) return fault;
+    if (auto fault = read_objects(*file, truth, index_of_id)) return fault;
     truth.read.push_back(file->filename().string());
+  }
+  const auto hits = plain_or_gz(with_ending(prefix, ".hits.csv"));
+  if (hits && truth.objects) {
+    if (auto fault = read_hits(*hits, index_of_id, truth)) return fault;
+    truth.read.push_back(hits->filename().string());
   }
   if (const auto file = plain_or_gz(with_ending(prefix, ".walls.csv"))) {
     if (auto fault = read_walls(*file, truth)) return fault;
@@ -94,6 +172,12 @@ std::optional<Error> add_objects_and_walls(const path& prefix, Truth& truth) {
 }
 
 }  // namespace
+
+std::vector<metrics::BeamHit> HitsAt::hits() const {
+  std::vector<metrics::BeamHit> all;
+  for (const Run& run : runs) all.insert(all.end(), run.beams, run.hit);
+  return all;
+}
 
 Result<metrics::Trajectory> read_tum(const path& file) {
   metrics::Trajectory trajectory;
@@ -112,10 +196,11 @@ Result<metrics::Trajectory> read_tum(const path& file) {
 }
 
 Result<Truth> read_truth(const path& prefix) {
+  if (const auto file = plain_or_gz(prefix / "people_gt.txt")) return read_people(*file);
   if (const auto file = plain_or_gz(with_ending(prefix, ".tum"))) {
     auto truth = with_trajectory(read_tum(*file), *file);
     if (!truth) return truth;
-    if (auto fault = add_objects_and_walls(prefix, *truth)) return *fault;
+    if (auto fault = add_scene(prefix, *truth)) return *fault;
     return truth;
   }
   if (const auto file = plain_or_gz(with_ending(prefix, ".ego.tum"))) {

@@ -32,6 +32,7 @@ std::map<std::string, std::string> whole_files() {
           {"report.json", R"({"input": {"sweep_s": 0.013}, "measured": {"stage_latency": {"tracking": {"p50_ms": 0.1, "p99_ms": 0.2, "max_ms": 1.0}}}})"},
           {"drive.tum", straight_tum(100.0)},
           {"drive.objects.csv", car_ahead_csv(100.0)},
+          {"drive.hits.csv", "timestamp,scanner,hits\n0.0,front,0*2 1*3 -1*1 -2*1\n0.1,front,0*7\n"},
           {"drive.walls.csv", "ax,ay,bx,by,class\n0,1,2,3,0\n"}};
 }
 

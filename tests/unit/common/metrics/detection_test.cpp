@@ -32,6 +32,23 @@ TEST(BeamTruth, IsMovingOnAMovingBoxAndUndecidedBesideIt) {
   EXPECT_EQ(truth[4].kind, X);
 }
 
+TEST(BeamTruth, IsWhatTheBeamsAreKnownToHaveHit) {
+  TrueObject standing = car_at(20.0, 0.0, 5);
+  standing.speed_mps = 0.0;
+  const Scene scene{0, {}, {car_at(10.0, 0.0, 4), standing}, {}};
+  using On = BeamHit::On;
+  const std::vector<BeamHit> hits = {{On::kStationary}, {On::kObject, 4}, {On::kObject, 5}, {On::kSeveral}, {On::kNothing}, {On::kStationary}, {On::kObject, 9}};
+  const auto truth = beam_truth({{{8.0, 0.0}}, {{5.0, 0.0}}, {{20.0, 0.0}}, {{9.0, 0.0}}, std::nullopt, {{60.0, 0.0}}, {{7.0, 0.0}}}, hits, scene, kRule);
+  EXPECT_EQ(truth[0].kind, S);  // though on the car
+  EXPECT_EQ(truth[1].kind, M);  // though away from it
+  EXPECT_EQ(truth[1].object, 4U);
+  EXPECT_EQ(truth[2].kind, BeamKind::kStanding);
+  EXPECT_EQ(truth[3].kind, X);
+  EXPECT_EQ(truth[4].kind, BeamKind::kNoEcho);
+  EXPECT_EQ(truth[5].kind, X);
+  EXPECT_EQ(truth[6].kind, X);
+}
+
 TEST(BeamTruth, TakesNoMoreEchoesThanTheObjectSent) {
   TrueObject walker = car_at(10.0, 0.0);
   walker.length_m = walker.width_m = 0.5;

@@ -34,6 +34,34 @@ TEST_F(TruthFiles, AreATrajectoryObjectsAndWalls) {
   EXPECT_EQ(truth->walls->front().to_m, geometry::Vector2(2.0, 3.0));
 }
 
+TEST_F(TruthFiles, SayWhatBeamsHit) {
+  write(folder_ / "drive.tum", straight_tum(5.0));
+  write(folder_ / "drive.objects.csv", "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n1.0,17,car,1,0,0,2,4,2,3,5\n");
+  write(folder_ / "drive.hits.csv", "timestamp,scanner,hits\n1.0,front,0*2 17*3 -1*1 -2*1\n1.0,rear,0*9\n");
+  const auto truth = read_truth(folder_ / "drive");
+  ASSERT_TRUE(truth) << truth.error().message;
+  ASSERT_EQ(truth->hits->size(), 1U);  // of the first scanner
+  const auto hits = truth->hits->front().hits();
+  ASSERT_EQ(hits.size(), 7U);
+  using On = metrics::BeamHit::On;
+  EXPECT_EQ(hits[1].on, On::kStationary);
+  EXPECT_EQ(hits[4].on, On::kObject);
+  EXPECT_EQ(hits[4].object, truth->objects->front().objects.front().object);
+  EXPECT_EQ(hits[5].on, On::kNothing);
+  EXPECT_EQ(hits[6].on, On::kSeveral);
+}
+
+TEST_F(TruthFiles, RefuseHitsThatMeanNothing) {
+  write(folder_ / "drive.tum", straight_tum(5.0));
+  write(folder_ / "drive.objects.csv", "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n1.0,17,car,1,0,0,2,4,2,3,5\n");
+  for (const char* hits : {"0", "0*", "*3", "0*0", "18*2", "0*99999999999", "0*2  17*1"}) {
+    write(folder_ / "drive.hits.csv", std::string("timestamp,scanner,hits\n1.0,front,") + hits + "\n");
+    const auto truth = read_truth(folder_ / "drive");
+    ASSERT_FALSE(truth) << hits;
+    EXPECT_THAT(truth.error().message, HasSubstr("drive.hits.csv:2"));
+  }
+}
+
 TEST_F(TruthFiles, MayBeATrajectoryOnly) {
   write(folder_ / "drive.tum", straight_tum(5.0));
   const auto truth = read_truth(folder_ / "drive");
