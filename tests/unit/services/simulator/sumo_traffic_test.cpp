@@ -1,11 +1,14 @@
 #include "services/simulator/sumo_traffic.hpp"
 
 #include <fstream>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/simulation/drive.hpp"
 #include "common/simulation/scene.hpp"
 #include "services/simulator/scenario_files.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -65,6 +68,27 @@ TEST_F(SumoTraffic, DrivesInAScenarioAndMayCarryTheScanner) {
   scene->advance(0.5);
   EXPECT_FALSE(scene->others()[1].outline_in_object.circles.empty());
   EXPECT_TRUE(scene->others()[0].outline_in_object.segments.empty());  // and the bus has left
+}
+
+/// Written by SUMO 1.15; docs/scenarios.md says how.
+TEST_F(SumoTraffic, OfARealRunIsDrivenThrough) {
+  const auto scenario = load_scenario(SLAMMOT_SUMO_FOLDER "/junction.textproto");
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  std::map<simulation::ObjectClass, int> classes;
+  for (const auto& object : scenario->script.recorded) ++classes[object.kind];
+  using simulation::ObjectClass;
+  EXPECT_EQ(classes, (std::map<ObjectClass, int>{{ObjectClass::car, 7}, {ObjectClass::truck, 1}, {ObjectClass::bus, 1}, {ObjectClass::bicycle, 1}, {ObjectClass::pedestrian, 2}}));
+  simulation::Drive drive(*scenario);
+  std::set<ObjectClass> seen;
+  double way_m = 0.0;
+  std::optional<geometry::Pose2> last;
+  while (const auto scan = drive.next()) {
+    for (const auto& object : scan->objects) seen.insert(object.kind);
+    if (last) way_m += (scan->world_from_base.translation_m() - last->translation_m()).norm();
+    last = scan->world_from_base;
+  }
+  EXPECT_GE(seen.size(), 4U);
+  EXPECT_NEAR(way_m, 200.0, 60.0);
 }
 
 TEST_F(SumoTraffic, IsRefusedWithTheLineOfItsFault) {
