@@ -58,8 +58,15 @@ CarmenLog CarmenLog::follow(std::unique_ptr<LineSource> lines, LogPlan plan, con
   return log;
 }
 
-CarmenLog::CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, CarmenLogOptions options)
-    : lines_(std::move(lines)), plan_(std::move(plan)), options_(std::move(options)) {}
+CarmenLog::CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options)
+    : lines_(std::move(lines)), plan_(std::move(plan)) {
+  set_options(options);
+}
+
+void CarmenLog::set_options(const CarmenLogOptions& options) {
+  options_ = options;
+  if (plan_.base_from_laser == geometry::Pose2::identity()) plan_.base_from_laser = options.fallback_base_from_laser;
+}
 
 std::optional<LogEvent> CarmenLog::next() {
   while (ready_.empty() && !is_finished_) {

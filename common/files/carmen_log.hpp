@@ -21,6 +21,7 @@ namespace slammot::files {
 struct CarmenLogOptions {
   std::string scanner_id = "front";
   double fallback_field_of_view_rad = std::numbers::pi;  ///< First to last beam, where the records do not say.
+  geometry::Pose2 fallback_base_from_laser;              ///< Where the log does not say where the laser is.
 };
 
 /// Lines that were of no use, counted while the log is read.
@@ -57,7 +58,7 @@ class CarmenLog {
   static CarmenLog follow(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options = {});
 
   /// Replaces the options, which a profile may know only once plan() has chosen it. Before the first next().
-  void set_options(const CarmenLogOptions& options) { options_ = options; }
+  void set_options(const CarmenLogOptions& options);
 
   /// The next event; nullopt at the end of what can be read.
   std::optional<LogEvent> next();
@@ -69,7 +70,7 @@ class CarmenLog {
   double fraction_read() const { return lines_->fraction_read(); }
 
  private:
-  CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, CarmenLogOptions options);
+  CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options);
 
   void take(const LaserRecord& record);
   void take(const OdometryRecord& record);

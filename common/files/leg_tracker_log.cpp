@@ -11,6 +11,8 @@
 namespace slammot::files {
 namespace {
 
+constexpr double kOdometryLateS = 0.09;  // measured: heading rates of wheels and scans then agree best
+
 std::filesystem::path plain_or_gz(std::filesystem::path path) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) return path;
@@ -55,9 +57,8 @@ std::optional<LegTrackerLog::Line> LegTrackerLog::next_scan() {
     const auto words = words_of(*line, 6);
     if (words.empty() || words[0].starts_with('#')) continue;
     if (words.size() < 6) return Line{0.0, "ROBOTLASER1 malformed"};  // to be counted as such
-    const auto bag_s = number(words[0]), header_s = number(words[1]), step_rad = number(words[3]), beams = number(words[4]);
-    if (!bag_s || !header_s || !step_rad || !beams) return Line{0.0, "ROBOTLASER1 malformed"};
-    if (!bag_after_header_s_) bag_after_header_s_ = *bag_s - *header_s;
+    const auto bag_s = number(words[0]), step_rad = number(words[3]), beams = number(words[4]);
+    if (!bag_s || !step_rad || !beams) return Line{0.0, "ROBOTLASER1 malformed"};
     std::string text = "ROBOTLASER1 0 " + std::string(words[2]) + ' ' + fixed_text(*step_rad * (*beams - 1.0), 8) + ' ' + std::string(words[3]) + " 0 0.01 0 ";
     text += std::string(words[4]) + ' ' + std::string(words[5]) + " 0 0 0 0 0 0 0 0 0 0 0 0" + stamps(*bag_s);
     return Line{*bag_s, std::move(text)};
@@ -71,7 +72,7 @@ std::optional<LegTrackerLog::Line> LegTrackerLog::next_odometry() {
     if (words.empty() || words[0].starts_with('#')) continue;
     const auto stamp_s = number(words[0]);
     if (words.size() < 6 || !stamp_s) return Line{0.0, "ODOM malformed"};
-    const double bag_s = *stamp_s + bag_after_header_s_.value_or(0.0);
+    const double bag_s = *stamp_s - kOdometryLateS;
     std::string text = "ODOM";
     for (std::size_t i = 1; i < words.size(); ++i) text += ' ' + std::string(words[i]);
     return Line{bag_s, text + " 0" + stamps(bag_s)};

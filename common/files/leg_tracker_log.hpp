@@ -15,8 +15,7 @@ namespace slammot::files {
 /// A folder with a recording of the leg_tracker data set (Leigh et al. 2015) as text, told in lines of CARMEN: scan.txt ("bag
 /// stamp, header stamp, first beam and step [rad], beams, ranges [m]" a line) becomes ROBOTLASER1, odom.txt ("stamp x y heading
 /// speed yaw_rate") becomes ODOM; each plain or .gz, # begins a comment. Stamps are those of the bag, which the annotations
-/// have; odometry, whose stamps are those of the scans' headers, is shifted by as much as the first scan's two stamps differ.
-/// The laser's place on the base is not known: it is taken to be the base.
+/// have; odometry comes 0.09 s late by them, which is taken back. Where the laser is on the base is not said.
 class LegTrackerLog : public LineSource {
  public:
   static Result<std::unique_ptr<LineSource>> open(const std::filesystem::path& folder);
@@ -40,7 +39,6 @@ class LegTrackerLog : public LineSource {
 
   LineReader scans_;
   LineReader odometry_;
-  std::optional<double> bag_after_header_s_;
   std::optional<Line> scan_;          ///< The next one of each, once it was read.
   std::optional<Line> odom_;
   std::string line_;

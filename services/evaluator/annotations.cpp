@@ -16,13 +16,13 @@ struct Sighting {
 };
 
 /// Each person's sightings, by time.
-std::map<std::size_t, std::vector<Sighting>> sightings_in_map(const std::vector<ObjectsAt>& annotated, const metrics::Trajectory& online) {
+std::map<std::size_t, std::vector<Sighting>> sightings_in_map(const std::vector<ObjectsAt>& annotated, const RunResult& result) {
   std::map<std::size_t, std::vector<Sighting>> sightings;
   for (const ObjectsAt& at : annotated) {
-    const auto map_from_base = metrics::pose_at(online, at.stamp_ns, kLongestPoseGapNs);
+    const auto map_from_base = metrics::pose_at(result.online, at.stamp_ns, kLongestPoseGapNs);
     if (!map_from_base) continue;
     for (metrics::TrueObject person : at.objects) {
-      person.world_from_object = *map_from_base * person.world_from_object;
+      person.world_from_object = *map_from_base * result.base_from_laser * person.world_from_object;
       sightings[person.object].push_back({at.stamp_ns, person});
     }
   }
@@ -46,12 +46,12 @@ std::optional<metrics::TrueObject> person_at(const std::vector<Sighting>& sighti
 
 }  // namespace
 
-Truth place_annotations(const Truth& truth, const metrics::Trajectory& online, int points) {
-  const auto sightings = sightings_in_map(*truth.annotated, online);
+Truth place_annotations(const Truth& truth, const RunResult& result, int points) {
+  const auto sightings = sightings_in_map(*truth.annotated, result);
   Truth placed = truth;
   placed.annotated.reset();
   placed.objects.emplace();
-  for (const metrics::StampedPose& pose : online) {
+  for (const metrics::StampedPose& pose : result.online) {
     if (pose.stamp_ns < truth.annotated->front().stamp_ns || pose.stamp_ns > truth.annotated->back().stamp_ns) continue;
     placed.trajectory.push_back(pose);
     ObjectsAt at{pose.stamp_ns, {}};

@@ -388,10 +388,10 @@ std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth
 files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EchoSource& echoes, const EvaluationOptions& options) {
   Evaluation evaluation;
   if (truth.annotated) {
-    const Truth placed = place_annotations(truth, result.online, options.rule.least_points);
+    const Truth placed = place_annotations(truth, result, options.rule.least_points);
     if (placed.objects->empty()) return Error{"the clocks do not overlap: no scan of the result (" + span_of(result.online) + ") is between two annotations"};
     if (auto fault = evaluate_scenes(result, placed, echoes, options, evaluation)) return *fault;
-    evaluation.notes.push_back("annotated in the frame of the base: no trajectory is evaluated, and objects are placed by the result's own");
+    evaluation.notes.push_back("annotated in the frame of the laser: no trajectory is evaluated, and objects are placed by the result's own");
     return evaluation;
   }
   if (auto fault = evaluate_way(result, truth, to_ns(options.max_stamp_difference_s), evaluation)) return *fault;

@@ -98,9 +98,9 @@ std::string read_all(const path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-double sweep_s_of(const path& report_json) {
-  const auto report = nlohmann::json::parse(read_all(report_json), nullptr, false);
-  const auto place = nlohmann::json::json_pointer("/input/sweep_s");
+/// What report.json says of the input; 0 for what it does not.
+double number_of_input(const nlohmann::json& report, const std::string& name) {
+  const auto place = nlohmann::json::json_pointer("/input/" + name);
   return report.is_object() && report.contains(place) && report[place].is_number() ? report[place].get<double>() : 0.0;
 }
 
@@ -152,7 +152,9 @@ Result<RunResult> read_result(const path& folder) {
   if (const auto file = plain_or_gz(folder / "labels.csv")) {
     if (auto fault = read_labels(*file, result.labels)) return *fault;
   }
-  result.sweep_s = sweep_s_of(folder / "report.json");
+  const auto report = nlohmann::json::parse(read_all(folder / "report.json"), nullptr, false);
+  result.sweep_s = number_of_input(report, "sweep_s");
+  result.base_from_laser = {number_of_input(report, "laser_ahead_m"), number_of_input(report, "laser_left_m"), number_of_input(report, "laser_heading_rad")};
   if (std::filesystem::exists(folder / "map.yaml")) {
     auto map = read_map(folder / "map.yaml");
     if (!map) return map.error();

@@ -48,6 +48,7 @@ struct RunResult {
   std::vector<TracksAt> tracks;   ///< Ascending stamps; scans without tracks are not in it.
   std::vector<LabelsAt> labels;   ///< Ascending stamps; empty where it was not written.
   std::optional<files::MapImage> map;
+  geometry::Pose2 base_from_laser;  ///< As the run took it.
   double sweep_s = 0.0;           ///< From the first beam of a scan to its last, as the run took it; 0 where it does not say.
 };
 

@@ -39,7 +39,7 @@ struct Truth {
   std::size_t object_count = 0;
   std::optional<std::vector<metrics::WallSegment>> walls;
   std::optional<std::vector<HitsAt>> hits;           ///< Of the first scanner; ascending stamps.
-  std::optional<std::vector<ObjectsAt>> annotated;   ///< People marked by hand, now and then, in the frame of the base: where
+  std::optional<std::vector<ObjectsAt>> annotated;   ///< People marked by hand, now and then, in the frame of the laser: where
                                                      ///< there are such, there is no trajectory and there are no objects.
   std::optional<metrics::Trajectory> other_car;      ///< Motion capture of a second car.
   std::vector<std::string> read;                     ///< File names.

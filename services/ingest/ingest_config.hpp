@@ -12,6 +12,9 @@ struct IngestConfig {
   double graph_patience_s = 5.0;       ///< At speed max: a finished submap's place in the graph is waited for this long.
   std::string scanner_id = "front";
   double fallback_field_of_view_rad = std::numbers::pi;  ///< First to last beam, where the log does not say.
+  double fallback_laser_ahead_m = 0.0;     ///< Where the laser is on the base, where the log does not say,
+  double fallback_laser_left_m = 0.0;
+  double fallback_laser_heading_rad = 0.0; ///< and where it looks, counter-clockwise from straight ahead.
   double sweep_s = 0.0;                ///< First to last beam's firing, where the log does not show it; 0: at once.
 };
 

@@ -16,6 +16,10 @@ const config::FieldTable<IngestConfig>& ingest_fields() {
       {"scanner_id", &C::scanner_id, "Names the scanner; its frame is laser_<scanner_id>."},
       {"fallback_field_of_view_rad", &C::fallback_field_of_view_rad, "First to last beam, where the log does not say.",
        Range{0.01, 6.2832}},
+      {"fallback_laser_ahead_m", &C::fallback_laser_ahead_m, "Of the laser on the base, where the log does not say.", Range{-100.0, 100.0}},
+      {"fallback_laser_left_m", &C::fallback_laser_left_m, "Of the laser on the base, where the log does not say.", Range{-100.0, 100.0}},
+      {"fallback_laser_heading_rad", &C::fallback_laser_heading_rad, "Where the laser looks, counter-clockwise from straight ahead, where the log does not say.",
+       Range{-6.2832, 6.2832}},
       {"sweep_s", &C::sweep_s, "First to last beam's firing, where the log does not show it; 0: at once.", Range{0.0, 1.0}},
   };
   return table;

@@ -4,8 +4,13 @@
 
 namespace slammot::ingest {
 
+files::CarmenLogOptions log_options(const IngestConfig& config) {
+  return {config.scanner_id, config.fallback_field_of_view_rad,
+          {config.fallback_laser_ahead_m, config.fallback_laser_left_m, config.fallback_laser_heading_rad}};
+}
+
 files::Result<LogSource> LogSource::open(const std::filesystem::path& file, const IngestConfig& config) {
-  auto log = files::CarmenLog::open(file, {config.scanner_id, config.fallback_field_of_view_rad});
+  auto log = files::CarmenLog::open(file, log_options(config));
   if (!log) return log.error();
   const double sweep_s = files::sweep_s_for(log->plan().figures, config.sweep_s);
   return LogSource(std::move(*log), sweep_s);

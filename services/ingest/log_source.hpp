@@ -10,6 +10,9 @@
 
 namespace slammot::ingest {
 
+/// How a log is to be read.
+files::CarmenLogOptions log_options(const IngestConfig& config);
+
 /// A scan and the odometry that the log has between the scan before and it.
 struct Step {
   std::vector<sensing::Odometry> odometry;

@@ -12,6 +12,7 @@
 #include "common/config/profiles.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/log_profile.hpp"
+#include "services/ingest/log_source.hpp"
 #include "services/simulator/live_drive.hpp"
 #include "services/simulator/scenario_files.hpp"
 
@@ -124,8 +125,7 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   if (auto fault = load_settings(options, drive->profile.profile, profile)) return *fault;
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
-  const files::CarmenLogOptions log_options{profile.ingest.scanner_id, profile.ingest.fallback_field_of_view_rad};
-  return Job{begin(*drive, options, log_options), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};
+  return Job{begin(*drive, options, ingest::log_options(profile.ingest)), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};
 }
 
 std::vector<std::int64_t> stamps_of(files::CarmenLog& log) {

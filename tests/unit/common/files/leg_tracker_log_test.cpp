@@ -47,10 +47,19 @@ TEST_F(LegTrackerFolder, IsReadAsALogOfScansWithOdometryAtTheirStamps) {
   EXPECT_FALSE(sensing::is_echo(scans[0].range_m[0], 11.0));
   EXPECT_FALSE(sensing::is_echo(scans[0].range_m[2], 11.0));
   EXPECT_FALSE(sensing::is_echo(scans[0].range_m[4], 11.0));
-  // Odometry is 0.1 s later by the bag's clock: at 100.5 between the lines of 100.39 and 100.45.
+  // Odometry is 0.09 s late: at 100.5 it is between the lines of 100.55 and 100.65.
   const auto at_first_scan = std::ranges::find(odometry, 100'500'000'000, &sensing::Odometry::stamp_ns);
   ASSERT_NE(at_first_scan, odometry.end());
-  EXPECT_NEAR(at_first_scan->wheel_from_base.x_m, 1.0 + 0.1 * (0.01 / 0.06), 1e-6);
+  EXPECT_NEAR(at_first_scan->wheel_from_base.x_m, 1.2 + 0.2 * 0.4, 1e-6);
+}
+
+TEST_F(LegTrackerFolder, TakesTheLaserToBeWhereTheOptionsSay) {
+  CarmenLogOptions options;
+  options.fallback_base_from_laser = {0.3, 0.1, 0.7};
+  EXPECT_EQ(CarmenLog::open(folder_.path(), options)->plan().base_from_laser, options.fallback_base_from_laser);
+  auto log = CarmenLog::open(folder_.path());
+  log->set_options(options);
+  EXPECT_EQ(log->plan().base_from_laser, options.fallback_base_from_laser);
 }
 
 TEST_F(LegTrackerFolder, CountsWhatIsMalformed) {

@@ -1,6 +1,6 @@
 #include "services/evaluator/annotations.hpp"
 
-#include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -15,10 +15,10 @@ using geometry::Vector2;
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 
 /// Ten seconds at 1 m/s along x, a pose every 0.1 s.
-metrics::Trajectory straight_way() {
-  metrics::Trajectory way;
-  for (int i = 0; i <= 100; ++i) way.push_back({i * kSecondNs / 10, {0.1 * i, 0.0, 0.0}});
-  return way;
+RunResult straight_way() {
+  RunResult result;
+  for (int i = 0; i <= 100; ++i) result.online.push_back({i * kSecondNs / 10, {0.1 * i, 0.0, 0.0}});
+  return result;
 }
 
 metrics::TrueObject person(std::size_t index, double x_m, double y_m) {
@@ -41,6 +41,18 @@ TEST(PlaceAnnotations, PutsPeopleIntoTheMapBetweenTheirSightings) {
     EXPECT_NEAR(at.objects[0].world_from_object.y_m, 2.0 * static_cast<double>(at.stamp_ns - 2 * kSecondNs) / kSecondNs, 1e-9);
     EXPECT_NEAR(at.objects[0].speed_mps, 2.0, 1e-9);
     EXPECT_EQ(at.objects[0].points, 3);
+  }
+}
+
+TEST(PlaceAnnotations, TakesThemFromWhereTheLaserIs) {
+  RunResult result = straight_way();
+  result.base_from_laser = {0.5, 0.0, 0.5 * std::numbers::pi};
+  Truth truth;
+  truth.annotated = {{{2 * kSecondNs, {person(0, 3.0, 0.0)}}, {2 * kSecondNs + kSecondNs / 2, {person(0, 3.0, 0.5)}}}};  // left of the way, stands
+  const Truth placed = place_annotations(truth, result, 3);
+  for (const ObjectsAt& at : *placed.objects) {
+    EXPECT_NEAR(at.objects.at(0).world_from_object.x_m, 2.5, 1e-9);
+    EXPECT_NEAR(at.objects.at(0).world_from_object.y_m, 3.0, 1e-9);
   }
 }
 
