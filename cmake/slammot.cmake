@@ -32,9 +32,26 @@ function(slammot_test name)
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
+  math(EXPR limit_s "${ARG_TIMEOUT} * ${SLAMMOT_TEST_PATIENCE}")
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+                       PROPERTIES TIMEOUT ${limit_s} LABELS "${ARG_LABELS}")
+endfunction()
+
+# slammot_script_test(bench COMMAND ... LABELS integration TIMEOUT 300): a test that is no GoogleTest. Exit code 77 is
+# "skipped": the test says why. WITHOUT_SANITIZERS "why" skips it where the code is built with any, ALONE keeps others
+# from running beside it.
+function(slammot_script_test name)
+  cmake_parse_arguments(ARG "ALONE" "TIMEOUT;WORKING_DIRECTORY;WITHOUT_SANITIZERS" "COMMAND;LABELS" ${ARGN})
+  if(SLAMMOT_SANITIZE AND ARG_WITHOUT_SANITIZERS)
+    set(ARG_COMMAND sh -c "echo \"skipped under sanitizers: $0\" && exit 77" "${ARG_WITHOUT_SANITIZERS}")
+  endif()
+  math(EXPR limit_s "${ARG_TIMEOUT} * ${SLAMMOT_TEST_PATIENCE}")
+  if(NOT ARG_WORKING_DIRECTORY)
+    set(ARG_WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  endif()
+  add_test(NAME ${name} COMMAND ${ARG_COMMAND} WORKING_DIRECTORY ${ARG_WORKING_DIRECTORY})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${limit_s} SKIP_RETURN_CODE 77 RUN_SERIAL ${ARG_ALONE})
 endfunction()

@@ -6,6 +6,7 @@ usage: bench_test.py SLAMMOT
 
 import csv
 import json
+import os
 import pathlib
 import signal
 import subprocess
@@ -17,6 +18,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "compose"))
 from trajectory import aligned_rmse_m, read_tum  # noqa: E402
 
+PATIENCE = float(os.environ.get("SLAMMOT_TEST_PATIENCE", 1))  # more for services built with sanitizers
 SERVICES = ["ingest", "localization", "detection", "tracking", "loop-closing", "map-store"]
 
 
@@ -33,7 +35,7 @@ def children_of(process):
     return found
 
 
-def wait_until(condition, what, within_s=30.0):
+def wait_until(condition, what, within_s=30.0 * PATIENCE):
     end = time.monotonic() + within_s
     while time.monotonic() < end:
         value = condition()
@@ -50,6 +52,8 @@ class Bench(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="slammot-bench-test-")
         cls.work = pathlib.Path(cls.folder.name)
+        for sanitizer in ["TSAN_OPTIONS", "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS"]:  # those of services would be lost with their logs
+            os.environ[sanitizer] = os.environ.get(sanitizer, "") + f":log_path={cls.work / 'sanitizer-report'}"
         subprocess.run([cls.slammot, "simulate", "block", "--output", cls.work], check=True, stdout=subprocess.DEVNULL)
         subprocess.run([cls.slammot, "run", "--input", cls.work / "block.log", "--output", cls.work / "run"],
                        check=True, stdout=subprocess.DEVNULL)
@@ -63,7 +67,13 @@ class Bench(unittest.TestCase):
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def end(self, bench, children):
-        words, _ = bench.communicate(timeout=120)
+        try:
+            words, _ = bench.communicate(timeout=120 * PATIENCE)
+        except subprocess.TimeoutExpired:
+            bench.kill()
+            raise
+        for report in self.work.glob("sanitizer-report*"):
+            self.fail(report.read_text())
         for process in children:
             self.assertFalse(pathlib.Path(f"/proc/{process}").exists(), f"left behind: {children[process]}\n{words}")
         return words
