@@ -67,8 +67,9 @@ void follow_side(Track& track, const Glimpse& glimpse, const TrackingConfig& con
   // A rectangle has sides at right angles: it may be a face or a flank.
   const double off_rad = std::remainder(glimpse.side->heading_rad - body.heading_rad, 0.5 * std::numbers::pi);
   constexpr double kFarthestRad = 0.5;
-  constexpr double kEndsOffM = 0.14;  // the errors of one scan are those of the next
-  const double sigma_rad = kEndsOffM * config.size_scale / glimpse.side->length_m;
+  constexpr double kEndsOffM = 0.2;  // the errors of one scan are those of the next, and short sides are round
+  constexpr double kMostSigmaRad = 0.1;
+  const double sigma_rad = std::min(kMostSigmaRad, kEndsOffM * config.size_scale / glimpse.side->length_m);
   if (std::abs(off_rad) > kFarthestRad) return;
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + sigma_rad * sigma_rad);
   turn(track, gain * off_rad, glimpse, config);

@@ -44,6 +44,11 @@ bool is_backdrop(const Segment& segment, const TrackingConfig& config) {
 
 bool is_slow(const Track& track) { return track.velocity_mps().norm() < 1.5; }
 
+bool may_have_a_flank(const Segment& segment, const TrackingConfig& config) {
+  constexpr double kShortestFlankM = 2.5;
+  return segment.box_length_m > kShortestFlankM * config.size_scale && segment.box_length_m < config.longest_body_m;
+}
+
 /// Most echoes side by side that have arrived since.
 int longest_arrival_since(const EarlierScan& then, const Segment& segment, const PolarView& now) {
   int longest = 0;
@@ -277,8 +282,7 @@ void Tracker::compare_with_past(const ScanView& view) {
     }
     const Segment& segment = scan.segments[s];
     const auto count = static_cast<double>(segment.beams.size());
-    const bool may_have_a_flank = segment.box_length_m > config_.box_from_extent_m && segment.box_length_m < config_.longest_body_m;
-    if (segment.label != PointLabel::kMoving && may_have_a_flank && long_ago != nullptr)
+    if (segment.label != PointLabel::kMoving && may_have_a_flank(segment, config_) && long_ago != nullptr)
       past.longest_arrival = std::max(past.longest_arrival, longest_arrival_since(*long_ago, segment, view.polar()));
     const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
     past.stood_before = past.stood > kLeastStoodShare * count;
@@ -320,8 +324,9 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
   constexpr int kFewest = 4;
   constexpr double kLeastFaceShare = 0.15;
-  const bool may_have_a_flank = segment.box_length_m > config_.box_from_extent_m && segment.box_length_m < config_.longest_body_m;
-  if (may_have_a_flank && past.longest_arrival >= kFewest && past.longest_arrival >= kLeastFaceShare * count) return true;
+  constexpr double kLeastFlankShare = 0.3;
+  const bool has_flank = may_have_a_flank(segment, config_) && past.stood > kLeastFlankShare * count;
+  if (has_flank && past.longest_arrival >= kFewest && past.longest_arrival >= kLeastFaceShare * count) return true;
   const int moved = past.arrived + past.receded;
   return moved >= kFewest && moved > 0.6 * count && segment.box_length_m < config_.longest_body_m;
 }
