@@ -51,27 +51,33 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
 PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& map_from_base, double gate_m, const PointToLineConfig& config) const {
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
   NormalEquations equations;
+  double xx = 0.0, xy = 0.0, xh = 0.0, yy = 0.0, yh = 0.0, hh = 0.0, x = 0.0, y = 0.0, h = 0.0;  // of J'WJ and J'Wr
+  const auto add = [&](const geometry::Vector2& direction, double by_heading_m, double residual_m, double information_per_m2) {
+    const double weight = robust_weight(residual_m, config.robust_scale_m) * information_per_m2;
+    const double weighted_x = weight * direction.x();
+    const double weighted_y = weight * direction.y();
+    const double weighted_h = weight * by_heading_m;
+    xx += weighted_x * direction.x(), xy += weighted_x * direction.y(), xh += weighted_x * by_heading_m;
+    yy += weighted_y * direction.y(), yh += weighted_y * by_heading_m, hh += weighted_h * by_heading_m;
+    x += weighted_x * residual_m, y += weighted_y * residual_m, h += weighted_h * residual_m;
+  };
   for (const Pair& pair : pairs_) {
     const geometry::Vector2 turned_m = turn * pair.in_base_m;
     const geometry::Vector2 offset_m = turned_m + map_from_base.translation_m() - pair.mean_m;
     if (offset_m.squaredNorm() > gate_m * gate_m) continue;
-    const geometry::Vector2 by_heading_m(-turned_m.y(), turned_m.x());
-    const auto add = [&](const geometry::Vector2& direction) {
-      const double residual_m = direction.dot(offset_m);
-      equations.add({direction.x(), direction.y(), direction.dot(by_heading_m)}, residual_m,
-                    robust_weight(residual_m, config.robust_scale_m) * pair.information_per_m2);
-      return residual_m;
-    };
     ++equations.matched;
     if (pair.has_direction) {
-      const double residual_m = add(pair.normal);
+      const double residual_m = pair.normal.dot(offset_m);
       equations.squared_residuals_m2 += residual_m * residual_m;
+      add(pair.normal, pair.normal.y() * turned_m.x() - pair.normal.x() * turned_m.y(), residual_m, pair.information_per_m2);
     } else {
       equations.squared_residuals_m2 += 0.5 * offset_m.squaredNorm();
-      add({1.0, 0.0});
-      add({0.0, 1.0});
+      add({1.0, 0.0}, -turned_m.y(), offset_m.x(), pair.information_per_m2);
+      add({0.0, 1.0}, turned_m.x(), offset_m.y(), pair.information_per_m2);
     }
   }
+  equations.H << xx, xy, xh, xy, yy, yh, xh, yh, hh;
+  equations.g << x, y, h;
   equations.H *= config.information_share;
   equations.g *= config.information_share;
   return equations;

@@ -57,10 +57,6 @@ class PointToLineMatcher {
     int matched = 0;
     double squared_residuals_m2 = 0.0;
 
-    void add(const Eigen::Vector3d& J, double residual_m, double weight) {
-      H.noalias() += weight * J * J.transpose();
-      g.noalias() += weight * residual_m * J;
-    }
   };
 
   void pair(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const geometry::Pose2& map_from_base,

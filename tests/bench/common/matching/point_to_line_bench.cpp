@@ -37,7 +37,8 @@ void match_a_scan(benchmark::State& state) {
   }
   const Pose2 prior = truth * Pose2{0.1, 0.0, 0.01};
   const geometry::UncertainPose2 uncertain_prior{prior, Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal()};
-  for (auto _ : state) benchmark::DoNotOptimize(PointToLineMatcher().match(points, surfels, uncertain_prior, prior, {}));
+  PointToLineMatcher matcher;
+  for (auto _ : state) benchmark::DoNotOptimize(matcher.match(points, surfels, uncertain_prior, prior, {}));
 }
 BENCHMARK(match_a_scan)->Arg(181)->Arg(361)->Arg(1081)->Unit(benchmark::kMicrosecond);
 
