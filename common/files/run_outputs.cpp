@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <future>
 #include <initializer_list>
 
 #include <Eigen/Cholesky>
@@ -66,6 +67,14 @@ void append_short(std::string& text, double value) {
   std::array<char, 32> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 5);
   text.append(1, ',').append(digits.data(), end.ptr);
+}
+
+std::optional<Error> write_maps(const std::filesystem::path& folder, const RunRecord& record) {
+  std::vector<PlacedSubmap> placed;
+  for (const auto& [id, submap] : record.submaps()) placed.push_back({&submap, record.map_from_submap(submap)});
+  const MapImages images = draw_map(placed);
+  if (auto fault = write_map_files(folder, "map", images.stationary)) return fault;
+  return write_map_files(folder, "moving", images.moving);
 }
 
 }  // namespace
@@ -160,6 +169,8 @@ double travelled_m(const std::vector<StampedPose>& trajectory) {
 }
 
 std::optional<Error> write_outputs(const std::filesystem::path& folder, const RunRecord& record, const RunReport& report) {
+  // Drawing takes as long as all the text does.
+  std::future<std::optional<Error>> maps = std::async(std::launch::async, [&] { return write_maps(folder, record); });
   const std::vector<StampedPose> corrected = record.corrected_trajectory();
   if (auto fault = write_file_atomically(folder / "online.tum", to_tum(record.online_trajectory()))) return fault;
   if (auto fault = write_file_atomically(folder / "trajectory.tum", to_tum(corrected))) return fault;
@@ -169,11 +180,7 @@ std::optional<Error> write_outputs(const std::filesystem::path& folder, const Ru
   if (auto fault = write_file_atomically(folder / "track_details.csv", to_track_details_csv(tracks))) return fault;
   if (auto fault = write_labels(folder / "labels.csv", record.label_rows())) return fault;
   if (auto fault = write_file_atomically(folder / "graph.g2o", to_g2o(record))) return fault;
-  std::vector<PlacedSubmap> placed;
-  for (const auto& [id, submap] : record.submaps()) placed.push_back({&submap, record.map_from_submap(submap)});
-  const MapImages images = draw_map(placed);
-  if (auto fault = write_map_files(folder, "map", images.stationary)) return fault;
-  if (auto fault = write_map_files(folder, "moving", images.moving)) return fault;
+  if (auto fault = maps.get()) return fault;
   return write_file_atomically(folder / "report.json", to_json_text(record, report, travelled_m(corrected)));
 }
 
