@@ -154,6 +154,27 @@ bool walks(const Track& track) {
   return !track.body.has_sides && track.largest_extent_m < 1.0 && track.velocity_mps().norm() < kFastestMps;
 }
 
+/// What is wrong with the centre in many scans alike, so that the filter, for which errors are new in each, does not see it:
+/// the size that is assumed, how far the shape is from a box, and how far the object goes while the scan sweeps.
+Matrix2d shared_error_covariance(const Track& track, double heading_rad, const TrackingConfig& config) {
+  constexpr double kHalfSweepS = 0.01;
+  constexpr double kShapeAlongM = 0.12;
+  constexpr double kShapeAcrossM = 0.08;
+  constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
+  double along_m2 = std::pow(kHalfSweepS * track.velocity_mps().norm(), 2);
+  double across_m2 = 0.0;
+  if (track.body.has_sides) {
+    along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * track.body.length.variance_m2;
+    across_m2 = std::pow(kShapeAcrossM * config.size_scale, 2) + 0.25 * track.body.width.variance_m2;
+  } else if (track.object_class != flow::ObjectClass::kPedestrian) {
+    along_m2 += std::pow(kHalfACycleM * config.size_scale, 2);
+    across_m2 = std::pow(0.5 * kHalfACycleM * config.size_scale, 2);
+  }
+  const Vector2d along{std::cos(heading_rad), std::sin(heading_rad)};
+  const Vector2d across{-along.y(), along.x()};
+  return along_m2 * along * along.transpose() + across_m2 * across * across.transpose();
+}
+
 void observe(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse) {
   ++track.hits;
   track.last_seen_ns = stamp_ns;
@@ -311,10 +332,7 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   object.last_seen_ns = track.last_seen_ns;
   object.contour_in_odom_m = track.contour_in_odom_m;
   if (track.confirmed) object.predicted_path = predicted_path(track, config);
-  // The filter follows a centre that assumes the size; what is not known of the size is added here.
-  const Vector2d along{std::cos(object.heading_in_odom_rad), std::sin(object.heading_in_odom_rad)};
-  if (track.body.has_sides)
-    object.covariance.topLeftCorner<2, 2>() += 0.25 * track.body.length.variance_m2 * along * along.transpose();
+  object.covariance.topLeftCorner<2, 2>() += shared_error_covariance(track, object.heading_in_odom_rad, config);
   return object;
 }
 
