@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kCellsBeforeEcho = 1.5;
 constexpr double kCellsBetweenBeams = 3.0;  ///< What is wider than a quarter of that is hit often enough to stay in the map.
+constexpr double kMostSlope = 10.0;         ///< Echoes whose ranges differ by more times their distance are of two things.
 constexpr std::uint64_t kInRow = 0xff;      ///< Bits of a block's first row.
 
 /// How far a ray that starts inside goes before it leaves the window; 0 when it starts outside.
@@ -103,29 +104,37 @@ void EvidenceGrid::measure_free_ways(const Eigen::Vector2d& origin_m, const std:
     const double length_m = way_m.norm();
     // An echo's own cell, and the one that a shallow beam crosses just before it, are not free.
     const double free_m = rays[i].echo == Echo::kNone ? length_m : length_m - kCellsBeforeEcho * window_.cell_size_m;
-    ways_[i] = {length_m > 0.0 ? Eigen::Vector2d(way_m / length_m) : Eigen::Vector2d(1.0, 0.0), std::max(0.0, free_m), 0.0};
+    ways_[i] = {length_m > 0.0 ? Eigen::Vector2d(way_m / length_m) : Eigen::Vector2d(1.0, 0.0), std::max(0.0, free_m), 0.0, 0.0, Eigen::Vector2d::Zero()};
   }
   if (beam_step_rad == 0.0) return;
   const double dense_m = kCellsBetweenBeams * window_.cell_size_m / std::abs(beam_step_rad);
   const bool goes_all_round = static_cast<double>(rays.size() + 1) * std::abs(beam_step_rad) > 2.0 * std::numbers::pi;
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     if (i + 1 == ways_.size() && !goes_all_round) break;
-    const FreeWay& next = ways_[(i + 1) % ways_.size()];
-    const bool are_neighbours = ways_[i].direction.dot(next.direction) > std::cos(2.0 * beam_step_rad);
-    if (are_neighbours) ways_[i].to_next_m = std::min({ways_[i].length_m, next.length_m, dense_m});
+    FreeWay& way = ways_[i];
+    FreeWay& next = ways_[(i + 1) % ways_.size()];
+    if (way.direction.dot(next.direction) <= std::cos(2.0 * beam_step_rad)) continue;
+    way.half_way = (way.direction + next.direction).normalized();
+    const double shorter_m = std::min(way.length_m, next.length_m);
+    const bool are_of_one_surface = std::abs(way.length_m - next.length_m) < kMostSlope * shorter_m * std::abs(beam_step_rad);
+    way.to_next_m = std::min(dense_m, are_of_one_surface ? shorter_m : way.length_m);
+    next.to_previous_m = std::min(dense_m, are_of_one_surface ? shorter_m : next.length_m);
   }
 }
 
 void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m) {
   const Eigen::Vector2d corner(window_.first.column, window_.first.row);
-  const auto at = [&](const FreeWay& way, double distance_m) -> Eigen::Vector2d {
-    return (origin_m + distance_m * way.direction) / window_.cell_size_m - corner;
+  const auto at = [&](const Eigen::Vector2d& direction, double distance_m) -> Eigen::Vector2d {
+    return (origin_m + distance_m * direction) / window_.cell_size_m - corner;
   };
   for (std::size_t i = 0; i < ways_.size(); ++i) {
-    const FreeWay& before = ways_[i == 0 ? ways_.size() - 1 : i - 1];
+    const FreeWay& way = ways_[i];
     const FreeWay& next = ways_[i + 1 == ways_.size() ? 0 : i + 1];
-    if (before.to_next_m != ways_[i].to_next_m) add_edge(at(ways_[i], before.to_next_m), at(ways_[i], ways_[i].to_next_m));
-    if (ways_[i].to_next_m > 0.0) add_edge(at(ways_[i], ways_[i].to_next_m), at(next, ways_[i].to_next_m));
+    if (way.to_previous_m != way.to_next_m) add_edge(at(way.direction, way.to_previous_m), at(way.direction, way.to_next_m));
+    if (way.half_way.isZero()) continue;
+    if (way.to_next_m > 0.0) add_edge(at(way.direction, way.to_next_m), at(way.half_way, way.to_next_m));
+    if (way.to_next_m != next.to_previous_m) add_edge(at(way.half_way, way.to_next_m), at(way.half_way, next.to_previous_m));
+    if (next.to_previous_m > 0.0) add_edge(at(way.half_way, next.to_previous_m), at(next.direction, next.to_previous_m));
   }
 }
 
@@ -254,8 +263,7 @@ void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<
     outline_free_space(origin_m);
     fill_outline();
     for (std::size_t i = 0; i < ways_.size(); ++i) {
-      const double told_m = std::max(ways_[i].to_next_m, ways_[i == 0 ? ways_.size() - 1 : i - 1].to_next_m);
-      walk_free_way(origin_m, ways_[i].direction, told_m, ways_[i].length_m);
+      walk_free_way(origin_m, ways_[i].direction, std::max(ways_[i].to_next_m, ways_[i].to_previous_m), ways_[i].length_m);
     }
     keep_echoes_out(rays);
     lower_free_cells();

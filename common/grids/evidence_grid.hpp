@@ -40,8 +40,9 @@ class EvidenceGrid {
   const GridWindow& window() const { return window_; }
 
   /// Adds one scan, rays in the order of the beams, beam_step_rad apart. Each cell changes at most once a scan, and an echo
-  /// wins over a beam that passed. Where beams are not much farther apart than cells, what lies between two of them is
-  /// free as far as the shorter one goes; with a step of 0 each beam tells of its own cells only.
+  /// wins over a beam that passed. Where beams are not much farther apart than cells, a beam stands for what lies half way
+  /// to its neighbours, as far as the shorter one goes where both meet one surface; with a step of 0 each beam tells of its
+  /// own cells only.
   void integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
 
   /// Adds one stationary echo without its beam: a point given back by tracking.
@@ -124,7 +125,9 @@ class EvidenceGrid {
   struct FreeWay {
     Eigen::Vector2d direction = Eigen::Vector2d::Zero();
     double length_m = 0.0;
-    double to_next_m = 0.0;                    ///< Free between this beam and the next.
+    double to_next_m = 0.0;                    ///< Free from this beam half way to the next,
+    double to_previous_m = 0.0;                ///< and half way to the one before.
+    Eigen::Vector2d half_way = Eigen::Vector2d::Zero();  ///< Direction in the middle between this beam and the next.
   };
   std::vector<FreeWay> ways_;                  ///< By ray.
 };

@@ -140,17 +140,29 @@ EvidenceGrid grid_after_two_beams(double first_m, double second_m, double beam_s
 
 int free_at(const EvidenceGrid& grid, double range_m) { return grid.so_steps(grid.window().cell_at(0.1 + range_m, 0.1)); }
 
-TEST(EvidenceGrid, HoldsWhatLiesBetweenBeamsForFreeAsFarAsTheShorterOneGoes) {
-  const EvidenceGrid grid = grid_after_two_beams(10.0, 15.0, 0.045);  // 0.45 m apart where the first one ends
+TEST(EvidenceGrid, HoldsWhatLiesBeforeASurfaceForFreeAsFarAsTheShorterBeamGoes) {
+  const EvidenceGrid grid = grid_after_two_beams(10.0, 13.0, 0.045);  // a wall at a flat angle
+  const auto beside = [&](double range_m) { return grid.so_steps(grid.window().cell_at(0.1 + range_m * std::cos(0.012), 0.1 + range_m * std::sin(0.012))); };
   EXPECT_EQ(free_at(grid, 9.0), -kFree);
-  EXPECT_EQ(free_at(grid, 11.0), 0);
-  EXPECT_EQ(grid.so_steps(grid.window().cell_at(0.1 + 14.0 * std::cos(0.0225), 0.1 + 14.0 * std::sin(0.0225))), -kFree);  // on the beam itself
+  EXPECT_EQ(beside(9.0), -kFree);
+  EXPECT_EQ(beside(11.5), 0);  // nearer to the longer beam
+}
+
+TEST(EvidenceGrid, LetsTheBeamsOfTwoThingsStandForHalfOfWhatLiesBetween) {
+  const EvidenceGrid grid = grid_after_two_beams(10.0, 17.0, 0.045);  // 0.45 m apart where the first one ends
+  const auto beside = [&](double range_m, double angle_rad) {
+    return grid.so_steps(grid.window().cell_at(0.1 + range_m * std::cos(angle_rad), 0.1 + range_m * std::sin(angle_rad)));
+  };
+  EXPECT_EQ(beside(8.0, -0.012), -kFree);
+  EXPECT_EQ(beside(14.0, -0.012), 0);
+  EXPECT_EQ(beside(14.0, 0.012), -kFree);
 }
 
 TEST(EvidenceGrid, SaysNothingBetweenBeamsThatAreFarApart) {
   const EvidenceGrid grid = grid_after_two_beams(18.0, 18.0, 0.09);
   EXPECT_EQ(free_at(grid, 5.0), -kFree);
   EXPECT_EQ(free_at(grid, 15.0), 0);  // 1.35 m between them: room for a post
+  EXPECT_EQ(grid.so_steps(grid.window().cell_at(0.1 + 15.0 * std::cos(0.045), 0.1 + 15.0 * std::sin(0.045))), -kFree);  // on the beam itself
 }
 
 TEST(EvidenceGrid, ChangesACellOnceAScanHoweverManyBeamsMeetThere) {
