@@ -47,8 +47,8 @@ double PolarView::steps_towards(double direction_in_odom_rad) const {
 SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   constexpr double kSamePlaceM = 0.25;
   constexpr double kSamePlacePerM = 0.005;
-  constexpr double kBeyondM = 0.5;
-  constexpr double kBeyondPerM = 0.01;
+  constexpr double kBeyondM = 0.35;
+  constexpr double kBeyondPerM = 0.008;
   constexpr long kBeamsAside = 2;
   const Vector2d way = point_in_odom_m - laser_in_odom_m_;
   const double distance_m = way.norm();
