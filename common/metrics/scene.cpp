@@ -9,8 +9,10 @@ namespace {
 
 using geometry::Vector2;
 
-double range_m(const geometry::Pose2& world_from_object, const Scene& scene) {
-  return (world_from_object.translation_m() - scene.world_from_base.translation_m()).norm();
+bool is_in_view(const geometry::Pose2& world_from_object, const Scene& scene, const CountingRule& rule) {
+  const Vector2 in_base_m = geometry::inverse(scene.world_from_base) * world_from_object.translation_m();
+  const double bearing_rad = std::atan2(in_base_m.y(), in_base_m.x());
+  return in_base_m.norm() <= rule.range_m && bearing_rad >= rule.first_bearing_rad && bearing_rad <= rule.last_bearing_rad;
 }
 
 Eigen::MatrixXd distances_m(const Scene& scene) {
@@ -50,7 +52,7 @@ std::vector<std::size_t> counted_tracks(const Scene& scene, const std::vector<st
       if (object_counts(partner[column])) counted.push_back(column);
       continue;
     }
-    bool is_left_out = range_m(scene.tracks[column].world_from_object, scene) > rule.range_m;
+    bool is_left_out = !is_in_view(scene.tracks[column].world_from_object, scene, rule);
     for (std::size_t row = 0; row < scene.objects.size() && !is_left_out; ++row) {
       is_left_out = !object_counts(row) && distance_m(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) <= rule.dont_care_margin_m;
     }
@@ -82,7 +84,7 @@ double distance_to_box_m(const Vector2& point_in_world_m, const TrueObject& obje
 }
 
 bool does_count(const TrueObject& object, const Scene& scene, const CountingRule& rule) {
-  return object.points >= rule.least_points && std::abs(object.speed_mps) >= rule.least_speed_mps && range_m(object.world_from_object, scene) <= rule.range_m;
+  return object.points >= rule.least_points && std::abs(object.speed_mps) >= rule.least_speed_mps && is_in_view(object.world_from_object, scene, rule);
 }
 
 std::vector<Scene> fill_gaps(std::vector<Scene> scenes, std::int64_t longest_gap_ns) {

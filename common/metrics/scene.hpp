@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ struct Scene {
 /// Which objects count, and what is near enough; docs/evaluation.md has the reasons.
 struct CountingRule {
   double range_m = 50.0;             ///< Objects farther from the vehicle do not count,
+  double first_bearing_rad = -std::numbers::pi;  ///< nor those outside of these directions from the vehicle, against its axis,
+  double last_bearing_rad = std::numbers::pi;    ///< which may be all that the truth knows of,
   double least_speed_mps = 0.5;      ///< nor do slower ones,
   int least_points = 3;              ///< nor those with fewer echoes.
   double dont_care_margin_m = 1.0;   ///< A track this near to the box of such an object counts neither way.
@@ -71,7 +74,7 @@ std::vector<Scene> fill_gaps(std::vector<Scene> scenes, std::int64_t longest_gap
 
 /// All objects, those that do not count too, are first paired with tracks by similarity. Then a track is left out when
 /// its partner does not count; or when it has none and is within the margin of an object that does not count, or out
-/// of range.
+/// of range or of the bearings that count.
 CountedScene count_scene(const Scene& scene, const CountingRule& rule);
 
 }  // namespace slammot::metrics

@@ -1,10 +1,18 @@
 #include "services/evaluator/comparison.hpp"
 
+#include <numbers>
+#include <utility>
+
 #include <CLI/CLI.hpp>
 
 #include "services/evaluator/table_file.hpp"
 
 namespace slammot::evaluator {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
 
 void add_comparison_options(CLI::App& command, ComparisonOptions& options, TruthIs truth) {
   metrics::CountingRule& rule = options.evaluation.rule;
@@ -14,6 +22,10 @@ void add_comparison_options(CLI::App& command, ComparisonOptions& options, Truth
       ->type_name("PREFIX");
   command.add_option("--input", options.input, "Log of the drive, for what is judged echo by echo [PREFIX.log]")->type_name("FILE");
   command.add_option("--range", rule.range_m, "Objects farther away do not count [m]")->capture_default_str()->check(CLI::PositiveNumber);
+  command.add_option_function<std::pair<double, double>>(
+             "--bearings", [&rule](const auto& deg) { rule.first_bearing_rad = deg.first * kDegree, rule.last_bearing_rad = deg.second * kDegree; },
+             "Objects seen from the vehicle in other directions than between these two do not count: FROM TO, left of its axis is positive [deg]")
+      ->type_name("DEG DEG");
   command.add_option("--min-speed", rule.least_speed_mps, "Slower objects do not count [m/s]")->capture_default_str()->check(CLI::NonNegativeNumber);
   command.add_option("--min-points", rule.least_points, "Objects with fewer echoes do not count")->capture_default_str()->check(CLI::NonNegativeNumber);
   command.add_option("--gate", rule.gate_m, "A match is at most this far from the true box [m]")->capture_default_str()->check(CLI::PositiveNumber);

@@ -130,6 +130,8 @@ Json to_json(const metrics::MapQuality& map) {
 
 Json to_json(const EvaluationOptions& options) {
   return {{"range_m", options.rule.range_m},
+          {"first_bearing_rad", options.rule.first_bearing_rad},
+          {"last_bearing_rad", options.rule.last_bearing_rad},
           {"least_speed_mps", options.rule.least_speed_mps},
           {"least_points", options.rule.least_points},
           {"dont_care_margin_m", options.rule.dont_care_margin_m},

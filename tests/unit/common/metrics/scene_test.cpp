@@ -40,6 +40,15 @@ TEST(DoesCount, NotWhatStandsIsFarOrIsHardlySeen) {
   EXPECT_FALSE(does_count(hardly_seen, scene, kRule));
 }
 
+TEST(CountScene, LeavesOutWhatIsInDirectionsOfWhichTheTruthKnowsNothing) {
+  CountingRule rule;
+  rule.first_bearing_rad = -0.5, rule.last_bearing_rad = 0.2;
+  const Scene scene{0, {0.0, 0.0, 0.5 * std::numbers::pi}, {car_at(0.0, 20.0), car_at(-20.0, 0.0, 1)}, {track_at(5.0, 15.0), track_at(-15.0, 10.0, 1)}};
+  const CountedScene counted = count_scene(scene, rule);
+  EXPECT_EQ(counted.objects, std::vector<std::size_t>{0});  // ahead, not left
+  EXPECT_EQ(counted.tracks, std::vector<std::size_t>{0});
+}
+
 TEST(CountScene, LeavesOutATrackOnAnObjectThatDoesNotCount) {
   const Scene scene{0, {}, {stopped_car_at(10.0, 0.0)}, {track_at(10.0, 0.5), track_at(12.9, 0.0, 1)}};
   const CountedScene counted = count_scene(scene, kRule);

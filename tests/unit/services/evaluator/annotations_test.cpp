@@ -40,7 +40,6 @@ TEST(PlaceAnnotations, PutsPeopleIntoTheMapBetweenTheirSightings) {
     EXPECT_NEAR(at.objects[0].world_from_object.x_m, 7.0, 1e-9);
     EXPECT_NEAR(at.objects[0].world_from_object.y_m, 2.0 * static_cast<double>(at.stamp_ns - 2 * kSecondNs) / kSecondNs, 1e-9);
     EXPECT_NEAR(at.objects[0].speed_mps, 2.0, 1e-9);
-    EXPECT_EQ(at.objects[0].points, 3);
   }
 }
 
@@ -62,6 +61,35 @@ TEST(PlaceAnnotations, SaysNothingOfPeopleWhoWereLeftOutForLong) {
   const Truth placed = place_annotations(truth, straight_way(), 3);
   EXPECT_TRUE(placed.objects->empty());
   EXPECT_EQ(placed.trajectory.size(), 21U);  // these scans count: who is tracked there is false
+}
+
+TEST(PlaceAnnotations, TakesThemFromTheScanThatWasLookedAt) {
+  constexpr std::int64_t kLateNs = 60'000'000;  // marked between that scan and the next
+  Truth truth;
+  truth.annotated = {{{2 * kSecondNs + kLateNs, {person(0, 5.0, 0.0)}}, {2 * kSecondNs + kSecondNs / 2 + kLateNs, {person(0, 4.5, 0.0)}}}};  // stands
+  const Truth placed = place_annotations(truth, straight_way(), 3);
+  ASSERT_EQ(placed.objects->size(), 6U);
+  EXPECT_EQ(placed.objects->front().stamp_ns, 2 * kSecondNs);
+  for (const ObjectsAt& at : *placed.objects) {
+    EXPECT_NEAR(at.objects.at(0).world_from_object.x_m, 7.0, 1e-9);
+    EXPECT_NEAR(at.objects.at(0).speed_mps, 0.0, 1e-9);
+  }
+}
+
+TEST(PlaceAnnotations, HidesPeopleInScansInWhichTheyWereNotMarked) {
+  Truth truth;
+  truth.annotated = {{{2 * kSecondNs, {person(0, 5.0, 0.0)}}, {2 * kSecondNs + kSecondNs / 2, {person(0, 4.5, 0.0)}}}};
+  const Truth placed = place_annotations(truth, straight_way(), 3);
+  ASSERT_EQ(placed.objects->size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(placed.objects->at(i).objects.at(0).points, i == 0 || i == 5 ? 3 : 0);
+}
+
+TEST(PlaceAnnotations, DoesNotTakeAnUnsteadyHandForAWalk) {
+  Truth truth;
+  truth.annotated.emplace();
+  for (int i = 0; i <= 10; ++i) truth.annotated->push_back({2 * kSecondNs + i * kSecondNs / 10, {person(0, 5.0 - 0.1 * i, i % 2 == 0 ? 0.1 : -0.1)}});
+  const Truth placed = place_annotations(truth, straight_way(), 3);
+  for (const ObjectsAt& at : *placed.objects) EXPECT_LT(at.objects.at(0).speed_mps, 0.2);
 }
 
 TEST(ReadTruth, TakesAnnotationsOfAFolder) {
