@@ -1,12 +1,21 @@
 #include "services/tracking/scan_history.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace slammot::tracking {
 namespace {
 
 constexpr std::int64_t kIntervalNs = 100'000'000;
+constexpr double kNearM = 0.5;  ///< Less than a step.
+constexpr double kGoesAlongM = 0.35;
+constexpr std::int64_t kGoesAlongForNs = 250'000'000;
 constexpr std::int64_t kLongestNs = 2'000'000'000;
+
+/// Whether the scan had an echo so near that is not of something known to move.
+bool had_something_near(const EarlierScan& scan, const Eigen::Vector2d& point_in_odom_m, double within_m) {
+  return scan.view.any_echo_near(point_in_odom_m, within_m, [&](std::size_t beam) { return !scan.owners[beam].is_confirmed; });
+}
 
 }  // namespace
 
@@ -23,11 +32,25 @@ const EarlierScan* ScanHistory::older_than(std::int64_t stamp_ns, double age_s) 
   return nullptr;
 }
 
-Past past_of(std::size_t beam, const PolarView& now, const EarlierScan& then) {
-  const SightOfPlace before = then.view.sight_of(now.point_in_odom_m(beam));
-  if (before.sight == Sight::kThrough) return Past::kArrived;
-  if (before.sight == Sight::kNothing || then.owners[before.beam].is_confirmed) return Past::kUnknown;
-  if (before.sight == Sight::kThere) return Past::kStood;
+Past ScanHistory::past_of(std::size_t beam, const PolarView& now, const EarlierScan& then) const {
+  const Eigen::Vector2d& point_m = now.point_in_odom_m(beam);
+  const SightOfPlace before = then.view.sight_of(point_m);
+  switch (before.sight) {
+    case Sight::kThrough: return Past::kArrived;
+    case Sight::kNothing: return Past::kUnknown;
+    case Sight::kThere: return then.owners[before.beam].is_confirmed ? Past::kUnknown : Past::kStood;
+    case Sight::kHidden: break;
+    case Sight::kEmpty: {
+      const Eigen::Vector2d from_laser_m = point_m - now.laser_in_odom_m();
+      const std::int64_t a_while_ago_ns = scans_.back().stamp_ns - kGoesAlongForNs;
+      const bool was_near = std::ranges::any_of(scans_, [&](const EarlierScan& scan) {
+        return (scan.stamp_ns <= then.stamp_ns && had_something_near(scan, point_m, kNearM)) ||
+               (scan.stamp_ns <= a_while_ago_ns && had_something_near(scan, scan.view.laser_in_odom_m() + from_laser_m, kGoesAlongM));
+      });
+      return was_near ? Past::kUnknown : Past::kAppeared;
+    }
+  }
+  if (then.owners[before.beam].is_confirmed) return Past::kUnknown;
   const SightOfPlace where_it_was = now.sight_of(then.view.point_in_odom_m(before.beam));
   return where_it_was.sight == Sight::kThrough ? Past::kReceded : Past::kUnknown;
 }

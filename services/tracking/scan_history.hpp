@@ -28,6 +28,7 @@ enum class Past : std::uint8_t {
   kUnknown,
   kStood,    ///< The earlier scan had an echo at the same place, from nothing that is known to move.
   kArrived,  ///< The earlier scan saw through this place.
+  kAppeared, ///< The earlier scan had no echo in its direction, though it is near: most likely nothing was there.
   kReceded,  ///< Something nearer, not known to move, hid the place, and has gone.
 };
 
@@ -40,12 +41,16 @@ class ScanHistory {
   /// The youngest kept scan at least age_s older than the stamp; none where the history is shorter.
   const EarlierScan* older_than(std::int64_t stamp_ns, double age_s) const;
 
+  /// What the echo of a beam says against an earlier scan, which must be one of those kept. It has appeared only if no scan
+  /// kept up to that one had an echo near its place: what sends echoes now and then, being dark or thin, stands where it
+  /// stood. Nor if one a while ago had an echo as far away in the same direction: glass answers where it faces the scanner,
+  /// and that place goes along with the vehicle.
+  Past past_of(std::size_t beam, const PolarView& now, const EarlierScan& then) const;
+
   void clear() { scans_.clear(); }
 
  private:
   std::deque<EarlierScan> scans_;  ///< Oldest first.
 };
-
-Past past_of(std::size_t beam, const PolarView& now, const EarlierScan& then);
 
 }  // namespace slammot::tracking

@@ -44,6 +44,19 @@ double PolarView::steps_towards(double direction_in_odom_rad) const {
   return (half_view_rad + wrap_angle(turned * (direction_in_odom_rad - first_beam_in_odom_rad_) - half_view_rad)) / beam_step_rad_;
 }
 
+bool PolarView::any_echo_near(const Vector2d& point_in_odom_m, double within_m, const std::function<bool(std::size_t)>& counts) const {
+  const Vector2d way = point_in_odom_m - laser_in_odom_m_;
+  const double distance_m = way.norm();
+  const double half_width = distance_m <= within_m ? static_cast<double>(range_m_.size()) : std::asin(within_m / distance_m) / beam_step_rad_;
+  const double middle = steps_towards(std::atan2(way.y(), way.x()));
+  const auto last = static_cast<double>(range_m_.size());
+  const auto first_beam = static_cast<std::size_t>(std::clamp(std::floor(middle - half_width), 0.0, last));
+  const auto end_beam = static_cast<std::size_t>(std::clamp(std::ceil(middle + half_width) + 1.0, 0.0, last));
+  for (std::size_t beam = first_beam; beam < end_beam; ++beam)
+    if (range_m_[beam] > 0.0F && (points_in_odom_m_[beam] - point_in_odom_m).squaredNorm() < within_m * within_m && counts(beam)) return true;
+  return false;
+}
+
 SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   constexpr double kSamePlaceM = 0.25;
   constexpr double kSamePlacePerM = 0.005;
@@ -74,13 +87,17 @@ SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   }
   const double margin_m = kBeyondM + kBeyondPerM * distance_m;
   int through = 0;
+  int empty = 0;
   for (long i = middle - 1; i <= middle + 1; ++i) {
     const double range_m = static_cast<double>(range_m_[static_cast<std::size_t>(i)]);
     if (range_m > 0.0 && range_m < distance_m - margin_m) return {Sight::kHidden, static_cast<std::size_t>(i)};
     // A beam without echo does not tell that it went through: what it met may have been too dark.
     if (range_m > distance_m + margin_m) ++through;
+    if (range_m <= 0.0) ++empty;
   }
   if (through >= 2 && range_m_[static_cast<std::size_t>(middle)] > 0.0F) return {Sight::kThrough, static_cast<std::size_t>(middle)};
+  constexpr double kEchoesWithinM = 8.0;
+  if (empty == 3 && distance_m < kEchoesWithinM) return {Sight::kEmpty, static_cast<std::size_t>(middle)};
   return {};
 }
 
@@ -123,7 +140,8 @@ Visibility ScanView::visibility_of(const Body& body, const Vector2d& centre_m) c
     ++visibility.beams;
     const auto range_m = static_cast<double>(scan_->range_m[beam]);
     if (range_m > 0.0 && range_m < nearest_m - kMarginM) ++visibility.blocked;
-    if (range_m <= 0.0 || range_m > farthest_m + kMarginM) ++visibility.passed;
+    if (range_m > farthest_m + kMarginM) ++visibility.passed;
+    if (range_m <= 0.0) ++visibility.unanswered;
   }
   return visibility;
 }

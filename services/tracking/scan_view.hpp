@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace slammot::tracking {
 struct Visibility {
   int beams = 0;               ///< That point at the body,
   int blocked = 0;             ///< of which so many ended in front of it
-  int passed = 0;              ///< and so many went through to something behind it, or came back from nothing.
+  int passed = 0;              ///< and so many went through to something behind it,
+  int unanswered = 0;          ///< and so many gave no echo: passed, or swallowed by something dark.
 };
 
 /// What a scan says about one place.
@@ -24,6 +26,7 @@ enum class Sight : std::uint8_t {
   kThere,    ///< Something was echoed from here.
   kThrough,  ///< The beams went on beyond it.
   kHidden,   ///< Something nearer is in the way.
+  kEmpty,    ///< Near enough for most things to be echoed, and nothing was: neither from here nor from beyond.
 };
 
 struct SightOfPlace {
@@ -45,6 +48,9 @@ class PolarView {
   /// What this scan says about a place; consistency as in Wang 2004, Section 6.2, but between two scans, so that errors of
   /// the map do not count.
   SightOfPlace sight_of(const Eigen::Vector2d& point_in_odom_m) const;
+
+  /// Whether any echo that counts lies so near to a place.
+  bool any_echo_near(const Eigen::Vector2d& point_in_odom_m, double within_m, const std::function<bool(std::size_t beam)>& counts) const;
 
   /// Direction in steps from beam 0, ascending with the beams; within half a turn of the middle of the field of view.
   double steps_towards(double direction_in_odom_rad) const;

@@ -263,7 +263,9 @@ void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evide
   track.evidence.undecided = fade * track.evidence.undecided + evidence.undecided;
   double gain = is_moving ? config.moving_hit_score : config.other_hit_score;
   const double stands_share = evidence.stood / std::max(1.0, evidence.stood + evidence.moved + evidence.undecided);
-  if (stands_share > 0.5 && track.velocity_mps().norm() > config.contradicted_above_mps) gain = config.contradiction_score;
+  // Who walks comes to where nothing was; what always may have been where it is only seems to walk, from thing to thing.
+  const bool seems_to_walk = track.confirmed && walks(track) && !is_moving && evidence.moved == 0.0;
+  if ((stands_share > 0.5 || seems_to_walk) && track.velocity_mps().norm() > config.contradicted_above_mps) gain = config.contradiction_score;
   if (!is_plausible(track.body, config) || track.velocity_mps().norm() > 2.0 * config.fastest_mps) gain = config.implausible_score;
   track.score = std::min(config.most_score, track.score + gain);
 }
@@ -271,8 +273,10 @@ void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evide
 void score_miss(Track& track, const Visibility& visibility, double time_s, const TrackingConfig& config) {
   track.score += (visibility.beams == 0 ? config.out_of_view_score_per_s : config.occluded_score_per_s) * time_s;
   // What hides the body before and behind counts less: a share of the beams decides how sure the miss is.
-  const double share = visibility.beams == 0 ? 0.0 : static_cast<double>(visibility.passed) / visibility.beams;
-  track.score += std::max(config.most_passed_score, config.passed_beam_score * visibility.passed) * share;
+  constexpr double kLegUnanswered = 0.1;  // legs are thin and often dark; a vehicle answers
+  const double passed = visibility.passed + (walks(track) ? kLegUnanswered : 1.0) * visibility.unanswered;
+  const double share = visibility.beams == 0 ? 0.0 : passed / visibility.beams;
+  track.score += std::max(config.most_passed_score, config.passed_beam_score * passed) * share;
 }
 
 bool has_proven_to_move(const Track& track, const TrackingConfig& config) {

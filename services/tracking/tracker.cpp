@@ -54,7 +54,7 @@ int longest_arrival_since(const EarlierScan& then, const Segment& segment, const
   int longest = 0;
   int run = 0;
   for (const std::uint16_t beam : segment.beams) {
-    run = past_of(beam, now, then) == Past::kArrived ? run + 1 : 0;
+    run = then.view.sight_of(now.point_in_odom_m(beam)).sight == Sight::kThrough ? run + 1 : 0;
     longest = std::max(longest, run);
   }
   return longest;
@@ -273,10 +273,11 @@ void Tracker::compare_with_past(const ScanView& view) {
     int arrival = 0;
     for (const std::uint16_t beam : scan.segments[s].beams) {
       if (then == nullptr) break;
-      past_of_beam_[beam] = past_of(beam, view.polar(), *then);
+      past_of_beam_[beam] = history_.past_of(beam, view.polar(), *then);
       past.stood += past_of_beam_[beam] == Past::kStood ? 1 : 0;
       past.arrived += past_of_beam_[beam] == Past::kArrived ? 1 : 0;
       past.receded += past_of_beam_[beam] == Past::kReceded ? 1 : 0;
+      past.appeared += past_of_beam_[beam] == Past::kAppeared ? 1 : 0;
       arrival = past_of_beam_[beam] == Past::kArrived ? arrival + 1 : 0;
       past.longest_arrival = std::max(past.longest_arrival, arrival);
     }
@@ -327,6 +328,8 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   constexpr double kLeastFlankShare = 0.3;
   const bool has_flank = may_have_a_flank(segment, config_) && past.stood > kLeastFlankShare * count;
   if (has_flank && past.longest_arrival >= kFewest && past.longest_arrival >= kLeastFaceShare * count) return true;
+  // A leg sends few echoes.
+  if (segment.box_length_m < config_.stride_m && past.appeared + past.arrived == count) return true;
   const int moved = past.arrived + past.receded;
   return moved >= kFewest && moved > 0.6 * count && segment.box_length_m < config_.longest_body_m;
 }
@@ -354,9 +357,10 @@ void Tracker::begin_tracks(const ScanView& view) {
 MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const {
   MotionEvidence evidence;
   for (const std::uint16_t beam : shares_.beams_of_track[track]) {
-    const Past past = past_of(beam, view.polar(), then);
-    if (past == Past::kArrived) evidence.moved += 1.0;
-    else if (past == Past::kStood) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
+    const Past past = history_.past_of(beam, view.polar(), then);
+    const bool has_stayed = past_of_beam_[beam] == Past::kStood;  // since it came into sight
+    if (past == Past::kArrived || (past == Past::kAppeared && !has_stayed)) evidence.moved += 1.0;
+    else if (past == Past::kStood || past == Past::kAppeared) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
     else evidence.undecided += 1.0;
   }
   for (std::size_t beam = 0; beam < then.owners.size(); ++beam) {
@@ -373,7 +377,7 @@ MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) con
   if (tracks_[track].confirmed) {
     for (const std::uint16_t beam : shares_.beams_of_track[track]) {
       if (past_of_beam_[beam] == Past::kStood) best.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
-      best.moved += past_of_beam_[beam] == Past::kArrived ? 1.0 : 0.0;
+      best.moved += past_of_beam_[beam] == Past::kArrived || past_of_beam_[beam] == Past::kAppeared ? 1.0 : 0.0;
       best.undecided += past_of_beam_[beam] == Past::kUnknown ? 1.0 : 0.0;
     }
     return best;

@@ -71,6 +71,7 @@ class Tracker {
     int stood = 0;
     int arrived = 0;
     int receded = 0;
+    int appeared = 0;
     int longest_arrival = 0;    ///< Neighbouring echoes that arrived: a face that comes, while its flank slides along itself.
     bool stood_before = false;  ///< By the earlier scan,
     bool stands = false;        ///< or by the map.
