@@ -274,7 +274,7 @@ void score_miss(Track& track, const Visibility& visibility, double time_s, const
   track.score += (visibility.beams == 0 ? config.out_of_view_score_per_s : config.occluded_score_per_s) * time_s;
   // What hides the body before and behind counts less: a share of the beams decides how sure the miss is.
   constexpr double kLegUnanswered = 0.1;  // legs are thin and often dark; a vehicle answers
-  const double passed = visibility.passed + (walks(track) ? kLegUnanswered : 1.0) * visibility.unanswered;
+  const double passed = visibility.passed + (only_people_move(config) && walks(track) ? kLegUnanswered : 1.0) * visibility.unanswered;
   const double share = visibility.beams == 0 ? 0.0 : passed / visibility.beams;
   track.score += std::max(config.most_passed_score, config.passed_beam_score * passed) * share;
 }

@@ -73,4 +73,8 @@ struct TrackingConfig {
   double merge_overlap_m = 0.3;             ///< Bodies that reach this deep into each other with like motion are one.
 };
 
+/// Whether these settings are of a place where nothing larger than people moves: what no beam answered before may be taken
+/// for a leg there. On a road bushes, flat walls and the ground come and go in the same way.
+inline bool only_people_move(const TrackingConfig& config) { return config.longest_body_m < 3.0 * config.size_scale; }
+
 }  // namespace slammot::tracking
