@@ -4,7 +4,7 @@
 usage: record.py SLAMMOT_BENCH HISTORY.csv COMMIT [SLAMMOT_BENCH COMMIT ...] [--filter REGEX]
 
 With several programs each benchmark is run by all of them in turn, so that the same neighbours disturb each: compare
-rows of one session, not of two. The time is the least of five repetitions' CPU times, which a busy machine disturbs least.
+rows of one sitting, not of two. The time is the least of five repetitions' CPU times, which a busy machine disturbs least.
 """
 
 import argparse
@@ -14,7 +14,7 @@ import json
 import pathlib
 import subprocess
 
-COLUMNS = ["session", "cpu", "commit", "benchmark", "cpu_us"]
+COLUMNS = ["measured_at", "cpu", "commit", "benchmark", "cpu_us"]
 PER_MICROSECOND = {"ns": 1e-3, "us": 1.0, "ms": 1e3, "s": 1e6}
 REPETITIONS = 5
 
@@ -52,7 +52,7 @@ def main():
     if len(options.more) % 2:
         parser.error("further programs come with their commits")
     versions = [(options.program, options.commit), *zip(options.more[::2], options.more[1::2])]
-    session = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%MZ")
+    measured_at = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%MZ")
     is_new = not options.history.exists()
     with options.history.open("a", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
@@ -62,7 +62,7 @@ def main():
             times = [(commit, least_cpu_us(program, name)) for program, commit in versions]
             for commit, cpu_us in times:
                 if cpu_us is not None:
-                    rows.writerow([session, cpu_name(), commit, name, f"{cpu_us:.2f}"])
+                    rows.writerow([measured_at, cpu_name(), commit, name, f"{cpu_us:.2f}"])
             print(f"{name:44}" + "".join(f" {cpu_us:10.2f} us ({commit})" for commit, cpu_us in times if cpu_us is not None), flush=True)
 
 
