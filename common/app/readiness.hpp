@@ -2,9 +2,12 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace slammot::app {
+
+class ServiceContext;
 
 /// Which of the services that a drive needs are at work, by their heartbeats.
 class Readiness {
@@ -30,5 +33,9 @@ class Readiness {
  private:
   std::map<std::string, bool> at_work_;
 };
+
+/// Whether a source of scans may begin: everybody is at work and its topic is read, or it is no longer patient. What it
+/// waits for, or begins without, is said in its status.
+bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic, bool is_read, bool is_patient);
 
 }  // namespace slammot::app

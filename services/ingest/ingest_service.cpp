@@ -99,15 +99,8 @@ void IngestService::watch_graph() {
 }
 
 void IngestService::wait_for_services() {
-  std::string missing = readiness_.missing();
-  if (scans_.matched_readers() == 0) missing = "a reader of " + std::string(scans_.topic().name) + ", " + missing;
-  if (!missing.empty() && steady_clock::now() < give_up_waiting_at_) {
-    context_.status().set_trouble("services", "waiting for " + missing);
-    return;
-  }
-  if (!missing.empty()) context_.warn("begun_without_all_services", "begins without " + missing);
-  context_.status().clear_trouble("services");
-  begin();
+  const bool is_patient = steady_clock::now() < give_up_waiting_at_;
+  if (app::may_begin(context_, readiness_, scans_.topic().name, scans_.matched_readers() != 0, is_patient)) begin();
 }
 
 void IngestService::begin() {

@@ -32,7 +32,7 @@ const EarlierScan* ScanHistory::older_than(std::int64_t stamp_ns, double age_s) 
   return nullptr;
 }
 
-Past ScanHistory::past_of(std::size_t beam, const PolarView& now, const EarlierScan& then) const {
+Past ScanHistory::past_of(std::size_t beam, const PolarView& now, const EarlierScan& then, bool may_appear) const {
   const Eigen::Vector2d& point_m = now.point_in_odom_m(beam);
   const SightOfPlace before = then.view.sight_of(point_m);
   switch (before.sight) {
@@ -41,6 +41,7 @@ Past ScanHistory::past_of(std::size_t beam, const PolarView& now, const EarlierS
     case Sight::kThere: return then.owners[before.beam].is_confirmed ? Past::kUnknown : Past::kStood;
     case Sight::kHidden: break;
     case Sight::kEmpty: {
+      if (!may_appear) return Past::kUnknown;
       const Eigen::Vector2d from_laser_m = point_m - now.laser_in_odom_m();
       const std::int64_t a_while_ago_ns = scans_.back().stamp_ns - kGoesAlongForNs;
       const bool was_near = std::ranges::any_of(scans_, [&](const EarlierScan& scan) {

@@ -35,15 +35,20 @@ BodyMeasurement measure(const Body& body, const Vector2d& predicted_centre_m, co
   return body.has_sides ? measure_box(body, predicted_centre_m, glimpse, config) : measure_blob(body, glimpse, config);
 }
 
+/// Moves the centre, and the places that are remembered of it; the velocity stays. The estimate is the caller's to combine.
+void shift(Track& track, const Vector2d& by_m, const filters::ModelSet& models) {
+  filters::imm_shift(models, track.motion, by_m);
+  track.birth_position_m += by_m;
+  track.anchor_m += by_m;
+}
+
 /// Draws the body anew; the sides that are seen stay where they are, so the centre moves and the velocity does not.
 void redraw(Track& track, const Body& body, const Glimpse& glimpse, const TrackingConfig& config) {
   const Vector2d before_m = measure(track.body, track.position_m(), glimpse, config).centre_m;
   const BodyMeasurement after = measure(body, supposed_centre_m(body, glimpse), glimpse, config);
   const filters::ModelSet models = motion_models(config);
   track.body = after.body;
-  filters::imm_shift(models, track.motion, after.centre_m - before_m);
-  track.birth_position_m += after.centre_m - before_m;
-  track.anchor_m += after.centre_m - before_m;
+  shift(track, after.centre_m - before_m, models);
   track.estimate = filters::imm_combine(models, track.motion);
 }
 
@@ -54,10 +59,8 @@ void turn(Track& track, double by_rad, const Glimpse& glimpse, const TrackingCon
   track.body.heading_rad = wrap_angle(track.body.heading_rad + by_rad);
   const Vector2d shift_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m - before_m;
   const filters::ModelSet models = motion_models(config);
-  filters::imm_shift(models, track.motion, shift_m);
+  shift(track, shift_m, models);
   track.estimate = filters::imm_combine(models, track.motion);
-  track.birth_position_m += shift_m;
-  track.anchor_m += shift_m;
 }
 
 /// Brings the body's heading to that of the long side that is seen.
@@ -239,9 +242,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   const Vector2d surprise_m = measurement.centre_m - measurement.recentring_m - track.position_m();
   const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + R);
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
-  filters::imm_shift(models, track.motion, measurement.recentring_m);
-  track.birth_position_m += measurement.recentring_m;
-  track.anchor_m += measurement.recentring_m;
+  shift(track, measurement.recentring_m, models);
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.estimate = filters::imm_combine(models, track.motion);

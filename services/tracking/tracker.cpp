@@ -273,7 +273,7 @@ void Tracker::compare_with_past(const ScanView& view) {
     int arrival = 0;
     for (const std::uint16_t beam : scan.segments[s].beams) {
       if (then == nullptr) break;
-      past_of_beam_[beam] = past_of(beam, view, *then);
+      past_of_beam_[beam] = history_.past_of(beam, view.polar(), *then, only_people_move(config_));
       past.stood += past_of_beam_[beam] == Past::kStood ? 1 : 0;
       past.arrived += past_of_beam_[beam] == Past::kArrived ? 1 : 0;
       past.receded += past_of_beam_[beam] == Past::kReceded ? 1 : 0;
@@ -352,17 +352,12 @@ void Tracker::begin_tracks(const ScanView& view) {
   }
 }
 
-Past Tracker::past_of(std::size_t beam, const ScanView& view, const EarlierScan& then) const {
-  const Past past = history_.past_of(beam, view.polar(), then);
-  return past == Past::kAppeared && !only_people_move(config_) ? Past::kUnknown : past;
-}
-
 /// Places that the track's echoes came from and that were seen through then, and places that its echoes came from then and
 /// that are seen through now, say that it has moved.
 MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const {
   MotionEvidence evidence;
   for (const std::uint16_t beam : shares_.beams_of_track[track]) {
-    const Past past = past_of(beam, view, then);
+    const Past past = history_.past_of(beam, view.polar(), then, only_people_move(config_));
     const bool has_stayed = past_of_beam_[beam] == Past::kStood;  // since it came into sight
     if (past == Past::kArrived || (past == Past::kAppeared && !has_stayed)) evidence.moved += 1.0;
     else if (past == Past::kStood || past == Past::kAppeared) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;

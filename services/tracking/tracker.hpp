@@ -79,7 +79,6 @@ class Tracker {
 
   void compare_with_past(const ScanView& view);
   bool may_begin(const flow::Segment& segment, std::size_t index) const;
-  Past past_of(std::size_t beam, const ScanView& view, const EarlierScan& then) const;
   bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const;
   MotionEvidence evidence_of(std::size_t track, const ScanView& view) const;
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;

@@ -41,7 +41,7 @@ ScanHistory history_of(const std::vector<Street>& streets, bool is_confirmed = f
 
 /// Of the beam that points straight ahead, against the latest scan at least age_s old.
 Past past_ahead(const Street& now, const ScanHistory& history, std::size_t scans, double age_s = 0.0) {
-  return history.past_of(180, view_of(now), *history.older_than(static_cast<std::int64_t>(scans) * kHalfSecondNs, age_s));
+  return history.past_of(180, view_of(now), *history.older_than(static_cast<std::int64_t>(scans) * kHalfSecondNs, age_s), true);
 }
 
 Past past_ahead(const Street& now, const Street& then, bool is_confirmed = false) { return past_ahead(now, history_of({then}, is_confirmed), 1); }
@@ -122,7 +122,7 @@ TEST(Past, OfAGlintThatGoesAlongWithTheScannerIsNotThatItAppeared) {
   const auto view_after = [](double x_m) { return PolarView(detection::detect(in_the_open({leg_at(x_m + 3.0, 3.0)}).scan(0, 0, {x_m, 0.0, 0.0}), {})); };
   ScanHistory history;
   for (const int step : {1, 2}) history.add(step * kHalfSecondNs, view_after(step), std::vector<Owner>(view_after(step).beam_count()));
-  EXPECT_EQ(history.past_of(270, view_after(3.0), *history.older_than(2 * kHalfSecondNs, 0.0)), Past::kUnknown);
+  EXPECT_EQ(history.past_of(270, view_after(3.0), *history.older_than(2 * kHalfSecondNs, 0.0), true), Past::kUnknown);
 }
 
 TEST(ScanHistory, GivesTheYoungestScanThatIsOldEnough) {

@@ -1,0 +1,19 @@
+#include "common/app/readiness.hpp"
+
+#include "common/app/service_context.hpp"
+
+namespace slammot::app {
+
+bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic, bool is_read, bool is_patient) {
+  std::string missing = readiness.missing();
+  if (!is_read) missing = "a reader of " + std::string(topic) + ", " + missing;
+  if (!missing.empty() && is_patient) {
+    context.status().set_trouble("services", "waiting for " + missing);
+    return false;
+  }
+  if (!missing.empty()) context.warn("begun_without_all_services", "begins without " + missing);
+  context.status().clear_trouble("services");
+  return true;
+}
+
+}  // namespace slammot::app
