@@ -6,10 +6,10 @@ namespace slammot::sensing {
 
 /// What is not known of the wheels: one-sigma figures. Wide enough to let the laser decide.
 struct MotionModelConfig {
-  double position_noise_m = 0.004;              ///< A step of any length,
-  double position_noise_per_m = 0.02;           ///< and for each metre of it (added).
-  double heading_noise_rad = 0.004;
-  double heading_noise_per_m = 0.01;
+  double position_noise_m = 0.0005;             ///< A step of any length; wheels that stand slip little,
+  double position_noise_per_m = 0.03;           ///< and for each metre of it (added).
+  double heading_noise_rad = 0.001;
+  double heading_noise_per_m = 0.004;
   double heading_noise_per_rad = 0.05;
   double scale_prior = 0.02;                    ///< Of the factor on wheel distance, about 1.
   double heading_rate_bias_prior_radps = 0.005;

@@ -45,9 +45,9 @@ struct LocalizerConfig {
   int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
   double longest_label_wait_s = 0.15;     ///< Nor does it wait longer than this, by the scans' stamps.
   double variance_memory_s = 2.0;         ///< Over which published covariances are fitted to the surprises seen.
-  double shared_error_forward = 20.0;     ///< Matches cannot be surprised by errors that the map shares with the scan: the
-  double shared_error_sideways = 4.0;     ///< published variances are this many times what surprises alone would say.
-  double shared_error_heading = 4.0;      ///< Measured by NEES on simulated drives: docs/results.md.
+  double shared_error_forward = 14.0;     ///< Matches cannot be surprised by errors that the map shares with the scan: the
+  double shared_error_sideways = 2.8;     ///< published variances are this many times what surprises alone would say.
+  double shared_error_heading = 3.0;      ///< Measured by NEES on simulated drives: docs/results.md.
   double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
   double drift_rad_per_sqrt_m = 0.0002;  ///< Over 100 m that is 0.1 degrees; simulated drives show 0.04 to 0.06.
   LocalMapConfig map;
