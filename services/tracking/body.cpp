@@ -115,6 +115,7 @@ struct AxisView {
   double face_variance_m2 = 0.0;    ///< Of one echo from a side across the axis.
   double low_spacing_m = 0.0;       ///< Between the echoes of a side along the axis, at its low
   double high_spacing_m = 0.0;      ///< and at its high end.
+  double gaps = 0.0;                ///< Beams in a row that were not answered, in the mean.
   double least_side_m = 0.4;        ///< What is narrower is no side.
   double clear_spacing_m = 0.5;     ///< Wider spaced echoes do not tell where a side ends.
 };
@@ -142,12 +143,18 @@ void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const 
     note_whole(evidence, shadow.high_m - shadow.low_m + spacing_m, 2.0 * view.face_variance_m2 + spacing_m * spacing_m / 6.0);
 }
 
+/// Variance of where a side ends beyond its outermost echo, half a spacing on.
+double end_variance_m2(const AxisView& view, double spacing_m, Edge edge) {
+  const double unanswered_m = edge == Edge::kNoEcho ? view.gaps * spacing_m : 0.0;
+  return view.face_variance_m2 + spacing_m * spacing_m / 12.0 + unanswered_m * unanswered_m;
+}
+
 AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   AxisMeasurement axis;
   if (shadow.low_edge != Edge::kHidden || is_side(shadow, view)) {
     const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
     axis.centre_m = low_m + 0.5 * size.value_m;
-    axis.variance_m2 = view.face_variance_m2;
+    axis.variance_m2 = is_side(shadow, view) ? view.face_variance_m2 : end_variance_m2(view, view.low_spacing_m, shadow.low_edge);
     axis.held = -1;
   } else if (flank_is_visible && shadow.high_edge == Edge::kOpen) {
     axis.centre_m = shadow.high_m + 0.5 * view.high_spacing_m - 0.5 * size.value_m;
@@ -164,8 +171,8 @@ AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const
   const double high_m = shadow.high_m + 0.5 * view.high_spacing_m - 0.5 * size.value_m;
   const bool low_is_seen = shadow.low_edge != Edge::kHidden;
   const bool high_is_seen = shadow.high_edge != Edge::kHidden;
-  const double low_variance_m2 = view.face_variance_m2 + view.low_spacing_m * view.low_spacing_m / 12.0;
-  const double high_variance_m2 = view.face_variance_m2 + view.high_spacing_m * view.high_spacing_m / 12.0;
+  const double low_variance_m2 = end_variance_m2(view, view.low_spacing_m, shadow.low_edge);
+  const double high_variance_m2 = end_variance_m2(view, view.high_spacing_m, shadow.high_edge);
   // Where the two ends disagree, part of the body was not seen: the difference says how much the middle may be off.
   if (low_is_seen && high_is_seen) {
     axis.centre_m = 0.5 * (low_m + high_m);
@@ -179,7 +186,7 @@ AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const
 }
 
 AxisView mirrored(const AxisView& view) {
-  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.least_side_m, view.clear_spacing_m};
+  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.gaps, view.least_side_m, view.clear_spacing_m};
 }
 
 AxisMeasurement mirrored(const AxisMeasurement& axis) { return {-axis.centre_m, axis.variance_m2, -axis.held}; }
@@ -266,9 +273,10 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   const double sigma_m = std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.shape_noise_m);
   const Shadow u = shadow_of(glimpse, predicted_centre_m, along, sigma_m);
   const Shadow v = shadow_of(glimpse, predicted_centre_m, across, sigma_m);
+  const double gaps = glimpse.unanswered_share / (1.0 - glimpse.unanswered_share);  // in a row, in the mean
   const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
     return AxisView{axis.dot(to_laser_m), squared(sigma_m), spacing_m(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
-                    spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), 0.4 * config.size_scale, 0.5 * config.size_scale};
+                    spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale};
   };
   const AxisView u_view = view_of(along, u);
   const AxisView v_view = view_of(across, v);

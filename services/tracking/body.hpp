@@ -59,6 +59,7 @@ struct Glimpse {
   Edge start = Edge::kOpen;                   ///< Before the first point
   Edge end = Edge::kOpen;                     ///< and after the last.
   std::optional<Side> side;                   ///< A long straight one, where one is seen.
+  double unanswered_share = 0.0;              ///< Of the beams that met it: dark things answer now and then.
 };
 
 /// Where a glimpse puts the centre of a body, and what it tells of its size.

@@ -123,6 +123,7 @@ void update_motion_state(Track& track, const TrackingConfig& config) {
     track.way_m += std::min(step_m, 2.0 * kProgressM * config.size_scale);  // what jumps farther was not the same thing
     track.anchor_m = track.position_m();
     track.claimed_m = 0.0;
+    track.without_progress_s = 0.0;
   }
   const double speed = track.velocity_mps().norm();
   if (track.confirmed) track.fastest_mps = std::max(track.fastest_mps, speed);
@@ -255,14 +256,30 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   return true;
 }
 
+void restart_motion(Track& track, const Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config) {
+  filters::MotionState start;
+  start.mean.head<2>() = track.position_m();
+  start.mean.segment<2>(2) = velocity_mps;
+  start.covariance.topLeftCorner<2, 2>() = track.position_covariance_m2();
+  start.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
+  start.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
+  track.motion = filters::imm_start(motion_models(config), start);
+  track.estimate = start;
+}
+
 void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config) {
-  const bool is_moving = label == flow::PointLabel::kMoving || evidence.moved > evidence.stood + evidence.undecided;
+  const bool is_moving = label == flow::PointLabel::kMoving || evidence.moved > evidence.stood + 0.75 * evidence.undecided;
   track.moving_hits += is_moving ? 1 : 0;
   const double fade = std::exp(-time_s / config.evidence_memory_s);
   track.evidence.moved = fade * track.evidence.moved + evidence.moved;
   track.evidence.stood = fade * track.evidence.stood + evidence.stood;
   track.evidence.undecided = fade * track.evidence.undecided + evidence.undecided;
   double gain = is_moving ? config.moving_hit_score : config.other_hit_score;
+  const bool is_mapped = label == flow::PointLabel::kStationary && !is_moving;
+  track.mapped_share += (1.0 - std::exp(-time_s / config.mapped_memory_s)) * ((is_mapped ? 1.0 : 0.0) - track.mapped_share);
+  track.without_progress_s += time_s;
+  const bool is_slow = track.velocity_mps().norm() < config.moving_above_mps || track.without_progress_s > config.longest_stand_s;
+  if (track.mapped_share > config.most_mapped_share && is_slow) gain = config.mapped_score_per_s * time_s;
   const double stands_share = evidence.stood / std::max(1.0, evidence.stood + evidence.moved + evidence.undecided);
   // Who walks comes to where nothing was; what always may have been where it is only seems to walk, from thing to thing.
   const bool seems_to_walk = track.confirmed && walks(track) && !is_moving && evidence.moved == 0.0;
@@ -321,7 +338,7 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   flow::TrackedObject object;
   object.track_id = track.track_id;
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
-  object.confirmed = track.confirmed && track.score >= config.publish_score && unseen_s <= config.longest_unseen_published_s;
+  object.confirmed = track.confirmed && !track.is_refuted && track.score >= config.publish_score && unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);
   object.position_in_odom_m = track.position_m();
   object.velocity_in_odom_mps = track.velocity_mps();

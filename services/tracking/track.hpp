@@ -46,6 +46,10 @@ struct Track {
   double way_m = 0.0;                        ///< That it has come since it was confirmed, in steps that are more than jitter.
   Eigen::Vector2d anchor_m = Eigen::Vector2d::Zero();  ///< Where it last got away from;
   double claimed_m = 0.0;                    ///< the way that it says to have gone since.
+  bool is_refuted = false;                   ///< Earlier scans do not agree with its velocity.
+  double echoes = 0.0;                       ///< A scan, in the last moments.
+  double mapped_share = 0.0;                 ///< Of the last moments, in which its echoes came from where the map has something.
+  double without_progress_s = 0.0;           ///< Since the anchor was moved.
   double largest_extent_m = 0.0;
   std::vector<Eigen::Vector2f> contour_in_odom_m;
   std::deque<flow::RestoredPoints> past;     ///< Points of a track not yet confirmed, newest last.
@@ -69,6 +73,9 @@ void predict(Track& track, double time_s, const TrackingConfig& config);
 /// heading changed, where they are too far from where a confirmed track must be.
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
             const TrackingConfig& config);
+
+/// The same place, and another velocity.
+void restart_motion(Track& track, const Eigen::Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config);
 
 /// Score after a scan with echoes, most of them in segments of this label, time_s after the one before.
 void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config);

@@ -10,6 +10,7 @@
 #include "common/association/assignment.hpp"
 #include "common/association/gating.hpp"
 #include "common/sensing/box_fit.hpp"
+#include "services/tracking/speed_evidence.hpp"
 
 namespace slammot::tracking {
 namespace {
@@ -22,8 +23,10 @@ using flow::Segment;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kMostPastScans = 64;
+constexpr double kFastestOfSigmas = 1.25;   ///< No speed beyond so many times the largest that is likely is looked for.
 
 constexpr double kLeastStoodShare = 0.6;   ///< Of a segment's echoes that were there before, for it to stand.
+constexpr double kMostStoodIfMapped = 0.25;  ///< Of them, for the map alone to say that it stands.
 constexpr double kLeastChangedShare = 0.3; ///< Of them that came or went, for the map not to be believed.
 constexpr double kStoodIfSliding = 0.3;    ///< What an echo that stood counts if it may lie on a flank that slides along itself.
 constexpr double kMostMovingShare = 0.2;   ///< Of a segment's echoes that contradict the map, for it to stand.
@@ -127,17 +130,49 @@ Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view) {
 /// The points of some beams, with what lies beside them.
 Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view, double size_scale, std::vector<Vector2d>& points_m) {
   constexpr double kLongSideM = 1.4;
+  constexpr double kGapsSupposed = 0.2;  // before anything is known
   points_m.clear();
+  int gaps = 0;
+  for (std::size_t beam = beams.front(); beam <= beams.back(); ++beam) gaps += view.polar().range_m(beam) <= 0.0 ? 1 : 0;
+  const double unanswered_share = (gaps + kGapsSupposed) / (static_cast<double>(gaps + beams.size()) + 1.0);
   for (const std::uint16_t beam : beams) points_m.push_back(view.point_in_odom_m(beam));
   return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(beams.front(), -1, view.polar()),
-          edge_beyond(beams.back(), +1, view.polar()), side_of(beams, view, kLongSideM * size_scale)};
+          edge_beyond(beams.back(), +1, view.polar()), side_of(beams, view, kLongSideM * size_scale), unanswered_share};
+}
+
+bool is_vehicle(const Track& track) { return track.body.has_sides && track.body.kind != Kind::kBicycle; }
+
+/// Share of b's box that lies in a's.
+double overlap_share(const Track& a, const Track& b) {
+  constexpr int kAlong = 7;
+  constexpr int kAcross = 3;
+  const Vector2d along = b.body.length.value_m * Vector2d(std::cos(b.body.heading_rad), std::sin(b.body.heading_rad));
+  const Vector2d across = b.body.width.value_m * Vector2d(-std::sin(b.body.heading_rad), std::cos(b.body.heading_rad));
+  int inside = 0;
+  for (int i = 0; i < kAlong; ++i)
+    for (int j = 0; j < kAcross; ++j) {
+      const Vector2d point_m = b.position_m() + ((i + 0.5) / kAlong - 0.5) * along + ((j + 0.5) / kAcross - 0.5) * across;
+      inside += offset_from_box(a.body, a.position_m(), 0.0, point_m).isZero() ? 1 : 0;
+    }
+  return static_cast<double>(inside) / (kAlong * kAcross);
+}
+
+/// Whether the small thing is a piece of the vehicle's side.
+bool is_piece_of(const Track& vehicle, const Track& piece, const TrackingConfig& config) {
+  constexpr double kMostEchoesShare = 0.25;
+  constexpr double kMovingMps = 2.0;
+  if (!is_vehicle(vehicle) || is_vehicle(piece) || !vehicle.confirmed || piece.echoes > kMostEchoesShare * vehicle.echoes) return false;
+  if (vehicle.velocity_mps().norm() < kMovingMps || (vehicle.velocity_mps() - piece.velocity_mps()).norm() > 1.5 + 0.2 * vehicle.velocity_mps().norm()) return false;
+  return offset_from_box(vehicle.body, vehicle.position_m(), config.gate_margin_m, piece.position_m()).isZero();
 }
 
 bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
+  if (is_piece_of(a, b, config)) return true;
   // Nothing can be inside a vehicle; what is smaller may be several who walk.
-  const bool is_vehicle = a.body.has_sides && a.body.kind != Kind::kBicycle;
-  const bool is_supposed = a.confirmed && is_vehicle;
+  const bool is_supposed = a.confirmed && is_vehicle(a);
   if (!is_supposed && (a.velocity_mps() - b.velocity_mps()).norm() > 1.5 + 0.2 * a.velocity_mps().norm()) return false;
+  constexpr double kMostOverlap = 0.35;
+  if ((a.confirmed || b.confirmed) && is_vehicle(a) && is_vehicle(b) && std::max(overlap_share(a, b), overlap_share(b, a)) > kMostOverlap) return true;
   const bool b_in_a = offset_from_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m()).isZero();
   const bool a_in_b = offset_from_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m()).isZero();
   if (a.body.has_sides || b.body.has_sides) return b_in_a || a_in_b;
@@ -145,7 +180,17 @@ bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& confi
   return (a.position_m() - b.position_m()).norm() < (is_young ? config.stride_m : config.merge_overlap_m);
 }
 
-bool is_worth_more(const Track& a, const Track& b) {
+/// What holds the crumbs of an object whose echoes are another's is no object.
+bool is_worth_more(const Track& a, const Track& b, const TrackingConfig& config) {
+  if (is_piece_of(a, b, config)) return true;
+  if (is_piece_of(b, a, config)) return false;
+  const auto is_of_crumbs = [](const Track& one, const Track& other) {
+    constexpr double kFew = 3.0;
+    constexpr double kCrumbsShare = 0.25;
+    return one.echoes < kFew && one.echoes < kCrumbsShare * other.echoes;
+  };
+  if (is_of_crumbs(a, b)) return false;
+  if (is_of_crumbs(b, a)) return true;
   if (a.confirmed != b.confirmed) return a.confirmed;
   return a.track_id < b.track_id;
 }
@@ -156,7 +201,12 @@ Tracker::Tracker(const TrackingConfig& config) : config_(config) {}
 
 /// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
 bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
-  if (!past_of_segment_[segment].stands || is_slow(tracks_[track])) return false;
+  const SegmentPast& past = past_of_segment_[segment];
+  if (!past.stands || is_slow(tracks_[track])) return false;
+  const Segment& echoes = view.scan().segments[segment];
+  const bool only_map_says_so = !past.stood_before && past.stood < kMostStoodIfMapped * static_cast<double>(echoes.beams.size());
+  // The map may be older than what drives there now.
+  if (only_map_says_so && tracks_[track].confirmed && tracks_[track].body.has_sides && lies_in_body(echoes, tracks_[track], view)) return false;
   const EarlierScan* then = history_.older_than(view.scan().stamp_ns, 0.0);
   if (then == nullptr) return false;
   const std::vector<std::uint16_t>& beams = view.scan().segments[segment].beams;
@@ -344,6 +394,7 @@ void Tracker::begin_tracks(const ScanView& view) {
     // Detection fits boxes to what moves only.
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m).heading_rad;
     tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_));
+    tracks_.back().echoes = static_cast<double>(segment.beams.size());
     tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
     shares_.track_of_segment[s] = tracks_.size() - 1;
     shares_.beams_of_track.push_back(segment.beams);
@@ -392,6 +443,32 @@ MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) con
   return best;
 }
 
+/// Holds the velocity of a young track against what earlier scans saw: ends that come into view, or echoes that another track
+/// takes, make a body seem to fly.
+void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const ScanView& view) {
+  constexpr double kYoungS = 2.0;
+  constexpr double kLongEnoughS = 0.35;     // for what earlier scans did not see well
+  constexpr double kSlowMps = 4.0;
+  constexpr double kSlackMps = 1.0;
+  constexpr double kTellingSigmaMps = 2.0;
+  constexpr double kVagueSigmaMps = 4.0;
+  Track& track = tracks_[index];
+  track.is_refuted = false;
+  const double age_s = static_cast<double>(view.scan().stamp_ns - track.first_seen_ns) * kNanosecond_s;
+  const Vector2d velocity_mps = track.velocity_mps();
+  const bool is_fast = velocity_mps.norm() > kSlowMps;
+  if (age_s > kYoungS || (!track.body.has_sides && !is_fast)) return;
+  const Vector2d along = track.body.has_sides ? Vector2d(std::cos(track.body.heading_rad), std::sin(track.body.heading_rad)) : Vector2d(velocity_mps.normalized());
+  const double speed_mps = velocity_mps.dot(along);
+  const double across_mps = (velocity_mps - speed_mps * along).norm();
+  const SpeedEvidence evidence = speed_along(along, glimpse.points_m, view.scan().stamp_ns, history_, kFastestOfSigmas * config_.fastest_mps);
+  const bool flies_sideways = across_mps > 2.0 + 0.3 * std::abs(speed_mps);
+  const bool is_off = flies_sideways || std::abs(speed_mps - evidence.speed_mps) > 3.0 * evidence.sigma_mps + kSlackMps;
+  const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps;
+  if (is_off && evidence.sigma_mps < kTellingSigmaMps) restart_motion(track, evidence.speed_mps * along, evidence.sigma_mps, config_);
+  else track.is_refuted = is_off || is_vague;
+}
+
 void Tracker::remember(const ScanView& view) {
   std::vector<Owner> owners(view.scan().range_m.size());
   for (std::size_t t = 0; t < tracks_.size(); ++t)
@@ -409,12 +486,17 @@ void Tracker::release(std::size_t index) {
 void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   Track& track = tracks_[index];
   const std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
+  constexpr double kEchoMemoryS = 0.2;
+  track.echoes += (1.0 - std::exp(-time_s / kEchoMemoryS)) * (static_cast<double>(beams.size()) - track.echoes);
   if (beams.empty()) return score_miss(track, view.visibility_of(track.body, track.position_m()), time_s, config_);
   std::vector<Vector2d> points_m;
   const Glimpse glimpse = glimpse_of(beams, view, config_.size_scale, points_m);
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return release(index);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
-  if (track.confirmed || !has_proven_to_move(track, config_)) return;
+  const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
+  constexpr int kHitsBetweenChecks = 3;
+  if (may_be_confirmed || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);
+  if (!may_be_confirmed || track.is_refuted || !has_proven_to_move(track, config_)) return;
   track.confirmed = true;
   track.way_m = 0.0;  // until now it may have been made of several things
   track.anchor_m = track.position_m();
@@ -425,7 +507,7 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
 void Tracker::merge_duplicates() {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
-      if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0 || !is_worth_more(tracks_[a], tracks_[b])) continue;
+      if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0 || !is_worth_more(tracks_[a], tracks_[b], config_)) continue;
       if (!bodies_coincide(tracks_[a], tracks_[b], config_)) continue;
       tracks_[b].hits = 0;  // marks it for removal
       add_beams(shares_.beams_of_track[a], shares_.beams_of_track[b]);

@@ -82,6 +82,7 @@ class Tracker {
   bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const;
   MotionEvidence evidence_of(std::size_t track, const ScanView& view) const;
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
+  void check_velocity(std::size_t track, const Glimpse& glimpse, const ScanView& view);
   void correct(std::size_t track, double time_s, const ScanView& view);
   void release(std::size_t track);
   void remember(const ScanView& view);

@@ -32,6 +32,9 @@ struct TrackingConfig {
   double other_hit_score = 0.1;             ///< or any other, where the track should be.
   double contradiction_score = -0.5;        ///< It should be moving, but most of its echoes come from what stood there before.
   double contradicted_above_mps = 1.5;      ///< What is faster does not lie on what stood there before.
+  double mapped_memory_s = 0.8;             ///< With more scans of these last moments than this share
+  double most_mapped_share = 0.6;           ///< in which it is where the map has something, what makes no way is what the map has.
+  double mapped_score_per_s = -6.0;
   double occluded_score_per_s = -1.0;
   double out_of_view_score_per_s = -30.0;
   double passed_beam_score = -0.6;          ///< For each beam that went through where the body should be,

@@ -156,6 +156,33 @@ TEST(Tracker, DropsSoonWhatStandsAndHasHardlyComeAnywhere) {
   EXPECT_TRUE(play.confirmed().empty());
 }
 
+TEST(Tracker, LetsGoOfWhoCameToAPostThatTheMapKnows) {
+  Play play;
+  const StreetBox post{{12.0, 6.0, 0.0}, 0.3, 0.3};
+  // Somebody walks up to the post and is gone; the post sends echoes at every scan.
+  const auto scene = [&](Street& street, double t) {
+    street.known = {kWall, post};
+    street.unknown.clear();
+    if (t < 4.0) street.unknown = {{{12.0, 0.4 + 1.3 * t, M_PI / 2.0}, 0.4, 0.4}};
+  };
+  play.run(4.0, scene);
+  EXPECT_EQ(play.confirmed().size(), 1U);
+  play.run(4.0, scene);
+  EXPECT_TRUE(play.confirmed().empty());
+}
+
+TEST(Tracker, FollowsWhatDrivesToWhereTheMapStillHasSomethingThatLeft) {
+  Play play;
+  const auto position_m = [](double t) { return Vector2(10.0 + 6.0 * t, 2.0); };
+  const auto scene = [&](Street& street, double t) {
+    street.unknown = {{{position_m(t).x(), position_m(t).y(), 0.0}}};
+    street.gone = {{{25.0, 2.0, 0.0}, 6.0, 2.2}};
+  };
+  play.run(3.5, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_EQ(play.ids.size(), 1U);
+}
+
 TEST(Tracker, KnowsSomebodyAgainWhoWasHidden) {
   Play play;
   play.street.known.push_back({{12.0, 0.0, M_PI / 2.0}, 2.0, 1.0});

@@ -1,0 +1,52 @@
+#include "services/tracking/speed_evidence.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace slammot::tracking {
+namespace {
+
+constexpr std::array<double, 4> kAgesS = {0.1, 0.2, 0.4, 0.8};
+constexpr std::size_t kMostEchoes = 12;
+constexpr int kSteps = 20;               ///< Either way.
+constexpr double kThere = 0.25;     ///< Log-likelihood: something else may have been there;
+constexpr double kThrough = -0.5;   ///< nothing can have been where a beam went through. Neighbouring beams say the same.
+
+}  // namespace
+
+SpeedEvidence speed_along(const Eigen::Vector2d& direction, std::span<const Eigen::Vector2d> echoes_m, std::int64_t stamp_ns,
+                          const ScanHistory& history, double fastest_mps) {
+  std::array<double, 2 * kSteps + 1> log_likelihood;
+  for (int i = 0; i <= 2 * kSteps; ++i) {
+    const double speed_mps = (i - kSteps) * fastest_mps / kSteps;
+    log_likelihood[static_cast<std::size_t>(i)] = -0.5 * std::pow(speed_mps / (0.5 * fastest_mps), 2);
+  }
+  const std::size_t stride = 1 + (echoes_m.size() - 1) / kMostEchoes;
+  const EarlierScan* before = nullptr;
+  for (const double age_s : kAgesS) {
+    const EarlierScan* then = history.older_than(stamp_ns, age_s);
+    if (then == nullptr || then == before) continue;
+    before = then;
+    const double time_s = static_cast<double>(stamp_ns - then->stamp_ns) * 1e-9;
+    for (int i = 0; i <= 2 * kSteps; ++i) {
+      const Eigen::Vector2d way_m = (i - kSteps) * fastest_mps / kSteps * time_s * direction;
+      for (std::size_t echo = 0; echo < echoes_m.size(); echo += stride) {
+        const Sight sight = then->view.sight_of(echoes_m[echo] - way_m).sight;
+        log_likelihood[static_cast<std::size_t>(i)] += sight == Sight::kThrough ? kThrough : sight == Sight::kThere ? kThere : 0.0;
+      }
+    }
+  }
+  const double best = *std::max_element(log_likelihood.begin(), log_likelihood.end());
+  double total = 0.0, mean = 0.0, square = 0.0;
+  for (int i = 0; i <= 2 * kSteps; ++i) {
+    const double weight = std::exp(log_likelihood[static_cast<std::size_t>(i)] - best);
+    const double speed_mps = (i - kSteps) * fastest_mps / kSteps;
+    total += weight, mean += weight * speed_mps, square += weight * speed_mps * speed_mps;
+  }
+  mean /= total;
+  const double step_mps = fastest_mps / kSteps;
+  return {mean, std::sqrt(std::max(0.0, square / total - mean * mean) + step_mps * step_mps / 12.0)};
+}
+
+}  // namespace slammot::tracking
