@@ -268,7 +268,7 @@ void restart_motion(Track& track, const Vector2d& velocity_mps, double sigma_mps
 }
 
 void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config) {
-  const bool is_moving = label == flow::PointLabel::kMoving || evidence.moved > evidence.stood + 0.75 * evidence.undecided;
+  const bool is_moving = label == flow::PointLabel::kMoving || evidence.moved > evidence.stood + 0.5 * evidence.undecided;
   track.moving_hits += is_moving ? 1 : 0;
   const double fade = std::exp(-time_s / config.evidence_memory_s);
   track.evidence.moved = fade * track.evidence.moved + evidence.moved;

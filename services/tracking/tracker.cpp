@@ -26,7 +26,7 @@ constexpr std::size_t kMostPastScans = 64;
 constexpr double kFastestOfSigmas = 1.25;   ///< No speed beyond so many times the largest that is likely is looked for.
 
 constexpr double kLeastStoodShare = 0.6;   ///< Of a segment's echoes that were there before, for it to stand.
-constexpr double kMostStoodIfMapped = 0.25;  ///< Of them, for the map alone to say that it stands.
+constexpr double kLeastStoodIfMapped = 0.25;  ///< The same where the map has something, too: it may be older than what drives there.
 constexpr double kLeastChangedShare = 0.3; ///< Of them that came or went, for the map not to be believed.
 constexpr double kStoodIfSliding = 0.3;    ///< What an echo that stood counts if it may lie on a flank that slides along itself.
 constexpr double kMostMovingShare = 0.2;   ///< Of a segment's echoes that contradict the map, for it to stand.
@@ -201,12 +201,7 @@ Tracker::Tracker(const TrackingConfig& config) : config_(config) {}
 
 /// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
 bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
-  const SegmentPast& past = past_of_segment_[segment];
-  if (!past.stands || is_slow(tracks_[track])) return false;
-  const Segment& echoes = view.scan().segments[segment];
-  const bool only_map_says_so = !past.stood_before && past.stood < kMostStoodIfMapped * static_cast<double>(echoes.beams.size());
-  // The map may be older than what drives there now.
-  if (only_map_says_so && tracks_[track].confirmed && tracks_[track].body.has_sides && lies_in_body(echoes, tracks_[track], view)) return false;
+  if (!past_of_segment_[segment].stands || is_slow(tracks_[track])) return false;
   const EarlierScan* then = history_.older_than(view.scan().stamp_ns, 0.0);
   if (then == nullptr) return false;
   const std::vector<std::uint16_t>& beams = view.scan().segments[segment].beams;
@@ -337,7 +332,7 @@ void Tracker::compare_with_past(const ScanView& view) {
       past.longest_arrival = std::max(past.longest_arrival, longest_arrival_since(*long_ago, segment, view.polar()));
     const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
     past.stood_before = past.stood > kLeastStoodShare * count;
-    past.stands = past.stood_before || (is_mapped && past.arrived + past.receded < kLeastChangedShare * count);
+    past.stands = past.stood_before || (is_mapped && past.stood > kLeastStoodIfMapped * count && past.arrived + past.receded < kLeastChangedShare * count);
   }
 }
 
