@@ -16,16 +16,18 @@ Matrix3 compound_jacobian_first(const Pose2& a_from_b, const Pose2& b_from_c);
 /// Jacobian of (a_from_b ∘ b_from_c) with respect to b_from_c; Wang 2004, Eq. (2.5).
 Matrix3 compound_jacobian_second(const Pose2& a_from_b);
 
-/// Jacobian of the inverse; Wang 2004, Eq. (2.8).
+/// Jacobian of the inverse; Wang 2004, Eq. (2.7).
 Matrix3 inverse_jacobian(const Pose2& a_from_b);
 
-/// Chains two independent uncertain poses, to first order; Wang 2004, Eqs. (2.1)-(2.5).
-UncertainPose2 compound(const UncertainPose2& a_from_b, const UncertainPose2& b_from_c);
+/// Chains two uncertain poses, to first order; Wang 2004, Eqs. (2.1)-(2.4). cross: covariance of the first with the
+/// second, rows of the first; with zero they are independent, Eq. (2.5).
+UncertainPose2 compound(const UncertainPose2& a_from_b, const UncertainPose2& b_from_c, const Matrix3& cross = Matrix3::Zero());
 
-/// b_from_a with its covariance, to first order; Wang 2004, Eqs. (2.6)-(2.8).
+/// b_from_a with its covariance, to first order; Wang 2004, Eqs. (2.6)-(2.7).
 UncertainPose2 inverse(const UncertainPose2& a_from_b);
 
-/// b_from_c from two independent poses that share the frame a (tail-to-tail); Wang 2004, Eqs. (2.9)-(2.10).
-UncertainPose2 tail_to_tail(const UncertainPose2& a_from_b, const UncertainPose2& a_from_c);
+/// b_from_c from two poses that share the frame a (tail-to-tail), to first order; Wang 2004, Eqs. (2.8)-(2.10), whose
+/// (2.10) has the indices jk for ik. cross: covariance of the first with the second, rows of the first.
+UncertainPose2 tail_to_tail(const UncertainPose2& a_from_b, const UncertainPose2& a_from_c, const Matrix3& cross = Matrix3::Zero());
 
 }  // namespace slammot::geometry

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/matchers.hpp"
+#include "tests/support/uncertain_poses.hpp"
 
 namespace slammot::geometry {
 namespace {
@@ -84,6 +85,32 @@ TEST(TailToTail, RecoversThePoseThatWasCompounded) {
   const UncertainPose2 recovered = tail_to_tail(exact_first, compound(exact_first, second));
   EXPECT_THAT(recovered.pose, slammot::testing::PoseNear(kSecond, 1e-12));
   EXPECT_THAT(recovered.covariance, MatrixNear(second.covariance, 1e-12));
+}
+
+TEST(Compound, HoldsWhatTheErrorsOfBothPosesShare) {
+  const auto poses = slammot::testing::correlated_poses(kFirst, kSecond, 0.05, 0.01);
+  const UncertainPose2 drawn = slammot::testing::by_monte_carlo(poses, [](const Pose2& ab, const Pose2& bc) { return ab * bc; }, 40000, 7);
+  const UncertainPose2 held = compound(poses.first, poses.second, poses.cross);
+  EXPECT_THAT(held.covariance, MatrixNear(drawn.covariance, 0.015 * held.covariance.trace()));
+  // Taken for independent they would not be near it.
+  EXPECT_GT((compound(poses.first, poses.second).covariance - drawn.covariance).cwiseAbs().maxCoeff(), 0.1 * held.covariance.trace());
+}
+
+TEST(TailToTail, HoldsWhatTheErrorsOfBothPosesShare) {
+  const auto poses = slammot::testing::correlated_poses(kFirst, kSecond, 0.05, 0.01);
+  const UncertainPose2 drawn = slammot::testing::by_monte_carlo(poses, [](const Pose2& ab, const Pose2& ac) { return inverse(ab) * ac; }, 40000, 7);
+  const UncertainPose2 held = tail_to_tail(poses.first, poses.second, poses.cross);
+  EXPECT_THAT(held.covariance, MatrixNear(drawn.covariance, 0.015 * held.covariance.trace()));
+  EXPECT_GT((tail_to_tail(poses.first, poses.second).covariance - drawn.covariance).cwiseAbs().maxCoeff(), 0.1 * held.covariance.trace());
+}
+
+TEST(TailToTail, CancelsAnErrorThatBothPosesHaveInFull) {
+  // Two things seen from a frame that is itself unsure: what lies between them is as sure as the step from one to the other.
+  const UncertainPose2 a_from_b{kFirst, example_covariance()};
+  const UncertainPose2 step{kSecond, 0.1 * example_covariance()};
+  const UncertainPose2 a_from_c = compound(a_from_b, step);
+  const Matrix3 cross = a_from_b.covariance * compound_jacobian_first(kFirst, kSecond).transpose();
+  EXPECT_THAT(tail_to_tail(a_from_b, a_from_c, cross).covariance, MatrixNear(step.covariance, 1e-12));
 }
 
 }  // namespace
