@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <Eigen/LU>
@@ -10,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/matchers.hpp"
+#include "tests/support/surfels.hpp"
 #include "tests/support/synthetic_world.hpp"
 
 namespace slammot::matching {
@@ -20,40 +20,17 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 using slammot::testing::MatrixNear;
+using slammot::testing::points_seen;
 using slammot::testing::PoseNear;
+using slammot::testing::surfels_of;
 using slammot::testing::World;
 
 constexpr double kCell_m = 0.2;
 const Matrix3 kVague = Eigen::Vector3d(1.0, 1.0, 0.1).asDiagonal();
 
-/// Surfels of walls that were seen every 2 cm, exactly.
-grids::SurfelMap surfels_of(const World& world, const Vector2& centre_m = Vector2::Zero()) {
-  grids::SurfelMap surfels(grids::window_around(centre_m, 60.0, kCell_m), 1000.0);
-  for (const auto& wall : world) {
-    const Vector2 along_m = wall.to_m - wall.from_m;
-    const int points = static_cast<int>(along_m.norm() / 0.02);
-    for (int i = 0; i <= points; ++i) surfels.add(wall.from_m + along_m * i / points);
-  }
-  return surfels;
-}
-
-/// A full turn of beams from a pose in the world, as points in base, with noise along the beams.
-std::vector<MatchPoint> scan_of(const World& world, const Pose2& world_from_base, int beams, double noise_m, std::mt19937& random) {
-  std::normal_distribution<double> noise(0.0, 1.0);
-  std::vector<MatchPoint> points;
-  for (int i = 0; i < beams; ++i) {
-    const double angle_rad = 2.0 * std::numbers::pi * i / beams;
-    const double exact_m = slammot::testing::range_m(world, world_from_base.translation_m(), world_from_base.heading_rad + angle_rad);
-    if (!std::isfinite(exact_m)) continue;
-    const double range_m = exact_m + noise_m * noise(random);
-    points.push_back({{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)}, std::max(noise_m, 0.01)});
-  }
-  return points;
-}
-
 std::vector<MatchPoint> exact_scan_of(const World& world, const Pose2& world_from_base, int beams = 360) {
   std::mt19937 unused;
-  return scan_of(world, world_from_base, beams, 0.0, unused);
+  return points_seen(world, world_from_base, beams, 0.0, unused);
 }
 
 PointToLineResult match_from(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const Pose2& prior,
@@ -141,7 +118,7 @@ TEST(PointToLine, StopsWhereTheCostIsLeast) {
   const auto surfels = surfels_of(room);
   const PointToLineConfig config;
   const UncertainPose2 prior{{-2.02, 1.03, 0.61}, Eigen::Vector3d(0.0004, 0.0004, 0.0001).asDiagonal()};
-  const auto points = scan_of(room, {-2.0, 1.0, 0.6}, 360, 0.02, random);
+  const auto points = points_seen(room, {-2.0, 1.0, 0.6}, 360, 0.02, random);
   const Pose2 found = PointToLineMatcher().match(points, surfels, prior, prior.pose, config).map_from_base.pose;
   const double least = cost(points, surfels, prior, found, config);
   for (const double sign : {-1.0, 1.0}) {
@@ -190,7 +167,7 @@ TEST(PointToLine, IsAsUncertainAsItIsWrong) {
   double nees_sum = 0.0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    const auto result = match_from(scan_of(room, truth, 180, 0.03, random), surfels, truth, config);
+    const auto result = match_from(points_seen(room, truth, 180, 0.03, random), surfels, truth, config);
     const Pose2& pose = result.map_from_base.pose;
     const Eigen::Vector3d error(pose.x_m - truth.x_m, pose.y_m - truth.y_m, pose.heading_rad - truth.heading_rad);
     nees_sum += error.dot(result.map_from_base.covariance.inverse() * error);
