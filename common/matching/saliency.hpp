@@ -1,0 +1,23 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "common/matching/scrim.hpp"
+
+namespace slammot::matching {
+
+struct SaliencyConfig {
+  double position_sigma_m = 0.5;   ///< By how much the object is displaced before it is registered with itself,
+  double heading_sigma_rad = 0.1;  ///< and turned about its middle.
+  double surfel_size_m = 0.2;
+  ScrimConfig scrim;
+  PointToLineConfig match;
+};
+
+/// Object saliency score: 1 / trace of the covariance [m^2, rad^2] with which the object is registered with itself; Wang
+/// 2004, Eqs. (3.10)-(3.11). The larger, the surer a pose from this shape; 1 / trace of the displacements' covariance for a
+/// shape that tells nothing, 0 for no points. Does not depend on where the points' frame is.
+double saliency_score(const std::vector<MatchPoint>& points, const SaliencyConfig& config, std::mt19937_64& random);
+
+}  // namespace slammot::matching
