@@ -15,6 +15,13 @@ Matrix3 vehicle_axes(double heading_rad) {
   return turn;
 }
 
+constexpr double kSaidNothing = 1e-3;  // share of an axis' variance that a match took away
+
+Eigen::Vector3d along_axes(const Matrix3& covariance, double heading_rad) {
+  const Matrix3 turn = vehicle_axes(heading_rad);
+  return (turn * covariance * turn.transpose()).diagonal();
+}
+
 }  // namespace
 
 VarianceFactors learned(const VarianceFactors& factors, const geometry::UncertainPose2& predicted,
@@ -23,16 +30,36 @@ VarianceFactors learned(const VarianceFactors& factors, const geometry::Uncertai
   const Matrix3 turn = vehicle_axes(predicted.pose.heading_rad);
   const Eigen::Vector3d change = turn * geometry::difference(matched.pose, predicted.pose);
   // Prediction and match are correlated: the variance of their difference is the difference of their variances.
-  const Eigen::Vector3d expected = (turn * (predicted.covariance - matched.covariance) * turn.transpose()).diagonal();
-  const Eigen::Vector3d known = (turn * predicted.covariance * turn.transpose()).diagonal();
+  const Eigen::Vector3d expected = along_axes(predicted.covariance - matched.covariance, predicted.pose.heading_rad);
+  const Eigen::Vector3d known = along_axes(predicted.covariance, predicted.pose.heading_rad);
   VarianceFactors next = factors;
   for (int axis = 0; axis < 3; ++axis) {
-    constexpr double kSaidNothing = 1e-3;
     if (!(expected[axis] > kSaidNothing * known[axis])) continue;
     const double squared = std::min(change[axis] * change[axis] / expected[axis], kLargestSurprise * factors.of_axis[axis]);
     next.of_axis[axis] += share * (squared - factors.of_axis[axis]);
   }
   return next;
+}
+
+VarianceFactors carried(const VarianceFactors& factors, const geometry::UncertainPose2& before, const geometry::UncertainPose2& predicted,
+                        const geometry::UncertainPose2& matched) {
+  const Eigen::Vector3d was = along_axes(before.covariance, before.pose.heading_rad);
+  const Eigen::Vector3d known = along_axes(predicted.covariance, predicted.pose.heading_rad);
+  const Eigen::Vector3d told = along_axes(predicted.covariance - matched.covariance, predicted.pose.heading_rad);
+  const auto is_observed = [&](int axis) { return told[axis] > kSaidNothing * known[axis]; };
+  const bool is_reckoned[] = {!is_observed(0), !is_observed(1) && is_observed(2)};
+  VarianceFactors next = factors;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!(known[axis] > 0.0)) continue;
+    const double grown = is_reckoned[axis] ? std::max(0.0, known[axis] - was[axis]) : 0.0;
+    next.dead_reckoned[axis] = std::min(1.0, (factors.dead_reckoned[axis] * std::min(was[axis], known[axis]) + grown) / known[axis]);
+  }
+  return next;
+}
+
+VarianceFactors published(const VarianceFactors& factors, const Eigen::Vector3d& shared_error) {
+  const Eigen::Vector3d matched = Eigen::Vector3d::Ones() - factors.dead_reckoned;
+  return {matched.cwiseProduct(factors.of_axis).cwiseProduct(shared_error) + factors.dead_reckoned, Eigen::Vector3d::Zero()};
 }
 
 Matrix3 scaled(const geometry::UncertainPose2& pose, const VarianceFactors& factors) {

@@ -10,12 +10,25 @@ namespace slammot::sensing {
 /// any estimate.
 struct VarianceFactors {
   Eigen::Vector3d of_axis = Eigen::Vector3d::Ones();
+  /// Share of each axis' variance that has grown since a match last said anything of it: surprises of matches tell
+  /// nothing of how far odometry is off.
+  Eigen::Vector3d dead_reckoned = Eigen::Vector3d::Zero();
 };
 
 /// After one more match, which took `predicted` for its prior. The last match counts for `share`, in (0, 1].
 /// Both poses in the same frame. An axis on which the match said nothing keeps its factor.
 VarianceFactors learned(const VarianceFactors& factors, const geometry::UncertainPose2& predicted,
                         const geometry::UncertainPose2& matched, double share);
+
+/// What the pose at one scan, the prediction of it for the next, and the match there (the prediction itself where there
+/// was none) make of the dead-reckoned shares. All in one frame. The heading has none, nor does the way sideways while
+/// the heading is not observed: the filter's noise of the heading is wide, to let the laser decide, and dead reckoning is far
+/// better than that.
+VarianceFactors carried(const VarianceFactors& factors, const geometry::UncertainPose2& before, const geometry::UncertainPose2& predicted,
+                        const geometry::UncertainPose2& matched);
+
+/// Factors with which to publish: those learned times shared_error of each axis for what was matched, 1 for what was dead reckoned.
+VarianceFactors published(const VarianceFactors& factors, const Eigen::Vector3d& shared_error);
 
 /// The covariance of a pose, in the frame of the pose, with its axes along and across the vehicle scaled.
 geometry::Matrix3 scaled(const geometry::UncertainPose2& pose, const VarianceFactors& factors);

@@ -45,15 +45,53 @@ TEST(VarianceFactors, AreNotDrownedByOneWrongMatch) {
 
 TEST(VarianceFactors, KeepWhatTheyKnowWhereTheMatchSaidNothing) {
   const UncertainPose2 predicted{{}, Eigen::Vector3d(4e-4, 4e-4, 4e-6).asDiagonal()};
-  EXPECT_EQ(learned({{2.0, 3.0, 4.0}}, predicted, predicted, 0.5).of_axis, Eigen::Vector3d(2.0, 3.0, 4.0));
+  EXPECT_EQ(learned({.of_axis = {2.0, 3.0, 4.0}}, predicted, predicted, 0.5).of_axis, Eigen::Vector3d(2.0, 3.0, 4.0));
 }
 
 TEST(VarianceFactors, ScaleAlongAndAcrossTheVehicle) {
   const UncertainPose2 north{{0.0, 0.0, std::acos(-1.0) / 2.0}, Eigen::Vector3d(1.0, 1.0, 1.0).asDiagonal()};
-  const geometry::Matrix3 covariance = scaled(north, {{9.0, 4.0, 1.0}});
+  const geometry::Matrix3 covariance = scaled(north, {.of_axis = {9.0, 4.0, 1.0}});
   EXPECT_NEAR(covariance(0, 0), 4.0, 1e-12);
   EXPECT_NEAR(covariance(1, 1), 9.0, 1e-12);
   EXPECT_NEAR(covariance(0, 1), 0.0, 1e-12);
+}
+
+UncertainPose2 with_variances(double forward_m2, double left_m2, double heading_rad2) {
+  return {{}, Eigen::Vector3d(forward_m2, left_m2, heading_rad2).asDiagonal()};
+}
+
+TEST(DeadReckonedShare, GrowsWhereTheMatchSaysNothingAndIsWornAwayWhereItDoes) {
+  VarianceFactors factors;
+  UncertainPose2 pose = with_variances(0.01, 0.01, 1e-4);
+  for (int scan = 0; scan < 10; ++scan) {  // along a wall
+    const UncertainPose2 predicted = with_variances(pose.covariance(0, 0) + 0.01, 0.02, 2e-4);
+    const UncertainPose2 matched = with_variances(predicted.covariance(0, 0), 0.01, 1e-4);
+    factors = carried(factors, pose, predicted, matched);
+    pose = matched;
+  }
+  EXPECT_NEAR(factors.dead_reckoned.x(), 0.10 / 0.11, 1e-9);
+  EXPECT_EQ(factors.dead_reckoned.y(), 0.0);
+  EXPECT_EQ(factors.dead_reckoned.z(), 0.0);
+  for (int scan = 0; scan < 10; ++scan) {  // its end in sight
+    const UncertainPose2 predicted = with_variances(pose.covariance(0, 0) + 0.01, 0.02, 2e-4);
+    const UncertainPose2 matched = with_variances(0.01, 0.01, 1e-4);
+    factors = carried(factors, pose, predicted, matched);
+    pose = matched;
+  }
+  EXPECT_LT(factors.dead_reckoned.x(), 0.01);
+}
+
+TEST(DeadReckonedShare, IsOfTheWayAheadOnlyWhereNothingIsMatched) {
+  const UncertainPose2 predicted = with_variances(0.02, 0.02, 2e-4);
+  const VarianceFactors factors = carried({}, with_variances(0.01, 0.01, 1e-4), predicted, predicted);
+  EXPECT_NEAR(factors.dead_reckoned.x(), 0.5, 1e-12);
+  EXPECT_EQ(factors.dead_reckoned.y(), 0.0);
+  EXPECT_EQ(factors.dead_reckoned.z(), 0.0);
+}
+
+TEST(DeadReckonedShare, IsPublishedAsTheFilterHasItAndTheRestAsSurprisesDo) {
+  const VarianceFactors factors{.of_axis = {0.01, 0.02, 0.03}, .dead_reckoned = {0.25, 0.0, 0.0}};
+  EXPECT_TRUE(published(factors, {20.0, 4.0, 2.0}).of_axis.isApprox(Eigen::Vector3d(0.75 * 0.2 + 0.25, 0.08, 0.06)));
 }
 
 }  // namespace
