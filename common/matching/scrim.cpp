@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <Eigen/Cholesky>
@@ -28,13 +29,13 @@ Pose2 displaced(const Pose2& pose, const Eigen::Vector3d& by) {
 double as_seen_10_m_away(const Eigen::Vector3d& change) { return change.head<2>().norm() + 10.0 * std::abs(change.z()); }
 
 /// Draws with mean zero and exactly this covariance, each followed by its opposite.
-std::vector<Eigen::Vector3d> paired_draws(int count, const Matrix3& covariance, std::mt19937_64& random) {
+std::vector<Eigen::Vector3d> paired_draws(int pairs, const Matrix3& covariance, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::vector<Eigen::Vector3d> draws;
   Matrix3 scatter = Matrix3::Zero();
-  for (int i = 0; i < count / 2; ++i) {
+  for (int i = 0; i < pairs; ++i) {
     draws.emplace_back(normal(random), normal(random), normal(random));
-    scatter += draws.back() * draws.back().transpose() / (count / 2);
+    scatter += draws.back() * draws.back().transpose() / pairs;
   }
   const Matrix3 root = covariance.llt().matrixL();
   const Matrix3 whitened = scatter.llt().matrixL().solve(Matrix3::Identity());
@@ -78,33 +79,38 @@ Eigen::AlignedBox2d reach_of(const std::vector<MatchPoint>& points, const Uncert
   return {Vector2(box.min() - margin), Vector2(box.max() + margin)};
 }
 
+}  // namespace
+
 /// Weighted samples as one Gaussian.
-class Moments {
+class Scrim::Moments {
  public:
   explicit Moments(const Pose2& about) : about_(about) {}
 
-  void add(const UncertainPose2& pose, double weight) {
-    const Eigen::Vector3d away = geometry::difference(pose.pose, about_);
-    weight_ += weight;
-    sum_ += weight * away;
-    squares_ += weight * (away * away.transpose() + pose.covariance);
+  void add(const Sample& sample) {
+    const Eigen::Vector3d away = geometry::difference(sample.map_from_base, about_);
+    ++count_;
+    weight_ += sample.correlation;
+    sum_ += sample.correlation * away;
+    squares_ += sample.correlation * (away * away.transpose() + sample.by_noise);
+    by_guess_ += sample.correlation * sample.by_guess;
   }
 
   double weight() const { return weight_; }
 
-  UncertainPose2 gaussian() const {
+  UncertainPose2 gaussian(std::size_t guesses) const {
     const Eigen::Vector3d mean = sum_ / weight_;
-    return {displaced(about_, mean), squares_ / weight_ - mean * mean.transpose()};
+    const double not_shown = 1.0 / static_cast<double>(count_) - 1.0 / static_cast<double>(guesses);
+    return {displaced(about_, mean), (squares_ + not_shown * by_guess_) / weight_ - mean * mean.transpose()};
   }
 
  private:
   Pose2 about_;
+  std::size_t count_ = 0;
   double weight_ = 0.0;
   Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
   Matrix3 squares_ = Matrix3::Zero();
+  Matrix3 by_guess_ = Matrix3::Zero();
 };
-
-}  // namespace
 
 double Scrim::correlation_at(const Pose2& map_from_base) const { return correlation(map_patch_, scan_cells_, map_from_base); }
 
@@ -125,13 +131,13 @@ int Scrim::gather(double valley_share) {
     }
     Sample& sample = samples_[next];
     const Sample& neighbour = samples_[reach[next].from];
-    const Pose2 between = geometry::interpolate(neighbour.map_from_base.pose, sample.map_from_base.pose, 0.5);
+    const Pose2 between = geometry::interpolate(neighbour.map_from_base, sample.map_from_base, 0.5);
     const bool is_first = joined == 0;
     const bool is_across_valley = !is_first && correlation_at(between) < valley_share * std::min(sample.correlation, neighbour.correlation);
     sample.cluster = is_first || is_across_valley ? clusters++ : neighbour.cluster;
     reach[next].is_joined = true;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const double length_m = as_seen_10_m_away(geometry::difference(samples_[i].map_from_base.pose, sample.map_from_base.pose));
+      const double length_m = as_seen_10_m_away(geometry::difference(samples_[i].map_from_base, sample.map_from_base));
       if (!reach[i].is_joined && length_m < reach[i].length_m) reach[i] = {length_m, next, false};
     }
   }
@@ -140,21 +146,26 @@ int Scrim::gather(double valley_share) {
 
 ScrimResult Scrim::match(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const UncertainPose2& prior,
                          const ScrimConfig& config, const PointToLineConfig& match_config, std::mt19937_64& random) {
-  assert(config.samples >= 8 && config.samples % 2 == 0);
+  assert(config.samples >= 8);
   ScrimResult result{.map_from_base = prior, .clusters = {{prior, 1.0}}};
   if (points.empty()) return result;
   scan_cells_ = OccupancyPatch(uncertain_points(points), config.cell_size_m).occupied(kLeastEvidence);
   map_patch_ = OccupancyPatch(uncertain_points(surfels, reach_of(points, prior)), config.cell_size_m);
+  const Matrix3 prior_information = prior.covariance.inverse();
   samples_.clear();
   double best = 0.0;
-  for (const Eigen::Vector3d& draw : paired_draws(config.samples, prior.covariance, random)) {
+  const std::vector<Eigen::Vector3d> draws = paired_draws(config.samples / 2, prior.covariance, random);
+  for (const Eigen::Vector3d& draw : draws) {
     const Pose2 guess = displaced(prior.pose, draw);
     const PointToLineResult refined = matcher_.match(points, surfels, {guess, prior.covariance}, guess, match_config);
+    result.matched_share += refined.matched_share / static_cast<double>(draws.size());
+    if (refined.matched_points == 0) continue;
+    const Pose2& pose = refined.map_from_base.pose;
     const Matrix3& covariance = refined.map_from_base.covariance;
-    // What the draw of the guess shows of the covariance is covariance * prior^-1 * covariance; this is the rest.
-    const Matrix3 by_noise = covariance * refined.scan_information * covariance;
-    samples_.push_back({{refined.map_from_base.pose, by_noise}, correlation_at(refined.map_from_base.pose)});
-    result.matched_share += refined.matched_share / config.samples;
+    samples_.push_back({.map_from_base = pose,
+                        .by_noise = covariance * refined.scan_information * covariance,
+                        .by_guess = covariance * prior_information * covariance,
+                        .correlation = correlation_at(pose)});
     best = std::max(best, samples_.back().correlation);
   }
   if (best <= 0.0) return result;
@@ -162,13 +173,13 @@ ScrimResult Scrim::match(const std::vector<MatchPoint>& points, const grids::Sur
   std::vector<Moments> clusters(static_cast<std::size_t>(gather(config.valley_share)), Moments(prior.pose));
   Moments all(prior.pose);
   for (const Sample& sample : samples_) {
-    all.add(sample.map_from_base, sample.correlation);
-    clusters[static_cast<std::size_t>(sample.cluster)].add(sample.map_from_base, sample.correlation);
+    all.add(sample);
+    clusters[static_cast<std::size_t>(sample.cluster)].add(sample);
   }
-  result.map_from_base = all.gaussian();
+  result.map_from_base = all.gaussian(draws.size());
   result.clusters.clear();
-  for (const Moments& cluster : clusters) result.clusters.push_back({cluster.gaussian(), cluster.weight() / all.weight()});
-  std::ranges::stable_sort(result.clusters, std::ranges::greater(), &PoseCluster::weight);
+  for (const Moments& cluster : clusters) result.clusters.push_back({cluster.gaussian(draws.size()), cluster.weight() / all.weight()});
+  std::ranges::stable_sort(result.clusters, std::ranges::greater{}, &PoseCluster::weight);
   return result;
 }
 

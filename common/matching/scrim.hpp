@@ -9,7 +9,7 @@
 namespace slammot::matching {
 
 struct ScrimConfig {
-  int samples = 32;                ///< Initial guesses; even, at least 8.
+  int samples = 32;                ///< Initial guesses, at least 8; they come in pairs.
   double cell_size_m = 0.2;        ///< Of the grids that are correlated.
   double least_share = 0.8;        ///< Samples with less than this share of the best correlation do not count.
   double valley_share = 0.9;       ///< Two neighbours are of different clusters where the correlation between them is below this share of both.
@@ -32,8 +32,9 @@ struct ScrimResult {
 /// correlation of grids that carry the measurement noise, and are gathered into clusters.
 /// What is added to the thesis: where correspondences do not change with the guess the covariance is exactly that of
 /// the closed form. The guesses lie in opposite pairs and have the prior's covariance exactly, and each refined one keeps
-/// the share of the measurement noise that one answer cannot show (law of total covariance; randomized maximum
-/// likelihood, Oliver, He and Reynolds 1996).
+/// the share of the covariance that no spread of guesses can show, that of the measurement noise (law of total covariance;
+/// randomized maximum likelihood, Oliver, He and Reynolds 1996). The fewer guesses a Gaussian is made of, the less their
+/// spread is believed.
 class Scrim {
  public:
   /// Posterior under the prior. The prior itself, as the only cluster, when no sample lies on anything.
@@ -43,10 +44,13 @@ class Scrim {
 
  private:
   struct Sample {
-    geometry::UncertainPose2 map_from_base;  ///< The covariance is that of the measurement noise alone.
+    geometry::Pose2 map_from_base;
+    geometry::Matrix3 by_noise;              ///< Covariance that the measurement noise gives it,
+    geometry::Matrix3 by_guess;              ///< and the one that the spread of guesses does, to first order.
     double correlation = 0.0;
     int cluster = 0;
   };
+  class Moments;
 
   double correlation_at(const geometry::Pose2& map_from_base) const;
   int gather(double valley_share);

@@ -152,6 +152,18 @@ TEST(Scrim, IsAsUncertainAsItIsWrong) {
   }
 }
 
+TEST(Scrim, IsNotSureBecauseFewGuessesFoundAnything) {
+  // Three points on a post that only a guess or two come near.
+  const World post = slammot::testing::box({6.0, 0.0, 0.3}, 0.3, 0.3);
+  Case one{post, prior_at({}, 2.0, 0.1), {0.3, 0.2, 0.0}};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const UncertainPose2 found = registered(one, seed).map_from_base;
+    ASSERT_TRUE(found.covariance.allFinite());
+    const Eigen::Vector3d error = geometry::difference(found.pose, one.truth);
+    EXPECT_LT(error.dot(found.covariance.inverse() * error), 16.3);  // chi-square, 3 degrees of freedom, 99.9 %
+  }
+}
+
 TEST(Scrim, MovesAndTurnsWithTheWorld) {
   const Pose2 there_from_here{7.0, -4.0, 0.0};
   const Case here{kCorner, prior_at({0.1, 0.1, 0.02}, 0.2, 0.03), {}};
