@@ -98,6 +98,26 @@ FieldTable<matching::CorrelativeConfig> search_fields() {
   };
 }
 
+FieldTable<AmbiguousMatchConfig> ambiguous_fields() {
+  using C = AmbiguousMatchConfig;
+  using S = matching::ScrimConfig;
+  return with_nested<C>(
+      {
+          {"weak_share", &C::weak_share, "A scan that says less than this share of the most about some direction is sampled; 0: none is.", kShare},
+          {"along_sigma_m", &C::along_sigma_m, "What the spread of guesses adds to that of the prediction along that direction.", kNotNegative},
+          {"across_sigma_m", &C::across_sigma_m, "The same across it.", kNotNegative},
+          {"heading_sigma_rad", &C::heading_sigma_rad, "The same in heading.", kNotNegative},
+          {"least_narrowing", &C::least_narrowing, "Where sampling narrows the variance of the guesses by less than this share nothing is observed.", kShare},
+      },
+      "scrim", &C::scrim,
+      FieldTable<S>{
+          {"samples", &S::samples, "Initial guesses; an odd number is one less.", Range{8, 10000}},
+          {"cell_size_m", &S::cell_size_m, "Of the grids that are correlated.", Range{0.01, 2.0}},
+          {"least_share", &S::least_share, "Samples with less than this share of the best correlation do not count.", kShare},
+          {"valley_share", &S::valley_share, "Two neighbours are of different clusters where the correlation between them is below this share of both.", kShare},
+      });
+}
+
 FieldTable<LocalizerConfig> own_fields() {
   using C = LocalizerConfig;
   return {
@@ -140,7 +160,8 @@ const FieldTable<LocalizerConfig>& localization_fields() {
     FieldTable<C> fields = with_nested<C>(own_fields(), "map", &C::map, map_fields());
     fields = with_nested<C>(std::move(fields), "search", &C::search, search_fields());
     fields = with_nested<C>(std::move(fields), "motion", &C::motion, motion_fields());
-    return with_nested<C>(std::move(fields), "match", &C::match, match_fields());
+    fields = with_nested<C>(std::move(fields), "match", &C::match, match_fields());
+    return with_nested<C>(std::move(fields), "ambiguous", &C::ambiguous, ambiguous_fields());
   }();
   return table;
 }

@@ -19,7 +19,7 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7432;  // "slammot2": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7433;  // "slammot3": the digit counts the forms of a checkpoint
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
@@ -141,17 +141,28 @@ Pose2 Localizer::search(const UncertainPose2& prior) {
   return peaks.empty() ? prior.pose : peaks.front().target_from_source.pose;
 }
 
-Localizer::Match Localizer::match(const UncertainPose2& prior) {
+matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2& prior) {
+  const auto match_from = [&](const Pose2& initial) { return matcher_.match(match_points_, map_.surfels(), prior, initial, config_.match); };
+  if (!is_vague(prior)) return match_from(prior.pose);
+  if (!last_->was_sampled) return match_from(search(prior));
+  // Along a featureless wall a search finds any place as good as any other.
+  const matching::PointToLineResult result = match_from(prior.pose);
+  return says_little(result.scan_information, config_.ambiguous) ? result : match_from(search(prior));
+}
+
+Localizer::Match Localizer::match(const UncertainPose2& prior, std::uint32_t scan_sequence) {
   if (static_cast<int>(match_points_.size()) < config_.min_echoes) {
     ++counters_.too_few_echoes;
     return {prior, false};
   }
-  const Pose2 initial = is_vague(prior) ? search(prior) : prior.pose;
-  const matching::PointToLineResult result =
-      matcher_.match(match_points_, map_.surfels(), prior, initial, config_.match);
+  const matching::PointToLineResult result = match_in_closed_form(prior);
   if (result.matched_share < config_.least_matched_share) {
     ++counters_.lost_matches;
     return {prior, false};
+  }
+  if (says_little(result.scan_information, config_.ambiguous)) {
+    ++counters_.sampled_matches;
+    return {ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, config_.match, scan_sequence), true, true};
   }
   return {result.map_from_base, true};
 }
@@ -166,7 +177,7 @@ void Localizer::travel(const Pose2& before_from_base) {
 
 UncertainPose2 Localizer::published_pose() const {
   const Eigen::Vector3d shared(config_.shared_error_forward, config_.shared_error_sideways, config_.shared_error_heading);
-  return {estimate_.odom_from_base, sensing::scaled(estimate_.uncertain_pose(), {variance_factors_.of_axis.cwiseProduct(shared)})};
+  return {estimate_.odom_from_base, sensing::scaled(estimate_.uncertain_pose(), sensing::published(variance_factors_, shared))};
 }
 
 flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base) const {
@@ -247,14 +258,17 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     sensing::deskew(scan, now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
     const UncertainPose2 prior = step.after.uncertain_pose();
     select_points(scan, prior.pose);
-    const Match found = match(prior);
+    const UncertainPose2 before = estimate_.uncertain_pose();
+    const Match found = match(prior, scan.sequence);
     const Pose2 before_from_base = geometry::inverse(estimate_.odom_from_base) * found.odom_from_base.pose;
     estimate_ = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
     if (found.is_believed) {
       const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
       variance_factors_ = sensing::learned(variance_factors_, prior, found.odom_from_base, share);
     }
+    variance_factors_ = sensing::carried(variance_factors_, before, prior, found.odom_from_base);
     travel(before_from_base);
+    now.was_sampled = found.was_sampled;
     now.knows_velocity = is_later || last_->knows_velocity;
     if (is_later && !step.is_by_wheels) {
       now.speed_mps = before_from_base.x_m / step.duration_s;
@@ -375,9 +389,11 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(self.estimate_.calibration);
   visit(self.estimate_.covariance);
   visit(self.variance_factors_.of_axis);
+  visit(self.variance_factors_.dead_reckoned);
   visit(last.has_wheels);
   visit(last.wheel_from_base);
   visit(last.knows_velocity);
+  visit(last.was_sampled);
   visit(last.speed_mps);
   visit(last.yaw_rate_radps);
   visit(self.map_from_odom_);
@@ -416,6 +432,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
                         is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.drift_) &&
                         is_believable(restored.estimate_.covariance) && restored.estimate_.calibration.norm() < 1.0 &&
                         restored.variance_factors_.of_axis.minCoeff() >= 0.0 && restored.variance_factors_.of_axis.allFinite() &&
+                        restored.variance_factors_.dead_reckoned.minCoeff() >= 0.0 && restored.variance_factors_.dead_reckoned.maxCoeff() <= 1.0 &&
                         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
                         std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.travelled_m_);
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;

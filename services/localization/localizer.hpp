@@ -22,6 +22,7 @@
 #include "common/sensing/odometry_buffer.hpp"
 #include "common/sensing/scan.hpp"
 #include "common/sensing/variance_factor.hpp"
+#include "services/localization/ambiguous_match.hpp"
 #include "services/localization/local_map.hpp"
 
 namespace slammot::localization {
@@ -54,6 +55,7 @@ struct LocalizerConfig {
   matching::CorrelativeConfig search;
   sensing::MotionModelConfig motion;
   matching::PointToLineConfig match;
+  AmbiguousMatchConfig ambiguous;
 };
 
 /// What happened so far; all grow only.
@@ -64,6 +66,7 @@ struct LocalizerCounters {
   std::uint64_t too_few_echoes = 0;       ///< Dead reckoning instead of a match.
   std::uint64_t lost_matches = 0;         ///< Too few points matched: dead reckoning.
   std::uint64_t searches = 0;             ///< Correlative searches.
+  std::uint64_t sampled_matches = 0;      ///< Along some direction the scan said too little: SCRIM.
   std::uint64_t odometry_jumps = 0;       ///< Steps taken at constant velocity instead.
   std::uint64_t without_odometry = 0;
   std::uint64_t gaps = 0;                 ///< Steps longer than longest_step_s.
@@ -80,6 +83,7 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
           {"too_few_echoes", counters.too_few_echoes},
           {"lost_matches", counters.lost_matches},
           {"searches", counters.searches},
+          {"sampled_matches", counters.sampled_matches},
           {"odometry_jumps", counters.odometry_jumps},
           {"without_odometry", counters.without_odometry},
           {"gaps", counters.gaps},
@@ -140,6 +144,7 @@ class Localizer {
     bool has_wheels = false;
     geometry::Pose2 wheel_from_base;
     bool knows_velocity = false;    ///< Not at the first scan.
+    bool was_sampled = false;       ///< Its match left some direction to the prediction.
     double speed_mps = 0.0;
     double yaw_rate_radps = 0.0;
   };
@@ -147,6 +152,7 @@ class Localizer {
   struct Match {
     geometry::UncertainPose2 odom_from_base;
     bool is_believed = false;       ///< Otherwise it is the prediction.
+    bool was_sampled = false;
   };
 
   /// Box of something that moves, with a margin.
@@ -176,7 +182,8 @@ class Localizer {
 
   bool is_usable(const sensing::LaserScan& scan);
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
-  Match match(const geometry::UncertainPose2& prior);
+  Match match(const geometry::UncertainPose2& prior, std::uint32_t scan_sequence);
+  matching::PointToLineResult match_in_closed_form(const geometry::UncertainPose2& prior);
   bool is_vague(const geometry::UncertainPose2& prior) const;
   geometry::Pose2 search(const geometry::UncertainPose2& prior);
   void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
@@ -217,6 +224,7 @@ class Localizer {
   std::vector<flow::Submap> finished_;
   matching::CorrelativeMatcher searcher_;
   matching::PointToLineMatcher matcher_;
+  AmbiguousMatcher ambiguous_matcher_;
   std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
   std::vector<matching::MatchPoint> match_points_;
   std::vector<Mask> masks_;

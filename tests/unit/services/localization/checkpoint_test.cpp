@@ -66,6 +66,26 @@ void expect_same_future(Localizer& a, Localizer& b, std::uint32_t first, std::ui
   EXPECT_EQ(a.calibration(), b.calibration());
 }
 
+TEST(Checkpoint, GoesOnAlongABareWallAsIfNothingHadHappened) {
+  DriveSetup setup = street_drive();
+  setup.world = {{{-300.0, 8.0}, {300.0, 8.0}}};
+  SimulatedDrive drive(setup);
+  Localizer original(slammot::testing::small_map_config());
+  drive_through(original, drive, 0, 60);
+  Localizer restored(slammot::testing::small_map_config());
+  ASSERT_TRUE(restored.restore(original.checkpoint()));
+  SimulatedDrive same_drive(setup);
+  restored.add_odometry(same_drive.odometry(59));
+  for (std::uint32_t scan = 60; scan < 80; ++scan) {
+    const auto before = drive_one(original, drive, scan);
+    const auto after = drive_one(restored, same_drive, scan);
+    ASSERT_EQ(after->odom_from_base.pose, before->odom_from_base.pose);
+    ASSERT_EQ(after->odom_from_base.covariance, before->odom_from_base.covariance);
+  }
+  EXPECT_EQ(restored.counters().sampled_matches, original.counters().sampled_matches);
+  EXPECT_GT(original.counters().sampled_matches, 60U);
+}
+
 TEST(Checkpoint, IsBridgedByTheOdometryThatCameBeforeItWasTakenUp) {
   SimulatedDrive drive(street_drive());
   Localizer original(config_of_many_submaps());

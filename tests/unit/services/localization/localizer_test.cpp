@@ -53,6 +53,45 @@ TEST(Localizer, KnowsWhereItIsInARoom) {
   EXPECT_EQ(localizer.counters().lost_matches, 0U);
 }
 
+/// Out of a street between two bare walls.
+DriveSetup between_bare_walls() {
+  DriveSetup setup = along_a_street();
+  setup.world = slammot::testing::joined(slammot::testing::box({5.0, 12.0, 0.3}, 12.0, 4.0), slammot::testing::box({12.0, -12.0, 0.2}, 9.0, 4.0));
+  setup.world = slammot::testing::joined(setup.world, {{{-300.0, 8.0}, {500.0, 8.0}}, {{-300.0, -8.0}, {500.0, -8.0}}});
+  setup.noise_m = 0.03;
+  setup.world_from_base_at = arc({2.0, -1.0, 0.0}, 8.0, 0.0);
+  return setup;
+}
+
+TEST(Localizer, GrowsUnsureAlongBareWallsAndStaysSureAcrossThem) {
+  SimulatedDrive drive(between_bare_walls());
+  Localizer localizer(LocalizerConfig{});
+  std::vector<geometry::Matrix3> covariances;
+  Pose2 last;
+  for (std::uint32_t scan = 0; scan < 300; ++scan) {
+    const auto localized = drive_one(localizer, drive, scan);
+    ASSERT_TRUE(localized);
+    covariances.push_back(localized->odom_from_base.covariance);
+    last = localized->odom_from_base.pose;
+  }
+  EXPECT_GT(localizer.counters().sampled_matches, 280U);
+  EXPECT_EQ(localizer.counters().searches, 0U);  // along a bare wall one place is as good as another
+  // 8 m/s: after 40 m, 80 m and 120 m.
+  EXPECT_GT(covariances[200](0, 0), 1.5 * covariances[100](0, 0));
+  EXPECT_GT(covariances[299](0, 0), 1.2 * covariances[200](0, 0));
+  EXPECT_LT(std::sqrt(covariances[299](1, 1)), 0.02);
+  const Eigen::Vector3d error = geometry::difference(last, drive.odom_from_base(299));
+  EXPECT_LT(std::abs(error.x()), 3.0 * std::sqrt(covariances[299](0, 0)));
+  EXPECT_LT(std::abs(error.y()), 0.05);
+}
+
+TEST(Localizer, SamplesNothingWhereEveryScanSaysEnough) {
+  SimulatedDrive drive(along_a_street());
+  Localizer localizer(small_map_config());
+  drive_through(localizer, drive, 0, 100);
+  EXPECT_EQ(localizer.counters().sampled_matches, 0U);
+}
+
 TEST(Localizer, KnowsWhereItIsAfterAHundredMetresOfStreetAndWhatIsWrongWithTheWheels) {
   SimulatedDrive drive(along_a_street());
   Localizer localizer(small_map_config());
@@ -381,7 +420,9 @@ TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
   DriveSetup setup = drive_.setup();
   setup.world = joined(setup.world, slammot::testing::box({0.0, 0.0, 0.0}, 0.5, 8.0));
   SimulatedDrive blocked(setup);
-  Localizer localizer(small_map_config());
+  LocalizerConfig config = small_map_config();
+  config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from pulling anyway
+  Localizer localizer(config);
   drive_through(localizer, blocked, 0, 20);
   const auto pulled_m = [&](bool with_track) {
     Localizer copy = localizer;

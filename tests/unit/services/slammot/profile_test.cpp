@@ -57,6 +57,8 @@ TEST(Profile, HasASettingForEveryMemberOfEveryStruct) {
   EXPECT_EQ(settings_under(stages["localization"], "motion."), members<sensing::MotionModelConfig>());
   EXPECT_EQ(settings_under(stages["localization"], "match."), members<matching::PointToLineConfig>());
   EXPECT_EQ(settings_under(stages["localization"], "search."), members<matching::CorrelativeConfig>());
+  EXPECT_EQ(settings_under(stages["localization"], "ambiguous."), members<localization::AmbiguousMatchConfig>());
+  EXPECT_EQ(settings_under(stages["localization"], "ambiguous.scrim."), members<matching::ScrimConfig>());
   EXPECT_EQ(settings_under(stages["detection"], ""), members<detection::DetectionConfig>());
   EXPECT_EQ(settings_under(stages["detection"], "segmentation."), members<sensing::SegmentationConfig>());
   EXPECT_EQ(settings_under(stages["tracking"], ""), members<tracking::TrackingConfig>());
