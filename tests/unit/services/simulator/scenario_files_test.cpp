@@ -36,7 +36,7 @@ TEST(ShippedScenario, CanBeLoadedByName) {
 TEST(ShippedScenario, HasOneForEachDifficultyOfTheThesis) {
   const std::vector<std::string> names = {"car_ahead", "far_crossing", "occluded_car", "move_stop_move", "pedestrians",
                                           "bus_stop", "truck", "crowd", "hard_braking", "uphill",
-                                          "long_wall", "bushes", "parked_cars_gone", "surrounded", "two_vehicles"};
+                                          "long_wall", "empty_lot", "bushes", "parked_cars_gone", "surrounded", "two_vehicles"};
   for (const std::string& name : names) {
     const auto scenario = load_scenario(name);
     ASSERT_TRUE(scenario) << scenario.error().message;
