@@ -34,8 +34,12 @@ void add_comparison_options(CLI::App& command, ComparisonOptions& options, Truth
   command.add_option("--map-tolerance", options.evaluation.map_tolerance_m, "From an occupied cell to a true wall [m]")->capture_default_str()->check(CLI::PositiveNumber);
 }
 
+std::optional<std::filesystem::path> log_of(const ComparisonOptions& options) {
+  return options.input.empty() ? plain_or_gz(options.truth.string() + ".log") : std::optional(options.input);
+}
+
 EchoSource echo_source(const ComparisonOptions& options, const RunResult& result, const Truth& truth) {
-  const auto log = options.input.empty() ? plain_or_gz(options.truth.string() + ".log") : std::optional(options.input);
+  const auto log = log_of(options);
   if (!log) return {};
   return [log = *log, &result, &truth](const auto& take) { return read_echoes(log, truth.trajectory, result.sweep_s, take); };
 }

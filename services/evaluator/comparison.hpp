@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "services/evaluator/evaluation.hpp"
 
@@ -21,6 +22,9 @@ struct ComparisonOptions {
 enum class TruthIs { kRequired, kOptional };
 
 void add_comparison_options(CLI::App& command, ComparisonOptions& options, TruthIs truth);
+
+/// The log asked for, or PREFIX.log beside the truth, if there is any.
+std::optional<std::filesystem::path> log_of(const ComparisonOptions& options);
 
 /// Echoes of the log asked for, or of PREFIX.log beside the truth; empty where there is none. result and truth must outlive it.
 EchoSource echo_source(const ComparisonOptions& options, const RunResult& result, const Truth& truth);

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -17,13 +19,25 @@ int fail(const files::Error& fault) {
   return 1;
 }
 
+/// Says nothing where nobody asked for it.
+std::optional<files::Error> evaluate_walls(const ComparisonOptions& options, const RunResult& result, Evaluation& evaluation) {
+  if (options.evaluation.walls.cell_size_m <= 0.0) return std::nullopt;
+  const auto log = log_of(options);
+  if (!log) return files::Error{"--wall-cell needs the log of the drive: --input FILE"};
+  auto walls = wall_sharpness(*log, in_world(evaluation.corrected), result.sweep_s, options.evaluation.walls);
+  if (!walls) return walls.error();
+  evaluation.walls = std::move(*walls);
+  return std::nullopt;
+}
+
 int evaluate_run(const ComparisonOptions& options) {
   const auto truth = read_truth(options.truth);
   if (!truth) return fail(truth.error());
   const auto result = read_result(options.result);
   if (!result) return fail(result.error());
-  const auto evaluation = evaluate(*result, *truth, echo_source(options, *result, *truth), options.evaluation);
+  auto evaluation = evaluate(*result, *truth, echo_source(options, *result, *truth), options.evaluation);
   if (!evaluation) return fail(evaluation.error());
+  if (const auto fault = evaluate_walls(options, *result, *evaluation)) return fail(*fault);
   std::fputs(to_text(*evaluation, options.evaluation).c_str(), stdout);
   const std::filesystem::path json = options.result / "evaluation.json";
   if (const auto fault = files::write_file_atomically(json, to_json_text(*evaluation, options.evaluation))) return fail(*fault);
@@ -37,6 +51,10 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand("eval", "Compare the outputs of a run with the truth; prints a table, writes evaluation.json");
   const auto options = std::make_shared<ComparisonOptions>();
   add_comparison_options(*command, *options, TruthIs::kRequired);
+  command->add_option("--wall-cell", options->evaluation.walls.cell_size_m, "Compare how sharp maps of such cells are, from the result's poses and from the true ones [m]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("M");
+  command->add_option("--wall-range", options->evaluation.walls.longest_range_m, "Farther echoes are not in those maps [m]")->capture_default_str()->check(CLI::PositiveNumber);
   command->callback([options, &exit_code] { exit_code = evaluate_run(*options); });
 }
 

@@ -385,6 +385,12 @@ std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth
 
 }  // namespace
 
+std::vector<PosePair> in_world(const TrajectoryEvaluation& trajectory) {
+  std::vector<PosePair> pairs = trajectory.matched;
+  for (PosePair& pair : pairs) pair.estimate = trajectory.world_from_map * pair.estimate;
+  return pairs;
+}
+
 files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, const EchoSource& echoes, const EvaluationOptions& options) {
   Evaluation evaluation;
   if (truth.annotated) {

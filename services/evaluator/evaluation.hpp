@@ -17,6 +17,7 @@
 #include "services/evaluator/echoes.hpp"
 #include "services/evaluator/result_files.hpp"
 #include "services/evaluator/truth_files.hpp"
+#include "services/evaluator/wall_sharpness.hpp"
 
 namespace slammot::evaluator {
 
@@ -25,6 +26,7 @@ struct EvaluationOptions {
   double max_stamp_difference_s = 0.01;  ///< As evo's --t_max_diff.
   double longest_occlusion_s = 5.0;      ///< Hidden for longer, an object has gone.
   double map_tolerance_m = 0.3;          ///< From an occupied cell's centre to a wall.
+  WallSharpnessOptions walls;
 };
 
 /// Over pairs about so many metres of path apart.
@@ -90,11 +92,15 @@ struct Evaluation {
   std::optional<TrackingEvaluation> tracking;
   std::optional<OtherCarEvaluation> other_car;
   std::optional<metrics::MapQuality> map;
+  std::optional<WallSharpness> walls;    ///< Filled in by who has the log and wants to know.
   std::vector<std::string> notes;
   std::vector<metrics::Scene> scenes;    ///< Truth and tracks of each scan, in the world's frame.
   std::vector<std::uint32_t> track_ids;  ///< Of the indices of tracks in the scenes.
   std::vector<metrics::CountedScene> counted;
 };
+
+/// The matched poses, the estimated ones brought into the world by the rigid alignment.
+std::vector<metrics::PosePair> in_world(const TrajectoryEvaluation& trajectory);
 
 /// Hands over the echoes of every scan of the drive.
 using EchoSource = std::function<std::optional<files::Error>(const std::function<void(const EchoesInWorld&)>& take)>;

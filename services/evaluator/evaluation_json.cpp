@@ -128,6 +128,14 @@ Json to_json(const metrics::MapQuality& map) {
           {"residue_cells", map.residue_cells}, {"wall_samples", map.wall_samples}};
 }
 
+Json to_json(const metrics::MapSharpness& map) {
+  return {{"mean_entropy_bits", number(map.mean_entropy_bits())}, {"entropy_bits", number(map.entropy_bits)}, {"touched_cells", map.touched_cells}, {"occupied_cells", map.occupied_cells}};
+}
+
+Json to_json(const WallSharpness& walls, double cell_size_m) {
+  return {{"cell_size_m", cell_size_m}, {"scans", walls.scans}, {"by_result", to_json(walls.of_estimate)}, {"by_truth", to_json(walls.of_truth)}};
+}
+
 Json to_json(const EvaluationOptions& options) {
   return {{"range_m", options.rule.range_m},
           {"first_bearing_rad", options.rule.first_bearing_rad},
@@ -154,6 +162,7 @@ std::string to_json_text(const Evaluation& evaluation, const EvaluationOptions& 
   if (evaluation.tracking) json["tracking"] = to_json(*evaluation.tracking);
   if (evaluation.other_car) json["other_car"] = to_json(*evaluation.other_car);
   if (evaluation.map) json["map"] = to_json(*evaluation.map);
+  if (evaluation.walls) json["walls"] = to_json(*evaluation.walls, options.walls.cell_size_m);
   json["notes"] = evaluation.notes;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -87,6 +87,16 @@ std::string describe(const metrics::MapQuality& map) {
               100.0 * map.residue());
 }
 
+std::string wall_row(const char* name, const metrics::MapSharpness& map) {
+  return text("  %-34s %12.4f %12zu %12zu %14.0f\n", name, map.mean_entropy_bits(), map.touched_cells, map.occupied_cells, map.entropy_bits);
+}
+
+std::string describe(const WallSharpness& walls, double cell_size_m) {
+  std::string lines = text("sharpness of maps with cells of %g m from the same %zu scans\n  %-34s %12s %12s %12s %14s\n", cell_size_m, walls.scans, "", "bits a cell", "cells met",
+                           "occupied", "bits in all");
+  return lines + wall_row("by the result's poses", walls.of_estimate) + wall_row("by the true poses", walls.of_truth);
+}
+
 }  // namespace
 
 std::string to_text(const Evaluation& evaluation, const EvaluationOptions& options) {
@@ -102,6 +112,7 @@ std::string to_text(const Evaluation& evaluation, const EvaluationOptions& optio
   }
   if (evaluation.other_car) lines += describe(*evaluation.other_car);
   if (evaluation.map) lines += describe(*evaluation.map);
+  if (evaluation.walls) lines += describe(*evaluation.walls, options.walls.cell_size_m);
   for (const std::string& note : evaluation.notes) lines += "note: " + note + "\n";
   return lines;
 }
