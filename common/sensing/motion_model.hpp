@@ -14,15 +14,17 @@ struct MotionModelConfig {
   double scale_prior = 0.02;                    ///< Of the factor on wheel distance, about 1.
   double heading_rate_bias_prior_radps = 0.005;
   double heading_per_metre_bias_prior = 0.02;   ///< [rad/m]: unequal wheels.
+  double pivot_prior_m = 0.0;                   ///< Of the place about which the vehicle turns, where logs take the scanner for it.
   double scale_walk_per_sqrt_m = 5e-5;          ///< How the scale wanders with the distance,
   double heading_rate_bias_walk = 5e-5;         ///< and the heading-rate bias with time [rad/s per sqrt(s)].
   double standstill_acceleration_mps2 = 3.0;    ///< Without odometry: how much the velocity may have changed.
   double standstill_turn_acceleration_radps2 = 1.0;
 };
 
-/// Systematic errors of the odometry: (scale - 1 [-], heading-rate bias [rad/s], heading bias by distance [rad/m]).
-using MotionCalibration = Eigen::Vector3d;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+/// Systematic errors of the odometry: (scale - 1 [-], heading-rate bias [rad/s], heading bias by distance [rad/m], and where
+/// the base is ahead of and left of the point that the wheels speak of [m, m]).
+using MotionCalibration = Eigen::Matrix<double, 5, 1>;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
 /// Where the vehicle is and what is wrong with its odometry, as one Gaussian. They belong together: an odometry that is
 /// one percent short makes every prediction late by a little, and only what the laser says beyond all of these
@@ -30,7 +32,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 struct MotionEstimate {
   geometry::Pose2 odom_from_base;
   MotionCalibration calibration = MotionCalibration::Zero();
-  Matrix6 covariance = Matrix6::Zero();   ///< Of (x [m], y [m], heading [rad], calibration); the pose against the local map.
+  Matrix8 covariance = Matrix8::Zero();   ///< Of (x [m], y [m], heading [rad], calibration); the pose against the local map.
 
   geometry::UncertainPose2 uncertain_pose() const { return {odom_from_base, covariance.topLeftCorner<3, 3>()}; }
   double scale() const { return 1.0 + calibration.x(); }

@@ -24,7 +24,7 @@ std::optional<files::Error> evaluate_walls(const ComparisonOptions& options, con
   if (options.evaluation.walls.cell_size_m <= 0.0) return std::nullopt;
   const auto log = log_of(options);
   if (!log) return files::Error{"--wall-cell needs the log of the drive: --input FILE"};
-  auto walls = wall_sharpness(*log, in_world(evaluation.corrected), result.sweep_s, options.evaluation.walls);
+  auto walls = wall_sharpness(*log, localized_in_world(result, evaluation.corrected), result.sweep_s, options.evaluation.walls);
   if (!walls) return walls.error();
   evaluation.walls = std::move(*walls);
   return std::nullopt;

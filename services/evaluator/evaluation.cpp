@@ -385,9 +385,12 @@ std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth
 
 }  // namespace
 
-std::vector<PosePair> in_world(const TrajectoryEvaluation& trajectory) {
-  std::vector<PosePair> pairs = trajectory.matched;
-  for (PosePair& pair : pairs) pair.estimate = trajectory.world_from_map * pair.estimate;
+std::vector<PosePair> localized_in_world(const RunResult& result, const TrajectoryEvaluation& trajectory) {
+  std::vector<PosePair> pairs;
+  for (const PosePair& pair : trajectory.matched) {
+    const bool was_localized = result.uncertain.empty() || at_stamp(result.uncertain, pair.stamp_ns, kSameStampNs);
+    if (was_localized) pairs.push_back({pair.stamp_ns, pair.truth, trajectory.world_from_map * pair.estimate});
+  }
   return pairs;
 }
 

@@ -99,8 +99,9 @@ struct Evaluation {
   std::vector<metrics::CountedScene> counted;
 };
 
-/// The matched poses, the estimated ones brought into the world by the rigid alignment.
-std::vector<metrics::PosePair> in_world(const TrajectoryEvaluation& trajectory);
+/// The matched poses, the estimated ones brought into the world by the rigid alignment. Scans that were dropped have a pose
+/// between their neighbours in the trajectory, and none here, where the result says which were localized.
+std::vector<metrics::PosePair> localized_in_world(const RunResult& result, const TrajectoryEvaluation& trajectory);
 
 /// Hands over the echoes of every scan of the drive.
 using EchoSource = std::function<std::optional<files::Error>(const std::function<void(const EchoesInWorld&)>& take)>;

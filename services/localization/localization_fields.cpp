@@ -55,6 +55,7 @@ FieldTable<sensing::MotionModelConfig> motion_fields() {
       {"heading_rate_bias_prior_radps", &C::heading_rate_bias_prior_radps, "One sigma of the gyro's bias.", kNotNegative},
       {"heading_per_metre_bias_prior", &C::heading_per_metre_bias_prior, "One sigma of what unequal wheels turn [rad/m].",
        kNotNegative},
+      {"pivot_prior_m", &C::pivot_prior_m, "One sigma of the place about which the vehicle turns, ahead and to the left.", kNotNegative},
       {"scale_walk_per_sqrt_m", &C::scale_walk_per_sqrt_m, "How the scale wanders with the distance, one sigma.", kNotNegative},
       {"heading_rate_bias_walk", &C::heading_rate_bias_walk, "How the gyro's bias wanders with time [rad/s per sqrt(s)].", kNotNegative},
       {"standstill_acceleration_mps2", &C::standstill_acceleration_mps2,
