@@ -65,6 +65,16 @@ FieldTable<sensing::MotionModelConfig> motion_fields() {
   };
 }
 
+FieldTable<WheelJumpConfig> wheel_jump_fields() {
+  using C = WheelJumpConfig;
+  return {
+      {"acceleration_mps2", &C::acceleration_mps2, "A vehicle that changes its speed faster has not: its odometry has jumped.", kPositive},
+      {"turn_acceleration_radps2", &C::turn_acceleration_radps2, "The same for how it turns.", kPositive},
+      {"jitter_m", &C::jitter_m, "What wheels may say beyond that in a step, read at another time than the scan.", kNotNegative},
+      {"jitter_rad", &C::jitter_rad, "The same for the heading.", kNotNegative},
+  };
+}
+
 FieldTable<matching::PointToLineConfig> match_fields() {
   using C = matching::PointToLineConfig;
   return {
@@ -137,6 +147,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"search_sigmas", &C::search_sigmas, "Half width of the search window in standard deviations of the prediction.",
        Range{0.1, 20.0}},
       {"leave_out_moving", &C::leave_out_moving, "Off, to see what it is worth: everything is mapped and matched as if it stood."},
+      {"use_odometry", &C::use_odometry, "Off, for wheels that are worse than none: constant velocity predicts."},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},
       {"longest_step_s", &C::longest_step_s, "Without odometry nothing is extrapolated farther; longer gaps are counted.", kPositive},
       {"fastest_mps", &C::fastest_mps, "Odometry that says more has jumped.", kPositive},
@@ -159,6 +170,7 @@ const FieldTable<LocalizerConfig>& localization_fields() {
   using C = LocalizerConfig;
   static const FieldTable<C> table = [] {
     FieldTable<C> fields = with_nested<C>(own_fields(), "map", &C::map, map_fields());
+    fields = with_nested<C>(std::move(fields), "wheel_jump", &C::wheel_jump, wheel_jump_fields());
     fields = with_nested<C>(std::move(fields), "search", &C::search, search_fields());
     fields = with_nested<C>(std::move(fields), "motion", &C::motion, motion_fields());
     fields = with_nested<C>(std::move(fields), "match", &C::match, match_fields());

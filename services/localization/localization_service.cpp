@@ -84,6 +84,7 @@ void LocalizationService::take(const slammot_LaserScan& sample) {
 }
 
 void LocalizationService::take(const slammot_Odometry& sample) {
+  if (!config_.use_odometry) return;  // nor is it waited for
   const auto odometry = wire::decode(sample);
   if (!is_good(odometry, "odometry")) return;
   waited_in_vain_ = 0;

@@ -45,7 +45,9 @@ grids::Echo unexplained_out(EndCell end_cell) {
 Localizer::Localizer(const LocalizerConfig& config)
     : config_(config), estimate_(sensing::at_start(config.motion)), searcher_(config.search) {}
 
-void Localizer::add_odometry(const sensing::Odometry& sample) { odometry_.add(sample); }
+void Localizer::add_odometry(const sensing::Odometry& sample) {
+  if (config_.use_odometry) odometry_.add(sample);
+}
 
 void Localizer::expect(const flow::TrackedObjects& objects) { expected_objects_ = objects; }
 
@@ -61,13 +63,29 @@ bool Localizer::is_usable(const sensing::LaserScan& scan) {
   return is_new;
 }
 
+bool Localizer::is_impossible(const Pose2& by_wheels, double duration_s) const {
+  return std::hypot(by_wheels.x_m, by_wheels.y_m) > config_.fastest_mps * duration_s;
+}
+
+/// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step is doubted for that.
+bool Localizer::is_doubtful(const Pose2& by_wheels, double duration_s) const {
+  return last_->knows_velocity && !last_->doubted_wheels &&
+         is_wheel_jump(by_wheels, last_->speed_mps, last_->yaw_rate_radps, duration_s, config_.wheel_jump);
+}
+
 Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
   Step step;
+  std::optional<Pose2> doubtful_step;
   step.duration_s = static_cast<double>(stamp_ns - last_->stamp_ns) * kNanosecond_s;
   if (step.duration_s > config_.longest_step_s) ++counters_.gaps;
   if (wheel_from_base && last_->has_wheels) {
     const Pose2 by_wheels = geometry::inverse(last_->wheel_from_base) * *wheel_from_base;
-    if (std::hypot(by_wheels.x_m, by_wheels.y_m) <= config_.fastest_mps * step.duration_s) {
+    if (is_impossible(by_wheels, step.duration_s)) {
+      step.has_doubted_wheels = true;
+    } else if (is_doubtful(by_wheels, step.duration_s)) {
+      doubtful_step = by_wheels;
+      step.has_doubted_wheels = true;
+    } else {
       step.is_by_wheels = true;
       step.after = sensing::moved_by_wheels(estimate_, by_wheels, step.duration_s, config_.motion);
       step.before_from_base = geometry::inverse(estimate_.odom_from_base) * step.after.odom_from_base;
@@ -83,6 +101,10 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
   if (!last_->knows_velocity) {
     const double sigma_m = config_.fastest_mps / 3.0 * extrapolated_s;  // a log may begin in full drive
     before_from_base.covariance.topLeftCorner<2, 2>() += sigma_m * sigma_m * geometry::Matrix2::Identity();
+  }
+  if (doubtful_step) {  // either the wheels have jumped or the vehicle was stopped or pushed: the match decides
+    const Eigen::Vector3d apart = geometry::difference(*doubtful_step, before_from_base.pose);
+    before_from_base.covariance.diagonal() += apart.cwiseAbs2();
   }
   step.after = sensing::moved(estimate_, before_from_base);
   step.before_from_base = before_from_base.pose;
@@ -252,6 +274,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
   } else {
     const Step step = predict(scan.stamp_ns, wheel_from_base);
+    now.doubted_wheels = step.has_doubted_wheels;
     const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
     now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last_->speed_mps;
     now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last_->yaw_rate_radps;
@@ -396,6 +419,7 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(last.was_sampled);
   visit(last.speed_mps);
   visit(last.yaw_rate_radps);
+  visit(last.doubted_wheels);
   visit(self.map_from_odom_);
   visit(self.correction_sequence_);
   visit(self.previous_from_submap_.pose);

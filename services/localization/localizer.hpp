@@ -24,6 +24,7 @@
 #include "common/sensing/variance_factor.hpp"
 #include "services/localization/ambiguous_match.hpp"
 #include "services/localization/local_map.hpp"
+#include "services/localization/wheel_jump.hpp"
 
 namespace slammot::localization {
 
@@ -40,6 +41,7 @@ struct LocalizerConfig {
   double search_reach_m = 25.0;           ///< Half side of the square of the map that is searched.
   double search_sigmas = 3.0;             ///< Half width of the search window in standard deviations of the prediction.
   bool leave_out_moving = true;           ///< Off, to see what it is worth: everything is mapped and matched as if it stood.
+  bool use_odometry = true;               ///< Off, for wheels that are worse than none: constant velocity predicts.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
   double longest_step_s = 2.0;            ///< Without odometry nothing is extrapolated farther; longer gaps are counted.
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
@@ -51,6 +53,7 @@ struct LocalizerConfig {
   double shared_error_heading = 3.0;      ///< Measured by NEES on simulated drives: docs/results.md.
   double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
   double drift_rad_per_sqrt_m = 0.0002;  ///< Over 100 m that is 0.1 degrees; simulated drives show 0.04 to 0.06.
+  WheelJumpConfig wheel_jump;
   LocalMapConfig map;
   matching::CorrelativeConfig search;
   sensing::MotionModelConfig motion;
@@ -147,6 +150,7 @@ class Localizer {
     bool was_sampled = false;       ///< Its match left some direction to the prediction.
     double speed_mps = 0.0;
     double yaw_rate_radps = 0.0;
+    bool doubted_wheels = false;    ///< What they said last was a jump.
   };
 
   struct Match {
@@ -177,11 +181,14 @@ class Localizer {
     sensing::MotionEstimate after;
     geometry::Pose2 before_from_base;
     bool is_by_wheels = false;
+    bool has_doubted_wheels = false;
     double duration_s = 0.0;
   };
 
   bool is_usable(const sensing::LaserScan& scan);
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
+  bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
+  bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;
   Match match(const geometry::UncertainPose2& prior, std::uint32_t scan_sequence);
   matching::PointToLineResult match_in_closed_form(const geometry::UncertainPose2& prior);
   bool is_vague(const geometry::UncertainPose2& prior) const;

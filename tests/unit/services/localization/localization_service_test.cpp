@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/wire/sensor.hpp"
+#include "common/wire/service.hpp"
 #include "tests/support/service_on_the_bus.hpp"
 
 namespace slammot::localization {
@@ -83,6 +84,43 @@ TEST_F(LocalizationOnTheBus, AnswersAScanThatIsDoneWithTheNewestOne) {
   send(0);
   ASSERT_TRUE(comes_to([this] { return has_localized(5); }));
   EXPECT_THAT(sequences, ::testing::ElementsAre(0, 1, 2, 2, 2));
+}
+
+TEST_F(LocalizationOnTheBus, CountsBadInputInItsStatusAndGoesOn) {
+  begin();
+  dds::Reader<slammot_ServiceStatus> statuses(neighbour_, dds::topics::kStatus);
+  localize(0, 10);
+  for (const std::uint32_t stale : {9U, 9U, 4U, 3U}) {  // a repeated stamp, and scans out of order, two in a row each
+    send(stale);
+    ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
+  }
+  const auto send_blind = [this](std::uint32_t sequence, std::size_t valid_beams) {
+    const std::size_t so_far = sequences.size();
+    sensing::LaserScan scan = room_scan(sequence);
+    for (std::size_t beam = valid_beams; beam < scan.range_m.size(); ++beam) scan.range_m[beam] = static_cast<float>(scan.scanner.max_range_m);
+    odometry.write(wire::encode("car", sensing::Odometry{scan.stamp_ns, {}}));
+    scans.write(wire::LaserScanEncoder(drive_id).encode("car", scan));
+    ASSERT_TRUE(comes_to([&] { return has_localized(so_far + 1); }));
+  };
+  send_blind(10, 3);
+  send_blind(11, 0);
+  localize(40, 41);  // after 2.9 s
+  odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(41), {400.0, 0.0, 0.0}}));
+  scans.write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(41)));
+  ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
+  const std::map<std::string, std::uint64_t> expected = {{"duplicate_scans", 2}, {"out_of_order_scans", 2}, {"too_few_echoes", 2}, {"gaps", 1}, {"odometry_jumps", 1}};
+  std::map<std::string, std::uint64_t> counted;
+  EXPECT_TRUE(comes_to([&] {
+    statuses.take_each([&](const slammot_ServiceStatus& sample) {
+      const auto status = wire::decode(sample);
+      if (!status || status->name.service != "localization") return;
+      for (const wire::Counter& counter : status->counters) {
+        if (expected.contains(counter.name)) counted[counter.name] = counter.total;
+      }
+    });
+    return counted == expected;
+  })) << ::testing::PrintToString(counted);
+  EXPECT_EQ(maps.size(), 1U);
 }
 
 TEST_F(LocalizationOnTheBus, DoesWithoutOdometry) {

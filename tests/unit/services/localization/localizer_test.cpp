@@ -221,6 +221,44 @@ TEST(Localizer, GoesOnAtConstantVelocityWhenOdometryJumps) {
   EXPECT_EQ(localizer.counters().odometry_jumps, 1U);
 }
 
+TEST(Localizer, IsNotMovedByJumpsOfOdometryOfAnySizeAlsoSeveralInARow) {
+  for (const Pose2& jump : {Pose2{0.3, 0.0, 0.0}, Pose2{-0.5, 0.8, 0.0}, Pose2{2.0, 0.0, 0.0}, Pose2{0.0, 0.0, 0.3}, Pose2{0.0, 0.0, -2.0}, Pose2{4.0, -3.0, 1.5}}) {
+    SimulatedDrive drive(round_in_a_room());
+    Localizer localizer(small_map_config());
+    drive_through(localizer, drive, 0, 50);
+    Pose2 sum;
+    for (std::uint32_t scan = 50; scan < 100; ++scan) {
+      sensing::Odometry odometry = drive.odometry(scan);
+      if (scan == 60 || scan == 80 || scan == 82 || scan == 84) sum = sum * (odometry.wheel_from_base * jump * inverse(odometry.wheel_from_base));
+      odometry.wheel_from_base = sum * odometry.wheel_from_base;
+      localizer.add_odometry(odometry);
+      const auto localized = localizer.localize(drive.scan(scan));
+      localizer.integrate(all_stationary(*localized));
+      EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.04)) << scan << " after jumps of " << jump.x_m << " " << jump.y_m << " " << jump.heading_rad;
+    }
+    EXPECT_EQ(localizer.counters().odometry_jumps, 4U);
+  }
+}
+
+TEST(Localizer, BelievesWheelsThatKeepSayingThatTheVelocityHasChanged) {
+  DriveSetup setup = round_in_a_room();
+  const auto path = arc({-6.0, -3.0, 0.0}, 4.0, 0.0);
+  setup.world_from_base_at = [=](double time_s) { return path(std::min(time_s, 2.0)); };  // as if against a wall
+  SimulatedDrive drive(setup);
+  Localizer localizer(small_map_config());
+  EXPECT_LT(drive_through(localizer, drive, 0, 60).worst_m, 0.05);
+  EXPECT_EQ(localizer.counters().odometry_jumps, 1U);
+}
+
+TEST(Localizer, TakesNoOdometryWhereItIsToldNotTo) {
+  LocalizerConfig config = small_map_config();
+  config.use_odometry = false;
+  SimulatedDrive drive(round_in_a_room());
+  Localizer localizer(config);
+  drive_through(localizer, drive, 0, 20);
+  EXPECT_EQ(localizer.counters().without_odometry, 19U);
+}
+
 TEST(Localizer, BridgesTwoSecondsWithoutScans) {
   for (const bool with_odometry : {true, false}) {
     SimulatedDrive drive(round_in_a_room());
