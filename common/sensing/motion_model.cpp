@@ -13,7 +13,9 @@ double squared(double value) { return value * value; }
 
 constexpr double kSurprise = 16.3;  // chi-square, 3 degrees of freedom, 99.9 %
 
+using Matrix32 = Eigen::Matrix<double, 3, 2>;
 using Matrix35 = Eigen::Matrix<double, 3, 5>;
+using Matrix37 = Eigen::Matrix<double, 3, 7>;
 
 /// How far a point moves that is off the pivot by one metre: what turns about the pivot swings.
 geometry::Matrix2 swing(double turned_rad) { return geometry::rotation(turned_rad) - geometry::Matrix2::Identity(); }
@@ -32,12 +34,43 @@ Matrix35 step_by_calibration(const Pose2& by_wheels, double duration_s, const Mo
   return J;
 }
 
+/// What a step at constant velocity may be off by because the velocity wanders during it, and a little more, as any step.
+geometry::Matrix3 noise_at_velocity(double duration_s, const MotionModelConfig& config) {
+  const double cube_s3 = squared(duration_s) * duration_s / 3.0;
+  const double ahead_m2 = squared(config.speed_walk_mps) * cube_s3;
+  const double turn_rad2 = squared(config.yaw_rate_walk_radps) * cube_s3;
+  return Eigen::Vector3d(squared(config.position_noise_m) + ahead_m2, squared(config.position_noise_m), squared(config.heading_noise_rad) + turn_rad2).asDiagonal();
+}
+
+/// The velocity of a step by wheels, known as well as they tell it.
+void take_velocity(const geometry::UncertainPose2& step, double duration_s, MotionEstimate& after) {
+  if (duration_s <= 0.0) return;
+  after.velocity = {step.pose.x_m / duration_s, step.pose.heading_rad / duration_s};
+  after.covariance.rightCols<2>().setZero();
+  after.covariance.bottomRows<2>().setZero();
+  after.covariance.bottomRightCorner<2, 2>().diagonal() << step.covariance(0, 0) / squared(duration_s), step.covariance(2, 2) / squared(duration_s);
+}
+
+/// The step's own uncertainty only.
+MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose2& before_from_base) {
+  MotionEstimate after = before;
+  after.odom_from_base = before.odom_from_base * before_from_base.pose;
+  const geometry::Matrix3 by_before = geometry::compound_jacobian_first(before.odom_from_base, before_from_base.pose);
+  const geometry::Matrix3 by_step = geometry::compound_jacobian_second(before.odom_from_base);
+  after.covariance.topLeftCorner<3, 3>() = by_before * before.covariance.topLeftCorner<3, 3>() * by_before.transpose() +
+                                           by_step * before_from_base.covariance * by_step.transpose();
+  after.covariance.topRightCorner<3, 7>() = by_before * before.covariance.topRightCorner<3, 7>();
+  after.covariance.bottomLeftCorner<7, 3>() = after.covariance.topRightCorner<3, 7>().transpose();
+  return after;
+}
+
 }  // namespace
 
 MotionEstimate at_start(const MotionModelConfig& config) {
   MotionEstimate estimate;
-  estimate.covariance.diagonal().tail<5>() << squared(config.scale_prior), squared(config.heading_rate_bias_prior_radps),
-      squared(config.heading_per_metre_bias_prior), squared(config.pivot_prior_m), squared(config.pivot_prior_m);
+  estimate.covariance.diagonal().tail<7>() << squared(config.scale_prior), squared(config.heading_rate_bias_prior_radps),
+      squared(config.heading_per_metre_bias_prior), squared(config.pivot_prior_m), squared(config.pivot_prior_m), squared(config.speed_prior_mps),
+      squared(config.yaw_rate_prior_radps);
   return estimate;
 }
 
@@ -58,63 +91,73 @@ geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, d
   return step;
 }
 
-geometry::UncertainPose2 predict_step_at_velocity(double speed_mps, double yaw_rate_radps, double duration_s,
-                                                  const MotionModelConfig& config) {
-  const double turn_rad = yaw_rate_radps * duration_s;
-  const double distance_m = speed_mps * duration_s;
-  const double position_m = config.position_noise_m + 0.5 * config.standstill_acceleration_mps2 * squared(duration_s);
-  const double heading_rad = config.heading_noise_rad + 0.5 * config.standstill_turn_acceleration_radps2 * squared(duration_s);
-  geometry::UncertainPose2 step;
-  step.pose = {distance_m * std::cos(0.5 * turn_rad), distance_m * std::sin(0.5 * turn_rad), geometry::wrap_angle(turn_rad)};
-  step.covariance.diagonal() << squared(position_m), squared(position_m), squared(heading_rad);
-  return step;
-}
-
 MotionEstimate moved_by_wheels(const MotionEstimate& before, const Pose2& before_from_base_by_wheels, double duration_s,
                                const MotionModelConfig& config) {
   const geometry::UncertainPose2 step = predict_step(before_from_base_by_wheels, duration_s, before.calibration, config);
   MotionEstimate after = moved(before, step);
   const Matrix35 by_calibration = geometry::compound_jacobian_second(before.odom_from_base) *
                                   step_by_calibration(before_from_base_by_wheels, duration_s, before.calibration);
-  const Matrix35 cross = after.covariance.topRightCorner<3, 5>();
-  const Eigen::Matrix<double, 5, 5> of_calibration = before.covariance.bottomRightCorner<5, 5>();
+  const Matrix35 cross = after.covariance.block<3, 5>(0, 3);
+  const Eigen::Matrix<double, 5, 5> of_calibration = before.covariance.block<5, 5>(3, 3);
   const geometry::Matrix3 mixed = by_calibration * cross.transpose();
   after.covariance.topLeftCorner<3, 3>() += by_calibration * of_calibration * by_calibration.transpose() + mixed + mixed.transpose();
-  after.covariance.topRightCorner<3, 5>() += by_calibration * of_calibration;
-  after.covariance.bottomLeftCorner<5, 3>() = after.covariance.topRightCorner<3, 5>().transpose();
+  after.covariance.block<3, 5>(0, 3) += by_calibration * of_calibration;
+  after.covariance.block<5, 3>(3, 0) = after.covariance.block<3, 5>(0, 3).transpose();
   const double distance_m = std::hypot(before_from_base_by_wheels.x_m, before_from_base_by_wheels.y_m);
   after.covariance(3, 3) += squared(config.scale_walk_per_sqrt_m) * distance_m;
   after.covariance(4, 4) += squared(config.heading_rate_bias_walk) * duration_s;
+  take_velocity(step, duration_s, after);
   return after;
 }
 
-MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose2& before_from_base) {
-  MotionEstimate after = before;
-  after.odom_from_base = before.odom_from_base * before_from_base.pose;
-  const geometry::Matrix3 by_before = geometry::compound_jacobian_first(before.odom_from_base, before_from_base.pose);
+MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s, const MotionModelConfig& config) {
+  const double distance_m = before.velocity.x() * duration_s;
+  const double turn_rad = before.velocity.y() * duration_s;
+  const Eigen::Vector2d ahead(std::cos(0.5 * turn_rad), std::sin(0.5 * turn_rad));
+  const geometry::UncertainPose2 step{{distance_m * ahead.x(), distance_m * ahead.y(), geometry::wrap_angle(turn_rad)}, noise_at_velocity(duration_s, config)};
+  Matrix32 by_velocity;
+  by_velocity << ahead.x(), -0.5 * distance_m * ahead.y(),
+                 ahead.y(), 0.5 * distance_m * ahead.x(),
+                 0.0, 1.0;
+  by_velocity *= duration_s;
   const geometry::Matrix3 by_step = geometry::compound_jacobian_second(before.odom_from_base);
-  after.covariance.topLeftCorner<3, 3>() = by_before * before.covariance.topLeftCorner<3, 3>() * by_before.transpose() +
-                                           by_step * before_from_base.covariance * by_step.transpose();
-  after.covariance.topRightCorner<3, 5>() = by_before * before.covariance.topRightCorner<3, 5>();
-  after.covariance.bottomLeftCorner<5, 3>() = after.covariance.topRightCorner<3, 5>().transpose();
+  Matrix10 F = Matrix10::Identity();
+  F.topLeftCorner<3, 3>() = geometry::compound_jacobian_first(before.odom_from_base, step.pose);
+  F.topRightCorner<3, 2>() = by_step * by_velocity;
+  MotionEstimate after = before;
+  after.odom_from_base = before.odom_from_base * step.pose;
+  after.covariance = F * before.covariance * F.transpose();
+  after.covariance.topLeftCorner<3, 3>() += by_step * step.covariance * by_step.transpose();
+  const Eigen::Vector2d walk(squared(config.speed_walk_mps), squared(config.yaw_rate_walk_radps));
+  after.covariance.bottomRightCorner<2, 2>().diagonal() += duration_s * walk;
+  const Matrix32 cross = 0.5 * duration_s * by_step * by_velocity * walk.asDiagonal();
+  after.covariance.topRightCorner<3, 2>() += cross;
+  after.covariance.bottomLeftCorner<2, 3>() += cross.transpose();
   return after;
+}
+
+MotionEstimate with_doubted_velocity(const MotionEstimate& estimate, const Velocity& off) {
+  MotionEstimate doubted = estimate;
+  doubted.covariance.bottomRightCorner<2, 2>().diagonal() += off.cwiseAbs2();
+  return doubted;
 }
 
 MotionEstimate matched(const MotionEstimate& predicted, const geometry::UncertainPose2& odom_from_base) {
   MotionEstimate estimate = predicted;
   estimate.odom_from_base = odom_from_base.pose;
   const geometry::Matrix3 prior = predicted.covariance.topLeftCorner<3, 3>();
-  const Eigen::Matrix<double, 5, 3> cross = predicted.covariance.bottomLeftCorner<5, 3>();
+  const Matrix37 cross = predicted.covariance.topRightCorner<3, 7>();
   const Eigen::Vector3d surprise = geometry::difference(odom_from_base.pose, predicted.odom_from_base);
   const Eigen::LDLT<geometry::Matrix3> factors(prior);
   const bool is_credible = surprise.dot(factors.solve(surprise)) < kSurprise;
-  Eigen::Matrix<double, 5, 3> gain = Eigen::Matrix<double, 5, 3>::Zero();
-  if (is_credible) gain = factors.solve(cross.transpose()).transpose();
-  estimate.calibration += gain * surprise;
+  Eigen::Matrix<double, 7, 3> gain = Eigen::Matrix<double, 7, 3>::Zero();
+  if (is_credible) gain = factors.solve(cross).transpose();
+  estimate.calibration += gain.topRows<5>() * surprise;
+  estimate.velocity += gain.bottomRows<2>() * surprise;
   estimate.covariance.topLeftCorner<3, 3>() = odom_from_base.covariance;
-  estimate.covariance.bottomLeftCorner<5, 3>() = gain * odom_from_base.covariance;
-  estimate.covariance.topRightCorner<3, 5>() = estimate.covariance.bottomLeftCorner<5, 3>().transpose();
-  estimate.covariance.bottomRightCorner<5, 5>() -= gain * (prior - odom_from_base.covariance) * gain.transpose();
+  estimate.covariance.bottomLeftCorner<7, 3>() = gain * odom_from_base.covariance;
+  estimate.covariance.topRightCorner<3, 7>() = estimate.covariance.bottomLeftCorner<7, 3>().transpose();
+  estimate.covariance.bottomRightCorner<7, 7>() -= gain * (prior - odom_from_base.covariance) * gain.transpose();
   return estimate;
 }
 

@@ -17,22 +17,27 @@ struct MotionModelConfig {
   double pivot_prior_m = 0.0;                   ///< Of the place about which the vehicle turns, where logs take the scanner for it.
   double scale_walk_per_sqrt_m = 5e-5;          ///< How the scale wanders with the distance,
   double heading_rate_bias_walk = 5e-5;         ///< and the heading-rate bias with time [rad/s per sqrt(s)].
-  double standstill_acceleration_mps2 = 3.0;    ///< Without odometry: how much the velocity may have changed.
-  double standstill_turn_acceleration_radps2 = 1.0;
+  double speed_prior_mps = 20.0;                ///< Without odometry: how fast it may be at the start,
+  double yaw_rate_prior_radps = 1.0;
+  double speed_walk_mps = 3.0;                  ///< and how the velocity wanders [m/s per sqrt(s)],
+  double yaw_rate_walk_radps = 1.0;             ///< as vehicles accelerate for about a second at a time [rad/s per sqrt(s)].
 };
 
 /// Systematic errors of the odometry: (scale - 1 [-], heading-rate bias [rad/s], heading bias by distance [rad/m], and where
 /// the base is ahead of and left of the point that the wheels speak of [m, m]).
 using MotionCalibration = Eigen::Matrix<double, 5, 1>;
-using Matrix8 = Eigen::Matrix<double, 8, 8>;
+/// (forward [m/s], yaw rate [rad/s]).
+using Velocity = Eigen::Vector2d;
+using Matrix10 = Eigen::Matrix<double, 10, 10>;
 
-/// Where the vehicle is and what is wrong with its odometry, as one Gaussian. They belong together: an odometry that is
+/// Where the vehicle is, what is wrong with its odometry and, where it has none, how fast it is, as one Gaussian. They belong together: an odometry that is
 /// one percent short makes every prediction late by a little, and only what the laser says beyond all of these
 /// predictions, not the single step, tells it from noise. Taken apart, the prediction's error leaks into the map.
 struct MotionEstimate {
   geometry::Pose2 odom_from_base;
   MotionCalibration calibration = MotionCalibration::Zero();
-  Matrix8 covariance = Matrix8::Zero();   ///< Of (x [m], y [m], heading [rad], calibration); the pose against the local map.
+  Velocity velocity = Velocity::Zero();
+  Matrix10 covariance = Matrix10::Zero(); ///< Of (x [m], y [m], heading [rad], calibration, velocity); the pose against the local map.
 
   geometry::UncertainPose2 uncertain_pose() const { return {odom_from_base, covariance.topLeftCorner<3, 3>()}; }
   double scale() const { return 1.0 + calibration.x(); }
@@ -47,18 +52,17 @@ MotionEstimate at_start(const MotionModelConfig& config);
 geometry::UncertainPose2 predict_step(const geometry::Pose2& before_from_base_by_wheels, double duration_s,
                                       const MotionCalibration& calibration, const MotionModelConfig& config);
 
-/// Motion at constant velocity, for vehicles without odometry. The covariance allows for accelerations.
-geometry::UncertainPose2 predict_step_at_velocity(double speed_mps, double yaw_rate_radps, double duration_s,
-                                                  const MotionModelConfig& config);
-
-/// After a step by wheels, before the scan is matched.
+/// After a step by wheels, before the scan is matched. The velocity is theirs.
 MotionEstimate moved_by_wheels(const MotionEstimate& before, const geometry::Pose2& before_from_base_by_wheels,
                                double duration_s, const MotionModelConfig& config);
 
-/// After a step that tells nothing of the wheels.
-MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose2& before_from_base);
+/// After a step of which the wheels say nothing: on at the velocity, which wanders (Wiener process).
+MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s, const MotionModelConfig& config);
 
-/// What the match, which took the prediction's pose for its prior, says of the calibration too: conditional Gaussian.
+/// The same estimate, less sure of its velocity: whatever else it may be is this far from it.
+MotionEstimate with_doubted_velocity(const MotionEstimate& estimate, const Velocity& off);
+
+/// What the match, which took the prediction's pose for its prior, says of the calibration and the velocity too: conditional Gaussian.
 /// A surprise beyond what the prediction allows is a wrong match or a slipping wheel: it moves the pose alone.
 MotionEstimate matched(const MotionEstimate& predicted, const geometry::UncertainPose2& odom_from_base);
 

@@ -227,6 +227,14 @@ void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
   scans_ = 0;
 }
 
+void LocalMap::begin_astray(const Vector2& centre_in_odom_m) {
+  const flow::SubmapId next{submap_id_.value + 1};
+  const double odometer_m = odometer_m_;
+  *this = LocalMap(config_, centre_in_odom_m);
+  submap_id_ = next;
+  odometer_m_ = odometer_m;
+}
+
 void LocalMap::write(std::vector<std::byte>& bytes) const {
   put(bytes, evidence_.window());
   put_all(bytes, evidence_.so_cells());

@@ -60,6 +60,9 @@ class LocalMap {
   /// has drifted by now: matching against it would bend the new submap towards it, which is for loop closing to judge.
   void begin_next(const geometry::Vector2& centre_in_odom_m);
 
+  /// Begins the next submap with nothing: where it lies to what was seen before is not known.
+  void begin_astray(const geometry::Vector2& centre_in_odom_m);
+
   /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.
   void write(std::vector<std::byte>& bytes) const;
   /// None when the bytes are not a map of this configuration.

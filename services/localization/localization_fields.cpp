@@ -58,10 +58,10 @@ FieldTable<sensing::MotionModelConfig> motion_fields() {
       {"pivot_prior_m", &C::pivot_prior_m, "One sigma of the place about which the vehicle turns, ahead and to the left.", kNotNegative},
       {"scale_walk_per_sqrt_m", &C::scale_walk_per_sqrt_m, "How the scale wanders with the distance, one sigma.", kNotNegative},
       {"heading_rate_bias_walk", &C::heading_rate_bias_walk, "How the gyro's bias wanders with time [rad/s per sqrt(s)].", kNotNegative},
-      {"standstill_acceleration_mps2", &C::standstill_acceleration_mps2,
-       "Without odometry: how much the speed may have changed.", kPositive},
-      {"standstill_turn_acceleration_radps2", &C::standstill_turn_acceleration_radps2,
-       "Without odometry: how much the turn rate may have changed.", kPositive},
+      {"speed_prior_mps", &C::speed_prior_mps, "Without odometry: one sigma of the speed at the start.", kPositive},
+      {"yaw_rate_prior_radps", &C::yaw_rate_prior_radps, "Without odometry: one sigma of the turn rate at the start.", kPositive},
+      {"speed_walk_mps", &C::speed_walk_mps, "Without odometry: how the speed wanders [m/s per sqrt(s)].", kPositive},
+      {"yaw_rate_walk_radps", &C::yaw_rate_walk_radps, "Without odometry: how the turn rate wanders [rad/s per sqrt(s)].", kPositive},
   };
 }
 
@@ -146,6 +146,11 @@ FieldTable<LocalizerConfig> own_fields() {
       {"search_reach_m", &C::search_reach_m, "Half side of the square of the map that is searched.", Range{1.0, 200.0}},
       {"search_sigmas", &C::search_sigmas, "Half width of the search window in standard deviations of the prediction.",
        Range{0.1, 20.0}},
+      {"most_contradicted_share", &C::most_contradicted_share, "Lost, too, where more of the points lie in what the map knows to be free.", kShare},
+      {"found_share", &C::found_share, "Lost, it has found itself again where so many points match.", kShare},
+      {"found_scans", &C::found_scans, "And so many scans in a row, before they go into the map again.", Range{0, 1000}},
+      {"lost_after_s", &C::lost_after_s, "Lost for longer, a new map begins that is tied to the last one by next to nothing.", kPositive},
+      {"astray_sigma_m", &C::astray_sigma_m, "One sigma of that tie.", Range{1.0, 900.0}},
       {"leave_out_moving", &C::leave_out_moving, "Off, to see what it is worth: everything is mapped and matched as if it stood."},
       {"use_odometry", &C::use_odometry, "Off, for wheels that are worse than none: constant velocity predicts."},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},

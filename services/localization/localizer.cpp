@@ -43,7 +43,10 @@ grids::Echo unexplained_out(EndCell end_cell) {
 }  // namespace
 
 Localizer::Localizer(const LocalizerConfig& config)
-    : config_(config), estimate_(sensing::at_start(config.motion)), searcher_(config.search) {}
+    : config_(config), match_without_wheels_(config.match), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
+  match_without_wheels_.unproven_share = 1.0;
+  match_without_wheels_.information_share = 1.0;
+}
 
 void Localizer::add_odometry(const sensing::Odometry& sample) {
   if (config_.use_odometry) odometry_.add(sample);
@@ -96,19 +99,16 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
     ++counters_.without_odometry;
   }
   const double extrapolated_s = std::min(step.duration_s, config_.longest_step_s);
-  geometry::UncertainPose2 before_from_base =
-      sensing::predict_step_at_velocity(last_->speed_mps, last_->yaw_rate_radps, extrapolated_s, config_.motion);
-  if (!last_->knows_velocity) {
-    const double sigma_m = config_.fastest_mps / 3.0 * extrapolated_s;  // a log may begin in full drive
-    before_from_base.covariance.topLeftCorner<2, 2>() += sigma_m * sigma_m * geometry::Matrix2::Identity();
-  }
-  if (doubtful_step) {  // either the wheels have jumped or the vehicle was stopped or pushed: the match decides
-    const Eigen::Vector3d apart = geometry::difference(*doubtful_step, before_from_base.pose);
-    before_from_base.covariance.diagonal() += apart.cwiseAbs2();
-  }
-  step.after = sensing::moved(estimate_, before_from_base);
-  step.before_from_base = before_from_base.pose;
+  const sensing::MotionEstimate before = doubtful_step ? doubted_velocity(*doubtful_step, step.duration_s) : estimate_;
+  step.after = sensing::moved_at_velocity(before, extrapolated_s, config_.motion);
+  step.before_from_base = geometry::inverse(estimate_.odom_from_base) * step.after.odom_from_base;
   return step;
+}
+
+/// Either the wheels have jumped or the vehicle was stopped or pushed: the match decides.
+sensing::MotionEstimate Localizer::doubted_velocity(const Pose2& by_wheels, double duration_s) const {
+  const sensing::Velocity by_wheels_mps{by_wheels.x_m / duration_s, by_wheels.heading_rad / duration_s};
+  return sensing::with_doubted_velocity(estimate_, by_wheels_mps - estimate_.velocity);
 }
 
 void Localizer::mask_expected_objects(std::int64_t stamp_ns) {
@@ -131,6 +131,7 @@ bool Localizer::is_masked(const Vector2& point_in_odom_m) const {
 
 void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_from_base) {
   match_points_.clear();
+  laser_in_base_m_ = scan.scanner.base_from_laser.translation_m();
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
   mask_expected_objects(scan.stamp_ns);
   for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
@@ -148,6 +149,11 @@ bool Localizer::is_vague(const UncertainPose2& prior) const {
 }
 
 Pose2 Localizer::search(const UncertainPose2& prior) {
+  const std::vector<matching::Peak> peaks = peaks_around(prior, searcher_);
+  return peaks.empty() ? prior.pose : peaks.front().target_from_source.pose;
+}
+
+std::vector<matching::Peak> Localizer::peaks_around(const UncertainPose2& prior, matching::CorrelativeMatcher& searcher) {
   ++counters_.searches;
   const auto reach = [&](int axis) { return config_.search_sigmas * std::sqrt(prior.covariance(axis, axis)); };
   const double farthest_m = config_.search_reach_m;  // beyond it there is no target, however unsure the prediction is
@@ -156,15 +162,14 @@ Pose2 Localizer::search(const UncertainPose2& prior) {
   for (const grids::SurfelView& surfel : map_.surfels().all()) {
     targets.push_back({static_cast<float>(surfel.mean_m.x()), static_cast<float>(surfel.mean_m.y()), 1.0F});
   }
-  searcher_.set_target(targets, {prior.pose.translation_m(), config_.search_reach_m, config_.search_reach_m, std::max(window.half_x_m, window.half_y_m)});
+  searcher.set_target(targets, {prior.pose.translation_m(), config_.search_reach_m, config_.search_reach_m, std::max(window.half_x_m, window.half_y_m)});
   std::vector<Eigen::Vector2f> points;
   for (const matching::MatchPoint& point : match_points_) points.push_back(point.in_base_m.cast<float>());
-  const std::vector<matching::Peak> peaks = searcher_.search(points, prior.pose, window);
-  return peaks.empty() ? prior.pose : peaks.front().target_from_source.pose;
+  return searcher.search(points, prior.pose, window);
 }
 
-matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2& prior) {
-  const auto match_from = [&](const Pose2& initial) { return matcher_.match(match_points_, map_.surfels(), prior, initial, config_.match); };
+matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2& prior, const matching::PointToLineConfig& config) {
+  const auto match_from = [&](const Pose2& initial) { return matcher_.match(match_points_, map_.surfels(), prior, initial, config); };
   if (!is_vague(prior)) return match_from(prior.pose);
   if (!last_->was_sampled) return match_from(search(prior));
   // Along a featureless wall a search finds any place as good as any other.
@@ -172,19 +177,19 @@ matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2
   return says_little(result.scan_information, config_.ambiguous) ? result : match_from(search(prior));
 }
 
-Localizer::Match Localizer::match(const UncertainPose2& prior, std::uint32_t scan_sequence) {
+Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::PointToLineConfig& config, std::uint32_t scan_sequence) {
   if (static_cast<int>(match_points_.size()) < config_.min_echoes) {
     ++counters_.too_few_echoes;
     return {prior, false};
   }
-  const matching::PointToLineResult result = match_in_closed_form(prior);
+  const matching::PointToLineResult result = match_in_closed_form(prior, config);
   if (result.matched_share < config_.least_matched_share) {
     ++counters_.lost_matches;
-    return {prior, false};
+    return {.odom_from_base = prior, .is_lost = true};
   }
   if (says_little(result.scan_information, config_.ambiguous)) {
     ++counters_.sampled_matches;
-    return {ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, config_.match, scan_sequence), true, true};
+    return {ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, config, scan_sequence), true, true};
   }
   return {result.map_from_base, true};
 }
@@ -239,6 +244,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   pending.sequence = scan.sequence;
   pending.scanner_id = scan.scanner.scanner_id;
   pending.beam_step_rad = scan.scanner.beam_step_rad;
+  pending.is_withheld = lost_since_ns_ || scans_to_prove_ > 0;
   pending.origin_in_odom_m = odom_from_laser.translation_m();
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());
@@ -282,7 +288,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     const UncertainPose2 prior = step.after.uncertain_pose();
     select_points(scan, prior.pose);
     const UncertainPose2 before = estimate_.uncertain_pose();
-    const Match found = match(prior, scan.sequence);
+    const Match found = match_or_find(prior, scan, step.is_by_wheels ? config_.match : match_without_wheels_);
     const Pose2 before_from_base = geometry::inverse(estimate_.odom_from_base) * found.odom_from_base.pose;
     estimate_ = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
     if (found.is_believed) {
@@ -292,10 +298,11 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     variance_factors_ = sensing::carried(variance_factors_, before, prior, found.odom_from_base);
     travel(before_from_base);
     now.was_sampled = found.was_sampled;
+    if (has_gone_astray(scan.stamp_ns)) begin_astray_submap();
     now.knows_velocity = is_later || last_->knows_velocity;
     if (is_later && !step.is_by_wheels) {
-      now.speed_mps = before_from_base.x_m / step.duration_s;
-      now.yaw_rate_radps = before_from_base.heading_rad / step.duration_s;
+      now.speed_mps = estimate_.velocity.x();
+      now.yaw_rate_radps = estimate_.velocity.y();
     }
   }
   if (!last_ || last_->stamp_ns != now.stamp_ns) scanners_at_last_.clear();
@@ -315,6 +322,11 @@ void Localizer::note(const flow::SegmentedScan& segmented) {
 
 void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
   PendingScan& scan = pending_.front();
+  if (scan.is_withheld) {
+    ++counters_.withheld_scans;
+    pending_.pop_front();
+    return;
+  }
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
     grids::Echo echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
     if (!config_.leave_out_moving) echo = grids::Echo::kStationary;
@@ -410,6 +422,7 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(last.stamp_ns);
   visit(self.estimate_.odom_from_base);
   visit(self.estimate_.calibration);
+  visit(self.estimate_.velocity);
   visit(self.estimate_.covariance);
   visit(self.variance_factors_.of_axis);
   visit(self.variance_factors_.dead_reckoned);
@@ -454,7 +467,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   const bool is_sound = is_believable(restored.estimate_.odom_from_base) && is_believable(restored.map_from_odom_) &&
                         is_believable(restored.previous_from_submap_.pose) &&
                         is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.drift_) &&
-                        is_believable(restored.estimate_.covariance) && restored.estimate_.calibration.norm() < 1.0 &&
+                        is_believable(restored.estimate_.covariance) && restored.estimate_.calibration.norm() < 1.0 && restored.estimate_.velocity.norm() < kFastestRestored &&
                         restored.variance_factors_.of_axis.minCoeff() >= 0.0 && restored.variance_factors_.of_axis.allFinite() &&
                         restored.variance_factors_.dead_reckoned.minCoeff() >= 0.0 && restored.variance_factors_.dead_reckoned.maxCoeff() <= 1.0 &&
                         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&

@@ -40,6 +40,11 @@ struct LocalizerConfig {
   double search_when_heading_sigma_rad = 0.02;  ///< or less sure of the heading than this.
   double search_reach_m = 25.0;           ///< Half side of the square of the map that is searched.
   double search_sigmas = 3.0;             ///< Half width of the search window in standard deviations of the prediction.
+  double most_contradicted_share = 0.5;   ///< Lost, too, where the prediction is vague and the match puts more points into what the map knows to be free.
+  double found_share = 0.6;               ///< Lost, it has found itself again where so many points match.
+  int found_scans = 3;                    ///< And so many scans in a row, before they go into the map again.
+  double lost_after_s = 2.0;              ///< Lost for longer, a new map begins that is tied to the last one by next to nothing:
+  double astray_sigma_m = 50.0;           ///< one sigma of that tie.
   bool leave_out_moving = true;           ///< Off, to see what it is worth: everything is mapped and matched as if it stood.
   bool use_odometry = true;               ///< Off, for wheels that are worse than none: constant velocity predicts.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
@@ -70,6 +75,9 @@ struct LocalizerCounters {
   std::uint64_t lost_matches = 0;         ///< Too few points matched: dead reckoning.
   std::uint64_t searches = 0;             ///< Correlative searches.
   std::uint64_t sampled_matches = 0;      ///< Along some direction the scan said too little: SCRIM.
+  std::uint64_t found_again = 0;          ///< Searches after a lost match that found the pose in the local map.
+  std::uint64_t astray = 0;               ///< Maps begun because it was not found there.
+  std::uint64_t withheld_scans = 0;       ///< Not put into the map: it was not sure enough where they were.
   std::uint64_t odometry_jumps = 0;       ///< Steps taken at constant velocity instead.
   std::uint64_t without_odometry = 0;
   std::uint64_t gaps = 0;                 ///< Steps longer than longest_step_s.
@@ -87,6 +95,9 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
           {"lost_matches", counters.lost_matches},
           {"searches", counters.searches},
           {"sampled_matches", counters.sampled_matches},
+          {"found_again", counters.found_again},
+          {"astray", counters.astray},
+          {"withheld_scans", counters.withheld_scans},
           {"odometry_jumps", counters.odometry_jumps},
           {"without_odometry", counters.without_odometry},
           {"gaps", counters.gaps},
@@ -156,7 +167,8 @@ class Localizer {
   struct Match {
     geometry::UncertainPose2 odom_from_base;
     bool is_believed = false;       ///< Otherwise it is the prediction.
-    bool was_sampled = false;
+    bool was_sampled = false;       ///< It left some direction to the prediction.
+    bool is_lost = false;           ///< There were enough points, and they did not match.
   };
 
   /// Box of something that moves, with a margin.
@@ -167,6 +179,7 @@ class Localizer {
   };
 
   struct PendingScan {
+    bool is_withheld = false;                   ///< From the map.
     std::int64_t stamp_ns = 0;
     std::uint32_t sequence = 0;
     std::string scanner_id;
@@ -189,10 +202,18 @@ class Localizer {
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
   bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;
-  Match match(const geometry::UncertainPose2& prior, std::uint32_t scan_sequence);
-  matching::PointToLineResult match_in_closed_form(const geometry::UncertainPose2& prior);
+  sensing::MotionEstimate doubted_velocity(const geometry::Pose2& by_wheels, double duration_s) const;
+  Match match(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config, std::uint32_t scan_sequence);
+  matching::PointToLineResult match_in_closed_form(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config);
+  Match match_or_find(const geometry::UncertainPose2& prior, const sensing::LaserScan& scan, const matching::PointToLineConfig& config);
+  std::optional<Match> find_again(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config);
+  double contradicted_share(const geometry::Pose2& odom_from_base) const;
+  bool has_gone_astray(std::int64_t stamp_ns) const;
+  void begin_astray_submap();
   bool is_vague(const geometry::UncertainPose2& prior) const;
   geometry::Pose2 search(const geometry::UncertainPose2& prior);
+  std::vector<matching::Peak> peaks_around(const geometry::UncertainPose2& prior, matching::CorrelativeMatcher& searcher);
+  static matching::CorrelativeConfig finder_config(matching::CorrelativeConfig search);
   void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
   void mask_expected_objects(std::int64_t stamp_ns);
   bool is_masked(const geometry::Vector2& point_in_odom_m) const;
@@ -212,6 +233,7 @@ class Localizer {
   static void for_each_part(Self& self, StateOfLast& last, Visitor visit);
 
   LocalizerConfig config_;
+  matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then: docs/decisions/0012.
   LocalizerCounters counters_;
   sensing::OdometryBuffer odometry_;
   sensing::MotionEstimate estimate_;
@@ -224,15 +246,20 @@ class Localizer {
   geometry::Matrix3 drift_ = geometry::Matrix3::Zero();  ///< Covariance of what was travelled in it, for the tie to the next.
   double travelled_m_ = 0.0;                         ///< In this submap.
   bool submap_is_ended_ = false;                     ///< And the next one not yet begun.
+  std::optional<std::int64_t> lost_since_ns_;        ///< Stamp of the first scan that did not match.
+  int lost_scans_ = 0;                               ///< In a row.
+  int scans_to_prove_ = 0;                           ///< Until it is believed to have found itself again.
   std::uint32_t correction_sequence_ = 0;
   flow::TrackedObjects expected_objects_;
   std::deque<PendingScan> pending_;
   std::deque<PendingScan> integrated_;               ///< The last ones, for points that tracking gives back.
   std::vector<flow::Submap> finished_;
   matching::CorrelativeMatcher searcher_;
+  matching::CorrelativeMatcher finder_;              ///< After a lost match: of several poses.
   matching::PointToLineMatcher matcher_;
   AmbiguousMatcher ambiguous_matcher_;
   std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
+  geometry::Vector2 laser_in_base_m_ = geometry::Vector2::Zero();  ///< Of the scan at hand.
   std::vector<matching::MatchPoint> match_points_;
   std::vector<Mask> masks_;
 };

@@ -17,6 +17,7 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
+constexpr double kAnyHeading_rad = 1.0;              // one sigma
 constexpr double kSameWithinSquaredSigmas = 11.3;  // chi-square, 3 degrees of freedom, 99 %
 
 /// Largest standard deviation of the position in any direction.
@@ -34,6 +35,9 @@ Matrix3 with_floor(Matrix3 covariance) {
   return covariance;
 }
 
+/// Whether the tie to the submap before says next to nothing, not even which way the vehicle looks.
+bool has_gone_astray(const flow::Submap& submap) { return submap.previous_from_submap.covariance(2, 2) > kAnyHeading_rad * kAnyHeading_rad; }
+
 Constraint loop_constraint(const Hypothesis& hypothesis) {
   return {hypothesis.from, hypothesis.to, ConstraintKind::kLoop, hypothesis.from_to};
 }
@@ -48,6 +52,8 @@ flow::GraphCorrection LoopCloser::add(const flow::Submap& submap) {
     return correction();
   }
   ++counters_.submaps;
+  // How far it was carried nobody knows: it may be anywhere again.
+  if (has_gone_astray(submap)) travelled_m_ += config_.min_travel_between_m;
   extend_graph(submap);
   const Place& source = places_.emplace(submap.submap_id, make_place(submap, travelled_m_, config_.place)).first->second;
   travelled_m_ += submap.travelled_m;

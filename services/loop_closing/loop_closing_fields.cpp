@@ -47,6 +47,8 @@ FieldTable<RevisitConfig> revisit_fields() {
           {"max_window_m", &C::max_window_m, "Half width of the largest window.", Range{0.1, 200.0}},
           {"min_window_rad", &C::min_window_rad, "Half width of the smallest window of the heading.", kPositive},
           {"max_window_rad", &C::max_window_rad, "Half width of the largest window of the heading.", Range{0.001, 3.15}},
+          {"any_heading_sigma_rad", &C::any_heading_sigma_rad, "Less sure of the heading than this, all of the circle is searched.", kPositive},
+          {"astray_window_m", &C::astray_window_m, "And at most so far around.", kPositive},
           {"min_overlap_share", &C::min_overlap_share, "Of the new submap's walls, those that the earlier one has too.", kShare},
           {"min_agreed_share", &C::min_agreed_share, "Of the walls of either, those that the other has not seen free.", kShare},
           {"rival_ratio", &C::rival_ratio, "Another pose as good as this share of the best makes it ambiguous.", kShare},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -100,15 +101,17 @@ RevisitFinder::RevisitFinder(const RevisitConfig& config) : config_(config), mat
 
 std::vector<matching::Peak> RevisitFinder::search(const Target& target, const Place& source, const UncertainPose2& expected) {
   const auto surfels = surfels_in_target(target);
+  const bool is_astray = expected.covariance(2, 2) > config_.any_heading_sigma_rad * config_.any_heading_sigma_rad;
   const auto window_m = [&](double variance_m2) {
-    return std::clamp(config_.window_sigmas * std::sqrt(variance_m2), config_.min_window_m, config_.max_window_m);
+    return std::clamp(config_.window_sigmas * std::sqrt(variance_m2), config_.min_window_m, is_astray ? config_.astray_window_m : config_.max_window_m);
   };
   const Vector2 centre_m = centroid_of(source.surfels);
   const Pose2 source_from_centre{centre_m.x(), centre_m.y(), 0.0};
   const UncertainPose2 target_from_centre = geometry::compound(expected, {source_from_centre, Matrix3::Zero()});
   const matching::SearchWindow window{
       window_m(target_from_centre.covariance(0, 0)), window_m(target_from_centre.covariance(1, 1)),
-      std::clamp(config_.window_sigmas * std::sqrt(expected.covariance(2, 2)), config_.min_window_rad, config_.max_window_rad)};
+      std::clamp(config_.window_sigmas * std::sqrt(expected.covariance(2, 2)), config_.min_window_rad,
+                 is_astray ? std::numbers::pi : config_.max_window_rad)};
   matcher_.set_target(as_target_points(surfels), region_around(surfels, std::max(window.half_x_m, window.half_y_m)));
   auto peaks = matcher_.search(points_about(centre_m, source.surfels, config_.max_points), target_from_centre.pose, window);
   for (matching::Peak& peak : peaks) {

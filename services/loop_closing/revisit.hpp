@@ -20,6 +20,8 @@ struct RevisitConfig {
   double max_window_m = 30.0;            ///< and at most.
   double min_window_rad = 0.06;
   double max_window_rad = 0.6;
+  double any_heading_sigma_rad = 1.0;    ///< Less sure of the heading than this, all of the circle is searched,
+  double astray_window_m = 60.0;         ///< and at most so far around.
   double min_overlap_share = 0.3;        ///< Walls of both seen by the other.
   double min_agreed_share = 0.9;         ///< Of the walls about which the other knows anything.
   double rival_ratio = 0.75;             ///< Another pose that is as good as this share of the best makes it ambiguous.

@@ -237,19 +237,50 @@ TEST(MovedByWheels, IsSurerOnceItIsCalibrated) {
   EXPECT_LT(after.y(), before.y());
 }
 
-TEST(PredictStepAtVelocity, FollowsTheArc) {
+MotionEstimate at_velocity(const Velocity& velocity, const Velocity& sigma = Velocity::Zero()) {
+  MotionEstimate estimate = at_start(kConfig);
+  estimate.velocity = velocity;
+  estimate.covariance.bottomRightCorner<2, 2>() = sigma.cwiseAbs2().asDiagonal();
+  return estimate;
+}
+
+TEST(MovedAtVelocity, FollowsTheArc) {
   for (const double yaw_rate_radps : {0.0, 0.3, -0.8}) {
-    const auto step = predict_step_at_velocity(5.0, yaw_rate_radps, kStep_s, kConfig);
-    EXPECT_THAT(step.pose, PoseNear(arc({}, 5.0, yaw_rate_radps)(kStep_s), 2e-4));
+    EXPECT_THAT(moved_at_velocity(at_velocity({5.0, yaw_rate_radps}), kStep_s, kConfig).odom_from_base, PoseNear(arc({}, 5.0, yaw_rate_radps)(kStep_s), 2e-4));
   }
 }
 
-TEST(PredictStepAtVelocity, AllowsForTheAccelerationOfTheWholeStep) {
-  const auto sigma_m = [](double duration_s) {
-    return std::sqrt(predict_step_at_velocity(5.0, 0.0, duration_s, kConfig).covariance(0, 0));
-  };
-  EXPECT_NEAR(sigma_m(2.0), kConfig.position_noise_m + 0.5 * kConfig.standstill_acceleration_mps2 * 4.0, 1e-12);
-  EXPECT_LT(sigma_m(0.1), 0.03);
+TEST(MovedAtVelocity, IsAsUnsureInOneStepAsInMany) {
+  MotionEstimate in_many = at_velocity({5.0, 0.0}, {0.5, 0.1});
+  const MotionEstimate in_one = moved_at_velocity(in_many, 1.0, kConfig);
+  for (int i = 0; i < 100; ++i) in_many = moved_at_velocity(in_many, 0.01, kConfig);
+  const double floor_m2 = 99 * kConfig.position_noise_m * kConfig.position_noise_m;  // of every step
+  EXPECT_NEAR(in_many.covariance(0, 0) - floor_m2, in_one.covariance(0, 0), 1e-3 * in_one.covariance(0, 0));
+  EXPECT_NEAR(in_many.covariance(8, 8), in_one.covariance(8, 8), 1e-9);
+  EXPECT_NEAR(in_many.covariance(0, 8), in_one.covariance(0, 8), 1e-3 * in_one.covariance(0, 8));
+}
+
+TEST(MovedAtVelocity, LearnsTheVelocityFromTheLaserAlone) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  MotionEstimate estimate = at_start(kConfig);
+  Pose2 truth;
+  for (int i = 0; i < 100; ++i) {
+    truth = truth * arc({}, 12.0, 0.2)(kStep_s);
+    estimate = moved_at_velocity(estimate, kStep_s, kConfig);
+    const Pose2 seen{truth.x_m + 0.02 * noise(random), truth.y_m + 0.02 * noise(random), truth.heading_rad + 0.001 * noise(random)};
+    estimate = matched(estimate, fused(estimate.uncertain_pose(), {seen, Eigen::Vector3d(4e-4, 4e-4, 1e-6).asDiagonal()}));
+  }
+  EXPECT_NEAR(estimate.velocity.x(), 12.0, 4.0 * std::sqrt(estimate.covariance(8, 8)));
+  EXPECT_NEAR(estimate.velocity.y(), 0.2, 4.0 * std::sqrt(estimate.covariance(9, 9)));
+  EXPECT_LT(std::sqrt(estimate.covariance(8, 8)), 2.0);
+}
+
+TEST(MovedByWheels, TakesTheVelocityFromThem) {
+  const MotionEstimate after = moved_by_wheels(at_velocity({1.0, 1.0}, {5.0, 5.0}), {0.8, 0.0, 0.02}, kStep_s, kConfig);
+  EXPECT_NEAR(after.velocity.x(), 8.0, 1e-6);
+  EXPECT_NEAR(after.velocity.y(), 0.2, 1e-6);
+  EXPECT_EQ((after.covariance.block<8, 2>(0, 8).norm()), 0.0);
 }
 
 }  // namespace

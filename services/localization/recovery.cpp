@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "services/localization/localizer.hpp"
+
+/// What the localizer does when scans do not fit the map where it believes to be: the vehicle was carried away, or has not
+/// seen anything for long. Three levels, each wider than the one before: the local map, a map of its own, and all stored
+/// submaps, which is loop closing's.
+namespace slammot::localization {
+namespace {
+
+using geometry::UncertainPose2;
+
+constexpr double kWindowPerScan_m = 2.0;       // the longer it is lost, the wider it looks
+constexpr unsigned kScansBetweenWideSearches = 16;
+constexpr std::size_t kPointsPerProbe = 4;     // neighbours end on the same thing
+constexpr std::size_t kPoses = 4;              // that are looked at
+constexpr double kLeastPeakRatio = 0.7;
+constexpr int kFewestProbes = 10;
+constexpr double kThroughAWall_m = 1.0;        // grazing beams meet the cells before the one that they end in
+constexpr double kRivalRatio = 0.98;           // with another pose that is as good as this it waits for a scan that tells
+constexpr double kFoundByHalf = 0.5;           // what it was lost by must have fallen to this share where it is found
+
+/// A wide search costs as much as hundreds of matches.
+bool is_worth_a_search(unsigned lost_scans) { return std::has_single_bit(lost_scans) || lost_scans % kScansBetweenWideSearches == 0; }
+
+bool are_same(const geometry::Pose2& a, const geometry::Pose2& b) {
+  constexpr double kSame_m = 0.3;
+  constexpr double kSame_rad = 0.1;
+  const Eigen::Vector3d apart = geometry::difference(a, b);
+  return apart.head<2>().norm() < kSame_m && std::abs(apart.z()) < kSame_rad;
+}
+
+}  // namespace
+
+matching::CorrelativeConfig Localizer::finder_config(matching::CorrelativeConfig search) {
+  search.max_peaks = kPoses;
+  search.min_peak_ratio = kLeastPeakRatio;
+  return search;
+}
+
+Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sensing::LaserScan& scan, const matching::PointToLineConfig& config) {
+  Match found = match(prior, config, scan.sequence);
+  // Where the prediction is sure, what contradicts the map is traffic; where it is not, the match may be anywhere.
+  if (found.is_believed && is_vague(prior) && contradicted_share(found.odom_from_base.pose) > config_.most_contradicted_share) found.is_lost = true;
+  if (found.is_lost) {
+    ++lost_scans_;
+    if (!lost_since_ns_) lost_since_ns_ = scan.stamp_ns;
+    if (const auto again = find_again(prior, config)) found = *again;
+  }
+  if (!found.is_believed || found.is_lost) return found;
+  if (lost_since_ns_) scans_to_prove_ = config_.found_scans;
+  else if (scans_to_prove_ > 0) --scans_to_prove_;
+  lost_since_ns_.reset();
+  lost_scans_ = 0;
+  return found;
+}
+
+/// Of the points about which the map knows anything, how many lie where it has seen through, or behind a wall of it.
+double Localizer::contradicted_share(const geometry::Pose2& odom_from_base) const {
+  const grids::EvidenceGrid& evidence = map_.evidence();
+  const int free_steps = grids::steps_of_log_odds(config_.map.free_log_odds);
+  const int tolerance = static_cast<int>(std::ceil(config_.map.end_cell_tolerance_m / config_.map.cell_size_m - 0.5));
+  const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
+  const geometry::Vector2 origin_m = odom_from_base * laser_in_base_m_;
+  int contradicted = 0;
+  int occupied = 0;
+  for (std::size_t i = 0; i < match_points_.size(); i += kPointsPerProbe) {
+    const geometry::Vector2 at_m = odom_from_base.translation_m() + turn * match_points_[i].in_base_m;
+    const grids::Cell cell = evidence.window().cell_at(at_m.x(), at_m.y());
+    const double range_m = (at_m - origin_m).norm();
+    const bool is_behind_a_wall =
+        range_m > kThroughAWall_m && evidence.distance_to_occupied(origin_m, (at_m - origin_m) / range_m, range_m) < range_m - kThroughAWall_m;
+    const bool is_explained = evidence.is_occupied_near(cell, tolerance);
+    if (is_behind_a_wall || (!is_explained && evidence.so_steps(cell) <= -free_steps)) ++contradicted;
+    else if (is_explained) ++occupied;
+  }
+  const int known = contradicted + occupied;
+  return known < kFewestProbes ? 0.0 : static_cast<double>(contradicted) / known;
+}
+
+/// Whichever way it looks now: a room looks much the same from both of its ends, and only all the answers together tell.
+std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prior, const matching::PointToLineConfig& config) {
+  if (!is_worth_a_search(static_cast<unsigned>(lost_scans_))) return std::nullopt;
+  const double sigma_m = std::min(kWindowPerScan_m * lost_scans_, config_.search_reach_m) / config_.search_sigmas;
+  UncertainPose2 anywhere = prior;
+  anywhere.covariance.diagonal() += Eigen::Vector3d(sigma_m, sigma_m, std::numbers::pi).cwiseAbs2();
+  std::optional<Match> best;
+  double best_quality = 0.0;
+  double rival_quality = 0.0;
+  for (const matching::Peak& peak : peaks_around(anywhere, finder_)) {
+    const UncertainPose2 about_peak{peak.target_from_source.pose, anywhere.covariance};
+    const matching::PointToLineResult result = matcher_.match(match_points_, map_.surfels(), about_peak, peak.target_from_source.pose, config);
+    const double contradicted = contradicted_share(result.map_from_base.pose);
+    if (result.matched_share < config_.found_share || contradicted > kFoundByHalf * config_.most_contradicted_share) continue;
+    const double quality = result.matched_share * (1.0 - contradicted);
+    const bool is_best = quality > best_quality;
+    const bool is_same = best && are_same(best->odom_from_base.pose, result.map_from_base.pose);
+    if (!is_same) rival_quality = std::max(rival_quality, std::min(quality, best_quality));
+    if (!is_best) continue;
+    best = Match{result.map_from_base, true};
+    best_quality = quality;
+  }
+  if (!best || rival_quality > kRivalRatio * best_quality) return std::nullopt;
+  ++counters_.found_again;
+  return best;
+}
+
+bool Localizer::has_gone_astray(std::int64_t stamp_ns) const {
+  return lost_since_ns_ && map_.has_echoes() && static_cast<double>(stamp_ns - *lost_since_ns_) * 1e-9 > config_.lost_after_s;
+}
+
+/// Nothing that was seen before is of use here: the map begins with this scan, and the pose against it is exact.
+void Localizer::begin_astray_submap() {
+  ++counters_.astray;
+  const geometry::Pose2 odom_from_previous = map_.odom_from_submap();
+  if (!submap_is_ended_) end_submap();
+  map_.begin_astray(estimate_.odom_from_base.translation_m());
+  const double sigma_m2 = config_.astray_sigma_m * config_.astray_sigma_m;
+  const Eigen::Vector3d anywhere(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi);
+  previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), anywhere.asDiagonal()};
+  drift_.setZero();
+  travelled_m_ = 0.0;
+  submap_is_ended_ = false;
+  estimate_.covariance.topRows<3>().setZero();
+  estimate_.covariance.leftCols<3>().setZero();
+  lost_since_ns_.reset();
+  lost_scans_ = 0;
+  scans_to_prove_ = 0;
+}
+
+}  // namespace slammot::localization
