@@ -43,7 +43,9 @@ struct LocalizerConfig {
   double most_contradicted_share = 0.5;   ///< Lost, too, where the prediction is vague and the match puts more points into what the map knows to be free.
   double found_share = 0.6;               ///< Lost, it has found itself again where so many points match.
   int found_scans = 3;                    ///< And so many scans in a row, before they go into the map again.
-  double lost_after_s = 2.0;              ///< Lost for longer, a new map begins that is tied to the last one by next to nothing:
+  bool recovers = true;                   ///< Looks for itself after being carried away; off: goes on by dead reckoning.
+  double lost_after_s = 3.0;              ///< Wheels are trusted for so long where scans do not match; then it looks for itself,
+  double astray_after_s = 2.0;            ///< and after so long in vain a new map begins, tied to the last one by next to nothing:
   double astray_sigma_m = 50.0;           ///< one sigma of that tie.
   bool leave_out_moving = true;           ///< Off, to see what it is worth: everything is mapped and matched as if it stood.
   bool use_odometry = true;               ///< Off, for wheels that are worse than none: constant velocity predicts.
@@ -233,7 +235,7 @@ class Localizer {
   static void for_each_part(Self& self, StateOfLast& last, Visitor visit);
 
   LocalizerConfig config_;
-  matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then: docs/decisions/0012.
+  matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then.
   LocalizerCounters counters_;
   sensing::OdometryBuffer odometry_;
   sensing::MotionEstimate estimate_;

@@ -45,9 +45,13 @@ Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sen
   Match found = match(prior, config, scan.sequence);
   // Where the prediction is sure, what contradicts the map is traffic; where it is not, the match may be anywhere.
   if (found.is_believed && is_vague(prior) && contradicted_share(found.odom_from_base.pose) > config_.most_contradicted_share) found.is_lost = true;
-  if (found.is_lost) {
-    ++lost_scans_;
+  if (found.is_lost && config_.recovers) {
     if (!lost_since_ns_) lost_since_ns_ = scan.stamp_ns;
+    // Traffic on all sides hides the map for a second or two: as long as wheels are trusted. Without, nothing else is left.
+    const bool has_wheels = &config == &config_.match;
+    const bool is_patient = has_wheels && static_cast<double>(scan.stamp_ns - *lost_since_ns_) * 1e-9 < config_.lost_after_s;
+    if (is_patient) return found;
+    ++lost_scans_;
     if (const auto again = find_again(prior, config)) found = *again;
   }
   if (!found.is_believed || found.is_lost) return found;
@@ -109,7 +113,7 @@ std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prio
 }
 
 bool Localizer::has_gone_astray(std::int64_t stamp_ns) const {
-  return lost_since_ns_ && map_.has_echoes() && static_cast<double>(stamp_ns - *lost_since_ns_) * 1e-9 > config_.lost_after_s;
+  return lost_since_ns_ && map_.has_echoes() && static_cast<double>(stamp_ns - *lost_since_ns_) * 1e-9 > config_.lost_after_s + config_.astray_after_s;
 }
 
 /// Nothing that was seen before is of use here: the map begins with this scan, and the pose against it is exact.

@@ -61,8 +61,8 @@ TEST_F(Recovery, FindsItselfInTheLocalMapWhereverItWasCarried) {
     const DriveSetup setup = carried_away(carried);
     localizer_ = Localizer(small_map_config());
     wheels_ = SimulatedDrive(carried_away({}));
-    drive(setup, 0, kCarriedAt + 40);
-    EXPECT_THAT(newest(), PoseNear(SimulatedDrive(setup).odom_from_base(kCarriedAt + 39), 0.05)) << carried.x_m << " " << carried.y_m << " " << carried.heading_rad;
+    drive(setup, 0, kCarriedAt + 60);
+    EXPECT_THAT(newest(), PoseNear(SimulatedDrive(setup).odom_from_base(kCarriedAt + 59), 0.05)) << carried.x_m << " " << carried.y_m << " " << carried.heading_rad;
     EXPECT_GE(counters().found_again, 1U);
     EXPECT_EQ(counters().astray, 0U);
   }
@@ -70,7 +70,7 @@ TEST_F(Recovery, FindsItselfInTheLocalMapWhereverItWasCarried) {
 
 TEST_F(Recovery, KeepsTheMapCleanWhileItIsLost) {
   const DriveSetup setup = carried_away({3.0, 1.0, 0.7});
-  drive(setup, 0, kCarriedAt + 40);
+  drive(setup, 0, kCarriedAt + 60);
   EXPECT_GT(counters().withheld_scans, 0U);
   int smeared = 0;
   const auto& surfels = localizer_.local_map().surfels();
@@ -91,7 +91,7 @@ TEST_F(Recovery, KeepsTheMapCleanWhileItIsLost) {
 TEST_F(Recovery, BeginsAMapTiedByNextToNothingWhereItKnowsNothing) {
   const DriveSetup elsewhere = carried_away({300.0, 0.0, 0.0}, slammot::testing::joined(slammot::testing::room(), slammot::testing::moved(slammot::testing::polygon(
                                                 {{-6.0, -4.0}, {7.0, -5.0}, {5.0, 6.0}, {0.0, 3.0}, {-7.0, 5.0}}), carried_away({300.0, 0.0, 0.0}).world_from_base_at(35.0))));
-  drive(elsewhere, 0, kCarriedAt + 80);
+  drive(elsewhere, 0, kCarriedAt + 100);
   EXPECT_EQ(counters().astray, 1U);
   const auto first = localizer_.take_finished_submap();
   ASSERT_TRUE(first);
@@ -104,7 +104,7 @@ TEST_F(Recovery, BeginsAMapTiedByNextToNothingWhereItKnowsNothing) {
   // From there on the motion is right again.
   SimulatedDrive truth(elsewhere);
   const auto step = [](const Pose2& from, const Pose2& to) { return inverse(from) * to; };
-  EXPECT_THAT(step(scans_[kCarriedAt + 40].odom_from_base.pose, newest()), PoseNear(step(truth.odom_from_base(kCarriedAt + 40), truth.odom_from_base(kCarriedAt + 79)), 0.05));
+  EXPECT_THAT(step(scans_[kCarriedAt + 70].odom_from_base.pose, newest()), PoseNear(step(truth.odom_from_base(kCarriedAt + 70), truth.odom_from_base(kCarriedAt + 99)), 0.05));
 }
 
 TEST_F(Recovery, IsNotLostInADriveLikeAnyOther) {
