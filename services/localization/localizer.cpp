@@ -288,7 +288,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     const UncertainPose2 prior = step.after.uncertain_pose();
     select_points(scan, prior.pose);
     const UncertainPose2 before = estimate_.uncertain_pose();
-    const Match found = match_or_find(prior, scan, step.is_by_wheels ? config_.match : match_without_wheels_);
+    const Match found = match_or_find(prior, scan, step.is_by_wheels);
     const Pose2 before_from_base = geometry::inverse(estimate_.odom_from_base) * found.odom_from_base.pose;
     estimate_ = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
     if (found.is_believed) {

@@ -207,7 +207,7 @@ class Localizer {
   sensing::MotionEstimate doubted_velocity(const geometry::Pose2& by_wheels, double duration_s) const;
   Match match(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config, std::uint32_t scan_sequence);
   matching::PointToLineResult match_in_closed_form(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config);
-  Match match_or_find(const geometry::UncertainPose2& prior, const sensing::LaserScan& scan, const matching::PointToLineConfig& config);
+  Match match_or_find(const geometry::UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels);
   std::optional<Match> find_again(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config);
   double contradicted_share(const geometry::Pose2& odom_from_base) const;
   bool has_gone_astray(std::int64_t stamp_ns) const;

@@ -41,14 +41,14 @@ matching::CorrelativeConfig Localizer::finder_config(matching::CorrelativeConfig
   return search;
 }
 
-Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sensing::LaserScan& scan, const matching::PointToLineConfig& config) {
+Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels) {
+  const matching::PointToLineConfig& config = has_wheels ? config_.match : match_without_wheels_;
   Match found = match(prior, config, scan.sequence);
   // Where the prediction is sure, what contradicts the map is traffic; where it is not, the match may be anywhere.
   if (found.is_believed && is_vague(prior) && contradicted_share(found.odom_from_base.pose) > config_.most_contradicted_share) found.is_lost = true;
   if (found.is_lost && config_.recovers) {
     if (!lost_since_ns_) lost_since_ns_ = scan.stamp_ns;
     // Traffic on all sides hides the map for a second or two: as long as wheels are trusted. Without, nothing else is left.
-    const bool has_wheels = &config == &config_.match;
     const bool is_patient = has_wheels && static_cast<double>(scan.stamp_ns - *lost_since_ns_) * 1e-9 < config_.lost_after_s;
     if (is_patient) return found;
     ++lost_scans_;
