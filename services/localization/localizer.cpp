@@ -19,7 +19,7 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7433;  // "slammot3": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7434;  // "slammot4": the digit counts the forms of a checkpoint
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
