@@ -1,28 +1,18 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 
 #include <Eigen/Core>
 
 #include "common/filters/gaussian.hpp"
-#include "common/filters/motion_models.hpp"
+#include "common/filters/model_set.hpp"
 
 namespace slammot::filters {
-
-inline constexpr std::size_t kMaxModels = 3;
-
-/// The set of motions among which an object is believed to switch.
-struct ModelSet {
-  std::array<MotionModel, kMaxModels> models;
-  std::size_t size = 0;              ///< Models in use, from the front; at least 1.
-  double mean_stay_s = 1.0;          ///< Mean time for which an object keeps to one model before it switches, > 0.
-};
 
 /// One estimate for each model and how probable each is.
 struct ImmState {
   std::array<MotionState, kMaxModels> modes;
-  std::array<double, kMaxModels> probability = {};
+  ModelWeights probability = {};
 };
 
 struct ImmUpdate {

@@ -2,21 +2,22 @@
 
 #include <cmath>
 #include <functional>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/filters/kalman.hpp"
+#include "tests/support/maneuvers.hpp"
 #include "tests/support/matchers.hpp"
 
 namespace slammot::filters {
 namespace {
 
+using slammot::testing::accelerating;
+using slammot::testing::cruising;
+using slammot::testing::kManeuverPeriodS;
 using slammot::testing::MatrixNear;
-
-constexpr double kSigmaM = 0.1;  // of the measured position, as in Wang 2004, Section 4.3
-constexpr double kPeriodS = 0.1;
+using slammot::testing::turning;
 
 ModelSet velocity_and_acceleration() {
   ModelSet set;
@@ -35,45 +36,20 @@ struct Sample {
 };
 
 /// Tracks a simulated object and returns what happened at every scan.
-std::vector<Sample> simulate(const std::function<Vector6(double)>& truth_at, int scans, unsigned seed) {
+std::vector<Sample> simulate(const testing::Maneuver& truth_at, int scans, unsigned seed) {
   const ModelSet set = velocity_and_acceleration();
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
   MotionState start;
   start.mean = truth_at(0.0);
   start.covariance = 0.01 * Matrix6::Identity();
   ImmState state = imm_start(set, start);
   std::vector<Sample> samples;
-  for (int scan = 1; scan <= scans; ++scan) {
-    const Vector6 truth = truth_at(scan * kPeriodS);
-    const Eigen::Vector2d z = truth.head<2>() + kSigmaM * Eigen::Vector2d(normal(random), normal(random));
-    const ImmUpdate update =
-        imm_update(set, imm_predict(set, state, kPeriodS), z, kSigmaM * kSigmaM * Eigen::Matrix2d::Identity());
+  for (const Eigen::Vector2d& z : testing::measured(truth_at, scans, seed)) {
+    const Vector6 truth = truth_at(static_cast<double>(samples.size() + 1) * kManeuverPeriodS);
+    const ImmUpdate update = imm_update(set, imm_predict(set, state, kManeuverPeriodS), z, testing::maneuver_noise_m2());
     state = update.posterior;
     samples.push_back({truth, imm_combine(set, state), state.probability, update.innovation.nis});
   }
   return samples;
-}
-
-Vector6 accelerating(double t) {
-  Vector6 state;
-  state << 5.0 * t + 5.0 * t * t, 0.0, 5.0 + 10.0 * t, 0.0, 10.0, 0.0;
-  return state;
-}
-
-Vector6 cruising(double t) {
-  Vector6 state;
-  state << 15.0 * t, 0.0, 15.0, 0.0, 0.0, 0.0;
-  return state;
-}
-
-Vector6 turning(double t) {
-  const double rate = 18.0 * M_PI / 180.0;
-  const double angle = rate * t;
-  Vector6 state;
-  state << 15.0 / rate * std::sin(angle), 15.0 / rate * (1.0 - std::cos(angle)), 15.0 * std::cos(angle),
-      15.0 * std::sin(angle), -15.0 * rate * std::sin(angle), 15.0 * rate * std::cos(angle);
-  return state;
 }
 
 double mean_over(const std::vector<Sample>& samples, std::size_t from, const std::function<double(const Sample&)>& value) {

@@ -63,6 +63,24 @@ TEST(CoordinatedTurn, GoesStraightWithoutAcceleration) {
   EXPECT_NEAR(after(1), 0.0, 1e-12);
 }
 
+TEST(CoordinatedTurn, SpreadsSmallErrorsAsItsLinearizationSays) {
+  // Without noise the predicted covariance is J P J'. With P = u u' it is (J u)(J u)', which a finite step along u gives, too.
+  const MotionModel noiseless{MotionKind::kCoordinatedTurn, 0.0, 0.0};
+  Vector6 straight = Vector6::Zero();
+  straight(2) = 12.0;
+  Vector6 turning = straight;
+  turning(5) = 12.0 * 0.3;
+  for (const Vector6& mean : {example_state().mean, straight, turning}) {
+    for (int axis = 0; axis < 6; ++axis) {
+      constexpr double kStep = 1e-3;
+      const Vector6 step = kStep * Vector6::Unit(axis);
+      const Vector6 spread = (turned(mean + step, 0.4) - turned(mean - step, 0.4)) / 2.0;
+      const MotionState after = predict(noiseless, {mean, step * step.transpose()}, 0.4);
+      EXPECT_THAT(after.covariance / (kStep * kStep), MatrixNear(spread * spread.transpose() / (kStep * kStep), 1e-5)) << axis;
+    }
+  }
+}
+
 TEST(MotionModels, DoNotMoveWhenNoTimePasses) {
   for (const MotionKind kind : {MotionKind::kConstantAcceleration, MotionKind::kCoordinatedTurn}) {
     const MotionState after = predict({kind, 1.0, 1.0}, example_state(), 0.0);

@@ -1,0 +1,55 @@
+// One scan of one object: predict and update by two models. What the IMM costs beside the estimators that the thesis holds
+// it against (their errors are in tests/unit/common/filters/gpb_test.cpp), and what the stop hypothesis adds.
+#include <benchmark/benchmark.h>
+
+#include "common/filters/gpb.hpp"
+#include "common/filters/imm.hpp"
+#include "common/filters/move_stop.hpp"
+#include "tests/support/maneuvers.hpp"
+
+namespace slammot::filters {
+namespace {
+
+ModelSet velocity_and_acceleration() {
+  ModelSet set;
+  set.models[0] = {MotionKind::kConstantVelocity, 0.05, 3.0};
+  set.models[1] = {MotionKind::kConstantAcceleration, 20.0, 0.0};
+  set.size = 2;
+  set.mean_stay_s = 2.0;
+  return set;
+}
+
+const PositionFix kFix{testing::kManeuverPeriodS, {0.4, -0.2}, testing::maneuver_noise_m2()};
+
+void imm_cycle(benchmark::State& state) {
+  const ModelSet set = velocity_and_acceleration();
+  const ImmState before = imm_start(set, testing::start_of(testing::standing));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(imm_update(set, imm_predict(set, before, kFix.after_s), kFix.position_m, kFix.R));
+}
+BENCHMARK(imm_cycle)->Unit(benchmark::kMicrosecond);
+
+void gpb1_cycle(benchmark::State& state) {
+  const ModelSet set = velocity_and_acceleration();
+  const Gpb1State before = gpb1_start(set, testing::start_of(testing::standing));
+  for (auto _ : state) benchmark::DoNotOptimize(gpb1_step(set, before, kFix));
+}
+BENCHMARK(gpb1_cycle)->Unit(benchmark::kMicrosecond);
+
+void gpb2_cycle(benchmark::State& state) {
+  const ModelSet set = velocity_and_acceleration();
+  const ImmState before = imm_start(set, testing::start_of(testing::standing));
+  for (auto _ : state) benchmark::DoNotOptimize(gpb2_step(set, before, kFix));
+}
+BENCHMARK(gpb2_cycle)->Unit(benchmark::kMicrosecond);
+
+void move_stop_scan(benchmark::State& state) {
+  const MotionState moving = testing::start_of(testing::standing);
+  MoveStop hypotheses;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(hypotheses = weigh(hypotheses, {moving, kFix.position_m, kFix.after_s}, {}));
+}
+BENCHMARK(move_stop_scan)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace slammot::filters
