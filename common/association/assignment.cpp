@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "common/association/augmenting_paths.hpp"
+
 namespace slammot::association {
 namespace {
 
@@ -36,76 +38,24 @@ Cluster cluster_of(std::size_t first_row, const CostMatrix& costs, double cost_o
   return cluster;
 }
 
-/// Shortest augmenting paths with potentials over one cluster. Every row also has a column of its own that stands for
-/// leaving it out, so that a complete assignment always exists.
-class ClusterSolver {
- public:
-  ClusterSolver(const CostMatrix& costs, const Cluster& cluster, double cost_of_leaving_out)
-      : costs_(costs), cluster_(cluster), cost_of_leaving_out_(cost_of_leaving_out),
-        columns_(cluster.columns.size() + cluster.rows.size()),
-        row_potential_(cluster.rows.size(), 0.0), column_potential_(columns_ + 1, 0.0),
-        row_of_column_(columns_ + 1, kUnassigned) {}
-
-  void solve(std::vector<std::size_t>& column_of_row) {
-    for (std::size_t row = 0; row < cluster_.rows.size(); ++row) augment(row);
-    for (std::size_t column = 0; column < cluster_.columns.size(); ++column)
-      if (row_of_column_[column] != kUnassigned)
-        column_of_row[cluster_.rows[row_of_column_[column]]] = cluster_.columns[column];
+/// Solves one cluster. Every row also has a column of its own that stands for leaving it out, so that a complete
+/// assignment always exists.
+void solve(const CostMatrix& costs, const Cluster& cluster, double cost_of_leaving_out, std::vector<std::size_t>& column_of_row) {
+  const std::size_t columns = cluster.columns.size();
+  const auto cost = [&](std::size_t row, std::size_t column) {
+    if (column < columns) return costs(cluster.rows[row], cluster.columns[column]);
+    return column - columns == row ? cost_of_leaving_out : kForbidden;
+  };
+  AugmentingPaths paths;
+  paths.begin(cluster.rows.size(), columns + cluster.rows.size());
+  for (std::size_t row = 0; row < cluster.rows.size(); ++row) {
+    const bool is_added = paths.add(row, cost);
+    assert(is_added);
+    static_cast<void>(is_added);
   }
-
- private:
-  double cost(std::size_t row, std::size_t column) const {
-    if (column < cluster_.columns.size()) return costs_(cluster_.rows[row], cluster_.columns[column]);
-    return column - cluster_.columns.size() == row ? cost_of_leaving_out_ : kForbidden;
-  }
-
-  /// Finds the cheapest alternating path from a new row to a free column and flips it.
-  void augment(std::size_t new_row) {
-    const std::size_t start = columns_;  // a column that only the new row occupies
-    row_of_column_[start] = new_row;
-    std::vector<double> distance(columns_ + 1, kForbidden);
-    std::vector<std::size_t> previous(columns_ + 1, start);
-    std::vector<char> visited(columns_ + 1, 0);
-    std::size_t column = start;
-    do {
-      visited[column] = 1;
-      const std::size_t row = row_of_column_[column];
-      double nearest = kForbidden;
-      std::size_t next = start;
-      for (std::size_t j = 0; j < columns_; ++j) {
-        if (visited[j]) continue;
-        const double reduced = cost(row, j) - row_potential_[row] - column_potential_[j];
-        if (reduced < distance[j]) {
-          distance[j] = reduced;
-          previous[j] = column;
-        }
-        if (distance[j] < nearest) {
-          nearest = distance[j];
-          next = j;
-        }
-      }
-      assert(nearest < kForbidden);
-      for (std::size_t j = 0; j <= columns_; ++j) {
-        if (visited[j]) {
-          row_potential_[row_of_column_[j]] += nearest;
-          column_potential_[j] -= nearest;
-        } else {
-          distance[j] -= nearest;
-        }
-      }
-      column = next;
-    } while (row_of_column_[column] != kUnassigned);
-    for (; column != start; column = previous[column]) row_of_column_[column] = row_of_column_[previous[column]];
-  }
-
-  const CostMatrix& costs_;
-  const Cluster& cluster_;
-  double cost_of_leaving_out_;
-  std::size_t columns_;
-  std::vector<double> row_potential_;
-  std::vector<double> column_potential_;
-  std::vector<std::size_t> row_of_column_;
-};
+  for (std::size_t column = 0; column < columns; ++column)
+    if (paths.row_of_column(column) != kUnassigned) column_of_row[cluster.rows[paths.row_of_column(column)]] = cluster.columns[column];
+}
 
 }  // namespace
 
@@ -119,7 +69,7 @@ std::vector<std::size_t> assign(const CostMatrix& costs, double cost_of_leaving_
     if (cluster.rows.size() == 1 && cluster.columns.size() == 1)
       column_of_row[row] = cluster.columns.front();
     else if (!cluster.columns.empty())
-      ClusterSolver(costs, cluster, cost_of_leaving_out).solve(column_of_row);
+      solve(costs, cluster, cost_of_leaving_out, column_of_row);
   }
   return column_of_row;
 }
