@@ -66,14 +66,12 @@ MoveStop weigh(const MoveStop& before, const MoveStopScan& scan, const MoveStopC
   return after;
 }
 
-MotionState estimate_of(const MoveStop& hypotheses, const MotionState& moving, const MoveStopConfig& config) {
+MotionState estimate_of(const MoveStop& hypotheses, const MotionState& moving) {
   if (!hypotheses.stands) return moving;
   MotionState standing;
   standing.mean.head<2>() = hypotheses.series.mean_m;
-  const Matrix2d place_m2 = hypotheses.series.mean_covariance_m2();
-  standing.covariance.topLeftCorner<2, 2>() = place_m2;
-  standing.covariance.block<2, 2>(2, 2) = place_m2 / (config.memory_s * config.memory_s);
-  standing.covariance.block<2, 2>(4, 4) = place_m2 / std::pow(config.memory_s, 4);
+  standing.covariance.topLeftCorner<2, 2>() = hypotheses.series.mean_covariance_m2();
+  standing.covariance.bottomRightCorner<4, 4>() = moving.covariance.bottomRightCorner<4, 4>();
   return standing;
 }
 

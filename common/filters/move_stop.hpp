@@ -7,8 +7,8 @@
 namespace slammot::filters {
 
 struct MoveStopConfig {
-  double memory_s = 0.5;         ///< For which measurements count in the stop hypothesis, > 0; older ones fade.
-  double detection_sigmas = 3.0; ///< Of the velocity estimate's uncertainty: what is faster surely moves.
+  double memory_s;               ///< For which measurements count in the stop hypothesis, > 0; older ones fade.
+  double detection_sigmas;       ///< Of the velocity estimate's uncertainty: what is faster surely moves.
 };
 
 /// Measured positions as a second-order stationary series, identified locally: Wang 2004, Section 4.4. Older ones fade.
@@ -54,9 +54,9 @@ struct MoveStopScan {
 /// anew; of the others the hypothesis that is more certain of the position holds, once the series is as long as its memory.
 MoveStop weigh(const MoveStop& before, const MoveStopScan& scan, const MoveStopConfig& config);
 
-/// The estimate of the hypothesis that holds: while standing the series' mean, no velocity and no acceleration. How surely
-/// there is none follows from the place and the memory.
-MotionState estimate_of(const MoveStop& hypotheses, const MotionState& moving, const MoveStopConfig& config);
+/// The estimate of the hypothesis that holds: while standing the series' mean, no velocity and no acceleration. That there is
+/// none is as sure as the move hypothesis' velocity, which could not be told from none.
+MotionState estimate_of(const MoveStop& hypotheses, const MotionState& moving);
 
 /// Moves the series by a known amount: the same object seen from another reference point.
 void move_stop_shift(MoveStop& hypotheses, const Eigen::Vector2d& shift_m);

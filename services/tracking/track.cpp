@@ -18,6 +18,10 @@ constexpr double kHeadingDriftRad2PerS = 0.1;  ///< How fast a body may turn, as
 
 constexpr double kProgressM = 1.0;             ///< So far something must come once in a while that says to move.
 
+filters::MoveStopConfig move_stop_config(const TrackingConfig& config) {
+  return {config.standing_memory_s, config.detection_sigmas};
+}
+
 /// Heading at which the velocity and its covariance point, and how surely.
 struct Course {
   double heading_rad = 0.0;
@@ -38,6 +42,7 @@ BodyMeasurement measure(const Body& body, const Vector2d& predicted_centre_m, co
 /// Moves the centre, and the places that are remembered of it; the velocity stays. The estimate is the caller's to combine.
 void shift(Track& track, const Vector2d& by_m, const filters::ModelSet& models) {
   filters::imm_shift(models, track.motion, by_m);
+  filters::move_stop_shift(track.move_stop, by_m);
   track.birth_position_m += by_m;
   track.anchor_m += by_m;
 }
@@ -144,9 +149,10 @@ std::vector<flow::PredictedPosition> predicted_path(const Track& track, const Tr
   constexpr double kStepS = 0.5;
   const filters::ModelSet models = motion_models(config);
   const filters::MotionModel cruise = models.models[0];
+  const filters::MotionState now = filters::estimate_of(track.move_stop, track.estimate);
   std::vector<flow::PredictedPosition> path;
   for (int step = 1; step <= kSteps; ++step) {
-    const filters::MotionState there = filters::predict(cruise, track.estimate, step * kStepS);
+    const filters::MotionState there = filters::predict(cruise, now, step * kStepS);
     path.push_back({step * kStepS, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>()});
   }
   return path;
@@ -247,6 +253,8 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.estimate = filters::imm_combine(models, track.motion);
+  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
+  track.move_stop = filters::weigh(track.move_stop, {track.estimate, measurement.centre_m, unseen_s}, move_stop_config(config));
   observe(track, stamp_ns, glimpse);
   if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
@@ -340,14 +348,15 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   object.confirmed = track.confirmed && !track.is_refuted && track.score >= config.publish_score && unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);
+  const filters::MotionState estimate = filters::estimate_of(track.move_stop, track.estimate);
   object.position_in_odom_m = track.position_m();
-  object.velocity_in_odom_mps = track.velocity_mps();
+  object.velocity_in_odom_mps = estimate.mean.segment<2>(2);
   object.covariance = track.estimate.covariance.topLeftCorner<4, 4>();
-  object.acceleration_in_odom_mps2 = track.estimate.mean.segment<2>(4);
+  object.acceleration_in_odom_mps2 = estimate.mean.segment<2>(4);
   object.heading_in_odom_rad = track.body.has_sides ? track.body.heading_rad : course_of(track).heading_rad;
   object.length_m = track.body.length.value_m;
   object.width_m = track.body.width.value_m;
-  object.motion = track.state;
+  object.motion = track.move_stop.stands ? flow::Motion::kStopped : track.state;
   object.object_class = track.object_class;
   object.mode_probability = track.motion.probability;
   object.first_seen_ns = track.first_seen_ns;

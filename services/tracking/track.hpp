@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "common/filters/imm.hpp"
+#include "common/filters/move_stop.hpp"
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
@@ -29,6 +30,7 @@ struct Track {
   flow::TrackId track_id;
   filters::ImmState motion;
   filters::MotionState estimate;             ///< Of the modes together, as of the last predict or update.
+  filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
   Body body;
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
   bool confirmed = false;

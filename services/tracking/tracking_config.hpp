@@ -11,6 +11,8 @@ struct TrackingConfig {
   double fastest_mps = 20.0;                ///< One sigma of a new track's speed is half of this.
   double stopped_below_mps = 0.3;           ///< Slower for a while is stopped,
   double moving_above_mps = 0.6;            ///< and faster moving again.
+  double standing_memory_s = 0.5;           ///< For which measurements tell whether something stands still.
+  double detection_sigmas = 2.0;            ///< Of its velocity: what is faster surely moves.
 
   // Measurement.
   double range_noise_m = 0.03;              ///< One sigma at the scanner,
@@ -25,6 +27,8 @@ struct TrackingConfig {
   double widest_gate_m = 3.0;
   double other_label_cost = 4.0;            ///< Added for a segment that detection does not hold to be moving.
   double larger_body_cost_per_m = 1.0;      ///< Added for each metre by which a segment outgrows the body.
+  int most_hypotheses = 1;                  ///< Of whose segments are whose among those who walk close together; 1: decided at once.
+  int hypothesis_scans = 15;                ///< After which such a decision is final.
 
   // Existence: log-odds, Wang 2004, Eqs. (5.1)-(5.5).
   double birth_score = -1.0;

@@ -47,7 +47,7 @@ void move_stop_scan(benchmark::State& state) {
   const MotionState moving = testing::start_of(testing::standing);
   MoveStop hypotheses;
   for (auto _ : state)
-    benchmark::DoNotOptimize(hypotheses = weigh(hypotheses, {moving, kFix.position_m, kFix.after_s}, {}));
+    benchmark::DoNotOptimize(hypotheses = weigh(hypotheses, {moving, kFix.position_m, kFix.after_s}, {0.5, 2.0}));
 }
 BENCHMARK(move_stop_scan)->Unit(benchmark::kMicrosecond);
 

@@ -35,6 +35,7 @@ MotionState moving_at(double speed_mps, double sigma_mps, double position_sigma_
   state.mean(2) = speed_mps;
   state.covariance.topLeftCorner<2, 2>() = position_sigma_m * position_sigma_m * Matrix2d::Identity();
   state.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
+  state.covariance.block<2, 2>(4, 4) = Matrix2d::Identity();
   return state;
 }
 
@@ -123,9 +124,9 @@ TEST(MoveStop, ShiftsWithTheReferencePoint) {
 TEST(MoveStop, EstimatesAsTheHypothesisThatHolds) {
   const MotionState moving = moving_at(0.1, 0.2, 0.08);
   MoveStop hypotheses{series_at(Vector2d::Zero(), 20, 4), false};
-  EXPECT_EQ(estimate_of(hypotheses, moving, {}).mean, moving.mean);
+  EXPECT_EQ(estimate_of(hypotheses, moving).mean, moving.mean);
   hypotheses.stands = true;
-  const MotionState standing = estimate_of(hypotheses, moving, {});
+  const MotionState standing = estimate_of(hypotheses, moving);
   EXPECT_EQ(standing.mean.tail<4>().norm(), 0.0);
   EXPECT_THAT(standing.mean.head<2>(), MatrixNear(hypotheses.series.mean_m, 1e-12));
   EXPECT_GT(standing.covariance.ldlt().vectorD().minCoeff(), 0.0);

@@ -59,7 +59,7 @@ std::vector<Sample> track(const std::vector<MotionModel>& models, const Maneuver
     sample.probability = state.probability;
     hypotheses = weigh(hypotheses, {sample.moving, position_m, kManeuverPeriodS}, config);
     sample.stands = hypotheses.stands;
-    sample.estimate = estimate_of(hypotheses, sample.moving, config);
+    sample.estimate = estimate_of(hypotheses, sample.moving);
     samples.push_back(sample);
   }
   return samples;

@@ -205,9 +205,27 @@ TEST(Tracker, StopsWithWhatStopsAndKeepsIt) {
   };
   play.run(9.0, [&](Street& street, double t) { street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}}; });
   ASSERT_EQ(play.confirmed().size(), 1U);
-  EXPECT_LT(play.confirmed().front().velocity_in_odom_mps.norm(), 0.1);
+  EXPECT_EQ(play.confirmed().front().velocity_in_odom_mps.norm(), 0.0);
   EXPECT_EQ(play.confirmed().front().motion, flow::Motion::kStopped);
+  EXPECT_NEAR((play.confirmed().front().predicted_path.back().position_in_odom_m - play.confirmed().front().position_in_odom_m).norm(), 0.0, 0.1);
   EXPECT_EQ(play.ids.size(), 1U);
+}
+
+TEST(Tracker, KnowsSoonAgainTheSpeedOfWhatDrivesOff) {
+  Play play;  // stops at t = 3 s, drives off at 6 s with 2 m/s^2
+  const auto y_of = [](double t) {
+    const double braking = std::clamp(t - 1.0, 0.0, 2.0);
+    const double starting = std::max(0.0, t - 6.0);
+    return -8.0 + 4.0 * std::min(t, 1.0) + 4.0 * braking - braking * braking + starting * starting;
+  };
+  const auto scene = [&](Street& street, double t) { street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}}; };
+  play.run(6.0, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_EQ(play.confirmed().front().velocity_in_odom_mps.norm(), 0.0);
+  play.run(1.0, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.y(), 2.0, 0.6);
+  EXPECT_EQ(play.confirmed().front().motion, flow::Motion::kMoving);
 }
 
 TEST(Tracker, DoesNotTakeAParkedCarForOneThatLeavesTheView) {
