@@ -176,6 +176,10 @@ bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& confi
   const bool b_in_a = offset_from_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m()).isZero();
   const bool a_in_b = offset_from_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m()).isZero();
   if (a.body.has_sides || b.body.has_sides) return b_in_a || a_in_b;
+  constexpr int kLongKnownHits = 75;
+  constexpr double kLikeMps = 0.8;  // legs of one who walks, and not two who pass each other
+  const bool are_long_known = a.confirmed && b.confirmed && std::min(a.hits, b.hits) >= kLongKnownHits;
+  if (are_long_known && (a.velocity_mps() - b.velocity_mps()).norm() > kLikeMps) return false;
   const bool is_young = a.hits < 20 || b.hits < 20;  // two who walk side by side are not made one
   return (a.position_m() - b.position_m()).norm() < (is_young ? config.stride_m : config.merge_overlap_m);
 }
