@@ -20,7 +20,6 @@ struct MhtConfig {
   std::size_t scans_back = 10;          ///< Decisions older than this are final.
   std::size_t most_tracks = 8;          ///< Larger clusters are decided at once, by the best assignment.
   double most_cost_above_best = 12.0;   ///< Costlier hypotheses are dropped: at most e^-6 times as probable as the best.
-  double cost_of_leaving_out = 25.0;    ///< Of a track without a measurement.
 };
 
 /// Names a track for as long as it lives.
@@ -35,6 +34,8 @@ concept ScanOfTracks = requires(const Model model, TrackKey key, const State& st
   { model.capacity(measurement) } -> std::convertible_to<std::size_t>;
   /// kForbidden outside the gate. sharers: so many other tracks have the measurement already.
   { model.pair_cost(key, state, measurement, sharers) } -> std::convertible_to<double>;
+  /// Of having none: more where the scan should have seen it, less where something hides it.
+  { model.miss_cost(key, state) } -> std::convertible_to<double>;
   /// sharers: so many other tracks have the measurement in this hypothesis.
   { model.updated(key, state, measurement, sharers) } -> std::convertible_to<State>;
   { model.missed(key, state) } -> std::convertible_to<State>;
@@ -93,6 +94,7 @@ class MultipleHypotheses {
     std::vector<TrackKey> keys;
     std::vector<Joint> hypotheses;                    ///< Best first.
     bool is_revised = false;
+    std::vector<char> gated;                          ///< Measurements that any of its tracks may have, in this scan.
   };
   struct Child {
     double cost = 0.0;
@@ -103,7 +105,7 @@ class MultipleHypotheses {
   std::size_t cluster_of(TrackKey key) const;
   static std::size_t place_in(const Cluster& cluster, TrackKey key);
   template <class Model>
-  bool gates(const Model& model, const Cluster& cluster, std::size_t measurement) const;
+  void find_gated(const Model& model, Cluster& cluster) const;
   template <class Model>
   void join_clusters(const Model& model);
   void join(Cluster& into, const Cluster& other) const;
@@ -151,7 +153,7 @@ std::vector<TrackKey> MultipleHypotheses<State>::keys() const {
 template <class State>
 void MultipleHypotheses<State>::add(TrackKey key, const State& state) {
   assert(!has(key));
-  clusters_.push_back({{key}, {{0.0, {state}, {kUnassigned}, {}}}, false});
+  clusters_.push_back({{key}, {{0.0, {state}, {kUnassigned}, {}}}, false, {}});
 }
 
 template <class State>
@@ -204,21 +206,23 @@ void MultipleHypotheses<State>::step(const Model& model) {
 
 template <class State>
 template <class Model>
-bool MultipleHypotheses<State>::gates(const Model& model, const Cluster& cluster, std::size_t measurement) const {
+void MultipleHypotheses<State>::find_gated(const Model& model, Cluster& cluster) const {
+  cluster.gated.assign(model.measurement_count(), 0);
   for (const Joint& one : cluster.hypotheses)
     for (std::size_t t = 0; t < cluster.keys.size(); ++t)
-      if (model.pair_cost(cluster.keys[t], one.states[t], measurement, 0) < config_.cost_of_leaving_out) return true;
-  return false;
+      for (std::size_t measurement = 0; measurement < cluster.gated.size(); ++measurement)
+        if (!cluster.gated[measurement] && model.pair_cost(cluster.keys[t], one.states[t], measurement, 0) < kForbidden) cluster.gated[measurement] = 1;
 }
 
 /// Joins clusters that may have the same measurement.
 template <class State>
 template <class Model>
 void MultipleHypotheses<State>::join_clusters(const Model& model) {
+  for (Cluster& cluster : clusters_) find_gated(model, cluster);
   for (std::size_t measurement = 0; measurement < model.measurement_count(); ++measurement) {
     std::size_t first = kUnassigned;
     for (std::size_t c = 0; c < clusters_.size();) {
-      if (!gates(model, clusters_[c], measurement)) {
+      if (!clusters_[c].gated[measurement]) {
         ++c;
       } else if (first == kUnassigned) {
         first = c++;
@@ -251,6 +255,7 @@ void MultipleHypotheses<State>::join(Cluster& into, const Cluster& other) const 
   for (Joint& one : pairs) one.lineage.clear();  // of two pasts; what is ambiguous now stays so for scans_back from now
   into.hypotheses = std::move(pairs);
   into.keys.insert(into.keys.end(), other.keys.begin(), other.keys.end());
+  for (std::size_t measurement = 0; measurement < into.gated.size(); ++measurement) into.gated[measurement] |= other.gated[measurement];
 }
 
 template <class State>
@@ -259,7 +264,7 @@ void MultipleHypotheses<State>::find_children(const Model& model, const Cluster&
   columns_.clear();
   occurrence_.clear();
   for (std::size_t measurement = 0; measurement < model.measurement_count(); ++measurement) {
-    if (!gates(model, cluster, measurement)) continue;
+    if (!cluster.gated[measurement]) continue;
     const std::size_t capacity = std::min<std::size_t>(model.capacity(measurement), cluster.keys.size());
     for (std::size_t i = 0; i < capacity; ++i) columns_.push_back(measurement), occurrence_.push_back(i);
   }
@@ -270,11 +275,15 @@ void MultipleHypotheses<State>::find_children(const Model& model, const Cluster&
     costs_.rows = cluster.keys.size();
     costs_.columns = columns_.size();
     costs_.cost.resize(costs_.rows * costs_.columns);
-    for (std::size_t t = 0; t < costs_.rows; ++t)
+    double cost_of_all_missed = 0.0;  // pairs count against it, so that leaving any track out is free
+    for (std::size_t t = 0; t < costs_.rows; ++t) {
+      const double miss_cost = model.miss_cost(cluster.keys[t], one.states[t]);
+      cost_of_all_missed += miss_cost;
       for (std::size_t j = 0; j < costs_.columns; ++j)
-        costs_(t, j) = model.pair_cost(cluster.keys[t], one.states[t], columns_[j], occurrence_[j]);
-    for (const RankedAssignment& ranked : ranking_.rank(costs_, config_.cost_of_leaving_out, is_large ? 1 : config_.most_children))
-      children_.push_back({one.cost + ranked.cost, parent, ranked.column_of_row});
+        costs_(t, j) = model.pair_cost(cluster.keys[t], one.states[t], columns_[j], occurrence_[j]) - miss_cost;
+    }
+    for (const RankedAssignment& ranked : ranking_.rank(costs_, 0.0, is_large ? 1 : config_.most_children))
+      children_.push_back({one.cost + cost_of_all_missed + ranked.cost, parent, ranked.column_of_row});
   }
   std::stable_sort(children_.begin(), children_.end(), [](const Child& a, const Child& b) { return a.cost < b.cost; });
   const double most_cost = children_.front().cost + config_.most_cost_above_best;
@@ -364,7 +373,7 @@ void MultipleHypotheses<State>::split_decided(const Model& model) {
         ++t;
         continue;
       }
-      Cluster alone{{cluster.keys[t]}, {{0.0, {best.states[t]}, {best.measurements[t]}, {}}}, cluster.is_revised};
+      Cluster alone{{cluster.keys[t]}, {{0.0, {best.states[t]}, {best.measurements[t]}, {}}}, cluster.is_revised, {}};
       remove(cluster.keys[t]);
       clusters_.push_back(std::move(alone));
     }

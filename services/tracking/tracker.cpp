@@ -5,11 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "common/association/assignment.hpp"
-#include "common/association/gating.hpp"
 #include "common/sensing/box_fit.hpp"
+#include "services/tracking/pairing.hpp"
 #include "services/tracking/speed_evidence.hpp"
 
 namespace slammot::tracking {
@@ -31,20 +29,6 @@ constexpr double kLeastChangedShare = 0.3; ///< Of them that came or went, for t
 constexpr double kStoodIfSliding = 0.3;    ///< What an echo that stood counts if it may lie on a flank that slides along itself.
 constexpr double kMostMovingShare = 0.2;   ///< Of a segment's echoes that contradict the map, for it to stand.
 
-/// Pose uncertainty as it moves a point at this place; Wang 2004, Eq. (2.3).
-Matrix2d pose_covariance_at(const Vector2d& point_in_odom_m, const flow::SegmentedScan& scan) {
-  const Vector2d point_in_base_m = geometry::inverse(scan.odom_from_base.pose) * point_in_odom_m;
-  const geometry::Matrix3 J =
-      geometry::compound_jacobian_first(scan.odom_from_base.pose, {point_in_base_m.x(), point_in_base_m.y(), 0.0});
-  return (J * scan.odom_from_base.covariance * J.transpose()).topLeftCorner<2, 2>();
-}
-
-/// A segment that could not be a whole object of its own, but of which a part may be one.
-bool is_backdrop(const Segment& segment, const TrackingConfig& config) {
-  return segment.label == PointLabel::kNoEcho ||
-         (segment.label != PointLabel::kMoving && segment.box_length_m > config.longest_body_m);
-}
-
 bool is_slow(const Track& track) { return track.velocity_mps().norm() < 1.5; }
 
 bool may_have_a_flank(const Segment& segment, const TrackingConfig& config) {
@@ -61,26 +45,6 @@ int longest_arrival_since(const EarlierScan& then, const Segment& segment, const
     longest = std::max(longest, run);
   }
   return longest;
-}
-
-/// Cost of holding the segment for (a part of) the track's body; kForbidden outside the gate. Wang 2004, Eq. (5.10)
-/// without its constant: squared distance plus the logarithm of the spread, and what speaks against the pair.
-double pair_cost(const Track& track, const Segment& segment, const TrackingConfig& config) {
-  if (is_backdrop(segment, config)) return association::kForbidden;
-  const Vector2d to_middle_m = segment.centroid_in_odom_m - track.position_m();
-  const double reach_m = config.widest_gate_m + 0.5 * std::hypot(track.body.length.value_m, track.body.width.value_m);
-  if (to_middle_m.squaredNorm() > reach_m * reach_m) return association::kForbidden;
-  const Vector2d residual_m = offset_from_box(track.body, track.position_m(), 0.0, segment.centroid_in_odom_m);
-  Matrix2d S = track.position_covariance_m2() + segment.centroid_covariance_m2;
-  const double shape_m = config.shape_noise_m + config.blob_noise_share * segment.box_length_m;
-  S.diagonal().array() += shape_m * shape_m;
-  const double distance2 = association::mahalanobis_squared<2>(residual_m, S);
-  if (distance2 > association::planar_gate(config.gate_share)) return association::kForbidden;
-  const double body_m = std::max(0.5, track.body.length.value_m);
-  const double outgrown_m = std::max(0.0, segment.box_length_m - track.body.length.value_m - config.gate_margin_m);
-  const double larger_cost = track.body.has_sides ? config.larger_body_cost_per_m * outgrown_m : 0.3 * outgrown_m;
-  return distance2 + 0.5 * to_middle_m.squaredNorm() / (body_m * body_m) + std::log(std::sqrt(S.determinant()) / 0.01) +
-         larger_cost + (segment.label == PointLabel::kMoving ? 0.0 : config.other_label_cost);
 }
 
 PointLabel stronger(PointLabel a, PointLabel b) {
@@ -201,7 +165,7 @@ bool is_worth_more(const Track& a, const Track& b, const TrackingConfig& config)
 
 }  // namespace
 
-Tracker::Tracker(const TrackingConfig& config) : config_(config) {}
+Tracker::Tracker(const TrackingConfig& config) : config_(config), rivals_(config) {}
 
 /// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
 bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
@@ -238,16 +202,29 @@ bool Tracker::is_leg(const Segment& segment, const Track& track) const {
          (segment.centroid_in_odom_m - track.position_m()).norm() < config_.stride_m;
 }
 
+/// Gives those who walk close to one another the segments of their likeliest hypothesis, and forbids these to all others.
+void Tracker::give_to_rivals(const ScanView& view, association::CostMatrix& costs) {
+  const auto may_have = [&](std::size_t track, std::size_t segment) { return !is_of_another_past(segment, track, view); };
+  const std::vector<std::size_t> segment_of_track = rivals_.decide(tracks_, view, may_have);
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    if (!rivals_.has(tracks_[t])) continue;
+    for (std::size_t s = 0; s < costs.columns; ++s) costs(t, s) = association::kForbidden;
+    if (segment_of_track[t] == kUnassigned) continue;
+    for (std::size_t other = 0; other < tracks_.size(); ++other) costs(other, segment_of_track[t]) = association::kForbidden;
+    shares_.track_of_segment[segment_of_track[t]] = t;
+  }
+}
+
 void Tracker::give_whole_segments(const ScanView& view) {
   const std::vector<Segment>& segments = view.scan().segments;
   association::CostMatrix costs(tracks_.size(), segments.size(), association::kForbidden);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (std::size_t s = 0; s < segments.size(); ++s) {
-      costs(t, s) = pair_cost(tracks_[t], segments[s], config_);
+      costs(t, s) = pair_cost(tracks_[t].body, tracks_[t].estimate, segments[s], config_);
       if (costs(t, s) != association::kForbidden && is_of_another_past(s, t, view)) costs(t, s) = association::kForbidden;
     }
-  const double cost_of_leaving_out = 25.0;
-  const std::vector<std::size_t> segment_of_track = association::assign(costs, cost_of_leaving_out);
+  if (config_.most_hypotheses > 1) give_to_rivals(view, costs);
+  const std::vector<std::size_t> segment_of_track = association::assign(costs, kCostOfLeavingOut);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     if (segment_of_track[t] != kUnassigned) shares_.track_of_segment[segment_of_track[t]] = t;
   // A body with sides may be seen in pieces: what lies inside it is its own.
@@ -559,6 +536,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
   ++counters_.scans;
   const ScanView view(scan);
   for (Track& track : tracks_) predict(track, time_s, config_);
+  rivals_.predict(time_s);
   compare_with_past(view);
   associate(view);
   for (std::size_t t = 0; t < tracks_.size(); ++t) correct(t, time_s, view);
@@ -603,6 +581,7 @@ flow::TrackedObjects Tracker::describe(const flow::SegmentedScan& scan) const {
 
 void Tracker::take_up(const flow::TrackedObjects& objects) {
   tracks_.clear();
+  rivals_ = Rivals(config_);
   history_.clear();
   for (const flow::TrackedObject& object : objects.objects) {
     next_id_ = std::max(next_id_, object.track_id.value + 1);

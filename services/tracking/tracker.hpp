@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "common/association/assignment.hpp"
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "services/tracking/rivals.hpp"
 #include "services/tracking/scan_history.hpp"
 #include "services/tracking/scan_view.hpp"
 #include "services/tracking/track.hpp"
@@ -45,8 +47,9 @@ inline std::map<std::string, std::uint64_t> named(const TrackerCounters& counter
 }
 
 /// Follows moving objects from scan to scan of one vehicle. Deterministic; reads no clock.
-/// Association by gating and global nearest neighbour (Wang 2004, Section 5.1), motion by IMM (Section 2.3), existence by
-/// the object score (Eqs. 5.1-5.5); bodies grow with what is seen of them, so that the position is the object's centre.
+/// Association by gating and global nearest neighbour (Wang 2004, Section 5.1), or by several hypotheses where the settings say
+/// so (Section 5.2), motion by IMM (Section 2.3) and move-stop hypotheses (Section 4.6), existence by the object score
+/// (Eqs. 5.1-5.5); bodies grow with what is seen of them, so that the position is the object's centre.
 class Tracker {
  public:
   explicit Tracker(const TrackingConfig& config);
@@ -90,6 +93,7 @@ class Tracker {
   bool is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const;
   bool is_leg(const flow::Segment& segment, const Track& track) const;
   void associate(const ScanView& view);
+  void give_to_rivals(const ScanView& view, association::CostMatrix& costs);
   void give_whole_segments(const ScanView& view);
   void divide_shared_segments(const ScanView& view);
   void begin_tracks(const ScanView& view);
@@ -104,6 +108,7 @@ class Tracker {
   Shares shares_;
   std::vector<Past> past_of_beam_;              ///< Of the current scan.
   std::vector<SegmentPast> past_of_segment_;
+  Rivals rivals_;
   ScanHistory history_;
   std::uint32_t next_id_ = 1;
   std::int64_t last_stamp_ns_ = 0;
