@@ -245,6 +245,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   if (track.body.has_sides) follow_side(track, glimpse, config);  // first: sizes are measured along the sides
   const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
   Matrix2d R = measurement.covariance_m2 + pose_covariance_m2;
+  const Matrix2d noise_at_rest_m2 = R;
   if (walks(track)) R += config.gait_noise_m * config.gait_noise_m * Matrix2d::Identity();
   const Vector2d surprise_m = measurement.centre_m - measurement.recentring_m - track.position_m();
   const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + R);
@@ -254,7 +255,9 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.estimate = filters::imm_combine(models, track.motion);
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
-  track.move_stop = filters::weigh(track.move_stop, {track.estimate, measurement.centre_m, unseen_s}, move_stop_config(config));
+  filters::MotionState moving = track.estimate;
+  moving.covariance *= noise_at_rest_m2.trace() / R.trace();  // legs that stand do not swing
+  track.move_stop = filters::weigh(track.move_stop, {moving, measurement.centre_m, unseen_s}, move_stop_config(config));
   observe(track, stamp_ns, glimpse);
   if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
