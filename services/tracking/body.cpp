@@ -403,4 +403,9 @@ Vector2d offset_from_box(const Body& body, const Vector2d& centre_m, double marg
   return {c * u - s * v, s * u + c * v};
 }
 
+bool is_in_box(const Body& body, const Vector2d& centre_m, double margin_m, const Vector2d& point_m) {
+  const double reach_m = std::max(0.0, 0.5 * (body.length.value_m + body.width.value_m) + 2.0 * margin_m);
+  return (point_m - centre_m).squaredNorm() <= reach_m * reach_m && offset_from_box(body, centre_m, margin_m, point_m).isZero();
+}
+
 }  // namespace slammot::tracking

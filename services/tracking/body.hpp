@@ -102,4 +102,7 @@ double extent_of(std::span<const Eigen::Vector2d> points_m);
 /// Vector from the box (zero inside, margins included) to the point.
 Eigen::Vector2d offset_from_box(const Body& body, const Eigen::Vector2d& centre_m, double margin_m, const Eigen::Vector2d& point_m);
 
+/// Whether the offset is zero; sooner told of what is far away.
+bool is_in_box(const Body& body, const Eigen::Vector2d& centre_m, double margin_m, const Eigen::Vector2d& point_m);
+
 }  // namespace slammot::tracking

@@ -7,11 +7,12 @@
 namespace slammot::tracking {
 namespace {
 
-constexpr std::array<double, 4> kAgesS = {0.1, 0.2, 0.4, 0.8};
-constexpr std::size_t kMostEchoes = 12;
-constexpr int kSteps = 20;               ///< Either way.
-constexpr double kThere = 0.25;     ///< Log-likelihood: something else may have been there;
-constexpr double kThrough = -0.5;   ///< nothing can have been where a beam went through. Neighbouring beams say the same.
+constexpr std::array<double, 3> kAgesS = {0.1, 0.25, 0.6};
+constexpr std::size_t kMostEchoes = 8;
+constexpr int kSteps = 14;               ///< Either way.
+constexpr double kThere = 0.33;     ///< Log-likelihood: something else may have been there;
+constexpr double kThrough = -0.67;  ///< nothing can have been where a beam went through. Neighbouring beams say the same:
+constexpr double kMostWeight = 1.5; ///< of the echoes that are left out, the ones that are asked speak for so many more.
 
 }  // namespace
 
@@ -23,6 +24,7 @@ SpeedEvidence speed_along(const Eigen::Vector2d& direction, std::span<const Eige
     log_likelihood[static_cast<std::size_t>(i)] = -0.5 * std::pow(speed_mps / (0.5 * fastest_mps), 2);
   }
   const std::size_t stride = 1 + (echoes_m.size() - 1) / kMostEchoes;
+  const double weight = std::min(kMostWeight, static_cast<double>(stride));
   const EarlierScan* before = nullptr;
   for (const double age_s : kAgesS) {
     const EarlierScan* then = history.older_than(stamp_ns, age_s);
@@ -33,16 +35,16 @@ SpeedEvidence speed_along(const Eigen::Vector2d& direction, std::span<const Eige
       const Eigen::Vector2d way_m = (i - kSteps) * fastest_mps / kSteps * time_s * direction;
       for (std::size_t echo = 0; echo < echoes_m.size(); echo += stride) {
         const Sight sight = then->view.sight_of(echoes_m[echo] - way_m).sight;
-        log_likelihood[static_cast<std::size_t>(i)] += sight == Sight::kThrough ? kThrough : sight == Sight::kThere ? kThere : 0.0;
+        log_likelihood[static_cast<std::size_t>(i)] += weight * (sight == Sight::kThrough ? kThrough : sight == Sight::kThere ? kThere : 0.0);
       }
     }
   }
   const double best = *std::max_element(log_likelihood.begin(), log_likelihood.end());
   double total = 0.0, mean = 0.0, square = 0.0;
   for (int i = 0; i <= 2 * kSteps; ++i) {
-    const double weight = std::exp(log_likelihood[static_cast<std::size_t>(i)] - best);
+    const double likelihood = std::exp(log_likelihood[static_cast<std::size_t>(i)] - best);
     const double speed_mps = (i - kSteps) * fastest_mps / kSteps;
-    total += weight, mean += weight * speed_mps, square += weight * speed_mps * speed_mps;
+    total += likelihood, mean += likelihood * speed_mps, square += likelihood * speed_mps * speed_mps;
   }
   mean /= total;
   const double step_mps = fastest_mps / kSteps;

@@ -110,13 +110,15 @@ bool is_vehicle(const Track& track) { return track.body.has_sides && track.body.
 double overlap_share(const Track& a, const Track& b) {
   constexpr int kAlong = 7;
   constexpr int kAcross = 3;
+  const double reach_m = 0.5 * (a.body.length.value_m + a.body.width.value_m + b.body.length.value_m + b.body.width.value_m);
+  if ((a.position_m() - b.position_m()).squaredNorm() > reach_m * reach_m) return 0.0;
   const Vector2d along = b.body.length.value_m * Vector2d(std::cos(b.body.heading_rad), std::sin(b.body.heading_rad));
   const Vector2d across = b.body.width.value_m * Vector2d(-std::sin(b.body.heading_rad), std::cos(b.body.heading_rad));
   int inside = 0;
   for (int i = 0; i < kAlong; ++i)
     for (int j = 0; j < kAcross; ++j) {
       const Vector2d point_m = b.position_m() + ((i + 0.5) / kAlong - 0.5) * along + ((j + 0.5) / kAcross - 0.5) * across;
-      inside += offset_from_box(a.body, a.position_m(), 0.0, point_m).isZero() ? 1 : 0;
+      inside += is_in_box(a.body, a.position_m(), 0.0, point_m) ? 1 : 0;
     }
   return static_cast<double>(inside) / (kAlong * kAcross);
 }
@@ -127,7 +129,7 @@ bool is_piece_of(const Track& vehicle, const Track& piece, const TrackingConfig&
   constexpr double kMovingMps = 2.0;
   if (!is_vehicle(vehicle) || is_vehicle(piece) || !vehicle.confirmed || piece.echoes > kMostEchoesShare * vehicle.echoes) return false;
   if (vehicle.velocity_mps().norm() < kMovingMps || (vehicle.velocity_mps() - piece.velocity_mps()).norm() > 1.5 + 0.2 * vehicle.velocity_mps().norm()) return false;
-  return offset_from_box(vehicle.body, vehicle.position_m(), config.gate_margin_m, piece.position_m()).isZero();
+  return is_in_box(vehicle.body, vehicle.position_m(), config.gate_margin_m, piece.position_m());
 }
 
 bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
@@ -137,8 +139,8 @@ bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& confi
   if (!is_supposed && (a.velocity_mps() - b.velocity_mps()).norm() > 1.5 + 0.2 * a.velocity_mps().norm()) return false;
   constexpr double kMostOverlap = 0.35;
   if ((a.confirmed || b.confirmed) && is_vehicle(a) && is_vehicle(b) && std::max(overlap_share(a, b), overlap_share(b, a)) > kMostOverlap) return true;
-  const bool b_in_a = offset_from_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m()).isZero();
-  const bool a_in_b = offset_from_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m()).isZero();
+  const bool b_in_a = is_in_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m());
+  const bool a_in_b = is_in_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m());
   if (a.body.has_sides || b.body.has_sides) return b_in_a || a_in_b;
   constexpr int kLongKnownHits = 75;
   constexpr double kLikeMps = 0.8;  // legs of one who walks, and not two who pass each other
@@ -191,7 +193,7 @@ bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const S
 bool Tracker::lies_in_body(const Segment& segment, const Track& track, const ScanView& view) const {
   if (segment.box_length_m > track.body.length.value_m + config_.gate_margin_m) return false;
   const double margin_m = margin_of(track, config_);
-  const auto is_inside = [&](const Vector2d& point_m) { return offset_from_box(track.body, track.position_m(), margin_m, point_m).isZero(); };
+  const auto is_inside = [&](const Vector2d& point_m) { return is_in_box(track.body, track.position_m(), margin_m, point_m); };
   return is_inside(segment.centroid_in_odom_m) && is_inside(view.point_in_odom_m(segment.beams.front())) &&
          is_inside(view.point_in_odom_m(segment.beams.back()));
 }
@@ -258,7 +260,7 @@ void Tracker::divide_shared_segments(const ScanView& view) {
       const std::size_t s = view.segment_of_beam(beam);
       if (s == ScanView::kNone) continue;
       const Vector2d& point_m = view.point_in_odom_m(beam);
-      if (!offset_from_box(track.body, track.position_m(), margin_m, point_m).isZero()) continue;
+      if (!is_in_box(track.body, track.position_m(), margin_m, point_m)) continue;
       const Segment& segment = view.scan().segments[s];
       const std::size_t owner = shares_.track_of_segment[s];
       if (owner == kUnassigned && is_of_another_past(s, t, view)) continue;
@@ -346,7 +348,7 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   if (count < config_.least_points_at_birth) return false;
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     if (tracks_[t].confirmed && tracks_[t].body.has_sides && tracks_[t].body.kind != Kind::kBicycle && !shares_.beams_of_track[t].empty() &&
-        offset_from_box(tracks_[t].body, tracks_[t].position_m(), config_.gate_margin_m, segment.centroid_in_odom_m).isZero())
+        is_in_box(tracks_[t].body, tracks_[t].position_m(), config_.gate_margin_m, segment.centroid_in_odom_m))
       return false;
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
   constexpr int kFewest = 4;
@@ -470,7 +472,7 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return release(index);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
-  constexpr int kHitsBetweenChecks = 3;
+  constexpr int kHitsBetweenChecks = 5;
   if (may_be_confirmed || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);
   if (!may_be_confirmed || track.is_refuted || !has_proven_to_move(track, config_)) return;
   track.confirmed = true;

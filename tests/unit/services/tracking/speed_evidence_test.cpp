@@ -55,8 +55,8 @@ const StreetBox kWallBehind{{60.0, 0.0, M_PI / 2.0}, 160.0, 1.0};
 TEST(SpeedEvidence, KnowsTheSpeedOfACarOfWhichItSeesTheFace) {
   for (const double speed_mps : {-8.0, 0.0, 5.0}) {
     const SpeedEvidence evidence = evidence_of({{{20.0, 2.0, 0.0}}, {kWallBehind}}, speed_mps);
-    EXPECT_NEAR(evidence.speed_mps, speed_mps, 1.0);
-    EXPECT_LT(evidence.sigma_mps, 1.0);
+    EXPECT_NEAR(evidence.speed_mps, speed_mps, 1.5);
+    EXPECT_LT(evidence.sigma_mps, 2.0);
   }
 }
 
