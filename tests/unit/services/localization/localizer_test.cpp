@@ -459,7 +459,8 @@ TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
   setup.world = joined(setup.world, slammot::testing::box({0.0, 0.0, 0.0}, 0.5, 8.0));
   SimulatedDrive blocked(setup);
   LocalizerConfig config = small_map_config();
-  config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from pulling anyway
+  config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from pulling anyway,
+  config.motion.position_noise_m = 0.02;  // and so do wheels that are trusted
   Localizer localizer(config);
   drive_through(localizer, blocked, 0, 20);
   const auto pulled_m = [&](bool with_track) {
