@@ -244,7 +244,8 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   pending.sequence = scan.sequence;
   pending.scanner_id = scan.scanner.scanner_id;
   pending.beam_step_rad = scan.scanner.beam_step_rad;
-  pending.is_withheld = lost_since_ns_ || scans_to_prove_ > 0;
+  // As long as wheels are trusted the map grows: round a corner everything may be new.
+  pending.is_withheld = lost_scans_ > 0 || scans_to_prove_ > 0;
   pending.origin_in_odom_m = odom_from_laser.translation_m();
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());

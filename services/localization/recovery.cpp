@@ -55,7 +55,7 @@ Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sen
     if (const auto again = find_again(prior, config)) found = *again;
   }
   if (!found.is_believed || found.is_lost) return found;
-  if (lost_since_ns_) scans_to_prove_ = config_.found_scans;
+  if (lost_scans_ > 0) scans_to_prove_ = config_.found_scans;
   else if (scans_to_prove_ > 0) --scans_to_prove_;
   lost_since_ns_.reset();
   lost_scans_ = 0;

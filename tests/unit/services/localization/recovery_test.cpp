@@ -38,6 +38,13 @@ DriveSetup carried_away(const Pose2& before_from_after, const slammot::testing::
 /// What the wheels would have said had it not been carried.
 sensing::Odometry odometry(SimulatedDrive& not_carried, std::uint32_t scan) { return not_carried.odometry(scan); }
 
+/// Wheels are not trusted for a moment, as those of a robot that is carried about.
+LocalizerConfig without_patience() {
+  LocalizerConfig config = small_map_config();
+  config.lost_after_s = 0.0;
+  return config;
+}
+
 class Recovery : public ::testing::Test {
  protected:
   void drive(const DriveSetup& setup, std::uint32_t first, std::uint32_t last, bool with_odometry = true) {
@@ -52,14 +59,14 @@ class Recovery : public ::testing::Test {
   const LocalizerCounters& counters() const { return localizer_.counters(); }
 
   SimulatedDrive wheels_{carried_away({})};
-  Localizer localizer_{small_map_config()};
+  Localizer localizer_{without_patience()};
   std::vector<flow::LocalizedScan> scans_;
 };
 
 TEST_F(Recovery, FindsItselfInTheLocalMapWhereverItWasCarried) {
   for (const Pose2& carried : {Pose2{1.5, 0.0, 0.0}, Pose2{3.0, 1.0, 0.7}, Pose2{0.0, 0.0, std::numbers::pi}}) {
     const DriveSetup setup = carried_away(carried);
-    localizer_ = Localizer(small_map_config());
+    localizer_ = Localizer(without_patience());
     wheels_ = SimulatedDrive(carried_away({}));
     drive(setup, 0, kCarriedAt + 60);
     EXPECT_THAT(newest(), PoseNear(SimulatedDrive(setup).odom_from_base(kCarriedAt + 59), 0.05)) << carried.x_m << " " << carried.y_m << " " << carried.heading_rad;
