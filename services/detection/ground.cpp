@@ -67,21 +67,55 @@ class Ground {
     return range_m < crossing_m - tolerance_m ? Side::kInFront : Side::kOn;
   }
 
-  bool is_ground(const Line& line) const {
+  /// Beams on the line, and what the others say of it.
+  struct Tally {
     int on = 0;
     int beyond = 0;
     int without_echo = 0;
-    double low_y = 1e9;
-    double high_y = -1e9;
+    int without_echo_between = 0;  ///< The line's ends.
+    int first = -1;                ///< Beam on it,
+    int last = -1;                 ///< and the last.
+    double low_y_m = 1e9;
+    double high_y_m = -1e9;
+  };
+
+  Tally tally_of(const Line& line) const {
+    Tally tally;
+    int without_echo_since_on = 0;
     for (std::size_t i = 0; i < scan_.range_m.size(); ++i) {
       const Side side = side_of(i, line);
-      beyond += side == Side::kBeyond ? 1 : 0;
-      without_echo += side == Side::kNoEcho ? 1 : 0;
+      tally.beyond += side == Side::kBeyond ? 1 : 0;
+      tally.without_echo += side == Side::kNoEcho ? 1 : 0;
+      without_echo_since_on += side == Side::kNoEcho ? 1 : 0;
       if (side != Side::kOn) continue;
-      ++on;
-      low_y = std::min(low_y, from_laser_m(i).y()), high_y = std::max(high_y, from_laser_m(i).y());
+      if (tally.on++ == 0) tally.first = static_cast<int>(i);
+      else tally.without_echo_between += without_echo_since_on;
+      without_echo_since_on = 0;
+      tally.last = static_cast<int>(i);
+      const double y_m = from_laser_m(i).y();
+      tally.low_y_m = std::min(tally.low_y_m, y_m), tally.high_y_m = std::max(tally.high_y_m, y_m);
     }
-    return high_y - low_y >= config_.ground_least_width_m && beyond <= config_.ground_most_beyond * on && without_echo <= on;
+    return tally;
+  }
+
+  /// The ground ends where something stands before it; a vehicle that crosses ends where one sees past it.
+  bool ends_before_something(int beam, int step, const Line& line) const {
+    constexpr int kBeamsLookedAt = 6;
+    for (int i = 1; i <= kBeamsLookedAt; ++i) {
+      const int neighbour = beam + i * step;
+      if (neighbour < 0 || neighbour >= static_cast<int>(scan_.range_m.size())) return true;
+      const Side side = side_of(static_cast<std::size_t>(neighbour), line);
+      if (side == Side::kInFront || side == Side::kNotCrossed) return true;
+      if (side == Side::kBeyond) return false;
+    }
+    return false;
+  }
+
+  bool is_ground(const Line& line) const {
+    const Tally tally = tally_of(line);
+    if (tally.high_y_m - tally.low_y_m < config_.ground_least_width_m || tally.beyond > config_.ground_most_beyond * tally.on) return false;
+    if (tally.without_echo <= tally.on) return true;
+    return tally.without_echo_between <= tally.on && ends_before_something(tally.first, -1, line) && ends_before_something(tally.last, +1, line);
   }
 
  private:

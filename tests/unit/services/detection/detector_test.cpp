@@ -97,6 +97,24 @@ TEST(Detector, TakesALineThatNothingIsSeenBeyondForTheGround) {
   EXPECT_EQ(segment_at(scan, {14.95, 0.0}, 5.0), nullptr);
 }
 
+TEST(Detector, TakesALineBetweenHousesForTheGroundThoughMostBeamsMeetNothing) {
+  Street street;
+  street.known = {{{12.0, 4.5, 0.0}, 8.0, 2.0}, {{12.0, -4.5, 0.0}, 8.0, 2.0}};
+  street.unknown = {line_ahead(15.0, 12.0)};  // dark asphalt beside the houses does not answer
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  ASSERT_GT(scan.range_m[180], 0.0F);
+  EXPECT_EQ(scan.labels[180], PointLabel::kNoEcho);
+}
+
+TEST(Detector, DoesNotTakeABusThatCrossesAnEmptySquareForTheGround) {
+  Street street;
+  street.unknown = {{{16.25, 0.0, M_PI / 2.0}, 12.0, 2.5}};
+  const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
+  const flow::Segment* bus = segment_at(segmented, {15.0, 0.0}, 0.5);
+  ASSERT_NE(bus, nullptr);
+  EXPECT_EQ(bus->label, PointLabel::kMoving);
+}
+
 TEST(Detector, DoesNotTakeTheBackOfATruckForTheGround) {
   Street street;
   street.known = {kWall};

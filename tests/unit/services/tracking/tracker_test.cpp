@@ -125,6 +125,21 @@ TEST(Tracker, NoticesACarThatCreepsHoweverFastTheMapLearns) {
   EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.y(), 0.0, 0.2);
 }
 
+TEST(Track, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
+  const TrackingConfig config;
+  Track track;
+  track.score = config.confirm_score;
+  track.hits = config.least_hits;
+  track.evidence = {config.sure_moved_votes, 0.0, 0.0};  // a thin post: beams went past it on both sides a moment ago
+  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
+  track.estimate.mean << 1.0, 0.0, 0.5, 0.0, 0.0, 0.0;    // drawn at a stray echo, a metre beside
+  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
+  track.estimate.covariance.block<2, 2>(2, 2) = 0.16 * Eigen::Matrix2d::Identity();
+  EXPECT_FALSE(has_proven_to_move(track, config));
+  track.estimate.mean(2) = 1.0;
+  EXPECT_TRUE(has_proven_to_move(track, config));
+}
+
 TEST(Tracker, DoesNotLetABusOfWhichItSeesTheBackSwingRound) {
   Play play;
   const StreetBox standing{{18.0, 1.0, 0.0}, 12.0, 2.5};
