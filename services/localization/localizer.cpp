@@ -19,7 +19,7 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7434;  // "slammot4": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7435;  // "slammot5": the digit counts the forms of a checkpoint
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
@@ -46,6 +46,7 @@ Localizer::Localizer(const LocalizerConfig& config)
     : config_(config), match_without_wheels_(config.match), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
+  sweep_factor_.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
 }
 
 void Localizer::add_odometry(const sensing::Odometry& sample) {
@@ -131,6 +132,7 @@ bool Localizer::is_masked(const Vector2& point_in_odom_m) const {
 
 void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_from_base) {
   match_points_.clear();
+  share_of_sweep_.clear();
   laser_in_base_m_ = scan.scanner.base_from_laser.translation_m();
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
   mask_expected_objects(scan.stamp_ns);
@@ -139,7 +141,24 @@ void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_
     if (!sensing::is_echo(range_m, std::min(config_.match_range_m, scan.scanner.max_range_m)) || range_m < config_.min_range_m) continue;
     if (is_masked(odom_from_base.translation_m() + turn * points_in_base_m_[beam])) continue;
     match_points_.push_back({points_in_base_m_[beam], config_.range_noise_m + config_.range_noise_per_m * static_cast<double>(range_m)});
+    if (learns_sweep(scan)) share_of_sweep_.push_back(static_cast<double>(beam) / static_cast<double>(scan.range_m.size()));
   }
+}
+
+bool Localizer::learns_sweep(const sensing::LaserScan& scan) const { return sweep_factor_.variance > 0.0 && scan.scanner.sweep_s > 0.0; }
+
+const sensing::LaserScan& Localizer::with_true_sweep(const sensing::LaserScan& scan) {
+  if (!learns_sweep(scan)) return scan;
+  swept_scan_ = scan;
+  swept_scan_.scanner.sweep_s *= sweep_factor_.value;
+  return swept_scan_;
+}
+
+void Localizer::learn_sweep(const sensing::LaserScan& scan, const UncertainPose2& prior, const Pose2& odom_from_base, const State& now) {
+  if (!learns_sweep(scan)) return;
+  const SweptScan swept{match_points_, share_of_sweep_, odom_from_base, prior.covariance.inverse(), scan.scanner.sweep_s,
+                        {now.speed_mps, now.yaw_rate_radps}, static_cast<double>(now.stamp_ns - last_->stamp_ns) * kNanosecond_s};
+  sweep_factor_ = learned(sweep_factor_, swept, map_.surfels(), config_.match, config_.sweep_factor_sigma * config_.sweep_factor_sigma);
 }
 
 bool Localizer::is_vague(const UncertainPose2& prior) const {
@@ -285,7 +304,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
     now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last_->speed_mps;
     now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last_->yaw_rate_radps;
-    sensing::deskew(scan, now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
+    sensing::deskew(with_true_sweep(scan), now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
     const UncertainPose2 prior = step.after.uncertain_pose();
     select_points(scan, prior.pose);
     const UncertainPose2 before = estimate_.uncertain_pose();
@@ -296,6 +315,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
       const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
       variance_factors_ = sensing::learned(variance_factors_, prior, found.odom_from_base, share);
     }
+    if (found.is_believed && !found.was_sampled) learn_sweep(scan, prior, found.odom_from_base.pose, now);
     variance_factors_ = sensing::carried(variance_factors_, before, prior, found.odom_from_base);
     travel(before_from_base);
     now.was_sampled = found.was_sampled;
@@ -427,6 +447,8 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(self.estimate_.covariance);
   visit(self.variance_factors_.of_axis);
   visit(self.variance_factors_.dead_reckoned);
+  visit(self.sweep_factor_.value);
+  visit(self.sweep_factor_.variance);
   visit(last.has_wheels);
   visit(last.wheel_from_base);
   visit(last.knows_velocity);
@@ -471,6 +493,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
                         is_believable(restored.estimate_.covariance) && restored.estimate_.calibration.norm() < 1.0 && restored.estimate_.velocity.norm() < kFastestRestored &&
                         restored.variance_factors_.of_axis.minCoeff() >= 0.0 && restored.variance_factors_.of_axis.allFinite() &&
                         restored.variance_factors_.dead_reckoned.minCoeff() >= 0.0 && restored.variance_factors_.dead_reckoned.maxCoeff() <= 1.0 &&
+                        std::isfinite(restored.sweep_factor_.value) && restored.sweep_factor_.variance >= 0.0 &&
                         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
                         std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.travelled_m_);
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;

@@ -24,6 +24,7 @@
 #include "common/sensing/variance_factor.hpp"
 #include "services/localization/ambiguous_match.hpp"
 #include "services/localization/local_map.hpp"
+#include "services/localization/sweep_estimate.hpp"
 #include "services/localization/wheel_jump.hpp"
 
 namespace slammot::localization {
@@ -48,6 +49,7 @@ struct LocalizerConfig {
   double astray_after_s = 2.0;            ///< and after so long in vain a new map begins, tied to the last one by next to nothing:
   double astray_sigma_m = 50.0;           ///< one sigma of that tie.
   bool leave_out_moving = true;           ///< Off, to see what it is worth: everything is mapped and matched as if it stood.
+  double sweep_factor_sigma = 0.0;        ///< Of the factor on how long scanners' sweeps are said to take; 0: they are right.
   bool use_odometry = true;               ///< Off, for wheels that are worse than none: constant velocity predicts.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
   double longest_step_s = 2.0;            ///< Without odometry nothing is extrapolated farther; longer gaps are counted.
@@ -145,6 +147,7 @@ class Localizer {
 
   const geometry::Pose2& map_from_odom() const { return map_from_odom_; }
   const sensing::MotionCalibration& calibration() const { return estimate_.calibration; }
+  const SweepFactor& sweep_factor() const { return sweep_factor_; }
   const LocalizerCounters& counters() const { return counters_; }
   const LocalMap& local_map() const { return map_; }
 
@@ -217,6 +220,9 @@ class Localizer {
   std::vector<matching::Peak> peaks_around(const geometry::UncertainPose2& prior, matching::CorrelativeMatcher& searcher);
   static matching::CorrelativeConfig finder_config(matching::CorrelativeConfig search);
   void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
+  bool learns_sweep(const sensing::LaserScan& scan) const;
+  const sensing::LaserScan& with_true_sweep(const sensing::LaserScan& scan);
+  void learn_sweep(const sensing::LaserScan& scan, const geometry::UncertainPose2& prior, const geometry::Pose2& odom_from_base, const State& now);
   void mask_expected_objects(std::int64_t stamp_ns);
   bool is_masked(const geometry::Vector2& point_in_odom_m) const;
   void travel(const geometry::Pose2& before_from_base);
@@ -263,6 +269,9 @@ class Localizer {
   std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
   geometry::Vector2 laser_in_base_m_ = geometry::Vector2::Zero();  ///< Of the scan at hand.
   std::vector<matching::MatchPoint> match_points_;
+  SweepFactor sweep_factor_;
+  sensing::LaserScan swept_scan_;                    ///< The scan at hand with its sweep as it is believed to be.
+  std::vector<double> share_of_sweep_;               ///< By match point, where the sweep is learned.
   std::vector<Mask> masks_;
 };
 

@@ -322,7 +322,9 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
                            evidence.moved >= config.sure_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided);
   const bool has_travelled = distance_m >= config.least_travel_m && distance_m >= config.least_travel_sigmas * sigma_m;
   // What comes into view bit by bit, or was drawn at a stray echo first, seems to have come from somewhere, and stands.
-  if (track.velocity_mps().norm() < filters::minimum_detection_speed_mps(track.estimate, config.detection_sigmas)) return false;
+  constexpr double kOfSwingingLegs = 0.75;  // who walks is followed with the swing of the legs in the covariance, a post has none
+  const double sigmas = config.detection_sigmas * (walks(track) ? kOfSwingingLegs : 1.0);
+  if (track.velocity_mps().norm() < filters::minimum_detection_speed_mps(track.estimate, sigmas)) return false;
   return track.hits >= config.least_hits && track.score >= config.confirm_score && has_moved && (has_arrived || has_travelled) &&
          speed_sigma_mps <= config.most_speed_sigma_mps;
 }

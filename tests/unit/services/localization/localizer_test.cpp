@@ -63,6 +63,53 @@ DriveSetup between_bare_walls() {
   return setup;
 }
 
+/// A small car that wriggles through a room, with a scanner that turns all around, the other way round than it says.
+DriveSetup with_a_scanner_that_turns_the_other_way(double true_sweep_s) {
+  DriveSetup setup{.world = slammot::testing::room()};
+  setup.world_from_base_at = [](double time_s) {  // an eight, driven at 0 to 2 m/s
+    constexpr double kCircleS = 2.0 * std::numbers::pi;
+    const double t = time_s + std::sin(time_s);
+    const bool is_left = std::fmod(t, 2.0 * kCircleS) < kCircleS;
+    return arc({-3.0, -1.5, 0.0}, 1.0, is_left ? 1.0 : -1.0)(std::fmod(t, kCircleS));
+  };
+  setup.beams = 360;
+  setup.scanner.first_beam_rad = -std::numbers::pi;
+  setup.scanner.sweep_s = true_sweep_s;
+  return setup;
+}
+
+TEST(Localizer, FindsOutThatAScannerTurnsTheOtherWayRound) {
+  constexpr double kSaidS = 0.08;
+  for (const double truth : {-1.0, 1.0}) {
+    SimulatedDrive drive(with_a_scanner_that_turns_the_other_way(truth * kSaidS));
+    LocalizerConfig config = small_map_config();
+    config.sweep_factor_sigma = 1.0;
+    config.map.surfel_size_m = 0.1;
+    config.match.coarse_gate_m = 0.5;
+    config.match.fine_gate_m = 0.15;
+    config.match.proven_after_m = 0.0;
+    Localizer localizer(config);
+    for (std::uint32_t number = 0; number < 300; ++number) {
+      sensing::LaserScan scan = drive.scan(number);
+      scan.scanner.sweep_s = kSaidS;
+      localizer.add_odometry(drive.odometry(number));
+      const auto localized = localizer.localize(scan);
+      ASSERT_TRUE(localized);
+      localizer.integrate(all_stationary(*localized));
+    }
+    EXPECT_NEAR(localizer.sweep_factor().value, truth, 0.15);
+    EXPECT_LT(localizer.sweep_factor().variance, 0.01);
+  }
+}
+
+TEST(Localizer, TakesTheSweepForWhatItIsSaidToBeUnlessAsked) {
+  SimulatedDrive drive(with_a_scanner_that_turns_the_other_way(0.08));
+  Localizer localizer(small_map_config());
+  drive_through(localizer, drive, 0, 20);
+  EXPECT_EQ(localizer.sweep_factor().value, 1.0);
+  EXPECT_EQ(localizer.sweep_factor().variance, 0.0);
+}
+
 TEST(Localizer, GrowsUnsureAlongBareWallsAndStaysSureAcrossThem) {
   SimulatedDrive drive(between_bare_walls());
   Localizer localizer(LocalizerConfig{});
