@@ -117,6 +117,21 @@ std::string to_track_details_csv(const std::vector<TrackRow>& rows) {
   return text;
 }
 
+std::string to_predictions_csv(const std::vector<TrackRow>& rows) {
+  std::string text = "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n";
+  for (const TrackRow& row : rows) {
+    const std::string begin = stamp_text(row.stamp_ns) + "," + std::to_string(row.track_id.value) + ",";
+    for (const PredictedPlace& place : row.predicted) {
+      text.append(begin).append(fixed_text(place.after_s, 1));
+      text.append(1, ',').append(fixed_text(place.position_in_map_m.x(), 3)).append(1, ',').append(fixed_text(place.position_in_map_m.y(), 3));
+      const geometry::Matrix2& P = place.covariance_m2;
+      for (const double value : {P(0, 0), P(0, 1), P(1, 1)}) append_short(text, value);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
 std::string to_online_covariance_csv(const std::vector<UncertainStampedPose>& poses) {
   std::string text = "timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h\n";
   for (const auto& [stamp_ns, odom_from_base] : poses) {
@@ -178,6 +193,7 @@ std::optional<Error> write_outputs(const std::filesystem::path& folder, const Ru
   const std::vector<TrackRow> tracks = record.track_rows();
   if (auto fault = write_file_atomically(folder / "tracks.csv", to_tracks_csv(tracks))) return fault;
   if (auto fault = write_file_atomically(folder / "track_details.csv", to_track_details_csv(tracks))) return fault;
+  if (auto fault = write_file_atomically(folder / "predictions.csv", to_predictions_csv(tracks))) return fault;
   if (auto fault = write_labels(folder / "labels.csv", record.label_rows())) return fault;
   if (auto fault = write_file_atomically(folder / "graph.g2o", to_g2o(record))) return fault;
   if (auto fault = maps.get()) return fault;

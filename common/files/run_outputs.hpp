@@ -21,6 +21,9 @@ std::string to_tracks_csv(const std::vector<TrackRow>& rows);
 /// in map; as many modes as the first row has.
 std::string to_track_details_csv(const std::vector<TrackRow>& rows);
 
+/// Where tracks will be, a line a time ahead (whole seconds): timestamp,track_id,after,x,y,var_x,cov_xy,var_y in map.
+std::string to_predictions_csv(const std::vector<TrackRow>& rows);
+
 /// Header and one line a pose: timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h in odom, h the heading.
 std::string to_online_covariance_csv(const std::vector<UncertainStampedPose>& poses);
 
@@ -34,7 +37,7 @@ std::string to_g2o(const RunRecord& record);
 /// Distance along the trajectory; what a vehicle at rest seems to tremble is not counted.
 double travelled_m(const std::vector<StampedPose>& trajectory);
 
-/// Writes online.tum, online_covariance.csv, trajectory.tum, tracks.csv, track_details.csv, labels.csv (where there are labels), graph.g2o, map.{pgm,png,yaml}, moving.{pgm,png,yaml} and report.json
+/// Writes online.tum, online_covariance.csv, trajectory.tum, tracks.csv, track_details.csv, predictions.csv, labels.csv (where there are labels), graph.g2o, map.{pgm,png,yaml}, moving.{pgm,png,yaml} and report.json
 /// into the folder, which must exist. Stops at the first file that cannot be written.
 std::optional<Error> write_outputs(const std::filesystem::path& folder, const RunRecord& record, const RunReport& report);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -35,6 +36,10 @@ ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted, const Eigen
 
 /// Moment-matched mean and covariance of the mixture; Wang 2004, Eqs. (2.52)-(2.53).
 MotionState imm_combine(const ModelSet& set, const ImmState& state);
+
+/// Mean and covariance of the mixture after step_s, 2 step_s, ..., `steps` times, if nothing is measured: each step mixes and
+/// predicts as imm_predict does, so that what manoeuvres now may go on to, or cease.
+std::vector<MotionState> imm_foretell(const ModelSet& set, ImmState state, double step_s, int steps);
 
 /// Moves every mode's position by the same known amount: the same object seen from another reference point.
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m);

@@ -74,6 +74,13 @@ Json to_json(const metrics::Hota& hota) {
           {"localization_accuracy", number(hota.localization_accuracy)}};
 }
 
+Json to_json(const std::vector<metrics::PredictionErrors>& predictions) {
+  Json rows = Json::array();
+  for (const metrics::PredictionErrors& errors : predictions)
+    rows.push_back({{"after_s", errors.after_s}, {"displacement_m", to_json(errors.displacement_m)}, {"nees", to_json(errors.nees)}, {"inside_share", number(errors.inside_share)}});
+  return rows;
+}
+
 Json to_json(const TrackingEvaluation& tracking) {
   Json classes = Json::object();
   for (const auto& [name, errors] : tracking.errors.by_class) classes[name] = to_json(errors);
@@ -98,7 +105,8 @@ Json to_json(const TrackingEvaluation& tracking) {
           {"never_detected", tracking.errors.never_detected},
           {"all", to_json(tracking.errors.all)},
           {"by_class", classes},
-          {"by_distance", bands}};
+          {"by_distance", bands},
+          {"predictions", to_json(tracking.predictions)}};
 }
 
 Json to_json(const OtherCarEvaluation& car) {

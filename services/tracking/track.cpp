@@ -144,20 +144,6 @@ void remember_contour(Track& track, const Glimpse& glimpse) {
     track.contour_in_odom_m.push_back(glimpse.points_m[i].cast<float>());
 }
 
-std::vector<flow::PredictedPosition> predicted_path(const Track& track, const TrackingConfig& config) {
-  constexpr int kSteps = 6;
-  constexpr double kStepS = 0.5;
-  const filters::ModelSet models = motion_models(config);
-  const filters::MotionModel cruise = models.models[0];
-  const filters::MotionState now = filters::estimate_of(track.move_stop, track.estimate);
-  std::vector<flow::PredictedPosition> path;
-  for (int step = 1; step <= kSteps; ++step) {
-    const filters::MotionState there = filters::predict(cruise, now, step * kStepS);
-    path.push_back({step * kStepS, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>()});
-  }
-  return path;
-}
-
 /// Legs swing about the middle of who walks on them, the same way for many scans.
 bool walks(const Track& track) {
   constexpr double kFastestMps = 2.7;
@@ -183,6 +169,21 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   const Vector2d along{std::cos(heading_rad), std::sin(heading_rad)};
   const Vector2d across{-along.y(), along.x()};
   return along_m2 * along * along.transpose() + across_m2 * across * across.transpose();
+}
+
+/// Three seconds ahead by the mixture of modes; who is held to stand may start off as any mode says, and is not known to.
+std::vector<flow::PredictedPosition> predicted_path(const Track& track, const Matrix2d& shared_error_m2, const TrackingConfig& config) {
+  constexpr int kSteps = 6;
+  constexpr double kStepS = 0.5;
+  const filters::ModelSet models = motion_models(config);
+  filters::ImmState now = track.motion;
+  if (track.move_stop.stands) now.modes.fill(filters::estimate_of(track.move_stop, track.estimate));
+  std::vector<flow::PredictedPosition> path;
+  for (const filters::MotionState& there : filters::imm_foretell(models, now, kStepS, kSteps)) {
+    const double after_s = kStepS * static_cast<double>(path.size() + 1);
+    path.push_back({after_s, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>() + shared_error_m2});
+  }
+  return path;
 }
 
 void observe(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse) {
@@ -367,8 +368,9 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   object.first_seen_ns = track.first_seen_ns;
   object.last_seen_ns = track.last_seen_ns;
   object.contour_in_odom_m = track.contour_in_odom_m;
-  if (track.confirmed) object.predicted_path = predicted_path(track, config);
-  object.covariance.topLeftCorner<2, 2>() += shared_error_covariance(track, object.heading_in_odom_rad, config);
+  const Matrix2d shared_error_m2 = shared_error_covariance(track, object.heading_in_odom_rad, config);
+  object.covariance.topLeftCorner<2, 2>() += shared_error_m2;
+  if (track.confirmed) object.predicted_path = predicted_path(track, shared_error_m2, config);
   return object;
 }
 

@@ -296,6 +296,23 @@ TEST(Tracker, LabelsAScanFromThePastAsDetectionDid) {
   EXPECT_EQ(play.tracker().counters().late_scans, 1U);
 }
 
+TEST(Tracker, DoesNotExpectWhatBrakesToGoOnAsItGoes) {
+  Play play;  // 10 m/s, brakes at 3 m/s^2 from t = 1 s on
+  const auto y_of = [](double t) {
+    const double braking = std::clamp(t - 1.0, 0.0, 10.0 / 3.0);
+    return -15.0 + 10.0 * std::min(t, 1.0) + 10.0 * braking - 1.5 * braking * braking;
+  };
+  play.run(2.5, [&](Street& street, double t) { street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}}; });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackedObject car = play.confirmed().front();
+  ASSERT_EQ(car.predicted_path.size(), 6U);
+  const flow::PredictedPosition& later = car.predicted_path[1];  // a second ahead
+  const double truth_m = y_of(play.now_s() - kPeriodS + later.after_s);
+  const double as_it_goes_m = car.position_in_odom_m.y() + later.after_s * car.velocity_in_odom_mps.y();
+  EXPECT_LT(std::abs(later.position_in_odom_m.y() - truth_m), 0.7 * std::abs(as_it_goes_m - truth_m));
+  EXPECT_LT(std::abs(later.position_in_odom_m.y() - truth_m), 2.0 * std::sqrt(later.covariance_m2(1, 1)));
+}
+
 TEST(Tracker, SaysWhereAnObjectWillBeAndHowSurely) {
   Play play;
   play.run(2.0, [](Street& street, double t) { street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}}; });
