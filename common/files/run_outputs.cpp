@@ -103,7 +103,7 @@ std::string to_tracks_csv(const std::vector<TrackRow>& rows) {
 }
 
 std::string to_track_details_csv(const std::vector<TrackRow>& rows) {
-  std::string text = "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy";
+  std::string text = "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_car,p_truck_or_bus";
   const std::size_t modes = rows.empty() ? 0 : rows.front().mode_probability.size();
   for (std::size_t mode = 0; mode < modes; ++mode) text += ",mode_" + std::to_string(mode);
   text += "\n";
@@ -111,6 +111,7 @@ std::string to_track_details_csv(const std::vector<TrackRow>& rows) {
     text.append(stamp_text(row.stamp_ns)).append(1, ',').append(std::to_string(row.track_id.value));
     const Eigen::Matrix4d& P = row.covariance_in_map;
     for (const double value : {P(0, 0), P(0, 1), P(1, 1), P(2, 2), P(2, 3), P(3, 3)}) append_short(text, value);
+    for (const double probability : row.class_probability) text.append(1, ',').append(fixed_text(probability, 4));
     for (std::size_t mode = 0; mode < modes; ++mode) append_short(text, mode < row.mode_probability.size() ? row.mode_probability[mode] : 0.0);
     text += '\n';
   }

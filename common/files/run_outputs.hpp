@@ -17,7 +17,8 @@ std::string to_tum(const std::vector<StampedPose>& trajectory);
 /// Header and one line a row: timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class.
 std::string to_tracks_csv(const std::vector<TrackRow>& rows);
 
-/// What tracks.csv leaves out, row by row: timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,mode_0,mode_1,...
+/// What tracks.csv leaves out, row by row: timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,
+/// p_car,p_truck_or_bus,mode_0,mode_1,...
 /// in map; as many modes as the first row has.
 std::string to_track_details_csv(const std::vector<TrackRow>& rows);
 

@@ -34,6 +34,7 @@ TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& t
   turn.topLeftCorner<2, 2>() = turn.bottomRightCorner<2, 2>() = geometry::rotation(tracked.map_from_odom.heading_rad);
   row.covariance_in_map = turn * object.covariance * turn.transpose();
   row.mode_probability.assign(object.mode_probability.begin(), object.mode_probability.end());
+  row.class_probability = object.class_probability;
   row.predicted = at_whole_seconds(object, tracked.map_from_odom);
   return row;
 }

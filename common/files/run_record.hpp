@@ -43,6 +43,7 @@ struct TrackRow {
   flow::ObjectClass object_class = flow::ObjectClass::kUnknown;
   Eigen::Matrix4d covariance_in_map = Eigen::Matrix4d::Zero();  ///< (x, y [m], vx, vy [m/s])
   std::vector<double> mode_probability;                         ///< Of each motion model, as tracking orders them.
+  flow::ClassProbabilities class_probability = {};              ///< Of pedestrian, bicycle, car, truck or bus.
   std::vector<PredictedPlace> predicted;                        ///< Those of its path that are whole seconds ahead.
 };
 

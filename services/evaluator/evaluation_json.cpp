@@ -43,6 +43,7 @@ Json to_json(const metrics::ObjectErrors& errors) {
           {"matched_rows", errors.matched_rows},
           {"recall", number(errors.recall)},
           {"right_class", number(errors.right_class)},
+          {"reported_as", errors.reported_as},
           {"centre_m", to_json(errors.centre_m)},
           {"velocity_mps", to_json(errors.velocity_mps)},
           {"heading_rad", to_json(errors.heading_rad)},

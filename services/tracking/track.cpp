@@ -131,9 +131,19 @@ void update_motion_state(Track& track, const TrackingConfig& config) {
     track.without_progress_s = 0.0;
   }
   const double speed = track.velocity_mps().norm();
-  if (track.confirmed) track.fastest_mps = std::max(track.fastest_mps, speed);
   if (speed < config.stopped_below_mps) track.state = flow::Motion::kStopped;
   if (speed > config.moving_above_mps) track.state = flow::Motion::kMoving;
+}
+
+/// Speeds count once the track is that of something, and while they are known and not none.
+void update_class(Track& track, double time_s, const TrackingConfig& config) {
+  constexpr double kLongestHeldS = 0.2;
+  const double sigma_mps = std::sqrt(0.5 * track.velocity_covariance().trace());
+  const bool is_known = track.confirmed && !track.is_refuted && sigma_mps < config.most_speed_sigma_mps;
+  if (is_known && !track.move_stop.stands && track.state == flow::Motion::kMoving)
+    track.speeds = with_speed(track.speeds, {track.velocity_mps().norm(), sigma_mps, std::min(time_s, kLongestHeldS)}, config);
+  track.class_probability = class_probabilities(track.body, track.speeds, config);
+  track.object_class = likeliest_class(track.class_probability);
 }
 
 void remember_contour(Track& track, const Glimpse& glimpse) {
@@ -162,7 +172,7 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   if (track.body.has_sides) {
     along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * track.body.length.variance_m2;
     across_m2 = std::pow(kShapeAcrossM * config.size_scale, 2) + 0.25 * track.body.width.variance_m2;
-  } else if (track.object_class != flow::ObjectClass::kPedestrian) {
+  } else if (!walks(track)) {
     along_m2 += std::pow(kHalfACycleM * config.size_scale, 2);
     across_m2 = std::pow(0.5 * kHalfACycleM * config.size_scale, 2);
   }
@@ -264,7 +274,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   else draw_sides_when_known(track, glimpse, config);
   update_motion_state(track, config);
   if (track.velocity_mps().norm() > config.moving_above_mps || track.state == flow::Motion::kMoving) track.last_moving_ns = stamp_ns;
-  track.object_class = likely_class(track);
+  update_class(track, unseen_s, config);
   return true;
 }
 
@@ -333,21 +343,6 @@ bool contradicts_itself(const Track& track, const TrackingConfig& config) {
   return track.claimed_m > kMostTimesProgress * kProgressM * config.size_scale;
 }
 
-flow::ObjectClass likely_class(const Track& track) {
-  if (!track.body.has_sides) {
-    const double fastest_mps = std::max(track.fastest_mps, track.velocity_mps().norm());
-    if (track.largest_extent_m < 1.0) return fastest_mps < 2.7 ? flow::ObjectClass::kPedestrian : flow::ObjectClass::kBicycle;
-    return flow::ObjectClass::kUnknown;
-  }
-  switch (track.body.kind) {
-    case Kind::kBicycle: return flow::ObjectClass::kBicycle;
-    case Kind::kCar: return flow::ObjectClass::kCar;
-    case Kind::kTruck:
-    case Kind::kBus: break;
-  }
-  return flow::ObjectClass::kTruckOrBus;
-}
-
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
   flow::TrackedObject object;
   object.track_id = track.track_id;
@@ -364,6 +359,7 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   object.width_m = track.body.width.value_m;
   object.motion = track.move_stop.stands ? flow::Motion::kStopped : track.state;
   object.object_class = track.object_class;
+  object.class_probability = track.class_probability;
   object.mode_probability = track.motion.probability;
   object.first_seen_ns = track.first_seen_ns;
   object.last_seen_ns = track.last_seen_ns;
@@ -382,6 +378,7 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
   track.score = std::min(track.score, config.most_score);
   track.state = object.motion;
   track.object_class = object.object_class;
+  track.class_probability = object.class_probability;
   track.first_seen_ns = object.first_seen_ns;
   track.last_seen_ns = object.last_seen_ns;
   track.last_moving_ns = object.last_seen_ns;

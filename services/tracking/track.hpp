@@ -13,6 +13,7 @@
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
 #include "services/tracking/body.hpp"
+#include "services/tracking/object_class.hpp"
 #include "services/tracking/scan_view.hpp"
 #include "services/tracking/tracking_config.hpp"
 
@@ -35,7 +36,9 @@ struct Track {
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
   bool confirmed = false;
   flow::Motion state = flow::Motion::kMoving;
-  flow::ObjectClass object_class = flow::ObjectClass::kUnknown;
+  flow::ObjectClass object_class = flow::ObjectClass::kUnknown;  ///< The likeliest
+  flow::ClassProbabilities class_probability = {};               ///< of these.
+  SpeedsSeen speeds;                         ///< Since it was confirmed.
   int hits = 0;                              ///< Scans with echoes from it,
   int moving_hits = 0;                       ///< and such that contradicted the map.
   std::int64_t first_seen_ns = 0;
@@ -43,7 +46,6 @@ struct Track {
   Eigen::Vector2d birth_position_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d birth_covariance_m2 = Eigen::Matrix2d::Identity();
   MotionEvidence evidence;                   ///< Of the last moments, faded.
-  double fastest_mps = 0.0;                  ///< Since it was confirmed.
   std::int64_t last_moving_ns = 0;           ///< When it was last faster than something that stands.
   double way_m = 0.0;                        ///< That it has come since it was confirmed, in steps that are more than jitter.
   Eigen::Vector2d anchor_m = Eigen::Vector2d::Zero();  ///< Where it last got away from;
@@ -90,8 +92,6 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config);
 
 /// Whether it says to move and stays where it is: something that stands, seen now here, now there.
 bool contradicts_itself(const Track& track, const TrackingConfig& config);
-
-flow::ObjectClass likely_class(const Track& track);
 
 /// The track as it is published.
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);

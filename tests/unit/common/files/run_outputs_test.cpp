@@ -53,9 +53,10 @@ TEST(ToTrackDetailsCsv, WritesCovariancesAndTheProbabilityOfEachMode) {
   row.covariance_in_map.diagonal() << 0.04, 0.01, 1.0, 0.25;
   row.covariance_in_map(0, 1) = -0.0012345678;
   row.mode_probability = {0.75, 0.25};
+  row.class_probability = {0.125, 0.5, 0.25, 0.125};
   EXPECT_EQ(to_track_details_csv({row}),
-            "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,mode_0,mode_1\n"
-            "1.500000,42,0.04,-0.0012346,0.01,1,0,0.25,0.75,0.25\n");
+            "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_car,p_truck_or_bus,mode_0,mode_1\n"
+            "1.500000,42,0.04,-0.0012346,0.01,1,0,0.25,0.1250,0.5000,0.2500,0.1250,0.75,0.25\n");
 }
 
 TEST(ToPredictionsCsv, WritesOneRowATimeAhead) {
