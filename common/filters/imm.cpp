@@ -3,11 +3,34 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace slammot::filters {
 namespace {
 
 std::span<const MotionState> modes_of(const ModelSet& set, const ImmState& state) { return {state.modes.data(), set.size}; }
+
+bool has_models_beyond(const ModelSet& set, const ImmState& state) {
+  double beyond = 0.0;
+  for (std::size_t i = set.size; i < kMaxModels; ++i) beyond += state.probability[i];
+  return beyond > 0.0;
+}
+
+/// What is in models that the set no longer has goes to its last one.
+ImmState narrowed(const ModelSet& set, const ImmState& state) {
+  ImmState narrow = state;
+  const std::size_t last = set.size - 1;
+  const std::span all{state.probability};
+  const double total = std::accumulate(all.begin() + static_cast<std::ptrdiff_t>(last), all.end(), 0.0);
+  ModelWeights weight = {};
+  for (std::size_t i = last; i < kMaxModels; ++i) {
+    weight[i] = state.probability[i] / total;
+    narrow.probability[i] = 0.0;
+  }
+  narrow.modes[last] = moment_match({state.modes.data() + last, kMaxModels - last}, {weight.data() + last, kMaxModels - last});
+  narrow.probability[last] = total;
+  return narrow;
+}
 
 }  // namespace
 
@@ -20,6 +43,7 @@ ImmState imm_start(const ModelSet& set, const MotionState& estimate) {
 
 ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s) {
   assert(time_s >= 0.0);
+  if (has_models_beyond(set, state)) return imm_predict(set, narrowed(set, state), time_s);
   const double stays = switch_probability(set, 0, 0, time_s);  // of all models alike
   const double leaves = set.size > 1 ? switch_probability(set, 0, 1, time_s) : 0.0;
   ModelWeights probability = {};

@@ -26,7 +26,9 @@ struct ImmUpdate {
 ImmState imm_start(const ModelSet& set, const MotionState& estimate);
 
 /// Mixing (Wang 2004, Eqs. 2.49-2.51) and mode-matched prediction over time_s >= 0. The probability of a switch
-/// follows from the time and the mean stay, not from the number of scans.
+/// follows from the time and the mean stay, not from the number of scans. The set may be another than in the step before, as
+/// long as one is the beginning of the other (variable structure: Li and Bar-Shalom 1996): a model that is new gets its share
+/// by switches, and the last model that is left takes over from those that are gone.
 ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s);
 
 /// Mode-matched update with a measured position (covariance R, positive definite) and the models' probabilities;

@@ -35,6 +35,23 @@ Course course_of(const Track& track) {
   return {std::atan2(velocity.y(), velocity.x()), across.dot(track.velocity_covariance() * across) / (speed2 * speed2)};
 }
 
+/// The modes in which the track now is.
+filters::ModelSet models_of(const Track& track, const TrackingConfig& config) {
+  filters::ModelSet set = motion_models(config);
+  if (track.may_turn) set.models[set.size++] = {filters::MotionKind::kCoordinatedTurn, config.turn_noise_density, 0.0};
+  return set;
+}
+
+/// A turn is linearized about the velocity, which must be well known for that; and what walks or is not yet sure to be anything
+/// has no wheels that tie its course to its speed.
+bool is_known_to_go_somewhere(const Track& track, const TrackingConfig& config) {
+  constexpr double kSlowestMps = 2.0;
+  constexpr double kSigmas = 4.0;
+  const double variance = 0.5 * track.velocity_covariance().trace();
+  return track.confirmed && track.body.has_sides && 
+         track.velocity_mps().squaredNorm() > std::max(std::pow(kSlowestMps * config.size_scale, 2), kSigmas * kSigmas * variance);
+}
+
 BodyMeasurement measure(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
   return body.has_sides ? measure_box(body, predicted_centre_m, glimpse, config) : measure_blob(body, glimpse, config);
 }
@@ -51,7 +68,7 @@ void shift(Track& track, const Vector2d& by_m, const filters::ModelSet& models) 
 void redraw(Track& track, const Body& body, const Glimpse& glimpse, const TrackingConfig& config) {
   const Vector2d before_m = measure(track.body, track.position_m(), glimpse, config).centre_m;
   const BodyMeasurement after = measure(body, supposed_centre_m(body, glimpse), glimpse, config);
-  const filters::ModelSet models = motion_models(config);
+  const filters::ModelSet models = models_of(track, config);
   track.body = after.body;
   shift(track, after.centre_m - before_m, models);
   track.estimate = filters::imm_combine(models, track.motion);
@@ -63,7 +80,7 @@ void turn(Track& track, double by_rad, const Glimpse& glimpse, const TrackingCon
   const Vector2d before_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m;
   track.body.heading_rad = wrap_angle(track.body.heading_rad + by_rad);
   const Vector2d shift_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m - before_m;
-  const filters::ModelSet models = motion_models(config);
+  const filters::ModelSet models = models_of(track, config);
   shift(track, shift_m, models);
   track.estimate = filters::imm_combine(models, track.motion);
 }
@@ -185,7 +202,7 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
 std::vector<flow::PredictedPosition> predicted_path(const Track& track, const Matrix2d& shared_error_m2, const TrackingConfig& config) {
   constexpr int kSteps = 6;
   constexpr double kStepS = 0.5;
-  const filters::ModelSet models = motion_models(config);
+  const filters::ModelSet models = models_of(track, config);
   filters::ImmState now = track.motion;
   if (track.move_stop.stands) now.modes.fill(filters::estimate_of(track.move_stop, track.estimate));
   std::vector<flow::PredictedPosition> path;
@@ -244,7 +261,8 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
 }
 
 void predict(Track& track, double time_s, const TrackingConfig& config) {
-  const filters::ModelSet models = motion_models(config);
+  track.may_turn = config.coordinated_turn && is_known_to_go_somewhere(track, config);
+  const filters::ModelSet models = models_of(track, config);
   track.motion = filters::imm_predict(models, track.motion, time_s);
   track.estimate = filters::imm_combine(models, track.motion);
   track.body.heading_variance_rad2 = std::min(10.0, track.body.heading_variance_rad2 + kHeadingDriftRad2PerS * time_s);
@@ -252,7 +270,7 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
 }
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
-  const filters::ModelSet models = motion_models(config);
+  const filters::ModelSet models = models_of(track, config);
   if (track.body.has_sides) follow_side(track, glimpse, config);  // first: sizes are measured along the sides
   const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
   Matrix2d R = measurement.covariance_m2 + pose_covariance_m2;
@@ -286,6 +304,7 @@ void restart_motion(Track& track, const Vector2d& velocity_mps, double sigma_mps
   start.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
   start.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
   track.motion = filters::imm_start(motion_models(config), start);
+  track.may_turn = false;
   track.estimate = start;
 }
 

@@ -32,6 +32,7 @@ struct Track {
   filters::ImmState motion;
   filters::MotionState estimate;             ///< Of the modes together, as of the last predict or update.
   filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
+  bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
   Body body;
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
   bool confirmed = false;
@@ -64,6 +65,7 @@ struct Track {
   Eigen::Matrix2d velocity_covariance() const { return estimate.covariance.block<2, 2>(2, 2); }
 };
 
+/// Cruising and manoeuvring: the modes of everything.
 filters::ModelSet motion_models(const TrackingConfig& config);
 
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.

@@ -212,6 +212,26 @@ TEST(Tracker, KnowsSomebodyAgainWhoWasHidden) {
   EXPECT_EQ(play.ids.size(), 1U);
 }
 
+TEST(Tracker, HoldsACarThatRoundsABendToTurnIfThatIsAMode) {
+  TrackingConfig config;
+  config.coordinated_turn = true;
+  Play play(config);
+  constexpr double kRateRadps = 0.5;
+  constexpr double kRadiusM = 16.0;
+  const auto heading_at = [](double t) { return M_PI / 2.0 + kRateRadps * std::max(0.0, t - 1.0); };
+  play.run(4.0, [&](Street& street, double t) {
+    const double heading_rad = heading_at(t);
+    const double straight_m = kRadiusM * kRateRadps * std::min(0.0, t - 1.0);
+    street.unknown = {{{8.0 + kRadiusM * std::sin(heading_rad), straight_m - 6.0 - kRadiusM * std::cos(heading_rad), heading_rad}}};
+  });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackedObject car = play.confirmed().front();
+  const double heading_rad = heading_at(play.now_s() - kPeriodS);
+  EXPECT_LT((car.velocity_in_odom_mps - kRadiusM * kRateRadps * Vector2(std::cos(heading_rad), std::sin(heading_rad))).norm(), 0.8);
+  EXPECT_GT(car.mode_probability[2], 0.0);
+  EXPECT_NEAR(car.mode_probability[0] + car.mode_probability[1] + car.mode_probability[2], 1.0, 1e-9);
+}
+
 TEST(Tracker, StopsWithWhatStopsAndKeepsIt) {
   Play play;  // 8 m/s, brakes at 2 m/s^2 from t = 1 s on, stands from t = 5 s on
   const auto y_of = [](double t) {
