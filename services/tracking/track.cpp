@@ -62,6 +62,8 @@ void shift(Track& track, const Vector2d& by_m, const filters::ModelSet& models) 
   filters::move_stop_shift(track.move_stop, by_m);
   track.birth_position_m += by_m;
   track.anchor_m += by_m;
+  track.shifted_m += by_m;
+  if (track.measured) track.measured->centre_m += by_m;
 }
 
 /// Draws the body anew; the sides that are seen stay where they are, so the centre moves and the velocity does not.
@@ -261,6 +263,8 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
 }
 
 void predict(Track& track, double time_s, const TrackingConfig& config) {
+  track.measured.reset();
+  track.shifted_m.setZero();
   track.may_turn = config.coordinated_turn && is_known_to_go_somewhere(track, config);
   const filters::ModelSet models = models_of(track, config);
   track.motion = filters::imm_predict(models, track.motion, time_s);
@@ -282,6 +286,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   shift(track, measurement.recentring_m, models);
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
+  track.measured = {measurement.centre_m, R};
   track.estimate = filters::imm_combine(models, track.motion);
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   filters::MotionState moving = track.estimate;
@@ -303,9 +308,13 @@ void restart_motion(Track& track, const Vector2d& velocity_mps, double sigma_mps
   start.covariance.topLeftCorner<2, 2>() = track.position_covariance_m2();
   start.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
   start.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
-  track.motion = filters::imm_start(motion_models(config), start);
+  move_as(track, start, config);
+}
+
+void move_as(Track& track, const filters::MotionState& state, const TrackingConfig& config) {
+  track.motion = filters::imm_start(motion_models(config), state);
   track.may_turn = false;
-  track.estimate = start;
+  track.estimate = state;
 }
 
 void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,12 +27,20 @@ struct MotionEvidence {
   double undecided = 0.0;
 };
 
+/// Where a scan put the centre of a body.
+struct MeasuredCentre {
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
+};
+
 /// One object that is followed, or supposed to be one.
 struct Track {
   flow::TrackId track_id;
   filters::ImmState motion;
   filters::MotionState estimate;             ///< Of the modes together, as of the last predict or update.
   filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
+  std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
+  Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.
   bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
   Body body;
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
@@ -82,6 +91,9 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const E
 
 /// The same place, and another velocity.
 void restart_motion(Track& track, const Eigen::Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config);
+
+/// Moves from now on as this says.
+void move_as(Track& track, const filters::MotionState& state, const TrackingConfig& config);
 
 /// Score after a scan with echoes, most of them in segments of this label, time_s after the one before.
 void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config);

@@ -15,6 +15,7 @@ struct TrackingConfig {
   double moving_above_mps = 0.6;            ///< and faster moving again.
   double standing_memory_s = 0.5;           ///< For which measurements tell whether something stands still.
   double detection_sigmas = 2.0;            ///< Of its velocity: what is faster surely moves.
+  bool formations = false;                  ///< Whether vehicles of a queue that are hidden go on as the others do.
 
   // Measurement.
   double range_noise_m = 0.03;              ///< One sigma at the scanner,

@@ -17,6 +17,7 @@ const config::FieldTable<TrackingConfig>& tracking_fields() {
       {"coordinated_turn", &C::coordinated_turn, "Whether turning is a mode of its own, of vehicles that surely move."},
       {"turn_noise_density", &C::turn_noise_density, "While turning [m^2/s^5].", kPositive},
       {"mean_stay_s", &C::mean_stay_s, "Mean time in one of the modes.", kPositive},
+      {"formations", &C::formations, "Whether vehicles of a queue that are hidden go on as the others do."},
       {"fastest_mps", &C::fastest_mps, "One sigma of a new track's speed is half of this.", kPositive},
       {"stopped_below_mps", &C::stopped_below_mps, "Slower for a while is stopped.", kNotNegative},
       {"moving_above_mps", &C::moving_above_mps, "Faster is moving again.", kNotNegative},

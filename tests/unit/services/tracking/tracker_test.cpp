@@ -232,6 +232,45 @@ TEST(Tracker, HoldsACarThatRoundsABendToTurnIfThatIsAMode) {
   EXPECT_NEAR(car.mode_probability[0] + car.mode_probability[1] + car.mode_probability[2], 1.0, 1e-9);
 }
 
+/// How far off the tracker holds the middle of three cars to be, when it comes out from behind a container: the queue brakes
+/// from 8 to 2 m/s while it is hidden.
+double error_behind_a_container_m(bool formations) {
+  TrackingConfig config;
+  config.formations = formations;
+  Play play(config);
+  const StreetBox container{{10.0, 0.0, M_PI / 2.0}, 4.5, 1.0};
+  const auto way_m = [](double t) {
+    const double braking = std::clamp(t - 2.4, 0.0, 2.0);
+    return 8.0 * std::min(t, 2.4) + 8.0 * braking - 1.5 * braking * braking + 2.0 * std::max(0.0, t - 4.4);
+  };
+  constexpr double kApartM = 13.0;
+  const auto y_of = [&](int car, double t) { return -23.0 - kApartM * (car - 1) + way_m(t); };
+  const auto scene = [&](Street& street, double t) {
+    street.known = {kWall, container};
+    street.unknown.clear();
+    for (int car = 0; car < 3; ++car) street.unknown.push_back({{20.0, y_of(car, t), M_PI / 2.0}});
+  };
+  play.run(2.0, scene);
+  std::uint32_t middle = 0;
+  for (const flow::TrackedObject& object : play.confirmed())
+    if (std::abs(object.position_in_odom_m.y() - y_of(1, play.now_s() - kPeriodS)) < 2.0) middle = object.track_id.value;
+  double worst_m = 0.0;
+  while (play.now_s() < 5.0) {
+    play.step(scene);
+    const double truth_m = y_of(1, play.now_s() - kPeriodS);
+    for (const flow::TrackedObject& object : play.result.objects.objects)
+      if (object.track_id.value == middle) worst_m = std::max(worst_m, std::abs(object.position_in_odom_m.y() - truth_m));
+  }
+  return worst_m;
+}
+
+TEST(Tracker, KnowsWhereAHiddenCarOfAQueueIsByTheOthers) {
+  const double apart_m = error_behind_a_container_m(false);
+  const double together_m = error_behind_a_container_m(true);
+  EXPECT_LT(together_m, 0.5 * apart_m);
+  EXPECT_LT(together_m, 0.4);
+}
+
 TEST(Tracker, StopsWithWhatStopsAndKeepsIt) {
   Play play;  // 8 m/s, brakes at 2 m/s^2 from t = 1 s on, stands from t = 5 s on
   const auto y_of = [](double t) {
