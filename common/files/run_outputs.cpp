@@ -103,7 +103,7 @@ std::string to_tracks_csv(const std::vector<TrackRow>& rows) {
 }
 
 std::string to_track_details_csv(const std::vector<TrackRow>& rows) {
-  std::string text = "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy";
+  std::string text = "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_car,p_truck_or_bus";
   const std::size_t modes = rows.empty() ? 0 : rows.front().mode_probability.size();
   for (std::size_t mode = 0; mode < modes; ++mode) text += ",mode_" + std::to_string(mode);
   text += "\n";
@@ -111,8 +111,24 @@ std::string to_track_details_csv(const std::vector<TrackRow>& rows) {
     text.append(stamp_text(row.stamp_ns)).append(1, ',').append(std::to_string(row.track_id.value));
     const Eigen::Matrix4d& P = row.covariance_in_map;
     for (const double value : {P(0, 0), P(0, 1), P(1, 1), P(2, 2), P(2, 3), P(3, 3)}) append_short(text, value);
+    for (const double probability : row.class_probability) text.append(1, ',').append(fixed_text(probability, 4));
     for (std::size_t mode = 0; mode < modes; ++mode) append_short(text, mode < row.mode_probability.size() ? row.mode_probability[mode] : 0.0);
     text += '\n';
+  }
+  return text;
+}
+
+std::string to_predictions_csv(const std::vector<TrackRow>& rows) {
+  std::string text = "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n";
+  for (const TrackRow& row : rows) {
+    const std::string begin = stamp_text(row.stamp_ns) + "," + std::to_string(row.track_id.value) + ",";
+    for (const PredictedPlace& place : row.predicted) {
+      text.append(begin).append(fixed_text(place.after_s, 1));
+      text.append(1, ',').append(fixed_text(place.position_in_map_m.x(), 3)).append(1, ',').append(fixed_text(place.position_in_map_m.y(), 3));
+      const geometry::Matrix2& P = place.covariance_m2;
+      for (const double value : {P(0, 0), P(0, 1), P(1, 1)}) append_short(text, value);
+      text += '\n';
+    }
   }
   return text;
 }
@@ -178,6 +194,7 @@ std::optional<Error> write_outputs(const std::filesystem::path& folder, const Ru
   const std::vector<TrackRow> tracks = record.track_rows();
   if (auto fault = write_file_atomically(folder / "tracks.csv", to_tracks_csv(tracks))) return fault;
   if (auto fault = write_file_atomically(folder / "track_details.csv", to_track_details_csv(tracks))) return fault;
+  if (auto fault = write_file_atomically(folder / "predictions.csv", to_predictions_csv(tracks))) return fault;
   if (auto fault = write_labels(folder / "labels.csv", record.label_rows())) return fault;
   if (auto fault = write_file_atomically(folder / "graph.g2o", to_g2o(record))) return fault;
   if (auto fault = maps.get()) return fault;

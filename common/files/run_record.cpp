@@ -1,10 +1,22 @@
 #include "common/files/run_record.hpp"
 
+#include <cmath>
 #include <iterator>
 #include <set>
 
 namespace slammot::files {
 namespace {
+
+std::vector<PredictedPlace> at_whole_seconds(const flow::TrackedObject& object, const geometry::Pose2& map_from_odom) {
+  constexpr double kSameS = 1e-6;
+  const geometry::Matrix2 turn = geometry::rotation(map_from_odom.heading_rad);
+  std::vector<PredictedPlace> places;
+  for (const flow::PredictedPosition& place : object.predicted_path) {
+    if (std::abs(place.after_s - std::round(place.after_s)) > kSameS) continue;
+    places.push_back({place.after_s, map_from_odom * place.position_in_odom_m, turn * place.covariance_m2 * turn.transpose()});
+  }
+  return places;
+}
 
 TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& tracked) {
   const geometry::Pose2 odom_from_object{object.position_in_odom_m.x(), object.position_in_odom_m.y(), object.heading_in_odom_rad};
@@ -22,6 +34,8 @@ TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& t
   turn.topLeftCorner<2, 2>() = turn.bottomRightCorner<2, 2>() = geometry::rotation(tracked.map_from_odom.heading_rad);
   row.covariance_in_map = turn * object.covariance * turn.transpose();
   row.mode_probability.assign(object.mode_probability.begin(), object.mode_probability.end());
+  row.class_probability = object.class_probability;
+  row.predicted = at_whole_seconds(object, tracked.map_from_odom);
   return row;
 }
 

@@ -23,6 +23,13 @@ struct StampedPose {
   geometry::Pose2 map_from_base;
 };
 
+/// Where a track is said to be some time later, in map.
+struct PredictedPlace {
+  double after_s = 0.0;
+  geometry::Vector2 position_in_map_m = geometry::Vector2::Zero();
+  geometry::Matrix2 covariance_m2 = geometry::Matrix2::Zero();
+};
+
 /// A confirmed track at the time of one scan, in map as published live.
 struct TrackRow {
   std::int64_t stamp_ns = 0;
@@ -36,6 +43,8 @@ struct TrackRow {
   flow::ObjectClass object_class = flow::ObjectClass::kUnknown;
   Eigen::Matrix4d covariance_in_map = Eigen::Matrix4d::Zero();  ///< (x, y [m], vx, vy [m/s])
   std::vector<double> mode_probability;                         ///< Of each motion model, as tracking orders them.
+  flow::ClassProbabilities class_probability = {};              ///< Of pedestrian, bicycle, car, truck or bus.
+  std::vector<PredictedPlace> predicted;                        ///< Those of its path that are whole seconds ahead.
 };
 
 /// A pose as published live, with its covariance against the local map, and the frame that never jumps.

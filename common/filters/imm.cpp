@@ -3,11 +3,34 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace slammot::filters {
 namespace {
 
 std::span<const MotionState> modes_of(const ModelSet& set, const ImmState& state) { return {state.modes.data(), set.size}; }
+
+bool has_models_beyond(const ModelSet& set, const ImmState& state) {
+  double beyond = 0.0;
+  for (std::size_t i = set.size; i < kMaxModels; ++i) beyond += state.probability[i];
+  return beyond > 0.0;
+}
+
+/// What is in models that the set no longer has goes to its last one.
+ImmState narrowed(const ModelSet& set, const ImmState& state) {
+  ImmState narrow = state;
+  const std::size_t last = set.size - 1;
+  const std::span all{state.probability};
+  const double total = std::accumulate(all.begin() + static_cast<std::ptrdiff_t>(last), all.end(), 0.0);
+  ModelWeights weight = {};
+  for (std::size_t i = last; i < kMaxModels; ++i) {
+    weight[i] = state.probability[i] / total;
+    narrow.probability[i] = 0.0;
+  }
+  narrow.modes[last] = moment_match({state.modes.data() + last, kMaxModels - last}, {weight.data() + last, kMaxModels - last});
+  narrow.probability[last] = total;
+  return narrow;
+}
 
 }  // namespace
 
@@ -20,23 +43,22 @@ ImmState imm_start(const ModelSet& set, const MotionState& estimate) {
 
 ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s) {
   assert(time_s >= 0.0);
-  ImmState predicted;
-  for (std::size_t to = 0; to < set.size; ++to) {
+  if (has_models_beyond(set, state)) return imm_predict(set, narrowed(set, state), time_s);
+  const double stays = switch_probability(set, 0, 0, time_s);  // of all models alike
+  const double leaves = set.size > 1 ? switch_probability(set, 0, 1, time_s) : 0.0;
+  ModelWeights probability = {};
+  const auto predicted = [&](std::size_t to) {
+    if (to >= set.size) return MotionState{};
     ModelWeights weight = {};
-    double total = 0.0;
+    for (std::size_t from = 0; from < set.size; ++from) probability[to] += weight[from] = (from == to ? stays : leaves) * state.probability[from];
     for (std::size_t from = 0; from < set.size; ++from) {
-      weight[from] = switch_probability(set, from, to, time_s) * state.probability[from];
-      total += weight[from];
+      if (probability[to] > 0.0) weight[from] /= probability[to];
+      else weight[from] = from == to ? 1.0 : 0.0;  // no time has passed for a model that was ruled out
     }
-    predicted.probability[to] = total;
-    if (total > 0.0) {
-      for (std::size_t from = 0; from < set.size; ++from) weight[from] /= total;
-    } else {
-      weight[to] = 1.0;  // no time has passed for a model that was ruled out
-    }
-    predicted.modes[to] = predict(set.models[to], moment_match(modes_of(set, state), {weight.data(), set.size}), time_s);
-  }
-  return predicted;
+    return predict(set.models[to], moment_match(modes_of(set, state), {weight.data(), set.size}), time_s);
+  };
+  static_assert(kMaxModels == 3);
+  return {{predicted(0), predicted(1), predicted(2)}, probability};  // made in place: filling a state with zeros takes as long as a model
 }
 
 ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted, const Eigen::Vector2d& position_m,
@@ -55,6 +77,16 @@ ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted, const Eigen
 
 MotionState imm_combine(const ModelSet& set, const ImmState& state) {
   return moment_match(modes_of(set, state), {state.probability.data(), set.size});
+}
+
+std::vector<MotionState> imm_foretell(const ModelSet& set, ImmState state, double step_s, int steps) {
+  std::vector<MotionState> path;
+  path.reserve(static_cast<std::size_t>(steps));
+  for (int step = 0; step < steps; ++step) {
+    state = imm_predict(set, state, step_s);
+    path.push_back(imm_combine(set, state));
+  }
+  return path;
 }
 
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m) {

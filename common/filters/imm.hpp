@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -25,7 +26,9 @@ struct ImmUpdate {
 ImmState imm_start(const ModelSet& set, const MotionState& estimate);
 
 /// Mixing (Wang 2004, Eqs. 2.49-2.51) and mode-matched prediction over time_s >= 0. The probability of a switch
-/// follows from the time and the mean stay, not from the number of scans.
+/// follows from the time and the mean stay, not from the number of scans. The set may be another than in the step before, as
+/// long as one is the beginning of the other (variable structure: Li and Bar-Shalom 1996): a model that is new gets its share
+/// by switches, and the last model that is left takes over from those that are gone.
 ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s);
 
 /// Mode-matched update with a measured position (covariance R, positive definite) and the models' probabilities;
@@ -35,6 +38,10 @@ ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted, const Eigen
 
 /// Moment-matched mean and covariance of the mixture; Wang 2004, Eqs. (2.52)-(2.53).
 MotionState imm_combine(const ModelSet& set, const ImmState& state);
+
+/// Mean and covariance of the mixture after step_s, 2 step_s, ..., `steps` times, if nothing is measured: each step mixes and
+/// predicts as imm_predict does, so that what manoeuvres now may go on to, or cease.
+std::vector<MotionState> imm_foretell(const ModelSet& set, ImmState state, double step_s, int steps);
 
 /// Moves every mode's position by the same known amount: the same object seen from another reference point.
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m);

@@ -21,11 +21,15 @@ double switch_probability(const ModelSet& set, std::size_t from, std::size_t to,
 
 MotionState moment_match(std::span<const MotionState> modes, std::span<const double> weight) {
   assert(modes.size() == weight.size());
-  MotionState mixture;
-  for (std::size_t i = 0; i < modes.size(); ++i) mixture.mean += weight[i] * modes[i].mean;
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    const Vector6 spread = modes[i].mean - mixture.mean;
-    mixture.covariance += weight[i] * (modes[i].covariance + spread * spread.transpose());
+  MotionState mixture{weight[0] * modes[0].mean, weight[0] * modes[0].covariance};
+  for (std::size_t i = 1; i < modes.size(); ++i) {
+    mixture.mean += weight[i] * modes[i].mean;
+    mixture.covariance += weight[i] * modes[i].covariance;
+    // The spread about the common mean as that between each two: half as many products.
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vector6 apart = modes[i].mean - modes[j].mean;
+      mixture.covariance.noalias() += (weight[i] * weight[j] * apart) * apart.transpose();
+    }
   }
   return mixture;
 }

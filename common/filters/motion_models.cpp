@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/filters/kalman.hpp"
-
 namespace slammot::filters {
 namespace {
 
@@ -14,12 +12,21 @@ using Matrix2 = Eigen::Matrix2d;
 constexpr double kSlowestTurnerMps = 0.5;  ///< Below it the direction of travel, and so the turn, is not known.
 constexpr double kFastestTurnRadps = 2.0;
 
-double turn_rate_radps(const Vector6& state) {
+struct TurnRate {
+  double radps = 0.0;
+  Vector2 by_velocity = Vector2::Zero();      ///< Its derivatives; none where it is bounded.
+  Vector2 by_acceleration = Vector2::Zero();
+};
+
+TurnRate turn_rate(const Vector6& state) {
   const Vector2 velocity = state.segment<2>(2);
   const Vector2 acceleration = state.segment<2>(4);
-  const double speed = std::max(velocity.norm(), kSlowestTurnerMps);
-  const double rate = (velocity.x() * acceleration.y() - velocity.y() * acceleration.x()) / (speed * speed);
-  return std::clamp(rate, -kFastestTurnRadps, kFastestTurnRadps);
+  const double speed2 = std::max(velocity.squaredNorm(), kSlowestTurnerMps * kSlowestTurnerMps);
+  const double rate = (velocity.x() * acceleration.y() - velocity.y() * acceleration.x()) / speed2;
+  if (std::abs(rate) > kFastestTurnRadps) return {std::copysign(kFastestTurnRadps, rate)};
+  Vector2 by_velocity = Vector2(acceleration.y(), -acceleration.x()) / speed2;
+  if (velocity.squaredNorm() > kSlowestTurnerMps * kSlowestTurnerMps) by_velocity -= 2.0 * rate / speed2 * velocity;
+  return {rate, by_velocity, Vector2(-velocity.y(), velocity.x()) / speed2};
 }
 
 Matrix2 rotation(double angle_rad) {
@@ -28,14 +35,115 @@ Matrix2 rotation(double angle_rad) {
   return Matrix2{{c, -s}, {s, c}};
 }
 
-Matrix6 turn_jacobian(const Vector6& state, double time_s) {
-  constexpr double kStep = 1e-5;
-  Matrix6 jacobian;
-  for (int column = 0; column < 6; ++column) {
-    const Vector6 step = kStep * Vector6::Unit(column);
-    jacobian.col(column) = (turned(state + step, time_s) - turned(state - step, time_s)) / (2.0 * kStep);
-  }
+Vector2 quarter_turned(const Vector2& vector) { return {-vector.y(), vector.x()}; }
+
+/// Mean direction while turning by twice `half`, relative to that in the middle: chord over arc.
+double chord_over_arc(double half) { return std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half; }
+
+double chord_over_arc_derivative(double half) {
+  return std::abs(half) < 1e-3 ? -half / 3.0 : (std::cos(half) - chord_over_arc(half)) / half;
+}
+
+/// A turn over some time: what its end and its derivatives are made of.
+struct Turn {
+  TurnRate rate;
+  Matrix2 half;          ///< Rotation by half of it
+  Matrix2 whole;         ///< and by all.
+  double chord = 1.0;
+  double chord_derivative = 0.0;
+};
+
+Turn turn_of(const Vector6& state, double time_s) {
+  const TurnRate rate = turn_rate(state);
+  const double half_rad = 0.5 * rate.radps * time_s;
+  const Matrix2 half = rotation(half_rad);
+  return {rate, half, half * half, chord_over_arc(half_rad), chord_over_arc_derivative(half_rad)};
+}
+
+/// Integral of the turning velocity: exact for every angle, without dividing by it.
+Vector6 end_of(const Turn& turn, const Vector6& state, double time_s) {
+  Vector6 after;
+  after.head<2>() = state.head<2>() + time_s * turn.chord * (turn.half * state.segment<2>(2));
+  after.segment<2>(2) = turn.whole * state.segment<2>(2);
+  after.segment<2>(4) = turn.whole * state.segment<2>(4);
+  return after;
+}
+
+/// Derivative of the end by the beginning: that of a known turn, and what a change of its rate adds.
+Matrix6 jacobian_of(const Turn& turn, const Vector6& state, double time_s) {
+  const Vector2 half_way = turn.half * state.segment<2>(2);
+  Vector6 by_rate;
+  by_rate.head<2>() = 0.5 * time_s * time_s * (turn.chord_derivative * half_way + turn.chord * quarter_turned(half_way));
+  by_rate.segment<2>(2) = time_s * quarter_turned(turn.whole * state.segment<2>(2));
+  by_rate.segment<2>(4) = time_s * quarter_turned(turn.whole * state.segment<2>(4));
+  Matrix6 jacobian = Matrix6::Identity();
+  jacobian.block<2, 2>(0, 2) = time_s * turn.chord * turn.half;
+  jacobian.block<2, 2>(2, 2) = jacobian.block<2, 2>(4, 4) = turn.whole;
+  jacobian.middleCols<2>(2) += by_rate * turn.rate.by_velocity.transpose();
+  jacobian.middleCols<2>(4) += by_rate * turn.rate.by_acceleration.transpose();
   return jacobian;
+}
+
+/// Noise of one axis, (position, velocity, acceleration).
+Eigen::Matrix3d axis_noise_of_constant_velocity(double t, double noise_density, double idle_acceleration_mps2) {
+  Eigen::Matrix3d q;
+  q << noise_density * t * t * t / 3.0, noise_density * t * t / 2.0, 0.0,  //
+      noise_density * t * t / 2.0, noise_density * t, 0.0,                 //
+      0.0, 0.0, idle_acceleration_mps2 * idle_acceleration_mps2;
+  return q;
+}
+
+Eigen::Matrix3d axis_noise_of_constant_acceleration(double t, double noise_density) {
+  Eigen::Matrix3d q;
+  q << t * t * t * t * t / 20.0, t * t * t * t / 8.0, t * t * t / 6.0,  //
+      t * t * t * t / 8.0, t * t * t / 3.0, t * t / 2.0,                //
+      t * t * t / 6.0, t * t / 2.0, t;
+  return noise_density * q;
+}
+
+/// P with the same noise in both axes.
+Matrix6 with_noise(const Matrix6& P, const Eigen::Matrix3d& of_axis) {
+  Matrix6 noisy = P;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) noisy.block<2, 2>(2 * row, 2 * column).diagonal().array() += of_axis(row, column);
+  return noisy;
+}
+
+/// F m of constant acceleration.
+Vector6 accelerated(const Vector6& mean, double time_s) {
+  Vector6 after = mean;
+  after.head<2>() += time_s * mean.segment<2>(2) + 0.5 * time_s * time_s * mean.segment<2>(4);
+  after.segment<2>(2) += time_s * mean.segment<2>(4);
+  return after;
+}
+
+/// F P F' of constant acceleration; F, mostly zeros, is not written down (imm_path in filters_bench.cpp).
+Matrix6 spread_by_constant_acceleration(const Matrix6& P, double time_s) {
+  const double half_t2 = 0.5 * time_s * time_s;
+  Matrix6 spread = P;
+  spread.topRows<2>() += time_s * spread.middleRows<2>(2) + half_t2 * spread.bottomRows<2>();
+  spread.middleRows<2>(2) += time_s * spread.bottomRows<2>();
+  spread.leftCols<2>() += time_s * spread.middleCols<2>(2) + half_t2 * spread.rightCols<2>();
+  spread.middleCols<2>(2) += time_s * spread.rightCols<2>();
+  return spread;
+}
+
+/// F m of constant velocity.
+Vector6 coasted(const Vector6& mean, double time_s) {
+  Vector6 after = mean;
+  after.head<2>() += time_s * mean.segment<2>(2);
+  after.tail<2>().setZero();
+  return after;
+}
+
+/// F P F' of constant velocity.
+Matrix6 spread_by_constant_velocity(const Matrix6& P, double time_s) {
+  Matrix6 spread = P;
+  spread.topRows<2>() += time_s * spread.middleRows<2>(2);
+  spread.leftCols<2>() += time_s * spread.middleCols<2>(2);
+  spread.bottomRows<2>().setZero();
+  spread.rightCols<2>().setZero();
+  return spread;
 }
 
 }  // namespace
@@ -48,15 +156,7 @@ Matrix6 constant_velocity_transition(double time_s) {
 }
 
 Matrix6 constant_velocity_noise(double time_s, double noise_density, double idle_acceleration_mps2) {
-  const double t = time_s;
-  Matrix6 Q = Matrix6::Zero();
-  for (int axis = 0; axis < 2; ++axis) {
-    Q(axis, axis) = noise_density * t * t * t / 3.0;
-    Q(axis, axis + 2) = Q(axis + 2, axis) = noise_density * t * t / 2.0;
-    Q(axis + 2, axis + 2) = noise_density * t;
-    Q(axis + 4, axis + 4) = idle_acceleration_mps2 * idle_acceleration_mps2;
-  }
-  return Q;
+  return with_noise(Matrix6::Zero(), axis_noise_of_constant_velocity(time_s, noise_density, idle_acceleration_mps2));
 }
 
 Matrix6 constant_acceleration_transition(double time_s) {
@@ -67,45 +167,26 @@ Matrix6 constant_acceleration_transition(double time_s) {
 }
 
 Matrix6 constant_acceleration_noise(double time_s, double noise_density) {
-  const double t = time_s;
-  Eigen::Matrix3d q;
-  q << t * t * t * t * t / 20.0, t * t * t * t / 8.0, t * t * t / 6.0,  //
-      t * t * t * t / 8.0, t * t * t / 3.0, t * t / 2.0,                //
-      t * t * t / 6.0, t * t / 2.0, t;
-  Matrix6 Q = Matrix6::Zero();
-  for (int axis = 0; axis < 2; ++axis)
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column) Q(axis + 2 * row, axis + 2 * column) = noise_density * q(row, column);
-  return Q;
+  return with_noise(Matrix6::Zero(), axis_noise_of_constant_acceleration(time_s, noise_density));
 }
 
-Vector6 turned(const Vector6& state, double time_s) {
-  const Vector2 velocity = state.segment<2>(2);
-  const double angle = turn_rate_radps(state) * time_s;
-  // Integral of the turning velocity over time_s: chord of the arc, exact for every angle, without dividing by it.
-  const double half = 0.5 * angle;
-  const double chord = std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
-  const Matrix2 turn = rotation(angle);
-  Vector6 after;
-  after.head<2>() = state.head<2>() + time_s * chord * (rotation(half) * velocity);
-  after.segment<2>(2) = turn * velocity;
-  after.segment<2>(4) = turn * state.segment<2>(4);
-  return after;
-}
+Vector6 turned(const Vector6& state, double time_s) { return end_of(turn_of(state, time_s), state, time_s); }
 
 MotionState predict(const MotionModel& model, const MotionState& state, double time_s) {
   switch (model.kind) {
     case MotionKind::kConstantVelocity:
-      return kalman_predict<6>(state, constant_velocity_transition(time_s),
-                               constant_velocity_noise(time_s, model.noise_density, model.idle_acceleration_mps2));
+      return {coasted(state.mean, time_s),
+              with_noise(spread_by_constant_velocity(state.covariance, time_s),
+                         axis_noise_of_constant_velocity(time_s, model.noise_density, model.idle_acceleration_mps2))};
     case MotionKind::kConstantAcceleration:
-      return kalman_predict<6>(state, constant_acceleration_transition(time_s),
-                               constant_acceleration_noise(time_s, model.noise_density));
+      return {accelerated(state.mean, time_s), with_noise(spread_by_constant_acceleration(state.covariance, time_s),
+                                                          axis_noise_of_constant_acceleration(time_s, model.noise_density))};
     case MotionKind::kCoordinatedTurn: break;
   }
-  const Matrix6 F = turn_jacobian(state.mean, time_s);
-  return {turned(state.mean, time_s),
-          F * state.covariance * F.transpose() + constant_acceleration_noise(time_s, model.noise_density)};
+  const Turn turn = turn_of(state.mean, time_s);
+  const Matrix6 F = jacobian_of(turn, state.mean, time_s);
+  return {end_of(turn, state.mean, time_s),
+          with_noise(F * state.covariance * F.transpose(), axis_noise_of_constant_acceleration(time_s, model.noise_density))};
 }
 
 }  // namespace slammot::filters

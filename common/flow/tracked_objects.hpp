@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,12 @@ namespace slammot::flow {
 
 enum class Motion : std::uint8_t { kMoving, kStopped };
 enum class ObjectClass : std::uint8_t { kUnknown, kPedestrian, kBicycle, kCar, kTruckOrBus };
+
+/// Of pedestrian, bicycle, car, truck or bus: of sum 1, or all zero where nobody has asked.
+using ClassProbabilities = std::array<double, 4>;
+
+/// The class to which an entry of these belongs.
+constexpr ObjectClass class_of(std::size_t entry) { return static_cast<ObjectClass>(entry + 1); }
 
 struct PredictedPosition {
   double after_s = 0.0;
@@ -39,6 +46,7 @@ struct TrackedObject {
   std::int64_t last_seen_ns = 0;                                 ///< Last scan in which a segment was associated.
   std::vector<Eigen::Vector2f> contour_in_odom_m;                ///< At most 64 points seen on the object.
   std::vector<PredictedPosition> predicted_path;                 ///< At most 16, ascending in time.
+  ClassProbabilities class_probability = {};                     ///< From size and motion; object_class is the likeliest.
 };
 
 struct TrackedObjects {

@@ -17,6 +17,7 @@ constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // nearer rows of one o
 struct Lists {
   std::size_t rows = 0;
   std::size_t right_class = 0;
+  std::map<std::string, std::size_t> reported_as;
   std::vector<double> centre_m, velocity_mps, heading_rad, length_m, width_m, nees;
 };
 
@@ -33,6 +34,7 @@ double position_nees(const TrueObject& object, const ReportedTrack& track) {
 
 void add(const TrueObject& object, const ReportedTrack& track, Lists& lists) {
   lists.right_class += is_same_class(object.object_class, track.object_class) ? 1 : 0;
+  ++lists.reported_as[track.object_class];
   lists.centre_m.push_back((track.world_from_object.translation_m() - object.world_from_object.translation_m()).norm());
   lists.velocity_mps.push_back((track.velocity_in_world_mps - velocity_mps(object)).norm());
   lists.heading_rad.push_back(std::abs(geometry::wrap_angle(track.world_from_object.heading_rad - object.world_from_object.heading_rad)));
@@ -46,6 +48,7 @@ ObjectErrors summarize_lists(const Lists& lists) {
   errors.matched_rows = lists.centre_m.size();
   errors.recall = share(errors.matched_rows, errors.rows);
   errors.right_class = share(lists.right_class, errors.matched_rows);
+  errors.reported_as = lists.reported_as;
   errors.centre_m = summarize(lists.centre_m);
   errors.velocity_mps = summarize(lists.velocity_mps);
   errors.heading_rad = summarize(lists.heading_rad);

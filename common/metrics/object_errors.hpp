@@ -18,6 +18,7 @@ struct ObjectErrors {
   std::size_t matched_rows = 0;
   double recall = 0.0;
   double right_class = 0.0;      ///< Share of the matched rows.
+  std::map<std::string, std::size_t> reported_as;  ///< Matched rows by the class that was reported.
   ErrorSummary centre_m;         ///< Between the boxes' centres.
   ErrorSummary velocity_mps;     ///< Length of the difference.
   ErrorSummary heading_rad;

@@ -23,6 +23,13 @@ struct TrueObject {
   int points = 0;                       ///< Echoes of this scan from it; 0 while it is hidden.
 };
 
+/// Where a track was said to be so much later, in the frame of whoever holds it.
+struct PredictedPlace {
+  double after_s = 0.0;
+  geometry::Vector2 position_m = geometry::Vector2::Zero();
+  geometry::Matrix2 covariance_m2 = geometry::Matrix2::Zero();
+};
+
 /// A track as it was reported for one scan, brought into the world's frame.
 struct ReportedTrack {
   std::size_t track = 0;                ///< Index in the drive.
@@ -33,6 +40,7 @@ struct ReportedTrack {
   double width_m = 0.0;
   bool is_moving = true;                ///< As reported.
   std::optional<geometry::Matrix2> position_covariance_m2;  ///< In world.
+  std::vector<PredictedPlace> predicted = {};  ///< In world.
 };
 
 struct Scene {

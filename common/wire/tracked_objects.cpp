@@ -1,6 +1,7 @@
 #include "common/wire/tracked_objects.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "common/wire/parts.hpp"
 #include "common/wire/text.hpp"
@@ -18,6 +19,7 @@ static_assert(static_cast<int>(flow::ObjectClass::kPedestrian) == slammot_OBJECT
 static_assert(static_cast<int>(flow::ObjectClass::kBicycle) == slammot_OBJECT_CLASS_BICYCLE);
 static_assert(static_cast<int>(flow::ObjectClass::kCar) == slammot_OBJECT_CLASS_CAR);
 static_assert(static_cast<int>(flow::ObjectClass::kTruckOrBus) == slammot_OBJECT_CLASS_TRUCK_OR_BUS);
+static_assert(sizeof(slammot_TrackedObject::class_probability) / sizeof(double) == std::tuple_size_v<flow::ClassProbabilities>);
 
 /// What one object may take of a list that all share.
 std::size_t share(std::size_t of_one, std::size_t of_all, std::size_t objects) {
@@ -39,6 +41,7 @@ slammot_TrackedObject encode_object(const flow::TrackedObject& object) {
   sample.motion_state = static_cast<slammot_Motion>(object.motion);
   sample.object_class = static_cast<slammot_ObjectClass>(object.object_class);
   std::copy(object.mode_probability.begin(), object.mode_probability.end(), sample.mode_probability);
+  std::copy(object.class_probability.begin(), object.class_probability.end(), sample.class_probability);
   sample.first_seen_ns = object.first_seen_ns;
   sample.last_seen_ns = object.last_seen_ns;
   return sample;
@@ -61,8 +64,10 @@ flow::TrackedObject decode_object(const slammot_TrackedObject& sample) {
                              .first_seen_ns = sample.first_seen_ns,
                              .last_seen_ns = sample.last_seen_ns,
                              .contour_in_odom_m = {},
-                             .predicted_path = {}};
+                             .predicted_path = {},
+                             .class_probability = {}};
   std::copy_n(sample.mode_probability, object.mode_probability.size(), object.mode_probability.begin());
+  std::copy_n(sample.class_probability, object.class_probability.size(), object.class_probability.begin());
   return object;
 }
 
@@ -78,6 +83,9 @@ std::string_view fault_of(const slammot_TrackedObject& object) {
   if (!is_enumerator(object.object_class, slammot_OBJECT_CLASS_TRUCK_OR_BUS)) return "object_class is unknown";
   for (const double probability : object.mode_probability) {
     if (!is_probability(probability)) return "a mode's probability is not within 0 and 1";
+  }
+  for (const double probability : object.class_probability) {
+    if (!is_probability(probability)) return "a class's probability is not within 0 and 1";
   }
   return "";
 }

@@ -111,6 +111,8 @@ metrics::ReportedTrack in_world(const ResultTrack& track, std::size_t index, con
   reported.width_m = track.width_m;
   reported.is_moving = track.is_moving;
   if (track.position_covariance_m2) reported.position_covariance_m2 = turn * *track.position_covariance_m2 * turn.transpose();
+  for (const metrics::PredictedPlace& place : track.predicted_in_map)
+    reported.predicted.push_back({place.after_s, world_from_map * place.position_m, turn * place.covariance_m2 * turn.transpose()});
   return reported;
 }
 
@@ -209,6 +211,7 @@ TrackingEvaluation evaluate_tracking(const std::vector<Scene>& scenes, const std
   evaluation.hota = metrics::hota(sequence);
   evaluation.gospa = mean_gospa(counted, rule.similarity_reach_m);
   evaluation.errors = metrics::object_errors(scenes, counted, evaluation.clear, {0.0, 10.0, 20.0, 30.0, 40.0}, rule.range_m);
+  evaluation.predictions = metrics::prediction_errors(scenes, counted, evaluation.clear.matches);
   return evaluation;
 }
 

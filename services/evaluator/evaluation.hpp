@@ -14,6 +14,7 @@
 #include "common/metrics/identity.hpp"
 #include "common/metrics/map_quality.hpp"
 #include "common/metrics/object_errors.hpp"
+#include "common/metrics/prediction_errors.hpp"
 #include "services/evaluator/echoes.hpp"
 #include "services/evaluator/result_files.hpp"
 #include "services/evaluator/truth_files.hpp"
@@ -63,6 +64,7 @@ struct TrackingEvaluation {
   metrics::Hota hota;
   MeanGospa gospa;
   metrics::ObjectErrorTables errors;
+  std::vector<metrics::PredictionErrors> predictions;  ///< By how far ahead; empty where none were written.
 };
 
 /// Against motion capture of one other car; the ego car's own estimate is what brings tracks into the world.

@@ -43,6 +43,7 @@ Json to_json(const metrics::ObjectErrors& errors) {
           {"matched_rows", errors.matched_rows},
           {"recall", number(errors.recall)},
           {"right_class", number(errors.right_class)},
+          {"reported_as", errors.reported_as},
           {"centre_m", to_json(errors.centre_m)},
           {"velocity_mps", to_json(errors.velocity_mps)},
           {"heading_rad", to_json(errors.heading_rad)},
@@ -74,6 +75,13 @@ Json to_json(const metrics::Hota& hota) {
           {"localization_accuracy", number(hota.localization_accuracy)}};
 }
 
+Json to_json(const std::vector<metrics::PredictionErrors>& predictions) {
+  Json rows = Json::array();
+  for (const metrics::PredictionErrors& errors : predictions)
+    rows.push_back({{"after_s", errors.after_s}, {"displacement_m", to_json(errors.displacement_m)}, {"nees", to_json(errors.nees)}, {"inside_share", number(errors.inside_share)}});
+  return rows;
+}
+
 Json to_json(const TrackingEvaluation& tracking) {
   Json classes = Json::object();
   for (const auto& [name, errors] : tracking.errors.by_class) classes[name] = to_json(errors);
@@ -98,7 +106,8 @@ Json to_json(const TrackingEvaluation& tracking) {
           {"never_detected", tracking.errors.never_detected},
           {"all", to_json(tracking.errors.all)},
           {"by_class", classes},
-          {"by_distance", bands}};
+          {"by_distance", bands},
+          {"predictions", to_json(tracking.predictions)}};
 }
 
 Json to_json(const OtherCarEvaluation& car) {

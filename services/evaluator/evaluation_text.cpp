@@ -44,6 +44,26 @@ std::string object_row(const std::string& name, const metrics::ObjectErrors& err
               errors.velocity_mps.rmse, errors.heading_rad.median * kDegrees, errors.length_m.median, errors.width_m.median, errors.position_nees.mean);
 }
 
+std::string describe_classes(const std::map<std::string, metrics::ObjectErrors>& by_class) {
+  std::string lines = text("  %-12s %12s   %s\n", "class", "right [%]", "rows reported as");
+  for (const auto& [name, errors] : by_class) {
+    lines += text("  %-12s %12.1f  ", name.c_str(), 100.0 * errors.right_class);
+    for (const auto& [reported, rows] : errors.reported_as) lines += text(" %s %zu", reported.c_str(), rows);
+    lines += "\n";
+  }
+  return lines;
+}
+
+std::string describe(const std::vector<metrics::PredictionErrors>& predictions) {
+  if (predictions.empty()) return {};
+  std::string lines = text("  %-12s %9s %9s %9s %9s %14s %16s\n", "predicted", "rms [m]", "med [m]", "p95 [m]", "NEES", "95 % band", "in 95 % ellipse");
+  for (const metrics::PredictionErrors& errors : predictions) {
+    lines += text("  %-12s %9.2f %9.2f %9.2f %9.2f %6.2f to %4.2f %16.3f\n", text("%g s ahead", errors.after_s).c_str(), errors.displacement_m.rmse, errors.displacement_m.median,
+                  errors.displacement_m.p95, errors.nees.mean, errors.nees.band_low, errors.nees.band_high, errors.inside_share);
+  }
+  return lines;
+}
+
 std::string describe(const TrackingEvaluation& tracking) {
   const metrics::ClearMot& clear = tracking.clear;
   std::string lines = text("tracking: %zu objects and %zu tracks that count, in %zu scans\n", tracking.objects, tracking.tracks, tracking.scans);
@@ -61,7 +81,7 @@ std::string describe(const TrackingEvaluation& tracking) {
   lines += object_row("all", tracking.errors.all);
   for (const auto& [name, errors] : tracking.errors.by_class) lines += object_row(name, errors);
   for (const metrics::DistanceBand& band : tracking.errors.by_distance) lines += object_row(text("%g-%g m", band.from_m, band.to_m), band.errors);
-  return lines;
+  return lines + describe_classes(tracking.errors.by_class) + describe(tracking.predictions);
 }
 
 std::string describe(const OtherCarEvaluation& car) {

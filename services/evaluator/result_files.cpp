@@ -21,6 +21,7 @@ using files::Result;
 using std::filesystem::path;
 
 constexpr double kLargestId = 4294967295.0;
+constexpr double kFarthestAheadS = 60.0;
 
 using TracksByStamp = std::map<std::int64_t, std::vector<ResultTrack>>;
 
@@ -60,6 +61,23 @@ std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks)
       if (track.track_id != static_cast<std::uint32_t>(v[1])) continue;
       track.position_covariance_m2 = (geometry::Matrix2() << v[2], v[3], v[3], v[4]).finished();
       track.mode_probability.assign(v.begin() + first_mode, v.end());
+    }
+    return std::nullopt;
+  });
+}
+
+std::optional<Error> read_predictions(const path& file, TracksByStamp& tracks) {
+  return read_csv(file, {"timestamp", "track_id", "after", "x", "y", "var_x", "cov_xy", "var_y"}, [&](auto fields) -> RowFault {
+    const auto row = numbers(fields);
+    if (!row) return "a field is no number";
+    const auto& v = *row;
+    if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
+    if (v[2] < 0.0 || v[2] > kFarthestAheadS) return "no time ahead";
+    const auto at = tracks.find(to_ns(v[0]));
+    if (at == tracks.end()) return "no such scan in tracks.csv";
+    for (ResultTrack& track : at->second) {
+      if (track.track_id != static_cast<std::uint32_t>(v[1])) continue;
+      track.predicted_in_map.push_back({v[2], {v[3], v[4]}, (geometry::Matrix2() << v[5], v[6], v[6], v[7]).finished()});
     }
     return std::nullopt;
   });
@@ -144,6 +162,9 @@ Result<RunResult> read_result(const path& folder) {
   }
   if (const auto file = plain_or_gz(folder / "track_details.csv")) {
     if (auto fault = read_track_details(*file, tracks)) return *fault;
+  }
+  if (const auto file = plain_or_gz(folder / "predictions.csv")) {
+    if (auto fault = read_predictions(*file, tracks)) return *fault;
   }
   for (auto& [stamp_ns, rows] : tracks) result.tracks.push_back({stamp_ns, std::move(rows)});
   if (const auto file = plain_or_gz(folder / "online_covariance.csv")) {

@@ -10,6 +10,7 @@
 
 #include "common/files/map_image.hpp"
 #include "common/files/result.hpp"
+#include "common/metrics/scene.hpp"
 #include "common/metrics/trajectory.hpp"
 
 namespace slammot::evaluator {
@@ -26,6 +27,7 @@ struct ResultTrack {
   std::string object_class;
   std::optional<geometry::Matrix2> position_covariance_m2;
   std::vector<double> mode_probability;   ///< Of each motion model; empty where it was not written.
+  std::vector<metrics::PredictedPlace> predicted_in_map;  ///< From predictions.csv, where there is one.
 };
 
 struct TracksAt {

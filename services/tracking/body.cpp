@@ -24,16 +24,6 @@ constexpr double kWidestM = 3.2;          ///< Nothing on the road is wider;
 constexpr double kWidestFaceM = 2.6;      ///< a side that is not longer may be a face.
 constexpr double kWholeSigmaM = 0.06;     ///< Errors of a size that is seen again and again do not average below this.
 
-/// Means and one sigma of the sizes of road users, and how common they are.
-struct KindOfBody {
-  Kind kind;
-  double share, length_m, length_sigma_m, width_m, width_sigma_m;
-};
-constexpr std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.14, 1.75, 0.2, 0.65, 0.15},
-                                               {Kind::kCar, 0.75, 4.4, 0.4, 1.8, 0.12},
-                                               {Kind::kTruck, 0.07, 7.0, 1.2, 2.35, 0.2},
-                                               {Kind::kBus, 0.04, 12.0, 1.2, 2.5, 0.12}}};
-
 /// The glimpse along one axis of the body, relative to the predicted centre.
 struct Shadow {
   double low_m = std::numeric_limits<double>::max();
@@ -224,7 +214,8 @@ Size likely_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
   return {std::max(value_m, evidence.least_m), 1.0 / information};
 }
 
-/// Log-likelihood of what was seen of one size, under a kind's.
+}  // namespace
+
 double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
   constexpr double kLeastSigmaM = 0.2;
   const double variance_m2 = squared(sigma_m) + evidence.whole.variance_m2;
@@ -232,8 +223,6 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
   return -0.5 * squared(evidence.whole.value_m - mean_m) / variance_m2 - 0.5 * std::log(variance_m2) -
          0.5 * squared(beyond_m) / (squared(sigma_m) + squared(kLeastSigmaM));
 }
-
-}  // namespace
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
   const double scale = config.size_scale;

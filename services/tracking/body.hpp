@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,6 +13,16 @@ struct TrackingConfig;
 
 /// Kinds of road users with sides; what is smaller is a blob.
 enum class Kind : std::uint8_t { kBicycle, kCar, kTruck, kBus };
+
+/// Means and one sigma of the sizes of one kind, and how common it is.
+struct KindOfBody {
+  Kind kind;
+  double share, length_m, length_sigma_m, width_m, width_sigma_m;
+};
+inline constexpr std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.14, 1.75, 0.2, 0.65, 0.15},
+                                                      {Kind::kCar, 0.75, 4.4, 0.4, 1.8, 0.12},
+                                                      {Kind::kTruck, 0.07, 7.0, 1.2, 2.35, 0.2},
+                                                      {Kind::kBus, 0.04, 12.0, 1.2, 2.5, 0.12}}};
 
 /// A size of a body: how long or wide it is believed to be.
 struct Size {
@@ -78,6 +89,9 @@ BodyMeasurement measure_box(const Body& body, const Eigen::Vector2d& predicted_c
 
 /// Middle of the echoes, pushed behind the surface that they lie on by what half the object's depth may be.
 BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const TrackingConfig& config);
+
+/// Log-likelihood of what was seen of a size, if such sizes are distributed like this.
+double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence);
 
 /// Sizes and kind as they follow from the body's evidence: a mixture over the kinds of road users, of which the likeliest
 /// counts.

@@ -35,6 +35,23 @@ Course course_of(const Track& track) {
   return {std::atan2(velocity.y(), velocity.x()), across.dot(track.velocity_covariance() * across) / (speed2 * speed2)};
 }
 
+/// The modes in which the track now is.
+filters::ModelSet models_of(const Track& track, const TrackingConfig& config) {
+  filters::ModelSet set = motion_models(config);
+  if (track.may_turn) set.models[set.size++] = {filters::MotionKind::kCoordinatedTurn, config.turn_noise_density, 0.0};
+  return set;
+}
+
+/// A turn is linearized about the velocity, which must be well known for that; and what walks or is not yet sure to be anything
+/// has no wheels that tie its course to its speed.
+bool is_known_to_go_somewhere(const Track& track, const TrackingConfig& config) {
+  constexpr double kSlowestMps = 2.0;
+  constexpr double kSigmas = 4.0;
+  const double variance = 0.5 * track.velocity_covariance().trace();
+  return track.confirmed && track.body.has_sides && 
+         track.velocity_mps().squaredNorm() > std::max(std::pow(kSlowestMps * config.size_scale, 2), kSigmas * kSigmas * variance);
+}
+
 BodyMeasurement measure(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
   return body.has_sides ? measure_box(body, predicted_centre_m, glimpse, config) : measure_blob(body, glimpse, config);
 }
@@ -45,13 +62,15 @@ void shift(Track& track, const Vector2d& by_m, const filters::ModelSet& models) 
   filters::move_stop_shift(track.move_stop, by_m);
   track.birth_position_m += by_m;
   track.anchor_m += by_m;
+  track.shifted_m += by_m;
+  if (track.measured) track.measured->centre_m += by_m;
 }
 
 /// Draws the body anew; the sides that are seen stay where they are, so the centre moves and the velocity does not.
 void redraw(Track& track, const Body& body, const Glimpse& glimpse, const TrackingConfig& config) {
   const Vector2d before_m = measure(track.body, track.position_m(), glimpse, config).centre_m;
   const BodyMeasurement after = measure(body, supposed_centre_m(body, glimpse), glimpse, config);
-  const filters::ModelSet models = motion_models(config);
+  const filters::ModelSet models = models_of(track, config);
   track.body = after.body;
   shift(track, after.centre_m - before_m, models);
   track.estimate = filters::imm_combine(models, track.motion);
@@ -63,7 +82,7 @@ void turn(Track& track, double by_rad, const Glimpse& glimpse, const TrackingCon
   const Vector2d before_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m;
   track.body.heading_rad = wrap_angle(track.body.heading_rad + by_rad);
   const Vector2d shift_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m - before_m;
-  const filters::ModelSet models = motion_models(config);
+  const filters::ModelSet models = models_of(track, config);
   shift(track, shift_m, models);
   track.estimate = filters::imm_combine(models, track.motion);
 }
@@ -131,9 +150,19 @@ void update_motion_state(Track& track, const TrackingConfig& config) {
     track.without_progress_s = 0.0;
   }
   const double speed = track.velocity_mps().norm();
-  if (track.confirmed) track.fastest_mps = std::max(track.fastest_mps, speed);
   if (speed < config.stopped_below_mps) track.state = flow::Motion::kStopped;
   if (speed > config.moving_above_mps) track.state = flow::Motion::kMoving;
+}
+
+/// Speeds count once the track is that of something, and while they are known and not none.
+void update_class(Track& track, double time_s, const TrackingConfig& config) {
+  constexpr double kLongestHeldS = 0.2;
+  const double sigma_mps = std::sqrt(0.5 * track.velocity_covariance().trace());
+  const bool is_known = track.confirmed && !track.is_refuted && sigma_mps < config.most_speed_sigma_mps;
+  if (is_known && !track.move_stop.stands && track.state == flow::Motion::kMoving)
+    track.speeds = with_speed(track.speeds, {track.velocity_mps().norm(), sigma_mps, std::min(time_s, kLongestHeldS)}, config);
+  track.class_probability = class_probabilities(track.body, track.speeds, config);
+  track.object_class = likeliest_class(track.class_probability);
 }
 
 void remember_contour(Track& track, const Glimpse& glimpse) {
@@ -142,20 +171,6 @@ void remember_contour(Track& track, const Glimpse& glimpse) {
   track.contour_in_odom_m.clear();
   for (std::size_t i = 0; i < glimpse.points_m.size(); i += stride)
     track.contour_in_odom_m.push_back(glimpse.points_m[i].cast<float>());
-}
-
-std::vector<flow::PredictedPosition> predicted_path(const Track& track, const TrackingConfig& config) {
-  constexpr int kSteps = 6;
-  constexpr double kStepS = 0.5;
-  const filters::ModelSet models = motion_models(config);
-  const filters::MotionModel cruise = models.models[0];
-  const filters::MotionState now = filters::estimate_of(track.move_stop, track.estimate);
-  std::vector<flow::PredictedPosition> path;
-  for (int step = 1; step <= kSteps; ++step) {
-    const filters::MotionState there = filters::predict(cruise, now, step * kStepS);
-    path.push_back({step * kStepS, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>()});
-  }
-  return path;
 }
 
 /// Legs swing about the middle of who walks on them, the same way for many scans.
@@ -176,13 +191,28 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   if (track.body.has_sides) {
     along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * track.body.length.variance_m2;
     across_m2 = std::pow(kShapeAcrossM * config.size_scale, 2) + 0.25 * track.body.width.variance_m2;
-  } else if (track.object_class != flow::ObjectClass::kPedestrian) {
+  } else if (!walks(track)) {
     along_m2 += std::pow(kHalfACycleM * config.size_scale, 2);
     across_m2 = std::pow(0.5 * kHalfACycleM * config.size_scale, 2);
   }
   const Vector2d along{std::cos(heading_rad), std::sin(heading_rad)};
   const Vector2d across{-along.y(), along.x()};
   return along_m2 * along * along.transpose() + across_m2 * across * across.transpose();
+}
+
+/// Three seconds ahead by the mixture of modes; who is held to stand may start off as any mode says, and is not known to.
+std::vector<flow::PredictedPosition> predicted_path(const Track& track, const Matrix2d& shared_error_m2, const TrackingConfig& config) {
+  constexpr int kSteps = 6;
+  constexpr double kStepS = 0.5;
+  const filters::ModelSet models = models_of(track, config);
+  filters::ImmState now = track.motion;
+  if (track.move_stop.stands) now.modes.fill(filters::estimate_of(track.move_stop, track.estimate));
+  std::vector<flow::PredictedPosition> path;
+  for (const filters::MotionState& there : filters::imm_foretell(models, now, kStepS, kSteps)) {
+    const double after_s = kStepS * static_cast<double>(path.size() + 1);
+    path.push_back({after_s, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>() + shared_error_m2});
+  }
+  return path;
 }
 
 void observe(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse) {
@@ -233,7 +263,10 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
 }
 
 void predict(Track& track, double time_s, const TrackingConfig& config) {
-  const filters::ModelSet models = motion_models(config);
+  track.measured.reset();
+  track.shifted_m.setZero();
+  track.may_turn = config.coordinated_turn && is_known_to_go_somewhere(track, config);
+  const filters::ModelSet models = models_of(track, config);
   track.motion = filters::imm_predict(models, track.motion, time_s);
   track.estimate = filters::imm_combine(models, track.motion);
   track.body.heading_variance_rad2 = std::min(10.0, track.body.heading_variance_rad2 + kHeadingDriftRad2PerS * time_s);
@@ -241,7 +274,7 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
 }
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
-  const filters::ModelSet models = motion_models(config);
+  const filters::ModelSet models = models_of(track, config);
   if (track.body.has_sides) follow_side(track, glimpse, config);  // first: sizes are measured along the sides
   const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
   Matrix2d R = measurement.covariance_m2 + pose_covariance_m2;
@@ -253,6 +286,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   shift(track, measurement.recentring_m, models);
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
+  track.measured = {measurement.centre_m, R};
   track.estimate = filters::imm_combine(models, track.motion);
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   filters::MotionState moving = track.estimate;
@@ -263,7 +297,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   else draw_sides_when_known(track, glimpse, config);
   update_motion_state(track, config);
   if (track.velocity_mps().norm() > config.moving_above_mps || track.state == flow::Motion::kMoving) track.last_moving_ns = stamp_ns;
-  track.object_class = likely_class(track);
+  update_class(track, unseen_s, config);
   return true;
 }
 
@@ -274,8 +308,13 @@ void restart_motion(Track& track, const Vector2d& velocity_mps, double sigma_mps
   start.covariance.topLeftCorner<2, 2>() = track.position_covariance_m2();
   start.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
   start.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
-  track.motion = filters::imm_start(motion_models(config), start);
-  track.estimate = start;
+  move_as(track, start, config);
+}
+
+void move_as(Track& track, const filters::MotionState& state, const TrackingConfig& config) {
+  track.motion = filters::imm_start(motion_models(config), state);
+  track.may_turn = false;
+  track.estimate = state;
 }
 
 void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config) {
@@ -334,21 +373,6 @@ bool contradicts_itself(const Track& track, const TrackingConfig& config) {
   return track.claimed_m > kMostTimesProgress * kProgressM * config.size_scale;
 }
 
-flow::ObjectClass likely_class(const Track& track) {
-  if (!track.body.has_sides) {
-    const double fastest_mps = std::max(track.fastest_mps, track.velocity_mps().norm());
-    if (track.largest_extent_m < 1.0) return fastest_mps < 2.7 ? flow::ObjectClass::kPedestrian : flow::ObjectClass::kBicycle;
-    return flow::ObjectClass::kUnknown;
-  }
-  switch (track.body.kind) {
-    case Kind::kBicycle: return flow::ObjectClass::kBicycle;
-    case Kind::kCar: return flow::ObjectClass::kCar;
-    case Kind::kTruck:
-    case Kind::kBus: break;
-  }
-  return flow::ObjectClass::kTruckOrBus;
-}
-
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
   flow::TrackedObject object;
   object.track_id = track.track_id;
@@ -365,12 +389,14 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   object.width_m = track.body.width.value_m;
   object.motion = track.move_stop.stands ? flow::Motion::kStopped : track.state;
   object.object_class = track.object_class;
+  object.class_probability = track.class_probability;
   object.mode_probability = track.motion.probability;
   object.first_seen_ns = track.first_seen_ns;
   object.last_seen_ns = track.last_seen_ns;
   object.contour_in_odom_m = track.contour_in_odom_m;
-  if (track.confirmed) object.predicted_path = predicted_path(track, config);
-  object.covariance.topLeftCorner<2, 2>() += shared_error_covariance(track, object.heading_in_odom_rad, config);
+  const Matrix2d shared_error_m2 = shared_error_covariance(track, object.heading_in_odom_rad, config);
+  object.covariance.topLeftCorner<2, 2>() += shared_error_m2;
+  if (track.confirmed) object.predicted_path = predicted_path(track, shared_error_m2, config);
   return object;
 }
 
@@ -382,6 +408,7 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
   track.score = std::min(track.score, config.most_score);
   track.state = object.motion;
   track.object_class = object.object_class;
+  track.class_probability = object.class_probability;
   track.first_seen_ns = object.first_seen_ns;
   track.last_seen_ns = object.last_seen_ns;
   track.last_moving_ns = object.last_seen_ns;

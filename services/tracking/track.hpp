@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
 #include "services/tracking/body.hpp"
+#include "services/tracking/object_class.hpp"
 #include "services/tracking/scan_view.hpp"
 #include "services/tracking/tracking_config.hpp"
 
@@ -25,17 +27,28 @@ struct MotionEvidence {
   double undecided = 0.0;
 };
 
+/// Where a scan put the centre of a body.
+struct MeasuredCentre {
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
+};
+
 /// One object that is followed, or supposed to be one.
 struct Track {
   flow::TrackId track_id;
   filters::ImmState motion;
   filters::MotionState estimate;             ///< Of the modes together, as of the last predict or update.
   filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
+  std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
+  Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.
+  bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
   Body body;
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
   bool confirmed = false;
   flow::Motion state = flow::Motion::kMoving;
-  flow::ObjectClass object_class = flow::ObjectClass::kUnknown;
+  flow::ObjectClass object_class = flow::ObjectClass::kUnknown;  ///< The likeliest
+  flow::ClassProbabilities class_probability = {};               ///< of these.
+  SpeedsSeen speeds;                         ///< Since it was confirmed.
   int hits = 0;                              ///< Scans with echoes from it,
   int moving_hits = 0;                       ///< and such that contradicted the map.
   std::int64_t first_seen_ns = 0;
@@ -43,7 +56,6 @@ struct Track {
   Eigen::Vector2d birth_position_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d birth_covariance_m2 = Eigen::Matrix2d::Identity();
   MotionEvidence evidence;                   ///< Of the last moments, faded.
-  double fastest_mps = 0.0;                  ///< Since it was confirmed.
   std::int64_t last_moving_ns = 0;           ///< When it was last faster than something that stands.
   double way_m = 0.0;                        ///< That it has come since it was confirmed, in steps that are more than jitter.
   Eigen::Vector2d anchor_m = Eigen::Vector2d::Zero();  ///< Where it last got away from;
@@ -62,6 +74,7 @@ struct Track {
   Eigen::Matrix2d velocity_covariance() const { return estimate.covariance.block<2, 2>(2, 2); }
 };
 
+/// Cruising and manoeuvring: the modes of everything.
 filters::ModelSet motion_models(const TrackingConfig& config);
 
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.
@@ -79,6 +92,9 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const E
 /// The same place, and another velocity.
 void restart_motion(Track& track, const Eigen::Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config);
 
+/// Moves from now on as this says.
+void move_as(Track& track, const filters::MotionState& state, const TrackingConfig& config);
+
 /// Score after a scan with echoes, most of them in segments of this label, time_s after the one before.
 void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config);
 
@@ -90,8 +106,6 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config);
 
 /// Whether it says to move and stays where it is: something that stands, seen now here, now there.
 bool contradicts_itself(const Track& track, const TrackingConfig& config);
-
-flow::ObjectClass likely_class(const Track& track);
 
 /// The track as it is published.
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);

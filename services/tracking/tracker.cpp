@@ -167,7 +167,7 @@ bool is_worth_more(const Track& a, const Track& b, const TrackingConfig& config)
 
 }  // namespace
 
-Tracker::Tracker(const TrackingConfig& config) : config_(config), rivals_(config) {}
+Tracker::Tracker(const TrackingConfig& config) : config_(config), rivals_(config), formations_(config) {}
 
 /// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
 bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
@@ -542,6 +542,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
   compare_with_past(view);
   associate(view);
   for (std::size_t t = 0; t < tracks_.size(); ++t) correct(t, time_s, view);
+  if (config_.formations) formations_.follow(tracks_, time_s);
   begin_tracks(view);
   merge_duplicates();
   remember(view);
@@ -584,6 +585,7 @@ flow::TrackedObjects Tracker::describe(const flow::SegmentedScan& scan) const {
 void Tracker::take_up(const flow::TrackedObjects& objects) {
   tracks_.clear();
   rivals_ = Rivals(config_);
+  formations_ = Formations(config_);
   history_.clear();
   for (const flow::TrackedObject& object : objects.objects) {
     next_id_ = std::max(next_id_, object.track_id.value + 1);

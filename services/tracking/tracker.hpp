@@ -11,6 +11,7 @@
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "services/tracking/formations.hpp"
 #include "services/tracking/rivals.hpp"
 #include "services/tracking/scan_history.hpp"
 #include "services/tracking/scan_view.hpp"
@@ -109,6 +110,7 @@ class Tracker {
   std::vector<Past> past_of_beam_;              ///< Of the current scan.
   std::vector<SegmentPast> past_of_segment_;
   Rivals rivals_;
+  Formations formations_;
   ScanHistory history_;
   std::uint32_t next_id_ = 1;
   std::int64_t last_stamp_ns_ = 0;

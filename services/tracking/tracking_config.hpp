@@ -7,12 +7,15 @@ struct TrackingConfig {
   double velocity_noise_density = 0.1;      ///< Of white acceleration while cruising, m^2/s^3.
   double jerk_noise_density = 3.0;          ///< While manoeuvring, m^2/s^5.
   double idle_acceleration_mps2 = 0.5;      ///< One sigma of the acceleration that cruising leaves open.
-  double mean_stay_s = 3.0;                  ///< Mean time in one of the two.
+  bool coordinated_turn = false;            ///< Whether turning is a mode of its own, of vehicles that surely move.
+  double turn_noise_density = 3.0;          ///< While turning, m^2/s^5.
+  double mean_stay_s = 3.0;                 ///< Mean time in one of the modes.
   double fastest_mps = 20.0;                ///< One sigma of a new track's speed is half of this.
   double stopped_below_mps = 0.3;           ///< Slower for a while is stopped,
   double moving_above_mps = 0.6;            ///< and faster moving again.
   double standing_memory_s = 0.5;           ///< For which measurements tell whether something stands still.
   double detection_sigmas = 2.0;            ///< Of its velocity: what is faster surely moves.
+  bool formations = false;                  ///< Whether vehicles of a queue that are hidden go on as the others do.
 
   // Measurement.
   double range_noise_m = 0.03;              ///< One sigma at the scanner,

@@ -25,6 +25,7 @@ std::map<std::string, std::string> whole_files() {
           {"trajectory.tum", straight_tum(0.0)},
           {"tracks.csv", tracks_csv(0.0, 0.4)},
           {"track_details.csv", "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,mode_0\n0.000000,7,1,0,1,1,0,1,0.5\n"},
+          {"predictions.csv", "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n0.000000,7,1.0,1,0,1,0,1\n"},
           {"online_covariance.csv", "timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h\n0.000000,0,0,0,1,0,0,1,0,1\n1.000000,10,0,0,1,0,0,1,0,1\n"},
           {"labels.csv", "timestamp,detection,tracking\n0.000000,sm?-,smm-\n"},
           {"map.pgm", files::to_pgm(kImage)},

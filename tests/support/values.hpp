@@ -131,7 +131,8 @@ inline flow::TrackedObject tracked_object(Random& random, std::uint32_t track_id
                              .first_seen_ns = 1000 + track_id,
                              .last_seen_ns = 2000 + track_id,
                              .contour_in_odom_m = {},
-                             .predicted_path = {}};
+                             .predicted_path = {},
+                             .class_probability = {0.1, 0.2, 0.3, 0.4}};
   for (std::size_t i = 0; i < contour_points; ++i) object.contour_in_odom_m.push_back(point(random));
   for (std::size_t i = 0; i < path_points; ++i) {
     object.predicted_path.push_back({0.1 * static_cast<double>(i), vector(random), matrix<2>(random)});

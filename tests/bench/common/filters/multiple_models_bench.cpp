@@ -29,6 +29,13 @@ void imm_cycle(benchmark::State& state) {
 }
 BENCHMARK(imm_cycle)->Unit(benchmark::kMicrosecond);
 
+void imm_path(benchmark::State& state) {  // three seconds ahead, as it is published
+  const ModelSet set = velocity_and_acceleration();
+  const ImmState now = imm_start(set, testing::start_of(testing::cruising));
+  for (auto _ : state) benchmark::DoNotOptimize(imm_foretell(set, now, 0.5, 6));
+}
+BENCHMARK(imm_path)->Unit(benchmark::kMicrosecond);
+
 void gpb1_cycle(benchmark::State& state) {
   const ModelSet set = velocity_and_acceleration();
   const Gpb1State before = gpb1_start(set, testing::start_of(testing::standing));

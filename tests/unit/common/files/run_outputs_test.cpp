@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using geometry::Matrix2;
 using geometry::Matrix3;
 using geometry::Pose2;
 using testing::read_file;
@@ -52,9 +53,37 @@ TEST(ToTrackDetailsCsv, WritesCovariancesAndTheProbabilityOfEachMode) {
   row.covariance_in_map.diagonal() << 0.04, 0.01, 1.0, 0.25;
   row.covariance_in_map(0, 1) = -0.0012345678;
   row.mode_probability = {0.75, 0.25};
+  row.class_probability = {0.125, 0.5, 0.25, 0.125};
   EXPECT_EQ(to_track_details_csv({row}),
-            "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,mode_0,mode_1\n"
-            "1.500000,42,0.04,-0.0012346,0.01,1,0,0.25,0.75,0.25\n");
+            "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_car,p_truck_or_bus,mode_0,mode_1\n"
+            "1.500000,42,0.04,-0.0012346,0.01,1,0,0.25,0.1250,0.5000,0.2500,0.1250,0.75,0.25\n");
+}
+
+TEST(ToPredictionsCsv, WritesOneRowATimeAhead) {
+  TrackRow row;
+  row.stamp_ns = 1'500'000'000;
+  row.track_id = {42};
+  row.predicted = {{1.0, {3.0, -1.5}, Matrix2{{0.25, 0.125}, {0.125, 0.5}}}, {2.0, {6.0, -3.0}, Matrix2::Identity()}};
+  EXPECT_EQ(to_predictions_csv({row}),
+            "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n"
+            "1.500000,42,1.0,3.000,-1.500,0.25,0.125,0.5\n"
+            "1.500000,42,2.0,6.000,-3.000,1,0,1\n");
+}
+
+TEST(RunRecord, KeepsOfAPathWhatIsWholeSecondsAheadInTheFrameOfTheMap) {
+  flow::TrackedObjects tracked;
+  tracked.map_from_odom = {10.0, 0.0, 0.5 * std::acos(-1.0)};
+  flow::TrackedObject object;
+  object.confirmed = true;
+  for (const double after_s : {0.5, 1.0, 1.5, 2.0}) object.predicted_path.push_back({after_s, {after_s, 0.0}, Matrix2{{4.0, 0.0}, {0.0, 1.0}}});
+  tracked.objects.push_back(object);
+  RunRecord record;
+  record.add(tracked);
+  ASSERT_EQ(record.track_rows().size(), 1U);
+  const std::vector<PredictedPlace>& predicted = record.track_rows()[0].predicted;
+  ASSERT_EQ(predicted.size(), 2U);
+  EXPECT_THAT(predicted[1].position_in_map_m, testing::MatrixNear(geometry::Vector2(10.0, 2.0), 1e-12));
+  EXPECT_THAT(predicted[1].covariance_m2, testing::MatrixNear(Matrix2{{1.0, 0.0}, {0.0, 4.0}}, 1e-12));
 }
 
 TEST(ToOnlineCovarianceCsv, WritesTheUpperTriangle) {
@@ -125,7 +154,7 @@ TEST(WriteOutputs, WritesEveryFileTheSameTwiceButForWhatWasMeasured) {
     std::filesystem::create_directory(folder / run);
     EXPECT_FALSE(write_outputs(folder / run, small_record(), example_report(run[0])));
   }
-  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "graph.g2o", "map.pgm", "map.png", "map.yaml", "moving.pgm", "moving.png", "moving.yaml"}) {
+  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "predictions.csv", "graph.g2o", "map.pgm", "map.png", "map.yaml", "moving.pgm", "moving.png", "moving.yaml"}) {
     EXPECT_FALSE(read_file(folder / "a" / file).empty()) << file;
     EXPECT_EQ(read_file(folder / "a" / file), read_file(folder / "b" / file)) << file;
   }

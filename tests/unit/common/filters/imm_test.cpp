@@ -124,6 +124,27 @@ TEST(Imm, MovesWithTheWorld) {
   EXPECT_NEAR(here.posterior.probability[0], there.posterior.probability[0], 1e-12);
 }
 
+TEST(Imm, TakesUpAModelThatBecomesPossibleAndLetsGoOfOneThatDoesNot) {
+  ModelSet three = velocity_and_acceleration();
+  three.models[three.size++] = {MotionKind::kCoordinatedTurn, 0.5, 0.0};
+  const ModelSet two = velocity_and_acceleration();
+  ImmState state = imm_start(two, testing::start_of(turning));
+  const auto follow = [&](const ModelSet& set, int from, int until) {
+    const auto positions_m = testing::measured(turning, until, 4);
+    for (int scan = from; scan < until; ++scan)
+      state = imm_update(set, imm_predict(set, state, kManeuverPeriodS), positions_m[static_cast<std::size_t>(scan)], testing::maneuver_noise_m2()).posterior;
+  };
+  follow(two, 0, 20);
+  EXPECT_EQ(state.probability[2], 0.0);
+  follow(three, 20, 60);
+  EXPECT_GT(state.probability[2], 0.5);
+  const MotionState with_turn = imm_combine(three, state);
+  state = imm_predict(two, state, 0.0);
+  EXPECT_EQ(state.probability[2], 0.0);
+  EXPECT_NEAR(state.probability[0] + state.probability[1], 1.0, 1e-12);
+  EXPECT_THAT(imm_combine(two, state).mean.head<4>(), MatrixNear(with_turn.mean.head<4>(), 1e-9));  // nothing is lost
+}
+
 TEST(Imm, SwitchesAsMuchInOneLongStepAsInManyShortOnes) {
   const ModelSet set = velocity_and_acceleration();
   MotionState start;

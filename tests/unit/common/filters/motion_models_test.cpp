@@ -41,6 +41,19 @@ TEST(ConstantVelocity, ForgetsTheAccelerationButNotThatItMayBeThere) {
   EXPECT_NEAR(after.covariance(4, 4), 4.0, 1e-12);
 }
 
+TEST(MotionModels, SpreadErrorsAsTheirTransitionsSay) {  // F P F' + Q, which predict does not write down
+  constexpr double kTimeS = 0.4;
+  MotionState state = example_state();
+  const Vector6 skew = Vector6::LinSpaced(-0.5, 0.7);
+  state.covariance += skew * skew.transpose();
+  const Matrix6 F_cv = constant_velocity_transition(kTimeS);
+  EXPECT_THAT(predict({MotionKind::kConstantVelocity, 1.3, 0.8}, state, kTimeS).covariance,
+              MatrixNear(F_cv * state.covariance * F_cv.transpose() + constant_velocity_noise(kTimeS, 1.3, 0.8), 1e-12));
+  const Matrix6 F_ca = constant_acceleration_transition(kTimeS);
+  EXPECT_THAT(predict({MotionKind::kConstantAcceleration, 0.7, 0.0}, state, kTimeS).covariance,
+              MatrixNear(F_ca * state.covariance * F_ca.transpose() + constant_acceleration_noise(kTimeS, 0.7), 1e-12));
+}
+
 TEST(CoordinatedTurn, KeepsSpeedAndClosesTheCircle) {
   Vector6 state = Vector6::Zero();
   const double speed_mps = 15.0;

@@ -57,6 +57,14 @@ TEST(ObjectErrors, AreSplitByClassAndDistance) {
   EXPECT_EQ(tables.by_distance[1].false_rows, 1U);
 }
 
+TEST(ObjectErrors, TellForWhatEachClassWasTaken) {
+  ReportedTrack mistaken = track_at(10.0, 0.0);
+  mistaken.object_class = "bicycle";
+  const ObjectErrors errors = tables_of({{0, {}, {car_at(10.0, 0.0)}, {track_at(10.0, 0.0)}}, {kSecondNs, {}, {car_at(10.0, 0.0)}, {mistaken}}}, 1, 1).by_class.at("car");
+  EXPECT_EQ(errors.reported_as, (std::map<std::string, std::size_t>{{"bicycle", 1}, {"car", 1}}));
+  EXPECT_EQ(errors.right_class, 0.5);
+}
+
 TEST(ObjectErrors, TakeOneNeesSampleASecond) {
   ReportedTrack track = track_at(10.2, 0.0);
   track.position_covariance_m2 = geometry::Matrix2::Identity() * 0.01;

@@ -33,6 +33,7 @@ void expect_same(const flow::TrackedObject& a, const flow::TrackedObject& b) {
   EXPECT_EQ(a.motion, b.motion);
   EXPECT_EQ(a.object_class, b.object_class);
   EXPECT_EQ(a.mode_probability, b.mode_probability);
+  EXPECT_EQ(a.class_probability, b.class_probability);
   EXPECT_EQ(a.first_seen_ns, b.first_seen_ns);
   EXPECT_EQ(a.last_seen_ns, b.last_seen_ns);
   EXPECT_EQ(a.contour_in_odom_m, b.contour_in_odom_m);
@@ -112,6 +113,7 @@ TEST_F(TrackedObjectsOnTheWire, AreRefusedWhereTheyAreUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].motion_state = static_cast<slammot_Motion>(2); }), "");
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].object_class = static_cast<slammot_ObjectClass>(5); }), "");
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].mode_probability[2] = -0.5; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].class_probability[1] = 1.5; }), "");
   EXPECT_NE(fault_after([](auto& s) { ++s.objects._buffer[0].contour_count; }), "");
   EXPECT_NE(fault_after([](auto& s) { ++s.objects._buffer[0].path_count; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.contour_points._buffer[0].x_m = kNanF; }), "");

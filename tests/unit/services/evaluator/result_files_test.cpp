@@ -37,6 +37,27 @@ TEST_F(ResultFiles, JoinTracksWithTheirCovariances) {
   EXPECT_EQ((*result->tracks[1].tracks[0].position_covariance_m2)(0, 1), 0.01);
 }
 
+TEST_F(ResultFiles, JoinTracksWithTheirPredictions) {
+  write(folder_ / "tracks.csv", tracks_csv(0.0, 0.0));
+  write(folder_ / "predictions.csv", "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n0.100000,7,1.0,20,1,0.04,0.01,0.09\n0.100000,7,2.0,30,2,0.4,0.1,0.9\n");
+  const auto result = read_result(folder_.path());
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->tracks[0].tracks[0].predicted_in_map.empty());
+  const auto& predicted = result->tracks[1].tracks[0].predicted_in_map;
+  ASSERT_EQ(predicted.size(), 2U);
+  EXPECT_EQ(predicted[1].after_s, 2.0);
+  EXPECT_EQ(predicted[1].position_m.y(), 2.0);
+  EXPECT_EQ(predicted[1].covariance_m2(1, 0), 0.1);
+}
+
+TEST_F(ResultFiles, RefuseAPredictionOfNoTime) {
+  write(folder_ / "tracks.csv", tracks_csv(0.0, 0.0));
+  write(folder_ / "predictions.csv", "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n0.100000,7,8e9,20,1,0.04,0.01,0.09\n");
+  const auto result = read_result(folder_.path());
+  ASSERT_FALSE(result);
+  EXPECT_THAT(result.error().message, HasSubstr("no time ahead"));
+}
+
 TEST_F(ResultFiles, ReadTheMapAsItIsWritten) {
   const files::MapImage image{3, 2, 0.2, -1.0, 4.0, {0, 205, 254, 254, 205, 0}};
   write(folder_ / "map.pgm", files::to_pgm(image));

@@ -212,6 +212,65 @@ TEST(Tracker, KnowsSomebodyAgainWhoWasHidden) {
   EXPECT_EQ(play.ids.size(), 1U);
 }
 
+TEST(Tracker, HoldsACarThatRoundsABendToTurnIfThatIsAMode) {
+  TrackingConfig config;
+  config.coordinated_turn = true;
+  Play play(config);
+  constexpr double kRateRadps = 0.5;
+  constexpr double kRadiusM = 16.0;
+  const auto heading_at = [](double t) { return M_PI / 2.0 + kRateRadps * std::max(0.0, t - 1.0); };
+  play.run(4.0, [&](Street& street, double t) {
+    const double heading_rad = heading_at(t);
+    const double straight_m = kRadiusM * kRateRadps * std::min(0.0, t - 1.0);
+    street.unknown = {{{8.0 + kRadiusM * std::sin(heading_rad), straight_m - 6.0 - kRadiusM * std::cos(heading_rad), heading_rad}}};
+  });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackedObject car = play.confirmed().front();
+  const double heading_rad = heading_at(play.now_s() - kPeriodS);
+  EXPECT_LT((car.velocity_in_odom_mps - kRadiusM * kRateRadps * Vector2(std::cos(heading_rad), std::sin(heading_rad))).norm(), 0.8);
+  EXPECT_GT(car.mode_probability[2], 0.0);
+  EXPECT_NEAR(car.mode_probability[0] + car.mode_probability[1] + car.mode_probability[2], 1.0, 1e-9);
+}
+
+/// How far off the tracker holds the middle of three cars to be, when it comes out from behind a container: the queue brakes
+/// from 8 to 2 m/s while it is hidden.
+double error_behind_a_container_m(bool formations) {
+  TrackingConfig config;
+  config.formations = formations;
+  Play play(config);
+  const StreetBox container{{10.0, 0.0, M_PI / 2.0}, 4.5, 1.0};
+  const auto way_m = [](double t) {
+    const double braking = std::clamp(t - 2.4, 0.0, 2.0);
+    return 8.0 * std::min(t, 2.4) + 8.0 * braking - 1.5 * braking * braking + 2.0 * std::max(0.0, t - 4.4);
+  };
+  constexpr double kApartM = 13.0;
+  const auto y_of = [&](int car, double t) { return -23.0 - kApartM * (car - 1) + way_m(t); };
+  const auto scene = [&](Street& street, double t) {
+    street.known = {kWall, container};
+    street.unknown.clear();
+    for (int car = 0; car < 3; ++car) street.unknown.push_back({{20.0, y_of(car, t), M_PI / 2.0}});
+  };
+  play.run(2.0, scene);
+  std::uint32_t middle = 0;
+  for (const flow::TrackedObject& object : play.confirmed())
+    if (std::abs(object.position_in_odom_m.y() - y_of(1, play.now_s() - kPeriodS)) < 2.0) middle = object.track_id.value;
+  double worst_m = 0.0;
+  while (play.now_s() < 5.0) {
+    play.step(scene);
+    const double truth_m = y_of(1, play.now_s() - kPeriodS);
+    for (const flow::TrackedObject& object : play.result.objects.objects)
+      if (object.track_id.value == middle) worst_m = std::max(worst_m, std::abs(object.position_in_odom_m.y() - truth_m));
+  }
+  return worst_m;
+}
+
+TEST(Tracker, KnowsWhereAHiddenCarOfAQueueIsByTheOthers) {
+  const double apart_m = error_behind_a_container_m(false);
+  const double together_m = error_behind_a_container_m(true);
+  EXPECT_LT(together_m, 0.5 * apart_m);
+  EXPECT_LT(together_m, 0.4);
+}
+
 TEST(Tracker, StopsWithWhatStopsAndKeepsIt) {
   Play play;  // 8 m/s, brakes at 2 m/s^2 from t = 1 s on, stands from t = 5 s on
   const auto y_of = [](double t) {
@@ -294,6 +353,23 @@ TEST(Tracker, LabelsAScanFromThePastAsDetectionDid) {
   const flow::SegmentedScan old = detection::detect(play.street.scan(0, 0), {});
   EXPECT_EQ(play.tracker().track(old).labels.labels, old.labels);
   EXPECT_EQ(play.tracker().counters().late_scans, 1U);
+}
+
+TEST(Tracker, DoesNotExpectWhatBrakesToGoOnAsItGoes) {
+  Play play;  // 10 m/s, brakes at 3 m/s^2 from t = 1 s on
+  const auto y_of = [](double t) {
+    const double braking = std::clamp(t - 1.0, 0.0, 10.0 / 3.0);
+    return -15.0 + 10.0 * std::min(t, 1.0) + 10.0 * braking - 1.5 * braking * braking;
+  };
+  play.run(2.5, [&](Street& street, double t) { street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}}; });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackedObject car = play.confirmed().front();
+  ASSERT_EQ(car.predicted_path.size(), 6U);
+  const flow::PredictedPosition& later = car.predicted_path[1];  // a second ahead
+  const double truth_m = y_of(play.now_s() - kPeriodS + later.after_s);
+  const double as_it_goes_m = car.position_in_odom_m.y() + later.after_s * car.velocity_in_odom_mps.y();
+  EXPECT_LT(std::abs(later.position_in_odom_m.y() - truth_m), 0.7 * std::abs(as_it_goes_m - truth_m));
+  EXPECT_LT(std::abs(later.position_in_odom_m.y() - truth_m), 2.0 * std::sqrt(later.covariance_m2(1, 1)));
 }
 
 TEST(Tracker, SaysWhereAnObjectWillBeAndHowSurely) {

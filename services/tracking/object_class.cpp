@@ -1,0 +1,122 @@
+#include "services/tracking/object_class.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace slammot::tracking {
+namespace {
+
+using flow::ClassProbabilities;
+
+enum Class : std::size_t { kPedestrian, kBicycle, kCar, kTruckOrBus };
+
+constexpr double kSpeedMemoryS = 6.0;    ///< For which a speed counts,
+constexpr double kSpeedLastsS = 2.0;     ///< and for which it is one and the same.
+constexpr double kSpeedProvenS = 1.0;    ///< For which a speed must be held to be proven.
+constexpr double kOutlierShare = 0.02;   ///< Of speeds that are those of something else.
+constexpr double kOutlierDensity = 0.04; ///< Of them, anything up to 25 m/s.
+
+/// Speeds while moving: one sigma about a mean; and the speed that one in six exceeds at some time.
+struct Gait {
+  double speed_mps, sigma_mps, top_mps, top_sigma_mps;
+};
+constexpr std::array<Gait, 4> kGaits = {{{1.35, 0.45, 2.3, 0.5}, {4.2, 1.7, 7.0, 1.5}, {8.0, 5.0, 60.0, 1.0}, {7.0, 4.5, 60.0, 1.0}}};
+
+/// Of blobs; what has sides has the shares of kinds.
+constexpr std::array<double, 4> kShares = {0.35, 0.09, 0.49, 0.07};
+constexpr double kShareIndoors = 1e-6;  ///< Of vehicles.
+
+/// Density of the extent of a blob: someone who walks is seen whole, of a vehicle what shows behind something else.
+constexpr double kWalkerExtentM = 0.55;
+constexpr double kWalkerExtentSigmaM = 0.25;
+constexpr std::array<double, 4> kDensityOfPiece = {0.0, 0.6, 0.06, 0.04};
+
+/// Those who walk in company, side by side or one behind the other, are as large as something with sides.
+constexpr KindOfBody kCompany{Kind::kBicycle, 0.08, 1.3, 0.35, 0.6, 0.2};
+
+double squared(double value) { return value * value; }
+
+double normal_density(double offset, double sigma) {
+  return std::exp(-0.5 * squared(offset / sigma)) / (sigma * std::sqrt(2.0 * std::numbers::pi));
+}
+
+double exceeded_share(double value, double mean, double sigma) { return 0.5 * std::erfc((value - mean) / (sigma * std::numbers::sqrt2)); }
+
+/// Of two classes' or two kinds' logarithms of weights.
+double log_sum(double a, double b) { return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))); }
+
+/// Of both sizes, if they are distributed like this. A heading that is a little off makes a body wider the longer it is.
+double log_fit(const KindOfBody& kind, const SizeEvidence& length, const SizeEvidence& width, double scale) {
+  constexpr double kHeadingErrorRad = 0.06;
+  const double width_sigma_m = std::hypot(kind.width_sigma_m, kHeadingErrorRad * kind.length_m);
+  return std::log(kind.share) + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, length) +
+         log_likelihood_of_size(scale * kind.width_m, scale * width_sigma_m, width);
+}
+
+std::size_t class_of_kind(Kind kind) { return kind == Kind::kBicycle ? kBicycle : kind == Kind::kCar ? kCar : kTruckOrBus; }
+
+ClassProbabilities log_fit_of_box(const Body& body, const TrackingConfig& config) {
+  ClassProbabilities fit;
+  fit.fill(-1e300);
+  fit[kPedestrian] = std::max(log_fit(kCompany, body.length_evidence, body.width_evidence, config.size_scale),
+                              log_fit(kCompany, body.width_evidence, body.length_evidence, config.size_scale));
+  for (const KindOfBody& kind : kKinds) {
+    double& of_class = fit[class_of_kind(kind.kind)];
+    of_class = log_sum(of_class, log_fit(kind, body.length_evidence, body.width_evidence, config.size_scale));
+  }
+  return fit;
+}
+
+ClassProbabilities log_fit_of_blob(const Body& body, const TrackingConfig& config) {
+  const double extent_m = body.length.value_m / config.size_scale;
+  ClassProbabilities log_fit;
+  for (std::size_t i = 0; i < log_fit.size(); ++i) {
+    const double density = i == kPedestrian ? normal_density(extent_m - kWalkerExtentM, kWalkerExtentSigmaM) : kDensityOfPiece[i];
+    log_fit[i] = std::log(kShares[i] * density + 1e-12);
+  }
+  return log_fit;
+}
+
+}  // namespace
+
+SpeedsSeen with_speed(const SpeedsSeen& before, const SpeedHeld& held, const TrackingConfig& config) {
+  const double speed_mps = held.speed_mps / config.size_scale;
+  const double sigma_mps = held.sigma_mps / config.size_scale;
+  const double fade = std::exp(-held.time_s / kSpeedMemoryS);
+  SpeedsSeen after;
+  // A moment's error is no speed: it must be held.
+  const double gained_mps = std::max(0.0, speed_mps - 2.0 * sigma_mps - before.surely_mps);
+  after.surely_mps = before.surely_mps + (1.0 - std::exp(-held.time_s / kSpeedProvenS)) * gained_mps;
+  for (std::size_t i = 0; i < kGaits.size(); ++i) {
+    const double density = normal_density(speed_mps - kGaits[i].speed_mps, std::hypot(kGaits[i].sigma_mps, sigma_mps));
+    const double with_outliers = (1.0 - kOutlierShare) * density + kOutlierShare * kOutlierDensity;
+    after.log_likelihood[i] = fade * before.log_likelihood[i] + held.time_s / kSpeedLastsS * std::log(with_outliers);
+  }
+  return after;
+}
+
+ClassProbabilities class_probabilities(const Body& body, const SpeedsSeen& speeds, const TrackingConfig& config) {
+  constexpr double kLeast = 1e-6;
+  ClassProbabilities log_weight = body.has_sides ? log_fit_of_box(body, config) : log_fit_of_blob(body, config);
+  double most = -1e300;
+  for (std::size_t i = 0; i < log_weight.size(); ++i) {
+    log_weight[i] += speeds.log_likelihood[i] + std::log(kLeast + exceeded_share(speeds.surely_mps, kGaits[i].top_mps, kGaits[i].top_sigma_mps));
+    if (only_people_move(config) && i >= kCar) log_weight[i] += std::log(kShareIndoors);
+    most = std::max(most, log_weight[i]);
+  }
+  ClassProbabilities probability;
+  double total = 0.0;
+  for (std::size_t i = 0; i < probability.size(); ++i) total += probability[i] = std::exp(log_weight[i] - most);
+  for (double& one : probability) one /= total;
+  return probability;
+}
+
+flow::ObjectClass likeliest_class(const ClassProbabilities& probability) {
+  const auto best = std::max_element(probability.begin(), probability.end());
+  if (*best <= 0.5) return flow::ObjectClass::kUnknown;
+  return flow::class_of(static_cast<std::size_t>(best - probability.begin()));
+}
+
+}  // namespace slammot::tracking
