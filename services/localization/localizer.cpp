@@ -42,8 +42,8 @@ grids::Echo unexplained_out(EndCell end_cell) {
 
 }  // namespace
 
-Localizer::Localizer(const LocalizerConfig& config)
-    : config_(config), match_without_wheels_(config.match), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
+Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
+    : config_(config), help_(help), match_without_wheels_(config.match), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
   sweep_factor_.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
@@ -296,7 +296,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   now.has_wheels = wheel_from_base.has_value();
   now.wheel_from_base = wheel_from_base.value_or(Pose2{});
   if (!last_) {
-    map_ = LocalMap(config_.map, Vector2::Zero());
+    map_ = LocalMap(config_.map, Vector2::Zero(), help_);
     sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
   } else {
     const Step step = predict(scan.stamp_ns, wheel_from_base);
@@ -480,13 +480,13 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   const auto content = unsealed(bytes);
   if (!content) return false;
   ByteReader from(*content);
-  Localizer restored(config_);
+  Localizer restored(config_, help_);
   std::uint64_t mark = 0;
   State last;
   from.get(mark);
   for_each_part(restored, last, [&](auto& part) { from.get(part); });
   if (mark != kCheckpointMark) return false;
-  std::optional<LocalMap> map = LocalMap::restored(config_.map, from);
+  std::optional<LocalMap> map = LocalMap::restored(config_.map, from, help_);
   const bool is_sound = is_believable(restored.estimate_.odom_from_base) && is_believable(restored.map_from_odom_) &&
                         is_believable(restored.previous_from_submap_.pose) &&
                         is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.drift_) &&

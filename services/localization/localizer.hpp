@@ -113,7 +113,9 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
 /// Estimates the pose of the vehicle and the map around it, scan by scan. Not thread-safe; reads no clock.
 class Localizer {
  public:
-  explicit Localizer(const LocalizerConfig& config);
+  /// help, if any, does what the next match does not need: most of mapping. The results are the same with it and without.
+  /// It must outlive this.
+  explicit Localizer(const LocalizerConfig& config, SideWork* help = nullptr);
 
   void add_odometry(const sensing::Odometry& sample);
 
@@ -241,6 +243,7 @@ class Localizer {
   static void for_each_part(Self& self, StateOfLast& last, Visitor visit);
 
   LocalizerConfig config_;
+  SideWork* help_ = nullptr;
   matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then.
   LocalizerCounters counters_;
   sensing::OdometryBuffer odometry_;
