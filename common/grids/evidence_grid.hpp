@@ -72,7 +72,7 @@ class EvidenceGrid {
   void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo);
 
  private:
-  /// Blocks of 8 x 8 cells with a bit for each occupied one: casting a ray looks at blocks, and at bits where there are any.
+  /// Blocks of 8 x 8 cells with a bit for each occupied one: casting a ray looks for blocks that have any, and at their bits.
   static constexpr int kBlockShift = 3;
   static constexpr std::int32_t kInBlock = (1 << kBlockShift) - 1;
 
@@ -93,6 +93,23 @@ class EvidenceGrid {
     bool is_set(std::int32_t column, std::int32_t row) const;
   };
 
+  /// One bit a block of which any cell is occupied, row by row or column by column: a lane. Along a ray's lanes empty blocks
+  /// are passed many at a time.
+  struct BlockLanes {
+    std::int32_t words_per_lane = 0;
+    std::vector<std::uint64_t> words;
+
+    BlockLanes() = default;
+    BlockLanes(std::int32_t lanes, std::int32_t blocks)
+        : words_per_lane((blocks >> 6) + 1), words(static_cast<std::size_t>(lanes) * static_cast<std::size_t>(words_per_lane), 0) {}
+    void set(std::int32_t lane, std::int32_t block, bool is_occupied);
+
+    /// The first occupied block of the lane from this one on, up (step 1) or down (-1); beyond its end where there is none.
+    std::int32_t next(std::int32_t lane, std::int32_t block, std::int32_t step) const;
+  };
+
+  struct RayInCells;
+
   void measure_free_ways(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
   void outline_free_space(const Eigen::Vector2d& origin_m);
   void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
@@ -104,6 +121,8 @@ class EvidenceGrid {
   void raise_echoes(const std::vector<Ray>& rays);
   void raise_so(Cell cell, int steps);
   void note_occupied(std::size_t index);
+  void note_block(std::int32_t block_column, std::int32_t block_row, bool is_occupied);
+  double ray_to_occupied_in_block(const RayInCells& ray, std::int32_t block_column, std::int32_t block_row) const;
   static std::uint64_t bit_of(std::int32_t column, std::int32_t row) {
     return std::uint64_t{1} << (((row & kInBlock) << kBlockShift) | (column & kInBlock));
   }
@@ -119,6 +138,8 @@ class EvidenceGrid {
   std::vector<std::int8_t> so_;
   std::vector<std::uint8_t> mo_;
   std::vector<std::uint64_t> occupied_bits_;   ///< By block.
+  BlockLanes rows_of_blocks_;
+  BlockLanes columns_of_blocks_;
   // Of the scan at hand; kept to reuse the memory.
   BitRows free_;                               ///< Cells that it passes. All clear between scans.
   BitRows echoed_;                             ///< Cells that an echo came from. All clear between scans.
