@@ -244,16 +244,31 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
   const Vector2 origin_in_odom_m = odom_from_laser.translation_m();
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.pose.heading_rad);
   localized.beams.resize(scan.range_m.size());
-  sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
-  for (std::size_t i = 0; i < localized.beams.size(); ++i, beam_in_odom.advance()) {
-    flow::LocalizedBeam& beam = localized.beams[i];
-    const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) && scan.range_m[i] >= config_.min_range_m;
-    const Vector2 far_end_m = origin_in_odom_m + scan.scanner.max_range_m * beam_in_odom.now();
-    beam.point_in_base_m = points_in_base_m_[i].cast<float>();
-    beam.range_m = has_echo ? scan.range_m[i] : 0.0F;
-    map_.expect(origin_in_odom_m, has_echo ? odom_from_base.pose.translation_m() + turn * points_in_base_m_[i] : far_end_m, has_echo, scan.scanner.max_range_m, beam);
-  }
+  const auto expect_of_beams = [&](std::size_t first, std::size_t end) {
+    sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
+    for (std::size_t i = 0; i < first; ++i) beam_in_odom.advance();  // turned to here, not begun here: the same to the last bit
+    for (std::size_t i = first; i < end; ++i, beam_in_odom.advance()) {
+      flow::LocalizedBeam& beam = localized.beams[i];
+      const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) && scan.range_m[i] >= config_.min_range_m;
+      const Vector2 far_end_m = origin_in_odom_m + scan.scanner.max_range_m * beam_in_odom.now();
+      beam.point_in_base_m = points_in_base_m_[i].cast<float>();
+      beam.range_m = has_echo ? scan.range_m[i] : 0.0F;
+      map_.expect(origin_in_odom_m, has_echo ? odom_from_base.pose.translation_m() + turn * points_in_base_m_[i] : far_end_m, has_echo, scan.scanner.max_range_m, beam);
+    }
+  };
+  in_two_halves(localized.beams.size(), expect_of_beams);
   return localized;
+}
+
+/// Work on [first, end) of all beams, whose halves help may do side by side: the map only answers meanwhile.
+template <typename Work>
+void Localizer::in_two_halves(std::size_t beams, const Work& work) const {
+  if (help_ == nullptr) return work(0, beams);
+  map_.evidence();  // what is still on its way into it comes first
+  const auto second_half = [&] { work(beams / 2, beams); };
+  help_->begin([&second_half] { second_half(); });  // one reference: no allocation
+  work(0, beams / 2);
+  help_->wait();
 }
 
 void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized) {
