@@ -421,15 +421,13 @@ EvidenceGrid EvidenceGrid::moved_to(const GridWindow& window) const {
   EvidenceGrid moved(window, model_);
   const GridWindow shared = intersection(window, window_);
   for (std::int32_t row = 0; row < shared.rows; ++row) {
-    for (std::int32_t column = 0; column < shared.columns; ++column) {
-      const Cell cell{shared.first.column + column, shared.first.row + row};
-      const std::size_t from = window_.index(cell);
-      const std::size_t to = window.index(cell);
-      moved.so_[to] = so_[from];
-      moved.mo_[to] = mo_[from];
-      if (so_[from] >= occupied_steps_) moved.note_occupied(to);
-    }
+    const Cell cell{shared.first.column, shared.first.row + row};
+    const std::size_t from = window_.index(cell);
+    const std::size_t to = window.index(cell);
+    std::copy_n(so_.data() + from, shared.columns, moved.so_.data() + to);
+    std::copy_n(mo_.data() + from, shared.columns, moved.mo_.data() + to);
   }
+  moved.note_all_occupied();
   return moved;
 }
 
@@ -437,7 +435,24 @@ void EvidenceGrid::set_cells(std::vector<std::int8_t> so, std::vector<std::uint8
   assert(so.size() == window_.cell_count() && mo.size() == window_.cell_count());
   so_ = std::move(so);
   mo_ = std::move(mo);
-  for (std::size_t i = 0; i < so_.size(); ++i) note_occupied(i);
+  std::fill(occupied_bits_.begin(), occupied_bits_.end(), 0);
+  rows_of_blocks_ = BlockLanes(block_rows_, block_columns_);
+  columns_of_blocks_ = BlockLanes(block_columns_, block_rows_);
+  note_all_occupied();
+}
+
+/// Where no cell is noted yet. Most cells are free or unseen: whole runs of them are passed at once.
+void EvidenceGrid::note_all_occupied() {
+  constexpr std::size_t kRun = 64;
+  for (std::size_t run = 0; run < so_.size(); run += kRun) {
+    const std::size_t end = std::min(run + kRun, so_.size());
+    std::int8_t highest = std::numeric_limits<std::int8_t>::min();
+    for (std::size_t i = run; i < end; ++i) highest = std::max(highest, so_[i]);
+    if (highest < occupied_steps_) continue;
+    for (std::size_t i = run; i < end; ++i) {
+      if (so_[i] >= occupied_steps_) note_occupied(i);
+    }
+  }
 }
 
 }  // namespace slammot::grids

@@ -121,6 +121,7 @@ class EvidenceGrid {
   void raise_echoes(const std::vector<Ray>& rays);
   void raise_so(Cell cell, int steps);
   void note_occupied(std::size_t index);
+  void note_all_occupied();
   void note_block(std::int32_t block_column, std::int32_t block_row, bool is_occupied);
   double ray_to_occupied_in_block(const RayInCells& ray, std::int32_t block_column, std::int32_t block_row) const;
   static std::uint64_t bit_of(std::int32_t column, std::int32_t row) {
