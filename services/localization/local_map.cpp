@@ -30,14 +30,17 @@ geometry::Pose2 pose_of_window(const grids::GridWindow& window) {
 grids::GridWindow bounds_of_seen(const grids::GridWindow& window, const std::vector<std::int8_t>& so, const std::vector<std::uint8_t>& mo) {
   std::int32_t low_column = window.columns, high_column = -1, low_row = window.rows, high_row = -1;
   for (std::int32_t row = 0; row < window.rows; ++row) {
-    for (std::int32_t column = 0; column < window.columns; ++column) {
-      const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns) + static_cast<std::size_t>(column);
-      if (so[index] == 0 && mo[index] == 0) continue;
-      low_column = std::min(low_column, column);
-      high_column = std::max(high_column, column);
-      low_row = std::min(low_row, row);
-      high_row = std::max(high_row, row);
-    }
+    const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns);
+    const auto is_seen = [&](std::int32_t column) { return so[first + static_cast<std::size_t>(column)] != 0 || mo[first + static_cast<std::size_t>(column)] != 0; };
+    std::int32_t low = 0;
+    while (low < window.columns && !is_seen(low)) ++low;
+    if (low == window.columns) continue;
+    std::int32_t high = window.columns - 1;
+    while (!is_seen(high)) --high;
+    low_column = std::min(low_column, low);
+    high_column = std::max(high_column, high);
+    low_row = std::min(low_row, row);
+    high_row = std::max(high_row, row);
   }
   grids::GridWindow bounds = window;
   bounds.columns = std::max(0, high_column - low_column + 1);
@@ -158,11 +161,9 @@ flow::Submap LocalMap::submap() const {
   const grids::EvidenceGrid& evidence = evidence_.grid();
   const grids::GridWindow& window = evidence.window();
   std::vector<std::int8_t> own_so = evidence.so_cells();
-  std::vector<std::uint8_t> own_mo(window.cell_count());
-  for (std::size_t i = 0; i < own_so.size(); ++i) {
-    own_so[i] = static_cast<std::int8_t>(std::clamp(own_so[i] - inherited_so_[i], -127, 127));
-    own_mo[i] = evidence.mo_cells()[i] > inherited_mo_[i] ? evidence.mo_cells()[i] : std::uint8_t{0};
-  }
+  std::vector<std::uint8_t> own_mo = evidence.mo_cells();
+  for (std::size_t i = 0; i < own_so.size(); ++i) own_so[i] = static_cast<std::int8_t>(std::clamp(own_so[i] - inherited_so_[i], -127, 127));
+  for (std::size_t i = 0; i < own_mo.size(); ++i) own_mo[i] = own_mo[i] > inherited_mo_[i] ? own_mo[i] : std::uint8_t{0};
   const grids::GridWindow bounds = bounds_of_seen(window, own_so, own_mo);
   flow::Submap submap;
   submap.submap_id = submap_id_;
