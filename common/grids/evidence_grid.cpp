@@ -1,12 +1,12 @@
 #include "common/grids/evidence_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "common/grids/ray_walk.hpp"
@@ -19,6 +19,16 @@ constexpr double kCellsBeforeEcho = 1.5;
 constexpr double kCellsBetweenBeams = 3.0;  ///< What is wider than a quarter of that is hit often enough to stay in the map.
 constexpr double kMostSlope = 10.0;         ///< Echoes whose ranges differ by more times their distance are of two things.
 constexpr std::uint64_t kInRow = 0xff;      ///< Bits of a block's first row.
+constexpr std::int32_t kCellsPerWord = 64;
+
+/// For each pattern of eight bits a byte of ones or zeros a bit.
+constexpr auto kMaskOfBits = [] {
+  std::array<std::array<std::int8_t, 8>, 256> masks{};
+  for (std::size_t bits = 0; bits < masks.size(); ++bits) {
+    for (std::size_t bit = 0; bit < 8; ++bit) masks[bits][bit] = bits >> bit & 1 ? std::int8_t{-1} : std::int8_t{0};
+  }
+  return masks;
+}();
 
 /// How far a ray that starts inside goes before it leaves the window; 0 when it starts outside.
 double distance_to_border(const GridWindow& window, const Eigen::Vector2d& start_m, const Eigen::Vector2d& direction) {
@@ -116,8 +126,8 @@ bool EvidenceGrid::BitRows::is_set(std::int32_t column, std::int32_t row) const 
 }
 
 void EvidenceGrid::note_occupied(std::size_t index) {
-  const auto row = static_cast<std::int32_t>(index / static_cast<std::size_t>(window_.columns));
-  const auto column = static_cast<std::int32_t>(index % static_cast<std::size_t>(window_.columns));
+  const auto row = static_cast<std::int32_t>(static_cast<std::uint32_t>(index) / static_cast<std::uint32_t>(window_.columns));
+  const auto column = static_cast<std::int32_t>(static_cast<std::uint32_t>(index) % static_cast<std::uint32_t>(window_.columns));
   std::uint64_t& block = occupied_bits_[static_cast<std::size_t>(row >> kBlockShift) * static_cast<std::size_t>(block_columns_) +
                                         static_cast<std::size_t>(column >> kBlockShift)];
   const std::uint64_t bit = bit_of(column, row);
@@ -183,7 +193,9 @@ void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m) {
 void EvidenceGrid::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   const auto [low, high] = from.y() < to.y() ? std::pair(from, to) : std::pair(to, from);
   const auto first_centre = [](double place, std::int32_t count) {
-    return static_cast<std::int32_t>(std::clamp(std::ceil(place - 0.5), 0.0, static_cast<double>(count)));
+    const double at = std::clamp(place - 0.5, 0.0, static_cast<double>(count));
+    const auto below = static_cast<std::int32_t>(at);
+    return below + (static_cast<double>(below) < at);  // rounded up, in fewer instructions than std::ceil
   };
   const std::int32_t first_row = first_centre(low.y(), window_.rows);
   const std::int32_t end_row = first_centre(high.y(), window_.rows);
@@ -220,29 +232,53 @@ void EvidenceGrid::walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::V
   }
 }
 
-void EvidenceGrid::keep_echoes_out(const std::vector<Ray>& rays) {
+/// Where the echoes came from, of those inside the window.
+void EvidenceGrid::find_echoes(const std::vector<Ray>& rays) {
+  echoes_.clear();
   for (const Ray& ray : rays) {
+    if (ray.echo == Echo::kNone) continue;
     const Cell cell = window_.cell_at(ray.end_m.x(), ray.end_m.y());
-    if (ray.echo != Echo::kNone && window_.contains(cell)) free_.clear(cell.column - window_.first.column, cell.row - window_.first.row);
+    if (window_.contains(cell)) echoes_.push_back({cell.column - window_.first.column, cell.row - window_.first.row, ray.echo});
   }
 }
 
-void EvidenceGrid::lower(std::int32_t row, std::int32_t first_column, std::int32_t count) {
-  const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
-  std::int8_t* const cells = so_.data() + first;
+void EvidenceGrid::keep_echoes_out() {
+  for (const EchoedCell& echo : echoes_) free_.clear(echo.column, echo.row);
+}
+
+/// Lowers up to 64 cells of a row by masks, whichever they are: sixteen an instruction however short the runs.
+void EvidenceGrid::lower(std::int32_t row, std::int32_t word, std::uint64_t free_cells) {
+  const std::int32_t first_column = word * kCellsPerWord;
+  const std::int32_t count = std::min(kCellsPerWord, window_.columns - first_column);
+  std::int8_t* const cells = so_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
   const auto step = static_cast<std::int8_t>(free_steps_);
   const auto lowest = static_cast<std::int8_t>(free_steps_ - limit_steps_);
-  for (std::int32_t i = 0; i < count; ++i) cells[i] = static_cast<std::int8_t>(std::max(cells[i], lowest) - step);
-  const std::int32_t last_block = (first_column + count - 1) >> kBlockShift;
-  const std::uint64_t of_row = std::uint64_t{kInRow} << ((row & kInBlock) << kBlockShift);
-  for (std::int32_t block = first_column >> kBlockShift; block <= last_block; ++block) {
-    std::uint64_t& bits = occupied_bits_[static_cast<std::size_t>(row >> kBlockShift) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block)];
-    if ((bits & of_row) == 0) continue;
-    const std::int32_t end = std::min(first_column + count, (block + 1) << kBlockShift);
-    for (std::int32_t column = std::max(first_column, block << kBlockShift); column < end; ++column) {
-      if (cells[column - first_column] < occupied_steps_) bits &= ~bit_of(column, row);
+  if (free_cells == ~std::uint64_t{0}) {
+    for (std::int32_t i = 0; i < count; ++i) cells[i] = static_cast<std::int8_t>(std::max(cells[i], lowest) - step);
+  } else {
+    std::array<std::int8_t, kCellsPerWord> mask;
+    for (std::size_t byte = 0; byte < sizeof free_cells; ++byte) std::copy_n(kMaskOfBits[free_cells >> (8 * byte) & 0xff].begin(), 8, mask.begin() + 8 * byte);
+    for (std::int32_t i = 0; i < count; ++i) {
+      const auto lowered = static_cast<std::int8_t>(std::max(cells[i], lowest) - step);
+      cells[i] = static_cast<std::int8_t>((lowered & mask[static_cast<std::size_t>(i)]) | (cells[i] & ~mask[static_cast<std::size_t>(i)]));
     }
-    if (bits == 0) note_block(block, row >> kBlockShift, false);
+  }
+  unnote_freed(row, word);
+}
+
+/// What of the word's cells in the row was occupied and no longer is.
+void EvidenceGrid::unnote_freed(std::int32_t row, std::int32_t word) {
+  const std::int32_t block_row = row >> kBlockShift;
+  const int row_shift = (row & kInBlock) << kBlockShift;
+  const std::int8_t* const cells = so_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns);
+  for (std::uint64_t blocks = rows_of_blocks_.eight(block_row, word); blocks != 0; blocks &= blocks - 1) {
+    const std::int32_t block = (word << kBlockShift) + std::countr_zero(blocks);
+    std::uint64_t& bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block)];
+    for (std::uint64_t occupied = bits >> row_shift & kInRow; occupied != 0; occupied &= occupied - 1) {
+      const std::int32_t column = (block << kBlockShift) + std::countr_zero(occupied);
+      if (cells[column] < occupied_steps_) bits &= ~bit_of(column, row);
+    }
+    if (bits == 0) note_block(block, block_row, false);
   }
 }
 
@@ -250,55 +286,32 @@ void EvidenceGrid::lower_free_cells() {
   for (std::int32_t row = 0; row < window_.rows; ++row) {
     const auto at = static_cast<std::size_t>(row);
     std::uint64_t* const words = free_.row(row);
-    std::int32_t run_begin = 0;  // of a run that goes on from word to word
-    bool is_in_run = false;
-    const auto end_run = [&](std::int32_t column) {
-      if (is_in_run) lower(row, run_begin, std::min(column, window_.columns) - run_begin);
-      is_in_run = false;
-    };
     for (std::int32_t word = free_.first_word[at]; word <= free_.last_word[at]; ++word) {
-      const std::uint64_t bits = std::exchange(words[word], 0);
-      for (int bit = 0; bit < 64;) {
-        if (is_in_run) {
-          bit += std::countr_one(bits >> bit);
-          if (bit < 64) end_run(word * 64 + bit);
-        } else {
-          if (bits >> bit == 0) break;
-          bit += std::countr_zero(bits >> bit);
-          run_begin = word * 64 + bit;
-          is_in_run = true;
-        }
-      }
+      const std::uint64_t free_cells = std::exchange(words[word], 0);
+      if (free_cells != 0) lower(row, word, free_cells);
     }
-    end_run((free_.last_word[at] + 1) * 64);
     free_.first_word[at] = free_.words_per_row;
     free_.last_word[at] = -1;
   }
 }
 
-void EvidenceGrid::raise_echoes(const std::vector<Ray>& rays) {
-  const auto in_window = [&](const Ray& ray) -> std::optional<Cell> {
-    const Cell cell = window_.cell_at(ray.end_m.x(), ray.end_m.y());
-    if (ray.echo == Echo::kNone || !window_.contains(cell)) return std::nullopt;
-    return cell;
-  };
-  for (const Ray& ray : rays) {
-    const auto cell = in_window(ray);
-    if (!cell || echoed_.is_set(cell->column - window_.first.column, cell->row - window_.first.row)) continue;
-    echoed_.set(cell->column - window_.first.column, cell->row - window_.first.row);
-    if (ray.echo == Echo::kStationary) {
-      raise_so(*cell, hit_steps_);
+void EvidenceGrid::raise_echoes() {
+  for (const EchoedCell& echo : echoes_) {
+    if (echoed_.is_set(echo.column, echo.row)) continue;
+    echoed_.set(echo.column, echo.row);
+    const Cell cell{window_.first.column + echo.column, window_.first.row + echo.row};
+    if (echo.echo == Echo::kStationary) {
+      raise_so(cell, hit_steps_);
     } else {
-      std::uint8_t& moved = mo_[window_.index(*cell)];
+      std::uint8_t& moved = mo_[window_.index(cell)];
       moved = static_cast<std::uint8_t>(moved + static_cast<int>(std::ceil((255.0 - moved) * model_.moving_gain)));
     }
   }
-  for (const Ray& ray : rays) {
-    if (const auto cell = in_window(ray)) echoed_.clear(cell->column - window_.first.column, cell->row - window_.first.row);
-  }
+  for (const EchoedCell& echo : echoes_) echoed_.clear(echo.column, echo.row);
 }
 
 void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
+  find_echoes(rays);
   if (window_.contains(window_.cell_at(origin_m.x(), origin_m.y()))) {
     measure_free_ways(origin_m, rays, beam_step_rad);
     outline_free_space(origin_m);
@@ -306,10 +319,10 @@ void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       walk_free_way(origin_m, ways_[i].direction, std::max(ways_[i].to_next_m, ways_[i].to_previous_m), ways_[i].length_m);
     }
-    keep_echoes_out(rays);
+    keep_echoes_out();
     lower_free_cells();
   }
-  raise_echoes(rays);
+  raise_echoes();
 }
 
 void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {

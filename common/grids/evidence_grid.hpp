@@ -104,6 +104,11 @@ class EvidenceGrid {
         : words_per_lane((blocks >> 6) + 1), words(static_cast<std::size_t>(lanes) * static_cast<std::size_t>(words_per_lane), 0) {}
     void set(std::int32_t lane, std::int32_t block, bool is_occupied);
 
+    /// Blocks 8 * place and on of the lane, one bit each.
+    std::uint64_t eight(std::int32_t lane, std::int32_t place) const {
+      return words[static_cast<std::size_t>(lane) * static_cast<std::size_t>(words_per_lane) + static_cast<std::size_t>(place >> 3)] >> (8 * (place & 7)) & 0xff;
+    }
+
     /// The first occupied block of the lane from this one on, up (step 1) or down (-1); beyond its end where there is none.
     std::int32_t next(std::int32_t lane, std::int32_t block, std::int32_t step) const;
   };
@@ -115,10 +120,12 @@ class EvidenceGrid {
   void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
   void fill_outline();
   void walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double from_m, double to_m);
-  void keep_echoes_out(const std::vector<Ray>& rays);
+  void find_echoes(const std::vector<Ray>& rays);
+  void keep_echoes_out();
   void lower_free_cells();
-  void lower(std::int32_t row, std::int32_t first_column, std::int32_t count);
-  void raise_echoes(const std::vector<Ray>& rays);
+  void lower(std::int32_t row, std::int32_t word, std::uint64_t free_cells);
+  void unnote_freed(std::int32_t row, std::int32_t word);
+  void raise_echoes();
   void raise_so(Cell cell, int steps);
   void note_occupied(std::size_t index);
   void note_all_occupied();
@@ -152,6 +159,12 @@ class EvidenceGrid {
     Eigen::Vector2d half_way = Eigen::Vector2d::Zero();  ///< Direction in the middle between this beam and the next.
   };
   std::vector<FreeWay> ways_;                  ///< By ray.
+  struct EchoedCell {
+    std::int32_t column = 0;                   ///< In the window.
+    std::int32_t row = 0;
+    Echo echo = Echo::kNone;
+  };
+  std::vector<EchoedCell> echoes_;
 };
 
 }  // namespace slammot::grids
