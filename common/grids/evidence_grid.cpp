@@ -332,8 +332,10 @@ void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {
 
 int EvidenceGrid::highest_so_steps(Cell cell, int radius) const {
   const GridWindow square{window_.cell_size_m, {cell.column - radius, cell.row - radius}, 2 * radius + 1, 2 * radius + 1};
-  const GridWindow inside = window_.contains(cell) ? intersection(window_, square) : GridWindow{};
-  int highest = inside.cell_count() < square.cell_count() ? 0 : std::numeric_limits<std::int8_t>::min();  // never seen outside
+  if (!window_.contains(cell)) return 0;  // never seen outside
+  const bool is_inside = window_.contains(square.first) && window_.contains({cell.column + radius, cell.row + radius});
+  const GridWindow inside = is_inside ? square : intersection(window_, square);
+  int highest = is_inside ? std::numeric_limits<std::int8_t>::min() : 0;
   for (std::int32_t row = 0; row < inside.rows; ++row) {
     const std::int8_t* const cells = so_.data() + window_.index({inside.first.column, inside.first.row + row});
     for (std::int32_t column = 0; column < inside.columns; ++column) highest = std::max<int>(highest, cells[column]);

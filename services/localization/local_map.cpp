@@ -21,6 +21,10 @@ grids::GridWindow surfel_window(const LocalMapConfig& config, const Vector2& cen
   return grids::window_around(centre_m, config.side_m, config.surfel_size_m);
 }
 
+int free_steps(const LocalMapConfig& config) { return grids::steps_of_log_odds(config.free_log_odds); }
+
+int end_cell_tolerance(const LocalMapConfig& config) { return static_cast<int>(std::ceil(config.end_cell_tolerance_m / config.cell_size_m - 0.5)); }
+
 geometry::Pose2 pose_of_window(const grids::GridWindow& window) {
   const Vector2 centre_m = window.centre_of({window.first.column + window.columns / 2, window.first.row + window.rows / 2});
   return {centre_m.x(), centre_m.y(), 0.0};
@@ -87,6 +91,8 @@ bool is_possible(const grids::CellMoments& moments, double cell_size_m) {
 
 LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m, SideWork* help)
     : config_(config),
+      free_steps_(free_steps(config)),
+      end_cell_tolerance_(end_cell_tolerance(config)),
       evidence_(grids::EvidenceGrid(evidence_window(config, centre_in_odom_m), config.evidence), help),
       surfels_(surfel_window(config, centre_in_odom_m), config.surfel_weight_limit),
       inherited_so_(evidence().so_cells()),
@@ -117,10 +123,9 @@ void LocalMap::count_way(const Vector2& origin_m) {
 }
 
 void LocalMap::forget_surfels_in_free_space() {
-  const int free_steps = grids::steps_of_log_odds(config_.free_log_odds);
   const grids::EvidenceGrid& evidence = evidence_.grid();
   surfels_.erase_where([&](const Vector2& mean_m) {
-    return evidence.highest_so_steps(evidence.window().cell_at(mean_m.x(), mean_m.y()), 1) <= -free_steps;
+    return evidence.highest_so_steps(evidence.window().cell_at(mean_m.x(), mean_m.y()), 1) <= -free_steps_;
   });
 }
 
@@ -143,11 +148,10 @@ void LocalMap::expect(const Vector2& origin_in_odom_m, const Vector2& end_in_odo
   const int so_steps = evidence.so_steps(cell);
   beam.free_evidence = static_cast<float>(-so_steps * grids::kLogOddsStep);
   beam.moving_evidence = static_cast<float>(evidence.moving(cell)) / 255.0F;
-  const int tolerance = static_cast<int>(std::ceil(config_.end_cell_tolerance_m / config_.cell_size_m - 0.5));
-  if (evidence.is_occupied_near(cell, tolerance)) {
+  if (evidence.is_occupied_near(cell, end_cell_tolerance_)) {
     beam.end_cell = flow::EndCell::kOccupied;
   } else {
-    const bool is_free = so_steps <= -grids::steps_of_log_odds(config_.free_log_odds);
+    const bool is_free = so_steps <= -free_steps_;
     beam.end_cell = is_free ? flow::EndCell::kFree : flow::EndCell::kUnseen;
   }
 }
@@ -261,6 +265,8 @@ void LocalMap::write(std::vector<std::byte>& bytes) const {
 std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from, SideWork* help) {
   LocalMap map;
   map.config_ = config;
+  map.free_steps_ = free_steps(config);
+  map.end_cell_tolerance_ = end_cell_tolerance(config);
   grids::GridWindow window;
   grids::GridWindow surfel_lattice;
   std::vector<std::int8_t> so;

@@ -80,6 +80,8 @@ class LocalMap {
   geometry::Vector2 window_centre_m() const;
 
   LocalMapConfig config_;
+  int free_steps_ = 0;                      ///< Of the configuration's free_log_odds,
+  int end_cell_tolerance_ = 0;              ///< and of its end_cell_tolerance_m, in cells.
   DeferredEvidence evidence_;
   grids::SurfelMap surfels_;
   std::vector<std::int8_t> inherited_so_;   ///< What the window held when the submap began,
