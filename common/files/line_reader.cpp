@@ -22,7 +22,10 @@ std::string_view without_carriage_return(std::string_view line) {
 void LineReader::Close::operator()(gzFile_s* file) const { gzclose_r(file); }
 
 LineReader::LineReader(std::unique_ptr<gzFile_s, Close> file, std::uintmax_t file_bytes)
-    : file_(std::move(file)), file_bytes_(file_bytes), chunk_(kChunkBytes) {}
+    : file_(std::move(file)), file_bytes_(file_bytes) {
+  unpack_ahead(std::vector<char>(kChunkBytes));
+  chunk_.text.resize(kChunkBytes);
+}
 
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {
   std::error_code fault;
@@ -42,7 +45,7 @@ Result<LineReader> LineReader::open(const std::filesystem::path& path) {
 std::optional<std::string_view> LineReader::next() {
   partial_.clear();
   while (begin_ < end_ || fill()) {
-    const char* const start = chunk_.data() + begin_;
+    const char* const start = chunk_.text.data() + begin_;
     const auto* const line_end = static_cast<const char*>(std::memchr(start, '\n', end_ - begin_));
     const std::string_view piece(start, line_end ? static_cast<std::size_t>(line_end - start) : end_ - begin_);
     begin_ += piece.size() + (line_end ? 1 : 0);
@@ -58,14 +61,31 @@ std::optional<std::string_view> LineReader::next() {
   return without_carriage_return(partial_);
 }
 
-bool LineReader::fill() {
-  const int bytes = is_cut_ ? 0 : gzread(file_.get(), chunk_.data(), static_cast<unsigned>(chunk_.size()));
+LineReader::Unpacked LineReader::unpack(gzFile_s* file, std::vector<char> into) {
+  Unpacked unpacked;
+  const int bytes = gzread(file, into.data(), static_cast<unsigned>(into.size()));
   int fault = Z_OK;
-  gzerror(file_.get(), &fault);
+  gzerror(file, &fault);
   // Z_BUF_ERROR: the compressed stream ends too early; Z_DATA_ERROR: it is damaged. zlib hands out what came before.
-  is_cut_ = is_cut_ || bytes < 0 || fault != Z_OK;
-  begin_ = 0;
-  end_ = static_cast<std::size_t>(std::max(bytes, 0));
+  unpacked.is_cut = bytes < 0 || fault != Z_OK;
+  unpacked.bytes = static_cast<std::size_t>(std::max(bytes, 0));
+  unpacked.bytes_read = static_cast<std::uintmax_t>(std::max<z_off_t>(gzoffset(file), 0));
+  unpacked.text = std::move(into);
+  return unpacked;
+}
+
+void LineReader::unpack_ahead(std::vector<char> into) {
+  next_chunk_ = std::async(std::launch::async, [file = file_.get(), into = std::move(into)]() mutable { return unpack(file, std::move(into)); });
+}
+
+bool LineReader::fill() {
+  begin_ = end_ = 0;
+  if (!next_chunk_.valid()) return false;
+  std::vector<char> done_with = std::move(chunk_.text);
+  chunk_ = next_chunk_.get();
+  is_cut_ = is_cut_ || chunk_.is_cut;
+  end_ = chunk_.bytes;
+  if (end_ > 0 && !is_cut_) unpack_ahead(std::move(done_with));
   return end_ > 0;
 }
 
@@ -91,9 +111,6 @@ std::optional<std::string_view> LineReader::finish_line(std::string_view piece) 
   return without_carriage_return(partial_);
 }
 
-double LineReader::fraction_read() const {
-  const double bytes_read = static_cast<double>(std::max<z_off_t>(gzoffset(file_.get()), 0));
-  return std::min(1.0, bytes_read / static_cast<double>(file_bytes_));
-}
+double LineReader::fraction_read() const { return std::min(1.0, static_cast<double>(chunk_.bytes_read) / static_cast<double>(file_bytes_)); }
 
 }  // namespace slammot::files

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,7 +17,8 @@ struct gzFile_s;
 
 namespace slammot::files {
 
-/// Reads a text file line by line, plain or compressed by gzip; which of the two is seen from its first bytes.
+/// Reads a text file line by line, plain or compressed by gzip; which of the two is seen from its first bytes. While the
+/// lines of one chunk are handed out the next one is unpacked on another thread.
 class LineReader : public LineSource {
  public:
   /// Longer lines are skipped and counted: no record of a scanner is that long.
@@ -46,14 +48,24 @@ class LineReader : public LineSource {
     void operator()(gzFile_s* file) const;
   };
 
+  /// What one call of zlib gave.
+  struct Unpacked {
+    std::vector<char> text;
+    std::size_t bytes = 0;       ///< Of the text.
+    std::uintmax_t bytes_read = 0;   ///< Of the file so far.
+    bool is_cut = false;
+  };
+
   explicit LineReader(std::unique_ptr<gzFile_s, Close> file, std::uintmax_t file_bytes);
+  static Unpacked unpack(gzFile_s* file, std::vector<char> into);
+  void unpack_ahead(std::vector<char> into);
   bool fill();
   void keep(std::string_view piece);
   std::optional<std::string_view> finish_line(std::string_view piece);
 
   std::unique_ptr<gzFile_s, Close> file_;
   std::uintmax_t file_bytes_ = 0;
-  std::vector<char> chunk_;
+  Unpacked chunk_;
   std::size_t begin_ = 0;  // of what is not yet returned, in chunk_
   std::size_t end_ = 0;
   std::string partial_;    // start of a line that goes on in the next chunk
@@ -62,6 +74,7 @@ class LineReader : public LineSource {
   std::uint64_t overlong_lines_ = 0;
   bool last_line_is_unfinished_ = false;
   bool is_cut_ = false;
+  std::future<Unpacked> next_chunk_;   // last: it must end before the file is closed
 };
 
 }  // namespace slammot::files

@@ -46,8 +46,13 @@ bool is_seen(const flow::Submap& submap, std::size_t cell) {
 Box seen_part(const flow::Submap& submap) {
   Box box;
   for (std::uint32_t row = 0; row < submap.rows; ++row) {
-    for (std::uint32_t column = 0; column < submap.columns; ++column) {
-      if (!is_seen(submap, std::size_t{row} * submap.columns + column)) continue;
+    const auto seen = [&](std::uint32_t column) { return is_seen(submap, std::size_t{row} * submap.columns + column); };
+    std::uint32_t first = 0;
+    while (first < submap.columns && !seen(first)) ++first;
+    if (first == submap.columns) continue;
+    std::uint32_t last = submap.columns - 1;
+    while (!seen(last)) --last;
+    for (const std::uint32_t column : {first, last}) {
       const Vector2 corner_m{submap.min_x_m + column * submap.cell_size_m, submap.min_y_m + row * submap.cell_size_m};
       box.include(corner_m);
       box.include(corner_m + Vector2::Constant(submap.cell_size_m));
@@ -116,10 +121,10 @@ Sample look(const flow::Submap& submap, const Vector2& centre_in_submap_m, const
     for (int j = 0; j < canvas.samples; ++j) {
       const double half = 0.5 * (canvas.samples - 1);
       const Vector2 point_m = centre_in_submap_m + submap_from_map * Vector2{(i - half) * pitch_m, (j - half) * pitch_m};
-      const double column = std::floor((point_m.x() - submap.min_x_m) / submap.cell_size_m);
-      const double row = std::floor((point_m.y() - submap.min_y_m) / submap.cell_size_m);
-      if (column < 0.0 || row < 0.0 || column >= submap.columns || row >= submap.rows) continue;
-      const std::size_t cell = static_cast<std::size_t>(row) * submap.columns + static_cast<std::size_t>(column);
+      const double column = (point_m.x() - submap.min_x_m) / submap.cell_size_m;
+      const double row = (point_m.y() - submap.min_y_m) / submap.cell_size_m;
+      if (!(column >= 0.0 && row >= 0.0 && column < submap.columns && row < submap.rows)) continue;
+      const auto cell = static_cast<std::size_t>(static_cast<std::int64_t>(row) * submap.columns + static_cast<std::int64_t>(column));
       if (!is_seen(submap, cell)) continue;
       result.log_odds = result.seen ? std::max<int>(result.log_odds, submap.so_log_odds[cell]) : submap.so_log_odds[cell];
       if (cell < submap.mo_evidence.size()) result.moving = std::max<int>(result.moving, submap.mo_evidence[cell]);
@@ -164,9 +169,11 @@ std::uint8_t moving_pixel(bool seen, int evidence) {
 template <typename PixelOf>
 MapImage image_of(const Canvas& canvas, PixelOf pixel_of) {
   MapImage image{static_cast<std::uint32_t>(canvas.columns), static_cast<std::uint32_t>(canvas.rows), canvas.resolution_m, canvas.min_x_m, canvas.min_y_m, {}};
-  image.pixels.reserve(canvas.seen.size());
-  for (std::int64_t row = canvas.rows - 1; row >= 0; --row) {
-    for (std::int64_t column = 0; column < canvas.columns; ++column) image.pixels.push_back(pixel_of(static_cast<std::size_t>(row * canvas.columns + column)));
+  image.pixels.resize(canvas.seen.size());
+  const auto columns = static_cast<std::size_t>(canvas.columns);
+  for (std::size_t row = 0, from_below = static_cast<std::size_t>(canvas.rows); row < static_cast<std::size_t>(canvas.rows); ++row) {
+    --from_below;
+    for (std::size_t column = 0; column < columns; ++column) image.pixels[row * columns + column] = pixel_of(from_below * columns + column);
   }
   return image;
 }

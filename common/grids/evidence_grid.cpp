@@ -1,12 +1,12 @@
 #include "common/grids/evidence_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "common/grids/ray_walk.hpp"
@@ -19,6 +19,16 @@ constexpr double kCellsBeforeEcho = 1.5;
 constexpr double kCellsBetweenBeams = 3.0;  ///< What is wider than a quarter of that is hit often enough to stay in the map.
 constexpr double kMostSlope = 10.0;         ///< Echoes whose ranges differ by more times their distance are of two things.
 constexpr std::uint64_t kInRow = 0xff;      ///< Bits of a block's first row.
+constexpr std::int32_t kCellsPerWord = 64;
+
+/// For each pattern of eight bits a byte of ones or zeros a bit.
+constexpr auto kMaskOfBits = [] {
+  std::array<std::array<std::int8_t, 8>, 256> masks{};
+  for (std::size_t bits = 0; bits < masks.size(); ++bits) {
+    for (std::size_t bit = 0; bit < 8; ++bit) masks[bits][bit] = bits >> bit & 1 ? std::int8_t{-1} : std::int8_t{0};
+  }
+  return masks;
+}();
 
 /// How far a ray that starts inside goes before it leaves the window; 0 when it starts outside.
 double distance_to_border(const GridWindow& window, const Eigen::Vector2d& start_m, const Eigen::Vector2d& direction) {
@@ -35,6 +45,37 @@ double distance_to_border(const GridWindow& window, const Eigen::Vector2d& start
 
 }  // namespace
 
+/// A ray in cells of the window, each coordinate by itself.
+struct EvidenceGrid::RayInCells {
+  struct Axis {
+    double start;
+    double direction;
+    double per_cell;     ///< Signed: way along the ray for one cell up; infinite where it never gets there.
+    std::int32_t step;   ///< Of cells, where the ray goes.
+
+    Axis(double start_at, double towards)
+        : start(start_at),
+          direction(towards),
+          per_cell(towards != 0.0 ? 1.0 / towards : std::numeric_limits<double>::infinity()),
+          step(towards > 0.0 ? 1 : -1) {}
+
+    /// Way along the ray to where it crosses the border; infinite where it never does.
+    double way_to(std::int32_t border) const {
+      return direction != 0.0 ? (border - start) * per_cell : std::numeric_limits<double>::infinity();
+    }
+  };
+
+  RayInCells(const Eigen::Vector2d& start, const Eigen::Vector2d& direction) : x(start.x(), direction.x()), y(start.y(), direction.y()) {}
+  /// The same ray where cells are counted from elsewhere.
+  RayInCells(const Eigen::Vector2d& start, const RayInCells& same) : x(same.x), y(same.y) {
+    x.start = start.x();
+    y.start = start.y();
+  }
+
+  Axis x;
+  Axis y;
+};
+
 int steps_of_log_odds(double log_odds) { return static_cast<int>(std::lround(log_odds / kLogOddsStep)); }
 
 EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model)
@@ -49,6 +90,8 @@ EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model)
       so_(window.cell_count()),
       mo_(window.cell_count(), 0),
       occupied_bits_(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_), 0),
+      rows_of_blocks_(block_rows_, block_columns_),
+      columns_of_blocks_(block_columns_, block_rows_),
       free_(window.columns, window.rows),
       echoed_(window.columns, window.rows) {}
 
@@ -83,12 +126,19 @@ bool EvidenceGrid::BitRows::is_set(std::int32_t column, std::int32_t row) const 
 }
 
 void EvidenceGrid::note_occupied(std::size_t index) {
-  const auto row = static_cast<std::int32_t>(index / static_cast<std::size_t>(window_.columns));
-  const auto column = static_cast<std::int32_t>(index % static_cast<std::size_t>(window_.columns));
+  const auto row = static_cast<std::int32_t>(static_cast<std::uint32_t>(index) / static_cast<std::uint32_t>(window_.columns));
+  const auto column = static_cast<std::int32_t>(static_cast<std::uint32_t>(index) % static_cast<std::uint32_t>(window_.columns));
   std::uint64_t& block = occupied_bits_[static_cast<std::size_t>(row >> kBlockShift) * static_cast<std::size_t>(block_columns_) +
                                         static_cast<std::size_t>(column >> kBlockShift)];
   const std::uint64_t bit = bit_of(column, row);
+  const bool was_empty = block == 0;
   block = so_[index] >= occupied_steps_ ? block | bit : block & ~bit;
+  if (was_empty != (block == 0)) note_block(column >> kBlockShift, row >> kBlockShift, block != 0);
+}
+
+void EvidenceGrid::note_block(std::int32_t block_column, std::int32_t block_row, bool is_occupied) {
+  rows_of_blocks_.set(block_row, block_column, is_occupied);
+  columns_of_blocks_.set(block_column, block_row, is_occupied);
 }
 
 void EvidenceGrid::raise_so(Cell cell, int steps) {
@@ -143,7 +193,9 @@ void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m) {
 void EvidenceGrid::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   const auto [low, high] = from.y() < to.y() ? std::pair(from, to) : std::pair(to, from);
   const auto first_centre = [](double place, std::int32_t count) {
-    return static_cast<std::int32_t>(std::clamp(std::ceil(place - 0.5), 0.0, static_cast<double>(count)));
+    const double at = std::clamp(place - 0.5, 0.0, static_cast<double>(count));
+    const auto below = static_cast<std::int32_t>(at);
+    return below + (static_cast<double>(below) < at);  // rounded up, in fewer instructions than std::ceil
   };
   const std::int32_t first_row = first_centre(low.y(), window_.rows);
   const std::int32_t end_row = first_centre(high.y(), window_.rows);
@@ -180,28 +232,53 @@ void EvidenceGrid::walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::V
   }
 }
 
-void EvidenceGrid::keep_echoes_out(const std::vector<Ray>& rays) {
+/// Where the echoes came from, of those inside the window.
+void EvidenceGrid::find_echoes(const std::vector<Ray>& rays) {
+  echoes_.clear();
   for (const Ray& ray : rays) {
+    if (ray.echo == Echo::kNone) continue;
     const Cell cell = window_.cell_at(ray.end_m.x(), ray.end_m.y());
-    if (ray.echo != Echo::kNone && window_.contains(cell)) free_.clear(cell.column - window_.first.column, cell.row - window_.first.row);
+    if (window_.contains(cell)) echoes_.push_back({cell.column - window_.first.column, cell.row - window_.first.row, ray.echo});
   }
 }
 
-void EvidenceGrid::lower(std::int32_t row, std::int32_t first_column, std::int32_t count) {
-  const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
-  std::int8_t* const cells = so_.data() + first;
+void EvidenceGrid::keep_echoes_out() {
+  for (const EchoedCell& echo : echoes_) free_.clear(echo.column, echo.row);
+}
+
+/// Lowers up to 64 cells of a row by masks, whichever they are: sixteen an instruction however short the runs.
+void EvidenceGrid::lower(std::int32_t row, std::int32_t word, std::uint64_t free_cells) {
+  const std::int32_t first_column = word * kCellsPerWord;
+  const std::int32_t count = std::min(kCellsPerWord, window_.columns - first_column);
+  std::int8_t* const cells = so_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
   const auto step = static_cast<std::int8_t>(free_steps_);
   const auto lowest = static_cast<std::int8_t>(free_steps_ - limit_steps_);
-  for (std::int32_t i = 0; i < count; ++i) cells[i] = static_cast<std::int8_t>(std::max(cells[i], lowest) - step);
-  const std::int32_t last_block = (first_column + count - 1) >> kBlockShift;
-  const std::uint64_t of_row = std::uint64_t{kInRow} << ((row & kInBlock) << kBlockShift);
-  for (std::int32_t block = first_column >> kBlockShift; block <= last_block; ++block) {
-    std::uint64_t& bits = occupied_bits_[static_cast<std::size_t>(row >> kBlockShift) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block)];
-    if ((bits & of_row) == 0) continue;
-    const std::int32_t end = std::min(first_column + count, (block + 1) << kBlockShift);
-    for (std::int32_t column = std::max(first_column, block << kBlockShift); column < end; ++column) {
-      if (cells[column - first_column] < occupied_steps_) bits &= ~bit_of(column, row);
+  if (free_cells == ~std::uint64_t{0}) {
+    for (std::int32_t i = 0; i < count; ++i) cells[i] = static_cast<std::int8_t>(std::max(cells[i], lowest) - step);
+  } else {
+    std::array<std::int8_t, kCellsPerWord> mask;
+    for (std::size_t byte = 0; byte < sizeof free_cells; ++byte) std::copy_n(kMaskOfBits[free_cells >> (8 * byte) & 0xff].begin(), 8, mask.begin() + 8 * byte);
+    for (std::int32_t i = 0; i < count; ++i) {
+      const auto lowered = static_cast<std::int8_t>(std::max(cells[i], lowest) - step);
+      cells[i] = static_cast<std::int8_t>((lowered & mask[static_cast<std::size_t>(i)]) | (cells[i] & ~mask[static_cast<std::size_t>(i)]));
     }
+  }
+  unnote_freed(row, word);
+}
+
+/// What of the word's cells in the row was occupied and no longer is.
+void EvidenceGrid::unnote_freed(std::int32_t row, std::int32_t word) {
+  const std::int32_t block_row = row >> kBlockShift;
+  const int row_shift = (row & kInBlock) << kBlockShift;
+  const std::int8_t* const cells = so_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns);
+  for (std::uint64_t blocks = rows_of_blocks_.eight(block_row, word); blocks != 0; blocks &= blocks - 1) {
+    const std::int32_t block = (word << kBlockShift) + std::countr_zero(blocks);
+    std::uint64_t& bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block)];
+    for (std::uint64_t occupied = bits >> row_shift & kInRow; occupied != 0; occupied &= occupied - 1) {
+      const std::int32_t column = (block << kBlockShift) + std::countr_zero(occupied);
+      if (cells[column] < occupied_steps_) bits &= ~bit_of(column, row);
+    }
+    if (bits == 0) note_block(block, block_row, false);
   }
 }
 
@@ -209,55 +286,32 @@ void EvidenceGrid::lower_free_cells() {
   for (std::int32_t row = 0; row < window_.rows; ++row) {
     const auto at = static_cast<std::size_t>(row);
     std::uint64_t* const words = free_.row(row);
-    std::int32_t run_begin = 0;  // of a run that goes on from word to word
-    bool is_in_run = false;
-    const auto end_run = [&](std::int32_t column) {
-      if (is_in_run) lower(row, run_begin, std::min(column, window_.columns) - run_begin);
-      is_in_run = false;
-    };
     for (std::int32_t word = free_.first_word[at]; word <= free_.last_word[at]; ++word) {
-      const std::uint64_t bits = std::exchange(words[word], 0);
-      for (int bit = 0; bit < 64;) {
-        if (is_in_run) {
-          bit += std::countr_one(bits >> bit);
-          if (bit < 64) end_run(word * 64 + bit);
-        } else {
-          if (bits >> bit == 0) break;
-          bit += std::countr_zero(bits >> bit);
-          run_begin = word * 64 + bit;
-          is_in_run = true;
-        }
-      }
+      const std::uint64_t free_cells = std::exchange(words[word], 0);
+      if (free_cells != 0) lower(row, word, free_cells);
     }
-    end_run((free_.last_word[at] + 1) * 64);
     free_.first_word[at] = free_.words_per_row;
     free_.last_word[at] = -1;
   }
 }
 
-void EvidenceGrid::raise_echoes(const std::vector<Ray>& rays) {
-  const auto in_window = [&](const Ray& ray) -> std::optional<Cell> {
-    const Cell cell = window_.cell_at(ray.end_m.x(), ray.end_m.y());
-    if (ray.echo == Echo::kNone || !window_.contains(cell)) return std::nullopt;
-    return cell;
-  };
-  for (const Ray& ray : rays) {
-    const auto cell = in_window(ray);
-    if (!cell || echoed_.is_set(cell->column - window_.first.column, cell->row - window_.first.row)) continue;
-    echoed_.set(cell->column - window_.first.column, cell->row - window_.first.row);
-    if (ray.echo == Echo::kStationary) {
-      raise_so(*cell, hit_steps_);
+void EvidenceGrid::raise_echoes() {
+  for (const EchoedCell& echo : echoes_) {
+    if (echoed_.is_set(echo.column, echo.row)) continue;
+    echoed_.set(echo.column, echo.row);
+    const Cell cell{window_.first.column + echo.column, window_.first.row + echo.row};
+    if (echo.echo == Echo::kStationary) {
+      raise_so(cell, hit_steps_);
     } else {
-      std::uint8_t& moved = mo_[window_.index(*cell)];
+      std::uint8_t& moved = mo_[window_.index(cell)];
       moved = static_cast<std::uint8_t>(moved + static_cast<int>(std::ceil((255.0 - moved) * model_.moving_gain)));
     }
   }
-  for (const Ray& ray : rays) {
-    if (const auto cell = in_window(ray)) echoed_.clear(cell->column - window_.first.column, cell->row - window_.first.row);
-  }
+  for (const EchoedCell& echo : echoes_) echoed_.clear(echo.column, echo.row);
 }
 
 void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
+  find_echoes(rays);
   if (window_.contains(window_.cell_at(origin_m.x(), origin_m.y()))) {
     measure_free_ways(origin_m, rays, beam_step_rad);
     outline_free_space(origin_m);
@@ -265,10 +319,10 @@ void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       walk_free_way(origin_m, ways_[i].direction, std::max(ways_[i].to_next_m, ways_[i].to_previous_m), ways_[i].length_m);
     }
-    keep_echoes_out(rays);
+    keep_echoes_out();
     lower_free_cells();
   }
-  raise_echoes(rays);
+  raise_echoes();
 }
 
 void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {
@@ -278,8 +332,10 @@ void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {
 
 int EvidenceGrid::highest_so_steps(Cell cell, int radius) const {
   const GridWindow square{window_.cell_size_m, {cell.column - radius, cell.row - radius}, 2 * radius + 1, 2 * radius + 1};
-  const GridWindow inside = window_.contains(cell) ? intersection(window_, square) : GridWindow{};
-  int highest = inside.cell_count() < square.cell_count() ? 0 : std::numeric_limits<std::int8_t>::min();  // never seen outside
+  if (!window_.contains(cell)) return 0;  // never seen outside
+  const bool is_inside = window_.contains(square.first) && window_.contains({cell.column + radius, cell.row + radius});
+  const GridWindow inside = is_inside ? square : intersection(window_, square);
+  int highest = is_inside ? std::numeric_limits<std::int8_t>::min() : 0;
   for (std::int32_t row = 0; row < inside.rows; ++row) {
     const std::int8_t* const cells = so_.data() + window_.index({inside.first.column, inside.first.row + row});
     for (std::int32_t column = 0; column < inside.columns; ++column) highest = std::max<int>(highest, cells[column]);
@@ -287,55 +343,92 @@ int EvidenceGrid::highest_so_steps(Cell cell, int radius) const {
   return highest;
 }
 
-/// Walks over the blocks that the ray meets, and over the cells of those in which something is occupied; Amanatides and
-/// Woo 1987, all in cells of the window. Most of a scan's polar map view: see cast_a_scan of the benchmark.
+void EvidenceGrid::BlockLanes::set(std::int32_t lane, std::int32_t block, bool is_occupied) {
+  std::uint64_t& word = words[static_cast<std::size_t>(lane) * static_cast<std::size_t>(words_per_lane) + static_cast<std::size_t>(block >> 6)];
+  const std::uint64_t bit = std::uint64_t{1} << (block & 63);
+  word = is_occupied ? word | bit : word & ~bit;
+}
+
+std::int32_t EvidenceGrid::BlockLanes::next(std::int32_t lane, std::int32_t block, std::int32_t step) const {
+  const std::uint64_t* const of_lane = words.data() + static_cast<std::ptrdiff_t>(lane) * words_per_lane;
+  const std::int32_t end = words_per_lane * 64;
+  while (block >= 0 && block < end) {
+    const std::uint64_t word = of_lane[block >> 6];
+    const std::uint64_t ahead = step > 0 ? word >> (block & 63) : word << (63 - (block & 63));
+    if (ahead != 0) return step > 0 ? block + std::countr_zero(ahead) : block - std::countl_zero(ahead);
+    block = step > 0 ? (block | 63) + 1 : (block & ~63) - 1;
+  }
+  return block;
+}
+
+/// Goes from lane to lane of blocks, of which it takes the rows or the columns, whichever the ray crosses less often, and
+/// looks in each for the occupied blocks between where it enters and where it leaves: of thirty blocks on its way it comes
+/// to two. See cast_a_scan of the benchmark; most of a scan's polar map view.
 double EvidenceGrid::distance_to_occupied(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction,
                                           double max_range_m) const {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  constexpr double kBlock = 1 << kBlockShift;
-  const double size_m = window_.cell_size_m;
-  const double max_range = max_range_m / size_m;
-  const double x = origin_m.x() / size_m - window_.first.column;
-  const double y = origin_m.y() / size_m - window_.first.row;
-  const std::int32_t column_step = direction.x() > 0.0 ? 1 : -1;
-  const std::int32_t row_step = direction.y() > 0.0 ? 1 : -1;
-  const double per_column = direction.x() != 0.0 ? 1.0 / direction.x() : kNever;   // signed: way for one cell to the right
-  const double per_row = direction.y() != 0.0 ? 1.0 / direction.y() : kNever;
-  const auto border_at = [](double border, double start, double per_cell) { return std::isinf(per_cell) ? kNever : (border - start) * per_cell; };
-  auto block_column = static_cast<std::int32_t>(std::floor(x / kBlock));
-  auto block_row = static_cast<std::int32_t>(std::floor(y / kBlock));
-  double next_column = border_at(kBlock * (block_column + (column_step > 0)), x, per_column);
-  double next_row = border_at(kBlock * (block_row + (row_step > 0)), y, per_row);
-  double entered = 0.0;
-  while (entered < max_range && block_column >= 0 && block_row >= 0 && block_column < block_columns_ && block_row < block_rows_) {
-    const std::uint64_t bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) +
-                                              static_cast<std::size_t>(block_column)];
-    if (bits != 0) {
-      // In cells of the block. Clamped: rounding must not put the entry beside it.
-      const double x_in_block = x - kBlock * block_column;
-      const double y_in_block = y - kBlock * block_row;
-      auto column = static_cast<std::int32_t>(std::clamp(std::floor(x_in_block + entered * direction.x()), 0.0, kBlock - 1.0));
-      auto row = static_cast<std::int32_t>(std::clamp(std::floor(y_in_block + entered * direction.y()), 0.0, kBlock - 1.0));
-      double next_cell_column = border_at(column + (column_step > 0), x_in_block, per_column);
-      double next_cell_row = border_at(row + (row_step > 0), y_in_block, per_row);
-      for (double at = entered; ((column | row) & ~kInBlock) == 0;) {
-        if (bits >> ((row << kBlockShift) | column) & 1) return std::min(max_range_m, at * size_m);
-        const bool by_column = next_cell_column < next_cell_row;
-        at = by_column ? next_cell_column : next_cell_row;
-        column += by_column ? column_step : 0;
-        row += by_column ? 0 : row_step;
-        next_cell_column += by_column ? std::abs(per_column) : 0.0;
-        next_cell_row += by_column ? 0.0 : std::abs(per_row);
-      }
+  constexpr double kPerBlock = 1.0 / (1 << kBlockShift);
+  constexpr double kNoRounding = 1e-6;  // a block more at the ends costs nothing, one less would be missed
+  const RayInCells ray(origin_m / window_.cell_size_m - Eigen::Vector2d(window_.first.column, window_.first.row), direction);
+  const double max_range = max_range_m / window_.cell_size_m;
+  const bool is_along_rows = std::abs(direction.x()) >= std::abs(direction.y());
+  const RayInCells::Axis& along = is_along_rows ? ray.x : ray.y;
+  const RayInCells::Axis& across = is_along_rows ? ray.y : ray.x;
+  const BlockLanes& lanes = is_along_rows ? rows_of_blocks_ : columns_of_blocks_;
+  const std::int32_t lane_count = is_along_rows ? block_rows_ : block_columns_;
+  const double last_block = (is_along_rows ? block_columns_ : block_rows_) - 1;
+  auto lane = static_cast<std::int32_t>(std::floor(across.start * kPerBlock));
+  if (lane < 0 || lane >= lane_count) return max_range_m;
+  double entered = along.start * kPerBlock;  // in blocks
+  if (!(entered >= 0.0 && entered < last_block + 1.0)) return max_range_m;
+  for (; lane >= 0 && lane < lane_count; lane += across.step) {
+    const double way = std::min(max_range, across.way_to((lane + (across.step > 0)) << kBlockShift));
+    const double left = (along.start + way * along.direction) * kPerBlock;
+    const auto block_at = [&](double place) { return static_cast<std::int32_t>(std::clamp(place, 0.0, last_block)); };
+    const std::int32_t first = block_at(entered - along.step * kNoRounding);
+    const std::int32_t last = block_at(left + along.step * kNoRounding);
+    for (std::int32_t block = lanes.next(lane, first, along.step); (last - block) * along.step >= 0; block = lanes.next(lane, block + along.step, along.step)) {
+      const double hit = is_along_rows ? ray_to_occupied_in_block(ray, block, lane) : ray_to_occupied_in_block(ray, lane, block);
+      if (hit < max_range) return hit * window_.cell_size_m;
     }
-    const bool by_column = next_column < next_row;
-    entered = by_column ? next_column : next_row;
-    block_column += by_column ? column_step : 0;
-    block_row += by_column ? 0 : row_step;
-    next_column += by_column ? kBlock * std::abs(per_column) : 0.0;
-    next_row += by_column ? 0.0 : kBlock * std::abs(per_row);
+    if (way >= max_range || left < 0.0 || left > last_block + 1.0) break;
+    entered = left;
   }
   return max_range_m;
+}
+
+/// Way to the first occupied cell of the block, in cells; infinite where the ray meets none. Walks from cell to cell:
+/// Amanatides and Woo 1987.
+double EvidenceGrid::ray_to_occupied_in_block(const RayInCells& ray, std::int32_t block_column, std::int32_t block_row) const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  constexpr std::int32_t kBlock = 1 << kBlockShift;
+  const auto ways_through = [&](const RayInCells::Axis& axis, std::int32_t block) {
+    const std::int32_t low = block << kBlockShift;
+    return axis.step > 0 ? std::pair(axis.way_to(low), axis.way_to(low + kBlock)) : std::pair(axis.way_to(low + kBlock), axis.way_to(low));
+  };
+  const auto [enters_x, leaves_x] = ways_through(ray.x, block_column);
+  const auto [enters_y, leaves_y] = ways_through(ray.y, block_row);
+  double at = 0.0;
+  if (enters_x < kNever) at = std::max(at, enters_x);
+  if (enters_y < kNever) at = std::max(at, enters_y);
+  if (at > std::min(leaves_x, leaves_y)) return kNever;
+  const std::uint64_t bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block_column)];
+  // In cells of the block. Clamped: rounding must not put the entry beside it.
+  const RayInCells inside({ray.x.start - (block_column << kBlockShift), ray.y.start - (block_row << kBlockShift)}, ray);
+  const auto entry = [&](const RayInCells::Axis& axis) { return static_cast<std::int32_t>(std::clamp(axis.start + at * axis.direction, 0.0, kBlock - 1.0)); };
+  std::int32_t column = entry(inside.x);
+  std::int32_t row = entry(inside.y);
+  double next_column = inside.x.way_to(column + (ray.x.step > 0));
+  double next_row = inside.y.way_to(row + (ray.y.step > 0));
+  while (((column | row) & ~kInBlock) == 0) {
+    if (bits >> ((row << kBlockShift) | column) & 1) return at;
+    const bool by_column = next_column < next_row;
+    at = by_column ? next_column : next_row;
+    column += by_column ? ray.x.step : 0;
+    row += by_column ? 0 : ray.y.step;
+    next_column += by_column ? std::abs(ray.x.per_cell) : 0.0;
+    next_row += by_column ? 0.0 : std::abs(ray.y.per_cell);
+  }
+  return kNever;
 }
 
 EvidenceGrid EvidenceGrid::moved_to(const GridWindow& window) const {
@@ -343,15 +436,13 @@ EvidenceGrid EvidenceGrid::moved_to(const GridWindow& window) const {
   EvidenceGrid moved(window, model_);
   const GridWindow shared = intersection(window, window_);
   for (std::int32_t row = 0; row < shared.rows; ++row) {
-    for (std::int32_t column = 0; column < shared.columns; ++column) {
-      const Cell cell{shared.first.column + column, shared.first.row + row};
-      const std::size_t from = window_.index(cell);
-      const std::size_t to = window.index(cell);
-      moved.so_[to] = so_[from];
-      moved.mo_[to] = mo_[from];
-      if (so_[from] >= occupied_steps_) moved.note_occupied(to);
-    }
+    const Cell cell{shared.first.column, shared.first.row + row};
+    const std::size_t from = window_.index(cell);
+    const std::size_t to = window.index(cell);
+    std::copy_n(so_.data() + from, shared.columns, moved.so_.data() + to);
+    std::copy_n(mo_.data() + from, shared.columns, moved.mo_.data() + to);
   }
+  moved.note_all_occupied();
   return moved;
 }
 
@@ -359,7 +450,24 @@ void EvidenceGrid::set_cells(std::vector<std::int8_t> so, std::vector<std::uint8
   assert(so.size() == window_.cell_count() && mo.size() == window_.cell_count());
   so_ = std::move(so);
   mo_ = std::move(mo);
-  for (std::size_t i = 0; i < so_.size(); ++i) note_occupied(i);
+  std::fill(occupied_bits_.begin(), occupied_bits_.end(), 0);
+  rows_of_blocks_ = BlockLanes(block_rows_, block_columns_);
+  columns_of_blocks_ = BlockLanes(block_columns_, block_rows_);
+  note_all_occupied();
+}
+
+/// Where no cell is noted yet. Most cells are free or unseen: whole runs of them are passed at once.
+void EvidenceGrid::note_all_occupied() {
+  constexpr std::size_t kRun = 64;
+  for (std::size_t run = 0; run < so_.size(); run += kRun) {
+    const std::size_t end = std::min(run + kRun, so_.size());
+    std::int8_t highest = std::numeric_limits<std::int8_t>::min();
+    for (std::size_t i = run; i < end; ++i) highest = std::max(highest, so_[i]);
+    if (highest < occupied_steps_) continue;
+    for (std::size_t i = run; i < end; ++i) {
+      if (so_[i] >= occupied_steps_) note_occupied(i);
+    }
+  }
 }
 
 }  // namespace slammot::grids

@@ -72,7 +72,7 @@ class EvidenceGrid {
   void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo);
 
  private:
-  /// Blocks of 8 x 8 cells with a bit for each occupied one: casting a ray looks at blocks, and at bits where there are any.
+  /// Blocks of 8 x 8 cells with a bit for each occupied one: casting a ray looks for blocks that have any, and at their bits.
   static constexpr int kBlockShift = 3;
   static constexpr std::int32_t kInBlock = (1 << kBlockShift) - 1;
 
@@ -93,17 +93,44 @@ class EvidenceGrid {
     bool is_set(std::int32_t column, std::int32_t row) const;
   };
 
+  /// One bit a block of which any cell is occupied, row by row or column by column: a lane. Along a ray's lanes empty blocks
+  /// are passed many at a time.
+  struct BlockLanes {
+    std::int32_t words_per_lane = 0;
+    std::vector<std::uint64_t> words;
+
+    BlockLanes() = default;
+    BlockLanes(std::int32_t lanes, std::int32_t blocks)
+        : words_per_lane((blocks >> 6) + 1), words(static_cast<std::size_t>(lanes) * static_cast<std::size_t>(words_per_lane), 0) {}
+    void set(std::int32_t lane, std::int32_t block, bool is_occupied);
+
+    /// Blocks 8 * place and on of the lane, one bit each.
+    std::uint64_t eight(std::int32_t lane, std::int32_t place) const {
+      return words[static_cast<std::size_t>(lane) * static_cast<std::size_t>(words_per_lane) + static_cast<std::size_t>(place >> 3)] >> (8 * (place & 7)) & 0xff;
+    }
+
+    /// The first occupied block of the lane from this one on, up (step 1) or down (-1); beyond its end where there is none.
+    std::int32_t next(std::int32_t lane, std::int32_t block, std::int32_t step) const;
+  };
+
+  struct RayInCells;
+
   void measure_free_ways(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
   void outline_free_space(const Eigen::Vector2d& origin_m);
   void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
   void fill_outline();
   void walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double from_m, double to_m);
-  void keep_echoes_out(const std::vector<Ray>& rays);
+  void find_echoes(const std::vector<Ray>& rays);
+  void keep_echoes_out();
   void lower_free_cells();
-  void lower(std::int32_t row, std::int32_t first_column, std::int32_t count);
-  void raise_echoes(const std::vector<Ray>& rays);
+  void lower(std::int32_t row, std::int32_t word, std::uint64_t free_cells);
+  void unnote_freed(std::int32_t row, std::int32_t word);
+  void raise_echoes();
   void raise_so(Cell cell, int steps);
   void note_occupied(std::size_t index);
+  void note_all_occupied();
+  void note_block(std::int32_t block_column, std::int32_t block_row, bool is_occupied);
+  double ray_to_occupied_in_block(const RayInCells& ray, std::int32_t block_column, std::int32_t block_row) const;
   static std::uint64_t bit_of(std::int32_t column, std::int32_t row) {
     return std::uint64_t{1} << (((row & kInBlock) << kBlockShift) | (column & kInBlock));
   }
@@ -119,6 +146,8 @@ class EvidenceGrid {
   std::vector<std::int8_t> so_;
   std::vector<std::uint8_t> mo_;
   std::vector<std::uint64_t> occupied_bits_;   ///< By block.
+  BlockLanes rows_of_blocks_;
+  BlockLanes columns_of_blocks_;
   // Of the scan at hand; kept to reuse the memory.
   BitRows free_;                               ///< Cells that it passes. All clear between scans.
   BitRows echoed_;                             ///< Cells that an echo came from. All clear between scans.
@@ -130,6 +159,12 @@ class EvidenceGrid {
     Eigen::Vector2d half_way = Eigen::Vector2d::Zero();  ///< Direction in the middle between this beam and the next.
   };
   std::vector<FreeWay> ways_;                  ///< By ray.
+  struct EchoedCell {
+    std::int32_t column = 0;                   ///< In the window.
+    std::int32_t row = 0;
+    Echo echo = Echo::kNone;
+  };
+  std::vector<EchoedCell> echoes_;
 };
 
 }  // namespace slammot::grids

@@ -27,6 +27,7 @@ std::int32_t SurfelMap::make_slot(Cell cell) {
     moments_.emplace_back();
     cells_.push_back(cell);
     means_m_.push_back(kNowhere);
+    shares_.push_back(0.0);
     shapes_.emplace_back();
   }
   return slot;
@@ -75,6 +76,8 @@ void SurfelMap::erase(Cell cell) {
 void SurfelMap::note_mean(std::size_t place) {
   const CellMoments& moments = moments_[place];
   const bool is_anywhere = moments.weight > 0.0F;
+  // The square root: the direction of a surface is a matter of where it was seen, less of how often.
+  shares_[place] = is_anywhere ? 1.0 / std::sqrt(static_cast<double>(moments.weight)) : 0.0;
   means_m_[place] = is_anywhere ? window_.centre_of(cells_[place]) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight) : kNowhere;
 }
 
@@ -86,8 +89,7 @@ SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
       const std::int32_t slot = slot_of({cell.column + column, cell.row + row});
       if (is_empty(slot)) continue;
       const CellMoments& m = moments_[static_cast<std::size_t>(slot)];
-      // The square root: the direction of a surface is a matter of where it was seen, less of how often.
-      const double share = 1.0 / std::sqrt(static_cast<double>(m.weight));
+      const double share = shares_[static_cast<std::size_t>(slot)];
       const double n = m.weight * share, dx = column * size_m, dy = row * size_m, sx = m.x * share, sy = m.y * share;
       weight += n;
       x += sx + n * dx;
@@ -187,6 +189,7 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
   moved.moments_.reserve(moments_.size());
   moved.cells_.reserve(moments_.size());
   moved.means_m_.reserve(moments_.size());
+  moved.shares_.reserve(moments_.size());
   moved.shapes_.reserve(moments_.size());
   for (std::size_t place = 0; place < moments_.size(); ++place) {
     if (is_empty(static_cast<std::int32_t>(place)) || !window.contains(cells_[place])) continue;
@@ -195,6 +198,7 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
     const auto slot = static_cast<std::size_t>(moved.make_slot(cells_[place]));
     moved.moments_[slot] = moments;
     moved.means_m_[slot] = means_m_[place];
+    moved.shares_[slot] = shares_[place];
   }
   return moved;
 }

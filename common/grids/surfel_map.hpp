@@ -103,7 +103,8 @@ class SurfelMap {
   std::vector<std::int32_t> slots_;     ///< By cell: place in moments_, -1 for none.
   std::vector<CellMoments> moments_;
   std::vector<Cell> cells_;             ///< Of each of the moments,
-  std::vector<Eigen::Vector2d> means_m_;///< and where its echoes are in the mean; infinitely far where there are none.
+  std::vector<Eigen::Vector2d> means_m_;///< and where its echoes are in the mean; infinitely far where there are none;
+  std::vector<double> shares_;          ///< and how much each echo counts for the direction of the surface around it.
   mutable std::vector<Shape> shapes_;   ///< Computed when first looked at after a change.
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/sensing/box_fit.hpp"
+#include "services/detection/beam_directions.hpp"
 #include "services/detection/ground.hpp"
 
 namespace slammot::detection {
@@ -43,14 +44,7 @@ PointLabel label_of(const LocalizedBeam& beam, const DetectionConfig& config) {
 /// Where the map expects each beam to end, in base; only where it expects an end.
 class ExpectedOutline {
  public:
-  explicit ExpectedOutline(const LocalizedScan& scan) : scan_(scan) {
-    for (std::size_t i = 0; i < scan.beams.size(); ++i) {
-      if (scan.beams[i].range_m <= 0.0F) continue;
-      const Vector2 way = scan.beams[i].point_in_base_m.cast<double>() - scan.base_from_laser.translation_m();
-      first_beam_rad_ = std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan.beam_step_rad;
-      break;
-    }
-  }
+  explicit ExpectedOutline(const LocalizedScan& scan) : scan_(scan), directions_(first_beam_rad(scan), scan.beam_step_rad, scan.beams.size()) {}
 
   /// Whether the echo lies near the line through what neighbouring beams should have met: a wall at a grazing angle is
   /// met far from where one beam expects it, but never far from its line.
@@ -81,12 +75,19 @@ class ExpectedOutline {
     return static_cast<double>(scan_.beams[beam].expected_range_m) < scan_.max_range_m - 0.5;
   }
   Vector2 end_of(std::size_t beam) const {
-    const double angle_rad = first_beam_rad_ + static_cast<double>(beam) * scan_.beam_step_rad;
-    return scan_.base_from_laser.translation_m() +
-           static_cast<double>(scan_.beams[beam].expected_range_m) * Vector2(std::cos(angle_rad), std::sin(angle_rad));
+    return scan_.base_from_laser.translation_m() + static_cast<double>(scan_.beams[beam].expected_range_m) * directions_[beam];
+  }
+  /// By the first echo; any will do where there is none.
+  static double first_beam_rad(const LocalizedScan& scan) {
+    for (std::size_t i = 0; i < scan.beams.size(); ++i) {
+      if (scan.beams[i].range_m <= 0.0F) continue;
+      const Vector2 way = scan.beams[i].point_in_base_m.cast<double>() - scan.base_from_laser.translation_m();
+      return std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan.beam_step_rad;
+    }
+    return 0.0;
   }
   const LocalizedScan& scan_;
-  double first_beam_rad_ = 0.0;
+  BeamDirections directions_;
 };
 
 SegmentedScan copy_of_header(const LocalizedScan& scan) {

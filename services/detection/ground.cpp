@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "services/detection/beam_directions.hpp"
 #include "services/detection/detector.hpp"
 
 namespace slammot::detection {
@@ -22,14 +23,8 @@ enum class Side { kInFront, kOn, kBeyond, kNoEcho, kNotCrossed };
 
 class Ground {
  public:
-  Ground(const flow::SegmentedScan& scan, const DetectionConfig& config) : scan_(scan), config_(config) {
-    for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
-      if (scan.range_m[i] <= 0.0F) continue;
-      const Vector2 way = from_laser_m(i);
-      first_beam_rad_ = std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan.beam_step_rad;
-      break;
-    }
-  }
+  Ground(const flow::SegmentedScan& scan, const DetectionConfig& config)
+      : scan_(scan), config_(config), directions_(first_beam_rad(), scan.beam_step_rad, scan.range_m.size()) {}
 
   Vector2 from_laser_m(std::size_t beam) const {
     return scan_.points_in_base_m[beam].cast<double>() - scan_.base_from_laser.translation_m();
@@ -54,8 +49,8 @@ class Ground {
   }
 
   Side side_of(std::size_t beam, const Line& line) const {
-    const double angle_rad = first_beam_rad_ + static_cast<double>(beam) * scan_.beam_step_rad;
-    const double approach = std::cos(angle_rad) - line.slope * std::sin(angle_rad);
+    const Vector2& direction = directions_[beam];
+    const double approach = direction.x() - line.slope * direction.y();
     constexpr double kSteepest = 0.2;  // beams nearly along the line meet it too far away to tell
     if (approach < kSteepest) return Side::kNotCrossed;
     const double crossing_m = line.distance_m / approach;
@@ -119,9 +114,19 @@ class Ground {
   }
 
  private:
+  /// By the first echo; any will do where there is none.
+  double first_beam_rad() const {
+    for (std::size_t i = 0; i < scan_.range_m.size(); ++i) {
+      if (scan_.range_m[i] <= 0.0F) continue;
+      const Vector2 way = from_laser_m(i);
+      return std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan_.beam_step_rad;
+    }
+    return 0.0;
+  }
+
   const flow::SegmentedScan& scan_;
   const DetectionConfig& config_;
-  double first_beam_rad_ = 0.0;
+  BeamDirections directions_;  // after what first_beam_rad() looks at
 };
 
 }  // namespace

@@ -21,6 +21,10 @@ grids::GridWindow surfel_window(const LocalMapConfig& config, const Vector2& cen
   return grids::window_around(centre_m, config.side_m, config.surfel_size_m);
 }
 
+int free_steps(const LocalMapConfig& config) { return grids::steps_of_log_odds(config.free_log_odds); }
+
+int end_cell_tolerance(const LocalMapConfig& config) { return static_cast<int>(std::ceil(config.end_cell_tolerance_m / config.cell_size_m - 0.5)); }
+
 geometry::Pose2 pose_of_window(const grids::GridWindow& window) {
   const Vector2 centre_m = window.centre_of({window.first.column + window.columns / 2, window.first.row + window.rows / 2});
   return {centre_m.x(), centre_m.y(), 0.0};
@@ -30,14 +34,17 @@ geometry::Pose2 pose_of_window(const grids::GridWindow& window) {
 grids::GridWindow bounds_of_seen(const grids::GridWindow& window, const std::vector<std::int8_t>& so, const std::vector<std::uint8_t>& mo) {
   std::int32_t low_column = window.columns, high_column = -1, low_row = window.rows, high_row = -1;
   for (std::int32_t row = 0; row < window.rows; ++row) {
-    for (std::int32_t column = 0; column < window.columns; ++column) {
-      const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns) + static_cast<std::size_t>(column);
-      if (so[index] == 0 && mo[index] == 0) continue;
-      low_column = std::min(low_column, column);
-      high_column = std::max(high_column, column);
-      low_row = std::min(low_row, row);
-      high_row = std::max(high_row, row);
-    }
+    const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns);
+    const auto is_seen = [&](std::int32_t column) { return so[first + static_cast<std::size_t>(column)] != 0 || mo[first + static_cast<std::size_t>(column)] != 0; };
+    std::int32_t low = 0;
+    while (low < window.columns && !is_seen(low)) ++low;
+    if (low == window.columns) continue;
+    std::int32_t high = window.columns - 1;
+    while (!is_seen(high)) --high;
+    low_column = std::min(low_column, low);
+    high_column = std::max(high_column, high);
+    low_row = std::min(low_row, row);
+    high_row = std::max(high_row, row);
   }
   grids::GridWindow bounds = window;
   bounds.columns = std::max(0, high_column - low_column + 1);
@@ -82,14 +89,16 @@ bool is_possible(const grids::CellMoments& moments, double cell_size_m) {
 
 }  // namespace
 
-LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m)
+LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m, SideWork* help)
     : config_(config),
-      evidence_(evidence_window(config, centre_in_odom_m), config.evidence),
+      free_steps_(free_steps(config)),
+      end_cell_tolerance_(end_cell_tolerance(config)),
+      evidence_(grids::EvidenceGrid(evidence_window(config, centre_in_odom_m), config.evidence), help),
       surfels_(surfel_window(config, centre_in_odom_m), config.surfel_weight_limit),
-      inherited_so_(evidence_.so_cells()),
-      inherited_mo_(evidence_.mo_cells()),
+      inherited_so_(evidence().so_cells()),
+      inherited_mo_(evidence().mo_cells()),
       inherited_surfels_(surfels_),
-      odom_from_submap_(pose_of_window(evidence_.window())) {}
+      odom_from_submap_(pose_of_window(evidence().window())) {}
 
 Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
 
@@ -114,9 +123,9 @@ void LocalMap::count_way(const Vector2& origin_m) {
 }
 
 void LocalMap::forget_surfels_in_free_space() {
-  const int free_steps = grids::steps_of_log_odds(config_.free_log_odds);
+  const grids::EvidenceGrid& evidence = evidence_.grid();
   surfels_.erase_where([&](const Vector2& mean_m) {
-    return evidence_.highest_so_steps(evidence_.window().cell_at(mean_m.x(), mean_m.y()), 1) <= -free_steps;
+    return evidence.highest_so_steps(evidence.window().cell_at(mean_m.x(), mean_m.y()), 1) <= -free_steps_;
   });
 }
 
@@ -127,22 +136,22 @@ void LocalMap::restore_stationary(const Vector2& point_in_odom_m) {
 
 void LocalMap::expect(const Vector2& origin_in_odom_m, const Vector2& end_in_odom_m, bool has_echo, double max_range_m,
                       flow::LocalizedBeam& beam) const {
+  const grids::EvidenceGrid& evidence = evidence_.grid();
   const Vector2 way_m = end_in_odom_m - origin_in_odom_m;
   beam.expected_range_m = static_cast<float>(
-      evidence_.distance_to_occupied(origin_in_odom_m, way_m.normalized(), max_range_m));
+      evidence.distance_to_occupied(origin_in_odom_m, way_m.normalized(), max_range_m));
   if (!has_echo) {
     beam.end_cell = flow::EndCell::kNoEcho;
     return;
   }
-  const grids::Cell cell = evidence_.window().cell_at(end_in_odom_m.x(), end_in_odom_m.y());
-  const int so_steps = evidence_.so_steps(cell);
+  const grids::Cell cell = evidence.window().cell_at(end_in_odom_m.x(), end_in_odom_m.y());
+  const int so_steps = evidence.so_steps(cell);
   beam.free_evidence = static_cast<float>(-so_steps * grids::kLogOddsStep);
-  beam.moving_evidence = static_cast<float>(evidence_.moving(cell)) / 255.0F;
-  const int tolerance = static_cast<int>(std::ceil(config_.end_cell_tolerance_m / config_.cell_size_m - 0.5));
-  if (evidence_.is_occupied_near(cell, tolerance)) {
+  beam.moving_evidence = static_cast<float>(evidence.moving(cell)) / 255.0F;
+  if (evidence.is_occupied_near(cell, end_cell_tolerance_)) {
     beam.end_cell = flow::EndCell::kOccupied;
   } else {
-    const bool is_free = so_steps <= -grids::steps_of_log_odds(config_.free_log_odds);
+    const bool is_free = so_steps <= -free_steps_;
     beam.end_cell = is_free ? flow::EndCell::kFree : flow::EndCell::kUnseen;
   }
 }
@@ -153,13 +162,12 @@ bool LocalMap::is_outgrown(const Vector2& position_in_odom_m, double travelled_m
 }
 
 flow::Submap LocalMap::submap() const {
-  const grids::GridWindow& window = evidence_.window();
-  std::vector<std::int8_t> own_so = evidence_.so_cells();
-  std::vector<std::uint8_t> own_mo(window.cell_count());
-  for (std::size_t i = 0; i < own_so.size(); ++i) {
-    own_so[i] = static_cast<std::int8_t>(std::clamp(own_so[i] - inherited_so_[i], -127, 127));
-    own_mo[i] = evidence_.mo_cells()[i] > inherited_mo_[i] ? evidence_.mo_cells()[i] : std::uint8_t{0};
-  }
+  const grids::EvidenceGrid& evidence = evidence_.grid();
+  const grids::GridWindow& window = evidence.window();
+  std::vector<std::int8_t> own_so = evidence.so_cells();
+  std::vector<std::uint8_t> own_mo = evidence.mo_cells();
+  for (std::size_t i = 0; i < own_so.size(); ++i) own_so[i] = static_cast<std::int8_t>(std::clamp(own_so[i] - inherited_so_[i], -127, 127));
+  for (std::size_t i = 0; i < own_mo.size(); ++i) own_mo[i] = own_mo[i] > inherited_mo_[i] ? own_mo[i] : std::uint8_t{0};
   const grids::GridWindow bounds = bounds_of_seen(window, own_so, own_mo);
   flow::Submap submap;
   submap.submap_id = submap_id_;
@@ -204,12 +212,12 @@ std::optional<flow::Surfel> LocalMap::own_surfel(const grids::SurfelView& surfel
 void LocalMap::leave_behind_what_was_not_seen() {
   // Short of the limit, so that whatever the next submap sees moves the cell and can be told from what it took over.
   const int most_steps = grids::steps_of_log_odds(kInheritedShareOfLimit * config_.evidence.limit_log_odds);
-  std::vector<std::int8_t> so = evidence_.so_cells();
+  std::vector<std::int8_t> so = evidence().so_cells();
   for (std::size_t i = 0; i < so.size(); ++i) {
     const bool was_seen = so[i] != inherited_so_[i];
     so[i] = was_seen ? static_cast<std::int8_t>(std::clamp<int>(so[i], -most_steps, most_steps)) : std::int8_t{0};
   }
-  evidence_.set_cells(std::move(so), evidence_.mo_cells());
+  evidence_.grid().set_cells(std::move(so), evidence().mo_cells());
   for (const grids::SurfelView& surfel : surfels_.all()) {
     if (surfel.own_echoes <= 0.0) surfels_.erase(surfel.cell);
   }
@@ -217,12 +225,12 @@ void LocalMap::leave_behind_what_was_not_seen() {
 
 void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
   leave_behind_what_was_not_seen();
-  evidence_ = evidence_.moved_to(evidence_window(config_, centre_in_odom_m));
+  evidence_.grid() = evidence().moved_to(evidence_window(config_, centre_in_odom_m));
   surfels_ = surfels_.moved_to(surfel_window(config_, centre_in_odom_m));
-  inherited_so_ = evidence_.so_cells();
-  inherited_mo_ = evidence_.mo_cells();
+  inherited_so_ = evidence().so_cells();
+  inherited_mo_ = evidence().mo_cells();
   inherited_surfels_ = surfels_;
-  odom_from_submap_ = pose_of_window(evidence_.window());
+  odom_from_submap_ = pose_of_window(evidence().window());
   ++submap_id_.value;
   scans_ = 0;
 }
@@ -230,15 +238,15 @@ void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
 void LocalMap::begin_astray(const Vector2& centre_in_odom_m) {
   const flow::SubmapId next{submap_id_.value + 1};
   const double odometer_m = odometer_m_;
-  *this = LocalMap(config_, centre_in_odom_m);
+  *this = LocalMap(config_, centre_in_odom_m, evidence_.help());
   submap_id_ = next;
   odometer_m_ = odometer_m;
 }
 
 void LocalMap::write(std::vector<std::byte>& bytes) const {
-  put(bytes, evidence_.window());
-  put_all(bytes, evidence_.so_cells());
-  put_all(bytes, evidence_.mo_cells());
+  put(bytes, evidence().window());
+  put_all(bytes, evidence().so_cells());
+  put_all(bytes, evidence().mo_cells());
   put_all(bytes, inherited_so_);
   put_all(bytes, inherited_mo_);
   put(bytes, surfels_.window());
@@ -254,9 +262,11 @@ void LocalMap::write(std::vector<std::byte>& bytes) const {
   put(bytes, counted_to_m_.value_or(Vector2::Zero()));
 }
 
-std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from) {
+std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from, SideWork* help) {
   LocalMap map;
   map.config_ = config;
+  map.free_steps_ = free_steps(config);
+  map.end_cell_tolerance_ = end_cell_tolerance(config);
   grids::GridWindow window;
   grids::GridWindow surfel_lattice;
   std::vector<std::int8_t> so;
@@ -289,8 +299,8 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
                     std::all_of(inherited_surfels.begin(), inherited_surfels.end(), is_of_surfels) &&
                     is_believable(map.odom_from_submap_) && map.odometer_m_ >= 0.0 && std::isfinite(map.odometer_m_) && counted_to_m.allFinite();
   if (!fits) return std::nullopt;
-  map.evidence_ = grids::EvidenceGrid(window, config.evidence);
-  map.evidence_.set_cells(std::move(so), std::move(mo));
+  map.evidence_ = DeferredEvidence(grids::EvidenceGrid(window, config.evidence), help);
+  map.evidence_.grid().set_cells(std::move(so), std::move(mo));
   map.surfels_ = grids::SurfelMap(surfel_lattice, config.surfel_weight_limit);
   map.inherited_surfels_ = map.surfels_;
   for (const StoredSurfel& surfel : surfels) map.surfels_.set_moments(surfel.cell, surfel.moments);

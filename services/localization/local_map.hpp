@@ -9,6 +9,7 @@
 #include "common/grids/evidence_grid.hpp"
 #include "common/grids/surfel_map.hpp"
 #include "services/localization/byte_stream.hpp"
+#include "services/localization/deferred_evidence.hpp"
 
 namespace slammot::localization {
 
@@ -31,14 +32,17 @@ struct LocalMapConfig {
 class LocalMap {
  public:
   LocalMap() = default;
-  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m);
+  /// help, if any, takes over part of integrate(); it must outlive the map.
+  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m, SideWork* help = nullptr);
 
-  const grids::EvidenceGrid& evidence() const { return evidence_; }
+  /// Waits for what help is still doing.
+  const grids::EvidenceGrid& evidence() const { return evidence_.grid(); }
   const grids::SurfelMap& surfels() const { return surfels_; }
   flow::SubmapId submap_id() const { return submap_id_; }
   const geometry::Pose2& odom_from_submap() const { return odom_from_submap_; }
 
-  /// Adds one scan whose laser stood at origin_m; rays in odom, in the order of the beams.
+  /// Adds one scan whose laser stood at origin_m; rays in odom, in the order of the beams. Its surfels are there on return,
+  /// its evidence when anybody asks for it.
   void integrate(std::int64_t stamp_ns, const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad);
 
   /// Gives back a point that was held to be moving.
@@ -66,7 +70,7 @@ class LocalMap {
   /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.
   void write(std::vector<std::byte>& bytes) const;
   /// None when the bytes are not a map of this configuration.
-  static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from);
+  static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from, SideWork* help = nullptr);
 
  private:
   void count_way(const geometry::Vector2& origin_m);
@@ -76,7 +80,9 @@ class LocalMap {
   geometry::Vector2 window_centre_m() const;
 
   LocalMapConfig config_;
-  grids::EvidenceGrid evidence_;
+  int free_steps_ = 0;                      ///< Of the configuration's free_log_odds,
+  int end_cell_tolerance_ = 0;              ///< and of its end_cell_tolerance_m, in cells.
+  DeferredEvidence evidence_;
   grids::SurfelMap surfels_;
   std::vector<std::int8_t> inherited_so_;   ///< What the window held when the submap began,
   std::vector<std::uint8_t> inherited_mo_;

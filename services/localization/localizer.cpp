@@ -42,8 +42,8 @@ grids::Echo unexplained_out(EndCell end_cell) {
 
 }  // namespace
 
-Localizer::Localizer(const LocalizerConfig& config)
-    : config_(config), match_without_wheels_(config.match), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
+Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
+    : config_(config), help_(help), match_without_wheels_(config.match), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
   sweep_factor_.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
@@ -244,16 +244,31 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
   const Vector2 origin_in_odom_m = odom_from_laser.translation_m();
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.pose.heading_rad);
   localized.beams.resize(scan.range_m.size());
-  sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
-  for (std::size_t i = 0; i < localized.beams.size(); ++i, beam_in_odom.advance()) {
-    flow::LocalizedBeam& beam = localized.beams[i];
-    const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) && scan.range_m[i] >= config_.min_range_m;
-    const Vector2 far_end_m = origin_in_odom_m + scan.scanner.max_range_m * beam_in_odom.now();
-    beam.point_in_base_m = points_in_base_m_[i].cast<float>();
-    beam.range_m = has_echo ? scan.range_m[i] : 0.0F;
-    map_.expect(origin_in_odom_m, has_echo ? odom_from_base.pose.translation_m() + turn * points_in_base_m_[i] : far_end_m, has_echo, scan.scanner.max_range_m, beam);
-  }
+  const auto expect_of_beams = [&](std::size_t first, std::size_t end) {
+    sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
+    for (std::size_t i = 0; i < first; ++i) beam_in_odom.advance();  // turned to here, not begun here: the same to the last bit
+    for (std::size_t i = first; i < end; ++i, beam_in_odom.advance()) {
+      flow::LocalizedBeam& beam = localized.beams[i];
+      const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) && scan.range_m[i] >= config_.min_range_m;
+      const Vector2 far_end_m = origin_in_odom_m + scan.scanner.max_range_m * beam_in_odom.now();
+      beam.point_in_base_m = points_in_base_m_[i].cast<float>();
+      beam.range_m = has_echo ? scan.range_m[i] : 0.0F;
+      map_.expect(origin_in_odom_m, has_echo ? odom_from_base.pose.translation_m() + turn * points_in_base_m_[i] : far_end_m, has_echo, scan.scanner.max_range_m, beam);
+    }
+  };
+  in_two_halves(localized.beams.size(), expect_of_beams);
   return localized;
+}
+
+/// Work on [first, end) of all beams, whose halves help may do side by side: the map only answers meanwhile.
+template <typename Work>
+void Localizer::in_two_halves(std::size_t beams, const Work& work) const {
+  if (help_ == nullptr) return work(0, beams);
+  map_.evidence();  // what is still on its way into it comes first
+  const auto second_half = [&] { work(beams / 2, beams); };
+  help_->begin([&second_half] { second_half(); });  // one reference: no allocation
+  work(0, beams / 2);
+  help_->wait();
 }
 
 void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized) {
@@ -296,7 +311,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   now.has_wheels = wheel_from_base.has_value();
   now.wheel_from_base = wheel_from_base.value_or(Pose2{});
   if (!last_) {
-    map_ = LocalMap(config_.map, Vector2::Zero());
+    map_ = LocalMap(config_.map, Vector2::Zero(), help_);
     sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
   } else {
     const Step step = predict(scan.stamp_ns, wheel_from_base);
@@ -480,13 +495,13 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   const auto content = unsealed(bytes);
   if (!content) return false;
   ByteReader from(*content);
-  Localizer restored(config_);
+  Localizer restored(config_, help_);
   std::uint64_t mark = 0;
   State last;
   from.get(mark);
   for_each_part(restored, last, [&](auto& part) { from.get(part); });
   if (mark != kCheckpointMark) return false;
-  std::optional<LocalMap> map = LocalMap::restored(config_.map, from);
+  std::optional<LocalMap> map = LocalMap::restored(config_.map, from, help_);
   const bool is_sound = is_believable(restored.estimate_.odom_from_base) && is_believable(restored.map_from_odom_) &&
                         is_believable(restored.previous_from_submap_.pose) &&
                         is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.drift_) &&

@@ -113,7 +113,9 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
 /// Estimates the pose of the vehicle and the map around it, scan by scan. Not thread-safe; reads no clock.
 class Localizer {
  public:
-  explicit Localizer(const LocalizerConfig& config);
+  /// help, if any, does what the next match does not need, which is most of mapping, and half of the polar view. The results are the same with it and without.
+  /// It must outlive this.
+  explicit Localizer(const LocalizerConfig& config, SideWork* help = nullptr);
 
   void add_odometry(const sensing::Odometry& sample);
 
@@ -228,6 +230,8 @@ class Localizer {
   void travel(const geometry::Pose2& before_from_base);
   geometry::UncertainPose2 published_pose() const;
   flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base) const;
+  template <typename Work>
+  void in_two_halves(std::size_t beams, const Work& work) const;
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
   void integrate_first_without_tracking();
@@ -241,6 +245,7 @@ class Localizer {
   static void for_each_part(Self& self, StateOfLast& last, Visitor visit);
 
   LocalizerConfig config_;
+  SideWork* help_ = nullptr;
   matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then.
   LocalizerCounters counters_;
   sensing::OdometryBuffer odometry_;

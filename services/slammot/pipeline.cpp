@@ -5,7 +5,7 @@
 namespace slammot {
 
 Pipeline::Pipeline(const Profile& profile)
-    : detection_(profile.detection), localizer_(profile.localization), tracker_(profile.tracking), loop_closer_(profile.loop_closing) {}
+    : detection_(profile.detection), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking), loop_closer_(profile.loop_closing) {}
 
 void Pipeline::take(const sensing::Odometry& odometry) { localizer_.add_odometry(odometry); }
 

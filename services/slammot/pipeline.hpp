@@ -10,6 +10,7 @@
 #include "services/localization/localizer.hpp"
 #include "services/loop_closing/loop_closer.hpp"
 #include "services/slammot/profile.hpp"
+#include "services/slammot/side_thread.hpp"
 #include "services/slammot/stage_times.hpp"
 #include "services/tracking/tracker.hpp"
 
@@ -36,6 +37,7 @@ class Pipeline {
  private:
   void close_loops();
 
+  SideThread side_thread_;   ///< Before what it helps.
   detection::DetectionConfig detection_;
   localization::Localizer localizer_;
   tracking::Tracker tracker_;

@@ -11,6 +11,19 @@ namespace {
 using Eigen::Vector2d;
 using geometry::wrap_angle;
 
+constexpr double kRoughErrorRad = 1e-4;
+
+/// Direction to within kRoughErrorRad, without the arctangent: an odd polynomial of least largest error for its degree.
+double rough_angle_rad(const Vector2d& way) {
+  const double x = std::abs(way.x());
+  const double y = std::abs(way.y());
+  const double slope = std::min(x, y) / std::max(x, y);
+  const double slope2 = slope * slope;
+  const double below_diagonal_rad = slope * (0.99921417 + slope2 * (-0.32117868 + slope2 * (0.14627357 - 0.03899266 * slope2)));
+  const double from_x_axis_rad = y > x ? 0.5 * std::numbers::pi - below_diagonal_rad : below_diagonal_rad;
+  return std::copysign(way.x() < 0.0 ? std::numbers::pi - from_x_axis_rad : from_x_axis_rad, way.y());
+}
+
 std::array<Vector2d, 4> corners_of(const Body& body, const Vector2d& centre_m, double margin_m) {
   const Vector2d along = (0.5 * body.length.value_m + margin_m) * Vector2d(std::cos(body.heading_rad), std::sin(body.heading_rad));
   const Vector2d across = (0.5 * body.width.value_m + margin_m) * Vector2d(-std::sin(body.heading_rad), std::cos(body.heading_rad));
@@ -23,6 +36,8 @@ PolarView::PolarView(const flow::SegmentedScan& scan)
     : range_m_(scan.range_m),
       laser_in_odom_m_(scan.odom_from_base.pose * scan.base_from_laser.translation_m()),
       beam_step_rad_(std::abs(scan.beam_step_rad)),
+      beams_per_rad_(1.0 / beam_step_rad_),
+      half_view_rad_(0.5 * beam_step_rad_ * static_cast<double>(scan.range_m.size())),
       is_clockwise_(scan.beam_step_rad < 0.0) {
   const Eigen::Matrix2d R = geometry::rotation(scan.odom_from_base.pose.heading_rad);
   const Vector2d t = scan.odom_from_base.pose.translation_m();
@@ -40,8 +55,7 @@ PolarView::PolarView(const flow::SegmentedScan& scan)
 
 double PolarView::steps_towards(double direction_in_odom_rad) const {
   const double turned = is_clockwise_ ? -1.0 : 1.0;
-  const double half_view_rad = 0.5 * beam_step_rad_ * static_cast<double>(range_m_.size());
-  return (half_view_rad + wrap_angle(turned * (direction_in_odom_rad - first_beam_in_odom_rad_) - half_view_rad)) / beam_step_rad_;
+  return (half_view_rad_ + wrap_angle(turned * (direction_in_odom_rad - first_beam_in_odom_rad_) - half_view_rad_)) / beam_step_rad_;
 }
 
 bool PolarView::any_echo_near(const Vector2d& point_in_odom_m, double within_m, const std::function<bool(std::size_t)>& counts) const {
@@ -57,6 +71,19 @@ bool PolarView::any_echo_near(const Vector2d& point_in_odom_m, double within_m, 
   return false;
 }
 
+long PolarView::beam_towards(const Vector2d& way) const {
+  constexpr double kFullTurn = 2.0 * std::numbers::pi;
+  const double turned = is_clockwise_ ? -1.0 : 1.0;
+  double off_middle_rad = turned * (rough_angle_rad(way) - first_beam_in_odom_rad_) - half_view_rad_;
+  if (off_middle_rad > std::numbers::pi) off_middle_rad -= kFullTurn;
+  if (off_middle_rad < -std::numbers::pi) off_middle_rad += kFullTurn;
+  const double steps = (half_view_rad_ + off_middle_rad) * beams_per_rad_;
+  const long beam = std::lround(steps);
+  const bool is_sure = std::abs(steps - static_cast<double>(beam)) + kRoughErrorRad * beams_per_rad_ < 0.5 &&
+                       std::abs(off_middle_rad) + kRoughErrorRad < std::numbers::pi;
+  return is_sure ? beam : std::lround(steps_towards(std::atan2(way.y(), way.x())));
+}
+
 SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   constexpr double kSamePlaceM = 0.25;
   constexpr double kSamePlacePerM = 0.005;
@@ -65,7 +92,7 @@ SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   constexpr long kBeamsAside = 2;
   const Vector2d way = point_in_odom_m - laser_in_odom_m_;
   const double distance_m = way.norm();
-  const auto middle = std::lround(steps_towards(std::atan2(way.y(), way.x())));
+  const long middle = beam_towards(way);
   const auto count = static_cast<long>(range_m_.size());
   if (middle < 1 || middle + 1 >= count) return {};
   const double near_m = kSamePlaceM + kSamePlacePerM * distance_m;

@@ -55,12 +55,18 @@ class PolarView {
   /// Direction in steps from beam 0, ascending with the beams; within half a turn of the middle of the field of view.
   double steps_towards(double direction_in_odom_rad) const;
 
+  /// Number of the beam nearest to the direction of a way in odom, which may be none of the scan's: steps_towards() rounded,
+  /// mostly without its arctangent.
+  long beam_towards(const Eigen::Vector2d& way) const;
+
  private:
   std::vector<Eigen::Vector2d> points_in_odom_m_;
   std::vector<float> range_m_;
   Eigen::Vector2d laser_in_odom_m_;
   double first_beam_in_odom_rad_ = 0.0;
   double beam_step_rad_ = 0.0;
+  double beams_per_rad_ = 0.0;
+  double half_view_rad_ = 0.0;
   bool is_clockwise_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "common/files/carmen_record.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -24,6 +25,31 @@ const std::string kTail = "3 4 1.570796 3 2 1.570796 0.5 0.1 1 1 0 12.345678 hos
 
 bool is_malformed(const std::string& line) { return std::holds_alternative<MalformedLine>(parse_carmen_line(line)); }
 LaserRecord laser(const std::string& line) { return std::get<LaserRecord>(parse_carmen_line(line)); }
+
+/// What std::from_chars makes of it, which rounds correctly.
+float correctly_rounded(const std::string& text) {
+  float value = 0.0F;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+TEST(ParseReading, RoundsEveryReadingCorrectlyHoweverItIsWritten) {
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> digit('0', '9');
+  for (int i = 0; i < 50'000; ++i) {
+    std::string reading(1 + i % 5, '0');
+    if (i % 7 != 0) reading += "." + std::string(static_cast<std::size_t>(i / 5 % 7), '0');
+    for (char& c : reading) c = c == '.' ? c : static_cast<char>(digit(random));
+    ASSERT_EQ(laser("FLASER 2 " + reading + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5").range_m.front(), correctly_rounded(reading)) << reading;
+  }
+  for (const std::string reading : {"16777216", "16777217", "99999999", "9999999", "0.0000001", "1.", "007.50", "81.83", "8.183e1", "-1.5", "0"}) {
+    EXPECT_EQ(laser("FLASER 2 " + reading + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5").range_m.front(), correctly_rounded(reading)) << reading;
+  }
+}
+
+TEST(ParseReading, RefusesWhatIsNoNumber) {
+  for (const char* text : {".", "1.2.3", "12x", "1..", "--1", "1,5"}) EXPECT_TRUE(is_malformed(std::string("FLASER 2 ") + text + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5")) << text;
+}
 
 TEST(ParseStamp, KeepsEveryDigitThatADoubleWouldLose) {
   EXPECT_EQ(parse_stamp_ns("1575810072.324471"), 1'575'810'072'324'471'000);

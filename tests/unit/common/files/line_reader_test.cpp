@@ -51,6 +51,19 @@ TEST_F(LineReaderTest, ReadsCompressedFilesWhateverTheirName) {
   EXPECT_FALSE(reader->is_cut());
 }
 
+TEST_F(LineReaderTest, LosesNothingOfAFileOfManyChunks) {
+  std::vector<std::string> lines;
+  for (int i = 0; i < 100'000; ++i) lines.push_back("line " + std::to_string(i * 7919 % 100'003));
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  write_gz(file_, text);
+  auto reader = LineReader::open(file_);
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(lines_of(*reader), lines);
+  EXPECT_FALSE(reader->is_cut());
+  EXPECT_DOUBLE_EQ(reader->fraction_read(), 1.0);
+}
+
 TEST_F(LineReaderTest, GivesOutWhatCanBeReadOfACutFileAndSaysThatItIsCut) {
   std::string text;
   for (int i = 0; i < 20'000; ++i) text += "line " + std::to_string(i * 7919 % 10'007) + "\n";

@@ -341,6 +341,30 @@ TEST(DistanceToOccupied, IsWhatASlowRayCasterMeasures) {
   }
 }
 
+TEST(DistanceToOccupied, FindsTheFewThingsOfAWideMapFromEverywhere) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> place(-119.0, 119.0);
+  std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi);
+  EvidenceGrid grid(window_around({0.0, 0.0}, 240.0, kCell_m), EvidenceModel{});
+  std::vector<Cell> occupied;
+  for (int i = 0; i < 400; ++i) {
+    const Vector2d at_m(place(random), place(random));
+    grid.restore_stationary(at_m);
+    occupied.push_back(grid.window().cell_at(at_m.x(), at_m.y()));
+  }
+  for (int i = 0; i < 5000; ++i) {
+    const Vector2d origin_m(place(random), place(random));
+    const double angle_rad = i % 4 == 0 ? 0.5 * std::numbers::pi * (i % 16 / 4) + 1e-3 * angle(random) : angle(random);  // also nearly along an axis
+    const Vector2d direction(std::cos(angle_rad), std::sin(angle_rad));
+    double nearest_m = 300.0;
+    for (const Cell cell : occupied) {
+      const auto passage = passage_through(cell, kCell_m, origin_m, direction);
+      if (passage && passage->length_m() > 1e-5) nearest_m = std::min(nearest_m, passage->in_m);
+    }
+    ASSERT_NEAR(grid.distance_to_occupied(origin_m, direction, 300.0), nearest_m, 2e-5) << origin_m.transpose() << " " << angle_rad;
+  }
+}
+
 TEST(DistanceToOccupied, IsTheWholeRangeWhereNothingStands) {
   EXPECT_EQ(empty_grid().distance_to_occupied({0.1, 0.1}, {0.6, 0.8}, 7.5), 7.5);
   EXPECT_EQ(empty_grid().distance_to_occupied({0.1, 0.1}, {0.6, 0.8}, 1e4), 1e4);

@@ -12,10 +12,8 @@ namespace {
 
 class AReadAhead : public ::testing::Test {
  protected:
-  files::CarmenLog open(int scans) const {
-    std::ofstream(path_) << testing::room_log(scans);
-    return std::move(*files::CarmenLog::open(path_));
-  }
+  void write(int scans) const { std::ofstream(path_) << testing::room_log(scans); }
+  files::CarmenLog open() const { return std::move(*files::CarmenLog::open(path_)); }
 
   const testing::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_.path() / "room.log";
@@ -26,8 +24,9 @@ std::int64_t stamp_of(const files::LogEvent& event) {
 }
 
 TEST_F(AReadAhead, HandsOutWhatTheLogHoldsInItsOrder) {
-  files::CarmenLog log = open(300);
-  files::CarmenLog again = open(300);
+  write(300);
+  files::CarmenLog log = open();
+  files::CarmenLog again = open();
   ReadAhead ahead(log);
   int events = 0;
   double fraction_read = 0.0;
@@ -46,7 +45,8 @@ TEST_F(AReadAhead, HandsOutWhatTheLogHoldsInItsOrder) {
 }
 
 TEST_F(AReadAhead, EndsWithMostOfTheLogUnread) {
-  files::CarmenLog log = open(2000);
+  write(2000);
+  files::CarmenLog log = open();
   {
     ReadAhead ahead(log);
     ASSERT_TRUE(ahead.next());
