@@ -82,13 +82,14 @@ bool is_possible(const grids::CellMoments& moments, double cell_size_m) {
 
 }  // namespace
 
-LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m)
+LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m, flow::SubmapId first)
     : config_(config),
       evidence_(evidence_window(config, centre_in_odom_m), config.evidence),
       surfels_(surfel_window(config, centre_in_odom_m), config.surfel_weight_limit),
       inherited_so_(evidence_.so_cells()),
       inherited_mo_(evidence_.mo_cells()),
       inherited_surfels_(surfels_),
+      submap_id_(first),
       odom_from_submap_(pose_of_window(evidence_.window())) {}
 
 Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
@@ -228,7 +229,7 @@ void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
 }
 
 void LocalMap::begin_astray(const Vector2& centre_in_odom_m) {
-  const flow::SubmapId next{submap_id_.value + 1};
+  const flow::SubmapId next{submap_id_.value + (has_echoes() ? 1 : 0)};
   const double odometer_m = odometer_m_;
   *this = LocalMap(config_, centre_in_odom_m);
   submap_id_ = next;

@@ -31,7 +31,7 @@ struct LocalMapConfig {
 class LocalMap {
  public:
   LocalMap() = default;
-  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m);
+  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m, flow::SubmapId first = {});
 
   const grids::EvidenceGrid& evidence() const { return evidence_; }
   const grids::SurfelMap& surfels() const { return surfels_; }
@@ -60,7 +60,8 @@ class LocalMap {
   /// has drifted by now: matching against it would bend the new submap towards it, which is for loop closing to judge.
   void begin_next(const geometry::Vector2& centre_in_odom_m);
 
-  /// Begins the next submap with nothing: where it lies to what was seen before is not known.
+  /// Begins the next submap with nothing: where it lies to what was seen before is not known. One that has seen nothing
+  /// itself becomes it.
   void begin_astray(const geometry::Vector2& centre_in_odom_m);
 
   /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.
