@@ -159,6 +159,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"use_odometry", &C::use_odometry, "Off, for wheels that are worse than none: constant velocity predicts."},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},
       {"longest_step_s", &C::longest_step_s, "Without odometry nothing is extrapolated farther; longer gaps are counted.", kPositive},
+      {"far_ahead_s", &C::far_ahead_s, "A stamp so far ahead of those before is believed when a second one agrees.", Range{1.0, 1e6}},
       {"fastest_mps", &C::fastest_mps, "Odometry that says more has jumped.", kPositive},
       {"max_pending", &C::max_pending, "Scans that wait for labels before the map goes on without.", Range{1, 100}},
       {"longest_label_wait_s", &C::longest_label_wait_s, "Nor does it wait longer than this, by the scans' stamps.", Range{0.0, 10.0}},

@@ -44,19 +44,23 @@ grids::Echo unexplained_out(EndCell end_cell) {
 }  // namespace
 
 Localizer::Localizer(const LocalizerConfig& config)
-    : config_(config), match_without_wheels_(config.match), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
+    : config_(config), match_without_wheels_(config.match), scan_stamps_(config.far_ahead_s), odometry_stamps_(config.far_ahead_s), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
   sweep_factor_.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
 }
 
 void Localizer::add_odometry(const sensing::Odometry& sample) {
-  if (config_.use_odometry) odometry_.add(sample);
+  if (config_.use_odometry && odometry_stamps_.believes(sample.stamp_ns)) odometry_.add(sample);
 }
 
 void Localizer::expect(const flow::TrackedObjects& objects) { expected_objects_ = objects; }
 
 bool Localizer::is_usable(const sensing::LaserScan& scan) {
+  if (!scan_stamps_.believes(scan.stamp_ns)) {
+    ++counters_.far_ahead_scans;
+    return false;
+  }
   if (!last_ || scan.stamp_ns > last_->stamp_ns) return true;
   if (scan.stamp_ns < last_->stamp_ns) {
     ++counters_.out_of_order_scans;

@@ -21,6 +21,7 @@
 #include "common/sensing/motion_model.hpp"
 #include "common/sensing/odometry_buffer.hpp"
 #include "common/sensing/scan.hpp"
+#include "common/sensing/stamp_guard.hpp"
 #include "common/sensing/variance_factor.hpp"
 #include "services/localization/ambiguous_match.hpp"
 #include "services/localization/local_map.hpp"
@@ -54,6 +55,7 @@ struct LocalizerConfig {
   bool use_odometry = true;               ///< Off, for wheels that are worse than none: constant velocity predicts.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
   double longest_step_s = 2.0;            ///< Without odometry nothing is extrapolated farther; longer gaps are counted.
+  double far_ahead_s = 60.0;              ///< A stamp so far ahead of those before is believed when a second one agrees.
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
   int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
   double longest_label_wait_s = 0.15;     ///< Nor does it wait longer than this, by the scans' stamps.
@@ -76,6 +78,7 @@ struct LocalizerCounters {
   std::uint64_t scans = 0;
   std::uint64_t duplicate_scans = 0;      ///< Same scanner and stamp as one before: dropped.
   std::uint64_t out_of_order_scans = 0;   ///< Older than one before: dropped.
+  std::uint64_t far_ahead_scans = 0;      ///< Stamped far ahead of those before, and no second one agreed: dropped.
   std::uint64_t too_few_echoes = 0;       ///< Dead reckoning instead of a match.
   std::uint64_t lost_matches = 0;         ///< Too few points matched: dead reckoning.
   std::uint64_t searches = 0;             ///< Correlative searches.
@@ -96,6 +99,7 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
   return {{"scans", counters.scans},
           {"duplicate_scans", counters.duplicate_scans},
           {"out_of_order_scans", counters.out_of_order_scans},
+          {"far_ahead_scans", counters.far_ahead_scans},
           {"too_few_echoes", counters.too_few_echoes},
           {"lost_matches", counters.lost_matches},
           {"searches", counters.searches},
@@ -122,7 +126,7 @@ class Localizer {
   bool has_odometry_for(std::int64_t stamp_ns) const { return odometry_.reaches(stamp_ns); }
 
   /// Pose of the scan, its points without the sweep's motion, and what the map expected of each beam.
-  /// None for a scan that is a duplicate (of the same scanner and stamp) or out of order. Remembers the scan until its labels come.
+  /// None for a scan that is a duplicate (of the same scanner and stamp), out of order, or far ahead of all before it. Remembers the scan until its labels come.
   std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan);
 
   /// What tracking predicts to be there: left out of the next matches.
@@ -269,6 +273,8 @@ class Localizer {
   LocalizerConfig config_;
   matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then.
   LocalizerCounters counters_;
+  sensing::StampGuard scan_stamps_;
+  sensing::StampGuard odometry_stamps_;
   sensing::OdometryBuffer odometry_;
   sensing::MotionEstimate estimate_;
   sensing::VarianceFactors variance_factors_;

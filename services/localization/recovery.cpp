@@ -92,7 +92,10 @@ void Localizer::drop_doubted() {
 /// traffic stands before walls, and does not come from one scan to the next. Where the vehicle has hardly moved, nothing does
 /// but the ground that a braking scanner sees, and another place.
 bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior) {
-  if (!found.is_believed && !found.is_lost) return false;
+  if (!found.is_believed && !found.is_lost) {
+    explained_before_ = 0.0;  // beams without echo have cleared the map meanwhile: nothing is to be concluded from that
+    return false;
+  }
   const geometry::Pose2& pose = found.odom_from_base.pose;
   const double explained = explained_share(pose);
   if (!lost_since_ns_) everything_changed_ = explained_before_ - explained > kChanged_share && is_same_view(geometry::inverse(estimate_.odom_from_base) * prior.pose);
