@@ -118,7 +118,8 @@ void CarmenLog::take(const OdometryRecord& record) {
   const auto stamp = plan_.clock == LogClock::kNominal ? std::optional<std::int64_t>(0) : stamp_ns(record.stamps);
   if (!stamp) return note_malformed();
   if (plan_.clock == LogClock::kNominal) odom_lines_.clear();
-  if (!odom_lines_.empty() && *stamp <= odom_lines_.back().stamp_ns) {
+  const bool is_believed = odometry_stamps_.believes(*stamp);
+  if (!is_believed || (!odom_lines_.empty() && *stamp <= odom_lines_.back().stamp_ns)) {
     ++faults_.stale_odometry;
     return;
   }
@@ -207,7 +208,8 @@ std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_
 }
 
 void CarmenLog::put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base) {
-  if (wheel_from_base && (!newest_odometry_ || scan.stamp_ns > newest_odometry_->stamp_ns)) put_odometry({scan.stamp_ns, *wheel_from_base});
+  const bool is_believed = scan_stamps_.believes(scan.stamp_ns);
+  if (is_believed && wheel_from_base && (!newest_odometry_ || scan.stamp_ns > newest_odometry_->stamp_ns)) put_odometry({scan.stamp_ns, *wheel_from_base});
   ready_.emplace_back(std::move(scan));
 }
 

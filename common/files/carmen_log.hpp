@@ -15,6 +15,7 @@
 #include "common/files/line_reader.hpp"
 #include "common/files/result.hpp"
 #include "common/sensing/scan.hpp"
+#include "common/sensing/stamp_guard.hpp"
 
 namespace slammot::files {
 
@@ -95,6 +96,8 @@ class CarmenLog {
   std::deque<LogEvent> ready_;
   std::deque<sensing::Odometry> odom_lines_;         // held back until the scan after them
   std::deque<sensing::LaserScan> waiting_;           // kOdomLines: until an ODOM line as new as the scan
+  sensing::StampGuard scan_stamps_{60.0};            // one from the future must not keep back all odometry after it
+  sensing::StampGuard odometry_stamps_{60.0};
   std::optional<sensing::Odometry> newest_odometry_; // handed out
 };
 

@@ -49,7 +49,7 @@ double range_percentile_m(const std::vector<std::uint32_t>& readings_by_cm, std:
 
 void CarmenSurvey::ClockCheck::add(std::optional<std::int64_t> stamp_ns) {
   ++scans_;
-  if (!stamp_ns) return;
+  if (!stamp_ns || !guard_.believes(*stamp_ns)) return;
   if (newest_ns_ && *stamp_ns > *newest_ns_) {
     ++advancing_;
     steps_ns_.push_back(*stamp_ns - *newest_ns_);

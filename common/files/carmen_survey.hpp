@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/files/carmen_record.hpp"
+#include "common/sensing/stamp_guard.hpp"
 
 namespace slammot::files {
 
@@ -79,6 +80,7 @@ class CarmenSurvey {
     std::uint64_t scans_ = 0;
     std::uint64_t advancing_ = 0;  // newer than all before
     bool counts_scans_ = true;     // whole numbers one second apart
+    sensing::StampGuard guard_{600.0};  // one wrong stamp is the localizer's business
     std::optional<std::int64_t> newest_ns_;
     std::vector<std::int64_t> steps_ns_;
   };

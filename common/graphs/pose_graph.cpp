@@ -75,6 +75,8 @@ void PoseGraph::add_node(flow::SubmapId id, const Pose2& map_from_node) {
   map_from_node_.push_back(map_from_node);
 }
 
+void PoseGraph::move_node(flow::SubmapId id, const Pose2& map_from_node) { map_from_node_[index_of_.at(id)] = map_from_node; }
+
 void PoseGraph::add_constraint(const flow::Constraint& constraint) {
   assert(contains(constraint.from) && contains(constraint.to));
   constraints_.push_back(constraint);

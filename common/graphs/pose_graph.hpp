@@ -31,6 +31,9 @@ class PoseGraph {
   /// Adds a node at its first guess. Precondition: the id is new.
   void add_node(flow::SubmapId id, const geometry::Pose2& map_from_node);
 
+  /// Puts a node elsewhere, as where one that was tied to nothing is found. Precondition: it is known.
+  void move_node(flow::SubmapId id, const geometry::Pose2& map_from_node);
+
   /// Adds what was measured between two nodes. Preconditions: both are known, the covariance is positive definite.
   void add_constraint(const flow::Constraint& constraint);
 

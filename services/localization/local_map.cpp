@@ -89,7 +89,7 @@ bool is_possible(const grids::CellMoments& moments, double cell_size_m) {
 
 }  // namespace
 
-LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m, SideWork* help)
+LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m, SideWork* help, flow::SubmapId first)
     : config_(config),
       free_steps_(free_steps(config)),
       end_cell_tolerance_(end_cell_tolerance(config)),
@@ -98,6 +98,7 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m
       inherited_so_(evidence().so_cells()),
       inherited_mo_(evidence().mo_cells()),
       inherited_surfels_(surfels_),
+      submap_id_(first),
       odom_from_submap_(pose_of_window(evidence().window())) {}
 
 Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
@@ -236,7 +237,7 @@ void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
 }
 
 void LocalMap::begin_astray(const Vector2& centre_in_odom_m) {
-  const flow::SubmapId next{submap_id_.value + 1};
+  const flow::SubmapId next{submap_id_.value + (has_echoes() ? 1 : 0)};
   const double odometer_m = odometer_m_;
   *this = LocalMap(config_, centre_in_odom_m, evidence_.help());
   submap_id_ = next;

@@ -33,7 +33,7 @@ class LocalMap {
  public:
   LocalMap() = default;
   /// help, if any, takes over part of integrate(); it must outlive the map.
-  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m, SideWork* help = nullptr);
+  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m, SideWork* help = nullptr, flow::SubmapId first = {});
 
   /// Waits for what help is still doing.
   const grids::EvidenceGrid& evidence() const { return evidence_.grid(); }
@@ -64,7 +64,8 @@ class LocalMap {
   /// has drifted by now: matching against it would bend the new submap towards it, which is for loop closing to judge.
   void begin_next(const geometry::Vector2& centre_in_odom_m);
 
-  /// Begins the next submap with nothing: where it lies to what was seen before is not known.
+  /// Begins the next submap with nothing: where it lies to what was seen before is not known. One that has seen nothing
+  /// itself becomes it.
   void begin_astray(const geometry::Vector2& centre_in_odom_m);
 
   /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.

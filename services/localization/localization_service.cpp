@@ -167,7 +167,11 @@ void LocalizationService::localize(const sensing::LaserScan& scan) {
   if (last_done_ns_) save_checkpoint(*last_done_ns_);
   const std::string& scanner_id = scan.scanner.scanner_id;
   const app::Stopwatch stopwatch(context_.status().latency("localize"));
-  if (auto localized = localizer_.localize(scan)) {
+  const bool was_lost = localizer_.is_lost();
+  const std::uint64_t astray_before = localizer_.counters().astray;
+  auto localized = localizer_.localize(scan);
+  tell_whereabouts(was_lost, astray_before);
+  if (localized) {
     localized->map_id = *map_id_;
     last_done_ns_ = scan.stamp_ns;
     localized_scans_.write(scan_encoder_.encode(context_.vehicle_id(), *localized));
@@ -177,6 +181,18 @@ void LocalizationService::localize(const sensing::LaserScan& scan) {
     localized_scans_.write(scan_encoder_.encode(context_.vehicle_id(), last->second));
   }
   publish_finished_submaps();
+}
+
+void LocalizationService::tell_whereabouts(bool was_lost, std::uint64_t astray_before) {
+  if (localizer_.counters().astray > astray_before) {
+    spdlog::warn("did not find itself: submap {} is tied to nothing until loop closing finds its place", localizer_.local_map().submap_id().value);
+  } else if (localizer_.is_lost() && !was_lost) {
+    spdlog::warn("lost: scans do not fit the map where the vehicle should be; looks for it in the local map");
+  } else if (was_lost && !localizer_.is_lost()) {
+    spdlog::info("found itself again in the local map");
+  }
+  if (localizer_.is_lost()) context_.status().set_trouble("lost", "looks for itself in the local map");
+  else context_.status().clear_trouble("lost");
 }
 
 /// From the checkpoint, if it is of this scan's drive.

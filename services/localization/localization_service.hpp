@@ -53,6 +53,7 @@ class LocalizationService {
   bool awaits_tracking(const WaitingScan& waiting) const;
   bool is_of_this_drive(const WaitingScan& waiting);
   void localize(const sensing::LaserScan& scan);
+  void tell_whereabouts(bool was_lost, std::uint64_t astray_before);
   bool come_back(const WaitingScan& first);
   void begin_map();
   void add_odometry_of_new_drive();

@@ -19,7 +19,8 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7435;  // "slammot5": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7436;  // "slammot6": the digit counts the forms of a checkpoint
+constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
@@ -43,19 +44,30 @@ grids::Echo unexplained_out(EndCell end_cell) {
 }  // namespace
 
 Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
-    : config_(config), help_(help), match_without_wheels_(config.match), estimate_(sensing::at_start(config.motion)), searcher_(config.search), finder_(finder_config(config.search)) {
+    : config_(config),
+      help_(help),
+      match_without_wheels_(config.match),
+      scan_stamps_(config.far_ahead_s),
+      odometry_stamps_(config.far_ahead_s),
+      estimate_(sensing::at_start(config.motion)),
+      searcher_(config.search),
+      finder_(finder_config(config.search)) {
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
   sweep_factor_.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
 }
 
 void Localizer::add_odometry(const sensing::Odometry& sample) {
-  if (config_.use_odometry) odometry_.add(sample);
+  if (config_.use_odometry && odometry_stamps_.believes(sample.stamp_ns)) odometry_.add(sample);
 }
 
 void Localizer::expect(const flow::TrackedObjects& objects) { expected_objects_ = objects; }
 
 bool Localizer::is_usable(const sensing::LaserScan& scan) {
+  if (!scan_stamps_.believes(scan.stamp_ns)) {
+    ++counters_.far_ahead_scans;
+    return false;
+  }
   if (!last_ || scan.stamp_ns > last_->stamp_ns) return true;
   if (scan.stamp_ns < last_->stamp_ns) {
     ++counters_.out_of_order_scans;
@@ -279,7 +291,8 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   pending.scanner_id = scan.scanner.scanner_id;
   pending.beam_step_rad = scan.scanner.beam_step_rad;
   // As long as wheels are trusted the map grows: round a corner everything may be new.
-  pending.is_withheld = lost_scans_ > 0 || scans_to_prove_ > 0;
+  pending.is_withheld = lost_scans_ > 0;
+  pending.is_doubted = contradicts_map_;
   pending.origin_in_odom_m = odom_from_laser.translation_m();
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());
@@ -311,7 +324,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   now.has_wheels = wheel_from_base.has_value();
   now.wheel_from_base = wheel_from_base.value_or(Pose2{});
   if (!last_) {
-    map_ = LocalMap(config_.map, Vector2::Zero(), help_);
+    map_ = LocalMap(config_.map, Vector2::Zero(), help_, first_submap_);
     sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
   } else {
     const Step step = predict(scan.stamp_ns, wheel_from_base);
@@ -370,9 +383,14 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
     const bool is_far = (scan.rays[i].end_m - scan.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
     scan.rays[i].echo = is_far ? grids::Echo::kNone : echo;
   }
+  if (scan.is_doubted && lost_since_ns_) doubted_.push_back(std::move(scan));
+  else integrate(std::move(scan));
+  pending_.pop_front();
+}
+
+void Localizer::integrate(PendingScan scan) {
   map_.integrate(scan.stamp_ns, scan.origin_in_odom_m, scan.rays, scan.beam_step_rad);
   integrated_.push_back(std::move(scan));
-  pending_.pop_front();
   if (integrated_.size() > kScansKeptForRestoring) integrated_.pop_front();
 }
 
@@ -415,7 +433,8 @@ void Localizer::restore_points(const flow::ScanLabels& labels) {
 
 void Localizer::begin_next_submap_if_due() {
   if (!last_) return;
-  if (!submap_is_ended_ && !map_.is_outgrown(estimate_.odom_from_base.translation_m(), travelled_m_)) return;
+  const double counted_m = short_submaps_left_ > 0 ? kShorterBy * travelled_m_ : travelled_m_;
+  if (!submap_is_ended_ && !map_.is_outgrown(estimate_.odom_from_base.translation_m(), counted_m)) return;
   if (!submap_is_ended_) end_submap();
   const Pose2 odom_from_previous = map_.odom_from_submap();
   map_.begin_next(estimate_.odom_from_base.translation_m());
@@ -423,6 +442,7 @@ void Localizer::begin_next_submap_if_due() {
   drift_.setZero();
   travelled_m_ = 0.0;
   submap_is_ended_ = false;
+  if (short_submaps_left_ > 0) --short_submaps_left_;
 }
 
 void Localizer::end_submap() {
@@ -478,6 +498,7 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(self.drift_);
   visit(self.travelled_m_);
   visit(self.submap_is_ended_);
+  visit(self.short_submaps_left_);
   visit(self.counters_);
 }
 

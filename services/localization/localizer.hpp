@@ -21,6 +21,7 @@
 #include "common/sensing/motion_model.hpp"
 #include "common/sensing/odometry_buffer.hpp"
 #include "common/sensing/scan.hpp"
+#include "common/sensing/stamp_guard.hpp"
 #include "common/sensing/variance_factor.hpp"
 #include "services/localization/ambiguous_match.hpp"
 #include "services/localization/local_map.hpp"
@@ -41,7 +42,8 @@ struct LocalizerConfig {
   double search_when_heading_sigma_rad = 0.02;  ///< or less sure of the heading than this.
   double search_reach_m = 25.0;           ///< Half side of the square of the map that is searched.
   double search_sigmas = 3.0;             ///< Half width of the search window in standard deviations of the prediction.
-  double most_contradicted_share = 0.5;   ///< Lost, too, where the prediction is vague and the match puts more points into what the map knows to be free.
+  double most_contradicted_share = 0.5;   ///< Lost, too, where the prediction is vague and the match puts more points into what the map knows to be free,
+  double most_contradicted_when_sure = 0.8;  ///< or where it is sure and the match puts so many there: traffic alone does not.
   double found_share = 0.6;               ///< Lost, it has found itself again where so many points match.
   int found_scans = 3;                    ///< And so many scans in a row, before they go into the map again.
   bool recovers = true;                   ///< Looks for itself after being carried away; off: goes on by dead reckoning.
@@ -53,6 +55,7 @@ struct LocalizerConfig {
   bool use_odometry = true;               ///< Off, for wheels that are worse than none: constant velocity predicts.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
   double longest_step_s = 2.0;            ///< Without odometry nothing is extrapolated farther; longer gaps are counted.
+  double far_ahead_s = 60.0;              ///< A stamp so far ahead of those before is believed when a second one agrees.
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
   int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
   double longest_label_wait_s = 0.15;     ///< Nor does it wait longer than this, by the scans' stamps.
@@ -75,6 +78,7 @@ struct LocalizerCounters {
   std::uint64_t scans = 0;
   std::uint64_t duplicate_scans = 0;      ///< Same scanner and stamp as one before: dropped.
   std::uint64_t out_of_order_scans = 0;   ///< Older than one before: dropped.
+  std::uint64_t far_ahead_scans = 0;      ///< Stamped far ahead of those before, and no second one agreed: dropped.
   std::uint64_t too_few_echoes = 0;       ///< Dead reckoning instead of a match.
   std::uint64_t lost_matches = 0;         ///< Too few points matched: dead reckoning.
   std::uint64_t searches = 0;             ///< Correlative searches.
@@ -95,6 +99,7 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
   return {{"scans", counters.scans},
           {"duplicate_scans", counters.duplicate_scans},
           {"out_of_order_scans", counters.out_of_order_scans},
+          {"far_ahead_scans", counters.far_ahead_scans},
           {"too_few_echoes", counters.too_few_echoes},
           {"lost_matches", counters.lost_matches},
           {"searches", counters.searches},
@@ -123,7 +128,7 @@ class Localizer {
   bool has_odometry_for(std::int64_t stamp_ns) const { return odometry_.reaches(stamp_ns); }
 
   /// Pose of the scan, its points without the sweep's motion, and what the map expected of each beam.
-  /// None for a scan that is a duplicate (of the same scanner and stamp) or out of order. Remembers the scan until its labels come.
+  /// None for a scan that is a duplicate (of the same scanner and stamp), out of order, or far ahead of all before it. Remembers the scan until its labels come.
   std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan);
 
   /// What tracking predicts to be there: left out of the next matches.
@@ -146,6 +151,14 @@ class Localizer {
   void finish();
 
   void correct(const flow::GraphCorrection& correction);
+
+  /// Goes on in a stored map: the drive's first submap follows the map's last one and is tied to it by next to nothing.
+  /// Loop closing looks for where it lies; until then poses in map begin where that last one is. To be told again, as the
+  /// map comes to be known, until the first scan; later it changes nothing.
+  void go_on_after(const flow::CorrectedSubmap& last);
+
+  /// Whether scans fit the local map, or its place in it is looked for.
+  bool is_lost() const { return lost_scans_ > 0; }
 
   const geometry::Pose2& map_from_odom() const { return map_from_odom_; }
   const sensing::MotionCalibration& calibration() const { return estimate_.calibration; }
@@ -186,7 +199,8 @@ class Localizer {
   };
 
   struct PendingScan {
-    bool is_withheld = false;                   ///< From the map.
+    bool is_withheld = false;                   ///< From the map,
+    bool is_doubted = false;                    ///< or only until it is clear whether the vehicle is lost.
     std::int64_t stamp_ns = 0;
     std::uint32_t sequence = 0;
     std::string scanner_id;
@@ -214,9 +228,22 @@ class Localizer {
   matching::PointToLineResult match_in_closed_form(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config);
   Match match_or_find(const geometry::UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels);
   std::optional<Match> find_again(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config);
-  double contradicted_share(const geometry::Pose2& odom_from_base) const;
+  /// Of some of the scan's points, how many lie where.
+  struct Contradiction {
+    int behind_walls = 0;
+    int in_free_space = 0;      ///< Where the map has seen through.
+    int explained = 0;
+    double share_of_known(int points) const;
+    double share() const { return share_of_known(behind_walls + in_free_space); }
+    double share_behind_walls() const { return share_of_known(behind_walls); }
+  };
+
+  bool is_contradicted(const Match& found, const geometry::UncertainPose2& prior);
+  double explained_share(const geometry::Pose2& odom_from_base) const;
+  Contradiction contradiction(const geometry::Pose2& odom_from_base) const;
   bool has_gone_astray(std::int64_t stamp_ns) const;
   void begin_astray_submap();
+  geometry::UncertainPose2 anywhere_about(const geometry::Pose2& pose) const;
   bool is_vague(const geometry::UncertainPose2& prior) const;
   geometry::Pose2 search(const geometry::UncertainPose2& prior);
   std::vector<matching::Peak> peaks_around(const geometry::UncertainPose2& prior, matching::CorrelativeMatcher& searcher);
@@ -234,6 +261,9 @@ class Localizer {
   void in_two_halves(std::size_t beams, const Work& work) const;
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
+  void integrate(PendingScan scan);
+  void integrate_doubted();
+  void drop_doubted();
   void integrate_first_without_tracking();
   void integrate_overdue(std::int64_t now_ns);
   void restore_points(const flow::ScanLabels& labels);
@@ -248,23 +278,31 @@ class Localizer {
   SideWork* help_ = nullptr;
   matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then.
   LocalizerCounters counters_;
+  sensing::StampGuard scan_stamps_;
+  sensing::StampGuard odometry_stamps_;
   sensing::OdometryBuffer odometry_;
   sensing::MotionEstimate estimate_;
   sensing::VarianceFactors variance_factors_;
   std::optional<State> last_;
   std::vector<std::string> scanners_at_last_;        ///< Whose scans have the last stamp; empty after a restore.
   LocalMap map_;
+  flow::SubmapId first_submap_;
   geometry::Pose2 map_from_odom_;
   geometry::UncertainPose2 previous_from_submap_;    ///< Of the submap in progress.
   geometry::Matrix3 drift_ = geometry::Matrix3::Zero();  ///< Covariance of what was travelled in it, for the tie to the next.
   double travelled_m_ = 0.0;                         ///< In this submap.
   bool submap_is_ended_ = false;                     ///< And the next one not yet begun.
+  std::int32_t short_submaps_left_ = 0;              ///< After it has gone astray.
   std::optional<std::int64_t> lost_since_ns_;        ///< Stamp of the first scan that did not match.
-  int lost_scans_ = 0;                               ///< In a row.
+  int lost_scans_ = 0;                               ///< Since wheels are no longer trusted.
   int scans_to_prove_ = 0;                           ///< Until it is believed to have found itself again.
+  bool contradicts_map_ = false;                     ///< The scan at hand, where it was matched.
+  double explained_before_ = 0.0;                    ///< Share of the last scan's points that the map explained.
+  bool everything_changed_ = false;                  ///< From one scan to the next, when it was lost.
   std::uint32_t correction_sequence_ = 0;
   flow::TrackedObjects expected_objects_;
   std::deque<PendingScan> pending_;
+  std::vector<PendingScan> doubted_;
   std::deque<PendingScan> integrated_;               ///< The last ones, for points that tracking gives back.
   std::vector<flow::Submap> finished_;
   matching::CorrelativeMatcher searcher_;

@@ -19,8 +19,11 @@ constexpr std::size_t kPointsPerProbe = 4;     // neighbours end on the same thi
 constexpr std::size_t kPoses = 4;              // that are looked at
 constexpr double kLeastPeakRatio = 0.7;
 constexpr int kFewestProbes = 10;
+constexpr double kSeenThroughWalls_share = 0.1;
+constexpr double kChanged_share = 0.5;         // of what was explained one scan before
 constexpr double kThroughAWall_m = 1.0;        // grazing beams meet the cells before the one that they end in
 constexpr double kRivalRatio = 0.98;           // with another pose that is as good as this it waits for a scan that tells
+constexpr std::int32_t kShortSubmaps = 4;      // loop closing needs two or three that agree
 constexpr double kFoundByHalf = 0.5;           // what it was lost by must have fallen to this share where it is found
 
 /// A wide search costs as much as hundreds of matches.
@@ -33,6 +36,12 @@ bool are_same(const geometry::Pose2& a, const geometry::Pose2& b) {
   return apart.head<2>().norm() < kSame_m && std::abs(apart.z()) < kSame_rad;
 }
 
+bool is_same_view(const geometry::Pose2& before_from_now) {
+  constexpr double kSameView_m = 1.0;
+  constexpr double kSameView_rad = 0.2;
+  return before_from_now.translation_m().norm() < kSameView_m && std::abs(before_from_now.heading_rad) < kSameView_rad;
+}
+
 }  // namespace
 
 matching::CorrelativeConfig Localizer::finder_config(matching::CorrelativeConfig search) {
@@ -43,34 +52,84 @@ matching::CorrelativeConfig Localizer::finder_config(matching::CorrelativeConfig
 
 Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels) {
   const matching::PointToLineConfig& config = has_wheels ? config_.match : match_without_wheels_;
+  contradicts_map_ = false;
   Match found = match(prior, config, scan.sequence);
-  // Where the prediction is sure, what contradicts the map is traffic; where it is not, the match may be anywhere.
-  if (found.is_believed && is_vague(prior) && contradicted_share(found.odom_from_base.pose) > config_.most_contradicted_share) found.is_lost = true;
+  const bool is_contradicting = is_contradicted(found, prior);
+  found.is_lost |= is_contradicting;
   if (found.is_lost && config_.recovers) {
     if (!lost_since_ns_) lost_since_ns_ = scan.stamp_ns;
+    scans_to_prove_ = config_.found_scans + 1;
+    const double lost_s = static_cast<double>(scan.stamp_ns - *lost_since_ns_) * 1e-9;
+    contradicts_map_ = is_contradicting;
     // Traffic on all sides hides the map for a second or two: as long as wheels are trusted. Without, nothing else is left.
-    const bool is_patient = has_wheels && static_cast<double>(scan.stamp_ns - *lost_since_ns_) * 1e-9 < config_.lost_after_s;
+    const bool is_patient = has_wheels && lost_s < config_.lost_after_s;
     if (is_patient) return found;
     ++lost_scans_;
+    drop_doubted();
     if (const auto again = find_again(prior, config)) found = *again;
   }
   if (!found.is_believed || found.is_lost) return found;
-  if (lost_scans_ > 0) scans_to_prove_ = config_.found_scans;
-  else if (scans_to_prove_ > 0) --scans_to_prove_;
+  // In a wrong place a scan or two may fit: that is no end of being lost.
+  if (scans_to_prove_ > 0 && --scans_to_prove_ > 0) return found;
   lost_since_ns_.reset();
   lost_scans_ = 0;
+  integrate_doubted();
   return found;
 }
 
-/// Of the points about which the map knows anything, how many lie where it has seen through, or behind a wall of it.
-double Localizer::contradicted_share(const geometry::Pose2& odom_from_base) const {
+/// It was there all the time: the scanner saw the ground, or traffic on all sides.
+void Localizer::integrate_doubted() {
+  for (PendingScan& scan : doubted_) integrate(std::move(scan));
+  doubted_.clear();
+}
+
+void Localizer::drop_doubted() {
+  counters_.withheld_scans += doubted_.size();
+  doubted_.clear();
+}
+
+/// Where the prediction is sure, much that contradicts the map is traffic; where it is not, the match may be anywhere. But
+/// traffic stands before walls, and does not come from one scan to the next. Where the vehicle has hardly moved, nothing does
+/// but the ground that a braking scanner sees, and another place.
+bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior) {
+  if (!found.is_believed && !found.is_lost) {
+    explained_before_ = 0.0;  // beams without echo have cleared the map meanwhile: nothing is to be concluded from that
+    return false;
+  }
+  const geometry::Pose2& pose = found.odom_from_base.pose;
+  const double explained = explained_share(pose);
+  if (!lost_since_ns_) everything_changed_ = explained_before_ - explained > kChanged_share && is_same_view(geometry::inverse(estimate_.odom_from_base) * prior.pose);
+  explained_before_ = explained;
+  if (found.is_lost && everything_changed_) return true;
+  if (is_vague(prior)) return contradiction(pose).share() > config_.most_contradicted_share;
+  if (lost_since_ns_ && everything_changed_) return contradiction(pose).share() > kFoundByHalf * config_.most_contradicted_share;
+  if (!found.is_lost && !lost_since_ns_ && explained >= 1.0 - config_.most_contradicted_when_sure) return false;
+  const double most = found.is_lost || lost_since_ns_ ? config_.most_contradicted_share : config_.most_contradicted_when_sure;
+  const Contradiction there = contradiction(pose);
+  return there.share() > most && (everything_changed_ || there.share_behind_walls() > kSeenThroughWalls_share);
+}
+
+/// Of the points, how many lie on what the map knows: cheap, and enough to see that all is well.
+double Localizer::explained_share(const geometry::Pose2& odom_from_base) const {
+  const grids::EvidenceGrid& evidence = map_.evidence();
+  const int tolerance = static_cast<int>(std::ceil(config_.map.end_cell_tolerance_m / config_.map.cell_size_m - 0.5));
+  const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
+  int explained = 0;
+  int probes = 0;
+  for (std::size_t i = 0; i < match_points_.size(); i += kPointsPerProbe, ++probes) {
+    const geometry::Vector2 at_m = odom_from_base.translation_m() + turn * match_points_[i].in_base_m;
+    if (evidence.is_occupied_near(evidence.window().cell_at(at_m.x(), at_m.y()), tolerance)) ++explained;
+  }
+  return probes == 0 ? 1.0 : static_cast<double>(explained) / probes;
+}
+
+Localizer::Contradiction Localizer::contradiction(const geometry::Pose2& odom_from_base) const {
   const grids::EvidenceGrid& evidence = map_.evidence();
   const int free_steps = grids::steps_of_log_odds(config_.map.free_log_odds);
   const int tolerance = static_cast<int>(std::ceil(config_.map.end_cell_tolerance_m / config_.map.cell_size_m - 0.5));
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
   const geometry::Vector2 origin_m = odom_from_base * laser_in_base_m_;
-  int contradicted = 0;
-  int occupied = 0;
+  Contradiction found;
   for (std::size_t i = 0; i < match_points_.size(); i += kPointsPerProbe) {
     const geometry::Vector2 at_m = odom_from_base.translation_m() + turn * match_points_[i].in_base_m;
     const grids::Cell cell = evidence.window().cell_at(at_m.x(), at_m.y());
@@ -78,11 +137,16 @@ double Localizer::contradicted_share(const geometry::Pose2& odom_from_base) cons
     const bool is_behind_a_wall =
         range_m > kThroughAWall_m && evidence.distance_to_occupied(origin_m, (at_m - origin_m) / range_m, range_m) < range_m - kThroughAWall_m;
     const bool is_explained = evidence.is_occupied_near(cell, tolerance);
-    if (is_behind_a_wall || (!is_explained && evidence.so_steps(cell) <= -free_steps)) ++contradicted;
-    else if (is_explained) ++occupied;
+    if (is_behind_a_wall) ++found.behind_walls;
+    else if (!is_explained && evidence.so_steps(cell) <= -free_steps) ++found.in_free_space;
+    else if (is_explained) ++found.explained;
   }
-  const int known = contradicted + occupied;
-  return known < kFewestProbes ? 0.0 : static_cast<double>(contradicted) / known;
+  return found;
+}
+
+double Localizer::Contradiction::share_of_known(int points) const {
+  const int known = behind_walls + in_free_space + explained;
+  return known < kFewestProbes ? 0.0 : static_cast<double>(points) / known;
 }
 
 /// Whichever way it looks now: a room looks much the same from both of its ends, and only all the answers together tell.
@@ -97,7 +161,7 @@ std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prio
   for (const matching::Peak& peak : peaks_around(anywhere, finder_)) {
     const UncertainPose2 about_peak{peak.target_from_source.pose, anywhere.covariance};
     const matching::PointToLineResult result = matcher_.match(match_points_, map_.surfels(), about_peak, peak.target_from_source.pose, config);
-    const double contradicted = contradicted_share(result.map_from_base.pose);
+    const double contradicted = contradiction(result.map_from_base.pose).share();
     if (result.matched_share < config_.found_share || contradicted > kFoundByHalf * config_.most_contradicted_share) continue;
     const double quality = result.matched_share * (1.0 - contradicted);
     const bool is_best = quality > best_quality;
@@ -113,26 +177,40 @@ std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prio
 }
 
 bool Localizer::has_gone_astray(std::int64_t stamp_ns) const {
-  return lost_since_ns_ && map_.has_echoes() && static_cast<double>(stamp_ns - *lost_since_ns_) * 1e-9 > config_.lost_after_s + config_.astray_after_s;
+  return lost_since_ns_ && map_.surfels().capacity_in_use() > 0 && static_cast<double>(stamp_ns - *lost_since_ns_) * 1e-9 > config_.lost_after_s + config_.astray_after_s;
+}
+
+UncertainPose2 Localizer::anywhere_about(const geometry::Pose2& pose) const {
+  const double sigma_m2 = config_.astray_sigma_m * config_.astray_sigma_m;
+  return {pose, Eigen::Vector3d(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi).asDiagonal()};
+}
+
+void Localizer::go_on_after(const flow::CorrectedSubmap& last) {
+  if (last_) return;
+  first_submap_ = {last.submap_id.value + 1};
+  map_from_odom_ = last.map_from_submap;
+  previous_from_submap_ = anywhere_about(geometry::Pose2::identity());
+  short_submaps_left_ = kShortSubmaps;
 }
 
 /// Nothing that was seen before is of use here: the map begins with this scan, and the pose against it is exact.
 void Localizer::begin_astray_submap() {
   ++counters_.astray;
   const geometry::Pose2 odom_from_previous = map_.odom_from_submap();
-  if (!submap_is_ended_) end_submap();
+  if (!submap_is_ended_ && map_.has_echoes()) end_submap();
   map_.begin_astray(estimate_.odom_from_base.translation_m());
-  const double sigma_m2 = config_.astray_sigma_m * config_.astray_sigma_m;
-  const Eigen::Vector3d anywhere(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi);
-  previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), anywhere.asDiagonal()};
+  previous_from_submap_ = anywhere_about(geometry::inverse(odom_from_previous) * map_.odom_from_submap());
   drift_.setZero();
   travelled_m_ = 0.0;
   submap_is_ended_ = false;
+  short_submaps_left_ = kShortSubmaps;
   estimate_.covariance.topRows<3>().setZero();
   estimate_.covariance.leftCols<3>().setZero();
   lost_since_ns_.reset();
   lost_scans_ = 0;
   scans_to_prove_ = 0;
+  contradicts_map_ = false;
+  drop_doubted();
 }
 
 }  // namespace slammot::localization

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "common/graphs/path_uncertainty.hpp"
@@ -18,6 +19,10 @@ using geometry::UncertainPose2;
 using geometry::Vector2;
 
 constexpr double kAnyHeading_rad = 1.0;              // one sigma
+constexpr double kSamePlaceCells = 5.0;              // of the search: nearer to each other it does not tell places apart,
+constexpr double kSamePlace_rad = 0.15;              // nor with less between their headings
+constexpr double kClearlyWorse = 2.0;                // times the contradictions of the best,
+constexpr double kNoise_share = 0.01;                // and this much more
 constexpr double kSameWithinSquaredSigmas = 11.3;  // chi-square, 3 degrees of freedom, 99 %
 
 /// Largest standard deviation of the position in any direction.
@@ -38,6 +43,34 @@ Matrix3 with_floor(Matrix3 covariance) {
 /// Whether the tie to the submap before says next to nothing, not even which way the vehicle looks.
 bool has_gone_astray(const flow::Submap& submap) { return submap.previous_from_submap.covariance(2, 2) > kAnyHeading_rad * kAnyHeading_rad; }
 
+bool is_finite(const Pose2& pose) { return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad); }
+
+/// Whether all that the graph is made from are numbers.
+bool is_sound(const flow::Submap& submap) {
+  return is_finite(submap.odom_from_submap) && is_finite(submap.previous_from_submap.pose) && submap.previous_from_submap.covariance.allFinite() &&
+         is_finite(submap.submap_from_base_at_end) && std::isfinite(submap.travelled_m) &&
+         std::all_of(submap.surfels.begin(), submap.surfels.end(), [](const flow::Surfel& surfel) {
+           return std::isfinite(surfel.x_m) && std::isfinite(surfel.y_m) && std::isfinite(surfel.normal_x) && std::isfinite(surfel.normal_y);
+         });
+}
+
+double quality_of(const Hypothesis& hypothesis) { return hypothesis.quality(); }
+double contradicted_share_of(const Hypothesis& hypothesis) { return 1.0 - hypothesis.agreement.agreed_share(); }
+
+/// In corridors all of which look alike most of the walls agree anywhere: what contradicts tells them apart.
+void drop_clearly_worse(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
+  const double best_quality = std::ranges::max(hypotheses, {}, quality_of).quality();
+  std::erase_if(hypotheses, [&](const Hypothesis& one) { return one.quality() < rival_ratio * best_quality; });
+  const double least_contradicted = contradicted_share_of(std::ranges::min(hypotheses, {}, contradicted_share_of));
+  std::erase_if(hypotheses, [&](const Hypothesis& one) { return contradicted_share_of(one) > kClearlyWorse * least_contradicted + kNoise_share; });
+}
+
+/// The middles of both on each other, and no more known than that.
+UncertainPose2 anywhere_on(const Place& target, const Place& source, double sigma_m) {
+  const Vector2 shift_m = target.middle_m - source.middle_m;
+  return {{shift_m.x(), shift_m.y(), 0.0}, Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, std::numbers::pi * std::numbers::pi).asDiagonal()};
+}
+
 Constraint loop_constraint(const Hypothesis& hypothesis) {
   return {hypothesis.from, hypothesis.to, ConstraintKind::kLoop, hypothesis.from_to};
 }
@@ -49,6 +82,10 @@ LoopCloser::LoopCloser(const LoopClosingConfig& config) : config_(config), graph
 flow::GraphCorrection LoopCloser::add(const flow::Submap& submap) {
   if (graph_.contains(submap.submap_id)) {
     ++counters_.repeated_submaps;
+    return correction();
+  }
+  if (!is_sound(submap)) {
+    ++counters_.faulty_submaps;
     return correction();
   }
   ++counters_.submaps;
@@ -74,6 +111,8 @@ void LoopCloser::extend_graph(const flow::Submap& submap) {
   if (!follows_directly) previous_from_submap.pose = geometry::inverse(previous.odom_from_submap) * submap.odom_from_submap;
   previous_from_submap.covariance = with_floor(previous_from_submap.covariance);
   graph_.add_node(submap.submap_id, graph_.map_from_node(previous.id) * previous_from_submap.pose);
+  // However weak, a tie that is wrong by a kilometre would pull.
+  if (has_gone_astray(submap)) return;
   graph_.add_constraint({previous.id, submap.submap_id, ConstraintKind::kOdometric, previous_from_submap});
 }
 
@@ -112,12 +151,27 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates_for(const Place& sourc
   return chosen;
 }
 
+/// The nearest by the last that is known of the vehicle: nobody knows better where to begin.
+std::vector<LoopCloser::Candidate> LoopCloser::candidates_elsewhere_for(const Place& source) const {
+  const Islands on = islands_now();
+  const Vector2 source_in_map_m = graph_.map_from_node(source.id) * source.middle_m;
+  std::vector<Candidate> all;
+  for (const auto& [id, target] : places_) {
+    if (on.at(id) == on.at(source.id)) continue;
+    all.push_back({id, anywhere_on(target, source, config_.max_distance_m), (graph_.map_from_node(id) * target.middle_m - source_in_map_m).norm()});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.distance_m < b.distance_m; });
+  all.resize(std::min(all.size(), static_cast<std::size_t>(config_.max_candidates_elsewhere)));
+  return all;
+}
+
 Target LoopCloser::target_around(SubmapId id, const Place& source) const {
+  const Islands on = islands_now();
   Target target{{{&places_.at(id), Pose2::identity()}}};
   const Pose2 target_from_map = geometry::inverse(graph_.map_from_node(id));
   for (int step = -config_.neighbours; step <= config_.neighbours; ++step) {
     const auto found = places_.find({static_cast<std::uint32_t>(static_cast<std::int64_t>(id.value) + step)});
-    if (step == 0 || found == places_.end()) continue;
+    if (step == 0 || found == places_.end() || on.at(found->first) != on.at(id)) continue;
     if (source.travelled_before_m - found->second.travelled_after_m < config_.min_travel_between_m) continue;
     target.members.push_back({&found->second, target_from_map * graph_.map_from_node(found->first)});
   }
@@ -136,6 +190,33 @@ void LoopCloser::look_for_revisits(const Place& source) {
     if (found.front().has_rivals) ++counters_.ambiguous;
     waiting_.insert(waiting_.end(), found.begin(), found.end());
   }
+  look_elsewhere(source);
+}
+
+/// Two places far from each other may look alike: those found in all of them are each other's rivals.
+void LoopCloser::look_elsewhere(const Place& source) {
+  std::vector<Hypothesis> found;
+  for (const Candidate& candidate : candidates_elsewhere_for(source)) {
+    ++counters_.searches;
+    const auto there = finder_.find(target_around(candidate.id, source), source, candidate.target_from_source);
+    found.insert(found.end(), there.begin(), there.end());
+  }
+  if (found.empty()) return;
+  ++counters_.hypotheses;
+  drop_clearly_worse(found, config_.revisit.rival_ratio);
+  const Islands on = islands_now();
+  for (Hypothesis& one : found) {
+    one.has_rivals = std::any_of(found.begin(), found.end(), [&](const Hypothesis& other) { return are_rivals(one, other, on); });
+  }
+  if (std::any_of(found.begin(), found.end(), [](const Hypothesis& one) { return one.has_rivals; })) ++counters_.ambiguous;
+  waiting_.insert(waiting_.end(), found.begin(), found.end());
+}
+
+/// Whether both put one submap onto one island, in different places.
+bool LoopCloser::are_rivals(const Hypothesis& a, const Hypothesis& b, const Islands& on) const {
+  if (a.to != b.to || on.at(a.from) != on.at(b.from)) return false;
+  const Eigen::Vector3d apart = geometry::difference(graph_.map_from_node(a.from) * a.from_to.pose, graph_.map_from_node(b.from) * b.from_to.pose);
+  return apart.head<2>().norm() > kSamePlaceCells * config_.revisit.search_cell_m || std::abs(apart.z()) > kSamePlace_rad;
 }
 
 bool LoopCloser::agree(const Hypothesis& a, const Hypothesis& b) const {
@@ -148,9 +229,11 @@ bool LoopCloser::agree(const Hypothesis& a, const Hypothesis& b) const {
 }
 
 int LoopCloser::support_of(const Hypothesis& hypothesis) const {
+  const Islands on = islands_now();
   std::set<SubmapId> supporters{hypothesis.to};
   for (const Hypothesis& other : waiting_) {
-    if (other.to != hypothesis.to && agree(hypothesis, other)) supporters.insert(other.to);
+    const bool is_comparable = on.at(other.to) == on.at(hypothesis.to) && on.at(other.from) == on.at(hypothesis.from);
+    if (other.to != hypothesis.to && is_comparable && agree(hypothesis, other)) supporters.insert(other.to);
   }
   return static_cast<int>(supporters.size());
 }
@@ -161,11 +244,16 @@ int LoopCloser::needed_support_for(const Hypothesis& hypothesis) const {
 }
 
 void LoopCloser::close_what_is_firm() {
+  const Islands on = islands_now();
   std::vector<Hypothesis> firm;
   for (const Hypothesis& hypothesis : waiting_) {
+    if (hypothesis.agreement.agreed_share() < config_.revisit.min_agreed_share) continue;  // good for the support of others
     const int support = support_of(hypothesis);
     if (support < needed_support_for(hypothesis)) continue;
     const bool has_equal_rival = std::any_of(waiting_.begin(), waiting_.end(), [&](const Hypothesis& other) {
+      // Found anywhere at all, it must be the only one that others support.
+      const bool is_found_elsewhere = on.at(hypothesis.from) != on.at(hypothesis.to);
+      if (is_found_elsewhere) return are_rivals(hypothesis, other, on) && support_of(other) >= std::min(support, config_.needed_support);
       const bool is_rival = other.to == hypothesis.to && other.from == hypothesis.from && &other != &hypothesis;
       return is_rival && support_of(other) >= support;
     });
@@ -181,8 +269,28 @@ void LoopCloser::close_what_is_firm() {
   }
 }
 
+/// The later island moves, all of it: the map is where the first submap is.
+void LoopCloser::join_islands(const Hypothesis& hypothesis, const Islands& on) {
+  const bool to_moves = on.at(hypothesis.from) < on.at(hypothesis.to);
+  const Pose2 map_from_from = graph_.map_from_node(hypothesis.from);
+  const Pose2 map_from_to = graph_.map_from_node(hypothesis.to);
+  const Pose2 shift = to_moves ? map_from_from * hypothesis.from_to.pose * geometry::inverse(map_from_to)
+                               : map_from_to * geometry::inverse(hypothesis.from_to.pose) * geometry::inverse(map_from_from);
+  const SubmapId moving = on.at(to_moves ? hypothesis.to : hypothesis.from);
+  for (const auto& [id, island] : on) {
+    if (island == moving) graph_.move_node(id, shift * graph_.map_from_node(id));
+  }
+  ++counters_.found_elsewhere;
+}
+
 bool LoopCloser::close(const Hypothesis& hypothesis) {
   const Constraint constraint = loop_constraint(hypothesis);
+  const Islands on = islands_now();
+  if (on.at(hypothesis.from) != on.at(hypothesis.to)) {
+    join_islands(hypothesis, on);
+    graph_.add_constraint(constraint);
+    return true;
+  }
   Constraint widened = constraint;
   widened.from_to.covariance += expectations_from(hypothesis.from).at(hypothesis.to).covariance;
   const auto error = [&](const Constraint& one) {
@@ -198,7 +306,10 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
   return false;
 }
 
+bool LoopCloser::knows_where_it_is() const { return places_.empty() || islands_now().at(places_.rbegin()->first) == places_.begin()->first; }
+
 flow::GraphCorrection LoopCloser::correction() {
+  if (places_.empty()) return {++sequence_, {}, {}, {}};
   const Place& newest = places_.rbegin()->second;
   return {.sequence = ++sequence_,
           .map_from_odom = graph_.map_from_node(newest.id) * geometry::inverse(newest.odom_from_submap),

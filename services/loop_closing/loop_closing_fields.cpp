@@ -51,6 +51,7 @@ FieldTable<RevisitConfig> revisit_fields() {
           {"astray_window_m", &C::astray_window_m, "And at most so far around.", kPositive},
           {"min_overlap_share", &C::min_overlap_share, "Of the new submap's walls, those that the earlier one has too.", kShare},
           {"min_agreed_share", &C::min_agreed_share, "Of the walls of either, those that the other has not seen free.", kShare},
+          {"min_agreed_in_support", &C::min_agreed_in_support, "Searched for everywhere, so much still supports another that agrees.", kShare},
           {"rival_ratio", &C::rival_ratio, "Another pose as good as this share of the best makes it ambiguous.", kShare},
       },
       "registration", &C::registration, registration_fields());
@@ -77,6 +78,7 @@ FieldTable<LoopClosingConfig> all_fields() {
       {"needed_support", &C::needed_support, "Submaps that must agree on a closure otherwise.", Range{1, 100}},
       {"needed_when_ambiguous", &C::needed_when_ambiguous, "Submaps that must agree where other poses fit as well.", Range{1, 100}},
       {"patience_submaps", &C::patience_submaps, "How long a hypothesis waits for others that agree.", Range{0, 1000}},
+      {"max_candidates_elsewhere", &C::max_candidates_elsewhere, "Searches for one new submap among those that nothing ties it to yet.", Range{0, 10000}},
       {"max_squared_error", &C::max_squared_error, "Chi-square of a closure against the graph before and after.", kPositive},
   };
   table = with_nested(std::move(table), "place", &C::place, place_fields());

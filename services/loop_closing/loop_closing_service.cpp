@@ -54,11 +54,21 @@ void LoopClosingService::add_waiting() {
 
 void LoopClosingService::add(const flow::Submap& submap) {
   const app::Stopwatch stopwatch(context_.status().latency("add_submap"));
+  const bool knew_where_it_is = closer_.knows_where_it_is();
   flow::GraphCorrection correction = closer_.add(submap);
+  tell_whereabouts(submap.submap_id, knew_where_it_is);
   correction.map_id = *map_id_;
   ++added_;
   publish_new_constraints();
   correction_encoder_.encode(context_.vehicle_id(), correction, [this](const auto& part) { corrections_.write(part); });
+}
+
+void LoopClosingService::tell_whereabouts(flow::SubmapId newest, bool knew_before) {
+  const bool knows = closer_.knows_where_it_is();
+  if (!knows && knew_before) spdlog::warn("nothing ties submap {} to the first one yet: looks for it everywhere", newest.value);
+  if (knows && !knew_before) spdlog::info("found where submap {} lies", newest.value);
+  if (knows) context_.status().clear_trouble("astray");
+  else context_.status().set_trouble("astray", "nothing ties submap " + std::to_string(newest.value) + " to the first one yet");
 }
 
 /// Constraints are only ever added at the end.

@@ -30,6 +30,7 @@ class LoopClosingService {
   void begin_map(flow::MapId map_id);
   void add_waiting();
   void add(const flow::Submap& submap);
+  void tell_whereabouts(flow::SubmapId newest, bool knew_before);
   void publish_new_constraints();
 
   app::ServiceContext& context_;

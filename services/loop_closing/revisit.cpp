@@ -73,6 +73,10 @@ matching::TargetRegion region_around(const std::vector<flow::Surfel>& surfels, d
           .largest_shift_m = largest_shift_m};
 }
 
+bool is_astray(const UncertainPose2& expected, const RevisitConfig& config) {
+  return expected.covariance(2, 2) > config.any_heading_sigma_rad * config.any_heading_sigma_rad;
+}
+
 bool are_same(const UncertainPose2& a, const UncertainPose2& b) {
   const Eigen::Vector3d difference = geometry::difference(a.pose, b.pose);
   return difference.dot(Matrix3(a.covariance + b.covariance).ldlt().solve(difference)) < kSameWithinSquaredSigmas;
@@ -101,9 +105,9 @@ RevisitFinder::RevisitFinder(const RevisitConfig& config) : config_(config), mat
 
 std::vector<matching::Peak> RevisitFinder::search(const Target& target, const Place& source, const UncertainPose2& expected) {
   const auto surfels = surfels_in_target(target);
-  const bool is_astray = expected.covariance(2, 2) > config_.any_heading_sigma_rad * config_.any_heading_sigma_rad;
+  const bool astray = is_astray(expected, config_);
   const auto window_m = [&](double variance_m2) {
-    return std::clamp(config_.window_sigmas * std::sqrt(variance_m2), config_.min_window_m, is_astray ? config_.astray_window_m : config_.max_window_m);
+    return std::clamp(config_.window_sigmas * std::sqrt(variance_m2), config_.min_window_m, astray ? config_.astray_window_m : config_.max_window_m);
   };
   const Vector2 centre_m = centroid_of(source.surfels);
   const Pose2 source_from_centre{centre_m.x(), centre_m.y(), 0.0};
@@ -111,7 +115,7 @@ std::vector<matching::Peak> RevisitFinder::search(const Target& target, const Pl
   const matching::SearchWindow window{
       window_m(target_from_centre.covariance(0, 0)), window_m(target_from_centre.covariance(1, 1)),
       std::clamp(config_.window_sigmas * std::sqrt(expected.covariance(2, 2)), config_.min_window_rad,
-                 is_astray ? std::numbers::pi : config_.max_window_rad)};
+                 astray ? std::numbers::pi : config_.max_window_rad)};
   matcher_.set_target(as_target_points(surfels), region_around(surfels, std::max(window.half_x_m, window.half_y_m)));
   auto peaks = matcher_.search(points_about(centre_m, source.surfels, config_.max_points), target_from_centre.pose, window);
   for (matching::Peak& peak : peaks) {
@@ -124,6 +128,7 @@ std::vector<Hypothesis> RevisitFinder::find(const Target& target, const Place& s
   std::vector<Hypothesis> hypotheses;
   const SurfelIndex index(surfels_in_target(target), config_.registration.coarse_gate_m);
   if (index.surfels().empty() || source.surfels.empty()) return hypotheses;
+  const double least_agreed_share = is_astray(expected_target_from_source, config_) ? config_.min_agreed_in_support : config_.min_agreed_share;
   for (const matching::Peak& peak : search(target, source, expected_target_from_source)) {
     const Registration registration =
         register_surfels(source.surfels, source.spacing_m, index, peak.target_from_source.pose, config_.registration);
@@ -133,7 +138,7 @@ std::vector<Hypothesis> RevisitFinder::find(const Target& target, const Place& s
                                 .agreement = compare(target, source, registration.target_from_source.pose),
                                 .score = peak.score,
                                 .searched_sigma_m = std::sqrt(expected_target_from_source.covariance.topLeftCorner<2, 2>().trace())};
-    const bool holds = hypothesis.agreement.agreed_share() >= config_.min_agreed_share &&
+    const bool holds = hypothesis.agreement.agreed_share() >= least_agreed_share &&
                        hypothesis.agreement.overlap_share() >= config_.min_overlap_share;
     if (holds) hypotheses.push_back(hypothesis);
   }

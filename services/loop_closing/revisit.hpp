@@ -24,6 +24,7 @@ struct RevisitConfig {
   double astray_window_m = 60.0;         ///< and at most so far around.
   double min_overlap_share = 0.3;        ///< Walls of both seen by the other.
   double min_agreed_share = 0.9;         ///< Of the walls about which the other knows anything.
+  double min_agreed_in_support = 0.8;    ///< Searched for everywhere, so much still speaks for another that agrees.
   double rival_ratio = 0.75;             ///< Another pose that is as good as this share of the best makes it ambiguous.
   RegistrationConfig registration;
 };

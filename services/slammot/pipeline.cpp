@@ -7,6 +7,16 @@ namespace slammot {
 Pipeline::Pipeline(const Profile& profile)
     : detection_(profile.detection), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking), loop_closer_(profile.loop_closing) {}
 
+/// The graph is made again from its submaps, as it was made when they came.
+void Pipeline::go_on_in(const std::vector<flow::Submap>& stored) {
+  for (const flow::Submap& submap : stored) {
+    const flow::GraphCorrection correction = loop_closer_.add(submap);
+    record_.add(submap);
+    record_.add(correction);
+    if (!correction.submaps.empty()) localizer_.go_on_after(correction.submaps.back());
+  }
+}
+
 void Pipeline::take(const sensing::Odometry& odometry) { localizer_.add_odometry(odometry); }
 
 void Pipeline::take(const sensing::LaserScan& scan) {

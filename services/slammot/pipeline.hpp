@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "common/files/run_record.hpp"
 #include "common/sensing/scan.hpp"
@@ -22,6 +23,10 @@ class Pipeline {
  public:
   explicit Pipeline(const Profile& profile);
 
+  /// Before the first scan: submaps of earlier drives, ascending. The drive goes on in their map once it has found itself in
+  /// it; the record holds them, too.
+  void go_on_in(const std::vector<flow::Submap>& stored);
+
   void take(const sensing::Odometry& odometry);
 
   /// Localizes, detects, tracks and maps one scan, and closes loops when that finished a submap.
@@ -33,6 +38,9 @@ class Pipeline {
   const files::RunRecord& record() const { return record_; }
   const StageTimes& times() const { return times_; }
   std::map<std::string, std::map<std::string, std::uint64_t>> counters() const;
+
+  /// Whether the newest finished submap is tied to the first one of the map.
+  bool knows_where_it_is() const { return loop_closer_.knows_where_it_is(); }
 
  private:
   void close_loops();

@@ -17,6 +17,7 @@
 #include "services/slammot/pipeline.hpp"
 #include "services/slammot/progress_bar.hpp"
 #include "services/slammot/read_ahead.hpp"
+#include "services/slammot/stored_map.hpp"
 
 namespace slammot {
 namespace {
@@ -48,6 +49,13 @@ class Pace {
   std::optional<double> speed_;
   std::int64_t first_stamp_ns_;
   Clock::time_point start_ = Clock::now();
+};
+
+/// What `run` is asked for beyond what any job is.
+struct RunOptions {
+  JobOptions job;
+  std::filesystem::path map;   ///< Stored map to go on in; may be empty.
+  bool stores_map = false;
 };
 
 /// How much of a drive was processed.
@@ -94,7 +102,31 @@ int end_of(const JobOptions& options, const files::RunReport& report, const Driv
   return kExitLogIsCut;
 }
 
-int run(const JobOptions& options) {
+/// Takes up the stored map, if one was asked for.
+std::optional<files::Error> take_up_map(const std::filesystem::path& map, Pipeline& pipeline) {
+  if (map.empty()) return std::nullopt;
+  const auto stored = read_stored_map(map);
+  if (!stored) return stored.error();
+  pipeline.go_on_in(*stored);
+  std::printf("map:      %zu submaps of %s\n", stored->size(), map.c_str());
+  std::fflush(stdout);
+  return std::nullopt;
+}
+
+/// What a drive that was lost, or began in a stored map, wants to know.
+std::string describe_whereabouts(const Pipeline& pipeline, const RunOptions& options) {
+  const auto counters = pipeline.counters();
+  const auto astray = counters.at("localization").at("astray");
+  if (options.map.empty() && astray == 0) return {};
+  const auto found = counters.at("loop_closing").at("found_elsewhere");
+  const std::string lost = astray == 0 ? std::string() : "warning:  lost its way and began a new part of the map, " + std::to_string(astray) + " times\n";
+  const std::string place = pipeline.knows_where_it_is() ? "found itself in the map (parts joined: " + std::to_string(found) + ")\n"
+                                                         : "did not find itself in the map: its poses begin anywhere in it\n";
+  return lost + (pipeline.knows_where_it_is() ? "map:      " : "warning:  ") + place;
+}
+
+int run(const RunOptions& run_options) {
+  const JobOptions& options = run_options.job;
   const auto start = Clock::now();
   std::stop_source interruption;
   const app::StopSignal stop_signal([&] { interruption.request_stop(); });
@@ -103,6 +135,7 @@ int run(const JobOptions& options) {
   std::fputs(describe_job(*job, options).c_str(), stdout);
   std::fflush(stdout);
   Pipeline pipeline(job->profile);
+  if (const auto fault = take_up_map(run_options.map, pipeline)) return fail(*fault);
   const Driven driven = drive(*job, pipeline, interruption.get_token());
   if (driven.is_interrupted && pipeline.record().scans() == 0) {
     std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
@@ -114,6 +147,10 @@ int run(const JobOptions& options) {
   const double wall_s = seconds_since(start);
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s, peak_memory_mb()};
   if (const auto fault = files::write_outputs(options.output, pipeline.record(), report)) return fail(*fault);
+  if (run_options.stores_map) {
+    if (const auto fault = write_stored_map(options.output, pipeline.record().submaps())) return fail(*fault);
+  }
+  std::fputs(describe_whereabouts(pipeline, run_options).c_str(), stdout);
   std::fputs(describe_outcome(pipeline.record(), report, options.output).c_str(), stdout);
   return end_of(options, report, driven);
 }
@@ -122,8 +159,10 @@ int run(const JobOptions& options) {
 
 void add_run_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand("run", "Take a drive, recorded or simulated, through all stages in this one process");
-  const auto options = std::make_shared<JobOptions>();
-  add_job_options(*command, *options);
+  const auto options = std::make_shared<RunOptions>();
+  add_job_options(*command, options->job);
+  command->add_option("--map", options->map, "Stored map of earlier drives to go on in: a folder that --store-map wrote, map_store's folder or its file")->type_name("DIR|FILE");
+  command->add_flag("--store-map", options->stores_map, "Write the submaps into the results' folder, as map.sqlite, for --map");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -23,6 +23,7 @@ PATIENCE = float(os.environ.get("SLAMMOT_TEST_PATIENCE", 1))  # more for service
 
 def spoil(scans):
     """What must be counted, by counter of localization. Last faults first, so that places stay what they are."""
+    faults.stamp(scans, 2850, 4000.0)
     faults.blind(scans, 2700, 40)                        # every beam at maximum range, for a second
     faults.jump(scans, 2400, 1.0, -0.5, 0.3)             # less than a car may go in a step, 20 degrees round
     faults.jump(scans, 2100, 400.0, -30.0, 0.0)
@@ -31,7 +32,7 @@ def spoil(scans):
     faults.repeat(scans, 1200, 4)
     faults.swap(scans, 900, 4)                           # the newest of four comes first
     faults.swap(scans, 600, 2)
-    return {"too_few_echoes": 60, "odometry_jumps": 2, "gaps": 1, "duplicate_scans": 4, "out_of_order_scans": 4}
+    return {"too_few_echoes": 60, "odometry_jumps": 2, "gaps": 1, "duplicate_scans": 4, "out_of_order_scans": 4, "far_ahead_scans": 1}
 
 
 class BadInput(unittest.TestCase):
@@ -76,6 +77,7 @@ class BadInput(unittest.TestCase):
         self.assertEqual(counters["ingest"]["skipped_scans"] + counted["duplicate_scans"] + counted["out_of_order_scans"], stale)
         for name in ("too_few_echoes", "odometry_jumps", "gaps"):
             self.assertEqual(counted[name], self.expected[name], name)
+        self.assertGreaterEqual(counted["far_ahead_scans"], 1)  # sent again in vain
         self.look_at_poses("bench")
 
 

@@ -230,6 +230,29 @@ TEST(Localizer, DropsAndCountsDuplicatesAndScansOutOfOrder) {
   EXPECT_EQ(disturbed.counters().out_of_order_scans, 39U);
 }
 
+TEST(Localizer, IsNotMadeLateByAScanStampedFarInTheFuture) {
+  SimulatedDrive drive(round_in_a_room());
+  Localizer disturbed(small_map_config());
+  Localizer undisturbed(small_map_config());
+  for (std::uint32_t scan = 0; scan < 40; ++scan) {
+    if (scan == 20) {
+      sensing::LaserScan ahead = drive.scan(scan);
+      ahead.stamp_ns += 4'000'000'000'000;
+      sensing::Odometry odometry = drive.odometry(scan);
+      odometry.stamp_ns = ahead.stamp_ns;
+      disturbed.add_odometry(odometry);
+      EXPECT_FALSE(disturbed.localize(ahead));
+      EXPECT_FALSE(disturbed.has_odometry_for(ahead.stamp_ns));
+    }
+    const auto expected = drive_one(undisturbed, drive, scan);
+    const auto localized = drive_one(disturbed, drive, scan);
+    ASSERT_TRUE(localized) << scan;
+    EXPECT_EQ(localized->odom_from_base.pose, expected->odom_from_base.pose);
+  }
+  EXPECT_EQ(disturbed.counters().far_ahead_scans, 1U);
+  EXPECT_EQ(disturbed.counters().out_of_order_scans, 0U);
+}
+
 TEST(Localizer, WorksWithoutAnyOdometry) {
   DriveSetup setup = round_in_a_room();
   SimulatedDrive drive(setup);

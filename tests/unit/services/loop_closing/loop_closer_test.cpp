@@ -1,6 +1,7 @@
 #include "services/loop_closing/loop_closer.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -106,6 +107,92 @@ TEST(LoopCloser, DoesNotTakeOneOfEqualCorridorsForAnother) {
   for (const Submap& submap : drive(plan, way, 0.0, 4.0)) closer.add(submap);
   EXPECT_GT(closer.counters().searches, 10U);
   EXPECT_EQ(closer.counters().closures, 0U);
+}
+
+/// Two drives of one vehicle that was carried in between: its odometry knows nothing of the way.
+std::vector<Submap> carried_between(std::vector<Submap> before, const std::vector<Submap>& after) {
+  for (Submap submap : after) {
+    submap.submap_id = {static_cast<std::uint32_t>(before.size())};
+    submap.odom_from_submap = Pose2{300.0, -200.0, 2.5} * submap.odom_from_submap;
+    if (submap.previous_from_submap.covariance.isZero()) {  // the first one
+      submap.previous_from_submap.pose = inverse(before.back().odom_from_submap) * submap.odom_from_submap;
+      submap.previous_from_submap.covariance = Eigen::Vector3d(225.0, 225.0, 10.0).asDiagonal();
+    }
+    before.push_back(submap);
+  }
+  return before;
+}
+
+class CarriedAway : public ::testing::Test {
+ protected:
+  CarriedAway() : around_(way_around_the_ring(1.08)), before_(drive(ring(), around_, 0.0)) {
+    const auto again = way_around_the_ring(1.0);
+    after_.assign(again.begin() + 60, again.begin() + 121);  // from the next corridor on, five submaps
+  }
+
+  /// Of the submaps after it was carried, in map.
+  double largest_error_after_m(const GraphCorrection& correction) const {
+    double largest_m = 0.0;
+    for (std::size_t i = before_.size(); i < correction.submaps.size(); ++i) {
+      const Pose2 truth = inverse(around_.front()) * after_[12 * (i - before_.size())];
+      largest_m = std::max(largest_m, (correction.submaps[i].map_from_submap.translation_m() - truth.translation_m()).norm());
+    }
+    return largest_m;
+  }
+
+  std::vector<Pose2> around_;
+  std::vector<Pose2> after_;
+  std::vector<Submap> before_;
+  LoopCloser closer_{indoor_loop_closing()};
+};
+
+TEST_F(CarriedAway, IsFoundHoweverFar) {
+  GraphCorrection correction;
+  for (const Submap& submap : carried_between(before_, drive(ring(), after_, 0.0))) correction = closer_.add(submap);
+  EXPECT_TRUE(closer_.knows_where_it_is());
+  EXPECT_EQ(closer_.counters().found_elsewhere, 1U);
+  EXPECT_LT(largest_error_after_m(correction), 0.2);
+}
+
+TEST_F(CarriedAway, SaysThatItDoesNotKnowWhereUntilTwoSubmapsAgree) {
+  const auto submaps = carried_between(before_, drive(ring(), after_, 0.0));
+  for (const Submap& submap : before_) closer_.add(submap);
+  EXPECT_TRUE(closer_.knows_where_it_is());
+  closer_.add(submaps[before_.size()]);
+  EXPECT_FALSE(closer_.knows_where_it_is());
+}
+
+TEST_F(CarriedAway, LiesNowhereRatherThanInAWrongPlace) {
+  FloorPlan elsewhere;  // corridors of the same width without anything in them that the ring has
+  elsewhere.add_box({0, 0}, {20, 20});
+  elsewhere.add_box({-2.3, -2.2}, {22.4, 22.1});
+  for (double at_m = -1.0; at_m < 20.0; at_m += 4.3) {
+    elsewhere.add_box({at_m, -0.5}, {at_m + 0.4, -0.1});
+    elsewhere.add_box({21.9, at_m}, {22.3, at_m + 0.8});
+    elsewhere.add_box({at_m, 20.1}, {at_m + 0.2, 20.4});
+  }
+  for (const Submap& submap : carried_between(before_, drive(elsewhere, after_, 0.0))) closer_.add(submap);
+  EXPECT_FALSE(closer_.knows_where_it_is());
+  EXPECT_GT(closer_.counters().searches, 50U);
+  EXPECT_EQ(closer_.counters().found_elsewhere, 0U);
+}
+
+TEST(LoopCloser, IgnoresSubmapsWhoseNumbersAreNone) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const auto submaps = drive(ring(), way_around_the_ring(0.4), 0.0);
+  std::vector<Submap> faulty(6, submaps[1]);
+  faulty[0].odom_from_submap.x_m = kNone;
+  faulty[1].previous_from_submap.pose.heading_rad = std::numeric_limits<double>::infinity();
+  faulty[2].previous_from_submap.covariance(1, 1) = kNone;
+  faulty[3].submap_from_base_at_end.y_m = kNone;
+  faulty[4].travelled_m = kNone;
+  faulty[5].surfels.front().x_m = std::numeric_limits<float>::quiet_NaN();
+  LoopCloser closer(indoor_loop_closing());
+  EXPECT_TRUE(closer.add(faulty[0]).submaps.empty());
+  closer.add(submaps[0]);
+  for (const Submap& submap : faulty) EXPECT_EQ(closer.add(submap).submaps.size(), 1U);
+  EXPECT_EQ(closer.counters().faulty_submaps, faulty.size() + 1);
+  EXPECT_EQ(closer.add(submaps[1]).submaps.size(), 2U);
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+#include "services/slammot/stored_map.hpp"
+
+#include <string>
+#include <system_error>
+#include <variant>
+
+#include "common/app/service_options.hpp"
+#include "services/map_store/store.hpp"
+
+namespace slammot {
+namespace {
+
+using files::Error;
+using files::Result;
+using map_store::Store;
+
+constexpr const char* kFileName = "map.sqlite";
+
+std::filesystem::path file_of(const std::filesystem::path& path) { return std::filesystem::is_directory(path) ? path / kFileName : path; }
+
+Result<std::vector<flow::Submap>> read(Store& store, const std::string& name) {
+  const std::vector<std::string> vehicles = store.vehicles();
+  if (!store.last_fault().empty()) return Error{name + ": " + store.last_fault()};
+  if (vehicles.empty()) return Error{name + ": no map is stored there"};
+  if (vehicles.size() > 1) return Error{name + ": maps of " + std::to_string(vehicles.size()) + " vehicles are stored there, one is expected"};
+  std::vector<flow::Submap> submaps;
+  for (const flow::SubmapId id : store.list(vehicles.front())) {
+    auto submap = store.get(vehicles.front(), id);
+    if (!submap) return Error{name + ": " + store.last_fault()};
+    submap->map_id = {};  // in one process there is one map
+    submaps.push_back(std::move(*submap));
+  }
+  return submaps;
+}
+
+}  // namespace
+
+Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path) {
+  const std::filesystem::path file = file_of(path);
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(file, unreadable)) return Error{file.string() + ": no such file; run --store-map makes one"};
+  auto store = Store::open(file, {});
+  if (const auto* fault = std::get_if<std::string>(&store)) return Error{*fault};
+  return read(std::get<Store>(store), file.string());
+}
+
+std::optional<Error> write_stored_map(const std::filesystem::path& folder, const std::map<flow::SubmapId, flow::Submap>& submaps) {
+  const std::filesystem::path unfinished = folder / (std::string(kFileName) + ".part");
+  std::error_code fault;
+  std::filesystem::remove(unfinished, fault);
+  {
+    auto store = Store::open(unfinished, {});
+    if (const auto* why = std::get_if<std::string>(&store)) return Error{*why};
+    const std::string vehicle_id = app::ServiceOptions().vehicle_id;
+    for (const auto& [id, submap] : submaps) {
+      if (std::get<Store>(store).put(vehicle_id, submap) == map_store::PutResult::kFailed) return Error{unfinished.string() + ": " + std::get<Store>(store).last_fault()};
+    }
+  }
+  // Closed, it is one file: the write-ahead log is in it. That of the one before must not be taken for this one's.
+  for (const char* ending : {"-wal", "-shm"}) std::filesystem::remove(folder / (std::string(kFileName) + ending), fault);
+  std::filesystem::rename(unfinished, folder / kFileName, fault);
+  if (fault) return Error{(folder / kFileName).string() + ": " + fault.message()};
+  return std::nullopt;
+}
+
+}  // namespace slammot
