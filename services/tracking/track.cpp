@@ -56,6 +56,12 @@ BodyMeasurement measure(const Body& body, const Vector2d& predicted_centre_m, co
   return body.has_sides ? measure_box(body, predicted_centre_m, glimpse, config) : measure_blob(body, glimpse, config);
 }
 
+/// Where the echoes put the centre of a body of just this size, whatever they say of the size.
+Vector2d seen_centre_m(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
+  const BodyMeasurement measurement = measure(body, predicted_centre_m, glimpse, config);
+  return measurement.centre_m - measurement.recentring_m;
+}
+
 /// Moves the centre, and the places that are remembered of it; the velocity stays. The estimate is the caller's to combine.
 void shift(Track& track, const Vector2d& by_m, const filters::ModelSet& models) {
   filters::imm_shift(models, track.motion, by_m);
@@ -68,7 +74,7 @@ void shift(Track& track, const Vector2d& by_m, const filters::ModelSet& models) 
 
 /// Draws the body anew; the sides that are seen stay where they are, so the centre moves and the velocity does not.
 void redraw(Track& track, const Body& body, const Glimpse& glimpse, const TrackingConfig& config) {
-  const Vector2d before_m = measure(track.body, track.position_m(), glimpse, config).centre_m;
+  const Vector2d before_m = seen_centre_m(track.body, track.position_m(), glimpse, config);
   const BodyMeasurement after = measure(body, supposed_centre_m(body, glimpse), glimpse, config);
   const filters::ModelSet models = models_of(track, config);
   track.body = after.body;
@@ -79,9 +85,9 @@ void redraw(Track& track, const Body& body, const Glimpse& glimpse, const Tracki
 /// Turns the body; what is seen of it stays where it is. Turned about its centre, a long body of which only one end is
 /// seen would seem to fly sideways, its course would follow, and its heading that.
 void turn(Track& track, double by_rad, const Glimpse& glimpse, const TrackingConfig& config) {
-  const Vector2d before_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m;
+  const Vector2d before_m = seen_centre_m(track.body, track.position_m(), glimpse, config);
   track.body.heading_rad = wrap_angle(track.body.heading_rad + by_rad);
-  const Vector2d shift_m = measure_box(track.body, track.position_m(), glimpse, config).centre_m - before_m;
+  const Vector2d shift_m = seen_centre_m(track.body, track.position_m(), glimpse, config) - before_m;
   const filters::ModelSet models = models_of(track, config);
   shift(track, shift_m, models);
   track.estimate = filters::imm_combine(models, track.motion);
@@ -270,7 +276,6 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
   track.motion = filters::imm_predict(models, track.motion, time_s);
   track.estimate = filters::imm_combine(models, track.motion);
   track.body.heading_variance_rad2 = std::min(10.0, track.body.heading_variance_rad2 + kHeadingDriftRad2PerS * time_s);
-  track.claimed_m += std::max(0.0, track.velocity_mps().norm() - config.moving_above_mps) * time_s;
 }
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
@@ -293,6 +298,8 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   moving.covariance *= noise_at_rest_m2.trace() / R.trace();  // legs that stand do not swing
   track.move_stop = filters::weigh(track.move_stop, {moving, measurement.centre_m, unseen_s}, move_stop_config(config));
   observe(track, stamp_ns, glimpse);
+  // What is hidden goes on unseen: only when it is seen again, its claim can be judged.
+  track.claimed_m += std::max(0.0, track.velocity_mps().norm() - config.moving_above_mps) * unseen_s;
   if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
   update_motion_state(track, config);

@@ -271,6 +271,49 @@ TEST(Tracker, KnowsWhereAHiddenCarOfAQueueIsByTheOthers) {
   EXPECT_LT(together_m, 0.4);
 }
 
+TEST(Tracker, KnowsACarAgainThatDroveBehindAVan) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    street.known = {kWall};
+    street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}};
+    if (t > 1.0) street.known.push_back({{10.0, 0.0, M_PI / 2.0}, 6.0, 1.0});  // hides the car for more than a second
+  };
+  play.run(1.0, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackId car = play.confirmed().front().track_id;
+  int hidden = 0;
+  for (int scans = 0; scans < 75; ++scans) {
+    play.step(scene);
+    hidden += play.confirmed().empty() ? 1 : 0;
+  }
+  EXPECT_GT(hidden, 20);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_EQ(play.confirmed().front().track_id, car);
+}
+
+TEST(Tracker, KeepsTheFrontOfATruckWhereItIsSeenThoughItMightBeABus) {
+  for (const double width_m : {2.40, 2.43, 2.46, 2.49}) {
+    Play play;  // it comes round a slight bend, so that it is turned and measured again and again
+    int scans = 0;
+    const auto scene = [&](Street& street, double t) {
+      const double heading_rad = M_PI + 0.25 - 0.12 * t;
+      street.unknown = {{{36.0 - 8.0 * t, 4.0, heading_rad}, 7.1, width_m}};
+    };
+    for (; scans < 110; ++scans) {
+      play.step(scene);
+      if (scans < 40) continue;
+      ASSERT_EQ(play.confirmed().size(), 1U) << width_m << " at " << play.now_s();
+      const flow::TrackedObject truck = play.confirmed().front();
+      const double t = play.now_s() - kPeriodS;
+      const double heading_rad = M_PI + 0.25 - 0.12 * t;
+      const Vector2 front_m = Vector2(36.0 - 8.0 * t, 4.0) + 3.55 * Vector2(std::cos(heading_rad), std::sin(heading_rad));
+      const Vector2 seen_m = truck.position_in_odom_m + 0.5 * truck.length_m * Vector2(std::cos(truck.heading_in_odom_rad), std::sin(truck.heading_in_odom_rad));
+      EXPECT_LT((seen_m - front_m).norm(), 0.5) << width_m << " at " << play.now_s();
+    }
+    EXPECT_EQ(play.ids.size(), 1U) << width_m;
+  }
+}
+
 TEST(Tracker, StopsWithWhatStopsAndKeepsIt) {
   Play play;  // 8 m/s, brakes at 2 m/s^2 from t = 1 s on, stands from t = 5 s on
   const auto y_of = [](double t) {
