@@ -132,9 +132,8 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
   body.heading_variance_rad2 *= 1.0 - gain;
 }
 
-/// Gives sides to a blob that has become large.
-void draw_sides_when_known(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
-  if (track.body.has_sides || track.largest_extent_m < config.box_from_extent_m) return;
+/// A box around the echoes, along the course where that is known.
+Body box_along_course(const Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
   const Vector2d way = glimpse.points_m.back() - glimpse.points_m.front();
   Body body = likely_box(std::atan2(way.y(), way.x()), glimpse, config);
   const Course course = course_of(track);
@@ -144,7 +143,13 @@ void draw_sides_when_known(Track& track, const Glimpse& glimpse, const TrackingC
     body.heading_rad = course.heading_rad;
     body.heading_variance_rad2 = course.variance_rad2;
   }
-  redraw(track, body, glimpse, config);
+  return body;
+}
+
+/// Gives sides to a blob that has become large.
+void draw_sides_when_known(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
+  if (track.body.has_sides || track.largest_extent_m < config.box_from_extent_m) return;
+  redraw(track, box_along_course(track, glimpse, config), glimpse, config);
 }
 
 void update_motion_state(Track& track, const TrackingConfig& config) {
@@ -306,6 +311,16 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   if (track.velocity_mps().norm() > config.moving_above_mps || track.state == flow::Motion::kMoving) track.last_moving_ns = stamp_ns;
   update_class(track, unseen_s, config);
   return true;
+}
+
+void draw_around(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
+  const Body body = box_along_course(track, glimpse, config);
+  const BodyMeasurement drawn = measure_box(body, supposed_centre_m(body, glimpse), glimpse, config);
+  const filters::ModelSet models = models_of(track, config);
+  track.body = drawn.body;
+  shift(track, drawn.centre_m - track.position_m(), models);
+  track.estimate = filters::imm_combine(models, track.motion);
+  track.largest_extent_m = std::max(track.largest_extent_m, extent_of(glimpse.points_m));
 }
 
 void restart_motion(Track& track, const Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config) {

@@ -89,6 +89,9 @@ void predict(Track& track, double time_s, const TrackingConfig& config);
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
             const TrackingConfig& config);
 
+/// The same motion, of a body drawn anew around these echoes: what was followed was a piece of it.
+void draw_around(Track& track, const Glimpse& glimpse, const TrackingConfig& config);
+
 /// The same place, and another velocity.
 void restart_motion(Track& track, const Eigen::Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config);
 

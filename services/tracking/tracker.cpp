@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "common/association/assignment.hpp"
 #include "common/sensing/box_fit.hpp"
 #include "services/tracking/pairing.hpp"
@@ -148,6 +150,40 @@ bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& confi
   if (are_long_known && (a.velocity_mps() - b.velocity_mps()).norm() > kLikeMps) return false;
   const bool is_young = a.hits < 20 || b.hits < 20;  // two who walk side by side are not made one
   return (a.position_m() - b.position_m()).norm() < (is_young ? config.stride_m : config.merge_overlap_m);
+}
+
+/// Whether the beams between two things see past them.
+bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b, const PolarView& view) {
+  constexpr double kBeyondM = 0.7;
+  constexpr int kMost = 1;
+  const auto& first = a.front() < b.front() ? a : b;
+  const auto& last = a.front() < b.front() ? b : a;
+  if (first.back() >= last.front()) return false;
+  const double farther_m = std::max(view.range_m(first.back()), view.range_m(last.front()));
+  int beyond = 0;
+  for (std::size_t beam = first.back() + 1U; beam < last.front(); ++beam) beyond += view.range_m(beam) > farther_m + kBeyondM ? 1 : 0;
+  return beyond > kMost;
+}
+
+/// Whether two that are long known drive alike, and are so near to each other that they fit into one car.
+bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) {
+  constexpr int kLongKnownHits = 20;
+  constexpr double kFasterThanPeopleMps = 2.7;
+  constexpr double kSlowVehicleMps = 1.0;
+  constexpr double kCarLengthM = 4.9;
+  constexpr double kCarWidthM = 2.1;
+  if (!a.confirmed || !b.confirmed || std::min(a.hits, b.hits) < kLongKnownHits) return false;
+  const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFasterThanPeopleMps;
+  const Vector2d velocity_mps = 0.5 * (a.velocity_mps() + b.velocity_mps());
+  const double speed_mps = velocity_mps.norm();
+  if (speed_mps < least_mps || (a.velocity_mps() - b.velocity_mps()).norm() > 0.4 + 0.1 * speed_mps) return false;
+  if ((a.position_m() - b.position_m()).norm() > 2.0 * kCarLengthM * config.size_scale) return false;
+  const Vector2d along = velocity_mps / speed_mps;
+  const Vector2d across{-along.y(), along.x()};
+  Eigen::AlignedBox2d seen;
+  for (const auto* contour : {&a.contour_in_odom_m, &b.contour_in_odom_m})
+    for (const Eigen::Vector2f& point : *contour) seen.extend(Vector2d(along.dot(point.cast<double>()), across.dot(point.cast<double>())));
+  return seen.sizes().x() < kCarLengthM * config.size_scale && seen.sizes().y() < kCarWidthM * config.size_scale;
 }
 
 /// What holds the crumbs of an object whose echoes are another's is no object.
@@ -482,6 +518,22 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   ++counters_.tracks_confirmed;
 }
 
+/// Two ends of one vehicle, the middle of which is hidden or dark, are seen as two.
+void Tracker::join_pieces(const ScanView& view) {
+  std::vector<Vector2d> points_m;
+  for (std::size_t a = 0; a < tracks_.size(); ++a) {
+    for (std::size_t b = 0; b < tracks_.size(); ++b) {
+      if (a == b || tracks_[a].hits < tracks_[b].hits || tracks_[b].hits == 0 || shares_.beams_of_track[a].empty() || shares_.beams_of_track[b].empty()) continue;
+      if (!drive_as_one(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
+      tracks_[b].hits = 0;  // marks it for removal
+      add_beams(shares_.beams_of_track[a], shares_.beams_of_track[b]);
+      shares_.beams_of_track[b].clear();
+      draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], view, config_.size_scale, points_m), config_);
+      ++counters_.tracks_merged;
+    }
+  }
+}
+
 void Tracker::merge_duplicates() {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
@@ -544,6 +596,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
   for (std::size_t t = 0; t < tracks_.size(); ++t) correct(t, time_s, view);
   if (config_.formations) formations_.follow(tracks_, time_s);
   begin_tracks(view);
+  join_pieces(view);
   merge_duplicates();
   remember(view);
   result.labels = label(view);

@@ -271,6 +271,31 @@ TEST(Tracker, KnowsWhereAHiddenCarOfAQueueIsByTheOthers) {
   EXPECT_LT(together_m, 0.4);
 }
 
+TEST(Tracker, HoldsTheTwoEndsOfACarForOneWhileSomethingHidesItsMiddle) {
+  Play play;  // who rides before it at half the distance and half the speed
+  const auto scene = [](Street& street, double t) {
+    const double y_m = -9.0 + 6.0 * t;
+    street.unknown = {{{20.0, y_m, M_PI / 2.0}}, {{10.0, 0.5 * y_m, M_PI / 2.0}, 1.2, 0.5}};
+  };
+  play.run(2.5, scene);
+  std::vector<flow::TrackedObject> far;
+  for (const flow::TrackedObject& object : play.confirmed())
+    if (object.position_in_odom_m.x() > 15.0) far.push_back(object);
+  ASSERT_EQ(far.size(), 1U);
+  EXPECT_LT((far.front().position_in_odom_m - Vector2(20.0, -9.0 + 6.0 * (play.now_s() - kPeriodS))).norm(), 0.4);
+  EXPECT_GT(far.front().length_m, 4.0);
+}
+
+TEST(Tracker, KeepsTwoCarsApartBetweenWhichItSeesTheWall) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    const double y_m = -9.0 + 6.0 * t;
+    street.unknown = {{{20.0, y_m, M_PI / 2.0}, 1.5, 1.5}, {{20.0, y_m + 3.0, M_PI / 2.0}, 1.5, 1.5}};
+  };
+  play.run(2.5, scene);
+  EXPECT_EQ(play.confirmed().size(), 2U);
+}
+
 TEST(Tracker, KnowsACarAgainThatDroveBehindAVan) {
   Play play;
   const auto scene = [](Street& street, double t) {
