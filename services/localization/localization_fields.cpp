@@ -155,6 +155,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"astray_after_s", &C::astray_after_s, "After so long in vain a new map begins, tied to the last one by next to nothing.", kPositive},
       {"astray_sigma_m", &C::astray_sigma_m, "One sigma of that tie.", Range{1.0, 900.0}},
       {"leave_out_moving", &C::leave_out_moving, "Off, to see what it is worth: everything is mapped and matched as if it stood."},
+      {"may_be_picked_up", &C::may_be_picked_up, "And set down elsewhere, with wheels that notice nothing; a road vehicle is not."},
       {"sweep_factor_sigma", &C::sweep_factor_sigma, "One sigma of the factor on how long scanners' sweeps are said to take; 0: they are right.", kNotNegative},
       {"use_odometry", &C::use_odometry, "Off, for wheels that are worse than none: constant velocity predicts."},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},

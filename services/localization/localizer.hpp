@@ -46,6 +46,7 @@ struct LocalizerConfig {
   double most_contradicted_when_sure = 0.8;  ///< or where it is sure and the match puts so many there: traffic alone does not.
   double found_share = 0.6;               ///< Lost, it has found itself again where so many points match.
   int found_scans = 3;                    ///< And so many scans in a row, before they go into the map again.
+  bool may_be_picked_up = false;          ///< And set down elsewhere, with wheels that notice nothing; a road vehicle is not.
   bool recovers = true;                   ///< Looks for itself after being carried away; off: goes on by dead reckoning.
   double lost_after_s = 3.0;              ///< Wheels are trusted for so long where scans do not match; then it looks for itself,
   double astray_after_s = 2.0;            ///< and after so long in vain a new map begins, tied to the last one by next to nothing:
@@ -238,7 +239,7 @@ class Localizer {
     double share_behind_walls() const { return share_of_known(behind_walls); }
   };
 
-  bool is_contradicted(const Match& found, const geometry::UncertainPose2& prior);
+  bool is_contradicted(const Match& found, const geometry::UncertainPose2& prior, bool has_wheels);
   double explained_share(const geometry::Pose2& odom_from_base) const;
   Contradiction contradiction(const geometry::Pose2& odom_from_base) const;
   bool has_gone_astray(std::int64_t stamp_ns) const;

@@ -54,15 +54,16 @@ Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sen
   const matching::PointToLineConfig& config = has_wheels ? config_.match : match_without_wheels_;
   contradicts_map_ = false;
   Match found = match(prior, config, scan.sequence);
-  const bool is_contradicting = is_contradicted(found, prior);
+  const bool is_contradicting = is_contradicted(found, prior, has_wheels);
   found.is_lost |= is_contradicting;
   if (found.is_lost && config_.recovers) {
     if (!lost_since_ns_) lost_since_ns_ = scan.stamp_ns;
     scans_to_prove_ = config_.found_scans + 1;
     const double lost_s = static_cast<double>(scan.stamp_ns - *lost_since_ns_) * 1e-9;
     contradicts_map_ = is_contradicting;
-    // Traffic on all sides hides the map for a second or two: as long as wheels are trusted. Without, nothing else is left.
-    const bool is_patient = has_wheels && lost_s < config_.lost_after_s;
+    // Traffic on all sides hides the map for as long as it likes: what drives and was not seen to be moved trusts its wheels.
+    const bool trusts_wheels = has_wheels && !everything_changed_ && !config_.may_be_picked_up;
+    const bool is_patient = trusts_wheels || (has_wheels && lost_s < config_.lost_after_s);
     if (is_patient) return found;
     ++lost_scans_;
     drop_doubted();
@@ -91,15 +92,17 @@ void Localizer::drop_doubted() {
 /// Where the prediction is sure, much that contradicts the map is traffic; where it is not, the match may be anywhere. But
 /// traffic stands before walls, and does not come from one scan to the next. Where the vehicle has hardly moved, nothing does
 /// but the ground that a braking scanner sees, and another place.
-bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior) {
+bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior, bool has_wheels) {
   if (!found.is_believed && !found.is_lost) {
     explained_before_ = 0.0;  // beams without echo have cleared the map meanwhile: nothing is to be concluded from that
     return false;
   }
   const geometry::Pose2& pose = found.odom_from_base.pose;
   const double explained = explained_share(pose);
-  if (!lost_since_ns_) everything_changed_ = explained_before_ - explained > kChanged_share && is_same_view(geometry::inverse(estimate_.odom_from_base) * prior.pose);
+  const bool may_be_elsewhere = !has_wheels || config_.may_be_picked_up;
+  if (!lost_since_ns_) everything_changed_ = may_be_elsewhere && explained_before_ - explained > kChanged_share && is_same_view(geometry::inverse(estimate_.odom_from_base) * prior.pose);
   explained_before_ = explained;
+  if (!may_be_elsewhere && !everything_changed_) return false;
   if (found.is_lost && everything_changed_) return true;
   if (is_vague(prior)) return contradiction(pose).share() > config_.most_contradicted_share;
   if (lost_since_ns_ && everything_changed_) return contradiction(pose).share() > kFoundByHalf * config_.most_contradicted_share;
@@ -177,7 +180,7 @@ std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prio
 }
 
 bool Localizer::has_gone_astray(std::int64_t stamp_ns) const {
-  return lost_since_ns_ && map_.surfels().capacity_in_use() > 0 && static_cast<double>(stamp_ns - *lost_since_ns_) * 1e-9 > config_.lost_after_s + config_.astray_after_s;
+  return lost_since_ns_ && lost_scans_ > 0 && static_cast<double>(stamp_ns - *lost_since_ns_) * 1e-9 > config_.lost_after_s + config_.astray_after_s;
 }
 
 UncertainPose2 Localizer::anywhere_about(const geometry::Pose2& pose) const {

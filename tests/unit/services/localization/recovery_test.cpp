@@ -42,6 +42,7 @@ sensing::Odometry odometry(SimulatedDrive& not_carried, std::uint32_t scan) { re
 LocalizerConfig without_patience() {
   LocalizerConfig config = small_map_config();
   config.lost_after_s = 0.0;
+  config.may_be_picked_up = true;
   return config;
 }
 
