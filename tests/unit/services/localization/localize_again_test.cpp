@@ -166,6 +166,18 @@ TEST_F(LocalizeAgain, IsNotForTheFirstScanByWhichTheMapBegins) {
   EXPECT_FALSE(fresh.localize_again(scan(), labels_of(*first).labels));
 }
 
+TEST_F(LocalizeAgain, IsNotForAVehicleThatDoesNotKnowWhereItIs) {
+  DriveSetup elsewhere = moved_.setup();
+  elsewhere.world = slammot::testing::box({0.0, 0.0, 0.7}, 40.0, 31.0);
+  const sensing::LaserScan strange = SimulatedDrive(elsewhere).scan(kMoves);
+  const auto first = localizer_.localize(strange);
+  ASSERT_EQ(localizer_.counters().lost_matches, 1U);
+  EXPECT_FALSE(localizer_.localize_again(strange, labels_of(*first).labels));
+  flow::ScanLabels some_move = all_stationary(*first);
+  for (std::size_t i = 0; i < 60; ++i) some_move.labels[i] = PointLabel::kMoving;
+  EXPECT_FALSE(localizer_.localize_again(strange, some_move.labels));
+}
+
 TEST_F(LocalizeAgain, IsOffWhereMovingThingsAreMatchedOnPurpose) {
   LocalizerConfig all = config();
   all.leave_out_moving = false;
