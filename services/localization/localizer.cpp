@@ -145,6 +145,7 @@ bool Localizer::is_masked(const Vector2& point_in_odom_m) const {
 void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_from_base) {
   match_points_.clear();
   share_of_sweep_.clear();
+  candidate_beams_.clear();
   laser_in_base_m_ = scan.scanner.base_from_laser.translation_m();
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
   mask_expected_objects(scan.stamp_ns);
@@ -152,6 +153,8 @@ void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_
     const float range_m = scan.range_m[beam];
     if (!sensing::is_echo(range_m, std::min(config_.match_range_m, scan.scanner.max_range_m)) || range_m < config_.min_range_m) continue;
     if (is_masked(odom_from_base.translation_m() + turn * points_in_base_m_[beam])) continue;
+    candidate_beams_.push_back(beam);
+    if (std::ranges::binary_search(left_out_beams_, beam)) continue;
     match_points_.push_back({points_in_base_m_[beam], config_.range_noise_m + config_.range_noise_per_m * static_cast<double>(range_m)});
     if (learns_sweep(scan)) share_of_sweep_.push_back(static_cast<double>(beam) / static_cast<double>(scan.range_m.size()));
   }
@@ -318,45 +321,116 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   ++counters_.scans;
   integrate_overdue(scan.stamp_ns);
   begin_next_submap_if_due();
-  const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(scan.stamp_ns);
-  State now;
-  now.stamp_ns = scan.stamp_ns;
-  now.has_wheels = wheel_from_base.has_value();
-  now.wheel_from_base = wheel_from_base.value_or(Pose2{});
-  if (!last_) {
-    map_ = LocalMap(config_.map, Vector2::Zero(), help_, first_submap_);
-    sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
-  } else {
-    const Step step = predict(scan.stamp_ns, wheel_from_base);
-    now.doubted_wheels = step.has_doubted_wheels;
-    const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
-    now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last_->speed_mps;
-    now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last_->yaw_rate_radps;
-    sensing::deskew(with_true_sweep(scan), now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
-    const UncertainPose2 prior = step.after.uncertain_pose();
-    select_points(scan, prior.pose);
-    const UncertainPose2 before = estimate_.uncertain_pose();
-    const Match found = match_or_find(prior, scan, step.is_by_wheels);
-    const Pose2 before_from_base = geometry::inverse(estimate_.odom_from_base) * found.odom_from_base.pose;
-    estimate_ = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
-    if (found.is_believed) {
-      const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
-      variance_factors_ = sensing::learned(variance_factors_, prior, found.odom_from_base, share);
-    }
-    if (found.is_believed && !found.was_sampled) learn_sweep(scan, prior, found.odom_from_base.pose, now);
-    variance_factors_ = sensing::carried(variance_factors_, before, prior, found.odom_from_base);
-    travel(before_from_base);
-    now.was_sampled = found.was_sampled;
-    if (has_gone_astray(scan.stamp_ns)) begin_astray_submap();
-    now.knows_velocity = is_later || last_->knows_velocity;
-    if (is_later && !step.is_by_wheels) {
-      now.speed_mps = estimate_.velocity.x();
-      now.yaw_rate_radps = estimate_.velocity.y();
-    }
-  }
-  if (!last_ || last_->stamp_ns != now.stamp_ns) scanners_at_last_.clear();
+  if (!last_ || last_->stamp_ns != scan.stamp_ns) scanners_at_last_.clear();
   scanners_at_last_.push_back(scan.scanner.scanner_id);
+  left_out_beams_.clear();
+  if (last_) {
+    const bool was_lost = lost_since_ns_.has_value();
+    before_scan_ = progress();
+    if (!place(scan) || was_lost) before_scan_.reset();  // labels by a map in which it may be elsewhere are worth nothing
+  } else {
+    begin(scan);
+  }
+  flow::LocalizedScan localized = describe(scan, published_pose());
+  remember(scan, localized);
+  return localized;
+}
+
+/// The first scan: the map begins where it is.
+void Localizer::begin(const sensing::LaserScan& scan) {
+  map_ = LocalMap(config_.map, Vector2::Zero(), help_, first_submap_);
+  sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
+  last_ = state_at(scan.stamp_ns, odometry_.wheel_from_base_at(scan.stamp_ns));
+}
+
+Localizer::State Localizer::state_at(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
+  State state;
+  state.stamp_ns = stamp_ns;
+  state.has_wheels = wheel_from_base.has_value();
+  state.wheel_from_base = wheel_from_base.value_or(Pose2{});
+  return state;
+}
+
+/// Takes the estimate to a scan after the first. False where its match is not believed.
+bool Localizer::place(const sensing::LaserScan& scan) {
+  const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(scan.stamp_ns);
+  State now = state_at(scan.stamp_ns, wheel_from_base);
+  const Step step = predict(scan.stamp_ns, wheel_from_base);
+  now.doubted_wheels = step.has_doubted_wheels;
+  const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
+  now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last_->speed_mps;
+  now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last_->yaw_rate_radps;
+  sensing::deskew(with_true_sweep(scan), now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
+  const UncertainPose2 prior = step.after.uncertain_pose();
+  select_points(scan, prior.pose);
+  const UncertainPose2 before = estimate_.uncertain_pose();
+  const Match found = match_or_find(prior, scan, step.is_by_wheels);
+  const Pose2 before_from_base = geometry::inverse(estimate_.odom_from_base) * found.odom_from_base.pose;
+  estimate_ = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
+  if (found.is_believed) {
+    const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
+    variance_factors_ = sensing::learned(variance_factors_, prior, found.odom_from_base, share);
+  }
+  if (found.is_believed && !found.was_sampled) learn_sweep(scan, prior, found.odom_from_base.pose, now);
+  variance_factors_ = sensing::carried(variance_factors_, before, prior, found.odom_from_base);
+  travel(before_from_base);
+  now.was_sampled = found.was_sampled;
+  if (has_gone_astray(scan.stamp_ns)) begin_astray_submap();
+  now.knows_velocity = is_later || last_->knows_velocity;
+  if (is_later && !step.is_by_wheels) {
+    now.speed_mps = estimate_.velocity.x();
+    now.yaw_rate_radps = estimate_.velocity.y();
+  }
   last_ = now;
+  return found.is_believed && !found.is_lost && !lost_since_ns_;
+}
+
+Localizer::Progress Localizer::progress() const {
+  return {estimate_, variance_factors_, sweep_factor_, last_, drift_, travelled_m_, lost_since_ns_, lost_scans_, scans_to_prove_, contradicts_map_, explained_before_, everything_changed_, counters_};
+}
+
+void Localizer::go_back_to(const Progress& progress) {
+  estimate_ = progress.estimate;
+  variance_factors_ = progress.variance_factors;
+  sweep_factor_ = progress.sweep_factor;
+  last_ = progress.last;
+  drift_ = progress.drift;
+  travelled_m_ = progress.travelled_m;
+  lost_since_ns_ = progress.lost_since_ns;
+  lost_scans_ = progress.lost_scans;
+  scans_to_prove_ = progress.scans_to_prove;
+  contradicts_map_ = progress.contradicts_map;
+  explained_before_ = progress.explained_before;
+  everything_changed_ = progress.everything_changed;
+  counters_ = progress.counters;
+}
+
+bool Localizer::can_be_placed_again(const sensing::LaserScan& scan, const std::vector<PointLabel>& labels) const {
+  if (!before_scan_ || pending_.empty() || !config_.leave_out_moving) return false;
+  const PendingScan& pending = pending_.back();
+  const bool is_it = pending.sequence == scan.sequence && pending.scanner_id == scan.scanner.scanner_id && pending.stamp_ns == scan.stamp_ns;
+  return is_it && labels.size() == scan.range_m.size();
+}
+
+/// Of the beams that are to be matched, those whose echoes the labels keep out of the SO-map.
+std::vector<std::size_t> Localizer::kept_out(const std::vector<PointLabel>& labels) const {
+  std::vector<std::size_t> beams;
+  std::ranges::copy_if(candidate_beams_, std::back_inserter(beams), [&](std::size_t beam) { return echo_of(labels[beam]) != grids::Echo::kStationary; });
+  return beams;
+}
+
+std::optional<flow::LocalizedScan> Localizer::localize_again(const sensing::LaserScan& scan, const std::vector<PointLabel>& labels) {
+  if (!can_be_placed_again(scan, labels)) return std::nullopt;
+  std::vector<std::size_t> left_out = kept_out(labels);
+  if (left_out == left_out_beams_) return std::nullopt;  // the same points give the same pose
+  const Progress with_more_points = progress();
+  left_out_beams_ = std::move(left_out);
+  go_back_to(*before_scan_);
+  if (!place(scan)) {
+    go_back_to(with_more_points);
+    return std::nullopt;
+  }
+  pending_.pop_back();
   flow::LocalizedScan localized = describe(scan, published_pose());
   remember(scan, localized);
   return localized;
@@ -389,6 +463,7 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
 }
 
 void Localizer::integrate(PendingScan scan) {
+  before_scan_.reset();  // the map is no longer what the last scan was matched against
   map_.integrate(scan.stamp_ns, scan.origin_in_odom_m, scan.rays, scan.beam_step_rad);
   integrated_.push_back(std::move(scan));
   if (integrated_.size() > kScansKeptForRestoring) integrated_.pop_front();

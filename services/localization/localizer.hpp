@@ -132,6 +132,12 @@ class Localizer {
   /// None for a scan that is a duplicate (of the same scanner and stamp), out of order, or far ahead of all before it. Remembers the scan until its labels come.
   std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan);
 
+  /// The scan that was localized last, matched once more from the same prediction and against the same map, without the
+  /// points that its labels keep out of the SO-map; in place of what was remembered of it. Iterated SLAM with DATMO of Wang 2004, Section 6.2.
+  /// None, and nothing changed, where that cannot be or cannot be better: the labels leave out the same points as before or
+  /// too many for a match that is believed, it is the first scan, the vehicle is or was lost, it has been integrated, or another came since.
+  std::optional<flow::LocalizedScan> localize_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels);
+
   /// What tracking predicts to be there: left out of the next matches.
   void expect(const flow::TrackedObjects& objects);
 
@@ -220,7 +226,31 @@ class Localizer {
     double duration_s = 0.0;
   };
 
+  /// What a scan changes when it is localized: all that must be as before to do it again.
+  struct Progress {
+    sensing::MotionEstimate estimate;
+    sensing::VarianceFactors variance_factors;
+    SweepFactor sweep_factor;
+    std::optional<State> last;
+    geometry::Matrix3 drift;
+    double travelled_m = 0.0;
+    std::optional<std::int64_t> lost_since_ns;
+    int lost_scans = 0;
+    int scans_to_prove = 0;
+    bool contradicts_map = false;
+    double explained_before = 0.0;
+    bool everything_changed = false;
+    LocalizerCounters counters;
+  };
+
   bool is_usable(const sensing::LaserScan& scan);
+  void begin(const sensing::LaserScan& scan);
+  static State state_at(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
+  bool place(const sensing::LaserScan& scan);
+  Progress progress() const;
+  void go_back_to(const Progress& progress);
+  bool can_be_placed_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) const;
+  std::vector<std::size_t> kept_out(const std::vector<flow::PointLabel>& labels) const;
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
   bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;
@@ -285,6 +315,7 @@ class Localizer {
   sensing::MotionEstimate estimate_;
   sensing::VarianceFactors variance_factors_;
   std::optional<State> last_;
+  std::optional<Progress> before_scan_;              ///< Before the last one, while it may be localized again.
   std::vector<std::string> scanners_at_last_;        ///< Whose scans have the last stamp; empty after a restore.
   LocalMap map_;
   flow::SubmapId first_submap_;
@@ -313,6 +344,8 @@ class Localizer {
   std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
   geometry::Vector2 laser_in_base_m_ = geometry::Vector2::Zero();  ///< Of the scan at hand.
   std::vector<matching::MatchPoint> match_points_;
+  std::vector<std::size_t> candidate_beams_;         ///< Whose echoes would be matched if labels left out none,
+  std::vector<std::size_t> left_out_beams_;          ///< and those of them that labels leave out; ascending, as they are.
   SweepFactor sweep_factor_;
   sensing::LaserScan swept_scan_;                    ///< The scan at hand with its sweep as it is believed to be.
   std::vector<double> share_of_sweep_;               ///< By match point, where the sweep is learned.

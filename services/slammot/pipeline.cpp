@@ -4,8 +4,8 @@
 
 namespace slammot {
 
-Pipeline::Pipeline(const Profile& profile)
-    : detection_(profile.detection), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking), loop_closer_(profile.loop_closing) {}
+Pipeline::Pipeline(const Profile& profile, int iterations)
+    : detection_(profile.detection), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking), loop_closer_(profile.loop_closing), iterations_(iterations) {}
 
 /// The graph is made again from its submaps, as it was made when they came.
 void Pipeline::go_on_in(const std::vector<flow::Submap>& stored) {
@@ -21,17 +21,38 @@ void Pipeline::take(const sensing::Odometry& odometry) { localizer_.add_odometry
 
 void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add_scan(scan.stamp_ns);
-  const auto localized = times_.measure("localization", [&] { return localizer_.localize(scan); });
-  if (!localized) return;
-  const auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_); });
+  auto detected = localize_and_detect(scan);
+  if (!detected) return;
+  if (iterations_ > 1) detected = times_.measure("iteration", [&] { return iterate(scan, *std::move(detected)); });
+  const auto& [localized, segmented] = *detected;
   const auto tracked = times_.measure("tracking", [&] { return tracker_.track(segmented); });
   localizer_.expect(tracked.objects);
   times_.measure("mapping", [&] { localizer_.integrate(tracked.labels); });
-  record_.add(*localized);
+  record_.add(localized);
   record_.add(segmented);
   record_.add(tracked.labels);
   record_.add(tracked.objects);
   close_loops();
+}
+
+std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::LaserScan& scan) {
+  auto localized = times_.measure("localization", [&] { return localizer_.localize(scan); });
+  if (!localized) return std::nullopt;
+  auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_); });
+  return Detected{*std::move(localized), std::move(segmented)};
+}
+
+/// Tracks have a state and see the scan once, when this is over: until then what moves is said by detection alone.
+Pipeline::Detected Pipeline::iterate(const sensing::LaserScan& scan, Detected detected) {
+  for (int iteration = 1; iteration < iterations_; ++iteration) {
+    auto localized = localizer_.localize_again(scan, detected.segmented.labels);
+    if (!localized) return detected;
+    auto segmented = detection::detect(*localized, detection_);
+    detected = {*std::move(localized), std::move(segmented)};
+    if (iteration == 1) ++scans_iterated_;
+    ++matches_again_;
+  }
+  return detected;
 }
 
 void Pipeline::finish() {
@@ -50,7 +71,10 @@ void Pipeline::close_loops() {
 }
 
 std::map<std::string, std::map<std::string, std::uint64_t>> Pipeline::counters() const {
-  return {{"localization", named(localizer_.counters())}, {"tracking", named(tracker_.counters())}, {"loop_closing", named(loop_closer_.counters())}};
+  std::map<std::string, std::map<std::string, std::uint64_t>> counters{
+      {"localization", named(localizer_.counters())}, {"tracking", named(tracker_.counters())}, {"loop_closing", named(loop_closer_.counters())}};
+  if (iterations_ > 1) counters["iteration"] = {{"scans_iterated", scans_iterated_}, {"matches_again", matches_again_}};
+  return counters;
 }
 
 }  // namespace slammot

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,9 @@ namespace slammot {
 /// every time.
 class Pipeline {
  public:
-  explicit Pipeline(const Profile& profile);
+  /// With more than one iteration what detection finds to move is left out and the scan matched and looked at again, so
+  /// many times at most: Iterated SLAM with DATMO, Wang 2004, Section 6.2.
+  explicit Pipeline(const Profile& profile, int iterations = 1);
 
   /// Before the first scan: submaps of earlier drives, ascending. The drive goes on in their map once it has found itself in
   /// it; the record holds them, too.
@@ -43,6 +46,14 @@ class Pipeline {
   bool knows_where_it_is() const { return loop_closer_.knows_where_it_is(); }
 
  private:
+  /// A scan with the pose by which it was segmented.
+  struct Detected {
+    flow::LocalizedScan localized;
+    flow::SegmentedScan segmented;
+  };
+
+  std::optional<Detected> localize_and_detect(const sensing::LaserScan& scan);
+  Detected iterate(const sensing::LaserScan& scan, Detected first);
   void close_loops();
 
   SideThread side_thread_;   ///< Before what it helps.
@@ -52,6 +63,9 @@ class Pipeline {
   loop_closing::LoopCloser loop_closer_;
   files::RunRecord record_;
   StageTimes times_;
+  int iterations_;
+  std::uint64_t scans_iterated_ = 0;      ///< Whose pose is not that of the first match,
+  std::uint64_t matches_again_ = 0;       ///< and after how many more in all.
 };
 
 }  // namespace slammot

@@ -24,6 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kMostIterations = 10;  // it has converged long before
+
 int fail(const files::Error& fault) {
   std::fprintf(stderr, "slammot: %s\n", fault.message.c_str());
   return kExitFault;
@@ -56,6 +58,7 @@ struct RunOptions {
   JobOptions job;
   std::filesystem::path map;   ///< Stored map to go on in; may be empty.
   bool stores_map = false;
+  int iterations = 1;          ///< Of localization and detection a scan, at most.
 };
 
 /// How much of a drive was processed.
@@ -134,7 +137,7 @@ int run(const RunOptions& run_options) {
   if (!job) return fail(job.error());
   std::fputs(describe_job(*job, options).c_str(), stdout);
   std::fflush(stdout);
-  Pipeline pipeline(job->profile);
+  Pipeline pipeline(job->profile, run_options.iterations);
   if (const auto fault = take_up_map(run_options.map, pipeline)) return fail(*fault);
   const Driven driven = drive(*job, pipeline, interruption.get_token());
   if (driven.is_interrupted && pipeline.record().scans() == 0) {
@@ -163,6 +166,10 @@ void add_run_command(CLI::App& app, int& exit_code) {
   add_job_options(*command, options->job);
   command->add_option("--map", options->map, "Stored map of earlier drives to go on in: a folder that --store-map wrote, map_store's folder or its file")->type_name("DIR|FILE");
   command->add_flag("--store-map", options->stores_map, "Write the submaps into the results' folder, as map.sqlite, for --map");
+  command->add_option("--iterations", options->iterations, "Times a scan is matched at most, each time without what was then found to move")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostIterations))
+      ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

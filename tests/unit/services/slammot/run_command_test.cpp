@@ -180,6 +180,40 @@ TEST_P(RunScenario, GivesWhatTheRecordedDriveGives) {
 }
 INSTANTIATE_TEST_SUITE_P(OutsideAndInside, RunScenario, ::testing::Values("far_crossing", "corridor"), [](const auto& info) { return info.param; });
 
+TEST_F(RunCommand, WithOneIterationMakesTheBytesItMakesWithout) {
+  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--output", folder_ / "without"}).exit_code, kExitDone);
+  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--iterations", "1", "--output", folder_ / "one"}).exit_code, kExitDone);
+  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "labels.csv", "map.pgm", "moving.pgm", "graph.g2o"}) {
+    EXPECT_EQ(read(folder_ / "without" / file), read(folder_ / "one" / file)) << file;
+  }
+  EXPECT_FALSE(nlohmann::json::parse(read(folder_ / "one" / "report.json"))["counters"].contains("iteration"));
+}
+
+TEST_F(RunCommand, IteratesWhereSomethingMovesAndCountsEachScanOnce) {
+  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--output", folder_ / "one"}).exit_code, kExitDone);
+  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--iterations", "3", "--output", folder_ / "three"}).exit_code, kExitDone);
+  const auto one = nlohmann::json::parse(read(folder_ / "one" / "report.json"));
+  const auto three = nlohmann::json::parse(read(folder_ / "three" / "report.json"));
+  EXPECT_EQ(three["counts"]["localized_scans"], one["counts"]["localized_scans"]);
+  EXPECT_EQ(three["counters"]["localization"]["scans"], one["counters"]["localization"]["scans"]);
+  EXPECT_EQ(three["counters"]["localization"]["fallback_integrations"], 0);
+  const auto& iteration = three["counters"]["iteration"];
+  EXPECT_GT(iteration["scans_iterated"].get<int>(), 0);
+  EXPECT_LE(iteration["scans_iterated"].get<int>(), three["counts"]["localized_scans"].get<int>());
+  EXPECT_GE(iteration["matches_again"].get<int>(), iteration["scans_iterated"].get<int>());
+  EXPECT_LE(iteration["matches_again"].get<int>(), 2 * iteration["scans_iterated"].get<int>());
+  EXPECT_NE(read(folder_ / "three" / "online.tum"), read(folder_ / "one" / "online.tum"));
+}
+
+TEST_F(RunCommand, RefusesNoIterationAndBenchHasNone) {
+  write(room_log(5));
+  EXPECT_EQ(run({"--iterations", "0"}).exit_code, kExitFault);
+  EXPECT_EQ(run({"--iterations", "11"}).exit_code, kExitFault);
+  const Outcome bench = call({"bench", "--input", log_.string(), "--output", (folder_ / "out").string(), "--iterations", "2"});
+  EXPECT_EQ(bench.exit_code, kExitFault);
+  EXPECT_THAT(bench.standard_error, HasSubstr("--iterations"));
+}
+
 TEST_F(RunCommand, WantsEitherALogOrAScenario) {
   const auto expect_refused = [&](std::vector<std::string> words, const std::string& reason) {
     words.insert(words.begin(), {"run", "--output", (folder_ / "out").string()});
