@@ -238,7 +238,7 @@ class Localizer {
     int lost_scans = 0;
     int scans_to_prove = 0;
     bool contradicts_map = false;
-    double explained_before = 0.0;
+    std::optional<double> explained_before;
     bool everything_changed = false;
     LocalizerCounters counters;
   };
@@ -270,7 +270,7 @@ class Localizer {
   };
 
   bool is_contradicted(const Match& found, const geometry::UncertainPose2& prior, bool has_wheels);
-  double explained_share(const geometry::Pose2& odom_from_base) const;
+  double explained_share(const std::vector<matching::MatchPoint>& points, const geometry::Pose2& odom_from_base) const;
   Contradiction contradiction(const geometry::Pose2& odom_from_base) const;
   bool has_gone_astray(std::int64_t stamp_ns) const;
   void begin_astray_submap();
@@ -329,7 +329,7 @@ class Localizer {
   int lost_scans_ = 0;                               ///< Since wheels are no longer trusted.
   int scans_to_prove_ = 0;                           ///< Until it is believed to have found itself again.
   bool contradicts_map_ = false;                     ///< The scan at hand, where it was matched.
-  double explained_before_ = 0.0;                    ///< Share of the last scan's points that the map explained.
+  std::optional<double> explained_before_ = 0.0;     ///< Share of the last scan's points that the map explained; none: not asked.
   bool everything_changed_ = false;                  ///< From one scan to the next, when it was lost.
   std::uint32_t correction_sequence_ = 0;
   flow::TrackedObjects expected_objects_;
@@ -344,6 +344,7 @@ class Localizer {
   std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
   geometry::Vector2 laser_in_base_m_ = geometry::Vector2::Zero();  ///< Of the scan at hand.
   std::vector<matching::MatchPoint> match_points_;
+  std::vector<matching::MatchPoint> match_points_before_;  ///< Of the scan before.
   std::vector<std::size_t> candidate_beams_;         ///< Whose echoes would be matched if labels left out none,
   std::vector<std::size_t> left_out_beams_;          ///< and those of them that labels leave out; ascending, as they are.
   SweepFactor sweep_factor_;

@@ -98,9 +98,14 @@ bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior,
     return false;
   }
   const geometry::Pose2& pose = found.odom_from_base.pose;
-  const double explained = explained_share(pose);
   const bool may_be_elsewhere = !has_wheels || config_.may_be_picked_up;
-  if (!lost_since_ns_) everything_changed_ = may_be_elsewhere && explained_before_ - explained > kChanged_share && is_same_view(geometry::inverse(estimate_.odom_from_base) * prior.pose);
+  if (!may_be_elsewhere && !everything_changed_) {
+    explained_before_.reset();  // the map is not asked as long as nobody wants to know: it may still be taking in the last scan
+    return false;
+  }
+  const double before = explained_before_ ? *explained_before_ : explained_share(match_points_before_, estimate_.odom_from_base);
+  const double explained = explained_share(match_points_, pose);
+  if (!lost_since_ns_) everything_changed_ = may_be_elsewhere && before - explained > kChanged_share && is_same_view(geometry::inverse(estimate_.odom_from_base) * prior.pose);
   explained_before_ = explained;
   if (!may_be_elsewhere && !everything_changed_) return false;
   if (found.is_lost && everything_changed_) return true;
@@ -112,18 +117,18 @@ bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior,
   return there.share() > most && (everything_changed_ || there.share_behind_walls() > kSeenThroughWalls_share);
 }
 
-/// Of the points, how many lie on what the map knows: cheap, and enough to see that all is well.
-double Localizer::explained_share(const geometry::Pose2& odom_from_base) const {
+/// Of the points, how many lie on what the map knows: cheap, and enough to see that all is well. Of none, none.
+double Localizer::explained_share(const std::vector<matching::MatchPoint>& points, const geometry::Pose2& odom_from_base) const {
   const grids::EvidenceGrid& evidence = map_.evidence();
   const int tolerance = static_cast<int>(std::ceil(config_.map.end_cell_tolerance_m / config_.map.cell_size_m - 0.5));
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
   int explained = 0;
   int probes = 0;
-  for (std::size_t i = 0; i < match_points_.size(); i += kPointsPerProbe, ++probes) {
-    const geometry::Vector2 at_m = odom_from_base.translation_m() + turn * match_points_[i].in_base_m;
+  for (std::size_t i = 0; i < points.size(); i += kPointsPerProbe, ++probes) {
+    const geometry::Vector2 at_m = odom_from_base.translation_m() + turn * points[i].in_base_m;
     if (evidence.is_occupied_near(evidence.window().cell_at(at_m.x(), at_m.y()), tolerance)) ++explained;
   }
-  return probes == 0 ? 1.0 : static_cast<double>(explained) / probes;
+  return probes == 0 ? 0.0 : static_cast<double>(explained) / probes;
 }
 
 Localizer::Contradiction Localizer::contradiction(const geometry::Pose2& odom_from_base) const {
