@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/matching/robust_weight.hpp"
+
 namespace slammot::matching {
 namespace {
 
@@ -14,14 +16,6 @@ using geometry::Matrix3;
 using geometry::Pose2;
 
 constexpr double kSamePairsWithin = 0.01;     ///< Of a surfel's cell: until the pose has moved so far the nearest surfels stay the nearest.
-
-
-/// Weight of Geman and McClure: 1 at zero, a quarter at the scale.
-double robust_weight(double residual_m, double scale_m) {
-  const double ratio = residual_m / scale_m;
-  const double root = 1.0 / (1.0 + ratio * ratio);
-  return root * root;
-}
 
 Pose2 moved(const Pose2& pose, const Eigen::Vector3d& change) {
   return {pose.x_m + change.x(), pose.y_m + change.y(), geometry::wrap_angle(pose.heading_rad + change.z())};

@@ -5,18 +5,13 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/matching/robust_weight.hpp"
+
 namespace slammot::localization {
 namespace {
 
 constexpr double kMapMadeWithinS = 2.0;
 constexpr double kMemoryS = 20.0;
-
-/// Weight of Geman and McClure, as in the match.
-double robust_weight(double residual_m, double scale_m) {
-  const double ratio = residual_m / scale_m;
-  const double root = 1.0 / (1.0 + ratio * ratio);
-  return root * root;
-}
 
 }  // namespace
 
@@ -44,7 +39,7 @@ SweepFactor learned(const SweepFactor& before, const SweptScan& scan, const grid
     Eigen::Vector4d J;
     J << surface->normal, surface->normal.y() * turned_m.x() - surface->normal.x() * turned_m.y(),
         scan.share_of_sweep[i] * scan.sweep_s * surface->normal.dot(turn * motion_mps);
-    const double weight = config.information_share * robust_weight(residual_m, config.robust_scale_m) /
+    const double weight = config.information_share * matching::robust_weight(residual_m, config.robust_scale_m) /
                           (scan.points[i].sigma_m * scan.points[i].sigma_m + surface->spread_m2);
     H += weight * J * J.transpose();
     g += weight * residual_m * J;
