@@ -80,7 +80,7 @@ TEST(RunRecord, KeepsOfAPathWhatIsWholeSecondsAheadInTheFrameOfTheMap) {
   RunRecord record;
   record.add(tracked);
   ASSERT_EQ(record.track_rows().size(), 1U);
-  const std::vector<PredictedPlace>& predicted = record.track_rows()[0].predicted;
+  const std::vector<PredictedPlace> predicted = record.track_rows()[0].predicted;
   ASSERT_EQ(predicted.size(), 2U);
   EXPECT_THAT(predicted[1].position_in_map_m, testing::MatrixNear(geometry::Vector2(10.0, 2.0), 1e-12));
   EXPECT_THAT(predicted[1].covariance_m2, testing::MatrixNear(Matrix2{{1.0, 0.0}, {0.0, 4.0}}, 1e-12));
