@@ -327,6 +327,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   if (last_) {
     const bool was_lost = lost_since_ns_.has_value();
     before_scan_ = progress();
+    match_points_before_.swap(match_points_);
     if (!place(scan) || was_lost) before_scan_.reset();  // labels by a map in which it may be elsewhere are worth nothing
   } else {
     begin(scan);
@@ -362,7 +363,6 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last_->yaw_rate_radps;
   sensing::deskew(with_true_sweep(scan), now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
   const UncertainPose2 prior = step.after.uncertain_pose();
-  match_points_before_.swap(match_points_);
   select_points(scan, prior.pose);
   const UncertainPose2 before = estimate_.uncertain_pose();
   const Match found = match_or_find(prior, scan, step.is_by_wheels);

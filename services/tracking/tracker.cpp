@@ -383,7 +383,7 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   const auto count = static_cast<int>(segment.beams.size());
   if (count < config_.least_points_at_birth) return false;
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    if (tracks_[t].confirmed && tracks_[t].body.has_sides && tracks_[t].body.kind != Kind::kBicycle && !shares_.beams_of_track[t].empty() &&
+    if (tracks_[t].confirmed && is_vehicle(tracks_[t]) && !shares_.beams_of_track[t].empty() &&
         is_in_box(tracks_[t].body, tracks_[t].position_m(), config_.gate_margin_m, segment.centroid_in_odom_m))
       return false;
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
@@ -518,6 +518,14 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   ++counters_.tracks_confirmed;
 }
 
+/// Gives a all that b has; b is marked for removal.
+void Tracker::absorb(std::size_t a, std::size_t b) {
+  tracks_[b].hits = 0;
+  add_beams(shares_.beams_of_track[a], shares_.beams_of_track[b]);
+  shares_.beams_of_track[b].clear();
+  ++counters_.tracks_merged;
+}
+
 /// Two ends of one vehicle, the middle of which is hidden or dark, are seen as two.
 void Tracker::join_pieces(const ScanView& view) {
   std::vector<Vector2d> points_m;
@@ -525,11 +533,8 @@ void Tracker::join_pieces(const ScanView& view) {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
       if (a == b || tracks_[a].hits < tracks_[b].hits || tracks_[b].hits == 0 || shares_.beams_of_track[a].empty() || shares_.beams_of_track[b].empty()) continue;
       if (!drive_as_one(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
-      tracks_[b].hits = 0;  // marks it for removal
-      add_beams(shares_.beams_of_track[a], shares_.beams_of_track[b]);
-      shares_.beams_of_track[b].clear();
+      absorb(a, b);
       draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], view, config_.size_scale, points_m), config_);
-      ++counters_.tracks_merged;
     }
   }
 }
@@ -539,10 +544,7 @@ void Tracker::merge_duplicates() {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
       if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0 || !is_worth_more(tracks_[a], tracks_[b], config_)) continue;
       if (!bodies_coincide(tracks_[a], tracks_[b], config_)) continue;
-      tracks_[b].hits = 0;  // marks it for removal
-      add_beams(shares_.beams_of_track[a], shares_.beams_of_track[b]);
-      shares_.beams_of_track[b].clear();
-      ++counters_.tracks_merged;
+      absorb(a, b);
     }
   }
 }

@@ -98,6 +98,7 @@ class Tracker {
   void give_whole_segments(const ScanView& view);
   void divide_shared_segments(const ScanView& view);
   void begin_tracks(const ScanView& view);
+  void absorb(std::size_t a, std::size_t b);
   void join_pieces(const ScanView& view);
   void merge_duplicates();
   void remove_dead(flow::ScanLabels& labels);
