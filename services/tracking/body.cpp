@@ -115,15 +115,21 @@ bool is_side(const Shadow& shadow, const AxisView& view) {
   return shadow.low_count >= 3 && shadow.low_across_m > view.least_side_m;
 }
 
+/// Variance of where a side ends beyond its outermost echo, half a spacing on.
+double end_variance_m2(const AxisView& view, double spacing_m, Edge edge) {
+  const double unanswered_m = edge == Edge::kNoEcho ? view.gaps * spacing_m : 0.0;
+  return view.face_variance_m2 + spacing_m * spacing_m / 12.0 + unanswered_m * unanswered_m;
+}
+
 /// The laser lies beyond the low side, which so looks at it; the high end is at the end of a flank, if that is in view.
 void note_sizes_from_low_side(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
   note_seen(evidence, shadow.high_m - low_m);
   const bool low_is_seen = shadow.low_edge == Edge::kOpen || is_side(shadow, view);
-  const bool high_is_seen = flank_is_visible && shadow.high_edge == Edge::kOpen && view.high_spacing_m < view.clear_spacing_m &&
+  const bool high_is_seen = flank_is_visible && shadow.high_edge != Edge::kHidden && view.high_spacing_m < view.clear_spacing_m &&
                             shadow.count - shadow.low_count >= kFewestOnFlank;
   if (low_is_seen && high_is_seen)  // the flank ends somewhere between its last echo and where the next one would be
-    note_whole(evidence, shadow.high_m + 0.5 * view.high_spacing_m - low_m, view.face_variance_m2 + view.high_spacing_m * view.high_spacing_m / 12.0);
+    note_whole(evidence, shadow.high_m + 0.5 * view.high_spacing_m - low_m, end_variance_m2(view, view.high_spacing_m, shadow.high_edge));
 }
 
 void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view) {
@@ -131,12 +137,6 @@ void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const 
   const double spacing_m = std::max(view.low_spacing_m, view.high_spacing_m);
   if (shadow.low_edge != Edge::kHidden && shadow.high_edge != Edge::kHidden && spacing_m < view.clear_spacing_m && shadow.count >= kFewestOnFlank)
     note_whole(evidence, shadow.high_m - shadow.low_m + spacing_m, 2.0 * view.face_variance_m2 + spacing_m * spacing_m / 6.0);
-}
-
-/// Variance of where a side ends beyond its outermost echo, half a spacing on.
-double end_variance_m2(const AxisView& view, double spacing_m, Edge edge) {
-  const double unanswered_m = edge == Edge::kNoEcho ? view.gaps * spacing_m : 0.0;
-  return view.face_variance_m2 + spacing_m * spacing_m / 12.0 + unanswered_m * unanswered_m;
 }
 
 AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
@@ -214,38 +214,68 @@ Size likely_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
   return {std::max(value_m, evidence.least_m), 1.0 / information};
 }
 
+double log_likelihood_of_least(double mean_m, double sigma_m, double least_m) {
+  constexpr double kLeastSigmaM = 0.2;
+  const double beyond_m = std::max(0.0, least_m - mean_m);
+  return -0.5 * squared(beyond_m) / (squared(sigma_m) + squared(kLeastSigmaM));
+}
+
+/// A size under one kind of road users.
+struct AxisFit {
+  double log_fit = 0.0;
+  Size size;
+};
+
+/// What was taken for the whole may have been a piece, between two things that hide the rest: then only the kind tells how
+/// large the body is.
+AxisFit axis_fit(double mean_m, double sigma_m, const SizeEvidence& evidence, double scale) {
+  constexpr double kMistakenShare = 0.05;
+  constexpr double kLongestPieceM = 16.0;
+  const double as_whole = log_likelihood_of_size(mean_m, sigma_m, evidence);
+  const Size whole = likely_size(mean_m, sigma_m, evidence);
+  if (evidence.whole.variance_m2 >= kNothingKnownM2) return {as_whole, whole};
+  const Size piece = likely_size(mean_m, sigma_m, {evidence.least_m, {0.0, kNothingKnownM2}});
+  const double log_density = std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // the other one's leaves the root out
+  const double as_piece = log_density + log_likelihood_of_least(mean_m, sigma_m, evidence.least_m);
+  const double of_whole = std::log(1.0 - kMistakenShare) + as_whole;
+  const double of_piece = std::log(kMistakenShare) + as_piece;
+  const double piece_share = 1.0 / (1.0 + std::exp(of_whole - of_piece));
+  const bool is_piece = piece_share > 0.5;
+  Size size = is_piece ? piece : whole;
+  size.variance_m2 = piece_share * piece.variance_m2 + (1.0 - piece_share) * whole.variance_m2 +
+                     std::min(piece_share, 1.0 - piece_share) * squared(piece.value_m - whole.value_m);
+  return {std::max(of_whole, of_piece) + std::log1p(std::exp(-std::abs(of_whole - of_piece))), size};
+}
+
 }  // namespace
 
 double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
-  constexpr double kLeastSigmaM = 0.2;
   const double variance_m2 = squared(sigma_m) + evidence.whole.variance_m2;
-  const double beyond_m = std::max(0.0, evidence.least_m - mean_m);
-  return -0.5 * squared(evidence.whole.value_m - mean_m) / variance_m2 - 0.5 * std::log(variance_m2) -
-         0.5 * squared(beyond_m) / (squared(sigma_m) + squared(kLeastSigmaM));
+  return -0.5 * squared(evidence.whole.value_m - mean_m) / variance_m2 - 0.5 * std::log(variance_m2) +
+         log_likelihood_of_least(mean_m, sigma_m, evidence.least_m);
 }
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
   const double scale = config.size_scale;
   std::array<double, kKinds.size()> fit;
-  std::array<Size, kKinds.size()> length;
-  std::array<Size, kKinds.size()> width;
+  std::array<AxisFit, kKinds.size()> length;
+  std::array<AxisFit, kKinds.size()> width;
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
     const KindOfBody& kind = kKinds[i];
-    fit[i] = std::log(kind.share) + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence) +
-             log_likelihood_of_size(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence);
-    length[i] = likely_size(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence);
-    width[i] = likely_size(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence);
+    length[i] = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence, scale);
+    width[i] = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence, scale);
+    fit[i] = std::log(kind.share) + length[i].log_fit + width[i].log_fit;
   }
   const auto best = static_cast<std::size_t>(std::max_element(fit.begin(), fit.end()) - fit.begin());
   body.kind = kKinds[best].kind;
-  body.length = {length[best].value_m, 0.0};
-  body.width = {width[best].value_m, 0.0};
+  body.length = {length[best].size.value_m, 0.0};
+  body.width = {width[best].size.value_m, 0.0};
   double total = 0.0;
   for (std::size_t i = 0; i < kKinds.size(); ++i) {  // how far off the likeliest is, should another kind be true
     const double weight = std::exp(fit[i] - fit[best]);
     total += weight;
-    body.length.variance_m2 += weight * (length[i].variance_m2 + squared(length[i].value_m - body.length.value_m));
-    body.width.variance_m2 += weight * (width[i].variance_m2 + squared(width[i].value_m - body.width.value_m));
+    body.length.variance_m2 += weight * (length[i].size.variance_m2 + squared(length[i].size.value_m - body.length.value_m));
+    body.width.variance_m2 += weight * (width[i].size.variance_m2 + squared(width[i].size.value_m - body.width.value_m));
   }
   body.length.variance_m2 /= total;
   body.width.variance_m2 /= total;

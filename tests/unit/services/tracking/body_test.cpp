@@ -102,6 +102,28 @@ TEST(Body, IsNotTakenToEndWhereSomethingNearerCutsItsFlankOff) {
   EXPECT_NEAR(measurement.centre_m.x(), 2.0, 0.3);
 }
 
+TEST(Body, EndsWhereAFlankDoesThoughNothingFartherIsEchoedBeyond) {
+  const auto points = echoes_of({8.0, 4.0}, 1.7, 0.6);  // a bicycle at the roadside, in the open
+  Glimpse glimpse = glimpse_of(points);
+  glimpse.start = glimpse.end = Edge::kNoEcho;
+  Body body;
+  body.has_sides = true;
+  const BodyMeasurement measurement = settled(with_likely_sizes(body, kConfig), {8.0, 4.0}, glimpse);  // a car, as far as known
+  EXPECT_EQ(measurement.body.kind, Kind::kBicycle);
+  EXPECT_NEAR(measurement.body.length.value_m, 1.7, 0.2);
+}
+
+TEST(Body, IsNotBelievedToBeAPieceThatNothingOnTheRoadIsLike) {
+  Body body;
+  body.has_sides = body.is_oriented = true;
+  body.width_evidence = {2.4, {2.5, 0.01}};
+  body.length_evidence = {1.8, {2.0, 0.01}};  // as wide as a bus and as long as a bicycle
+  body = with_likely_sizes(body, kConfig);
+  EXPECT_TRUE(body.kind == Kind::kTruck || body.kind == Kind::kBus);
+  EXPECT_GT(body.length.value_m, 5.0);
+  EXPECT_GT(body.length.variance_m2, 1.0);
+}
+
 TEST(Body, KeepsTheSideThatIsSeenWhereItIsWhenItGrows) {
   Body body;
   body.has_sides = body.is_oriented = true;
