@@ -1,8 +1,10 @@
 #include "services/tracking/track.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "common/association/gating.hpp"
 #include "common/geometry/pose2.hpp"
@@ -202,9 +204,23 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   if (track.body.has_sides) {
     along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * track.body.length.variance_m2;
     across_m2 = std::pow(kShapeAcrossM * config.size_scale, 2) + 0.25 * track.body.width.variance_m2;
-  } else if (!walks(track)) {
-    along_m2 += std::pow(kHalfACycleM * config.size_scale, 2);
-    across_m2 = std::pow(0.5 * kHalfACycleM * config.size_scale, 2);
+    if (!track.body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind
+      constexpr double kTurnedShare = 0.25;
+      const double off_m2 = kTurnedShare * std::pow(0.5 * (track.body.length.value_m - track.body.width.value_m), 2);
+      along_m2 += off_m2;
+      across_m2 += off_m2 + kTurnedShare * 0.25 * track.body.length.variance_m2;
+    }
+  } else {
+    if (!walks(track)) {
+      along_m2 += std::pow(kHalfACycleM * config.size_scale, 2);
+      across_m2 = std::pow(0.5 * kHalfACycleM * config.size_scale, 2);
+    }
+    // All that shows of a vehicle may be a corner.
+    constexpr std::array<std::pair<std::size_t, KindOfBody>, 2> kVehicles = {{{2, kKinds[1]}, {3, kKinds[2]}}};  // by the entries of class_probability
+    for (const auto& [entry, kind] : kVehicles) {
+      along_m2 += track.class_probability[entry] * std::pow(0.5 * kind.length_m * config.size_scale, 2);
+      across_m2 += track.class_probability[entry] * std::pow(0.5 * kind.width_m * config.size_scale, 2);
+    }
   }
   const Vector2d along{std::cos(heading_rad), std::sin(heading_rad)};
   const Vector2d across{-along.y(), along.x()};

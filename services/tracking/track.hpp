@@ -65,6 +65,7 @@ struct Track {
   double mapped_share = 0.0;                 ///< Of the last moments, in which its echoes came from where the map has something.
   double without_progress_s = 0.0;           ///< Since the anchor was moved.
   double largest_extent_m = 0.0;
+  double outgrown_s = 0.0;                   ///< For which someone long known to walk has been given more echoes than one has.
   std::vector<Eigen::Vector2f> contour_in_odom_m;
   std::deque<flow::RestoredPoints> past;     ///< Points of a track not yet confirmed, newest last.
 

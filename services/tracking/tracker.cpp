@@ -1,14 +1,17 @@
 #include "services/tracking/tracker.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "common/association/assignment.hpp"
 #include "common/sensing/box_fit.hpp"
+#include "services/tracking/face_shift.hpp"
 #include "services/tracking/pairing.hpp"
 #include "services/tracking/speed_evidence.hpp"
 
@@ -330,6 +333,7 @@ void Tracker::compare_with_past(const ScanView& view) {
   const flow::SegmentedScan& scan = view.scan();
   past_of_beam_.assign(scan.range_m.size(), Past::kUnknown);
   past_of_segment_.assign(scan.segments.size(), {});
+  note_face_shifts(view);
   const EarlierScan* then = history_.older_than(scan.stamp_ns, config_.compare_after_s);
   const EarlierScan* long_ago = history_.older_than(scan.stamp_ns, config_.compare_slow_after_s);
   for (std::size_t s = 0; s < scan.segments.size(); ++s) {
@@ -337,7 +341,7 @@ void Tracker::compare_with_past(const ScanView& view) {
     int arrival = 0;
     for (const std::uint16_t beam : scan.segments[s].beams) {
       if (then == nullptr) break;
-      past_of_beam_[beam] = history_.past_of(beam, view.polar(), *then, only_people_move(config_));
+      past_of_beam_[beam] = has_shifted_[beam] ? Past::kArrived : history_.past_of(beam, view.polar(), *then, only_people_move(config_));
       past.stood += past_of_beam_[beam] == Past::kStood ? 1 : 0;
       past.arrived += past_of_beam_[beam] == Past::kArrived ? 1 : 0;
       past.receded += past_of_beam_[beam] == Past::kReceded ? 1 : 0;
@@ -352,6 +356,29 @@ void Tracker::compare_with_past(const ScanView& view) {
     const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
     past.stood_before = past.stood > kLeastStoodShare * count;
     past.stands = past.stood_before || (is_mapped && past.stood > kLeastStoodIfMapped * count && past.arrived + past.receded < kLeastChangedShare * count);
+  }
+}
+
+/// Notes fronts and rears that have come from elsewhere.
+void Tracker::note_face_shifts(const ScanView& view) {
+  has_shifted_.assign(view.scan().range_m.size(), false);
+  if (only_people_move(config_)) return;
+  constexpr double kSoonS = 0.4;
+  std::array<const EarlierScan*, 3> kept;
+  std::size_t count = 0;
+  for (const double age_s : {kSoonS, config_.compare_after_s, config_.compare_slow_after_s}) {
+    const EarlierScan* then = history_.older_than(view.scan().stamp_ns, age_s);
+    if (then != nullptr) kept[count++] = then;
+  }
+  const std::span<const EarlierScan* const> earlier(kept.data(), count);
+  for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
+    const Segment& segment = view.scan().segments[s];
+    if (segment.label == PointLabel::kNoEcho || segment.box_length_m > config_.longest_body_m) continue;
+    const double pose_sigma_m = std::sqrt(pose_covariance_at(segment.centroid_in_odom_m, view.scan()).trace());
+    const std::optional<FaceShift> shift = face_shift(segment.beams, view.polar(), earlier, pose_sigma_m, config_);
+    if (!shift) continue;
+    past_of_segment_[s].face_shift_m = shift->shift_m;
+    for (const std::uint16_t beam : shift->beams) has_shifted_[beam] = true;
   }
 }
 
@@ -386,6 +413,7 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
     if (tracks_[t].confirmed && is_vehicle(tracks_[t]) && !shares_.beams_of_track[t].empty() &&
         is_in_box(tracks_[t].body, tracks_[t].position_m(), config_.gate_margin_m, segment.centroid_in_odom_m))
       return false;
+  if (!past.face_shift_m.isZero()) return true;
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
   constexpr int kFewest = 4;
   constexpr double kLeastFaceShare = 0.15;
@@ -408,6 +436,7 @@ void Tracker::begin_tracks(const ScanView& view) {
     // Detection fits boxes to what moves only.
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m).heading_rad;
     tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_));
+    tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
     tracks_.back().echoes = static_cast<double>(segment.beams.size());
     tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
     shares_.track_of_segment[s] = tracks_.size() - 1;
@@ -422,7 +451,7 @@ void Tracker::begin_tracks(const ScanView& view) {
 MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const {
   MotionEvidence evidence;
   for (const std::uint16_t beam : shares_.beams_of_track[track]) {
-    const Past past = history_.past_of(beam, view.polar(), then, only_people_move(config_));
+    const Past past = has_shifted_[beam] ? Past::kArrived : history_.past_of(beam, view.polar(), then, only_people_move(config_));
     const bool has_stayed = past_of_beam_[beam] == Past::kStood;  // since it came into sight
     if (past == Past::kArrived || (past == Past::kAppeared && !has_stayed)) evidence.moved += 1.0;
     else if (past == Past::kStood || past == Past::kAppeared) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
@@ -497,7 +526,24 @@ void Tracker::release(std::size_t index) {
   std::replace(shares_.track_of_segment.begin(), shares_.track_of_segment.end(), index, kUnassigned);
 }
 
+/// Who has long been known to walk does not become large at once: the rest is a wall, or someone beside.
+void Tracker::leave_out_surroundings(std::size_t index, double time_s, const ScanView& view) {
+  constexpr int kLongKnownHits = 20;
+  constexpr double kFastestMps = 2.7;
+  constexpr double kBelievedAfterS = 0.5;
+  Track& track = tracks_[index];
+  std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
+  const bool walks = track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestMps;
+  if (!walks || beams.empty()) return;
+  const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + config_.gate_margin_m; };
+  const bool has_outgrown = (view.point_in_odom_m(beams.back()) - view.point_in_odom_m(beams.front())).norm() > config_.box_from_extent_m;
+  track.outgrown_s = has_outgrown ? track.outgrown_s + time_s : 0.0;
+  if (!has_outgrown || track.outgrown_s > kBelievedAfterS || std::ranges::none_of(beams, is_near)) return;
+  std::erase_if(beams, [&](std::uint16_t beam) { return !is_near(beam); });
+}
+
 void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
+  leave_out_surroundings(index, time_s, view);
   Track& track = tracks_[index];
   const std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
   constexpr double kEchoMemoryS = 0.2;
@@ -565,7 +611,8 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
     const bool has_stood = !track.confirmed && age_s > config_.longest_tentative_s;
     const double idle_s = static_cast<double>(last_stamp_ns_ - track.last_moving_ns) * kNanosecond_s;
-    const double may_stand_s = config_.longest_stand_s * std::max(1.0, track.way_m / config_.least_travel_to_stand_m);
+    constexpr double kLeastStandShare = 0.25;  // what has come next to no way is soon held never to have moved
+    const double may_stand_s = config_.longest_stand_s * std::max(kLeastStandShare, track.way_m / config_.least_travel_to_stand_m);
     const bool never_moved = track.confirmed && idle_s > may_stand_s;
     const bool is_dead = is_lost || has_stood || never_moved || contradicts_itself(track, config_) || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {

@@ -77,17 +77,20 @@ class Tracker {
     int receded = 0;
     int appeared = 0;
     int longest_arrival = 0;    ///< Neighbouring echoes that arrived: a face that comes, while its flank slides along itself.
+    Eigen::Vector2d face_shift_m = Eigen::Vector2d::Zero();  ///< By which its front or rear has moved, where that shows.
     bool stood_before = false;  ///< By the earlier scan,
     bool stands = false;        ///< or by the map.
   };
 
   void compare_with_past(const ScanView& view);
+  void note_face_shifts(const ScanView& view);
   bool may_begin(const flow::Segment& segment, std::size_t index) const;
   bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const;
   MotionEvidence evidence_of(std::size_t track, const ScanView& view) const;
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
   void check_velocity(std::size_t track, const Glimpse& glimpse, const ScanView& view);
   void correct(std::size_t track, double time_s, const ScanView& view);
+  void leave_out_surroundings(std::size_t track, double time_s, const ScanView& view);
   void release(std::size_t track);
   void remember(const ScanView& view);
   bool lies_in_body(const flow::Segment& segment, const Track& track, const ScanView& view) const;
@@ -111,6 +114,7 @@ class Tracker {
   Shares shares_;
   std::vector<Past> past_of_beam_;              ///< Of the current scan.
   std::vector<SegmentPast> past_of_segment_;
+  std::vector<bool> has_shifted_;               ///< Beams on faces that have moved.
   Rivals rivals_;
   Formations formations_;
   ScanHistory history_;

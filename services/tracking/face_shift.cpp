@@ -1,0 +1,156 @@
+#include "services/tracking/face_shift.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace slammot::tracking {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr std::size_t kFewestEchoes = 4;
+constexpr double kStraightM = 0.06;        ///< One sigma that echoes of one side may lie off a line, besides their noise.
+constexpr double kNarrowestM = 0.8;        ///< Of a vehicle's front; hidden in part, less is seen.
+constexpr double kWidestM = 2.8;
+constexpr double kMiddleShare = 0.8;       ///< Of the side: at its ends a flank begins.
+constexpr double kFarthestM = 1.2;         ///< That something slow comes between the two scans.
+constexpr double kLeastShiftM = 0.08;
+constexpr double kLeastShiftPerM = 0.004;  ///< Of range: what the heading of the pose may be off by, and what makes a far side look otherwise.
+constexpr double kSigmas = 4.0;
+
+/// Echoes on a straight line.
+struct Face {
+  Vector2d middle_m = Vector2d::Zero();
+  Vector2d along = Vector2d::UnitX();
+  Vector2d normal = Vector2d::UnitY();
+  double half_width_m = 0.0;
+  double off_m = 0.0;                      ///< RMS distance of the echoes from the line.
+};
+
+Face face_through(std::span<const std::uint16_t> beams, const PolarView& view) {
+  Face face;
+  for (const std::uint16_t beam : beams) face.middle_m += view.point_in_odom_m(beam);
+  face.middle_m /= static_cast<double>(beams.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const std::uint16_t beam : beams) {
+    const Vector2d off_m = view.point_in_odom_m(beam) - face.middle_m;
+    spread += off_m * off_m.transpose();
+  }
+  const double heading_rad = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  face.along = {std::cos(heading_rad), std::sin(heading_rad)};
+  face.normal = {-face.along.y(), face.along.x()};
+  face.off_m = std::sqrt(std::max(0.0, face.normal.dot(spread * face.normal)) / static_cast<double>(beams.size()));
+  const double first_m = face.along.dot(view.point_in_odom_m(beams.front()) - face.middle_m);
+  const double last_m = face.along.dot(view.point_in_odom_m(beams.back()) - face.middle_m);
+  face.half_width_m = 0.5 * std::abs(last_m - first_m);
+  return face;
+}
+
+/// The echo that is farthest from the line through the first and the last.
+std::size_t corner_of(std::span<const std::uint16_t> beams, const PolarView& view) {
+  const Vector2d first_m = view.point_in_odom_m(beams.front());
+  const Vector2d way = view.point_in_odom_m(beams.back()) - first_m;
+  std::size_t corner = 0;
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const Vector2d off_m = view.point_in_odom_m(beams[i]) - first_m;
+    const double off = std::abs(way.x() * off_m.y() - way.y() * off_m.x());
+    if (off > farthest) farthest = off, corner = i;
+  }
+  return corner;
+}
+
+struct Sum {
+  double count = 0.0, sum = 0.0, squares = 0.0;
+  void add(double value) { count += 1.0, sum += value, squares += value * value; }
+  double mean() const { return sum / count; }
+  double sigma() const { return std::sqrt(std::max(0.0, squares / count - mean() * mean())); }
+};
+
+/// One side, or two that meet in a corner.
+std::array<std::span<const std::uint16_t>, 2> sides_of(std::span<const std::uint16_t> beams, const PolarView& view, const TrackingConfig& config) {
+  constexpr double kCornerM = 0.25;
+  const std::size_t corner = corner_of(beams, view);
+  const Vector2d way = view.point_in_odom_m(beams.back()) - view.point_in_odom_m(beams.front());
+  const Vector2d to_corner_m = view.point_in_odom_m(beams[corner]) - view.point_in_odom_m(beams.front());
+  const bool has_corner = std::abs(way.x() * to_corner_m.y() - way.y() * to_corner_m.x()) > kCornerM * config.size_scale * way.norm();
+  if (!has_corner) return {beams, {}};
+  return {beams.first(corner + 1), beams.subspan(corner)};
+}
+
+/// How far along its normal the face was from here then.
+std::optional<double> off_then_m(const Face& face, const PolarView& now, const EarlierScan& then, double echo_sigma_m) {
+  const PolarView& view = then.view;
+  const auto last_beam = static_cast<long>(view.beam_count()) - 1;
+  long first = last_beam;
+  long last = 0;
+  for (const double along_m : {-face.half_width_m, face.half_width_m})
+    for (const double off_m : {-kFarthestM, kFarthestM}) {
+      const long beam = view.beam_towards(face.middle_m + along_m * face.along + off_m * face.normal - view.laser_in_odom_m());
+      first = std::min(first, beam), last = std::max(last, beam);
+    }
+  if (first < 1 || last >= last_beam) return std::nullopt;  // not all of it was in view
+  const double outward = std::copysign(1.0, face.normal.dot(face.middle_m - now.laser_in_odom_m()));
+  Sum off;
+  int through = 0;
+  for (long i = first; i <= last; ++i) {
+    const auto beam = static_cast<std::size_t>(i);
+    if (view.range_m(beam) <= 0.0) continue;
+    const Vector2d to_echo_m = view.point_in_odom_m(beam) - face.middle_m;
+    if (std::abs(face.along.dot(to_echo_m)) > kMiddleShare * face.half_width_m) continue;
+    const double off_m = face.normal.dot(to_echo_m);
+    if (std::abs(off_m) > kFarthestM) {
+      through += outward * off_m > 0.0 ? 1 : 0;
+      continue;
+    }
+    if (then.owners[beam].is_confirmed) return std::nullopt;
+    off.add(off_m);
+  }
+  if (off.count < static_cast<double>(kFewestEchoes) || off.count < static_cast<double>(through)) return std::nullopt;
+  if (off.sigma() > std::hypot(kStraightM, echo_sigma_m)) return std::nullopt;
+  return off.mean();
+}
+
+/// How far from here the face was in the first of the earlier scans in which it was elsewhere, if another says that it was there on the same
+/// side and none that it was here; else zero.
+double agreed_off_m(const Face& face, const PolarView& now, std::span<const EarlierScan* const> earlier, double echo_sigma_m, double least_m) {
+  double first_off_m = 0.0;
+  int agreeing = 0;
+  for (const EarlierScan* then : earlier) {
+    const std::optional<double> off_m = off_then_m(face, now, *then, echo_sigma_m);
+    if (!off_m) continue;
+    if (std::abs(*off_m) < least_m) {
+      if (agreeing > 0) return 0.0;
+      continue;  // too little time for what is slow
+    }
+    if (first_off_m * *off_m < 0.0) return 0.0;
+    if (agreeing == 0) first_off_m = *off_m;
+    ++agreeing;
+  }
+  return agreeing > 1 ? first_off_m : 0.0;
+}
+
+}  // namespace
+
+std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams, const PolarView& now,
+                                    std::span<const EarlierScan* const> earlier, double pose_sigma_m, const TrackingConfig& config) {
+  if (segment_beams.size() < kFewestEchoes) return std::nullopt;
+  std::optional<FaceShift> best;
+  for (const auto side : sides_of(segment_beams, now, config)) {
+    if (side.size() < kFewestEchoes) continue;
+    const Face face = face_through(side, now);
+    const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
+    const double echo_sigma_m = config.range_noise_m + config.range_noise_per_m * range_m;
+    if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) continue;
+    if (face.off_m > std::hypot(kStraightM, echo_sigma_m)) continue;
+    const double sigma_m = std::hypot(pose_sigma_m, echo_sigma_m * std::sqrt(2.0 / static_cast<double>(side.size())));
+    const double least_m = std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
+    const double off_m = agreed_off_m(face, now, earlier, echo_sigma_m, least_m);
+    if (off_m == 0.0 || (best && best->shift_m.norm() > std::abs(off_m))) continue;
+    best = FaceShift{side, -off_m * face.normal};
+  }
+  return best;
+}
+
+}  // namespace slammot::tracking
