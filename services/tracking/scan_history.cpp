@@ -22,6 +22,7 @@ bool had_something_near(const EarlierScan& scan, const Eigen::Vector2d& point_in
 void ScanHistory::add(std::int64_t stamp_ns, const PolarView& view, std::vector<Owner> owners) {
   if (!scans_.empty() && stamp_ns - scans_.back().stamp_ns < kIntervalNs) return;
   scans_.push_back({stamp_ns, view, std::move(owners)});
+  scans_.back().view.measure_depths();
   while (stamp_ns - scans_.front().stamp_ns > kLongestNs) scans_.pop_front();
 }
 
