@@ -11,4 +11,7 @@ std::string stamp_text(std::int64_t stamp_ns);
 /// The number with a fixed count of decimals, never "-0.000".
 std::string fixed_text(double value, int decimals);
 
+/// The number with five significant digits at most, as printf's %.5g writes it: for what spans many powers of ten.
+std::string short_text(double value);
+
 }  // namespace slammot::files

@@ -1,7 +1,5 @@
 #include "common/files/run_outputs.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <future>
 #include <initializer_list>
@@ -62,12 +60,7 @@ void append_joined(std::string& text, std::initializer_list<std::string> fields)
   text.back() = '\n';
 }
 
-/// Five significant digits: variances span many powers of ten.
-void append_short(std::string& text, double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 5);
-  text.append(1, ',').append(digits.data(), end.ptr);
-}
+void append_short(std::string& text, double value) { text.append(1, ',').append(short_text(value)); }
 
 std::optional<Error> write_maps(const std::filesystem::path& folder, const RunRecord& record) {
   std::vector<PlacedSubmap> placed;

@@ -1,5 +1,6 @@
 #include "common/files/run_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -39,17 +40,19 @@ TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& t
   return row;
 }
 
-std::string letters_of(const std::vector<flow::PointLabel>& labels) {
-  std::string letters;
-  letters.reserve(labels.size());
-  for (const flow::PointLabel label : labels) {
-    switch (label) {
-      case flow::PointLabel::kNoEcho: letters += '-'; break;
-      case flow::PointLabel::kStationary: letters += 's'; break;
-      case flow::PointLabel::kMoving: letters += 'm'; break;
-      case flow::PointLabel::kUnknown: letters += '?'; break;
-    }
+char letter_of(flow::PointLabel label) {
+  switch (label) {
+    case flow::PointLabel::kNoEcho: return '-';
+    case flow::PointLabel::kStationary: return 's';
+    case flow::PointLabel::kMoving: return 'm';
+    case flow::PointLabel::kUnknown: break;
   }
+  return '?';
+}
+
+std::string letters_of(const std::vector<flow::PointLabel>& labels) {
+  std::string letters(labels.size(), '?');
+  std::ranges::transform(labels, letters.begin(), letter_of);
   return letters;
 }
 

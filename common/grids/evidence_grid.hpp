@@ -58,7 +58,7 @@ class EvidenceGrid {
   int highest_so_steps(Cell cell, int radius) const;
 
   /// Whether any cell within radius cells (a square) of the cell is occupied.
-  bool is_occupied_near(Cell cell, int radius) const { return highest_so_steps(cell, radius) >= occupied_steps_; }
+  bool is_occupied_near(Cell cell, int radius) const { return so_steps(cell) >= occupied_steps_ || highest_so_steps(cell, radius) >= occupied_steps_; }
 
   /// Distance along direction (unit vector) to the first occupied cell, or max_range_m.
   double distance_to_occupied(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double max_range_m) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/displacement.hpp"
+
 namespace slammot::matching {
 
 using geometry::Pose2;
@@ -53,7 +55,7 @@ IcpResult match_by_icp(const std::vector<MatchPoint>& points, const grids::Surfe
     const Eigen::Vector3d change = geometry::difference(next, result.map_from_base);
     result.map_from_base = next;
     ++result.steps;
-    if (change.head<2>().norm() + 10.0 * std::abs(change.z()) >= config.converged_m) continue;
+    if (geometry::as_seen_10_m_away(change) >= config.converged_m) continue;
     if (!is_coarse) break;
     step = config.coarse_steps - 1;
   }

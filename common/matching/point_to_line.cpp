@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/geometry/displacement.hpp"
 #include "common/matching/robust_weight.hpp"
 
 namespace slammot::matching {
@@ -16,12 +17,6 @@ using geometry::Matrix3;
 using geometry::Pose2;
 
 constexpr double kSamePairsWithin = 0.01;     ///< Of a surfel's cell: until the pose has moved so far the nearest surfels stay the nearest.
-
-Pose2 moved(const Pose2& pose, const Eigen::Vector3d& change) {
-  return {pose.x_m + change.x(), pose.y_m + change.y(), geometry::wrap_angle(pose.heading_rad + change.z())};
-}
-
-double as_seen_10_m_away(const Eigen::Vector3d& change) { return change.head<2>().norm() + 10.0 * std::abs(change.z()); }
 
 }  // namespace
 
@@ -98,8 +93,8 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
     equations = linearize(pose, gate_m, config);
     const Matrix3 H = equations.H + prior_information;
     const Eigen::Vector3d change = -H.ldlt().solve(equations.g + prior_information * geometry::difference(pose, prior));
-    pose = moved(pose, change);
-    const double moved_m = as_seen_10_m_away(change);
+    pose = geometry::displaced(pose, change);
+    const double moved_m = geometry::as_seen_10_m_away(change);
     moved_since_paired_m += moved_m;
     if (moved_m < config.converged_m) {
       if (!is_coarse) break;

@@ -10,6 +10,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "common/geometry/displacement.hpp"
+
 namespace slammot::matching {
 namespace {
 
@@ -21,12 +23,6 @@ using geometry::Vector2;
 
 constexpr double kLeastEvidence = 0.05;     // cells of the scan with less do not take part
 constexpr double kSigmasAround = 3.0;       // of the prior: the part of the map that is looked at
-
-Pose2 displaced(const Pose2& pose, const Eigen::Vector3d& by) {
-  return {pose.x_m + by.x(), pose.y_m + by.y(), geometry::wrap_angle(pose.heading_rad + by.z())};
-}
-
-double as_seen_10_m_away(const Eigen::Vector3d& change) { return change.head<2>().norm() + 10.0 * std::abs(change.z()); }
 
 /// Draws with mean zero and exactly this covariance, each followed by its opposite.
 std::vector<Eigen::Vector3d> paired_draws(int pairs, const Matrix3& covariance, std::mt19937_64& random) {
@@ -100,7 +96,7 @@ class Scrim::Moments {
   UncertainPose2 gaussian(std::size_t guesses) const {
     const Eigen::Vector3d mean = sum_ / weight_;
     const double not_shown = 1.0 / static_cast<double>(count_) - 1.0 / static_cast<double>(guesses);
-    return {displaced(about_, mean), (squares_ + not_shown * by_guess_) / weight_ - mean * mean.transpose()};
+    return {geometry::displaced(about_, mean), (squares_ + not_shown * by_guess_) / weight_ - mean * mean.transpose()};
   }
 
  private:
@@ -137,7 +133,7 @@ int Scrim::gather(double valley_share) {
     sample.cluster = is_first || is_across_valley ? clusters++ : neighbour.cluster;
     reach[next].is_joined = true;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const double length_m = as_seen_10_m_away(geometry::difference(samples_[i].map_from_base, sample.map_from_base));
+      const double length_m = geometry::as_seen_10_m_away(geometry::difference(samples_[i].map_from_base, sample.map_from_base));
       if (!reach[i].is_joined && length_m < reach[i].length_m) reach[i] = {length_m, next, false};
     }
   }
@@ -156,7 +152,7 @@ ScrimResult Scrim::match(const std::vector<MatchPoint>& points, const grids::Sur
   double best = 0.0;
   const std::vector<Eigen::Vector3d> draws = paired_draws(config.samples / 2, prior.covariance, random);
   for (const Eigen::Vector3d& draw : draws) {
-    const Pose2 guess = displaced(prior.pose, draw);
+    const Pose2 guess = geometry::displaced(prior.pose, draw);
     const PointToLineResult refined = matcher_.match(points, surfels, {guess, prior.covariance}, guess, match_config);
     result.matched_share += refined.matched_share / static_cast<double>(draws.size());
     if (refined.matched_points == 0) continue;

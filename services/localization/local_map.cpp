@@ -126,7 +126,8 @@ void LocalMap::count_way(const Vector2& origin_m) {
 void LocalMap::forget_surfels_in_free_space() {
   const grids::EvidenceGrid& evidence = evidence_.grid();
   surfels_.erase_where([&](const Vector2& mean_m) {
-    return evidence.highest_so_steps(evidence.window().cell_at(mean_m.x(), mean_m.y()), 1) <= -free_steps_;
+    const grids::Cell cell = evidence.window().cell_at(mean_m.x(), mean_m.y());
+    return evidence.so_steps(cell) <= -free_steps_ && evidence.highest_so_steps(cell, 1) <= -free_steps_;  // the first tells of nearly all
   });
 }
 

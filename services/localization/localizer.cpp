@@ -49,12 +49,12 @@ Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
       match_without_wheels_(config.match),
       scan_stamps_(config.far_ahead_s),
       odometry_stamps_(config.far_ahead_s),
-      estimate_(sensing::at_start(config.motion)),
       searcher_(config.search),
       finder_(finder_config(config.search)) {
+  progress_.estimate = sensing::at_start(config.motion);
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
-  sweep_factor_.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
+  progress_.sweep_factor.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
 }
 
 void Localizer::add_odometry(const sensing::Odometry& sample) {
@@ -65,17 +65,17 @@ void Localizer::expect(const flow::TrackedObjects& objects) { expected_objects_ 
 
 bool Localizer::is_usable(const sensing::LaserScan& scan) {
   if (!scan_stamps_.believes(scan.stamp_ns)) {
-    ++counters_.far_ahead_scans;
+    ++progress_.counters.far_ahead_scans;
     return false;
   }
-  if (!last_ || scan.stamp_ns > last_->stamp_ns) return true;
-  if (scan.stamp_ns < last_->stamp_ns) {
-    ++counters_.out_of_order_scans;
+  if (!progress_.last || scan.stamp_ns > progress_.last->stamp_ns) return true;
+  if (scan.stamp_ns < progress_.last->stamp_ns) {
+    ++progress_.counters.out_of_order_scans;
     return false;
   }
   // After a crash nobody knows whose scan it was.
   const bool is_new = !scanners_at_last_.empty() && std::ranges::find(scanners_at_last_, scan.scanner.scanner_id) == scanners_at_last_.end();
-  if (!is_new) ++counters_.duplicate_scans;
+  if (!is_new) ++progress_.counters.duplicate_scans;
   return is_new;
 }
 
@@ -85,17 +85,17 @@ bool Localizer::is_impossible(const Pose2& by_wheels, double duration_s) const {
 
 /// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step is doubted for that.
 bool Localizer::is_doubtful(const Pose2& by_wheels, double duration_s) const {
-  return last_->knows_velocity && !last_->doubted_wheels &&
-         is_wheel_jump(by_wheels, last_->speed_mps, last_->yaw_rate_radps, duration_s, config_.wheel_jump);
+  return progress_.last->knows_velocity && !progress_.last->doubted_wheels &&
+         is_wheel_jump(by_wheels, progress_.last->speed_mps, progress_.last->yaw_rate_radps, duration_s, config_.wheel_jump);
 }
 
 Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
   Step step;
   std::optional<Pose2> doubtful_step;
-  step.duration_s = static_cast<double>(stamp_ns - last_->stamp_ns) * kNanosecond_s;
-  if (step.duration_s > config_.longest_step_s) ++counters_.gaps;
-  if (wheel_from_base && last_->has_wheels) {
-    const Pose2 by_wheels = geometry::inverse(last_->wheel_from_base) * *wheel_from_base;
+  step.duration_s = static_cast<double>(stamp_ns - progress_.last->stamp_ns) * kNanosecond_s;
+  if (step.duration_s > config_.longest_step_s) ++progress_.counters.gaps;
+  if (wheel_from_base && progress_.last->has_wheels) {
+    const Pose2 by_wheels = geometry::inverse(progress_.last->wheel_from_base) * *wheel_from_base;
     if (is_impossible(by_wheels, step.duration_s)) {
       step.has_doubted_wheels = true;
     } else if (is_doubtful(by_wheels, step.duration_s)) {
@@ -103,25 +103,25 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
       step.has_doubted_wheels = true;
     } else {
       step.is_by_wheels = true;
-      step.after = sensing::moved_by_wheels(estimate_, by_wheels, step.duration_s, config_.motion);
-      step.before_from_base = geometry::inverse(estimate_.odom_from_base) * step.after.odom_from_base;
+      step.after = sensing::moved_by_wheels(progress_.estimate, by_wheels, step.duration_s, config_.motion);
+      step.before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * step.after.odom_from_base;
       return step;
     }
-    ++counters_.odometry_jumps;
+    ++progress_.counters.odometry_jumps;
   } else {
-    ++counters_.without_odometry;
+    ++progress_.counters.without_odometry;
   }
   const double extrapolated_s = std::min(step.duration_s, config_.longest_step_s);
-  const sensing::MotionEstimate before = doubtful_step ? doubted_velocity(*doubtful_step, step.duration_s) : estimate_;
+  const sensing::MotionEstimate before = doubtful_step ? doubted_velocity(*doubtful_step, step.duration_s) : progress_.estimate;
   step.after = sensing::moved_at_velocity(before, extrapolated_s, config_.motion);
-  step.before_from_base = geometry::inverse(estimate_.odom_from_base) * step.after.odom_from_base;
+  step.before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * step.after.odom_from_base;
   return step;
 }
 
 /// Either the wheels have jumped or the vehicle was stopped or pushed: the match decides.
 sensing::MotionEstimate Localizer::doubted_velocity(const Pose2& by_wheels, double duration_s) const {
   const sensing::Velocity by_wheels_mps{by_wheels.x_m / duration_s, by_wheels.heading_rad / duration_s};
-  return sensing::with_doubted_velocity(estimate_, by_wheels_mps - estimate_.velocity);
+  return sensing::with_doubted_velocity(progress_.estimate, by_wheels_mps - progress_.estimate.velocity);
 }
 
 void Localizer::mask_expected_objects(std::int64_t stamp_ns) {
@@ -160,20 +160,20 @@ void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_
   }
 }
 
-bool Localizer::learns_sweep(const sensing::LaserScan& scan) const { return sweep_factor_.variance > 0.0 && scan.scanner.sweep_s > 0.0; }
+bool Localizer::learns_sweep(const sensing::LaserScan& scan) const { return progress_.sweep_factor.variance > 0.0 && scan.scanner.sweep_s > 0.0; }
 
 const sensing::LaserScan& Localizer::with_true_sweep(const sensing::LaserScan& scan) {
   if (!learns_sweep(scan)) return scan;
   swept_scan_ = scan;
-  swept_scan_.scanner.sweep_s *= sweep_factor_.value;
+  swept_scan_.scanner.sweep_s *= progress_.sweep_factor.value;
   return swept_scan_;
 }
 
 void Localizer::learn_sweep(const sensing::LaserScan& scan, const UncertainPose2& prior, const Pose2& odom_from_base, const State& now) {
   if (!learns_sweep(scan)) return;
   const SweptScan swept{match_points_, share_of_sweep_, odom_from_base, prior.covariance.inverse(), scan.scanner.sweep_s,
-                        {now.speed_mps, now.yaw_rate_radps}, static_cast<double>(now.stamp_ns - last_->stamp_ns) * kNanosecond_s};
-  sweep_factor_ = learned(sweep_factor_, swept, map_.surfels(), config_.match, config_.sweep_factor_sigma * config_.sweep_factor_sigma);
+                        {now.speed_mps, now.yaw_rate_radps}, static_cast<double>(now.stamp_ns - progress_.last->stamp_ns) * kNanosecond_s};
+  progress_.sweep_factor = learned(progress_.sweep_factor, swept, map_.surfels(), config_.match, config_.sweep_factor_sigma * config_.sweep_factor_sigma);
 }
 
 bool Localizer::is_vague(const UncertainPose2& prior) const {
@@ -188,7 +188,7 @@ Pose2 Localizer::search(const UncertainPose2& prior) {
 }
 
 std::vector<matching::Peak> Localizer::peaks_around(const UncertainPose2& prior, matching::CorrelativeMatcher& searcher) {
-  ++counters_.searches;
+  ++progress_.counters.searches;
   const auto reach = [&](int axis) { return config_.search_sigmas * std::sqrt(prior.covariance(axis, axis)); };
   const double farthest_m = config_.search_reach_m;  // beyond it there is no target, however unsure the prediction is
   const matching::SearchWindow window{std::min(reach(0), farthest_m), std::min(reach(1), farthest_m), std::min(reach(2), std::numbers::pi)};
@@ -205,7 +205,7 @@ std::vector<matching::Peak> Localizer::peaks_around(const UncertainPose2& prior,
 matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2& prior, const matching::PointToLineConfig& config) {
   const auto match_from = [&](const Pose2& initial) { return matcher_.match(match_points_, map_.surfels(), prior, initial, config); };
   if (!is_vague(prior)) return match_from(prior.pose);
-  if (!last_->was_sampled) return match_from(search(prior));
+  if (!progress_.last->was_sampled) return match_from(search(prior));
   // Along a featureless wall a search finds any place as good as any other.
   const matching::PointToLineResult result = match_from(prior.pose);
   return says_little(result.scan_information, config_.ambiguous) ? result : match_from(search(prior));
@@ -213,16 +213,16 @@ matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2
 
 Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::PointToLineConfig& config, std::uint32_t scan_sequence) {
   if (static_cast<int>(match_points_.size()) < config_.min_echoes) {
-    ++counters_.too_few_echoes;
+    ++progress_.counters.too_few_echoes;
     return {prior, false};
   }
   const matching::PointToLineResult result = match_in_closed_form(prior, config);
   if (result.matched_share < config_.least_matched_share) {
-    ++counters_.lost_matches;
+    ++progress_.counters.lost_matches;
     return {.odom_from_base = prior, .is_lost = true};
   }
   if (says_little(result.scan_information, config_.ambiguous)) {
-    ++counters_.sampled_matches;
+    ++progress_.counters.sampled_matches;
     return {ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, config, scan_sequence), true, true};
   }
   return {result.map_from_base, true};
@@ -230,15 +230,15 @@ Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::P
 
 void Localizer::travel(const Pose2& before_from_base) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
-  travelled_m_ += moved_m;
+  progress_.travelled_m += moved_m;
   const double position_m2 = config_.drift_m_per_sqrt_m * config_.drift_m_per_sqrt_m * moved_m;
   const double heading_rad2 = config_.drift_rad_per_sqrt_m * config_.drift_rad_per_sqrt_m * moved_m;
-  drift_.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
+  progress_.drift.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
 }
 
 UncertainPose2 Localizer::published_pose() const {
   const Eigen::Vector3d shared(config_.shared_error_forward, config_.shared_error_sideways, config_.shared_error_heading);
-  return {estimate_.odom_from_base, sensing::scaled(estimate_.uncertain_pose(), sensing::published(variance_factors_, shared))};
+  return {progress_.estimate.odom_from_base, sensing::scaled(progress_.estimate.uncertain_pose(), sensing::published(progress_.variance_factors, shared))};
 }
 
 flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base) const {
@@ -251,8 +251,8 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
   localized.beam_step_rad = scan.scanner.beam_step_rad;
   localized.odom_from_base = odom_from_base;
   localized.map_from_odom = map_from_odom_;
-  localized.speed_mps = last_->speed_mps;
-  localized.yaw_rate_radps = last_->yaw_rate_radps;
+  localized.speed_mps = progress_.last->speed_mps;
+  localized.yaw_rate_radps = progress_.last->yaw_rate_radps;
   localized.submap_id = map_.submap_id();
   localized.submap_from_base = geometry::inverse(map_.odom_from_submap()) * odom_from_base.pose;
   const Pose2 odom_from_laser = odom_from_base.pose * scan.scanner.base_from_laser;
@@ -294,8 +294,8 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   pending.scanner_id = scan.scanner.scanner_id;
   pending.beam_step_rad = scan.scanner.beam_step_rad;
   // As long as wheels are trusted the map grows: round a corner everything may be new.
-  pending.is_withheld = lost_scans_ > 0;
-  pending.is_doubted = contradicts_map_;
+  pending.is_withheld = progress_.lost_scans > 0;
+  pending.is_doubted = progress_.contradicts_map;
   pending.origin_in_odom_m = odom_from_laser.translation_m();
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());
@@ -318,15 +318,15 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
 
 std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan) {
   if (!is_usable(scan)) return std::nullopt;
-  ++counters_.scans;
+  ++progress_.counters.scans;
   integrate_overdue(scan.stamp_ns);
   begin_next_submap_if_due();
-  if (!last_ || last_->stamp_ns != scan.stamp_ns) scanners_at_last_.clear();
+  if (!progress_.last || progress_.last->stamp_ns != scan.stamp_ns) scanners_at_last_.clear();
   scanners_at_last_.push_back(scan.scanner.scanner_id);
   left_out_beams_.clear();
-  if (last_) {
-    const bool was_lost = lost_since_ns_.has_value();
-    before_scan_ = progress();
+  if (progress_.last) {
+    const bool was_lost = progress_.lost_since_ns.has_value();
+    before_scan_ = progress_;
     match_points_before_.swap(match_points_);
     if (!place(scan) || was_lost) before_scan_.reset();  // labels by a map in which it may be elsewhere are worth nothing
   } else {
@@ -341,7 +341,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
 void Localizer::begin(const sensing::LaserScan& scan) {
   map_ = LocalMap(config_.map, Vector2::Zero(), help_, first_submap_);
   sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
-  last_ = state_at(scan.stamp_ns, odometry_.wheel_from_base_at(scan.stamp_ns));
+  progress_.last = state_at(scan.stamp_ns, odometry_.wheel_from_base_at(scan.stamp_ns));
 }
 
 Localizer::State Localizer::state_at(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
@@ -359,51 +359,31 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   const Step step = predict(scan.stamp_ns, wheel_from_base);
   now.doubted_wheels = step.has_doubted_wheels;
   const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
-  now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last_->speed_mps;
-  now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last_->yaw_rate_radps;
+  now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : progress_.last->speed_mps;
+  now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : progress_.last->yaw_rate_radps;
   sensing::deskew(with_true_sweep(scan), now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
   const UncertainPose2 prior = step.after.uncertain_pose();
   select_points(scan, prior.pose);
-  const UncertainPose2 before = estimate_.uncertain_pose();
+  const UncertainPose2 before = progress_.estimate.uncertain_pose();
   const Match found = match_or_find(prior, scan, step.is_by_wheels);
-  const Pose2 before_from_base = geometry::inverse(estimate_.odom_from_base) * found.odom_from_base.pose;
-  estimate_ = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
+  const Pose2 before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * found.odom_from_base.pose;
+  progress_.estimate = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
   if (found.is_believed) {
     const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
-    variance_factors_ = sensing::learned(variance_factors_, prior, found.odom_from_base, share);
+    progress_.variance_factors = sensing::learned(progress_.variance_factors, prior, found.odom_from_base, share);
   }
   if (found.is_believed && !found.was_sampled) learn_sweep(scan, prior, found.odom_from_base.pose, now);
-  variance_factors_ = sensing::carried(variance_factors_, before, prior, found.odom_from_base);
+  progress_.variance_factors = sensing::carried(progress_.variance_factors, before, prior, found.odom_from_base);
   travel(before_from_base);
   now.was_sampled = found.was_sampled;
   if (has_gone_astray(scan.stamp_ns)) begin_astray_submap();
-  now.knows_velocity = is_later || last_->knows_velocity;
+  now.knows_velocity = is_later || progress_.last->knows_velocity;
   if (is_later && !step.is_by_wheels) {
-    now.speed_mps = estimate_.velocity.x();
-    now.yaw_rate_radps = estimate_.velocity.y();
+    now.speed_mps = progress_.estimate.velocity.x();
+    now.yaw_rate_radps = progress_.estimate.velocity.y();
   }
-  last_ = now;
-  return found.is_believed && !found.is_lost && !lost_since_ns_;
-}
-
-Localizer::Progress Localizer::progress() const {
-  return {estimate_, variance_factors_, sweep_factor_, last_, drift_, travelled_m_, lost_since_ns_, lost_scans_, scans_to_prove_, contradicts_map_, explained_before_, everything_changed_, counters_};
-}
-
-void Localizer::go_back_to(const Progress& progress) {
-  estimate_ = progress.estimate;
-  variance_factors_ = progress.variance_factors;
-  sweep_factor_ = progress.sweep_factor;
-  last_ = progress.last;
-  drift_ = progress.drift;
-  travelled_m_ = progress.travelled_m;
-  lost_since_ns_ = progress.lost_since_ns;
-  lost_scans_ = progress.lost_scans;
-  scans_to_prove_ = progress.scans_to_prove;
-  contradicts_map_ = progress.contradicts_map;
-  explained_before_ = progress.explained_before;
-  everything_changed_ = progress.everything_changed;
-  counters_ = progress.counters;
+  progress_.last = now;
+  return found.is_believed && !found.is_lost && !progress_.lost_since_ns;
 }
 
 bool Localizer::can_be_placed_again(const sensing::LaserScan& scan, const std::vector<PointLabel>& labels) const {
@@ -424,11 +404,11 @@ std::optional<flow::LocalizedScan> Localizer::localize_again(const sensing::Lase
   if (!can_be_placed_again(scan, labels)) return std::nullopt;
   std::vector<std::size_t> left_out = kept_out(labels);
   if (left_out == left_out_beams_) return std::nullopt;  // the same points give the same pose
-  const Progress with_more_points = progress();
+  const Progress with_more_points = progress_;
   left_out_beams_ = std::move(left_out);
-  go_back_to(*before_scan_);
+  progress_ = *before_scan_;
   if (!place(scan)) {
-    go_back_to(with_more_points);
+    progress_ = with_more_points;
     return std::nullopt;
   }
   pending_.pop_back();
@@ -447,7 +427,7 @@ void Localizer::note(const flow::SegmentedScan& segmented) {
 void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
   PendingScan& scan = pending_.front();
   if (scan.is_withheld) {
-    ++counters_.withheld_scans;
+    ++progress_.counters.withheld_scans;
     pending_.pop_front();
     return;
   }
@@ -458,7 +438,7 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
     const bool is_far = (scan.rays[i].end_m - scan.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
     scan.rays[i].echo = is_far ? grids::Echo::kNone : echo;
   }
-  if (scan.is_doubted && lost_since_ns_) doubted_.push_back(std::move(scan));
+  if (scan.is_doubted && progress_.lost_since_ns) doubted_.push_back(std::move(scan));
   else integrate(std::move(scan));
   pending_.pop_front();
 }
@@ -471,7 +451,7 @@ void Localizer::integrate(PendingScan scan) {
 }
 
 void Localizer::integrate_first_without_tracking() {
-  ++counters_.fallback_integrations;
+  ++progress_.counters.fallback_integrations;
   integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback);
 }
 
@@ -502,21 +482,21 @@ void Localizer::restore_points(const flow::ScanLabels& labels) {
     for (const std::uint16_t beam : restored.beams) {
       if (beam >= scan->rays.size() || scan->end_cells[beam] == EndCell::kNoEcho) continue;
       map_.restore_stationary(scan->rays[beam].end_m);
-      ++counters_.restored_points;
+      ++progress_.counters.restored_points;
     }
   }
 }
 
 void Localizer::begin_next_submap_if_due() {
-  if (!last_) return;
-  const double counted_m = short_submaps_left_ > 0 ? kShorterBy * travelled_m_ : travelled_m_;
-  if (!submap_is_ended_ && !map_.is_outgrown(estimate_.odom_from_base.translation_m(), counted_m)) return;
+  if (!progress_.last) return;
+  const double counted_m = short_submaps_left_ > 0 ? kShorterBy * progress_.travelled_m : progress_.travelled_m;
+  if (!submap_is_ended_ && !map_.is_outgrown(progress_.estimate.odom_from_base.translation_m(), counted_m)) return;
   if (!submap_is_ended_) end_submap();
   const Pose2 odom_from_previous = map_.odom_from_submap();
-  map_.begin_next(estimate_.odom_from_base.translation_m());
-  previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), drift_};
-  drift_.setZero();
-  travelled_m_ = 0.0;
+  map_.begin_next(progress_.estimate.odom_from_base.translation_m());
+  previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), progress_.drift};
+  progress_.drift.setZero();
+  progress_.travelled_m = 0.0;
   submap_is_ended_ = false;
   if (short_submaps_left_ > 0) --short_submaps_left_;
 }
@@ -524,11 +504,11 @@ void Localizer::begin_next_submap_if_due() {
 void Localizer::end_submap() {
   flow::Submap submap = map_.submap();
   submap.previous_from_submap = previous_from_submap_;
-  submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * estimate_.odom_from_base;
-  submap.travelled_m = travelled_m_;
+  submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * progress_.estimate.odom_from_base;
+  submap.travelled_m = progress_.travelled_m;
   finished_.push_back(std::move(submap));
   submap_is_ended_ = true;
-  ++counters_.submaps;
+  ++progress_.counters.submaps;
 }
 
 std::optional<flow::Submap> Localizer::take_finished_submap() {
@@ -540,7 +520,7 @@ std::optional<flow::Submap> Localizer::take_finished_submap() {
 
 void Localizer::finish() {
   while (!pending_.empty()) integrate_first_without_tracking();
-  if (last_ && !submap_is_ended_ && map_.has_echoes()) end_submap();
+  if (progress_.last && !submap_is_ended_ && map_.has_echoes()) end_submap();
 }
 
 void Localizer::correct(const flow::GraphCorrection& correction) {
@@ -552,14 +532,14 @@ void Localizer::correct(const flow::GraphCorrection& correction) {
 template <typename Self, typename StateOfLast, typename Visitor>
 void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(last.stamp_ns);
-  visit(self.estimate_.odom_from_base);
-  visit(self.estimate_.calibration);
-  visit(self.estimate_.velocity);
-  visit(self.estimate_.covariance);
-  visit(self.variance_factors_.of_axis);
-  visit(self.variance_factors_.dead_reckoned);
-  visit(self.sweep_factor_.value);
-  visit(self.sweep_factor_.variance);
+  visit(self.progress_.estimate.odom_from_base);
+  visit(self.progress_.estimate.calibration);
+  visit(self.progress_.estimate.velocity);
+  visit(self.progress_.estimate.covariance);
+  visit(self.progress_.variance_factors.of_axis);
+  visit(self.progress_.variance_factors.dead_reckoned);
+  visit(self.progress_.sweep_factor.value);
+  visit(self.progress_.sweep_factor.variance);
   visit(last.has_wheels);
   visit(last.wheel_from_base);
   visit(last.knows_velocity);
@@ -571,18 +551,18 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(self.correction_sequence_);
   visit(self.previous_from_submap_.pose);
   visit(self.previous_from_submap_.covariance);
-  visit(self.drift_);
-  visit(self.travelled_m_);
+  visit(self.progress_.drift);
+  visit(self.progress_.travelled_m);
   visit(self.submap_is_ended_);
   visit(self.short_submaps_left_);
-  visit(self.counters_);
+  visit(self.progress_.counters);
 }
 
 std::vector<std::byte> Localizer::checkpoint() const {
   std::vector<std::byte> bytes;
-  if (!last_) return bytes;
+  if (!progress_.last) return bytes;
   put(bytes, kCheckpointMark);
-  for_each_part(*this, *last_, [&](const auto& part) { put(bytes, part); });
+  for_each_part(*this, *progress_.last, [&](const auto& part) { put(bytes, part); });
   map_.write(bytes);
   put(bytes, checksum(bytes));
   return bytes;
@@ -599,19 +579,19 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   for_each_part(restored, last, [&](auto& part) { from.get(part); });
   if (mark != kCheckpointMark) return false;
   std::optional<LocalMap> map = LocalMap::restored(config_.map, from, help_);
-  const bool is_sound = is_believable(restored.estimate_.odom_from_base) && is_believable(restored.map_from_odom_) &&
+  const bool is_sound = is_believable(restored.progress_.estimate.odom_from_base) && is_believable(restored.map_from_odom_) &&
                         is_believable(restored.previous_from_submap_.pose) &&
-                        is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.drift_) &&
-                        is_believable(restored.estimate_.covariance) && restored.estimate_.calibration.norm() < 1.0 && restored.estimate_.velocity.norm() < kFastestRestored &&
-                        restored.variance_factors_.of_axis.minCoeff() >= 0.0 && restored.variance_factors_.of_axis.allFinite() &&
-                        restored.variance_factors_.dead_reckoned.minCoeff() >= 0.0 && restored.variance_factors_.dead_reckoned.maxCoeff() <= 1.0 &&
-                        std::isfinite(restored.sweep_factor_.value) && restored.sweep_factor_.variance >= 0.0 &&
+                        is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.progress_.drift) &&
+                        is_believable(restored.progress_.estimate.covariance) && restored.progress_.estimate.calibration.norm() < 1.0 && restored.progress_.estimate.velocity.norm() < kFastestRestored &&
+                        restored.progress_.variance_factors.of_axis.minCoeff() >= 0.0 && restored.progress_.variance_factors.of_axis.allFinite() &&
+                        restored.progress_.variance_factors.dead_reckoned.minCoeff() >= 0.0 && restored.progress_.variance_factors.dead_reckoned.maxCoeff() <= 1.0 &&
+                        std::isfinite(restored.progress_.sweep_factor.value) && restored.progress_.sweep_factor.variance >= 0.0 &&
                         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
-                        std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.travelled_m_);
+                        std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.progress_.travelled_m);
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;
-  restored.last_ = last;
+  restored.progress_.last = last;
   restored.map_ = std::move(*map);
-  if (!last_) restored.odometry_ = std::move(odometry_);  // it bridges what was missed
+  if (!progress_.last) restored.odometry_ = std::move(odometry_);  // it bridges what was missed
   *this = std::move(restored);
   return true;
 }

@@ -165,12 +165,12 @@ class Localizer {
   void go_on_after(const flow::CorrectedSubmap& last);
 
   /// Whether scans fit the local map, or its place in it is looked for.
-  bool is_lost() const { return lost_scans_ > 0; }
+  bool is_lost() const { return progress_.lost_scans > 0; }
 
   const geometry::Pose2& map_from_odom() const { return map_from_odom_; }
-  const sensing::MotionCalibration& calibration() const { return estimate_.calibration; }
-  const SweepFactor& sweep_factor() const { return sweep_factor_; }
-  const LocalizerCounters& counters() const { return counters_; }
+  const sensing::MotionCalibration& calibration() const { return progress_.estimate.calibration; }
+  const SweepFactor& sweep_factor() const { return progress_.sweep_factor; }
+  const LocalizerCounters& counters() const { return progress_.counters; }
   const LocalMap& local_map() const { return map_; }
 
   /// Everything that is needed to go on after a crash, in a form of this build; empty before the first scan. Scans that
@@ -232,14 +232,14 @@ class Localizer {
     sensing::VarianceFactors variance_factors;
     SweepFactor sweep_factor;
     std::optional<State> last;
-    geometry::Matrix3 drift;
-    double travelled_m = 0.0;
-    std::optional<std::int64_t> lost_since_ns;
-    int lost_scans = 0;
-    int scans_to_prove = 0;
-    bool contradicts_map = false;
-    std::optional<double> explained_before;
-    bool everything_changed = false;
+    geometry::Matrix3 drift = geometry::Matrix3::Zero();  ///< Covariance of what was travelled in this submap, for the tie to the next.
+    double travelled_m = 0.0;                       ///< In this submap.
+    std::optional<std::int64_t> lost_since_ns;      ///< Stamp of the first scan that did not match.
+    int lost_scans = 0;                             ///< Since wheels are no longer trusted.
+    int scans_to_prove = 0;                         ///< Until it is believed to have found itself again.
+    bool contradicts_map = false;                   ///< The scan at hand, where it was matched.
+    std::optional<double> explained_before = 0.0;   ///< Share of the last scan's points that the map explained; none: not asked.
+    bool everything_changed = false;                ///< From one scan to the next, when it was lost.
     LocalizerCounters counters;
   };
 
@@ -247,8 +247,6 @@ class Localizer {
   void begin(const sensing::LaserScan& scan);
   static State state_at(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
   bool place(const sensing::LaserScan& scan);
-  Progress progress() const;
-  void go_back_to(const Progress& progress);
   bool can_be_placed_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) const;
   std::vector<std::size_t> kept_out(const std::vector<flow::PointLabel>& labels) const;
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
@@ -308,29 +306,18 @@ class Localizer {
   LocalizerConfig config_;
   SideWork* help_ = nullptr;
   matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then.
-  LocalizerCounters counters_;
   sensing::StampGuard scan_stamps_;
   sensing::StampGuard odometry_stamps_;
   sensing::OdometryBuffer odometry_;
-  sensing::MotionEstimate estimate_;
-  sensing::VarianceFactors variance_factors_;
-  std::optional<State> last_;
+  Progress progress_;
   std::optional<Progress> before_scan_;              ///< Before the last one, while it may be localized again.
   std::vector<std::string> scanners_at_last_;        ///< Whose scans have the last stamp; empty after a restore.
   LocalMap map_;
   flow::SubmapId first_submap_;
   geometry::Pose2 map_from_odom_;
   geometry::UncertainPose2 previous_from_submap_;    ///< Of the submap in progress.
-  geometry::Matrix3 drift_ = geometry::Matrix3::Zero();  ///< Covariance of what was travelled in it, for the tie to the next.
-  double travelled_m_ = 0.0;                         ///< In this submap.
   bool submap_is_ended_ = false;                     ///< And the next one not yet begun.
   std::int32_t short_submaps_left_ = 0;              ///< After it has gone astray.
-  std::optional<std::int64_t> lost_since_ns_;        ///< Stamp of the first scan that did not match.
-  int lost_scans_ = 0;                               ///< Since wheels are no longer trusted.
-  int scans_to_prove_ = 0;                           ///< Until it is believed to have found itself again.
-  bool contradicts_map_ = false;                     ///< The scan at hand, where it was matched.
-  std::optional<double> explained_before_ = 0.0;     ///< Share of the last scan's points that the map explained; none: not asked.
-  bool everything_changed_ = false;                  ///< From one scan to the next, when it was lost.
   std::uint32_t correction_sequence_ = 0;
   flow::TrackedObjects expected_objects_;
   std::deque<PendingScan> pending_;
@@ -347,7 +334,6 @@ class Localizer {
   std::vector<matching::MatchPoint> match_points_before_;  ///< Of the scan before.
   std::vector<std::size_t> candidate_beams_;         ///< Whose echoes would be matched if labels left out none,
   std::vector<std::size_t> left_out_beams_;          ///< and those of them that labels leave out; ascending, as they are.
-  SweepFactor sweep_factor_;
   sensing::LaserScan swept_scan_;                    ///< The scan at hand with its sweep as it is believed to be.
   std::vector<double> share_of_sweep_;               ///< By match point, where the sweep is learned.
   std::vector<Mask> masks_;

@@ -52,28 +52,28 @@ matching::CorrelativeConfig Localizer::finder_config(matching::CorrelativeConfig
 
 Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels) {
   const matching::PointToLineConfig& config = has_wheels ? config_.match : match_without_wheels_;
-  contradicts_map_ = false;
+  progress_.contradicts_map = false;
   Match found = match(prior, config, scan.sequence);
   const bool is_contradicting = is_contradicted(found, prior, has_wheels);
   found.is_lost |= is_contradicting;
   if (found.is_lost && config_.recovers) {
-    if (!lost_since_ns_) lost_since_ns_ = scan.stamp_ns;
-    scans_to_prove_ = config_.found_scans + 1;
-    const double lost_s = static_cast<double>(scan.stamp_ns - *lost_since_ns_) * 1e-9;
-    contradicts_map_ = is_contradicting;
+    if (!progress_.lost_since_ns) progress_.lost_since_ns = scan.stamp_ns;
+    progress_.scans_to_prove = config_.found_scans + 1;
+    const double lost_s = static_cast<double>(scan.stamp_ns - *progress_.lost_since_ns) * 1e-9;
+    progress_.contradicts_map = is_contradicting;
     // Traffic on all sides hides the map for as long as it likes: what drives and was not seen to be moved trusts its wheels.
-    const bool trusts_wheels = has_wheels && !everything_changed_ && !config_.may_be_picked_up;
+    const bool trusts_wheels = has_wheels && !progress_.everything_changed && !config_.may_be_picked_up;
     const bool is_patient = trusts_wheels || (has_wheels && lost_s < config_.lost_after_s);
     if (is_patient) return found;
-    ++lost_scans_;
+    ++progress_.lost_scans;
     drop_doubted();
     if (const auto again = find_again(prior, config)) found = *again;
   }
   if (!found.is_believed || found.is_lost) return found;
   // In a wrong place a scan or two may fit: that is no end of being lost.
-  if (scans_to_prove_ > 0 && --scans_to_prove_ > 0) return found;
-  lost_since_ns_.reset();
-  lost_scans_ = 0;
+  if (progress_.scans_to_prove > 0 && --progress_.scans_to_prove > 0) return found;
+  progress_.lost_since_ns.reset();
+  progress_.lost_scans = 0;
   integrate_doubted();
   return found;
 }
@@ -85,7 +85,7 @@ void Localizer::integrate_doubted() {
 }
 
 void Localizer::drop_doubted() {
-  counters_.withheld_scans += doubted_.size();
+  progress_.counters.withheld_scans += doubted_.size();
   doubted_.clear();
 }
 
@@ -94,27 +94,27 @@ void Localizer::drop_doubted() {
 /// but the ground that a braking scanner sees, and another place.
 bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior, bool has_wheels) {
   if (!found.is_believed && !found.is_lost) {
-    explained_before_ = 0.0;  // beams without echo have cleared the map meanwhile: nothing is to be concluded from that
+    progress_.explained_before = 0.0;  // beams without echo have cleared the map meanwhile: nothing is to be concluded from that
     return false;
   }
   const geometry::Pose2& pose = found.odom_from_base.pose;
   const bool may_be_elsewhere = !has_wheels || config_.may_be_picked_up;
-  if (!may_be_elsewhere && !everything_changed_) {
-    explained_before_.reset();  // the map is not asked as long as nobody wants to know: it may still be taking in the last scan
+  if (!may_be_elsewhere && !progress_.everything_changed) {
+    progress_.explained_before.reset();  // the map is not asked as long as nobody wants to know: it may still be taking in the last scan
     return false;
   }
-  const double before = explained_before_ ? *explained_before_ : explained_share(match_points_before_, estimate_.odom_from_base);
+  const double before = progress_.explained_before ? *progress_.explained_before : explained_share(match_points_before_, progress_.estimate.odom_from_base);
   const double explained = explained_share(match_points_, pose);
-  if (!lost_since_ns_) everything_changed_ = may_be_elsewhere && before - explained > kChanged_share && is_same_view(geometry::inverse(estimate_.odom_from_base) * prior.pose);
-  explained_before_ = explained;
-  if (!may_be_elsewhere && !everything_changed_) return false;
-  if (found.is_lost && everything_changed_) return true;
+  if (!progress_.lost_since_ns) progress_.everything_changed = may_be_elsewhere && before - explained > kChanged_share && is_same_view(geometry::inverse(progress_.estimate.odom_from_base) * prior.pose);
+  progress_.explained_before = explained;
+  if (!may_be_elsewhere && !progress_.everything_changed) return false;
+  if (found.is_lost && progress_.everything_changed) return true;
   if (is_vague(prior)) return contradiction(pose).share() > config_.most_contradicted_share;
-  if (lost_since_ns_ && everything_changed_) return contradiction(pose).share() > kFoundByHalf * config_.most_contradicted_share;
-  if (!found.is_lost && !lost_since_ns_ && explained >= 1.0 - config_.most_contradicted_when_sure) return false;
-  const double most = found.is_lost || lost_since_ns_ ? config_.most_contradicted_share : config_.most_contradicted_when_sure;
+  if (progress_.lost_since_ns && progress_.everything_changed) return contradiction(pose).share() > kFoundByHalf * config_.most_contradicted_share;
+  if (!found.is_lost && !progress_.lost_since_ns && explained >= 1.0 - config_.most_contradicted_when_sure) return false;
+  const double most = found.is_lost || progress_.lost_since_ns ? config_.most_contradicted_share : config_.most_contradicted_when_sure;
   const Contradiction there = contradiction(pose);
-  return there.share() > most && (everything_changed_ || there.share_behind_walls() > kSeenThroughWalls_share);
+  return there.share() > most && (progress_.everything_changed || there.share_behind_walls() > kSeenThroughWalls_share);
 }
 
 /// Of the points, how many lie on what the map knows: cheap, and enough to see that all is well. Of none, none.
@@ -159,8 +159,8 @@ double Localizer::Contradiction::share_of_known(int points) const {
 
 /// Whichever way it looks now: a room looks much the same from both of its ends, and only all the answers together tell.
 std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prior, const matching::PointToLineConfig& config) {
-  if (!is_worth_a_search(static_cast<unsigned>(lost_scans_))) return std::nullopt;
-  const double sigma_m = std::min(kWindowPerScan_m * lost_scans_, config_.search_reach_m) / config_.search_sigmas;
+  if (!is_worth_a_search(static_cast<unsigned>(progress_.lost_scans))) return std::nullopt;
+  const double sigma_m = std::min(kWindowPerScan_m * progress_.lost_scans, config_.search_reach_m) / config_.search_sigmas;
   UncertainPose2 anywhere = prior;
   anywhere.covariance.diagonal() += Eigen::Vector3d(sigma_m, sigma_m, std::numbers::pi).cwiseAbs2();
   std::optional<Match> best;
@@ -180,12 +180,12 @@ std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prio
     best_quality = quality;
   }
   if (!best || rival_quality > kRivalRatio * best_quality) return std::nullopt;
-  ++counters_.found_again;
+  ++progress_.counters.found_again;
   return best;
 }
 
 bool Localizer::has_gone_astray(std::int64_t stamp_ns) const {
-  return lost_since_ns_ && lost_scans_ > 0 && static_cast<double>(stamp_ns - *lost_since_ns_) * 1e-9 > config_.lost_after_s + config_.astray_after_s;
+  return progress_.lost_since_ns && progress_.lost_scans > 0 && static_cast<double>(stamp_ns - *progress_.lost_since_ns) * 1e-9 > config_.lost_after_s + config_.astray_after_s;
 }
 
 UncertainPose2 Localizer::anywhere_about(const geometry::Pose2& pose) const {
@@ -194,7 +194,7 @@ UncertainPose2 Localizer::anywhere_about(const geometry::Pose2& pose) const {
 }
 
 void Localizer::go_on_after(const flow::CorrectedSubmap& last) {
-  if (last_) return;
+  if (progress_.last) return;
   first_submap_ = {last.submap_id.value + 1};
   map_from_odom_ = last.map_from_submap;
   previous_from_submap_ = anywhere_about(geometry::Pose2::identity());
@@ -203,21 +203,21 @@ void Localizer::go_on_after(const flow::CorrectedSubmap& last) {
 
 /// Nothing that was seen before is of use here: the map begins with this scan, and the pose against it is exact.
 void Localizer::begin_astray_submap() {
-  ++counters_.astray;
+  ++progress_.counters.astray;
   const geometry::Pose2 odom_from_previous = map_.odom_from_submap();
   if (!submap_is_ended_ && map_.has_echoes()) end_submap();
-  map_.begin_astray(estimate_.odom_from_base.translation_m());
+  map_.begin_astray(progress_.estimate.odom_from_base.translation_m());
   previous_from_submap_ = anywhere_about(geometry::inverse(odom_from_previous) * map_.odom_from_submap());
-  drift_.setZero();
-  travelled_m_ = 0.0;
+  progress_.drift.setZero();
+  progress_.travelled_m = 0.0;
   submap_is_ended_ = false;
   short_submaps_left_ = kShortSubmaps;
-  estimate_.covariance.topRows<3>().setZero();
-  estimate_.covariance.leftCols<3>().setZero();
-  lost_since_ns_.reset();
-  lost_scans_ = 0;
-  scans_to_prove_ = 0;
-  contradicts_map_ = false;
+  progress_.estimate.covariance.topRows<3>().setZero();
+  progress_.estimate.covariance.leftCols<3>().setZero();
+  progress_.lost_since_ns.reset();
+  progress_.lost_scans = 0;
+  progress_.scans_to_prove = 0;
+  progress_.contradicts_map = false;
   drop_doubted();
 }
 

@@ -6,6 +6,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/geometry/displacement.hpp"
+
 namespace slammot::loop_closing {
 namespace {
 
@@ -82,8 +84,8 @@ Registration register_surfels(std::span<const flow::Surfel> source, double sourc
     const bool is_coarse = step < config.coarse_steps;
     equations = linearize(source, target, pose, is_coarse ? config.coarse_gate_m : config.fine_gate_m, config.surfel_sigma_m);
     const Eigen::Vector3d change = -(independent_share * equations.H + weak_hold()).ldlt().solve(independent_share * equations.g);
-    pose = {pose.x_m + change.x(), pose.y_m + change.y(), geometry::wrap_angle(pose.heading_rad + change.z())};
-    const bool has_converged = change.head<2>().norm() + 10.0 * std::abs(change.z()) < kConvergedM;
+    pose = geometry::displaced(pose, change);
+    const bool has_converged = geometry::as_seen_10_m_away(change) < kConvergedM;
     if (has_converged && !is_coarse) break;
     if (has_converged) step = config.coarse_steps - 1;
   }

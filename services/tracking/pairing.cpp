@@ -31,6 +31,8 @@ double pair_cost(const Body& body, const filters::MotionState& motion, const Seg
   if (is_backdrop(segment, config)) return association::kForbidden;
   const Vector2d position_m = motion.mean.head<2>();
   const Vector2d to_middle_m = segment.centroid_in_odom_m - position_m;
+  const double farthest_m = config.widest_gate_m + 0.5 * (body.length.value_m + body.width.value_m);
+  if (to_middle_m.squaredNorm() > farthest_m * farthest_m) return association::kForbidden;  // most are, and need no root
   const double reach_m = config.widest_gate_m + 0.5 * std::hypot(body.length.value_m, body.width.value_m);
   if (to_middle_m.squaredNorm() > reach_m * reach_m) return association::kForbidden;
   const Vector2d residual_m = offset_from_box(body, position_m, 0.0, segment.centroid_in_odom_m);

@@ -19,9 +19,12 @@ bool had_something_near(const EarlierScan& scan, const Eigen::Vector2d& point_in
 
 }  // namespace
 
+bool ScanHistory::is_due(std::int64_t stamp_ns) const { return scans_.empty() || stamp_ns - scans_.back().stamp_ns >= kIntervalNs; }
+
 void ScanHistory::add(std::int64_t stamp_ns, const PolarView& view, std::vector<Owner> owners) {
-  if (!scans_.empty() && stamp_ns - scans_.back().stamp_ns < kIntervalNs) return;
+  if (!is_due(stamp_ns)) return;
   scans_.push_back({stamp_ns, view, std::move(owners)});
+  scans_.back().view.measure_depths();
   while (stamp_ns - scans_.front().stamp_ns > kLongestNs) scans_.pop_front();
 }
 

@@ -35,7 +35,10 @@ enum class Past : std::uint8_t {
 /// Scans of the last seconds: comparing over a time in which slow motion shows (Wang 2004, Section 6.2) needs no map.
 class ScanHistory {
  public:
-  /// Keeps the scan if enough time has passed since the one kept last.
+  /// Whether enough time has passed since the scan kept last.
+  bool is_due(std::int64_t stamp_ns) const;
+
+  /// Keeps the scan if it is due.
   void add(std::int64_t stamp_ns, const PolarView& view, std::vector<Owner> owners);
 
   /// The youngest kept scan at least age_s older than the stamp; none where the history is shorter.

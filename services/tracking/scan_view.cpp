@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace slammot::tracking {
@@ -12,12 +13,14 @@ using Eigen::Vector2d;
 using geometry::wrap_angle;
 
 constexpr double kRoughErrorRad = 1e-4;
+constexpr long kBeamsAside = 2;         ///< Of a place's own beam, that may have met it.
+constexpr double kLongestSideM = 3.0;   ///< Between neighbouring echoes; what is longer is two things.
 
 /// Direction to within kRoughErrorRad, without the arctangent: an odd polynomial of least largest error for its degree.
 double rough_angle_rad(const Vector2d& way) {
   const double x = std::abs(way.x());
   const double y = std::abs(way.y());
-  const double slope = std::min(x, y) / std::max(x, y);
+  const double slope = std::min(x, y) / std::max({x, y, std::numeric_limits<double>::min()});  // at the laser itself any direction will do
   const double slope2 = slope * slope;
   const double below_diagonal_rad = slope * (0.99921417 + slope2 * (-0.32117868 + slope2 * (0.14627357 - 0.03899266 * slope2)));
   const double from_x_axis_rad = y > x ? 0.5 * std::numbers::pi - below_diagonal_rad : below_diagonal_rad;
@@ -53,6 +56,30 @@ PolarView::PolarView(const flow::SegmentedScan& scan)
   }
 }
 
+/// No point of a side is farther from the nearer of its ends than half its length.
+void PolarView::measure_depths() {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const std::size_t count = range_m_.size();
+  std::vector<double> nearest_m(count + 2 * kBeamsAside, kNever);  // with neighbours that the first and the last beams do not have
+  std::vector<double> farthest_m(count + 2 * kBeamsAside, -kNever);
+  for (std::size_t beam = 0; beam < count; ++beam) {
+    if (range_m_[beam] <= 0.0F) continue;
+    const std::size_t i = beam + kBeamsAside;
+    nearest_m[i] = farthest_m[i] = (points_in_odom_m_[beam] - laser_in_odom_m_).norm();
+    if (beam == 0 || range_m_[beam - 1] <= 0.0F) continue;
+    const double length2 = (points_in_odom_m_[beam] - points_in_odom_m_[beam - 1]).squaredNorm();
+    if (length2 <= kLongestSideM * kLongestSideM) nearest_m[i] = std::min(farthest_m[i], farthest_m[i - 1]) - 0.5 * std::sqrt(length2);
+  }
+  nearest_m_.assign(count, kNever);
+  farthest_m_.assign(count, -kNever);
+  for (std::size_t aside = 0; aside <= 2 * kBeamsAside; ++aside) {
+    for (std::size_t beam = 0; beam < count; ++beam) {
+      nearest_m_[beam] = std::min(nearest_m_[beam], nearest_m[beam + aside]);
+      farthest_m_[beam] = std::max(farthest_m_[beam], farthest_m[beam + aside]);
+    }
+  }
+}
+
 double PolarView::steps_towards(double direction_in_odom_rad) const {
   const double turned = is_clockwise_ ? -1.0 : 1.0;
   return (half_view_rad_ + wrap_angle(turned * (direction_in_odom_rad - first_beam_in_odom_rad_) - half_view_rad_)) / beam_step_rad_;
@@ -78,10 +105,38 @@ long PolarView::beam_towards(const Vector2d& way) const {
   if (off_middle_rad > std::numbers::pi) off_middle_rad -= kFullTurn;
   if (off_middle_rad < -std::numbers::pi) off_middle_rad += kFullTurn;
   const double steps = (half_view_rad_ + off_middle_rad) * beams_per_rad_;
-  const long beam = std::lround(steps);
+  const auto beam = static_cast<long>(steps + std::copysign(0.5, steps));  // std::lround() but for ties, which are not sure anyway
   const bool is_sure = std::abs(steps - static_cast<double>(beam)) + kRoughErrorRad * beams_per_rad_ < 0.5 &&
                        std::abs(off_middle_rad) + kRoughErrorRad < std::numbers::pi;
   return is_sure ? beam : std::lround(steps_towards(std::atan2(way.y(), way.x())));
+}
+
+/// Without looking at the beams about the middle one: a place is no nearer to an echo than their distances differ.
+bool PolarView::may_have_met(long middle, double distance_m, double within_m) const {
+  constexpr double kNoRoundingM = 1e-6;
+  const auto beam = static_cast<std::size_t>(middle);
+  return nearest_m_.empty() ||
+         (distance_m + within_m + kNoRoundingM > nearest_m_[beam] && distance_m - within_m - kNoRoundingM < farthest_m_[beam]);
+}
+
+/// The first of the beams about the middle one of which an echo, or the side between it and the next, lies so near.
+std::optional<std::size_t> PolarView::beam_that_met(const Vector2d& point_in_odom_m, long middle, double within_m) const {
+  const long first = std::max(0L, middle - kBeamsAside);
+  const long last = std::min(static_cast<long>(range_m_.size()) - 1, middle + kBeamsAside);
+  for (long i = first; i <= last; ++i) {
+    const auto beam = static_cast<std::size_t>(i);
+    if (range_m_[beam] <= 0.0F) continue;
+    const Vector2d off = point_in_odom_m - points_in_odom_m_[beam];
+    if (off.squaredNorm() < within_m * within_m) return beam;
+    if (i == last || range_m_[beam + 1] <= 0.0F) continue;
+    // Between two echoes of one oblique surface the place was seen though no beam met it.
+    const Vector2d side = points_in_odom_m_[beam + 1] - points_in_odom_m_[beam];
+    const double length2 = side.squaredNorm();
+    if (length2 > kLongestSideM * kLongestSideM) continue;
+    const double share = std::clamp(side.dot(off) / std::max(length2, 1e-9), 0.0, 1.0);
+    if ((off - share * side).squaredNorm() < within_m * within_m) return beam;
+  }
+  return std::nullopt;
 }
 
 SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
@@ -89,28 +144,13 @@ SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   constexpr double kSamePlacePerM = 0.005;
   constexpr double kBeyondM = 0.35;
   constexpr double kBeyondPerM = 0.008;
-  constexpr long kBeamsAside = 2;
   const Vector2d way = point_in_odom_m - laser_in_odom_m_;
   const double distance_m = way.norm();
   const long middle = beam_towards(way);
-  const auto count = static_cast<long>(range_m_.size());
-  if (middle < 1 || middle + 1 >= count) return {};
+  if (middle < 1 || middle + 1 >= static_cast<long>(range_m_.size())) return {};
   const double near_m = kSamePlaceM + kSamePlacePerM * distance_m;
-  const long first = std::max(0L, middle - kBeamsAside);
-  const long last = std::min(count - 1, middle + kBeamsAside);
-  for (long i = first; i <= last; ++i) {
-    const auto beam = static_cast<std::size_t>(i);
-    if (range_m_[beam] <= 0.0F) continue;
-    const Vector2d off = point_in_odom_m - points_in_odom_m_[beam];
-    if (off.squaredNorm() < near_m * near_m) return {Sight::kThere, beam};
-    if (i == last || range_m_[beam + 1] <= 0.0F) continue;
-    // Between two echoes of one oblique surface the place was seen though no beam met it.
-    const Vector2d side = points_in_odom_m_[beam + 1] - points_in_odom_m_[beam];
-    const double length2 = side.squaredNorm();
-    constexpr double kLongestSideM = 3.0;
-    if (length2 > kLongestSideM * kLongestSideM) continue;
-    const double share = std::clamp(side.dot(off) / std::max(length2, 1e-9), 0.0, 1.0);
-    if ((off - share * side).squaredNorm() < near_m * near_m) return {Sight::kThere, beam};
+  if (may_have_met(middle, distance_m, near_m)) {
+    if (const auto beam = beam_that_met(point_in_odom_m, middle, near_m)) return {Sight::kThere, *beam};
   }
   const double margin_m = kBeyondM + kBeyondPerM * distance_m;
   int through = 0;

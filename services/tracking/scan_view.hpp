@@ -45,6 +45,9 @@ class PolarView {
   double range_m(std::size_t beam) const { return static_cast<double>(range_m_[beam]); }
   double beam_step_rad() const { return beam_step_rad_; }   ///< Positive.
 
+  /// Worth it for a scan of which much is asked: sight_of() answers the same, mostly without looking at single beams.
+  void measure_depths();
+
   /// What this scan says about a place; consistency as in Wang 2004, Section 6.2, but between two scans, so that errors of
   /// the map do not count.
   SightOfPlace sight_of(const Eigen::Vector2d& point_in_odom_m) const;
@@ -60,7 +63,14 @@ class PolarView {
   long beam_towards(const Eigen::Vector2d& way) const;
 
  private:
+  bool may_have_met(long middle, double distance_m, double within_m) const;
+  std::optional<std::size_t> beam_that_met(const Eigen::Vector2d& point_in_odom_m, long middle, double within_m) const;
+
   std::vector<Eigen::Vector2d> points_in_odom_m_;
+  /// Between which distances from the laser all lies that was met about each beam; nearest > farthest where nothing was. Empty
+  /// where not measured.
+  std::vector<double> nearest_m_;
+  std::vector<double> farthest_m_;
   std::vector<float> range_m_;
   Eigen::Vector2d laser_in_odom_m_;
   double first_beam_in_odom_rad_ = 0.0;

@@ -137,6 +137,13 @@ bool is_piece_of(const Track& vehicle, const Track& piece, const TrackingConfig&
   return is_in_box(vehicle.body, vehicle.position_m(), config.gate_margin_m, piece.position_m());
 }
 
+/// Whether there is no need to look closer: nothing of one is near anything of the other.
+bool are_far_apart(const Track& a, const Track& b, const TrackingConfig& config) {
+  const double sizes_m = a.body.length.value_m + a.body.width.value_m + b.body.length.value_m + b.body.width.value_m;
+  const double reach_m = 0.5 * sizes_m + 2.0 * config.gate_margin_m + config.stride_m + config.merge_overlap_m;
+  return (a.position_m() - b.position_m()).squaredNorm() > reach_m * reach_m;
+}
+
 bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
   if (is_piece_of(a, b, config)) return true;
   // Nothing can be inside a vehicle; what is smaller may be several who walk.
@@ -176,11 +183,11 @@ bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) 
   constexpr double kCarLengthM = 4.9;
   constexpr double kCarWidthM = 2.1;
   if (!a.confirmed || !b.confirmed || std::min(a.hits, b.hits) < kLongKnownHits) return false;
+  if ((a.position_m() - b.position_m()).norm() > 2.0 * kCarLengthM * config.size_scale) return false;
   const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFasterThanPeopleMps;
   const Vector2d velocity_mps = 0.5 * (a.velocity_mps() + b.velocity_mps());
   const double speed_mps = velocity_mps.norm();
   if (speed_mps < least_mps || (a.velocity_mps() - b.velocity_mps()).norm() > 0.4 + 0.1 * speed_mps) return false;
-  if ((a.position_m() - b.position_m()).norm() > 2.0 * kCarLengthM * config.size_scale) return false;
   const Vector2d along = velocity_mps / speed_mps;
   const Vector2d across{-along.y(), along.x()};
   Eigen::AlignedBox2d seen;
@@ -450,13 +457,16 @@ void Tracker::begin_tracks(const ScanView& view) {
 /// that are seen through now, say that it has moved.
 MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const {
   MotionEvidence evidence;
+  const bool is_known = &then == history_.older_than(view.scan().stamp_ns, config_.compare_after_s);
   for (const std::uint16_t beam : shares_.beams_of_track[track]) {
-    const Past past = has_shifted_[beam] ? Past::kArrived : history_.past_of(beam, view.polar(), then, only_people_move(config_));
+    const bool is_compared = is_known || has_shifted_[beam];
+    const Past past = is_compared ? past_of_beam_[beam] : history_.past_of(beam, view.polar(), then, only_people_move(config_));
     const bool has_stayed = past_of_beam_[beam] == Past::kStood;  // since it came into sight
     if (past == Past::kArrived || (past == Past::kAppeared && !has_stayed)) evidence.moved += 1.0;
     else if (past == Past::kStood || past == Past::kAppeared) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
     else evidence.undecided += 1.0;
   }
+  if (then.stamp_ns < tracks_[track].first_seen_ns) return evidence;  // it had none then
   for (std::size_t beam = 0; beam < then.owners.size(); ++beam) {
     if (!then.owners[beam].is_owned || then.owners[beam].track_id != tracks_[track].track_id) continue;
     if (view.polar().sight_of(then.view.point_in_odom_m(beam)).sight == Sight::kThrough) evidence.moved += 1.0;
@@ -513,6 +523,7 @@ void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const Sc
 }
 
 void Tracker::remember(const ScanView& view) {
+  if (!history_.is_due(view.scan().stamp_ns)) return;
   std::vector<Owner> owners(view.scan().range_m.size());
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (const std::uint16_t beam : shares_.beams_of_track[t]) owners[beam] = {tracks_[t].track_id, true, tracks_[t].confirmed};
@@ -588,8 +599,8 @@ void Tracker::join_pieces(const ScanView& view) {
 void Tracker::merge_duplicates() {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
-      if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0 || !is_worth_more(tracks_[a], tracks_[b], config_)) continue;
-      if (!bodies_coincide(tracks_[a], tracks_[b], config_)) continue;
+      if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0 || are_far_apart(tracks_[a], tracks_[b], config_)) continue;
+      if (!is_worth_more(tracks_[a], tracks_[b], config_) || !bodies_coincide(tracks_[a], tracks_[b], config_)) continue;
       absorb(a, b);
     }
   }

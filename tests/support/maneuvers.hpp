@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "common/filters/model_set.hpp"
 #include "common/filters/motion_models.hpp"
 
 /// The simulations of Wang 2004, Section 4.3: a point, seen from a scanner at rest with a noise of 0.1 m. What the text does
@@ -19,6 +20,16 @@ using Maneuver = std::function<Vector6(double time_s)>;
 
 inline constexpr double kManeuverSigmaM = 0.1;
 inline constexpr double kManeuverPeriodS = 0.1;
+
+/// The models that follow them.
+inline filters::ModelSet velocity_and_acceleration() {
+  filters::ModelSet set;
+  set.models[0] = {filters::MotionKind::kConstantVelocity, 0.05, 3.0};
+  set.models[1] = {filters::MotionKind::kConstantAcceleration, 20.0, 0.0};
+  set.size = 2;
+  set.mean_stay_s = 2.0;
+  return set;
+}
 
 inline Vector6 along_x(double x_m, double speed_mps, double acceleration_mps2) {
   Vector6 state;

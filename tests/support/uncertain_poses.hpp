@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/geometry/displacement.hpp"
 #include "common/geometry/uncertain_pose2.hpp"
 
 namespace slammot::testing {
@@ -31,10 +32,6 @@ inline CorrelatedPoses correlated_poses(const geometry::Pose2& first, const geom
   return {{first, joint.topLeftCorner<3, 3>()}, {second, joint.bottomRightCorner<3, 3>()}, joint.topRightCorner<3, 3>()};
 }
 
-inline geometry::Pose2 displaced(const geometry::Pose2& pose, const Eigen::Vector3d& error) {
-  return {pose.x_m + error.x(), pose.y_m + error.y(), pose.heading_rad + error.z()};
-}
-
 using OfTwoPoses = std::function<geometry::Pose2(const geometry::Pose2&, const geometry::Pose2&)>;
 
 /// Mean and covariance of many draws; what a formula is held against. Headings are averaged about that of the means.
@@ -49,12 +46,12 @@ inline geometry::UncertainPose2 by_monte_carlo(const CorrelatedPoses& poses, con
   geometry::Matrix3 squares = geometry::Matrix3::Zero();
   for (int i = 0; i < draws; ++i) {
     const Eigen::Matrix<double, 6, 1> error = root * Eigen::Matrix<double, 6, 1>::NullaryExpr([&] { return normal(random); });
-    const geometry::Pose2 drawn = operation(displaced(poses.first.pose, error.head<3>()), displaced(poses.second.pose, error.tail<3>()));
+    const geometry::Pose2 drawn = operation(geometry::displaced(poses.first.pose, error.head<3>()), geometry::displaced(poses.second.pose, error.tail<3>()));
     const Eigen::Vector3d away = geometry::difference(drawn, middle);
     sum += away / draws;
     squares += away * away.transpose() / draws;
   }
-  return {displaced(middle, sum), squares - sum * sum.transpose()};
+  return {geometry::displaced(middle, sum), squares - sum * sum.transpose()};
 }
 
 }  // namespace slammot::testing

@@ -10,14 +10,7 @@
 namespace slammot::filters {
 namespace {
 
-ModelSet velocity_and_acceleration() {
-  ModelSet set;
-  set.models[0] = {MotionKind::kConstantVelocity, 0.05, 3.0};
-  set.models[1] = {MotionKind::kConstantAcceleration, 20.0, 0.0};
-  set.size = 2;
-  set.mean_stay_s = 2.0;
-  return set;
-}
+using testing::velocity_and_acceleration;
 
 const PositionFix kFix{testing::kManeuverPeriodS, {0.4, -0.2}, testing::maneuver_noise_m2()};
 

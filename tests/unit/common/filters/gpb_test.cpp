@@ -15,15 +15,7 @@ using slammot::testing::maneuver_noise_m2;
 using slammot::testing::MatrixNear;
 using slammot::testing::measured;
 using slammot::testing::start_of;
-
-ModelSet velocity_and_acceleration() {
-  ModelSet set;
-  set.models[0] = {MotionKind::kConstantVelocity, 0.05, 3.0};
-  set.models[1] = {MotionKind::kConstantAcceleration, 20.0, 0.0};
-  set.size = 2;
-  set.mean_stay_s = 2.0;
-  return set;
-}
+using slammot::testing::velocity_and_acceleration;
 
 PositionFix fix_at(const Eigen::Vector2d& position_m) { return {kManeuverPeriodS, position_m, maneuver_noise_m2()}; }
 

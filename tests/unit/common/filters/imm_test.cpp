@@ -18,15 +18,7 @@ using slammot::testing::cruising;
 using slammot::testing::kManeuverPeriodS;
 using slammot::testing::MatrixNear;
 using slammot::testing::turning;
-
-ModelSet velocity_and_acceleration() {
-  ModelSet set;
-  set.models[0] = {MotionKind::kConstantVelocity, 0.05, 3.0};
-  set.models[1] = {MotionKind::kConstantAcceleration, 20.0, 0.0};
-  set.size = 2;
-  set.mean_stay_s = 2.0;
-  return set;
-}
+using slammot::testing::velocity_and_acceleration;
 
 struct Sample {
   Vector6 truth;

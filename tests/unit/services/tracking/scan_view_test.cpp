@@ -1,5 +1,6 @@
 #include "services/tracking/scan_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -51,6 +52,43 @@ TEST(PolarView, KnowsTheNearestBeamHalfWayBetweenTwoAndBehindTheScanner) {
   EXPECT_EQ(view.beam_towards({1.0, 0.0}), exact_beam_towards(view, {1.0, 0.0}));
   EXPECT_EQ(view.beam_towards({-1.0, 0.0}), exact_beam_towards(view, {-1.0, 0.0}));
   EXPECT_EQ(view.beam_towards({0.0, -1.0}), exact_beam_towards(view, {0.0, -1.0}));
+}
+
+/// Things at all ranges, some oblique, between directions without echo.
+flow::SegmentedScan scan_of_things(std::mt19937& random) {
+  constexpr std::size_t kBeams = 361;
+  std::uniform_int_distribution<std::size_t> width(1, 25);
+  std::uniform_real_distribution<float> range_m(0.5F, 40.0F);
+  std::uniform_real_distribution<float> slope_m(-0.8F, 0.8F);
+  std::bernoulli_distribution is_there(0.8);
+  flow::SegmentedScan scan = scan_of(kBeams, std::numbers::pi / 360);
+  for (std::size_t beam = 0; beam < kBeams;) {
+    const std::size_t end = std::min(kBeams, beam + width(random));
+    float at_m = is_there(random) ? range_m(random) : 0.0F;
+    const float step_m = at_m > 0.0F ? slope_m(random) : 0.0F;
+    for (; beam < end; ++beam, at_m = std::max(0.0F, at_m + step_m)) {
+      scan.points_in_base_m[beam] *= at_m / scan.range_m[beam];
+      scan.range_m[beam] = at_m;
+    }
+  }
+  return scan;
+}
+
+TEST(PolarView, SeesTheSameWithDepthsMeasured) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> off_m(-40.0, 40.0);
+  std::normal_distribution<double> little_m(0.0, 0.4);
+  for (int i = 0; i < 50; ++i) {
+    const PolarView plain(scan_of_things(random));
+    PolarView measured = plain;
+    measured.measure_depths();
+    const auto expect_same = [&](const Vector2d& place_m) {
+      ASSERT_EQ(measured.sight_of(place_m).sight, plain.sight_of(place_m).sight) << place_m.transpose();
+      ASSERT_EQ(measured.sight_of(place_m).beam, plain.sight_of(place_m).beam) << place_m.transpose();
+    };
+    for (int j = 0; j < 5000; ++j) expect_same(plain.laser_in_odom_m() + Vector2d(off_m(random), off_m(random)));
+    for (std::size_t beam = 0; beam < plain.beam_count(); ++beam) expect_same(plain.point_in_odom_m(beam) + Vector2d(little_m(random), little_m(random)));
+  }
 }
 
 }  // namespace
