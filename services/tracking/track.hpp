@@ -77,6 +77,11 @@ struct Track {
 /// Cruising and manoeuvring: the modes of everything.
 filters::ModelSet motion_models(const TrackingConfig& config);
 
+/// Variance along each axis that the swing of the legs adds to a centre measured after_s (> 0) after the one before. The filter
+/// takes the errors of all scans for independent; these fade exponentially, and so the closer scans follow each other the more
+/// each has to add for the mean of many to be as uncertain as it is.
+double gait_variance_m2(double after_s, const TrackingConfig& config);
+
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
             const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config);

@@ -140,6 +140,23 @@ TEST(Track, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
   EXPECT_TRUE(has_proven_to_move(track, config));
 }
 
+/// Variance of the mean of `count` errors, of which each keeps so much of the one before; one sigma is 1.
+double variance_of_mean(double kept, int count) {
+  double sum = 0.0;
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) sum += std::pow(kept, std::abs(i - j));
+  return sum / (count * count);
+}
+
+TEST(Gait, CountsForAsMuchAsErrorsThatFadeDoTogether) {
+  const TrackingConfig config;
+  for (const double period_s : {1.0 / 75.0, 1.0 / 37.5, 1.0 / 7.5, 0.5}) {
+    const int count = static_cast<int>(std::lround(10.0 / period_s));
+    const double together_m2 = config.gait_noise_m * config.gait_noise_m * variance_of_mean(std::exp(-period_s / config.gait_memory_s), count);
+    EXPECT_NEAR(gait_variance_m2(period_s, config) / count / together_m2, 1.0, 0.03) << period_s;
+  }
+}
+
 TEST(Tracker, DoesNotLetABusOfWhichItSeesTheBackSwingRound) {
   Play play;
   const StreetBox standing{{18.0, 1.0, 0.0}, 12.0, 2.5};
