@@ -299,6 +299,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   const Vector2d surprise_m = measurement.centre_m - measurement.recentring_m - track.position_m();
   const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + R);
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
+  track.surprise_m = surprise_m.norm();
   shift(track, measurement.recentring_m, models);
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
@@ -386,7 +387,9 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   // Nothing that stands comes to be where the beams went through a moment before.
   const bool has_arrived = evidence.moved >= config.sure_moved_votes &&
                            evidence.moved >= config.sure_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided);
-  const bool has_travelled = distance_m >= config.least_travel_m && distance_m >= config.least_travel_sigmas * sigma_m;
+  // A jump is no way: what answers now here, now there, like glass or the legs of chairs, would have come far at once.
+  const double covered_m = distance_m - (walks(track) ? track.surprise_m : 0.0);
+  const bool has_travelled = covered_m >= config.least_travel_m && covered_m >= config.least_travel_sigmas * sigma_m;
   // What comes into view bit by bit, or was drawn at a stray echo first, seems to have come from somewhere, and stands.
   constexpr double kOfSwingingLegs = 0.75;  // who walks is followed with the swing of the legs in the covariance, a post has none
   const double sigmas = config.detection_sigmas * (walks(track) ? kOfSwingingLegs : 1.0);

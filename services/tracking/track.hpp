@@ -41,6 +41,7 @@ struct Track {
   filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
   std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
   Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.
+  double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
   bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
   Body body;
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).

@@ -140,6 +140,21 @@ TEST(Track, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
   EXPECT_TRUE(has_proven_to_move(track, config));
 }
 
+TEST(Track, HasComeNoWayByTheJumpThatItHasJustMade) {
+  const TrackingConfig config;
+  Track track;
+  track.score = config.confirm_score;
+  track.hits = config.least_hits;
+  track.evidence = {2.0 * config.least_moved_votes, 0.0, 0.0};
+  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
+  track.estimate.mean << 0.9, 0.0, 1.5, 0.0, 0.0, 0.0;
+  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
+  track.surprise_m = 0.7;  // from one leg of a chair to the next
+  EXPECT_FALSE(has_proven_to_move(track, config));
+  track.surprise_m = 0.2;
+  EXPECT_TRUE(has_proven_to_move(track, config));
+}
+
 /// Variance of the mean of `count` errors, of which each keeps so much of the one before; one sigma is 1.
 double variance_of_mean(double kept, int count) {
   double sum = 0.0;
