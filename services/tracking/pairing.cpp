@@ -27,8 +27,16 @@ bool is_backdrop(const Segment& segment, const TrackingConfig& config) {
          (segment.label != PointLabel::kMoving && segment.box_length_m > config.longest_body_m);
 }
 
+/// Where only people move, what is wider than one of them and does not contradict the map stands: a wall, a table. Those who
+/// walk past it may still have the part of it that lies in their own place.
+bool is_furniture(const Segment& segment, const TrackingConfig& config) {
+  constexpr double kWidestOfOneM = 0.7;
+  return only_people_move(config) && segment.label != PointLabel::kMoving && segment.box_length_m > kWidestOfOneM;
+}
+
 double pair_cost(const Body& body, const filters::MotionState& motion, const Segment& segment, const TrackingConfig& config) {
   if (is_backdrop(segment, config)) return association::kForbidden;
+  if (!body.has_sides && is_furniture(segment, config)) return association::kForbidden;
   const Vector2d position_m = motion.mean.head<2>();
   const Vector2d to_middle_m = segment.centroid_in_odom_m - position_m;
   const double farthest_m = config.widest_gate_m + 0.5 * (body.length.value_m + body.width.value_m);

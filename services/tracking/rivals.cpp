@@ -28,7 +28,7 @@ association::MhtConfig mht_config(const TrackingConfig& config) {
 /// What one segment says if it is somebody who walks.
 struct Walker {
   Vector2d centre_m = Vector2d::Zero();
-  Matrix2d R = Matrix2d::Identity();         ///< If it is one alone.
+  Matrix2d R = Matrix2d::Identity();         ///< If it is one alone, without the swing of its legs.
   double extent_m = 0.0;
 };
 
@@ -73,9 +73,11 @@ class ScanOfRivals {
     return 2 * visibility.blocked > visibility.beams ? kHiddenCost : kCostOfLeavingOut;
   }
 
-  SupposedMotion updated(TrackKey, const SupposedMotion& supposed, std::size_t measurement, std::size_t sharers) const {
+  SupposedMotion updated(TrackKey key, const SupposedMotion& supposed, std::size_t measurement, std::size_t sharers) const {
     const Walker& walker = walkers_[measurement];
-    SupposedMotion next{supposed.motion, filters::imm_update(models_, supposed.motion, walker.centre_m, noise_m2(walker, sharers)).posterior, {}};
+    const double unseen_s = static_cast<double>(view_.scan().stamp_ns - tracks_[track_of(key)].last_seen_ns) * 1e-9;
+    const Matrix2d R = noise_m2(walker, sharers) + gait_variance_m2(unseen_s, config_) * Matrix2d::Identity();
+    SupposedMotion next{supposed.motion, filters::imm_update(models_, supposed.motion, walker.centre_m, R).posterior, {}};
     next.estimate = filters::imm_combine(models_, next.motion);
     return next;
   }
@@ -97,8 +99,7 @@ class ScanOfRivals {
     const Glimpse glimpse{points_m_, view_.laser_in_odom_m(), view_.beam_step_rad(), Edge::kOpen, Edge::kOpen, std::nullopt};
     const BodyMeasurement measurement = measure_blob({}, glimpse, config_);
     return {measurement.centre_m,
-            measurement.covariance_m2 + pose_covariance_at(segment.centroid_in_odom_m, view_.scan()) +
-                config_.gait_noise_m * config_.gait_noise_m * Matrix2d::Identity(),
+            measurement.covariance_m2 + pose_covariance_at(segment.centroid_in_odom_m, view_.scan()),
             extent_of(points_m_)};
   }
 

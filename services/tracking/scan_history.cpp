@@ -10,6 +10,7 @@ constexpr std::int64_t kIntervalNs = 100'000'000;
 constexpr double kNearM = 0.5;  ///< Less than a step.
 constexpr double kGoesAlongM = 0.35;
 constexpr std::int64_t kGoesAlongForNs = 250'000'000;
+constexpr std::int64_t kGoesAlongSinceNs = 700'000'000;
 constexpr std::int64_t kLongestNs = 2'000'000'000;
 
 /// Whether the scan had an echo so near that is not of something known to move.
@@ -26,6 +27,11 @@ void ScanHistory::add(std::int64_t stamp_ns, const PolarView& view, std::vector<
   scans_.push_back({stamp_ns, view, std::move(owners)});
   scans_.back().view.measure_depths();
   while (stamp_ns - scans_.front().stamp_ns > kLongestNs) scans_.pop_front();
+}
+
+void ScanHistory::confirm(flow::TrackId track_id) {
+  for (EarlierScan& scan : scans_)
+    for (Owner& owner : scan.owners) owner.is_confirmed = owner.is_confirmed || (owner.is_owned && owner.track_id == track_id);
 }
 
 const EarlierScan* ScanHistory::older_than(std::int64_t stamp_ns, double age_s) const {
@@ -47,9 +53,11 @@ Past ScanHistory::past_of(std::size_t beam, const PolarView& now, const EarlierS
       if (!may_appear) return Past::kUnknown;
       const Eigen::Vector2d from_laser_m = point_m - now.laser_in_odom_m();
       const std::int64_t a_while_ago_ns = scans_.back().stamp_ns - kGoesAlongForNs;
+      const std::int64_t since_ns = std::min(then.stamp_ns, scans_.back().stamp_ns - kGoesAlongSinceNs);
       const bool was_near = std::ranges::any_of(scans_, [&](const EarlierScan& scan) {
         return (scan.stamp_ns <= then.stamp_ns && had_something_near(scan, point_m, kNearM)) ||
-               (scan.stamp_ns <= a_while_ago_ns && had_something_near(scan, scan.view.laser_in_odom_m() + from_laser_m, kGoesAlongM));
+               (scan.stamp_ns >= since_ns && scan.stamp_ns <= a_while_ago_ns &&
+                had_something_near(scan, scan.view.laser_in_odom_m() + from_laser_m, kGoesAlongM));
       });
       return was_near ? Past::kUnknown : Past::kAppeared;
     }

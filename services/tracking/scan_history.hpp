@@ -46,9 +46,12 @@ class ScanHistory {
 
   /// What the echo of a beam says against an earlier scan, which must be one of those kept. It has appeared only if no scan
   /// kept up to that one had an echo near its place: what sends echoes now and then, being dark or thin, stands where it
-  /// stood. Nor if one a while ago had an echo as far away in the same direction: glass answers where it faces the scanner,
-  /// and that place goes along with the vehicle. Without may_appear such an echo is kUnknown.
+  /// stood. Nor if one of the last moments, or since that one, had an echo as far away in the same direction: glass answers where
+  /// it faces the scanner, and that place goes along with the vehicle. Without may_appear such an echo is kUnknown.
   Past past_of(std::size_t beam, const PolarView& now, const EarlierScan& then, bool may_appear) const;
+
+  /// What has proven to move did so before, too: its echoes in the kept scans are those of something known to move.
+  void confirm(flow::TrackId track_id);
 
   void clear() { scans_.clear(); }
 

@@ -260,6 +260,11 @@ filters::ModelSet motion_models(const TrackingConfig& config) {
   return set;
 }
 
+double gait_variance_m2(double after_s, const TrackingConfig& config) {
+  const double kept = std::exp(-after_s / config.gait_memory_s);
+  return config.gait_noise_m * config.gait_noise_m * (1.0 + kept) / (1.0 - kept);
+}
+
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
             const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   Track track;
@@ -305,16 +310,17 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
   Matrix2d R = measurement.covariance_m2 + pose_covariance_m2;
   const Matrix2d noise_at_rest_m2 = R;
-  if (walks(track)) R += config.gait_noise_m * config.gait_noise_m * Matrix2d::Identity();
+  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
+  if (walks(track)) R += gait_variance_m2(unseen_s, config) * Matrix2d::Identity();
   const Vector2d surprise_m = measurement.centre_m - measurement.recentring_m - track.position_m();
   const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + R);
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
+  track.surprise_m = surprise_m.norm();
   shift(track, measurement.recentring_m, models);
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.measured = {measurement.centre_m, R};
   track.estimate = filters::imm_combine(models, track.motion);
-  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   filters::MotionState moving = track.estimate;
   moving.covariance *= noise_at_rest_m2.trace() / R.trace();  // legs that stand do not swing
   track.move_stop = filters::weigh(track.move_stop, {moving, measurement.centre_m, unseen_s}, move_stop_config(config));
@@ -397,7 +403,9 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   // Nothing that stands comes to be where the beams went through a moment before.
   const bool has_arrived = evidence.moved >= config.sure_moved_votes &&
                            evidence.moved >= config.sure_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided);
-  const bool has_travelled = distance_m >= config.least_travel_m && distance_m >= config.least_travel_sigmas * sigma_m;
+  // A jump is no way: what answers now here, now there, like glass or the legs of chairs, would have come far at once.
+  const double covered_m = distance_m - (walks(track) ? track.surprise_m : 0.0);
+  const bool has_travelled = covered_m >= config.least_travel_m && covered_m >= config.least_travel_sigmas * sigma_m;
   // What comes into view bit by bit, or was drawn at a stray echo first, seems to have come from somewhere, and stands.
   constexpr double kOfSwingingLegs = 0.75;  // who walks is followed with the swing of the legs in the covariance, a post has none
   const double sigmas = config.detection_sigmas * (walks(track) ? kOfSwingingLegs : 1.0);

@@ -41,6 +41,7 @@ struct Track {
   filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
   std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
   Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.
+  double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
   bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
   Body body;
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
@@ -77,6 +78,11 @@ struct Track {
 
 /// Cruising and manoeuvring: the modes of everything.
 filters::ModelSet motion_models(const TrackingConfig& config);
+
+/// Variance along each axis that the swing of the legs adds to a centre measured after_s (> 0) after the one before. The filter
+/// takes the errors of all scans for independent; these fade exponentially, and so the closer scans follow each other the more
+/// each has to add for the mean of many to be as uncertain as it is.
+double gait_variance_m2(double after_s, const TrackingConfig& config);
 
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,

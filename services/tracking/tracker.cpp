@@ -342,6 +342,7 @@ void Tracker::compare_with_past(const ScanView& view) {
   past_of_segment_.assign(scan.segments.size(), {});
   note_face_shifts(view);
   const EarlierScan* then = history_.older_than(scan.stamp_ns, config_.compare_after_s);
+  const EarlierScan* just_now = only_people_move(config_) ? history_.older_than(scan.stamp_ns, config_.compare_fast_after_s) : nullptr;
   const EarlierScan* long_ago = history_.older_than(scan.stamp_ns, config_.compare_slow_after_s);
   for (std::size_t s = 0; s < scan.segments.size(); ++s) {
     SegmentPast& past = past_of_segment_[s];
@@ -352,7 +353,9 @@ void Tracker::compare_with_past(const ScanView& view) {
       past.stood += past_of_beam_[beam] == Past::kStood ? 1 : 0;
       past.arrived += past_of_beam_[beam] == Past::kArrived ? 1 : 0;
       past.receded += past_of_beam_[beam] == Past::kReceded ? 1 : 0;
-      past.appeared += past_of_beam_[beam] == Past::kAppeared ? 1 : 0;
+      const bool is_open = past_of_beam_[beam] == Past::kUnknown && just_now != nullptr;  // say, by who walked ahead
+      const Past since = is_open ? history_.past_of(beam, view.polar(), *just_now, true) : past_of_beam_[beam];
+      past.came += since == Past::kArrived || since == Past::kAppeared ? 1 : 0;
       arrival = past_of_beam_[beam] == Past::kArrived ? arrival + 1 : 0;
       past.longest_arrival = std::max(past.longest_arrival, arrival);
     }
@@ -428,7 +431,7 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   const bool has_flank = may_have_a_flank(segment, config_) && past.stood > kLeastFlankShare * count;
   if (has_flank && past.longest_arrival >= kFewest && past.longest_arrival >= kLeastFaceShare * count) return true;
   // A leg sends few echoes.
-  if (only_people_move(config_) && segment.box_length_m < config_.stride_m && past.appeared + past.arrived == count) return true;
+  if (only_people_move(config_) && segment.box_length_m < config_.stride_m && past.came == count) return true;
   const int moved = past.arrived + past.receded;
   return moved >= kFewest && moved > 0.6 * count && segment.box_length_m < config_.longest_body_m;
 }
@@ -459,8 +462,10 @@ MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t tr
   MotionEvidence evidence;
   const bool is_known = &then == history_.older_than(view.scan().stamp_ns, config_.compare_after_s);
   for (const std::uint16_t beam : shares_.beams_of_track[track]) {
-    const bool is_compared = is_known || has_shifted_[beam];
-    const Past past = is_compared ? past_of_beam_[beam] : history_.past_of(beam, view.polar(), then, only_people_move(config_));
+    // A wall that answers bit by bit appears, too.
+    const bool may_appear = only_people_move(config_) && view.scan().segments[view.segment_of_beam(beam)].box_length_m < config_.stride_m;
+    const bool is_compared = has_shifted_[beam] || (is_known && !only_people_move(config_));
+    const Past past = is_compared ? past_of_beam_[beam] : history_.past_of(beam, view.polar(), then, may_appear);
     const bool has_stayed = past_of_beam_[beam] == Past::kStood;  // since it came into sight
     if (past == Past::kArrived || (past == Past::kAppeared && !has_stayed)) evidence.moved += 1.0;
     else if (past == Past::kStood || past == Past::kAppeared) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
@@ -569,6 +574,8 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   if (may_be_confirmed || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);
   if (!may_be_confirmed || track.is_refuted || !has_proven_to_move(track, config_)) return;
   track.confirmed = true;
+  // On a road a false track would so excuse whatever stood in its place.
+  if (only_people_move(config_)) history_.confirm(track.track_id);
   track.way_m = 0.0;  // until now it may have been made of several things
   track.anchor_m = track.position_m();
   track.past.clear();

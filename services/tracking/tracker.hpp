@@ -75,7 +75,7 @@ class Tracker {
     int stood = 0;
     int arrived = 0;
     int receded = 0;
-    int appeared = 0;
+    int came = 0;               ///< Arrived or appeared since then or, where that is not known, in the last moments.
     int longest_arrival = 0;    ///< Neighbouring echoes that arrived: a face that comes, while its flank slides along itself.
     Eigen::Vector2d face_shift_m = Eigen::Vector2d::Zero();  ///< By which its front or rear has moved, where that shows.
     bool stood_before = false;  ///< By the earlier scan,

@@ -22,7 +22,8 @@ struct TrackingConfig {
   double range_noise_per_m = 0.001;         ///< and what each metre of range adds.
   double shape_noise_m = 0.03;              ///< One sigma of how far an edge may lie off a box.
   double blob_noise_share = 0.2;            ///< Of its extent: how the middle of something without known sides wanders.
-  double gait_noise_m = 0.3;                ///< How far who walks may be off the middle of the legs, for many scans alike.
+  double gait_noise_m = 0.1;                ///< One sigma of how far who walks is off the middle of the legs that are seen,
+  double gait_memory_s = 0.12;              ///< and for how long that is much the same.
 
   // Association.
   double gate_share = 0.999;                ///< Of true pairs that the gate lets through.

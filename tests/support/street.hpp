@@ -44,6 +44,7 @@ struct Street {
   std::vector<StreetBox> known;   ///< Standing, in the map.
   std::vector<StreetBox> unknown; ///< Not in the map: whatever moves.
   std::vector<StreetBox> gone;    ///< In the map, but no longer there.
+  bool knows_the_open = true;     ///< Whether the map knows what is free where it expects nothing.
   int beams = 361;
   double max_range_m = 80.0;
 
@@ -76,8 +77,9 @@ struct Street {
       beam.point_in_base_m = (range_m * Eigen::Vector2d(std::cos(in_base_rad), std::sin(in_base_rad))).cast<float>();
       if (range_m < max_range_m) {
         beam.range_m = static_cast<float>(range_m);
-        const bool is_free = range_m < expected_m - 0.3;
-        const bool is_behind = range_m > expected_m + 0.3;
+        const bool is_known = knows_the_open || expected_m < max_range_m;
+        const bool is_free = is_known && range_m < expected_m - 0.3;
+        const bool is_behind = !is_known || range_m > expected_m + 0.3;
         beam.end_cell = is_free ? flow::EndCell::kFree : is_behind ? flow::EndCell::kUnseen : flow::EndCell::kOccupied;
         beam.free_evidence = is_free ? 4.0F : is_behind ? 0.0F : -4.0F;
       }

@@ -125,6 +125,27 @@ TEST(Past, OfAGlintThatGoesAlongWithTheScannerIsNotThatItAppeared) {
   EXPECT_EQ(history.past_of(270, view_after(3.0), *history.older_than(2 * kHalfSecondNs, 0.0), true), Past::kUnknown);
 }
 
+TEST(Past, OfALegWhereTheScannerSawAPillarLongAgoAndNothingSinceIsThatItAppeared) {
+  const auto view_at = [](double x_m, std::vector<StreetBox> things) {
+    return PolarView(detection::detect(in_the_open(std::move(things)).scan(0, 0, {x_m, 0.0, 0.0}), {}));
+  };
+  ScanHistory history;  // a pillar, then 1.5 s without anything
+  history.add(kHalfSecondNs, view_at(1.0, {leg_at(4.0, 3.0)}), std::vector<Owner>(361));
+  for (const int step : {2, 3, 4}) history.add(step * kHalfSecondNs, view_at(step, {}), std::vector<Owner>(361));
+  EXPECT_EQ(history.past_of(270, view_at(5.0, {leg_at(8.0, 3.0)}), *history.older_than(4 * kHalfSecondNs, 0.5), true), Past::kAppeared);
+}
+
+TEST(ScanHistory, KnowsOfWhatHasProvenToMoveThatItDidBefore) {
+  const Street street = with_box_at(15.0, 0.0);
+  ScanHistory history;
+  history.add(kHalfSecondNs, view_of(street), std::vector<Owner>(361, Owner{{7}, true, false}));
+  EXPECT_EQ(past_ahead(street, history, 1), Past::kStood);
+  history.confirm({8});
+  EXPECT_EQ(past_ahead(street, history, 1), Past::kStood);
+  history.confirm({7});
+  EXPECT_EQ(past_ahead(street, history, 1), Past::kUnknown);
+}
+
 TEST(ScanHistory, GivesTheYoungestScanThatIsOldEnough) {
   ScanHistory history;
   const PolarView view = view_of(with_box_at(15.0, 0.0));

@@ -25,11 +25,11 @@ const StreetBox kWall{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0};
 /// A street that plays before a scanner at rest.
 class Play {
  public:
-  explicit Play(const TrackingConfig& config = {}) : tracker_(config) { street.known = {kWall}; }
+  explicit Play(const TrackingConfig& config = {}, double period_s = kPeriodS) : period_s_(period_s), tracker_(config) { street.known = {kWall}; }
 
   /// Lets time pass; `scene` sets the street for each moment.
   void run(double seconds, const std::function<void(Street&, double)>& scene) {
-    for (int i = 0; i < std::lround(seconds / kPeriodS); ++i) step(scene);
+    for (int i = 0; i < std::lround(seconds / period_s_); ++i) step(scene);
   }
 
   void step(const std::function<void(Street&, double)>& scene) {
@@ -40,7 +40,7 @@ class Play {
     for (const flow::TrackedObject& object : confirmed()) ids.insert(object.track_id.value);
   }
 
-  double now_s() const { return sequence_ * kPeriodS; }
+  double now_s() const { return sequence_ * period_s_; }
   Tracker& tracker() { return tracker_; }
 
   std::vector<flow::TrackedObject> confirmed() const {
@@ -55,9 +55,40 @@ class Play {
   std::set<std::uint32_t> ids;  ///< Of all that were ever confirmed.
 
  private:
+  double period_s_;
   Tracker tracker_;
   std::uint32_t sequence_ = 0;
 };
+
+/// As the profile of a slow robot in a building says.
+TrackingConfig among_people() {
+  TrackingConfig config;
+  config.fastest_mps = 5.0;
+  config.longest_body_m = 2.0;
+  config.longest_unseen_tentative_s = 0.7;
+  config.longest_tentative_s = 3.0;
+  config.moving_hit_score = 1.5;
+  config.least_hits = 4;
+  config.most_score = 5.0;
+  config.contradicted_above_mps = 0.6;
+  config.contradiction_score = -1.0;
+  return config;
+}
+
+/// An open hall of which the map knows nothing, seen at the height of legs 7.5 times a second.
+Play hall() {
+  Play play(among_people(), 1.0 / 7.5);
+  play.street.known = {{{0.0, -40.0, 0.0}, 1.0, 1.0}};
+  play.street.knows_the_open = false;
+  play.street.beams = 512;
+  return play;
+}
+
+/// Two legs of somebody, one ahead of the other in turn.
+std::vector<StreetBox> legs_at(double x_m, double y_m, double t) {
+  const double swing_m = 0.2 * std::sin(2.0 * M_PI * t);
+  return {{{x_m + swing_m, y_m + 0.1, 0.0}, 0.12, 0.12}, {{x_m - swing_m, y_m - 0.1, 0.0}, 0.12, 0.12}};
+}
 
 TEST(Tracker, KnowsWhereACarThatCrossesIsAndHowFast) {
   Play play;
@@ -174,6 +205,38 @@ TEST(Track, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
   EXPECT_FALSE(has_proven_to_move(track, config));
   track.estimate.mean(2) = 1.0;
   EXPECT_TRUE(has_proven_to_move(track, config));
+}
+
+TEST(Track, HasComeNoWayByTheJumpThatItHasJustMade) {
+  const TrackingConfig config;
+  Track track;
+  track.score = config.confirm_score;
+  track.hits = config.least_hits;
+  track.evidence = {2.0 * config.least_moved_votes, 0.0, 0.0};
+  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
+  track.estimate.mean << 0.9, 0.0, 1.5, 0.0, 0.0, 0.0;
+  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
+  track.surprise_m = 0.7;  // from one leg of a chair to the next
+  EXPECT_FALSE(has_proven_to_move(track, config));
+  track.surprise_m = 0.2;
+  EXPECT_TRUE(has_proven_to_move(track, config));
+}
+
+/// Variance of the mean of `count` errors, of which each keeps so much of the one before; one sigma is 1.
+double variance_of_mean(double kept, int count) {
+  double sum = 0.0;
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) sum += std::pow(kept, std::abs(i - j));
+  return sum / (count * count);
+}
+
+TEST(Gait, CountsForAsMuchAsErrorsThatFadeDoTogether) {
+  const TrackingConfig config;
+  for (const double period_s : {1.0 / 75.0, 1.0 / 37.5, 1.0 / 7.5, 0.5}) {
+    const int count = static_cast<int>(std::lround(10.0 / period_s));
+    const double together_m2 = config.gait_noise_m * config.gait_noise_m * variance_of_mean(std::exp(-period_s / config.gait_memory_s), count);
+    EXPECT_NEAR(gait_variance_m2(period_s, config) / count / together_m2, 1.0, 0.03) << period_s;
+  }
 }
 
 TEST(Tracker, DoesNotLetABusOfWhichItSeesTheBackSwingRound) {
@@ -423,6 +486,36 @@ TEST(Tracker, HoldsTwoLegsForOneWhoWalks) {
   ASSERT_EQ(play.confirmed().size(), 1U);
   EXPECT_EQ(play.confirmed().front().object_class, flow::ObjectClass::kPedestrian);
   EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.x(), -1.3, 0.3);
+}
+
+TEST(Tracker, IsSureSoonOfSomebodyWhoWalksWhereAnotherHasJustBeen) {
+  Play play = hall();
+  constexpr double kFirstSeenS = 1.0;
+  constexpr double kSecondSeenS = 1.8;  // dark legs until then
+  const auto x_of = [](int who, double t) { return 7.0 + 1.2 * who - 1.4 * t; };
+  const auto scene = [&](Street& street, double t) {
+    street.unknown.clear();
+    for (const int who : {0, 1})
+      if (t >= (who == 0 ? kFirstSeenS : kSecondSeenS))
+        for (const StreetBox& leg : legs_at(x_of(who, t), 0.3 * who, t + 0.3 * who)) street.unknown.push_back(leg);
+  };
+  const auto knows = [&](int who) {
+    const Vector2 place_m{x_of(who, play.now_s()), 0.3 * who};
+    const auto confirmed = play.confirmed();
+    return std::any_of(confirmed.begin(), confirmed.end(), [&](const auto& one) { return (one.position_in_odom_m - place_m).norm() < 0.6; });
+  };
+  while (!knows(1) && play.now_s() < 4.0) play.step(scene);
+  EXPECT_LT(play.now_s() - kSecondSeenS, 0.8);
+}
+
+TEST(Tracker, NeverBelievesInAWallInTheOpenThatAnswersBitByBit) {
+  Play play = hall();
+  play.run(1.5, [](Street&, double) {});
+  play.run(2.0, [](Street& street, double t) {
+    const double length_m = std::min(1.8, 0.3 + 1.5 * (t - 1.5));
+    street.unknown = {{{6.0, 0.5 * length_m - 0.5, M_PI / 2.0}, length_m, 0.1}};
+  });
+  EXPECT_TRUE(play.ids.empty());
 }
 
 TEST(Tracker, GoesOnWithTheSameIdsAfterARestart) {
