@@ -76,6 +76,9 @@ class RunRecord {
   void add(const flow::Constraint& constraint);
   void add(const flow::GraphCorrection& correction);  ///< An older one than the last is ignored.
 
+  /// Another drive goes on in the same map: of scans and objects nothing is kept.
+  void forget_drive();
+
   std::uint64_t scans() const { return scan_stamps_ns_.size(); }
   std::uint64_t localized_scans() const { return poses_.size(); }
   const std::map<flow::SubmapId, flow::Submap>& submaps() const { return submaps_; }
