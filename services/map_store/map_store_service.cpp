@@ -33,7 +33,8 @@ MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& s
       config_(settings.config),
       store_(open_store(context, settings)),
       stored_tiles_(context.write(dds::topics::kStoredSubmapTile)),
-      stored_objects_(context.write(dds::topics::kStoredTrackedObjects)) {
+      stored_objects_(context.write(dds::topics::kStoredTrackedObjects)),
+      stored_map_(context.write(dds::topics::kStoredMap)) {
   publish_stored();
   context.read(dds::topics::kSubmapTile, app::Input::kOccasional, [this](const auto& tile) { take(tile); });
   // The last tracks only pass through: this service outlives a crash of tracking, which takes them up again from here.
@@ -62,8 +63,11 @@ bool MapStoreService::keep(const flow::Submap& submap) {
   context_.status().clear_trouble("database");
   if (result == PutResult::kStored) {
     ++context_.status().counter("stored_submaps");
+    if (map_id_ != submap.map_id) unreadable_.clear();
+    unreadable_.erase(submap.submap_id);
     withdraw_what_is_no_more();
     publish(submap);
+    publish_stored_map();
   }
   return true;
 }
@@ -86,14 +90,35 @@ void MapStoreService::retry() {
 }
 
 void MapStoreService::publish_stored() {
-  for (const flow::SubmapId id : store_.list(context_.vehicle_id())) {
-    if (const auto submap = store_.get(context_.vehicle_id(), id)) {
-      publish(*submap);
-    } else {
-      context_.warn("unreadable_submaps", store_.last_fault());
-    }
+  const auto count_unreadable = [this](flow::SubmapId id) {
+    unreadable_.insert(id);
+    context_.warn("unreadable_submaps", store_.last_fault());
+  };
+  const std::vector<flow::SubmapId> ids = store_.list(context_.vehicle_id());
+  if (!store_.last_fault().empty()) count_unreadable({});
+  for (const flow::SubmapId id : ids) {
+    if (const auto submap = store_.get(context_.vehicle_id(), id)) publish(*submap);
+    else count_unreadable(id);
   }
   if (!published_.empty()) spdlog::info("{} submaps in the database", published_.size());
+  else tell_of_other_vehicles();
+  publish_stored_map();
+}
+
+/// A map is its vehicle's: whoever expects to find one wants to know under which name it is there.
+void MapStoreService::tell_of_other_vehicles() {
+  std::string names;
+  const std::vector<std::string> vehicles = store_.vehicles();
+  for (const std::string& vehicle : vehicles) names += (names.empty() ? "" : ", ") + vehicle;
+  context_.status().counter("other_vehicles") = vehicles.size();
+  if (!vehicles.empty()) spdlog::warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(), names);
+}
+
+/// What there is to go on in, after each change.
+void MapStoreService::publish_stored_map() {
+  const std::vector<flow::SubmapId> stored = store_.list(context_.vehicle_id());
+  const flow::SubmapId last = stored.empty() ? flow::SubmapId{} : stored.back();
+  stored_map_.write(wire::encode(context_.vehicle_id(), flow::StoredMap{map_id_, static_cast<std::uint32_t>(published_.size()), static_cast<std::uint32_t>(unreadable_.size()), last, cell_size_m_}));
 }
 
 void MapStoreService::publish(const flow::Submap& submap) {
@@ -104,6 +129,8 @@ void MapStoreService::publish(const flow::Submap& submap) {
     ++tiles;
   });
   published_[submap.submap_id] = tiles;
+  map_id_ = submap.map_id;
+  cell_size_m_ = submap.cell_size_m;
   if (!all_written) {
     unpublished_.insert(submap.submap_id);
     context_.warn("slow_readers", "a reader of stored submaps is slow; publishing again later");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/app/run_service.hpp"
+#include "common/wire/stored_map.hpp"
 #include "common/wire/submap.hpp"
 #include "services/map_store/store.hpp"
 
@@ -37,6 +38,8 @@ class MapStoreService {
   void publish_stored();
   void publish(const flow::Submap& submap);
   void withdraw_what_is_no_more();
+  void tell_of_other_vehicles();
+  void publish_stored_map();
 
   app::ServiceContext& context_;
   MapStoreConfig config_;
@@ -45,9 +48,13 @@ class MapStoreService {
   wire::SubmapEncoder encoder_;
   dds::Writer<slammot_SubmapTile>& stored_tiles_;
   dds::Writer<slammot_TrackedObjects>& stored_objects_;
+  dds::Writer<slammot_StoredMap>& stored_map_;
   std::deque<flow::Submap> unwritten_;
   std::set<flow::SubmapId> unpublished_;                ///< In the database, but not all tiles got onto the bus.
   std::map<flow::SubmapId, std::uint32_t> published_;   ///< Number of tiles.
+  std::set<flow::SubmapId> unreadable_;                 ///< Damaged, and not come again since.
+  flow::MapId map_id_;                                  ///< Of what was published last,
+  double cell_size_m_ = 0.0;                            ///< and of its cells.
 };
 
 }  // namespace slammot::map_store
