@@ -91,6 +91,9 @@ class RunRecord {
   /// Where the submap is after the last correction; by odometry where loop closing never heard of it.
   geometry::Pose2 map_from_submap(const flow::Submap& submap) const;
 
+  /// Whether the newest submap is tied to the first one, after the last correction.
+  bool knows_where_it_is() const { return !correction_.is_untied; }
+
   /// One pose for every scan of the log, as published live. A scan that was dropped or lost is given the pose between
   /// its neighbours in time.
   std::vector<StampedPose> online_trajectory() const;
