@@ -14,6 +14,7 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PATIENCE = float(os.environ.get("SLAMMOT_TEST_PATIENCE", 1))  # more for services built with sanitizers
@@ -82,18 +83,22 @@ class StoredMap(unittest.TestCase):
 
     def setUp(self):
         self.running = {}
+        self.state = self.work / self.id().rsplit(".", 1)[-1]
 
     def tearDown(self):
         self.stop(*self.running)
         for report in self.work.glob("sanitizer-report*"):
             self.fail(report.read_text())
 
+    def log_of(self, service):
+        return self.state.with_suffix(f".{service}.log")
+
     def start(self, *services):
         for service in services:
-            command = [f"{self.slammot}-{service}", "--vehicle", "car", "--profile", "urban", "--state-dir", self.work / "state"]
+            command = [f"{self.slammot}-{service}", "--vehicle", "car", "--profile", "urban", "--state-dir", self.state]
             if service == "localization":
                 command.append("--continue-map")
-            with open(self.work / f"{service}.log", "a", encoding="utf-8") as log:
+            with open(self.log_of(service), "a", encoding="utf-8") as log:
                 self.running[service] = subprocess.Popen(command, stdout=log, stderr=log)
 
     def stop(self, *services):
@@ -102,13 +107,16 @@ class StoredMap(unittest.TestCase):
         for service in services:
             self.running.pop(service).wait(timeout=10 * PATIENCE)
 
+    def ingest_of(self, name):
+        return [f"{self.slammot}-ingest", "--vehicle", "car", "--profile", "urban", "--state-dir", self.state, "--input", self.work / f"{name}.log",
+                "--speed", "max", "--config", self.work / "patient.textproto"]
+
     def drive(self, name, output):
         """Plays the drive into the services as fast as they are done, and waits for what they make of it."""
         log = self.work / f"{name}.log"
         collector = subprocess.Popen([self.slammot, "collect", "--vehicle", "car", "--input", log, "--output", self.work / output],
                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        ingest = subprocess.run([f"{self.slammot}-ingest", "--vehicle", "car", "--profile", "urban", "--state-dir", self.work / "state",
-                                 "--input", log, "--speed", "max", "--config", self.work / "patient.textproto"], capture_output=True, text=True, timeout=100 * PATIENCE, check=False)
+        ingest = subprocess.run(self.ingest_of(name), capture_output=True, text=True, timeout=100 * PATIENCE, check=False)
         self.assertEqual(ingest.returncode, 0, ingest.stdout + ingest.stderr)
         words, _ = collector.communicate(timeout=100 * PATIENCE)
         self.assertEqual(collector.returncode, 0, words)
@@ -120,10 +128,22 @@ class StoredMap(unittest.TestCase):
         with open(self.work / output / "tracks.csv", newline="", encoding="utf-8") as file:
             return len({row["track_id"] for row in csv.DictReader(file)})
 
+    def wait_until(self, condition, what):
+        end = time.monotonic() + 30 * PATIENCE
+        while not condition():
+            self.assertLess(time.monotonic(), end, f"waited in vain for {what}")
+            time.sleep(0.02)
+
+    def checkpoint_time(self):
+        return (self.state / "localization-car-main.checkpoint").stat().st_mtime_ns
+
     def stored_submaps(self):
         """{(map, number): hash} of what is in the database."""
-        with sqlite3.connect(self.work / "state" / "map.sqlite") as database:
-            rows = database.execute("SELECT map_id, submap_id, record FROM submap WHERE vehicle_id = 'car'").fetchall()
+        try:
+            with sqlite3.connect(f"file:{self.state / 'map.sqlite'}?mode=ro", uri=True) as database:
+                rows = database.execute("SELECT map_id, submap_id, record FROM submap WHERE vehicle_id = 'car'").fetchall()
+        except sqlite3.OperationalError:  # not made yet
+            return {}
         return {(map_id, submap_id): hashlib.sha256(record).hexdigest() for map_id, submap_id, record in rows}
 
     def assert_one_whole_map(self, submaps):
@@ -168,6 +188,28 @@ class StoredMap(unittest.TestCase):
         tracks = self.confirmed_tracks("second")
         self.assertLessEqual(abs(self.confirmed_tracks("again") - tracks), max(1, 0.1 * tracks))
         self.assertEqual(self.counters("again", "tracking").get("repeated_scans", 0), self.counters("second", "tracking").get("repeated_scans", 0))
+
+    def test_a_drive_goes_on_in_the_map_of_one_that_was_killed(self):
+        self.start(*SERVICES)
+        ingest = subprocess.Popen(self.ingest_of("first"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.wait_until(lambda: len(self.stored_submaps()) >= 5, "five submaps")
+        for _ in range(2):  # the second checkpoint from now on is of a later submap for sure
+            before = self.checkpoint_time()
+            self.wait_until(lambda then=before: self.checkpoint_time() != then, "a checkpoint")
+        for process in [ingest, *self.running.values()]:
+            process.kill()
+        ingest.wait()
+        self.stop(*self.running)
+        of_first = self.stored_submaps()
+        self.assertGreaterEqual(len(of_first), 5)
+
+        self.start(*SERVICES)
+        self.drive("second", "after_kill")
+        self.assert_localized_in_the_map("second", "after_kill")
+        of_both = self.stored_submaps()
+        self.assert_one_whole_map(of_both)
+        self.assertEqual(of_first, {key: of_both.get(key) for key in of_first}, "a submap of the first drive has changed")
+        self.assertIn("hands over submap", self.log_of("localization").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":
