@@ -11,11 +11,22 @@
 namespace slammot::map_store {
 namespace {
 
+std::string names_of(const std::vector<Store::StoredMap>& maps) {
+  std::string names;
+  for (const Store::StoredMap& map : maps) names += (names.empty() ? "; there are " : ", ") + std::to_string(map.map_id.value) + " (" + std::to_string(map.submaps) + " submaps)";
+  return names;
+}
+
 Store open_store(const app::ServiceContext& context, const MapStoreService::Settings& settings) {
   const auto file = settings.database.empty() ? context.options().state_dir / "map.sqlite" : settings.database;
   auto opened = Store::open(file, settings.config);
   if (const auto* fault = std::get_if<std::string>(&opened)) throw app::StartupFailure(*fault);
-  return std::move(std::get<Store>(opened));
+  Store store = std::move(std::get<Store>(opened));
+  if (settings.map_id && !store.make_latest(context.vehicle_id(), {*settings.map_id})) {
+    const std::string why = store.last_fault().empty() ? "there is no such map of vehicle " + context.vehicle_id() : store.last_fault();
+    throw app::StartupFailure("--map " + std::to_string(*settings.map_id) + ": " + why + names_of(store.maps(context.vehicle_id())));
+  }
+  return store;
 }
 
 }  // namespace
@@ -26,6 +37,7 @@ std::vector<config::BoundStage> MapStoreService::stages(Settings& settings) {
 
 void MapStoreService::add_options(CLI::App& command_line, Settings& settings) {
   command_line.add_option("--database", settings.database, "SQLite file; map.sqlite in the state folder when not given");
+  command_line.add_option("--map", settings.map_id, "Put this map of the vehicle in use again, in place of its latest")->type_name("ID");
 }
 
 MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& settings)
@@ -100,7 +112,8 @@ void MapStoreService::publish_stored() {
     if (const auto submap = store_.get(context_.vehicle_id(), id)) publish(*submap);
     else count_unreadable(id);
   }
-  if (!published_.empty()) spdlog::info("{} submaps in the database", published_.size());
+  const std::vector<Store::StoredMap> maps = store_.maps(context_.vehicle_id());
+  if (!published_.empty()) spdlog::info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value, maps.size() > 1 ? names_of(maps) : "");
   else tell_of_other_vehicles();
   publish_stored_map();
 }

@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ class MapStoreService {
   struct Settings {
     MapStoreConfig config;
     std::filesystem::path database;  ///< Empty: map.sqlite in the state folder.
+    std::optional<std::uint64_t> map_id;  ///< To be the latest again; none: it is the one to which a submap was added last.
   };
   static constexpr const char* kName = "map_store";
   static constexpr const char* kPurpose = "Keeps the finished submaps of a vehicle, so that no crash loses one.";

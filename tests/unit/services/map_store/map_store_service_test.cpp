@@ -154,5 +154,11 @@ TEST_F(MapStoreOnTheBus, CannotStartWithoutItsDatabase) {
   EXPECT_THROW(start<MapStoreService>("map_store", settings), app::StartupFailure);
 }
 
+TEST_F(MapStoreOnTheBus, CannotStartWithAMapThatIsNotThere) {
+  MapStoreService::Settings settings;
+  settings.map_id = 99;
+  EXPECT_THROW(start<MapStoreService>("map_store", settings), app::StartupFailure);
+}
+
 }  // namespace
 }  // namespace slammot::map_store
