@@ -30,8 +30,14 @@ class StatusBoard {
   void set_trouble(const std::string& what, const std::string& words) { troubles_[what] = words; }
   void clear_trouble(const std::string& what) { troubles_.erase(what); }
 
-  /// Running, or degraded while an input is missing or there is trouble.
-  ServiceState state(SteadyTime now) const { return explanation(now).empty() ? ServiceState::kRunning : ServiceState::kDegraded; }
+  /// Not at work yet, though its process is: sources of scans wait for it.
+  void set_starting(bool is_starting) { is_starting_ = is_starting; }
+
+  /// Starting for as long as it says so; then running, or degraded while an input is missing or there is trouble.
+  ServiceState state(SteadyTime now) const {
+    if (is_starting_) return ServiceState::kStarting;
+    return explanation(now).empty() ? ServiceState::kRunning : ServiceState::kDegraded;
+  }
   /// Why it is degraded; empty when it is not.
   std::string explanation(SteadyTime now) const;
   std::vector<const InputWatch*> missing_inputs(SteadyTime now) const;
@@ -44,6 +50,7 @@ class StatusBoard {
   std::map<std::string, LatencyHistogram> latencies_;
   std::list<InputWatch> inputs_;
   std::map<std::string, std::string> troubles_;
+  bool is_starting_ = false;
 };
 
 }  // namespace slammot::app

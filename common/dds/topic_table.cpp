@@ -7,13 +7,13 @@ namespace slammot::dds {
 
 std::span<const TopicInfo* const> topic_table() {
   using namespace topics;
-  static constexpr std::array<const TopicInfo*, 20> kTable = {
+  static constexpr std::array<const TopicInfo*, 21> kTable = {
       &kLaserScan,     &kOdometry,        &kGnssFix,
       &kCompassReading, &kTruePose,       &kTrueObjects,
       &kTrueHits,      &kLocalizedScan,
       &kSegmentedScan, &kTrackedObjects,  &kStoredTrackedObjects,
       &kScanLabels,    &kSubmapTile,      &kStoredSubmapTile,
-      &kConstraint,    &kGraphCorrection, &kHeartbeat,
+      &kStoredMap,     &kConstraint,    &kGraphCorrection, &kHeartbeat,
       &kStatus,        &kCommand,         &kReply};
   return kTable;
 }

@@ -60,6 +60,8 @@ inline constexpr Topic<slammot_SubmapTile> kSubmapTile{
     {"slammot/submap_tile", &slammot_SubmapTile_desc, Flow::kTile, Recorded::kNo}};
 inline constexpr Topic<slammot_SubmapTile> kStoredSubmapTile{
     {"slammot/stored_submap_tile", &slammot_SubmapTile_desc, Flow::kTile, Recorded::kYes}};
+inline constexpr Topic<slammot_StoredMap> kStoredMap{
+    {"slammot/stored_map", &slammot_StoredMap_desc, Flow::kGraph, Recorded::kNo}};
 inline constexpr Topic<slammot_Constraint> kConstraint{
     {"slammot/constraint", &slammot_Constraint_desc, Flow::kGraph, Recorded::kYes}};
 inline constexpr Topic<slammot_GraphCorrection> kGraphCorrection{

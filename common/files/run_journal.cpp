@@ -7,7 +7,7 @@
 namespace slammot::files {
 namespace {
 
-constexpr const char* kBegin = "slammot-journal-1";
+constexpr const char* kBegin = "slammot-journal-2";
 constexpr char kEnd = ';';  // of a line that was written to its end
 
 std::ostream& operator<<(std::ostream& to, const geometry::Pose2& pose) { return to << pose.x_m << ' ' << pose.y_m << ' ' << pose.heading_rad; }
@@ -69,9 +69,9 @@ JournalScan scan_of(std::istream& line) {
 
 }  // namespace
 
-void RunJournal::begin(flow::MapId map_id) {
+void RunJournal::begin(flow::MapId map_id, flow::OdomId odom_id) {
   stream_ = std::ofstream(file_, std::ios::trunc);
-  stream_ << kBegin << ' ' << map_id.value << '\n' << std::flush;
+  stream_ << kBegin << ' ' << map_id.value << ' ' << odom_id.value << '\n' << std::flush;
 }
 
 void RunJournal::resume() {
@@ -113,7 +113,7 @@ std::optional<RunJournal::Content> RunJournal::read(const std::filesystem::path&
   std::ifstream stream(file);
   std::string mark;
   Content content;
-  if (!(stream >> mark >> content.map_id.value) || mark != kBegin) return std::nullopt;
+  if (!(stream >> mark >> content.map_id.value >> content.odom_id.value) || mark != kBegin) return std::nullopt;
   for (std::string text; std::getline(stream, text);) {
     if (!text.ends_with(kEnd)) continue;
     std::istringstream line(text);

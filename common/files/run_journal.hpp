@@ -19,7 +19,7 @@ struct JournalScan {
   std::int64_t stamp_ns = 0;
 };
 
-/// What was taken so far of one map while it is made, a line at a time: whoever is started again goes on from here. Submaps,
+/// What was taken so far of one drive while it is driven, a line at a time: whoever is started again goes on from here. Submaps,
 /// constraints and corrections are not in it; those who make them keep them.
 class RunJournal {
  public:
@@ -27,7 +27,7 @@ class RunJournal {
   explicit RunJournal(std::filesystem::path file) : file_(std::move(file)) {}
 
   /// Forgets what is in the file.
-  void begin(flow::MapId map_id);
+  void begin(flow::MapId map_id, flow::OdomId odom_id);
   /// Keeps what is in the file.
   void resume();
   /// The work is done.
@@ -39,6 +39,7 @@ class RunJournal {
 
   struct Content {
     flow::MapId map_id;
+    flow::OdomId odom_id;
     std::vector<JournalScan> scans;
     std::vector<flow::LocalizedScan> localized_scans;    ///< Without their beams.
     std::vector<flow::TrackedObjects> tracked_objects;   ///< With what a track's row shows.

@@ -105,6 +105,13 @@ void RunRecord::add(const flow::GraphCorrection& correction) {
   for (const flow::CorrectedSubmap& submap : correction.submaps) corrected_submaps_[submap.submap_id] = submap.map_from_submap;
 }
 
+void RunRecord::forget_drive() {
+  scan_stamps_ns_.clear();
+  poses_.clear();
+  tracks_.clear();
+  labels_.clear();
+}
+
 std::vector<flow::Constraint> RunRecord::constraints() const {
   std::vector<flow::Constraint> all;
   for (const auto& [ends, constraint] : constraints_) all.push_back(constraint);

@@ -76,6 +76,9 @@ class RunRecord {
   void add(const flow::Constraint& constraint);
   void add(const flow::GraphCorrection& correction);  ///< An older one than the last is ignored.
 
+  /// Another drive goes on in the same map: of scans and objects nothing is kept.
+  void forget_drive();
+
   std::uint64_t scans() const { return scan_stamps_ns_.size(); }
   std::uint64_t localized_scans() const { return poses_.size(); }
   const std::map<flow::SubmapId, flow::Submap>& submaps() const { return submaps_; }
@@ -87,6 +90,9 @@ class RunRecord {
 
   /// Where the submap is after the last correction; by odometry where loop closing never heard of it.
   geometry::Pose2 map_from_submap(const flow::Submap& submap) const;
+
+  /// Whether the newest submap is tied to the first one, after the last correction.
+  bool knows_where_it_is() const { return !correction_.is_untied; }
 
   /// One pose for every scan of the log, as published live. A scan that was dropped or lost is given the pose between
   /// its neighbours in time.

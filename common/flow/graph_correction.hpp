@@ -30,6 +30,7 @@ struct GraphCorrection {
   geometry::Pose2 map_from_odom;         ///< For the newest submap of the graph, and so for what is being driven now.
   std::vector<CorrectedSubmap> submaps;  ///< All submaps of the graph, ascending.
   MapId map_id{};
+  bool is_untied = false;                ///< Nothing ties the newest submap to the first one yet: map_from_odom means nothing.
 };
 
 }  // namespace slammot::flow

@@ -45,6 +45,7 @@ struct LocalizedScan {
   SubmapId submap_id;                           ///< The local map in use,
   geometry::Pose2 submap_from_base;             ///< and the pose in it: what stays true when loops close.
   std::vector<LocalizedBeam> beams;             ///< One for each beam of the scan, in its order.
+  OdomId odom_id{};
 };
 
 }  // namespace slammot::flow

@@ -49,6 +49,7 @@ struct SegmentedScan {
   std::vector<float> range_m;                     ///< One a beam; 0 for no echo.
   std::vector<PointLabel> labels;                 ///< One a beam.
   std::vector<Segment> segments;
+  OdomId odom_id{};
 };
 
 }  // namespace slammot::flow

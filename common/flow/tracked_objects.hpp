@@ -56,6 +56,7 @@ struct TrackedObjects {
   geometry::Pose2 odom_from_base;
   std::vector<TrackedObject> objects; ///< Tentative ones too.
   MapId map_id{};
+  OdomId odom_id{};
 };
 
 }  // namespace slammot::flow

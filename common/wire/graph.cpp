@@ -66,6 +66,7 @@ void GraphCorrectionEncoder::encode(std::string_view vehicle_id, const flow::Gra
   sample_.part_count = static_cast<std::uint32_t>(parts);
   sample_.map_id = correction.map_id.value;
   sample_.map_from_odom = wire::encode(correction.map_from_odom);
+  sample_.is_untied = correction.is_untied;
   for (std::size_t part = 0; part < parts; ++part) {
     submaps_.clear();
     const std::size_t end = std::min(submaps, (part + 1) * kMostSubmapsOfPart);
@@ -89,7 +90,7 @@ GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(const sl
   }
   if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());
   return partial_[part.sequence_number] =
-             Partial{{part.map_id}, map_from_odom, std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
+             Partial{{part.map_id}, map_from_odom, part.is_untied, std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
 }
 
 GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_GraphCorrection& part) {
@@ -102,7 +103,7 @@ GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_Grap
   const auto has_come = [](const auto& one) { return one.has_value(); };
   if (!std::all_of(partial.parts.begin(), partial.parts.end(), has_come)) return {};
 
-  flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {}, partial.map_id};
+  flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {}, partial.map_id, partial.is_untied};
   for (const auto& one : partial.parts) correction.submaps.insert(correction.submaps.end(), one->begin(), one->end());
   partial_.erase(part.sequence_number);
   if (!is_ascending(correction.submaps)) return {std::nullopt, "submaps are not in ascending order"};

@@ -48,6 +48,7 @@ class GraphCorrectionAssembler {
   struct Partial {
     flow::MapId map_id;
     geometry::Pose2 map_from_odom;
+    bool is_untied;
     std::vector<std::optional<std::vector<flow::CorrectedSubmap>>> parts;
   };
 

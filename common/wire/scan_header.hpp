@@ -21,6 +21,7 @@ void encode_scan_header(std::string_view vehicle_id, const Scan& scan, Sample& s
   sample.odom_from_base = encode(scan.odom_from_base);
   sample.map_from_odom = encode(scan.map_from_odom);
   sample.map_id = scan.map_id.value;
+  sample.odom_id = scan.odom_id.value;
 }
 
 template <typename Sample>
@@ -46,6 +47,7 @@ Scan decode_scan_header(const Sample& sample) {
   scan.odom_from_base = decode(sample.odom_from_base);
   scan.map_from_odom = decode(sample.map_from_odom);
   scan.map_id = {sample.map_id};
+  scan.odom_id = {sample.odom_id};
   return scan;
 }
 

@@ -163,6 +163,7 @@ const slammot_TrackedObjects& TrackedObjectsEncoder::encode(std::string_view veh
   sample_.map_from_odom = wire::encode(objects.map_from_odom);
   sample_.odom_from_base = wire::encode(objects.odom_from_base);
   sample_.map_id = objects.map_id.value;
+  sample_.odom_id = objects.odom_id.value;
   show(sample_.objects, objects_);
   show(sample_.contour_points, contour_points_);
   show(sample_.path_points, path_points_);
@@ -176,7 +177,8 @@ Decoded<flow::TrackedObjects> decode(const slammot_TrackedObjects& sample) {
                                .map_from_odom = decode(sample.map_from_odom),
                                .odom_from_base = decode(sample.odom_from_base),
                                .objects = {},
-                               .map_id = {sample.map_id}};
+                               .map_id = {sample.map_id},
+                               .odom_id = {sample.odom_id}};
   objects.objects.reserve(sample.objects._length);
   auto contour = elements(sample.contour_points);
   auto path = elements(sample.path_points);

@@ -101,6 +101,7 @@ SegmentedScan copy_of_header(const LocalizedScan& scan) {
   segmented.odom_from_base = scan.odom_from_base;
   segmented.map_from_odom = scan.map_from_odom;
   segmented.map_id = scan.map_id;
+  segmented.odom_id = scan.odom_id;
   return segmented;
 }
 

@@ -15,7 +15,7 @@ class GraphWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// patience: how long a drive waits for one submap.
+  /// patience: how long a drive waits for one submap, and for a sign of life.
   explicit GraphWatch(std::chrono::nanoseconds patience) : patience_(patience) {}
 
   /// A heartbeat of loop_closing.
@@ -34,13 +34,12 @@ class GraphWatch {
 
   bool is_behind(Time now) const {
     const bool is_missing = in_use_ > 0 && (!placed_ || placed_->map_id != map_id_ || placed_->submap_id + 1 < in_use_);
-    const bool is_at_work = last_heard_ && now - *last_heard_ < kSilence;
+    // While it looks for a place everywhere in a map it is silent for seconds.
+    const bool is_at_work = last_heard_ && now - *last_heard_ < patience_;
     return is_missing && is_at_work && now - waiting_since_ < patience_;
   }
 
  private:
-  static constexpr std::chrono::seconds kSilence{2};
-
   struct Placed {
     flow::MapId map_id;
     std::uint32_t submap_id;

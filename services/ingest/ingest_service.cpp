@@ -81,6 +81,8 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
   context.status().counter("log_scans") = source_.log().plan().figures.scans;
   context.read(dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
     readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
+    // One that starts and says so will be there.
+    if (beat.state == slammot_SERVICE_STATE_STARTING) give_up_waiting_at_ = steady_clock::now() + nanoseconds_of(config_.wait_for_services_s);
     if (wire::text(beat.service_name) == "loop_closing") graph_.heard(steady_clock::now());
   });
   context.read(dds::topics::kScanLabels, app::Input::kOccasional, [this](const auto& labels) { take_labels(labels); });

@@ -19,13 +19,19 @@ class DriveWatch {
   };
 
   Scan judge(const std::string& scanner_id, std::uint64_t drive_id) {
+    const Scan scan = look_at(scanner_id, drive_id);
+    if (scan == Scan::kOfEarlierDrive) return scan;
+    if (scan == Scan::kOfNewDrive) retire();
+    drive_by_scanner_[scanner_id] = drive_id;
+    return scan;
+  }
+
+  /// What judge() would say; nothing begins.
+  Scan look_at(const std::string& scanner_id, std::uint64_t drive_id) const {
     const auto known = drive_by_scanner_.find(scanner_id);
     if (known != drive_by_scanner_.end() && known->second == drive_id) return Scan::kOfThisDrive;
     if (std::ranges::find(earlier_, drive_id) != earlier_.end()) return Scan::kOfEarlierDrive;
-    const bool is_new = known != drive_by_scanner_.end();
-    if (is_new) retire();
-    drive_by_scanner_[scanner_id] = drive_id;
-    return is_new ? Scan::kOfNewDrive : Scan::kOfThisDrive;
+    return known != drive_by_scanner_.end() ? Scan::kOfNewDrive : Scan::kOfThisDrive;
   }
 
   /// The drive that each scanner is on.

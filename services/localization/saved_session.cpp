@@ -5,7 +5,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x7365'7373'696f'6e31;  // "session1": the digit counts the forms of a session
+constexpr std::uint64_t kMark = 0x7365'7373'696f'6e32;  // "session2": the digit counts the forms of a session
 constexpr std::uint64_t kMostScanners = 64;
 
 void put_text(std::vector<std::byte>& bytes, const std::string& text) { put_all(bytes, std::vector<char>(text.begin(), text.end())); }
@@ -30,6 +30,7 @@ void visit_members(Scan& scan, Visit visit) {
   visit(scan.speed_mps);
   visit(scan.yaw_rate_radps);
   visit(scan.map_id.value);
+  visit(scan.odom_id.value);
   visit(scan.submap_id.value);
   visit(scan.submap_from_base);
 }
@@ -53,6 +54,8 @@ std::vector<std::byte> to_bytes(const SavedSession& session) {
   std::vector<std::byte> bytes;
   put(bytes, kMark);
   put(bytes, session.map_id.value);
+  put(bytes, session.odom_id.value);
+  put(bytes, session.first_submap_id.value);
   put(bytes, std::uint64_t{session.drive_by_scanner.size()});
   for (const auto& [scanner_id, drive_id] : session.drive_by_scanner) {
     put_text(bytes, scanner_id);
@@ -73,6 +76,8 @@ std::optional<SavedSession> session_of(std::span<const std::byte> bytes) {
   std::uint64_t mark = 0, drives = 0, answers = 0;
   from.get(mark);
   from.get(session.map_id.value);
+  from.get(session.odom_id.value);
+  from.get(session.first_submap_id.value);
   from.get(drives);
   if (mark != kMark || drives > kMostScanners) return std::nullopt;
   for (std::uint64_t i = 0; i < drives; ++i) {

@@ -15,6 +15,8 @@ namespace slammot::localization {
 /// What the service needs to go on after a crash, besides what the localizer does.
 struct SavedSession {
   flow::MapId map_id;
+  flow::OdomId odom_id;
+  flow::SubmapId first_submap_id;                 ///< Of this drive.
   std::map<std::string, std::uint64_t> drive_by_scanner;
   std::vector<flow::LocalizedScan> last_answers;  ///< The newest scan of each scanner, without its beams.
   std::vector<std::byte> localizer;               ///< Localizer::checkpoint().

@@ -11,11 +11,22 @@
 namespace slammot::map_store {
 namespace {
 
+std::string names_of(const std::vector<Store::StoredMap>& maps) {
+  std::string names;
+  for (const Store::StoredMap& map : maps) names += (names.empty() ? "; there are " : ", ") + std::to_string(map.map_id.value) + " (" + std::to_string(map.submaps) + " submaps)";
+  return names;
+}
+
 Store open_store(const app::ServiceContext& context, const MapStoreService::Settings& settings) {
   const auto file = settings.database.empty() ? context.options().state_dir / "map.sqlite" : settings.database;
   auto opened = Store::open(file, settings.config);
   if (const auto* fault = std::get_if<std::string>(&opened)) throw app::StartupFailure(*fault);
-  return std::move(std::get<Store>(opened));
+  Store store = std::move(std::get<Store>(opened));
+  if (settings.map_id && !store.make_latest(context.vehicle_id(), {*settings.map_id})) {
+    const std::string why = store.last_fault().empty() ? "there is no such map of vehicle " + context.vehicle_id() : store.last_fault();
+    throw app::StartupFailure("--map " + std::to_string(*settings.map_id) + ": " + why + names_of(store.maps(context.vehicle_id())));
+  }
+  return store;
 }
 
 }  // namespace
@@ -26,6 +37,7 @@ std::vector<config::BoundStage> MapStoreService::stages(Settings& settings) {
 
 void MapStoreService::add_options(CLI::App& command_line, Settings& settings) {
   command_line.add_option("--database", settings.database, "SQLite file; map.sqlite in the state folder when not given");
+  command_line.add_option("--map", settings.map_id, "Put this map of the vehicle in use again, in place of its latest")->type_name("ID");
 }
 
 MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& settings)
@@ -33,7 +45,8 @@ MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& s
       config_(settings.config),
       store_(open_store(context, settings)),
       stored_tiles_(context.write(dds::topics::kStoredSubmapTile)),
-      stored_objects_(context.write(dds::topics::kStoredTrackedObjects)) {
+      stored_objects_(context.write(dds::topics::kStoredTrackedObjects)),
+      stored_map_(context.write(dds::topics::kStoredMap)) {
   publish_stored();
   context.read(dds::topics::kSubmapTile, app::Input::kOccasional, [this](const auto& tile) { take(tile); });
   // The last tracks only pass through: this service outlives a crash of tracking, which takes them up again from here.
@@ -62,8 +75,11 @@ bool MapStoreService::keep(const flow::Submap& submap) {
   context_.status().clear_trouble("database");
   if (result == PutResult::kStored) {
     ++context_.status().counter("stored_submaps");
+    if (map_id_ != submap.map_id) unreadable_.clear();
+    unreadable_.erase(submap.submap_id);
     withdraw_what_is_no_more();
     publish(submap);
+    publish_stored_map();
   }
   return true;
 }
@@ -86,14 +102,36 @@ void MapStoreService::retry() {
 }
 
 void MapStoreService::publish_stored() {
-  for (const flow::SubmapId id : store_.list(context_.vehicle_id())) {
-    if (const auto submap = store_.get(context_.vehicle_id(), id)) {
-      publish(*submap);
-    } else {
-      context_.warn("unreadable_submaps", store_.last_fault());
-    }
+  const auto count_unreadable = [this](flow::SubmapId id) {
+    unreadable_.insert(id);
+    context_.warn("unreadable_submaps", store_.last_fault());
+  };
+  const std::vector<flow::SubmapId> ids = store_.list(context_.vehicle_id());
+  if (!store_.last_fault().empty()) count_unreadable({});
+  for (const flow::SubmapId id : ids) {
+    if (const auto submap = store_.get(context_.vehicle_id(), id)) publish(*submap);
+    else count_unreadable(id);
   }
-  if (!published_.empty()) spdlog::info("{} submaps in the database", published_.size());
+  const std::vector<Store::StoredMap> maps = store_.maps(context_.vehicle_id());
+  if (!published_.empty()) spdlog::info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value, maps.size() > 1 ? names_of(maps) : "");
+  else tell_of_other_vehicles();
+  publish_stored_map();
+}
+
+/// A map is its vehicle's: whoever expects to find one wants to know under which name it is there.
+void MapStoreService::tell_of_other_vehicles() {
+  std::string names;
+  const std::vector<std::string> vehicles = store_.vehicles();
+  for (const std::string& vehicle : vehicles) names += (names.empty() ? "" : ", ") + vehicle;
+  context_.status().counter("other_vehicles") = vehicles.size();
+  if (!vehicles.empty()) spdlog::warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(), names);
+}
+
+/// What there is to go on in, after each change.
+void MapStoreService::publish_stored_map() {
+  const std::vector<flow::SubmapId> stored = store_.list(context_.vehicle_id());
+  const flow::SubmapId last = stored.empty() ? flow::SubmapId{} : stored.back();
+  stored_map_.write(wire::encode(context_.vehicle_id(), flow::StoredMap{map_id_, static_cast<std::uint32_t>(published_.size()), static_cast<std::uint32_t>(unreadable_.size()), last, cell_size_m_}));
 }
 
 void MapStoreService::publish(const flow::Submap& submap) {
@@ -104,6 +142,8 @@ void MapStoreService::publish(const flow::Submap& submap) {
     ++tiles;
   });
   published_[submap.submap_id] = tiles;
+  map_id_ = submap.map_id;
+  cell_size_m_ = submap.cell_size_m;
   if (!all_written) {
     unpublished_.insert(submap.submap_id);
     context_.warn("slow_readers", "a reader of stored submaps is slow; publishing again later");

@@ -141,6 +141,34 @@ std::vector<flow::SubmapId> Store::list(std::string_view vehicle_id) {
   return submaps;
 }
 
+std::vector<Store::StoredMap> Store::maps(std::string_view vehicle_id) {
+  last_fault_.clear();
+  std::vector<StoredMap> maps;
+  try {
+    Statement query(database_.get(), "SELECT map_id, COUNT(*) FROM submap WHERE vehicle_id = ? GROUP BY map_id ORDER BY MAX(rowid)");
+    query << vehicle_id;
+    while (query.step()) maps.push_back({{static_cast<std::uint64_t>(query.integer(0))}, query.integer(1)});
+  } catch (const SqliteError& error) {
+    last_fault_ = error.what();
+  }
+  return maps;
+}
+
+/// A row that is put again is the last one that was put.
+bool Store::make_latest(std::string_view vehicle_id, flow::MapId map_id) {
+  last_fault_.clear();
+  try {
+    Statement insert(database_.get(),
+                     "INSERT OR REPLACE INTO submap SELECT * FROM submap WHERE vehicle_id = ? AND map_id = ? ORDER BY submap_id DESC LIMIT 1");
+    insert << vehicle_id << static_cast<std::int64_t>(map_id.value);
+    insert.step();
+    return sqlite3_changes(database_.get()) > 0;
+  } catch (const SqliteError& error) {
+    last_fault_ = error.what();
+    return false;
+  }
+}
+
 std::vector<std::string> Store::vehicles() {
   last_fault_.clear();
   std::vector<std::string> vehicles;

@@ -40,6 +40,17 @@ class Store {
   /// Ascending.
   std::vector<flow::SubmapId> list(std::string_view vehicle_id);
 
+  struct StoredMap {
+    flow::MapId map_id;
+    std::int64_t submaps = 0;
+  };
+  /// Of the vehicle, the latest one last.
+  std::vector<StoredMap> maps(std::string_view vehicle_id);
+
+  /// From now on it is the vehicle's latest map. False where there is no such map, or it could not be done (then last_fault()
+  /// is not empty).
+  bool make_latest(std::string_view vehicle_id, flow::MapId map_id);
+
   /// All that have a submap, sorted.
   std::vector<std::string> vehicles();
 

@@ -55,7 +55,8 @@ SimulatorService::SimulatorService(app::ServiceContext& context, const Settings&
     : context_(context),
       pace_(parse_pace(settings.speed)),
       linger_(settings.linger),
-      give_up_waiting_at_(steady_clock::now() + std::chrono::milliseconds(std::llround(1e3 * settings.wait_for_services_s))),
+      patience_(std::llround(1e3 * settings.wait_for_services_s)),
+      give_up_waiting_at_(steady_clock::now() + patience_),
       drive_(scenario_of(settings)),
       scans_(context.write(dds::topics::kLaserScan)),
       odometry_(context.write(dds::topics::kOdometry)),
@@ -69,8 +70,11 @@ SimulatorService::SimulatorService(app::ServiceContext& context, const Settings&
   truth_ = wire::TruthEncoder(drive_id);
   context.status().counter("log_finished") = 0;
   context.status().counter("log_scans") = drive_.scan_count();
-  context.read(dds::topics::kHeartbeat, app::Input::kOccasional,
-               [this](const slammot_Heartbeat& beat) { readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state)); });
+  context.read(dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
+    readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
+    // One that starts and says so will be there.
+    if (beat.state == slammot_SERVICE_STATE_STARTING) give_up_waiting_at_ = steady_clock::now() + patience_;
+  });
   context.read(dds::topics::kScanLabels, app::Input::kOccasional, [this](const auto& labels) { take_labels(labels); });
   context.every(std::chrono::milliseconds(50), [this] { has_begun_ ? check_progress() : wait_for_services(); });
 }

@@ -48,6 +48,7 @@ class SimulatorService {
   app::ServiceContext& context_;
   app::Pace pace_;
   bool linger_;
+  std::chrono::milliseconds patience_;  ///< With services that are not there.
   Time give_up_waiting_at_;
   simulation::Drive drive_;
   app::Readiness readiness_{{"localization", "detection", "tracking"}};

@@ -22,6 +22,7 @@
 #include "services/slammot/job.hpp"
 #include "services/slammot/progress_bar.hpp"
 #include "services/slammot/service_processes.hpp"
+#include "services/slammot/stored_map.hpp"
 
 namespace slammot {
 namespace {
@@ -32,6 +33,8 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPatienceAtTheEnd = 30s;
 constexpr auto kLastWords = 50ms;
 constexpr const char* kVehicle = "bench";
+constexpr const char* kFound = "map:      found itself in the map\n";
+constexpr const char* kNotFound = "warning:  did not find itself in the map: its poses begin anywhere in it\n";
 
 struct BenchOptions : JobOptions {
   std::uint32_t domain_id = 0;
@@ -49,11 +52,22 @@ std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& opt
                                           "--domain", std::to_string(options.domain_id), "--state-dir", state_folder,
                                           "--profile", job.profile_name};
     if (!options.config.empty()) arguments.insert(arguments.end(), {"--config", options.config});
+    if (name == "localization" && !options.map.empty()) arguments.push_back("--continue-map");
     const bool is_ingest = name == "ingest";
     if (is_ingest) arguments.insert(arguments.end(), {"--input", options.input, "--speed", options.speed});
     services.push_back({name, std::move(arguments), is_ingest});
   }
   return services;
+}
+
+/// Where map_store looks for it, if a map was asked for.
+std::optional<files::Error> lay_out_map(const Job& job, const BenchOptions& options, const std::filesystem::path& state_folder) {
+  if (options.map.empty()) return std::nullopt;
+  const auto stored = read_stored_map(options.map, job.profile.localization.map.cell_size_m);
+  if (!stored) return stored.error();
+  std::printf("map:      %zu submaps of %s\n", stored->size(), options.map.c_str());
+  std::fflush(stdout);
+  return write_stored_map(state_folder, *stored, kVehicle);
 }
 
 /// Until the drive has ended; otherwise the line that says why it has not.
@@ -86,6 +100,10 @@ files::RunReport make_report(const Job& job, const BenchOptions& options, const 
 
 int write(const BenchOptions& options, const files::RunRecord& record, const files::RunReport& report) {
   if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
+  if (options.stores_map) {
+    if (const auto fault = write_stored_map(options.output, record.submaps())) return fail(fault->message);
+  }
+  if (!options.map.empty()) std::fputs(record.knows_where_it_is() ? kFound : kNotFound, stdout);
   std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
   for (const auto& [name, count] : report.counters.at("bench")) {
     if (count > 0) std::printf("%s: %llu\n", name.c_str(), static_cast<unsigned long long>(count));
@@ -128,6 +146,7 @@ int bench(const BenchOptions& asked_for) {
   const std::vector<std::int64_t> stamps_ns = stamps_of(job->log);
 
   const TemporaryFolder folder("slammot-bench-");
+  if (const auto fault = lay_out_map(*job, options, folder.path())) return fail(fault->message);
   const std::string dds_config = dds::loopback_config("slammot-bench-" + std::to_string(getpid()));
   Collector collector({kVehicle, options.domain_id, dds_config});
   to_stop = &collector;

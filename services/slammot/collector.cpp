@@ -95,6 +95,7 @@ bool Collector::wait(std::chrono::milliseconds longest) { return wait_set_.wait(
 void Collector::take_up(const files::RunJournal::Content& content) {
   is_taken_up_ = true;
   map_id_ = content.map_id;
+  odom_id_ = content.odom_id;
   for (const files::JournalScan& scan : content.scans) remember(scan);
   for (const flow::LocalizedScan& scan : content.localized_scans) {
     records_[scan.map_id].add(scan);
@@ -128,14 +129,16 @@ void Collector::take(const slammot_LaserScan& sample) {
 }
 
 /// What was made of the drive before is not wanted any more.
-void Collector::begin_map(flow::MapId map_id) {
-  if (map_id_) records_.erase(*map_id_);
+void Collector::begin_drive(flow::MapId map_id, flow::OdomId odom_id) {
+  if (map_id_ == map_id) records_[map_id].forget_drive();
+  else if (map_id_) records_.erase(*map_id_);
   map_id_ = map_id;
+  odom_id_ = odom_id;
   last_localized_ns_.reset();
   last_tracked_ns_.reset();
   submap_in_use_.reset();
   if (!journal_) return;
-  journal_->begin(map_id);
+  journal_->begin(map_id, odom_id);
   for (const auto& [scanner_id, stamps] : stamps_by_sequence_) {
     for (const auto& [sequence, stamp_ns] : stamps) journal_->add(files::JournalScan{scanner_id, drives_.drives().at(scanner_id), sequence, stamp_ns});
   }
@@ -144,7 +147,7 @@ void Collector::begin_map(flow::MapId map_id) {
 void Collector::take(const slammot_LocalizedScan& sample) {
   const auto scan = wire::decode(sample);
   if (!scan) return;
-  if (map_id_ != scan->map_id) begin_map(scan->map_id);
+  if (map_id_ != scan->map_id || odom_id_ != scan->odom_id) begin_drive(scan->map_id, scan->odom_id);
   records_[scan->map_id].add(*scan);
   if (journal_) journal_->add(*scan);
   last_localized_ns_ = std::max(scan->stamp_ns, last_localized_ns_.value_or(scan->stamp_ns));
@@ -154,7 +157,7 @@ void Collector::take(const slammot_LocalizedScan& sample) {
 
 void Collector::take(const slammot_TrackedObjects& sample) {
   const auto objects = wire::decode(sample);
-  if (!objects || objects->map_id != map_id_) return;
+  if (!objects || objects->map_id != map_id_ || objects->odom_id != odom_id_) return;
   records_[objects->map_id].add(*objects);
   if (journal_) journal_->add(*objects);
   last_tracked_ns_ = std::max(objects->stamp_ns, last_tracked_ns_.value_or(objects->stamp_ns));

@@ -76,7 +76,7 @@ class Collector {
   void take(const slammot_GraphCorrection& part);
   void take(const slammot_ServiceStatus& status);
   void take_up(const files::RunJournal::Content& content);
-  void begin_map(flow::MapId map_id);
+  void begin_drive(flow::MapId map_id, flow::OdomId odom_id);
   void remember(const files::JournalScan& scan);
   bool is_log_finished() const;
   bool is_last_scan_tracked() const;
@@ -105,7 +105,8 @@ class Collector {
   bool is_taken_up_ = false;                                   ///< From a journal.
   localization::DriveWatch drives_;
   std::map<std::string, std::map<std::uint32_t, std::int64_t>> stamps_by_sequence_;  ///< By scanner; of its drive.
-  std::optional<flow::MapId> map_id_;                          ///< Of the newest localized scan.
+  std::optional<flow::MapId> map_id_;                          ///< Of the newest localized scan,
+  flow::OdomId odom_id_;                                       ///< and its drive in that map.
   std::map<flow::MapId, files::RunRecord> records_;            ///< What the bus keeps of earlier maps comes, too.
   std::map<std::int64_t, Clock::time_point> seen_at_;          ///< Scans without tracks so far, by stamp.
   app::LatencyHistogram scan_to_tracks_;

@@ -112,6 +112,8 @@ void add_job_options(CLI::App& command, JobOptions& options) {
   command.add_option("--profile", options.profile, "urban, indoor, another name, or a file; chosen by the drive when not given")->type_name("NAME");
   command.add_option("--config", options.config, "Settings that replace some of the profile's")->type_name("FILE");
   command.add_option("--speed", options.speed, "Times the recorded rate, or max")->type_name("X|max")->capture_default_str();
+  command.add_option("--map", options.map, "Stored map of earlier drives to go on in: a folder that --store-map wrote, map_store's folder or its file")->type_name("DIR|FILE");
+  command.add_flag("--store-map", options.stores_map, "Write the submaps into the results' folder, as map.sqlite, for --map");
 }
 
 files::Result<Job> prepare_job(const JobOptions& options) {

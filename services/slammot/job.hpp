@@ -25,6 +25,8 @@ struct JobOptions {
   std::string profile;           ///< Name or file; empty: the log's own figures choose.
   std::filesystem::path config;  ///< Overlaid onto the profile; may be empty.
   std::string speed = "max";     ///< Times the recorded rate, or "max".
+  std::filesystem::path map{};   ///< Stored map to go on in; may be empty.
+  bool stores_map = false;       ///< Writes the map into the output folder, for the next.
 };
 
 /// A drive, recorded or simulated, understood, and the settings to work on it with.

@@ -56,8 +56,6 @@ class Pace {
 /// What `run` is asked for beyond what any job is.
 struct RunOptions {
   JobOptions job;
-  std::filesystem::path map;   ///< Stored map to go on in; may be empty.
-  bool stores_map = false;
   int iterations = 1;          ///< Of localization and detection a scan, at most.
 };
 
@@ -106,9 +104,9 @@ int end_of(const JobOptions& options, const files::RunReport& report, const Driv
 }
 
 /// Takes up the stored map, if one was asked for.
-std::optional<files::Error> take_up_map(const std::filesystem::path& map, Pipeline& pipeline) {
+std::optional<files::Error> take_up_map(const std::filesystem::path& map, const Profile& profile, Pipeline& pipeline) {
   if (map.empty()) return std::nullopt;
-  const auto stored = read_stored_map(map);
+  const auto stored = read_stored_map(map, profile.localization.map.cell_size_m);
   if (!stored) return stored.error();
   pipeline.go_on_in(*stored);
   std::printf("map:      %zu submaps of %s\n", stored->size(), map.c_str());
@@ -120,7 +118,7 @@ std::optional<files::Error> take_up_map(const std::filesystem::path& map, Pipeli
 std::string describe_whereabouts(const Pipeline& pipeline, const RunOptions& options) {
   const auto counters = pipeline.counters();
   const auto astray = counters.at("localization").at("astray");
-  if (options.map.empty() && astray == 0) return {};
+  if (options.job.map.empty() && astray == 0) return {};
   const auto found = counters.at("loop_closing").at("found_elsewhere");
   const std::string lost = astray == 0 ? std::string() : "warning:  lost its way and began a new part of the map, " + std::to_string(astray) + " times\n";
   const std::string place = pipeline.knows_where_it_is() ? "found itself in the map (parts joined: " + std::to_string(found) + ")\n"
@@ -138,7 +136,7 @@ int run(const RunOptions& run_options) {
   std::fputs(describe_job(*job, options).c_str(), stdout);
   std::fflush(stdout);
   Pipeline pipeline(job->profile, run_options.iterations);
-  if (const auto fault = take_up_map(run_options.map, pipeline)) return fail(*fault);
+  if (const auto fault = take_up_map(options.map, job->profile, pipeline)) return fail(*fault);
   const Driven driven = drive(*job, pipeline, interruption.get_token());
   if (driven.is_interrupted && pipeline.record().scans() == 0) {
     std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
@@ -150,7 +148,7 @@ int run(const RunOptions& run_options) {
   const double wall_s = seconds_since(start);
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s, peak_memory_mb()};
   if (const auto fault = files::write_outputs(options.output, pipeline.record(), report)) return fail(*fault);
-  if (run_options.stores_map) {
+  if (options.stores_map) {
     if (const auto fault = write_stored_map(options.output, pipeline.record().submaps())) return fail(*fault);
   }
   std::fputs(describe_whereabouts(pipeline, run_options).c_str(), stdout);
@@ -164,8 +162,6 @@ void add_run_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand("run", "Take a drive, recorded or simulated, through all stages in this one process");
   const auto options = std::make_shared<RunOptions>();
   add_job_options(*command, options->job);
-  command->add_option("--map", options->map, "Stored map of earlier drives to go on in: a folder that --store-map wrote, map_store's folder or its file")->type_name("DIR|FILE");
-  command->add_flag("--store-map", options->stores_map, "Write the submaps into the results' folder, as map.sqlite, for --map");
   command->add_option("--iterations", options->iterations, "Times a scan is matched at most, each time without what was then found to move")
       ->type_name("N")
       ->check(CLI::Range(1, kMostIterations))

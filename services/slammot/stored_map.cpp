@@ -1,5 +1,8 @@
 #include "services/slammot/stored_map.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <string>
 #include <system_error>
 #include <variant>
@@ -18,6 +21,16 @@ constexpr const char* kFileName = "map.sqlite";
 
 std::filesystem::path file_of(const std::filesystem::path& path) { return std::filesystem::is_directory(path) ? path / kFileName : path; }
 
+/// Loop closing does not tell places by points of another density.
+std::optional<Error> find_fault(const std::vector<flow::Submap>& submaps, double cell_size_m, const std::string& name) {
+  constexpr double kSame = 1e-6;
+  const auto other = std::ranges::find_if(submaps, [&](const flow::Submap& submap) { return std::abs(submap.cell_size_m - cell_size_m) > kSame * cell_size_m; });
+  if (other == submaps.end()) return std::nullopt;
+  char text[128];
+  std::snprintf(text, sizeof text, ": the map is of another profile, with cells of %g m for %g m here", other->cell_size_m, cell_size_m);
+  return Error{name + text};
+}
+
 Result<std::vector<flow::Submap>> read(Store& store, const std::string& name) {
   const std::vector<std::string> vehicles = store.vehicles();
   if (!store.last_fault().empty()) return Error{name + ": " + store.last_fault()};
@@ -35,24 +48,32 @@ Result<std::vector<flow::Submap>> read(Store& store, const std::string& name) {
 
 }  // namespace
 
-Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path) {
+Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path, double cell_size_m) {
   const std::filesystem::path file = file_of(path);
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(file, unreadable)) return Error{file.string() + ": no such file; run --store-map makes one"};
   auto store = Store::open(file, {});
   if (const auto* fault = std::get_if<std::string>(&store)) return Error{*fault};
-  return read(std::get<Store>(store), file.string());
+  auto submaps = read(std::get<Store>(store), file.string());
+  if (!submaps) return submaps;
+  if (const auto fault = find_fault(*submaps, cell_size_m, file.string())) return *fault;
+  return submaps;
 }
 
 std::optional<Error> write_stored_map(const std::filesystem::path& folder, const std::map<flow::SubmapId, flow::Submap>& submaps) {
+  std::vector<flow::Submap> ascending;
+  for (const auto& [id, submap] : submaps) ascending.push_back(submap);
+  return write_stored_map(folder, ascending, app::ServiceOptions().vehicle_id);
+}
+
+std::optional<Error> write_stored_map(const std::filesystem::path& folder, const std::vector<flow::Submap>& submaps, const std::string& vehicle_id) {
   const std::filesystem::path unfinished = folder / (std::string(kFileName) + ".part");
   std::error_code fault;
   std::filesystem::remove(unfinished, fault);
   {
     auto store = Store::open(unfinished, {});
     if (const auto* why = std::get_if<std::string>(&store)) return Error{*why};
-    const std::string vehicle_id = app::ServiceOptions().vehicle_id;
-    for (const auto& [id, submap] : submaps) {
+    for (const flow::Submap& submap : submaps) {
       if (std::get<Store>(store).put(vehicle_id, submap) == map_store::PutResult::kFailed) return Error{unfinished.string() + ": " + std::get<Store>(store).last_fault()};
     }
   }

@@ -696,7 +696,7 @@ flow::ScanLabels Tracker::label(const ScanView& view) const {
 }
 
 flow::TrackedObjects Tracker::describe(const flow::SegmentedScan& scan) const {
-  flow::TrackedObjects objects{scan.stamp_ns, scan.sequence, scan.map_from_odom, scan.odom_from_base.pose, {}, scan.map_id};
+  flow::TrackedObjects objects{scan.stamp_ns, scan.sequence, scan.map_from_odom, scan.odom_from_base.pose, {}, scan.map_id, scan.odom_id};
   objects.objects.reserve(tracks_.size());
   for (const Track& track : tracks_) objects.objects.push_back(described(track, scan.stamp_ns, config_));
   return objects;

@@ -16,6 +16,12 @@ constexpr std::size_t kMostEarlyScans = 100;
 /// Tracks older than this, by the data's clock, are of objects that are elsewhere by now.
 constexpr std::int64_t kLongestAbsenceNs = 5'000'000'000;
 
+/// What the positions of objects are said in.
+template <typename Sample>
+std::pair<flow::MapId, flow::OdomId> drive_of(const Sample& sample) {
+  return {sample.map_id, sample.odom_id};
+}
+
 }  // namespace
 
 std::vector<config::BoundStage> TrackingService::stages(Settings& settings) {
@@ -58,12 +64,12 @@ void TrackingService::begin() {
   early_.clear();
 }
 
-/// Nothing of another map is known here, if its numbers are the same or not.
-void TrackingService::begin_map(const flow::SegmentedScan& first) {
+/// Nothing of another drive is known here, if its numbers, its stamps and its map are the same or not.
+void TrackingService::begin_drive(const flow::SegmentedScan& first) {
   tracker_ = Tracker(config_);
   last_results_.clear();
-  map_id_ = first.map_id;
-  if (stored_ && stored_->map_id == first.map_id) take_up(first.stamp_ns);
+  drive_ = drive_of(first);
+  if (stored_ && drive_of(*stored_) == drive_) take_up(first.stamp_ns);
   stored_.reset();
 }
 
@@ -76,7 +82,7 @@ void TrackingService::take_up(std::int64_t stamp_ns) {
 }
 
 void TrackingService::track(const flow::SegmentedScan& scan) {
-  if (map_id_ != scan.map_id) begin_map(scan);
+  if (drive_ != drive_of(scan)) begin_drive(scan);
   const auto last = last_results_.find(scan.scanner_id);
   if (last != last_results_.end() && scan.stamp_ns <= last->second.labels.stamp_ns) {
     // Sent again because somebody missed the answer.

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/app/run_service.hpp"
@@ -31,7 +32,7 @@ class TrackingService {
   void take(const slammot_SegmentedScan& sample);
   void take_stored(const slammot_TrackedObjects& sample);
   void begin();
-  void begin_map(const flow::SegmentedScan& first);
+  void begin_drive(const flow::SegmentedScan& first);
   void take_up(std::int64_t stamp_ns);
   void track(const flow::SegmentedScan& scan);
   void publish(const TrackingResult& result);
@@ -44,7 +45,7 @@ class TrackingService {
   wire::TrackedObjectsEncoder objects_encoder_;
   wire::ScanLabelsEncoder labels_encoder_;
   bool waits_for_stored_tracks_ = true;
-  std::optional<flow::MapId> map_id_;                   ///< None before the first scan.
+  std::optional<std::pair<flow::MapId, flow::OdomId>> drive_;  ///< None before the first scan.
   std::optional<flow::TrackedObjects> stored_;
   std::deque<flow::SegmentedScan> early_;               ///< Came while waiting for stored tracks.
   std::map<std::string, TrackingResult> last_results_;  ///< By scanner.

@@ -20,6 +20,7 @@
 #include "common/wire/segmented_scan.hpp"
 #include "common/wire/sensor.hpp"
 #include "common/wire/service.hpp"
+#include "common/wire/stored_map.hpp"
 #include "common/wire/submap.hpp"
 #include "common/wire/tracked_objects.hpp"
 #include "common/wire/truth.hpp"
@@ -97,6 +98,7 @@ class EveryTopic {
     };
     add(topics::kSubmapTile, write_tiles);
     add(topics::kStoredSubmapTile, write_tiles);
+    add(topics::kStoredMap, [](auto& writer) { writer.write(wire::encode(kVehicle, flow::StoredMap{{7}, 3, 0, {2}, 0.2})); });
     add(topics::kConstraint, [pose = testing::uncertain_pose(random_)](auto& writer) {
       writer.write(wire::encode(kVehicle, flow::Constraint{{0}, {1}, flow::ConstraintKind::kLoop, pose}));
     });

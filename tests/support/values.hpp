@@ -62,7 +62,8 @@ inline flow::LocalizedScan localized_scan(Random& random, std::size_t beams) {
                            .map_id = {1'700'000'000'000'000'001},
                            .submap_id = {7},
                            .submap_from_base = pose(random),
-                           .beams = {}};
+                           .beams = {},
+                           .odom_id = {1'700'000'000'000'000'002}};
   for (std::size_t i = 0; i < beams; ++i) {
     scan.beams.push_back({point(random), number_f(random), number_f(random), -number_f(random), number_f(random),
                           static_cast<flow::EndCell>(i % 4)});
@@ -99,7 +100,8 @@ inline flow::SegmentedScan segmented_scan(Random& random, std::size_t beams) {
                            .points_in_base_m = {},
                            .range_m = {},
                            .labels = {},
-                           .segments = {}};
+                           .segments = {},
+                           .odom_id = {1'700'000'000'000'000'002}};
   for (std::size_t i = 0; i < beams; ++i) {
     scan.points_in_base_m.push_back(point(random));
     scan.range_m.push_back(number_f(random));
@@ -147,7 +149,8 @@ inline flow::TrackedObjects tracked_objects(Random& random, std::uint32_t object
                               .map_from_odom = pose(random),
                               .odom_from_base = pose(random),
                               .objects = {},
-                              .map_id = {1'700'000'000'000'000'001}};
+                              .map_id = {1'700'000'000'000'000'001},
+                              .odom_id = {1'700'000'000'000'000'002}};
   for (std::uint32_t i = 0; i < objects; ++i) {
     tracks.objects.push_back(tracked_object(random, i, contour_points, path_points));
   }

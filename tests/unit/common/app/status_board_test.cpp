@@ -34,6 +34,16 @@ TEST(StatusBoard, IsDegradedUntilATroubleIsCleared) {
   EXPECT_EQ(board.state(kStart), ServiceState::kRunning);
 }
 
+TEST(StatusBoard, IsStartingForAsLongAsItSaysSoAndMaySayWhy) {
+  StatusBoard board;
+  board.set_starting(true);
+  board.set_trouble("map", "waits for the map");
+  EXPECT_EQ(board.state(kStart), ServiceState::kStarting);
+  EXPECT_EQ(board.explanation(kStart), "waits for the map");
+  board.set_starting(false);
+  EXPECT_EQ(board.state(kStart), ServiceState::kDegraded);
+}
+
 TEST(StatusBoard, CountsFromZero) {
   StatusBoard board;
   ++board.counter("scans");

@@ -145,5 +145,27 @@ TEST(RunRecord, JoinsTheLabelsOfDetectionAndTracking) {
   EXPECT_EQ(record.label_rows()[0].by_tracking, "-sm");
 }
 
+TEST(RunRecord, KnowsWhereItIsByTheLastCorrection) {
+  RunRecord record;
+  EXPECT_TRUE(record.knows_where_it_is());
+  record.add(flow::GraphCorrection{.sequence = 1, .is_untied = true});
+  EXPECT_FALSE(record.knows_where_it_is());
+  record.add(flow::GraphCorrection{.sequence = 2});
+  EXPECT_TRUE(record.knows_where_it_is());
+}
+
+TEST(RunRecord, ForgetsADriveButNotItsMap) {
+  RunRecord record;
+  flow::LocalizedScan scan;
+  scan.stamp_ns = 5;
+  record.add_scan(5);
+  record.add(scan);
+  record.add(flow::Submap{.submap_id = {3}});
+  record.forget_drive();
+  EXPECT_EQ(record.scans(), 0U);
+  EXPECT_EQ(record.localized_scans(), 0U);
+  EXPECT_EQ(record.submaps().size(), 1U);
+}
+
 }  // namespace
 }  // namespace slammot::files

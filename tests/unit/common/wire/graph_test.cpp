@@ -57,7 +57,7 @@ struct GraphCorrectionInParts : ::testing::Test {
   GraphCorrectionAssembler assembler;
 
   flow::GraphCorrection correction(std::uint32_t sequence, std::uint32_t submaps) {
-    flow::GraphCorrection made{sequence, testing::pose(random), {}, {17}};
+    flow::GraphCorrection made{sequence, testing::pose(random), {}, {17}, true};
     for (std::uint32_t id = 0; id < submaps; ++id) made.submaps.push_back({{id}, testing::pose(random)});
     return made;
   }
@@ -83,6 +83,7 @@ struct GraphCorrectionInParts : ::testing::Test {
     EXPECT_EQ(a.sequence, b.sequence);
     EXPECT_EQ(a.map_id, b.map_id);
     EXPECT_EQ(a.map_from_odom, b.map_from_odom);
+    EXPECT_EQ(a.is_untied, b.is_untied);
     ASSERT_EQ(a.submaps.size(), b.submaps.size());
     for (std::size_t i = 0; i < a.submaps.size(); ++i) {
       EXPECT_EQ(a.submaps[i].submap_id, b.submaps[i].submap_id);

@@ -34,6 +34,7 @@ TEST_F(LocalizedScanOnTheWire, ComesBackAsItWas) {
   EXPECT_EQ(back->odom_from_base.covariance, scan.odom_from_base.covariance);
   EXPECT_EQ(back->map_from_odom, scan.map_from_odom);
   EXPECT_EQ(back->map_id, scan.map_id);
+  EXPECT_EQ(back->odom_id, scan.odom_id);
   EXPECT_EQ(back->speed_mps, scan.speed_mps);
   EXPECT_EQ(back->yaw_rate_radps, scan.yaw_rate_radps);
   EXPECT_EQ(back->submap_id, scan.submap_id);

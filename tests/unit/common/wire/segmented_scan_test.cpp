@@ -49,6 +49,7 @@ TEST_F(SegmentedScanOnTheWire, ComesBackAsItWas) {
   EXPECT_EQ(back->odom_from_base.covariance, scan.odom_from_base.covariance);
   EXPECT_EQ(back->map_from_odom, scan.map_from_odom);
   EXPECT_EQ(back->map_id, scan.map_id);
+  EXPECT_EQ(back->odom_id, scan.odom_id);
   EXPECT_EQ(back->points_in_base_m, scan.points_in_base_m);
   EXPECT_EQ(back->range_m, scan.range_m);
   EXPECT_EQ(back->labels, scan.labels);

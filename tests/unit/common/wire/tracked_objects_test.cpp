@@ -52,6 +52,7 @@ TEST_F(TrackedObjectsOnTheWire, ComeBackAsTheyWere) {
   EXPECT_EQ(back->sequence, objects.sequence);
   EXPECT_EQ(back->map_from_odom, objects.map_from_odom);
   EXPECT_EQ(back->map_id, objects.map_id);
+  EXPECT_EQ(back->odom_id, objects.odom_id);
   EXPECT_EQ(back->odom_from_base, objects.odom_from_base);
   ASSERT_EQ(back->objects.size(), objects.objects.size());
   for (std::size_t i = 0; i < objects.objects.size(); ++i) expect_same(back->objects[i], objects.objects[i]);

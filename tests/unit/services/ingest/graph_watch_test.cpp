@@ -45,9 +45,18 @@ TEST(GraphWatch, GivesUpWhenItsPatienceEnds) {
   EXPECT_FALSE(watch.is_behind(kStart + 5s));
 }
 
-TEST(GraphWatch, DoesNotWaitForALoopClosingThatIsNotThere) {
+TEST(GraphWatch, WaitsForALoopClosingThatIsBusyAndSilent) {
   const GraphWatch watch = watch_with_finished_submap();
-  EXPECT_FALSE(watch.is_behind(kStart + 2s));
+  EXPECT_TRUE(watch.is_behind(kStart + 4s));
+}
+
+TEST(GraphWatch, DoesNotWaitForALoopClosingThatIsNotThere) {
+  GraphWatch unheard(5s);
+  unheard.is_in_use(kMap, 1, kStart);
+  EXPECT_FALSE(unheard.is_behind(kStart));
+  GraphWatch gone = watch_with_finished_submap();
+  gone.is_in_use(kMap, 2, kStart + 5s);
+  EXPECT_FALSE(gone.is_behind(kStart + 5s)) << "once is enough";
 }
 
 }  // namespace

@@ -26,6 +26,8 @@ class Neighbours {
   }
 
   std::function<void(const slammot_LaserScan&)> on_scan;
+  int starting_beats = 0;  ///< So many times they say that they are starting.
+  bool is_starting() const { return beats_ <= starting_beats; }
 
   void answer(std::int64_t stamp_ns) {
     slammot_ScanLabels labels{};
@@ -48,11 +50,13 @@ class Neighbours {
       slammot_Heartbeat beat{};
       assign(beat.vehicle_id, "car");
       assign(beat.service_name, service);
-      beat.state = slammot_SERVICE_STATE_RUNNING;
+      beat.state = beats_ < starting_beats ? slammot_SERVICE_STATE_STARTING : slammot_SERVICE_STATE_RUNNING;
       heartbeats_.write(beat);
     }
+    ++beats_;
   }
 
+  int beats_ = 0;
   dds::Participant participant_;
   dds::WaitSet wait_set_{participant_};
   dds::Reader<slammot_LaserScan> scans_{participant_, dds::topics::kLaserScan};
@@ -77,12 +81,13 @@ struct IngestOnTheBus : ::testing::Test {
   }
 
   /// Plays the small log to its end.
-  void play(const std::string& speed, double resend_after_s = 0.2) {
+  void play(const std::string& speed, double resend_after_s = 0.2, double wait_for_services_s = 20.0) {
     write_small_log(folder / "drive.log", kScans);
     IngestService::Settings settings;
     settings.input = folder / "drive.log";
     settings.speed = speed;
     settings.config.resend_after_s = resend_after_s;
+    settings.config.wait_for_services_s = wait_for_services_s;
     const IngestService service(context, settings);
     std::atomic<bool> goes_on = true;
     std::thread others([&] { neighbours.run_while(goes_on); });
@@ -145,6 +150,18 @@ TEST_F(IngestOnTheBus, PlaysAtItsPaceWithoutWaitingForAnswers) {
   neighbours.on_scan = [this](const slammot_LaserScan& scan) { arrived.push_back(scan.sequence_number); };
   play("20");
   EXPECT_EQ(arrived.size(), kScans);
+}
+
+TEST_F(IngestOnTheBus, WaitsBeyondItsPatienceForAServiceThatSaysThatItIsStarting) {
+  neighbours.starting_beats = 50;  // a second and more
+  neighbours.on_scan = [this](const slammot_LaserScan& scan) {
+    EXPECT_FALSE(neighbours.is_starting());
+    arrived.push_back(scan.sequence_number);
+    neighbours.answer(scan.stamp_ns);
+  };
+  play("max", 10.0, 0.5);
+  EXPECT_EQ(arrived.size(), kScans);
+  EXPECT_EQ(count("begun_without_all_services"), 0U);
 }
 
 }  // namespace

@@ -7,8 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/wire/graph.hpp"
 #include "common/wire/sensor.hpp"
 #include "common/wire/service.hpp"
+#include "common/wire/stored_map.hpp"
 #include "tests/support/service_on_the_bus.hpp"
 
 namespace slammot::localization {
@@ -42,9 +44,12 @@ struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
   std::uint64_t drive_id = 1;
   std::vector<std::uint32_t> sequences;
   std::set<std::uint64_t> maps;
+  std::set<std::uint64_t> odoms;
+  flow::SubmapId submap_in_use;
+  geometry::Pose2 map_from_odom;
 
-  void begin() {
-    start<LocalizationService>("localization");
+  void begin(const LocalizationService::Settings& settings = {}) {
+    start<LocalizationService>("localization", settings);
     ASSERT_TRUE(scans.wait_for_readers(1, kForever));
     ASSERT_TRUE(odometry.wait_for_readers(1, kForever));
     ASSERT_TRUE(localized.wait_for_writers(1, kForever));
@@ -57,6 +62,9 @@ struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
     localized.take_each([this](const slammot_LocalizedScan& scan) {
       sequences.push_back(scan.sequence_number);
       maps.insert(scan.map_id);
+      submap_in_use = {scan.submap_id};
+      map_from_odom = {scan.map_from_odom.x_m, scan.map_from_odom.y_m, scan.map_from_odom.heading_rad};
+      odoms.insert(scan.odom_id);
     });
     return sequences.size() >= count;
   }
@@ -191,6 +199,171 @@ TEST_F(LocalizationOnTheBus, PublishesTheSubmapInUseWhenToldToFinishIt) {
   slammot::testing::assign(command.verb, "finish_submap");
   commands.write(command);
   EXPECT_TRUE(comes_to([&] { return tiles.take_each([](const auto&) {}) > 0; }));
+}
+
+/// With a neighbour that stands for map_store and loop_closing.
+struct LocalizationInAStoredMap : LocalizationOnTheBus {
+  static constexpr flow::MapId kMap{7};
+  dds::Writer<slammot_StoredMap> stored_map{neighbour_, dds::topics::kStoredMap};
+  dds::Writer<slammot_GraphCorrection> corrections{neighbour_, dds::topics::kGraphCorrection};
+  dds::Reader<slammot_SubmapTile> tiles{neighbour_, dds::topics::kSubmapTile};
+  std::set<std::uint32_t> submaps_published;
+
+  static LocalizationService::Settings continuing(double patience_s = 60.0) { return {.config = {}, .continues_map = true, .map_patience_s = patience_s}; }
+  void store(std::uint32_t submaps) {
+    const flow::SubmapId last{submaps == 0 ? 0 : submaps - 1};
+    stored_map.write(wire::encode("car", flow::StoredMap{kMap, submaps, 0, last, LocalizerConfig().map.cell_size_m}));
+  }
+  /// Submap n lies at (10 n, 0).
+  void place(std::uint32_t submaps, bool is_untied = false, const geometry::Pose2& map_from_odom_now = {}) {
+    flow::GraphCorrection correction{submaps, map_from_odom_now, {}, kMap, is_untied};
+    for (std::uint32_t id = 0; id < submaps; ++id) correction.submaps.push_back({{id}, {10.0 * id, 0.0, 0.0}});
+    wire::GraphCorrectionEncoder().encode("car", correction, [this](const slammot_GraphCorrection& part) { corrections.write(part); });
+  }
+  app::ServiceState state() { return context_->status().state(std::chrono::steady_clock::now()); }
+  std::string explanation() { return context_->status().explanation(std::chrono::steady_clock::now()); }
+  bool has_published(std::uint32_t submap) {
+    tiles.take_each([this](const slammot_SubmapTile& tile) { submaps_published.insert(tile.submap_id); });
+    return submaps_published.contains(submap);
+  }
+};
+
+TEST_F(LocalizationInAStoredMap, GoesOnAfterItsLastSubmap) {
+  store(3);
+  place(3);
+  begin(continuing());
+  localize(0, 1);
+  EXPECT_THAT(maps, ::testing::ElementsAre(kMap.value));
+  EXPECT_EQ(submap_in_use, flow::SubmapId{3});
+  EXPECT_EQ(count("continued_maps"), 1U);
+}
+
+TEST_F(LocalizationInAStoredMap, HasItsFirstScansWaitUntilLoopClosingHasPlacedAllOfIt) {
+  store(3);
+  place(2);
+  begin(continuing());
+  ASSERT_TRUE(comes_to([this] { return explanation().find("2 of 3") != std::string::npos; }));
+  EXPECT_EQ(state(), app::ServiceState::kStarting) << "sources of scans wait for what is starting";
+  send(0);
+  place(3);
+  ASSERT_TRUE(comes_to([this] { return has_localized(1); }));
+  EXPECT_EQ(submap_in_use, flow::SubmapId{3});
+  EXPECT_NE(state(), app::ServiceState::kStarting);
+}
+
+TEST_F(LocalizationInAStoredMap, SaysThatItDoesNotKnowWhereItIsUntilASubmapOfItsOwnIsTied) {
+  store(3);
+  place(3);
+  begin(continuing());
+  localize(0, 1);
+  EXPECT_THAT(explanation(), ::testing::HasSubstr("not found in the map"));
+  place(4, true, {1.0, 0.0, 0.0});
+  ASSERT_TRUE(comes_to([this] {
+    localize(sequences.back() + 1, sequences.back() + 2);
+    return map_from_odom.x_m == 1.0;
+  }));
+  EXPECT_THAT(explanation(), ::testing::HasSubstr("not found in the map"));
+  place(5, false, {2.0, 0.0, 0.0});
+  ASSERT_TRUE(comes_to([this] {
+    localize(sequences.back() + 1, sequences.back() + 2);
+    return map_from_odom.x_m == 2.0;
+  }));
+  EXPECT_THAT(explanation(), ::testing::Not(::testing::HasSubstr("not found in the map")));
+}
+
+TEST_F(LocalizationInAStoredMap, BeginsAMapOfItsOwnWhereNobodyStoresAny) {
+  begin(continuing(0.2));
+  localize(0, 1);
+  EXPECT_EQ(submap_in_use, flow::SubmapId{0});
+  EXPECT_EQ(count("begun_without_stored_map"), 1U);
+  EXPECT_THAT(explanation(), ::testing::HasSubstr("cannot go on in the stored map: map_store has not said what it has"));
+}
+
+TEST_F(LocalizationInAStoredMap, BeginsAMapOfItsOwnWhereLoopClosingIsNotThere) {
+  store(3);
+  begin(continuing(0.2));
+  localize(0, 1);
+  EXPECT_THAT(maps, ::testing::Not(::testing::Contains(kMap.value)));
+  EXPECT_EQ(count("begun_without_stored_map"), 1U);
+  EXPECT_THAT(explanation(), ::testing::HasSubstr("loop closing has placed 0 of 3 submaps"));
+}
+
+TEST_F(LocalizationInAStoredMap, BeginsTheFirstMapOfAllWhereNothingIsStored) {
+  store(0);
+  begin(continuing());
+  localize(0, 1);
+  EXPECT_EQ(count("maps"), 1U);
+  EXPECT_EQ(count("begun_without_stored_map"), 0U);
+}
+
+TEST_F(LocalizationInAStoredMap, BeginsAMapOfItsOwnWhereTheStoredOneIsOfAnotherProfile) {
+  stored_map.write(wire::encode("car", flow::StoredMap{kMap, 3, 0, {2}, 2.0 * LocalizerConfig().map.cell_size_m}));
+  place(3);
+  begin(continuing());
+  localize(0, 1);
+  EXPECT_EQ(submap_in_use, flow::SubmapId{0});
+  EXPECT_EQ(count("begun_without_stored_map"), 1U);
+  EXPECT_THAT(explanation(), ::testing::HasSubstr("another profile"));
+}
+
+TEST_F(LocalizationInAStoredMap, GoesOnAfterTheDriveBeforeThoughItsStampsGoBack) {
+  store(3);
+  place(3);
+  begin(continuing());
+  localize(0, 5);
+  drive_id = 2;
+  send(0);
+  ASSERT_TRUE(comes_to([this] { return has_published(3); })) << "the end of the drive before";
+  store(4);
+  place(4);
+  ASSERT_TRUE(comes_to([this] { return has_localized(6); }));
+  EXPECT_EQ(submap_in_use, flow::SubmapId{4});
+  EXPECT_EQ(sequences.back(), 0U);
+  EXPECT_THAT(maps, ::testing::ElementsAre(kMap.value));
+  EXPECT_EQ(odoms.size(), 2U) << "two drives in one map";
+}
+
+TEST_F(LocalizationInAStoredMap, ComesBackFromItsCheckpointWithoutWaiting) {
+  store(3);
+  place(3);
+  begin(continuing());
+  localize(0, 25);
+  stop();
+  stored_map.end(wire::encode("car", flow::StoredMap{}));
+  begin(continuing());
+  localize(26, 27);
+  EXPECT_EQ(count("restored_checkpoints"), 1U);
+  EXPECT_EQ(submap_in_use, flow::SubmapId{3});
+  EXPECT_EQ(odoms.size(), 1U);
+  EXPECT_THAT(explanation(), ::testing::HasSubstr("not found in the map"));
+}
+
+TEST_F(LocalizationInAStoredMap, HandsOverTheSubmapInWhichTheVehicleWasSwitchedOff) {
+  store(3);
+  place(3);
+  begin(continuing());
+  localize(0, 25);
+  stop();
+  begin(continuing());
+  drive_id = 2;
+  send(0);
+  ASSERT_TRUE(comes_to([this] { return has_published(3); }));
+  store(4);
+  place(4);
+  ASSERT_TRUE(comes_to([this] { return has_localized(0) && submap_in_use == flow::SubmapId{4}; }));
+}
+
+TEST_F(LocalizationInAStoredMap, KeepsTheCheckpointOfAnotherMapOutOfIt) {
+  begin();
+  localize(0, 25);
+  stop();
+  store(3);
+  place(3);
+  begin(continuing());
+  drive_id = 2;
+  localize(0, 1);
+  EXPECT_EQ(submap_in_use, flow::SubmapId{3});
+  EXPECT_FALSE(has_published(0));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 SavedSession example_session() {
   std::mt19937 random(1);
-  SavedSession session{{42}, {{"front", 7}, {"rear", 8}}, {slammot::testing::localized_scan(random, 0)}, {std::byte{1}, std::byte{2}}};
+  SavedSession session{{42}, {43}, {5}, {{"front", 7}, {"rear", 8}}, {slammot::testing::localized_scan(random, 0)}, {std::byte{1}, std::byte{2}}};
   session.last_answers.front().scanner_id = "front";
   return session;
 }
@@ -21,6 +21,8 @@ TEST(SavedSession, ComesBackFromItsBytes) {
   const auto back = session_of(to_bytes(session));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->map_id, session.map_id);
+  EXPECT_EQ(back->odom_id, session.odom_id);
+  EXPECT_EQ(back->first_submap_id, session.first_submap_id);
   EXPECT_EQ(back->drive_by_scanner, session.drive_by_scanner);
   EXPECT_EQ(back->localizer, session.localizer);
   ASSERT_EQ(back->last_answers.size(), 1U);

@@ -158,7 +158,7 @@ TEST_F(CarriedAway, SaysThatItDoesNotKnowWhereUntilTwoSubmapsAgree) {
   const auto submaps = carried_between(before_, drive(ring(), after_, 0.0));
   for (const Submap& submap : before_) closer_.add(submap);
   EXPECT_TRUE(closer_.knows_where_it_is());
-  closer_.add(submaps[before_.size()]);
+  EXPECT_TRUE(closer_.add(submaps[before_.size()]).is_untied);
   EXPECT_FALSE(closer_.knows_where_it_is());
 }
 

@@ -31,6 +31,17 @@ struct MapStoreOnTheBus : slammot::testing::ServiceOnTheBus {
     });
     return stored.size() >= count;
   }
+  dds::Reader<slammot_StoredMap> stored_map{neighbour_, dds::topics::kStoredMap};
+  std::optional<flow::StoredMap> said;
+
+  bool has_said_what_it_has() {
+    stored_map.take_each([this](const slammot_StoredMap& sample) {
+      const auto decoded = wire::decode(sample);
+      EXPECT_TRUE(decoded) << decoded.fault();
+      if (decoded) said = *decoded;
+    });
+    return said.has_value();
+  }
   void finish(const flow::Submap& submap) {
     wire::SubmapEncoder().encode("car", submap, [this](const slammot_SubmapTile& tile) { tiles.write(tile); });
   }
@@ -54,6 +65,52 @@ TEST_F(MapStoreOnTheBus, PublishesAllThatIsStoredWhenItStartsAgain) {
   late.assembler = {};
   start<MapStoreService>("map_store");
   EXPECT_TRUE(comes_to([&] { return has_stored(3); }));
+}
+
+TEST_F(MapStoreOnTheBus, SaysWhatThereIsToGoOnIn) {
+  start<MapStoreService>("map_store");
+  ASSERT_TRUE(comes_to([&] { return has_said_what_it_has(); }));
+  EXPECT_EQ(said->submaps, 0U) << "nothing is stored, and it says so";
+  for (const std::uint32_t id : {0U, 1U, 2U}) finish(example_submap(id));
+  ASSERT_TRUE(comes_to([&] { return has_said_what_it_has() && said->submaps == 3; }));
+  EXPECT_EQ(said->map_id, example_submap(0).map_id);
+  EXPECT_EQ(said->last_submap_id, flow::SubmapId{2});
+  EXPECT_EQ(said->cell_size_m, example_submap(0).cell_size_m);
+  flow::Submap of_next_map = example_submap(0);
+  of_next_map.map_id = {99};
+  finish(of_next_map);
+  ASSERT_TRUE(comes_to([&] { return has_said_what_it_has() && said->map_id == of_next_map.map_id; }));
+  EXPECT_EQ(said->submaps, 1U);
+}
+
+TEST_F(MapStoreOnTheBus, SaysThatASubmapIsDamagedUntilItComesAgain) {
+  {
+    auto store = Store::open(folder_ / "map.sqlite", {});
+    for (const std::uint32_t id : {0U, 1U, 2U}) ASSERT_EQ(std::get<Store>(store).put("car", example_submap(id)), PutResult::kStored);
+  }
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((folder_ / "map.sqlite").c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database, "UPDATE submap SET record = x'00ff' WHERE submap_id = 2", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+  start<MapStoreService>("map_store");
+  ASSERT_TRUE(comes_to([&] { return has_said_what_it_has(); }));
+  EXPECT_EQ(said->submaps, 2U);
+  EXPECT_EQ(said->unreadable, 1U);
+  EXPECT_EQ(said->last_submap_id, flow::SubmapId{2}) << "its number stays taken";
+  finish(example_submap(2));
+  ASSERT_TRUE(comes_to([&] { return has_said_what_it_has() && said->submaps == 3; }));
+  EXPECT_EQ(said->unreadable, 0U);
+}
+
+TEST_F(MapStoreOnTheBus, HasNothingOfAnotherVehiclesMap) {
+  {
+    auto store = Store::open(folder_ / "map.sqlite", {});
+    ASSERT_EQ(std::get<Store>(store).put("truck", example_submap(0)), PutResult::kStored);
+  }
+  start<MapStoreService>("map_store");
+  ASSERT_TRUE(comes_to([&] { return has_said_what_it_has(); }));
+  EXPECT_EQ(said->submaps, 0U);
+  EXPECT_EQ(context_->status().counter("other_vehicles"), 1U);
 }
 
 TEST_F(MapStoreOnTheBus, KeepsASubmapInMemoryWhileTheDatabaseIsLocked) {
@@ -94,6 +151,12 @@ TEST_F(MapStoreOnTheBus, KeepsTheLastTracksForATrackingServiceThatStartsLater) {
 TEST_F(MapStoreOnTheBus, CannotStartWithoutItsDatabase) {
   MapStoreService::Settings settings;
   settings.database = "/proc/no/map.sqlite";
+  EXPECT_THROW(start<MapStoreService>("map_store", settings), app::StartupFailure);
+}
+
+TEST_F(MapStoreOnTheBus, CannotStartWithAMapThatIsNotThere) {
+  MapStoreService::Settings settings;
+  settings.map_id = 99;
   EXPECT_THROW(start<MapStoreService>("map_store", settings), app::StartupFailure);
 }
 

@@ -181,5 +181,28 @@ TEST_F(StoreTest, SaysWhichSubmapIsDamaged) {
   EXPECT_EQ(store.last_fault(), "submap 0 is damaged");
 }
 
+TEST_F(StoreTest, PutsAnEarlierMapInUseAgain) {
+  Store store = open();
+  for (const std::uint32_t id : {0U, 1U, 2U}) ASSERT_EQ(store.put("car", of_map(7, example_submap(id))), PutResult::kStored);
+  ASSERT_EQ(store.put("car", of_map(8, example_submap(0))), PutResult::kStored);
+  ASSERT_EQ(store.put("truck", of_map(9, example_submap(0))), PutResult::kStored);
+  ASSERT_EQ(store.maps("car").size(), 2U);
+  EXPECT_EQ(store.maps("car").back().map_id, flow::MapId{8});
+  EXPECT_TRUE(store.make_latest("car", {7}));
+  EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}, SubmapId{1}, SubmapId{2}));
+  EXPECT_TRUE(same_submap(*store.get("car", SubmapId{2}), of_map(7, example_submap(2))));
+  EXPECT_EQ(store.maps("car").back().map_id, flow::MapId{7});
+  EXPECT_EQ(store.maps("car").back().submaps, 3);
+}
+
+TEST_F(StoreTest, PutsNoMapInUseThatIsNotTheVehicles) {
+  Store store = open();
+  ASSERT_EQ(store.put("car", of_map(7, example_submap(0))), PutResult::kStored);
+  ASSERT_EQ(store.put("truck", of_map(9, example_submap(0))), PutResult::kStored);
+  EXPECT_FALSE(store.make_latest("car", {9}));
+  EXPECT_EQ(store.last_fault(), "");
+  EXPECT_EQ(store.maps("car").back().map_id, flow::MapId{7});
+}
+
 }  // namespace
 }  // namespace slammot::map_store

@@ -10,8 +10,10 @@
 #include "common/wire/segmented_scan.hpp"
 #include "common/wire/sensor.hpp"
 #include "common/wire/service.hpp"
+#include "common/wire/submap.hpp"
 #include "common/wire/tracked_objects.hpp"
 #include "tests/support/dds.hpp"
+#include "tests/support/example_submap.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace slammot {
@@ -48,7 +50,7 @@ struct CollectorOnTheBus : ::testing::Test {
   }
 
   /// One scan through all services.
-  void drive(std::uint32_t sequence, std::uint64_t drive_id, flow::MapId map_id) {
+  void drive(std::uint32_t sequence, std::uint64_t drive_id, flow::MapId map_id, flow::OdomId odom_id = {}) {
     sensing::LaserScan scan;
     scan.stamp_ns = std::int64_t{sequence} * kPeriodNs;
     scan.sequence = sequence;
@@ -58,9 +60,11 @@ struct CollectorOnTheBus : ::testing::Test {
     localized.stamp_ns = scan.stamp_ns;
     localized.scanner_id = "front";
     localized.map_id = map_id;
+    localized.odom_id = odom_id;
     flow::TrackedObjects objects;
     objects.stamp_ns = scan.stamp_ns;
     objects.map_id = map_id;
+    objects.odom_id = odom_id;
     scans.write(wire::LaserScanEncoder(drive_id).encode("car", scan));
     localized_scans.write(wire::LocalizedScanEncoder().encode("car", localized));
     tracked_objects.write(wire::TrackedObjectsEncoder().encode("car", objects));
@@ -101,6 +105,20 @@ TEST_F(CollectorOnTheBus, ForgetsTheDriveBeforeWhenANewOneBegins) {
   drive(0, 2, {8});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
   EXPECT_EQ(collector->scan_stamps_ns().size(), 1U);
+}
+
+TEST_F(CollectorOnTheBus, KeepsTheMapButNotTheScansOfTheDriveBeforeInTheSameMap) {
+  dds::Writer<slammot_SubmapTile> tiles(services, dds::topics::kStoredSubmapTile);
+  start();
+  flow::Submap submap = slammot::testing::example_submap(0);
+  submap.map_id = {7};
+  wire::SubmapEncoder().encode("car", submap, [&](const slammot_SubmapTile& tile) { tiles.write(tile); });
+  for (const std::uint32_t sequence : {5U, 6U, 7U}) drive(sequence, 1, {7}, {1});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 3 && collector->record({}).submaps().size() == 1; }));
+  drive(0, 2, {7}, {2});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
+  EXPECT_EQ(collector->record({}).submaps().size(), 1U);
+  EXPECT_THAT(collector->scan_stamps_ns(), ::testing::ElementsAre(0));
 }
 
 TEST_F(CollectorOnTheBus, KeepsWhatDetectionAndTrackingHeldEchoesToBe) {
@@ -154,6 +172,15 @@ TEST_F(CollectorOnTheBus, DoesNotMixADriveFromBeforeItsCrashWithANewOne) {
   drive(0, 2, {8});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
   EXPECT_THAT(collector->scan_stamps_ns(), ::testing::ElementsAre(0));
+}
+
+TEST_F(CollectorOnTheBus, DoesNotMixADriveFromBeforeItsCrashWithANewOneInTheSameMap) {
+  start();
+  for (const std::uint32_t sequence : {0U, 1U, 2U}) drive(sequence, 1, {7}, {1});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 3; }));
+  start();
+  drive(0, 2, {7}, {2});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
 }
 
 TEST_F(CollectorOnTheBus, HasNothingToGoOnFromOnceItsResultsAreWritten) {

@@ -7,6 +7,7 @@
 #include "common/config/profiles.hpp"
 #include "services/slammot/pipeline.hpp"
 #include "services/slammot/stored_map.hpp"
+#include "tests/support/example_submap.hpp"
 #include "tests/support/localizer_drive.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -111,7 +112,7 @@ TEST(Relocalization, GoesOnInAStoredMapFromAnyPlaceInIt) {
   Pipeline first(indoor());
   Drive{.last_s = 110.0}.through(first);
   ASSERT_FALSE(write_stored_map(folder.path(), first.record().submaps()));
-  const auto stored = read_stored_map(folder.path());
+  const auto stored = read_stored_map(folder.path(), indoor().localization.map.cell_size_m);
   ASSERT_TRUE(stored);
 
   const Drive second{.first_s = 40.0, .last_s = 100.0};
@@ -121,6 +122,17 @@ TEST(Relocalization, GoesOnInAStoredMapFromAnyPlaceInIt) {
   EXPECT_TRUE(pipeline.knows_where_it_is());
   EXPECT_LT(second.worst_at_end_m(pipeline, around(0.0)), 0.3);
   EXPECT_GT(pipeline.record().submaps().size(), stored->size());  // one map of both drives, for the third
+}
+
+TEST(Relocalization, DoesNotGoOnInAMapOfAnotherProfile) {
+  const slammot::testing::TemporaryFolder folder;
+  flow::Submap submap = slammot::testing::example_submap(0);
+  submap.cell_size_m = 0.2;
+  ASSERT_FALSE(write_stored_map(folder.path(), {submap}, "robot"));
+  EXPECT_TRUE(read_stored_map(folder.path(), 0.2));
+  const auto refused = read_stored_map(folder.path(), 0.05);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("of another profile, with cells of 0.2 m for 0.05 m here"), std::string::npos) << refused.error().message;
 }
 
 }  // namespace

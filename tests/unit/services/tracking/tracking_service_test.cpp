@@ -41,6 +41,7 @@ flow::TrackedObjects one_car(std::int64_t stamp_ns) {
   flow::TrackedObjects objects;
   objects.stamp_ns = stamp_ns;
   objects.map_id = {7};
+  objects.odom_id = {1};
   objects.objects = {car};
   return objects;
 }
@@ -51,6 +52,7 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
   dds::Reader<slammot_TrackedObjects> objects{neighbour_, dds::topics::kTrackedObjects};
   dds::Reader<slammot_ScanLabels> labels{neighbour_, dds::topics::kScanLabels};
   flow::MapId map_id{7};
+  flow::OdomId odom_id{1};
   std::vector<flow::TrackedObjects> published;
   std::vector<std::uint32_t> labelled;
 
@@ -63,6 +65,7 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
   void send(std::uint32_t sequence) {
     flow::SegmentedScan scan = empty_scan(sequence);
     scan.map_id = map_id;
+    scan.odom_id = odom_id;
     scans.write(wire::SegmentedScanEncoder().encode("car", scan));
   }
   bool has_labelled(std::size_t count) {
@@ -112,6 +115,25 @@ TEST_F(TrackingOnTheBus, LeavesTracksOfAnotherMapAloneThoughTheirTimeIsTheSame) 
   send(0);
   ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
   EXPECT_THAT(published.front().objects, ::testing::IsEmpty());
+}
+
+TEST_F(TrackingOnTheBus, LeavesTracksOfAnotherDriveInTheSameMapAloneThoughTheirTimeIsTheSame) {
+  flow::TrackedObjects of_earlier_drive = one_car(kScanNs - 100'000'000);
+  of_earlier_drive.odom_id = {0};
+  stored.write(wire::TrackedObjectsEncoder().encode("car", of_earlier_drive));
+  begin();
+  send(0);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
+  EXPECT_THAT(published.front().objects, ::testing::IsEmpty());
+}
+
+TEST_F(TrackingOnTheBus, BeginsAnewWhereAnotherDriveGoesOnInTheSameMapThoughItsStampsGoBack) {
+  begin();
+  for (const std::uint32_t sequence : {5U, 6U}) send(sequence);
+  odom_id = {2};
+  for (const std::uint32_t sequence : {0U, 1U}) send(sequence);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(4); }));
+  EXPECT_THAT(labelled, ::testing::ElementsAre(5, 6, 0, 1));
 }
 
 TEST_F(TrackingOnTheBus, BeginsAnewWithANewMapThoughItsTimeIsTheSame) {
