@@ -57,9 +57,16 @@ VarianceFactors carried(const VarianceFactors& factors, const geometry::Uncertai
   return next;
 }
 
-VarianceFactors published(const VarianceFactors& factors, const Eigen::Vector3d& shared_error) {
-  const Eigen::Vector3d matched = Eigen::Vector3d::Ones() - factors.dead_reckoned;
-  return {matched.cwiseProduct(factors.of_axis).cwiseProduct(shared_error) + factors.dead_reckoned, Eigen::Vector3d::Zero()};
+VarianceFactors published(const VarianceFactors& factors, const PoseErrors& errors, const MapChange& change) {
+  const AxisError* const of_axis[] = {&errors.forward, &errors.sideways, &errors.heading};
+  VarianceFactors next;
+  for (int axis = 0; axis < 3; ++axis) {
+    const AxisError& error = *of_axis[axis];
+    const double renewed = change.way_m / (change.way_m + error.view_m);
+    const double matched = error.of_surprises * factors.of_axis[axis] + error.of_map * renewed * change.squared_residuals;
+    next.of_axis[axis] = matched + factors.dead_reckoned[axis] * (1.0 - matched);
+  }
+  return next;
 }
 
 Matrix3 scaled(const geometry::UncertainPose2& pose, const VarianceFactors& factors) {

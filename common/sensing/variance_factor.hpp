@@ -27,8 +27,28 @@ VarianceFactors learned(const VarianceFactors& factors, const geometry::Uncertai
 VarianceFactors carried(const VarianceFactors& factors, const geometry::UncertainPose2& before, const geometry::UncertainPose2& predicted,
                         const geometry::UncertainPose2& matched);
 
-/// Factors with which to publish: those learned times shared_error of each axis for what was matched, 1 for what was dead reckoned.
-VarianceFactors published(const VarianceFactors& factors, const Eigen::Vector3d& shared_error);
+/// How one axis of a published pose errs, beside what surprises of matches show. They cannot show what the map shares with the scan: as long as the
+/// same part of the map is in view its error stays the same and is none of the motion; with the way, another part comes into view.
+struct AxisError {
+  double of_surprises = 1.0;  ///< Share of what surprises say.
+  double of_map = 0.0;        ///< Share of the filter's variance by which another part of the map is off, where residuals are the scanner's noise.
+  double view_m = 1.0;        ///< After this way half of what tells of the axis is another part.
+};
+
+struct PoseErrors {
+  AxisError forward;
+  AxisError sideways;
+  AxisError heading;
+};
+
+/// What of the map is not what was in view before.
+struct MapChange {
+  double way_m = 0.0;               ///< Of the time over which published poses are to be compared.
+  double squared_residuals = 1.0;   ///< Mean square of what is left after the match, of what the scanner's noise would leave.
+};
+
+/// Factors with which to publish: of what was matched those learned and the map's error, 1 for what was dead reckoned.
+VarianceFactors published(const VarianceFactors& factors, const PoseErrors& errors, const MapChange& change);
 
 /// The covariance of a pose, in the frame of the pose, with its axes along and across the vehicle scaled.
 geometry::Matrix3 scaled(const geometry::UncertainPose2& pose, const VarianceFactors& factors);

@@ -109,6 +109,19 @@ FieldTable<matching::CorrelativeConfig> search_fields() {
   };
 }
 
+FieldTable<sensing::PoseErrors> pose_error_fields() {
+  using C = sensing::PoseErrors;
+  using A = sensing::AxisError;
+  const FieldTable<A> axis{
+      {"of_surprises", &A::of_surprises, "Of published variances: share of what surprises of matches say.", kPositive},
+      {"of_map", &A::of_map, "Share of the filter's variance by which another part of the map is off.", kNotNegative},
+      {"view_m", &A::view_m, "After this way half of what tells of the axis is another part of the map.", kPositive},
+  };
+  FieldTable<C> fields = with_nested<C>({}, "forward", &C::forward, axis);
+  fields = with_nested<C>(std::move(fields), "sideways", &C::sideways, axis);
+  return with_nested<C>(std::move(fields), "heading", &C::heading, axis);
+}
+
 FieldTable<AmbiguousMatchConfig> ambiguous_fields() {
   using C = AmbiguousMatchConfig;
   using S = matching::ScrimConfig;
@@ -165,10 +178,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"max_pending", &C::max_pending, "Scans that wait for labels before the map goes on without.", Range{1, 100}},
       {"longest_label_wait_s", &C::longest_label_wait_s, "Nor does it wait longer than this, by the scans' stamps.", Range{0.0, 10.0}},
       {"variance_memory_s", &C::variance_memory_s, "Over which published covariances are fitted to the surprises seen.", kPositive},
-      {"shared_error_forward", &C::shared_error_forward, "Published variances against what surprises of matches alone would say: along the vehicle.",
-       kPositive},
-      {"shared_error_sideways", &C::shared_error_sideways, "The same across the vehicle.", kPositive},
-      {"shared_error_heading", &C::shared_error_heading, "The same for its heading.", kPositive},
+      {"compared_over_s", &C::compared_over_s, "Published covariances are to be honest about the motion over this time.", kPositive},
       {"drift_m_per_sqrt_m", &C::drift_m_per_sqrt_m, "One sigma that dead reckoning by matching adds to constraints.",
        kPositive},
       {"drift_rad_per_sqrt_m", &C::drift_rad_per_sqrt_m, "The same for their heading.", kPositive},
@@ -185,7 +195,8 @@ const FieldTable<LocalizerConfig>& localization_fields() {
     fields = with_nested<C>(std::move(fields), "search", &C::search, search_fields());
     fields = with_nested<C>(std::move(fields), "motion", &C::motion, motion_fields());
     fields = with_nested<C>(std::move(fields), "match", &C::match, match_fields());
-    return with_nested<C>(std::move(fields), "ambiguous", &C::ambiguous, ambiguous_fields());
+    fields = with_nested<C>(std::move(fields), "ambiguous", &C::ambiguous, ambiguous_fields());
+    return with_nested<C>(std::move(fields), "pose_errors", &C::pose_errors, pose_error_fields());
   }();
   return table;
 }

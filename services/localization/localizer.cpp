@@ -19,7 +19,7 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7436;  // "slammot6": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7437;  // "slammot7": the digit counts the forms of a checkpoint
 constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
@@ -223,22 +223,23 @@ Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::P
   }
   if (says_little(result.scan_information, config_.ambiguous)) {
     ++progress_.counters.sampled_matches;
-    return {ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, config, scan_sequence), true, true};
+    const UncertainPose2 sampled = ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, config, scan_sequence);
+    return {.odom_from_base = sampled, .is_believed = true, .was_sampled = true, .rms_residual_m = result.rms_residual_m};
   }
-  return {result.map_from_base, true};
+  return {.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m};
 }
 
-void Localizer::travel(const Pose2& before_from_base) {
+void Localizer::travel(const Pose2& before_from_base, double duration_s) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
   progress_.travelled_m += moved_m;
+  progress_.map_change.way_m = std::exp(-duration_s / config_.compared_over_s) * progress_.map_change.way_m + moved_m;
   const double position_m2 = config_.drift_m_per_sqrt_m * config_.drift_m_per_sqrt_m * moved_m;
   const double heading_rad2 = config_.drift_rad_per_sqrt_m * config_.drift_rad_per_sqrt_m * moved_m;
   progress_.drift.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
 }
 
 UncertainPose2 Localizer::published_pose() const {
-  const Eigen::Vector3d shared(config_.shared_error_forward, config_.shared_error_sideways, config_.shared_error_heading);
-  return {progress_.estimate.odom_from_base, sensing::scaled(progress_.estimate.uncertain_pose(), sensing::published(progress_.variance_factors, shared))};
+  return {progress_.estimate.odom_from_base, sensing::scaled(progress_.estimate.uncertain_pose(), sensing::published(progress_.variance_factors, config_.pose_errors, progress_.map_change))};
 }
 
 flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base) const {
@@ -371,10 +372,11 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   if (found.is_believed) {
     const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
     progress_.variance_factors = sensing::learned(progress_.variance_factors, prior, found.odom_from_base, share);
+    progress_.map_change.squared_residuals = std::pow(found.rms_residual_m / config_.range_noise_m, 2);
   }
   if (found.is_believed && !found.was_sampled) learn_sweep(scan, prior, found.odom_from_base.pose, now);
   progress_.variance_factors = sensing::carried(progress_.variance_factors, before, prior, found.odom_from_base);
-  travel(before_from_base);
+  travel(before_from_base, step.duration_s);
   now.was_sampled = found.was_sampled;
   if (has_gone_astray(scan.stamp_ns)) begin_astray_submap();
   now.knows_velocity = is_later || progress_.last->knows_velocity;
@@ -538,6 +540,8 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(self.progress_.estimate.covariance);
   visit(self.progress_.variance_factors.of_axis);
   visit(self.progress_.variance_factors.dead_reckoned);
+  visit(self.progress_.map_change.way_m);
+  visit(self.progress_.map_change.squared_residuals);
   visit(self.progress_.sweep_factor.value);
   visit(self.progress_.sweep_factor.variance);
   visit(last.has_wheels);
@@ -585,6 +589,8 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
                         is_believable(restored.progress_.estimate.covariance) && restored.progress_.estimate.calibration.norm() < 1.0 && restored.progress_.estimate.velocity.norm() < kFastestRestored &&
                         restored.progress_.variance_factors.of_axis.minCoeff() >= 0.0 && restored.progress_.variance_factors.of_axis.allFinite() &&
                         restored.progress_.variance_factors.dead_reckoned.minCoeff() >= 0.0 && restored.progress_.variance_factors.dead_reckoned.maxCoeff() <= 1.0 &&
+                        restored.progress_.map_change.way_m >= 0.0 && std::isfinite(restored.progress_.map_change.way_m) &&
+                        restored.progress_.map_change.squared_residuals >= 0.0 && std::isfinite(restored.progress_.map_change.squared_residuals) &&
                         std::isfinite(restored.progress_.sweep_factor.value) && restored.progress_.sweep_factor.variance >= 0.0 &&
                         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
                         std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.progress_.travelled_m);

@@ -176,7 +176,7 @@ std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prio
     const bool is_same = best && are_same(best->odom_from_base.pose, result.map_from_base.pose);
     if (!is_same) rival_quality = std::max(rival_quality, std::min(quality, best_quality));
     if (!is_best) continue;
-    best = Match{result.map_from_base, true};
+    best = Match{.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m};
     best_quality = quality;
   }
   if (!best || rival_quality > kRivalRatio * best_quality) return std::nullopt;
