@@ -159,6 +159,19 @@ TEST(Localizer, SaysHowFastItGoes) {
   EXPECT_NEAR(localized->yaw_rate_radps, 0.0, 0.01);
 }
 
+TEST(Localizer, IsSurerOfItsWayWhereItStandsThanWhereItDrives) {
+  DriveSetup setup = along_a_street();
+  setup.world_from_base_at = [path = setup.world_from_base_at](double time_s) { return path(std::min(time_s, 5.0)); };
+  SimulatedDrive drive(setup);
+  Localizer localizer(small_map_config());
+  std::optional<flow::LocalizedScan> driving;
+  for (std::uint32_t scan = 0; scan < 100; ++scan) driving = drive_one(localizer, drive, scan);
+  std::optional<flow::LocalizedScan> standing;
+  for (std::uint32_t scan = 100; scan < 200; ++scan) standing = drive_one(localizer, drive, scan);
+  EXPECT_LT(9.0 * standing->odom_from_base.covariance(0, 0), driving->odom_from_base.covariance(0, 0));
+  EXPECT_LT(standing->odom_from_base.covariance(1, 1), driving->odom_from_base.covariance(1, 1));
+}
+
 TEST(Localizer, GivesTheSameAnswerWhereverTheWorldLies) {
   const Pose2 there_from_here{70.3, -12.9, 2.2};
   DriveSetup setup = round_in_a_room();
