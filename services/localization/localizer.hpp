@@ -70,7 +70,7 @@ struct LocalizerConfig {
   sensing::MotionModelConfig motion;
   matching::PointToLineConfig match;
   AmbiguousMatchConfig ambiguous;
-  /// Of published covariances; measured by NEES on simulated drives: docs/decisions/0020. What is ahead stays in view for long, what is beside does not.
+  /// Of published covariances; measured by NEES on simulated drives: docs/decisions/0022. What is ahead stays in view for long, what is beside does not.
   sensing::PoseErrors pose_errors{.forward = {0.95, 0.08, 8.0}, .sideways = {0.7, 0.0105, 2.0}, .heading = {1.8, 0.0055, 1.0}};
 };
 
