@@ -92,11 +92,17 @@ void note_seen(SizeEvidence& evidence, double seen_m) {
 }
 
 void note_whole(SizeEvidence& evidence, double seen_m, double variance_m2) {
-  constexpr double kShorterM = 0.5;  // than what was seen before: a piece, or a side seen askew
-  if (seen_m < evidence.least_m - kShorterM) return;
+  constexpr double kShorterM = 0.5;       // than what was seen before: a piece, or a side seen askew
+  constexpr double kForgotten = 0.02;     // of it, for each scan that says so: it may have been several things
+  constexpr double kSharedShare = 0.25;   // of the variance: neighbouring scans err alike, so that many know little more than one
+  const bool is_shorter = seen_m < evidence.least_m - kShorterM;
+  evidence.least_m = std::min(evidence.least_m, evidence.least_m + kForgotten * (seen_m - evidence.least_m));
+  if (is_shorter) return;
+  const double least_variance_m2 = std::max(kWholeSigmaM * kWholeSigmaM, kSharedShare * variance_m2);
+  if (evidence.whole.variance_m2 <= kSharedShare * variance_m2) return;
   const double gain = evidence.whole.variance_m2 / (evidence.whole.variance_m2 + variance_m2);
   evidence.whole.value_m += gain * (seen_m - evidence.whole.value_m);
-  evidence.whole.variance_m2 = std::max(kWholeSigmaM * kWholeSigmaM, (1.0 - gain) * evidence.whole.variance_m2);
+  evidence.whole.variance_m2 = std::max(least_variance_m2, (1.0 - gain) * evidence.whole.variance_m2);
 }
 
 /// One axis of a body and how the laser looks at it.

@@ -66,7 +66,7 @@ struct TrackingConfig {
   double sure_moved_share = 0.7;            ///< and such a share,
   double least_travel_m = 0.3;              ///< or must have come this far from where it began,
   double least_travel_sigmas = 3.0;         ///< and so many of its own standard deviations,
-  double most_speed_sigma_mps = 0.7;        ///< with a velocity as well known as this.
+  double most_speed_sigma_mps = 0.5;        ///< with a velocity as well known as this.
   double longest_unseen_s = 3.0;            ///< Without a segment before a track ends, however well it is explained.
   double longest_unseen_published_s = 0.02;  ///< After which it is followed, but not published as confirmed.
   double publish_score = 0.0;               ///< Nor with a score below this.

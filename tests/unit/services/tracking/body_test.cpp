@@ -124,6 +124,26 @@ TEST(Body, IsNotBelievedToBeAPieceThatNothingOnTheRoadIsLike) {
   EXPECT_GT(body.length.variance_m2, 1.0);
 }
 
+TEST(Body, ForgetsThatItWasLargerOnceWhenItIsSeenFromEndToEndAgainAndAgain) {
+  const auto points = echoes_of({8.0, 12.0}, 4.5, 1.8);
+  Body body;
+  body.has_sides = body.is_oriented = true;
+  body.length_evidence.least_m = 10.0;  // for a moment a wall was taken for a part of it
+  body = with_likely_sizes(body, kConfig);
+  ASSERT_GT(body.length.value_m, 9.0);
+  for (int scan = 0; scan < 150; ++scan) body = measure_box(body, {8.0, 12.0}, glimpse_of(points), kConfig).body;
+  EXPECT_NEAR(body.length.value_m, 4.5, 0.3);
+}
+
+TEST(Body, DoesNotLearnItsWidthBetterFromManyScansThatAllSeeItFromFarAway) {
+  const auto points = echoes_of({57.0, 0.0}, 4.5, 1.8);  // four echoes, half a metre apart
+  Body body;
+  body.has_sides = body.is_oriented = true;
+  body = with_likely_sizes(body, kConfig);
+  for (int scan = 0; scan < 100; ++scan) body = measure_box(body, {57.0, 0.0}, glimpse_of(points), kConfig).body;
+  EXPECT_GT(std::sqrt(body.width_evidence.whole.variance_m2), 0.1);
+}
+
 TEST(Body, KeepsTheSideThatIsSeenWhereItIsWhenItGrows) {
   Body body;
   body.has_sides = body.is_oriented = true;
