@@ -423,7 +423,10 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   flow::TrackedObject object;
   object.track_id = track.track_id;
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
-  object.confirmed = track.confirmed && !track.is_refuted && track.score >= config.publish_score && unseen_s <= config.longest_unseen_published_s;
+  // What has got nowhere yet and seems to stand already may never have moved; it is followed until that is known.
+  const bool may_always_have_stood = track.way_m == 0.0 && (track.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps);
+  object.confirmed = track.confirmed && !track.is_refuted && !may_always_have_stood && track.score >= config.publish_score &&
+                     unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);
   const filters::MotionState estimate = filters::estimate_of(track.move_stop, track.estimate);
   object.position_in_odom_m = track.position_m();
