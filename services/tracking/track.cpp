@@ -423,8 +423,9 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   flow::TrackedObject object;
   object.track_id = track.track_id;
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
-  // What has got nowhere yet and seems to stand already may never have moved; it is followed until that is known.
-  const bool may_always_have_stood = track.way_m == 0.0 && (track.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps);
+  // What has got nowhere yet and seems to stand already may never have moved; it is followed until that is known. Where only
+  // people move it is the foot on which somebody stands while the other swings.
+  const bool may_always_have_stood = !only_people_move(config) && track.way_m == 0.0 && (track.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps);
   object.confirmed = track.confirmed && !track.is_refuted && !may_always_have_stood && track.score >= config.publish_score &&
                      unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);

@@ -629,8 +629,8 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
     const bool has_stood = !track.confirmed && age_s > config_.longest_tentative_s;
     const double idle_s = static_cast<double>(last_stamp_ns_ - track.last_moving_ns) * kNanosecond_s;
-    constexpr double kLeastStandShare = 0.25;  // what has come next to no way is soon held never to have moved
-    const double may_stand_s = config_.longest_stand_s * std::max(kLeastStandShare, track.way_m / config_.least_travel_to_stand_m);
+    const double least_share = only_people_move(config_) ? 1.0 : 0.25;  // what has come next to no way is soon held never to have moved
+    const double may_stand_s = config_.longest_stand_s * std::max(least_share, track.way_m / config_.least_travel_to_stand_m);
     const bool never_moved = track.confirmed && idle_s > may_stand_s;
     const bool is_dead = is_lost || has_stood || never_moved || contradicts_itself(track, config_) || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {
