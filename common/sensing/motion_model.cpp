@@ -1,5 +1,6 @@
 #include "common/sensing/motion_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -14,23 +15,25 @@ double squared(double value) { return value * value; }
 constexpr double kSurprise = 16.3;  // chi-square, 3 degrees of freedom, 99.9 %
 
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
-using Matrix35 = Eigen::Matrix<double, 3, 5>;
-using Matrix37 = Eigen::Matrix<double, 3, 7>;
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+using Matrix38 = Eigen::Matrix<double, 3, 8>;
 
 /// How far a point moves that is off the pivot by one metre: what turns about the pivot swings.
 geometry::Matrix2 swing(double turned_rad) { return geometry::rotation(turned_rad) - geometry::Matrix2::Identity(); }
 
 /// Derivative of the corrected step by the calibration; that of the swing by the biases is left out: millimetres of decimetres.
-Matrix35 step_by_calibration(const Pose2& by_wheels, double duration_s, const MotionCalibration& calibration) {
+Matrix36 step_by_calibration(const WheelStep& step, const MotionCalibration& calibration) {
+  const Pose2& by_wheels = step.before_from_base;
+  const double duration_s = step.duration_s;
   const double distance_m = std::hypot(by_wheels.x_m, by_wheels.y_m);
   const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
   const geometry::Vector2 turned_m = geometry::rotation(0.5 * turn_bias_rad) * by_wheels.translation_m();
   const geometry::Vector2 by_turn_m = 0.5 * (1.0 + calibration.x()) * geometry::Vector2(-turned_m.y(), turned_m.x());
   const geometry::Matrix2 by_pivot = swing(by_wheels.heading_rad + turn_bias_rad);
-  Matrix35 J;
-  J << turned_m.x(), by_turn_m.x() * duration_s, by_turn_m.x() * distance_m, by_pivot(0, 0), by_pivot(0, 1),
-       turned_m.y(), by_turn_m.y() * duration_s, by_turn_m.y() * distance_m, by_pivot(1, 0), by_pivot(1, 1),
-       0.0, duration_s, distance_m, 0.0, 0.0;
+  Matrix36 J;
+  J << turned_m.x(), by_turn_m.x() * duration_s, by_turn_m.x() * distance_m, by_pivot(0, 0), by_pivot(0, 1), step.by_stamp_offset.x(),
+       turned_m.y(), by_turn_m.y() * duration_s, by_turn_m.y() * distance_m, by_pivot(1, 0), by_pivot(1, 1), step.by_stamp_offset.y(),
+       0.0, duration_s, distance_m, 0.0, 0.0, step.by_stamp_offset.z();
   return J;
 }
 
@@ -59,8 +62,8 @@ MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose
   const geometry::Matrix3 by_step = geometry::compound_jacobian_second(before.odom_from_base);
   after.covariance.topLeftCorner<3, 3>() = by_before * before.covariance.topLeftCorner<3, 3>() * by_before.transpose() +
                                            by_step * before_from_base.covariance * by_step.transpose();
-  after.covariance.topRightCorner<3, 7>() = by_before * before.covariance.topRightCorner<3, 7>();
-  after.covariance.bottomLeftCorner<7, 3>() = after.covariance.topRightCorner<3, 7>().transpose();
+  after.covariance.topRightCorner<3, 8>() = by_before * before.covariance.topRightCorner<3, 8>();
+  after.covariance.bottomLeftCorner<8, 3>() = after.covariance.topRightCorner<3, 8>().transpose();
   return after;
 }
 
@@ -68,9 +71,9 @@ MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose
 
 MotionEstimate at_start(const MotionModelConfig& config) {
   MotionEstimate estimate;
-  estimate.covariance.diagonal().tail<7>() << squared(config.scale_prior), squared(config.heading_rate_bias_prior_radps),
-      squared(config.heading_per_metre_bias_prior), squared(config.pivot_prior_m), squared(config.pivot_prior_m), squared(config.speed_prior_mps),
-      squared(config.yaw_rate_prior_radps);
+  estimate.covariance.diagonal().tail<8>() << squared(config.scale_prior), squared(config.heading_rate_bias_prior_radps),
+      squared(config.heading_per_metre_bias_prior), squared(config.pivot_prior_m), squared(config.pivot_prior_m),
+      squared(config.stamp_offset_prior_s), squared(config.speed_prior_mps), squared(config.yaw_rate_prior_radps);
   return estimate;
 }
 
@@ -81,7 +84,7 @@ geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, d
   const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
   // Half of the missing turn happened before the middle of the step.
   const geometry::Vector2 moved_m = geometry::rotation(0.5 * turn_bias_rad) * wheels.translation_m() * (1.0 + calibration.x()) +
-                                    swing(wheels.heading_rad + turn_bias_rad) * calibration.tail<2>();
+                                    swing(wheels.heading_rad + turn_bias_rad) * calibration.segment<2>(3);
   geometry::UncertainPose2 step;
   step.pose = {moved_m.x(), moved_m.y(), geometry::wrap_angle(wheels.heading_rad + turn_bias_rad)};
   const double position_m = config.position_noise_m + distance_m * config.position_noise_per_m;
@@ -91,22 +94,23 @@ geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, d
   return step;
 }
 
-MotionEstimate moved_by_wheels(const MotionEstimate& before, const Pose2& before_from_base_by_wheels, double duration_s,
-                               const MotionModelConfig& config) {
-  const geometry::UncertainPose2 step = predict_step(before_from_base_by_wheels, duration_s, before.calibration, config);
+MotionEstimate moved_by_wheels(const MotionEstimate& before, const WheelStep& by_wheels, const MotionModelConfig& config) {
+  const geometry::UncertainPose2 step = predict_step(by_wheels.before_from_base, by_wheels.duration_s, before.calibration, config);
   MotionEstimate after = moved(before, step);
-  const Matrix35 by_calibration = geometry::compound_jacobian_second(before.odom_from_base) *
-                                  step_by_calibration(before_from_base_by_wheels, duration_s, before.calibration);
-  const Matrix35 cross = after.covariance.block<3, 5>(0, 3);
-  const Eigen::Matrix<double, 5, 5> of_calibration = before.covariance.block<5, 5>(3, 3);
+  const Matrix36 by_calibration = geometry::compound_jacobian_second(before.odom_from_base) * step_by_calibration(by_wheels, before.calibration);
+  const Matrix36 cross = after.covariance.block<3, 6>(0, 3);
+  const Eigen::Matrix<double, 6, 6> of_calibration = before.covariance.block<6, 6>(3, 3);
   const geometry::Matrix3 mixed = by_calibration * cross.transpose();
   after.covariance.topLeftCorner<3, 3>() += by_calibration * of_calibration * by_calibration.transpose() + mixed + mixed.transpose();
-  after.covariance.block<3, 5>(0, 3) += by_calibration * of_calibration;
-  after.covariance.block<5, 3>(3, 0) = after.covariance.block<3, 5>(0, 3).transpose();
-  const double distance_m = std::hypot(before_from_base_by_wheels.x_m, before_from_base_by_wheels.y_m);
+  after.covariance.block<3, 6>(0, 3) += by_calibration * of_calibration;
+  after.covariance.block<6, 3>(3, 0) = after.covariance.block<3, 6>(0, 3).transpose();
+  const double distance_m = std::hypot(by_wheels.before_from_base.x_m, by_wheels.before_from_base.y_m);
   after.covariance(3, 3) += squared(config.scale_walk_per_sqrt_m) * distance_m;
-  after.covariance(4, 4) += squared(config.heading_rate_bias_walk) * duration_s;
-  take_velocity(step, duration_s, after);
+  after.covariance(4, 4) += squared(config.heading_rate_bias_walk) * by_wheels.duration_s;
+  double& stamp_offset_s2 = after.covariance(kStampOffset, kStampOffset);
+  const double least_known_s2 = std::max(stamp_offset_s2, squared(config.stamp_offset_prior_s));
+  stamp_offset_s2 = std::min(least_known_s2, stamp_offset_s2 + squared(config.stamp_offset_walk) * by_wheels.duration_s);
+  take_velocity(step, by_wheels.duration_s, after);
   return after;
 }
 
@@ -121,7 +125,7 @@ MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s
                  0.0, 1.0;
   by_velocity *= duration_s;
   const geometry::Matrix3 by_step = geometry::compound_jacobian_second(before.odom_from_base);
-  Matrix10 F = Matrix10::Identity();
+  Matrix11 F = Matrix11::Identity();
   F.topLeftCorner<3, 3>() = geometry::compound_jacobian_first(before.odom_from_base, step.pose);
   F.topRightCorner<3, 2>() = by_step * by_velocity;
   MotionEstimate after = before;
@@ -146,18 +150,18 @@ MotionEstimate matched(const MotionEstimate& predicted, const geometry::Uncertai
   MotionEstimate estimate = predicted;
   estimate.odom_from_base = odom_from_base.pose;
   const geometry::Matrix3 prior = predicted.covariance.topLeftCorner<3, 3>();
-  const Matrix37 cross = predicted.covariance.topRightCorner<3, 7>();
+  const Matrix38 cross = predicted.covariance.topRightCorner<3, 8>();
   const Eigen::Vector3d surprise = geometry::difference(odom_from_base.pose, predicted.odom_from_base);
   const Eigen::LDLT<geometry::Matrix3> factors(prior);
   const bool is_credible = surprise.dot(factors.solve(surprise)) < kSurprise;
-  Eigen::Matrix<double, 7, 3> gain = Eigen::Matrix<double, 7, 3>::Zero();
+  Eigen::Matrix<double, 8, 3> gain = Eigen::Matrix<double, 8, 3>::Zero();
   if (is_credible) gain = factors.solve(cross).transpose();
-  estimate.calibration += gain.topRows<5>() * surprise;
+  estimate.calibration += gain.topRows<6>() * surprise;
   estimate.velocity += gain.bottomRows<2>() * surprise;
   estimate.covariance.topLeftCorner<3, 3>() = odom_from_base.covariance;
-  estimate.covariance.bottomLeftCorner<7, 3>() = gain * odom_from_base.covariance;
-  estimate.covariance.topRightCorner<3, 7>() = estimate.covariance.bottomLeftCorner<7, 3>().transpose();
-  estimate.covariance.bottomRightCorner<7, 7>() -= gain * (prior - odom_from_base.covariance) * gain.transpose();
+  estimate.covariance.bottomLeftCorner<8, 3>() = gain * odom_from_base.covariance;
+  estimate.covariance.topRightCorner<3, 8>() = estimate.covariance.bottomLeftCorner<8, 3>().transpose();
+  estimate.covariance.bottomRightCorner<8, 8>() -= gain * (prior - odom_from_base.covariance) * gain.transpose();
   return estimate;
 }
 

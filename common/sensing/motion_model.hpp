@@ -15,20 +15,29 @@ struct MotionModelConfig {
   double heading_rate_bias_prior_radps = 0.005;
   double heading_per_metre_bias_prior = 0.02;   ///< [rad/m]: unequal wheels.
   double pivot_prior_m = 0.0;                   ///< Of the place about which the vehicle turns, where logs take the scanner for it.
+  double stamp_offset_prior_s = 0.0;            ///< Of how much later the odometry's stamps are than the scans'; 0: they have one clock.
   double scale_walk_per_sqrt_m = 5e-5;          ///< How the scale wanders with the distance,
   double heading_rate_bias_walk = 5e-5;         ///< and the heading-rate bias with time [rad/s per sqrt(s)].
+  double stamp_offset_walk = 0.001;             ///< How that offset wanders with time [s per sqrt(s)]; never less sure than at the start.
   double speed_prior_mps = 20.0;                ///< Without odometry: how fast it may be at the start,
   double yaw_rate_prior_radps = 1.0;
   double speed_walk_mps = 3.0;                  ///< and how the velocity wanders [m/s per sqrt(s)],
   double yaw_rate_walk_radps = 1.0;             ///< as vehicles accelerate for about a second at a time [rad/s per sqrt(s)].
 };
 
-/// Systematic errors of the odometry: (scale - 1 [-], heading-rate bias [rad/s], heading bias by distance [rad/m], and where
-/// the base is ahead of and left of the point that the wheels speak of [m, m]).
-using MotionCalibration = Eigen::Matrix<double, 5, 1>;
+/// Systematic errors of the odometry: (scale - 1 [-], heading-rate bias [rad/s], heading bias by distance [rad/m], where
+/// the base is ahead of and left of the point that the wheels speak of [m, m], and how much later than the scans it is stamped [s]).
+using MotionCalibration = Eigen::Matrix<double, 6, 1>;
 /// (forward [m/s], yaw rate [rad/s]).
 using Velocity = Eigen::Vector2d;
-using Matrix10 = Eigen::Matrix<double, 10, 10>;
+using Matrix11 = Eigen::Matrix<double, 11, 11>;
+
+/// What odometry says of a step.
+struct WheelStep {
+  geometry::Pose2 before_from_base;
+  double duration_s = 0.0;
+  Eigen::Vector3d by_stamp_offset = Eigen::Vector3d::Zero();  ///< Its derivative by the offset of the stamps at which it is read: only changes of the velocity show.
+};
 
 /// Where the vehicle is, what is wrong with its odometry and, where it has none, how fast it is, as one Gaussian. They belong together: an odometry that is
 /// one percent short makes every prediction late by a little, and only what the laser says beyond all of these
@@ -37,24 +46,28 @@ struct MotionEstimate {
   geometry::Pose2 odom_from_base;
   MotionCalibration calibration = MotionCalibration::Zero();
   Velocity velocity = Velocity::Zero();
-  Matrix10 covariance = Matrix10::Zero(); ///< Of (x [m], y [m], heading [rad], calibration, velocity); the pose against the local map.
+  Matrix11 covariance = Matrix11::Zero(); ///< Of (x [m], y [m], heading [rad], calibration, velocity); the pose against the local map.
 
   geometry::UncertainPose2 uncertain_pose() const { return {odom_from_base, covariance.topLeftCorner<3, 3>()}; }
   double scale() const { return 1.0 + calibration.x(); }
 };
+
+constexpr int kStampOffset = 8;  ///< Its row of the covariance.
+
+/// By how much later than the scans the odometry is stamped, as believed.
+inline double stamp_offset_s(const MotionEstimate& estimate) { return estimate.calibration[kStampOffset - 3]; }
 
 /// At the origin of odom, with nothing known of the odometry.
 MotionEstimate at_start(const MotionModelConfig& config);
 
 /// Motion over one step as odometry, corrected by the calibration, has it. The covariance is the step's own: that of the
 /// calibration is not in it.
-/// before_from_base_by_wheels: difference of two odometry readings duration_s apart.
+/// before_from_base_by_wheels: difference of two odometry readings duration_s apart, at the stamps with the offset.
 geometry::UncertainPose2 predict_step(const geometry::Pose2& before_from_base_by_wheels, double duration_s,
                                       const MotionCalibration& calibration, const MotionModelConfig& config);
 
 /// After a step by wheels, before the scan is matched. The velocity is theirs.
-MotionEstimate moved_by_wheels(const MotionEstimate& before, const geometry::Pose2& before_from_base_by_wheels,
-                               double duration_s, const MotionModelConfig& config);
+MotionEstimate moved_by_wheels(const MotionEstimate& before, const WheelStep& by_wheels, const MotionModelConfig& config);
 
 /// After a step of which the wheels say nothing: on at the velocity, which wanders (Wiener process).
 MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s, const MotionModelConfig& config);

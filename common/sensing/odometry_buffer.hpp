@@ -23,6 +23,10 @@ class OdometryBuffer {
   /// Pose at the stamp, interpolated between the neighbours; none outside what is known.
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
 
+  /// Pose so much after the stamp (or before it), told from what was known at the stamp: after it, it goes on at the velocity of
+  /// the last moments, even where later samples are known by now, so that steps from one stamp to the next add up.
+  std::optional<geometry::Pose2> wheel_from_base_after(std::int64_t stamp_ns, std::int64_t after_ns) const;
+
  private:
   std::size_t capacity_;
   std::vector<Odometry> samples_;  ///< Ascending stamps.

@@ -19,11 +19,16 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7437;  // "slammot7": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7438;  // "slammot8": the digit counts the forms of a checkpoint
 constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
+
+constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
+constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelerates does so for longer
+
+std::int64_t to_ns(double duration_s) { return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s)); }
 
 /// What a point does to the maps.
 grids::Echo echo_of(PointLabel label) {
@@ -89,13 +94,42 @@ bool Localizer::is_doubtful(const Pose2& by_wheels, double duration_s) const {
          is_wheel_jump(by_wheels, progress_.last->speed_mps, progress_.last->yaw_rate_radps, duration_s, config_.wheel_jump);
 }
 
+/// The wheels' pose at a scan's stamp, by the offset between the clocks as believed.
+std::optional<Pose2> Localizer::wheel_from_base_at(std::int64_t stamp_ns) const {
+  const std::optional<Pose2> at_stamp = odometry_.wheel_from_base_at(stamp_ns);
+  if (!at_stamp || config_.motion.stamp_offset_prior_s == 0.0) return at_stamp;
+  const std::optional<Pose2> at_offset = odometry_.wheel_from_base_after(stamp_ns, to_ns(sensing::stamp_offset_s(progress_.estimate)));
+  return at_offset ? at_offset : at_stamp;
+}
+
+/// What the wheels say of the step from the last scan to the stamp, or of one so much later.
+std::optional<Pose2> Localizer::wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const {
+  const auto before = odometry_.wheel_from_base_after(progress_.last->stamp_ns, after_ns);
+  const auto after = odometry_.wheel_from_base_after(stamp_ns, after_ns);
+  if (!before || !after) return std::nullopt;
+  return geometry::inverse(*before) * *after;
+}
+
+/// How the step changes with the offset, told from how it changed just before: with the step itself, its noise would be
+/// taken for a change of the velocity, and both together for an offset. Where steps are long, changes are large beside it.
+Eigen::Vector3d Localizer::step_by_stamp_offset(std::int64_t stamp_ns) const {
+  if (config_.motion.stamp_offset_prior_s == 0.0) return Eigen::Vector3d::Zero();
+  const std::int64_t duration_ns = stamp_ns - progress_.last->stamp_ns;
+  const std::int64_t known_ns = std::min<std::int64_t>(0, to_ns(sensing::stamp_offset_s(progress_.estimate)));
+  const std::int64_t until_ns = duration_ns <= kLongestLag_ns ? known_ns - duration_ns : known_ns;
+  const auto before = wheel_step(stamp_ns, until_ns - to_ns(kVelocityOver_s));
+  const auto after = wheel_step(stamp_ns, until_ns);
+  if (!before || !after) return Eigen::Vector3d::Zero();
+  return geometry::difference(*after, *before) / kVelocityOver_s;
+}
+
 Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
   Step step;
   std::optional<Pose2> doubtful_step;
   step.duration_s = static_cast<double>(stamp_ns - progress_.last->stamp_ns) * kNanosecond_s;
   if (step.duration_s > config_.longest_step_s) ++progress_.counters.gaps;
   if (wheel_from_base && progress_.last->has_wheels) {
-    const Pose2 by_wheels = geometry::inverse(progress_.last->wheel_from_base) * *wheel_from_base;
+    const Pose2 by_wheels = geometry::inverse(wheel_from_base_at(progress_.last->stamp_ns).value_or(progress_.last->wheel_from_base)) * *wheel_from_base;
     if (is_impossible(by_wheels, step.duration_s)) {
       step.has_doubted_wheels = true;
     } else if (is_doubtful(by_wheels, step.duration_s)) {
@@ -103,7 +137,7 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
       step.has_doubted_wheels = true;
     } else {
       step.is_by_wheels = true;
-      step.after = sensing::moved_by_wheels(progress_.estimate, by_wheels, step.duration_s, config_.motion);
+      step.after = sensing::moved_by_wheels(progress_.estimate, {by_wheels, step.duration_s, step_by_stamp_offset(stamp_ns)}, config_.motion);
       step.before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * step.after.odom_from_base;
       return step;
     }
@@ -355,7 +389,7 @@ Localizer::State Localizer::state_at(std::int64_t stamp_ns, const std::optional<
 
 /// Takes the estimate to a scan after the first. False where its match is not believed.
 bool Localizer::place(const sensing::LaserScan& scan) {
-  const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(scan.stamp_ns);
+  const std::optional<Pose2> wheel_from_base = wheel_from_base_at(scan.stamp_ns);
   State now = state_at(scan.stamp_ns, wheel_from_base);
   const Step step = predict(scan.stamp_ns, wheel_from_base);
   now.doubted_wheels = step.has_doubted_wheels;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -169,6 +170,8 @@ class Localizer {
 
   const geometry::Pose2& map_from_odom() const { return map_from_odom_; }
   const sensing::MotionCalibration& calibration() const { return progress_.estimate.calibration; }
+  double stamp_offset_s() const { return sensing::stamp_offset_s(progress_.estimate); }
+  double stamp_offset_sigma_s() const { return std::sqrt(progress_.estimate.covariance(sensing::kStampOffset, sensing::kStampOffset)); }
   const SweepFactor& sweep_factor() const { return progress_.sweep_factor; }
   const LocalizerCounters& counters() const { return progress_.counters; }
   const LocalMap& local_map() const { return map_; }
@@ -251,6 +254,9 @@ class Localizer {
   bool place(const sensing::LaserScan& scan);
   bool can_be_placed_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) const;
   std::vector<std::size_t> kept_out(const std::vector<flow::PointLabel>& labels) const;
+  std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
+  std::optional<geometry::Pose2> wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const;
+  Eigen::Vector3d step_by_stamp_offset(std::int64_t stamp_ns) const;
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
   bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;

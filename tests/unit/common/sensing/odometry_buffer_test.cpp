@@ -43,6 +43,23 @@ TEST(OdometryBuffer, SaysNothingOutsideWhatItKnows) {
   EXPECT_TRUE(buffer.wheel_from_base_at(1000));
 }
 
+TEST(OdometryBuffer, GoesOnFromAStampAtTheVelocityOfTheLastMoments) {
+  OdometryBuffer buffer;
+  for (int i = 0; i <= 20; ++i) buffer.add({i * 10'000'000LL, {0.02 * i, 0.01 * i, 0.0}});
+  EXPECT_THAT(*buffer.wheel_from_base_after(200'000'000, 50'000'000), PoseNear(Pose2{0.5, 0.25, 0.0}, 1e-12));
+  EXPECT_THAT(*buffer.wheel_from_base_after(200'000'000, -50'000'000), PoseNear(Pose2{0.3, 0.15, 0.0}, 1e-12));
+  EXPECT_FALSE(buffer.wheel_from_base_after(50'000'000, 10'000'000));   // the velocity there is not known
+  EXPECT_FALSE(buffer.wheel_from_base_after(210'000'000, 10'000'000));
+}
+
+TEST(OdometryBuffer, SaysTheSameOfWhatFollowedAStampWhenThatIsKnown) {
+  OdometryBuffer buffer;
+  for (int i = 0; i <= 20; ++i) buffer.add(sample(i * 10'000'000LL, 0.02 * i));
+  const auto before = buffer.wheel_from_base_after(200'000'000, 50'000'000);
+  buffer.add(sample(300'000'000, 9.0));
+  EXPECT_THAT(*buffer.wheel_from_base_after(200'000'000, 50'000'000), PoseNear(*before, 1e-15));
+}
+
 TEST(OdometryBuffer, ReachesAStampOnceASampleIsAsNew) {
   OdometryBuffer buffer;
   EXPECT_FALSE(buffer.reaches(0));

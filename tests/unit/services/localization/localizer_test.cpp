@@ -110,6 +110,44 @@ TEST(Localizer, TakesTheSweepForWhatItIsSaidToBeUnlessAsked) {
   EXPECT_EQ(localizer.sweep_factor().variance, 0.0);
 }
 
+/// A small car that speeds up, brakes and turns through a room; its wheels are stamped later than the scans.
+struct LateWheels {
+  double offset_s = 0.0;
+  double sigma_s = 0.0;
+};
+
+LateWheels after_driving_with_late_wheels(double late_s, double prior_s) {
+  DriveSetup setup = with_a_scanner_that_turns_the_other_way(0.0);
+  SimulatedDrive drive(setup);
+  LocalizerConfig config = small_map_config();
+  config.motion.stamp_offset_prior_s = prior_s;
+  Localizer localizer(config);
+  constexpr int kPerScan = 5;  // samples of the wheels
+  for (int sample = 0; sample < 400 * kPerScan; ++sample) {
+    const double time_s = setup.scan_period_s * sample / kPerScan;
+    const Pose2 wheel_from_base = setup.world_from_base_at(std::max(0.0, time_s - late_s));
+    localizer.add_odometry({slammot::testing::stamp_ns_of(time_s), wheel_from_base});
+    if (sample % kPerScan != 0) continue;
+    const auto localized = localizer.localize(drive.scan(static_cast<std::uint32_t>(sample / kPerScan)));
+    if (localized) localizer.integrate(all_stationary(*localized));
+  }
+  return {localizer.stamp_offset_s(), localizer.stamp_offset_sigma_s()};
+}
+
+TEST(Localizer, LearnsByHowMuchLaterTheWheelsAreStampedThanTheScans) {
+  for (const double late_s : {0.05, 0.0, -0.05}) {
+    const LateWheels learned = after_driving_with_late_wheels(late_s, 0.05);
+    EXPECT_LT(learned.sigma_s, 0.01);
+    EXPECT_NEAR(learned.offset_s, late_s, 3.0 * learned.sigma_s);
+  }
+}
+
+TEST(Localizer, TakesTheWheelsStampsForTheScansUnlessAsked) {
+  const LateWheels learned = after_driving_with_late_wheels(0.05, 0.0);
+  EXPECT_EQ(learned.offset_s, 0.0);
+  EXPECT_EQ(learned.sigma_s, 0.0);
+}
+
 TEST(Localizer, GrowsUnsureAlongBareWallsAndStaysSureAcrossThem) {
   SimulatedDrive drive(between_bare_walls());
   Localizer localizer(LocalizerConfig{});
