@@ -80,13 +80,14 @@ std::array<std::span<const std::uint16_t>, 2> sides_of(std::span<const std::uint
 }
 
 /// How far along its normal the face was from here then.
-std::optional<double> off_then_m(const Face& face, const PolarView& now, const EarlierScan& then, double echo_sigma_m) {
+std::optional<double> off_then_m(const Face& face, const PolarView& now, const EarlierScan& then, double echo_sigma_m, double size_scale) {
+  const double farthest_m = kFarthestM * size_scale;
   const PolarView& view = then.view;
   const auto last_beam = static_cast<long>(view.beam_count()) - 1;
   long first = last_beam;
   long last = 0;
   for (const double along_m : {-face.half_width_m, face.half_width_m})
-    for (const double off_m : {-kFarthestM, kFarthestM}) {
+    for (const double off_m : {-farthest_m, farthest_m}) {
       const long beam = view.beam_towards(face.middle_m + along_m * face.along + off_m * face.normal - view.laser_in_odom_m());
       first = std::min(first, beam), last = std::max(last, beam);
     }
@@ -100,7 +101,7 @@ std::optional<double> off_then_m(const Face& face, const PolarView& now, const E
     const Vector2d to_echo_m = view.point_in_odom_m(beam) - face.middle_m;
     if (std::abs(face.along.dot(to_echo_m)) > kMiddleShare * face.half_width_m) continue;
     const double off_m = face.normal.dot(to_echo_m);
-    if (std::abs(off_m) > kFarthestM) {
+    if (std::abs(off_m) > farthest_m) {
       through += outward * off_m > 0.0 ? 1 : 0;
       continue;
     }
@@ -108,19 +109,26 @@ std::optional<double> off_then_m(const Face& face, const PolarView& now, const E
     off.add(off_m);
   }
   if (off.count < static_cast<double>(kFewestEchoes) || off.count < static_cast<double>(through)) return std::nullopt;
-  if (off.sigma() > std::hypot(kStraightM, echo_sigma_m)) return std::nullopt;
+  if (off.sigma() > std::hypot(kStraightM * size_scale, echo_sigma_m)) return std::nullopt;
   return off.mean();
 }
 
-/// How far from here the face was in the first of the earlier scans in which it was elsewhere, if another says that it was there on the same
-/// side and none that it was here; else zero.
-double agreed_off_m(const Face& face, const PolarView& now, std::span<const EarlierScan* const> earlier, double echo_sigma_m, double least_m) {
+/// What is asked of a shift.
+struct Sought {
+  double echo_sigma_m = 0.0;
+  double least_m = 0.0;
+  double size_scale = 1.0;
+};
+
+/// How far from here the face was in the first of the earlier scans in which it was elsewhere, if another says that it was on
+/// the same side and no older one that it was here; else zero.
+double agreed_off_m(const Face& face, const PolarView& now, std::span<const EarlierScan* const> earlier, const Sought& sought) {
   double first_off_m = 0.0;
   int agreeing = 0;
   for (const EarlierScan* then : earlier) {
-    const std::optional<double> off_m = off_then_m(face, now, *then, echo_sigma_m);
+    const std::optional<double> off_m = off_then_m(face, now, *then, sought.echo_sigma_m, sought.size_scale);
     if (!off_m) continue;
-    if (std::abs(*off_m) < least_m) {
+    if (std::abs(*off_m) < sought.least_m) {
       if (agreeing > 0) return 0.0;
       continue;  // too little time for what is slow
     }
@@ -143,10 +151,10 @@ std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams
     const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
     const double echo_sigma_m = config.range_noise_m + config.range_noise_per_m * range_m;
     if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) continue;
-    if (face.off_m > std::hypot(kStraightM, echo_sigma_m)) continue;
+    if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_sigma_m)) continue;
     const double sigma_m = std::hypot(pose_sigma_m, echo_sigma_m * std::sqrt(2.0 / static_cast<double>(side.size())));
     const double least_m = std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
-    const double off_m = agreed_off_m(face, now, earlier, echo_sigma_m, least_m);
+    const double off_m = agreed_off_m(face, now, earlier, {echo_sigma_m, least_m, config.size_scale});
     if (off_m == 0.0 || (best && best->shift_m.norm() > std::abs(off_m))) continue;
     best = FaceShift{side, -off_m * face.normal};
   }
