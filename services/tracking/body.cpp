@@ -250,10 +250,12 @@ AxisFit axis_fit(double mean_m, double sigma_m, const SizeEvidence& evidence, do
   Size size = is_piece ? piece : whole;
   size.variance_m2 = piece_share * piece.variance_m2 + (1.0 - piece_share) * whole.variance_m2 +
                      std::min(piece_share, 1.0 - piece_share) * squared(piece.value_m - whole.value_m);
-  return {std::max(of_whole, of_piece) + std::log1p(std::exp(-std::abs(of_whole - of_piece))), size};
+  return {log_sum(of_whole, of_piece), size};
 }
 
 }  // namespace
+
+double log_sum(double a, double b) { return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))); }
 
 double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
   const double variance_m2 = squared(sigma_m) + evidence.whole.variance_m2;

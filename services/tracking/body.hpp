@@ -90,6 +90,9 @@ BodyMeasurement measure_box(const Body& body, const Eigen::Vector2d& predicted_c
 /// Middle of the echoes, pushed behind the surface that they lie on by what half the object's depth may be.
 BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const TrackingConfig& config);
 
+/// Logarithm of the sum of two weights that are given by theirs.
+double log_sum(double a, double b);
+
 /// Log-likelihood of what was seen of a size, if such sizes are distributed like this.
 double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence);
 

@@ -48,15 +48,20 @@ Face face_through(std::span<const std::uint16_t> beams, const PolarView& view) {
 }
 
 /// The echo that is farthest from the line through the first and the last.
-std::size_t corner_of(std::span<const std::uint16_t> beams, const PolarView& view) {
+struct Corner {
+  std::size_t index = 0;
+  double off_m = 0.0;
+};
+
+Corner corner_of(std::span<const std::uint16_t> beams, const PolarView& view) {
   const Vector2d first_m = view.point_in_odom_m(beams.front());
   const Vector2d way = view.point_in_odom_m(beams.back()) - first_m;
-  std::size_t corner = 0;
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < beams.size(); ++i) {
+  const double length_m = way.norm();
+  Corner corner;
+  for (std::size_t i = 1; i + 1 < beams.size(); ++i) {
     const Vector2d off_m = view.point_in_odom_m(beams[i]) - first_m;
-    const double off = std::abs(way.x() * off_m.y() - way.y() * off_m.x());
-    if (off > farthest) farthest = off, corner = i;
+    const double distance_m = std::abs(way.x() * off_m.y() - way.y() * off_m.x()) / length_m;
+    if (distance_m > corner.off_m) corner = {i, distance_m};
   }
   return corner;
 }
@@ -71,12 +76,9 @@ struct Sum {
 /// One side, or two that meet in a corner.
 std::array<std::span<const std::uint16_t>, 2> sides_of(std::span<const std::uint16_t> beams, const PolarView& view, const TrackingConfig& config) {
   constexpr double kCornerM = 0.25;
-  const std::size_t corner = corner_of(beams, view);
-  const Vector2d way = view.point_in_odom_m(beams.back()) - view.point_in_odom_m(beams.front());
-  const Vector2d to_corner_m = view.point_in_odom_m(beams[corner]) - view.point_in_odom_m(beams.front());
-  const bool has_corner = std::abs(way.x() * to_corner_m.y() - way.y() * to_corner_m.x()) > kCornerM * config.size_scale * way.norm();
-  if (!has_corner) return {beams, {}};
-  return {beams.first(corner + 1), beams.subspan(corner)};
+  const Corner corner = corner_of(beams, view);
+  if (corner.off_m <= kCornerM * config.size_scale) return {beams, {}};
+  return {beams.first(corner.index + 1), beams.subspan(corner.index)};
 }
 
 /// How far along its normal the face was from here then.

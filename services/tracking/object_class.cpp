@@ -44,9 +44,6 @@ double normal_density(double offset, double sigma) {
 
 double exceeded_share(double value, double mean, double sigma) { return 0.5 * std::erfc((value - mean) / (sigma * std::numbers::sqrt2)); }
 
-/// Of two classes' or two kinds' logarithms of weights.
-double log_sum(double a, double b) { return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))); }
-
 /// Of both sizes, if they are distributed like this. A heading that is a little off makes a body wider the longer it is.
 double log_fit(const KindOfBody& kind, const SizeEvidence& length, const SizeEvidence& width, double scale) {
   constexpr double kHeadingErrorRad = 0.06;

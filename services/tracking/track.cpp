@@ -188,8 +188,7 @@ void remember_contour(Track& track, const Glimpse& glimpse) {
 
 /// Legs swing about the middle of who walks on them, the same way for many scans.
 bool walks(const Track& track) {
-  constexpr double kFastestMps = 2.7;
-  return !track.body.has_sides && track.largest_extent_m < 1.0 && track.velocity_mps().norm() < kFastestMps;
+  return !track.body.has_sides && track.largest_extent_m < 1.0 && track.velocity_mps().norm() < kFastestWalkMps;
 }
 
 /// What is wrong with the centre in many scans alike, so that the filter, for which errors are new in each, does not see it:

@@ -33,6 +33,8 @@ struct MeasuredCentre {
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
 };
 
+constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
+
 /// One object that is followed, or supposed to be one.
 struct Track {
   flow::TrackId track_id;

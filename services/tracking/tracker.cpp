@@ -178,13 +178,12 @@ bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std:
 /// Whether two that are long known drive alike, and are so near to each other that they fit into one car.
 bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) {
   constexpr int kLongKnownHits = 20;
-  constexpr double kFasterThanPeopleMps = 2.7;
   constexpr double kSlowVehicleMps = 1.0;
   constexpr double kCarLengthM = 4.9;
   constexpr double kCarWidthM = 2.1;
   if (!a.confirmed || !b.confirmed || std::min(a.hits, b.hits) < kLongKnownHits) return false;
   if ((a.position_m() - b.position_m()).norm() > 2.0 * kCarLengthM * config.size_scale) return false;
-  const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFasterThanPeopleMps;
+  const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFastestWalkMps;
   const Vector2d velocity_mps = 0.5 * (a.velocity_mps() + b.velocity_mps());
   const double speed_mps = velocity_mps.norm();
   if (speed_mps < least_mps || (a.velocity_mps() - b.velocity_mps()).norm() > 0.4 + 0.1 * speed_mps) return false;
@@ -545,11 +544,10 @@ void Tracker::release(std::size_t index) {
 /// Who has long been known to walk does not become large at once: the rest is a wall, or someone beside.
 void Tracker::leave_out_surroundings(std::size_t index, double time_s, const ScanView& view) {
   constexpr int kLongKnownHits = 20;
-  constexpr double kFastestMps = 2.7;
   constexpr double kBelievedAfterS = 0.5;
   Track& track = tracks_[index];
   std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
-  const bool walks = track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestMps;
+  const bool walks = track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps;
   if (!walks || beams.empty()) return;
   const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + config_.gate_margin_m; };
   const bool has_outgrown = (view.point_in_odom_m(beams.back()) - view.point_in_odom_m(beams.front())).norm() > config_.box_from_extent_m;
