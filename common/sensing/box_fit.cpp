@@ -10,7 +10,6 @@ namespace slammot::sensing {
 namespace {
 
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
-constexpr double kNearestCountedM = 0.03;     ///< The range noise: a point is not closer to a side than that.
 constexpr std::size_t kMostPointsWeighed = 48; ///< Larger segments are thinned: see tests/bench/detector_bench.cpp.
 
 struct Extent {
@@ -19,8 +18,15 @@ struct Extent {
   void include(double value) { least = std::min(least, value), most = std::max(most, value); }
 };
 
+struct Echoes {
+  std::span<const Eigen::Vector2d> points_m;
+  std::size_t stride = 1;  ///< Between the points that are weighed.
+  double range_noise_m = 0.0;
+};
+
 /// Sum over the points of the inverse distance to the nearest side of the tightest box.
-double closeness(std::span<const Eigen::Vector2d> points_m, std::size_t stride, double heading_rad) {
+double closeness(const Echoes& echoes, double heading_rad) {
+  const auto& [points_m, stride, range_noise_m] = echoes;
   const double c = std::cos(heading_rad);
   const double s = std::sin(heading_rad);
   std::array<double, 2 * kMostPointsWeighed> along;
@@ -37,17 +43,17 @@ double closeness(std::span<const Eigen::Vector2d> points_m, std::size_t stride, 
   for (std::size_t i = 0; i < count; ++i) {
     const double to_end = std::min(along[i] - length.least, length.most - along[i]);
     const double to_side = std::min(across[i] - width.least, width.most - across[i]);
-    sum += 1.0 / std::max(kNearestCountedM, std::min(to_end, to_side));
+    sum += 1.0 / std::max(range_noise_m, std::min(to_end, to_side));
   }
   return sum;
 }
 
-double best_heading(std::span<const Eigen::Vector2d> points_m, std::size_t stride, double from_rad, double step_rad, int steps) {
+double best_heading(const Echoes& echoes, double from_rad, double step_rad, int steps) {
   double best = from_rad;
   double best_closeness = -1.0;
   for (int i = 0; i < steps; ++i) {
     const double heading_rad = from_rad + i * step_rad;
-    const double value = closeness(points_m, stride, heading_rad);
+    const double value = closeness(echoes, heading_rad);
     if (value > best_closeness) best_closeness = value, best = heading_rad;
   }
   return best;
@@ -80,16 +86,16 @@ OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double hea
   return box;
 }
 
-OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m) {
+OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m, double range_noise_m) {
   if (points_m.size() < 3) {
     const Eigen::Vector2d way = points_m.back() - points_m.front();
     return box_at_heading(points_m, std::atan2(way.y(), way.x()));
   }
   constexpr double kCoarseRad = 6.0 * std::numbers::pi / 180.0;
   constexpr double kFineRad = 1.5 * std::numbers::pi / 180.0;
-  const std::size_t stride = 1 + (points_m.size() - 1) / kMostPointsWeighed;
-  const double coarse = best_heading(points_m, stride, 0.0, kCoarseRad, 15);
-  const double fine = best_heading(points_m, stride, coarse - 3.0 * kFineRad, kFineRad, 7);
+  const Echoes echoes{points_m, 1 + (points_m.size() - 1) / kMostPointsWeighed, range_noise_m};
+  const double coarse = best_heading(echoes, 0.0, kCoarseRad, 15);
+  const double fine = best_heading(echoes, coarse - 3.0 * kFineRad, kFineRad, 7);
   return box_at_heading(points_m, fine);
 }
 

@@ -19,6 +19,7 @@ OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double hea
 
 /// Rectangle whose sides the points lie closest to: the visible L or I of a vehicle. Search over the heading in two
 /// stages with the closeness criterion of Zhang, Xu, Dong, Dolan (IV 2017), Algorithm 4. At least one point.
-OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m);
+/// range_noise_m: one sigma; a point is not closer to a side than that.
+OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m, double range_noise_m);
 
 }  // namespace slammot::sensing

@@ -256,7 +256,7 @@ void describe_shape(Segment& segment, const SegmentedScan& scan, const Detection
       pose_contribution(scan.odom_from_base, centroid_in_base_m);
   // Only what may become a track needs the searched heading; the ends of the rest tell enough.
   const Vector2 way = points_in_odom_m.back() - points_in_odom_m.front();
-  const sensing::OrientedBox box = segment.label == PointLabel::kMoving ? sensing::fit_box(points_in_odom_m)
+  const sensing::OrientedBox box = segment.label == PointLabel::kMoving ? sensing::fit_box(points_in_odom_m, config.range_noise_m)
                                                                : sensing::box_at_heading(points_in_odom_m, std::atan2(way.y(), way.x()));
   segment.box_centre_in_odom_m = box.centre_m;
   segment.box_heading_rad = box.heading_rad;

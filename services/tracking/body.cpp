@@ -15,6 +15,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
+// Lengths are those of real road users, to be scaled with them.
 constexpr double kFaceDepthM = 0.15;      ///< Points this near the outermost one lie on the same side,
 constexpr double kFaceDepthSigmas = 3.0;  ///< or so many of their own standard deviations.
 constexpr double kNothingKnownM2 = 1e6;   ///< Variance of a size that was never seen.
@@ -23,6 +24,8 @@ constexpr int kFewestOnFlank = 3;         ///< Echoes on a flank that tell where
 constexpr double kWidestM = 3.2;          ///< Nothing on the road is wider;
 constexpr double kWidestFaceM = 2.6;      ///< a side that is not longer may be a face.
 constexpr double kWholeSigmaM = 0.06;     ///< Errors of a size that is seen again and again do not average below this.
+
+double squared(double value) { return value * value; }
 
 /// The glimpse along one axis of the body, relative to the predicted centre.
 struct Shadow {
@@ -52,7 +55,7 @@ struct Spread {
   double width_m() const { return most_m - least_m; }
 };
 
-Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double sigma_m) {
+Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double face_depth_m) {
   Shadow shadow;
   const std::size_t count = glimpse.points_m.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -63,14 +66,13 @@ Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2
     if (s < shadow.low_m) shadow.low_m = s, shadow.low_edge = edge;
     if (s > shadow.high_m) shadow.high_m = s, shadow.high_edge = edge;
   }
-  const double depth_m = kFaceDepthM + kFaceDepthSigmas * sigma_m;
   Spread low_across;
   Spread high_across;
   for (const Vector2d& point : glimpse.points_m) {
     const double s = axis.dot(point - centre_m);
     const double across_m = axis.x() * point.y() - axis.y() * point.x();
-    if (s < shadow.low_m + depth_m) shadow.low_face_m += s, ++shadow.low_count, low_across.include(across_m);
-    if (s > shadow.high_m - depth_m) shadow.high_face_m += s, ++shadow.high_count, high_across.include(across_m);
+    if (s < shadow.low_m + face_depth_m) shadow.low_face_m += s, ++shadow.low_count, low_across.include(across_m);
+    if (s > shadow.high_m - face_depth_m) shadow.high_face_m += s, ++shadow.high_count, high_across.include(across_m);
   }
   shadow.low_across_m = low_across.width_m();
   shadow.high_across_m = high_across.width_m();
@@ -91,14 +93,14 @@ void note_seen(SizeEvidence& evidence, double seen_m) {
   if (seen_m > evidence.least_m) evidence.least_m += evidence.least_m == 0.0 ? seen_m : kTrust * (seen_m - evidence.least_m);
 }
 
-void note_whole(SizeEvidence& evidence, double seen_m, double variance_m2) {
+void note_whole(SizeEvidence& evidence, double seen_m, double variance_m2, double scale) {
   constexpr double kShorterM = 0.5;       // than what was seen before: a piece, or a side seen askew
   constexpr double kForgotten = 0.02;     // of it, for each scan that says so: it may have been several things
   constexpr double kSharedShare = 0.25;   // of the variance: neighbouring scans err alike, so that many know little more than one
-  const bool is_shorter = seen_m < evidence.least_m - kShorterM;
+  const bool is_shorter = seen_m < evidence.least_m - kShorterM * scale;
   evidence.least_m = std::min(evidence.least_m, evidence.least_m + kForgotten * (seen_m - evidence.least_m));
   if (is_shorter) return;
-  const double least_variance_m2 = std::max(kWholeSigmaM * kWholeSigmaM, kSharedShare * variance_m2);
+  const double least_variance_m2 = std::max(squared(kWholeSigmaM * scale), kSharedShare * variance_m2);
   if (evidence.whole.variance_m2 <= kSharedShare * variance_m2) return;
   const double gain = evidence.whole.variance_m2 / (evidence.whole.variance_m2 + variance_m2);
   evidence.whole.value_m += gain * (seen_m - evidence.whole.value_m);
@@ -114,6 +116,7 @@ struct AxisView {
   double gaps = 0.0;                ///< Beams in a row that were not answered, in the mean.
   double least_side_m = 0.4;        ///< What is narrower is no side.
   double clear_spacing_m = 0.5;     ///< Wider spaced echoes do not tell where a side ends.
+  double scale = 1.0;               ///< Of all sizes, against those of real road users.
 };
 
 /// Whether the low end is a side across the axis, and not where something hides the rest of a flank.
@@ -135,14 +138,14 @@ void note_sizes_from_low_side(SizeEvidence& evidence, const Shadow& shadow, cons
   const bool high_is_seen = flank_is_visible && shadow.high_edge != Edge::kHidden && view.high_spacing_m < view.clear_spacing_m &&
                             shadow.count - shadow.low_count >= kFewestOnFlank;
   if (low_is_seen && high_is_seen)  // the flank ends somewhere between its last echo and where the next one would be
-    note_whole(evidence, shadow.high_m + 0.5 * view.high_spacing_m - low_m, end_variance_m2(view, view.high_spacing_m, shadow.high_edge));
+    note_whole(evidence, shadow.high_m + 0.5 * view.high_spacing_m - low_m, end_variance_m2(view, view.high_spacing_m, shadow.high_edge), view.scale);
 }
 
 void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view) {
   note_seen(evidence, shadow.high_m - shadow.low_m);
   const double spacing_m = std::max(view.low_spacing_m, view.high_spacing_m);
   if (shadow.low_edge != Edge::kHidden && shadow.high_edge != Edge::kHidden && spacing_m < view.clear_spacing_m && shadow.count >= kFewestOnFlank)
-    note_whole(evidence, shadow.high_m - shadow.low_m + spacing_m, 2.0 * view.face_variance_m2 + spacing_m * spacing_m / 6.0);
+    note_whole(evidence, shadow.high_m - shadow.low_m + spacing_m, 2.0 * view.face_variance_m2 + spacing_m * spacing_m / 6.0, view.scale);
 }
 
 AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
@@ -182,7 +185,7 @@ AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const
 }
 
 AxisView mirrored(const AxisView& view) {
-  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.gaps, view.least_side_m, view.clear_spacing_m};
+  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.gaps, view.least_side_m, view.clear_spacing_m, view.scale};
 }
 
 AxisMeasurement mirrored(const AxisMeasurement& axis) { return {-axis.centre_m, axis.variance_m2, -axis.held}; }
@@ -212,18 +215,16 @@ double spacing_m(const Glimpse& glimpse, const Vector2d& place_m, const Vector2d
   return range_m * glimpse.beam_step_rad / std::max(incidence, kLeastIncidence);
 }
 
-double squared(double value) { return value * value; }
-
 Size likely_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
   const double information = 1.0 / squared(sigma_m) + 1.0 / evidence.whole.variance_m2;
   const double value_m = (mean_m / squared(sigma_m) + evidence.whole.value_m / evidence.whole.variance_m2) / information;
   return {std::max(value_m, evidence.least_m), 1.0 / information};
 }
 
-double log_likelihood_of_least(double mean_m, double sigma_m, double least_m) {
+double log_likelihood_of_least(double mean_m, double sigma_m, double least_m, double scale) {
   constexpr double kLeastSigmaM = 0.2;
   const double beyond_m = std::max(0.0, least_m - mean_m);
-  return -0.5 * squared(beyond_m) / (squared(sigma_m) + squared(kLeastSigmaM));
+  return -0.5 * squared(beyond_m) / (squared(sigma_m) + squared(kLeastSigmaM * scale));
 }
 
 /// A size under one kind of road users.
@@ -237,12 +238,12 @@ struct AxisFit {
 AxisFit axis_fit(double mean_m, double sigma_m, const SizeEvidence& evidence, double scale) {
   constexpr double kMistakenShare = 0.05;
   constexpr double kLongestPieceM = 16.0;
-  const double as_whole = log_likelihood_of_size(mean_m, sigma_m, evidence);
+  const double as_whole = log_likelihood_of_size(mean_m, sigma_m, evidence, scale);
   const Size whole = likely_size(mean_m, sigma_m, evidence);
   if (evidence.whole.variance_m2 >= kNothingKnownM2) return {as_whole, whole};
   const Size piece = likely_size(mean_m, sigma_m, {evidence.least_m, {0.0, kNothingKnownM2}});
   const double log_density = std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // the other one's leaves the root out
-  const double as_piece = log_density + log_likelihood_of_least(mean_m, sigma_m, evidence.least_m);
+  const double as_piece = log_density + log_likelihood_of_least(mean_m, sigma_m, evidence.least_m, scale);
   const double of_whole = std::log(1.0 - kMistakenShare) + as_whole;
   const double of_piece = std::log(kMistakenShare) + as_piece;
   const double piece_share = 1.0 / (1.0 + std::exp(of_whole - of_piece));
@@ -257,10 +258,10 @@ AxisFit axis_fit(double mean_m, double sigma_m, const SizeEvidence& evidence, do
 
 double log_sum(double a, double b) { return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))); }
 
-double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
+double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence, double scale) {
   const double variance_m2 = squared(sigma_m) + evidence.whole.variance_m2;
   return -0.5 * squared(evidence.whole.value_m - mean_m) / variance_m2 - 0.5 * std::log(variance_m2) +
-         log_likelihood_of_least(mean_m, sigma_m, evidence.least_m);
+         log_likelihood_of_least(mean_m, sigma_m, evidence.least_m, scale);
 }
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
@@ -298,12 +299,13 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   const Vector2d across{-along.y(), along.x()};
   const Vector2d to_laser_m = glimpse.laser_m - predicted_centre_m;
   const double sigma_m = std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.shape_noise_m);
-  const Shadow u = shadow_of(glimpse, predicted_centre_m, along, sigma_m);
-  const Shadow v = shadow_of(glimpse, predicted_centre_m, across, sigma_m);
+  const double face_depth_m = kFaceDepthM * config.size_scale + kFaceDepthSigmas * sigma_m;
+  const Shadow u = shadow_of(glimpse, predicted_centre_m, along, face_depth_m);
+  const Shadow v = shadow_of(glimpse, predicted_centre_m, across, face_depth_m);
   const double gaps = glimpse.unanswered_share / (1.0 - glimpse.unanswered_share);  // in a row, in the mean
   const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
     return AxisView{axis.dot(to_laser_m), squared(sigma_m), spacing_m(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
-                    spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale};
+                    spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale, config.size_scale};
   };
   const AxisView u_view = view_of(along, u);
   const AxisView v_view = view_of(across, v);
@@ -355,7 +357,7 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
 Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config) {
   const auto span_along = [&](double heading_rad) {
     const Vector2d axis{std::cos(heading_rad), std::sin(heading_rad)};
-    const Shadow shadow = shadow_of(glimpse, glimpse.points_m.front(), axis, 0.0);
+    const Shadow shadow = shadow_of(glimpse, glimpse.points_m.front(), axis, kFaceDepthM);
     return shadow.high_m - shadow.low_m;
   };
   constexpr double kQuarterRad = 0.5 * std::numbers::pi;
@@ -382,8 +384,8 @@ Vector2d supposed_centre_m(const Body& body, const Glimpse& glimpse) {
   const Vector2d along{std::cos(body.heading_rad), std::sin(body.heading_rad)};
   const Vector2d across{-along.y(), along.x()};
   const Vector2d origin_m = glimpse.points_m.front();
-  const Shadow u = shadow_of(glimpse, origin_m, along, 0.0);
-  const Shadow v = shadow_of(glimpse, origin_m, across, 0.0);
+  const Shadow u = shadow_of(glimpse, origin_m, along, kFaceDepthM);
+  const Shadow v = shadow_of(glimpse, origin_m, across, kFaceDepthM);
   const Vector2d middle_m = origin_m + 0.5 * (u.low_m + u.high_m) * along + 0.5 * (v.low_m + v.high_m) * across;
   const Vector2d sight_m = middle_m - glimpse.laser_m;
   const double unseen_along_m = std::max(0.0, body.length.value_m - (u.high_m - u.low_m));

@@ -93,8 +93,8 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
 /// Logarithm of the sum of two weights that are given by theirs.
 double log_sum(double a, double b);
 
-/// Log-likelihood of what was seen of a size, if such sizes are distributed like this.
-double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence);
+/// Log-likelihood of what was seen of a size, if such sizes are distributed like this. scale: of all sizes, against those of real road users.
+double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence, double scale);
 
 /// Sizes and kind as they follow from the body's evidence: a mixture over the kinds of road users, of which the likeliest
 /// counts.

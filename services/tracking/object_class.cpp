@@ -48,8 +48,8 @@ double exceeded_share(double value, double mean, double sigma) { return 0.5 * st
 double log_fit(const KindOfBody& kind, const SizeEvidence& length, const SizeEvidence& width, double scale) {
   constexpr double kHeadingErrorRad = 0.06;
   const double width_sigma_m = std::hypot(kind.width_sigma_m, kHeadingErrorRad * kind.length_m);
-  return std::log(kind.share) + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, length) +
-         log_likelihood_of_size(scale * kind.width_m, scale * width_sigma_m, width);
+  return std::log(kind.share) + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, length, scale) +
+         log_likelihood_of_size(scale * kind.width_m, scale * width_sigma_m, width, scale);
 }
 
 std::size_t class_of_kind(Kind kind) { return kind == Kind::kBicycle ? kBicycle : kind == Kind::kCar ? kCar : kTruckOrBus; }

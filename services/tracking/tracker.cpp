@@ -80,7 +80,7 @@ std::optional<Side> side_of(const std::vector<std::uint16_t>& beams, const ScanV
 }
 
 /// What lies beside the echo of a beam, `step` (+1 or -1) beams on.
-Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view) {
+Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view, double size_scale) {
   constexpr int kBeamsLookedAt = 2;
   constexpr double kFartherM = 0.5;
   const auto count = static_cast<int>(view.beam_count());
@@ -90,7 +90,7 @@ Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view) {
     if (neighbour < 0 || neighbour >= count) return Edge::kHidden;
     const double range_m = view.range_m(static_cast<std::size_t>(neighbour));
     if (range_m <= 0.0) continue;
-    if (range_m < view.range_m(beam) - kFartherM) return Edge::kHidden;
+    if (range_m < view.range_m(beam) - kFartherM * size_scale) return Edge::kHidden;
     edge = Edge::kOpen;
   }
   return edge;
@@ -105,8 +105,8 @@ Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view
   for (std::size_t beam = beams.front(); beam <= beams.back(); ++beam) gaps += view.polar().range_m(beam) <= 0.0 ? 1 : 0;
   const double unanswered_share = (gaps + kGapsSupposed) / (static_cast<double>(gaps + beams.size()) + 1.0);
   for (const std::uint16_t beam : beams) points_m.push_back(view.point_in_odom_m(beam));
-  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(beams.front(), -1, view.polar()),
-          edge_beyond(beams.back(), +1, view.polar()), side_of(beams, view, kLongSideM * size_scale), unanswered_share};
+  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(beams.front(), -1, view.polar(), size_scale),
+          edge_beyond(beams.back(), +1, view.polar(), size_scale), side_of(beams, view, kLongSideM * size_scale), unanswered_share};
 }
 
 bool is_vehicle(const Track& track) { return track.body.has_sides && track.body.kind != Kind::kBicycle; }
@@ -443,7 +443,7 @@ void Tracker::begin_tracks(const ScanView& view) {
     const Glimpse glimpse = glimpse_of(segment.beams, view, config_.size_scale, points_m);
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
     // Detection fits boxes to what moves only.
-    const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m).heading_rad;
+    const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m, config_.range_noise_m).heading_rad;
     tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
     tracks_.back().echoes = static_cast<double>(segment.beams.size());

@@ -39,12 +39,12 @@ Glimpse glimpse_of(const std::vector<Vector2d>& points) {
 }
 
 /// Measured again and again until the belief has settled.
-BodyMeasurement settled(Body body, const Vector2d& predicted_m, const Glimpse& glimpse) {
+BodyMeasurement settled(Body body, const Vector2d& predicted_m, const Glimpse& glimpse, const TrackingConfig& config = kConfig) {
   body.is_oriented = true;
   BodyMeasurement measurement;
   Vector2d centre_m = predicted_m;
   for (int i = 0; i < 20; ++i) {
-    measurement = measure_box(body, centre_m, glimpse, kConfig);
+    measurement = measure_box(body, centre_m, glimpse, config);
     body = measurement.body;
     centre_m = measurement.centre_m;
   }
@@ -76,6 +76,22 @@ TEST(Body, IsAsLongAsItsFlankWhenThatIsSeenFromEndToEnd) {
   const BodyMeasurement measurement = settled(likely_box(0.0, glimpse, kConfig), {8.0, 12.0}, glimpse);
   EXPECT_NEAR(measurement.body.length.value_m, 5.2, 0.15);
   EXPECT_LT((measurement.centre_m - Vector2d(8.0, 12.0)).norm(), 0.2);
+}
+
+TEST(Body, OfAModelIsMeasuredAsThatOfACarIs) {
+  const auto points = echoes_of({8.0, 4.0}, 4.6, 1.9);
+  const BodyMeasurement car = settled(likely_box(0.0, glimpse_of(points), kConfig), {8.0, 4.0}, glimpse_of(points));
+  const double scale = 0.1;
+  TrackingConfig config;
+  config.size_scale = scale;
+  for (double* length_m : {&config.range_noise_m, &config.shape_noise_m, &config.longest_body_m}) *length_m *= scale;
+  std::vector<Vector2d> model_points;
+  for (const Vector2d& point : points) model_points.push_back(scale * point);
+  const Glimpse glimpse = glimpse_of(model_points);
+  const BodyMeasurement model = settled(likely_box(0.0, glimpse, config), scale * Vector2d(8.0, 4.0), glimpse, config);
+  EXPECT_NEAR(model.body.length.value_m, scale * car.body.length.value_m, 1e-3);
+  EXPECT_NEAR(model.body.width.value_m, scale * car.body.width.value_m, 1e-3);
+  EXPECT_LT((model.centre_m - scale * car.centre_m).norm(), 1e-3);
 }
 
 TEST(Body, DoesNotShrinkToThePartThatSomethingNearerLeavesInView) {
