@@ -31,6 +31,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatienceAtTheEnd = 30s;
+constexpr auto kPatienceIfInterrupted = 5s;
 constexpr auto kLastWords = 50ms;
 constexpr const char* kVehicle = "bench";
 constexpr const char* kFound = "map:      found itself in the map\n";
@@ -70,13 +71,14 @@ std::optional<files::Error> lay_out_map(const Job& job, const BenchOptions& opti
   return write_stored_map(state_folder, *stored, kVehicle);
 }
 
-/// Until the drive has ended; otherwise the line that says why it has not.
-std::optional<std::string> attend(Collector& collector, ServiceProcesses& services, const std::vector<std::int64_t>& stamps_ns) {
+/// Until the drive has ended or is interrupted; otherwise the line that says why it has not.
+std::optional<std::string> attend(Collector& collector, ServiceProcesses& services, const std::vector<std::int64_t>& stamps_ns,
+                                  const std::atomic<bool>& is_interrupted) {
   ProgressBar progress("slammot bench");
   const double duration_ns = static_cast<double>(std::max<std::int64_t>(1, stamps_ns.back() - stamps_ns.front()));
   auto look_after_services_at = Clock::now();
-  while (!collector.has_drive_ended()) {
-    if (!collector.wait(100ms)) return std::nullopt;
+  while (!collector.has_drive_ended() && !is_interrupted) {
+    collector.wait(100ms);
     if (collector.last_localized_ns()) progress.show(static_cast<double>(*collector.last_localized_ns() - stamps_ns.front()) / duration_ns);
     if (Clock::now() < look_after_services_at) continue;
     if (auto fault = services.restart_dead()) return fault;
@@ -98,7 +100,7 @@ files::RunReport make_report(const Job& job, const BenchOptions& options, const 
   return report;
 }
 
-int write(const BenchOptions& options, const files::RunRecord& record, const files::RunReport& report) {
+int write(const BenchOptions& options, const files::RunRecord& record, const files::RunReport& report, double duration_s) {
   if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
   if (options.stores_map) {
     if (const auto fault = write_stored_map(options.output, record.submaps())) return fail(fault->message);
@@ -109,6 +111,10 @@ int write(const BenchOptions& options, const files::RunRecord& record, const fil
     if (count > 0) std::printf("%s: %llu\n", name.c_str(), static_cast<unsigned long long>(count));
   }
   std::fflush(stdout);
+  if (report.is_interrupted) {
+    std::fprintf(stderr, "slammot: interrupted: only the first %.1f s of the drive were processed\n", duration_s);
+    return kExitInterrupted;
+  }
   if (!report.faults.is_cut) return kExitDone;
   std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed\n", options.input.c_str());
   return kExitLogIsCut;
@@ -130,11 +136,7 @@ files::Result<BenchOptions> with_recorded_drive(BenchOptions options) {
 
 int bench(const BenchOptions& asked_for) {
   std::atomic<bool> is_interrupted = false;
-  std::atomic<Collector*> to_stop = nullptr;
-  const app::StopSignal stop_signal([&] {
-    is_interrupted = true;
-    if (Collector* collector = to_stop) collector->stop();
-  });
+  const app::StopSignal stop_signal([&] { is_interrupted = true; });
   const auto recorded = with_recorded_drive(asked_for);
   if (!recorded) return fail(recorded.error().message);
   const BenchOptions& options = *recorded;
@@ -143,30 +145,35 @@ int bench(const BenchOptions& asked_for) {
   if (!job) return fail(job.error().message);
   std::fputs(describe_job(*job, options).c_str(), stdout);
   std::fflush(stdout);
-  const std::vector<std::int64_t> stamps_ns = stamps_of(job->log);
+  std::vector<std::int64_t> stamps_ns = stamps_of(job->log);
 
   const TemporaryFolder folder("slammot-bench-");
   if (const auto fault = lay_out_map(*job, options, folder.path())) return fail(fault->message);
   const std::string dds_config = dds::loopback_config("slammot-bench-" + std::to_string(getpid()));
   Collector collector({kVehicle, options.domain_id, dds_config});
-  to_stop = &collector;
   std::optional<ServiceProcesses> services;
   services.emplace(services_for(*job, options, folder.path()), folder.path(), std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
-  if (const auto fault = attend(collector, *services, stamps_ns)) return fail(*fault);
-  const bool is_complete = !is_interrupted && collector.finish(kPatienceAtTheEnd);
-  to_stop = nullptr;
-  if (is_interrupted) {
-    std::fprintf(stderr, "slammot: interrupted\n");
-    return kExitInterrupted;
+  if (const auto fault = attend(collector, *services, stamps_ns, is_interrupted)) return fail(*fault);
+  const bool is_cut_short = is_interrupted && !collector.has_drive_ended();
+  if (is_cut_short) {
+    services->end("ingest");
+    if (!collector.last_localized_ns()) {
+      std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
+      return kExitInterrupted;
+    }
   }
+  const bool is_complete = collector.finish(is_cut_short ? kPatienceIfInterrupted : kPatienceAtTheEnd);
   const auto restarts = services->restarts();
   services.reset();
   collector.wait(kLastWords);  // the services' last counters
   files::RunReport report = make_report(*job, options, collector, restarts);
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
-  report.measured = {collector.latencies(), wall_s, report.plan.figures.duration_s / wall_s, std::max(peak_memory_mb(), peak_memory_of_services_mb())};
-  const int exit_code = write(options, collector.record(stamps_ns), report);
-  if (!is_complete) return fail("the last submap did not come: the map lacks the end of the drive");
+  if (is_cut_short) std::erase_if(stamps_ns, [&](std::int64_t stamp_ns) { return stamp_ns > *collector.last_localized_ns(); });
+  const double duration_s = static_cast<double>(*std::ranges::max_element(stamps_ns) - stamps_ns.front()) * 1e-9;
+  report.is_interrupted = is_cut_short;
+  report.measured = {collector.latencies(), wall_s, duration_s / wall_s, std::max(peak_memory_mb(), peak_memory_of_services_mb())};
+  const int exit_code = write(options, collector.record(stamps_ns), report, duration_s);
+  if (!is_complete && !is_cut_short) return fail("the last submap did not come: the map lacks the end of the drive");
   return exit_code;
 }
 

@@ -118,21 +118,31 @@ std::string ServiceProcesses::last_words(const std::string& name) const {
   return last;
 }
 
-ServiceProcesses::~ServiceProcesses() {
-  const auto has_ended = [](Running& running) {
+void ServiceProcesses::end(const std::function<bool(const Running&)>& is_meant) {
+  const auto has_ended = [&](Running& running) {
+    if (!is_meant(running)) return true;
     if (running.process != 0 && waitpid(running.process, nullptr, WNOHANG) == running.process) running.process = 0;
     return running.process == 0;
   };
   for (const Running& running : all_) {
-    if (running.process != 0) kill(running.process, SIGTERM);
+    if (is_meant(running) && running.process != 0) kill(running.process, SIGTERM);
   }
   const auto give_up_at = std::chrono::steady_clock::now() + kPatience;
   while (!std::ranges::all_of(all_, has_ended) && std::chrono::steady_clock::now() < give_up_at) std::this_thread::sleep_for(10ms);
   for (Running& running : all_) {
-    if (running.process == 0) continue;
+    if (has_ended(running)) continue;
     kill(running.process, SIGKILL);
     waitpid(running.process, nullptr, 0);
+    running.process = 0;
   }
+}
+
+void ServiceProcesses::end(const std::string& name) {
+  end([&](const Running& running) { return running.service.name == name; });
+}
+
+ServiceProcesses::~ServiceProcesses() {
+  end([](const Running&) { return true; });
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& prefix) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,9 @@ class ServiceProcesses {
   /// Starts again what has died. Otherwise why there is no point in it, with the service's last words.
   std::optional<std::string> restart_dead();
 
+  /// Ends one for good: SIGTERM, SIGKILL after 2 s.
+  void end(const std::string& name);
+
   /// Exit code of a service that may end and has.
   std::optional<int> ended(const std::string& name) const;
 
@@ -50,6 +54,7 @@ class ServiceProcesses {
   };
 
   void start(Running& running);
+  void end(const std::function<bool(const Running&)>& is_meant);
   std::string last_words(const std::string& name) const;
 
   std::vector<Running> all_;
