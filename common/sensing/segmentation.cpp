@@ -69,6 +69,49 @@ void join_along_lines(std::span<const Eigen::Vector2f> points_m, std::span<const
   std::reverse(spans.begin(), spans.end());
 }
 
+/// Whether all echoes between the two beams lie on the line through the outermost ones.
+bool are_on_a_line(std::uint16_t first, std::uint16_t last, std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
+                   double tolerance_m) {
+  const Eigen::Vector2f direction = (points_m[last] - points_m[first]).normalized();
+  for (std::size_t beam = first + 1U; beam < last; ++beam) {
+    if (range_m[beam] <= 0.0F) continue;
+    const Eigen::Vector2f off_m = points_m[beam] - points_m[first];
+    if (std::abs(direction.x() * off_m.y() - direction.y() * off_m.x()) > static_cast<float>(tolerance_m)) return false;
+  }
+  return true;
+}
+
+/// Nothing but beams without echo lies between one span and the next.
+void join_what_is_dark(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, const SegmentationConfig& config,
+                       std::vector<BeamSpan>& spans) {
+  constexpr int kMostInARow = 3;  // a lit surface answers to more
+  constexpr std::size_t kFewestSpans = 3;
+  constexpr double kMostInARowInTheMean = 1.5;  // people abreast answer to more
+  constexpr double kMostAnsweredShare = 0.5;
+  const auto is_short = [](const BeamSpan& span) { return span.last - span.first < kMostInARow; };
+  const auto may_follow = [&](const BeamSpan& a, const BeamSpan& b) {
+    return b.first - a.last <= config.dark_gap_beams + 1 && is_short(b) &&
+           (points_m[b.first] - points_m[a.last]).squaredNorm() <= static_cast<float>(config.dark_gap_m * config.dark_gap_m);
+  };
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < spans.size();) {
+    std::size_t end = i + 1;
+    int answered = spans[i].last - spans[i].first + 1;
+    while (is_short(spans[i]) && end < spans.size() && may_follow(spans[end - 1], spans[end]) &&
+           are_on_a_line(spans[i].first, spans[end].last, points_m, range_m, config.line_tolerance_m)) {
+      answered += spans[end].last - spans[end].first + 1;
+      ++end;
+    }
+    const std::size_t count = end - i;
+    const bool is_dark = count >= kFewestSpans && answered <= kMostInARowInTheMean * static_cast<double>(count) &&
+                         answered < kMostAnsweredShare * (spans[end - 1].last - spans[i].first + 1);
+    if (is_dark) spans[kept++] = {spans[i].first, spans[end - 1].last};
+    else for (std::size_t j = i; j < end; ++j) spans[kept++] = spans[j];
+    i = end;
+  }
+  spans.resize(kept);
+}
+
 }  // namespace
 
 void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
@@ -90,6 +133,7 @@ void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<co
     spans.push_back({index, index});
   }
   join_along_lines(points_m, range_m, config, spans);
+  if (config.dark_gap_beams > 0) join_what_is_dark(points_m, range_m, config, spans);
 }
 
 }  // namespace slammot::sensing

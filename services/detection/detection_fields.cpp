@@ -20,6 +20,8 @@ FieldTable<sensing::SegmentationConfig> segmentation_fields() {
       {"line_gap_m", &C::line_gap_m, "A straight wall seen at a grazing angle goes on across so wide a gap.", kNotNegative},
       {"line_gap_growth", &C::line_gap_growth, "That gap is at most so many times the one before.", kPositive},
       {"line_tolerance_m", &C::line_tolerance_m, "The next echo lies this near to the wall's line.", kPositive},
+      {"dark_gap_m", &C::dark_gap_m, "Echoes of something dark, one here and one there on a line, lie no farther apart.", kNotNegative},
+      {"dark_gap_beams", &C::dark_gap_beams, "Beams without echo that may lie between two of them; 0: they are not joined.", Range{0, 100}},
   };
 }
 

@@ -68,6 +68,44 @@ TEST(Segmentation, AllowsWiderGapsFartherAway) {
   EXPECT_EQ(gap_at(40.0).spans().size(), 1U);
 }
 
+/// Of a dark flank 10 m to the left every n-th beam is answered.
+Sweep dark_flank(int every_nth, double step_back_m) {
+  int beam = 0;
+  return Sweep([=](double angle) mutable -> std::optional<double> {
+    const double along_m = 10.0 * std::tan(angle);
+    if (++beam % every_nth != 0 || along_m < 0.0 || along_m > 4.5) return std::nullopt;
+    return (10.0 + (along_m > 2.0 ? step_back_m : 0.0)) / std::cos(angle);
+  });
+}
+
+TEST(Segmentation, KeepsTogetherTheFewEchoesOfADarkFlank) {
+  EXPECT_EQ(dark_flank(6, 0.0).spans().size(), 1U);
+  SegmentationConfig config;
+  config.dark_gap_beams = 0;
+  EXPECT_GT(dark_flank(6, 0.0).spans(config).size(), 5U);
+}
+
+TEST(Segmentation, DoesNotTakeScatteredEchoesForADarkFlank) {
+  EXPECT_EQ(dark_flank(6, 1.0).spans().size(), 2U) << "a metre farther back there is something else";
+  EXPECT_GT(dark_flank(16, 0.0).spans().size(), 1U) << "too far apart";
+}
+
+TEST(Segmentation, LeavesApartTwoWhoStandSideBySide) {
+  // 10 m away, nothing behind them: each answers to all beams that meet it.
+  const Sweep two([](double angle) -> std::optional<double> {
+    return std::abs(std::abs(10.0 * angle) - 0.5) < 0.2 ? std::optional(10.0) : std::nullopt;
+  });
+  EXPECT_EQ(two.spans().size(), 2U);
+}
+
+TEST(Segmentation, LeavesApartThreeWhoWalkAbreast) {
+  const Sweep three([](double angle) -> std::optional<double> {
+    const double along_m = 20.0 * angle;
+    return std::abs(along_m - std::round(along_m)) < 0.2 && std::abs(along_m) < 1.3 ? std::optional(20.0) : std::nullopt;
+  });
+  EXPECT_EQ(three.spans().size(), 3U);
+}
+
 TEST(Segmentation, FindsNothingInAScanWithoutEchoes) {
   EXPECT_TRUE(Sweep([](double) -> std::optional<double> { return std::nullopt; }).spans().empty());
 }
