@@ -86,7 +86,7 @@ void join_what_is_dark(std::span<const Eigen::Vector2f> points_m, std::span<cons
                        std::vector<BeamSpan>& spans) {
   constexpr int kMostInARow = 3;  // a lit surface answers to more
   constexpr std::size_t kFewestSpans = 3;
-  constexpr double kMostInARowInTheMean = 1.5;  // people abreast answer to more
+  constexpr double kMostInARowInTheMean = 1.9;  // people abreast answer to more
   constexpr double kMostAnsweredShare = 0.5;
   const auto is_short = [](const BeamSpan& span) { return span.last - span.first < kMostInARow; };
   const auto may_follow = [&](const BeamSpan& a, const BeamSpan& b) {
