@@ -25,6 +25,18 @@ Result<std::unique_ptr<LineSource>> open_lines(const std::filesystem::path& path
   return std::unique_ptr<LineSource>(std::make_unique<LineReader>(std::move(*lines)));
 }
 
+/// What a record that is kept takes, and next to what its readings take.
+std::size_t bytes_of(const CarmenRecord& record) {
+  const auto* laser = std::get_if<LaserRecord>(&record);
+  return sizeof record + (laser != nullptr ? laser->range_m.size() * sizeof(float) : 0);
+}
+
+/// Without what points into the line that it was read from.
+CarmenRecord to_keep(CarmenRecord record) {
+  if (auto* param = std::get_if<ParamRecord>(&record)) *param = {};
+  return record;
+}
+
 Error no_scans(const std::filesystem::path& path, const LineSource& lines, std::uint64_t malformed_lines) {
   std::string message = path.string() + ": no laser scan (FLASER or ROBOTLASER1) in " + std::to_string(lines.line_number()) + " lines";
   if (malformed_lines > 0) message += ", " + std::to_string(malformed_lines) + " of them malformed";
@@ -37,16 +49,27 @@ Error no_scans(const std::filesystem::path& path, const LineSource& lines, std::
 Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const CarmenLogOptions& options) {
   auto opened = open_lines(path);
   if (!opened) return opened.error();
-  const std::unique_ptr<LineSource> first_pass = std::move(*opened);
+  std::unique_ptr<LineSource> first_pass = std::move(*opened);
   CarmenSurvey survey;
+  std::deque<ReadRecord> records;
+  std::size_t bytes = 0;
   std::uint64_t malformed_lines = 0;
   while (const auto line = first_pass->next()) {
-    const CarmenRecord record = parse_carmen_line(*line);
+    CarmenRecord record = parse_carmen_line(*line);
     malformed_lines += std::holds_alternative<MalformedLine>(record) ? 1 : 0;
     survey.add(record);
+    bytes += bytes_of(record);
+    if (bytes <= options.most_kept_bytes) records.push_back({to_keep(std::move(record)), first_pass->line_number(), first_pass->overlong_lines(), first_pass->fraction_read()});
+    else records.clear();
   }
   const LogPlan plan = survey.conclude(options.fallback_field_of_view_rad);
   if (plan.figures.scans == 0) return no_scans(path, *first_pass, malformed_lines);
+  if (bytes <= options.most_kept_bytes) {
+    CarmenLog log(std::move(first_pass), plan, options);
+    log.kept_ = std::move(records);
+    log.all_is_kept_ = true;
+    return log;
+  }
   auto second_pass = open_lines(path);
   if (!second_pass) return second_pass.error();
   return CarmenLog(std::move(*second_pass), plan, options);
@@ -70,18 +93,17 @@ void CarmenLog::set_options(const CarmenLogOptions& options) {
 
 std::optional<LogEvent> CarmenLog::next() {
   while (ready_.empty() && !is_finished_) {
-    const auto line = lines_->next();
-    if (!line) {
+    if (!read_on()) {
       finish_reading();
       continue;
     }
-    const CarmenRecord record = parse_carmen_line(*line);
-    if (survey_) survey_->add(record);
+    if (survey_) survey_->add(now_.record);
     std::visit(Overloaded{[this](const IgnoredLine&) { ++faults_.ignored_lines; }, [this](const MalformedLine&) { note_malformed(); },
                           [](const ParamRecord&) {},  // heeded by the survey
-                          [this](const auto& known) { take(known); }},
-               record);
-    faults_.overlong_lines = lines_->overlong_lines();
+                          [this](const OdometryRecord& known) { take(known); },
+                          [this](LaserRecord& known) { take(std::move(known)); }},
+               now_.record);
+    faults_.overlong_lines = now_.overlong_lines;
   }
   if (ready_.empty()) return std::nullopt;
   LogEvent event = std::move(ready_.front());
@@ -89,14 +111,29 @@ std::optional<LogEvent> CarmenLog::next() {
   return event;
 }
 
-void CarmenLog::take(const LaserRecord& record) {
+/// The next record, kept or from the lines: now_. False at the end.
+bool CarmenLog::read_on() {
+  if (!kept_.empty()) {
+    now_ = std::move(kept_.front());
+    kept_.pop_front();
+    return true;
+  }
+  if (all_is_kept_) return false;
+  const auto line = lines_->next();
+  if (!line) return false;
+  now_ = {parse_carmen_line(*line), lines_->line_number(), lines_->overlong_lines(), lines_->fraction_read()};
+  return true;
+}
+
+void CarmenLog::take(LaserRecord record) {
   if (record.kind != plan_.laser) {
     ++faults_.ignored_lines;
     return;
   }
   const auto stamp = stamp_ns(record.stamps);
   if (!stamp) return note_malformed();
-  sensing::LaserScan scan = scan_of(record, *stamp);
+  const geometry::Pose2 wheel_from_base = record.wheel_from_base;
+  sensing::LaserScan scan = scan_of(std::move(record), *stamp);
   ++scans_;
   switch (plan_.odometry) {
     case OdometrySource::kNone:
@@ -104,7 +141,7 @@ void CarmenLog::take(const LaserRecord& record) {
     case OdometrySource::kLaserRecords:
     case OdometrySource::kBoth:
       put_odometry_until(scan.stamp_ns - 1);
-      return put_scan(std::move(scan), record.wheel_from_base);
+      return put_scan(std::move(scan), wheel_from_base);
     case OdometrySource::kOdomLines:
       waiting_.push_back(std::move(scan));
       // Without a common clock the line before the scan is the best there is.
@@ -129,8 +166,8 @@ void CarmenLog::take(const OdometryRecord& record) {
 
 void CarmenLog::note_malformed() {
   ++faults_.malformed_lines;
-  last_malformed_line_ = lines_->line_number();
-  if (faults_.first_malformed_lines.size() < LogFaults::kNamedLines) faults_.first_malformed_lines.push_back(lines_->line_number());
+  last_malformed_line_ = now_.line_number;
+  if (faults_.first_malformed_lines.size() < LogFaults::kNamedLines) faults_.first_malformed_lines.push_back(now_.line_number);
 }
 
 void CarmenLog::finish_reading() {
@@ -151,7 +188,7 @@ std::optional<std::int64_t> CarmenLog::stamp_ns(const CarmenStamps& stamps) cons
   return std::nullopt;
 }
 
-sensing::LaserScan CarmenLog::scan_of(const LaserRecord& record, std::int64_t stamp_ns) const {
+sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::int64_t stamp_ns) const {
   const BeamLayout layout = record.layout.value_or(layout_by_convention(record.range_m.size(), options_.fallback_field_of_view_rad));
   sensing::LaserScan scan;
   scan.stamp_ns = stamp_ns;
@@ -161,7 +198,7 @@ sensing::LaserScan CarmenLog::scan_of(const LaserRecord& record, std::int64_t st
   scan.scanner.first_beam_rad = layout.first_beam_rad;
   scan.scanner.beam_step_rad = layout.beam_step_rad;
   scan.scanner.max_range_m = record.max_range_m > 0.0 ? std::min(record.max_range_m, plan_.max_range_m) : plan_.max_range_m;
-  scan.range_m = record.range_m;
+  scan.range_m = std::move(record.range_m);
   return scan;
 }
 

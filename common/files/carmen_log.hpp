@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -23,6 +24,7 @@ struct CarmenLogOptions {
   std::string scanner_id = "front";
   double fallback_field_of_view_rad = std::numbers::pi;  ///< First to last beam, where the records do not say.
   geometry::Pose2 fallback_base_from_laser;              ///< Where the log does not say where the laser is.
+  std::size_t most_kept_bytes = std::size_t{48} << 20;   ///< Of records read by open(), a quarter of an hour at 40 Hz; more are read again.
 };
 
 /// Lines that were of no use, counted while the log is read.
@@ -40,8 +42,8 @@ using LogEvent = std::variant<sensing::Odometry, sensing::LaserScan>;
 
 /// A CARMEN log as a stream of what the vehicle's sensors said, in the order of the log.
 ///
-/// Opening reads the whole log once (CarmenSurvey) and decides how to understand it; next() reads it again. Lines of a
-/// source that cannot be read twice are followed instead.
+/// Opening reads the whole log once (CarmenSurvey) and decides how to understand it; next() hands out what was read, or
+/// reads it again where that is too much to keep. Lines of a source that cannot be read twice are followed instead.
 /// - Stamps are the log's ipc_timestamp where that is a clock; see LogClock.
 /// - Where the log has odometry, each scan comes right after an Odometry of the scan's very stamp, and the stamps of
 ///   Odometry always grow; see OdometrySource for ODOM lines. A scan that is not newer than those before it comes
@@ -68,17 +70,26 @@ class CarmenLog {
   const LogFaults& faults() const { return faults_; }
 
   /// Share of the file taken in by next() so far, [0, 1].
-  double fraction_read() const { return lines_->fraction_read(); }
+  double fraction_read() const { return now_.fraction_read; }
 
  private:
   CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options);
 
-  void take(const LaserRecord& record);
+  /// One line, understood.
+  struct ReadRecord {
+    CarmenRecord record;
+    std::uint64_t line_number = 0;
+    std::uint64_t overlong_lines = 0;   ///< So far,
+    double fraction_read = 0.0;         ///< as is this.
+  };
+
+  bool read_on();
+  void take(LaserRecord record);
   void take(const OdometryRecord& record);
   void note_malformed();
   void finish_reading();
   std::optional<std::int64_t> stamp_ns(const CarmenStamps& stamps) const;
-  sensing::LaserScan scan_of(const LaserRecord& record, std::int64_t stamp_ns) const;
+  sensing::LaserScan scan_of(LaserRecord record, std::int64_t stamp_ns) const;
   void put_odometry(const sensing::Odometry& odometry);
   void put_odometry_until(std::int64_t stamp_ns);
   void put_waiting_scans(std::size_t may_wait);
@@ -86,6 +97,9 @@ class CarmenLog {
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
 
   std::unique_ptr<LineSource> lines_;
+  std::deque<ReadRecord> kept_;                      // what is still to come, where
+  bool all_is_kept_ = false;                         // the survey's records were few enough
+  ReadRecord now_;
   std::optional<CarmenSurvey> survey_;               // of lines that were not surveyed before
   LogPlan plan_;
   CarmenLogOptions options_;

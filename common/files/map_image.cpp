@@ -134,22 +134,85 @@ Sample look(const flow::Submap& submap, const Vector2& centre_in_submap_m, const
   return result;
 }
 
+void add_to_pixel(Canvas& canvas, std::size_t pixel, const Sample& sample) {
+  canvas.log_odds[pixel] = static_cast<std::int16_t>(std::clamp(canvas.log_odds[pixel] + sample.log_odds, -30'000, 30'000));
+  canvas.moving[pixel] = static_cast<std::uint8_t>(std::max<int>(canvas.moving[pixel], sample.moving));
+  canvas.seen[pixel] = 1;
+}
+
+/// Pixels [first, end) of a row of the canvas where each looks at one cell only: the cells' places in the submap are
+/// computed beforehand, many at a time.
+class SingleLook {
+ public:
+  SingleLook(const PlacedSubmap& placed, Canvas& canvas, std::int64_t first_column, std::int64_t end_column)
+      : submap_(*placed.submap), canvas_(canvas), first_column_(first_column), along_x_(static_cast<std::size_t>(end_column - first_column)),
+        along_y_(along_x_.size()), cells_(along_x_.size()) {
+    const Pose2 submap_from_map = inverse(placed.map_from_submap);
+    turn_ = geometry::rotation(submap_from_map.heading_rad);
+    origin_m_ = submap_from_map.translation_m();
+    for (std::size_t i = 0; i < along_x_.size(); ++i) {
+      const double x_m = canvas.min_x_m + (static_cast<double>(first_column + static_cast<std::int64_t>(i)) + 0.5) * canvas.resolution_m;
+      along_x_[i] = turn_(0, 0) * x_m;
+      along_y_[i] = turn_(1, 0) * x_m;
+    }
+  }
+
+  void add_row(std::int64_t row) {
+    const double y_m = canvas_.min_y_m + (static_cast<double>(row) + 0.5) * canvas_.resolution_m;
+    const double across_x = turn_(0, 1) * y_m;
+    const double across_y = turn_(1, 1) * y_m;
+    const double columns = submap_.columns;
+    const double rows = submap_.rows;
+    const auto columns_in_row = static_cast<std::int32_t>(submap_.columns);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const double column = (along_x_[i] + across_x + origin_m_.x() - submap_.min_x_m) / submap_.cell_size_m;
+      const double row_in_submap = (along_y_[i] + across_y + origin_m_.y() - submap_.min_y_m) / submap_.cell_size_m;
+      const bool is_inside = (column >= 0.0) & (row_in_submap >= 0.0) & (column < columns) & (row_in_submap < rows);
+      const std::int32_t cell = static_cast<std::int32_t>(is_inside ? row_in_submap : 0.0) * columns_in_row + static_cast<std::int32_t>(is_inside ? column : 0.0);
+      cells_[i] = is_inside ? cell : -1;
+    }
+    const std::size_t first_pixel = static_cast<std::size_t>(row * canvas_.columns + first_column_);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (cells_[i] < 0) continue;
+      const auto cell = static_cast<std::size_t>(cells_[i]);
+      if (!is_seen(submap_, cell)) continue;
+      add_to_pixel(canvas_, first_pixel + i, {submap_.so_log_odds[cell], cell < submap_.mo_evidence.size() ? submap_.mo_evidence[cell] : 0, true});
+    }
+  }
+
+ private:
+  const flow::Submap& submap_;
+  Canvas& canvas_;
+  std::int64_t first_column_;
+  geometry::Matrix2 turn_;
+  Vector2 origin_m_;
+  std::vector<double> along_x_;        ///< What a column adds to both coordinates in the submap.
+  std::vector<double> along_y_;
+  std::vector<std::int32_t> cells_;    ///< -1 outside.
+};
+
 void add_to_canvas(const PlacedSubmap& placed, const Box& box_in_map, Canvas& canvas) {
   if (box_in_map.is_empty()) return;
   const auto column_of = [&](double x_m) { return std::clamp<std::int64_t>(static_cast<std::int64_t>((x_m - canvas.min_x_m) / canvas.resolution_m), 0, canvas.columns - 1); };
   const auto row_of = [&](double y_m) { return std::clamp<std::int64_t>(static_cast<std::int64_t>((y_m - canvas.min_y_m) / canvas.resolution_m), 0, canvas.rows - 1); };
+  const std::int64_t first_column = column_of(box_in_map.min_x_m);
+  const std::int64_t end_column = column_of(box_in_map.max_x_m) + 1;
+  const std::int64_t first_row = row_of(box_in_map.min_y_m);
+  const std::int64_t end_row = row_of(box_in_map.max_y_m) + 1;
+  const bool fits = std::uint64_t{placed.submap->columns} * placed.submap->rows <= std::numeric_limits<std::int32_t>::max();
+  if (canvas.samples == 1 && fits) {
+    SingleLook look_at(placed, canvas, first_column, end_column);
+    for (std::int64_t row = first_row; row < end_row; ++row) look_at.add_row(row);
+    return;
+  }
   const Pose2 submap_from_map = inverse(placed.map_from_submap);
   const geometry::Matrix2 turn = geometry::rotation(submap_from_map.heading_rad);
-  for (std::int64_t row = row_of(box_in_map.min_y_m); row <= row_of(box_in_map.max_y_m); ++row) {
-    for (std::int64_t column = column_of(box_in_map.min_x_m); column <= column_of(box_in_map.max_x_m); ++column) {
+  for (std::int64_t row = first_row; row < end_row; ++row) {
+    for (std::int64_t column = first_column; column < end_column; ++column) {
       const Vector2 centre_in_map_m{canvas.min_x_m + (static_cast<double>(column) + 0.5) * canvas.resolution_m,
                                     canvas.min_y_m + (static_cast<double>(row) + 0.5) * canvas.resolution_m};
       const Sample sample = look(*placed.submap, turn * centre_in_map_m + submap_from_map.translation_m(), canvas, turn);
-      if (!sample.seen) continue;
-      const auto pixel = static_cast<std::size_t>(row * canvas.columns + column);
-      canvas.log_odds[pixel] = static_cast<std::int16_t>(std::clamp(canvas.log_odds[pixel] + sample.log_odds, -30'000, 30'000));
-      canvas.moving[pixel] = static_cast<std::uint8_t>(std::max<int>(canvas.moving[pixel], sample.moving));
-      canvas.seen[pixel] = 1;
+      if (sample.seen) add_to_pixel(canvas, static_cast<std::size_t>(row * canvas.columns + column), sample);
     }
   }
 }

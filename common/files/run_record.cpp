@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <string_view>
 
 namespace slammot::files {
 namespace {
@@ -40,15 +41,12 @@ TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& t
   return row;
 }
 
-char letter_of(flow::PointLabel label) {
-  switch (label) {
-    case flow::PointLabel::kNoEcho: return '-';
-    case flow::PointLabel::kStationary: return 's';
-    case flow::PointLabel::kMoving: return 'm';
-    case flow::PointLabel::kUnknown: break;
-  }
-  return '?';
-}
+/// By a table: neighbouring labels are of every kind, and so foretell no branch.
+constexpr std::string_view kLetters = "-sm?";
+static_assert(kLetters[static_cast<std::size_t>(flow::PointLabel::kNoEcho)] == '-' && kLetters[static_cast<std::size_t>(flow::PointLabel::kStationary)] == 's' &&
+              kLetters[static_cast<std::size_t>(flow::PointLabel::kMoving)] == 'm' && kLetters[static_cast<std::size_t>(flow::PointLabel::kUnknown)] == '?');
+
+char letter_of(flow::PointLabel label) { return kLetters[std::min(static_cast<std::size_t>(label), kLetters.size() - 1)]; }
 
 std::string letters_of(const std::vector<flow::PointLabel>& labels) {
   std::string letters(labels.size(), '?');

@@ -109,22 +109,31 @@ class EvidenceGrid {
       return words[static_cast<std::size_t>(lane) * static_cast<std::size_t>(words_per_lane) + static_cast<std::size_t>(place >> 3)] >> (8 * (place & 7)) & 0xff;
     }
 
-    /// The first occupied block of the lane from this one on, up (step 1) or down (-1); beyond its end where there is none.
-    std::int32_t next(std::int32_t lane, std::int32_t block, std::int32_t step) const;
+    /// Visits the occupied blocks of a lane from the first to the last, up or down, until visit(block) is true, and tells
+    /// whether it ever was.
+    template <typename Visit>
+    bool any(std::int32_t lane, std::int32_t first, std::int32_t last, Visit visit) const;
+    bool may_have_any(std::int32_t lane, std::int32_t low, std::int32_t high) const;
   };
 
   struct RayInCells;
 
+  /// In cells of the window, with the first row whose middle is not below it.
+  struct OutlinePoint {
+    Eigen::Vector2d place;
+    std::int32_t first_row = 0;
+  };
+
   void measure_free_ways(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
   void outline_free_space(const Eigen::Vector2d& origin_m);
-  void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  void add_edge(const OutlinePoint& from, const OutlinePoint& to);
   void fill_outline();
   void walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double from_m, double to_m);
   void find_echoes(const std::vector<Ray>& rays);
   void keep_echoes_out();
   void lower_free_cells();
   void lower(std::int32_t row, std::int32_t word, std::uint64_t free_cells);
-  void unnote_freed(std::int32_t row, std::int32_t word);
+  void unnote_freed(std::int32_t row, std::int32_t word, std::uint64_t free_cells);
   void raise_echoes();
   void raise_so(Cell cell, int steps);
   void note_occupied(std::size_t index);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -14,6 +14,13 @@ struct Cell {
   std::int32_t row = 0;
   bool operator==(const Cell&) const = default;
 };
+
+/// The place rounded down. Not every x86-64 has an instruction for std::floor, which is a call then: of all that looks up a
+/// cell.
+inline std::int32_t whole_below(double place) {
+  const auto towards_zero = static_cast<std::int32_t>(place);
+  return towards_zero - (static_cast<double>(towards_zero) > place && towards_zero > std::numeric_limits<std::int32_t>::min());
+}
 
 /// Rectangle of that lattice which a grid holds, row-major from the lowest row. Two windows with the same cell size
 /// share the lattice, so copying from one to the other never resamples.
@@ -28,8 +35,7 @@ struct GridWindow {
   std::size_t cell_count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 
   Cell cell_at(double x_m, double y_m) const {
-    return {static_cast<std::int32_t>(std::floor(x_m / cell_size_m)),
-            static_cast<std::int32_t>(std::floor(y_m / cell_size_m))};
+    return {whole_below(x_m / cell_size_m), whole_below(y_m / cell_size_m)};
   }
 
   bool contains(Cell cell) const {

@@ -18,7 +18,7 @@ double seen_over_m(const CellMoments& moments) {
 }  // namespace
 
 SurfelMap::SurfelMap(const GridWindow& window, double weight_limit)
-    : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1) {}
+    : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1), means_m_{kNowhere} {}
 
 std::int32_t SurfelMap::make_slot(Cell cell) {
   std::int32_t& slot = slots_[window_.index(cell)];
@@ -42,18 +42,15 @@ void SurfelMap::mark_stale_around(Cell cell) {
   }
 }
 
-void SurfelMap::add(const Eigen::Vector2d& point_m, double odometer_m) {
-  const Cell cell = window_.cell_at(point_m.x(), point_m.y());
-  if (!window_.contains(cell)) return;
-  const auto place = static_cast<std::size_t>(make_slot(cell));
+void SurfelMap::add_to_moments(std::size_t place, const Eigen::Vector2d& point_m, float odometer_m) {
   CellMoments& moments = moments_[place];
-  if (moments.weight <= 0.0F) moments.first_seen_at_m = static_cast<float>(odometer_m);
-  moments.last_seen_at_m = static_cast<float>(odometer_m);
+  if (moments.weight <= 0.0F) moments.first_seen_at_m = odometer_m;
+  moments.last_seen_at_m = odometer_m;
   if (moments.weight >= weight_limit_) {
     const float keep = (weight_limit_ - 1.0F) / moments.weight;
     for (float* sum : {&moments.weight, &moments.x, &moments.y, &moments.xx, &moments.xy, &moments.yy}) *sum *= keep;
   }
-  const Eigen::Vector2f offset = (point_m - window_.centre_of(cell)).cast<float>();
+  const Eigen::Vector2f offset = (point_m - window_.centre_of(cells_[place])).cast<float>();
   moments.weight += 1.0F;
   moments.x += offset.x();
   moments.y += offset.y();
@@ -61,8 +58,25 @@ void SurfelMap::add(const Eigen::Vector2d& point_m, double odometer_m) {
   moments.xy += offset.x() * offset.y();
   moments.yy += offset.y() * offset.y();
   moments.own_echoes += 1.0F;
-  note_mean(place);
-  mark_stale_around(cell);
+}
+
+void SurfelMap::add_all(std::span<const Eigen::Vector2d> points_m, double odometer_m) {
+  std::optional<std::size_t> changed;   // of which the moments are not all yet
+  const auto conclude = [&] {
+    if (!changed) return;
+    note_mean(*changed);
+    mark_stale_around(cells_[*changed]);
+  };
+  for (const Eigen::Vector2d& point_m : points_m) {
+    const Cell cell = window_.cell_at(point_m.x(), point_m.y());
+    if (!window_.contains(cell)) continue;
+    if (!changed || cells_[*changed] != cell) {
+      conclude();
+      changed = static_cast<std::size_t>(make_slot(cell));
+    }
+    add_to_moments(*changed, point_m, static_cast<float>(odometer_m));
+  }
+  conclude();
 }
 
 void SurfelMap::erase(Cell cell) {
@@ -78,16 +92,18 @@ void SurfelMap::note_mean(std::size_t place) {
   const bool is_anywhere = moments.weight > 0.0F;
   // The square root: the direction of a surface is a matter of where it was seen, less of how often.
   shares_[place] = is_anywhere ? 1.0 / std::sqrt(static_cast<double>(moments.weight)) : 0.0;
-  means_m_[place] = is_anywhere ? window_.centre_of(cells_[place]) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight) : kNowhere;
+  means_m_[place + 1] = is_anywhere ? window_.centre_of(cells_[place]) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight) : kNowhere;
 }
 
 SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
   const double size_m = window_.cell_size_m;
   double weight = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  const bool is_inside = window_.contains({cell.column - 1, cell.row - 1}) && window_.contains({cell.column + 1, cell.row + 1});
   for (std::int32_t row = -1; row <= 1; ++row) {
     for (std::int32_t column = -1; column <= 1; ++column) {
-      const std::int32_t slot = slot_of({cell.column + column, cell.row + row});
-      if (is_empty(slot)) continue;
+      const Cell neighbour{cell.column + column, cell.row + row};
+      const std::int32_t slot = is_inside ? slots_[window_.index(neighbour)] : slot_of(neighbour);
+      if (slot < 0) continue;
       const CellMoments& m = moments_[static_cast<std::size_t>(slot)];
       const double share = shares_[static_cast<std::size_t>(slot)];
       const double n = m.weight * share, dx = column * size_m, dy = row * size_m, sx = m.x * share, sy = m.y * share;
@@ -125,7 +141,7 @@ const SurfelMap::Shape& SurfelMap::fresh_shape(std::size_t place) const {
 SurfelView SurfelMap::view_of(std::int32_t slot) const {
   const auto place = static_cast<std::size_t>(slot);
   const Shape& shape = fresh_shape(place);
-  return {cells_[place], means_m_[place], {shape.normal_x, shape.normal_y}, shape.spread_m2, moments_[place].weight,
+  return {cells_[place], mean_m(slot), {shape.normal_x, shape.normal_y}, shape.spread_m2, moments_[place].weight,
           moments_[place].own_echoes, seen_over_m(moments_[place])};
 }
 
@@ -144,11 +160,10 @@ std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius)
     const std::int32_t* const slots = slots_.data() + static_cast<std::ptrdiff_t>(row) * window_.columns;
     for (std::int32_t column = first_column; column < end_column; ++column) {
       const std::int32_t slot = slots[column];
-      if (slot < 0) continue;
-      const double distance_m2 = (means_m_[static_cast<std::size_t>(slot)] - point_m).squaredNorm();
-      if (distance_m2 >= best_m2) continue;
-      best_m2 = distance_m2;
-      best_slot = slot;
+      const double distance_m2 = (mean_m(slot) - point_m).squaredNorm();
+      const bool is_nearer = distance_m2 < best_m2;  // without branches, which nothing foretells
+      best_m2 = is_nearer ? distance_m2 : best_m2;
+      best_slot = is_nearer ? slot : best_slot;
     }
   }
   return best_slot;
@@ -170,7 +185,7 @@ std::optional<SurfelMap::Surface> SurfelMap::nearest_surface(const Eigen::Vector
   if (slot < 0) return std::nullopt;
   const auto place = static_cast<std::size_t>(slot);
   const Shape& shape = fresh_shape(place);
-  return Surface{means_m_[place], {shape.normal_x, shape.normal_y}, shape.spread_m2, seen_over_m(moments_[place])};
+  return Surface{mean_m(slot), {shape.normal_x, shape.normal_y}, shape.spread_m2, seen_over_m(moments_[place])};
 }
 
 std::vector<SurfelView> SurfelMap::all() const {
@@ -188,7 +203,7 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
   SurfelMap moved(window, weight_limit_);
   moved.moments_.reserve(moments_.size());
   moved.cells_.reserve(moments_.size());
-  moved.means_m_.reserve(moments_.size());
+  moved.means_m_.reserve(moments_.size() + 1);
   moved.shares_.reserve(moments_.size());
   moved.shapes_.reserve(moments_.size());
   for (std::size_t place = 0; place < moments_.size(); ++place) {
@@ -197,7 +212,7 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
     moments.own_echoes = 0.0F;
     const auto slot = static_cast<std::size_t>(moved.make_slot(cells_[place]));
     moved.moments_[slot] = moments;
-    moved.means_m_[slot] = means_m_[place];
+    moved.means_m_[slot + 1] = means_m_[place + 1];
     moved.shares_[slot] = shares_[place];
   }
   return moved;

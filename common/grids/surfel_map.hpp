@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,7 +36,7 @@ struct CellMoments {
 /// but shared between neighbours so that it does not jump at cell borders.
 class SurfelMap {
  public:
-  SurfelMap() = default;
+  SurfelMap() : SurfelMap({}, 40.0) {}
   /// weight_limit: echoes after which a mean becomes a running one.
   SurfelMap(const GridWindow& window, double weight_limit);
 
@@ -44,7 +45,11 @@ class SurfelMap {
 
   /// Adds one echo, seen when the vehicle's odometer stood at odometer_m; nothing happens outside the window. What is
   /// seen at 0, where the drive begins, counts as seen for ever: there is nothing older to hold it against.
-  void add(const Eigen::Vector2d& point_m, double odometer_m = 0.0);
+  void add(const Eigen::Vector2d& point_m, double odometer_m = 0.0) { add_all(std::span(&point_m, 1), odometer_m); }
+
+  /// Adds echoes one after the other. Those of neighbouring beams mostly fall into one cell, about which everything is
+  /// computed once: see add_a_scan_of_361_points of the benchmark.
+  void add_all(std::span<const Eigen::Vector2d> points_m, double odometer_m);
 
   /// Forgets the surface in a cell.
   void erase(Cell cell);
@@ -63,8 +68,8 @@ class SurfelMap {
   /// Forgets every surfel for whose mean is_gone(mean_m) holds.
   template <typename Predicate>
   void erase_where(Predicate is_gone) {
-    for (std::size_t place = 0; place < means_m_.size(); ++place)
-      if (!is_empty(static_cast<std::int32_t>(place)) && is_gone(means_m_[place])) erase(cells_[place]);
+    for (std::size_t place = 0; place < cells_.size(); ++place)
+      if (!is_empty(static_cast<std::int32_t>(place)) && is_gone(mean_m(place))) erase(cells_[place]);
   }
 
   /// Surfel with its mean nearest to the point among the 3 x 3 cells around it, or, when these hold none, among the
@@ -89,7 +94,10 @@ class SurfelMap {
 
   std::int32_t slot_of(Cell cell) const { return window_.contains(cell) ? slots_[window_.index(cell)] : -1; }
   bool is_empty(std::int32_t slot) const { return slot < 0 || moments_[static_cast<std::size_t>(slot)].weight <= 0.0F; }
+  /// Works for no slot (-1), too: infinitely far.
+  const Eigen::Vector2d& mean_m(std::ptrdiff_t slot) const { return means_m_[static_cast<std::size_t>(slot + 1)]; }
   std::int32_t make_slot(Cell cell);
+  void add_to_moments(std::size_t place, const Eigen::Vector2d& point_m, float odometer_m);
   std::int32_t nearest_slot(const Eigen::Vector2d& point_m, int radius) const;
   void mark_stale_around(Cell cell);
   Shape shape_at(Cell cell) const;
@@ -99,11 +107,11 @@ class SurfelMap {
   SurfelView view_of(std::int32_t slot) const;
 
   GridWindow window_;
-  float weight_limit_ = 40.0F;
+  float weight_limit_;
   std::vector<std::int32_t> slots_;     ///< By cell: place in moments_, -1 for none.
   std::vector<CellMoments> moments_;
   std::vector<Cell> cells_;             ///< Of each of the moments,
-  std::vector<Eigen::Vector2d> means_m_;///< and where its echoes are in the mean; infinitely far where there are none;
+  std::vector<Eigen::Vector2d> means_m_;///< and, one place later, where its echoes are in the mean; infinitely far where there are none;
   std::vector<double> shares_;          ///< and how much each echo counts for the direction of the surface around it.
   mutable std::vector<Shape> shapes_;   ///< Computed when first looked at after a change.
 };

@@ -109,9 +109,11 @@ void LocalMap::integrate(std::int64_t stamp_ns, const Vector2& origin_m, const s
   last_stamp_ns_ = stamp_ns;
   ++scans_;
   evidence_.integrate(origin_m, rays, beam_step_rad);
+  stationary_m_.clear();
   for (const grids::Ray& ray : rays) {
-    if (ray.echo == grids::Echo::kStationary) surfels_.add(ray.end_m, odometer_m_);
+    if (ray.echo == grids::Echo::kStationary) stationary_m_.push_back(ray.end_m);
   }
+  surfels_.add_all(stationary_m_, odometer_m_);
   if (scans_ % kScansBetweenCleanings == 0) forget_surfels_in_free_space();
 }
 

@@ -95,6 +95,7 @@ class LocalMap {
   std::uint32_t scans_ = 0;
   double odometer_m_ = 0.0;                 ///< Way of the laser, in steps that are more than jitter.
   std::optional<geometry::Vector2> counted_to_m_;
+  std::vector<geometry::Vector2> stationary_m_;   ///< Of the scan at hand; kept to reuse the memory.
 };
 
 }  // namespace slammot::localization

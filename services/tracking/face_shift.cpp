@@ -144,7 +144,7 @@ double agreed_off_m(const Face& face, const PolarView& now, std::span<const Earl
 }  // namespace
 
 std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams, const PolarView& now,
-                                    std::span<const EarlierScan* const> earlier, double pose_sigma_m, const TrackingConfig& config) {
+                                    std::span<const EarlierScan* const> earlier, const std::function<double()>& pose_sigma_m, const TrackingConfig& config) {
   if (segment_beams.size() < kFewestEchoes) return std::nullopt;
   std::optional<FaceShift> best;
   for (const auto side : sides_of(segment_beams, now, config)) {
@@ -154,7 +154,7 @@ std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams
     const double echo_sigma_m = config.range_noise_m + config.range_noise_per_m * range_m;
     if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) continue;
     if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_sigma_m)) continue;
-    const double sigma_m = std::hypot(pose_sigma_m, echo_sigma_m * std::sqrt(2.0 / static_cast<double>(side.size())));
+    const double sigma_m = std::hypot(pose_sigma_m(), echo_sigma_m * std::sqrt(2.0 / static_cast<double>(side.size())));
     const double least_m = std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
     const double off_m = agreed_off_m(face, now, earlier, {echo_sigma_m, least_m, config.size_scale});
     if (off_m == 0.0 || (best && best->shift_m.norm() > std::abs(off_m))) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -20,9 +21,9 @@ struct FaceShift {
 
 /// Where a segment has a side as wide as a vehicle's front: how far that has come along its normal since the latest of the earlier
 /// scans (newest first) in which it was elsewhere, if two of them say so and by more than they may err by. Who creeps off shows so after a tenth of a metre, when beams that
-/// must pass where it was, and the map, do not tell yet. pose_sigma_m: of the pose between the two scans. Sides that were
+/// must pass where it was, and the map, do not tell yet. pose_sigma_m: of the pose between the two scans; asked for few segments only. Sides that were
 /// hidden then, or that of something known to move, tell nothing. Cost: linear in the beams of the segment.
 std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams, const PolarView& now,
-                                    std::span<const EarlierScan* const> earlier, double pose_sigma_m, const TrackingConfig& config);
+                                    std::span<const EarlierScan* const> earlier, const std::function<double()>& pose_sigma_m, const TrackingConfig& config);
 
 }  // namespace slammot::tracking

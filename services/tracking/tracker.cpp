@@ -383,7 +383,7 @@ void Tracker::note_face_shifts(const ScanView& view) {
   for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
     const Segment& segment = view.scan().segments[s];
     if (segment.label == PointLabel::kNoEcho || segment.box_length_m > config_.longest_body_m) continue;
-    const double pose_sigma_m = std::sqrt(pose_covariance_at(segment.centroid_in_odom_m, view.scan()).trace());
+    const auto pose_sigma_m = [&] { return std::sqrt(pose_covariance_at(segment.centroid_in_odom_m, view.scan()).trace()); };
     const std::optional<FaceShift> shift = face_shift(segment.beams, view.polar(), earlier, pose_sigma_m, config_);
     if (!shift) continue;
     past_of_segment_[s].face_shift_m = shift->shift_m;

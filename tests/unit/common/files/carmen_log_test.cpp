@@ -1,5 +1,6 @@
 #include "common/files/carmen_log.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
@@ -42,15 +43,43 @@ class CarmenLogTest : public ::testing::Test {
     return read();
   }
 
+  /// Out of what opening kept; reading again what was too much to keep must give the same.
   Reading read() {
+    const Reading kept = read_with({});
+    CarmenLogOptions keeps_nothing;
+    keeps_nothing.most_kept_bytes = 0;
+    const Reading again = read_with(keeps_nothing);
+    EXPECT_EQ(kept.order, again.order);
+    for (std::size_t i = 0; i < std::min(kept.scans.size(), again.scans.size()); ++i) {
+      EXPECT_EQ(kept.scans[i].stamp_ns, again.scans[i].stamp_ns);
+      EXPECT_EQ(kept.scans[i].sequence, again.scans[i].sequence);
+      EXPECT_EQ(kept.scans[i].range_m, again.scans[i].range_m);
+    }
+    for (std::size_t i = 0; i < std::min(kept.odometry.size(), again.odometry.size()); ++i) {
+      EXPECT_EQ(kept.odometry[i].stamp_ns, again.odometry[i].stamp_ns);
+      EXPECT_EQ(kept.odometry[i].wheel_from_base, again.odometry[i].wheel_from_base);
+    }
+    EXPECT_EQ(kept.faults.malformed_lines, again.faults.malformed_lines);
+    EXPECT_EQ(kept.faults.first_malformed_lines, again.faults.first_malformed_lines);
+    EXPECT_EQ(kept.faults.overlong_lines, again.faults.overlong_lines);
+    EXPECT_EQ(kept.faults.ignored_lines, again.faults.ignored_lines);
+    EXPECT_EQ(kept.faults.stale_odometry, again.faults.stale_odometry);
+    EXPECT_EQ(kept.faults.is_cut, again.faults.is_cut);
+    return kept;
+  }
+
+  Reading read_with(const CarmenLogOptions& options) {
     Reading reading;
-    auto log = CarmenLog::open(file_);
+    auto log = CarmenLog::open(file_, options);
     EXPECT_TRUE(log);
     if (!log) return reading;
+    double fraction_read = 0.0;
     while (const auto event = log->next()) {
       if (const auto* scan = std::get_if<LaserScan>(&*event)) reading.scans.push_back(*scan);
       if (const auto* odometry = std::get_if<Odometry>(&*event)) reading.odometry.push_back(*odometry);
       reading.order += std::holds_alternative<LaserScan>(*event) ? 's' : 'o';
+      EXPECT_GE(log->fraction_read(), fraction_read);
+      fraction_read = log->fraction_read();
     }
     reading.faults = log->faults();
     reading.plan = log->plan();

@@ -1,5 +1,7 @@
 #include "common/grids/grid_window.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace slammot::grids {
@@ -11,6 +13,12 @@ TEST(GridWindow, PutsEachPointIntoTheCellWhoseLowerCornerIsNotAboveIt) {
   EXPECT_EQ(window.cell_at(0.24, -0.01), (Cell{0, -1}));
   EXPECT_EQ(window.cell_at(0.25, -0.25), (Cell{1, -1}));
   EXPECT_EQ(window.cell_at(-0.26, 10.0), (Cell{-2, 40}));
+}
+
+TEST(WholeBelow, RoundsDownAsFloorDoes) {
+  for (const double place : {0.0, -0.0, 0.5, 1.0, -0.5, -1.0, -1.0000000000000002, 41.999999999999993, -7e8, 2147483646.5, -2147483647.5, -2147483648.0}) {
+    EXPECT_EQ(whole_below(place), static_cast<std::int32_t>(std::floor(place))) << place;
+  }
 }
 
 TEST(GridWindow, FindsTheCentreOfACellInThatCell) {

@@ -43,6 +43,26 @@ std::vector<Vector2d> scattered_points(int count, unsigned seed) {
   return points;
 }
 
+TEST(SurfelMap, HoldsTheSameOfEchoesAddedTogetherAsOfEachByItself) {
+  constexpr double kOdometer_m = 3.0;
+  std::vector<Vector2d> points_m = scattered_points(200, 5);
+  for (double along_m = -12.0; along_m < 12.0; along_m += 0.04) points_m.push_back({along_m, 0.3 * along_m});  // beyond the window, too
+  SurfelMap together = empty_map(20.0, 4.0);
+  SurfelMap one_by_one = empty_map(20.0, 4.0);
+  together.add_all(points_m, kOdometer_m);
+  for (const Vector2d& point_m : points_m) one_by_one.add(point_m, kOdometer_m);
+  const std::vector<SurfelView> seen = together.all();
+  const std::vector<SurfelView> expected = one_by_one.all();
+  ASSERT_EQ(seen.size(), expected.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_EQ(seen[i].cell, expected[i].cell);
+    EXPECT_EQ(seen[i].mean_m, expected[i].mean_m);
+    EXPECT_EQ(seen[i].normal, expected[i].normal);
+    EXPECT_EQ(seen[i].weight, expected[i].weight);
+    EXPECT_EQ(seen[i].own_echoes, expected[i].own_echoes);
+  }
+}
+
 TEST(SurfelMap, HoldsTheMeanOfTheEchoesInACell) {
   SurfelMap map = empty_map();
   map.add({0.05, 0.10});

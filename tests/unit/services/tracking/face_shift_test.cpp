@@ -56,7 +56,7 @@ Answer shift_after(const std::function<std::vector<StreetBox>(double)>& boxes_at
     for (const double age_s : {0.4, 0.8, 1.6}) earlier.push_back(history.older_than(stamp_ns, age_s));
     for (const flow::Segment& segment : segmented.segments) {
       if ((segment.centroid_in_odom_m - place_m).norm() > 3.0) continue;
-      if (const auto shift = face_shift(segment.beams, view, earlier, kPoseSigmaM, kConfig)) answer = {shift->shift_m, shift->beams.size()};
+      if (const auto shift = face_shift(segment.beams, view, earlier, [] { return kPoseSigmaM; }, kConfig)) answer = {shift->shift_m, shift->beams.size()};
     }
   }
   return answer;
