@@ -16,6 +16,8 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 
+constexpr double kGapOfBodies_m = 0.3;         ///< Neighbouring points farther apart than this, and more by the range, are of two bodies:
+constexpr double kGapOfBodies_perM = 0.03;     ///< three beams of half a degree.
 constexpr double kSamePairsWithin = 0.01;     ///< Of a surfel's cell: until the pose has moved so far the nearest surfels stay the nearest.
 
 }  // namespace
@@ -33,8 +35,30 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
     const double variance_m2 = has_direction ? point.sigma_m * point.sigma_m + surface->spread_m2
                                              : std::pow(point.sigma_m + 0.5 * surfels.window().cell_size_m, 2);
     const double share = surface->seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
-    pairs_.push_back({point.in_base_m, surface->mean_m, surface->normal, share / variance_m2, has_direction});
+    pairs_.push_back({point.in_base_m, surface->mean_m, surface->normal, share / variance_m2, variance_m2, share, has_direction});
   }
+  if (config.body_sigma_m > 0.0) share_errors_of_bodies(config);
+}
+
+void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config) {
+  const double shared_m2 = config.body_sigma_m * config.body_sigma_m;
+  const auto is_of_body = [&](const Pair& first, const Pair& last, const Pair& next) {
+    return (next.in_base_m - last.in_base_m).norm() < kGapOfBodies_m + kGapOfBodies_perM * next.in_base_m.norm() &&
+           (next.in_base_m - first.in_base_m).norm() < config.body_length_m;
+  };
+  double each_for_itself = 0.0;
+  double together = 0.0;
+  for (std::size_t first = 0, end = 0; first < pairs_.size(); first = end) {
+    for (end = first + 1; end < pairs_.size() && is_of_body(pairs_[first], pairs_[end - 1], pairs_[end]); ++end) {}
+    const auto points = static_cast<double>(end - first);
+    for (std::size_t i = first; i < end; ++i) {
+      const double shared = 1.0 / (pairs_[i].variance_m2 + points * shared_m2);
+      each_for_itself += 1.0 / pairs_[i].variance_m2;
+      together += shared;
+      pairs_[i].information_per_m2 = shared * pairs_[i].share;
+    }
+  }
+  for (Pair& pair : pairs_) pair.information_per_m2 *= each_for_itself / together;
 }
 
 PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& map_from_base, double gate_m, const PointToLineConfig& config) const {

@@ -22,6 +22,8 @@ struct PointToLineConfig {
   double unproven_share = 0.02;    ///< Before, this much: what moves along with the vehicle looks as if it stood nearby.
   double robust_scale_m = 0.05;    ///< Residual at which a point's weight has fallen to a quarter.
   double information_share = 0.10; ///< Points of one scan share the map's error: together they count for this share.
+  double body_sigma_m = 0.0;       ///< One sigma of an error that all points of one body have in common; 0: none, each point counts for itself.
+  double body_length_m = 5.0;      ///< A run of neighbouring points this long may be one body: a car at least.
   double converged_m = 1e-4;
 };
 
@@ -36,6 +38,9 @@ struct PointToLineResult {
 /// Registers points against surfels by Gauss-Newton on point-to-line distances with a Gaussian prior; Wang 2004,
 /// section 3.2.1 describes the closed-form ICP that this replaces. Where a surfel has no direction the distance to its
 /// mean counts. Holds nothing from one match to the next but memory.
+/// With body_sigma_m the points of each body (a run of points with no gap between them; points in the order of the beams) share an
+/// error b ~ N(0, body_sigma_m^2), for the body may be moving: n of variance v count for 1 / (v + n body_sigma_m^2) each. All are then scaled
+/// so that the scan counts for as much as without: what many points on something near say in excess goes to all others.
 class PointToLineMatcher {
  public:
   /// The iteration starts at initial_map_from_base. The result is the prior when nothing matches.
@@ -49,6 +54,8 @@ class PointToLineMatcher {
     geometry::Vector2 mean_m;
     geometry::Vector2 normal;
     double information_per_m2 = 0.0;
+    double variance_m2 = 0.0;       ///< Of the point to the surfel,
+    double share = 1.0;             ///< and what a surfel that is not proven counts for: information is their quotient.
     bool has_direction = false;
   };
   struct NormalEquations {
@@ -61,6 +68,7 @@ class PointToLineMatcher {
 
   void pair(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const geometry::Pose2& map_from_base,
             double gate_m, const PointToLineConfig& config);
+  void share_errors_of_bodies(const PointToLineConfig& config);
   NormalEquations linearize(const geometry::Pose2& map_from_base, double gate_m, const PointToLineConfig& config) const;
 
   std::vector<Pair> pairs_;

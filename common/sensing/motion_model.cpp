@@ -37,12 +37,14 @@ Matrix36 step_by_calibration(const WheelStep& step, const MotionCalibration& cal
   return J;
 }
 
-/// What a step at constant velocity may be off by because the velocity wanders during it, and a little more, as any step.
-geometry::Matrix3 noise_at_velocity(double duration_s, const MotionModelConfig& config) {
+/// What a step at constant velocity may be off by because the velocity wanders during it, and a little more, as any step. What turns
+/// about another point than the base slides sideways: by the turn rate times the distance, for as long as it turns.
+geometry::Matrix3 noise_at_velocity(double duration_s, double yaw_rate_radps, const MotionModelConfig& config) {
   const double cube_s3 = squared(duration_s) * duration_s / 3.0;
   const double ahead_m2 = squared(config.speed_walk_mps) * cube_s3;
   const double turn_rad2 = squared(config.yaw_rate_walk_radps) * cube_s3;
-  return Eigen::Vector3d(squared(config.position_noise_m) + ahead_m2, squared(config.position_noise_m), squared(config.heading_noise_rad) + turn_rad2).asDiagonal();
+  const double sideways_m2 = squared(config.pivot_walk_m * yaw_rate_radps) * duration_s;
+  return Eigen::Vector3d(squared(config.position_noise_m) + ahead_m2, squared(config.position_noise_m) + sideways_m2, squared(config.heading_noise_rad) + turn_rad2).asDiagonal();
 }
 
 /// The velocity of a step by wheels, known as well as they tell it.
@@ -118,7 +120,7 @@ MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s
   const double distance_m = before.velocity.x() * duration_s;
   const double turn_rad = before.velocity.y() * duration_s;
   const Eigen::Vector2d ahead(std::cos(0.5 * turn_rad), std::sin(0.5 * turn_rad));
-  const geometry::UncertainPose2 step{{distance_m * ahead.x(), distance_m * ahead.y(), geometry::wrap_angle(turn_rad)}, noise_at_velocity(duration_s, config)};
+  const geometry::UncertainPose2 step{{distance_m * ahead.x(), distance_m * ahead.y(), geometry::wrap_angle(turn_rad)}, noise_at_velocity(duration_s, before.velocity.y(), config)};
   Matrix32 by_velocity;
   by_velocity << ahead.x(), -0.5 * distance_m * ahead.y(),
                  ahead.y(), 0.5 * distance_m * ahead.x(),

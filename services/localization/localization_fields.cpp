@@ -63,6 +63,7 @@ FieldTable<sensing::MotionModelConfig> motion_fields() {
       {"speed_prior_mps", &C::speed_prior_mps, "Without odometry: one sigma of the speed at the start.", kPositive},
       {"yaw_rate_prior_radps", &C::yaw_rate_prior_radps, "Without odometry: one sigma of the turn rate at the start.", kPositive},
       {"speed_walk_mps", &C::speed_walk_mps, "Without odometry: how the speed wanders [m/s per sqrt(s)].", kPositive},
+      {"pivot_walk_m", &C::pivot_walk_m, "Without odometry: how far from the base the vehicle may turn about, for a second at a time.", kNotNegative},
       {"yaw_rate_walk_radps", &C::yaw_rate_walk_radps, "Without odometry: how the turn rate wanders [rad/s per sqrt(s)].", kPositive},
   };
 }
@@ -91,6 +92,8 @@ FieldTable<matching::PointToLineConfig> match_fields() {
       {"robust_scale_m", &C::robust_scale_m, "Residual at which a point's weight has fallen to a quarter.", kPositive},
       {"information_share", &C::information_share, "Points of one scan share the map's error: they count for this share.",
        Range{1e-6, 1.0}},
+      {"body_sigma_m", &C::body_sigma_m, "One sigma of an error that all points of one body share; 0: none.", kNotNegative},
+      {"body_length_m", &C::body_length_m, "A run of neighbouring points this long may be one body.", kPositive},
       {"converged_m", &C::converged_m, "A step shorter than this is the last.", kNotNegative},
   };
 }
@@ -172,6 +175,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"leave_out_moving", &C::leave_out_moving, "Off, to see what it is worth: everything is mapped and matched as if it stood."},
       {"may_be_picked_up", &C::may_be_picked_up, "And set down elsewhere, with wheels that notice nothing; a road vehicle is not."},
       {"sweep_factor_sigma", &C::sweep_factor_sigma, "One sigma of the factor on how long scanners' sweeps are said to take; 0: they are right.", kNotNegative},
+      {"body_sigma_without_wheels_m", &C::body_sigma_without_wheels_m, "match.body_sigma_m where no wheels say how far it is.", kNotNegative},
       {"use_odometry", &C::use_odometry, "Off, for wheels that are worse than none: constant velocity predicts."},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},
       {"longest_step_s", &C::longest_step_s, "Without odometry nothing is extrapolated farther; longer gaps are counted.", kPositive},

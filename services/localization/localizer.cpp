@@ -52,6 +52,7 @@ Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
     : config_(config),
       help_(help),
       match_without_wheels_(config.match),
+      match_by_scans_alone_(config.match),
       scan_stamps_(config.far_ahead_s),
       odometry_stamps_(config.far_ahead_s),
       searcher_(config.search),
@@ -59,6 +60,8 @@ Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
   progress_.estimate = sensing::at_start(config.motion);
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
+  match_by_scans_alone_.information_share = 1.0;
+  match_by_scans_alone_.body_sigma_m = config.body_sigma_without_wheels_m;
   progress_.sweep_factor.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
 }
 
@@ -263,6 +266,13 @@ Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::P
   return {.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m};
 }
 
+/// A single step that wheels are silent or wrong about may be one into what nobody has seen before: what is new counts in full. Without
+/// any wheels it would make the map of its own lag: where each scan is matched against the last one, nothing tells how slow it has become.
+const matching::PointToLineConfig& Localizer::match_config(const Step& step, const State& now) const {
+  if (step.is_by_wheels) return config_.match;
+  return now.has_wheels || progress_.last->has_wheels ? match_without_wheels_ : match_by_scans_alone_;
+}
+
 void Localizer::travel(const Pose2& before_from_base, double duration_s) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
   progress_.travelled_m += moved_m;
@@ -400,7 +410,7 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   const UncertainPose2 prior = step.after.uncertain_pose();
   select_points(scan, prior.pose);
   const UncertainPose2 before = progress_.estimate.uncertain_pose();
-  const Match found = match_or_find(prior, scan, step.is_by_wheels);
+  const Match found = match_or_find(prior, scan, step.is_by_wheels, match_config(step, now));
   const Pose2 before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * found.odom_from_base.pose;
   progress_.estimate = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
   if (found.is_believed) {

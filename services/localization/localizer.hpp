@@ -54,6 +54,7 @@ struct LocalizerConfig {
   double astray_sigma_m = 50.0;           ///< one sigma of that tie.
   bool leave_out_moving = true;           ///< Off, to see what it is worth: everything is mapped and matched as if it stood.
   double sweep_factor_sigma = 0.0;        ///< Of the factor on how long scanners' sweeps are said to take; 0: they are right.
+  double body_sigma_without_wheels_m = 0.15;  ///< match.body_sigma_m where no wheels say how far it is: whatever has most of the beams may be driving off.
   bool use_odometry = true;               ///< Off, for wheels that are worse than none: constant velocity predicts.
   double mask_margin_m = 0.4;             ///< Around a tracked object's box, left out of the match.
   double longest_step_s = 2.0;            ///< Without odometry nothing is extrapolated farther; longer gaps are counted.
@@ -263,7 +264,8 @@ class Localizer {
   sensing::MotionEstimate doubted_velocity(const geometry::Pose2& by_wheels, double duration_s) const;
   Match match(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config, std::uint32_t scan_sequence);
   matching::PointToLineResult match_in_closed_form(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config);
-  Match match_or_find(const geometry::UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels);
+  const matching::PointToLineConfig& match_config(const Step& step, const State& now) const;
+  Match match_or_find(const geometry::UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels, const matching::PointToLineConfig& config);
   std::optional<Match> find_again(const geometry::UncertainPose2& prior, const matching::PointToLineConfig& config);
   /// Of some of the scan's points, how many lie where.
   struct Contradiction {
@@ -313,7 +315,8 @@ class Localizer {
 
   LocalizerConfig config_;
   SideWork* help_ = nullptr;
-  matching::PointToLineConfig match_without_wheels_;       ///< Nothing but the scan tells of the motion then.
+  matching::PointToLineConfig match_without_wheels_;       ///< For a step of which wheels say nothing: nothing but the scan tells of it.
+  matching::PointToLineConfig match_by_scans_alone_;       ///< Where there are no wheels at all.
   sensing::StampGuard scan_stamps_;
   sensing::StampGuard odometry_stamps_;
   sensing::OdometryBuffer odometry_;

@@ -50,8 +50,7 @@ matching::CorrelativeConfig Localizer::finder_config(matching::CorrelativeConfig
   return search;
 }
 
-Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels) {
-  const matching::PointToLineConfig& config = has_wheels ? config_.match : match_without_wheels_;
+Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels, const matching::PointToLineConfig& config) {
   progress_.contradicts_map = false;
   Match found = match(prior, config, scan.sequence);
   const bool is_contradicting = is_contradicted(found, prior, has_wheels);

@@ -112,6 +112,46 @@ double cost(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfe
   return config.information_share * sum + 0.5 * off.dot(prior.covariance.inverse() * off);
 }
 
+/// In a room, with a car 4 m ahead that has most of the beams that tell how far it is.
+World with_car_at(double x_m) { return slammot::testing::joined(slammot::testing::room(30.0, 16.0), {{{x_m, -1.0}, {x_m, 1.0}}}); }
+
+TEST(PointToLine, IsNotMovedByOneBodyThatHasMostOfTheBeams) {
+  const auto surfels = surfels_of(with_car_at(4.0));
+  auto points = exact_scan_of(with_car_at(4.03), {}, 720);
+  std::erase_if(points, [beam = 0](const MatchPoint& point) mutable {  // it looks ahead, and the walls are dark
+    const bool is_of_car = point.in_base_m.x() < 4.1;
+    return point.in_base_m.x() < 0.0 || (!is_of_car && beam++ % 4 != 0);
+  });
+  PointToLineConfig config;
+  const double by_points_m = match_from(points, surfels, {}, config).map_from_base.pose.x_m;
+  config.body_sigma_m = 0.15;
+  const double by_bodies_m = match_from(points, surfels, {}, config).map_from_base.pose.x_m;
+  EXPECT_LT(by_points_m, -0.018);
+  EXPECT_GT(by_bodies_m, -0.015);
+}
+
+TEST(PointToLine, BelievesAScanAsMuchWithBodiesAsWithout) {
+  const auto surfels = surfels_of(with_car_at(4.0));
+  const auto points = exact_scan_of(with_car_at(4.0), {}, 720);
+  PointToLineConfig config;
+  config.unproven_share = 0.0;
+  const auto position_information = [&] { return match_from(points, surfels, {}, config).scan_information.topLeftCorner<2, 2>().trace(); };
+  const double by_points = position_information();
+  config.body_sigma_m = 0.15;
+  EXPECT_NEAR(position_information() / by_points, 1.0, 0.1);
+}
+
+TEST(PointToLine, WeighsAllPointsOfASingleBodyAlike) {
+  const auto surfels = surfels_of(slammot::testing::room());
+  const auto points = exact_scan_of(slammot::testing::room(), {-2.0, 1.0, 0.6});
+  const Pose2 guess{-2.1, 1.1, 0.62};
+  PointToLineConfig config;
+  const auto by_points = match_from(points, surfels, guess, config);
+  config.body_sigma_m = 0.15;
+  config.body_length_m = 0.001;  // each point is a body: none has more points than another
+  EXPECT_THAT(match_from(points, surfels, guess, config).map_from_base.pose, PoseNear(by_points.map_from_base.pose, 0.002));
+}
+
 TEST(PointToLine, StopsWhereTheCostIsLeast) {
   std::mt19937 random(3);
   const World room = slammot::testing::room();

@@ -313,6 +313,16 @@ TEST(MovedAtVelocity, IsAsUnsureInOneStepAsInMany) {
   EXPECT_NEAR(in_many.covariance(0, 8), in_one.covariance(0, 8), 1e-3 * in_one.covariance(0, 8));
 }
 
+TEST(MovedAtVelocity, MaySlideSidewaysWhereItTurns) {
+  MotionModelConfig config;
+  config.pivot_walk_m = 0.3;
+  const auto sideways_sigma_m = [&](double yaw_rate_radps, double duration_s) {
+    return std::sqrt(moved_at_velocity(at_velocity({5.0, yaw_rate_radps}), duration_s, config).covariance(1, 1));
+  };
+  EXPECT_NEAR(sideways_sigma_m(0.0, kStep_s), config.position_noise_m, 1e-6);
+  EXPECT_NEAR(sideways_sigma_m(-0.5, kStep_s), 0.5 * config.pivot_walk_m * std::sqrt(kStep_s), 0.1 * sideways_sigma_m(-0.5, kStep_s));
+}
+
 TEST(MovedAtVelocity, LearnsTheVelocityFromTheLaserAlone) {
   std::mt19937 random(9);
   std::normal_distribution<double> noise(0.0, 1.0);

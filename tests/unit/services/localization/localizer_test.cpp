@@ -380,6 +380,56 @@ TEST(Localizer, TakesNoOdometryWhereItIsToldNotTo) {
   EXPECT_EQ(localizer.counters().without_odometry, 19U);
 }
 
+/// A vehicle that stops behind a car that stands and, seconds later, drives off before it does.
+class BehindACarThatDrivesOff : public ::testing::Test {
+ protected:
+  static constexpr double kStops_s = 4.0;
+  static constexpr double kCarStarts_s = 5.0;
+  static constexpr double kStarts_s = 6.0;
+  static constexpr double kAcceleration_mps2 = 2.0;
+
+  static double started_m(double for_s) { return 0.5 * kAcceleration_mps2 * std::pow(std::max(0.0, for_s), 2); }
+
+  static DriveSetup setup() {
+    DriveSetup setup = along_a_street();
+    setup.scan_period_s = 0.027;
+    setup.beams = 361;
+    setup.scanner.beam_step_rad = std::numbers::pi / 360.0;
+    setup.world_from_base_at = [](double time_s) {
+      const double to_stop_s = std::max(0.0, kStops_s - time_s);
+      return Pose2{40.0 - 0.5 * kAcceleration_mps2 * to_stop_s * to_stop_s + started_m(time_s - kStarts_s), 0.0, 0.0};
+    };
+    return setup;
+  }
+
+  /// The worst error of a pose until 2 s after the vehicle has started; to whoever labels the points everything stands.
+  double worst_m(const LocalizerConfig& config) {
+    SimulatedDrive drive(setup());
+    const World street = drive.setup().world;
+    Localizer localizer(config);
+    double worst_m = 0.0;
+    for (std::uint32_t scan = 0; drive.time_s(scan) < kStarts_s + 2.0; ++scan) {
+      const double car_at_m = 40.0 + 2.15 + 5.0 + 2.25 + started_m(drive.time_s(scan) - kCarStarts_s);
+      drive.setup().world = slammot::testing::joined(street, slammot::testing::box({car_at_m, 0.0, 0.0}, 4.5, 1.8));
+      worst_m = std::max(worst_m, drive_through(localizer, drive, scan, scan + 1, false).worst_m);
+    }
+    return worst_m;
+  }
+};
+
+TEST_F(BehindACarThatDrivesOff, StandsWithoutOdometryWhereAllElseStands) {
+  LocalizerConfig config = small_map_config();
+  config.use_odometry = false;
+  EXPECT_LT(worst_m(config), 0.1);
+}
+
+TEST_F(BehindACarThatDrivesOff, WouldFollowItIfEachPointCountedForItself) {
+  LocalizerConfig config = small_map_config();
+  config.use_odometry = false;
+  config.body_sigma_without_wheels_m = 0.0;
+  EXPECT_GT(worst_m(config), 1.0);
+}
+
 TEST(Localizer, BridgesTwoSecondsWithoutScans) {
   for (const bool with_odometry : {true, false}) {
     SimulatedDrive drive(round_in_a_room());
