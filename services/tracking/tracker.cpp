@@ -570,7 +570,11 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return release(index);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (!track.confirmed) keep(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()));
-  if (!track.confirmed && has_proven_to_move(track, config_)) relive(track, config_);
+  if (!track.confirmed && has_proven_to_move(track, config_)) {
+    const Track relived = relive(track, config_);
+    const bool was_turned = std::abs(std::sin(relived.body.heading_rad - track.body.heading_rad)) > 0.7;
+    if (was_turned || has_proven_to_move(relived, config_)) track = relived;  // else as it is: what it lacks is but certainty
+  }
   const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
   constexpr int kHitsBetweenChecks = 5;
   if (may_be_confirmed || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);

@@ -84,9 +84,9 @@ void keep(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Mat
   track.youth.push_back({stamp_ns, {glimpse.points_m.begin(), glimpse.points_m.end()}, glimpse, pose_covariance_m2});
 }
 
-void relive(Track& track, const TrackingConfig& config) {
+Track relive(Track track, const TrackingConfig& config) {
   constexpr double kSureOdds = 3.0;  // twenty to one
-  if (!track.body.has_sides || track.youth.size() < 2) return;
+  if (!track.body.has_sides || track.youth.size() < 2) return track;
   Life life = life_of(track, along_its_sides(track.body), config);
   const Body turned = turned_by_a_quarter(life.body, 1.0, config);
   if (is_plausible(turned, config)) {
@@ -103,6 +103,7 @@ void relive(Track& track, const TrackingConfig& config) {
   track.birth_position_m += by_m;
   track.anchor_m += by_m;
   filters::move_stop_shift(track.move_stop, by_m);
+  return track;
 }
 
 }  // namespace slammot::tracking

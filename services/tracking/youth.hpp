@@ -13,10 +13,10 @@ namespace slammot::tracking {
 /// Keeps what was just seen of a track that is not yet confirmed; the oldest of many goes.
 void keep(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2);
 
-/// Filters all that was kept of a track with sides again, by the body as it is known now: what was measured of a piece of it, or
-/// of a body that was drawn otherwise, went as that did, and not as the body. Does so for the body as it lies and turned by a
-/// quarter, and takes the likelier, by how well the sizes fit the kinds of road users and by that a body goes along its length.
-/// Cost: 2 x 40 cycles of the filters, once a track or a few times.
-void relive(Track& track, const TrackingConfig& config);
+/// The track, if it has sides, as all that was kept of it tells when filtered again, by the body as it is known now: what was
+/// measured of a piece of it, or of a body that was drawn otherwise, went as that did, and not as the body. The body lies as it
+/// does or is turned by a quarter, whichever is likelier, by how well the sizes fit the kinds of road users and by that a body
+/// goes along its length. Cost: 2 x 40 cycles of the filters, once a track or a few times.
+Track relive(Track track, const TrackingConfig& config);
 
 }  // namespace slammot::tracking

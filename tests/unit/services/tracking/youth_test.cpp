@@ -44,7 +44,7 @@ Track begun_as_a_front(int scans) {
 TEST(Youth, TurnsABodyThatWentSideways) {
   Track track = begun_as_a_front(12);
   ASSERT_NEAR(std::abs(std::cos(track.body.heading_rad)), 1.0, 0.05);
-  relive(track, kConfig);
+  track = relive(track, kConfig);
   EXPECT_NEAR(std::abs(std::sin(track.body.heading_rad)), 1.0, 0.05);
   EXPECT_TRUE(track.body.is_oriented);
   EXPECT_LT((track.velocity_mps() - Vector2d(0.0, kSpeedMps)).norm(), 0.5);
@@ -54,14 +54,14 @@ TEST(Youth, TurnsABodyThatWentSideways) {
 TEST(Youth, LeavesOpenWhichSideIsTheFlankOfWhatHasNotMoved) {
   Track track = begun_as_a_front(1);
   keep(track, kPeriodNs, glimpse_of(flank_at(0.0)), 1e-4 * Matrix2d::Identity());
-  relive(track, kConfig);
+  track = relive(track, kConfig);
   EXPECT_FALSE(track.body.is_oriented);
 }
 
 TEST(Youth, MovesWhereItBeganWithTheMiddle) {
   Track track = begun_as_a_front(12);
   const Vector2d way_m = track.position_m() - track.birth_position_m;
-  relive(track, kConfig);
+  track = relive(track, kConfig);
   EXPECT_LT((track.position_m() - track.birth_position_m - way_m).norm(), 1e-9);
 }
 
