@@ -75,6 +75,19 @@ ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted, const Eigen
   return update;
 }
 
+ImmState imm_update_speed(const ModelSet& set, const ImmState& predicted, const Eigen::Vector2d& direction, double speed_mps,
+                          double variance) {
+  ImmState posterior = predicted;
+  for (std::size_t i = 0; i < set.size; ++i) {
+    MotionState& mode = posterior.modes[i];
+    const Eigen::Matrix<double, 6, 1> Ph = mode.covariance.middleCols<2>(2) * direction;  // H = (0, direction, 0)
+    const double S = direction.dot(Ph.segment<2>(2)) + variance;
+    mode.mean += Ph * ((speed_mps - direction.dot(mode.mean.segment<2>(2))) / S);
+    mode.covariance -= Ph * (Ph.transpose() / S);
+  }
+  return posterior;
+}
+
 MotionState imm_combine(const ModelSet& set, const ImmState& state) {
   return moment_match(modes_of(set, state), {state.probability.data(), set.size});
 }

@@ -36,6 +36,11 @@ ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s);
 ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted, const Eigen::Vector2d& position_m,
                      const Eigen::Matrix2d& R);
 
+/// Mode-matched update with a measured component of the velocity: direction (unit length) times velocity is speed_mps, with
+/// variance > 0 in (m/s)^2. The models' probabilities stay: such a measurement tells where to, not how it manoeuvres.
+ImmState imm_update_speed(const ModelSet& set, const ImmState& predicted, const Eigen::Vector2d& direction, double speed_mps,
+                          double variance);
+
 /// Moment-matched mean and covariance of the mixture; Wang 2004, Eqs. (2.52)-(2.53).
 MotionState imm_combine(const ModelSet& set, const ImmState& state);
 

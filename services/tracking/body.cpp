@@ -293,6 +293,17 @@ Body with_likely_sizes(Body body, const TrackingConfig& config) {
   return body;
 }
 
+double log_evidence_of_sizes(const Body& body, const TrackingConfig& config) {
+  const double scale = config.size_scale;
+  double sum = -std::numeric_limits<double>::max();
+  for (const KindOfBody& kind : kKinds) {
+    const AxisFit length = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence, scale);
+    const AxisFit width = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence, scale);
+    sum = log_sum(sum, std::log(kind.share) + length.log_fit + width.log_fit);
+  }
+  return sum;
+}
+
 BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse,
                             const TrackingConfig& config) {
   const Vector2d along{std::cos(body.heading_rad), std::sin(body.heading_rad)};

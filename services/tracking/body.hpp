@@ -42,6 +42,8 @@ struct Body {
   double heading_rad = 0.0;           ///< Of the length, in odom.
   double heading_variance_rad2 = 10.0;
   bool is_oriented = false;           ///< Which side is the length is known: by its course, or because it is long.
+  double axis_rad = 0.0;              ///< Of the length, as its sides alone tell it, whatever the course.
+  double axis_variance_rad2 = 10.0;
   Size length;                        ///< As believed, from the evidence and from what kinds of road users there are.
   Size width;
   SizeEvidence length_evidence;
@@ -99,6 +101,9 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 /// Sizes and kind as they follow from the body's evidence: a mixture over the kinds of road users, of which the likeliest
 /// counts.
 Body with_likely_sizes(Body body, const TrackingConfig& config);
+
+/// Logarithm of how well the evidence of sizes fits the kinds of road users, to a constant.
+double log_evidence_of_sizes(const Body& body, const TrackingConfig& config);
 
 /// A box around something first seen now. box_heading_rad: of the longer visible side; which way the body points along it
 /// is not known, and where only one short side is seen, that it is the width is only likely.

@@ -95,7 +95,7 @@ void turn(Track& track, double by_rad, const Glimpse& glimpse, const TrackingCon
   track.estimate = filters::imm_combine(models, track.motion);
 }
 
-/// Brings the body's heading to that of the long side that is seen.
+/// Brings the body's axis, and its heading, to that of the long side that is seen.
 void follow_side(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
   if (!glimpse.side) return;
   Body& body = track.body;
@@ -105,6 +105,10 @@ void follow_side(Track& track, const Glimpse& glimpse, const TrackingConfig& con
   constexpr double kEndsOffM = 0.2;  // the errors of one scan are those of the next, and short sides are round
   constexpr double kMostSigmaRad = 0.1;
   const double sigma_rad = std::min(kMostSigmaRad, kEndsOffM * config.size_scale / glimpse.side->length_m);
+  const double off_axis_rad = std::remainder(glimpse.side->heading_rad - body.axis_rad, 0.5 * std::numbers::pi);
+  const double axis_gain = body.axis_variance_rad2 / (body.axis_variance_rad2 + sigma_rad * sigma_rad);
+  body.axis_rad = wrap_angle(body.axis_rad + axis_gain * off_axis_rad);
+  body.axis_variance_rad2 *= 1.0 - axis_gain;
   if (std::abs(off_rad) > kFarthestRad) return;
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + sigma_rad * sigma_rad);
   turn(track, gain * off_rad, glimpse, config);
@@ -127,11 +131,29 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
     off_rad = wrap_angle(course.heading_rad - track.body.heading_rad);
   }
   Body& body = track.body;
-  body.is_oriented = body.is_oriented || course.variance_rad2 < 0.03;
+  // Halfway between a side and the next the course does not tell which of them is the flank.
+  const bool knows_axis = body.axis_variance_rad2 < kKnownAxisRad2;
+  const double off_axis_rad = std::remainder(course.heading_rad - body.axis_rad, 0.5 * std::numbers::pi);
+  const bool is_decisive = !knows_axis || std::abs(off_axis_rad) + 2.0 * std::sqrt(course.variance_rad2) < 0.25 * std::numbers::pi;
+  body.is_oriented = body.is_oriented || (is_decisive && course.variance_rad2 < 0.03);
+  if (!is_decisive) return;
   const double variance_rad2 = course.variance_rad2 + 0.002;  // wheels do not always roll where the body points
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + variance_rad2);
   turn(track, gain * off_rad, glimpse, config);
   body.heading_variance_rad2 *= 1.0 - gain;
+}
+
+/// Brings the velocity to the length of the body, as the sides alone tell it: wheels do not go sideways. In a curve the sides
+/// turn at once, and the course only after the filter has seen that the middle goes elsewhere.
+void steer(Track& track, const TrackingConfig& config) {
+  const Body& body = track.body;
+  if (!body.is_oriented || body.axis_variance_rad2 > kKnownAxisRad2) return;
+  const double heading_rad = body.heading_rad + std::remainder(body.axis_rad - body.heading_rad, 0.5 * std::numbers::pi);
+  const Vector2d across{-std::sin(heading_rad), std::cos(heading_rad)};
+  const double variance = track.velocity_mps().squaredNorm() * (kSlip * kSlip + body.axis_variance_rad2) + std::pow(kSlipMps * config.size_scale, 2);
+  const filters::ModelSet models = models_of(track, config);
+  track.motion = filters::imm_update_speed(models, track.motion, across, 0.0, variance);
+  track.estimate = filters::imm_combine(models, track.motion);
 }
 
 /// A box around the echoes, along the course where that is known.
@@ -301,6 +323,7 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
   track.motion = filters::imm_predict(models, track.motion, time_s);
   track.estimate = filters::imm_combine(models, track.motion);
   track.body.heading_variance_rad2 = std::min(10.0, track.body.heading_variance_rad2 + kHeadingDriftRad2PerS * time_s);
+  track.body.axis_variance_rad2 = std::min(10.0, track.body.axis_variance_rad2 + kHeadingDriftRad2PerS * time_s);
 }
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
@@ -326,6 +349,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   observe(track, stamp_ns, glimpse);
   // What is hidden goes on unseen: only when it is seen again, its claim can be judged.
   track.claimed_m += std::max(0.0, track.velocity_mps().norm() - config.moving_above_mps) * unseen_s;
+  if (track.body.has_sides) steer(track, config);
   if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
   update_motion_state(track, config);

@@ -33,6 +33,14 @@ struct MeasuredCentre {
   Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
 };
 
+/// A glimpse and what it refers to, for later.
+struct KeptGlimpse {
+  std::int64_t stamp_ns = 0;
+  std::vector<Eigen::Vector2d> points_m;     ///< Of the glimpse, whose own may be gone.
+  Glimpse glimpse;
+  Eigen::Matrix2d pose_covariance_m2 = Eigen::Matrix2d::Zero();
+};
+
 constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
 
 /// One object that is followed, or supposed to be one.
@@ -70,6 +78,7 @@ struct Track {
   double largest_extent_m = 0.0;
   double outgrown_s = 0.0;                   ///< For which someone long known to walk has been given more echoes than one has.
   std::vector<Eigen::Vector2f> contour_in_odom_m;
+  std::deque<KeptGlimpse> youth;             ///< What was seen of it until it was confirmed, oldest first.
   std::deque<flow::RestoredPoints> past;     ///< Points of a track not yet confirmed, newest last.
 
   Eigen::Vector2d position_m() const { return estimate.mean.head<2>(); }
@@ -80,6 +89,14 @@ struct Track {
 
 /// Cruising and manoeuvring: the modes of everything.
 filters::ModelSet motion_models(const TrackingConfig& config);
+
+/// One sigma of how far the velocity of a body with sides points off its length, as a share of the speed,
+constexpr double kSlip = 0.08;
+/// and besides, for the middle that is followed need not be the one about which it turns.
+constexpr double kSlipMps = 0.3;
+
+/// A body's axis is known from its sides where its variance is less.
+constexpr double kKnownAxisRad2 = 0.02;
 
 /// Variance along each axis that the swing of the legs adds to a centre measured after_s (> 0) after the one before. The filter
 /// takes the errors of all scans for independent; these fade exponentially, and so the closer scans follow each other the more

@@ -14,6 +14,7 @@
 #include "services/tracking/face_shift.hpp"
 #include "services/tracking/pairing.hpp"
 #include "services/tracking/speed_evidence.hpp"
+#include "services/tracking/youth.hpp"
 
 namespace slammot::tracking {
 namespace {
@@ -446,6 +447,7 @@ void Tracker::begin_tracks(const ScanView& view) {
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m, config_.range_noise_m).heading_rad;
     tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
+    keep(tracks_.back(), view.scan().stamp_ns, glimpse, pose_covariance_m2);
     tracks_.back().echoes = static_cast<double>(segment.beams.size());
     tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
     shares_.track_of_segment[s] = tracks_.size() - 1;
@@ -567,6 +569,12 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   const Glimpse glimpse = glimpse_of(beams, view, config_.size_scale, points_m);
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return release(index);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
+  if (!track.confirmed) keep(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()));
+  if (!track.confirmed && has_proven_to_move(track, config_)) {
+    const Track relived = relive(track, config_);
+    const bool was_turned = std::abs(std::sin(relived.body.heading_rad - track.body.heading_rad)) > 0.7;
+    if (was_turned || has_proven_to_move(relived, config_)) track = relived;  // else as it is: what it lacks is but certainty
+  }
   const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
   constexpr int kHitsBetweenChecks = 5;
   if (may_be_confirmed || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);
@@ -577,6 +585,7 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   track.way_m = 0.0;  // until now it may have been made of several things
   track.anchor_m = track.position_m();
   track.past.clear();
+  track.youth.clear();
   ++counters_.tracks_confirmed;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "common/filters/kalman.hpp"
@@ -52,6 +53,27 @@ double mean_over(const std::vector<Sample>& samples, std::size_t from, const std
 
 double velocity_error_mps(const Sample& sample) {
   return (sample.truth.segment<2>(2) - sample.estimate.mean.segment<2>(2)).norm();
+}
+
+TEST(Imm, TakesAMeasuredComponentOfTheVelocityAsAKalmanFilterDoes) {
+  const ModelSet set = velocity_and_acceleration();
+  MotionState start;
+  start.mean << 1.0, 2.0, 3.0, 4.0, 0.5, -0.5;
+  start.covariance = 0.5 * Matrix6::Identity() + 0.1 * Matrix6::Ones();
+  ImmState state = imm_start(set, start);
+  state.probability = {0.3, 0.7, 0.0};
+  const Eigen::Vector2d direction{0.6, -0.8};
+  constexpr double kVariance = 0.04;
+  const ImmState posterior = imm_update_speed(set, state, direction, 0.2, kVariance);
+  Vector6 h = Vector6::Zero();
+  h.segment<2>(2) = direction;
+  const Matrix6 information = start.covariance.inverse() + h * h.transpose() / kVariance;
+  const Vector6 mean = information.inverse() * (start.covariance.inverse() * start.mean + h * 0.2 / kVariance);
+  for (std::size_t mode = 0; mode < set.size; ++mode) {
+    EXPECT_THAT(posterior.modes[mode].covariance, MatrixNear(Matrix6(information.inverse()), 1e-9));
+    EXPECT_THAT(posterior.modes[mode].mean, MatrixNear(mean, 1e-9));
+  }
+  EXPECT_EQ(posterior.probability, state.probability);
 }
 
 TEST(Imm, HoldsAnAcceleratingObjectToAccelerate) {  // Wang 2004, Figures 4.2 and 4.3

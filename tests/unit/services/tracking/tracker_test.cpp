@@ -311,6 +311,26 @@ TEST(Tracker, KnowsSomebodyAgainWhoWasHidden) {
   EXPECT_EQ(play.ids.size(), 1U);
 }
 
+TEST(Tracker, TurnsTheVelocityOfACarInABendWithItsSides) {
+  Play play;
+  constexpr double kRateRadps = 0.6;
+  constexpr double kRadiusM = 10.0;
+  const auto heading_at = [](double t) { return M_PI / 2.0 + kRateRadps * std::max(0.0, t - 1.0); };
+  const auto scene = [&](Street& street, double t) {
+    const double heading_rad = heading_at(t);
+    const double straight_m = kRadiusM * kRateRadps * std::min(0.0, t - 1.0);
+    street.unknown = {{{8.0 + kRadiusM * std::sin(heading_rad), straight_m - 6.0 - kRadiusM * std::cos(heading_rad), heading_rad}}};
+  };
+  play.run(1.0, scene);
+  while (play.now_s() < 3.0) {
+    play.step(scene);
+    ASSERT_EQ(play.confirmed().size(), 1U);
+    const double heading_rad = heading_at(play.now_s() - kPeriodS);
+    const Vector2 across{-std::sin(heading_rad), std::cos(heading_rad)};
+    ASSERT_LT(std::abs(across.dot(play.confirmed().front().velocity_in_odom_mps)), 0.7) << play.now_s();
+  }
+}
+
 TEST(Tracker, HoldsACarThatRoundsABendToTurnIfThatIsAMode) {
   TrackingConfig config;
   config.coordinated_turn = true;

@@ -1,0 +1,109 @@
+#include "services/tracking/youth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/filters/imm.hpp"
+#include "common/filters/move_stop.hpp"
+#include "common/geometry/pose2.hpp"
+
+namespace slammot::tracking {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr std::size_t kMostKept = 40;
+
+struct Life {
+  Body body;
+  filters::ImmState motion;
+  filters::MotionState estimate;
+};
+
+Glimpse glimpse_of(const KeptGlimpse& kept) {
+  Glimpse glimpse = kept.glimpse;
+  glimpse.points_m = kept.points_m;
+  return glimpse;
+}
+
+filters::MotionState beginning_of(const Body& body, const KeptGlimpse& kept, const TrackingConfig& config) {
+  const Glimpse glimpse = glimpse_of(kept);
+  const BodyMeasurement measured = measure_box(body, supposed_centre_m(body, glimpse), glimpse, config);
+  filters::MotionState start;
+  start.mean.head<2>() = measured.centre_m - measured.recentring_m;
+  start.covariance.topLeftCorner<2, 2>() = measured.covariance_m2 + kept.pose_covariance_m2;
+  start.covariance.block<2, 2>(2, 2) = std::pow(0.5 * config.fastest_mps, 2) * Matrix2d::Identity();
+  start.covariance.block<2, 2>(4, 4) = std::pow(config.idle_acceleration_mps2, 2) * Matrix2d::Identity();
+  return start;
+}
+
+/// A body of just this size and heading all the time.
+Life life_of(const Track& track, const Body& body, const TrackingConfig& config) {
+  const filters::ModelSet models = motion_models(config);
+  filters::ImmState motion = filters::imm_start(models, beginning_of(body, track.youth.front(), config));
+  for (std::size_t i = 1; i < track.youth.size(); ++i) {
+    const KeptGlimpse& kept = track.youth[i];
+    motion = filters::imm_predict(models, motion, static_cast<double>(kept.stamp_ns - track.youth[i - 1].stamp_ns) * 1e-9);
+    const Vector2d predicted_m = filters::imm_combine(models, motion).mean.head<2>();
+    const BodyMeasurement measured = measure_box(body, predicted_m, glimpse_of(kept), config);
+    motion = filters::imm_update(models, motion, measured.centre_m - measured.recentring_m, measured.covariance_m2 + kept.pose_covariance_m2).posterior;
+  }
+  return {body, motion, filters::imm_combine(models, motion)};
+}
+
+/// That the body goes along its length, at any speed.
+double log_likelihood_of_course(const Life& life, const TrackingConfig& config) {
+  const Vector2d velocity_mps = life.estimate.mean.segment<2>(2);
+  const Matrix2d P = life.estimate.covariance.block<2, 2>(2, 2);
+  const Vector2d along{std::cos(life.body.heading_rad), std::sin(life.body.heading_rad)};
+  const Vector2d across{-along.y(), along.x()};
+  const auto log_density = [&](const Vector2d& axis, double variance) {
+    const double S = axis.dot(P * axis) + variance;
+    return -0.5 * std::pow(axis.dot(velocity_mps), 2) / S - 0.5 * std::log(S);
+  };
+  return log_density(along, std::pow(0.5 * config.fastest_mps, 2)) +
+         log_density(across, std::pow(kSlipMps * config.size_scale, 2) + kSlip * kSlip * velocity_mps.squaredNorm());
+}
+
+double log_likelihood(const Life& life, const TrackingConfig& config) {
+  return log_likelihood_of_course(life, config) + log_evidence_of_sizes(life.body, config);
+}
+
+Body along_its_sides(Body body) {
+  if (body.axis_variance_rad2 < kKnownAxisRad2) body.heading_rad += std::remainder(body.axis_rad - body.heading_rad, 0.5 * std::numbers::pi);
+  body.heading_rad = geometry::wrap_angle(body.heading_rad);
+  return body;
+}
+
+}  // namespace
+
+void keep(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2) {
+  if (track.youth.size() == kMostKept) track.youth.pop_front();
+  track.youth.push_back({stamp_ns, {glimpse.points_m.begin(), glimpse.points_m.end()}, glimpse, pose_covariance_m2});
+}
+
+Track relive(Track track, const TrackingConfig& config) {
+  constexpr double kSureOdds = 3.0;  // twenty to one
+  if (!track.body.has_sides || track.youth.size() < 2) return track;
+  Life life = life_of(track, along_its_sides(track.body), config);
+  const Body turned = turned_by_a_quarter(life.body, 1.0, config);
+  if (is_plausible(turned, config)) {
+    const Life other = life_of(track, turned, config);
+    const double odds = log_likelihood(other, config) - log_likelihood(life, config);
+    if (odds > 0.0) life = other;
+    life.body.is_oriented = std::abs(odds) > kSureOdds;
+  }
+  const Vector2d by_m = life.estimate.mean.head<2>() - track.position_m();
+  track.body = life.body;
+  track.motion = life.motion;
+  track.estimate = life.estimate;
+  track.may_turn = false;
+  track.birth_position_m += by_m;
+  track.anchor_m += by_m;
+  filters::move_stop_shift(track.move_stop, by_m);
+  return track;
+}
+
+}  // namespace slammot::tracking
