@@ -134,7 +134,10 @@ void CarmenLog::take(LaserRecord record) {
   if (!stamp) return note_malformed();
   const geometry::Pose2 wheel_from_base = record.wheel_from_base;
   sensing::LaserScan scan = scan_of(std::move(record), *stamp);
-  ++scans_;
+  if (++scans_ == 1 && plan_.first_scan_is_ahead) {
+    first_scan_ = std::move(scan);  // told first, it would make all others late: after the second one, it is only far ahead
+    return;
+  }
   switch (plan_.odometry) {
     case OdometrySource::kNone:
       return put_scan(std::move(scan), std::nullopt);
@@ -248,6 +251,7 @@ void CarmenLog::put_scan(sensing::LaserScan scan, const std::optional<geometry::
   const bool is_believed = scan_stamps_.believes(scan.stamp_ns);
   if (is_believed && wheel_from_base && (!newest_odometry_ || scan.stamp_ns > newest_odometry_->stamp_ns)) put_odometry({scan.stamp_ns, *wheel_from_base});
   ready_.emplace_back(std::move(scan));
+  if (first_scan_) ready_.emplace_back(*std::exchange(first_scan_, std::nullopt));
 }
 
 }  // namespace slammot::files

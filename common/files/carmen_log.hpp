@@ -109,6 +109,7 @@ class CarmenLog {
   std::uint32_t scans_ = 0;
   std::deque<LogEvent> ready_;
   std::deque<sensing::Odometry> odom_lines_;         // held back until the scan after them
+  std::optional<sensing::LaserScan> first_scan_;     // until the second one, where its stamp is far ahead
   std::deque<sensing::LaserScan> waiting_;           // kOdomLines: until an ODOM line as new as the scan
   sensing::StampGuard scan_stamps_{60.0};            // one from the future must not keep back all odometry after it
   sensing::StampGuard odometry_stamps_{60.0};

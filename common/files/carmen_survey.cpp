@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kReadingBins = 65'000;
 constexpr double kSecondsPerNanosecond = 1e-9;
+constexpr double kFarAhead_s = 60.0;
 
 template <typename Count>
 double most_frequent(const std::map<double, Count>& counts) {
@@ -47,7 +48,29 @@ double range_percentile_m(const std::vector<std::uint32_t>& readings_by_cm, std:
 
 }  // namespace
 
+/// A stamp from the future with which a log begins says that all others are too late.
+void CarmenSurvey::ClockCheck::begin_anew_without_the_first() {
+  sensing::StampGuard of_the_others{kFarAhead_s};
+  const std::int64_t second_ns = first_ns_[1];
+  const std::int64_t third_ns = first_ns_[2];
+  begins_ahead_ = second_ns < third_ns && of_the_others.believes(second_ns) && of_the_others.believes(third_ns) && !of_the_others.believes(first_ns_[0]);
+  if (!begins_ahead_) return;
+  guard_ = sensing::StampGuard{600.0};
+  newest_ns_.reset();
+  steps_ns_.clear();
+  counts_scans_ = true;
+  scans_ = 0;
+  advancing_ = 0;
+  add(second_ns);
+  add(third_ns);
+}
+
 void CarmenSurvey::ClockCheck::add(std::optional<std::int64_t> stamp_ns) {
+  if (stamp_ns && first_ns_.size() < 3) {
+    first_ns_.push_back(*stamp_ns);
+    if (first_ns_.size() == 3) begin_anew_without_the_first();
+    if (begins_ahead_) return;
+  }
   ++scans_;
   if (!stamp_ns || !guard_.believes(*stamp_ns)) return;
   if (newest_ns_ && *stamp_ns > *newest_ns_) {
@@ -153,6 +176,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad) const {
   plan.laser = lasers_[1].scans >= lasers_[0].scans ? LaserRecordKind::kRobotLaser1 : LaserRecordKind::kFlaser;
   const Lasers& lasers = lasers_[static_cast<std::size_t>(plan.laser)];
   plan.clock = lasers.ipc_clock.is_usable() ? LogClock::kIpc : lasers.logger_clock.is_usable() ? LogClock::kLogger : LogClock::kNominal;
+  plan.first_scan_is_ahead = (plan.clock == LogClock::kIpc && lasers.ipc_clock.begins_ahead()) || (plan.clock == LogClock::kLogger && lasers.logger_clock.begins_ahead());
   plan.odometry = odometry_source(lasers, plan.clock);
   plan.base_from_laser = base_from_laser(lasers);
   plan.max_range_m = max_range_m(lasers);

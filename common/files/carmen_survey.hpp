@@ -51,6 +51,7 @@ struct LogPlan {
   OdometrySource odometry = OdometrySource::kNone;
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;  ///< A reading at or beyond it is "no echo"; a scan's own record may say less.
+  bool first_scan_is_ahead = false;  ///< By its stamp: the two after it are far before it, and agree.
   LogFigures figures;
 };
 
@@ -75,8 +76,13 @@ class CarmenSurvey {
    public:
     void add(std::optional<std::int64_t> stamp_ns);
     bool is_usable() const;
+    bool begins_ahead() const { return begins_ahead_; }
 
    private:
+    void begin_anew_without_the_first();
+
+    std::vector<std::int64_t> first_ns_;   // three of them
+    bool begins_ahead_ = false;
     std::uint64_t scans_ = 0;
     std::uint64_t advancing_ = 0;  // newer than all before
     bool counts_scans_ = true;     // whole numbers one second apart

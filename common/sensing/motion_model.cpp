@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 namespace slammot::sensing {
 namespace {
@@ -165,6 +166,25 @@ MotionEstimate matched(const MotionEstimate& predicted, const geometry::Uncertai
   estimate.covariance.topRightCorner<3, 8>() = estimate.covariance.bottomLeftCorner<8, 3>().transpose();
   estimate.covariance.bottomRightCorner<8, 8>() -= gain * (prior - odom_from_base.covariance) * gain.transpose();
   return estimate;
+}
+
+geometry::UncertainPose2 matched_from(const geometry::UncertainPose2& other_prediction, const geometry::UncertainPose2& prediction, const geometry::UncertainPose2& match) {
+  const geometry::Matrix3 of_match = match.covariance.inverse();
+  const geometry::Matrix3 of_scan = of_match - prediction.covariance.inverse();
+  const Eigen::Vector3d scan_vector = of_match * geometry::difference(match.pose, prediction.pose);
+  const geometry::Matrix3 covariance = (other_prediction.covariance.inverse() + of_scan).inverse();
+  const Eigen::Vector3d change = covariance * (scan_vector - of_scan * geometry::difference(other_prediction.pose, prediction.pose));
+  const Pose2& before = other_prediction.pose;
+  return {{before.x_m + change.x(), before.y_m + change.y(), geometry::wrap_angle(before.heading_rad + change.z())}, 0.5 * (covariance + covariance.transpose())};
+}
+
+MotionEstimate put_at(const MotionEstimate& estimate, const geometry::UncertainPose2& odom_from_base) {
+  MotionEstimate put = estimate;
+  put.odom_from_base = odom_from_base.pose;
+  put.covariance.topRows<3>().setZero();
+  put.covariance.leftCols<3>().setZero();
+  put.covariance.topLeftCorner<3, 3>() = odom_from_base.covariance;
+  return put;
 }
 
 }  // namespace slammot::sensing

@@ -15,7 +15,7 @@ struct MotionModelConfig {
   double heading_rate_bias_prior_radps = 0.005;
   double heading_per_metre_bias_prior = 0.02;   ///< [rad/m]: unequal wheels.
   double pivot_prior_m = 0.0;                   ///< Of the place about which the vehicle turns, where logs take the scanner for it.
-  double stamp_offset_prior_s = 0.0;            ///< Of how much later the odometry's stamps are than the scans'; 0: they have one clock.
+  double stamp_offset_prior_s = 0.05;           ///< Of how much later the odometry's stamps are than the scans'; 0: they have one clock.
   double scale_walk_per_sqrt_m = 5e-5;          ///< How the scale wanders with the distance,
   double heading_rate_bias_walk = 5e-5;         ///< and the heading-rate bias with time [rad/s per sqrt(s)].
   double stamp_offset_walk = 0.001;             ///< How that offset wanders with time [s per sqrt(s)]; never less sure than at the start.
@@ -79,5 +79,12 @@ MotionEstimate with_doubted_velocity(const MotionEstimate& estimate, const Veloc
 /// What the match, which took the prediction's pose for its prior, says of the calibration and the velocity too: conditional Gaussian.
 /// A surprise beyond what the prediction allows is a wrong match or a slipping wheel: it moves the pose alone.
 MotionEstimate matched(const MotionEstimate& predicted, const geometry::UncertainPose2& odom_from_base);
+
+/// What the scan says of another estimate of the same motion than that whose prediction was matched: the match's information beyond its prior (information filter).
+/// The result is to be told to matched() with the other prediction.
+geometry::UncertainPose2 matched_from(const geometry::UncertainPose2& other_prediction, const geometry::UncertainPose2& prediction, const geometry::UncertainPose2& match);
+
+/// The same calibration at another pose, which tells nothing of it.
+MotionEstimate put_at(const MotionEstimate& estimate, const geometry::UncertainPose2& odom_from_base);
 
 }  // namespace slammot::sensing

@@ -40,4 +40,18 @@ std::optional<geometry::Pose2> OdometryBuffer::wheel_from_base_after(std::int64_
   return geometry::interpolate(*earlier, *at_stamp, 1.0 + static_cast<double>(after_ns) / static_cast<double>(kVelocityOver_ns));
 }
 
+std::vector<Odometry> OdometryBuffer::since(std::int64_t stamp_ns) const {
+  return {std::lower_bound(samples_.begin(), samples_.end(), stamp_ns, is_before), samples_.end()};
+}
+
+bool OdometryBuffer::is_dense(std::int64_t from_ns, std::int64_t to_ns, std::int64_t gap_ns) const {
+  auto after = std::lower_bound(samples_.begin(), samples_.end(), from_ns, is_before);
+  if (after == samples_.begin()) return false;
+  for (; after != samples_.end(); ++after) {
+    if (after->stamp_ns - (after - 1)->stamp_ns > gap_ns) return false;
+    if (after->stamp_ns >= to_ns) return true;
+  }
+  return false;
+}
+
 }  // namespace slammot::sensing

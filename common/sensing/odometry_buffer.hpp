@@ -27,6 +27,12 @@ class OdometryBuffer {
   /// the last moments, even where later samples are known by now, so that steps from one stamp to the next add up.
   std::optional<geometry::Pose2> wheel_from_base_after(std::int64_t stamp_ns, std::int64_t after_ns) const;
 
+  /// The samples from the stamp on, by stamp.
+  std::vector<Odometry> since(std::int64_t stamp_ns) const;
+
+  /// Whether no two neighbours from before the one stamp until after the other are farther apart. Where a log's samples were stamped in bursts, they are.
+  bool is_dense(std::int64_t from_ns, std::int64_t to_ns, std::int64_t gap_ns) const;
+
  private:
   std::size_t capacity_;
   std::vector<Odometry> samples_;  ///< Ascending stamps.

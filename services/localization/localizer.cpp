@@ -19,13 +19,15 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7438;  // "slammot8": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7439;  // "slammot9": the digit counts the forms of a checkpoint
 constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
 
 constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
+constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps are compared with
+constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/0025-stamps-when-certain
 constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelerates does so for longer
 
 std::int64_t to_ns(double duration_s) { return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s)); }
@@ -51,13 +53,16 @@ grids::Echo unexplained_out(EndCell end_cell) {
 Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
     : config_(config),
       help_(help),
+      motion_of_one_clock_(config.motion),
       match_without_wheels_(config.match),
       match_by_scans_alone_(config.match),
       scan_stamps_(config.far_ahead_s),
       odometry_stamps_(config.far_ahead_s),
       searcher_(config.search),
       finder_(finder_config(config.search)) {
-  progress_.estimate = sensing::at_start(config.motion);
+  motion_of_one_clock_.stamp_offset_prior_s = 0.0;
+  progress_.estimate = sensing::at_start(motion_of_one_clock_);
+  progress_.with_stamp_offset = sensing::at_start(config.motion);
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
   match_by_scans_alone_.information_share = 1.0;
@@ -100,7 +105,7 @@ bool Localizer::is_doubtful(const Pose2& by_wheels, double duration_s) const {
 /// The wheels' pose at a scan's stamp, by the offset between the clocks as believed.
 std::optional<Pose2> Localizer::wheel_from_base_at(std::int64_t stamp_ns) const {
   const std::optional<Pose2> at_stamp = odometry_.wheel_from_base_at(stamp_ns);
-  if (!at_stamp || config_.motion.stamp_offset_prior_s == 0.0) return at_stamp;
+  if (!at_stamp || !progress_.applies_stamp_offset) return at_stamp;
   const std::optional<Pose2> at_offset = odometry_.wheel_from_base_after(stamp_ns, to_ns(sensing::stamp_offset_s(progress_.estimate)));
   return at_offset ? at_offset : at_stamp;
 }
@@ -115,15 +120,38 @@ std::optional<Pose2> Localizer::wheel_step(std::int64_t stamp_ns, std::int64_t a
 
 /// How the step changes with the offset, told from how it changed just before: with the step itself, its noise would be
 /// taken for a change of the velocity, and both together for an offset. Where steps are long, changes are large beside it.
-Eigen::Vector3d Localizer::step_by_stamp_offset(std::int64_t stamp_ns) const {
-  if (config_.motion.stamp_offset_prior_s == 0.0) return Eigen::Vector3d::Zero();
+Eigen::Vector3d Localizer::step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const {
   const std::int64_t duration_ns = stamp_ns - progress_.last->stamp_ns;
-  const std::int64_t known_ns = std::min<std::int64_t>(0, to_ns(sensing::stamp_offset_s(progress_.estimate)));
+  const std::int64_t known_ns = std::min<std::int64_t>(0, to_ns(offset_s));
   const std::int64_t until_ns = duration_ns <= kLongestLag_ns ? known_ns - duration_ns : known_ns;
   const auto before = wheel_step(stamp_ns, until_ns - to_ns(kVelocityOver_s));
   const auto after = wheel_step(stamp_ns, until_ns);
   if (!before || !after) return Eigen::Vector3d::Zero();
   return geometry::difference(*after, *before) / kVelocityOver_s;
+}
+
+/// Over long steps, and where samples come late and many at once, nobody knows how fast it was at either end.
+bool Localizer::tells_of_stamps(std::int64_t stamp_ns) const {
+  const std::int64_t from_ns = progress_.last->stamp_ns;
+  return stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
+}
+
+/// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
+void Localizer::watch_stamps(std::int64_t stamp_ns, const Step& step, const Match& found) {
+  if (config_.motion.stamp_offset_prior_s == 0.0 || progress_.applies_stamp_offset) return;
+  sensing::MotionEstimate& watched = progress_.with_stamp_offset;
+  const double offset_s = sensing::stamp_offset_s(watched);
+  const bool tells = step.is_by_wheels && found.is_believed && !found.was_sampled && !found.is_lost && tells_of_stamps(stamp_ns);
+  const auto by_wheels = tells ? wheel_step(stamp_ns, to_ns(offset_s)) : std::nullopt;
+  if (!by_wheels) {
+    watched = sensing::put_at(watched, progress_.estimate.uncertain_pose());
+    return;
+  }
+  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(watched, {*by_wheels, step.duration_s, step_by_stamp_offset(stamp_ns, offset_s)}, config_.motion);
+  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(), step.after.uncertain_pose(), found.odom_from_base));
+  if (std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
+  progress_.estimate = watched;
+  progress_.applies_stamp_offset = true;
 }
 
 Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
@@ -140,7 +168,9 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
       step.has_doubted_wheels = true;
     } else {
       step.is_by_wheels = true;
-      step.after = sensing::moved_by_wheels(progress_.estimate, {by_wheels, step.duration_s, step_by_stamp_offset(stamp_ns)}, config_.motion);
+      step.after = progress_.applies_stamp_offset
+                       ? sensing::moved_by_wheels(progress_.estimate, {by_wheels, step.duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(progress_.estimate))}, config_.motion)
+                       : sensing::moved_by_wheels(progress_.estimate, {by_wheels, step.duration_s}, motion_of_one_clock_);
       step.before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * step.after.odom_from_base;
       return step;
     }
@@ -413,6 +443,7 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   const Match found = match_or_find(prior, scan, step.is_by_wheels, match_config(step, now));
   const Pose2 before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * found.odom_from_base.pose;
   progress_.estimate = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
+  watch_stamps(scan.stamp_ns, step, found);
   if (found.is_believed) {
     const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
     progress_.variance_factors = sensing::learned(progress_.variance_factors, prior, found.odom_from_base, share);
@@ -582,6 +613,11 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(self.progress_.estimate.calibration);
   visit(self.progress_.estimate.velocity);
   visit(self.progress_.estimate.covariance);
+  visit(self.progress_.with_stamp_offset.odom_from_base);
+  visit(self.progress_.with_stamp_offset.calibration);
+  visit(self.progress_.with_stamp_offset.velocity);
+  visit(self.progress_.with_stamp_offset.covariance);
+  visit(self.progress_.applies_stamp_offset);
   visit(self.progress_.variance_factors.of_axis);
   visit(self.progress_.variance_factors.dead_reckoned);
   visit(self.progress_.map_change.way_m);
@@ -611,6 +647,7 @@ std::vector<std::byte> Localizer::checkpoint() const {
   if (!progress_.last) return bytes;
   put(bytes, kCheckpointMark);
   for_each_part(*this, *progress_.last, [&](const auto& part) { put(bytes, part); });
+  put_all(bytes, odometry_.since(progress_.last->stamp_ns - kOdometryKept_ns));
   map_.write(bytes);
   put(bytes, checksum(bytes));
   return bytes;
@@ -626,22 +663,28 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   from.get(mark);
   for_each_part(restored, last, [&](auto& part) { from.get(part); });
   if (mark != kCheckpointMark) return false;
+  std::vector<sensing::Odometry> odometry;
+  from.get_all(odometry);
   std::optional<LocalMap> map = LocalMap::restored(config_.map, from, help_);
   const bool is_sound = is_believable(restored.progress_.estimate.odom_from_base) && is_believable(restored.map_from_odom_) &&
                         is_believable(restored.previous_from_submap_.pose) &&
                         is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.progress_.drift) &&
                         is_believable(restored.progress_.estimate.covariance) && restored.progress_.estimate.calibration.norm() < 1.0 && restored.progress_.estimate.velocity.norm() < kFastestRestored &&
+                        is_believable(restored.progress_.with_stamp_offset.odom_from_base) && is_believable(restored.progress_.with_stamp_offset.covariance) &&
+                        restored.progress_.with_stamp_offset.calibration.norm() < 1.0 && restored.progress_.with_stamp_offset.velocity.norm() < kFastestRestored &&
                         restored.progress_.variance_factors.of_axis.minCoeff() >= 0.0 && restored.progress_.variance_factors.of_axis.allFinite() &&
                         restored.progress_.variance_factors.dead_reckoned.minCoeff() >= 0.0 && restored.progress_.variance_factors.dead_reckoned.maxCoeff() <= 1.0 &&
                         restored.progress_.map_change.way_m >= 0.0 && std::isfinite(restored.progress_.map_change.way_m) &&
                         restored.progress_.map_change.squared_residuals >= 0.0 && std::isfinite(restored.progress_.map_change.squared_residuals) &&
                         std::isfinite(restored.progress_.sweep_factor.value) && restored.progress_.sweep_factor.variance >= 0.0 &&
                         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
-                        std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.progress_.travelled_m);
+                        std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.progress_.travelled_m) &&
+                        std::ranges::all_of(odometry, [](const sensing::Odometry& sample) { return is_believable(sample.wheel_from_base); });
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;
   restored.progress_.last = last;
   restored.map_ = std::move(*map);
   if (!progress_.last) restored.odometry_ = std::move(odometry_);  // it bridges what was missed
+  for (const sensing::Odometry& sample : odometry) restored.odometry_.add(sample);
   *this = std::move(restored);
   return true;
 }

@@ -171,8 +171,10 @@ class Localizer {
 
   const geometry::Pose2& map_from_odom() const { return map_from_odom_; }
   const sensing::MotionCalibration& calibration() const { return progress_.estimate.calibration; }
-  double stamp_offset_s() const { return sensing::stamp_offset_s(progress_.estimate); }
-  double stamp_offset_sigma_s() const { return std::sqrt(progress_.estimate.covariance(sensing::kStampOffset, sensing::kStampOffset)); }
+  /// By how much later than the scans odometry is stamped, as believed, and whether that is certain enough to be used.
+  double stamp_offset_s() const { return sensing::stamp_offset_s(of_stamps()); }
+  double stamp_offset_sigma_s() const { return std::sqrt(of_stamps().covariance(sensing::kStampOffset, sensing::kStampOffset)); }
+  bool applies_stamp_offset() const { return progress_.applies_stamp_offset; }
   const SweepFactor& sweep_factor() const { return progress_.sweep_factor; }
   const LocalizerCounters& counters() const { return progress_.counters; }
   const LocalMap& local_map() const { return map_; }
@@ -233,7 +235,9 @@ class Localizer {
 
   /// What a scan changes when it is localized: all that must be as before to do it again.
   struct Progress {
-    sensing::MotionEstimate estimate;
+    sensing::MotionEstimate estimate;               ///< Of one clock for scans and odometry, until applies_stamp_offset.
+    sensing::MotionEstimate with_stamp_offset;      ///< Of the same motion, until then: what it would be with the offset learned.
+    bool applies_stamp_offset = false;
     sensing::VarianceFactors variance_factors;
     sensing::MapChange map_change;
     SweepFactor sweep_factor;
@@ -257,7 +261,9 @@ class Localizer {
   std::vector<std::size_t> kept_out(const std::vector<flow::PointLabel>& labels) const;
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
   std::optional<geometry::Pose2> wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const;
-  Eigen::Vector3d step_by_stamp_offset(std::int64_t stamp_ns) const;
+  Eigen::Vector3d step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const;
+  bool tells_of_stamps(std::int64_t stamp_ns) const;
+  void watch_stamps(std::int64_t stamp_ns, const Step& step, const Match& found);
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
   bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;
@@ -313,8 +319,11 @@ class Localizer {
   template <typename Self, typename StateOfLast, typename Visitor>
   static void for_each_part(Self& self, StateOfLast& last, Visitor visit);
 
+  const sensing::MotionEstimate& of_stamps() const { return progress_.applies_stamp_offset ? progress_.estimate : progress_.with_stamp_offset; }
+
   LocalizerConfig config_;
   SideWork* help_ = nullptr;
+  sensing::MotionModelConfig motion_of_one_clock_;         ///< That of the estimate until the stamps' offset is used.
   matching::PointToLineConfig match_without_wheels_;       ///< For a step of which wheels say nothing: nothing but the scan tells of it.
   matching::PointToLineConfig match_by_scans_alone_;       ///< Where there are no wheels at all.
   sensing::StampGuard scan_stamps_;

@@ -176,6 +176,28 @@ TEST_F(CarmenLogTest, KeepsDuplicateAndLateScansWithTheirOwnStampButWithoutOdome
   EXPECT_EQ(reading.scans[21].stamp_ns, 1'001'700'000'000);
 }
 
+TEST_F(CarmenLogTest, GivesAFirstScanFromTheFutureAfterTheSecondOne) {
+  const std::string drive = straight_drive(20);
+  const std::string rest = drive.substr(drive.find('\n') + 1);
+  const Reading reading = read(FlaserLine{.pose = "0 0 0", .ipc = "5000.0", .logger = "4000.0"}.text() + rest);
+  EXPECT_EQ(reading.plan.clock, LogClock::kIpc);  // all others advance
+  ASSERT_EQ(reading.scans.size(), 20u);
+  EXPECT_EQ(reading.scans[0].stamp_ns, 1'000'100'000'000);
+  EXPECT_EQ(reading.scans[1].stamp_ns, 5'000'000'000'000);
+  EXPECT_EQ(reading.scans[1].sequence, 0u);
+  EXPECT_EQ(reading.scans[2].stamp_ns, 1'000'200'000'000);
+  EXPECT_EQ(reading.odometry.size(), 19u);
+  EXPECT_EQ(reading.odometry.back().stamp_ns, 1'001'900'000'000);
+}
+
+TEST_F(CarmenLogTest, TakesTheFirstScanForGoodWhereItIsTheSecondThatIsFarBehind) {
+  const std::string drive = straight_drive(20);
+  const std::size_t second = drive.find('\n') + 1;
+  const Reading reading = read(drive.substr(0, second) + FlaserLine{.ipc = "100.0", .logger = "1.0"}.text() + drive.substr(second));
+  ASSERT_EQ(reading.scans.size(), 21u);
+  EXPECT_EQ(reading.scans[0].stamp_ns, 1'000'000'000'000);
+}
+
 TEST_F(CarmenLogTest, SkipsMalformedLinesAndNamesTheFirstOnes) {
   std::string content = straight_drive(3);
   for (int i = 0; i < 7; ++i) content += "FLASER 3 1 2\n";

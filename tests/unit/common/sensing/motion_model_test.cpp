@@ -179,6 +179,32 @@ TEST(MotionEstimate, GrowsUnsureOfStampsAgainButNeverMoreThanAtTheStart) {
   EXPECT_NEAR(stamp_offset_sigma_s(estimate), 0.01, 1e-9);
 }
 
+TEST(MatchedFrom, SaysWhatAMatchFromThatPredictionWouldHaveSaid) {
+  const geometry::UncertainPose2 prediction{{1.0, 2.0, 0.3}, Eigen::Vector3d(4e-4, 1e-4, 1e-6).asDiagonal()};
+  const geometry::UncertainPose2 other{{1.02, 1.99, 0.301}, Eigen::Vector3d(9e-4, 4e-4, 4e-6).asDiagonal()};
+  const geometry::UncertainPose2 scan{{1.03, 2.01, 0.299}, Eigen::Vector3d(2e-4, 3e-4, 2e-6).asDiagonal()};
+  const geometry::UncertainPose2 said = matched_from(other, prediction, fused(prediction, scan));
+  const geometry::UncertainPose2 expected = fused(other, scan);
+  EXPECT_THAT(said.pose, PoseNear(expected.pose, 1e-12));
+  EXPECT_LT((said.covariance - expected.covariance).norm(), 1e-15);
+}
+
+TEST(MatchedFrom, LeavesAPredictionAsItIsWhereTheMatchSaysNothing) {
+  const geometry::UncertainPose2 prediction{{1.0, 2.0, 0.3}, Eigen::Vector3d(4e-4, 1e-4, 1e-6).asDiagonal()};
+  const geometry::UncertainPose2 other{{1.02, 1.99, 0.301}, Eigen::Vector3d(9e-4, 4e-4, 4e-6).asDiagonal()};
+  EXPECT_THAT(matched_from(other, prediction, prediction).pose, PoseNear(other.pose, 1e-12));
+}
+
+TEST(PutAt, KeepsTheCalibrationAndForgetsWhatThePoseSaysOfIt) {
+  const MotionEstimate estimate = after_driving(100, {.scale = 1.01}, winding_street);
+  const geometry::UncertainPose2 there{{5.0, -1.0, 0.2}, Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal()};
+  const MotionEstimate put = put_at(estimate, there);
+  EXPECT_EQ(put.calibration, estimate.calibration);
+  EXPECT_EQ(put.odom_from_base, there.pose);
+  EXPECT_EQ((put.covariance.bottomRightCorner<8, 8>()), (estimate.covariance.bottomRightCorner<8, 8>()));
+  EXPECT_EQ((put.covariance.block<3, 8>(0, 3).norm()), 0.0);
+}
+
 TEST(MovedByWheels, PropagatesTheCalibrationByItsNumericalDerivative) {
   MotionModelConfig config;
   config.pivot_prior_m = 0.2;

@@ -52,6 +52,25 @@ TEST(OdometryBuffer, GoesOnFromAStampAtTheVelocityOfTheLastMoments) {
   EXPECT_FALSE(buffer.wheel_from_base_after(210'000'000, 10'000'000));
 }
 
+TEST(OdometryBuffer, GivesWhatItHasSinceAStamp) {
+  OdometryBuffer buffer;
+  for (int i = 0; i < 5; ++i) buffer.add(sample(i * 100, i));
+  const std::vector<Odometry> since = buffer.since(250);
+  ASSERT_EQ(since.size(), 2U);
+  EXPECT_EQ(since.front().stamp_ns, 300);
+  EXPECT_TRUE(buffer.since(500).empty());
+}
+
+TEST(OdometryBuffer, IsNotDenseWhereSamplesWereStampedInBursts) {
+  OdometryBuffer buffer;
+  for (const std::int64_t stamp_ns : {0, 100, 200, 300, 700, 701, 702, 800}) buffer.add(sample(stamp_ns, 0.0));
+  EXPECT_TRUE(buffer.is_dense(0 + 50, 300, 100));
+  EXPECT_FALSE(buffer.is_dense(250, 400, 100));  // nothing for four times as long, and then all at once
+  EXPECT_TRUE(buffer.is_dense(701, 800, 100));
+  EXPECT_FALSE(buffer.is_dense(701, 801, 100));  // what comes then is not known
+  EXPECT_FALSE(buffer.is_dense(-10, 300, 100));
+}
+
 TEST(OdometryBuffer, SaysTheSameOfWhatFollowedAStampWhenThatIsKnown) {
   OdometryBuffer buffer;
   for (int i = 0; i <= 20; ++i) buffer.add(sample(i * 10'000'000LL, 0.02 * i));

@@ -114,24 +114,30 @@ TEST(Localizer, TakesTheSweepForWhatItIsSaidToBeUnlessAsked) {
 struct LateWheels {
   double offset_s = 0.0;
   double sigma_s = 0.0;
+  bool is_used = false;
+  Pose2 odom_from_base;
 };
 
-LateWheels after_driving_with_late_wheels(double late_s, double prior_s) {
+LateWheels after_driving_with_late_wheels(double late_s, double prior_s, int of_samples = 1) {
   DriveSetup setup = with_a_scanner_that_turns_the_other_way(0.0);
   SimulatedDrive drive(setup);
   LocalizerConfig config = small_map_config();
   config.motion.stamp_offset_prior_s = prior_s;
   Localizer localizer(config);
   constexpr int kPerScan = 5;  // samples of the wheels
+  std::optional<flow::LocalizedScan> localized_last;
   for (int sample = 0; sample < 400 * kPerScan; ++sample) {
     const double time_s = setup.scan_period_s * sample / kPerScan;
+    if (sample % of_samples != 0) continue;  // that many make one, and the scans as well
     const Pose2 wheel_from_base = setup.world_from_base_at(std::max(0.0, time_s - late_s));
     localizer.add_odometry({slammot::testing::stamp_ns_of(time_s), wheel_from_base});
     if (sample % kPerScan != 0) continue;
     const auto localized = localizer.localize(drive.scan(static_cast<std::uint32_t>(sample / kPerScan)));
     if (localized) localizer.integrate(all_stationary(*localized));
+    localized_last = localized;
   }
-  return {localizer.stamp_offset_s(), localizer.stamp_offset_sigma_s()};
+  const Pose2 odom_from_base = localized_last ? localized_last->odom_from_base.pose : Pose2{};
+  return {localizer.stamp_offset_s(), localizer.stamp_offset_sigma_s(), localizer.applies_stamp_offset(), odom_from_base};
 }
 
 TEST(Localizer, LearnsByHowMuchLaterTheWheelsAreStampedThanTheScans) {
@@ -139,7 +145,18 @@ TEST(Localizer, LearnsByHowMuchLaterTheWheelsAreStampedThanTheScans) {
     const LateWheels learned = after_driving_with_late_wheels(late_s, 0.05);
     EXPECT_LT(learned.sigma_s, 0.01);
     EXPECT_NEAR(learned.offset_s, late_s, 3.0 * learned.sigma_s);
+    EXPECT_EQ(learned.is_used, late_s != 0.0);
   }
+}
+
+TEST(Localizer, IsTheSameWithAndWithoutLearningStampsThatAreRight) {
+  EXPECT_EQ(after_driving_with_late_wheels(0.0, 0.05).odom_from_base, after_driving_with_late_wheels(0.0, 0.0).odom_from_base);
+}
+
+TEST(Localizer, LearnsNothingOfStampsWhereScansAreHalfASecondApart) {
+  const LateWheels learned = after_driving_with_late_wheels(0.05, 0.05, 25);
+  EXPECT_EQ(learned.offset_s, 0.0);
+  EXPECT_FALSE(learned.is_used);
 }
 
 TEST(Localizer, TakesTheWheelsStampsForTheScansUnlessAsked) {
