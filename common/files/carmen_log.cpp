@@ -250,6 +250,7 @@ std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_
 void CarmenLog::put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base) {
   const bool is_believed = scan_stamps_.believes(scan.stamp_ns);
   if (is_believed && wheel_from_base && (!newest_odometry_ || scan.stamp_ns > newest_odometry_->stamp_ns)) put_odometry({scan.stamp_ns, *wheel_from_base});
+  if (first_scan_) std::swap(first_scan_->sequence, scan.sequence);  // they count in the order in which they are told
   ready_.emplace_back(std::move(scan));
   if (first_scan_) ready_.emplace_back(*std::exchange(first_scan_, std::nullopt));
 }
