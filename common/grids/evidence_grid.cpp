@@ -8,7 +8,6 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "common/grids/ray_walk.hpp"
@@ -38,19 +37,6 @@ constexpr auto kMaskOfBits = [] {
 using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
 using TwoMasks [[gnu::vector_size(16)]] = std::uint64_t;
 constexpr std::int32_t kCellsPerRegister = 16;
-
-/// Of a block's cells those of the rectangle that two of them span, and one more around them: no ray from the one to the
-/// other leaves it.
-std::uint64_t bits_between(std::int32_t column, std::int32_t row, std::int32_t to_column, std::int32_t to_row) {
-  constexpr std::uint64_t kFirstColumn = 0x0101010101010101;
-  const auto low = [](std::int32_t a, std::int32_t b) { return std::max(0, std::min(a, b) - 1); };
-  const auto high = [](std::int32_t a, std::int32_t b) { return std::min(7, std::max(a, b) + 1); };
-  const std::int32_t first_column = low(column, to_column);
-  const std::int32_t first_row = low(row, to_row);
-  const std::uint64_t columns = (kInRow >> (7 - (high(column, to_column) - first_column)) << first_column) * kFirstColumn;
-  const std::uint64_t rows = ~std::uint64_t{0} >> (8 * (7 - (high(row, to_row) - first_row))) << (8 * first_row);
-  return columns & rows;
-}
 
 /// The first cell of so many whose centre lies at the place or beyond.
 std::int32_t first_centre(double place, std::int32_t count) {
@@ -204,47 +190,30 @@ void EvidenceGrid::measure_free_ways(const Eigen::Vector2d& origin_m, const std:
 
 void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m) {
   const Eigen::Vector2d corner(window_.first.column, window_.first.row);
-  const auto at = [&](const Eigen::Vector2d& direction, double distance_m) {
-    const Eigen::Vector2d place = (origin_m + distance_m * direction) / window_.cell_size_m - corner;
-    return OutlinePoint{place, first_centre(place.y(), window_.rows)};
+  const auto at = [&](const Eigen::Vector2d& direction, double distance_m) -> Eigen::Vector2d {
+    return (origin_m + distance_m * direction) / window_.cell_size_m - corner;
   };
-  std::optional<OutlinePoint> on_next;   // where the outline came to the beam that follows
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     const FreeWay& way = ways_[i];
     const FreeWay& next = ways_[i + 1 == ways_.size() ? 0 : i + 1];
-    std::optional<OutlinePoint> on_way = std::exchange(on_next, std::nullopt);
-    if (way.to_previous_m != way.to_next_m) {
-      const OutlinePoint far = at(way.direction, way.to_next_m);
-      add_edge(on_way ? *on_way : at(way.direction, way.to_previous_m), far);
-      on_way = far;
-    }
+    if (way.to_previous_m != way.to_next_m) add_edge(at(way.direction, way.to_previous_m), at(way.direction, way.to_next_m));
     if (way.half_way.isZero()) continue;
-    std::optional<OutlinePoint> half_way;
-    if (way.to_next_m > 0.0) {
-      half_way = at(way.half_way, way.to_next_m);
-      add_edge(on_way ? *on_way : at(way.direction, way.to_next_m), *half_way);
-    }
-    if (way.to_next_m != next.to_previous_m) {
-      const OutlinePoint far = at(way.half_way, next.to_previous_m);
-      add_edge(half_way ? *half_way : at(way.half_way, way.to_next_m), far);
-      half_way = far;
-    }
-    if (next.to_previous_m > 0.0) {
-      on_next = at(next.direction, next.to_previous_m);
-      add_edge(half_way ? *half_way : at(way.half_way, next.to_previous_m), *on_next);
-    }
+    if (way.to_next_m > 0.0) add_edge(at(way.direction, way.to_next_m), at(way.half_way, way.to_next_m));
+    if (way.to_next_m != next.to_previous_m) add_edge(at(way.half_way, way.to_next_m), at(way.half_way, next.to_previous_m));
+    if (next.to_previous_m > 0.0) add_edge(at(way.half_way, next.to_previous_m), at(next.direction, next.to_previous_m));
   }
 }
 
 /// Flips, in each row whose middle the edge crosses, the first cell whose centre lies right of it: from there to the next
 /// flip the row is inside the outline. In cells of the window.
-void EvidenceGrid::add_edge(const OutlinePoint& from, const OutlinePoint& to) {
-  if (from.first_row == to.first_row) return;  // nearly always
-  const auto& [low, high] = from.place.y() < to.place.y() ? std::pair<const OutlinePoint&, const OutlinePoint&>(from, to)
-                                                          : std::pair<const OutlinePoint&, const OutlinePoint&>(to, from);
-  const double slope = (high.place.x() - low.place.x()) / (high.place.y() - low.place.y());
-  for (std::int32_t row = low.first_row; row < high.first_row; ++row) {
-    free_.flip(first_centre(low.place.x() + slope * (row + 0.5 - low.place.y()), window_.columns), row);
+void EvidenceGrid::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const auto [low, high] = from.y() < to.y() ? std::pair(from, to) : std::pair(to, from);
+  const std::int32_t first_row = first_centre(low.y(), window_.rows);
+  const std::int32_t end_row = first_centre(high.y(), window_.rows);
+  if (first_row >= end_row) return;
+  const double slope = (high.x() - low.x()) / (high.y() - low.y());
+  for (std::int32_t row = first_row; row < end_row; ++row) {
+    free_.flip(first_centre(low.x() + slope * (row + 0.5 - low.y()), window_.columns), row);
   }
 }
 
@@ -491,15 +460,13 @@ double EvidenceGrid::ray_to_occupied_in_block(const RayInCells& ray, std::int32_
   double at = 0.0;
   if (enters_x < kNever) at = std::max(at, enters_x);
   if (enters_y < kNever) at = std::max(at, enters_y);
-  const double leaves = std::min(leaves_x, leaves_y);
-  if (at > leaves) return kNever;
+  if (at > std::min(leaves_x, leaves_y)) return kNever;
   const std::uint64_t bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block_column)];
   // In cells of the block. Clamped: rounding must not put the entry beside it.
   const RayInCells inside({ray.x.start - (block_column << kBlockShift), ray.y.start - (block_row << kBlockShift)}, ray);
-  const auto place_after = [&](const RayInCells::Axis& axis, double way) { return static_cast<std::int32_t>(std::clamp(axis.start + way * axis.direction, 0.0, kBlock - 1.0)); };
-  std::int32_t column = place_after(inside.x, at);
-  std::int32_t row = place_after(inside.y, at);
-  if ((bits & bits_between(column, row, place_after(inside.x, leaves), place_after(inside.y, leaves))) == 0) return kNever;
+  const auto entry = [&](const RayInCells::Axis& axis) { return static_cast<std::int32_t>(std::clamp(axis.start + at * axis.direction, 0.0, kBlock - 1.0)); };
+  std::int32_t column = entry(inside.x);
+  std::int32_t row = entry(inside.y);
   double next_column = inside.x.way_to(column + (ray.x.step > 0));
   double next_row = inside.y.way_to(row + (ray.y.step > 0));
   while (((column | row) & ~kInBlock) == 0) {

@@ -118,15 +118,9 @@ class EvidenceGrid {
 
   struct RayInCells;
 
-  /// In cells of the window, with the first row whose middle is not below it.
-  struct OutlinePoint {
-    Eigen::Vector2d place;
-    std::int32_t first_row = 0;
-  };
-
   void measure_free_ways(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
   void outline_free_space(const Eigen::Vector2d& origin_m);
-  void add_edge(const OutlinePoint& from, const OutlinePoint& to);
+  void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
   void fill_outline();
   void walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double from_m, double to_m);
   void find_echoes(const std::vector<Ray>& rays);

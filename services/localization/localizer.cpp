@@ -32,6 +32,12 @@ constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelera
 
 std::int64_t to_ns(double duration_s) { return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s)); }
 
+/// Whether it may have been one of ours.
+bool is_believable(const sensing::MotionEstimate& estimate) {
+  return localization::is_believable(estimate.odom_from_base) && localization::is_believable(estimate.covariance) &&
+         estimate.calibration.norm() < 1.0 && estimate.velocity.norm() < kFastestRestored;
+}
+
 /// What a point does to the maps.
 grids::Echo echo_of(PointLabel label) {
   switch (label) {
@@ -609,14 +615,12 @@ void Localizer::correct(const flow::GraphCorrection& correction) {
 template <typename Self, typename StateOfLast, typename Visitor>
 void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(last.stamp_ns);
-  visit(self.progress_.estimate.odom_from_base);
-  visit(self.progress_.estimate.calibration);
-  visit(self.progress_.estimate.velocity);
-  visit(self.progress_.estimate.covariance);
-  visit(self.progress_.with_stamp_offset.odom_from_base);
-  visit(self.progress_.with_stamp_offset.calibration);
-  visit(self.progress_.with_stamp_offset.velocity);
-  visit(self.progress_.with_stamp_offset.covariance);
+  for (auto* estimate : {&self.progress_.estimate, &self.progress_.with_stamp_offset}) {
+    visit(estimate->odom_from_base);
+    visit(estimate->calibration);
+    visit(estimate->velocity);
+    visit(estimate->covariance);
+  }
   visit(self.progress_.applies_stamp_offset);
   visit(self.progress_.variance_factors.of_axis);
   visit(self.progress_.variance_factors.dead_reckoned);
@@ -666,12 +670,10 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   std::vector<sensing::Odometry> odometry;
   from.get_all(odometry);
   std::optional<LocalMap> map = LocalMap::restored(config_.map, from, help_);
-  const bool is_sound = is_believable(restored.progress_.estimate.odom_from_base) && is_believable(restored.map_from_odom_) &&
+  const bool is_sound = is_believable(restored.map_from_odom_) &&
                         is_believable(restored.previous_from_submap_.pose) &&
                         is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.progress_.drift) &&
-                        is_believable(restored.progress_.estimate.covariance) && restored.progress_.estimate.calibration.norm() < 1.0 && restored.progress_.estimate.velocity.norm() < kFastestRestored &&
-                        is_believable(restored.progress_.with_stamp_offset.odom_from_base) && is_believable(restored.progress_.with_stamp_offset.covariance) &&
-                        restored.progress_.with_stamp_offset.calibration.norm() < 1.0 && restored.progress_.with_stamp_offset.velocity.norm() < kFastestRestored &&
+                        is_believable(restored.progress_.estimate) && is_believable(restored.progress_.with_stamp_offset) &&
                         restored.progress_.variance_factors.of_axis.minCoeff() >= 0.0 && restored.progress_.variance_factors.of_axis.allFinite() &&
                         restored.progress_.variance_factors.dead_reckoned.minCoeff() >= 0.0 && restored.progress_.variance_factors.dead_reckoned.maxCoeff() <= 1.0 &&
                         restored.progress_.map_change.way_m >= 0.0 && std::isfinite(restored.progress_.map_change.way_m) &&

@@ -254,6 +254,21 @@ AxisFit axis_fit(double mean_m, double sigma_m, const SizeEvidence& evidence, do
   return {log_sum(of_whole, of_piece), size};
 }
 
+/// The sizes under one kind of road users, and how well they fit it.
+struct KindFit {
+  double log_fit = 0.0;
+  AxisFit length;
+  AxisFit width;
+};
+
+KindFit kind_fit(const KindOfBody& kind, const Body& body, double scale) {
+  KindFit fit;
+  fit.length = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence, scale);
+  fit.width = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence, scale);
+  fit.log_fit = std::log(kind.share) + fit.length.log_fit + fit.width.log_fit;
+  return fit;
+}
+
 }  // namespace
 
 double log_sum(double a, double b) { return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))); }
@@ -265,26 +280,18 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 }
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
-  const double scale = config.size_scale;
-  std::array<double, kKinds.size()> fit;
-  std::array<AxisFit, kKinds.size()> length;
-  std::array<AxisFit, kKinds.size()> width;
-  for (std::size_t i = 0; i < kKinds.size(); ++i) {
-    const KindOfBody& kind = kKinds[i];
-    length[i] = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence, scale);
-    width[i] = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence, scale);
-    fit[i] = std::log(kind.share) + length[i].log_fit + width[i].log_fit;
-  }
-  const auto best = static_cast<std::size_t>(std::max_element(fit.begin(), fit.end()) - fit.begin());
-  body.kind = kKinds[best].kind;
-  body.length = {length[best].size.value_m, 0.0};
-  body.width = {width[best].size.value_m, 0.0};
+  std::array<KindFit, kKinds.size()> fits;
+  std::ranges::transform(kKinds, fits.begin(), [&](const KindOfBody& kind) { return kind_fit(kind, body, config.size_scale); });
+  const auto best = std::ranges::max_element(fits, {}, &KindFit::log_fit);
+  body.kind = kKinds[static_cast<std::size_t>(best - fits.begin())].kind;
+  body.length = {best->length.size.value_m, 0.0};
+  body.width = {best->width.size.value_m, 0.0};
   double total = 0.0;
-  for (std::size_t i = 0; i < kKinds.size(); ++i) {  // how far off the likeliest is, should another kind be true
-    const double weight = std::exp(fit[i] - fit[best]);
+  for (const KindFit& fit : fits) {  // how far off the likeliest is, should another kind be true
+    const double weight = std::exp(fit.log_fit - best->log_fit);
     total += weight;
-    body.length.variance_m2 += weight * (length[i].size.variance_m2 + squared(length[i].size.value_m - body.length.value_m));
-    body.width.variance_m2 += weight * (width[i].size.variance_m2 + squared(width[i].size.value_m - body.width.value_m));
+    body.length.variance_m2 += weight * (fit.length.size.variance_m2 + squared(fit.length.size.value_m - body.length.value_m));
+    body.width.variance_m2 += weight * (fit.width.size.variance_m2 + squared(fit.width.size.value_m - body.width.value_m));
   }
   body.length.variance_m2 /= total;
   body.width.variance_m2 /= total;
@@ -294,13 +301,8 @@ Body with_likely_sizes(Body body, const TrackingConfig& config) {
 }
 
 double log_evidence_of_sizes(const Body& body, const TrackingConfig& config) {
-  const double scale = config.size_scale;
   double sum = -std::numeric_limits<double>::max();
-  for (const KindOfBody& kind : kKinds) {
-    const AxisFit length = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence, scale);
-    const AxisFit width = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence, scale);
-    sum = log_sum(sum, std::log(kind.share) + length.log_fit + width.log_fit);
-  }
+  for (const KindOfBody& kind : kKinds) sum = log_sum(sum, kind_fit(kind, body, config.size_scale).log_fit);
   return sum;
 }
 
