@@ -35,7 +35,7 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
     const double variance_m2 = has_direction ? point.sigma_m * point.sigma_m + surface->spread_m2
                                              : std::pow(point.sigma_m + 0.5 * surfels.window().cell_size_m, 2);
     const double share = surface->seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
-    pairs_.push_back({point.in_base_m, surface->mean_m, surface->normal, share / variance_m2, variance_m2, share, has_direction});
+    pairs_.push_back({point.in_base_m, surface->mean_m, surface->normal, share / variance_m2, variance_m2, share, has_direction, surface->seen_over_m < config.new_below_m});
   }
   if (config.body_sigma_m > 0.0) share_errors_of_bodies(config);
 }
@@ -79,6 +79,7 @@ PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& m
     const geometry::Vector2 offset_m = turned_m + map_from_base.translation_m() - pair.mean_m;
     if (offset_m.squaredNorm() > gate_m * gate_m) continue;
     ++equations.matched;
+    if (pair.is_new) ++equations.matched_new;
     if (pair.has_direction) {
       const double residual_m = pair.normal.dot(offset_m);
       equations.squared_residuals_m2 += residual_m * residual_m;
@@ -130,6 +131,7 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
   result.map_from_base.covariance = (equations.H + prior_information).inverse();
   result.matched_points = equations.matched;
   if (!points.empty()) result.matched_share = static_cast<double>(equations.matched) / static_cast<double>(points.size());
+  if (equations.matched > 0) result.new_share = static_cast<double>(equations.matched_new) / equations.matched;
   if (equations.matched > 0) result.rms_residual_m = std::sqrt(equations.squared_residuals_m2 / equations.matched);
   return result;
 }

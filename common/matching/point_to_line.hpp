@@ -20,6 +20,7 @@ struct PointToLineConfig {
   double fine_gate_m = 0.2;
   double proven_after_m = 2.0;     ///< A surfel counts in full once it was seen from places this far apart.
   double unproven_share = 0.02;    ///< Before, this much: what moves along with the vehicle looks as if it stood nearby.
+  double new_below_m = 2.0;        ///< A surfel first seen less than this much of way ago is new: it does not change the match.
   double robust_scale_m = 0.05;    ///< Residual at which a point's weight has fallen to a quarter.
   double information_share = 0.10; ///< Points of one scan share the map's error: together they count for this share.
   double body_sigma_m = 0.0;       ///< One sigma of an error that all points of one body have in common; 0: none, each point counts for itself.
@@ -33,6 +34,7 @@ struct PointToLineResult {
   int matched_points = 0;
   double matched_share = 0.0;      ///< Of the points given.
   double rms_residual_m = 0.0;     ///< Of the matched points, across the surface.
+  double new_share = 0.0;          ///< Of the matched points, those on surfels first seen less than new_below_m of way ago.
 };
 
 /// Registers points against surfels by Gauss-Newton on point-to-line distances with a Gaussian prior; Wang 2004,
@@ -57,11 +59,13 @@ class PointToLineMatcher {
     double variance_m2 = 0.0;       ///< Of the point to the surfel,
     double share = 1.0;             ///< and what a surfel that is not proven counts for: information is their quotient.
     bool has_direction = false;
+    bool is_new = false;
   };
   struct NormalEquations {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     int matched = 0;
+    int matched_new = 0;
     double squared_residuals_m2 = 0.0;
 
   };

@@ -168,6 +168,13 @@ MotionEstimate matched(const MotionEstimate& predicted, const geometry::Uncertai
   return estimate;
 }
 
+MotionEstimate against_renewed_map(const MotionEstimate& estimate, double renewed_share) {
+  MotionEstimate renewed = estimate;
+  renewed.covariance.block<3, 6>(0, 3) *= 1.0 - renewed_share;
+  renewed.covariance.block<6, 3>(3, 0) *= 1.0 - renewed_share;
+  return renewed;
+}
+
 geometry::UncertainPose2 matched_from(const geometry::UncertainPose2& other_prediction, const geometry::UncertainPose2& prediction, const geometry::UncertainPose2& match) {
   const geometry::Matrix3 of_match = match.covariance.inverse();
   const geometry::Matrix3 of_scan = of_match - prediction.covariance.inverse();

@@ -80,6 +80,11 @@ MotionEstimate with_doubted_velocity(const MotionEstimate& estimate, const Veloc
 /// A surprise beyond what the prediction allows is a wrong match or a slipping wheel: it moves the pose alone.
 MotionEstimate matched(const MotionEstimate& predicted, const geometry::UncertainPose2& odom_from_base);
 
+/// Once a share of the map in view is what scans since then put there: by poses that were off just as this one is, so that against this
+/// part of the map it is not. What the pose has in common with the calibration falls by that share; each alone stays as sure as it is.
+/// Without it the filter takes a map for exact that was made by wheels one percent short, and thinks that it sees them right.
+MotionEstimate against_renewed_map(const MotionEstimate& estimate, double renewed_share);
+
 /// What the scan says of another estimate of the same motion than that whose prediction was matched: the match's information beyond its prior (information filter).
 /// The result is to be told to matched() with the other prediction.
 geometry::UncertainPose2 matched_from(const geometry::UncertainPose2& other_prediction, const geometry::UncertainPose2& prediction, const geometry::UncertainPose2& match);

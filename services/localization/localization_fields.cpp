@@ -89,6 +89,7 @@ FieldTable<matching::PointToLineConfig> match_fields() {
        Range{0.01, 10.0}},
       {"proven_after_m", &C::proven_after_m, "A surfel counts in full once it was seen from places this far apart.", kNotNegative},
       {"unproven_share", &C::unproven_share, "Before, it counts for this share.", kShare},
+      {"new_below_m", &C::new_below_m, "A surfel first seen less than this much of way ago is new: only what the pose tells of the wheels depends on it.", kPositive},
       {"robust_scale_m", &C::robust_scale_m, "Residual at which a point's weight has fallen to a quarter.", kPositive},
       {"information_share", &C::information_share, "Points of one scan share the map's error: they count for this share.",
        Range{1e-6, 1.0}},

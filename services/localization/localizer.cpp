@@ -142,6 +142,14 @@ bool Localizer::tells_of_stamps(std::int64_t stamp_ns) const {
   return stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
 }
 
+/// The map grows by what is matched to it, with the errors of those matches in it.
+void Localizer::renew_map(const Pose2& before_from_base, const Match& found) {
+  const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
+  const double renewed_share = 1.0 - std::exp(-moved_m * found.new_share / config_.match.new_below_m);
+  progress_.estimate = sensing::against_renewed_map(progress_.estimate, renewed_share);
+  progress_.with_stamp_offset = sensing::against_renewed_map(progress_.with_stamp_offset, renewed_share);
+}
+
 /// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
 void Localizer::watch_stamps(std::int64_t stamp_ns, const Step& step, const Match& found) {
   if (config_.motion.stamp_offset_prior_s == 0.0 || progress_.applies_stamp_offset) return;
@@ -299,7 +307,7 @@ Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::P
     const UncertainPose2 sampled = ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, config, scan_sequence);
     return {.odom_from_base = sampled, .is_believed = true, .was_sampled = true, .rms_residual_m = result.rms_residual_m};
   }
-  return {.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m};
+  return {.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m, .new_share = result.new_share};
 }
 
 /// A single step that wheels are silent or wrong about may be one into what nobody has seen before: what is new counts in full. Without
@@ -450,6 +458,7 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   const Pose2 before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * found.odom_from_base.pose;
   progress_.estimate = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
   watch_stamps(scan.stamp_ns, step, found);
+  renew_map(before_from_base, found);
   if (found.is_believed) {
     const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
     progress_.variance_factors = sensing::learned(progress_.variance_factors, prior, found.odom_from_base, share);

@@ -203,6 +203,7 @@ class Localizer {
     bool was_sampled = false;       ///< It left some direction to the prediction.
     bool is_lost = false;           ///< There were enough points, and they did not match.
     double rms_residual_m = 0.0;    ///< Of a believed one.
+    double new_share = 0.0;         ///< How much of the map it was matched against is new; 0 where it left some direction to the prediction: that the map says nothing of.
   };
 
   /// Box of something that moves, with a margin.
@@ -263,6 +264,7 @@ class Localizer {
   std::optional<geometry::Pose2> wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const;
   Eigen::Vector3d step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const;
   bool tells_of_stamps(std::int64_t stamp_ns) const;
+  void renew_map(const geometry::Pose2& before_from_base, const Match& found);
   void watch_stamps(std::int64_t stamp_ns, const Step& step, const Match& found);
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;

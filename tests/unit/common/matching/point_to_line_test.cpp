@@ -305,7 +305,9 @@ TEST(MatchPointToLine, IsNotHeldBackByWhatHasOnlyBeenSeenFromHere) {
     for (const double odometer_m : {3.5, 4.0}) surfels.add({20.1, y_m}, odometer_m);
     points.push_back({{20.1, y_m}, 0.03});
   }
-  EXPECT_NEAR(match_from(points, surfels, Pose2{}).map_from_base.pose.x_m, 0.04, 0.004);
+  const auto result = match_from(points, surfels, Pose2{});
+  EXPECT_NEAR(result.map_from_base.pose.x_m, 0.04, 0.004);
+  EXPECT_NEAR(result.new_share, 0.5, 0.02);  // the wall has as many points as the fronts
   PointToLineConfig believes_all;
   believes_all.unproven_share = 1.0;
   EXPECT_LT(match_from(points, surfels, Pose2{}, believes_all).map_from_base.pose.x_m, 0.025);

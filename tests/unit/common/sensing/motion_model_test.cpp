@@ -205,6 +205,36 @@ TEST(PutAt, KeepsTheCalibrationAndForgetsWhatThePoseSaysOfIt) {
   EXPECT_EQ((put.covariance.block<3, 8>(0, 3).norm()), 0.0);
 }
 
+TEST(AgainstRenewedMap, LeavesEachAsSureAsItIs) {
+  const MotionEstimate estimate = after_driving(100, {.scale = 1.01}, winding_street);
+  const MotionEstimate renewed = against_renewed_map(estimate, 0.25);
+  EXPECT_EQ(renewed.odom_from_base, estimate.odom_from_base);
+  EXPECT_EQ(renewed.calibration, estimate.calibration);
+  EXPECT_EQ((renewed.covariance.topLeftCorner<3, 3>()), (estimate.covariance.topLeftCorner<3, 3>()));
+  EXPECT_EQ((renewed.covariance.bottomRightCorner<8, 8>()), (estimate.covariance.bottomRightCorner<8, 8>()));
+  EXPECT_TRUE((renewed.covariance.block<3, 6>(0, 3)).isApprox(0.75 * estimate.covariance.block<3, 6>(0, 3)));
+  EXPECT_TRUE(renewed.covariance.isApprox(renewed.covariance.transpose()));
+}
+
+/// How sure of the scale a drive makes it whose every match says what the wheels say: the map it is matched to is what they made.
+double scale_sigma_after_agreeing_with_itself(double renewed_share_of_each_step) {
+  MotionEstimate estimate = at_start(kConfig);
+  for (int i = 0; i < 300; ++i) {
+    estimate = moved_by_wheels(estimate, {{0.8, 0.0, 0.0}, kStep_s}, kConfig);
+    estimate = matched(estimate, fused(estimate.uncertain_pose(), {estimate.odom_from_base, Eigen::Vector3d(0.03 * 0.03, 0.03 * 0.03, 1e-6).asDiagonal()}));
+    estimate = against_renewed_map(estimate, renewed_share_of_each_step);
+  }
+  return std::sqrt(estimate.covariance(3, 3));
+}
+
+TEST(AgainstRenewedMap, TakesAMapThatItsOwnWheelsMadeForLittle) {
+  const double as_if_known = scale_sigma_after_agreeing_with_itself(0.0);
+  const double seen_over_30_m = scale_sigma_after_agreeing_with_itself(1.0 - std::exp(-0.8 / 30.0));
+  const double seen_once = scale_sigma_after_agreeing_with_itself(1.0);
+  EXPECT_GT(seen_over_30_m, 1.01 * as_if_known);
+  EXPECT_GT(seen_once, 1.5 * seen_over_30_m);
+}
+
 TEST(MovedByWheels, PropagatesTheCalibrationByItsNumericalDerivative) {
   MotionModelConfig config;
   config.pivot_prior_m = 0.2;
