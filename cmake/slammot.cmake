@@ -3,12 +3,26 @@
 
 include(GoogleTest)
 
+# What nearly every source includes, compiled once: half of the time of a build. A source that relies on it for what it
+# does not include itself fails where precompiled headers are off, as with sanitizers (CMakePresets.json).
+set(SLAMMOT_LIBRARY_OPTIONS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # the latter is what ccache needs
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/core_headers.cpp CONTENT "")
+add_library(core_headers OBJECT ${CMAKE_BINARY_DIR}/core_headers.cpp)
+target_link_libraries(core_headers PRIVATE Eigen3::Eigen)
+target_compile_options(core_headers PRIVATE ${SLAMMOT_LIBRARY_OPTIONS})
+target_precompile_headers(core_headers PRIVATE
+  <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky> <Eigen/LU>
+  <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <functional> <map> <memory> <numbers> <numeric>
+  <optional> <random> <set> <span> <sstream> <string> <string_view> <utility> <variant> <vector>)
+
 # slammot_library(common_geometry SOURCES a.cpp b.cpp LINK Eigen3::Eigen)
 function(slammot_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
-  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  target_compile_options(${name} PRIVATE ${SLAMMOT_LIBRARY_OPTIONS})
+  target_precompile_headers(${name} REUSE_FROM core_headers)
   target_link_libraries(${name} PUBLIC ${ARG_LINK})
 endfunction()
 
