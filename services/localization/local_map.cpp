@@ -103,6 +103,8 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m
 
 Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
 
+void LocalMap::prepare(const Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) { evidence_.prepare(origin_m, rays, beam_step_rad); }
+
 void LocalMap::integrate(std::int64_t stamp_ns, const Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
   if (scans_ == 0) first_stamp_ns_ = stamp_ns;
   count_way(origin_m);
