@@ -32,7 +32,8 @@ void append(std::string& text, std::int64_t number) {
 /// With zeros in front, so many digits in all.
 void append_padded(std::string& text, std::int64_t number, int digits) {
   text.append(static_cast<std::size_t>(digits), '0');
-  for (auto place = text.rbegin(); number > 0; ++place, number /= 10) *place = static_cast<char>('0' + number % 10);
+  char* place = text.data() + text.size();
+  for (; number > 0; number /= 10) *--place = static_cast<char>('0' + number % 10);
 }
 
 std::string by_standard_library(double value, std::chars_format format, int precision) {
@@ -63,54 +64,72 @@ std::optional<FirstDigits> first_digits(double size) {
 
 }  // namespace
 
-std::string stamp_text(std::int64_t stamp_ns) {
+void append_stamp(std::string& text, std::int64_t stamp_ns) {
   constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
   const std::int64_t fraction_ns = std::abs(stamp_ns % kNanosecondsPerSecond);
-  std::string text;
   if (stamp_ns < 0) text += '-';
   append(text, std::abs(stamp_ns / kNanosecondsPerSecond));
   text += '.';
   if (fraction_ns % 1000 == 0) append_padded(text, fraction_ns / 1000, 6);
   else append_padded(text, fraction_ns, 9);
-  return text;
 }
 
-std::string fixed_text(double value, int decimals) {
+void append_fixed(std::string& text, double value, int decimals) {
   const bool is_short = decimals >= 0 && decimals < static_cast<int>(kPowerOfTen.size());
   const auto parts = is_short ? nearest(std::abs(value) * kPowerOfTen[static_cast<std::size_t>(decimals)]) : std::nullopt;
   if (!parts) {
     const std::string number = by_standard_library(value, std::chars_format::fixed, decimals);
     const bool is_zero = number.find_first_not_of("-0.") == std::string::npos;
-    return is_zero && number.front() == '-' ? number.substr(1) : number;
+    text.append(number, is_zero && number.front() == '-' ? 1 : 0);
+    return;
   }
   const auto per_whole = static_cast<std::int64_t>(kPowerOfTen[static_cast<std::size_t>(decimals)]);
-  std::string text;
   if (value < 0.0 && *parts > 0) text += '-';
   append(text, *parts / per_whole);
-  if (decimals == 0) return text;
+  if (decimals == 0) return;
   text += '.';
   append_padded(text, *parts % per_whole, decimals);
-  return text;
 }
 
-std::string short_text(double value) {
+void append_short(std::string& text, double value) {
   const auto first = first_digits(std::abs(value));
-  if (!first) return by_standard_library(value, std::chars_format::general, kSignificant);
+  if (!first) {
+    text += by_standard_library(value, std::chars_format::general, kSignificant);
+    return;
+  }
   std::string digits = std::to_string(first->digits);
   digits.erase(digits.find_last_not_of('0') + 1);
-  std::string text = value < 0.0 ? "-" : "";
+  if (value < 0.0) text += '-';
   const int exponent = first->exponent;
   if (exponent < -4 || exponent >= kSignificant) {
     text += digits.front();
     if (digits.size() > 1) text.append(1, '.').append(digits, 1);
     text += exponent < 0 ? "e-" : "e+";
     append_padded(text, std::abs(exponent), 2);
-    return text;
+    return;
   }
-  if (exponent < 0) return text.append("0.").append(static_cast<std::size_t>(-1 - exponent), '0').append(digits);
-  const auto whole_digits = static_cast<std::size_t>(exponent + 1);
-  if (digits.size() <= whole_digits) return text.append(digits).append(whole_digits - digits.size(), '0');
-  return text.append(digits, 0, whole_digits).append(1, '.').append(digits, whole_digits);
+  const auto whole_digits = static_cast<std::size_t>(std::max(0, exponent + 1));
+  if (exponent < 0) text.append("0.").append(static_cast<std::size_t>(-1 - exponent), '0').append(digits);
+  else if (digits.size() <= whole_digits) text.append(digits).append(whole_digits - digits.size(), '0');
+  else text.append(digits, 0, whole_digits).append(1, '.').append(digits, whole_digits);
+}
+
+std::string stamp_text(std::int64_t stamp_ns) {
+  std::string text;
+  append_stamp(text, stamp_ns);
+  return text;
+}
+
+std::string fixed_text(double value, int decimals) {
+  std::string text;
+  append_fixed(text, value, decimals);
+  return text;
+}
+
+std::string short_text(double value) {
+  std::string text;
+  append_short(text, value);
+  return text;
 }
 
 }  // namespace slammot::files

@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <future>
-#include <initializer_list>
+#include <string_view>
 
 #include <Eigen/Cholesky>
 
@@ -43,7 +43,7 @@ std::optional<Error> write_map_files(const std::filesystem::path& folder, const 
 }
 
 /// A file of an earlier run would be taken for one of this.
-std::optional<Error> write_labels(const std::filesystem::path& path, const std::vector<LabelRow>& rows) {
+std::optional<Error> write_labels(const std::filesystem::path& path, const std::vector<const LabelRow*>& rows) {
   if (!rows.empty()) return write_file_atomically(path, to_labels_csv(rows));
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
@@ -54,13 +54,16 @@ std::string pose_text(const geometry::Pose2& pose) {
   return fixed_text(pose.x_m, 9) + " " + fixed_text(pose.y_m, 9) + " " + fixed_text(pose.heading_rad, 9);
 }
 
-/// The fields with commas between them, and the line's end.
-void append_joined(std::string& text, std::initializer_list<std::string> fields) {
-  for (const std::string& field : fields) text.append(field).append(1, ',');
-  text.back() = '\n';
-}
+void append_after_comma(std::string& text, std::string_view word) { text.append(1, ',').append(word); }
 
-void append_short(std::string& text, double value) { text.append(1, ',').append(short_text(value)); }
+void append_fixed_after_comma(std::string& text, double value, int decimals) { append_fixed(text.append(1, ','), value, decimals); }
+
+void append_short_after_comma(std::string& text, double value) { append_short(text.append(1, ','), value); }
+
+void append_stamp_and_id(std::string& text, const TrackRow& row) {
+  append_stamp(text, row.stamp_ns);
+  append_after_comma(text, std::to_string(row.track_id.value));
+}
 
 std::optional<Error> write_maps(const std::filesystem::path& folder, const RunRecord& record) {
   std::vector<PlacedSubmap> placed;
@@ -74,52 +77,60 @@ std::optional<Error> write_maps(const std::filesystem::path& folder, const RunRe
 
 std::string to_tum(const std::vector<StampedPose>& trajectory) {
   std::string text;
-  text.reserve(trajectory.size() * 64);
+  text.reserve(trajectory.size() * 80);
   for (const auto& [stamp_ns, pose] : trajectory) {
-    text += stamp_text(stamp_ns) + " " + fixed_text(pose.x_m, 6) + " " + fixed_text(pose.y_m, 6) + " 0 0 0 " +
-            fixed_text(std::sin(0.5 * pose.heading_rad), 9) + " " + fixed_text(std::cos(0.5 * pose.heading_rad), 9) + "\n";
-  }
-  return text;
-}
-
-std::string to_tracks_csv(const std::vector<TrackRow>& rows) {
-  std::string text = "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class\n";
-  for (const TrackRow& row : rows) {
-    const geometry::Pose2& pose = row.map_from_object;
-    const geometry::Vector2& velocity_mps = row.velocity_in_map_mps;
-    append_joined(text, {stamp_text(row.stamp_ns), std::to_string(row.track_id.value), fixed_text(pose.x_m, 3), fixed_text(pose.y_m, 3),
-                         fixed_text(pose.heading_rad, 5), fixed_text(velocity_mps.x(), 3), fixed_text(velocity_mps.y(), 3),
-                         fixed_text(row.length_m, 3), fixed_text(row.width_m, 3), name_of(row.motion), fixed_text(row.existence, 4),
-                         name_of(row.object_class)});
-  }
-  return text;
-}
-
-std::string to_track_details_csv(const std::vector<TrackRow>& rows) {
-  std::string text = "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_car,p_truck_or_bus";
-  const std::size_t modes = rows.empty() ? 0 : rows.front().mode_probability.size();
-  for (std::size_t mode = 0; mode < modes; ++mode) text += ",mode_" + std::to_string(mode);
-  text += "\n";
-  for (const TrackRow& row : rows) {
-    text.append(stamp_text(row.stamp_ns)).append(1, ',').append(std::to_string(row.track_id.value));
-    const Eigen::Matrix4d& P = row.covariance_in_map;
-    for (const double value : {P(0, 0), P(0, 1), P(1, 1), P(2, 2), P(2, 3), P(3, 3)}) append_short(text, value);
-    for (const double probability : row.class_probability) text.append(1, ',').append(fixed_text(probability, 4));
-    for (std::size_t mode = 0; mode < modes; ++mode) append_short(text, mode < row.mode_probability.size() ? row.mode_probability[mode] : 0.0);
+    append_stamp(text, stamp_ns);
+    append_fixed(text.append(1, ' '), pose.x_m, 6);
+    append_fixed(text.append(1, ' '), pose.y_m, 6);
+    append_fixed(text.append(" 0 0 0 "), std::sin(0.5 * pose.heading_rad), 9);
+    append_fixed(text.append(1, ' '), std::cos(0.5 * pose.heading_rad), 9);
     text += '\n';
   }
   return text;
 }
 
-std::string to_predictions_csv(const std::vector<TrackRow>& rows) {
+std::string to_tracks_csv(const std::vector<const TrackRow*>& rows) {
+  std::string text = "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class\n";
+  for (const TrackRow* row : rows) {
+    const geometry::Pose2& pose = row->map_from_object;
+    const geometry::Vector2& velocity_mps = row->velocity_in_map_mps;
+    append_stamp_and_id(text, *row);
+    for (const double place_m : {pose.x_m, pose.y_m}) append_fixed_after_comma(text, place_m, 3);
+    append_fixed_after_comma(text, pose.heading_rad, 5);
+    for (const double value : {velocity_mps.x(), velocity_mps.y(), row->length_m, row->width_m}) append_fixed_after_comma(text, value, 3);
+    append_after_comma(text, name_of(row->motion));
+    append_fixed_after_comma(text, row->existence, 4);
+    append_after_comma(text, name_of(row->object_class));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string to_track_details_csv(const std::vector<const TrackRow*>& rows) {
+  std::string text = "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_car,p_truck_or_bus";
+  const std::size_t modes = rows.empty() ? 0 : rows.front()->mode_probability.size();
+  for (std::size_t mode = 0; mode < modes; ++mode) text += ",mode_" + std::to_string(mode);
+  text += "\n";
+  for (const TrackRow* row : rows) {
+    append_stamp_and_id(text, *row);
+    const Eigen::Matrix4d& P = row->covariance_in_map;
+    for (const double value : {P(0, 0), P(0, 1), P(1, 1), P(2, 2), P(2, 3), P(3, 3)}) append_short_after_comma(text, value);
+    for (const double probability : row->class_probability) append_fixed_after_comma(text, probability, 4);
+    for (std::size_t mode = 0; mode < modes; ++mode) append_short_after_comma(text, mode < row->mode_probability.size() ? row->mode_probability[mode] : 0.0);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string to_predictions_csv(const std::vector<const TrackRow*>& rows) {
   std::string text = "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n";
-  for (const TrackRow& row : rows) {
-    const std::string begin = stamp_text(row.stamp_ns) + "," + std::to_string(row.track_id.value) + ",";
-    for (const PredictedPlace& place : row.predicted) {
-      text.append(begin).append(fixed_text(place.after_s, 1));
-      text.append(1, ',').append(fixed_text(place.position_in_map_m.x(), 3)).append(1, ',').append(fixed_text(place.position_in_map_m.y(), 3));
+  for (const TrackRow* row : rows) {
+    for (const PredictedPlace& place : row->predicted) {
+      append_stamp_and_id(text, *row);
+      append_fixed_after_comma(text, place.after_s, 1);
+      for (const double place_m : {place.position_in_map_m.x(), place.position_in_map_m.y()}) append_fixed_after_comma(text, place_m, 3);
       const geometry::Matrix2& P = place.covariance_m2;
-      for (const double value : {P(0, 0), P(0, 1), P(1, 1)}) append_short(text, value);
+      for (const double value : {P(0, 0), P(0, 1), P(1, 1)}) append_short_after_comma(text, value);
       text += '\n';
     }
   }
@@ -130,18 +141,28 @@ std::string to_online_covariance_csv(const std::vector<UncertainStampedPose>& po
   std::string text = "timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h\n";
   for (const auto& [stamp_ns, odom_from_base] : poses) {
     const geometry::Pose2& pose = odom_from_base.pose;
-    text.append(stamp_text(stamp_ns)).append(1, ',').append(fixed_text(pose.x_m, 6)).append(1, ',').append(fixed_text(pose.y_m, 6));
-    text.append(1, ',').append(fixed_text(pose.heading_rad, 7));
+    append_stamp(text, stamp_ns);
+    for (const double place_m : {pose.x_m, pose.y_m}) append_fixed_after_comma(text, place_m, 6);
+    append_fixed_after_comma(text, pose.heading_rad, 7);
     const geometry::Matrix3& P = odom_from_base.covariance;
-    for (const double value : {P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2)}) append_short(text, value);
+    for (const double value : {P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2)}) append_short_after_comma(text, value);
     text += '\n';
   }
   return text;
 }
 
-std::string to_labels_csv(const std::vector<LabelRow>& rows) {
+std::string to_labels_csv(const std::vector<const LabelRow*>& rows) {
   std::string text = "timestamp,detection,tracking\n";
-  for (const LabelRow& row : rows) text.append(stamp_text(row.stamp_ns)).append(1, ',').append(row.by_detection).append(1, ',').append(row.by_tracking).append(1, '\n');
+  constexpr std::size_t kStampAndCommas = 24;
+  std::size_t length = text.size();
+  for (const LabelRow* row : rows) length += row->by_detection.size() + row->by_tracking.size() + kStampAndCommas;
+  text.reserve(length);
+  for (const LabelRow* row : rows) {
+    append_stamp(text, row->stamp_ns);
+    append_after_comma(text, row->by_detection);
+    append_after_comma(text, row->by_tracking);
+    text += '\n';
+  }
   return text;
 }
 
@@ -184,7 +205,7 @@ std::optional<Error> write_outputs(const std::filesystem::path& folder, const Ru
   if (auto fault = write_file_atomically(folder / "online.tum", to_tum(record.online_trajectory()))) return fault;
   if (auto fault = write_file_atomically(folder / "trajectory.tum", to_tum(corrected))) return fault;
   if (auto fault = write_file_atomically(folder / "online_covariance.csv", to_online_covariance_csv(record.uncertain_poses()))) return fault;
-  const std::vector<TrackRow> tracks = record.track_rows();
+  const std::vector<const TrackRow*> tracks = record.track_rows();
   if (auto fault = write_file_atomically(folder / "tracks.csv", to_tracks_csv(tracks))) return fault;
   if (auto fault = write_file_atomically(folder / "track_details.csv", to_track_details_csv(tracks))) return fault;
   if (auto fault = write_file_atomically(folder / "predictions.csv", to_predictions_csv(tracks))) return fault;

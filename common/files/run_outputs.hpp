@@ -15,21 +15,21 @@ namespace slammot::files {
 std::string to_tum(const std::vector<StampedPose>& trajectory);
 
 /// Header and one line a row: timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class.
-std::string to_tracks_csv(const std::vector<TrackRow>& rows);
+std::string to_tracks_csv(const std::vector<const TrackRow*>& rows);
 
 /// What tracks.csv leaves out, row by row: timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,
 /// p_car,p_truck_or_bus,mode_0,mode_1,...
 /// in map; as many modes as the first row has.
-std::string to_track_details_csv(const std::vector<TrackRow>& rows);
+std::string to_track_details_csv(const std::vector<const TrackRow*>& rows);
 
 /// Where tracks will be, a line a time ahead (whole seconds): timestamp,track_id,after,x,y,var_x,cov_xy,var_y in map.
-std::string to_predictions_csv(const std::vector<TrackRow>& rows);
+std::string to_predictions_csv(const std::vector<const TrackRow*>& rows);
 
 /// Header and one line a pose: timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h in odom, h the heading.
 std::string to_online_covariance_csv(const std::vector<UncertainStampedPose>& poses);
 
 /// Header and one line a scan: timestamp,detection,tracking, a letter a beam.
-std::string to_labels_csv(const std::vector<LabelRow>& rows);
+std::string to_labels_csv(const std::vector<const LabelRow*>& rows);
 
 /// Vertices are the submaps where they are now, edges the constraints. The information of EDGE_SE2 counts in the frame
 /// of the edge's end, so covariances, which count in the frame of its beginning, are turned.

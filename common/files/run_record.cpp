@@ -116,9 +116,11 @@ std::vector<flow::Constraint> RunRecord::constraints() const {
   return all;
 }
 
-std::vector<TrackRow> RunRecord::track_rows() const {
-  std::vector<TrackRow> all;
-  for (const auto& [stamp_ns, rows] : tracks_) all.insert(all.end(), rows.begin(), rows.end());
+std::vector<const TrackRow*> RunRecord::track_rows() const {
+  std::vector<const TrackRow*> all;
+  for (const auto& [stamp_ns, rows] : tracks_) {
+    for (const TrackRow& row : rows) all.push_back(&row);
+  }
   return all;
 }
 
@@ -128,9 +130,9 @@ std::vector<UncertainStampedPose> RunRecord::uncertain_poses() const {
   return all;
 }
 
-std::vector<LabelRow> RunRecord::label_rows() const {
-  std::vector<LabelRow> all;
-  for (const auto& [stamp_ns, row] : labels_) all.push_back(row);
+std::vector<const LabelRow*> RunRecord::label_rows() const {
+  std::vector<const LabelRow*> all;
+  for (const auto& [stamp_ns, row] : labels_) all.push_back(&row);
   return all;
 }
 

@@ -83,9 +83,9 @@ class RunRecord {
   std::uint64_t localized_scans() const { return poses_.size(); }
   const std::map<flow::SubmapId, flow::Submap>& submaps() const { return submaps_; }
   std::vector<flow::Constraint> constraints() const;
-  std::vector<TrackRow> track_rows() const;
+  std::vector<const TrackRow*> track_rows() const;            ///< These and the next stay where they are until more is added.
   std::vector<UncertainStampedPose> uncertain_poses() const;  ///< Of the scans that were localized.
-  std::vector<LabelRow> label_rows() const;
+  std::vector<const LabelRow*> label_rows() const;
   std::uint64_t confirmed_tracks() const;  ///< Different ones.
 
   /// Where the submap is after the last correction; by odometry where loop closing never heard of it.

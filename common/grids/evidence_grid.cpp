@@ -247,10 +247,10 @@ void EvidenceGrid::walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::V
 /// Where the echoes came from, of those inside the window.
 void EvidenceGrid::find_echoes(const std::vector<Ray>& rays) {
   echoes_.clear();
-  for (const Ray& ray : rays) {
-    if (ray.echo == Echo::kNone) continue;
-    const Cell cell = window_.cell_at(ray.end_m.x(), ray.end_m.y());
-    if (window_.contains(cell)) echoes_.push_back({cell.column - window_.first.column, cell.row - window_.first.row, ray.echo});
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (rays[i].echo == Echo::kNone) continue;
+    const Cell cell = window_.cell_at(rays[i].end_m.x(), rays[i].end_m.y());
+    if (window_.contains(cell)) echoes_.push_back({cell.column - window_.first.column, cell.row - window_.first.row, i});
   }
 }
 
@@ -317,12 +317,18 @@ void EvidenceGrid::lower_free_cells() {
   }
 }
 
-void EvidenceGrid::raise_echoes() {
+void EvidenceGrid::clear_free_cells() {
+  std::ranges::fill(free_.words, 0);
+  std::ranges::fill(free_.first_word, free_.words_per_row);
+  std::ranges::fill(free_.last_word, -1);
+}
+
+void EvidenceGrid::raise_echoes(const std::vector<Ray>& rays) {
   for (const EchoedCell& echo : echoes_) {
     if (echoed_.is_set(echo.column, echo.row)) continue;
     echoed_.set(echo.column, echo.row);
     const Cell cell{window_.first.column + echo.column, window_.first.row + echo.row};
-    if (echo.echo == Echo::kStationary) {
+    if (rays[echo.ray].echo == Echo::kStationary) {
       raise_so(cell, hit_steps_);
     } else {
       std::uint8_t& moved = mo_[window_.index(cell)];
@@ -332,19 +338,40 @@ void EvidenceGrid::raise_echoes() {
   for (const EchoedCell& echo : echoes_) echoed_.clear(echo.column, echo.row);
 }
 
-void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
+void EvidenceGrid::find_free_cells(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
   find_echoes(rays);
-  if (window_.contains(window_.cell_at(origin_m.x(), origin_m.y()))) {
-    measure_free_ways(origin_m, rays, beam_step_rad);
-    outline_free_space(origin_m);
-    fill_outline();
-    for (std::size_t i = 0; i < ways_.size(); ++i) {
-      walk_free_way(origin_m, ways_[i].direction, std::max(ways_[i].to_next_m, ways_[i].to_previous_m), ways_[i].length_m);
-    }
-    keep_echoes_out();
-    lower_free_cells();
+  if (!window_.contains(window_.cell_at(origin_m.x(), origin_m.y()))) return;
+  measure_free_ways(origin_m, rays, beam_step_rad);
+  outline_free_space(origin_m);
+  fill_outline();
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    walk_free_way(origin_m, ways_[i].direction, std::max(ways_[i].to_next_m, ways_[i].to_previous_m), ways_[i].length_m);
   }
-  raise_echoes();
+  keep_echoes_out();
+}
+
+bool EvidenceGrid::is_prepared_for(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) const {
+  const auto tell_of_the_same_cells = [](const Ray& a, const Ray& b) { return a.end_m == b.end_m && (a.echo == Echo::kNone) == (b.echo == Echo::kNone); };
+  return is_prepared_ && origin_m == prepared_origin_m_ && beam_step_rad == prepared_step_rad_ && std::ranges::equal(rays, prepared_rays_, tell_of_the_same_cells);
+}
+
+void EvidenceGrid::prepare(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
+  if (is_prepared_) clear_free_cells();
+  find_free_cells(origin_m, rays, beam_step_rad);
+  prepared_origin_m_ = origin_m;
+  prepared_step_rad_ = beam_step_rad;
+  prepared_rays_ = rays;
+  is_prepared_ = true;
+}
+
+void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
+  if (!is_prepared_for(origin_m, rays, beam_step_rad)) {
+    if (is_prepared_) clear_free_cells();
+    find_free_cells(origin_m, rays, beam_step_rad);
+  }
+  is_prepared_ = false;
+  lower_free_cells();
+  raise_echoes(rays);
 }
 
 void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {

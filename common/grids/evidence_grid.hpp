@@ -45,6 +45,11 @@ class EvidenceGrid {
   /// own cells only.
   void integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
 
+  /// The larger half of integrate(), ahead of it: finds what the scan sees through, for which it need not be known which echoes
+  /// are of what moves. integrate() of the same scan completes it; of another it begins anew, so that the cells are the same as
+  /// without. See integrate_a_scan and complete_a_prepared_scan of the benchmark.
+  void prepare(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
+
   /// Adds one stationary echo without its beam: a point given back by tracking.
   void restore_stationary(const Eigen::Vector2d& point_m);
 
@@ -124,11 +129,14 @@ class EvidenceGrid {
   void fill_outline();
   void walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double from_m, double to_m);
   void find_echoes(const std::vector<Ray>& rays);
+  void find_free_cells(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
+  bool is_prepared_for(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) const;
+  void clear_free_cells();
   void keep_echoes_out();
   void lower_free_cells();
   void lower(std::int32_t row, std::int32_t word, std::uint64_t free_cells);
   void unnote_freed(std::int32_t row, std::int32_t word, std::uint64_t free_cells);
-  void raise_echoes();
+  void raise_echoes(const std::vector<Ray>& rays);
   void raise_so(Cell cell, int steps);
   void note_occupied(std::size_t index);
   void note_all_occupied();
@@ -152,7 +160,7 @@ class EvidenceGrid {
   BlockLanes rows_of_blocks_;
   BlockLanes columns_of_blocks_;
   // Of the scan at hand; kept to reuse the memory.
-  BitRows free_;                               ///< Cells that it passes. All clear between scans.
+  BitRows free_;                               ///< Cells that it passes. All clear between scans, but for one that is prepared.
   BitRows echoed_;                             ///< Cells that an echo came from. All clear between scans.
   struct FreeWay {
     Eigen::Vector2d direction = Eigen::Vector2d::Zero();
@@ -165,9 +173,14 @@ class EvidenceGrid {
   struct EchoedCell {
     std::int32_t column = 0;                   ///< In the window.
     std::int32_t row = 0;
-    Echo echo = Echo::kNone;
+    std::size_t ray = 0;
   };
   std::vector<EchoedCell> echoes_;
+  // What free_ and echoes_ were prepared for, if they were.
+  bool is_prepared_ = false;
+  Eigen::Vector2d prepared_origin_m_ = Eigen::Vector2d::Zero();
+  double prepared_step_rad_ = 0.0;
+  std::vector<Ray> prepared_rays_;
 };
 
 }  // namespace slammot::grids

@@ -90,8 +90,8 @@ class ExpectedOutline {
   BeamDirections directions_;
 };
 
-SegmentedScan copy_of_header(const LocalizedScan& scan) {
-  SegmentedScan segmented;
+/// The rest is as it was in the other scan.
+SegmentedScan with_header_of(const LocalizedScan& scan, SegmentedScan segmented) {
   segmented.stamp_ns = scan.stamp_ns;
   segmented.sequence = scan.sequence;
   segmented.scanner_id = scan.scanner_id;
@@ -209,6 +209,14 @@ PointLabel label_of_segment(const Segment& segment, const LocalizedScan& localiz
   return moved_here_before ? PointLabel::kMoving : PointLabel::kUnknown;
 }
 
+/// A new segment at the place, in the memory of one that was there.
+Segment& segment_at(std::size_t place, std::vector<Segment>& segments) {
+  if (place == segments.size()) return segments.emplace_back();
+  Segment fresh;
+  fresh.beams = std::move(segments[place].beams);
+  return segments[place] = std::move(fresh);
+}
+
 /// Whether the neighbour `step` (+1 or -1) beams on, where there is an echo, lies in front of the beam's.
 bool is_hidden_beyond(std::uint16_t beam, int step, const SegmentedScan& scan, const DetectionConfig& config) {
   constexpr int kBeamsLookedAt = 2;
@@ -276,8 +284,8 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
 
 }  // namespace
 
-SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config) {
-  SegmentedScan segmented = copy_of_header(scan);
+SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, SegmentedScan done_with) {
+  SegmentedScan segmented = with_header_of(scan, std::move(done_with));
   label_points(scan, config, segmented);
   const std::vector<char> is_ground = find_ground(segmented, config);
   std::vector<float> range_without_ground_m = segmented.range_m;
@@ -289,6 +297,7 @@ SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config) {
   std::vector<BeamSpan> spans;
   sensing::segment_by_distance(segmented.points_in_base_m, range_without_ground_m, scan.beam_step_rad, config.segmentation, spans);
   segmented.segments.reserve(spans.size() + 16);
+  std::size_t count = 0;
   std::vector<std::uint16_t> beams;
   std::vector<Run> runs;
   std::vector<Vector2> points_in_odom_m;
@@ -298,13 +307,14 @@ SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config) {
       if (range_without_ground_m[beam] > 0.0F) beams.push_back(beam);
     split_by_label(beams, segmented, config, runs);
     for (const Run& run : runs) {
-      Segment& segment = segmented.segments.emplace_back();
+      Segment& segment = segment_at(count++, segmented.segments);
       const auto first = beams.begin() + static_cast<std::ptrdiff_t>(run.first);
       segment.beams.assign(first, first + static_cast<std::ptrdiff_t>(run.count));
       finish_segment(segment, scan, config, segmented, points_in_odom_m);
     }
   }
-  for (std::size_t i = 0; i < segmented.segments.size(); ++i) segmented.segments[i].segment_id = static_cast<std::uint32_t>(i);
+  segmented.segments.resize(count);
+  for (std::size_t i = 0; i < count; ++i) segmented.segments[i].segment_id = static_cast<std::uint32_t>(i);
   return segmented;
 }
 

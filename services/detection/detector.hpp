@@ -31,6 +31,7 @@ struct DetectionConfig {
 /// Cuts the scan into segments and tells which of them contradict the map, and so move. Stateless.
 /// Consistency-based and MO-map-based detection of Wang 2004, Section 6.2. Every other echo is in exactly one segment.
 /// Echoes from the ground (Section 6.6) are labelled kNoEcho and in no segment, because they tell of nothing that stands or moves.
-flow::SegmentedScan detect(const flow::LocalizedScan& scan, const DetectionConfig& config);
+/// done_with: a scan that nobody needs any more; its memory is used again, nothing else of it.
+flow::SegmentedScan detect(const flow::LocalizedScan& scan, const DetectionConfig& config, flow::SegmentedScan done_with = {});
 
 }  // namespace slammot::detection

@@ -19,14 +19,17 @@ class DeferredEvidence {
   /// Without help (null) everything is done at once. The help must outlive this.
   explicit DeferredEvidence(grids::EvidenceGrid grid, SideWork* help) : state_(std::make_unique<State>(std::move(grid), help)) {}
 
+  /// EvidenceGrid::prepare, beside what the caller does next, if there is help: without, it would save nothing.
+  void prepare(const Eigen::Vector2d& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
+    if (state_->help == nullptr) return;
+    state_->take(origin_m, rays, beam_step_rad);
+    state_->help->begin([state = state_.get()] { state->grid.prepare(state->origin_m, state->rays, state->beam_step_rad); });
+  }
+
   /// EvidenceGrid::integrate, perhaps beside what the caller does next.
   void integrate(const Eigen::Vector2d& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
     if (state_->help == nullptr) return state_->grid.integrate(origin_m, rays, beam_step_rad);
-    state_->settle();
-    state_->origin_m = origin_m;
-    state_->rays = rays;
-    state_->beam_step_rad = beam_step_rad;
-    state_->is_settled = false;
+    state_->take(origin_m, rays, beam_step_rad);
     state_->help->begin([state = state_.get()] { state->grid.integrate(state->origin_m, state->rays, state->beam_step_rad); });
   }
 
@@ -54,6 +57,14 @@ class DeferredEvidence {
     ~State() { settle(); }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
+
+    void take(const Eigen::Vector2d& from_m, const std::vector<grids::Ray>& of_scan, double step_rad) {
+      settle();
+      origin_m = from_m;
+      rays = of_scan;
+      beam_step_rad = step_rad;
+      is_settled = false;
+    }
 
     void settle() {
       if (is_settled) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <utility>
 
 namespace slammot::localization {
@@ -30,12 +31,24 @@ geometry::Pose2 pose_of_window(const grids::GridWindow& window) {
   return {centre_m.x(), centre_m.y(), 0.0};
 }
 
-/// Smallest window that holds every cell in which something was seen.
-grids::GridWindow bounds_of_seen(const grids::GridWindow& window, const std::vector<std::int8_t>& so, const std::vector<std::uint8_t>& mo) {
+/// Evidence of one window, row-major.
+struct Cells {
+  const std::vector<std::int8_t>& so;
+  const std::vector<std::uint8_t>& mo;
+};
+
+/// Smallest window that holds every cell in which something was seen since. Whole rows in which nothing was are most of them.
+grids::GridWindow bounds_of_seen(const grids::GridWindow& window, const Cells& now, const Cells& before) {
   std::int32_t low_column = window.columns, high_column = -1, low_row = window.rows, high_row = -1;
+  const auto columns = static_cast<std::size_t>(window.columns);
   for (std::int32_t row = 0; row < window.rows; ++row) {
-    const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns);
-    const auto is_seen = [&](std::int32_t column) { return so[first + static_cast<std::size_t>(column)] != 0 || mo[first + static_cast<std::size_t>(column)] != 0; };
+    const std::size_t first = static_cast<std::size_t>(row) * columns;
+    const bool is_same = std::memcmp(&now.so[first], &before.so[first], columns) == 0 && std::memcmp(&now.mo[first], &before.mo[first], columns) == 0;
+    if (is_same) continue;
+    const auto is_seen = [&](std::int32_t column) {
+      const std::size_t cell = first + static_cast<std::size_t>(column);
+      return now.so[cell] != before.so[cell] || now.mo[cell] > before.mo[cell];
+    };
     std::int32_t low = 0;
     while (low < window.columns && !is_seen(low)) ++low;
     if (low == window.columns) continue;
@@ -51,6 +64,33 @@ grids::GridWindow bounds_of_seen(const grids::GridWindow& window, const std::vec
   bounds.rows = std::max(0, high_row - low_row + 1);
   if (bounds.columns > 0) bounds.first = {window.first.column + low_column, window.first.row + low_row};
   return bounds;
+}
+
+// By plain pointers: elements of vectors of bytes might be the vectors themselves, for all a compiler knows, and are then not taken
+// many at a time.
+
+/// What the submap itself saw, of what is now and what it took over.
+void put_own_so(const std::int8_t* now, const std::int8_t* before, std::int32_t count, std::int8_t* own) {
+  for (std::int32_t i = 0; i < count; ++i) {
+    const int change = now[i] - before[i];
+    const int limited = change < -127 ? -127 : change;
+    own[i] = static_cast<std::int8_t>(limited > 127 ? 127 : limited);
+  }
+}
+
+void put_own_mo(const std::uint8_t* now, const std::uint8_t* before, std::int32_t count, std::uint8_t* own) {
+  for (std::int32_t i = 0; i < count; ++i) own[i] = now[i] > before[i] ? now[i] : std::uint8_t{0};
+}
+
+/// Of the cells what has changed, within so many steps.
+void keep_changed(std::int8_t* now, const std::int8_t* before, std::size_t count, int most_steps) {
+  const auto most = static_cast<std::int8_t>(most_steps);
+  const auto least = static_cast<std::int8_t>(-most_steps);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int8_t raised = now[i] < least ? least : now[i];
+    const std::int8_t limited = raised > most ? most : raised;
+    now[i] = now[i] != before[i] ? limited : std::int8_t{0};
+  }
 }
 
 struct StoredSurfel {
@@ -102,6 +142,8 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m
       odom_from_submap_(pose_of_window(evidence().window())) {}
 
 Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
+
+void LocalMap::prepare(const Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) { evidence_.prepare(origin_m, rays, beam_step_rad); }
 
 void LocalMap::integrate(std::int64_t stamp_ns, const Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
   if (scans_ == 0) first_stamp_ns_ = stamp_ns;
@@ -168,11 +210,9 @@ bool LocalMap::is_outgrown(const Vector2& position_in_odom_m, double travelled_m
 flow::Submap LocalMap::submap() const {
   const grids::EvidenceGrid& evidence = evidence_.grid();
   const grids::GridWindow& window = evidence.window();
-  std::vector<std::int8_t> own_so = evidence.so_cells();
-  std::vector<std::uint8_t> own_mo = evidence.mo_cells();
-  for (std::size_t i = 0; i < own_so.size(); ++i) own_so[i] = static_cast<std::int8_t>(std::clamp(own_so[i] - inherited_so_[i], -127, 127));
-  for (std::size_t i = 0; i < own_mo.size(); ++i) own_mo[i] = own_mo[i] > inherited_mo_[i] ? own_mo[i] : std::uint8_t{0};
-  const grids::GridWindow bounds = bounds_of_seen(window, own_so, own_mo);
+  const std::vector<std::int8_t>& so = evidence.so_cells();
+  const std::vector<std::uint8_t>& mo = evidence.mo_cells();
+  const grids::GridWindow bounds = bounds_of_seen(window, {so, mo}, {inherited_so_, inherited_mo_});
   flow::Submap submap;
   submap.submap_id = submap_id_;
   submap.first_stamp_ns = first_stamp_ns_;
@@ -183,10 +223,13 @@ flow::Submap LocalMap::submap() const {
   submap.min_y_m = bounds.first.row * window.cell_size_m - odom_from_submap_.y_m;
   submap.columns = static_cast<std::uint32_t>(bounds.columns);
   submap.rows = static_cast<std::uint32_t>(bounds.rows);
+  submap.so_log_odds.resize(bounds.cell_count());
+  submap.mo_evidence.resize(bounds.cell_count());
   for (std::int32_t row = 0; row < bounds.rows; ++row) {
-    const auto first = static_cast<std::ptrdiff_t>(window.index({bounds.first.column, bounds.first.row + row}));
-    submap.so_log_odds.insert(submap.so_log_odds.end(), own_so.begin() + first, own_so.begin() + first + bounds.columns);
-    submap.mo_evidence.insert(submap.mo_evidence.end(), own_mo.begin() + first, own_mo.begin() + first + bounds.columns);
+    const std::size_t from = window.index({bounds.first.column, bounds.first.row + row});
+    const std::ptrdiff_t to = std::ptrdiff_t{row} * bounds.columns;
+    put_own_so(so.data() + from, inherited_so_.data() + from, bounds.columns, submap.so_log_odds.data() + to);
+    put_own_mo(mo.data() + from, inherited_mo_.data() + from, bounds.columns, submap.mo_evidence.data() + to);
   }
   std::vector<grids::SurfelView> surfels = surfels_.all();
   // By place: the order in which they were first seen is another after a restart.
@@ -215,12 +258,9 @@ std::optional<flow::Surfel> LocalMap::own_surfel(const grids::SurfelView& surfel
 
 void LocalMap::leave_behind_what_was_not_seen() {
   // Short of the limit, so that whatever the next submap sees moves the cell and can be told from what it took over.
-  const int most_steps = grids::steps_of_log_odds(kInheritedShareOfLimit * config_.evidence.limit_log_odds);
+  const int most_steps = std::min(127, grids::steps_of_log_odds(kInheritedShareOfLimit * config_.evidence.limit_log_odds));
   std::vector<std::int8_t> so = evidence().so_cells();
-  for (std::size_t i = 0; i < so.size(); ++i) {
-    const bool was_seen = so[i] != inherited_so_[i];
-    so[i] = was_seen ? static_cast<std::int8_t>(std::clamp<int>(so[i], -most_steps, most_steps)) : std::int8_t{0};
-  }
+  keep_changed(so.data(), inherited_so_.data(), so.size(), most_steps);
   evidence_.grid().set_cells(std::move(so), evidence().mo_cells());
   for (const grids::SurfelView& surfel : surfels_.all()) {
     if (surfel.own_echoes <= 0.0) surfels_.erase(surfel.cell);

@@ -41,6 +41,9 @@ class LocalMap {
   flow::SubmapId submap_id() const { return submap_id_; }
   const geometry::Pose2& odom_from_submap() const { return odom_from_submap_; }
 
+  /// Lets help do what it can of integrate() ahead of it, of the same scan: what of its echoes moves need not be known yet.
+  void prepare(const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad);
+
   /// Adds one scan whose laser stood at origin_m; rays in odom, in the order of the beams. Its surfels are there on return,
   /// its evidence when anybody asks for it.
   void integrate(std::int64_t stamp_ns, const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad);

@@ -395,6 +395,8 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
     pending.end_cells[i] = beam.end_cell;
     if (beam.end_cell != EndCell::kNoEcho) {
       pending.rays[i].end_m = localized.odom_from_base.pose.translation_m() + turn * points_in_base_m_[i];
+      const bool is_far = (pending.rays[i].end_m - pending.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
+      pending.rays[i].echo = is_far ? grids::Echo::kNone : grids::Echo::kStationary;
       continue;
     }
     // Nearer echoes than the least range tell nothing, not even that there is free space.
@@ -403,6 +405,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
     pending.rays[i].end_m = pending.origin_in_odom_m + free_m * beam_in_odom.now();
   }
   pending_.push_back(std::move(pending));
+  if (pending_.size() == 1 && !pending_.front().is_withheld) map_.prepare(pending_.front().origin_in_odom_m, pending_.front().rays, pending_.front().beam_step_rad);
 }
 
 std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan) {
@@ -524,11 +527,8 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
     return;
   }
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    grids::Echo echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
-    if (!config_.leave_out_moving) echo = grids::Echo::kStationary;
-    if (scan.end_cells[i] == EndCell::kNoEcho) echo = grids::Echo::kNone;
-    const bool is_far = (scan.rays[i].end_m - scan.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
-    scan.rays[i].echo = is_far ? grids::Echo::kNone : echo;
+    if (scan.rays[i].echo == grids::Echo::kNone || !config_.leave_out_moving) continue;
+    scan.rays[i].echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
   }
   if (scan.is_doubted && progress_.lost_since_ns) doubted_.push_back(std::move(scan));
   else integrate(std::move(scan));

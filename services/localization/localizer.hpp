@@ -221,7 +221,7 @@ class Localizer {
     std::string scanner_id;
     double beam_step_rad = 0.0;
     geometry::Vector2 origin_in_odom_m;
-    std::vector<grids::Ray> rays;               ///< All as kNone; ends in odom.
+    std::vector<grids::Ray> rays;               ///< Ends in odom; as if all stood of which an echo may go into the map.
     std::vector<flow::EndCell> end_cells;
     std::vector<flow::PointLabel> fallback;     ///< By detection; empty when it has said nothing.
   };

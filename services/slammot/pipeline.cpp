@@ -24,7 +24,7 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   auto detected = localize_and_detect(scan);
   if (!detected) return;
   if (iterations_ > 1) detected = times_.measure("iteration", [&] { return iterate(scan, *std::move(detected)); });
-  const auto& [localized, segmented] = *detected;
+  auto& [localized, segmented] = *detected;
   const auto tracked = times_.measure("tracking", [&] { return tracker_.track(segmented); });
   localizer_.expect(tracked.objects);
   times_.measure("mapping", [&] { localizer_.integrate(tracked.labels); });
@@ -32,13 +32,14 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add(segmented);
   record_.add(tracked.labels);
   record_.add(tracked.objects);
+  done_with_ = std::move(segmented);
   close_loops();
 }
 
 std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::LaserScan& scan) {
   auto localized = times_.measure("localization", [&] { return localizer_.localize(scan); });
   if (!localized) return std::nullopt;
-  auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_); });
+  auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_, std::move(done_with_)); });
   return Detected{*std::move(localized), std::move(segmented)};
 }
 

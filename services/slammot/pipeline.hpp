@@ -61,6 +61,7 @@ class Pipeline {
   localization::Localizer localizer_;
   tracking::Tracker tracker_;
   loop_closing::LoopCloser loop_closer_;
+  flow::SegmentedScan done_with_;   ///< Memory for the next one.
   files::RunRecord record_;
   StageTimes times_;
   int iterations_;

@@ -42,6 +42,21 @@ void integrate_a_scan(benchmark::State& state) {
 }
 BENCHMARK(integrate_a_scan)->Arg(181)->Arg(361)->Arg(1081)->Unit(benchmark::kMicrosecond);
 
+/// What is left of it where what the scan sees through was found beforehand.
+void complete_a_prepared_scan(benchmark::State& state) {
+  const int beams = static_cast<int>(state.range(0));
+  const Vector2d origin_m(10.0, 0.3);
+  const auto rays = rays_in_a_street(origin_m, beams);
+  EvidenceGrid grid = grid_of_a_vehicle();
+  for (auto _ : state) {
+    state.PauseTiming();
+    grid.prepare(origin_m, rays, beam_step_rad(beams));
+    state.ResumeTiming();
+    grid.integrate(origin_m, rays, beam_step_rad(beams));
+  }
+}
+BENCHMARK(complete_a_prepared_scan)->Arg(361)->Unit(benchmark::kMicrosecond);
+
 /// What it costs where neighbours do not stand in for each other near the scanner.
 void integrate_a_scan_beam_by_beam(benchmark::State& state) {
   const int beams = static_cast<int>(state.range(0));

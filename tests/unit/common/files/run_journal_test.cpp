@@ -43,7 +43,7 @@ TEST_F(RunJournalTest, GivesBackTheRowsThatWereWritten) {
   EXPECT_EQ(before.online_trajectory().front().map_from_base, after.online_trajectory().front().map_from_base);
   ASSERT_EQ(before.track_rows().size(), after.track_rows().size());
   for (std::size_t i = 0; i < before.track_rows().size(); ++i) {
-    const TrackRow a = before.track_rows()[i], b = after.track_rows()[i];
+    const TrackRow a = *before.track_rows()[i], b = *after.track_rows()[i];
     EXPECT_EQ(a.track_id, b.track_id);
     EXPECT_EQ(a.map_from_object, b.map_from_object);
     EXPECT_EQ(a.velocity_in_map_mps, b.velocity_in_map_mps);

@@ -41,7 +41,7 @@ TEST(ToTracksCsv, WritesOneRowATrackUnderTheAgreedHeader) {
   row.motion = flow::Motion::kStopped;
   row.existence = 0.975;
   row.object_class = flow::ObjectClass::kCar;
-  EXPECT_EQ(to_tracks_csv({row}),
+  EXPECT_EQ(to_tracks_csv({&row}),
             "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class\n"
             "1.500000,42,1.000,2.000,0.50000,3.000,-0.250,4.500,1.800,stopped,0.9750,car\n");
 }
@@ -54,7 +54,7 @@ TEST(ToTrackDetailsCsv, WritesCovariancesAndTheProbabilityOfEachMode) {
   row.covariance_in_map(0, 1) = -0.0012345678;
   row.mode_probability = {0.75, 0.25};
   row.class_probability = {0.125, 0.5, 0.25, 0.125};
-  EXPECT_EQ(to_track_details_csv({row}),
+  EXPECT_EQ(to_track_details_csv({&row}),
             "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_car,p_truck_or_bus,mode_0,mode_1\n"
             "1.500000,42,0.04,-0.0012346,0.01,1,0,0.25,0.1250,0.5000,0.2500,0.1250,0.75,0.25\n");
 }
@@ -64,7 +64,7 @@ TEST(ToPredictionsCsv, WritesOneRowATimeAhead) {
   row.stamp_ns = 1'500'000'000;
   row.track_id = {42};
   row.predicted = {{1.0, {3.0, -1.5}, Matrix2{{0.25, 0.125}, {0.125, 0.5}}}, {2.0, {6.0, -3.0}, Matrix2::Identity()}};
-  EXPECT_EQ(to_predictions_csv({row}),
+  EXPECT_EQ(to_predictions_csv({&row}),
             "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n"
             "1.500000,42,1.0,3.000,-1.500,0.25,0.125,0.5\n"
             "1.500000,42,2.0,6.000,-3.000,1,0,1\n");
@@ -80,7 +80,7 @@ TEST(RunRecord, KeepsOfAPathWhatIsWholeSecondsAheadInTheFrameOfTheMap) {
   RunRecord record;
   record.add(tracked);
   ASSERT_EQ(record.track_rows().size(), 1U);
-  const std::vector<PredictedPlace> predicted = record.track_rows()[0].predicted;
+  const std::vector<PredictedPlace> predicted = record.track_rows()[0]->predicted;
   ASSERT_EQ(predicted.size(), 2U);
   EXPECT_THAT(predicted[1].position_in_map_m, testing::MatrixNear(geometry::Vector2(10.0, 2.0), 1e-12));
   EXPECT_THAT(predicted[1].covariance_m2, testing::MatrixNear(Matrix2{{1.0, 0.0}, {0.0, 4.0}}, 1e-12));
@@ -95,7 +95,8 @@ TEST(ToOnlineCovarianceCsv, WritesTheUpperTriangle) {
 }
 
 TEST(ToLabelsCsv, WritesALetterABeam) {
-  EXPECT_EQ(to_labels_csv({{1'000'000'000, "-sm?", "-smm"}}), "timestamp,detection,tracking\n1.000000,-sm?,-smm\n");
+  const LabelRow row{1'000'000'000, "-sm?", "-smm"};
+  EXPECT_EQ(to_labels_csv({&row}), "timestamp,detection,tracking\n1.000000,-sm?,-smm\n");
 }
 
 /// The record of two submaps and a loop between them.

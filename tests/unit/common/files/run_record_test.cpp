@@ -113,9 +113,9 @@ TEST(RunRecord, ReportsConfirmedTracksInMapAsPublished) {
   const auto rows = record.track_rows();
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(record.confirmed_tracks(), 2u);
-  EXPECT_NEAR(rows[0].map_from_object.x_m, 10.0, 1e-12);
-  EXPECT_NEAR(rows[0].map_from_object.y_m, 1.0, 1e-12);
-  EXPECT_NEAR(rows[0].velocity_in_map_mps.y(), 3.0, 1e-12);
+  EXPECT_NEAR(rows[0]->map_from_object.x_m, 10.0, 1e-12);
+  EXPECT_NEAR(rows[0]->map_from_object.y_m, 1.0, 1e-12);
+  EXPECT_NEAR(rows[0]->velocity_in_map_mps.y(), 3.0, 1e-12);
 }
 
 TEST(RunRecord, TurnsCovariancesOfTracksIntoMap) {
@@ -124,7 +124,7 @@ TEST(RunRecord, TurnsCovariancesOfTracksIntoMap) {
   message.map_from_odom = {0.0, 0.0, std::acos(0.0)};
   message.objects[0].covariance.diagonal() << 4.0, 1.0, 0.5, 0.25;
   record.add(message);
-  const Eigen::Matrix4d covariance = record.track_rows().at(0).covariance_in_map;
+  const Eigen::Matrix4d covariance = record.track_rows().at(0)->covariance_in_map;
   EXPECT_NEAR(covariance(0, 0), 1.0, 1e-12);
   EXPECT_NEAR(covariance(1, 1), 4.0, 1e-12);
   EXPECT_NEAR(covariance(3, 3), 0.5, 1e-12);
@@ -141,8 +141,8 @@ TEST(RunRecord, JoinsTheLabelsOfDetectionAndTracking) {
   record.add(segmented);
   record.add(labels);
   ASSERT_EQ(record.label_rows().size(), 1u);
-  EXPECT_EQ(record.label_rows()[0].by_detection, "-s?");
-  EXPECT_EQ(record.label_rows()[0].by_tracking, "-sm");
+  EXPECT_EQ(record.label_rows()[0]->by_detection, "-s?");
+  EXPECT_EQ(record.label_rows()[0]->by_tracking, "-sm");
 }
 
 TEST(RunRecord, KnowsWhereItIsByTheLastCorrection) {

@@ -224,6 +224,50 @@ TEST(EvidenceGrid, SeesNoDifferenceBetweenTheFirstScanAndTheThreeHundredth) {
   }
 }
 
+void expect_same_cells(const EvidenceGrid& a, const EvidenceGrid& b) {
+  EXPECT_EQ(a.so_cells(), b.so_cells());
+  EXPECT_EQ(a.mo_cells(), b.mo_cells());
+}
+
+TEST(EvidenceGrid, HoldsTheSameWhetherAScanWasPreparedOrNotAndWhateverMoved) {
+  constexpr int kBeams = 361;
+  const double step_rad = 2.0 * std::numbers::pi / kBeams;
+  EvidenceGrid prepared = empty_grid();
+  EvidenceGrid at_once = empty_grid();
+  for (int scan = 0; scan < 10; ++scan) {
+    const Vector2d origin_m(0.1 + 0.2 * scan, 0.3);
+    std::vector<Ray> rays = rays_in_a_room(origin_m, kBeams);
+    prepared.prepare(origin_m, rays, step_rad);
+    for (std::size_t i = 0; i < rays.size(); i += 5) {
+      if (rays[i].echo != Echo::kNone) rays[i].echo = rays[i].echo == Echo::kMoving ? Echo::kStationary : Echo::kMoving;
+    }
+    prepared.integrate(origin_m, rays, step_rad);
+    at_once.integrate(origin_m, rays, step_rad);
+    expect_same_cells(prepared, at_once);
+  }
+}
+
+TEST(EvidenceGrid, BeginsAnewWhereAnotherScanWasPrepared) {
+  constexpr int kBeams = 361;
+  const double step_rad = 2.0 * std::numbers::pi / kBeams;
+  const Vector2d origin_m(0.1, 0.3);
+  const std::vector<Ray> rays = rays_in_a_room(origin_m, kBeams);
+  std::vector<Ray> fewer_echoes = rays;
+  for (std::size_t i = 3; i < rays.size(); i += 9) fewer_echoes[i].echo = Echo::kNone;
+  const Vector2d elsewhere_m(-1.3, 0.7);
+  const std::vector<Ray> rays_from_elsewhere = rays_in_a_room(elsewhere_m, kBeams);
+  EvidenceGrid at_once = empty_grid();
+  at_once.integrate(origin_m, fewer_echoes, step_rad);
+  at_once.integrate(origin_m, rays, step_rad);
+  EvidenceGrid prepared = empty_grid();
+  prepared.prepare(origin_m, rays, step_rad);
+  prepared.integrate(origin_m, fewer_echoes, step_rad);
+  prepared.prepare(elsewhere_m, rays_from_elsewhere, step_rad);
+  prepared.prepare(origin_m, rays, 0.5 * step_rad);
+  prepared.integrate(origin_m, rays, step_rad);
+  expect_same_cells(prepared, at_once);
+}
+
 TEST(EvidenceGrid, CutsRaysAtItsBorder) {
   EvidenceGrid grid = empty_grid(4.0);
   std::vector<Ray> rays;

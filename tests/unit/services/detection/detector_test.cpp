@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +34,35 @@ TEST(Detector, HoldsForMovingWhatStandsInSpaceKnownToBeFree) {
   const flow::Segment* wall = segment_at(scan, {39.5, -10.0}, 15.0);
   ASSERT_NE(wall, nullptr);
   EXPECT_EQ(wall->label, PointLabel::kStationary);
+}
+
+void expect_same(const flow::SegmentedScan& a, const flow::SegmentedScan& b) {
+  EXPECT_EQ(a.points_in_base_m, b.points_in_base_m);
+  EXPECT_EQ(a.range_m, b.range_m);
+  EXPECT_EQ(a.labels, b.labels);
+  ASSERT_EQ(a.segments.size(), b.segments.size());
+  for (std::size_t i = 0; i < a.segments.size(); ++i) {
+    EXPECT_EQ(a.segments[i].segment_id, b.segments[i].segment_id);
+    EXPECT_EQ(a.segments[i].label, b.segments[i].label);
+    EXPECT_EQ(a.segments[i].beams, b.segments[i].beams);
+    EXPECT_EQ(a.segments[i].box_length_m, b.segments[i].box_length_m);
+    EXPECT_EQ(a.segments[i].moving_share, b.segments[i].moving_share);
+    EXPECT_EQ(a.segments[i].occluded_at_start, b.segments[i].occluded_at_start);
+  }
+}
+
+TEST(Detector, TakesNothingButMemoryFromAScanThatIsDoneWith) {
+  Street empty_street;
+  empty_street.known = {kWall};
+  Street full_street = empty_street;
+  full_street.unknown = {{{20.0, 5.0, 0.3}}, {{12.0, -4.0, 1.2}}, {{30.0, 2.0, 0.0}}};
+  const flow::LocalizedScan few = empty_street.scan(0, 0);
+  const flow::LocalizedScan many = full_street.scan(100, 1);
+  expect_same(detect(few, {}, detect(many, {})), detect(few, {}));
+  expect_same(detect(many, {}, detect(few, {})), detect(many, {}));
+  flow::SegmentedScan done_with = detect(many, {});
+  const std::uint16_t* const beams = done_with.segments.front().beams.data();
+  EXPECT_EQ(detect(many, {}, std::move(done_with)).segments.front().beams.data(), beams);
 }
 
 TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {

@@ -65,6 +65,24 @@ TEST(DeferredEvidence, HoldsTheSameWithHelpAndWithout) {
   expect_same(helped, alone);
 }
 
+TEST(DeferredEvidence, HoldsTheSameWhereHelpPreparesAScan) {
+  HelpAtTheLastMoment help;
+  DeferredEvidence helped(empty_grid(), &help);
+  DeferredEvidence alone(empty_grid(), nullptr);
+  for (DeferredEvidence* evidence : {&helped, &alone}) {
+    for (int scan = 0; scan < 20; ++scan) {
+      std::vector<grids::Ray> rays = echoes_at(3.1 + 0.2 * (scan % 5));
+      evidence->prepare({0.1, 0.1}, rays, 0.0);
+      if (scan % 4 == 0) rays.front().echo = grids::Echo::kMoving;
+      if (scan % 7 == 0) rays.front().echo = grids::Echo::kNone;
+      evidence->integrate({0.1, 0.1}, rays, 0.0);
+      if (scan % 3 == 0) evidence->restore_stationary({3.1, 0.1});
+    }
+  }
+  expect_same(helped, alone);
+  EXPECT_EQ(help.begun(), 40);
+}
+
 TEST(DeferredEvidence, MayMoveWhileItsHelpIsAtWork) {
   HelpAtTheLastMoment help;
   DeferredEvidence alone(empty_grid(), nullptr);

@@ -138,11 +138,13 @@ TEST_F(CollectorOnTheBus, KeepsWhatDetectionAndTrackingHeldEchoesToBe) {
   segmented_scans.write(wire::SegmentedScanEncoder().encode("car", segmented));
   scan_labels.write(wire::ScanLabelsEncoder().encode("car", {kPeriodNs, 1, "front", {flow::PointLabel::kStationary, flow::PointLabel::kMoving}, {}}));
   ASSERT_TRUE(comes_to([this] {
-    const auto rows = collector->record({}).label_rows();
-    return rows.size() == 1 && !rows[0].by_detection.empty() && !rows[0].by_tracking.empty();
+    const files::RunRecord record = collector->record({});
+    const auto rows = record.label_rows();
+    return rows.size() == 1 && !rows[0]->by_detection.empty() && !rows[0]->by_tracking.empty();
   }));
-  EXPECT_EQ(collector->record({}).label_rows()[0].by_detection, "s?");
-  EXPECT_EQ(collector->record({}).label_rows()[0].by_tracking, "sm");
+  const files::RunRecord record = collector->record({});
+  EXPECT_EQ(record.label_rows()[0]->by_detection, "s?");
+  EXPECT_EQ(record.label_rows()[0]->by_tracking, "sm");
 }
 
 TEST_F(CollectorOnTheBus, KnowsTheEndOfASimulatedDrive) {
