@@ -45,7 +45,7 @@ struct Shadow {
 struct AxisMeasurement {
   double centre_m = 0.0;
   double variance_m2 = kUnknownSigmaM * kUnknownSigmaM;
-  int held = 0;                  ///< -1: the low side was seen, +1: the high one; the size grows from there. 0: none or both.
+  std::optional<int> held;       ///< -1: the low side was seen, +1: the high one; the size grows from there. 0: both.
 };
 
 struct Spread {
@@ -174,6 +174,7 @@ AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const
   const double high_variance_m2 = end_variance_m2(view, view.high_spacing_m, shadow.high_edge);
   // Where the two ends disagree, part of the body was not seen: the difference says how much the middle may be off.
   if (low_is_seen && high_is_seen) {
+    axis.held = 0;
     axis.centre_m = 0.5 * (low_m + high_m);
     axis.variance_m2 = 0.25 * (low_variance_m2 + high_variance_m2) + 0.25 * (low_m - high_m) * (low_m - high_m);
   } else if (low_is_seen) {
@@ -188,7 +189,14 @@ AxisView mirrored(const AxisView& view) {
   return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.gaps, view.least_side_m, view.clear_spacing_m, view.scale};
 }
 
-AxisMeasurement mirrored(const AxisMeasurement& axis) { return {-axis.centre_m, axis.variance_m2, -axis.held}; }
+std::optional<int> mirrored(std::optional<int> held) { return held ? std::optional(-*held) : std::nullopt; }
+
+AxisMeasurement mirrored(const AxisMeasurement& axis) { return {-axis.centre_m, axis.variance_m2, mirrored(axis.held)}; }
+
+/// Variance of the step between the centre as measured from one end and as measured from another.
+double step_variance_m2(std::optional<int> held_before, std::optional<int> held, const Size& size) {
+  return held_before && held ? squared(0.5 * (*held - *held_before)) * size.variance_m2 : 0.0;
+}
 
 void note_sizes(SizeEvidence& evidence, const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   if (std::abs(view.laser_at_m) <= 0.5 * size.value_m) note_sizes_from_beside(evidence, shadow, view);
@@ -340,7 +348,11 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   measurement.covariance_m2 = at_u.variance_m2 * along * along.transpose() + at_v.variance_m2 * across * across.transpose();
   const double longer_m = measurement.body.length.value_m - body.length.value_m;
   const double wider_m = measurement.body.width.value_m - body.width.value_m;
-  measurement.recentring_m = -0.5 * at_u.held * longer_m * along - 0.5 * at_v.held * wider_m * across;
+  measurement.recentring_m = -0.5 * at_u.held.value_or(0) * longer_m * along - 0.5 * at_v.held.value_or(0) * wider_m * across;
+  measurement.step_covariance_m2 = step_variance_m2(body.length_held, at_u.held, measurement.body.length) * along * along.transpose() +
+                                   step_variance_m2(body.width_held, at_v.held, measurement.body.width) * across * across.transpose();
+  if (at_u.held) measurement.body.length_held = at_u.held;
+  if (at_v.held) measurement.body.width_held = at_v.held;
   return measurement;
 }
 
@@ -414,10 +426,19 @@ Body turned_by_a_quarter(Body body, double sense, const TrackingConfig& config) 
   body.heading_rad = geometry::wrap_angle(body.heading_rad + std::copysign(0.5 * std::numbers::pi, sense));
   body.heading_variance_rad2 = std::max(body.heading_variance_rad2, 0.3);
   std::swap(body.length_evidence, body.width_evidence);
+  body.length_held.reset();
+  body.width_held.reset();
   body.length_evidence.whole = {};  // measured for a body that lay otherwise
   body.width_evidence.whole = {};
   body.length_evidence.whole.variance_m2 = body.width_evidence.whole.variance_m2 = kNothingKnownM2;
   return with_likely_sizes(body, config);
+}
+
+Body turned_about(Body body) {
+  body.heading_rad = geometry::wrap_angle(body.heading_rad + std::numbers::pi);
+  body.length_held = mirrored(body.length_held);
+  body.width_held = mirrored(body.width_held);
+  return body;
 }
 
 double extent_of(std::span<const Vector2d> points_m) {

@@ -122,7 +122,7 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
   if (course.variance_rad2 > 0.1) return;
   double off_rad = wrap_angle(course.heading_rad - track.body.heading_rad);
   if (std::abs(off_rad) > 0.75 * std::numbers::pi) {
-    track.body.heading_rad = wrap_angle(track.body.heading_rad + std::numbers::pi);
+    track.body = turned_about(track.body);
     off_rad = wrap_angle(off_rad + std::numbers::pi);
   } else if (std::abs(off_rad) > 0.3 * std::numbers::pi) {
     const Body turned = turned_by_a_quarter(track.body, off_rad, config);
@@ -335,10 +335,11 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   if (walks(track)) R += gait_variance_m2(unseen_s, config) * Matrix2d::Identity();
   const Vector2d surprise_m = measurement.centre_m - measurement.recentring_m - track.position_m();
-  const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + R);
+  const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + measurement.step_covariance_m2 + R);
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
   track.surprise_m = surprise_m.norm();
   shift(track, measurement.recentring_m, models);
+  filters::imm_loosen(models, track.motion, measurement.step_covariance_m2);
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.measured = {measurement.centre_m, R};

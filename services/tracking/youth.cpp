@@ -40,7 +40,9 @@ filters::MotionState beginning_of(const Body& body, const KeptGlimpse& kept, con
 }
 
 /// A body of just this size and heading all the time.
-Life life_of(const Track& track, const Body& body, const TrackingConfig& config) {
+Life life_of(const Track& track, Body body, const TrackingConfig& config) {
+  body.length_held.reset();
+  body.width_held.reset();
   const filters::ModelSet models = motion_models(config);
   filters::ImmState motion = filters::imm_start(models, beginning_of(body, track.youth.front(), config));
   for (std::size_t i = 1; i < track.youth.size(); ++i) {
@@ -48,6 +50,9 @@ Life life_of(const Track& track, const Body& body, const TrackingConfig& config)
     motion = filters::imm_predict(models, motion, static_cast<double>(kept.stamp_ns - track.youth[i - 1].stamp_ns) * 1e-9);
     const Vector2d predicted_m = filters::imm_combine(models, motion).mean.head<2>();
     const BodyMeasurement measured = measure_box(body, predicted_m, glimpse_of(kept), config);
+    filters::imm_loosen(models, motion, measured.step_covariance_m2);
+    body.length_held = measured.body.length_held;
+    body.width_held = measured.body.width_held;
     motion = filters::imm_update(models, motion, measured.centre_m - measured.recentring_m, measured.covariance_m2 + kept.pose_covariance_m2).posterior;
   }
   return {body, motion, filters::imm_combine(models, motion)};
