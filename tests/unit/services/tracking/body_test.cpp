@@ -213,6 +213,29 @@ TEST(Body, TurnedAboutIsHeldAtTheEndAtWhichItWas) {
   EXPECT_FALSE(turned.width_held.has_value());
 }
 
+TEST(Body, OfWhichFewBeamsAreAnsweredDoesNotEndAtALoneEcho) {
+  const std::vector<Vector2d> echo = {{9.0, 3.0}};
+  Glimpse glimpse = with_edges(echo, Edge::kNoEcho, Edge::kNoEcho);
+  const Vector2d centre_m{9.0, 3.9};
+  const auto sigma_along_m = [&](double unanswered_share) {
+    glimpse.unanswered_share = unanswered_share;
+    return std::sqrt(measure_box(car_of_unknown_length(), centre_m, glimpse, kConfig).covariance_m2(0, 0));
+  };
+  EXPECT_LT(sigma_along_m(0.05), 0.3);
+  EXPECT_GT(sigma_along_m(0.75), 1.0);
+}
+
+TEST(Body, WithoutSidesIsSomewhereAboutAnEchoThatIsRarelyAnswered) {
+  const std::vector<Vector2d> echo = {{25.0, 0.0}};
+  Glimpse glimpse = glimpse_of(echo);
+  const auto sigma_m = [&](double unanswered_share) {
+    glimpse.unanswered_share = unanswered_share;
+    return std::sqrt(measure_blob({}, glimpse, kConfig).covariance_m2(1, 1));
+  };
+  EXPECT_LT(sigma_m(0.05), 0.1);
+  EXPECT_GT(sigma_m(0.75), 0.35);
+}
+
 TEST(Body, KnowsTheLengthAsItsWidthAfterAQuarterTurn) {
   Body body;
   body.has_sides = true;
