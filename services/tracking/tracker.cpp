@@ -579,7 +579,8 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
     const Life before = life(track);
     live_as(track, relived(track, config_));
     const bool was_turned = std::abs(std::sin(before.body.heading_rad - track.body.heading_rad)) > 0.7;
-    if (!was_turned && !has_proven_to_move(track, config_)) live_as(track, before);  // what it lacks is but certainty
+    const bool is_surely_turned = was_turned && track.body.is_oriented;
+    if (!is_surely_turned && !has_proven_to_move(track, config_)) live_as(track, before);  // what it lacks is but certainty
   }
   const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
   constexpr int kHitsBetweenChecks = 5;
