@@ -106,4 +106,8 @@ void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shif
   for (std::size_t i = 0; i < set.size; ++i) state.modes[i].mean.head<2>() += shift_m;
 }
 
+void imm_loosen(const ModelSet& set, ImmState& state, const Eigen::Matrix2d& covariance_m2) {
+  for (std::size_t i = 0; i < set.size; ++i) state.modes[i].covariance.topLeftCorner<2, 2>() += covariance_m2;
+}
+
 }  // namespace slammot::filters

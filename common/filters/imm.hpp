@@ -51,4 +51,8 @@ std::vector<MotionState> imm_foretell(const ModelSet& set, ImmState state, doubl
 /// Moves every mode's position by the same known amount: the same object seen from another reference point.
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m);
 
+/// The same by an amount that is known no better than this covariance: positions from now on are of another reference point,
+/// and the step from the one to the other is no motion.
+void imm_loosen(const ModelSet& set, ImmState& state, const Eigen::Matrix2d& covariance_m2);
+
 }  // namespace slammot::filters

@@ -45,7 +45,7 @@ struct Shadow {
 struct AxisMeasurement {
   double centre_m = 0.0;
   double variance_m2 = kUnknownSigmaM * kUnknownSigmaM;
-  int held = 0;                  ///< -1: the low side was seen, +1: the high one; the size grows from there. 0: none or both.
+  std::optional<int> held;       ///< -1: the low side was seen, +1: the high one; the size grows from there. 0: both.
 };
 
 struct Spread {
@@ -117,6 +117,7 @@ struct AxisView {
   double least_side_m = 0.4;        ///< What is narrower is no side.
   double clear_spacing_m = 0.5;     ///< Wider spaced echoes do not tell where a side ends.
   double scale = 1.0;               ///< Of all sizes, against those of real road users.
+  bool is_length = true;            ///< Along which a flank goes; across it, an echo of a flank is where its side is.
 };
 
 /// Whether the low end is a side across the axis, and not where something hides the rest of a flank.
@@ -124,10 +125,18 @@ bool is_side(const Shadow& shadow, const AxisView& view) {
   return shadow.low_count >= 3 && shadow.low_across_m > view.least_side_m;
 }
 
-/// Variance of where a side ends beyond its outermost echo, half a spacing on.
+/// How far a side goes on beyond its outermost echo without being answered, in the mean, and one sigma of that.
+double unanswered_m(const AxisView& view, double spacing_m, Edge edge) {
+  constexpr double kMostM = 1.3;  // a car on which all places are as likely
+  return edge == Edge::kNoEcho ? std::min(view.gaps * spacing_m, kMostM * view.scale) : 0.0;
+}
+
+/// How far beyond its outermost echo a side ends in the mean: half a spacing on, or as many as go unanswered in a row.
+double beyond_m(const AxisView& view, double spacing_m, Edge edge) { return 0.5 * spacing_m + unanswered_m(view, spacing_m, edge); }
+
+/// Variance of where that is.
 double end_variance_m2(const AxisView& view, double spacing_m, Edge edge) {
-  const double unanswered_m = edge == Edge::kNoEcho ? view.gaps * spacing_m : 0.0;
-  return view.face_variance_m2 + spacing_m * spacing_m / 12.0 + unanswered_m * unanswered_m;
+  return view.face_variance_m2 + spacing_m * spacing_m / 12.0 + squared(unanswered_m(view, spacing_m, edge));
 }
 
 /// The laser lies beyond the low side, which so looks at it; the high end is at the end of a flank, if that is in view.
@@ -138,18 +147,57 @@ void note_sizes_from_low_side(SizeEvidence& evidence, const Shadow& shadow, cons
   const bool high_is_seen = flank_is_visible && shadow.high_edge != Edge::kHidden && view.high_spacing_m < view.clear_spacing_m &&
                             shadow.count - shadow.low_count >= kFewestOnFlank;
   if (low_is_seen && high_is_seen)  // the flank ends somewhere between its last echo and where the next one would be
-    note_whole(evidence, shadow.high_m + 0.5 * view.high_spacing_m - low_m, end_variance_m2(view, view.high_spacing_m, shadow.high_edge), view.scale);
+    note_whole(evidence, shadow.high_m + beyond_m(view, view.high_spacing_m, shadow.high_edge) - low_m, end_variance_m2(view, view.high_spacing_m, shadow.high_edge), view.scale);
 }
 
 void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view) {
   note_seen(evidence, shadow.high_m - shadow.low_m);
   const double spacing_m = std::max(view.low_spacing_m, view.high_spacing_m);
   if (shadow.low_edge != Edge::kHidden && shadow.high_edge != Edge::kHidden && spacing_m < view.clear_spacing_m && shadow.count >= kFewestOnFlank)
-    note_whole(evidence, shadow.high_m - shadow.low_m + spacing_m, 2.0 * view.face_variance_m2 + spacing_m * spacing_m / 6.0, view.scale);
+    note_whole(evidence, shadow.high_m - shadow.low_m + beyond_m(view, spacing_m, shadow.low_edge) + beyond_m(view, spacing_m, shadow.high_edge),
+               end_variance_m2(view, spacing_m, shadow.low_edge) + end_variance_m2(view, spacing_m, shadow.high_edge), view.scale);
+}
+
+/// Whether so few beams are answered that the outermost echoes are likely not those of the ends, of which nothing hides any.
+bool may_end_anywhere(const Shadow& shadow, const AxisView& view) {
+  constexpr double kDarkGaps = 0.5;
+  return view.is_length && view.gaps > kDarkGaps && std::max(shadow.low_edge, shadow.high_edge) == Edge::kNoEcho;
+}
+
+/// Few echoes from anywhere on a flank of this length, as many as chance has it at its ends: the middle is between where it would be
+/// if the first of them, and if the last, was an end, and all places between are as likely.
+AxisMeasurement centre_from_few(const Size& size, const Shadow& shadow, const AxisView& view) {
+  const double unseen_m = std::max(0.0, size.value_m - (shadow.high_m - shadow.low_m));
+  const double spacing_m = std::max(view.low_spacing_m, view.high_spacing_m);
+  return {0.5 * (shadow.low_m + shadow.high_m), view.face_variance_m2 + squared(spacing_m) / 12.0 + squared(unseen_m) / 12.0, 0};
+}
+
+/// The laser lies beside the body: both ends are outlines of the flank.
+AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const AxisView& view) {
+  if (may_end_anywhere(shadow, view)) return centre_from_few(size, shadow, view);
+  AxisMeasurement axis;
+  const double low_m = shadow.low_m - beyond_m(view, view.low_spacing_m, shadow.low_edge) + 0.5 * size.value_m;
+  const double high_m = shadow.high_m + beyond_m(view, view.high_spacing_m, shadow.high_edge) - 0.5 * size.value_m;
+  const bool low_is_seen = shadow.low_edge != Edge::kHidden;
+  const bool high_is_seen = shadow.high_edge != Edge::kHidden;
+  const double low_variance_m2 = end_variance_m2(view, view.low_spacing_m, shadow.low_edge);
+  const double high_variance_m2 = end_variance_m2(view, view.high_spacing_m, shadow.high_edge);
+  // Where the two ends disagree, part of the body was not seen: the difference says how much the middle may be off.
+  if (low_is_seen && high_is_seen) {
+    axis.held = 0;
+    axis.centre_m = 0.5 * (low_m + high_m);
+    axis.variance_m2 = 0.25 * (low_variance_m2 + high_variance_m2) + 0.25 * (low_m - high_m) * (low_m - high_m);
+  } else if (low_is_seen) {
+    axis.centre_m = low_m, axis.variance_m2 = low_variance_m2, axis.held = -1;
+  } else if (high_is_seen) {
+    axis.centre_m = high_m, axis.variance_m2 = high_variance_m2, axis.held = 1;
+  }
+  return axis;
 }
 
 AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   AxisMeasurement axis;
+  if (may_end_anywhere(shadow, view) && !is_side(shadow, view) && flank_is_visible) return centre_from_few(size, shadow, view);
   if (shadow.low_edge != Edge::kHidden || is_side(shadow, view)) {
     const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
     axis.centre_m = low_m + 0.5 * size.value_m;
@@ -163,32 +211,18 @@ AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, con
   return axis;
 }
 
-/// The laser lies beside the body: both ends are outlines of the flank.
-AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const AxisView& view) {
-  AxisMeasurement axis;
-  const double low_m = shadow.low_m - 0.5 * view.low_spacing_m + 0.5 * size.value_m;
-  const double high_m = shadow.high_m + 0.5 * view.high_spacing_m - 0.5 * size.value_m;
-  const bool low_is_seen = shadow.low_edge != Edge::kHidden;
-  const bool high_is_seen = shadow.high_edge != Edge::kHidden;
-  const double low_variance_m2 = end_variance_m2(view, view.low_spacing_m, shadow.low_edge);
-  const double high_variance_m2 = end_variance_m2(view, view.high_spacing_m, shadow.high_edge);
-  // Where the two ends disagree, part of the body was not seen: the difference says how much the middle may be off.
-  if (low_is_seen && high_is_seen) {
-    axis.centre_m = 0.5 * (low_m + high_m);
-    axis.variance_m2 = 0.25 * (low_variance_m2 + high_variance_m2) + 0.25 * (low_m - high_m) * (low_m - high_m);
-  } else if (low_is_seen) {
-    axis.centre_m = low_m, axis.variance_m2 = low_variance_m2, axis.held = -1;
-  } else if (high_is_seen) {
-    axis.centre_m = high_m, axis.variance_m2 = high_variance_m2, axis.held = 1;
-  }
-  return axis;
-}
-
 AxisView mirrored(const AxisView& view) {
-  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.gaps, view.least_side_m, view.clear_spacing_m, view.scale};
+  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.gaps, view.least_side_m, view.clear_spacing_m, view.scale, view.is_length};
 }
 
-AxisMeasurement mirrored(const AxisMeasurement& axis) { return {-axis.centre_m, axis.variance_m2, -axis.held}; }
+std::optional<int> mirrored(std::optional<int> held) { return held ? std::optional(-*held) : std::nullopt; }
+
+AxisMeasurement mirrored(const AxisMeasurement& axis) { return {-axis.centre_m, axis.variance_m2, mirrored(axis.held)}; }
+
+/// Variance of the step between the centre as measured from one end and as measured from another.
+double step_variance_m2(std::optional<int> held_before, std::optional<int> held, const Size& size) {
+  return held_before && held ? squared(0.5 * (*held - *held_before)) * size.variance_m2 : 0.0;
+}
 
 void note_sizes(SizeEvidence& evidence, const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
   if (std::abs(view.laser_at_m) <= 0.5 * size.value_m) note_sizes_from_beside(evidence, shadow, view);
@@ -214,6 +248,9 @@ double spacing_m(const Glimpse& glimpse, const Vector2d& place_m, const Vector2d
   const double incidence = std::abs(axis.x() * sight_m.y() - axis.y() * sight_m.x()) / range_m;
   return range_m * glimpse.beam_step_rad / std::max(incidence, kLeastIncidence);
 }
+
+/// Beams in a row that were not answered, in the mean.
+double gaps_in_a_row(const Glimpse& glimpse) { return glimpse.unanswered_share / (1.0 - glimpse.unanswered_share); }
 
 Size likely_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
   const double information = 1.0 / squared(sigma_m) + 1.0 / evidence.whole.variance_m2;
@@ -315,13 +352,14 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   const double face_depth_m = kFaceDepthM * config.size_scale + kFaceDepthSigmas * sigma_m;
   const Shadow u = shadow_of(glimpse, predicted_centre_m, along, face_depth_m);
   const Shadow v = shadow_of(glimpse, predicted_centre_m, across, face_depth_m);
-  const double gaps = glimpse.unanswered_share / (1.0 - glimpse.unanswered_share);  // in a row, in the mean
+  const double gaps = gaps_in_a_row(glimpse);
   const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
     return AxisView{axis.dot(to_laser_m), squared(sigma_m), spacing_m(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
                     spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale, config.size_scale};
   };
   const AxisView u_view = view_of(along, u);
-  const AxisView v_view = view_of(across, v);
+  AxisView v_view = view_of(across, v);
+  v_view.is_length = false;
   const double clear_m = 0.3 * config.size_scale;
   const bool flank_is_visible = std::abs(v_view.laser_at_m) > 0.5 * body.width.value_m + clear_m;
   const bool face_is_visible = std::abs(u_view.laser_at_m) > 0.5 * body.length.value_m + clear_m;
@@ -340,7 +378,11 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   measurement.covariance_m2 = at_u.variance_m2 * along * along.transpose() + at_v.variance_m2 * across * across.transpose();
   const double longer_m = measurement.body.length.value_m - body.length.value_m;
   const double wider_m = measurement.body.width.value_m - body.width.value_m;
-  measurement.recentring_m = -0.5 * at_u.held * longer_m * along - 0.5 * at_v.held * wider_m * across;
+  measurement.recentring_m = -0.5 * at_u.held.value_or(0) * longer_m * along - 0.5 * at_v.held.value_or(0) * wider_m * across;
+  measurement.step_covariance_m2 = step_variance_m2(body.length_held, at_u.held, measurement.body.length) * along * along.transpose() +
+                                   step_variance_m2(body.width_held, at_v.held, measurement.body.width) * across * across.transpose();
+  if (at_u.held) measurement.body.length_held = at_u.held;
+  if (at_v.held) measurement.body.width_held = at_v.held;
   return measurement;
 }
 
@@ -355,8 +397,12 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
   const Vector2d across{-along.y(), along.x()};
   const double extent_m = extent_of(glimpse.points_m);
   constexpr double kSurfaceToMiddleM = 0.15;  // of a leg or a slim body
-  const double sigma_along_m = std::hypot(echo_sigma_m(range_m, config), config.blob_noise_share * extent_m, config.shape_noise_m);
-  const double sigma_across_m = std::hypot(range_m * glimpse.beam_step_rad / 3.5, config.blob_noise_share * extent_m, config.shape_noise_m);
+  constexpr double kBetweenLegsM = 0.25;
+  constexpr double kMostM = 1.3;
+  const double gap_m = std::clamp(gaps_in_a_row(glimpse) * range_m * glimpse.beam_step_rad - kBetweenLegsM * config.size_scale, 0.0, kMostM * config.size_scale);
+  const double shape_m = std::hypot(config.blob_noise_share * extent_m, config.shape_noise_m, gap_m);  // something dark is seen now here, now there
+  const double sigma_along_m = std::hypot(echo_sigma_m(range_m, config), shape_m);
+  const double sigma_across_m = std::hypot(range_m * glimpse.beam_step_rad / 3.5, shape_m);
   measurement.centre_m = mean_m + kSurfaceToMiddleM * along;
   measurement.covariance_m2 = sigma_along_m * sigma_along_m * along * along.transpose() +
                               sigma_across_m * sigma_across_m * across * across.transpose();
@@ -414,10 +460,19 @@ Body turned_by_a_quarter(Body body, double sense, const TrackingConfig& config) 
   body.heading_rad = geometry::wrap_angle(body.heading_rad + std::copysign(0.5 * std::numbers::pi, sense));
   body.heading_variance_rad2 = std::max(body.heading_variance_rad2, 0.3);
   std::swap(body.length_evidence, body.width_evidence);
+  body.length_held.reset();
+  body.width_held.reset();
   body.length_evidence.whole = {};  // measured for a body that lay otherwise
   body.width_evidence.whole = {};
   body.length_evidence.whole.variance_m2 = body.width_evidence.whole.variance_m2 = kNothingKnownM2;
   return with_likely_sizes(body, config);
+}
+
+Body turned_about(Body body) {
+  body.heading_rad = geometry::wrap_angle(body.heading_rad + std::numbers::pi);
+  body.length_held = mirrored(body.length_held);
+  body.width_held = mirrored(body.width_held);
+  return body;
 }
 
 double extent_of(std::span<const Vector2d> points_m) {

@@ -49,6 +49,10 @@ struct Body {
   SizeEvidence length_evidence;
   SizeEvidence width_evidence;
   Kind kind = Kind::kCar;             ///< The likeliest, of a body with sides.
+  /// From which end of the length, and of the width, the centre was last measured: -1 the rear (the right side), +1 the front
+  /// (the left side), 0 both; none before the first time.
+  std::optional<int> length_held;
+  std::optional<int> width_held;
 };
 
 /// What the scan saw next to the outermost echo of an object.
@@ -81,6 +85,9 @@ struct BodyMeasurement {
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Identity();
   /// The centre's move when the body is redrawn at its new size with the sides that were seen held fast.
   Eigen::Vector2d recentring_m = Eigen::Vector2d::Zero();
+  /// Of the step that the centre makes when it is measured from other ends than before: it is off by what the size is unsure
+  /// by, in all scans alike, and no motion.
+  Eigen::Matrix2d step_covariance_m2 = Eigen::Matrix2d::Zero();
   Body body;                                  ///< With the sizes as now believed.
 };
 
@@ -108,6 +115,9 @@ double log_evidence_of_sizes(const Body& body, const TrackingConfig& config);
 /// A box around something first seen now. box_heading_rad: of the longer visible side; which way the body points along it
 /// is not known, and where only one short side is seen, that it is the width is only likely.
 Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config);
+
+/// The body pointing the other way: its front is its rear.
+Body turned_about(Body body);
 
 /// Whether anything on the road has such a shape; what has not is made of echoes from several things.
 bool is_plausible(const Body& body, const TrackingConfig& config);

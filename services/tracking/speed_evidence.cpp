@@ -14,10 +14,16 @@ constexpr double kThere = 0.33;     ///< Log-likelihood: something else may have
 constexpr double kThrough = -0.67;  ///< nothing can have been where a beam went through. Neighbouring beams say the same:
 constexpr double kMostWeight = 1.5; ///< of the echoes that are left out, the ones that are asked speak for so many more.
 
+/// Behind others the object may well have been, or else a speed at which it would have been in sight were preferred; behind its
+/// own side it was not.
+bool is_hidden_by_another(const SightOfPlace& place, const EarlierScan& then, flow::TrackId own) {
+  return place.sight == Sight::kHidden && then.owners[place.beam].is_owned && then.owners[place.beam].track_id != own;
+}
+
 }  // namespace
 
 SpeedEvidence speed_along(const Eigen::Vector2d& direction, std::span<const Eigen::Vector2d> echoes_m, std::int64_t stamp_ns,
-                          const ScanHistory& history, double fastest_mps) {
+                          const ScanHistory& history, double fastest_mps, flow::TrackId own) {
   std::array<double, 2 * kSteps + 1> log_likelihood;
   for (int i = 0; i <= 2 * kSteps; ++i) {
     const double speed_mps = (i - kSteps) * fastest_mps / kSteps;
@@ -34,8 +40,9 @@ SpeedEvidence speed_along(const Eigen::Vector2d& direction, std::span<const Eige
     for (int i = 0; i <= 2 * kSteps; ++i) {
       const Eigen::Vector2d way_m = (i - kSteps) * fastest_mps / kSteps * time_s * direction;
       for (std::size_t echo = 0; echo < echoes_m.size(); echo += stride) {
-        const Sight sight = then->view.sight_of(echoes_m[echo] - way_m).sight;
-        log_likelihood[static_cast<std::size_t>(i)] += weight * (sight == Sight::kThrough ? kThrough : sight == Sight::kThere ? kThere : 0.0);
+        const SightOfPlace place = then->view.sight_of(echoes_m[echo] - way_m);
+        const bool may_have_been_there = place.sight == Sight::kThere || is_hidden_by_another(place, *then, own);
+        log_likelihood[static_cast<std::size_t>(i)] += weight * (place.sight == Sight::kThrough ? kThrough : may_have_been_there ? kThere : 0.0);
       }
     }
   }

@@ -122,7 +122,7 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
   if (course.variance_rad2 > 0.1) return;
   double off_rad = wrap_angle(course.heading_rad - track.body.heading_rad);
   if (std::abs(off_rad) > 0.75 * std::numbers::pi) {
-    track.body.heading_rad = wrap_angle(track.body.heading_rad + std::numbers::pi);
+    track.body = turned_about(track.body);
     off_rad = wrap_angle(off_rad + std::numbers::pi);
   } else if (std::abs(off_rad) > 0.3 * std::numbers::pi) {
     const Body turned = turned_by_a_quarter(track.body, off_rad, config);
@@ -141,6 +141,16 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + variance_rad2);
   turn(track, gain * off_rad, glimpse, config);
   body.heading_variance_rad2 *= 1.0 - gain;
+}
+
+/// What is longer than any front or rear of what it would have to be is a flank, though the course has not shown it.
+void lie_along_what_is_seen(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
+  constexpr double kWidestCarM = 2.1;
+  const Body& body = track.body;
+  if (body.is_oriented || body.width_evidence.least_m < kWidestCarM * config.size_scale) return;
+  const Body turned = turned_by_a_quarter(body, 1.0, config);
+  if (!is_plausible(turned, config) || log_evidence_of_sizes(turned, config) - log_evidence_of_sizes(body, config) < kSureOdds) return;
+  redraw(track, turned, glimpse, config);
 }
 
 /// Brings the velocity to the length of the body, as the sides alone tell it: wheels do not go sideways. In a curve the sides
@@ -272,6 +282,28 @@ void observe(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse) {
 
 }  // namespace
 
+double Answers::unanswered_share() const {
+  constexpr double kSupposed = 0.2;  // of one beam
+  return (missed + kSupposed) / (asked + 1.0);
+}
+
+Answers with_answers(Answers answers, std::size_t echoes, int gaps, double time_s) {
+  constexpr double kMemoryS = 1.0;
+  const double kept = std::exp(-time_s / kMemoryS);
+  const double between = echoes > 2 ? static_cast<double>(echoes - 2) : 0.0;  // that there are two ends tells nothing
+  return {kept * answers.missed + gaps, kept * answers.asked + gaps + between};
+}
+
+void KeptGlimpses::add(std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2) {
+  const bool is_full = kept_.size() == kMost;
+  KeptGlimpse& kept = is_full ? kept_[oldest_] : kept_.emplace_back();
+  if (is_full) oldest_ = (oldest_ + 1) % kMost;
+  kept.stamp_ns = stamp_ns;
+  kept.points_m.assign(glimpse.points_m.begin(), glimpse.points_m.end());
+  kept.glimpse = glimpse;
+  kept.pose_covariance_m2 = pose_covariance_m2;
+}
+
 filters::ModelSet motion_models(const TrackingConfig& config) {
   filters::ModelSet set;
   set.models[0] = {filters::MotionKind::kConstantVelocity, config.velocity_noise_density, config.idle_acceleration_mps2};
@@ -328,6 +360,7 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   const filters::ModelSet models = models_of(track, config);
+  if (track.body.has_sides) lie_along_what_is_seen(track, glimpse, config);
   if (track.body.has_sides) follow_side(track, glimpse, config);  // first: sizes are measured along the sides
   const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
   Matrix2d R = measurement.covariance_m2 + pose_covariance_m2;
@@ -335,10 +368,11 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   if (walks(track)) R += gait_variance_m2(unseen_s, config) * Matrix2d::Identity();
   const Vector2d surprise_m = measurement.centre_m - measurement.recentring_m - track.position_m();
-  const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + R);
+  const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + measurement.step_covariance_m2 + R);
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
   track.surprise_m = surprise_m.norm();
   shift(track, measurement.recentring_m, models);
+  filters::imm_loosen(models, track.motion, measurement.step_covariance_m2);
   track.body = measurement.body;
   track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
   track.measured = {measurement.centre_m, R};

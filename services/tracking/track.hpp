@@ -41,6 +41,31 @@ struct KeptGlimpse {
   Eigen::Matrix2d pose_covariance_m2 = Eigen::Matrix2d::Zero();
 };
 
+/// How many of the beams between the outermost echoes of a thing were not answered, of the last moments.
+struct Answers {
+  double missed = 0.0;
+  double asked = 0.0;
+
+  /// Of the beams that meet it; before anything is known, few. At most 1.
+  double unanswered_share() const;
+};
+
+/// The last glimpses of something, in the order in which they were added. Allocates until as many are kept as ever are, and no more.
+class KeptGlimpses {
+ public:
+  static constexpr std::size_t kMost = 40;  ///< The oldest of more go.
+
+  void add(std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2);
+  void clear() { kept_.clear(), oldest_ = 0; }
+  std::size_t size() const { return kept_.size(); }
+  /// 0: the oldest.
+  const KeptGlimpse& operator[](std::size_t i) const { return kept_[(oldest_ + i) % kept_.size()]; }
+
+ private:
+  std::vector<KeptGlimpse> kept_;
+  std::size_t oldest_ = 0;
+};
+
 constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
 
 /// One object that is followed, or supposed to be one.
@@ -72,13 +97,14 @@ struct Track {
   Eigen::Vector2d anchor_m = Eigen::Vector2d::Zero();  ///< Where it last got away from;
   double claimed_m = 0.0;                    ///< the way that it says to have gone since.
   bool is_refuted = false;                   ///< Earlier scans do not agree with its velocity.
+  Answers answers;
   double echoes = 0.0;                       ///< A scan, in the last moments.
   double mapped_share = 0.0;                 ///< Of the last moments, in which its echoes came from where the map has something.
   double without_progress_s = 0.0;           ///< Since the anchor was moved.
   double largest_extent_m = 0.0;
   double outgrown_s = 0.0;                   ///< For which someone long known to walk has been given more echoes than one has.
   std::vector<Eigen::Vector2f> contour_in_odom_m;
-  std::deque<KeptGlimpse> youth;             ///< What was seen of it until it was confirmed, oldest first.
+  KeptGlimpses youth;                        ///< What was seen of it until it was confirmed.
   std::deque<flow::RestoredPoints> past;     ///< Points of a track not yet confirmed, newest last.
 
   Eigen::Vector2d position_m() const { return estimate.mean.head<2>(); }
@@ -86,6 +112,9 @@ struct Track {
   Eigen::Matrix2d position_covariance_m2() const { return estimate.covariance.topLeftCorner<2, 2>(); }
   Eigen::Matrix2d velocity_covariance() const { return estimate.covariance.block<2, 2>(2, 2); }
 };
+
+/// After another glimpse, time_s after the one before, with so many echoes and so many beams between them without.
+Answers with_answers(Answers answers, std::size_t echoes, int gaps, double time_s);
 
 /// Cruising and manoeuvring: the modes of everything.
 filters::ModelSet motion_models(const TrackingConfig& config);
@@ -97,6 +126,9 @@ constexpr double kSlipMps = 0.3;
 
 /// A body's axis is known from its sides where its variance is less.
 constexpr double kKnownAxisRad2 = 0.02;
+
+/// Log-odds at which it is sure which side of a body is its flank: twenty to one.
+constexpr double kSureOdds = 3.0;
 
 /// Variance along each axis that the swing of the legs adds to a centre measured after_s (> 0) after the one before. The filter
 /// takes the errors of all scans for independent; these fade exponentially, and so the closer scans follow each other the more

@@ -97,17 +97,20 @@ Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view, double siz
   return edge;
 }
 
-/// The points of some beams, with what lies beside them.
-Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const ScanView& view, double size_scale, std::vector<Vector2d>& points_m) {
-  constexpr double kLongSideM = 1.4;
-  constexpr double kGapsSupposed = 0.2;  // before anything is known
-  points_m.clear();
+/// How many beams between the first and the last got no echo.
+int gaps_between(const std::vector<std::uint16_t>& beams, const PolarView& view) {
   int gaps = 0;
-  for (std::size_t beam = beams.front(); beam <= beams.back(); ++beam) gaps += view.polar().range_m(beam) <= 0.0 ? 1 : 0;
-  const double unanswered_share = (gaps + kGapsSupposed) / (static_cast<double>(gaps + beams.size()) + 1.0);
+  for (std::size_t beam = beams.front(); beam <= beams.back(); ++beam) gaps += view.range_m(beam) <= 0.0 ? 1 : 0;
+  return gaps;
+}
+
+/// The points of some beams, with what lies beside them.
+Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const Answers& answers, const ScanView& view, double size_scale, std::vector<Vector2d>& points_m) {
+  constexpr double kLongSideM = 1.4;
+  points_m.clear();
   for (const std::uint16_t beam : beams) points_m.push_back(view.point_in_odom_m(beam));
   return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(beams.front(), -1, view.polar(), size_scale),
-          edge_beyond(beams.back(), +1, view.polar(), size_scale), side_of(beams, view, kLongSideM * size_scale), unanswered_share};
+          edge_beyond(beams.back(), +1, view.polar(), size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
 }
 
 bool is_vehicle(const Track& track) { return track.body.has_sides && track.body.kind != Kind::kBicycle; }
@@ -441,13 +444,15 @@ void Tracker::begin_tracks(const ScanView& view) {
   for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
     const Segment& segment = view.scan().segments[s];
     if (shares_.track_of_segment[s] != kUnassigned || !may_begin(segment, s)) continue;
-    const Glimpse glimpse = glimpse_of(segment.beams, view, config_.size_scale, points_m);
+    const Answers answers = with_answers({}, segment.beams.size(), gaps_between(segment.beams, view.polar()), 0.0);
+    const Glimpse glimpse = glimpse_of(segment.beams, answers, view, config_.size_scale, points_m);
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
     // Detection fits boxes to what moves only.
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m, config_.range_noise_m).heading_rad;
     tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
-    keep(tracks_.back(), view.scan().stamp_ns, glimpse, pose_covariance_m2);
+    tracks_.back().youth.add(view.scan().stamp_ns, glimpse, pose_covariance_m2);
+    tracks_.back().answers = answers;
     tracks_.back().echoes = static_cast<double>(segment.beams.size());
     tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
     shares_.track_of_segment[s] = tracks_.size() - 1;
@@ -520,7 +525,7 @@ void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const Sc
   const Vector2d along = track.body.has_sides ? Vector2d(std::cos(track.body.heading_rad), std::sin(track.body.heading_rad)) : Vector2d(velocity_mps.normalized());
   const double speed_mps = velocity_mps.dot(along);
   const double across_mps = (velocity_mps - speed_mps * along).norm();
-  const SpeedEvidence evidence = speed_along(along, glimpse.points_m, view.scan().stamp_ns, history_, kFastestOfSigmas * config_.fastest_mps);
+  const SpeedEvidence evidence = speed_along(along, glimpse.points_m, view.scan().stamp_ns, history_, kFastestOfSigmas * config_.fastest_mps, track.track_id);
   const bool flies_sideways = across_mps > 2.0 + 0.3 * std::abs(speed_mps);
   const bool is_off = flies_sideways || std::abs(speed_mps - evidence.speed_mps) > 3.0 * evidence.sigma_mps + kSlackMps;
   const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps;
@@ -565,15 +570,17 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   constexpr double kEchoMemoryS = 0.2;
   track.echoes += (1.0 - std::exp(-time_s / kEchoMemoryS)) * (static_cast<double>(beams.size()) - track.echoes);
   if (beams.empty()) return score_miss(track, view.visibility_of(track.body, track.position_m()), time_s, config_);
-  std::vector<Vector2d> points_m;
-  const Glimpse glimpse = glimpse_of(beams, view, config_.size_scale, points_m);
+  track.answers = with_answers(track.answers, beams.size(), gaps_between(beams, view.polar()), time_s);
+  const Glimpse glimpse = glimpse_of(beams, track.answers, view, config_.size_scale, glimpse_points_m_);
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return release(index);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
-  if (!track.confirmed) keep(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()));
+  if (!track.confirmed) track.youth.add(view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()));
   if (!track.confirmed && has_proven_to_move(track, config_)) {
-    const Track relived = relive(track, config_);
-    const bool was_turned = std::abs(std::sin(relived.body.heading_rad - track.body.heading_rad)) > 0.7;
-    if (was_turned || has_proven_to_move(relived, config_)) track = relived;  // else as it is: what it lacks is but certainty
+    const Life before = life(track);
+    live_as(track, relived(track, config_));
+    const bool was_turned = std::abs(std::sin(before.body.heading_rad - track.body.heading_rad)) > 0.7;
+    const bool is_surely_turned = was_turned && track.body.is_oriented;
+    if (!is_surely_turned && !has_proven_to_move(track, config_)) live_as(track, before);  // what it lacks is but certainty
   }
   const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
   constexpr int kHitsBetweenChecks = 5;
@@ -605,7 +612,7 @@ void Tracker::join_pieces(const ScanView& view) {
       if (a == b || tracks_[a].hits < tracks_[b].hits || tracks_[b].hits == 0 || shares_.beams_of_track[a].empty() || shares_.beams_of_track[b].empty()) continue;
       if (!drive_as_one(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
       absorb(a, b);
-      draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], view, config_.size_scale, points_m), config_);
+      draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], tracks_[a].answers, view, config_.size_scale, points_m), config_);
     }
   }
 }

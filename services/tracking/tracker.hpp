@@ -114,6 +114,7 @@ class Tracker {
   Shares shares_;
   std::vector<Past> past_of_beam_;              ///< Of the current scan.
   std::vector<SegmentPast> past_of_segment_;
+  std::vector<Eigen::Vector2d> glimpse_points_m_;  ///< Of the track that is being corrected.
   std::vector<bool> has_shifted_;               ///< Beams on faces that have moved.
   Rivals rivals_;
   Formations formations_;

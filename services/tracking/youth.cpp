@@ -14,22 +14,17 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr std::size_t kMostKept = 40;
-
-struct Life {
-  Body body;
-  filters::ImmState motion;
-  filters::MotionState estimate;
-};
-
-Glimpse glimpse_of(const KeptGlimpse& kept) {
+/// With what is known by now of how seldom the thing answers.
+Glimpse glimpse_of(const KeptGlimpse& kept, const Track& track) {
   Glimpse glimpse = kept.glimpse;
   glimpse.points_m = kept.points_m;
+  glimpse.unanswered_share = track.answers.unanswered_share();
   return glimpse;
 }
 
-filters::MotionState beginning_of(const Body& body, const KeptGlimpse& kept, const TrackingConfig& config) {
-  const Glimpse glimpse = glimpse_of(kept);
+filters::MotionState beginning_of(const Track& track, const Body& body, const TrackingConfig& config) {
+  const KeptGlimpse& kept = track.youth[0];
+  const Glimpse glimpse = glimpse_of(kept, track);
   const BodyMeasurement measured = measure_box(body, supposed_centre_m(body, glimpse), glimpse, config);
   filters::MotionState start;
   start.mean.head<2>() = measured.centre_m - measured.recentring_m;
@@ -40,14 +35,19 @@ filters::MotionState beginning_of(const Body& body, const KeptGlimpse& kept, con
 }
 
 /// A body of just this size and heading all the time.
-Life life_of(const Track& track, const Body& body, const TrackingConfig& config) {
+Life life_of(const Track& track, Body body, const TrackingConfig& config) {
   const filters::ModelSet models = motion_models(config);
-  filters::ImmState motion = filters::imm_start(models, beginning_of(body, track.youth.front(), config));
+  filters::ImmState motion = filters::imm_start(models, beginning_of(track, body, config));
+  body.length_held.reset();
+  body.width_held.reset();
   for (std::size_t i = 1; i < track.youth.size(); ++i) {
     const KeptGlimpse& kept = track.youth[i];
     motion = filters::imm_predict(models, motion, static_cast<double>(kept.stamp_ns - track.youth[i - 1].stamp_ns) * 1e-9);
     const Vector2d predicted_m = filters::imm_combine(models, motion).mean.head<2>();
-    const BodyMeasurement measured = measure_box(body, predicted_m, glimpse_of(kept), config);
+    const BodyMeasurement measured = measure_box(body, predicted_m, glimpse_of(kept, track), config);
+    filters::imm_loosen(models, motion, measured.step_covariance_m2);
+    body.length_held = measured.body.length_held;
+    body.width_held = measured.body.width_held;
     motion = filters::imm_update(models, motion, measured.centre_m - measured.recentring_m, measured.covariance_m2 + kept.pose_covariance_m2).posterior;
   }
   return {body, motion, filters::imm_combine(models, motion)};
@@ -79,14 +79,10 @@ Body along_its_sides(Body body) {
 
 }  // namespace
 
-void keep(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2) {
-  if (track.youth.size() == kMostKept) track.youth.pop_front();
-  track.youth.push_back({stamp_ns, {glimpse.points_m.begin(), glimpse.points_m.end()}, glimpse, pose_covariance_m2});
-}
+Life life(const Track& track) { return {track.body, track.motion, track.estimate}; }
 
-Track relive(Track track, const TrackingConfig& config) {
-  constexpr double kSureOdds = 3.0;  // twenty to one
-  if (!track.body.has_sides || track.youth.size() < 2) return track;
+Life relived(const Track& track, const TrackingConfig& config) {
+  if (!track.body.has_sides || track.youth.size() < 2) return life(track);
   Life life = life_of(track, along_its_sides(track.body), config);
   const Body turned = turned_by_a_quarter(life.body, 1.0, config);
   if (is_plausible(turned, config)) {
@@ -95,6 +91,10 @@ Track relive(Track track, const TrackingConfig& config) {
     if (odds > 0.0) life = other;
     life.body.is_oriented = std::abs(odds) > kSureOdds;
   }
+  return life;
+}
+
+void live_as(Track& track, const Life& life) {
   const Vector2d by_m = life.estimate.mean.head<2>() - track.position_m();
   track.body = life.body;
   track.motion = life.motion;
@@ -103,7 +103,6 @@ Track relive(Track track, const TrackingConfig& config) {
   track.birth_position_m += by_m;
   track.anchor_m += by_m;
   filters::move_stop_shift(track.move_stop, by_m);
-  return track;
 }
 
 }  // namespace slammot::tracking

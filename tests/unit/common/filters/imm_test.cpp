@@ -55,6 +55,26 @@ double velocity_error_mps(const Sample& sample) {
   return (sample.truth.segment<2>(2) - sample.estimate.mean.segment<2>(2)).norm();
 }
 
+TEST(Imm, TakesAStepOfThePlaceThatIsFollowedForNoMotionWhereItIsToldOfIt) {
+  const ModelSet set = velocity_and_acceleration();
+  MotionState start;
+  start.mean << 0.0, 0.0, 5.0, 0.0, 0.0, 0.0;
+  start.covariance.diagonal() << 0.01, 0.01, 0.1, 0.1, 0.1, 0.1;
+  const Eigen::Matrix2d R = 0.01 * Eigen::Matrix2d::Identity();
+  const auto velocity_after_a_step_mps = [&](const Eigen::Matrix2d& told_m2) {
+    ImmState state = imm_start(set, start);
+    for (int scan = 1; scan <= 12; ++scan) {
+      const double step_m = scan > 10 ? 2.0 : 0.0;
+      state = imm_predict(set, state, kManeuverPeriodS);
+      if (scan == 11) imm_loosen(set, state, told_m2);
+      state = imm_update(set, state, {5.0 * scan * kManeuverPeriodS + step_m, 0.0}, R).posterior;
+    }
+    return imm_combine(set, state).mean[2];
+  };
+  EXPECT_NEAR(velocity_after_a_step_mps(4.0 * Eigen::Matrix2d::Identity()), 5.0, 0.3);
+  EXPECT_GT(std::abs(velocity_after_a_step_mps(Eigen::Matrix2d::Zero()) - 5.0), 0.5);
+}
+
 TEST(Imm, TakesAMeasuredComponentOfTheVelocityAsAKalmanFilterDoes) {
   const ModelSet set = velocity_and_acceleration();
   MotionState start;

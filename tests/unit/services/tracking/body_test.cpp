@@ -173,6 +173,69 @@ TEST(Body, KeepsTheSideThatIsSeenWhereItIsWhenItGrows) {
   EXPECT_NEAR((centre_m + measurement.recentring_m).x() - 0.5 * measurement.body.length.value_m, back_m, 1e-6);
 }
 
+/// A car of which only the flank is seen, at heading 0 before a laser at the origin that lies beyond its low end.
+Body car_of_unknown_length() {
+  Body body;
+  body.has_sides = body.is_oriented = true;
+  return with_likely_sizes(body, kConfig);
+}
+
+Glimpse with_edges(const std::vector<Vector2d>& points, Edge low, Edge high) {
+  Glimpse glimpse = glimpse_of(points);
+  const bool begins_low = points.front().x() < points.back().x();
+  glimpse.start = begins_low ? low : high;
+  glimpse.end = begins_low ? high : low;
+  return glimpse;
+}
+
+TEST(Body, SaysThatItsCentreMakesAStepWhenAnotherEndOfItIsSeen) {
+  std::vector<Vector2d> flank;
+  for (double x = 8.0; x < 9.6; x += 0.1) flank.emplace_back(x, 3.0);
+  const Vector2d centre_m{9.0, 3.9};
+  Body body = car_of_unknown_length();
+  const Glimpse far_end = with_edges(flank, Edge::kHidden, Edge::kOpen);
+  const BodyMeasurement first = measure_box(body, centre_m, far_end, kConfig);
+  EXPECT_EQ(first.body.length_held, 1);
+  EXPECT_TRUE(first.step_covariance_m2.isZero());
+  EXPECT_TRUE(measure_box(first.body, centre_m, far_end, kConfig).step_covariance_m2.isZero());
+  const BodyMeasurement second = measure_box(first.body, centre_m, with_edges(flank, Edge::kOpen, Edge::kHidden), kConfig);
+  EXPECT_EQ(second.body.length_held, -1);
+  EXPECT_NEAR(second.step_covariance_m2(0, 0), second.body.length.variance_m2, 1e-9);
+  EXPECT_GT(second.body.length.variance_m2, 0.1);
+}
+
+TEST(Body, TurnedAboutIsHeldAtTheEndAtWhichItWas) {
+  Body body = car_of_unknown_length();
+  body.length_held = 1;
+  const Body turned = turned_about(body);
+  EXPECT_NEAR(std::cos(turned.heading_rad - body.heading_rad), -1.0, 1e-9);
+  EXPECT_EQ(turned.length_held, -1);
+  EXPECT_FALSE(turned.width_held.has_value());
+}
+
+TEST(Body, OfWhichFewBeamsAreAnsweredDoesNotEndAtALoneEcho) {
+  const std::vector<Vector2d> echo = {{9.0, 3.0}};
+  Glimpse glimpse = with_edges(echo, Edge::kNoEcho, Edge::kNoEcho);
+  const Vector2d centre_m{9.0, 3.9};
+  const auto sigma_along_m = [&](double unanswered_share) {
+    glimpse.unanswered_share = unanswered_share;
+    return std::sqrt(measure_box(car_of_unknown_length(), centre_m, glimpse, kConfig).covariance_m2(0, 0));
+  };
+  EXPECT_LT(sigma_along_m(0.05), 0.3);
+  EXPECT_GT(sigma_along_m(0.75), 1.0);
+}
+
+TEST(Body, WithoutSidesIsSomewhereAboutAnEchoThatIsRarelyAnswered) {
+  const std::vector<Vector2d> echo = {{25.0, 0.0}};
+  Glimpse glimpse = glimpse_of(echo);
+  const auto sigma_m = [&](double unanswered_share) {
+    glimpse.unanswered_share = unanswered_share;
+    return std::sqrt(measure_blob({}, glimpse, kConfig).covariance_m2(1, 1));
+  };
+  EXPECT_LT(sigma_m(0.05), 0.1);
+  EXPECT_GT(sigma_m(0.75), 0.35);
+}
+
 TEST(Body, KnowsTheLengthAsItsWidthAfterAQuarterTurn) {
   Body body;
   body.has_sides = true;

@@ -155,6 +155,15 @@ TEST(Tracker, NoticesACarAheadThatCreepsOffBeforeItHasComeHalfAMetre) {
   EXPECT_LT(way_m(play.now_s() - kPeriodS), 0.5);
 }
 
+TEST(Tracker, NoticesATruckAheadThatCreepsOffThoughItsBackMightBeAShortFlank) {
+  Play play;
+  const auto way_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
+  const auto scene = [&](Street& street, double t) { street.known = {kWall, {{6.6 + way_m(t), 0.0, 0.0}, 7.1, 2.4}}; };
+  play.run(2.0, scene);
+  while (play.confirmed().empty() && play.now_s() < 6.0) play.step(scene);
+  EXPECT_LT(way_m(play.now_s() - kPeriodS), 0.5);
+}
+
 TEST(Tracker, TakesAWallBesideSomeoneWhoWalksForNoPartOfThem) {
   Play play;
   const auto scene = [](Street& street, double t) {
