@@ -407,7 +407,7 @@ DriveSetup through_a_hall() {
   setup.scanner.base_from_laser = {2.15, 0.0, 0.0};
   setup.scanner.sweep_s = 0.013;
   setup.world_from_base_at = [](double time_s) {
-    constexpr double kTurns_s = 5.0, kHasTurned_s = 7.0, kYawRate_radps = 0.6;
+    constexpr double kTurns_s = 5.0, kHasTurned_s = 7.0, kYawRate_radps = 1.0;
     const double speed_mps = std::min(3.0, 1.5 * time_s);
     const double start_m = time_s < 2.0 ? 0.5 * speed_mps * time_s : 3.0 * (time_s - 1.0);
     if (time_s < kTurns_s) return Pose2{start_m, 0.0, 0.0};
