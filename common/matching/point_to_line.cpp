@@ -61,12 +61,18 @@ void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config)
   for (Pair& pair : pairs_) pair.information_per_m2 *= each_for_itself / together;
 }
 
-PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& map_from_base, double gate_m, const PointToLineConfig& config) const {
+PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& map_from_base, double gate_m, const std::optional<Matrix3>& expected,
+                                                                         const PointToLineConfig& config) const {
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
   NormalEquations equations;
   double xx = 0.0, xy = 0.0, xh = 0.0, yy = 0.0, yh = 0.0, hh = 0.0, x = 0.0, y = 0.0, h = 0.0;  // of J'WJ and J'Wr
+  const auto robust_scale_m = [&](const geometry::Vector2& direction, double by_heading_m) {
+    if (!expected) return config.robust_scale_m;
+    const Eigen::Vector3d by_pose(direction.x(), direction.y(), by_heading_m);
+    return std::sqrt(config.robust_scale_m * config.robust_scale_m + by_pose.dot(*expected * by_pose));
+  };
   const auto add = [&](const geometry::Vector2& direction, double by_heading_m, double residual_m, double information_per_m2) {
-    const double weight = robust_weight(residual_m, config.robust_scale_m) * information_per_m2;
+    const double weight = robust_weight(residual_m, robust_scale_m(direction, by_heading_m)) * information_per_m2;
     const double weighted_x = weight * direction.x();
     const double weighted_y = weight * direction.y();
     const double weighted_h = weight * by_heading_m;
@@ -106,6 +112,8 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
   result.map_from_base = prior_map_from_base;
   Pose2& pose = result.map_from_base.pose;
   pose = initial_map_from_base;
+  std::optional<Matrix3> expected;
+  if (config.coarse_prior_sigmas > 0.0) expected = config.coarse_prior_sigmas * config.coarse_prior_sigmas * prior_map_from_base.covariance;
   NormalEquations equations;
   double moved_since_paired_m = std::numeric_limits<double>::infinity();
   for (int step = 0; step < config.coarse_steps + config.fine_steps; ++step) {
@@ -115,7 +123,7 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
       pair(points, surfels, pose, gate_m, config);
       moved_since_paired_m = 0.0;
     }
-    equations = linearize(pose, gate_m, config);
+    equations = linearize(pose, gate_m, is_coarse ? expected : std::nullopt, config);
     const Matrix3 H = equations.H + prior_information;
     const Eigen::Vector3d change = -H.ldlt().solve(equations.g + prior_information * geometry::difference(pose, prior));
     pose = geometry::displaced(pose, change);

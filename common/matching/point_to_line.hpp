@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/geometry/uncertain_pose2.hpp"
@@ -22,6 +23,7 @@ struct PointToLineConfig {
   double unproven_share = 0.02;    ///< Before, this much: what moves along with the vehicle looks as if it stood nearby.
   double new_below_m = 2.0;        ///< A surfel first seen less than this much of way ago is new: it does not change the match.
   double robust_scale_m = 0.05;    ///< Residual at which a point's weight has fallen to a quarter.
+  double coarse_prior_sigmas = 0.0;  ///< In the steps with the wide gate, what so many sigmas of the prior put off the surface widens that scale: it is no outlier yet.
   double information_share = 0.10; ///< Points of one scan share the map's error: together they count for this share.
   double body_sigma_m = 0.0;       ///< One sigma of an error that all points of one body have in common; 0: none, each point counts for itself.
   double body_length_m = 5.0;      ///< A run of neighbouring points this long may be one body: a car at least.
@@ -73,7 +75,8 @@ class PointToLineMatcher {
   void pair(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const geometry::Pose2& map_from_base,
             double gate_m, const PointToLineConfig& config);
   void share_errors_of_bodies(const PointToLineConfig& config);
-  NormalEquations linearize(const geometry::Pose2& map_from_base, double gate_m, const PointToLineConfig& config) const;
+  /// expected: covariance of (x [m], y [m], heading [rad]) that residuals are allowed before they count as outliers; none: nothing beyond robust_scale_m.
+  NormalEquations linearize(const geometry::Pose2& map_from_base, double gate_m, const std::optional<geometry::Matrix3>& expected, const PointToLineConfig& config) const;
 
   std::vector<Pair> pairs_;
 };

@@ -21,7 +21,7 @@ struct MotionModelConfig {
   double stamp_offset_walk = 0.001;             ///< How that offset wanders with time [s per sqrt(s)]; never less sure than at the start.
   double speed_prior_mps = 20.0;                ///< Without odometry: how fast it may be at the start,
   double yaw_rate_prior_radps = 1.0;
-  double pivot_walk_m = 0.0;                    ///< from how far ahead or behind the point comes about which it turns, for about a second at a time,
+  double pivot_walk_m = 0.3;                    ///< from how far ahead or behind the point comes about which it turns, for about a second at a time,
   double speed_walk_mps = 3.0;                  ///< and how the velocity wanders [m/s per sqrt(s)],
   double yaw_rate_walk_radps = 1.0;             ///< as vehicles accelerate for about a second at a time [rad/s per sqrt(s)].
 };

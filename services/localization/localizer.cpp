@@ -25,6 +25,7 @@ constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was fast
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
 
+constexpr double kCoarsePriorSigmas = 2.0;  // without wheels: so far off is a prediction while the vehicle begins to turn
 constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
 constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps are compared with
 constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/0025-stamps-when-certain
@@ -73,6 +74,7 @@ Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
   match_without_wheels_.information_share = 1.0;
   match_by_scans_alone_.information_share = 1.0;
   match_by_scans_alone_.body_sigma_m = config.body_sigma_without_wheels_m;
+  match_by_scans_alone_.coarse_prior_sigmas = kCoarsePriorSigmas;
   progress_.sweep_factor.variance = config.sweep_factor_sigma * config.sweep_factor_sigma;
 }
 
@@ -286,10 +288,16 @@ std::vector<matching::Peak> Localizer::peaks_around(const UncertainPose2& prior,
 matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2& prior, const matching::PointToLineConfig& config) {
   const auto match_from = [&](const Pose2& initial) { return matcher_.match(match_points_, map_.surfels(), prior, initial, config); };
   if (!is_vague(prior)) return match_from(prior.pose);
-  if (!progress_.last->was_sampled) return match_from(search(prior));
+  // What a search has found is not as far off as the prediction was.
+  const auto match_from_search = [&] {
+    matching::PointToLineConfig where_it_is = config;
+    where_it_is.coarse_prior_sigmas = 0.0;
+    return matcher_.match(match_points_, map_.surfels(), prior, search(prior), where_it_is);
+  };
+  if (!progress_.last->was_sampled) return match_from_search();
   // Along a featureless wall a search finds any place as good as any other.
   const matching::PointToLineResult result = match_from(prior.pose);
-  return says_little(result.scan_information, config_.ambiguous) ? result : match_from(search(prior));
+  return says_little(result.scan_information, config_.ambiguous) ? result : match_from_search();
 }
 
 Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::PointToLineConfig& config, std::uint32_t scan_sequence) {

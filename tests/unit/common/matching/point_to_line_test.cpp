@@ -252,6 +252,23 @@ TEST(PointToLine, IsNotPulledAwayByAFifthOfThePointsOnSomethingElse) {
   EXPECT_THAT(match_from(points, surfels_of(room), truth * Pose2{0.1, 0.1, 0.02}).map_from_base.pose, PoseNear(truth, 0.01));
 }
 
+/// The vehicle has begun to turn, and far walls are off by decimetres though the prior is off by less than three sigmas.
+TEST(PointToLine, FollowsATurnThatThePriorAllowsForThoughFarWallsAreFarOff) {
+  const World hall = slammot::testing::box({0.0, 0.0, 0.0}, 56.0, 50.0);
+  const auto surfels = surfels_of(hall);
+  const Pose2 truth{1.0, -2.0, 0.3};
+  auto points = exact_scan_of(hall, truth, 60);
+  for (MatchPoint& point : points) point.sigma_m = 0.05;
+  const UncertainPose2 prior{truth * Pose2{0.0, 0.0, 0.0125}, Eigen::Vector3d(1e-4, 1e-4, 2.5e-5).asDiagonal()};
+  const auto heading_error_rad = [&](double coarse_prior_sigmas) {
+    const PointToLineConfig config{.coarse_prior_sigmas = coarse_prior_sigmas};
+    const Pose2 found = PointToLineMatcher().match(points, surfels, prior, prior.pose, config).map_from_base.pose;
+    return std::abs(geometry::wrap_angle(found.heading_rad - truth.heading_rad));
+  };
+  EXPECT_LT(heading_error_rad(2.0), 0.004);
+  EXPECT_GT(heading_error_rad(0.0), 0.005);
+}
+
 TEST(PointToLine, GivesThePriorWhenNothingMatches) {
   const UncertainPose2 prior{{1.0, 2.0, 0.3}, kVague};
   const auto points = exact_scan_of(slammot::testing::room(), {});

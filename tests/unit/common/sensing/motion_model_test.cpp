@@ -370,8 +370,8 @@ TEST(MovedAtVelocity, IsAsUnsureInOneStepAsInMany) {
 }
 
 TEST(MovedAtVelocity, MaySlideSidewaysWhereItTurns) {
-  MotionModelConfig config;
-  config.pivot_walk_m = 0.3;
+  const MotionModelConfig config;
+  ASSERT_GT(config.pivot_walk_m, 0.0);
   const auto sideways_sigma_m = [&](double yaw_rate_radps, double duration_s) {
     return std::sqrt(moved_at_velocity(at_velocity({5.0, yaw_rate_radps}), duration_s, config).covariance(1, 1));
   };

@@ -397,6 +397,36 @@ TEST(Localizer, TakesNoOdometryWhereItIsToldNotTo) {
   EXPECT_EQ(localizer.counters().without_odometry, 19U);
 }
 
+/// Through a hall at 3 m/s, with a bend that begins and ends at once.
+DriveSetup through_a_hall() {
+  DriveSetup setup{.world = slammot::testing::joined(slammot::testing::box({20.0, 0.0, 0.0}, 110.0, 70.0), slammot::testing::box({60.0, 25.0, 0.4}, 8.0, 5.0))};
+  setup.scan_period_s = 0.027;
+  setup.beams = 361;
+  setup.scanner.beam_step_rad = std::numbers::pi / 360.0;
+  setup.scanner.max_range_m = 80.0;
+  setup.scanner.base_from_laser = {2.15, 0.0, 0.0};
+  setup.scanner.sweep_s = 0.013;
+  setup.world_from_base_at = [](double time_s) {
+    constexpr double kTurns_s = 5.0, kHasTurned_s = 7.0, kYawRate_radps = 1.0;
+    const double speed_mps = std::min(3.0, 1.5 * time_s);
+    const double start_m = time_s < 2.0 ? 0.5 * speed_mps * time_s : 3.0 * (time_s - 1.0);
+    if (time_s < kTurns_s) return Pose2{start_m, 0.0, 0.0};
+    const double turning_s = std::min(time_s, kHasTurned_s) - kTurns_s;
+    const Pose2 turned = Pose2{12.0, 0.0, 0.0} * arc({}, 3.0, kYawRate_radps)(turning_s);
+    return turned * Pose2{3.0 * std::max(0.0, time_s - kHasTurned_s), 0.0, 0.0};
+  };
+  return setup;
+}
+
+TEST(Localizer, FollowsABendWithoutOdometryThatBeginsAndEndsAtOnce) {
+  LocalizerConfig config = small_map_config();
+  config.use_odometry = false;
+  SimulatedDrive drive(through_a_hall());
+  Localizer localizer(config);
+  EXPECT_LT(drive_through(localizer, drive, 0, 300).worst_rad, 0.01);
+  EXPECT_EQ(localizer.counters().lost_matches, 0U);
+}
+
 /// A vehicle that stops behind a car that stands and, seconds later, drives off before it does.
 class BehindACarThatDrivesOff : public ::testing::Test {
  protected:
