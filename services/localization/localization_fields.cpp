@@ -91,6 +91,7 @@ FieldTable<matching::PointToLineConfig> match_fields() {
       {"unproven_share", &C::unproven_share, "Before, it counts for this share.", kShare},
       {"new_below_m", &C::new_below_m, "A surfel first seen less than this much of way ago is new: only what the pose tells of the wheels depends on it.", kPositive},
       {"robust_scale_m", &C::robust_scale_m, "Residual at which a point's weight has fallen to a quarter.", kPositive},
+      {"coarse_prior_sigmas", &C::coarse_prior_sigmas, "With the wide gate, what so many sigmas of the prediction put off the surface widens that; without any wheels always 2.", kNotNegative},
       {"information_share", &C::information_share, "Points of one scan share the map's error: they count for this share.",
        Range{1e-6, 1.0}},
       {"body_sigma_m", &C::body_sigma_m, "One sigma of an error that all points of one body share; 0: none.", kNotNegative},
