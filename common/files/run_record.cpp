@@ -13,6 +13,7 @@ std::vector<PredictedPlace> at_whole_seconds(const flow::TrackedObject& object, 
   constexpr double kSameS = 1e-6;
   const geometry::Matrix2 turn = geometry::rotation(map_from_odom.heading_rad);
   std::vector<PredictedPlace> places;
+  places.reserve(object.predicted_path.size());
   for (const flow::PredictedPosition& place : object.predicted_path) {
     if (std::abs(place.after_s - std::round(place.after_s)) > kSameS) continue;
     places.push_back({place.after_s, map_from_odom * place.position_in_odom_m, turn * place.covariance_m2 * turn.transpose()});
@@ -72,6 +73,7 @@ void RunRecord::add(const flow::LocalizedScan& scan) {
 
 void RunRecord::add(const flow::TrackedObjects& tracked) {
   std::vector<TrackRow> rows;
+  rows.reserve(static_cast<std::size_t>(std::ranges::count_if(tracked.objects, &flow::TrackedObject::confirmed)));
   for (const flow::TrackedObject& object : tracked.objects) {
     if (object.confirmed) rows.push_back(row_of(object, tracked));
   }

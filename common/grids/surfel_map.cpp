@@ -18,7 +18,7 @@ double seen_over_m(const CellMoments& moments) {
 }  // namespace
 
 SurfelMap::SurfelMap(const GridWindow& window, double weight_limit)
-    : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1), means_m_{kNowhere} {}
+    : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1), means_m_{kNowhere}, shares_{Moments::Zero()} {}
 
 std::int32_t SurfelMap::make_slot(Cell cell) {
   std::int32_t& slot = slots_[window_.index(cell)];
@@ -27,7 +27,7 @@ std::int32_t SurfelMap::make_slot(Cell cell) {
     moments_.emplace_back();
     cells_.push_back(cell);
     means_m_.push_back(kNowhere);
-    shares_.push_back(0.0);
+    shares_.push_back(Moments::Zero());
     shapes_.emplace_back();
   }
   return slot;
@@ -91,33 +91,51 @@ void SurfelMap::note_mean(std::size_t place) {
   const CellMoments& moments = moments_[place];
   const bool is_anywhere = moments.weight > 0.0F;
   // The square root: the direction of a surface is a matter of where it was seen, less of how often.
-  shares_[place] = is_anywhere ? 1.0 / std::sqrt(static_cast<double>(moments.weight)) : 0.0;
+  const double share = is_anywhere ? 1.0 / std::sqrt(static_cast<double>(moments.weight)) : 0.0;
+  const Eigen::Matrix<float, 6, 1> all(moments.weight, moments.x, moments.y, moments.xx, moments.xy, moments.yy);
+  shares_[place + 1] = share * all.cast<double>();
   means_m_[place + 1] = is_anywhere ? window_.centre_of(cells_[place]) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight) : kNowhere;
+}
+
+/// About the cell's centre, of the cell and its eight neighbours. What a neighbour's moments are about this centre is linear in
+/// them, so that they are added up first, by column and by row, and moved here together.
+SurfelMap::Moments SurfelMap::moments_around(Cell cell) const {
+  const bool is_inside = window_.contains({cell.column - 1, cell.row - 1}) && window_.contains({cell.column + 1, cell.row + 1});
+  const auto share_at = [&](std::int32_t column, std::int32_t row) -> const Moments& {
+    const Cell neighbour{cell.column + column, cell.row + row};
+    return share_of(is_inside ? slots_[window_.index(neighbour)] : slot_of(neighbour));
+  };
+  const Moments& left_below = share_at(-1, -1);
+  const Moments& right_below = share_at(1, -1);
+  const Moments& left_above = share_at(-1, 1);
+  const Moments& right_above = share_at(1, 1);
+  const Moments left = left_below + share_at(-1, 0) + left_above;
+  const Moments right = right_below + share_at(1, 0) + right_above;
+  const Moments& straight_below = share_at(0, -1);
+  const Moments& straight_above = share_at(0, 1);
+  const Moments below = left_below + straight_below + right_below;
+  const Moments above = left_above + straight_above + right_above;
+  const Moments rightwards = right - left;
+  const Moments upwards = above - below;
+  const double diagonal = left_below[0] + right_above[0] - left_above[0] - right_below[0];
+  const double size_m = window_.cell_size_m;
+  Moments around = left + right + straight_below + share_at(0, 0) + straight_above;
+  around[1] += size_m * rightwards[0];
+  around[2] += size_m * upwards[0];
+  around[3] += size_m * (2.0 * rightwards[1] + size_m * (left[0] + right[0]));
+  around[4] += size_m * (rightwards[2] + upwards[1] + size_m * diagonal);
+  around[5] += size_m * (2.0 * upwards[2] + size_m * (below[0] + above[0]));
+  return around;
 }
 
 SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
   const double size_m = window_.cell_size_m;
-  double weight = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-  const bool is_inside = window_.contains({cell.column - 1, cell.row - 1}) && window_.contains({cell.column + 1, cell.row + 1});
-  for (std::int32_t row = -1; row <= 1; ++row) {
-    for (std::int32_t column = -1; column <= 1; ++column) {
-      const Cell neighbour{cell.column + column, cell.row + row};
-      const std::int32_t slot = is_inside ? slots_[window_.index(neighbour)] : slot_of(neighbour);
-      if (slot < 0) continue;
-      const CellMoments& m = moments_[static_cast<std::size_t>(slot)];
-      const double share = shares_[static_cast<std::size_t>(slot)];
-      const double n = m.weight * share, dx = column * size_m, dy = row * size_m, sx = m.x * share, sy = m.y * share;
-      weight += n;
-      x += sx + n * dx;
-      y += sy + n * dy;
-      xx += m.xx * share + 2.0 * dx * sx + n * dx * dx;
-      xy += m.xy * share + dx * sy + dy * sx + n * dx * dy;
-      yy += m.yy * share + 2.0 * dy * sy + n * dy * dy;
-    }
-  }
-  const double cxx = xx / weight - (x / weight) * (x / weight);
-  const double cyy = yy / weight - (y / weight) * (y / weight);
-  const double cxy = xy / weight - (x / weight) * (y / weight);
+  const Moments around = moments_around(cell);
+  const double x = around[1] / around[0];
+  const double y = around[2] / around[0];
+  const double cxx = around[3] / around[0] - x * x;
+  const double cxy = around[4] / around[0] - x * y;
+  const double cyy = around[5] / around[0] - y * y;
   // Eigenvalues of the symmetric 2 x 2 covariance.
   const double half_trace = 0.5 * (cxx + cyy);
   const double root = std::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy);
@@ -204,7 +222,7 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
   moved.moments_.reserve(moments_.size());
   moved.cells_.reserve(moments_.size());
   moved.means_m_.reserve(moments_.size() + 1);
-  moved.shares_.reserve(moments_.size());
+  moved.shares_.reserve(moments_.size() + 1);
   moved.shapes_.reserve(moments_.size());
   for (std::size_t place = 0; place < moments_.size(); ++place) {
     if (is_empty(static_cast<std::int32_t>(place)) || !window.contains(cells_[place])) continue;
@@ -213,7 +231,7 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
     const auto slot = static_cast<std::size_t>(moved.make_slot(cells_[place]));
     moved.moments_[slot] = moments;
     moved.means_m_[slot + 1] = means_m_[place + 1];
-    moved.shares_[slot] = shares_[place];
+    moved.shares_[slot + 1] = shares_[place + 1];
   }
   return moved;
 }

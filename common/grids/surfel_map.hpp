@@ -92,14 +92,19 @@ class SurfelMap {
     bool stale = true;
   };
 
+  /// Echoes, and their sums of x, y, xx, xy and yy about the cell's centre.
+  using Moments = Eigen::Matrix<double, 6, 1>;
+
   std::int32_t slot_of(Cell cell) const { return window_.contains(cell) ? slots_[window_.index(cell)] : -1; }
   bool is_empty(std::int32_t slot) const { return slot < 0 || moments_[static_cast<std::size_t>(slot)].weight <= 0.0F; }
   /// Works for no slot (-1), too: infinitely far.
   const Eigen::Vector2d& mean_m(std::ptrdiff_t slot) const { return means_m_[static_cast<std::size_t>(slot + 1)]; }
+  const Moments& share_of(std::ptrdiff_t slot) const { return shares_[static_cast<std::size_t>(slot + 1)]; }
   std::int32_t make_slot(Cell cell);
   void add_to_moments(std::size_t place, const Eigen::Vector2d& point_m, float odometer_m);
   std::int32_t nearest_slot(const Eigen::Vector2d& point_m, int radius) const;
   void mark_stale_around(Cell cell);
+  Moments moments_around(Cell cell) const;
   Shape shape_at(Cell cell) const;
   const Shape& fresh_shape(std::size_t place) const;
   void note_mean(std::size_t place);
@@ -112,7 +117,7 @@ class SurfelMap {
   std::vector<CellMoments> moments_;
   std::vector<Cell> cells_;             ///< Of each of the moments,
   std::vector<Eigen::Vector2d> means_m_;///< and, one place later, where its echoes are in the mean; infinitely far where there are none;
-  std::vector<double> shares_;          ///< and how much each echo counts for the direction of the surface around it.
+  std::vector<Moments> shares_;         ///< and so, of zeros where there are none, its share in the direction of the surfaces around it.
   mutable std::vector<Shape> shapes_;   ///< Computed when first looked at after a change.
 };
 

@@ -2,34 +2,36 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
-#include "common/geometry/pose2.hpp"
+#include "common/flow/localized_scan.hpp"
+#include "common/sensing/turning_direction.hpp"
 
 namespace slammot::detection {
 
-/// Unit vectors along the beams of a scan, each computed when it is first asked for: few are, and those again and again.
+/// Unit vectors along the beams of a scan, in base.
 class BeamDirections {
  public:
-  BeamDirections(double first_beam_rad, double beam_step_rad, std::size_t beams)
-      : first_beam_rad_(first_beam_rad),
-        beam_step_rad_(beam_step_rad),
-        directions_(beams, geometry::Vector2::Constant(std::numeric_limits<double>::quiet_NaN())) {}
-
-  const geometry::Vector2& operator[](std::size_t beam) const {
-    geometry::Vector2& direction = directions_[beam];
-    if (std::isnan(direction.x())) {
-      const double angle_rad = first_beam_rad_ + static_cast<double>(beam) * beam_step_rad_;
-      direction = {std::cos(angle_rad), std::sin(angle_rad)};
-    }
-    return direction;
+  explicit BeamDirections(const flow::LocalizedScan& scan) {
+    directions_.reserve(scan.beams.size());
+    sensing::TurningDirection direction(first_beam_rad(scan), scan.beam_step_rad);
+    for (std::size_t i = 0; i < scan.beams.size(); ++i, direction.advance()) directions_.push_back(direction.now());
   }
 
+  const geometry::Vector2& operator[](std::size_t beam) const { return directions_[beam]; }
+
  private:
-  double first_beam_rad_;
-  double beam_step_rad_;
-  mutable std::vector<geometry::Vector2> directions_;  ///< Not a number before it is asked for.
+  /// By the first echo; any will do where there is none.
+  static double first_beam_rad(const flow::LocalizedScan& scan) {
+    for (std::size_t i = 0; i < scan.beams.size(); ++i) {
+      if (scan.beams[i].range_m <= 0.0F) continue;
+      const geometry::Vector2 way = scan.beams[i].point_in_base_m.cast<double>() - scan.base_from_laser.translation_m();
+      return std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan.beam_step_rad;
+    }
+    return 0.0;
+  }
+
+  std::vector<geometry::Vector2> directions_;
 };
 
 }  // namespace slammot::detection

@@ -44,7 +44,7 @@ PointLabel label_of(const LocalizedBeam& beam, const DetectionConfig& config) {
 /// Where the map expects each beam to end, in base; only where it expects an end.
 class ExpectedOutline {
  public:
-  explicit ExpectedOutline(const LocalizedScan& scan) : scan_(scan), directions_(first_beam_rad(scan), scan.beam_step_rad, scan.beams.size()) {}
+  ExpectedOutline(const LocalizedScan& scan, const BeamDirections& directions) : scan_(scan), directions_(directions) {}
 
   /// Whether the echo lies near the line through what neighbouring beams should have met: a wall at a grazing angle is
   /// met far from where one beam expects it, but never far from its line.
@@ -77,17 +77,8 @@ class ExpectedOutline {
   Vector2 end_of(std::size_t beam) const {
     return scan_.base_from_laser.translation_m() + static_cast<double>(scan_.beams[beam].expected_range_m) * directions_[beam];
   }
-  /// By the first echo; any will do where there is none.
-  static double first_beam_rad(const LocalizedScan& scan) {
-    for (std::size_t i = 0; i < scan.beams.size(); ++i) {
-      if (scan.beams[i].range_m <= 0.0F) continue;
-      const Vector2 way = scan.beams[i].point_in_base_m.cast<double>() - scan.base_from_laser.translation_m();
-      return std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan.beam_step_rad;
-    }
-    return 0.0;
-  }
   const LocalizedScan& scan_;
-  BeamDirections directions_;
+  const BeamDirections& directions_;
 };
 
 /// The rest is as it was in the other scan.
@@ -105,11 +96,11 @@ SegmentedScan with_header_of(const LocalizedScan& scan, SegmentedScan segmented)
   return segmented;
 }
 
-void label_points(const LocalizedScan& scan, const DetectionConfig& config, SegmentedScan& segmented) {
+void label_points(const LocalizedScan& scan, const BeamDirections& directions, const DetectionConfig& config, SegmentedScan& segmented) {
   segmented.points_in_base_m.resize(scan.beams.size());
   segmented.range_m.resize(scan.beams.size());
   segmented.labels.resize(scan.beams.size());
-  const ExpectedOutline outline(scan);
+  const ExpectedOutline outline(scan, directions);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     segmented.points_in_base_m[i] = scan.beams[i].point_in_base_m;
     segmented.range_m[i] = scan.beams[i].range_m;
@@ -286,8 +277,9 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
 
 SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, SegmentedScan done_with) {
   SegmentedScan segmented = with_header_of(scan, std::move(done_with));
-  label_points(scan, config, segmented);
-  const std::vector<char> is_ground = find_ground(segmented, config);
+  const BeamDirections directions(scan);
+  label_points(scan, directions, config, segmented);
+  const std::vector<char> is_ground = find_ground(segmented, directions, config);
   std::vector<float> range_without_ground_m = segmented.range_m;
   for (std::size_t i = 0; i < is_ground.size(); ++i) {
     if (!is_ground[i]) continue;

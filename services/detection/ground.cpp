@@ -23,8 +23,8 @@ enum class Side { kInFront, kOn, kBeyond, kNoEcho, kNotCrossed };
 
 class Ground {
  public:
-  Ground(const flow::SegmentedScan& scan, const DetectionConfig& config)
-      : scan_(scan), config_(config), directions_(first_beam_rad(), scan.beam_step_rad, scan.range_m.size()) {}
+  Ground(const flow::SegmentedScan& scan, const BeamDirections& directions, const DetectionConfig& config)
+      : scan_(scan), config_(config), directions_(directions) {}
 
   Vector2 from_laser_m(std::size_t beam) const {
     return scan_.points_in_base_m[beam].cast<double>() - scan_.base_from_laser.translation_m();
@@ -114,26 +114,16 @@ class Ground {
   }
 
  private:
-  /// By the first echo; any will do where there is none.
-  double first_beam_rad() const {
-    for (std::size_t i = 0; i < scan_.range_m.size(); ++i) {
-      if (scan_.range_m[i] <= 0.0F) continue;
-      const Vector2 way = from_laser_m(i);
-      return std::atan2(way.y(), way.x()) - static_cast<double>(i) * scan_.beam_step_rad;
-    }
-    return 0.0;
-  }
-
   const flow::SegmentedScan& scan_;
   const DetectionConfig& config_;
-  BeamDirections directions_;  // after what first_beam_rad() looks at
+  const BeamDirections& directions_;
 };
 
 }  // namespace
 
-std::vector<char> find_ground(const flow::SegmentedScan& scan, const DetectionConfig& config) {
+std::vector<char> find_ground(const flow::SegmentedScan& scan, const BeamDirections& directions, const DetectionConfig& config) {
   std::vector<char> is_ground(scan.range_m.size(), 0);
-  const Ground ground(scan, config);
+  const Ground ground(scan, directions, config);
   constexpr std::size_t kFewestEchoes = 4;
   constexpr std::size_t kMostEchoes = 12;   // enough for a line, short enough to follow one that bends
   for (std::size_t first = 0; first + kFewestEchoes <= scan.range_m.size(); ++first) {

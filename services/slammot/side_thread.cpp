@@ -1,11 +1,16 @@
 #include "services/slammot/side_thread.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace slammot {
 namespace {
 
-constexpr int kLooksBeforeSleep = 2000;  // tens of microseconds: waking a thread takes as long, and work comes scan by scan
+using Clock = std::chrono::steady_clock;
+
+/// Waking a thread costs both sides more than what is often handed over, and work comes scan by scan: longer than the pauses within one.
+constexpr std::chrono::microseconds kLooksFor(250);
+constexpr int kLooksBetweenTimes = 64;
 
 void pause_briefly() {
 #if defined(__x86_64__)
@@ -13,11 +18,20 @@ void pause_briefly() {
 #endif
 }
 
+/// Whether looking takes nothing from whoever is to change the state.
+bool has_core_of_its_own() {
+  static const bool has = std::thread::hardware_concurrency() != 1;  // 0: nobody knows
+  return has;
+}
+
 /// The state once it is another, without sleeping for as long as that is worth it.
 std::uint32_t await_other(const std::atomic<std::uint32_t>& state, std::uint32_t than) {
-  for (int look = 0; look < kLooksBeforeSleep; ++look, pause_briefly()) {
-    const std::uint32_t now = state.load(std::memory_order_acquire);
-    if (now != than) return now;
+  const Clock::time_point until = Clock::now() + kLooksFor;
+  while (has_core_of_its_own() && Clock::now() < until) {
+    for (int look = 0; look < kLooksBetweenTimes; ++look, pause_briefly()) {
+      const std::uint32_t now = state.load(std::memory_order_acquire);
+      if (now != than) return now;
+    }
   }
   state.wait(than, std::memory_order_acquire);
   return state.load(std::memory_order_acquire);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 namespace slammot::grids {
@@ -114,6 +115,28 @@ TEST(SurfelMap, KnowsTheDirectionOfAWall) {
       EXPECT_LT(std::abs(surfel->normal.dot(unit(angle_rad))), std::sin(5.0 * std::numbers::pi / 180.0)) << degrees;
     }
   }
+}
+
+TEST(SurfelMap, KnowsTheDirectionAndTheSpreadOfAllEchoesAround) {
+  // One echo a cell, so that each counts the same: held against their covariance, computed from the echoes themselves.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> anywhere(0.3, 0.7);
+  SurfelMap map = empty_map();
+  std::vector<Vector2d> echoes_m;
+  for (const Cell cell : {Cell{-1, -1}, Cell{0, -1}, Cell{0, 0}, Cell{1, 0}, Cell{1, 1}}) {
+    echoes_m.push_back(kCell_m * Vector2d(cell.column + anywhere(random), cell.row + anywhere(random)));
+  }
+  map.add_all(echoes_m, 0.0);
+  Vector2d mean_m = Vector2d::Zero();
+  for (const Vector2d& echo_m : echoes_m) mean_m += echo_m / 5.0;
+  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
+  for (const Vector2d& echo_m : echoes_m) covariance_m2 += (echo_m - mean_m) * (echo_m - mean_m).transpose() / 5.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_m2);
+  const auto surfel = map.nearest(echoes_m[2], 1);
+  ASSERT_TRUE(surfel);
+  ASSERT_EQ(surfel->cell, (Cell{0, 0}));
+  EXPECT_NEAR(std::abs(surfel->normal.dot(axes.eigenvectors().col(0))), 1.0, 1e-6);
+  EXPECT_NEAR(surfel->spread_m2, axes.eigenvalues()(0), 1e-4 * axes.eigenvalues()(1));
 }
 
 TEST(SurfelMap, KnowsHowThickAWallLooks) {
