@@ -338,8 +338,9 @@ UncertainPose2 Localizer::published_pose() const {
   return {progress_.estimate.odom_from_base, sensing::scaled(progress_.estimate.uncertain_pose(), sensing::published(progress_.variance_factors, config_.pose_errors, progress_.map_change))};
 }
 
-flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base) const {
+flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base, flow::LocalizedScan done_with) const {
   flow::LocalizedScan localized;
+  localized.beams = std::move(done_with.beams);
   localized.stamp_ns = scan.stamp_ns;
   localized.sequence = scan.sequence;
   localized.scanner_id = scan.scanner.scanner_id;
@@ -360,7 +361,7 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
     sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
     for (std::size_t i = 0; i < first; ++i) beam_in_odom.advance();  // turned to here, not begun here: the same to the last bit
     for (std::size_t i = first; i < end; ++i, beam_in_odom.advance()) {
-      flow::LocalizedBeam& beam = localized.beams[i];
+      flow::LocalizedBeam& beam = localized.beams[i] = {};
       const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) && scan.range_m[i] >= config_.min_range_m;
       const Vector2 far_end_m = origin_in_odom_m + scan.scanner.max_range_m * beam_in_odom.now();
       beam.point_in_base_m = points_in_base_m_[i].cast<float>();
@@ -385,7 +386,8 @@ void Localizer::in_two_halves(std::size_t beams, const Work& work) const {
 
 void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized) {
   const Pose2 odom_from_laser = localized.odom_from_base.pose * scan.scanner.base_from_laser;
-  PendingScan pending;
+  PendingScan pending = std::move(done_with_);
+  pending.fallback.clear();
   pending.stamp_ns = scan.stamp_ns;
   pending.sequence = scan.sequence;
   pending.scanner_id = scan.scanner.scanner_id;
@@ -401,6 +403,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   for (std::size_t i = 0; i < localized.beams.size(); ++i, beam_in_odom.advance()) {
     const flow::LocalizedBeam& beam = localized.beams[i];
     pending.end_cells[i] = beam.end_cell;
+    pending.rays[i].echo = grids::Echo::kNone;
     if (beam.end_cell != EndCell::kNoEcho) {
       pending.rays[i].end_m = localized.odom_from_base.pose.translation_m() + turn * points_in_base_m_[i];
       const bool is_far = (pending.rays[i].end_m - pending.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
@@ -416,7 +419,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   if (pending_.size() == 1 && !pending_.front().is_withheld) map_.prepare(pending_.front().origin_in_odom_m, pending_.front().rays, pending_.front().beam_step_rad);
 }
 
-std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan) {
+std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan, flow::LocalizedScan done_with) {
   if (!is_usable(scan)) return std::nullopt;
   ++progress_.counters.scans;
   integrate_overdue(scan.stamp_ns);
@@ -432,7 +435,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   } else {
     begin(scan);
   }
-  flow::LocalizedScan localized = describe(scan, published_pose());
+  flow::LocalizedScan localized = describe(scan, published_pose(), std::move(done_with));
   remember(scan, localized);
   return localized;
 }
@@ -515,7 +518,7 @@ std::optional<flow::LocalizedScan> Localizer::localize_again(const sensing::Lase
     return std::nullopt;
   }
   pending_.pop_back();
-  flow::LocalizedScan localized = describe(scan, published_pose());
+  flow::LocalizedScan localized = describe(scan, published_pose(), {});
   remember(scan, localized);
   return localized;
 }
@@ -547,7 +550,9 @@ void Localizer::integrate(PendingScan scan) {
   before_scan_.reset();  // the map is no longer what the last scan was matched against
   map_.integrate(scan.stamp_ns, scan.origin_in_odom_m, scan.rays, scan.beam_step_rad);
   integrated_.push_back(std::move(scan));
-  if (integrated_.size() > kScansKeptForRestoring) integrated_.pop_front();
+  if (integrated_.size() <= kScansKeptForRestoring) return;
+  done_with_ = std::move(integrated_.front());
+  integrated_.pop_front();
 }
 
 void Localizer::integrate_first_without_tracking() {

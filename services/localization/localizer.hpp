@@ -132,7 +132,8 @@ class Localizer {
 
   /// Pose of the scan, its points without the sweep's motion, and what the map expected of each beam.
   /// None for a scan that is a duplicate (of the same scanner and stamp), out of order, or far ahead of all before it. Remembers the scan until its labels come.
-  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan);
+  /// done_with is memory for the result: any earlier one that nobody needs any more.
+  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan, flow::LocalizedScan done_with = {});
 
   /// The scan that was localized last, matched once more from the same prediction and against the same map, without the
   /// points that its labels keep out of the SO-map; in place of what was remembered of it. Iterated SLAM with DATMO of Wang 2004, Section 6.2.
@@ -303,7 +304,7 @@ class Localizer {
   bool is_masked(const geometry::Vector2& point_in_odom_m) const;
   void travel(const geometry::Pose2& before_from_base, double duration_s);
   geometry::UncertainPose2 published_pose() const;
-  flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base) const;
+  flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base, flow::LocalizedScan done_with) const;
   template <typename Work>
   void in_two_halves(std::size_t beams, const Work& work) const;
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
@@ -345,6 +346,7 @@ class Localizer {
   std::deque<PendingScan> pending_;
   std::vector<PendingScan> doubted_;
   std::deque<PendingScan> integrated_;               ///< The last ones, for points that tracking gives back.
+  PendingScan done_with_;                            ///< Memory for the next one.
   std::vector<flow::Submap> finished_;
   matching::CorrelativeMatcher searcher_;
   matching::CorrelativeMatcher finder_;              ///< After a lost match: of several poses.

@@ -32,14 +32,15 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add(segmented);
   record_.add(tracked.labels);
   record_.add(tracked.objects);
-  done_with_ = std::move(segmented);
+  localized_done_with_ = std::move(localized);
+  segmented_done_with_ = std::move(segmented);
   close_loops();
 }
 
 std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::LaserScan& scan) {
-  auto localized = times_.measure("localization", [&] { return localizer_.localize(scan); });
+  auto localized = times_.measure("localization", [&] { return localizer_.localize(scan, std::move(localized_done_with_)); });
   if (!localized) return std::nullopt;
-  auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_, std::move(done_with_)); });
+  auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_, std::move(segmented_done_with_)); });
   return Detected{*std::move(localized), std::move(segmented)};
 }
 

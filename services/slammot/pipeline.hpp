@@ -61,7 +61,8 @@ class Pipeline {
   localization::Localizer localizer_;
   tracking::Tracker tracker_;
   loop_closing::LoopCloser loop_closer_;
-  flow::SegmentedScan done_with_;   ///< Memory for the next one.
+  flow::LocalizedScan localized_done_with_;   ///< Memory for the next one,
+  flow::SegmentedScan segmented_done_with_;   ///< and so.
   files::RunRecord record_;
   StageTimes times_;
   int iterations_;

@@ -205,6 +205,27 @@ TEST(Localizer, KnowsWhereItIsAfterAHundredMetresOfStreetAndWhatIsWrongWithTheWh
   EXPECT_NEAR(bias_radps, 0.004, 0.002);
 }
 
+TEST(Localizer, MakesTheSameInTheMemoryOfAnotherScan) {
+  SimulatedDrive drive(along_a_street());
+  Localizer localizer(small_map_config());
+  Localizer thrifty(small_map_config());
+  flow::LocalizedScan done_with;
+  for (std::uint32_t scan = 0; scan < 100; ++scan) {  // more than are kept for restoring
+    for (Localizer* each : {&localizer, &thrifty}) each->add_odometry(drive.odometry(scan));
+    auto expected = localizer.localize(drive.scan(scan));
+    auto localized = thrifty.localize(drive.scan(scan), std::move(done_with));
+    localizer.integrate(all_stationary(*expected));
+    thrifty.integrate(all_stationary(*localized));
+    ASSERT_THAT(localized->odom_from_base.pose, PoseNear(expected->odom_from_base.pose, 0.0));
+    for (std::size_t i = 0; i < expected->beams.size(); ++i) {
+      ASSERT_EQ(localized->beams[i].end_cell, expected->beams[i].end_cell);
+      ASSERT_EQ(localized->beams[i].expected_range_m, expected->beams[i].expected_range_m);
+      ASSERT_EQ(localized->beams[i].free_evidence, expected->beams[i].free_evidence);
+    }
+    done_with = std::move(*localized);
+  }
+}
+
 TEST(Localizer, SaysHowFastItGoes) {
   SimulatedDrive drive(along_a_street());
   Localizer localizer(small_map_config());
