@@ -16,25 +16,29 @@ double squared(double value) { return value * value; }
 constexpr double kSurprise = 16.3;  // chi-square, 3 degrees of freedom, 99.9 %
 
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
-using Matrix36 = Eigen::Matrix<double, 3, 6>;
-using Matrix38 = Eigen::Matrix<double, 3, 8>;
+constexpr int kBesidesPose = kMotionStates - 3;
+using ByCalibration = Eigen::Matrix<double, 3, kCalibrations>;
+using ByAllBesidesPose = Eigen::Matrix<double, 3, kBesidesPose>;
+
+double askew_rad(const MotionCalibration& calibration) { return calibration[kAskew - 3]; }
 
 /// How far a point moves that is off the pivot by one metre: what turns about the pivot swings.
 geometry::Matrix2 swing(double turned_rad) { return geometry::rotation(turned_rad) - geometry::Matrix2::Identity(); }
 
 /// Derivative of the corrected step by the calibration; that of the swing by the biases is left out: millimetres of decimetres.
-Matrix36 step_by_calibration(const WheelStep& step, const MotionCalibration& calibration) {
+ByCalibration step_by_calibration(const WheelStep& step, const MotionCalibration& calibration) {
   const Pose2& by_wheels = step.before_from_base;
   const double duration_s = step.duration_s;
   const double distance_m = std::hypot(by_wheels.x_m, by_wheels.y_m);
   const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
-  const geometry::Vector2 turned_m = geometry::rotation(0.5 * turn_bias_rad) * by_wheels.translation_m();
-  const geometry::Vector2 by_turn_m = 0.5 * (1.0 + calibration.x()) * geometry::Vector2(-turned_m.y(), turned_m.x());
+  const geometry::Vector2 turned_m = geometry::rotation(askew_rad(calibration) + 0.5 * turn_bias_rad) * by_wheels.translation_m();
+  const geometry::Vector2 by_askew_m = (1.0 + calibration.x()) * geometry::Vector2(-turned_m.y(), turned_m.x());
+  const geometry::Vector2 by_turn_m = 0.5 * by_askew_m;
   const geometry::Matrix2 by_pivot = swing(by_wheels.heading_rad + turn_bias_rad);
-  Matrix36 J;
-  J << turned_m.x(), by_turn_m.x() * duration_s, by_turn_m.x() * distance_m, by_pivot(0, 0), by_pivot(0, 1), step.by_stamp_offset.x(),
-       turned_m.y(), by_turn_m.y() * duration_s, by_turn_m.y() * distance_m, by_pivot(1, 0), by_pivot(1, 1), step.by_stamp_offset.y(),
-       0.0, duration_s, distance_m, 0.0, 0.0, step.by_stamp_offset.z();
+  ByCalibration J;
+  J << turned_m.x(), by_turn_m.x() * duration_s, by_turn_m.x() * distance_m, by_pivot(0, 0), by_pivot(0, 1), step.by_stamp_offset.x(), by_askew_m.x(),
+       turned_m.y(), by_turn_m.y() * duration_s, by_turn_m.y() * distance_m, by_pivot(1, 0), by_pivot(1, 1), step.by_stamp_offset.y(), by_askew_m.y(),
+       0.0, duration_s, distance_m, 0.0, 0.0, step.by_stamp_offset.z(), 0.0;
   return J;
 }
 
@@ -57,6 +61,14 @@ void take_velocity(const geometry::UncertainPose2& step, double duration_s, Moti
   after.covariance.bottomRightCorner<2, 2>().diagonal() << step.covariance(0, 0) / squared(duration_s), step.covariance(2, 2) / squared(duration_s);
 }
 
+void let_calibration_wander(double distance_m, double duration_s, const MotionModelConfig& config, MotionEstimate& after) {
+  after.covariance(3, 3) += squared(config.scale_walk_per_sqrt_m) * distance_m;
+  after.covariance(4, 4) += squared(config.heading_rate_bias_walk) * duration_s;
+  double& stamp_offset_s2 = after.covariance(kStampOffset, kStampOffset);
+  const double least_known_s2 = std::max(stamp_offset_s2, squared(config.stamp_offset_prior_s));
+  stamp_offset_s2 = std::min(least_known_s2, stamp_offset_s2 + squared(config.stamp_offset_walk) * duration_s);
+}
+
 /// The step's own uncertainty only.
 MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose2& before_from_base) {
   MotionEstimate after = before;
@@ -65,8 +77,8 @@ MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose
   const geometry::Matrix3 by_step = geometry::compound_jacobian_second(before.odom_from_base);
   after.covariance.topLeftCorner<3, 3>() = by_before * before.covariance.topLeftCorner<3, 3>() * by_before.transpose() +
                                            by_step * before_from_base.covariance * by_step.transpose();
-  after.covariance.topRightCorner<3, 8>() = by_before * before.covariance.topRightCorner<3, 8>();
-  after.covariance.bottomLeftCorner<8, 3>() = after.covariance.topRightCorner<3, 8>().transpose();
+  after.covariance.topRightCorner<3, kBesidesPose>() = by_before * before.covariance.topRightCorner<3, kBesidesPose>();
+  after.covariance.bottomLeftCorner<kBesidesPose, 3>() = after.covariance.topRightCorner<3, kBesidesPose>().transpose();
   return after;
 }
 
@@ -74,9 +86,9 @@ MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose
 
 MotionEstimate at_start(const MotionModelConfig& config) {
   MotionEstimate estimate;
-  estimate.covariance.diagonal().tail<8>() << squared(config.scale_prior), squared(config.heading_rate_bias_prior_radps),
+  estimate.covariance.diagonal().tail<kBesidesPose>() << squared(config.scale_prior), squared(config.heading_rate_bias_prior_radps),
       squared(config.heading_per_metre_bias_prior), squared(config.pivot_prior_m), squared(config.pivot_prior_m),
-      squared(config.stamp_offset_prior_s), squared(config.speed_prior_mps), squared(config.yaw_rate_prior_radps);
+      squared(config.stamp_offset_prior_s), squared(config.askew_prior_rad), squared(config.speed_prior_mps), squared(config.yaw_rate_prior_radps);
   return estimate;
 }
 
@@ -86,34 +98,40 @@ geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, d
   const double distance_m = std::hypot(wheels.x_m, wheels.y_m);
   const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
   // Half of the missing turn happened before the middle of the step.
-  const geometry::Vector2 moved_m = geometry::rotation(0.5 * turn_bias_rad) * wheels.translation_m() * (1.0 + calibration.x()) +
+  const geometry::Vector2 moved_m = geometry::rotation(askew_rad(calibration) + 0.5 * turn_bias_rad) * wheels.translation_m() * (1.0 + calibration.x()) +
                                     swing(wheels.heading_rad + turn_bias_rad) * calibration.segment<2>(3);
   geometry::UncertainPose2 step;
   step.pose = {moved_m.x(), moved_m.y(), geometry::wrap_angle(wheels.heading_rad + turn_bias_rad)};
-  const double position_m = config.position_noise_m + distance_m * config.position_noise_per_m;
+  const double ahead_m = config.position_noise_m + distance_m * config.position_noise_per_m;
+  const double sideways_m = config.position_noise_m + distance_m * config.sideways_noise_per_m;
   const double heading_rad = config.heading_noise_rad + config.heading_noise_per_m * distance_m +
                              config.heading_noise_per_rad * std::abs(wheels.heading_rad);
-  step.covariance.diagonal() << squared(position_m), squared(position_m), squared(heading_rad);
+  step.covariance.diagonal() << squared(ahead_m), squared(sideways_m), squared(heading_rad);
   return step;
 }
 
 MotionEstimate moved_by_wheels(const MotionEstimate& before, const WheelStep& by_wheels, const MotionModelConfig& config) {
   const geometry::UncertainPose2 step = predict_step(by_wheels.before_from_base, by_wheels.duration_s, before.calibration, config);
   MotionEstimate after = moved(before, step);
-  const Matrix36 by_calibration = geometry::compound_jacobian_second(before.odom_from_base) * step_by_calibration(by_wheels, before.calibration);
-  const Matrix36 cross = after.covariance.block<3, 6>(0, 3);
-  const Eigen::Matrix<double, 6, 6> of_calibration = before.covariance.block<6, 6>(3, 3);
+  const ByCalibration by_calibration = geometry::compound_jacobian_second(before.odom_from_base) * step_by_calibration(by_wheels, before.calibration);
+  const ByCalibration cross = after.covariance.block<3, kCalibrations>(0, 3);
+  const Eigen::Matrix<double, kCalibrations, kCalibrations> of_calibration = before.covariance.block<kCalibrations, kCalibrations>(3, 3);
   const geometry::Matrix3 mixed = by_calibration * cross.transpose();
   after.covariance.topLeftCorner<3, 3>() += by_calibration * of_calibration * by_calibration.transpose() + mixed + mixed.transpose();
-  after.covariance.block<3, 6>(0, 3) += by_calibration * of_calibration;
-  after.covariance.block<6, 3>(3, 0) = after.covariance.block<3, 6>(0, 3).transpose();
-  const double distance_m = std::hypot(by_wheels.before_from_base.x_m, by_wheels.before_from_base.y_m);
-  after.covariance(3, 3) += squared(config.scale_walk_per_sqrt_m) * distance_m;
-  after.covariance(4, 4) += squared(config.heading_rate_bias_walk) * by_wheels.duration_s;
-  double& stamp_offset_s2 = after.covariance(kStampOffset, kStampOffset);
-  const double least_known_s2 = std::max(stamp_offset_s2, squared(config.stamp_offset_prior_s));
-  stamp_offset_s2 = std::min(least_known_s2, stamp_offset_s2 + squared(config.stamp_offset_walk) * by_wheels.duration_s);
+  after.covariance.block<3, kCalibrations>(0, 3) += by_calibration * of_calibration;
+  after.covariance.block<kCalibrations, 3>(3, 0) = after.covariance.block<3, kCalibrations>(0, 3).transpose();
+  let_calibration_wander(std::hypot(by_wheels.before_from_base.x_m, by_wheels.before_from_base.y_m), by_wheels.duration_s, config, after);
   take_velocity(step, by_wheels.duration_s, after);
+  return after;
+}
+
+MotionEstimate stood_still(const MotionEstimate& before, double duration_s, const MotionModelConfig& config) {
+  geometry::UncertainPose2 step;
+  const double position_m2 = squared(config.standing_noise_m_per_sqrt_s) * duration_s;
+  step.covariance.diagonal() << position_m2, position_m2, squared(config.standing_noise_rad_per_sqrt_s) * duration_s;
+  MotionEstimate after = moved(before, step);
+  let_calibration_wander(0.0, duration_s, config, after);
+  take_velocity(step, duration_s, after);
   return after;
 }
 
@@ -128,7 +146,7 @@ MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s
                  0.0, 1.0;
   by_velocity *= duration_s;
   const geometry::Matrix3 by_step = geometry::compound_jacobian_second(before.odom_from_base);
-  Matrix11 F = Matrix11::Identity();
+  MotionCovariance F = MotionCovariance::Identity();
   F.topLeftCorner<3, 3>() = geometry::compound_jacobian_first(before.odom_from_base, step.pose);
   F.topRightCorner<3, 2>() = by_step * by_velocity;
   MotionEstimate after = before;
@@ -153,25 +171,25 @@ MotionEstimate matched(const MotionEstimate& predicted, const geometry::Uncertai
   MotionEstimate estimate = predicted;
   estimate.odom_from_base = odom_from_base.pose;
   const geometry::Matrix3 prior = predicted.covariance.topLeftCorner<3, 3>();
-  const Matrix38 cross = predicted.covariance.topRightCorner<3, 8>();
+  const ByAllBesidesPose cross = predicted.covariance.topRightCorner<3, kBesidesPose>();
   const Eigen::Vector3d surprise = geometry::difference(odom_from_base.pose, predicted.odom_from_base);
   const Eigen::LDLT<geometry::Matrix3> factors(prior);
   const bool is_credible = surprise.dot(factors.solve(surprise)) < kSurprise;
-  Eigen::Matrix<double, 8, 3> gain = Eigen::Matrix<double, 8, 3>::Zero();
+  Eigen::Matrix<double, kBesidesPose, 3> gain = Eigen::Matrix<double, kBesidesPose, 3>::Zero();
   if (is_credible) gain = factors.solve(cross).transpose();
-  estimate.calibration += gain.topRows<6>() * surprise;
+  estimate.calibration += gain.topRows<kCalibrations>() * surprise;
   estimate.velocity += gain.bottomRows<2>() * surprise;
   estimate.covariance.topLeftCorner<3, 3>() = odom_from_base.covariance;
-  estimate.covariance.bottomLeftCorner<8, 3>() = gain * odom_from_base.covariance;
-  estimate.covariance.topRightCorner<3, 8>() = estimate.covariance.bottomLeftCorner<8, 3>().transpose();
-  estimate.covariance.bottomRightCorner<8, 8>() -= gain * (prior - odom_from_base.covariance) * gain.transpose();
+  estimate.covariance.bottomLeftCorner<kBesidesPose, 3>() = gain * odom_from_base.covariance;
+  estimate.covariance.topRightCorner<3, kBesidesPose>() = estimate.covariance.bottomLeftCorner<kBesidesPose, 3>().transpose();
+  estimate.covariance.bottomRightCorner<kBesidesPose, kBesidesPose>() -= gain * (prior - odom_from_base.covariance) * gain.transpose();
   return estimate;
 }
 
 MotionEstimate against_renewed_map(const MotionEstimate& estimate, double renewed_share) {
   MotionEstimate renewed = estimate;
-  renewed.covariance.block<3, 6>(0, 3) *= 1.0 - renewed_share;
-  renewed.covariance.block<6, 3>(3, 0) *= 1.0 - renewed_share;
+  renewed.covariance.block<3, kCalibrations>(0, 3) *= 1.0 - renewed_share;
+  renewed.covariance.block<kCalibrations, 3>(3, 0) *= 1.0 - renewed_share;
   return renewed;
 }
 

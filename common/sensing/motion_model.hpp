@@ -7,14 +7,18 @@ namespace slammot::sensing {
 /// What is not known of the wheels: one-sigma figures. Wide enough to let the laser decide.
 struct MotionModelConfig {
   double position_noise_m = 0.0005;             ///< A step of any length; wheels that stand slip little,
-  double position_noise_per_m = 0.03;           ///< and for each metre of it (added).
+  double position_noise_per_m = 0.06;           ///< and for each metre of it (added), ahead
+  double sideways_noise_per_m = 0.01;           ///< and sideways.
   double heading_noise_rad = 0.001;
   double heading_noise_per_m = 0.004;
   double heading_noise_per_rad = 0.05;
+  double standing_noise_m_per_sqrt_s = 0.0001;  ///< Where wheels have stood for a while: nothing slides but by what leans on the brakes.
+  double standing_noise_rad_per_sqrt_s = 0.00003;
   double scale_prior = 0.02;                    ///< Of the factor on wheel distance, about 1.
   double heading_rate_bias_prior_radps = 0.005;
   double heading_per_metre_bias_prior = 0.02;   ///< [rad/m]: unequal wheels.
   double pivot_prior_m = 0.0;                   ///< Of the place about which the vehicle turns, where logs take the scanner for it.
+  double askew_prior_rad = 0.006;               ///< Of the direction of the wheels' way, against the base's x axis.
   double stamp_offset_prior_s = 0.05;           ///< Of how much later the odometry's stamps are than the scans'; 0: they have one clock.
   double scale_walk_per_sqrt_m = 5e-5;          ///< How the scale wanders with the distance,
   double heading_rate_bias_walk = 5e-5;         ///< and the heading-rate bias with time [rad/s per sqrt(s)].
@@ -27,11 +31,14 @@ struct MotionModelConfig {
 };
 
 /// Systematic errors of the odometry: (scale - 1 [-], heading-rate bias [rad/s], heading bias by distance [rad/m], where
-/// the base is ahead of and left of the point that the wheels speak of [m, m], and how much later than the scans it is stamped [s]).
-using MotionCalibration = Eigen::Matrix<double, 6, 1>;
+/// the base is ahead of and left of the point that the wheels speak of [m, m], how much later than the scans it is stamped [s], and
+/// how far left of the base's x axis the wheels go [rad]: the base is where the scanner says, which may be mounted askew).
+constexpr int kCalibrations = 7;
+using MotionCalibration = Eigen::Matrix<double, kCalibrations, 1>;
 /// (forward [m/s], yaw rate [rad/s]).
 using Velocity = Eigen::Vector2d;
-using Matrix11 = Eigen::Matrix<double, 11, 11>;
+constexpr int kMotionStates = 3 + kCalibrations + 2;
+using MotionCovariance = Eigen::Matrix<double, kMotionStates, kMotionStates>;
 
 /// What odometry says of a step.
 struct WheelStep {
@@ -47,13 +54,14 @@ struct MotionEstimate {
   geometry::Pose2 odom_from_base;
   MotionCalibration calibration = MotionCalibration::Zero();
   Velocity velocity = Velocity::Zero();
-  Matrix11 covariance = Matrix11::Zero(); ///< Of (x [m], y [m], heading [rad], calibration, velocity); the pose against the local map.
+  MotionCovariance covariance = MotionCovariance::Zero(); ///< Of (x [m], y [m], heading [rad], calibration, velocity); the pose against the local map.
 
   geometry::UncertainPose2 uncertain_pose() const { return {odom_from_base, covariance.topLeftCorner<3, 3>()}; }
   double scale() const { return 1.0 + calibration.x(); }
 };
 
-constexpr int kStampOffset = 8;  ///< Its row of the covariance.
+constexpr int kStampOffset = 8;  ///< Its row of the covariance,
+constexpr int kAskew = 9;        ///< and that of the direction of the wheels' way.
 
 /// By how much later than the scans the odometry is stamped, as believed.
 inline double stamp_offset_s(const MotionEstimate& estimate) { return estimate.calibration[kStampOffset - 3]; }
@@ -69,6 +77,9 @@ geometry::UncertainPose2 predict_step(const geometry::Pose2& before_from_base_by
 
 /// After a step by wheels, before the scan is matched. The velocity is theirs.
 MotionEstimate moved_by_wheels(const MotionEstimate& before, const WheelStep& by_wheels, const MotionModelConfig& config);
+
+/// After a step of wheels that stand, and have stood for a while.
+MotionEstimate stood_still(const MotionEstimate& before, double duration_s, const MotionModelConfig& config);
 
 /// After a step of which the wheels say nothing: on at the velocity, which wanders (Wiener process).
 MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s, const MotionModelConfig& config);

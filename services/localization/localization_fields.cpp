@@ -48,9 +48,13 @@ FieldTable<sensing::MotionModelConfig> motion_fields() {
   return {
       {"position_noise_m", &C::position_noise_m, "One sigma of a step of any length.", kPositive},
       {"position_noise_per_m", &C::position_noise_per_m, "What each metre of the step adds to it.", kNotNegative},
+      {"sideways_noise_per_m", &C::sideways_noise_per_m, "And to that across it.", kNotNegative},
       {"heading_noise_rad", &C::heading_noise_rad, "One sigma of the heading of any step.", kPositive},
       {"heading_noise_per_m", &C::heading_noise_per_m, "What each metre of the step adds to it [rad/m].", kNotNegative},
       {"heading_noise_per_rad", &C::heading_noise_per_rad, "What each radian turned adds to it.", kNotNegative},
+      {"standing_noise_m_per_sqrt_s", &C::standing_noise_m_per_sqrt_s, "How far it may slide in a second where wheels have stood for a while: one sigma, growing with the root of time.", kPositive},
+      {"standing_noise_rad_per_sqrt_s", &C::standing_noise_rad_per_sqrt_s, "And how far turn.", kPositive},
+      {"askew_prior_rad", &C::askew_prior_rad, "One sigma of the direction of the wheels' way, against the base's x axis: a scanner may be mounted askew.", kNotNegative},
       {"scale_prior", &C::scale_prior, "One sigma of the factor on wheel distance, about 1.", kNotNegative},
       {"heading_rate_bias_prior_radps", &C::heading_rate_bias_prior_radps, "One sigma of the gyro's bias.", kNotNegative},
       {"heading_per_metre_bias_prior", &C::heading_per_metre_bias_prior, "One sigma of what unequal wheels turn [rad/m].",

@@ -19,13 +19,16 @@ using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::size_t kScansKeptForRestoring = 80;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7439;  // "slammot9": the digit counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7461;  // "slammota": the last digit, hexadecimal, counts the forms of a checkpoint
 constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
 
 constexpr double kCoarsePriorSigmas = 2.0;  // without wheels: so far off is a prediction while the vehicle begins to turn
+constexpr double kStandsWithin_m = 1e-4;    // a step: wheels that stand count nothing,
+constexpr double kStandsWithin_radps = 0.01;  // and what a gyro says then is its bias
+constexpr double kStandsAfter_s = 0.5;      // odometry may come less often than scans
 constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
 constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps are compared with
 constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/0025-stamps-when-certain
@@ -157,7 +160,7 @@ void Localizer::watch_stamps(std::int64_t stamp_ns, const Step& step, const Matc
   if (config_.motion.stamp_offset_prior_s == 0.0 || progress_.applies_stamp_offset) return;
   sensing::MotionEstimate& watched = progress_.with_stamp_offset;
   const double offset_s = sensing::stamp_offset_s(watched);
-  const bool tells = step.is_by_wheels && found.is_believed && !found.was_sampled && !found.is_lost && tells_of_stamps(stamp_ns);
+  const bool tells = step.is_by_wheels && !step.is_standing && found.is_believed && !found.was_sampled && !found.is_lost && tells_of_stamps(stamp_ns);
   const auto by_wheels = tells ? wheel_step(stamp_ns, to_ns(offset_s)) : std::nullopt;
   if (!by_wheels) {
     watched = sensing::put_at(watched, progress_.estimate.uncertain_pose());
@@ -168,6 +171,10 @@ void Localizer::watch_stamps(std::int64_t stamp_ns, const Step& step, const Matc
   if (std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
   progress_.estimate = watched;
   progress_.applies_stamp_offset = true;
+}
+
+bool Localizer::is_still(const Pose2& by_wheels, double duration_s) {
+  return std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m && std::abs(by_wheels.heading_rad) <= kStandsWithin_radps * duration_s;
 }
 
 Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
@@ -184,7 +191,9 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
       step.has_doubted_wheels = true;
     } else {
       step.is_by_wheels = true;
-      step.after = progress_.applies_stamp_offset
+      step.stood_s = is_still(by_wheels, step.duration_s) ? progress_.last->stood_s + step.duration_s : 0.0;
+      step.is_standing = !config_.may_be_picked_up && step.stood_s > kStandsAfter_s;
+      step.after = step.is_standing ? sensing::stood_still(progress_.estimate, step.duration_s, config_.motion) : progress_.applies_stamp_offset
                        ? sensing::moved_by_wheels(progress_.estimate, {by_wheels, step.duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(progress_.estimate))}, config_.motion)
                        : sensing::moved_by_wheels(progress_.estimate, {by_wheels, step.duration_s}, motion_of_one_clock_);
       step.before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * step.after.odom_from_base;
@@ -461,6 +470,7 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   State now = state_at(scan.stamp_ns, wheel_from_base);
   const Step step = predict(scan.stamp_ns, wheel_from_base);
   now.doubted_wheels = step.has_doubted_wheels;
+  now.stood_s = step.stood_s;
   const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
   now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : progress_.last->speed_mps;
   now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : progress_.last->yaw_rate_radps;
@@ -657,6 +667,7 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(last.speed_mps);
   visit(last.yaw_rate_radps);
   visit(last.doubted_wheels);
+  visit(last.stood_s);
   visit(self.map_from_odom_);
   visit(self.correction_sequence_);
   visit(self.previous_from_submap_.pose);
@@ -701,7 +712,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
                         restored.progress_.map_change.way_m >= 0.0 && std::isfinite(restored.progress_.map_change.way_m) &&
                         restored.progress_.map_change.squared_residuals >= 0.0 && std::isfinite(restored.progress_.map_change.squared_residuals) &&
                         std::isfinite(restored.progress_.sweep_factor.value) && restored.progress_.sweep_factor.variance >= 0.0 &&
-                        std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
+                        last.stood_s >= 0.0 && std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
                         std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.progress_.travelled_m) &&
                         std::ranges::all_of(odometry, [](const sensing::Odometry& sample) { return is_believable(sample.wheel_from_base); });
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;

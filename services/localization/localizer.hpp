@@ -73,7 +73,7 @@ struct LocalizerConfig {
   matching::PointToLineConfig match;
   AmbiguousMatchConfig ambiguous;
   /// Of published covariances; measured by NEES on simulated drives: docs/decisions/0022. What is ahead stays in view for long, what is beside does not.
-  sensing::PoseErrors pose_errors{.forward = {0.95, 0.08, 8.0}, .sideways = {0.7, 0.0105, 2.0}, .heading = {1.8, 0.0055, 1.0}};
+  sensing::PoseErrors pose_errors{.forward = {0.6, 0.05, 8.0}, .sideways = {0.6, 0.009, 2.0}, .heading = {1.7, 0.0052, 1.0}};
 };
 
 /// What happened so far; all grow only.
@@ -196,6 +196,7 @@ class Localizer {
     double speed_mps = 0.0;
     double yaw_rate_radps = 0.0;
     bool doubted_wheels = false;    ///< What they said last was a jump.
+    double stood_s = 0.0;           ///< For how long they have said nothing but that they stand.
   };
 
   struct Match {
@@ -231,6 +232,8 @@ class Localizer {
     sensing::MotionEstimate after;
     geometry::Pose2 before_from_base;
     bool is_by_wheels = false;
+    double stood_s = 0.0;           ///< For how long the wheels have said nothing but that they stand;
+    bool is_standing = false;       ///< for a while.
     bool has_doubted_wheels = false;
     double duration_s = 0.0;
   };
@@ -267,6 +270,7 @@ class Localizer {
   bool tells_of_stamps(std::int64_t stamp_ns) const;
   void renew_map(const geometry::Pose2& before_from_base, const Match& found);
   void watch_stamps(std::int64_t stamp_ns, const Step& step, const Match& found);
+  static bool is_still(const geometry::Pose2& by_wheels, double duration_s);
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
   bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;

@@ -88,6 +88,8 @@ TEST(Localizer, FindsOutThatAScannerTurnsTheOtherWayRound) {
     config.match.coarse_gate_m = 0.5;
     config.match.fine_gate_m = 0.15;
     config.match.proven_after_m = 0.0;
+    config.motion.position_noise_per_m = config.motion.sideways_noise_per_m = 0.03;
+    config.motion.askew_prior_rad = 0.0;  // what a sweep does to a scan looks much like it
     Localizer localizer(config);
     for (std::uint32_t number = 0; number < 300; ++number) {
       sensing::LaserScan scan = drive.scan(number);
@@ -203,6 +205,43 @@ TEST(Localizer, KnowsWhereItIsAfterAHundredMetresOfStreetAndWhatIsWrongWithTheWh
   EXPECT_NEAR(1.0 + localizer.calibration().x(), 1.01, 0.003);
   const double bias_radps = localizer.calibration().y() + 8.0 * localizer.calibration().z();
   EXPECT_NEAR(bias_radps, 0.004, 0.002);
+}
+
+/// How far sideways it thinks it has come while standing for 18 s in a street that seems to creep past, by 0.3 mm a scan.
+double led_astray_m(const LocalizerConfig& config) {
+  constexpr std::uint32_t kDriven = 40;
+  constexpr std::uint32_t kStands = kDriven + 20;
+  constexpr std::uint32_t kEnd = kStands + 180;
+  DriveSetup setup = along_a_street();
+  const slammot::testing::Path drives = setup.world_from_base_at;
+  const double stops_at_s = kDriven * setup.scan_period_s;
+  const double stands_at_s = kStands * setup.scan_period_s;
+  setup.world_from_base_at = [=](double time_s) {
+    Pose2 pose = drives(std::min(time_s, stops_at_s));
+    pose.y_m += 0.003 * std::max(0.0, time_s - stands_at_s);
+    return pose;
+  };
+  SimulatedDrive drive(setup);
+  Localizer localizer(config);
+  drive_through(localizer, drive, 0, kDriven);
+  Pose2 stood;
+  Pose2 pose;
+  for (std::uint32_t scan = kDriven; scan < kEnd; ++scan) {
+    localizer.add_odometry({drive.scan(scan).stamp_ns, drive.odometry(kDriven).wheel_from_base});
+    const auto localized = localizer.localize(drive.scan(scan));
+    localizer.integrate(all_stationary(*localized));
+    pose = localized->odom_from_base.pose;
+    if (scan == kStands) stood = pose;
+  }
+  return std::abs((geometry::inverse(stood) * pose).y_m);
+}
+
+TEST(Localizer, StandsWhereItsWheelsStandThoughTheMapSeemsToCreep) {
+  LocalizerConfig may_be_picked_up = small_map_config();
+  may_be_picked_up.may_be_picked_up = true;
+  const double followed_m = led_astray_m(may_be_picked_up);
+  EXPECT_GT(followed_m, 0.01);
+  EXPECT_LT(led_astray_m(small_map_config()), 0.6 * followed_m);
 }
 
 TEST(Localizer, MakesTheSameInTheMemoryOfAnotherScan) {
@@ -698,7 +737,8 @@ TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
   setup.world = joined(setup.world, slammot::testing::box({0.0, 0.0, 0.0}, 0.5, 8.0));
   LocalizerConfig config = small_map_config();
   config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from pulling anyway,
-  config.motion.position_noise_m = 0.02;  // and so do wheels that are trusted
+  config.motion.position_noise_m = 0.02;  // and so do wheels that are trusted,
+  config.may_be_picked_up = true;         // most of all where they stand
   const auto pulled_m = [&](bool with_track) {
     SimulatedDrive blocked(setup);
     Localizer localizer(config);
