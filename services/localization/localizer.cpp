@@ -141,10 +141,12 @@ Eigen::Vector3d Localizer::step_by_stamp_offset(std::int64_t stamp_ns, double of
   return geometry::difference(*after, *before) / kVelocityOver_s;
 }
 
-/// Over long steps, and where samples come late and many at once, nobody knows how fast it was at either end.
+/// Over long steps, and where samples come late and many at once, nobody knows how fast it was at either end; nor where wheels
+/// have jumped on the way.
 bool Localizer::tells_of_stamps(std::int64_t stamp_ns) const {
   const std::int64_t from_ns = progress_.last->stamp_ns;
-  return stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
+  const bool have_jumped = progress_.last->trusted_s < kVelocityOver_s + kNanosecond_s * static_cast<double>(2 * kLongestLag_ns);
+  return !have_jumped && stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
 }
 
 /// The map grows by what is matched to it, with the errors of those matches in it.
@@ -470,6 +472,7 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   State now = state_at(scan.stamp_ns, wheel_from_base);
   const Step step = predict(scan.stamp_ns, wheel_from_base);
   now.doubted_wheels = step.has_doubted_wheels;
+  now.trusted_s = step.has_doubted_wheels ? 0.0 : progress_.last->trusted_s + step.duration_s;
   now.stood_s = step.stood_s;
   const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
   now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : progress_.last->speed_mps;
@@ -667,6 +670,7 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(last.speed_mps);
   visit(last.yaw_rate_radps);
   visit(last.doubted_wheels);
+  visit(last.trusted_s);
   visit(last.stood_s);
   visit(self.map_from_odom_);
   visit(self.correction_sequence_);
@@ -712,7 +716,7 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
                         restored.progress_.map_change.way_m >= 0.0 && std::isfinite(restored.progress_.map_change.way_m) &&
                         restored.progress_.map_change.squared_residuals >= 0.0 && std::isfinite(restored.progress_.map_change.squared_residuals) &&
                         std::isfinite(restored.progress_.sweep_factor.value) && restored.progress_.sweep_factor.variance >= 0.0 &&
-                        last.stood_s >= 0.0 && std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
+                        last.trusted_s >= 0.0 && last.stood_s >= 0.0 && std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
                         std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.progress_.travelled_m) &&
                         std::ranges::all_of(odometry, [](const sensing::Odometry& sample) { return is_believable(sample.wheel_from_base); });
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;

@@ -196,6 +196,7 @@ class Localizer {
     double speed_mps = 0.0;
     double yaw_rate_radps = 0.0;
     bool doubted_wheels = false;    ///< What they said last was a jump.
+    double trusted_s = 0.0;         ///< For how long they have said no such thing.
     double stood_s = 0.0;           ///< For how long they have said nothing but that they stand.
   };
 
