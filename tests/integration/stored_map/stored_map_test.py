@@ -40,6 +40,8 @@ DRIVES = {
     "second": {"duration_s": 45, "start_m": 15, "route": [(2, 2), (1, 2), (1, 1), (2, 1), (2, 2)]},
 }
 
+FARTHEST_OFF_M = 0.45  # in the frame of the first pose, of which two milliradians are 0.3 m at the far end
+
 
 def read_poses(path):
     """{stamp in us: (x in m, y in m, heading in rad)} of a TUM file."""
@@ -159,15 +161,15 @@ class StoredMap(unittest.TestCase):
         return [math.dist(poses[stamp][:2], true[stamp]) for stamp in sorted(poses)]
 
     def assert_localized_in_the_map(self, name, output):
-        self.assertLess(max(self.errors_m(name, output, "trajectory.tum")), 0.3)
+        self.assertLess(max(self.errors_m(name, output, "trajectory.tum")), FARTHEST_OFF_M)
         online_m = self.errors_m(name, output, "online.tum")
         self.assertGreater(online_m[0], 5.0, "it began at a place that nobody had told it")
-        self.assertLess(max(online_m[len(online_m) // 2:]), 0.3, "and had found it before half of the drive was over")
+        self.assertLess(max(online_m[len(online_m) // 2:]), FARTHEST_OFF_M, "and had found it before half of the drive was over")
 
     def test_drives_go_on_in_the_map_of_those_before(self):
         self.start(*SERVICES)
         self.drive("first", "first")
-        self.assertLess(max(self.errors_m("first", "first", "trajectory.tum")), 0.3)
+        self.assertLess(max(self.errors_m("first", "first", "trajectory.tum")), FARTHEST_OFF_M)
         of_first = self.stored_submaps()
         self.assert_one_whole_map(of_first)
         self.stop(*SERVICES)
