@@ -132,6 +132,7 @@ std::optional<Pose2> Localizer::wheel_step(std::int64_t stamp_ns, std::int64_t a
 /// How the step changes with the offset, told from how it changed just before: with the step itself, its noise would be
 /// taken for a change of the velocity, and both together for an offset. Where steps are long, changes are large beside it.
 Eigen::Vector3d Localizer::step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const {
+  if (have_jumped_lately()) return Eigen::Vector3d::Zero();
   const std::int64_t duration_ns = stamp_ns - progress_.last->stamp_ns;
   const std::int64_t known_ns = std::min<std::int64_t>(0, to_ns(offset_s));
   const std::int64_t until_ns = duration_ns <= kLongestLag_ns ? known_ns - duration_ns : known_ns;
@@ -141,12 +142,16 @@ Eigen::Vector3d Localizer::step_by_stamp_offset(std::int64_t stamp_ns, double of
   return geometry::difference(*after, *before) / kVelocityOver_s;
 }
 
+/// Whether the steps by which a change of the velocity is told may hold a jump of the wheels, which is none.
+bool Localizer::have_jumped_lately() const {
+  return progress_.last->trusted_s < kVelocityOver_s + kNanosecond_s * static_cast<double>(2 * kLongestLag_ns);
+}
+
 /// Over long steps, and where samples come late and many at once, nobody knows how fast it was at either end; nor where wheels
 /// have jumped on the way.
 bool Localizer::tells_of_stamps(std::int64_t stamp_ns) const {
   const std::int64_t from_ns = progress_.last->stamp_ns;
-  const bool have_jumped = progress_.last->trusted_s < kVelocityOver_s + kNanosecond_s * static_cast<double>(2 * kLongestLag_ns);
-  return !have_jumped && stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
+  return !have_jumped_lately() && stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
 }
 
 /// The map grows by what is matched to it, with the errors of those matches in it.

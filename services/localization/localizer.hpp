@@ -268,6 +268,7 @@ class Localizer {
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
   std::optional<geometry::Pose2> wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const;
   Eigen::Vector3d step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const;
+  bool have_jumped_lately() const;
   bool tells_of_stamps(std::int64_t stamp_ns) const;
   void renew_map(const geometry::Pose2& before_from_base, const Match& found);
   void watch_stamps(std::int64_t stamp_ns, const Step& step, const Match& found);

@@ -120,7 +120,7 @@ struct LateWheels {
   Pose2 odom_from_base;
 };
 
-LateWheels after_driving_with_late_wheels(double late_s, double prior_s, int of_samples = 1) {
+LateWheels after_driving_with_late_wheels(double late_s, double prior_s, int of_samples = 1, double jump_m = 0.0) {
   DriveSetup setup = with_a_scanner_that_turns_the_other_way(0.0);
   SimulatedDrive drive(setup);
   LocalizerConfig config = small_map_config();
@@ -131,7 +131,8 @@ LateWheels after_driving_with_late_wheels(double late_s, double prior_s, int of_
   for (int sample = 0; sample < 400 * kPerScan; ++sample) {
     const double time_s = setup.scan_period_s * sample / kPerScan;
     if (sample % of_samples != 0) continue;  // that many make one, and the scans as well
-    const Pose2 wheel_from_base = setup.world_from_base_at(std::max(0.0, time_s - late_s));
+    Pose2 wheel_from_base = setup.world_from_base_at(std::max(0.0, time_s - late_s));
+    if (sample > 300 * kPerScan) wheel_from_base.x_m += jump_m;
     localizer.add_odometry({slammot::testing::stamp_ns_of(time_s), wheel_from_base});
     if (sample % kPerScan != 0) continue;
     const auto localized = localizer.localize(drive.scan(static_cast<std::uint32_t>(sample / kPerScan)));
@@ -153,6 +154,13 @@ TEST(Localizer, LearnsByHowMuchLaterTheWheelsAreStampedThanTheScans) {
 
 TEST(Localizer, IsTheSameWithAndWithoutLearningStampsThatAreRight) {
   EXPECT_EQ(after_driving_with_late_wheels(0.0, 0.05).odom_from_base, after_driving_with_late_wheels(0.0, 0.0).odom_from_base);
+}
+
+TEST(Localizer, KeepsWhatItKnowsOfStampsWhereWheelsJump) {
+  const LateWheels learned = after_driving_with_late_wheels(0.05, 0.05, 1, 400.0);
+  EXPECT_TRUE(learned.is_used);
+  EXPECT_GT(learned.sigma_s, 0.0005);  // a jump, taken for a change of the velocity, would tell it to microseconds
+  EXPECT_NEAR(learned.offset_s, 0.05, 3.0 * learned.sigma_s);
 }
 
 TEST(Localizer, LearnsNothingOfStampsWhereScansAreHalfASecondApart) {
