@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,11 +20,14 @@ enum class EndCell : std::uint8_t {
   kOccupied,  ///< Something stationary is known here, or within the pose's uncertainty of here.
 };
 
+/// The map's range is asked for so many beams to each side of an echo that contradicts it, or for all (LocalizerConfig).
+constexpr std::size_t kExpectedAside = 2;
+
 /// One beam after localization: where it ended and what the map expected of it.
 struct LocalizedBeam {
   Eigen::Vector2f point_in_base_m = Eigen::Vector2f::Zero();  ///< End point, sweep's motion removed, at the scan's stamp.
   float range_m = 0.0F;            ///< As measured; 0 for no echo.
-  float expected_range_m = 0.0F;   ///< To the first occupied cell of the SO-map; max range where there is none.
+  float expected_range_m = 0.0F;   ///< To the first occupied cell of the SO-map; max range where there is none; 0 where nobody asked.
   float free_evidence = 0.0F;      ///< Log-odds that the end cell is free (positive: free, negative: occupied).
   float moving_evidence = 0.0F;    ///< In [0, 1]: how often the MO-map saw something moving in the end cell.
   EndCell end_cell = EndCell::kNoEcho;

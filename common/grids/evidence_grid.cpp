@@ -188,12 +188,12 @@ void EvidenceGrid::measure_free_ways(const Eigen::Vector2d& origin_m, const std:
   }
 }
 
-void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m) {
+void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way) {
   const Eigen::Vector2d corner(window_.first.column, window_.first.row);
   const auto at = [&](const Eigen::Vector2d& direction, double distance_m) -> Eigen::Vector2d {
     return (origin_m + distance_m * direction) / window_.cell_size_m - corner;
   };
-  for (std::size_t i = 0; i < ways_.size(); ++i) {
+  for (std::size_t i = first_way; i < end_way; ++i) {
     const FreeWay& way = ways_[i];
     const FreeWay& next = ways_[i + 1 == ways_.size() ? 0 : i + 1];
     if (way.to_previous_m != way.to_next_m) add_edge(at(way.direction, way.to_previous_m), at(way.direction, way.to_next_m));
@@ -338,16 +338,24 @@ void EvidenceGrid::raise_echoes(const std::vector<Ray>& rays) {
   for (const EchoedCell& echo : echoes_) echoed_.clear(echo.column, echo.row);
 }
 
-void EvidenceGrid::find_free_cells(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
+void EvidenceGrid::begin_finding_free_cells(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
   find_echoes(rays);
-  if (!window_.contains(window_.cell_at(origin_m.x(), origin_m.y()))) return;
-  measure_free_ways(origin_m, rays, beam_step_rad);
-  outline_free_space(origin_m);
+  outlined_ways_ = 0;
+  ways_.clear();
+  if (window_.contains(window_.cell_at(origin_m.x(), origin_m.y()))) measure_free_ways(origin_m, rays, beam_step_rad);
+}
+
+/// False when all are found.
+bool EvidenceGrid::find_more_free_cells(const Eigen::Vector2d& origin_m) {
+  constexpr std::size_t kWaysAtOnce = 48;
+  const std::size_t end_way = std::min(outlined_ways_ + kWaysAtOnce, ways_.size());
+  outline_free_space(origin_m, outlined_ways_, end_way);
+  outlined_ways_ = end_way;
+  if (outlined_ways_ < ways_.size()) return true;
   fill_outline();
-  for (std::size_t i = 0; i < ways_.size(); ++i) {
-    walk_free_way(origin_m, ways_[i].direction, std::max(ways_[i].to_next_m, ways_[i].to_previous_m), ways_[i].length_m);
-  }
+  for (const FreeWay& way : ways_) walk_free_way(origin_m, way.direction, std::max(way.to_next_m, way.to_previous_m), way.length_m);
   keep_echoes_out();
+  return false;
 }
 
 bool EvidenceGrid::is_prepared_for(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) const {
@@ -356,20 +364,34 @@ bool EvidenceGrid::is_prepared_for(const Eigen::Vector2d& origin_m, const std::v
 }
 
 void EvidenceGrid::prepare(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
-  if (is_prepared_) clear_free_cells();
-  find_free_cells(origin_m, rays, beam_step_rad);
+  begin_preparing(origin_m, rays, beam_step_rad);
+  while (go_on_preparing()) {}
+}
+
+void EvidenceGrid::begin_preparing(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
+  if (is_prepared_ || is_being_prepared_) clear_free_cells();
   prepared_origin_m_ = origin_m;
   prepared_step_rad_ = beam_step_rad;
   prepared_rays_ = rays;
-  is_prepared_ = true;
+  begin_finding_free_cells(origin_m, rays, beam_step_rad);
+  is_prepared_ = false;
+  is_being_prepared_ = true;
+}
+
+bool EvidenceGrid::go_on_preparing() {
+  if (!is_being_prepared_) return false;
+  is_being_prepared_ = find_more_free_cells(prepared_origin_m_);
+  is_prepared_ = !is_being_prepared_;
+  return is_being_prepared_;
 }
 
 void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
   if (!is_prepared_for(origin_m, rays, beam_step_rad)) {
-    if (is_prepared_) clear_free_cells();
-    find_free_cells(origin_m, rays, beam_step_rad);
+    if (is_prepared_ || is_being_prepared_) clear_free_cells();
+    begin_finding_free_cells(origin_m, rays, beam_step_rad);
+    while (find_more_free_cells(origin_m)) {}
   }
-  is_prepared_ = false;
+  is_prepared_ = is_being_prepared_ = false;
   lower_free_cells();
   raise_echoes(rays);
 }

@@ -50,6 +50,10 @@ class EvidenceGrid {
   /// without. See integrate_a_scan and complete_a_prepared_scan of the benchmark.
   void prepare(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
 
+  /// prepare() in small steps, for who has other things to do between them: go_on_preparing() until it returns false.
+  void begin_preparing(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
+  bool go_on_preparing();
+
   /// Adds one stationary echo without its beam: a point given back by tracking.
   void restore_stationary(const Eigen::Vector2d& point_m);
 
@@ -124,12 +128,13 @@ class EvidenceGrid {
   struct RayInCells;
 
   void measure_free_ways(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
-  void outline_free_space(const Eigen::Vector2d& origin_m);
+  void outline_free_space(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way);
   void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
   void fill_outline();
   void walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double from_m, double to_m);
   void find_echoes(const std::vector<Ray>& rays);
-  void find_free_cells(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
+  void begin_finding_free_cells(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
+  bool find_more_free_cells(const Eigen::Vector2d& origin_m);
   bool is_prepared_for(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) const;
   void clear_free_cells();
   void keep_echoes_out();
@@ -170,6 +175,7 @@ class EvidenceGrid {
     Eigen::Vector2d half_way = Eigen::Vector2d::Zero();  ///< Direction in the middle between this beam and the next.
   };
   std::vector<FreeWay> ways_;                  ///< By ray.
+  std::size_t outlined_ways_ = 0;              ///< The first so many of them have their edges in free_.
   struct EchoedCell {
     std::int32_t column = 0;                   ///< In the window.
     std::int32_t row = 0;
@@ -178,6 +184,7 @@ class EvidenceGrid {
   std::vector<EchoedCell> echoes_;
   // What free_ and echoes_ were prepared for, if they were.
   bool is_prepared_ = false;
+  bool is_being_prepared_ = false;
   Eigen::Vector2d prepared_origin_m_ = Eigen::Vector2d::Zero();
   double prepared_step_rad_ = 0.0;
   std::vector<Ray> prepared_rays_;

@@ -26,9 +26,16 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
                               double gate_m, const PointToLineConfig& config) {
   const int radius = std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
+  surfaces_.resize(points.size());
+  constexpr std::size_t kRanges = 4;
+  work::share_in_ranges(help_, points.size(), kRanges, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i)
+      surfaces_[i] = surfels.nearest_surface(turn * points[i].in_base_m + map_from_base.translation_m(), radius);
+  });
   pairs_.clear();
-  for (const MatchPoint& point : points) {
-    const auto surface = surfels.nearest_surface(turn * point.in_base_m + map_from_base.translation_m(), radius);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const MatchPoint& point = points[i];
+    const std::optional<grids::SurfelMap::Surface>& surface = surfaces_[i];
     if (!surface) continue;
     const bool has_direction = !surface->normal.isZero();
     // A surface without a direction is somewhere in its cell.

@@ -5,6 +5,7 @@
 
 #include "common/geometry/uncertain_pose2.hpp"
 #include "common/grids/surfel_map.hpp"
+#include "common/work/side_work.hpp"
 
 namespace slammot::matching {
 
@@ -47,6 +48,9 @@ struct PointToLineResult {
 /// so that the scan counts for as much as without: what many points on something near say in excess goes to all others.
 class PointToLineMatcher {
  public:
+  /// help (null: none) must outlive this; the results are the same with it and without.
+  explicit PointToLineMatcher(work::SideWork* help = nullptr) : help_(help) {}
+
   /// The iteration starts at initial_map_from_base. The result is the prior when nothing matches.
   PointToLineResult match(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
                           const geometry::UncertainPose2& prior_map_from_base,
@@ -78,6 +82,8 @@ class PointToLineMatcher {
   /// expected: covariance of (x [m], y [m], heading [rad]) that residuals are allowed before they count as outliers; none: nothing beyond robust_scale_m.
   NormalEquations linearize(const geometry::Pose2& map_from_base, double gate_m, const std::optional<geometry::Matrix3>& expected, const PointToLineConfig& config) const;
 
+  work::SideWork* help_;
+  std::vector<std::optional<grids::SurfelMap::Surface>> surfaces_;   ///< Nearest to each point.
   std::vector<Pair> pairs_;
 };
 

@@ -52,8 +52,8 @@ class ExpectedOutline {
     const LocalizedBeam& echo = scan_.beams[beam];
     const double within_m = config.explained_within_m + config.explained_within_per_m * static_cast<double>(echo.range_m);
     const Vector2 point = echo.point_in_base_m.cast<double>();
-    const std::size_t first = beam < kNeighbours ? 0 : beam - kNeighbours;
-    const std::size_t last = std::min(beam + kNeighbours + 1, scan_.beams.size());
+    const std::size_t first = beam < flow::kExpectedAside ? 0 : beam - flow::kExpectedAside;
+    const std::size_t last = std::min(beam + flow::kExpectedAside + 1, scan_.beams.size());
     for (std::size_t i = first; i < last; ++i) {
       if (!has_end(i)) continue;
       const Vector2 end = end_of(i);
@@ -69,7 +69,6 @@ class ExpectedOutline {
   }
 
  private:
-  static constexpr std::size_t kNeighbours = 2;
   static constexpr double kLongestFaceM = 6.0;  ///< Between neighbouring beams; what is longer is two things.
   bool has_end(std::size_t beam) const {
     return static_cast<double>(scan_.beams[beam].expected_range_m) < scan_.max_range_m - 0.5;
@@ -263,7 +262,7 @@ void describe_shape(Segment& segment, const SegmentedScan& scan, const Detection
   segment.box_width_m = box.width_m;
 }
 
-void finish_segment(Segment& segment, const LocalizedScan& localized, const DetectionConfig& config, SegmentedScan& scan,
+void finish_segment(Segment& segment, const LocalizedScan& localized, const DetectionConfig& config, const SegmentedScan& scan,
                     std::vector<Vector2>& points_in_odom_m) {
   segment.moving_share = moving_share(segment, scan);
   segment.label = label_of_segment(segment, localized, scan, config);
@@ -275,7 +274,7 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
 
 }  // namespace
 
-SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, SegmentedScan done_with) {
+SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, SegmentedScan done_with, work::SideWork* help) {
   SegmentedScan segmented = with_header_of(scan, std::move(done_with));
   const BeamDirections directions(scan);
   label_points(scan, directions, config, segmented);
@@ -292,7 +291,6 @@ SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, S
   std::size_t count = 0;
   std::vector<std::uint16_t> beams;
   std::vector<Run> runs;
-  std::vector<Vector2> points_in_odom_m;
   for (const BeamSpan& span : spans) {
     beams.clear();
     for (std::uint16_t beam = span.first; beam <= span.last; ++beam)
@@ -302,11 +300,18 @@ SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, S
       Segment& segment = segment_at(count++, segmented.segments);
       const auto first = beams.begin() + static_cast<std::ptrdiff_t>(run.first);
       segment.beams.assign(first, first + static_cast<std::ptrdiff_t>(run.count));
-      finish_segment(segment, scan, config, segmented, points_in_odom_m);
     }
   }
   segmented.segments.resize(count);
-  for (std::size_t i = 0; i < count; ++i) segmented.segments[i].segment_id = static_cast<std::uint32_t>(i);
+  constexpr std::size_t kRanges = 4;  // segments are of very different sizes
+  work::share_in_ranges(help, count, kRanges, [&](std::size_t first, std::size_t end) {
+    std::vector<Vector2> points_in_odom_m;
+    points_in_odom_m.reserve(scan.beams.size());
+    for (std::size_t i = first; i < end; ++i) {
+      segmented.segments[i].segment_id = static_cast<std::uint32_t>(i);
+      finish_segment(segmented.segments[i], scan, config, segmented, points_in_odom_m);
+    }
+  });
   return segmented;
 }
 

@@ -3,6 +3,7 @@
 #include "common/flow/localized_scan.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/sensing/segmentation.hpp"
+#include "common/work/side_work.hpp"
 
 namespace slammot::detection {
 
@@ -31,7 +32,7 @@ struct DetectionConfig {
 /// Cuts the scan into segments and tells which of them contradict the map, and so move. Stateless.
 /// Consistency-based and MO-map-based detection of Wang 2004, Section 6.2. Every other echo is in exactly one segment.
 /// Echoes from the ground (Section 6.6) are labelled kNoEcho and in no segment, because they tell of nothing that stands or moves.
-/// done_with: a scan that nobody needs any more; its memory is used again, nothing else of it.
-flow::SegmentedScan detect(const flow::LocalizedScan& scan, const DetectionConfig& config, flow::SegmentedScan done_with = {});
+/// done_with: a scan that nobody needs any more; its memory is used again, nothing else of it. With help (null: none) the result is the same.
+flow::SegmentedScan detect(const flow::LocalizedScan& scan, const DetectionConfig& config, flow::SegmentedScan done_with = {}, work::SideWork* help = nullptr);
 
 }  // namespace slammot::detection

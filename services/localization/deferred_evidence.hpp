@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/grids/evidence_grid.hpp"
-#include "services/localization/side_work.hpp"
+#include "common/work/side_work.hpp"
 
 namespace slammot::localization {
 
@@ -17,20 +17,33 @@ class DeferredEvidence {
   DeferredEvidence() : DeferredEvidence(grids::EvidenceGrid(), nullptr) {}
 
   /// Without help (null) everything is done at once. The help must outlive this.
-  explicit DeferredEvidence(grids::EvidenceGrid grid, SideWork* help) : state_(std::make_unique<State>(std::move(grid), help)) {}
+  explicit DeferredEvidence(grids::EvidenceGrid grid, work::SideWork* help) : state_(std::make_unique<State>(std::move(grid), help)) {}
 
   /// EvidenceGrid::prepare, beside what the caller does next, if there is help: without, it would save nothing.
   void prepare(const Eigen::Vector2d& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
     if (state_->help == nullptr) return;
-    state_->take(origin_m, rays, beam_step_rad);
-    state_->help->begin([state = state_.get()] { state->grid.prepare(state->origin_m, state->rays, state->beam_step_rad); });
+    state_->settle();
+    state_->ahead.take(origin_m, rays, beam_step_rad);
+    state_->is_settled = false;
+    state_->has_begun_to_prepare = false;
+    state_->help->begin([state = state_.get()] {
+      if (std::exchange(state->has_begun_to_prepare, true)) return state->grid.go_on_preparing();
+      state->grid.begin_preparing(state->ahead.origin_m, state->ahead.rays, state->ahead.beam_step_rad);
+      return true;
+    });
   }
 
   /// EvidenceGrid::integrate, perhaps beside what the caller does next.
   void integrate(const Eigen::Vector2d& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
     if (state_->help == nullptr) return state_->grid.integrate(origin_m, rays, beam_step_rad);
-    state_->take(origin_m, rays, beam_step_rad);
-    state_->help->begin([state = state_.get()] { state->grid.integrate(state->origin_m, state->rays, state->beam_step_rad); });
+    if (state_->is_being_integrated || !state_->restored_m.empty()) state_->settle();
+    state_->labelled.take(origin_m, rays, beam_step_rad);
+    state_->is_settled = false;
+    state_->is_being_integrated = true;
+    state_->help->begin([state = state_.get()] {
+      state->grid.integrate(state->labelled.origin_m, state->labelled.rays, state->labelled.beam_step_rad);
+      return false;
+    });
   }
 
   /// EvidenceGrid::restore_stationary, after the scans that were integrated before.
@@ -48,38 +61,43 @@ class DeferredEvidence {
     return state_->grid;
   }
 
-  SideWork* help() const { return state_->help; }
+  work::SideWork* help() const { return state_->help; }
 
  private:
-  /// Stays where it is when its owner moves: the work at hand refers to it.
-  struct State {
-    State(grids::EvidenceGrid empty, SideWork* beside) : grid(std::move(empty)), help(beside) {}
-    ~State() { settle(); }
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
+  struct Scan {
+    Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();
+    std::vector<grids::Ray> rays;
+    double beam_step_rad = 0.0;
 
     void take(const Eigen::Vector2d& from_m, const std::vector<grids::Ray>& of_scan, double step_rad) {
-      settle();
       origin_m = from_m;
       rays = of_scan;
       beam_step_rad = step_rad;
-      is_settled = false;
     }
+  };
+  /// Stays where it is when its owner moves: the work at hand refers to it.
+  struct State {
+    State(grids::EvidenceGrid empty, work::SideWork* beside) : grid(std::move(empty)), help(beside) {}
+    ~State() { settle(); }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
 
     void settle() {
       if (is_settled) return;
       help->wait();
       is_settled = true;
+      is_being_integrated = false;
       for (const Eigen::Vector2d& point_m : restored_m) grid.restore_stationary(point_m);
       restored_m.clear();
     }
 
     grids::EvidenceGrid grid;
-    SideWork* help;
+    work::SideWork* help;
     bool is_settled = true;
-    Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();   ///< Of the scan on its way,
-    std::vector<grids::Ray> rays;                         ///< as is this
-    double beam_step_rad = 0.0;                           ///< and this.
+    bool is_being_integrated = false;
+    bool has_begun_to_prepare = false;
+    Scan ahead;                                           ///< That is prepared for,
+    Scan labelled;                                        ///< and that is integrated: the same one, or one before it.
     std::vector<Eigen::Vector2d> restored_m;              ///< To follow it.
   };
   std::unique_ptr<State> state_;

@@ -129,7 +129,7 @@ bool is_possible(const grids::CellMoments& moments, double cell_size_m) {
 
 }  // namespace
 
-LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m, SideWork* help, flow::SubmapId first)
+LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m, work::SideWork* help, flow::SubmapId first)
     : config_(config),
       free_steps_(free_steps(config)),
       end_cell_tolerance_(end_cell_tolerance(config)),
@@ -180,16 +180,13 @@ void LocalMap::restore_stationary(const Vector2& point_in_odom_m) {
   surfels_.add(point_in_odom_m, odometer_m_);
 }
 
-void LocalMap::expect(const Vector2& origin_in_odom_m, const Vector2& end_in_odom_m, bool has_echo, double max_range_m,
-                      flow::LocalizedBeam& beam) const {
+float LocalMap::expected_range_m(const Vector2& origin_in_odom_m, const Vector2& towards_in_odom_m, double max_range_m) const {
+  const Vector2 way_m = towards_in_odom_m - origin_in_odom_m;
+  return static_cast<float>(evidence_.grid().distance_to_occupied(origin_in_odom_m, way_m.normalized(), max_range_m));
+}
+
+void LocalMap::look_up_end(const Vector2& end_in_odom_m, flow::LocalizedBeam& beam) const {
   const grids::EvidenceGrid& evidence = evidence_.grid();
-  const Vector2 way_m = end_in_odom_m - origin_in_odom_m;
-  beam.expected_range_m = static_cast<float>(
-      evidence.distance_to_occupied(origin_in_odom_m, way_m.normalized(), max_range_m));
-  if (!has_echo) {
-    beam.end_cell = flow::EndCell::kNoEcho;
-    return;
-  }
   const grids::Cell cell = evidence.window().cell_at(end_in_odom_m.x(), end_in_odom_m.y());
   const int so_steps = evidence.so_steps(cell);
   beam.free_evidence = static_cast<float>(-so_steps * grids::kLogOddsStep);
@@ -306,7 +303,7 @@ void LocalMap::write(std::vector<std::byte>& bytes) const {
   put(bytes, counted_to_m_.value_or(Vector2::Zero()));
 }
 
-std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from, SideWork* help) {
+std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from, work::SideWork* help) {
   LocalMap map;
   map.config_ = config;
   map.free_steps_ = free_steps(config);

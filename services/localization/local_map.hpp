@@ -8,6 +8,7 @@
 #include "common/flow/submap.hpp"
 #include "common/grids/evidence_grid.hpp"
 #include "common/grids/surfel_map.hpp"
+#include "common/work/side_work.hpp"
 #include "services/localization/byte_stream.hpp"
 #include "services/localization/deferred_evidence.hpp"
 
@@ -33,7 +34,7 @@ class LocalMap {
  public:
   LocalMap() = default;
   /// help, if any, takes over part of integrate(); it must outlive the map.
-  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m, SideWork* help = nullptr, flow::SubmapId first = {});
+  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m, work::SideWork* help = nullptr, flow::SubmapId first = {});
 
   /// Waits for what help is still doing.
   const grids::EvidenceGrid& evidence() const { return evidence_.grid(); }
@@ -51,9 +52,11 @@ class LocalMap {
   /// Gives back a point that was held to be moving.
   void restore_stationary(const geometry::Vector2& point_in_odom_m);
 
-  /// What the map expects of a beam that ended at end_in_odom_m (has_echo) or nowhere.
-  void expect(const geometry::Vector2& origin_in_odom_m, const geometry::Vector2& end_in_odom_m, bool has_echo,
-              double max_range_m, flow::LocalizedBeam& beam) const;
+  /// What the map says about the cell in which a beam ended.
+  void look_up_end(const geometry::Vector2& end_in_odom_m, flow::LocalizedBeam& beam) const;
+
+  /// From the laser to the first occupied cell on the way to a place; max_range_m where there is none before it.
+  float expected_range_m(const geometry::Vector2& origin_in_odom_m, const geometry::Vector2& towards_in_odom_m, double max_range_m) const;
 
   /// Whether the vehicle has gone far enough for a new map.
   bool is_outgrown(const geometry::Vector2& position_in_odom_m, double travelled_m) const;
@@ -74,7 +77,7 @@ class LocalMap {
   /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.
   void write(std::vector<std::byte>& bytes) const;
   /// None when the bytes are not a map of this configuration.
-  static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from, SideWork* help = nullptr);
+  static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from, work::SideWork* help = nullptr);
 
  private:
   void count_way(const geometry::Vector2& origin_m);

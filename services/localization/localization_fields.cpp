@@ -178,6 +178,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"lost_after_s", &C::lost_after_s, "Wheels are trusted for so long where scans do not match; then it looks for itself.", kNotNegative},
       {"astray_after_s", &C::astray_after_s, "After so long in vain a new map begins, tied to the last one by next to nothing.", kPositive},
       {"astray_sigma_m", &C::astray_sigma_m, "One sigma of that tie.", Range{1.0, 900.0}},
+      {"expects_all_ranges", &C::expects_all_ranges, "Tells of every beam how far the map would let it go: for a detection of your own; ours asks only near echoes that contradict the map."},
       {"leave_out_moving", &C::leave_out_moving, "Off, to see what it is worth: everything is mapped and matched as if it stood."},
       {"may_be_picked_up", &C::may_be_picked_up, "And set down elsewhere, with wheels that notice nothing; a road vehicle is not."},
       {"sweep_factor_sigma", &C::sweep_factor_sigma, "One sigma of the factor on how long scanners' sweeps are said to take; 0: they are right.", kNotNegative},

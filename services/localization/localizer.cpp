@@ -60,7 +60,7 @@ grids::Echo unexplained_out(EndCell end_cell) {
 
 }  // namespace
 
-Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
+Localizer::Localizer(const LocalizerConfig& config, work::SideWork* help)
     : config_(config),
       help_(help),
       motion_of_one_clock_(config.motion),
@@ -69,7 +69,8 @@ Localizer::Localizer(const LocalizerConfig& config, SideWork* help)
       scan_stamps_(config.far_ahead_s),
       odometry_stamps_(config.far_ahead_s),
       searcher_(config.search),
-      finder_(finder_config(config.search)) {
+      finder_(finder_config(config.search)),
+      matcher_(help) {
   motion_of_one_clock_.stamp_offset_prior_s = 0.0;
   progress_.estimate = sensing::at_start(motion_of_one_clock_);
   progress_.with_stamp_offset = sensing::at_start(config.motion);
@@ -354,7 +355,7 @@ UncertainPose2 Localizer::published_pose() const {
   return {progress_.estimate.odom_from_base, sensing::scaled(progress_.estimate.uncertain_pose(), sensing::published(progress_.variance_factors, config_.pose_errors, progress_.map_change))};
 }
 
-flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base, flow::LocalizedScan done_with) const {
+flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base, flow::LocalizedScan done_with) {
   flow::LocalizedScan localized;
   localized.beams = std::move(done_with.beams);
   localized.stamp_ns = scan.stamp_ns;
@@ -373,31 +374,43 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
   const Vector2 origin_in_odom_m = odom_from_laser.translation_m();
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.pose.heading_rad);
   localized.beams.resize(scan.range_m.size());
-  const auto expect_of_beams = [&](std::size_t first, std::size_t end) {
-    sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
-    for (std::size_t i = 0; i < first; ++i) beam_in_odom.advance();  // turned to here, not begun here: the same to the last bit
-    for (std::size_t i = first; i < end; ++i, beam_in_odom.advance()) {
+  beams_in_odom_.resize(scan.range_m.size());
+  sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
+  for (Vector2& beam : beams_in_odom_) beam = beam_in_odom.now(), beam_in_odom.advance();
+  const auto end_of = [&](std::size_t i) -> Vector2 {
+    if (localized.beams[i].range_m > 0.0F) return odom_from_base.pose.translation_m() + turn * points_in_base_m_[i];
+    return origin_in_odom_m + scan.scanner.max_range_m * beams_in_odom_[i];
+  };
+  map_.evidence();  // what is still on its way into it comes first: then it only answers
+  constexpr std::size_t kRanges = 4;
+  work::share_in_ranges(help_, localized.beams.size(), kRanges, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
       flow::LocalizedBeam& beam = localized.beams[i] = {};
       const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) && scan.range_m[i] >= config_.min_range_m;
-      const Vector2 far_end_m = origin_in_odom_m + scan.scanner.max_range_m * beam_in_odom.now();
       beam.point_in_base_m = points_in_base_m_[i].cast<float>();
       beam.range_m = has_echo ? scan.range_m[i] : 0.0F;
-      map_.expect(origin_in_odom_m, has_echo ? odom_from_base.pose.translation_m() + turn * points_in_base_m_[i] : far_end_m, has_echo, scan.scanner.max_range_m, beam);
+      if (has_echo) map_.look_up_end(end_of(i), beam);
     }
-  };
-  in_two_halves(localized.beams.size(), expect_of_beams);
+  });
+  list_asked_beams(localized);
+  work::share_in_ranges(help_, asked_beams_.size(), kRanges, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const std::size_t beam = asked_beams_[i];
+      localized.beams[beam].expected_range_m = map_.expected_range_m(origin_in_odom_m, end_of(beam), scan.scanner.max_range_m);
+    }
+  });
   return localized;
 }
 
-/// Work on [first, end) of all beams, whose halves help may do side by side: the map only answers meanwhile.
-template <typename Work>
-void Localizer::in_two_halves(std::size_t beams, const Work& work) const {
-  if (help_ == nullptr) return work(0, beams);
-  map_.evidence();  // what is still on its way into it comes first
-  const auto second_half = [&] { work(beams / 2, beams); };
-  help_->begin([&second_half] { second_half(); });  // one reference: no allocation
-  work(0, beams / 2);
-  help_->wait();
+/// Those near which an echo contradicts the map: elsewhere nobody asks what the map expected, and to tell is half the price of a scan.
+void Localizer::list_asked_beams(const flow::LocalizedScan& localized) {
+  asked_beams_.clear();
+  const std::size_t count = localized.beams.size();
+  for (std::size_t i = 0, next = 0; i < count; ++i) {
+    if (!config_.expects_all_ranges && localized.beams[i].end_cell != EndCell::kFree) continue;
+    const std::size_t end = std::min(i + flow::kExpectedAside + 1, count);
+    for (next = std::max(next, i < flow::kExpectedAside ? 0 : i - flow::kExpectedAside); next < end; ++next) asked_beams_.push_back(next);
+  }
 }
 
 void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized) {
@@ -415,8 +428,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());
   const geometry::Matrix2 turn = geometry::rotation(localized.odom_from_base.pose.heading_rad);
-  sensing::TurningDirection beam_in_odom(odom_from_laser.heading_rad + sensing::beam_angle_rad(scan.scanner, 0), scan.scanner.beam_step_rad);
-  for (std::size_t i = 0; i < localized.beams.size(); ++i, beam_in_odom.advance()) {
+  for (std::size_t i = 0; i < localized.beams.size(); ++i) {
     const flow::LocalizedBeam& beam = localized.beams[i];
     pending.end_cells[i] = beam.end_cell;
     pending.rays[i].echo = grids::Echo::kNone;
@@ -429,7 +441,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
     // Nearer echoes than the least range tell nothing, not even that there is free space.
     const bool is_too_near = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m);
     const double free_m = is_too_near ? 0.0 : std::min(config_.map.no_echo_free_m, scan.scanner.max_range_m);
-    pending.rays[i].end_m = pending.origin_in_odom_m + free_m * beam_in_odom.now();
+    pending.rays[i].end_m = pending.origin_in_odom_m + free_m * beams_in_odom_[i];
   }
   pending_.push_back(std::move(pending));
   if (pending_.size() == 1 && !pending_.front().is_withheld) map_.prepare(pending_.front().origin_in_odom_m, pending_.front().rays, pending_.front().beam_step_rad);

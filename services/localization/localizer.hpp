@@ -24,6 +24,7 @@
 #include "common/sensing/scan.hpp"
 #include "common/sensing/stamp_guard.hpp"
 #include "common/sensing/variance_factor.hpp"
+#include "common/work/side_work.hpp"
 #include "services/localization/ambiguous_match.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/sweep_estimate.hpp"
@@ -52,6 +53,7 @@ struct LocalizerConfig {
   double lost_after_s = 3.0;              ///< Wheels are trusted for so long where scans do not match; then it looks for itself,
   double astray_after_s = 2.0;            ///< and after so long in vain a new map begins, tied to the last one by next to nothing:
   double astray_sigma_m = 50.0;           ///< one sigma of that tie.
+  bool expects_all_ranges = false;        ///< Tells of every beam how far the map would let it go, not only of those near an echo that contradicts it.
   bool leave_out_moving = true;           ///< Off, to see what it is worth: everything is mapped and matched as if it stood.
   double sweep_factor_sigma = 0.0;        ///< Of the factor on how long scanners' sweeps are said to take; 0: they are right.
   double body_sigma_without_wheels_m = 0.15;  ///< match.body_sigma_m where no wheels say how far it is: whatever has most of the beams may be driving off.
@@ -123,7 +125,7 @@ class Localizer {
  public:
   /// help, if any, does what the next match does not need, which is most of mapping, and half of the polar view. The results are the same with it and without.
   /// It must outlive this.
-  explicit Localizer(const LocalizerConfig& config, SideWork* help = nullptr);
+  explicit Localizer(const LocalizerConfig& config, work::SideWork* help = nullptr);
 
   void add_odometry(const sensing::Odometry& sample);
 
@@ -310,9 +312,8 @@ class Localizer {
   bool is_masked(const geometry::Vector2& point_in_odom_m) const;
   void travel(const geometry::Pose2& before_from_base, double duration_s);
   geometry::UncertainPose2 published_pose() const;
-  flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base, flow::LocalizedScan done_with) const;
-  template <typename Work>
-  void in_two_halves(std::size_t beams, const Work& work) const;
+  flow::LocalizedScan describe(const sensing::LaserScan& scan, const geometry::UncertainPose2& odom_from_base, flow::LocalizedScan done_with);
+  void list_asked_beams(const flow::LocalizedScan& localized);
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
   void integrate(PendingScan scan);
@@ -331,7 +332,7 @@ class Localizer {
   const sensing::MotionEstimate& of_stamps() const { return progress_.applies_stamp_offset ? progress_.estimate : progress_.with_stamp_offset; }
 
   LocalizerConfig config_;
-  SideWork* help_ = nullptr;
+  work::SideWork* help_ = nullptr;
   sensing::MotionModelConfig motion_of_one_clock_;         ///< That of the estimate until the stamps' offset is used.
   matching::PointToLineConfig match_without_wheels_;       ///< For a step of which wheels say nothing: nothing but the scan tells of it.
   matching::PointToLineConfig match_by_scans_alone_;       ///< Where there are no wheels at all.
@@ -359,6 +360,8 @@ class Localizer {
   matching::PointToLineMatcher matcher_;
   AmbiguousMatcher ambiguous_matcher_;
   std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand; kept to reuse the memory.
+  std::vector<geometry::Vector2> beams_in_odom_;     ///< Unit vectors, of the scan at hand,
+  std::vector<std::size_t> asked_beams_;             ///< and of which of its beams it is asked how far the map would have let them go.
   geometry::Vector2 laser_in_base_m_ = geometry::Vector2::Zero();  ///< Of the scan at hand.
   std::vector<matching::MatchPoint> match_points_;
   std::vector<matching::MatchPoint> match_points_before_;  ///< Of the scan before.

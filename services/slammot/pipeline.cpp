@@ -5,7 +5,7 @@
 namespace slammot {
 
 Pipeline::Pipeline(const Profile& profile, int iterations)
-    : detection_(profile.detection), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking), loop_closer_(profile.loop_closing), iterations_(iterations) {}
+    : detection_(profile.detection), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking, &side_thread_), loop_closer_(profile.loop_closing), iterations_(iterations) {}
 
 /// The graph is made again from its submaps, as it was made when they came.
 void Pipeline::go_on_in(const std::vector<flow::Submap>& stored) {
@@ -40,7 +40,7 @@ void Pipeline::take(const sensing::LaserScan& scan) {
 std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::LaserScan& scan) {
   auto localized = times_.measure("localization", [&] { return localizer_.localize(scan, std::move(localized_done_with_)); });
   if (!localized) return std::nullopt;
-  auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_, std::move(segmented_done_with_)); });
+  auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_, std::move(segmented_done_with_), &side_thread_); });
   return Detected{*std::move(localized), std::move(segmented)};
 }
 

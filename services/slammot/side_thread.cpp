@@ -24,55 +24,118 @@ bool has_core_of_its_own() {
   return has;
 }
 
-/// The state once it is another, without sleeping for as long as that is worth it.
-std::uint32_t await_other(const std::atomic<std::uint32_t>& state, std::uint32_t than) {
+/// Until it is another, without sleeping for as long as that is worth it.
+void await_other(const std::atomic<std::uint32_t>& state, std::uint32_t than) {
   const Clock::time_point until = Clock::now() + kLooksFor;
   while (has_core_of_its_own() && Clock::now() < until) {
-    for (int look = 0; look < kLooksBetweenTimes; ++look, pause_briefly()) {
-      const std::uint32_t now = state.load(std::memory_order_acquire);
-      if (now != than) return now;
-    }
+    for (int look = 0; look < kLooksBetweenTimes; ++look, pause_briefly())
+      if (state.load(std::memory_order_acquire) != than) return;
   }
   state.wait(than, std::memory_order_acquire);
-  return state.load(std::memory_order_acquire);
 }
 
 }  // namespace
 
-SideThread::SideThread() : thread_([this] { work_until_stopped(); }) {}
+SideThread::SideThread() {
+  for (Number i = 0; i < kPlaces; ++i) places_[i].state = state_of(i - kPlaces, kDone);
+  shared_.state = state_of(Number{0} - 1, kDone);
+  thread_ = std::jthread([this] { work_until_stopped(); });
+}
 
 SideThread::~SideThread() {
   wait();
-  state_.store(kStopping, std::memory_order_release);
-  state_.notify_all();
+  begin([this] {
+    is_stopping_ = true;
+    return false;
+  });
 }
 
-void SideThread::begin(std::function<void()> work) {
-  wait();
-  work_ = std::move(work);
-  state_.store(kBegun, std::memory_order_release);
-  state_.notify_one();
+void SideThread::put(Place& place, Number number, std::function<bool()> step) {
+  place.step = std::move(step);
+  place.state.store(state_of(number, kBegun), std::memory_order_release);
+}
+
+void SideThread::call() {
+  calls_.fetch_add(1, std::memory_order_release);
+  calls_.notify_one();
+}
+
+void SideThread::begin(std::function<bool()> step) {
+  const Number number = begun_.load(std::memory_order_relaxed);
+  while (number - ended_ >= kPlaces) end_first();
+  put(place_of(number), number, std::move(step));
+  begun_.store(number + 1, std::memory_order_release);
+  call();
 }
 
 void SideThread::wait() {
-  take_and_do();
-  while (state_.load(std::memory_order_acquire) == kTaken) await_other(state_, kTaken);
+  while (ended_ != begun_.load(std::memory_order_relaxed)) end_first();
 }
 
-bool SideThread::take_and_do() {
-  std::uint32_t begun = kBegun;
-  if (!state_.compare_exchange_strong(begun, kTaken, std::memory_order_acquire)) return false;
-  work_();
-  state_.store(kIdle, std::memory_order_release);
-  state_.notify_one();
+/// Of what the caller does not know to be done.
+void SideThread::end_first() {
+  Place& place = place_of(ended_);
+  if (!take_and_do(place, ended_, false)) await_end_of(place, ended_);
+  ++ended_;
+}
+
+void SideThread::share(std::size_t parts, const std::function<void(std::size_t)>& part) {
+  std::atomic<std::size_t> next{0};
+  const auto take_parts = [&] {
+    for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < parts; i = next.fetch_add(1, std::memory_order_relaxed)) part(i);
+    return false;
+  };
+  if (has_core_of_its_own()) {
+    const Number number = shares_.load(std::memory_order_relaxed);
+    put(shared_, number, std::cref(take_parts));
+    shares_.store(number + 1, std::memory_order_release);
+    call();
+    take_parts();
+    if (!withdraw(shared_, number)) await_end_of(shared_, number);
+  } else {
+    take_parts();
+  }
+}
+
+/// False if somebody else has taken the work, or had. Whoever joins in does what is shared between two steps.
+bool SideThread::take_and_do(Place& place, Number number, bool joins_in) {
+  std::uint32_t begun = state_of(number, kBegun);
+  if (!place.state.compare_exchange_strong(begun, state_of(number, kTaken), std::memory_order_acquire)) return false;
+  while (place.step())
+    if (joins_in) join_in();
+  place.state.store(state_of(number, kDone), std::memory_order_release);
+  place.state.notify_one();
   return true;
 }
 
+/// Whether nobody has taken the work, and now nobody will.
+bool SideThread::withdraw(Place& place, Number number) {
+  std::uint32_t begun = state_of(number, kBegun);
+  return place.state.compare_exchange_strong(begun, state_of(number, kDone), std::memory_order_relaxed);
+}
+
+/// The place may have gone to another work meanwhile, with another number.
+void SideThread::await_end_of(Place& place, Number number) {
+  while (place.state.load(std::memory_order_acquire) == state_of(number, kTaken)) await_other(place.state, state_of(number, kTaken));
+}
+
+/// Does what it can of what is shared just now, if anything.
+void SideThread::join_in() {
+  const Number shares = shares_.load(std::memory_order_acquire);
+  take_and_do(shared_, shares - 1, false);
+}
+
+/// One thing that was begun after the other: what the caller has taken, too, must have ended before the next begins.
 void SideThread::work_until_stopped() {
-  std::uint32_t state = kIdle;
-  while (state != kStopping) {
-    if (!take_and_do()) state = await_other(state_, state);
-    else state = kIdle;
+  for (Number number = 0; !is_stopping_;) {
+    const std::uint32_t calls = calls_.load(std::memory_order_acquire);
+    join_in();
+    if (begun_.load(std::memory_order_acquire) == number) {
+      await_other(calls_, calls);
+      continue;
+    }
+    if (!take_and_do(place_of(number), number, true)) await_end_of(place_of(number), number);
+    ++number;
   }
 }
 

@@ -216,7 +216,7 @@ bool is_worth_more(const Track& a, const Track& b, const TrackingConfig& config)
 
 }  // namespace
 
-Tracker::Tracker(const TrackingConfig& config) : config_(config), rivals_(config), formations_(config) {}
+Tracker::Tracker(const TrackingConfig& config, work::SideWork* help) : config_(config), help_(help), rivals_(config), formations_(config) {}
 
 /// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
 bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
@@ -339,60 +339,69 @@ void Tracker::associate(const ScanView& view) {
   divide_shared_segments(view);
 }
 
+Tracker::PastScans Tracker::past_scans(std::int64_t stamp_ns) const {
+  PastScans past;
+  past.then = history_.older_than(stamp_ns, config_.compare_after_s);
+  past.just_now = only_people_move(config_) ? history_.older_than(stamp_ns, config_.compare_fast_after_s) : nullptr;
+  past.long_ago = history_.older_than(stamp_ns, config_.compare_slow_after_s);
+  if (only_people_move(config_)) return past;
+  constexpr double kSoonS = 0.4;
+  for (const EarlierScan* then : {history_.older_than(stamp_ns, kSoonS), past.then, past.long_ago})
+    if (then != nullptr) past.for_faces[past.count_for_faces++] = then;
+  return past;
+}
+
 void Tracker::compare_with_past(const ScanView& view) {
   const flow::SegmentedScan& scan = view.scan();
   past_of_beam_.assign(scan.range_m.size(), Past::kUnknown);
   past_of_segment_.assign(scan.segments.size(), {});
-  note_face_shifts(view);
-  const EarlierScan* then = history_.older_than(scan.stamp_ns, config_.compare_after_s);
-  const EarlierScan* just_now = only_people_move(config_) ? history_.older_than(scan.stamp_ns, config_.compare_fast_after_s) : nullptr;
-  const EarlierScan* long_ago = history_.older_than(scan.stamp_ns, config_.compare_slow_after_s);
-  for (std::size_t s = 0; s < scan.segments.size(); ++s) {
-    SegmentPast& past = past_of_segment_[s];
-    int arrival = 0;
-    for (const std::uint16_t beam : scan.segments[s].beams) {
-      if (then == nullptr) break;
-      past_of_beam_[beam] = has_shifted_[beam] ? Past::kArrived : history_.past_of(beam, view.polar(), *then, only_people_move(config_));
-      past.stood += past_of_beam_[beam] == Past::kStood ? 1 : 0;
-      past.arrived += past_of_beam_[beam] == Past::kArrived ? 1 : 0;
-      past.receded += past_of_beam_[beam] == Past::kReceded ? 1 : 0;
-      const bool is_open = past_of_beam_[beam] == Past::kUnknown && just_now != nullptr;  // say, by who walked ahead
-      const Past since = is_open ? history_.past_of(beam, view.polar(), *just_now, true) : past_of_beam_[beam];
-      past.came += since == Past::kArrived || since == Past::kAppeared ? 1 : 0;
-      arrival = past_of_beam_[beam] == Past::kArrived ? arrival + 1 : 0;
-      past.longest_arrival = std::max(past.longest_arrival, arrival);
-    }
-    const Segment& segment = scan.segments[s];
-    const auto count = static_cast<double>(segment.beams.size());
-    if (segment.label != PointLabel::kMoving && may_have_a_flank(segment, config_) && long_ago != nullptr)
-      past.longest_arrival = std::max(past.longest_arrival, longest_arrival_since(*long_ago, segment, view.polar()));
-    const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
-    past.stood_before = past.stood > kLeastStoodShare * count;
-    past.stands = past.stood_before || (is_mapped && past.stood > kLeastStoodIfMapped * count && past.arrived + past.receded < kLeastChangedShare * count);
-  }
+  has_shifted_.assign(scan.range_m.size(), false);
+  const PastScans past = past_scans(scan.stamp_ns);
+  constexpr std::size_t kRanges = 4;  // segments are of very different sizes
+  work::share_in_ranges(help_, scan.segments.size(), kRanges, [&](std::size_t first, std::size_t end) {
+    for (std::size_t s = first; s < end; ++s) compare_with_past(s, past, view);
+  });
 }
 
-/// Notes fronts and rears that have come from elsewhere.
-void Tracker::note_face_shifts(const ScanView& view) {
-  has_shifted_.assign(view.scan().range_m.size(), false);
+/// Writes of the segment and of its own beams only.
+void Tracker::compare_with_past(std::size_t s, const PastScans& past_scans, const ScanView& view) {
+  note_face_shift(s, past_scans, view);
+  const Segment& segment = view.scan().segments[s];
+  SegmentPast past = past_of_segment_[s];
+  int arrival = 0;
+  for (const std::uint16_t beam : segment.beams) {
+    if (past_scans.then == nullptr) break;
+    const Past of_beam = has_shifted_[beam] ? Past::kArrived : history_.past_of(beam, view.polar(), *past_scans.then, only_people_move(config_));
+    past_of_beam_[beam] = of_beam;
+    past.stood += of_beam == Past::kStood ? 1 : 0;
+    past.arrived += of_beam == Past::kArrived ? 1 : 0;
+    past.receded += of_beam == Past::kReceded ? 1 : 0;
+    const bool is_open = of_beam == Past::kUnknown && past_scans.just_now != nullptr;  // say, by who walked ahead
+    const Past since = is_open ? history_.past_of(beam, view.polar(), *past_scans.just_now, true) : of_beam;
+    past.came += since == Past::kArrived || since == Past::kAppeared ? 1 : 0;
+    arrival = of_beam == Past::kArrived ? arrival + 1 : 0;
+    past.longest_arrival = std::max(past.longest_arrival, arrival);
+  }
+  const auto count = static_cast<double>(segment.beams.size());
+  if (segment.label != PointLabel::kMoving && may_have_a_flank(segment, config_) && past_scans.long_ago != nullptr)
+    past.longest_arrival = std::max(past.longest_arrival, longest_arrival_since(*past_scans.long_ago, segment, view.polar()));
+  const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
+  past.stood_before = past.stood > kLeastStoodShare * count;
+  past.stands = past.stood_before || (is_mapped && past.stood > kLeastStoodIfMapped * count && past.arrived + past.receded < kLeastChangedShare * count);
+  past_of_segment_[s] = past;
+}
+
+/// Notes a front or rear that has come from elsewhere.
+void Tracker::note_face_shift(std::size_t s, const PastScans& past_scans, const ScanView& view) {
   if (only_people_move(config_)) return;
-  constexpr double kSoonS = 0.4;
-  std::array<const EarlierScan*, 3> kept;
-  std::size_t count = 0;
-  for (const double age_s : {kSoonS, config_.compare_after_s, config_.compare_slow_after_s}) {
-    const EarlierScan* then = history_.older_than(view.scan().stamp_ns, age_s);
-    if (then != nullptr) kept[count++] = then;
-  }
-  const std::span<const EarlierScan* const> earlier(kept.data(), count);
-  for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
-    const Segment& segment = view.scan().segments[s];
-    if (segment.label == PointLabel::kNoEcho || segment.box_length_m > config_.longest_body_m) continue;
-    const auto pose_sigma_m = [&] { return std::sqrt(pose_covariance_at(segment.centroid_in_odom_m, view.scan()).trace()); };
-    const std::optional<FaceShift> shift = face_shift(segment.beams, view.polar(), earlier, pose_sigma_m, config_);
-    if (!shift) continue;
-    past_of_segment_[s].face_shift_m = shift->shift_m;
-    for (const std::uint16_t beam : shift->beams) has_shifted_[beam] = true;
-  }
+  const Segment& segment = view.scan().segments[s];
+  if (segment.label == PointLabel::kNoEcho || segment.box_length_m > config_.longest_body_m) return;
+  const std::span<const EarlierScan* const> earlier(past_scans.for_faces.data(), past_scans.count_for_faces);
+  const auto pose_sigma_m = [&] { return std::sqrt(pose_covariance_at(segment.centroid_in_odom_m, view.scan()).trace()); };
+  const std::optional<FaceShift> shift = face_shift(segment.beams, view.polar(), earlier, pose_sigma_m, config_);
+  if (!shift) return;
+  past_of_segment_[s].face_shift_m = shift->shift_m;
+  for (const std::uint16_t beam : shift->beams) has_shifted_[beam] = true;
 }
 
 /// Whether the echo lies on a side that points along the track's motion: there an object that moves looks as if it stood.
@@ -563,16 +572,31 @@ void Tracker::leave_out_surroundings(std::size_t index, double time_s, const Sca
   std::erase_if(beams, [&](std::uint16_t beam) { return !is_near(beam); });
 }
 
-void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
+/// Takes the echoes of each track; what concerns others than it is done afterwards, in the order of the tracks.
+void Tracker::correct_all(double time_s, const ScanView& view) {
+  if (glimpse_points_m_.size() < tracks_.size()) glimpse_points_m_.resize(tracks_.size());
+  outcomes_.resize(tracks_.size());
+  work::share(help_, tracks_.size(), [&](std::size_t t) { outcomes_[t] = correct(t, time_s, view); });
+  for (std::size_t t = 0; t < tracks_.size(); ++t) {
+    if (outcomes_[t] == Outcome::kIsOfSomethingElse) release(t);
+    if (outcomes_[t] == Outcome::kIsConfirmed) confirm(t);
+  }
+}
+
+/// Writes of the track only.
+Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   leave_out_surroundings(index, time_s, view);
   Track& track = tracks_[index];
   const std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
   constexpr double kEchoMemoryS = 0.2;
   track.echoes += (1.0 - std::exp(-time_s / kEchoMemoryS)) * (static_cast<double>(beams.size()) - track.echoes);
-  if (beams.empty()) return score_miss(track, view.visibility_of(track.body, track.position_m()), time_s, config_);
+  if (beams.empty()) {
+    score_miss(track, view.visibility_of(track.body, track.position_m()), time_s, config_);
+    return Outcome::kGoesOn;
+  }
   track.answers = with_answers(track.answers, beams.size(), gaps_between(beams, view.polar()), time_s);
-  const Glimpse glimpse = glimpse_of(beams, track.answers, view, config_.size_scale, glimpse_points_m_);
-  if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return release(index);
+  const Glimpse glimpse = glimpse_of(beams, track.answers, view, config_.size_scale, glimpse_points_m_[index]);
+  if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return Outcome::kIsOfSomethingElse;
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (!track.confirmed) track.youth.add(view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()));
   if (!track.confirmed && has_proven_to_move(track, config_)) {
@@ -585,7 +609,11 @@ void Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
   constexpr int kHitsBetweenChecks = 5;
   if (may_be_confirmed || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);
-  if (!may_be_confirmed || track.is_refuted || !has_proven_to_move(track, config_)) return;
+  return may_be_confirmed && !track.is_refuted && has_proven_to_move(track, config_) ? Outcome::kIsConfirmed : Outcome::kGoesOn;
+}
+
+void Tracker::confirm(std::size_t index) {
+  Track& track = tracks_[index];
   track.confirmed = true;
   // On a road a false track would so excuse whatever stood in its place.
   if (only_people_move(config_)) history_.confirm(track.track_id);
@@ -674,7 +702,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
   rivals_.predict(time_s);
   compare_with_past(view);
   associate(view);
-  for (std::size_t t = 0; t < tracks_.size(); ++t) correct(t, time_s, view);
+  correct_all(time_s, view);
   if (config_.formations) formations_.follow(tracks_, time_s);
   begin_tracks(view);
   join_pieces(view);
@@ -711,8 +739,8 @@ flow::ScanLabels Tracker::label(const ScanView& view) const {
 
 flow::TrackedObjects Tracker::describe(const flow::SegmentedScan& scan) const {
   flow::TrackedObjects objects{scan.stamp_ns, scan.sequence, scan.map_from_odom, scan.odom_from_base.pose, {}, scan.map_id, scan.odom_id};
-  objects.objects.reserve(tracks_.size());
-  for (const Track& track : tracks_) objects.objects.push_back(described(track, scan.stamp_ns, config_));
+  objects.objects.resize(tracks_.size());
+  work::share(help_, tracks_.size(), [&](std::size_t t) { objects.objects[t] = described(tracks_[t], scan.stamp_ns, config_); });
   return objects;
 }
 

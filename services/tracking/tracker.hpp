@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -11,6 +12,7 @@
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "common/work/side_work.hpp"
 #include "services/tracking/formations.hpp"
 #include "services/tracking/rivals.hpp"
 #include "services/tracking/scan_history.hpp"
@@ -53,7 +55,8 @@ inline std::map<std::string, std::uint64_t> named(const TrackerCounters& counter
 /// (Eqs. 5.1-5.5); bodies grow with what is seen of them, so that the position is the object's centre.
 class Tracker {
  public:
-  explicit Tracker(const TrackingConfig& config);
+  /// help (null: none) must outlive this; the results are the same with it and without.
+  explicit Tracker(const TrackingConfig& config, work::SideWork* help = nullptr);
 
   /// Takes one scan and tells what is believed after it, and what each of its points is.
   TrackingResult track(const flow::SegmentedScan& scan);
@@ -82,14 +85,29 @@ class Tracker {
     bool stands = false;        ///< or by the map.
   };
 
+  /// What a scan is compared with.
+  struct PastScans {
+    const EarlierScan* then = nullptr;
+    const EarlierScan* just_now = nullptr;
+    const EarlierScan* long_ago = nullptr;
+    std::array<const EarlierScan*, 3> for_faces{};   ///< Of which the first so many are there.
+    std::size_t count_for_faces = 0;
+  };
+  /// What has become of a track when its echoes were taken.
+  enum class Outcome : std::uint8_t { kGoesOn, kIsOfSomethingElse, kIsConfirmed };
+
+  PastScans past_scans(std::int64_t stamp_ns) const;
   void compare_with_past(const ScanView& view);
-  void note_face_shifts(const ScanView& view);
+  void compare_with_past(std::size_t segment, const PastScans& past_scans, const ScanView& view);
+  void note_face_shift(std::size_t segment, const PastScans& past_scans, const ScanView& view);
   bool may_begin(const flow::Segment& segment, std::size_t index) const;
   bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const;
   MotionEvidence evidence_of(std::size_t track, const ScanView& view) const;
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
   void check_velocity(std::size_t track, const Glimpse& glimpse, const ScanView& view);
-  void correct(std::size_t track, double time_s, const ScanView& view);
+  void correct_all(double time_s, const ScanView& view);
+  Outcome correct(std::size_t track, double time_s, const ScanView& view);
+  void confirm(std::size_t track);
   void leave_out_surroundings(std::size_t track, double time_s, const ScanView& view);
   void release(std::size_t track);
   void remember(const ScanView& view);
@@ -109,13 +127,15 @@ class Tracker {
   flow::TrackedObjects describe(const flow::SegmentedScan& scan) const;
 
   TrackingConfig config_;
+  work::SideWork* help_;
   TrackerCounters counters_;
   std::vector<Track> tracks_;
   Shares shares_;
   std::vector<Past> past_of_beam_;              ///< Of the current scan.
   std::vector<SegmentPast> past_of_segment_;
-  std::vector<Eigen::Vector2d> glimpse_points_m_;  ///< Of the track that is being corrected.
-  std::vector<bool> has_shifted_;               ///< Beams on faces that have moved.
+  std::vector<std::vector<Eigen::Vector2d>> glimpse_points_m_;  ///< Of each track while it is being corrected.
+  std::vector<Outcome> outcomes_;               ///< Of each track, when it was.
+  std::vector<char> has_shifted_;               ///< Beams on faces that have moved.
   Rivals rivals_;
   Formations formations_;
   ScanHistory history_;

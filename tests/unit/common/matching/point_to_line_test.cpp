@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/help_at_the_last_moment.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/surfels.hpp"
 #include "tests/support/synthetic_world.hpp"
@@ -49,6 +50,19 @@ TEST(PointToLine, FindsThePoseFromAllAround) {
     EXPECT_GT(result.matched_share, 0.95);
     EXPECT_LT(result.rms_residual_m, 0.02);
   }
+}
+
+TEST(PointToLine, FindsTheSameToTheLastBitWithHelp) {
+  const World room = slammot::testing::room();
+  const auto surfels = surfels_of(room);
+  const Pose2 truth{-2.0, 1.0, 0.6};
+  const Pose2 prior = truth * Pose2{0.1, 0.1, -0.05};
+  slammot::testing::HelpAtTheLastMoment help;
+  const auto helped = PointToLineMatcher(&help).match(exact_scan_of(room, truth), surfels, {prior, kVague}, prior, {});
+  const auto alone = match_from(exact_scan_of(room, truth), surfels, prior);
+  EXPECT_GT(help.shared(), 0);
+  EXPECT_EQ(helped.map_from_base.pose, alone.map_from_base.pose);
+  EXPECT_EQ(helped.map_from_base.covariance, alone.map_from_base.covariance);
 }
 
 TEST(PointToLine, FindsTheInverseWhenMapAndScanChangePlaces) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/help_at_the_last_moment.hpp"
 #include "tests/support/street.hpp"
 
 namespace slammot::detection {
@@ -63,6 +64,16 @@ TEST(Detector, TakesNothingButMemoryFromAScanThatIsDoneWith) {
   flow::SegmentedScan done_with = detect(many, {});
   const std::uint16_t* const beams = done_with.segments.front().beams.data();
   EXPECT_EQ(detect(many, {}, std::move(done_with)).segments.front().beams.data(), beams);
+}
+
+TEST(Detector, FindsTheSameWithHelp) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{{20.0, 5.0, 0.3}}, {{12.0, -4.0, 1.2}}, {{30.0, 2.0, 0.0}}, {{15.0, 0.0, 0.0}}};
+  const flow::LocalizedScan scan = street.scan(0, 0);
+  slammot::testing::HelpAtTheLastMoment help;
+  expect_same(detect(scan, {}, {}, &help), detect(scan, {}));
+  EXPECT_GT(help.shared(), 0);
 }
 
 TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {

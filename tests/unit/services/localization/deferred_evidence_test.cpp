@@ -6,31 +6,14 @@
 
 #include "services/localization/localizer.hpp"
 #include "tests/support/example_submap.hpp"
+#include "tests/support/help_at_the_last_moment.hpp"
 #include "tests/support/localizer_drive.hpp"
 
 namespace slammot::localization {
 namespace {
 
 using geometry::Vector2;
-
-/// The slowest help that may be: whatever is read without waiting is read too early.
-class HelpAtTheLastMoment : public SideWork {
- public:
-  void begin(std::function<void()> work) override {
-    wait();
-    work_ = std::move(work);
-    ++begun_;
-  }
-  void wait() override {
-    if (work_) std::exchange(work_, nullptr)();
-  }
-  bool is_at_work() const { return work_ != nullptr; }
-  int begun() const { return begun_; }
-
- private:
-  std::function<void()> work_;
-  int begun_ = 0;
-};
+using slammot::testing::HelpAtTheLastMoment;
 
 grids::EvidenceGrid empty_grid() { return {grids::window_around(Vector2::Zero(), 20.0, 0.2), grids::EvidenceModel{}}; }
 
@@ -104,6 +87,7 @@ TEST(DeferredEvidence, ChangesNothingThatLeavesTheLocalizer) {
   slammot::testing::DriveSetup street{.world = slammot::testing::street(80.0), .world_from_base_at = slammot::testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
   street.scan_period_s = 0.05;
   LocalizerConfig config = slammot::testing::small_map_config();
+  config.expects_all_ranges = true;
   config.map.side_m = 60.0;
   config.map.new_map_after_m = 15.0;
   slammot::testing::SimulatedDrive drive(street);

@@ -38,7 +38,8 @@ LocalMap map_of_room(int scans = 10) {
 
 flow::LocalizedBeam expected_of(const LocalMap& map, const Vector2& end_m, bool has_echo = true) {
   flow::LocalizedBeam beam;
-  map.expect({0.1, 0.1}, end_m, has_echo, 50.0, beam);
+  beam.expected_range_m = map.expected_range_m({0.1, 0.1}, end_m, 50.0);
+  if (has_echo) map.look_up_end(end_m, beam);
   return beam;
 }
 

@@ -1,5 +1,6 @@
 #include "services/localization/localizer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -250,6 +251,35 @@ TEST(Localizer, StandsWhereItsWheelsStandThoughTheMapSeemsToCreep) {
   const double followed_m = led_astray_m(may_be_picked_up);
   EXPECT_GT(followed_m, 0.01);
   EXPECT_LT(led_astray_m(small_map_config()), 0.6 * followed_m);
+}
+
+TEST(Localizer, TellsHowFarTheMapLetsBeamsGoWhereAnEchoContradictsIt) {
+  SimulatedDrive drive(along_a_street());
+  LocalizerConfig of_all = small_map_config();
+  of_all.expects_all_ranges = true;
+  Localizer asked(small_map_config());
+  Localizer told(of_all);
+  constexpr std::uint32_t kScans = 40;
+  constexpr std::size_t kBeam = 120;
+  for (std::uint32_t number = 0; number < kScans; ++number) {
+    sensing::LaserScan scan = drive.scan(number);
+    if (number + 1 == kScans) scan.range_m[kBeam] *= 0.5F;
+    for (Localizer* each : {&asked, &told}) each->add_odometry(drive.odometry(number));
+    const auto of_asked = asked.localize(scan);
+    const auto of_told = told.localize(scan);
+    asked.integrate(all_stationary(*of_asked));
+    told.integrate(all_stationary(*of_told));
+    if (number + 1 < kScans) continue;
+    ASSERT_EQ(of_asked->beams[kBeam].end_cell, flow::EndCell::kFree);
+    for (std::size_t i = 0; i < of_told->beams.size(); ++i) {
+      const std::size_t first = i < flow::kExpectedAside ? 0 : i - flow::kExpectedAside;
+      const std::size_t end = std::min(i + flow::kExpectedAside + 1, of_told->beams.size());
+      const bool is_near_a_contradiction = std::any_of(of_told->beams.begin() + first, of_told->beams.begin() + end,
+                                                       [](const flow::LocalizedBeam& beam) { return beam.end_cell == flow::EndCell::kFree; });
+      EXPECT_GT(of_told->beams[i].expected_range_m, 0.0F) << i;
+      EXPECT_EQ(of_asked->beams[i].expected_range_m, is_near_a_contradiction ? of_told->beams[i].expected_range_m : 0.0F) << i;
+    }
+  }
 }
 
 TEST(Localizer, MakesTheSameInTheMemoryOfAnotherScan) {

@@ -1,7 +1,10 @@
 #include "services/slammot/side_thread.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <functional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,11 +12,18 @@
 namespace slammot {
 namespace {
 
+std::function<bool()> once(std::function<void()> work) {
+  return [work = std::move(work)] {
+    work();
+    return false;
+  };
+}
+
 TEST(SideThread, HasDoneWhatWasBegunWhenItWasWaitedFor) {
   SideThread side;
   std::vector<int> done;  // no lock: waiting is what orders them
   for (int i = 0; i < 5000; ++i) {
-    side.begin([&done, i] { done.push_back(i); });
+    side.begin(once([&done, i] { done.push_back(i); }));
     side.wait();
     ASSERT_EQ(done.size(), static_cast<std::size_t>(i) + 1);
   }
@@ -23,7 +33,7 @@ TEST(SideThread, DoesOneThingAfterTheOtherInTheirOrder) {
   std::vector<int> done;
   {
     SideThread side;
-    for (int i = 0; i < 5000; ++i) side.begin([&done, i] { done.push_back(i); });
+    for (int i = 0; i < 5000; ++i) side.begin(once([&done, i] { done.push_back(i); }));
   }  // and all of it before it goes
   ASSERT_EQ(done.size(), 5000U);
   for (int i = 0; i < 5000; ++i) ASSERT_EQ(done[static_cast<std::size_t>(i)], i);
@@ -34,12 +44,12 @@ TEST(SideThread, WorksBesideItsCaller) {
   std::atomic<bool> is_at_work = false;
   std::atomic<bool> may_end = false;
   std::thread::id at_work;
-  side.begin([&] {
+  side.begin(once([&] {
     at_work = std::this_thread::get_id();
     is_at_work = true;
     is_at_work.notify_one();
     may_end.wait(false);
-  });
+  }));
   is_at_work.wait(false);  // for ever, if nobody but the waiting caller did the work
   may_end = true;
   may_end.notify_one();
@@ -52,13 +62,100 @@ TEST(SideThread, WakesAgainAfterARest) {
   for (int i = 0; i < 3; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));  // longer than it looks out for work
     std::atomic<bool> is_done = false;
-    side.begin([&] {
+    side.begin(once([&] {
       is_done = true;
       is_done.notify_one();
-    });
+    }));
     is_done.wait(false);  // not SideThread::wait(), which would do it here
     side.wait();
   }
+}
+
+TEST(SideThread, TakesStepAfterStepUntilThereIsNoMore) {
+  SideThread side;
+  for (int i = 0; i < 1000; ++i) {
+    int steps = 0;
+    side.begin([&steps] { return ++steps < 5; });
+    side.wait();
+    ASSERT_EQ(steps, 5);
+  }
+}
+
+TEST(SideThread, BeginsMoreThanItHasRoomFor) {
+  SideThread side;
+  std::atomic<bool> may_end = false;
+  std::vector<int> done;
+  std::jthread lets_it_end([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    may_end = true;
+    may_end.notify_all();
+  });
+  side.begin(once([&] { may_end.wait(false); }));
+  for (int i = 0; i < 100; ++i) side.begin(once([&done, i] { done.push_back(i); }));
+  side.wait();
+  ASSERT_EQ(done.size(), 100U);
+  EXPECT_TRUE(std::ranges::is_sorted(done));
+}
+
+TEST(SideThread, DoesEachPartOnce) {
+  SideThread side;
+  for (std::size_t i = 0; i < 5000; ++i) {
+    std::vector<int> done(i % 9, 0);  // no lock: sharing is what orders them
+    side.share(done.size(), [&done](std::size_t part) { ++done[part]; });
+    ASSERT_TRUE(std::ranges::all_of(done, [](int times) { return times == 1; })) << i;
+  }
+}
+
+TEST(SideThread, SharesWithItsCaller) {
+  if (std::thread::hardware_concurrency() == 1) GTEST_SKIP() << "with one core the caller does everything";
+  SideThread side;
+  std::atomic<int> at_work = 0;
+  side.share(2, [&at_work](std::size_t) {
+    ++at_work;
+    at_work.notify_all();
+    for (int now = at_work; now < 2; now = at_work) at_work.wait(now);  // for ever, if one did both
+  });
+  EXPECT_EQ(at_work, 2);
+}
+
+TEST(SideThread, JoinsInBetweenTwoStepsOfWhatItIsAt) {
+  if (std::thread::hardware_concurrency() == 1) GTEST_SKIP() << "with one core the caller does everything";
+  SideThread side;
+  std::atomic<bool> is_at_work = false;
+  std::atomic<bool> may_end = false;
+  side.begin([&] {
+    is_at_work = true;
+    is_at_work.notify_one();
+    return !may_end;
+  });
+  is_at_work.wait(false);
+  std::atomic<int> at_work = 0;
+  side.share(2, [&at_work](std::size_t) {
+    ++at_work;
+    at_work.notify_all();
+    for (int now = at_work; now < 2; now = at_work) at_work.wait(now);
+  });
+  may_end = true;
+  side.wait();
+  EXPECT_EQ(at_work, 2);
+}
+
+TEST(SideThread, DoesNotWaitWithItsPartsForWhatItIsAt) {
+  SideThread side;
+  std::atomic<bool> is_at_work = false;
+  std::atomic<bool> may_end = false;
+  side.begin(once([&] {
+    is_at_work = true;
+    is_at_work.notify_one();
+    may_end.wait(false);
+  }));
+  is_at_work.wait(false);
+  int done = 0;
+  side.share(3, [&done](std::size_t) { ++done; });  // for ever, if it waited
+  EXPECT_EQ(done, 3);
+  may_end = true;
+  may_end.notify_one();
+  side.wait();
 }
 
 TEST(SideThread, WaitsForNothingWhereNothingWasBegun) {

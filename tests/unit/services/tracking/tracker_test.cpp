@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "services/detection/detector.hpp"
+#include "tests/support/help_at_the_last_moment.hpp"
 #include "tests/support/street.hpp"
 
 namespace slammot::tracking {
@@ -25,7 +26,7 @@ const StreetBox kWall{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0};
 /// A street that plays before a scanner at rest.
 class Play {
  public:
-  explicit Play(const TrackingConfig& config = {}, double period_s = kPeriodS) : period_s_(period_s), tracker_(config) { street.known = {kWall}; }
+  explicit Play(const TrackingConfig& config = {}, double period_s = kPeriodS, work::SideWork* help = nullptr) : period_s_(period_s), tracker_(config, help) { street.known = {kWall}; }
 
   /// Lets time pass; `scene` sets the street for each moment.
   void run(double seconds, const std::function<void(Street&, double)>& scene) {
@@ -503,6 +504,32 @@ TEST(Tracker, DoesNotTakeAParkedCarForOneThatLeavesTheView) {
   play.street.known.push_back({{6.0, 9.0, 0.0}});
   play.run(4.0, [](Street& street, double t) { street.unknown = {{{14.0 - 8.0 * t, 5.5, M_PI}}}; });
   EXPECT_TRUE(play.confirmed().empty());
+}
+
+TEST(Tracker, FindsTheSameToTheLastBitWithHelp) {
+  slammot::testing::HelpAtTheLastMoment help;
+  Play helped({}, kPeriodS, &help);
+  Play alone;
+  const auto scene = [](Street& street, double t) {
+    street.unknown = {{{8.0 + 6.0 * t, 5.0, 0.0}}, {{34.0 - 9.0 * t, -4.0, M_PI}}, {{14.0 - 1.3 * t, 0.2, 0.0}, 0.3, 0.3}};
+  };
+  for (int i = 0; i < 100; ++i) {
+    helped.step(scene);
+    alone.step(scene);
+    ASSERT_EQ(helped.result.labels.labels, alone.result.labels.labels);
+    ASSERT_EQ(helped.result.objects.objects.size(), alone.result.objects.objects.size());
+    for (std::size_t k = 0; k < alone.result.objects.objects.size(); ++k) {
+      const flow::TrackedObject& a = helped.result.objects.objects[k];
+      const flow::TrackedObject& b = alone.result.objects.objects[k];
+      ASSERT_EQ(a.track_id, b.track_id);
+      ASSERT_EQ(a.confirmed, b.confirmed);
+      ASSERT_EQ(a.position_in_odom_m, b.position_in_odom_m);
+      ASSERT_EQ(a.covariance, b.covariance);
+      ASSERT_EQ(a.length_m, b.length_m);
+    }
+  }
+  EXPECT_GT(alone.ids.size(), 1U);
+  EXPECT_GT(help.shared(), 100);
 }
 
 TEST(Tracker, HoldsTwoLegsForOneWhoWalks) {
