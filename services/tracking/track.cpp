@@ -448,6 +448,16 @@ void score_miss(Track& track, const Visibility& visibility, double time_s, const
   track.score += std::max(config.most_passed_score, config.passed_beam_score * passed) * share;
 }
 
+bool is_out_of_nowhere(const Track& track, const TrackingConfig& config) {
+  constexpr double kFewestEchoes = 3.0;          // of fewer each may be a mixed pixel of something else
+  constexpr double kLeastShareInFreeSpace = 0.7; // the map is not sure of all that it has seen through
+  constexpr double kMostStoodShare = 0.2;        // a flank lies where it was, and echoes of others are near
+  const EchoesOfYouth& youth = track.youth_echoes;
+  const MotionEvidence& now = track.evidence;
+  return !only_people_move(config) && track.echoes >= kFewestEchoes && youth.in_free_space >= kLeastShareInFreeSpace * youth.seen &&
+         youth.stood <= kMostStoodShare * youth.seen && now.stood <= kMostStoodShare * (now.moved + now.stood + 0.5 * now.undecided);
+}
+
 bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   const Vector2d travel_m = track.position_m() - track.birth_position_m;
   const double distance_m = travel_m.norm();
@@ -455,8 +465,12 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   const double sigma_m = std::sqrt(way.dot((track.position_covariance_m2() + track.birth_covariance_m2) * way));
   const double speed_sigma_mps = std::sqrt(0.5 * track.velocity_covariance().trace());
   const MotionEvidence& evidence = track.evidence;
-  const bool has_moved = evidence.moved >= config.least_moved_votes &&
-                         evidence.moved >= config.least_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided);
+  // What comes out from behind others is where no earlier scan could see: its echoes are undecided, most of them. Where the map says
+  // that it has come, a few votes tell that it is not the map that errs: walls that it holds to be free have none.
+  constexpr double kFewVotes = 2.0;
+  const bool has_moved = (evidence.moved >= config.least_moved_votes &&
+                          evidence.moved >= config.least_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided)) ||
+                         (evidence.moved > kFewVotes && is_out_of_nowhere(track, config));
   // Nothing that stands comes to be where the beams went through a moment before.
   const bool has_arrived = evidence.moved >= config.sure_moved_votes &&
                            evidence.moved >= config.sure_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided);

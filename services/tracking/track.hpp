@@ -27,6 +27,13 @@ struct MotionEvidence {
   double undecided = 0.0;
 };
 
+/// Echoes since something was first seen, and of them such as say where it has been.
+struct EchoesOfYouth {
+  double seen = 0.0;
+  double in_free_space = 0.0;  ///< That contradict the map: from where it has seen through.
+  double stood = 0.0;          ///< From where an earlier scan had an echo, too.
+};
+
 /// Where a scan put the centre of a body.
 struct MeasuredCentre {
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
@@ -92,6 +99,7 @@ struct Track {
   Eigen::Vector2d birth_position_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d birth_covariance_m2 = Eigen::Matrix2d::Identity();
   MotionEvidence evidence;                   ///< Of the last moments, faded.
+  EchoesOfYouth youth_echoes;                ///< Until it was confirmed.
   std::int64_t last_moving_ns = 0;           ///< When it was last faster than something that stands.
   double way_m = 0.0;                        ///< That it has come since it was confirmed, in steps that are more than jitter.
   Eigen::Vector2d anchor_m = Eigen::Vector2d::Zero();  ///< Where it last got away from;
@@ -161,6 +169,11 @@ void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evide
 
 /// Score after time_s without echoes where it was predicted; what hides it excuses it.
 void score_miss(Track& track, const Visibility& visibility, double time_s, const TrackingConfig& config);
+
+/// Whether something has been, ever since it was first seen, where the map has seen through, and next to nothing of it where an
+/// earlier scan had an echo: it has come there, even if the scans that tracking keeps had no view of the place. Of echoes fewer
+/// than three this tells nothing, nor where only people move.
+bool is_out_of_nowhere(const Track& track, const TrackingConfig& config);
 
 /// Whether what has been seen suffices to publish the track as an object that moves.
 bool has_proven_to_move(const Track& track, const TrackingConfig& config);

@@ -537,7 +537,7 @@ void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const Sc
   const SpeedEvidence evidence = speed_along(along, glimpse.points_m, view.scan().stamp_ns, history_, kFastestOfSigmas * config_.fastest_mps, track.track_id);
   const bool flies_sideways = across_mps > 2.0 + 0.3 * std::abs(speed_mps);
   const bool is_off = flies_sideways || std::abs(speed_mps - evidence.speed_mps) > 3.0 * evidence.sigma_mps + kSlackMps;
-  const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps;
+  const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps && !is_out_of_nowhere(track, config_);
   if (is_off && evidence.sigma_mps < kTellingSigmaMps) restart_motion(track, evidence.speed_mps * along, evidence.sigma_mps, config_);
   else track.is_refuted = is_off || is_vague;
 }
@@ -572,6 +572,16 @@ void Tracker::leave_out_surroundings(std::size_t index, double time_s, const Sca
   std::erase_if(beams, [&](std::uint16_t beam) { return !is_near(beam); });
 }
 
+/// With those of this scan.
+EchoesOfYouth Tracker::with_echoes(EchoesOfYouth youth, const std::vector<std::uint16_t>& beams, const ScanView& view) const {
+  for (const std::uint16_t beam : beams) {
+    youth.seen += 1.0;
+    youth.in_free_space += view.scan().labels[beam] == PointLabel::kMoving ? 1.0 : 0.0;
+    youth.stood += past_of_beam_[beam] == Past::kStood ? 1.0 : 0.0;
+  }
+  return youth;
+}
+
 /// Takes the echoes of each track; what concerns others than it is done afterwards, in the order of the tracks.
 void Tracker::correct_all(double time_s, const ScanView& view) {
   if (glimpse_points_m_.size() < tracks_.size()) glimpse_points_m_.resize(tracks_.size());
@@ -597,6 +607,7 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
   track.answers = with_answers(track.answers, beams.size(), gaps_between(beams, view.polar()), time_s);
   const Glimpse glimpse = glimpse_of(beams, track.answers, view, config_.size_scale, glimpse_points_m_[index]);
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return Outcome::kIsOfSomethingElse;
+  if (!track.confirmed) track.youth_echoes = with_echoes(track.youth_echoes, beams, view);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (!track.confirmed) track.youth.add(view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()));
   if (!track.confirmed && has_proven_to_move(track, config_)) {

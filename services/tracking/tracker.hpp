@@ -103,6 +103,7 @@ class Tracker {
   bool may_begin(const flow::Segment& segment, std::size_t index) const;
   bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const;
   MotionEvidence evidence_of(std::size_t track, const ScanView& view) const;
+  EchoesOfYouth with_echoes(EchoesOfYouth youth, const std::vector<std::uint16_t>& beams, const ScanView& view) const;
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
   void check_velocity(std::size_t track, const Glimpse& glimpse, const ScanView& view);
   void correct_all(double time_s, const ScanView& view);

@@ -217,6 +217,52 @@ TEST(Track, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
   EXPECT_TRUE(has_proven_to_move(track, config));
 }
 
+/// Something fast that has come far, of which earlier scans could hardly see the places where it was.
+Track out_from_behind_others(const TrackingConfig& config) {
+  Track track;
+  track.score = config.confirm_score;
+  track.hits = config.least_hits;
+  track.echoes = 5.0;
+  track.evidence = {3.0, 0.0, 30.0};
+  track.youth_echoes = {40.0, 36.0, 0.0};
+  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
+  track.estimate.mean << 2.0, 0.0, 8.0, 0.0, 0.0, 0.0;
+  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
+  return track;
+}
+
+TEST(Track, HasMovedByFewVotesIfByTheMapItHasComeOutOfNowhere) {
+  const TrackingConfig config;
+  const Track track = out_from_behind_others(config);
+  EXPECT_TRUE(has_proven_to_move(track, config));
+  Track unmapped = track;  // say, what a van hid for as long as there is a map
+  unmapped.youth_echoes.in_free_space = 20.0;
+  EXPECT_FALSE(has_proven_to_move(unmapped, config));
+  Track standing = track;
+  standing.youth_echoes.stood = 10.0;
+  EXPECT_FALSE(has_proven_to_move(standing, config));
+  Track forgotten = track;  // a wall that the map holds to be free: nothing ever came there
+  forgotten.evidence = {0.0, 0.0, 33.0};
+  EXPECT_FALSE(has_proven_to_move(forgotten, config));
+  Track crumb = track;
+  crumb.echoes = 2.0;
+  EXPECT_FALSE(has_proven_to_move(crumb, config));
+  EXPECT_FALSE(is_out_of_nowhere(track, among_people()));
+}
+
+TEST(Tracker, IsSureOfACarThatComesOutFromBehindABusBeforeEarlierScansTellItsSpeed) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    street.unknown = {{{12.0, 6.0 + 5.0 * t, M_PI / 2.0}, 16.0, 2.5}, {{20.0, 22.0 - 7.0 * t, -M_PI / 2.0}}};
+  };
+  constexpr double kComesOutAtS = 1.61;  // with three echoes
+  const auto is_sure = [&] {
+    return std::ranges::any_of(play.confirmed(), [](const flow::TrackedObject& object) { return object.position_in_odom_m.x() > 17.0 && object.velocity_in_odom_mps.y() < -3.0; });
+  };
+  while (!is_sure() && play.now_s() < 4.0) play.step(scene);
+  EXPECT_LT(play.now_s() - kComesOutAtS, 0.23);
+}
+
 TEST(Track, HasComeNoWayByTheJumpThatItHasJustMade) {
   const TrackingConfig config;
   Track track;
