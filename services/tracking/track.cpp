@@ -458,6 +458,21 @@ bool is_out_of_nowhere(const Track& track, const TrackingConfig& config) {
          youth.stood <= kMostStoodShare * youth.seen && now.stood <= kMostStoodShare * (now.moved + now.stood + 0.5 * now.undecided);
 }
 
+Body inner_part_of(const Track& track) {
+  constexpr double kLeastM = 0.3;
+  const double sigma_m = std::sqrt(0.5 * track.position_covariance_m2().trace());
+  Body inner = track.body;
+  for (Size* size : {&inner.length, &inner.width}) size->value_m = std::max(kLeastM, size->value_m - std::sqrt(size->variance_m2) - 2.0 * sigma_m);
+  return inner;
+}
+
+void score_passed(Track& track, const Visibility& inner_part, std::size_t echoes, const TrackingConfig& config) {
+  constexpr double kLeastMappedShare = 0.05;
+  const int excess = inner_part.passed - static_cast<int>(echoes);
+  if (excess <= 0 || track.mapped_share < kLeastMappedShare) return;
+  track.score += std::max(config.most_passed_score, config.passed_beam_score * excess) * inner_part.passed / inner_part.beams;
+}
+
 bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   const Vector2d travel_m = track.position_m() - track.birth_position_m;
   const double distance_m = travel_m.norm();
@@ -497,7 +512,9 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   // What has got nowhere yet and seems to stand already may never have moved; it is followed until that is known. Where only
   // people move it is the foot on which somebody stands while the other swings.
   const bool may_always_have_stood = !only_people_move(config) && track.way_m == 0.0 && (track.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps);
+  const double speed_sigma_mps = std::sqrt(0.5 * track.velocity_covariance().trace());
   object.confirmed = track.confirmed && !track.is_refuted && !may_always_have_stood && track.score >= config.publish_score &&
+                     speed_sigma_mps <= config.most_speed_sigma_published_mps &&
                      unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);
   const filters::MotionState estimate = filters::estimate_of(track.move_stop, track.estimate);

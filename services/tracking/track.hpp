@@ -175,6 +175,13 @@ void score_miss(Track& track, const Visibility& visibility, double time_s, const
 /// than three this tells nothing, nor where only people move.
 bool is_out_of_nowhere(const Track& track, const TrackingConfig& config);
 
+/// Score of a body with sides of which there were so many echoes, and through the inner part of which beams have passed: more of
+/// them than echoes say that it is not there, or not such. What the map contradicts is something all the same, drawn too large.
+void score_passed(Track& track, const Visibility& inner_part, std::size_t echoes, const TrackingConfig& config);
+
+/// The part of the body that is filled even if size and place are off by a standard deviation, the place either way.
+Body inner_part_of(const Track& track);
+
 /// Whether what has been seen suffices to publish the track as an object that moves.
 bool has_proven_to_move(const Track& track, const TrackingConfig& config);
 

@@ -179,12 +179,15 @@ bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std:
   return beyond > kMost;
 }
 
-/// Whether two that are long known drive alike, and are so near to each other that they fit into one car.
+/// Whether two that are long known drive alike, and are so near to each other that they fit into one car, or, where their bodies
+/// overlap, into one truck.
 bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) {
   constexpr int kLongKnownHits = 20;
   constexpr double kSlowVehicleMps = 1.0;
   constexpr double kCarLengthM = 4.9;
   constexpr double kCarWidthM = 2.1;
+  constexpr double kTruckLengthM = 8.2;
+  constexpr double kTruckWidthM = 2.6;
   if (!a.confirmed || !b.confirmed || std::min(a.hits, b.hits) < kLongKnownHits) return false;
   if ((a.position_m() - b.position_m()).norm() > 2.0 * kCarLengthM * config.size_scale) return false;
   const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFastestWalkMps;
@@ -196,7 +199,10 @@ bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) 
   Eigen::AlignedBox2d seen;
   for (const auto* contour : {&a.contour_in_odom_m, &b.contour_in_odom_m})
     for (const Eigen::Vector2f& point : *contour) seen.extend(Vector2d(along.dot(point.cast<double>()), across.dot(point.cast<double>())));
-  return seen.sizes().x() < kCarLengthM * config.size_scale && seen.sizes().y() < kCarWidthM * config.size_scale;
+  if (seen.sizes().x() < kCarLengthM * config.size_scale && seen.sizes().y() < kCarWidthM * config.size_scale) return true;
+  const double longest_m = std::max({seen.sizes().x(), a.body.length.value_m, b.body.length.value_m});
+  return a.body.has_sides && longest_m < kTruckLengthM * config.size_scale && seen.sizes().y() < kTruckWidthM * config.size_scale &&
+         std::max(overlap_share(a, b), overlap_share(b, a)) > 0.0;
 }
 
 /// What holds the crumbs of an object whose echoes are another's is no object.
@@ -220,7 +226,9 @@ Tracker::Tracker(const TrackingConfig& config, work::SideWork* help) : config_(c
 
 /// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
 bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
-  if (!past_of_segment_[segment].stands || is_slow(tracks_[track])) return false;
+  // Of what creeps much slides along itself, and seems to stand; who walks has no flank that does.
+  const bool may_slide = tracks_[track].body.has_sides || !tracks_[track].confirmed;
+  if (!past_of_segment_[segment].stands || (may_slide && is_slow(tracks_[track]))) return false;
   const EarlierScan* then = history_.older_than(view.scan().stamp_ns, 0.0);
   if (then == nullptr) return false;
   const std::vector<std::uint16_t>& beams = view.scan().segments[segment].beams;
@@ -557,15 +565,17 @@ void Tracker::release(std::size_t index) {
   std::replace(shares_.track_of_segment.begin(), shares_.track_of_segment.end(), index, kUnassigned);
 }
 
-/// Who has long been known to walk does not become large at once: the rest is a wall, or someone beside.
+/// What stood there before, farther off than a step, is nothing of who walks; and who has long been known to does not become large
+/// at once: the rest is a wall, or someone beside.
 void Tracker::leave_out_surroundings(std::size_t index, double time_s, const ScanView& view) {
   constexpr int kLongKnownHits = 20;
   constexpr double kBelievedAfterS = 0.5;
   Track& track = tracks_[index];
   std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
+  const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() <= config_.stride_m + config_.gate_margin_m; };
+  if (track.confirmed && !track.body.has_sides) std::erase_if(beams, [&](std::uint16_t beam) { return past_of_beam_[beam] == Past::kStood && !is_near(beam); });
   const bool walks = track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps;
   if (!walks || beams.empty()) return;
-  const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + config_.gate_margin_m; };
   const bool has_outgrown = (view.point_in_odom_m(beams.back()) - view.point_in_odom_m(beams.front())).norm() > config_.box_from_extent_m;
   track.outgrown_s = has_outgrown ? track.outgrown_s + time_s : 0.0;
   if (!has_outgrown || track.outgrown_s > kBelievedAfterS || std::ranges::none_of(beams, is_near)) return;
@@ -609,6 +619,7 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return Outcome::kIsOfSomethingElse;
   if (!track.confirmed) track.youth_echoes = with_echoes(track.youth_echoes, beams, view);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
+  if (track.confirmed && is_vehicle(track)) score_passed(track, view.visibility_of(inner_part_of(track), track.position_m()), beams.size(), config_);
   if (!track.confirmed) track.youth.add(view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()));
   if (!track.confirmed && has_proven_to_move(track, config_)) {
     const Life before = life(track);

@@ -75,6 +75,8 @@ const config::FieldTable<TrackingConfig>& tracking_fields() {
        kPositive},
       {"longest_unseen_published_s", &C::longest_unseen_published_s, "After which it is followed, but not published as confirmed.",
        kPositive},
+      {"most_speed_sigma_published_mps", &C::most_speed_sigma_published_mps,
+       "While its velocity is known less well it is not published as confirmed either.", kPositive},
       {"publish_score", &C::publish_score, "With a lower score it is not published as confirmed.", kScore},
       {"longest_unseen_tentative_s", &C::longest_unseen_tentative_s, "The same for one that is not confirmed.", kPositive},
       {"longest_tentative_s", &C::longest_tentative_s, "What has not proven to move by then is rejected.", kPositive},

@@ -25,6 +25,55 @@ TEST(Answers, AreForgottenAfterAWhile) {
   EXPECT_LT(answers.unanswered_share(), 0.05);
 }
 
+/// Believed in, on its way, and known to be a car.
+Track followed_car() {
+  Track track;
+  track.confirmed = true;
+  track.score = 5.0;
+  track.way_m = 10.0;
+  track.body.has_sides = true;
+  track.body.length = {4.4, 0.04};
+  track.body.width = {1.8, 0.01};
+  track.estimate.mean << 20.0, 0.0, 5.0, 0.0, 0.0, 0.0;
+  track.estimate.covariance = 0.01 * track.estimate.covariance.Identity();
+  return track;
+}
+
+TEST(Track, IsFollowedButNotPublishedWhileItsVelocityIsHardlyKnown) {
+  const TrackingConfig config;
+  Track track = followed_car();
+  EXPECT_TRUE(described(track, 0, config).confirmed);
+  track.estimate.covariance.block<2, 2>(2, 2) = 1.0 * Eigen::Matrix2d::Identity();
+  EXPECT_FALSE(described(track, 0, config).confirmed);
+  EXPECT_TRUE(track.confirmed);
+}
+
+TEST(Track, IsBelievedInLessWhereMoreBeamsPassThroughTheMiddleOfItThanAreEchoed) {
+  const TrackingConfig config;
+  const Visibility seen{10, 0, 8, 0};
+  Track track = followed_car();
+  track.mapped_share = 0.5;
+  score_passed(track, seen, 8, config);
+  EXPECT_EQ(track.score, 5.0);
+  score_passed(track, seen, 2, config);
+  EXPECT_LT(track.score, 4.0);
+}
+
+TEST(Track, OfWhatTheMapContradictsIsSomethingThoughItIsDrawnTooLarge) {
+  Track track = followed_car();
+  track.mapped_share = 0.0;
+  score_passed(track, {10, 0, 8, 0}, 2, {});
+  EXPECT_EQ(track.score, 5.0);
+}
+
+TEST(Track, IsFilledInTheMiddleAsFarAsItsSizeAndPlaceAreKnown) {
+  Track track = followed_car();
+  EXPECT_NEAR(inner_part_of(track).length.value_m, 4.4 - 0.2 - 2.0 * 0.1, 1e-9);
+  EXPECT_NEAR(inner_part_of(track).width.value_m, 1.8 - 0.1 - 2.0 * 0.1, 1e-9);
+  track.body.length.variance_m2 = 9.0;
+  EXPECT_GT(inner_part_of(track).length.value_m, 0.0);
+}
+
 TEST(Track, LiesAlongWhatIsLongerThanAnyFront) {
   const TrackingConfig config;
   std::vector<Eigen::Vector2d> points;

@@ -177,6 +177,21 @@ TEST(Tracker, TakesAWallBesideSomeoneWhoWalksForNoPartOfThem) {
   EXPECT_LT((play.confirmed().front().position_in_odom_m - Vector2(14.3, -3.0 + 1.4 * (play.now_s() - kPeriodS))).norm(), 0.4);
 }
 
+TEST(Tracker, TakesTheWallBehindWhichSomeoneDisappearsForNoPartOfThem) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    const double y_m = -3.0 + 1.2 * t;
+    street.known = {kWall, {{15.0, 3.4, M_PI / 2.0}, 3.0, 0.5}};
+    street.unknown = {{{15.0 + 0.2 * std::max(0.0, t - 2.5), y_m, M_PI / 2.0}, 0.5, 0.5}};
+  };
+  play.run(3.0, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  for (int i = 0; i < 100; ++i) {
+    play.step(scene);
+    for (const flow::TrackedObject& object : play.confirmed()) EXPECT_LT(object.length_m, 1.2) << play.now_s();
+  }
+}
+
 TEST(Tracker, IsUnsureWhereTheMiddleIsOfWhatMayBeTheCornerOfACar) {
   Play play;  // a truck that stands hides all but the corner of what drives there at 6 m/s
   const auto scene = [](Street& street, double t) {
@@ -459,6 +474,16 @@ TEST(Tracker, HoldsTheTwoEndsOfACarForOneWhileSomethingHidesItsMiddle) {
   ASSERT_EQ(far.size(), 1U);
   EXPECT_LT((far.front().position_in_odom_m - Vector2(20.0, -9.0 + 6.0 * (play.now_s() - kPeriodS))).norm(), 0.4);
   EXPECT_GT(far.front().length_m, 4.0);
+}
+
+TEST(Tracker, HoldsTheBackAndTheFlankOfATruckForOneWhileARiderHidesTheEdgeBetweenThem) {
+  Play play;  // at half the distance and half the speed
+  const auto scene = [](Street& street, double t) {
+    const double x_m = 6.0 + 6.0 * t;
+    street.unknown = {{{x_m, 4.0, 0.0}, 7.0, 2.2}, {{0.5 * x_m, 2.0, 0.0}, 1.2, 0.5}};
+  };
+  play.run(2.5, scene);
+  EXPECT_EQ(play.confirmed().size(), 2U);  // with the rider
 }
 
 TEST(Tracker, KeepsTwoCyclistsApartBetweenWhichItSeesTheWall) {
