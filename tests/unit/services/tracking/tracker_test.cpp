@@ -192,6 +192,23 @@ TEST(Tracker, TakesTheWallBehindWhichSomeoneDisappearsForNoPartOfThem) {
   }
 }
 
+TEST(Tracker, DoesNotStayAtAWallThatSomeoneSlowHasWalkedTo) {
+  Play play;
+  constexpr double kGoneAfterS = 2.2;  // through a door
+  const auto scene = [](Street& street, double t) {
+    street.known = {kWall, {{15.0, 0.5, M_PI / 2.0}, 1.0, 0.5}};
+    street.unknown = {};
+    if (t < kGoneAfterS) street.unknown = {{{14.5, -1.9 + 0.8 * t, M_PI / 2.0}, 0.5, 0.5}};
+  };
+  play.run(kGoneAfterS - 0.1, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  play.run(0.2, scene);
+  for (int i = 0; i < 60; ++i) {
+    play.step(scene);
+    EXPECT_TRUE(play.confirmed().empty()) << play.now_s();
+  }
+}
+
 TEST(Tracker, IsUnsureWhereTheMiddleIsOfWhatMayBeTheCornerOfACar) {
   Play play;  // a truck that stands hides all but the corner of what drives there at 6 m/s
   const auto scene = [](Street& street, double t) {
