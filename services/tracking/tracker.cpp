@@ -565,17 +565,15 @@ void Tracker::release(std::size_t index) {
   std::replace(shares_.track_of_segment.begin(), shares_.track_of_segment.end(), index, kUnassigned);
 }
 
-/// What stood there before, farther off than a step, is nothing of who walks; and who has long been known to does not become large
-/// at once: the rest is a wall, or someone beside.
+/// Who has long been known to walk does not become large at once: the rest is a wall, or someone beside.
 void Tracker::leave_out_surroundings(std::size_t index, double time_s, const ScanView& view) {
   constexpr int kLongKnownHits = 20;
   constexpr double kBelievedAfterS = 0.5;
   Track& track = tracks_[index];
   std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
-  const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() <= config_.stride_m + config_.gate_margin_m; };
-  if (track.confirmed && !track.body.has_sides) std::erase_if(beams, [&](std::uint16_t beam) { return past_of_beam_[beam] == Past::kStood && !is_near(beam); });
   const bool walks = track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps;
   if (!walks || beams.empty()) return;
+  const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + config_.gate_margin_m; };
   const bool has_outgrown = (view.point_in_odom_m(beams.back()) - view.point_in_odom_m(beams.front())).norm() > config_.box_from_extent_m;
   track.outgrown_s = has_outgrown ? track.outgrown_s + time_s : 0.0;
   if (!has_outgrown || track.outgrown_s > kBelievedAfterS || std::ranges::none_of(beams, is_near)) return;
