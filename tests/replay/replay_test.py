@@ -21,6 +21,7 @@ FIGURES = {
     "hota": (("tracking", "hota", "hota"), True, 0.05, 0.0),
     "mota": (("tracking", "clear_mot", "mota"), True, 0.10, 0.0),
     "recall": (("tracking", "clear_mot", "recall"), True, 0.07, 0.0),
+    "precision": (("tracking", "clear_mot", "precision"), True, 0.06, 0.0),
     "idf1": (("tracking", "identity", "f1"), True, 0.07, 0.0),
     "map_precision": (("map", "precision"), True, 0.03, 0.0),
     "map_recall": (("map", "recall"), True, 0.05, 0.0),
