@@ -5,7 +5,10 @@
 namespace slammot::geometry {
 
 Matrix3 compound_jacobian_first(const Pose2& a_from_b, const Pose2& b_from_c) {
-  const Vector2 lever_in_a = rotation(a_from_b.heading_rad) * b_from_c.translation_m();
+  return compound_jacobian_first(rotation(a_from_b.heading_rad) * b_from_c.translation_m());
+}
+
+Matrix3 compound_jacobian_first(const Vector2& lever_in_a) {
   Matrix3 jacobian = Matrix3::Identity();
   jacobian(0, 2) = -lever_in_a.y();
   jacobian(1, 2) = lever_in_a.x();

@@ -13,6 +13,9 @@ struct UncertainPose2 {
 /// Jacobian of (a_from_b ∘ b_from_c) with respect to a_from_b; Wang 2004, Eq. (2.4).
 Matrix3 compound_jacobian_first(const Pose2& a_from_b, const Pose2& b_from_c);
 
+/// The same of the lever alone: the translation of b_from_c, turned into a.
+Matrix3 compound_jacobian_first(const Vector2& lever_in_a);
+
 /// Jacobian of (a_from_b ∘ b_from_c) with respect to b_from_c; Wang 2004, Eq. (2.5).
 Matrix3 compound_jacobian_second(const Pose2& a_from_b);
 

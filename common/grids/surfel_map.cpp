@@ -198,12 +198,19 @@ std::optional<SurfelView> SurfelMap::nearest(const Eigen::Vector2d& point_m, int
   return view_of(slot);
 }
 
-std::optional<SurfelMap::Surface> SurfelMap::nearest_surface(const Eigen::Vector2d& point_m, int radius) const {
+std::optional<std::size_t> SurfelMap::nearest_place(const Eigen::Vector2d& point_m, int radius) const {
   const std::int32_t slot = find(point_m, radius);
-  if (slot < 0) return std::nullopt;
-  const auto place = static_cast<std::size_t>(slot);
+  return slot < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(slot));
+}
+
+SurfelMap::Surface SurfelMap::surface_at(std::size_t place) const {
   const Shape& shape = fresh_shape(place);
-  return Surface{mean_m(slot), {shape.normal_x, shape.normal_y}, shape.spread_m2, seen_over_m(moments_[place])};
+  return {mean_m(static_cast<std::int32_t>(place)), {shape.normal_x, shape.normal_y}, shape.spread_m2, seen_over_m(moments_[place])};
+}
+
+std::optional<SurfelMap::Surface> SurfelMap::nearest_surface(const Eigen::Vector2d& point_m, int radius) const {
+  const std::optional<std::size_t> place = nearest_place(point_m, radius);
+  return place ? std::optional(surface_at(*place)) : std::nullopt;
 }
 
 std::vector<SurfelView> SurfelMap::all() const {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "common/grids/grid_window.hpp"
+#include "common/work/side_work.hpp"
 
 namespace slammot::grids {
 
@@ -65,11 +66,20 @@ class SurfelMap {
   /// Like nearest(), without what matching does not need.
   std::optional<Surface> nearest_surface(const Eigen::Vector2d& point_m, int radius) const;
 
-  /// Forgets every surfel for whose mean is_gone(mean_m) holds.
+  /// The same in two steps, of which several may do the first at once; the second computes what has changed.
+  std::optional<std::size_t> nearest_place(const Eigen::Vector2d& point_m, int radius) const;
+  Surface surface_at(std::size_t place) const;
+
+  /// Forgets every surfel for whose mean is_gone(mean_m) holds, which help (null: none) may be asked, too.
   template <typename Predicate>
-  void erase_where(Predicate is_gone) {
+  void erase_where(const Predicate& is_gone, work::SideWork* help = nullptr) {
+    constexpr std::size_t kRanges = 8;
+    is_gone_.resize(cells_.size());
+    work::share_in_ranges(help, cells_.size(), kRanges, [&](std::size_t first, std::size_t end) {
+      for (std::size_t place = first; place < end; ++place) is_gone_[place] = !is_empty(static_cast<std::int32_t>(place)) && is_gone(mean_m(place));
+    });
     for (std::size_t place = 0; place < cells_.size(); ++place)
-      if (!is_empty(static_cast<std::int32_t>(place)) && is_gone(mean_m(place))) erase(cells_[place]);
+      if (is_gone_[place]) erase(cells_[place]);
   }
 
   /// Surfel with its mean nearest to the point among the 3 x 3 cells around it, or, when these hold none, among the
@@ -115,6 +125,7 @@ class SurfelMap {
   float weight_limit_;
   std::vector<std::int32_t> slots_;     ///< By cell: place in moments_, -1 for none.
   std::vector<CellMoments> moments_;
+  std::vector<char> is_gone_;           ///< Memory for erase_where().
   std::vector<Cell> cells_;             ///< Of each of the moments,
   std::vector<Eigen::Vector2d> means_m_;///< and, one place later, where its echoes are in the mean; infinitely far where there are none;
   std::vector<Moments> shares_;         ///< and so, of zeros where there are none, its share in the direction of the surfaces around it.

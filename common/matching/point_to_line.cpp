@@ -26,23 +26,23 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
                               double gate_m, const PointToLineConfig& config) {
   const int radius = std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
-  surfaces_.resize(points.size());
+  places_.resize(points.size());
   constexpr std::size_t kRanges = 4;
   work::share_in_ranges(help_, points.size(), kRanges, [&](std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i)
-      surfaces_[i] = surfels.nearest_surface(turn * points[i].in_base_m + map_from_base.translation_m(), radius);
+      places_[i] = surfels.nearest_place(turn * points[i].in_base_m + map_from_base.translation_m(), radius);
   });
   pairs_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const MatchPoint& point = points[i];
-    const std::optional<grids::SurfelMap::Surface>& surface = surfaces_[i];
-    if (!surface) continue;
-    const bool has_direction = !surface->normal.isZero();
+    if (!places_[i]) continue;
+    const grids::SurfelMap::Surface surface = surfels.surface_at(*places_[i]);
+    const bool has_direction = !surface.normal.isZero();
     // A surface without a direction is somewhere in its cell.
-    const double variance_m2 = has_direction ? point.sigma_m * point.sigma_m + surface->spread_m2
+    const double variance_m2 = has_direction ? point.sigma_m * point.sigma_m + surface.spread_m2
                                              : std::pow(point.sigma_m + 0.5 * surfels.window().cell_size_m, 2);
-    const double share = surface->seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
-    pairs_.push_back({point.in_base_m, surface->mean_m, surface->normal, share / variance_m2, variance_m2, share, has_direction, surface->seen_over_m < config.new_below_m});
+    const double share = surface.seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
+    pairs_.push_back({point.in_base_m, surface.mean_m, surface.normal, share / variance_m2, variance_m2, share, has_direction, surface.seen_over_m < config.new_below_m});
   }
   if (config.body_sigma_m > 0.0) share_errors_of_bodies(config);
 }

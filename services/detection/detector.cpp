@@ -229,16 +229,14 @@ Matrix2 echo_covariance(const Vector2& way_m, double beam_step_rad, const Detect
          sigma_across_m * sigma_across_m * (Matrix2::Identity() - along * along.transpose());
 }
 
-/// Covariance of a point in odom from that of the vehicle's pose; Wang 2004, Eq. (2.3).
-Matrix2 pose_contribution(const geometry::UncertainPose2& odom_from_base, const Vector2& point_in_base_m) {
-  const geometry::Matrix3 J =
-      geometry::compound_jacobian_first(odom_from_base.pose, {point_in_base_m.x(), point_in_base_m.y(), 0.0});
+/// Covariance of a point in odom, at the end of a lever from the vehicle's place, from that of its pose; Wang 2004, Eq. (2.3).
+Matrix2 pose_contribution(const geometry::UncertainPose2& odom_from_base, const Vector2& lever_in_odom_m) {
+  const geometry::Matrix3 J = geometry::compound_jacobian_first(lever_in_odom_m);
   return (J * odom_from_base.covariance * J.transpose()).topLeftCorner<2, 2>();
 }
 
-void describe_shape(Segment& segment, const SegmentedScan& scan, const DetectionConfig& config, std::vector<Vector2>& points_in_odom_m) {
+void describe_shape(Segment& segment, const SegmentedScan& scan, const Matrix2& R, const DetectionConfig& config, std::vector<Vector2>& points_in_odom_m) {
   points_in_odom_m.clear();
-  const Matrix2 R = geometry::rotation(scan.odom_from_base.pose.heading_rad);
   const Vector2 t = scan.odom_from_base.pose.translation_m();
   Vector2 sum = Vector2::Zero();
   for (const std::uint16_t beam : segment.beams) {
@@ -251,7 +249,7 @@ void describe_shape(Segment& segment, const SegmentedScan& scan, const Detection
   const Vector2 centroid_in_base_m = R.transpose() * (segment.centroid_in_odom_m - t);
   segment.centroid_covariance_m2 =
       echo_covariance(segment.centroid_in_odom_m - laser_in_odom_m, scan.beam_step_rad, config) / count +
-      pose_contribution(scan.odom_from_base, centroid_in_base_m);
+      pose_contribution(scan.odom_from_base, R * centroid_in_base_m);
   // Only what may become a track needs the searched heading; the ends of the rest tell enough.
   const Vector2 way = points_in_odom_m.back() - points_in_odom_m.front();
   const sensing::OrientedBox box = segment.label == PointLabel::kMoving ? sensing::fit_box(points_in_odom_m, config.range_noise_m)
@@ -263,12 +261,12 @@ void describe_shape(Segment& segment, const SegmentedScan& scan, const Detection
 }
 
 void finish_segment(Segment& segment, const LocalizedScan& localized, const DetectionConfig& config, const SegmentedScan& scan,
-                    std::vector<Vector2>& points_in_odom_m) {
+                    const Matrix2& odom_from_base_turn, std::vector<Vector2>& points_in_odom_m) {
   segment.moving_share = moving_share(segment, scan);
   segment.label = label_of_segment(segment, localized, scan, config);
   segment.occluded_at_start = is_hidden_beyond(segment.beams.front(), -1, scan, config);
   segment.occluded_at_end = is_hidden_beyond(segment.beams.back(), +1, scan, config);
-  describe_shape(segment, scan, config, points_in_odom_m);
+  describe_shape(segment, scan, odom_from_base_turn, config, points_in_odom_m);
   if (segment.label == PointLabel::kMoving && segment.box_length_m > config.longest_mover_m) segment.label = PointLabel::kUnknown;
 }
 
@@ -303,13 +301,14 @@ SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, S
     }
   }
   segmented.segments.resize(count);
+  const Matrix2 odom_from_base_turn = geometry::rotation(scan.odom_from_base.pose.heading_rad);
   constexpr std::size_t kRanges = 4;  // segments are of very different sizes
   work::share_in_ranges(help, count, kRanges, [&](std::size_t first, std::size_t end) {
     std::vector<Vector2> points_in_odom_m;
     points_in_odom_m.reserve(scan.beams.size());
     for (std::size_t i = first; i < end; ++i) {
       segmented.segments[i].segment_id = static_cast<std::uint32_t>(i);
-      finish_segment(segmented.segments[i], scan, config, segmented, points_in_odom_m);
+      finish_segment(segmented.segments[i], scan, config, segmented, odom_from_base_turn, points_in_odom_m);
     }
   });
   return segmented;

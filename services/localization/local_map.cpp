@@ -172,7 +172,7 @@ void LocalMap::forget_surfels_in_free_space() {
   surfels_.erase_where([&](const Vector2& mean_m) {
     const grids::Cell cell = evidence.window().cell_at(mean_m.x(), mean_m.y());
     return evidence.so_steps(cell) <= -free_steps_ && evidence.highest_so_steps(cell, 1) <= -free_steps_;  // the first tells of nearly all
-  });
+  }, evidence_.help());
 }
 
 void LocalMap::restore_stationary(const Vector2& point_in_odom_m) {
