@@ -26,23 +26,30 @@ struct Face {
   Vector2d normal = Vector2d::UnitY();
   double half_width_m = 0.0;
   double off_m = 0.0;                      ///< RMS distance of the echoes from the line.
+  double gap_from_m = 0.0;                 ///< Along it, from the middle: where there are none, if it is seen in two pieces.
+  double gap_to_m = 0.0;
 };
 
-Face face_through(std::span<const std::uint16_t> beams, const PolarView& view) {
+/// Through the echoes of beams that are side by side, or of two such runs, the later beams last.
+Face face_through(std::span<const std::uint16_t> first, std::span<const std::uint16_t> last, const PolarView& view) {
+  const auto count = static_cast<double>(first.size() + last.size());
   Face face;
-  for (const std::uint16_t beam : beams) face.middle_m += view.point_in_odom_m(beam);
-  face.middle_m /= static_cast<double>(beams.size());
+  for (const auto run : {first, last})
+    for (const std::uint16_t beam : run) face.middle_m += view.point_in_odom_m(beam);
+  face.middle_m /= count;
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const std::uint16_t beam : beams) {
-    const Vector2d off_m = view.point_in_odom_m(beam) - face.middle_m;
-    spread += off_m * off_m.transpose();
+  for (const auto run : {first, last}) {
+    for (const std::uint16_t beam : run) {
+      const Vector2d off_m = view.point_in_odom_m(beam) - face.middle_m;
+      spread += off_m * off_m.transpose();
+    }
   }
   const double heading_rad = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
   face.along = {std::cos(heading_rad), std::sin(heading_rad)};
   face.normal = {-face.along.y(), face.along.x()};
-  face.off_m = std::sqrt(std::max(0.0, face.normal.dot(spread * face.normal)) / static_cast<double>(beams.size()));
-  const double first_m = face.along.dot(view.point_in_odom_m(beams.front()) - face.middle_m);
-  const double last_m = face.along.dot(view.point_in_odom_m(beams.back()) - face.middle_m);
+  face.off_m = std::sqrt(std::max(0.0, face.normal.dot(spread * face.normal)) / count);
+  const double first_m = face.along.dot(view.point_in_odom_m(first.front()) - face.middle_m);
+  const double last_m = face.along.dot(view.point_in_odom_m(last.empty() ? first.back() : last.back()) - face.middle_m);
   face.half_width_m = 0.5 * std::abs(last_m - first_m);
   return face;
 }
@@ -101,7 +108,9 @@ std::optional<double> off_then_m(const Face& face, const PolarView& now, const E
     const auto beam = static_cast<std::size_t>(i);
     if (view.range_m(beam) <= 0.0) continue;
     const Vector2d to_echo_m = view.point_in_odom_m(beam) - face.middle_m;
-    if (std::abs(face.along.dot(to_echo_m)) > kMiddleShare * face.half_width_m) continue;
+    const double along_m = face.along.dot(to_echo_m);
+    if (std::abs(along_m) > kMiddleShare * face.half_width_m) continue;
+    if (along_m > face.gap_from_m && along_m < face.gap_to_m) continue;
     const double off_m = face.normal.dot(to_echo_m);
     if (std::abs(off_m) > farthest_m) {
       through += outward * off_m > 0.0 ? 1 : 0;
@@ -141,6 +150,25 @@ double agreed_off_m(const Face& face, const PolarView& now, std::span<const Earl
   return agreeing > 1 ? first_off_m : 0.0;
 }
 
+/// Against what a face is held.
+struct Asked {
+  std::span<const EarlierScan* const> earlier;
+  const std::function<double()>& pose_sigma_m;
+  const TrackingConfig& config;
+};
+
+/// How far the face has come, of which there are so many echoes; zero if it has not, or is too narrow, too wide or bent.
+Vector2d shift_of(const Face& face, std::size_t echoes, const PolarView& now, const Asked& asked) {
+  const TrackingConfig& config = asked.config;
+  const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
+  const double echo_sigma_m = config.range_noise_m + config.range_noise_per_m * range_m;
+  if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) return Vector2d::Zero();
+  if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_sigma_m)) return Vector2d::Zero();
+  const double sigma_m = std::hypot(asked.pose_sigma_m(), echo_sigma_m * std::sqrt(2.0 / static_cast<double>(echoes)));
+  const double least_m = std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
+  return -agreed_off_m(face, now, asked.earlier, {echo_sigma_m, least_m, config.size_scale}) * face.normal;
+}
+
 }  // namespace
 
 std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams, const PolarView& now,
@@ -149,18 +177,29 @@ std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams
   std::optional<FaceShift> best;
   for (const auto side : sides_of(segment_beams, now, config)) {
     if (side.size() < kFewestEchoes) continue;
-    const Face face = face_through(side, now);
-    const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
-    const double echo_sigma_m = config.range_noise_m + config.range_noise_per_m * range_m;
-    if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) continue;
-    if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_sigma_m)) continue;
-    const double sigma_m = std::hypot(pose_sigma_m(), echo_sigma_m * std::sqrt(2.0 / static_cast<double>(side.size())));
-    const double least_m = std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
-    const double off_m = agreed_off_m(face, now, earlier, {echo_sigma_m, least_m, config.size_scale});
-    if (off_m == 0.0 || (best && best->shift_m.norm() > std::abs(off_m))) continue;
-    best = FaceShift{side, -off_m * face.normal};
+    const Vector2d shift_m = shift_of(face_through(side, {}, now), side.size(), now, {earlier, pose_sigma_m, config});
+    if (shift_m.isZero() || (best && best->shift_m.norm() > shift_m.norm())) continue;
+    best = FaceShift{side, shift_m};
   }
   return best;
+}
+
+std::optional<FaceShift> face_shift_with(std::span<const std::uint16_t> other_beams, std::span<const std::uint16_t> segment_beams, const PolarView& now,
+                                         std::span<const EarlierScan* const> earlier, const std::function<double()>& pose_sigma_m, const TrackingConfig& config) {
+  if (std::min(segment_beams.size(), other_beams.size()) < kFewestEchoes) return std::nullopt;
+  const auto first = segment_beams.front() < other_beams.front() ? segment_beams : other_beams;
+  const auto last = segment_beams.front() < other_beams.front() ? other_beams : segment_beams;
+  if (first.back() >= last.front()) return std::nullopt;
+  const double width_m = (now.point_in_odom_m(last.back()) - now.point_in_odom_m(first.front())).norm();
+  if (width_m > kWidestM * config.size_scale) return std::nullopt;
+  Face face = face_through(first, last, now);
+  const double from_m = face.along.dot(now.point_in_odom_m(first.back()) - face.middle_m);
+  const double to_m = face.along.dot(now.point_in_odom_m(last.front()) - face.middle_m);
+  face.gap_from_m = std::min(from_m, to_m);
+  face.gap_to_m = std::max(from_m, to_m);
+  const Vector2d shift_m = shift_of(face, first.size() + last.size(), now, {earlier, pose_sigma_m, config});
+  if (shift_m.isZero()) return std::nullopt;
+  return FaceShift{segment_beams, shift_m};
 }
 
 }  // namespace slammot::tracking

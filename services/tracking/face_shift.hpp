@@ -26,4 +26,8 @@ struct FaceShift {
 std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams, const PolarView& now,
                                     std::span<const EarlierScan* const> earlier, const std::function<double()>& pose_sigma_m, const TrackingConfig& config);
 
+/// The same of a side of which two segments are the ends, what lies between them being hidden or dark; the beams are those of the first.
+std::optional<FaceShift> face_shift_with(std::span<const std::uint16_t> other_beams, std::span<const std::uint16_t> segment_beams, const PolarView& now,
+                                         std::span<const EarlierScan* const> earlier, const std::function<double()>& pose_sigma_m, const TrackingConfig& config);
+
 }  // namespace slammot::tracking

@@ -354,8 +354,9 @@ Tracker::PastScans Tracker::past_scans(std::int64_t stamp_ns) const {
   past.long_ago = history_.older_than(stamp_ns, config_.compare_slow_after_s);
   if (only_people_move(config_)) return past;
   constexpr double kSoonS = 0.4;
-  for (const EarlierScan* then : {history_.older_than(stamp_ns, kSoonS), past.then, past.long_ago})
-    if (then != nullptr) past.for_faces[past.count_for_faces++] = then;
+  constexpr double kLaterS = 0.6;
+  for (const double age_s : {config_.compare_fast_after_s, kSoonS, kLaterS, config_.compare_after_s, config_.compare_slow_after_s})
+    if (const EarlierScan* then = history_.older_than(stamp_ns, age_s); then != nullptr) past.for_faces[past.count_for_faces++] = then;
   return past;
 }
 
@@ -406,7 +407,14 @@ void Tracker::note_face_shift(std::size_t s, const PastScans& past_scans, const 
   if (segment.label == PointLabel::kNoEcho || segment.box_length_m > config_.longest_body_m) return;
   const std::span<const EarlierScan* const> earlier(past_scans.for_faces.data(), past_scans.count_for_faces);
   const auto pose_sigma_m = [&] { return std::sqrt(pose_covariance_at(segment.centroid_in_odom_m, view.scan()).trace()); };
-  const std::optional<FaceShift> shift = face_shift(segment.beams, view.polar(), earlier, pose_sigma_m, config_);
+  std::optional<FaceShift> shift = face_shift(segment.beams, view.polar(), earlier, pose_sigma_m, config_);
+  constexpr double kLongestPieceM = 1.2;
+  constexpr std::size_t kSegmentsAside = 2;  // what hides the middle is one itself
+  const std::vector<Segment>& segments = view.scan().segments;
+  const auto may_be_piece = [&](const Segment& one) { return one.label != PointLabel::kNoEcho && one.box_length_m < kLongestPieceM * config_.size_scale; };
+  const std::size_t end = may_be_piece(segment) ? std::min(segments.size(), s + kSegmentsAside + 1) : 0;
+  for (std::size_t other = s - std::min(s, kSegmentsAside); !shift && other < end; ++other)
+    if (other != s && may_be_piece(segments[other])) shift = face_shift_with(segments[other].beams, segment.beams, view.polar(), earlier, pose_sigma_m, config_);
   if (!shift) return;
   past_of_segment_[s].face_shift_m = shift->shift_m;
   for (const std::uint16_t beam : shift->beams) has_shifted_[beam] = true;
@@ -635,6 +643,7 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
 void Tracker::confirm(std::size_t index) {
   Track& track = tracks_[index];
   track.confirmed = true;
+  track.last_moving_ns = last_stamp_ns_;  // though it may be as slow as what stops
   // On a road a false track would so excuse whatever stood in its place.
   if (only_people_move(config_)) history_.confirm(track.track_id);
   track.way_m = 0.0;  // until now it may have been made of several things

@@ -90,7 +90,7 @@ class Tracker {
     const EarlierScan* then = nullptr;
     const EarlierScan* just_now = nullptr;
     const EarlierScan* long_ago = nullptr;
-    std::array<const EarlierScan*, 3> for_faces{};   ///< Of which the first so many are there.
+    std::array<const EarlierScan*, 5> for_faces{};   ///< Of which the first so many are there.
     std::size_t count_for_faces = 0;
   };
   /// What has become of a track when its echoes were taken.

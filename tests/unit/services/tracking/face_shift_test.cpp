@@ -56,6 +56,10 @@ Answer shift_after(const std::function<std::vector<StreetBox>(double)>& boxes_at
     for (const double age_s : {0.4, 0.8, 1.6}) earlier.push_back(history.older_than(stamp_ns, age_s));
     for (const flow::Segment& segment : segmented.segments) {
       if ((segment.centroid_in_odom_m - place_m).norm() > 3.0) continue;
+      for (const flow::Segment& other : segmented.segments) {
+        if (&other == &segment || (other.centroid_in_odom_m - place_m).norm() > 3.0) continue;
+        if (const auto shift = face_shift_with(other.beams, segment.beams, view, earlier, [] { return kPoseSigmaM; }, kConfig)) answer = {shift->shift_m, shift->beams.size()};
+      }
       if (const auto shift = face_shift(segment.beams, view, earlier, [] { return kPoseSigmaM; }, kConfig)) answer = {shift->shift_m, shift->beams.size()};
     }
   }
@@ -76,6 +80,20 @@ TEST(FaceShift, TellsOfTheFrontAndNotOfTheFlankOfACarThatComes) {
   ASSERT_TRUE(answer.shift_m);
   EXPECT_NEAR(answer.shift_m->x(), -0.2, 0.03);
   EXPECT_NEAR(answer.shift_m->y(), 0.0, 0.03);
+}
+
+const StreetBox kPost{{3.0, 0.0, 0.0}, 0.2, 0.36};
+
+TEST(FaceShift, TellsByItsTwoEndsOfARearTheMiddleOfWhichIsHidden) {
+  const Answer answer = shift_after([](double t) { return std::vector<StreetBox>{kPost, {{9.0 + 0.4 * t, 0.0, 0.0}}}; }, {7.5, 0.0});
+  ASSERT_TRUE(answer.shift_m);
+  EXPECT_NEAR(answer.shift_m->x(), 0.16, 0.03);
+  EXPECT_NEAR(answer.shift_m->y(), 0.0, 0.03);
+  EXPECT_LT(answer.beams, 10U);
+}
+
+TEST(FaceShift, IsNoneOfTheTwoEndsOfWhatStands) {
+  EXPECT_FALSE(shift_after([](double) { return std::vector<StreetBox>{kPost, {{9.8, 0.0, 0.0}}}; }, {7.5, 0.0}).shift_m);
 }
 
 TEST(FaceShift, IsNoneOfWhatStands) {

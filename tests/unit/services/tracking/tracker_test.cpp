@@ -165,6 +165,37 @@ TEST(Tracker, NoticesATruckAheadThatCreepsOffThoughItsBackMightBeAShortFlank) {
   EXPECT_LT(way_m(play.now_s() - kPeriodS), 0.5);
 }
 
+TEST(Tracker, NoticesACarAheadThatCreepsOffThoughAPostHidesTheMiddleOfItsRear) {
+  Play play;
+  const auto way_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
+  const StreetBox post{{3.0, 0.0, 0.0}, 0.2, 0.36};
+  const auto scene = [&](Street& street, double t) { street.known = {kWall, post, {{9.75 + way_m(t), 0.0, 0.0}}}; };
+  play.run(2.0, scene);
+  while (play.confirmed().empty() && play.now_s() < 5.0) play.step(scene);
+  EXPECT_LT(way_m(play.now_s() - kPeriodS), 0.5);
+}
+
+TEST(Tracker, NoticesSoonThatACarCreepsThatComesIntoView) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    street.known = {kWall, {{14.0 + 0.9 * t, 0.0, 0.0}}};
+    if (t < 2.0) street.known.push_back({{8.0, 0.0, M_PI / 2.0}, 6.0, 1.0});
+  };
+  play.run(2.0, scene);
+  while (play.confirmed().empty() && play.now_s() < 5.0) play.step(scene);
+  EXPECT_LT(play.now_s(), 2.7);
+}
+
+TEST(Tracker, KeepsWhatItIsSureOfThoughThatIsAsSlowAsWhatStops) {
+  Play play;  // the two ends of a rear, at less than 0.6 m/s
+  const StreetBox post{{3.0, 0.0, 0.0}, 0.2, 0.36};
+  const auto scene = [&](Street& street, double t) { street.known = {kWall, post, {{9.75 + 0.2 * std::pow(std::max(0.0, t - 2.0), 2), 0.0, 0.0}}}; };
+  play.run(2.0, scene);
+  play.run(3.0, scene);
+  EXPECT_FALSE(play.confirmed().empty());
+  EXPECT_EQ(play.tracker().counters().tracks_begun, 2U);
+}
+
 TEST(Tracker, TakesAWallBesideSomeoneWhoWalksForNoPartOfThem) {
   Play play;
   const auto scene = [](Street& street, double t) {
