@@ -402,7 +402,7 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
   return localized;
 }
 
-/// Those near which an echo contradicts the map: elsewhere nobody asks what the map expected, and to tell is half the price of a scan.
+/// Those near which an echo contradicts the map: elsewhere nobody asks what the map expected, and to tell it of all costs more than the match.
 void Localizer::list_asked_beams(const flow::LocalizedScan& localized) {
   asked_beams_.clear();
   const std::size_t count = localized.beams.size();

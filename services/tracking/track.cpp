@@ -20,6 +20,12 @@ constexpr double kHeadingDriftRad2PerS = 0.1;  ///< How fast a body may turn, as
 
 constexpr double kProgressM = 1.0;             ///< So far something must come once in a while that says to move.
 
+/// What the velocity is known to, in one direction.
+double speed_sigma_mps(const Track& track) { return std::sqrt(0.5 * track.velocity_covariance().trace()); }
+
+/// All votes; one that could not decide counts for half.
+double weight_of(const MotionEvidence& evidence) { return evidence.moved + evidence.stood + 0.5 * evidence.undecided; }
+
 filters::MoveStopConfig move_stop_config(const TrackingConfig& config) {
   return {config.standing_memory_s, config.detection_sigmas};
 }
@@ -202,7 +208,7 @@ void update_motion_state(Track& track, const TrackingConfig& config) {
 /// Speeds count once the track is that of something, and while they are known and not none.
 void update_class(Track& track, double time_s, const TrackingConfig& config) {
   constexpr double kLongestHeldS = 0.2;
-  const double sigma_mps = std::sqrt(0.5 * track.velocity_covariance().trace());
+  const double sigma_mps = speed_sigma_mps(track);
   const bool is_known = track.confirmed && !track.is_refuted && sigma_mps < config.most_speed_sigma_mps;
   if (is_known && !track.move_stop.stands && track.state == flow::Motion::kMoving)
     track.speeds = with_speed(track.speeds, {track.velocity_mps().norm(), sigma_mps, std::min(time_s, kLongestHeldS)}, config);
@@ -455,7 +461,7 @@ bool is_out_of_nowhere(const Track& track, const TrackingConfig& config) {
   const EchoesOfYouth& youth = track.youth_echoes;
   const MotionEvidence& now = track.evidence;
   return !only_people_move(config) && track.echoes >= kFewestEchoes && youth.in_free_space >= kLeastShareInFreeSpace * youth.seen &&
-         youth.stood <= kMostStoodShare * youth.seen && now.stood <= kMostStoodShare * (now.moved + now.stood + 0.5 * now.undecided);
+         youth.stood <= kMostStoodShare * youth.seen && now.stood <= kMostStoodShare * weight_of(now);
 }
 
 Body inner_part_of(const Track& track) {
@@ -478,17 +484,16 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   const double distance_m = travel_m.norm();
   const Vector2d way = travel_m / std::max(distance_m, 1e-6);
   const double sigma_m = std::sqrt(way.dot((track.position_covariance_m2() + track.birth_covariance_m2) * way));
-  const double speed_sigma_mps = std::sqrt(0.5 * track.velocity_covariance().trace());
   const MotionEvidence& evidence = track.evidence;
   // What comes out from behind others is where no earlier scan could see: its echoes are undecided, most of them. Where the map says
   // that it has come, a few votes tell that it is not the map that errs: walls that it holds to be free have none.
   constexpr double kFewVotes = 2.0;
   const bool has_moved = (evidence.moved >= config.least_moved_votes &&
-                          evidence.moved >= config.least_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided)) ||
+                          evidence.moved >= config.least_moved_share * weight_of(evidence)) ||
                          (evidence.moved > kFewVotes && is_out_of_nowhere(track, config));
   // Nothing that stands comes to be where the beams went through a moment before.
   const bool has_arrived = evidence.moved >= config.sure_moved_votes &&
-                           evidence.moved >= config.sure_moved_share * (evidence.moved + evidence.stood + 0.5 * evidence.undecided);
+                           evidence.moved >= config.sure_moved_share * weight_of(evidence);
   // A jump is no way: what answers now here, now there, like glass or the legs of chairs, would have come far at once.
   const double covered_m = distance_m - (walks(track) ? track.surprise_m : 0.0);
   const bool has_travelled = covered_m >= config.least_travel_m && covered_m >= config.least_travel_sigmas * sigma_m;
@@ -497,7 +502,7 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
   const double sigmas = config.detection_sigmas * (walks(track) ? kOfSwingingLegs : 1.0);
   if (track.velocity_mps().norm() < filters::minimum_detection_speed_mps(track.estimate, sigmas)) return false;
   return track.hits >= config.least_hits && track.score >= config.confirm_score && has_moved && (has_arrived || has_travelled) &&
-         speed_sigma_mps <= config.most_speed_sigma_mps;
+         speed_sigma_mps(track) <= config.most_speed_sigma_mps;
 }
 
 bool contradicts_itself(const Track& track, const TrackingConfig& config) {
@@ -512,9 +517,8 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   // What has got nowhere yet and seems to stand already may never have moved; it is followed until that is known. Where only
   // people move it is the foot on which somebody stands while the other swings.
   const bool may_always_have_stood = !only_people_move(config) && track.way_m == 0.0 && (track.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps);
-  const double speed_sigma_mps = std::sqrt(0.5 * track.velocity_covariance().trace());
   object.confirmed = track.confirmed && !track.is_refuted && !may_always_have_stood && track.score >= config.publish_score &&
-                     speed_sigma_mps <= config.most_speed_sigma_published_mps &&
+                     speed_sigma_mps(track) <= config.most_speed_sigma_published_mps &&
                      unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);
   const filters::MotionState estimate = filters::estimate_of(track.move_stop, track.estimate);
