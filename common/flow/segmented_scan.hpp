@@ -22,7 +22,7 @@ enum class PointLabel : std::uint8_t {
 struct Segment {
   std::uint32_t segment_id = 0;                  ///< Index in the scan.
   PointLabel label = PointLabel::kUnknown;
-  std::vector<std::uint16_t> beams;              ///< Ascending.
+  std::vector<std::uint16_t> beams;              ///< Ascending; of what lies across the seam of a scan that goes all round, the last come first.
   Eigen::Vector2d centroid_in_odom_m = Eigen::Vector2d::Zero();
   Eigen::Matrix2d centroid_covariance_m2 = Eigen::Matrix2d::Zero();  ///< Laser noise and pose together.
   Eigen::Vector2d box_centre_in_odom_m = Eigen::Vector2d::Zero();    ///< Of the visible part's oriented box.

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "common/geometry/full_turn.hpp"
 #include "common/grids/ray_walk.hpp"
 
 namespace slammot::grids {
@@ -173,7 +173,7 @@ void EvidenceGrid::measure_free_ways(const Eigen::Vector2d& origin_m, const std:
   }
   if (beam_step_rad == 0.0) return;
   const double dense_m = kCellsBetweenBeams * window_.cell_size_m / std::abs(beam_step_rad);
-  const bool goes_all_round = static_cast<double>(rays.size() + 1) * std::abs(beam_step_rad) > 2.0 * std::numbers::pi;
+  const bool goes_all_round = geometry::goes_all_round(rays.size(), beam_step_rad);
   const double cosine_of_two_steps = std::cos(2.0 * beam_step_rad);
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     if (i + 1 == ways_.size() && !goes_all_round) break;

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "common/geometry/full_turn.hpp"
+
 namespace slammot::sensing {
 namespace {
 
@@ -112,6 +114,13 @@ void join_what_is_dark(std::span<const Eigen::Vector2f> points_m, std::span<cons
   spans.resize(kept);
 }
 
+bool lie_together(std::size_t before, std::size_t beam, std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
+                  double beam_step_rad, const SegmentationConfig& config) {
+  const double spacing_m = std::abs(beam_step_rad) * static_cast<double>(std::max(range_m[before], range_m[beam]));
+  const double gap_m = std::min(config.widest_gap_m, config.gap_m + config.gap_beam_spacings * spacing_m);
+  return (points_m[beam] - points_m[before]).squaredNorm() <= static_cast<float>(gap_m * gap_m);
+}
+
 }  // namespace
 
 void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
@@ -121,19 +130,22 @@ void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<co
   for (std::size_t beam = 0; beam < range_m.size(); ++beam) {
     if (range_m[beam] <= 0.0F) continue;
     const auto index = static_cast<std::uint16_t>(beam);
-    if (!spans.empty() && index - spans.back().last <= config.bridged_beams + 1) {
-      const std::size_t before = spans.back().last;
-      const double spacing_m = std::abs(beam_step_rad) * static_cast<double>(std::max(range_m[before], range_m[beam]));
-      const double gap_m = std::min(config.widest_gap_m, config.gap_m + config.gap_beam_spacings * spacing_m);
-      if ((points_m[beam] - points_m[before]).squaredNorm() <= static_cast<float>(gap_m * gap_m)) {
-        spans.back().last = index;
-        continue;
-      }
-    }
-    spans.push_back({index, index});
+    const bool goes_on = !spans.empty() && index - spans.back().last <= config.bridged_beams + 1 &&
+                         lie_together(spans.back().last, beam, points_m, range_m, beam_step_rad, config);
+    if (goes_on) spans.back().last = index;
+    else spans.push_back({index, index});
   }
   join_along_lines(points_m, range_m, config, spans);
   if (config.dark_gap_beams > 0) join_what_is_dark(points_m, range_m, config, spans);
+}
+
+bool goes_on_across_seam(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
+                         const SegmentationConfig& config, std::span<const BeamSpan> spans) {
+  if (spans.size() < 2 || !geometry::goes_all_round(range_m.size(), beam_step_rad)) return false;
+  const std::size_t last = spans.back().last;
+  const std::size_t first = spans.front().first;
+  const std::size_t unanswered = range_m.size() - 1 - last + first;
+  return static_cast<int>(unanswered) <= config.bridged_beams && lie_together(last, first, points_m, range_m, beam_step_rad, config);
 }
 
 }  // namespace slammot::sensing

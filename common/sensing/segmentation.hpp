@@ -36,4 +36,8 @@ struct BeamSpan {
 void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
                          const SegmentationConfig& config, std::vector<BeamSpan>& spans);
 
+/// Whether the last span of a scan that goes all round goes on in its first one, with no end of a thing in between.
+bool goes_on_across_seam(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
+                         const SegmentationConfig& config, std::span<const BeamSpan> spans);
+
 }  // namespace slammot::sensing

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "common/geometry/full_turn.hpp"
 #include "common/sensing/box_fit.hpp"
 #include "services/detection/beam_directions.hpp"
 #include "services/detection/ground.hpp"
@@ -211,12 +212,19 @@ Segment& segment_at(std::size_t place, std::vector<Segment>& segments) {
 bool is_hidden_beyond(std::uint16_t beam, int step, const SegmentedScan& scan, const DetectionConfig& config) {
   constexpr int kBeamsLookedAt = 2;
   for (int i = 1; i <= kBeamsLookedAt; ++i) {
-    const int neighbour = static_cast<int>(beam) + i * step;
-    if (neighbour < 0 || neighbour >= static_cast<int>(scan.range_m.size())) return true;  // the field of view ends
+    const int count = static_cast<int>(scan.range_m.size());
+    int neighbour = static_cast<int>(beam) + i * step;
+    if (geometry::goes_all_round(scan.range_m.size(), scan.beam_step_rad)) neighbour = (neighbour + count) % count;
+    if (neighbour < 0 || neighbour >= count) return true;  // the field of view ends
     const double range_m = static_cast<double>(scan.range_m[static_cast<std::size_t>(neighbour)]);
     if (range_m > 0.0) return range_m < static_cast<double>(scan.range_m[beam]) - config.occluder_margin_m;
   }
   return false;
+}
+
+void add_echoes(const BeamSpan& span, const std::vector<float>& range_m, std::vector<std::uint16_t>& beams) {
+  for (std::uint16_t beam = span.first; beam <= span.last; ++beam)
+    if (range_m[beam] > 0.0F) beams.push_back(beam);
 }
 
 /// Noise of one echo along and across its beam, in odom, without the pose's.
@@ -289,10 +297,11 @@ SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, S
   std::size_t count = 0;
   std::vector<std::uint16_t> beams;
   std::vector<Run> runs;
-  for (const BeamSpan& span : spans) {
+  const bool goes_on_at_first = sensing::goes_on_across_seam(segmented.points_in_base_m, range_without_ground_m, scan.beam_step_rad, config.segmentation, spans);
+  for (std::size_t i = goes_on_at_first ? 1 : 0; i < spans.size(); ++i) {
     beams.clear();
-    for (std::uint16_t beam = span.first; beam <= span.last; ++beam)
-      if (range_without_ground_m[beam] > 0.0F) beams.push_back(beam);
+    add_echoes(spans[i], range_without_ground_m, beams);
+    if (goes_on_at_first && i + 1 == spans.size()) add_echoes(spans.front(), range_without_ground_m, beams);
     split_by_label(beams, segmented, config, runs);
     for (const Run& run : runs) {
       Segment& segment = segment_at(count++, segmented.segments);

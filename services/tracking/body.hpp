@@ -66,6 +66,7 @@ enum class Edge : std::uint8_t {
 struct Side {
   double heading_rad = 0.0;  ///< Which way along it is not known.
   double length_m = 0.0;     ///< As far as it is seen.
+  double off_m = 0.0;        ///< How far the echoes lie off the box's sides in the mean: what is round has any heading.
 };
 
 /// The echoes that belong to one object, in odom.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "common/geometry/full_turn.hpp"
+
 namespace slammot::tracking {
 namespace {
 
@@ -41,7 +43,8 @@ PolarView::PolarView(const flow::SegmentedScan& scan)
       beam_step_rad_(std::abs(scan.beam_step_rad)),
       beams_per_rad_(1.0 / beam_step_rad_),
       half_view_rad_(0.5 * beam_step_rad_ * static_cast<double>(scan.range_m.size())),
-      is_clockwise_(scan.beam_step_rad < 0.0) {
+      is_clockwise_(scan.beam_step_rad < 0.0),
+      goes_all_round_(geometry::goes_all_round(scan.range_m.size(), scan.beam_step_rad)) {
   const Eigen::Matrix2d R = geometry::rotation(scan.odom_from_base.pose.heading_rad);
   const Vector2d t = scan.odom_from_base.pose.translation_m();
   points_in_odom_m_.resize(scan.range_m.size());
@@ -78,6 +81,19 @@ void PolarView::measure_depths() {
       farthest_m_[beam] = std::max(farthest_m_[beam], farthest_m[beam + aside]);
     }
   }
+}
+
+std::optional<std::size_t> PolarView::neighbour_of(std::size_t beam, long steps) const {
+  const auto count = static_cast<long>(range_m_.size());
+  long neighbour = static_cast<long>(beam) + steps;
+  if (goes_all_round_) neighbour = (neighbour % count + count) % count;
+  if (neighbour < 0 || neighbour >= count) return std::nullopt;
+  return static_cast<std::size_t>(neighbour);
+}
+
+std::size_t PolarView::steps_between(std::size_t from, std::size_t to) const {
+  if (to >= from) return to - from;
+  return goes_all_round_ ? range_m_.size() - from + to : range_m_.size();
 }
 
 double PolarView::steps_towards(double direction_in_odom_rad) const {
@@ -187,10 +203,12 @@ ScanView::Directions ScanView::directions_of(const Body& body, const Vector2d& c
     low = std::min(low, steps), high = std::max(high, steps);
   }
   const auto count = static_cast<double>(scan_->range_m.size());
+  double first = std::ceil(low - 0.5);
+  double last = std::floor(high + 0.5) + 1.0;
+  if (polar_.goes_all_round()) return {*polar_.neighbour_of(0, std::lround(first)), static_cast<std::size_t>(std::min(last - first, count))};
   if (high < 0.0 || low > count) return {};
-  const double first = std::clamp(std::ceil(low - 0.5), 0.0, count);
-  const double last = std::clamp(std::floor(high + 0.5) + 1.0, first, count);
-  return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
+  first = std::clamp(first, 0.0, count), last = std::clamp(last, first, count);
+  return {static_cast<std::size_t>(first), static_cast<std::size_t>(last - first)};
 }
 
 Visibility ScanView::visibility_of(const Body& body, const Vector2d& centre_m) const {
@@ -203,9 +221,9 @@ Visibility ScanView::visibility_of(const Body& body, const Vector2d& centre_m) c
     nearest_m = std::min(nearest_m, range_m), farthest_m = std::max(farthest_m, range_m);
   }
   Visibility visibility;
-  for (std::size_t beam = directions.first; beam < directions.last; ++beam) {
+  for (std::size_t i = 0; i < directions.count; ++i) {
     ++visibility.beams;
-    const auto range_m = static_cast<double>(scan_->range_m[beam]);
+    const auto range_m = polar_.range_m(*polar_.neighbour_of(directions.first, static_cast<long>(i)));
     if (range_m > 0.0 && range_m < nearest_m - kMarginM) ++visibility.blocked;
     if (range_m > farthest_m + kMarginM) ++visibility.passed;
     if (range_m <= 0.0) ++visibility.unanswered;

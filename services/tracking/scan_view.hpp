@@ -44,6 +44,12 @@ class PolarView {
   const Eigen::Vector2d& laser_in_odom_m() const { return laser_in_odom_m_; }
   double range_m(std::size_t beam) const { return static_cast<double>(range_m_[beam]); }
   double beam_step_rad() const { return beam_step_rad_; }   ///< Positive.
+  bool goes_all_round() const { return goes_all_round_; }
+  /// The beam so many steps on; none beyond the ends of the field of view, if it has any.
+  std::optional<std::size_t> neighbour_of(std::size_t beam, long steps) const;
+  /// Steps from one beam on to another, across the seam of a scan that goes all round if that is the way; as many as there are
+  /// beams where there is none.
+  std::size_t steps_between(std::size_t from, std::size_t to) const;
 
   /// Worth it for a scan of which much is asked: sight_of() answers the same, mostly without looking at single beams.
   void measure_depths();
@@ -78,6 +84,7 @@ class PolarView {
   double beams_per_rad_ = 0.0;
   double half_view_rad_ = 0.0;
   bool is_clockwise_ = false;
+  bool goes_all_round_ = false;
 };
 
 /// The current scan in odom. Refers to the scan, which must outlive it.
@@ -94,11 +101,12 @@ class ScanView {
   std::size_t segment_of_beam(std::size_t beam) const { return segment_of_beam_[beam]; }
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// Beams [first, last) that point at the body, clipped to the scan; empty where first == last.
+  /// So many beams on from one, clipped to the scan.
   struct Directions {
     std::size_t first = 0;
-    std::size_t last = 0;
+    std::size_t count = 0;
   };
+  /// Those that point at the body.
   Directions directions_of(const Body& body, const Eigen::Vector2d& centre_m, double margin_m) const;
 
   Visibility visibility_of(const Body& body, const Eigen::Vector2d& centre_m) const;

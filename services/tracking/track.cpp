@@ -110,7 +110,10 @@ void follow_side(Track& track, const Glimpse& glimpse, const TrackingConfig& con
   constexpr double kFarthestRad = 0.5;
   constexpr double kEndsOffM = 0.2;  // the errors of one scan are those of the next, and short sides are round
   constexpr double kMostSigmaRad = 0.1;
-  const double sigma_rad = std::min(kMostSigmaRad, kEndsOffM * config.size_scale / glimpse.side->length_m);
+  constexpr double kFlatShare = 0.03;   // a half circle lies off the sides of its box by a twentieth of its length, and has any heading
+  constexpr double kRoundRadPerShare = 20.0;
+  const double round_rad = kRoundRadPerShare * std::max(0.0, glimpse.side->off_m / glimpse.side->length_m - kFlatShare);
+  const double sigma_rad = std::hypot(round_rad, std::min(kMostSigmaRad, kEndsOffM * config.size_scale / glimpse.side->length_m));
   const double off_axis_rad = std::remainder(glimpse.side->heading_rad - body.axis_rad, 0.5 * std::numbers::pi);
   const double axis_gain = body.axis_variance_rad2 / (body.axis_variance_rad2 + sigma_rad * sigma_rad);
   body.axis_rad = wrap_angle(body.axis_rad + axis_gain * off_axis_rad);

@@ -70,26 +70,36 @@ void add_beams(std::vector<std::uint16_t>& beams, const std::vector<std::uint16_
   std::sort(beams.begin(), beams.end());
 }
 
+double mean_distance_from_sides_m(const Segment& segment, const ScanView& view) {
+  const Vector2d along{std::cos(segment.box_heading_rad), std::sin(segment.box_heading_rad)};
+  const Vector2d across{-along.y(), along.x()};
+  double sum_m = 0.0;
+  for (const std::uint16_t beam : segment.beams) {
+    const Vector2d off_m = view.point_in_odom_m(beam) - segment.box_centre_in_odom_m;
+    sum_m += std::min(0.5 * segment.box_length_m - std::abs(along.dot(off_m)), 0.5 * segment.box_width_m - std::abs(across.dot(off_m)));
+  }
+  return sum_m / static_cast<double>(segment.beams.size());
+}
+
 /// The long side, if the beams are mostly those of one moving segment with one.
 std::optional<Side> side_of(const std::vector<std::uint16_t>& beams, const ScanView& view, double least_length_m) {
   const Segment& segment = view.scan().segments[view.segment_of_beam(beams[beams.size() / 2])];
   constexpr std::size_t kFewestEchoes = 6;
   if (segment.beams.size() < kFewestEchoes || segment.box_length_m < least_length_m || 2 * segment.beams.size() < beams.size()) return std::nullopt;
-  if (segment.label == PointLabel::kMoving) return Side{segment.box_heading_rad, segment.box_length_m};
-  if (segment.box_width_m < 0.1 * segment.box_length_m) return Side{segment.box_heading_rad, segment.box_length_m};  // as good as a line
-  return std::nullopt;
+  const bool is_line = segment.box_width_m < 0.1 * segment.box_length_m;
+  if (segment.label != PointLabel::kMoving && !is_line) return std::nullopt;  // no heading was searched for
+  return Side{segment.box_heading_rad, segment.box_length_m, mean_distance_from_sides_m(segment, view)};
 }
 
 /// What lies beside the echo of a beam, `step` (+1 or -1) beams on.
 Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view, double size_scale) {
   constexpr int kBeamsLookedAt = 2;
   constexpr double kFartherM = 0.5;
-  const auto count = static_cast<int>(view.beam_count());
   Edge edge = Edge::kNoEcho;
   for (int i = 1; i <= kBeamsLookedAt; ++i) {
-    const int neighbour = static_cast<int>(beam) + i * step;
-    if (neighbour < 0 || neighbour >= count) return Edge::kHidden;
-    const double range_m = view.range_m(static_cast<std::size_t>(neighbour));
+    const std::optional<std::size_t> neighbour = view.neighbour_of(beam, i * step);
+    if (!neighbour) return Edge::kHidden;
+    const double range_m = view.range_m(*neighbour);
     if (range_m <= 0.0) continue;
     if (range_m < view.range_m(beam) - kFartherM * size_scale) return Edge::kHidden;
     edge = Edge::kOpen;
@@ -97,10 +107,35 @@ Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view, double siz
   return edge;
 }
 
+/// The first of beams that are ascending but for one step across the seam of the scan: the one after the widest gap.
+std::size_t start_of(const std::vector<std::uint16_t>& beams, const PolarView& view) {
+  if (!view.goes_all_round()) return 0;
+  std::size_t start = 0;
+  std::size_t widest = 0;
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const std::size_t gap = view.steps_between(beams[i == 0 ? beams.size() - 1 : i - 1], beams[i]);
+    if (gap > widest) start = i, widest = gap;
+  }
+  return start;
+}
+
+/// The first and the last, with nothing but the thing that they met in between.
+struct Ends {
+  std::uint16_t first = 0;
+  std::uint16_t last = 0;
+};
+
+Ends ends_of(const std::vector<std::uint16_t>& beams, const PolarView& view) {
+  const std::size_t start = start_of(beams, view);
+  return {beams[start], beams[start == 0 ? beams.size() - 1 : start - 1]};
+}
+
 /// How many beams between the first and the last got no echo.
 int gaps_between(const std::vector<std::uint16_t>& beams, const PolarView& view) {
+  const Ends ends = ends_of(beams, view);
+  const std::size_t steps = view.steps_between(ends.first, ends.last);
   int gaps = 0;
-  for (std::size_t beam = beams.front(); beam <= beams.back(); ++beam) gaps += view.range_m(beam) <= 0.0 ? 1 : 0;
+  for (std::size_t i = 1; i < steps; ++i) gaps += view.range_m(*view.neighbour_of(ends.first, static_cast<long>(i))) <= 0.0 ? 1 : 0;
   return gaps;
 }
 
@@ -108,9 +143,11 @@ int gaps_between(const std::vector<std::uint16_t>& beams, const PolarView& view)
 Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const Answers& answers, const ScanView& view, double size_scale, std::vector<Vector2d>& points_m) {
   constexpr double kLongSideM = 1.4;
   points_m.clear();
-  for (const std::uint16_t beam : beams) points_m.push_back(view.point_in_odom_m(beam));
-  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(beams.front(), -1, view.polar(), size_scale),
-          edge_beyond(beams.back(), +1, view.polar(), size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
+  const std::size_t start = start_of(beams, view.polar());
+  for (std::size_t i = 0; i < beams.size(); ++i) points_m.push_back(view.point_in_odom_m(beams[(start + i) % beams.size()]));
+  const Ends ends = ends_of(beams, view.polar());
+  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(ends.first, -1, view.polar(), size_scale),
+          edge_beyond(ends.last, +1, view.polar(), size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
 }
 
 bool is_vehicle(const Track& track) { return track.body.has_sides && track.body.kind != Kind::kBicycle; }
@@ -170,12 +207,18 @@ bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& confi
 bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b, const PolarView& view) {
   constexpr double kBeyondM = 0.7;
   constexpr int kMost = 1;
-  const auto& first = a.front() < b.front() ? a : b;
-  const auto& last = a.front() < b.front() ? b : a;
-  if (first.back() >= last.front()) return false;
-  const double farther_m = std::max(view.range_m(first.back()), view.range_m(last.front()));
+  Ends before = ends_of(a, view);
+  Ends after = ends_of(b, view);
+  const auto begins_within = [&](const Ends& one, const Ends& other) {
+    return view.steps_between(other.first, one.first) <= view.steps_between(other.first, other.last);
+  };
+  if (begins_within(before, after) || begins_within(after, before)) return false;
+  if (view.steps_between(before.last, after.first) > view.steps_between(after.last, before.first)) std::swap(before, after);
+  const std::size_t steps = view.steps_between(before.last, after.first);
+  const double farther_m = std::max(view.range_m(before.last), view.range_m(after.first));
   int beyond = 0;
-  for (std::size_t beam = first.back() + 1U; beam < last.front(); ++beam) beyond += view.range_m(beam) > farther_m + kBeyondM ? 1 : 0;
+  for (std::size_t i = 1; i < steps; ++i)
+    beyond += view.range_m(*view.neighbour_of(before.last, static_cast<long>(i))) > farther_m + kBeyondM ? 1 : 0;
   return beyond > kMost;
 }
 
@@ -313,7 +356,8 @@ void Tracker::divide_shared_segments(const ScanView& view) {
     const ScanView::Directions directions = view.directions_of(track.body, track.position_m(), margin_m);
     std::vector<std::uint16_t> beams;
     PointLabel label = PointLabel::kUnknown;
-    for (std::size_t beam = directions.first; beam < directions.last; ++beam) {
+    for (std::size_t i = 0; i < directions.count; ++i) {
+      const std::size_t beam = *view.polar().neighbour_of(directions.first, static_cast<long>(i));
       const std::size_t s = view.segment_of_beam(beam);
       if (s == ScanView::kNone) continue;
       const Vector2d& point_m = view.point_in_odom_m(beam);
@@ -329,6 +373,7 @@ void Tracker::divide_shared_segments(const ScanView& view) {
       beams.push_back(static_cast<std::uint16_t>(beam));
       label = stronger(label, segment.label);
     }
+    std::sort(beams.begin(), beams.end());
     for (std::size_t other = 0; other < tracks_.size(); ++other) {
       std::vector<std::uint16_t>& theirs = shares_.beams_of_track[other];
       std::erase_if(theirs, [&](std::uint16_t beam) { return std::binary_search(beams.begin(), beams.end(), beam); });

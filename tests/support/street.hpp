@@ -38,7 +38,7 @@ inline std::optional<double> range_to(const StreetBox& box, const geometry::Vect
   return near < far && near > 0.0 ? std::optional(near) : std::nullopt;
 }
 
-/// A half-circle scanner at the origin of base, among boxes of which the map knows some. Everything in front of what it
+/// A scanner, of half a circle unless told, at the origin of base, among boxes of which the map knows some. Everything in front of what it
 /// expects is known to be free.
 struct Street {
   std::vector<StreetBox> known;   ///< Standing, in the map.
@@ -46,6 +46,8 @@ struct Street {
   std::vector<StreetBox> gone;    ///< In the map, but no longer there.
   bool knows_the_open = true;     ///< Whether the map knows what is free where it expects nothing.
   int beams = 361;
+  double first_beam_rad = -0.5 * M_PI;
+  double field_of_view_rad = M_PI;
   double max_range_m = 80.0;
 
   static double nearest(const std::vector<StreetBox>& boxes, const geometry::Vector2& origin_m, double direction_rad, double max_range_m) {
@@ -61,11 +63,11 @@ struct Street {
     scan.sequence = sequence;
     scan.scanner_id = "front";
     scan.max_range_m = max_range_m;
-    scan.beam_step_rad = M_PI / (beams - 1);
+    scan.beam_step_rad = field_of_view_rad / (beams - 1);
     scan.odom_from_base.pose = odom_from_base;
     scan.odom_from_base.covariance.diagonal() << 1e-4, 1e-4, 1e-6;
     for (int i = 0; i < beams; ++i) {
-      const double in_base_rad = -0.5 * M_PI + i * scan.beam_step_rad;
+      const double in_base_rad = first_beam_rad + i * scan.beam_step_rad;
       const double in_odom_rad = in_base_rad + odom_from_base.heading_rad;
       const geometry::Vector2 origin_m = odom_from_base.translation_m();
       const double known_m = nearest(known, origin_m, in_odom_rad, max_range_m);
@@ -86,6 +88,13 @@ struct Street {
       scan.beams.push_back(beam);
     }
     return scan;
+  }
+
+  /// Half a degree from beam to beam, the seam behind.
+  void look_all_round() {
+    beams = 720;
+    first_beam_rad = -M_PI;
+    field_of_view_rad = 719.0 / 720.0 * 2.0 * M_PI;
   }
 };
 

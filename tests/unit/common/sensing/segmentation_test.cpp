@@ -106,6 +106,28 @@ TEST(Segmentation, LeavesApartThreeWhoWalkAbreast) {
   EXPECT_EQ(three.spans().size(), 3U);
 }
 
+TEST(Segmentation, KnowsWhatGoesOnFromTheLastBeamToTheFirst) {
+  constexpr int kBeams = 720;
+  const auto goes_on = [](double range_at_end_m, double step_rad) {
+    std::vector<Eigen::Vector2f> points_m(kBeams, Eigen::Vector2f::Zero());
+    std::vector<float> range_m(kBeams, 0.0F);
+    for (int beam = 0; beam < kBeams; ++beam) {
+      if (beam > 10 && beam < kBeams - 10) continue;
+      const double angle = -M_PI + beam * step_rad;
+      const double range = beam <= 10 ? 10.0 : range_at_end_m;
+      range_m[static_cast<std::size_t>(beam)] = static_cast<float>(range);
+      points_m[static_cast<std::size_t>(beam)] = Eigen::Vector2d(range * std::cos(angle), range * std::sin(angle)).cast<float>();
+    }
+    std::vector<BeamSpan> spans;
+    segment_by_distance(points_m, range_m, step_rad, {}, spans);
+    EXPECT_EQ(spans.size(), 2U);
+    return goes_on_across_seam(points_m, range_m, step_rad, {}, spans);
+  };
+  EXPECT_TRUE(goes_on(10.1, kStepRad));
+  EXPECT_FALSE(goes_on(12.0, kStepRad)) << "something else";
+  EXPECT_FALSE(goes_on(10.1, 0.5 * kStepRad)) << "half a turn";
+}
+
 TEST(Segmentation, FindsNothingInAScanWithoutEchoes) {
   EXPECT_TRUE(Sweep([](double) -> std::optional<double> { return std::nullopt; }).spans().empty());
 }

@@ -76,6 +76,22 @@ TEST(Detector, FindsTheSameWithHelp) {
   EXPECT_GT(help.shared(), 0);
 }
 
+TEST(Detector, SeesWhatLiesAcrossTheSeamOfAFullTurnAsOneThing) {
+  Street street;
+  street.look_all_round();
+  street.known = {kWall, {{-40.0, 0.0, M_PI / 2.0}, 80.0, 1.0}};
+  street.unknown = {{{-12.0, 0.0, M_PI / 2.0}}};
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  const flow::Segment* car = segment_at(scan, {-11.1, 0.0}, 0.5);
+  ASSERT_NE(car, nullptr);
+  EXPECT_EQ(car->label, PointLabel::kMoving);
+  EXPECT_NEAR(car->box_length_m, 4.5, 0.2);
+  EXPECT_GT(car->beams.front(), 690);
+  EXPECT_LT(car->beams.back(), 30);
+  EXPECT_FALSE(car->occluded_at_start);
+  EXPECT_FALSE(car->occluded_at_end);
+}
+
 TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {
   Street street;
   street.known = {kWall};

@@ -54,6 +54,31 @@ TEST(PolarView, KnowsTheNearestBeamHalfWayBetweenTwoAndBehindTheScanner) {
   EXPECT_EQ(view.beam_towards({0.0, -1.0}), exact_beam_towards(view, {0.0, -1.0}));
 }
 
+TEST(PolarView, CountsOnAcrossTheSeamOfAFullTurnOnly) {
+  const PolarView round(scan_of(720, std::numbers::pi / 360));
+  EXPECT_EQ(round.neighbour_of(719, 2), 1U);
+  EXPECT_EQ(round.neighbour_of(0, -1), 719U);
+  EXPECT_EQ(round.steps_between(718, 3), 5U);
+  const PolarView half(scan_of(361, std::numbers::pi / 360));
+  EXPECT_EQ(half.neighbour_of(360, 1), std::nullopt);
+  EXPECT_EQ(half.neighbour_of(0, -1), std::nullopt);
+  EXPECT_EQ(half.steps_between(3, 5), 2U);
+  EXPECT_EQ(half.steps_between(5, 3), 361U);
+}
+
+TEST(ScanView, SeesBothHalvesOfWhatLiesAcrossTheSeam) {
+  flow::SegmentedScan scan = scan_of(720, std::numbers::pi / 360);
+  scan.odom_from_base = {};
+  Body car;
+  car.length.value_m = 4.5;
+  car.width.value_m = 1.8;
+  const auto beams_at = [&](double angle_rad) {
+    car.heading_rad = angle_rad + 0.5 * std::numbers::pi;
+    return ScanView(scan).visibility_of(car, {8.0 * std::cos(angle_rad), 8.0 * std::sin(angle_rad)}).beams;
+  };
+  EXPECT_EQ(beams_at(-1.3), beams_at(0.0));  // where its first beam points, and elsewhere
+}
+
 /// Things at all ranges, some oblique, between directions without echo.
 flow::SegmentedScan scan_of_things(std::mt19937& random) {
   constexpr std::size_t kBeams = 361;

@@ -74,6 +74,25 @@ TEST(Track, IsFilledInTheMiddleAsFarAsItsSizeAndPlaceAreKnown) {
   EXPECT_GT(inner_part_of(track).length.value_m, 0.0);
 }
 
+TEST(Track, DoesNotTurnByWhatIsRound) {
+  const TrackingConfig config;
+  const std::vector<Eigen::Vector2d> points{{20.0, -0.9}, {20.0, -0.3}, {20.0, 0.3}, {20.0, 0.9}};
+  const auto heading_after = [&](double off_m) {
+    Glimpse glimpse;
+    glimpse.points_m = points;
+    glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
+    glimpse.side = Side{0.5 * M_PI + 0.3, 1.8, off_m};
+    Track track = begun({1}, 0, glimpse, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity(), config);
+    track.body.heading_rad = 0.0;
+    track.body.heading_variance_rad2 = 0.01;
+    predict(track, kPeriodS, config);
+    EXPECT_TRUE(update(track, 27'000'000, glimpse, 1e-4 * Eigen::Matrix2d::Identity(), config));
+    return track.body.heading_rad;
+  };
+  EXPECT_GT(heading_after(0.01), 0.1);
+  EXPECT_NEAR(heading_after(0.15), 0.0, 0.03);
+}
+
 TEST(Track, LiesAlongWhatIsLongerThanAnyFront) {
   const TrackingConfig config;
   std::vector<Eigen::Vector2d> points;

@@ -105,6 +105,21 @@ TEST(Tracker, KnowsWhereACarThatCrossesIsAndHowFast) {
   EXPECT_EQ(play.ids.size(), 1U);
 }
 
+TEST(Tracker, FollowsACarAcrossTheSeamOfAFullTurn) {
+  Play play;
+  play.street.look_all_round();
+  play.street.known.push_back({{-40.0, 0.0, M_PI / 2.0}, 120.0, 1.0});
+  for (int i = 0; i < 100; ++i) {
+    play.step([](Street& street, double t) { street.unknown = {{{-10.0, -9.0 + 6.0 * t, M_PI / 2.0}}}; });
+    if (play.now_s() < 1.0) continue;
+    ASSERT_EQ(play.confirmed().size(), 1U) << play.now_s();
+    const flow::TrackedObject car = play.confirmed().front();
+    EXPECT_LT((car.position_in_odom_m - Vector2(-10.0, -9.0 + 6.0 * (play.now_s() - kPeriodS))).norm(), 0.3) << play.now_s();
+    EXPECT_LT((car.velocity_in_odom_mps - Vector2(0.0, 6.0)).norm(), 0.4) << play.now_s();
+  }
+  EXPECT_EQ(play.ids.size(), 1U);
+}
+
 TEST(Tracker, IsSureOfACarWithinHalfASecond) {
   Play play;
   play.run(1.5, [](Street&, double) {});  // what was there before
