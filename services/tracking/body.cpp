@@ -410,6 +410,7 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
   const double grown_m = std::max(extent_m, body.length.value_m);
   measurement.body.length.value_m = body.length.value_m + 0.2 * (grown_m - body.length.value_m);
   measurement.body.width.value_m = measurement.body.length.value_m;
+  measurement.body.was_seen_whole = body.was_seen_whole || (glimpse.start == Edge::kOpen && glimpse.end == Edge::kOpen);
   return measurement;
 }
 

@@ -48,6 +48,7 @@ struct Body {
   Size width;
   SizeEvidence length_evidence;
   SizeEvidence width_evidence;
+  bool was_seen_whole = false;        ///< Both ends of it at once, with something farther beside them; of a blob.
   Kind kind = Kind::kCar;             ///< The likeliest, of a body with sides.
   /// From which end of the length, and of the width, the centre was last measured: -1 the rear (the right side), +1 the front
   /// (the left side), 0 both; none before the first time.

@@ -28,10 +28,13 @@ constexpr std::array<Gait, 4> kGaits = {{{1.35, 0.45, 2.3, 0.5}, {4.2, 1.7, 7.0,
 constexpr std::array<double, 4> kShares = {0.35, 0.09, 0.49, 0.07};
 constexpr double kShareIndoors = 1e-6;  ///< Of vehicles.
 
-/// Density of the extent of a blob: someone who walks is seen whole, of a vehicle what shows behind something else.
+/// Density of the extent of a blob of which both ends have been seen at once. Of a vehicle something shows behind something else, and
+/// what is taken for its end is one now and then.
 constexpr double kWalkerExtentM = 0.55;
 constexpr double kWalkerExtentSigmaM = 0.25;
-constexpr std::array<double, 4> kDensityOfPiece = {0.0, 0.6, 0.06, 0.04};
+constexpr std::array<double, 4> kDensityOfWhole = {1.0, 0.2, 0.01, 0.01};
+/// And of one that something has hidden an end of, ever since it was first seen: who walks is soon out of it.
+constexpr std::array<double, 4> kDensityOfPiece = {0.03, 0.1, 0.2, 0.2};
 
 /// Those who walk in company, side by side or one behind the other, are as large as something with sides.
 constexpr KindOfBody kCompany{Kind::kBicycle, 0.08, 1.3, 0.35, 0.6, 0.2};
@@ -68,15 +71,22 @@ ClassProbabilities log_fit_of_box(const Body& body, const TrackingConfig& config
 
 ClassProbabilities log_fit_of_blob(const Body& body, const TrackingConfig& config) {
   const double extent_m = body.length.value_m / config.size_scale;
+  const auto& density = body.was_seen_whole ? kDensityOfWhole : kDensityOfPiece;
   ClassProbabilities log_fit;
   for (std::size_t i = 0; i < log_fit.size(); ++i) {
-    const double density = i == kPedestrian ? normal_density(extent_m - kWalkerExtentM, kWalkerExtentSigmaM) : kDensityOfPiece[i];
-    log_fit[i] = std::log(kShares[i] * density + 1e-12);
+    const double of_extent = i == kPedestrian ? normal_density(extent_m - kWalkerExtentM, kWalkerExtentSigmaM) : 1.0;
+    log_fit[i] = std::log(kShares[i] * density[i] * of_extent + 1e-12);
   }
   return log_fit;
 }
 
 }  // namespace
+
+SpeedsSeen with_first_speed(const SpeedHeld& held, const TrackingConfig& config) {
+  SpeedsSeen first = with_speed({}, {held.speed_mps, held.sigma_mps, kSpeedLastsS}, config);
+  first.surely_mps = 0.0;  // it has yet to be held
+  return first;
+}
 
 SpeedsSeen with_speed(const SpeedsSeen& before, const SpeedHeld& held, const TrackingConfig& config) {
   const double speed_mps = held.speed_mps / config.size_scale;

@@ -20,6 +20,9 @@ struct SpeedHeld {
   double time_s = 0.0;  ///< >= 0
 };
 
+/// The first: at any one time a speed tells as much as one does that is held until it is another.
+SpeedsSeen with_first_speed(const SpeedHeld& held, const TrackingConfig& config);
+
 /// The same with one more speed; by the speeds at which people walk and run, and vehicles drive where there are people.
 SpeedsSeen with_speed(const SpeedsSeen& before, const SpeedHeld& held, const TrackingConfig& config);
 

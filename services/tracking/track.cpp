@@ -209,12 +209,15 @@ void update_motion_state(Track& track, const TrackingConfig& config) {
 }
 
 /// Speeds count once the track is that of something, and while they are known and not none.
+bool has_known_speed(const Track& track, const TrackingConfig& config) {
+  const bool is_known = track.confirmed && !track.is_refuted && speed_sigma_mps(track) < config.most_speed_sigma_mps;
+  return is_known && !track.move_stop.stands && track.state == flow::Motion::kMoving;
+}
+
 void update_class(Track& track, double time_s, const TrackingConfig& config) {
   constexpr double kLongestHeldS = 0.2;
-  const double sigma_mps = speed_sigma_mps(track);
-  const bool is_known = track.confirmed && !track.is_refuted && sigma_mps < config.most_speed_sigma_mps;
-  if (is_known && !track.move_stop.stands && track.state == flow::Motion::kMoving)
-    track.speeds = with_speed(track.speeds, {track.velocity_mps().norm(), sigma_mps, std::min(time_s, kLongestHeldS)}, config);
+  if (has_known_speed(track, config))
+    track.speeds = with_speed(track.speeds, {track.velocity_mps().norm(), speed_sigma_mps(track), std::min(time_s, kLongestHeldS)}, config);
   track.class_probability = class_probabilities(track.body, track.speeds, config);
   track.object_class = likeliest_class(track.class_probability);
 }
@@ -340,8 +343,8 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
   if (extent_m > config.box_from_extent_m) {
     track.body = likely_box(box_heading_rad, glimpse, config);
     first = measure_box(track.body, supposed_centre_m(track.body, glimpse), glimpse, config);
-    track.body = first.body;
   }
+  track.body = first.body;
   filters::MotionState start;
   start.mean.head<2>() = first.centre_m;
   start.covariance.topLeftCorner<2, 2>() = first.covariance_m2 + pose_covariance_m2;
@@ -399,6 +402,17 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   if (track.velocity_mps().norm() > config.moving_above_mps || track.state == flow::Motion::kMoving) track.last_moving_ns = stamp_ns;
   update_class(track, unseen_s, config);
   return true;
+}
+
+void confirm(Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
+  track.confirmed = true;
+  track.last_moving_ns = stamp_ns;  // though it may be as slow as what stops
+  track.way_m = 0.0;  // until now it may have been made of several things
+  track.anchor_m = track.position_m();
+  track.past.clear();
+  track.youth.clear();
+  if (has_known_speed(track, config)) track.speeds = with_first_speed({track.velocity_mps().norm(), speed_sigma_mps(track)}, config);
+  update_class(track, 0.0, config);
 }
 
 void draw_around(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {

@@ -155,6 +155,9 @@ void predict(Track& track, double time_s, const TrackingConfig& config);
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
             const TrackingConfig& config);
 
+/// It is something, and moves: what it is follows from the speed that it has, too.
+void confirm(Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
+
 /// The same motion, of a body drawn anew around these echoes: what was followed was a piece of it.
 void draw_around(Track& track, const Glimpse& glimpse, const TrackingConfig& config);
 

@@ -687,14 +687,9 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
 
 void Tracker::confirm(std::size_t index) {
   Track& track = tracks_[index];
-  track.confirmed = true;
-  track.last_moving_ns = last_stamp_ns_;  // though it may be as slow as what stops
+  tracking::confirm(track, last_stamp_ns_, config_);
   // On a road a false track would so excuse whatever stood in its place.
   if (only_people_move(config_)) history_.confirm(track.track_id);
-  track.way_m = 0.0;  // until now it may have been made of several things
-  track.anchor_m = track.position_m();
-  track.past.clear();
-  track.youth.clear();
   ++counters_.tracks_confirmed;
 }
 
