@@ -236,17 +236,20 @@ bool walks(const Track& track) {
 }
 
 /// What is wrong with the centre in many scans alike, so that the filter, for which errors are new in each, does not see it:
-/// the size that is assumed, how far the shape is from a box, and how far the object goes while the scan sweeps.
+/// the size that is assumed, the heading along which the middle is sought behind the sides that are seen, how far the shape is from a
+/// box, and how far the object goes while the scan sweeps.
 Matrix2d shared_error_covariance(const Track& track, double heading_rad, const TrackingConfig& config) {
   constexpr double kHalfSweepS = 0.01;
-  constexpr double kShapeAlongM = 0.12;
-  constexpr double kShapeAcrossM = 0.08;
+  constexpr double kShapeAlongM = 0.08;
+  constexpr double kShapeAcrossM = 0.03;
+  constexpr double kMostHeadingRad2 = 0.25;  // what is turned farther off is not oriented
   constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
   double along_m2 = std::pow(kHalfSweepS * track.velocity_mps().norm(), 2);
   double across_m2 = 0.0;
   if (track.body.has_sides) {
-    along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * track.body.length.variance_m2;
-    across_m2 = std::pow(kShapeAcrossM * config.size_scale, 2) + 0.25 * track.body.width.variance_m2;
+    const double heading_rad2 = std::min(kMostHeadingRad2, track.body.heading_variance_rad2);
+    along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * (track.body.length.variance_m2 + heading_rad2 * std::pow(track.body.width.value_m, 2));
+    across_m2 = std::pow(kShapeAcrossM * config.size_scale, 2) + 0.25 * (track.body.width.variance_m2 + heading_rad2 * std::pow(track.body.length.value_m, 2));
     if (!track.body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind
       constexpr double kTurnedShare = 0.25;
       const double off_m2 = kTurnedShare * std::pow(0.5 * (track.body.length.value_m - track.body.width.value_m), 2);
