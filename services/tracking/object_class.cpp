@@ -34,7 +34,7 @@ constexpr double kWalkerExtentM = 0.55;
 constexpr double kWalkerExtentSigmaM = 0.25;
 constexpr std::array<double, 4> kDensityOfWhole = {1.0, 0.2, 0.01, 0.01};
 /// And of one that something has hidden an end of, ever since it was first seen: who walks is soon out of it.
-constexpr std::array<double, 4> kDensityOfPiece = {0.03, 0.1, 0.2, 0.2};
+constexpr std::array<double, 4> kDensityOfPiece = {0.03, 0.05, 0.2, 0.2};
 
 /// Those who walk in company, side by side or one behind the other, are as large as something with sides.
 constexpr KindOfBody kCompany{Kind::kBicycle, 0.08, 1.3, 0.35, 0.6, 0.2};
@@ -83,7 +83,8 @@ ClassProbabilities log_fit_of_blob(const Body& body, const TrackingConfig& confi
 }  // namespace
 
 SpeedsSeen with_first_speed(const SpeedHeld& held, const TrackingConfig& config) {
-  SpeedsSeen first = with_speed({}, {held.speed_mps, held.sigma_mps, kSpeedLastsS}, config);
+  constexpr double kFirstS = 0.5 * kSpeedLastsS;
+  SpeedsSeen first = with_speed({}, {held.speed_mps, held.sigma_mps, kFirstS}, config);
   first.surely_mps = 0.0;  // it has yet to be held
   return first;
 }
