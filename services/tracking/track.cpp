@@ -242,12 +242,14 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   constexpr double kHalfSweepS = 0.01;
   constexpr double kShapeAlongM = 0.08;
   constexpr double kShapeAcrossM = 0.03;
-  constexpr double kMostHeadingRad2 = 0.25;  // what is turned farther off is not oriented
+  constexpr double kByCourseAloneRad = 0.15;  // the course of what comes out from behind something is off alike for many scans
+  constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
   constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
   double along_m2 = std::pow(kHalfSweepS * track.velocity_mps().norm(), 2);
   double across_m2 = 0.0;
   if (track.body.has_sides) {
-    const double heading_rad2 = std::min(kMostHeadingRad2, track.body.heading_variance_rad2);
+    const double least_rad2 = track.body.axis_variance_rad2 > kKnownAxisRad2 ? std::pow(kByCourseAloneRad, 2) : 0.0;
+    const double heading_rad2 = std::clamp(track.body.heading_variance_rad2, least_rad2, kMostHeadingRad2);
     along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * (track.body.length.variance_m2 + heading_rad2 * std::pow(track.body.width.value_m, 2));
     across_m2 = std::pow(kShapeAcrossM * config.size_scale, 2) + 0.25 * (track.body.width.variance_m2 + heading_rad2 * std::pow(track.body.length.value_m, 2));
     if (!track.body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind
