@@ -236,6 +236,15 @@ TEST(Body, WithoutSidesIsSomewhereAboutAnEchoThatIsRarelyAnswered) {
   EXPECT_GT(sigma_m(0.75), 0.35);
 }
 
+TEST(Body, WithoutSidesWasSeenWholeOnceNothingHasHiddenAnEndOfIt) {
+  const std::vector<Vector2d> echoes = {{25.0, -0.2}, {25.0, 0.0}, {25.0, 0.2}};
+  const Body hidden = measure_blob({}, with_edges(echoes, Edge::kHidden, Edge::kOpen), kConfig).body;
+  const Body vague = measure_blob(hidden, with_edges(echoes, Edge::kNoEcho, Edge::kOpen), kConfig).body;
+  EXPECT_FALSE(vague.was_seen_whole);
+  const Body whole = measure_blob(vague, with_edges(echoes, Edge::kOpen, Edge::kOpen), kConfig).body;
+  EXPECT_TRUE(measure_blob(whole, with_edges(echoes, Edge::kHidden, Edge::kOpen), kConfig).body.was_seen_whole);
+}
+
 TEST(Body, KnowsTheLengthAsItsWidthAfterAQuarterTurn) {
   Body body;
   body.has_sides = true;

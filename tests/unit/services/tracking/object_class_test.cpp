@@ -25,8 +25,9 @@ Body box_of(double length_m, double width_m, double sigma_m = 0.1) {
   return with_likely_sizes(body, kStreet);
 }
 
-Body blob_of(double extent_m) {
+Body blob_of(double extent_m, bool was_seen_whole = true) {
   Body body;
+  body.was_seen_whole = was_seen_whole;
   body.length = body.width = {extent_m, 1.0};
   return body;
 }
@@ -69,6 +70,24 @@ TEST(ObjectClass, OfSomethingSmallIsToldBySpeedInTime) {
   const double soon = of(ObjectClass::kBicycle, class_probabilities(small, held(3.5, 0.3), kStreet));
   const double later = of(ObjectClass::kBicycle, class_probabilities(small, held(3.5, 3.0), kStreet));
   EXPECT_GT(later, soon);
+}
+
+TEST(ObjectClass, OfWhatHasAlwaysHadAnEndHiddenMayBeThatOfAVehiclesCorner) {
+  const auto vehicle_share = [](bool was_seen_whole) {
+    const ClassProbabilities probability = class_probabilities(blob_of(0.55, was_seen_whole), {}, kStreet);
+    return of(ObjectClass::kCar, probability) + of(ObjectClass::kTruckOrBus, probability);
+  };
+  EXPECT_LT(vehicle_share(true), 0.03);
+  EXPECT_GT(vehicle_share(false), 0.5);
+}
+
+TEST(ObjectClass, IsToldByTheFirstSpeedWhichIsNotYetHeld) {
+  const SpeedsSeen fast = with_first_speed({9.0, 0.5, 0.0}, kStreet);
+  EXPECT_EQ(likeliest_class(class_probabilities(blob_of(0.55, false), fast, kStreet)), ObjectClass::kCar);
+  EXPECT_EQ(fast.surely_mps, 0.0);
+  const double first = of(ObjectClass::kPedestrian, class_probabilities(blob_of(0.55), with_first_speed({3.5, 0.5, 0.0}, kStreet), kStreet));
+  const double one_scan = of(ObjectClass::kPedestrian, class_probabilities(blob_of(0.55), held(3.5, 0.02), kStreet));
+  EXPECT_LT(first, one_scan);
 }
 
 TEST(ObjectClass, DoesNotForgetThatItWasTooFastForLegs) {

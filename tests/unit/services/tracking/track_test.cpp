@@ -48,6 +48,41 @@ TEST(Track, IsFollowedButNotPublishedWhileItsVelocityIsHardlyKnown) {
   EXPECT_TRUE(track.confirmed);
 }
 
+/// One sigma of the published centre, across the heading.
+double sigma_across_m(const Track& track) { return std::sqrt(described(track, 0, TrackingConfig()).covariance(1, 1)); }
+
+TEST(Track, IsPublishedWithWhatItsHeadingDoesToTheCentreBehindTheSidesThatAreSeen) {
+  Track track = followed_car();
+  track.body.is_oriented = true;
+  track.body.axis_variance_rad2 = 0.001;
+  track.body.heading_variance_rad2 = 0.0;
+  const double surely_m = sigma_across_m(track);
+  track.body.heading_variance_rad2 = 0.3 * 0.3;
+  EXPECT_NEAR(sigma_across_m(track), std::hypot(surely_m, 0.3 * 2.2), 1e-6);
+}
+
+TEST(Track, OfWhichNoSideTellsTheHeadingIsNotPublishedAsIfItsCourseDidSurely) {
+  Track track = followed_car();
+  track.body.is_oriented = true;
+  track.body.heading_variance_rad2 = 0.02 * 0.02;
+  track.body.axis_variance_rad2 = 0.001;
+  EXPECT_LT(sigma_across_m(track), 0.2);
+  track.body.axis_variance_rad2 = 10.0;
+  EXPECT_GT(sigma_across_m(track), 0.3);
+}
+
+TEST(Track, ThatIsTooFastForLegsIsNobodyWhoWalksFromTheFirstScanOn) {
+  const TrackingConfig config;
+  Track corner;
+  corner.body.length = corner.body.width = {0.5, 1.0};
+  corner.estimate.mean << 20.0, 0.0, 9.0, 0.0, 0.0, 0.0;
+  corner.estimate.covariance = 0.04 * corner.estimate.covariance.Identity();
+  confirm(corner, 0, config);
+  EXPECT_TRUE(corner.confirmed);
+  EXPECT_EQ(corner.object_class, flow::ObjectClass::kCar);
+  EXPECT_GT(std::sqrt(described(corner, 0, config).covariance(0, 0)), 1.5);  // its middle may be half a car away
+}
+
 TEST(Track, IsBelievedInLessWhereMoreBeamsPassThroughTheMiddleOfItThanAreEchoed) {
   const TrackingConfig config;
   const Visibility seen{10, 0, 8, 0};

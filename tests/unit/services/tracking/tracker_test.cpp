@@ -256,7 +256,7 @@ TEST(Tracker, DoesNotStayAtAWallThatSomeoneSlowHasWalkedTo) {
 }
 
 TEST(Tracker, IsUnsureWhereTheMiddleIsOfWhatMayBeTheCornerOfACar) {
-  Play play;  // a truck that stands hides all but the corner of what drives there at 6 m/s
+  Play play;  // as small as a corner, and at 6 m/s, though nothing is there that would hide the rest
   const auto scene = [](Street& street, double t) {
     const double y_m = -12.0 + 6.0 * t;
     street.known = {kWall};
@@ -265,7 +265,7 @@ TEST(Tracker, IsUnsureWhereTheMiddleIsOfWhatMayBeTheCornerOfACar) {
   play.run(2.0, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
   const flow::TrackedObject corner = play.confirmed().front();
-  EXPECT_GT(corner.class_probability[2] + corner.class_probability[3], 0.2);
+  EXPECT_GT(corner.class_probability[2] + corner.class_probability[3], 0.1);
   EXPECT_GT(corner.covariance(1, 1), 1.0);  // along its way
 }
 
