@@ -28,12 +28,12 @@ constexpr std::array<Gait, 4> kGaits = {{{1.35, 0.45, 2.3, 0.5}, {4.2, 1.7, 7.0,
 constexpr std::array<double, 4> kShares = {0.35, 0.09, 0.49, 0.07};
 constexpr double kShareIndoors = 1e-6;  ///< Of vehicles.
 
-/// Density of the extent of a blob of which both ends have been seen at once. Of a vehicle something shows behind something else, and
-/// what is taken for its end is one now and then.
+/// How likely blobs are to have been seen whole, both ends at once, and for who walks besides how their extents are distributed.
+/// Of a vehicle something shows behind something else, and what is taken for its end is one now and then. Counted: decision 34.
 constexpr double kWalkerExtentM = 0.55;
 constexpr double kWalkerExtentSigmaM = 0.25;
 constexpr std::array<double, 4> kDensityOfWhole = {1.0, 0.2, 0.01, 0.01};
-/// And of one that something has hidden an end of, ever since it was first seen: who walks is soon out of it.
+/// The same for those of which something has always hidden an end: who walks is soon out of it.
 constexpr std::array<double, 4> kDensityOfPiece = {0.03, 0.05, 0.2, 0.2};
 
 /// Those who walk in company, side by side or one behind the other, are as large as something with sides.

@@ -20,7 +20,8 @@ struct SpeedHeld {
   double time_s = 0.0;  ///< >= 0
 };
 
-/// The first: at any one time a speed tells as much as one does that is held until it is another.
+/// The first: it tells as much as one that is held for half the time after which it is another, for just confirmed it may yet be wrong.
+/// The time of held is not used.
 SpeedsSeen with_first_speed(const SpeedHeld& held, const TrackingConfig& config);
 
 /// The same with one more speed; by the speeds at which people walk and run, and vehicles drive where there are people.
