@@ -14,6 +14,9 @@ struct OrientedBox {
   double width_m = 0.0;
 };
 
+/// How far a point is from the nearest side, from inside or outside.
+double distance_from_sides_m(const OrientedBox& box, const Eigen::Vector2d& point_m);
+
 /// Tightest rectangle of the given heading around the points; at least one point.
 OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double heading_rad);
 

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "common/association/gating.hpp"
 #include "common/geometry/pose2.hpp"
+#include "common/sensing/box_fit.hpp"
 
 namespace slammot::tracking {
 namespace {
@@ -290,6 +292,28 @@ std::vector<flow::PredictedPosition> predicted_path(const Track& track, const Ma
   return path;
 }
 
+/// Of points from the sides of the body, in the mean.
+double distance_from_sides_m(const Track& track, std::span<const Vector2d> points_m) {
+  const sensing::OrientedBox box{track.position_m(), track.body.heading_rad, track.body.length.value_m, track.body.width.value_m};
+  double sum_m = 0.0;
+  for (const Vector2d& point_m : points_m) sum_m += sensing::distance_from_sides_m(box, point_m);
+  return sum_m / static_cast<double>(points_m.size());
+}
+
+Agreement with_scan(const Agreement& before, double off_sides_m, double surprise2, double time_s) {
+  constexpr double kMemoryS = 0.4;
+  constexpr double kMostSurprise2 = 50.0;  // so that one scan does not count for all
+  const double kept = std::exp(-time_s / kMemoryS) * before.weight;
+  return {(kept * before.off_sides_m + off_sides_m) / (kept + 1.0), (kept * before.surprise2 + std::min(surprise2, kMostSurprise2)) / (kept + 1.0), kept + 1.0};
+}
+
+/// Whether the echoes neither lie on the sides of the body nor come from where it was predicted.
+bool is_no_such_body(const Track& track, const TrackingConfig& config) {
+  constexpr double kMostOffSidesM = 0.2;
+  constexpr double kMostSurprise2 = 2.5;  // of two in the mean where the prediction is as good as it says
+  return track.body.has_sides && track.agreement.off_sides_m > kMostOffSidesM * config.size_scale && track.agreement.surprise2 > kMostSurprise2;
+}
+
 void observe(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse) {
   ++track.hits;
   track.last_seen_ns = stamp_ns;
@@ -403,6 +427,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   if (track.body.has_sides) steer(track, config);
   if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
+  track.agreement = with_scan(track.agreement, distance_from_sides_m(track, glimpse.points_m), distance2, unseen_s);
   update_motion_state(track, config);
   if (track.velocity_mps().norm() > config.moving_above_mps || track.state == flow::Motion::kMoving) track.last_moving_ns = stamp_ns;
   update_class(track, unseen_s, config);
@@ -464,6 +489,8 @@ void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evide
   const bool seems_to_walk = track.confirmed && walks(track) && !is_moving && evidence.moved == 0.0;
   if ((stands_share > 0.5 || seems_to_walk) && track.velocity_mps().norm() > config.contradicted_above_mps) gain = config.contradiction_score;
   if (!is_plausible(track.body, config) || track.velocity_mps().norm() > 2.0 * config.fastest_mps) gain = config.implausible_score;
+  constexpr double kNoSuchBodyScore = -0.3;  // a vehicle drawn wrong is drawn anew before it is given up
+  if (is_no_such_body(track, config)) gain = std::min(gain, kNoSuchBodyScore);
   track.score = std::min(config.most_score, track.score + gain);
 }
 

@@ -73,6 +73,13 @@ class KeptGlimpses {
   std::size_t oldest_ = 0;
 };
 
+/// How well the echoes of the last moments agree with the body.
+struct Agreement {
+  double off_sides_m = 0.0;  ///< Mean distance of echoes from its nearest side,
+  double surprise2 = 0.0;    ///< squared Mahalanobis distance of the measured centre from the predicted one.
+  double weight = 0.0;       ///< In scans.
+};
+
 constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
 
 /// One object that is followed, or supposed to be one.
@@ -83,6 +90,7 @@ struct Track {
   filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
   std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
   Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.
+  Agreement agreement;                       ///< Of the echoes with the body.
   double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
   bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
   Body body;

@@ -70,14 +70,11 @@ void add_beams(std::vector<std::uint16_t>& beams, const std::vector<std::uint16_
   std::sort(beams.begin(), beams.end());
 }
 
-double mean_distance_from_sides_m(const Segment& segment, const ScanView& view) {
-  const Vector2d along{std::cos(segment.box_heading_rad), std::sin(segment.box_heading_rad)};
-  const Vector2d across{-along.y(), along.x()};
+/// Of its echoes, in the mean.
+double distance_from_sides_m(const Segment& segment, const ScanView& view) {
+  const sensing::OrientedBox box{segment.box_centre_in_odom_m, segment.box_heading_rad, segment.box_length_m, segment.box_width_m};
   double sum_m = 0.0;
-  for (const std::uint16_t beam : segment.beams) {
-    const Vector2d off_m = view.point_in_odom_m(beam) - segment.box_centre_in_odom_m;
-    sum_m += std::min(0.5 * segment.box_length_m - std::abs(along.dot(off_m)), 0.5 * segment.box_width_m - std::abs(across.dot(off_m)));
-  }
+  for (const std::uint16_t beam : segment.beams) sum_m += sensing::distance_from_sides_m(box, view.point_in_odom_m(beam));
   return sum_m / static_cast<double>(segment.beams.size());
 }
 
@@ -88,7 +85,7 @@ std::optional<Side> side_of(const std::vector<std::uint16_t>& beams, const ScanV
   if (segment.beams.size() < kFewestEchoes || segment.box_length_m < least_length_m || 2 * segment.beams.size() < beams.size()) return std::nullopt;
   const bool is_line = segment.box_width_m < 0.1 * segment.box_length_m;
   if (segment.label != PointLabel::kMoving && !is_line) return std::nullopt;  // no heading was searched for
-  return Side{segment.box_heading_rad, segment.box_length_m, mean_distance_from_sides_m(segment, view)};
+  return Side{segment.box_heading_rad, segment.box_length_m, distance_from_sides_m(segment, view)};
 }
 
 /// What lies beside the echo of a beam, `step` (+1 or -1) beams on.

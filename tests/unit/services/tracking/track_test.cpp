@@ -109,6 +109,35 @@ TEST(Track, IsFilledInTheMiddleAsFarAsItsSizeAndPlaceAreKnown) {
   EXPECT_GT(inner_part_of(track).length.value_m, 0.0);
 }
 
+/// A rear, as wide as one of a car and so deep, at which so much is added to the place now and then.
+double score_after_two_seconds(double depth_m, double jump_m) {
+  const TrackingConfig config;
+  std::vector<Eigen::Vector2d> points;
+  Glimpse glimpse;
+  glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
+  Track track;
+  std::int64_t stamp_ns = 0;
+  for (int scan = 0; scan < 74; ++scan) {
+    points.clear();
+    const double x_m = 20.0 + 5.0 * kPeriodS * scan + (scan % 2 == 0 ? jump_m : 0.0);
+    for (int i = 0; i < 10; ++i) points.emplace_back(x_m + depth_m * (i % 3) / 2.0, -0.9 + 0.2 * i);
+    glimpse.points_m = points;
+    if (scan == 0) track = begun({1}, stamp_ns, glimpse, 0.0, 1e-4 * Eigen::Matrix2d::Identity(), config);
+    predict(track, scan == 0 ? 0.0 : kPeriodS, config);
+    EXPECT_TRUE(update(track, stamp_ns, glimpse, 1e-4 * Eigen::Matrix2d::Identity(), config));
+    score_hit(track, flow::PointLabel::kMoving, {8.0, 0.0, 2.0}, kPeriodS, config);
+    stamp_ns += 27'000'000;
+  }
+  return track.score;
+}
+
+TEST(Track, IsNotBelievedInIfItsEchoesNeitherLieOnItsSidesNorComeFromWhereItShouldBe) {
+  EXPECT_GT(score_after_two_seconds(0.0, 0.0), 5.0);
+  EXPECT_GT(score_after_two_seconds(0.0, 0.3), 5.0) << "a body like any, for all its jumps";
+  EXPECT_GT(score_after_two_seconds(1.5, 0.0), 5.0) << "something, but drawn wrong";
+  EXPECT_LT(score_after_two_seconds(1.5, 0.3), 0.0) << "twigs";
+}
+
 TEST(Track, DoesNotTurnByWhatIsRound) {
   const TrackingConfig config;
   const std::vector<Eigen::Vector2d> points{{20.0, -0.9}, {20.0, -0.3}, {20.0, 0.3}, {20.0, 0.9}};
