@@ -14,6 +14,7 @@ struct Owner {
   flow::TrackId track_id;
   bool is_owned = false;
   bool is_confirmed = false;
+  bool has_come = false;     ///< The object is a vehicle that has proven to move, though it may have stood since, and its track have ended.
 };
 
 /// An earlier scan, with what tracking then knew of its echoes.

@@ -559,6 +559,14 @@ bool contradicts_itself(const Track& track, const TrackingConfig& config) {
   return track.claimed_m > kMostTimesProgress * kProgressM * config.size_scale;
 }
 
+bool is_held_never_to_have_moved(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
+  const double least_share = only_people_move(config) ? 1.0 : 0.25;  // what has come next to no way is soon held never to have moved
+  const double may_stand_s = config.longest_stand_s * std::max(least_share, track.way_m / config.least_travel_to_stand_m);
+  const bool is_vehicle_that_came = !only_people_move(config) && track.body.has_sides && track.way_m >= config.least_travel_to_stand_m;
+  const std::int64_t idle_since_ns = is_vehicle_that_came ? std::max(track.last_moving_ns, track.last_seen_ns) : track.last_moving_ns;
+  return static_cast<double>(stamp_ns - idle_since_ns) * 1e-9 > may_stand_s;
+}
+
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
   flow::TrackedObject object;
   object.track_id = track.track_id;

@@ -199,6 +199,10 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config);
 /// Whether it says to move and stays where it is: something that stands, seen now here, now there.
 bool contradicts_itself(const Track& track, const TrackingConfig& config);
 
+/// Whether a confirmed track has stood, or gone unseen, for longer than the way that it has come speaks for. A vehicle that has come
+/// least_travel_to_stand_m stands for as long as it is seen: it waits, or is parked.
+bool is_held_never_to_have_moved(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
+
 /// The track as it is published.
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
 

@@ -439,7 +439,26 @@ void Tracker::compare_with_past(std::size_t s, const PastScans& past_scans, cons
   const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
   past.stood_before = past.stood > kLeastStoodShare * count;
   past.stands = past.stood_before || (is_mapped && past.stood > kLeastStoodIfMapped * count && past.arrived + past.receded < kLeastChangedShare * count);
+  past.has_come = past_scans.then != nullptr && has_come(segment, *past_scans.then, view);
   past_of_segment_[s] = past;
+}
+
+/// Whether the segment is of a vehicle that has come and stands now: most of what was seen of it in the earlier scan, too, was of
+/// one. What the map holds is not asked: there a wall is likelier than a track that is right.
+bool Tracker::has_come(const Segment& segment, const EarlierScan& then, const ScanView& view) const {
+  constexpr double kLeastShareOfSeen = 0.6;
+  constexpr double kLeastShare = 0.3;  // of all its echoes: as one drives past, more of it comes into view
+  const bool may_be_vehicle = segment.label == PointLabel::kMoving || segment.label == PointLabel::kUnknown;
+  if (only_people_move(config_) || !may_be_vehicle || segment.box_length_m > config_.longest_body_m) return false;
+  int seen = 0;
+  int of_vehicles = 0;
+  for (const std::uint16_t beam : segment.beams) {
+    const SightOfPlace before = then.view.sight_of(view.point_in_odom_m(beam));
+    if (before.sight != Sight::kThere) continue;
+    ++seen;
+    of_vehicles += then.owners[before.beam].has_come ? 1 : 0;
+  }
+  return of_vehicles > kLeastShareOfSeen * seen && of_vehicles > kLeastShare * static_cast<double>(segment.beams.size());
 }
 
 /// Notes a front or rear that has come from elsewhere.
@@ -604,7 +623,11 @@ void Tracker::remember(const ScanView& view) {
   if (!history_.is_due(view.scan().stamp_ns)) return;
   std::vector<Owner> owners(view.scan().range_m.size());
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    for (const std::uint16_t beam : shares_.beams_of_track[t]) owners[beam] = {tracks_[t].track_id, true, tracks_[t].confirmed};
+    for (const std::uint16_t beam : shares_.beams_of_track[t]) owners[beam] = {tracks_[t].track_id, true, tracks_[t].confirmed, tracks_[t].confirmed && tracks_[t].body.has_sides};
+  for (std::size_t s = 0; s < past_of_segment_.size(); ++s) {
+    if (!past_of_segment_[s].has_come) continue;
+    for (const std::uint16_t beam : view.scan().segments[s].beams) owners[beam].has_come = true;
+  }
   history_.add(view.scan().stamp_ns, view.polar(), std::move(owners));
 }
 
@@ -736,10 +759,7 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const double age_s = static_cast<double>(last_stamp_ns_ - track.first_seen_ns) * kNanosecond_s;
     const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
     const bool has_stood = !track.confirmed && age_s > config_.longest_tentative_s;
-    const double idle_s = static_cast<double>(last_stamp_ns_ - track.last_moving_ns) * kNanosecond_s;
-    const double least_share = only_people_move(config_) ? 1.0 : 0.25;  // what has come next to no way is soon held never to have moved
-    const double may_stand_s = config_.longest_stand_s * std::max(least_share, track.way_m / config_.least_travel_to_stand_m);
-    const bool never_moved = track.confirmed && idle_s > may_stand_s;
+    const bool never_moved = track.confirmed && is_held_never_to_have_moved(track, last_stamp_ns_, config_);
     const bool is_dead = is_lost || has_stood || never_moved || contradicts_itself(track, config_) || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {
       ++counters_.tracks_rejected;
@@ -779,6 +799,8 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
     Track& track = tracks_[t];
     if (track.confirmed || shares_.beams_of_track[t].empty()) continue;
     track.past.push_back({scan.sequence, shares_.beams_of_track[t]});
+    // What is known to have come is not given back to the map with a track that has proven nothing.
+    std::erase_if(track.past.back().beams, [&](std::uint16_t beam) { return past_of_segment_[view.segment_of_beam(beam)].has_come; });
     if (track.past.size() > kMostPastScans) track.past.pop_front();
   }
   remove_dead(result.labels);
@@ -794,7 +816,8 @@ flow::ScanLabels Tracker::label(const ScanView& view) const {
     for (const std::uint16_t beam : segment.beams) {
       // A lone contradiction in something that stands is the map's error: let it learn.
       if (segment.label == PointLabel::kStationary && labels.labels[beam] == PointLabel::kMoving) labels.labels[beam] = PointLabel::kStationary;
-      if (segment.label == PointLabel::kMoving) labels.labels[beam] = past_of_segment_[s].stood_before ? PointLabel::kStationary : PointLabel::kMoving;
+      if (past_of_segment_[s].has_come) labels.labels[beam] = PointLabel::kMoving;
+      else if (segment.label == PointLabel::kMoving) labels.labels[beam] = past_of_segment_[s].stood_before ? PointLabel::kStationary : PointLabel::kMoving;
     }
   }
   for (std::size_t t = 0; t < tracks_.size(); ++t)

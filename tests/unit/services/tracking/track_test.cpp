@@ -83,6 +83,21 @@ TEST(Track, ThatIsTooFastForLegsIsNobodyWhoWalksFromTheFirstScanOn) {
   EXPECT_GT(std::sqrt(described(corner, 0, config).covariance(0, 0)), 1.5);  // its middle may be half a car away
 }
 
+TEST(Track, OfAVehicleThatHasComeMayStandForAsLongAsItIsSeen) {
+  const TrackingConfig config;
+  constexpr std::int64_t kMinuteNs = 60'000'000'000;
+  Track track = followed_car();
+  track.way_m = 2.0;
+  track.last_seen_ns = kMinuteNs;
+  EXPECT_FALSE(is_held_never_to_have_moved(track, kMinuteNs, config));
+  EXPECT_TRUE(is_held_never_to_have_moved(track, kMinuteNs + 3'000'000'000, config));  // where has it been since?
+  track.way_m = 1.0;  // it may be a wall of which more and more came into view
+  EXPECT_TRUE(is_held_never_to_have_moved(track, kMinuteNs, config));
+  track.way_m = 2.0;
+  track.body.has_sides = false;
+  EXPECT_TRUE(is_held_never_to_have_moved(track, kMinuteNs, config));
+}
+
 TEST(Track, IsBelievedInLessWhereMoreBeamsPassThroughTheMiddleOfItThanAreEchoed) {
   const TrackingConfig config;
   const Visibility seen{10, 0, 8, 0};

@@ -404,6 +404,23 @@ TEST(Tracker, DropsSoonWhatStandsAndHasHardlyComeAnywhere) {
   EXPECT_TRUE(play.confirmed().empty());
 }
 
+TEST(Tracker, KeepsWhatHasComeOutOfTheMapThoughItsTrackHasEnded) {
+  Play play;  // a car rolls 1.2 m and stays
+  const StreetBox parked{{12.8, 4.0, M_PI}};
+  play.run(2.0, [](Street& street, double) { street.known = {kWall}; });
+  play.run(9.0, [&](Street& street, double t) { street.unknown = {{{14.0 - std::min(1.2, 1.2 * (t - 2.0)), 4.0, M_PI}}}; });
+  ASSERT_EQ(play.ids.size(), 1U);
+  ASSERT_TRUE(play.confirmed().empty());
+  int of_car = 0;
+  for (std::size_t beam = 0; beam < play.result.labels.labels.size(); ++beam) {
+    const double direction_rad = -0.5 * M_PI + static_cast<double>(beam) * M_PI / (play.street.beams - 1);
+    if (!testing::range_to(parked, Vector2::Zero(), direction_rad)) continue;
+    ++of_car;
+    EXPECT_EQ(play.result.labels.labels[beam], flow::PointLabel::kMoving) << beam;
+  }
+  EXPECT_GT(of_car, 10);
+}
+
 TEST(Tracker, LetsGoOfWhoCameToAPostThatTheMapKnows) {
   Play play;
   const StreetBox post{{12.0, 6.0, 0.0}, 0.3, 0.3};
