@@ -242,9 +242,8 @@ bool walks(const Track& track) {
 /// box, and how far the object goes while the scan sweeps.
 Matrix2d shared_error_covariance(const Track& track, double heading_rad, const TrackingConfig& config) {
   constexpr double kHalfSweepS = 0.01;
-  constexpr double kShapeAlongM = 0.08;
-  constexpr double kShapeAcrossM = 0.03;
-  constexpr double kByCourseAloneRad = 0.15;  // the course of what comes out from behind something is off alike for many scans
+  constexpr double kShapeAlongM = 0.05;
+  constexpr double kByCourseAloneRad = 0.1;   // the course of what comes out from behind something is off alike for many scans
   constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
   constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
   double along_m2 = std::pow(kHalfSweepS * track.velocity_mps().norm(), 2);
@@ -253,7 +252,7 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
     const double least_rad2 = track.body.axis_variance_rad2 > kKnownAxisRad2 ? std::pow(kByCourseAloneRad, 2) : 0.0;
     const double heading_rad2 = std::clamp(track.body.heading_variance_rad2, least_rad2, kMostHeadingRad2);
     along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * (track.body.length.variance_m2 + heading_rad2 * std::pow(track.body.width.value_m, 2));
-    across_m2 = std::pow(kShapeAcrossM * config.size_scale, 2) + 0.25 * (track.body.width.variance_m2 + heading_rad2 * std::pow(track.body.length.value_m, 2));
+    across_m2 = 0.25 * (track.body.width.variance_m2 + heading_rad2 * std::pow(track.body.length.value_m, 2));
     if (!track.body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind
       constexpr double kTurnedShare = 0.25;
       const double off_m2 = kTurnedShare * std::pow(0.5 * (track.body.length.value_m - track.body.width.value_m), 2);
@@ -275,6 +274,13 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   const Vector2d along{std::cos(heading_rad), std::sin(heading_rad)};
   const Vector2d across{-along.y(), along.x()};
   return along_m2 * along * along.transpose() + across_m2 * across * across.transpose();
+}
+
+/// What the deviations of position and velocity are multiplied with, since the filter takes everybody to swing as legs do.
+Eigen::DiagonalMatrix<double, 4> with_own_gait(const Track& track, const TrackingConfig& config) {
+  const double most_m2 = config.gait_noise_m * config.gait_noise_m;
+  const double share = walks(track) ? std::sqrt(track.gait.variance_m2.value_or(most_m2) / most_m2) : 1.0;
+  return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
 }
 
 /// Three seconds ahead by the mixture of modes; who is held to stand may start off as any mode says, and is not known to.
@@ -359,6 +365,16 @@ double gait_variance_m2(double after_s, const TrackingConfig& config) {
   return config.gait_noise_m * config.gait_noise_m * (1.0 + kept) / (1.0 - kept);
 }
 
+Gait with_step(const Gait& before, const Vector2d& surprise_m, const Matrix2d& noise_m2, double time_s, const TrackingConfig& config) {
+  constexpr double kMemoryS = 1.5;      // a few steps
+  constexpr double kLeastShare = 0.25;  // arms swing, too
+  const double most_m2 = config.gait_noise_m * config.gait_noise_m;
+  const double was_m2 = before.variance_m2.value_or(most_m2);
+  const double seen_m2 = std::min(0.5 * (surprise_m.squaredNorm() - noise_m2.trace()), 4.0 * most_m2);  // one scan does not count for all
+  const double now_m2 = was_m2 + (1.0 - std::exp(-time_s / kMemoryS)) * (seen_m2 - was_m2);
+  return {std::clamp(now_m2, kLeastShare * most_m2, most_m2)};
+}
+
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
             const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   Track track;
@@ -412,6 +428,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + measurement.step_covariance_m2 + R);
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
   track.surprise_m = surprise_m.norm();
+  if (walks(track) && !only_people_move(config)) track.gait = with_step(track.gait, surprise_m, noise_at_rest_m2, unseen_s, config);
   shift(track, measurement.recentring_m, models);
   filters::imm_loosen(models, track.motion, measurement.step_covariance_m2);
   track.body = measurement.body;
@@ -581,7 +598,7 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   const filters::MotionState estimate = filters::estimate_of(track.move_stop, track.estimate);
   object.position_in_odom_m = track.position_m();
   object.velocity_in_odom_mps = estimate.mean.segment<2>(2);
-  object.covariance = track.estimate.covariance.topLeftCorner<4, 4>();
+  object.covariance = with_own_gait(track, config) * track.estimate.covariance.topLeftCorner<4, 4>() * with_own_gait(track, config);
   object.acceleration_in_odom_mps2 = estimate.mean.segment<2>(4);
   object.heading_in_odom_rad = track.body.has_sides ? track.body.heading_rad : course_of(track).heading_rad;
   object.length_m = track.body.length.value_m;

@@ -80,6 +80,12 @@ struct Agreement {
   double weight = 0.0;       ///< In scans.
 };
 
+/// How far who walks is off the middle of what is seen of them: much where it is legs, little where it is a coat. Of the published
+/// covariance only: gates must let pass the step of one who meets another.
+struct Gait {
+  std::optional<double> variance_m2;  ///< Along each axis; none as long as nothing is known.
+};
+
 constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
 
 /// One object that is followed, or supposed to be one.
@@ -90,6 +96,7 @@ struct Track {
   filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
   std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
   Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.
+  Gait gait;                                 ///< Of who walks.
   Agreement agreement;                       ///< Of the echoes with the body.
   double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
   bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
@@ -150,6 +157,10 @@ constexpr double kSureOdds = 3.0;
 /// takes the errors of all scans for independent; these fade exponentially, and so the closer scans follow each other the more
 /// each has to add for the mean of many to be as uncertain as it is.
 double gait_variance_m2(double after_s, const TrackingConfig& config);
+
+/// With one more scan, in which the centre was measured so far from where it had been predicted, with this noise besides, time_s after
+/// the one before. At most the config's.
+Gait with_step(const Gait& before, const Eigen::Vector2d& surprise_m, const Eigen::Matrix2d& noise_m2, double time_s, const TrackingConfig& config);
 
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
