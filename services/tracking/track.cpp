@@ -278,8 +278,8 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
 
 /// What the deviations of position and velocity are multiplied with, since the filter takes everybody to swing as legs do.
 Eigen::DiagonalMatrix<double, 4> with_own_gait(const Track& track, const TrackingConfig& config) {
-  const double most_m2 = config.gait_noise_m * config.gait_noise_m;
-  const double share = walks(track) ? std::sqrt(track.gait.variance_m2.value_or(most_m2) / most_m2) : 1.0;
+  const bool is_known = walks(track) && track.gait.variance_m2 && config.gait_noise_m > 0.0;
+  const double share = is_known ? std::sqrt(*track.gait.variance_m2) / config.gait_noise_m : 1.0;
   return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
 }
 
@@ -598,7 +598,8 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   const filters::MotionState estimate = filters::estimate_of(track.move_stop, track.estimate);
   object.position_in_odom_m = track.position_m();
   object.velocity_in_odom_mps = estimate.mean.segment<2>(2);
-  object.covariance = with_own_gait(track, config) * track.estimate.covariance.topLeftCorner<4, 4>() * with_own_gait(track, config);
+  const Eigen::DiagonalMatrix<double, 4> share = with_own_gait(track, config);
+  object.covariance = share * track.estimate.covariance.topLeftCorner<4, 4>() * share;
   object.acceleration_in_odom_mps2 = estimate.mean.segment<2>(4);
   object.heading_in_odom_rad = track.body.has_sides ? track.body.heading_rad : course_of(track).heading_rad;
   object.length_m = track.body.length.value_m;
