@@ -8,7 +8,7 @@ namespace slammot::geometry {
 
 /// Whether directions so far apart go all round, so that the first is a neighbour of the last. One of them may be missing.
 inline bool goes_all_round(std::size_t directions, double step_rad) {
-  return static_cast<double>(directions + 1) * std::abs(step_rad) > 2.0 * std::numbers::pi;
+  return directions > 1 && static_cast<double>(directions + 1) * std::abs(step_rad) > 2.0 * std::numbers::pi;
 }
 
 }  // namespace slammot::geometry

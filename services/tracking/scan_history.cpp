@@ -42,8 +42,11 @@ const EarlierScan* ScanHistory::older_than(std::int64_t stamp_ns, double age_s) 
 }
 
 Past ScanHistory::past_of(std::size_t beam, const PolarView& now, const EarlierScan& then, bool may_appear) const {
+  return past_of(beam, then.view.sight_of(now.point_in_odom_m(beam)), now, then, may_appear);
+}
+
+Past ScanHistory::past_of(std::size_t beam, const SightOfPlace& before, const PolarView& now, const EarlierScan& then, bool may_appear) const {
   const Eigen::Vector2d& point_m = now.point_in_odom_m(beam);
-  const SightOfPlace before = then.view.sight_of(point_m);
   switch (before.sight) {
     case Sight::kThrough: return Past::kArrived;
     case Sight::kNothing: return Past::kUnknown;

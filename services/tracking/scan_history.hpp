@@ -51,6 +51,9 @@ class ScanHistory {
   /// it faces the scanner, and that place goes along with the vehicle. Without may_appear such an echo is kUnknown.
   Past past_of(std::size_t beam, const PolarView& now, const EarlierScan& then, bool may_appear) const;
 
+  /// The same where it is known what the earlier scan says about the place of the echo.
+  Past past_of(std::size_t beam, const SightOfPlace& before, const PolarView& now, const EarlierScan& then, bool may_appear) const;
+
   /// What has proven to move did so before, too: its echoes in the kept scans are those of something known to move.
   void confirm(flow::TrackId track_id);
 

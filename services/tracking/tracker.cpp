@@ -33,6 +33,8 @@ constexpr double kLeastStoodShare = 0.6;   ///< Of a segment's echoes that were 
 constexpr double kLeastStoodIfMapped = 0.25;  ///< The same where the map has something, too: it may be older than what drives there.
 constexpr double kLeastChangedShare = 0.3; ///< Of them that came or went, for the map not to be believed.
 constexpr double kStoodIfSliding = 0.3;    ///< What an echo that stood counts if it may lie on a flank that slides along itself.
+constexpr double kLeastComeShareOfSeen = 0.6;  ///< Of a segment's echoes that were seen before those of a vehicle, for it to have come,
+constexpr double kLeastComeShare = 0.3;        ///< and of all of them: as one drives past, more of it comes into view.
 constexpr double kMostMovingShare = 0.2;   ///< Of a segment's echoes that contradict the map, for it to stand.
 
 bool is_slow(const Track& track) { return track.velocity_mps().norm() < 1.5; }
@@ -40,6 +42,13 @@ bool is_slow(const Track& track) { return track.velocity_mps().norm() < 1.5; }
 bool may_have_a_flank(const Segment& segment, const TrackingConfig& config) {
   constexpr double kShortestFlankM = 2.5;
   return segment.box_length_m > kShortestFlankM * config.size_scale && segment.box_length_m < config.longest_body_m;
+}
+
+/// Whether the segment may be of a vehicle that has come and stands now: if most of what was seen of it in an earlier scan, too,
+/// was of one. What the map holds is not asked: there a wall is likelier than a track that is right.
+bool may_have_come(const Segment& segment, const TrackingConfig& config) {
+  const bool may_be_vehicle = segment.label == PointLabel::kMoving || segment.label == PointLabel::kUnknown;
+  return !only_people_move(config) && may_be_vehicle && segment.box_length_m <= config.longest_body_m;
 }
 
 /// Most echoes side by side that have arrived since.
@@ -104,27 +113,24 @@ Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view, double siz
   return edge;
 }
 
-/// The first of beams that are ascending but for one step across the seam of the scan: the one after the widest gap.
-std::size_t start_of(const std::vector<std::uint16_t>& beams, const PolarView& view) {
-  if (!view.goes_all_round()) return 0;
+/// Where beams that are ascending but for one step across the seam of the scan begin, and the first and the last of them, with
+/// nothing but the thing that they met in between.
+struct Ends {
+  std::size_t start = 0;      ///< Index of the first.
+  std::uint16_t first = 0;
+  std::uint16_t last = 0;
+};
+
+/// They begin after the widest gap.
+Ends ends_of(const std::vector<std::uint16_t>& beams, const PolarView& view) {
+  if (!view.goes_all_round()) return {0, beams.front(), beams.back()};
   std::size_t start = 0;
   std::size_t widest = 0;
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const std::size_t gap = view.steps_between(beams[i == 0 ? beams.size() - 1 : i - 1], beams[i]);
     if (gap > widest) start = i, widest = gap;
   }
-  return start;
-}
-
-/// The first and the last, with nothing but the thing that they met in between.
-struct Ends {
-  std::uint16_t first = 0;
-  std::uint16_t last = 0;
-};
-
-Ends ends_of(const std::vector<std::uint16_t>& beams, const PolarView& view) {
-  const std::size_t start = start_of(beams, view);
-  return {beams[start], beams[start == 0 ? beams.size() - 1 : start - 1]};
+  return {start, beams[start], beams[start == 0 ? beams.size() - 1 : start - 1]};
 }
 
 /// How many beams between the first and the last got no echo.
@@ -140,9 +146,8 @@ int gaps_between(const std::vector<std::uint16_t>& beams, const PolarView& view)
 Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const Answers& answers, const ScanView& view, double size_scale, std::vector<Vector2d>& points_m) {
   constexpr double kLongSideM = 1.4;
   points_m.clear();
-  const std::size_t start = start_of(beams, view.polar());
-  for (std::size_t i = 0; i < beams.size(); ++i) points_m.push_back(view.point_in_odom_m(beams[(start + i) % beams.size()]));
   const Ends ends = ends_of(beams, view.polar());
+  for (std::size_t i = 0; i < beams.size(); ++i) points_m.push_back(view.point_in_odom_m(beams[(ends.start + i) % beams.size()]));
   return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(ends.first, -1, view.polar(), size_scale),
           edge_beyond(ends.last, +1, view.polar(), size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
 }
@@ -420,9 +425,16 @@ void Tracker::compare_with_past(std::size_t s, const PastScans& past_scans, cons
   const Segment& segment = view.scan().segments[s];
   SegmentPast past = past_of_segment_[s];
   int arrival = 0;
+  int seen = 0;
+  int of_vehicles = 0;
   for (const std::uint16_t beam : segment.beams) {
     if (past_scans.then == nullptr) break;
-    const Past of_beam = has_shifted_[beam] ? Past::kArrived : history_.past_of(beam, view.polar(), *past_scans.then, only_people_move(config_));
+    const SightOfPlace before = past_scans.then->view.sight_of(view.point_in_odom_m(beam));
+    if (before.sight == Sight::kThere) {
+      ++seen;
+      of_vehicles += past_scans.then->owners[before.beam].has_come ? 1 : 0;
+    }
+    const Past of_beam = has_shifted_[beam] ? Past::kArrived : history_.past_of(beam, before, view.polar(), *past_scans.then, only_people_move(config_));
     past_of_beam_[beam] = of_beam;
     past.stood += of_beam == Past::kStood ? 1 : 0;
     past.arrived += of_beam == Past::kArrived ? 1 : 0;
@@ -439,26 +451,8 @@ void Tracker::compare_with_past(std::size_t s, const PastScans& past_scans, cons
   const bool is_mapped = segment.label == PointLabel::kStationary && segment.moving_share < kMostMovingShare;
   past.stood_before = past.stood > kLeastStoodShare * count;
   past.stands = past.stood_before || (is_mapped && past.stood > kLeastStoodIfMapped * count && past.arrived + past.receded < kLeastChangedShare * count);
-  past.has_come = past_scans.then != nullptr && has_come(segment, *past_scans.then, view);
+  past.has_come = may_have_come(segment, config_) && of_vehicles > kLeastComeShareOfSeen * seen && of_vehicles > kLeastComeShare * count;
   past_of_segment_[s] = past;
-}
-
-/// Whether the segment is of a vehicle that has come and stands now: most of what was seen of it in the earlier scan, too, was of
-/// one. What the map holds is not asked: there a wall is likelier than a track that is right.
-bool Tracker::has_come(const Segment& segment, const EarlierScan& then, const ScanView& view) const {
-  constexpr double kLeastShareOfSeen = 0.6;
-  constexpr double kLeastShare = 0.3;  // of all its echoes: as one drives past, more of it comes into view
-  const bool may_be_vehicle = segment.label == PointLabel::kMoving || segment.label == PointLabel::kUnknown;
-  if (only_people_move(config_) || !may_be_vehicle || segment.box_length_m > config_.longest_body_m) return false;
-  int seen = 0;
-  int of_vehicles = 0;
-  for (const std::uint16_t beam : segment.beams) {
-    const SightOfPlace before = then.view.sight_of(view.point_in_odom_m(beam));
-    if (before.sight != Sight::kThere) continue;
-    ++seen;
-    of_vehicles += then.owners[before.beam].has_come ? 1 : 0;
-  }
-  return of_vehicles > kLeastShareOfSeen * seen && of_vehicles > kLeastShare * static_cast<double>(segment.beams.size());
 }
 
 /// Notes a front or rear that has come from elsewhere.
@@ -647,7 +641,8 @@ void Tracker::leave_out_surroundings(std::size_t index, double time_s, const Sca
   const bool walks = track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps;
   if (!walks || beams.empty()) return;
   const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + config_.gate_margin_m; };
-  const bool has_outgrown = (view.point_in_odom_m(beams.back()) - view.point_in_odom_m(beams.front())).norm() > config_.box_from_extent_m;
+  const Ends ends = ends_of(beams, view.polar());
+  const bool has_outgrown = (view.point_in_odom_m(ends.last) - view.point_in_odom_m(ends.first)).norm() > config_.box_from_extent_m;
   track.outgrown_s = has_outgrown ? track.outgrown_s + time_s : 0.0;
   if (!has_outgrown || track.outgrown_s > kBelievedAfterS || std::ranges::none_of(beams, is_near)) return;
   std::erase_if(beams, [&](std::uint16_t beam) { return !is_near(beam); });

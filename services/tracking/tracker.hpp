@@ -100,7 +100,6 @@ class Tracker {
   PastScans past_scans(std::int64_t stamp_ns) const;
   void compare_with_past(const ScanView& view);
   void compare_with_past(std::size_t segment, const PastScans& past_scans, const ScanView& view);
-  bool has_come(const flow::Segment& segment, const EarlierScan& then, const ScanView& view) const;
   void note_face_shift(std::size_t segment, const PastScans& past_scans, const ScanView& view);
   bool may_begin(const flow::Segment& segment, std::size_t index) const;
   bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const;

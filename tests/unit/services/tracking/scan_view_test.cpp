@@ -64,6 +64,7 @@ TEST(PolarView, CountsOnAcrossTheSeamOfAFullTurnOnly) {
   EXPECT_EQ(half.neighbour_of(0, -1), std::nullopt);
   EXPECT_EQ(half.steps_between(3, 5), 2U);
   EXPECT_EQ(half.steps_between(5, 3), 361U);
+  EXPECT_FALSE(PolarView(scan_of(0, 7.0)).goes_all_round()) << "no beams, however far apart they are said to be";
 }
 
 TEST(ScanView, SeesBothHalvesOfWhatLiesAcrossTheSeam) {
