@@ -41,6 +41,7 @@ struct LocalizedScan {
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;
   double beam_step_rad = 0.0;
+  double sweep_s = 0.0;                         ///< From the first beam's firing, at the stamp, to the last's.
   geometry::UncertainPose2 odom_from_base;      ///< At the stamp. Never jumps.
   geometry::Pose2 map_from_odom;                ///< Moves when a loop closes.
   double speed_mps = 0.0;                       ///< Forward, of the base.

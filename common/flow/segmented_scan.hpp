@@ -42,6 +42,7 @@ struct SegmentedScan {
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;
   double beam_step_rad = 0.0;
+  double sweep_s = 0.0;                           ///< From the first beam's firing, at the stamp, to the last's.
   geometry::UncertainPose2 odom_from_base;
   geometry::Pose2 map_from_odom;
   MapId map_id{};

@@ -10,9 +10,11 @@ double beam_angle_rad(const Scanner& scanner, std::size_t beam) {
   return scanner.first_beam_rad + static_cast<double>(beam) * scanner.beam_step_rad;
 }
 
-double beam_delay_s(const Scanner& scanner, std::size_t beam, std::size_t beam_count) {
+double beam_delay_s(const Scanner& scanner, std::size_t beam, std::size_t beam_count) { return beam_delay_s(scanner.sweep_s, beam, beam_count); }
+
+double beam_delay_s(double sweep_s, std::size_t beam, std::size_t beam_count) {
   if (beam_count < 2) return 0.0;
-  return scanner.sweep_s * static_cast<double>(beam) / static_cast<double>(beam_count - 1);
+  return sweep_s * static_cast<double>(beam) / static_cast<double>(beam_count - 1);
 }
 
 }  // namespace slammot::sensing

@@ -41,5 +41,6 @@ double beam_angle_rad(const Scanner& scanner, std::size_t beam);
 
 /// Time from the first beam's firing to this one's. beam_count > 1 for a sweep that takes time.
 double beam_delay_s(const Scanner& scanner, std::size_t beam, std::size_t beam_count);
+double beam_delay_s(double sweep_s, std::size_t beam, std::size_t beam_count);
 
 }  // namespace slammot::sensing

@@ -18,6 +18,7 @@ void encode_scan_header(std::string_view vehicle_id, const Scan& scan, Sample& s
   sample.base_from_laser = encode(scan.base_from_laser);
   sample.max_range_m = scan.max_range_m;
   sample.beam_step_rad = scan.beam_step_rad;
+  sample.sweep_s = scan.sweep_s;
   sample.odom_from_base = encode(scan.odom_from_base);
   sample.map_from_odom = encode(scan.map_from_odom);
   sample.map_id = scan.map_id.value;
@@ -29,6 +30,7 @@ std::string_view fault_of_scan_header(const Sample& sample) {
   if (!is_sound(sample.base_from_laser)) return "base_from_laser is not finite";
   if (!is_amount(sample.max_range_m)) return "max_range_m is negative or not finite";
   if (!is_sound(sample.beam_step_rad)) return "beam_step_rad is not finite";
+  if (!is_sound(sample.sweep_s)) return "sweep_s is not finite";
   if (!is_sound(sample.odom_from_base)) return "odom_from_base or its covariance is unsound";
   if (!is_sound(sample.map_from_odom)) return "map_from_odom is not finite";
   return "";
@@ -44,6 +46,7 @@ Scan decode_scan_header(const Sample& sample) {
   scan.base_from_laser = decode(sample.base_from_laser);
   scan.max_range_m = sample.max_range_m;
   scan.beam_step_rad = sample.beam_step_rad;
+  scan.sweep_s = sample.sweep_s;
   scan.odom_from_base = decode(sample.odom_from_base);
   scan.map_from_odom = decode(sample.map_from_odom);
   scan.map_id = {sample.map_id};

@@ -89,6 +89,7 @@ SegmentedScan with_header_of(const LocalizedScan& scan, SegmentedScan segmented)
   segmented.base_from_laser = scan.base_from_laser;
   segmented.max_range_m = scan.max_range_m;
   segmented.beam_step_rad = scan.beam_step_rad;
+  segmented.sweep_s = scan.sweep_s;
   segmented.odom_from_base = scan.odom_from_base;
   segmented.map_from_odom = scan.map_from_odom;
   segmented.map_id = scan.map_id;

@@ -262,10 +262,14 @@ void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_
 
 bool Localizer::learns_sweep(const sensing::LaserScan& scan) const { return progress_.sweep_factor.variance > 0.0 && scan.scanner.sweep_s > 0.0; }
 
+double Localizer::true_sweep_s(const sensing::LaserScan& scan) const {
+  return learns_sweep(scan) ? progress_.sweep_factor.value * scan.scanner.sweep_s : scan.scanner.sweep_s;
+}
+
 const sensing::LaserScan& Localizer::with_true_sweep(const sensing::LaserScan& scan) {
   if (!learns_sweep(scan)) return scan;
   swept_scan_ = scan;
-  swept_scan_.scanner.sweep_s *= progress_.sweep_factor.value;
+  swept_scan_.scanner.sweep_s = true_sweep_s(scan);
   return swept_scan_;
 }
 
@@ -364,6 +368,7 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
   localized.base_from_laser = scan.scanner.base_from_laser;
   localized.max_range_m = scan.scanner.max_range_m;
   localized.beam_step_rad = scan.scanner.beam_step_rad;
+  localized.sweep_s = true_sweep_s(scan);
   localized.odom_from_base = odom_from_base;
   localized.map_from_odom = map_from_odom_;
   localized.speed_mps = progress_.last->speed_mps;

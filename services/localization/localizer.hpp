@@ -306,6 +306,7 @@ class Localizer {
   static matching::CorrelativeConfig finder_config(matching::CorrelativeConfig search);
   void select_points(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base);
   bool learns_sweep(const sensing::LaserScan& scan) const;
+  double true_sweep_s(const sensing::LaserScan& scan) const;  ///< As learned, where it is.
   const sensing::LaserScan& with_true_sweep(const sensing::LaserScan& scan);
   void learn_sweep(const sensing::LaserScan& scan, const geometry::UncertainPose2& prior, const geometry::Pose2& odom_from_base, const State& now);
   void mask_expected_objects(std::int64_t stamp_ns);

@@ -5,7 +5,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x7365'7373'696f'6e32;  // "session2": the digit counts the forms of a session
+constexpr std::uint64_t kMark = 0x7365'7373'696f'6e33;  // "session3": the digit counts the forms of a session
 constexpr std::uint64_t kMostScanners = 64;
 
 void put_text(std::vector<std::byte>& bytes, const std::string& text) { put_all(bytes, std::vector<char>(text.begin(), text.end())); }
@@ -24,6 +24,7 @@ void visit_members(Scan& scan, Visit visit) {
   visit(scan.base_from_laser);
   visit(scan.max_range_m);
   visit(scan.beam_step_rad);
+  visit(scan.sweep_s);
   visit(scan.odom_from_base.pose);
   visit(scan.odom_from_base.covariance);
   visit(scan.map_from_odom);

@@ -42,6 +42,7 @@ PolarView::PolarView(const flow::SegmentedScan& scan)
       laser_in_odom_m_(scan.odom_from_base.pose * scan.base_from_laser.translation_m()),
       beam_step_rad_(std::abs(scan.beam_step_rad)),
       beams_per_rad_(1.0 / beam_step_rad_),
+      sweep_s_(scan.sweep_s),
       half_view_rad_(0.5 * beam_step_rad_ * static_cast<double>(scan.range_m.size())),
       is_clockwise_(scan.beam_step_rad < 0.0),
       goes_all_round_(geometry::goes_all_round(scan.range_m.size(), scan.beam_step_rad)) {
@@ -112,6 +113,11 @@ bool PolarView::any_echo_near(const Vector2d& point_in_odom_m, double within_m, 
   for (std::size_t beam = first_beam; beam < end_beam; ++beam)
     if (range_m_[beam] > 0.0F && (points_in_odom_m_[beam] - point_in_odom_m).squaredNorm() < within_m * within_m && counts(beam)) return true;
   return false;
+}
+
+double PolarView::delay_towards_s(const Vector2d& point_in_odom_m) const {
+  const auto last = static_cast<long>(beam_count()) - 1;
+  return last < 0 ? 0.0 : delay_s(static_cast<std::size_t>(std::clamp(beam_towards(point_in_odom_m - laser_in_odom_m_), 0L, last)));
 }
 
 long PolarView::beam_towards(const Vector2d& way) const {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "common/flow/segmented_scan.hpp"
+#include "common/sensing/scan.hpp"
 #include "services/tracking/body.hpp"
 
 namespace slammot::tracking {
@@ -64,6 +65,11 @@ class PolarView {
   /// Direction in steps from beam 0, ascending with the beams; within half a turn of the middle of the field of view.
   double steps_towards(double direction_in_odom_rad) const;
 
+  /// Time from the scan's stamp to the firing of a beam.
+  double delay_s(std::size_t beam) const { return sensing::beam_delay_s(sweep_s_, beam, beam_count()); }
+  /// The same of the beam that points at a place, or comes nearest to doing so.
+  double delay_towards_s(const Eigen::Vector2d& point_in_odom_m) const;
+
   /// Number of the beam nearest to the direction of a way in odom, which may be none of the scan's: steps_towards() rounded,
   /// mostly without its arctangent.
   long beam_towards(const Eigen::Vector2d& way) const;
@@ -82,6 +88,7 @@ class PolarView {
   double first_beam_in_odom_rad_ = 0.0;
   double beam_step_rad_ = 0.0;
   double beams_per_rad_ = 0.0;
+  double sweep_s_ = 0.0;
   double half_view_rad_ = 0.0;
   bool is_clockwise_ = false;
   bool goes_all_round_ = false;

@@ -18,7 +18,8 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using geometry::wrap_angle;
 
-constexpr double kHeadingDriftRad2PerS = 0.1;  ///< How fast a body may turn, as a random walk.
+/// How fast a body may turn, as a random walk: at one speed, the faster the smaller it is.
+double heading_drift_rad2_per_s(const TrackingConfig& config) { return 0.1 / config.size_scale; }
 
 constexpr double kProgressM = 1.0;             ///< So far something must come once in a while that says to move.
 
@@ -238,15 +239,14 @@ bool walks(const Track& track) {
 }
 
 /// What is wrong with the centre in many scans alike, so that the filter, for which errors are new in each, does not see it:
-/// the size that is assumed, the heading along which the middle is sought behind the sides that are seen, how far the shape is from a
-/// box, and how far the object goes while the scan sweeps.
+/// the size that is assumed, the heading along which the middle is sought behind the sides that are seen, and how far the shape is
+/// from a box.
 Matrix2d shared_error_covariance(const Track& track, double heading_rad, const TrackingConfig& config) {
-  constexpr double kHalfSweepS = 0.01;
   constexpr double kShapeAlongM = 0.05;
   constexpr double kByCourseAloneRad = 0.1;   // the course of what comes out from behind something is off alike for many scans
   constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
   constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
-  double along_m2 = std::pow(kHalfSweepS * track.velocity_mps().norm(), 2);
+  double along_m2 = 0.0;
   double across_m2 = 0.0;
   if (track.body.has_sides) {
     const double least_rad2 = track.body.axis_variance_rad2 > kKnownAxisRad2 ? std::pow(kByCourseAloneRad, 2) : 0.0;
@@ -411,8 +411,8 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
   const filters::ModelSet models = models_of(track, config);
   track.motion = filters::imm_predict(models, track.motion, time_s);
   track.estimate = filters::imm_combine(models, track.motion);
-  track.body.heading_variance_rad2 = std::min(10.0, track.body.heading_variance_rad2 + kHeadingDriftRad2PerS * time_s);
-  track.body.axis_variance_rad2 = std::min(10.0, track.body.axis_variance_rad2 + kHeadingDriftRad2PerS * time_s);
+  track.body.heading_variance_rad2 = std::min(10.0, track.body.heading_variance_rad2 + heading_drift_rad2_per_s(config) * time_s);
+  track.body.axis_variance_rad2 = std::min(10.0, track.body.axis_variance_rad2 + heading_drift_rad2_per_s(config) * time_s);
 }
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
@@ -584,6 +584,13 @@ bool is_held_never_to_have_moved(const Track& track, std::int64_t stamp_ns, cons
   return static_cast<double>(stamp_ns - idle_since_ns) * 1e-9 > may_stand_s;
 }
 
+/// Position and velocity so much later, at this velocity.
+Eigen::Matrix4d covariance_after(const Eigen::Matrix4d& covariance, double time_s) {
+  Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
+  F.topRightCorner<2, 2>().diagonal().setConstant(time_s);
+  return F * covariance * F.transpose();
+}
+
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
   flow::TrackedObject object;
   object.track_id = track.track_id;
@@ -596,10 +603,11 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
                      unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);
   const filters::MotionState estimate = filters::estimate_of(track.move_stop, track.estimate);
-  object.position_in_odom_m = track.position_m();
   object.velocity_in_odom_mps = estimate.mean.segment<2>(2);
+  const Vector2d since_stamp_m = track.after_stamp_s * object.velocity_in_odom_mps;
+  object.position_in_odom_m = track.position_m() - since_stamp_m;
   const Eigen::DiagonalMatrix<double, 4> share = with_own_gait(track, config);
-  object.covariance = share * track.estimate.covariance.topLeftCorner<4, 4>() * share;
+  object.covariance = share * covariance_after(track.estimate.covariance.topLeftCorner<4, 4>(), -track.after_stamp_s) * share;
   object.acceleration_in_odom_mps2 = estimate.mean.segment<2>(4);
   object.heading_in_odom_rad = track.body.has_sides ? track.body.heading_rad : course_of(track).heading_rad;
   object.length_m = track.body.length.value_m;
@@ -611,9 +619,11 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   object.first_seen_ns = track.first_seen_ns;
   object.last_seen_ns = track.last_seen_ns;
   object.contour_in_odom_m = track.contour_in_odom_m;
+  for (Eigen::Vector2f& point_m : object.contour_in_odom_m) point_m -= since_stamp_m.cast<float>();
   const Matrix2d shared_error_m2 = shared_error_covariance(track, object.heading_in_odom_rad, config);
   object.covariance.topLeftCorner<2, 2>() += shared_error_m2;
   if (track.confirmed) object.predicted_path = predicted_path(track, shared_error_m2, config);
+  for (flow::PredictedPosition& there : object.predicted_path) there.position_in_odom_m -= since_stamp_m;
   return object;
 }
 

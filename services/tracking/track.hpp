@@ -42,7 +42,7 @@ struct MeasuredCentre {
 
 /// A glimpse and what it refers to, for later.
 struct KeptGlimpse {
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;                 ///< Of its beams, not of the scan.
   std::vector<Eigen::Vector2d> points_m;     ///< Of the glimpse, whose own may be gone.
   Glimpse glimpse;
   Eigen::Matrix2d pose_covariance_m2 = Eigen::Matrix2d::Zero();
@@ -92,7 +92,8 @@ constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
 struct Track {
   flow::TrackId track_id;
   filters::ImmState motion;
-  filters::MotionState estimate;             ///< Of the modes together, as of the last predict or update.
+  filters::MotionState estimate;             ///< Of the modes together, as of the last predict or update,
+  double after_stamp_s = 0.0;                ///< and so long after the scan's stamp: when the beam that points at it was fired.
   filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
   std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
   Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.

@@ -26,6 +26,9 @@ using flow::PointLabel;
 using flow::Segment;
 
 constexpr double kNanosecond_s = 1e-9;
+
+std::int64_t nanoseconds(double time_s) { return std::llround(time_s / kNanosecond_s); }
+
 constexpr std::size_t kMostPastScans = 64;
 constexpr double kFastestOfSigmas = 1.25;   ///< No speed beyond so many times the largest that is likely is looked for.
 
@@ -142,14 +145,33 @@ int gaps_between(const std::vector<std::uint16_t>& beams, const PolarView& view)
   return gaps;
 }
 
+/// The time to which a body's echoes are moved, and how fast it goes.
+struct SweptMotion {
+  double after_stamp_s = 0.0;
+  Vector2d velocity_mps = Vector2d::Zero();
+};
+
+SweptMotion swept_motion(const Track& track) { return {track.after_stamp_s, track.velocity_mps()}; }
+
 /// The points of some beams, with what lies beside them.
-Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const Answers& answers, const ScanView& view, double size_scale, std::vector<Vector2d>& points_m) {
+Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const SweptMotion& motion, const Answers& answers, const ScanView& view, double size_scale,
+                   std::vector<Vector2d>& points_m) {
   constexpr double kLongSideM = 1.4;
   points_m.clear();
   const Ends ends = ends_of(beams, view.polar());
-  for (std::size_t i = 0; i < beams.size(); ++i) points_m.push_back(view.point_in_odom_m(beams[(ends.start + i) % beams.size()]));
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const std::uint16_t beam = beams[(ends.start + i) % beams.size()];
+    points_m.push_back(view.point_in_odom_m(beam) - (view.polar().delay_s(beam) - motion.after_stamp_s) * motion.velocity_mps);
+  }
   return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(ends.first, -1, view.polar(), size_scale),
           edge_beyond(ends.last, +1, view.polar(), size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
+}
+
+/// To when the beam that points at it is fired, in a scan that begins time_s after the one before.
+void predict_to_its_beam(Track& track, double time_s, const PolarView& view, const TrackingConfig& config) {
+  const double before_s = track.after_stamp_s;
+  track.after_stamp_s = view.delay_towards_s(track.position_m() + (time_s - before_s) * track.velocity_mps());
+  predict(track, std::max(0.0, time_s + track.after_stamp_s - before_s), config);
 }
 
 bool is_vehicle(const Track& track) { return track.body.has_sides && track.body.kind != Kind::kBicycle; }
@@ -525,13 +547,15 @@ void Tracker::begin_tracks(const ScanView& view) {
     const Segment& segment = view.scan().segments[s];
     if (shares_.track_of_segment[s] != kUnassigned || !may_begin(segment, s)) continue;
     const Answers answers = with_answers({}, segment.beams.size(), gaps_between(segment.beams, view.polar()), 0.0);
-    const Glimpse glimpse = glimpse_of(segment.beams, answers, view, config_.size_scale, points_m);
+    const double after_stamp_s = view.polar().delay_towards_s(segment.centroid_in_odom_m);
+    const Glimpse glimpse = glimpse_of(segment.beams, {after_stamp_s, Vector2d::Zero()}, answers, view, config_.size_scale, points_m);
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
     // Detection fits boxes to what moves only.
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m, config_.range_noise_m).heading_rad;
     tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
-    tracks_.back().youth.add(view.scan().stamp_ns, glimpse, pose_covariance_m2);
+    tracks_.back().after_stamp_s = after_stamp_s;
+    tracks_.back().youth.add(view.scan().stamp_ns + nanoseconds(after_stamp_s), glimpse, pose_covariance_m2);
     tracks_.back().answers = answers;
     tracks_.back().echoes = static_cast<double>(segment.beams.size());
     tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
@@ -681,12 +705,12 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
     return Outcome::kGoesOn;
   }
   track.answers = with_answers(track.answers, beams.size(), gaps_between(beams, view.polar()), time_s);
-  const Glimpse glimpse = glimpse_of(beams, track.answers, view, config_.size_scale, glimpse_points_m_[index]);
+  const Glimpse glimpse = glimpse_of(beams, swept_motion(track), track.answers, view, config_.size_scale, glimpse_points_m_[index]);
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return Outcome::kIsOfSomethingElse;
   if (!track.confirmed) track.youth_echoes = with_echoes(track.youth_echoes, beams, view);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (track.confirmed && is_vehicle(track)) score_passed(track, view.visibility_of(inner_part_of(track), track.position_m()), beams.size(), config_);
-  if (!track.confirmed) track.youth.add(view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()));
+  if (!track.confirmed) track.youth.add(view.scan().stamp_ns + nanoseconds(track.after_stamp_s), glimpse, pose_covariance_at(track.position_m(), view.scan()));
   if (!track.confirmed && has_proven_to_move(track, config_)) {
     const Life before = life(track);
     live_as(track, relived(track, config_));
@@ -724,7 +748,7 @@ void Tracker::join_pieces(const ScanView& view) {
       if (a == b || tracks_[a].hits < tracks_[b].hits || tracks_[b].hits == 0 || shares_.beams_of_track[a].empty() || shares_.beams_of_track[b].empty()) continue;
       if (!drive_as_one(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
       absorb(a, b);
-      draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], tracks_[a].answers, view, config_.size_scale, points_m), config_);
+      draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], swept_motion(tracks_[a]), tracks_[a].answers, view, config_.size_scale, points_m), config_);
     }
   }
 }
@@ -779,7 +803,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
   last_stamp_ns_ = scan.stamp_ns;
   ++counters_.scans;
   const ScanView view(scan);
-  for (Track& track : tracks_) predict(track, time_s, config_);
+  for (Track& track : tracks_) predict_to_its_beam(track, time_s, view.polar(), config_);
   rivals_.predict(time_s);
   compare_with_past(view);
   associate(view);

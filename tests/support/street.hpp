@@ -15,11 +15,13 @@ struct StreetBox {
   geometry::Pose2 odom_from_box;
   double length_m = 4.5;
   double width_m = 1.8;
+  geometry::Vector2 velocity_mps = geometry::Vector2::Zero();  ///< In odom, while a scan sweeps.
 };
 
-/// Range along the ray to the box; none where it misses.
-inline std::optional<double> range_to(const StreetBox& box, const geometry::Vector2& origin_m, double direction_rad) {
-  const geometry::Pose2 box_from_odom = geometry::inverse(box.odom_from_box);
+/// Range along the ray to the box so long after the scan's stamp; none where it misses.
+inline std::optional<double> range_to(const StreetBox& box, const geometry::Vector2& origin_m, double direction_rad, double delay_s = 0.0) {
+  const geometry::Vector2 centre_m = box.odom_from_box.translation_m() + delay_s * box.velocity_mps;
+  const geometry::Pose2 box_from_odom = geometry::inverse(geometry::Pose2{centre_m.x(), centre_m.y(), box.odom_from_box.heading_rad});
   const geometry::Vector2 o = box_from_odom * origin_m;
   const double angle = direction_rad + box_from_odom.heading_rad;
   const geometry::Vector2 d{std::cos(angle), std::sin(angle)};
@@ -49,11 +51,12 @@ struct Street {
   double first_beam_rad = -0.5 * M_PI;
   double field_of_view_rad = M_PI;
   double max_range_m = 80.0;
+  double sweep_s = 0.0;
 
-  static double nearest(const std::vector<StreetBox>& boxes, const geometry::Vector2& origin_m, double direction_rad, double max_range_m) {
+  static double nearest(const std::vector<StreetBox>& boxes, const geometry::Vector2& origin_m, double direction_rad, double max_range_m, double delay_s) {
     double range_m = max_range_m;
     for (const StreetBox& box : boxes)
-      if (const auto hit = range_to(box, origin_m, direction_rad)) range_m = std::min(range_m, *hit);
+      if (const auto hit = range_to(box, origin_m, direction_rad, delay_s)) range_m = std::min(range_m, *hit);
     return range_m;
   }
 
@@ -64,15 +67,17 @@ struct Street {
     scan.scanner_id = "front";
     scan.max_range_m = max_range_m;
     scan.beam_step_rad = field_of_view_rad / (beams - 1);
+    scan.sweep_s = sweep_s;
     scan.odom_from_base.pose = odom_from_base;
     scan.odom_from_base.covariance.diagonal() << 1e-4, 1e-4, 1e-6;
     for (int i = 0; i < beams; ++i) {
       const double in_base_rad = first_beam_rad + i * scan.beam_step_rad;
       const double in_odom_rad = in_base_rad + odom_from_base.heading_rad;
       const geometry::Vector2 origin_m = odom_from_base.translation_m();
-      const double known_m = nearest(known, origin_m, in_odom_rad, max_range_m);
-      const double unknown_m = nearest(unknown, origin_m, in_odom_rad, max_range_m);
-      const double expected_m = std::min(known_m, nearest(gone, origin_m, in_odom_rad, max_range_m));
+      const double delay_s = sweep_s * i / (beams - 1);
+      const double known_m = nearest(known, origin_m, in_odom_rad, max_range_m, delay_s);
+      const double unknown_m = nearest(unknown, origin_m, in_odom_rad, max_range_m, delay_s);
+      const double expected_m = std::min(known_m, nearest(gone, origin_m, in_odom_rad, max_range_m, delay_s));
       flow::LocalizedBeam beam;
       const double range_m = std::min(known_m, unknown_m);
       beam.expected_range_m = static_cast<float>(expected_m);

@@ -45,6 +45,7 @@ TEST_F(SegmentedScanOnTheWire, ComesBackAsItWas) {
   EXPECT_EQ(back->base_from_laser, scan.base_from_laser);
   EXPECT_EQ(back->max_range_m, scan.max_range_m);
   EXPECT_EQ(back->beam_step_rad, scan.beam_step_rad);
+  EXPECT_EQ(back->sweep_s, scan.sweep_s);
   EXPECT_EQ(back->odom_from_base.pose, scan.odom_from_base.pose);
   EXPECT_EQ(back->odom_from_base.covariance, scan.odom_from_base.covariance);
   EXPECT_EQ(back->map_from_odom, scan.map_from_odom);
@@ -88,6 +89,7 @@ TEST_F(SegmentedScanOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_EQ(fault_after([](auto&) {}), "");
   EXPECT_NE(fault_after([](auto& s) { s.base_from_laser.x_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.max_range_m = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.sweep_s = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beam_step_rad = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.odom_from_base.covariance[0] = -1.0; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.map_from_odom.x_m = kNan; }), "");

@@ -92,6 +92,7 @@ TEST(Localizer, FindsOutThatAScannerTurnsTheOtherWayRound) {
     config.motion.position_noise_per_m = config.motion.sideways_noise_per_m = 0.03;
     config.motion.askew_prior_rad = 0.0;  // what a sweep does to a scan looks much like it
     Localizer localizer(config);
+    double told_s = 0.0;
     for (std::uint32_t number = 0; number < 300; ++number) {
       sensing::LaserScan scan = drive.scan(number);
       scan.scanner.sweep_s = kSaidS;
@@ -99,7 +100,9 @@ TEST(Localizer, FindsOutThatAScannerTurnsTheOtherWayRound) {
       const auto localized = localizer.localize(scan);
       ASSERT_TRUE(localized);
       localizer.integrate(all_stationary(*localized));
+      told_s = localized->sweep_s;
     }
+    EXPECT_NEAR(told_s, truth * kSaidS, 0.15 * kSaidS);
     EXPECT_NEAR(localizer.sweep_factor().value, truth, 0.15);
     EXPECT_LT(localizer.sweep_factor().variance, 0.01);
   }

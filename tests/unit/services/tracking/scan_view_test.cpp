@@ -54,6 +54,17 @@ TEST(PolarView, KnowsTheNearestBeamHalfWayBetweenTwoAndBehindTheScanner) {
   EXPECT_EQ(view.beam_towards({0.0, -1.0}), exact_beam_towards(view, {0.0, -1.0}));
 }
 
+TEST(PolarView, KnowsWhenTheBeamTowardsAPlaceIsFired) {
+  flow::SegmentedScan scan = scan_of(361, std::numbers::pi / 360);
+  scan.sweep_s = 0.036;
+  const PolarView view(scan);
+  EXPECT_DOUBLE_EQ(view.delay_s(360), 0.036);
+  EXPECT_DOUBLE_EQ(view.delay_towards_s(view.point_in_odom_m(180)), 0.018);
+  EXPECT_DOUBLE_EQ(view.delay_towards_s(view.point_in_odom_m(90)), 0.009);
+  const Vector2d beside_the_last = 2.0 * view.laser_in_odom_m() - view.point_in_odom_m(10);
+  EXPECT_DOUBLE_EQ(view.delay_towards_s(beside_the_last), 0.036);  // out of view: as near to it as beams come
+}
+
 TEST(PolarView, CountsOnAcrossTheSeamOfAFullTurnOnly) {
   const PolarView round(scan_of(720, std::numbers::pi / 360));
   EXPECT_EQ(round.neighbour_of(719, 2), 1U);

@@ -197,6 +197,24 @@ TEST(Track, DoesNotTurnByWhatIsRound) {
   EXPECT_NEAR(heading_after(0.15), 0.0, 0.03);
 }
 
+TEST(Track, MayTurnTheFasterTheSmallerItIs) {
+  const std::vector<Eigen::Vector2d> points{{20.0, -0.9}, {20.0, -0.3}, {20.0, 0.3}, {20.0, 0.9}};
+  const auto variance_after_a_second = [&](double size_scale) {
+    TrackingConfig config;
+    config.size_scale = size_scale;
+    Glimpse glimpse;
+    glimpse.points_m = points;
+    glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
+    Track track = begun({1}, 0, glimpse, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity(), config);
+    track.body.heading_variance_rad2 = track.body.axis_variance_rad2 = 0.0;
+    predict(track, 1.0, config);
+    EXPECT_EQ(track.body.axis_variance_rad2, track.body.heading_variance_rad2);
+    return track.body.heading_variance_rad2;
+  };
+  EXPECT_GT(variance_after_a_second(1.0), 0.0);
+  EXPECT_NEAR(variance_after_a_second(0.1), 10.0 * variance_after_a_second(1.0), 1e-9);
+}
+
 TEST(Track, LiesAlongWhatIsLongerThanAnyFront) {
   const TrackingConfig config;
   std::vector<Eigen::Vector2d> points;

@@ -120,6 +120,30 @@ TEST(Tracker, FollowsACarAcrossTheSeamOfAFullTurn) {
   EXPECT_EQ(play.ids.size(), 1U);
 }
 
+TEST(Tracker, KnowsWhereACarIsAtTheStampThoughTheBeamThatMeetsItIsFiredLater) {
+  constexpr double kSlowPeriodS = 0.1;
+  for (const double sweep_s : {0.099, -0.099}) {  // negative: one that turns the other way round
+    Play play({}, kSlowPeriodS);
+    play.street.look_all_round();
+    play.street.sweep_s = sweep_s;
+    play.street.known.push_back({{-40.0, 0.0, M_PI / 2.0}, 120.0, 1.0});
+    const auto scene = [](Street& street, double t) { street.unknown = {{{-10.0, -15.0 + 10.0 * t, M_PI / 2.0}, 4.5, 1.8, {0.0, 10.0}}}; };
+    for (int i = 0; i < 30; ++i) {
+      play.step(scene);
+      if (play.now_s() < 1.0) continue;
+      ASSERT_EQ(play.confirmed().size(), 1U) << play.now_s();
+      const flow::TrackedObject car = play.confirmed().front();
+      const Vector2 centre_m(-10.0, -15.0 + 10.0 * (play.now_s() - kSlowPeriodS));
+      EXPECT_LT((car.position_in_odom_m - centre_m).norm(), 0.3) << play.now_s();
+      EXPECT_LT((car.velocity_in_odom_mps - Vector2(0.0, 10.0)).norm(), 0.5) << play.now_s();
+      ASSERT_FALSE(car.predicted_path.empty());
+      EXPECT_LT((car.predicted_path.front().position_in_odom_m - centre_m - Vector2(0.0, 10.0 * car.predicted_path.front().after_s)).norm(), 0.6);
+      for (const Eigen::Vector2f& point_m : car.contour_in_odom_m) EXPECT_LT(std::abs(point_m.y() - centre_m.y()), 2.5) << play.now_s();
+    }
+    EXPECT_EQ(play.ids.size(), 1U);
+  }
+}
+
 TEST(Tracker, IsSureOfACarWithinHalfASecond) {
   Play play;
   play.run(1.5, [](Street&, double) {});  // what was there before
