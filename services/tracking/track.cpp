@@ -21,6 +21,9 @@ using geometry::wrap_angle;
 /// How fast a body may turn, as a random walk: at one speed, the faster the smaller it is.
 double heading_drift_rad2_per_s(const TrackingConfig& config) { return 0.1 / config.size_scale; }
 
+/// The axis of a rectangle is told but for quarters: which of its sides is meant is sure while three sigmas are less than half of one.
+constexpr double kTellingAxisRad2 = std::numbers::pi * std::numbers::pi / 144.0;
+
 constexpr double kProgressM = 1.0;             ///< So far something must come once in a while that says to move.
 
 /// What the velocity is known to, in one direction.
@@ -144,7 +147,7 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
   }
   Body& body = track.body;
   // Halfway between a side and the next the course does not tell which of them is the flank.
-  const bool knows_axis = body.axis_variance_rad2 < kKnownAxisRad2;
+  const bool knows_axis = body.axis_variance_rad2 < kTellingAxisRad2;
   const double off_axis_rad = std::remainder(course.heading_rad - body.axis_rad, 0.5 * std::numbers::pi);
   const bool is_decisive = !knows_axis || std::abs(off_axis_rad) + 2.0 * std::sqrt(course.variance_rad2) < 0.25 * std::numbers::pi;
   body.is_oriented = body.is_oriented || (is_decisive && course.variance_rad2 < 0.03);
@@ -166,13 +169,16 @@ void lie_along_what_is_seen(Track& track, const Glimpse& glimpse, const Tracking
 }
 
 /// Brings the velocity to the length of the body, as the sides alone tell it: wheels do not go sideways. In a curve the sides
-/// turn at once, and the course only after the filter has seen that the middle goes elsewhere.
-void steer(Track& track, const TrackingConfig& config) {
+/// turn at once, and the course only after the filter has seen that the middle goes elsewhere. An axis of which no side tells just
+/// now is off alike in all the scans since one did: they count for one in each fifth of a second.
+void steer(Track& track, double time_s, const TrackingConfig& config) {
+  constexpr double kUnseenAxisS = 0.2;
   const Body& body = track.body;
-  if (!body.is_oriented || body.axis_variance_rad2 > kKnownAxisRad2) return;
+  if (!body.is_oriented || body.axis_variance_rad2 > kTellingAxisRad2) return;
+  const double scans = body.axis_variance_rad2 > kKnownAxisRad2 ? std::max(1.0, kUnseenAxisS / time_s) : 1.0;
   const double heading_rad = body.heading_rad + std::remainder(body.axis_rad - body.heading_rad, 0.5 * std::numbers::pi);
   const Vector2d across{-std::sin(heading_rad), std::cos(heading_rad)};
-  const double variance = track.velocity_mps().squaredNorm() * (kSlip * kSlip + body.axis_variance_rad2) + std::pow(kSlipMps * config.size_scale, 2);
+  const double variance = track.velocity_mps().squaredNorm() * (kSlip * kSlip + scans * body.axis_variance_rad2) + std::pow(kSlipMps * config.size_scale, 2);
   const filters::ModelSet models = models_of(track, config);
   track.motion = filters::imm_update_speed(models, track.motion, across, 0.0, variance);
   track.estimate = filters::imm_combine(models, track.motion);
@@ -441,7 +447,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   observe(track, stamp_ns, glimpse);
   // What is hidden goes on unseen: only when it is seen again, its claim can be judged.
   track.claimed_m += std::max(0.0, track.velocity_mps().norm() - config.moving_above_mps) * unseen_s;
-  if (track.body.has_sides) steer(track, config);
+  if (track.body.has_sides) steer(track, unseen_s, config);
   if (track.body.has_sides) follow_course(track, glimpse, config);
   else draw_sides_when_known(track, glimpse, config);
   track.agreement = with_scan(track.agreement, distance_from_sides_m(track, glimpse.points_m), distance2, unseen_s);

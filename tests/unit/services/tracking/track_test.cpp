@@ -149,6 +149,41 @@ TEST(Track, IsFilledInTheMiddleAsFarAsItsSizeAndPlaceAreKnown) {
   EXPECT_GT(inner_part_of(track).length.value_m, 0.0);
 }
 
+/// After a scan with two echoes of a car that was going at this velocity, its axis known to this.
+Track car_after_two_echoes(double axis_sigma_rad, const Eigen::Vector2d& velocity_mps, double velocity_sigma_mps, bool is_oriented) {
+  const TrackingConfig config;
+  Track track = followed_car();
+  track.body = with_likely_sizes(track.body, config);
+  track.body.is_oriented = is_oriented;
+  track.body.heading_rad = track.body.axis_rad = 0.0;
+  track.body.heading_variance_rad2 = 1e-4;
+  track.body.axis_variance_rad2 = axis_sigma_rad * axis_sigma_rad;
+  filters::MotionState state;
+  state.mean << 20.0, 0.0, velocity_mps.x(), velocity_mps.y(), 0.0, 0.0;
+  state.covariance = velocity_sigma_mps * velocity_sigma_mps * filters::Matrix6::Identity();
+  move_as(track, state, config);
+  const std::vector<Eigen::Vector2d> points = {{17.8, -0.2}, {17.8, 0.2}};
+  Glimpse glimpse;
+  glimpse.points_m = points;
+  glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
+  EXPECT_TRUE(update(track, 27'000'000, glimpse, 1e-4 * Eigen::Matrix2d::Identity(), config));
+  return track;
+}
+
+TEST(Track, IsSteeredForAsLongAsItsAxisTellsWhichSideIsTheFlankButLessWhileNoSideTellsTheAxis) {
+  const auto speed_across_mps = [](double axis_sigma_rad) { return car_after_two_echoes(axis_sigma_rad, {3.0, 1.5}, 1.0, true).velocity_mps().y(); };
+  const double told_mps = speed_across_mps(0.13);
+  const double remembered_mps = speed_across_mps(0.24);
+  EXPECT_GT(remembered_mps, told_mps + 0.5);
+  EXPECT_LT(remembered_mps, speed_across_mps(0.3) - 0.1);
+}
+
+TEST(Track, IsNotOrientedByACourseHalfwayBetweenTwoSidesForAsLongAsItsAxisTellsThem) {
+  const auto is_oriented = [](double axis_sigma_rad) { return car_after_two_echoes(axis_sigma_rad, {4.0, 4.0}, 0.3, false).body.is_oriented; };
+  EXPECT_FALSE(is_oriented(0.24));
+  EXPECT_TRUE(is_oriented(0.3));
+}
+
 /// A rear, as wide as one of a car and so deep, at which so much is added to the place now and then.
 double score_after_two_seconds(double depth_m, double jump_m) {
   const TrackingConfig config;
