@@ -319,11 +319,56 @@ Agreement with_scan(const Agreement& before, double off_sides_m, double surprise
   return {(kept * before.off_sides_m + off_sides_m) / (kept + 1.0), (kept * before.surprise2 + std::min(surprise2, kMostSurprise2)) / (kept + 1.0), kept + 1.0};
 }
 
+/// Whether the echoes do not lie on the sides of the body.
+bool echoes_lie_off_sides(const Track& track, const TrackingConfig& config) {
+  constexpr double kMostM = 0.2;
+  return track.body.has_sides && track.agreement.off_sides_m > kMostM * config.size_scale;
+}
+
 /// Whether the echoes neither lie on the sides of the body nor come from where it was predicted.
 bool is_no_such_body(const Track& track, const TrackingConfig& config) {
-  constexpr double kMostOffSidesM = 0.2;
   constexpr double kMostSurprise2 = 2.5;  // of two in the mean where the prediction is as good as it says
-  return track.body.has_sides && track.agreement.off_sides_m > kMostOffSidesM * config.size_scale && track.agreement.surprise2 > kMostSurprise2;
+  return echoes_lie_off_sides(track, config) && track.agreement.surprise2 > kMostSurprise2;
+}
+
+/// Where it was when it was first seen. What it was held to be then may have told nothing of where its middle is: the oldest glimpse
+/// that is kept is measured by the body that it has by now, if that is surer.
+MeasuredCentre birth_of(const Track& track, const TrackingConfig& config) {
+  const MeasuredCentre then{track.birth_position_m, track.birth_covariance_m2};
+  if (!track.body.has_sides || track.youth.size() == 0) return then;
+  Glimpse glimpse = track.youth[0].glimpse;
+  glimpse.points_m = track.youth[0].points_m;
+  const BodyMeasurement measured = measure_box(track.body, supposed_centre_m(track.body, glimpse), glimpse, config);
+  return measured.covariance_m2.trace() < then.R.trace() ? MeasuredCentre{measured.centre_m - measured.recentring_m, measured.covariance_m2} : then;
+}
+
+/// Whether it is somewhere else than where it was when it was first seen.
+bool has_travelled(const Track& track, const TrackingConfig& config) {
+  const MeasuredCentre birth = birth_of(track, config);
+  const Vector2d travel_m = track.position_m() - birth.centre_m;
+  const double distance_m = travel_m.norm();
+  const Vector2d way = travel_m / std::max(distance_m, 1e-6);
+  const double sigma_m = std::sqrt(way.dot((track.position_covariance_m2() + birth.R) * way));
+  // A jump is no way: what answers now here, now there, like glass or the legs of chairs, would have come far at once.
+  const double covered_m = distance_m - (walks(track) ? track.surprise_m : 0.0);
+  return covered_m >= config.least_travel_m && covered_m >= config.least_travel_sigmas * sigma_m;
+}
+
+/// Whether its speed can be told from none: what comes into view bit by bit, or was drawn at a stray echo first, seems to have come
+/// from somewhere, and stands.
+bool is_surely_fast(const Track& track, const TrackingConfig& config) {
+  constexpr double kOfSwingingLegs = 0.75;  // who walks is followed with the swing of the legs in the covariance, a post has none
+  const double sigmas = config.detection_sigmas * (walks(track) ? kOfSwingingLegs : 1.0);
+  return track.velocity_mps().norm() >= filters::minimum_detection_speed_mps(track.estimate, sigmas);
+}
+
+/// Whether the velocity is known well enough for the track to be confirmed. Of what is out of nowhere, and comes as predicted, as
+/// well as is published suffices.
+bool has_known_velocity(const Track& track, const TrackingConfig& config) {
+  constexpr double kMostSurprise2 = 2.0;  // so much is expected where the filter knows as well as it claims
+  const bool is_as_predicted = track.agreement.weight > 0.0 && track.agreement.surprise2 < kMostSurprise2 && is_out_of_nowhere(track, config);
+  const double most_mps = is_as_predicted ? std::max(config.most_speed_sigma_mps, config.most_speed_sigma_published_mps) : config.most_speed_sigma_mps;
+  return speed_sigma_mps(track) <= most_mps;
 }
 
 void observe(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse) {
@@ -552,29 +597,25 @@ void score_passed(Track& track, const Visibility& inner_part, std::size_t echoes
 }
 
 bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
-  const Vector2d travel_m = track.position_m() - track.birth_position_m;
-  const double distance_m = travel_m.norm();
-  const Vector2d way = travel_m / std::max(distance_m, 1e-6);
-  const double sigma_m = std::sqrt(way.dot((track.position_covariance_m2() + track.birth_covariance_m2) * way));
   const MotionEvidence& evidence = track.evidence;
   // What comes out from behind others is where no earlier scan could see: its echoes are undecided, most of them. Where the map says
-  // that it has come, a few votes tell that it is not the map that errs: walls that it holds to be free have none.
-  constexpr double kFewVotes = 2.0;
+  // that it has come, a single vote tells that it is not the map that errs: walls that it holds to be free have none.
+  constexpr double kLeastVotes = 0.5;  // one, half forgotten
   const bool has_moved = (evidence.moved >= config.least_moved_votes &&
                           evidence.moved >= config.least_moved_share * weight_of(evidence)) ||
-                         (evidence.moved > kFewVotes && is_out_of_nowhere(track, config));
+                         (evidence.moved > kLeastVotes && is_out_of_nowhere(track, config));
   // Nothing that stands comes to be where the beams went through a moment before.
   const bool has_arrived = evidence.moved >= config.sure_moved_votes &&
                            evidence.moved >= config.sure_moved_share * weight_of(evidence);
-  // A jump is no way: what answers now here, now there, like glass or the legs of chairs, would have come far at once.
-  const double covered_m = distance_m - (walks(track) ? track.surprise_m : 0.0);
-  const bool has_travelled = covered_m >= config.least_travel_m && covered_m >= config.least_travel_sigmas * sigma_m;
-  // What comes into view bit by bit, or was drawn at a stray echo first, seems to have come from somewhere, and stands.
-  constexpr double kOfSwingingLegs = 0.75;  // who walks is followed with the swing of the legs in the covariance, a post has none
-  const double sigmas = config.detection_sigmas * (walks(track) ? kOfSwingingLegs : 1.0);
-  if (track.velocity_mps().norm() < filters::minimum_detection_speed_mps(track.estimate, sigmas)) return false;
-  return track.hits >= config.least_hits && track.score >= config.confirm_score && has_moved && (has_arrived || has_travelled) &&
-         speed_sigma_mps(track) <= config.most_speed_sigma_mps;
+  return track.hits >= config.least_hits && track.score >= config.confirm_score && has_moved && has_known_velocity(track, config) &&
+         is_surely_fast(track, config) && !echoes_lie_off_sides(track, config) && (has_arrived || has_travelled(track, config));
+}
+
+bool is_given_up(const Track& track, double age_s, const TrackingConfig& config) {
+  constexpr double kTimesIfMoving = 2.0;
+  if (track.confirmed || age_s <= config.longest_tentative_s) return false;
+  const bool seems_to_move = track.score >= config.confirm_score && is_surely_fast(track, config) && has_travelled(track, config);
+  return !seems_to_move || age_s > kTimesIfMoving * config.longest_tentative_s;
 }
 
 bool contradicts_itself(const Track& track, const TrackingConfig& config) {

@@ -208,6 +208,10 @@ Body inner_part_of(const Track& track);
 /// Whether what has been seen suffices to publish the track as an object that moves.
 bool has_proven_to_move(const Track& track, const TrackingConfig& config);
 
+/// Whether a track so old is no longer waited for to prove that it moves. What has travelled, and is surely fast, lacks but votes, or
+/// does not know its speed well enough yet: it is waited for twice as long.
+bool is_given_up(const Track& track, double age_s, const TrackingConfig& config);
+
 /// Whether it says to move and stays where it is: something that stands, seen now here, now there.
 bool contradicts_itself(const Track& track, const TrackingConfig& config);
 

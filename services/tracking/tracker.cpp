@@ -777,9 +777,8 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const double unseen_s = static_cast<double>(last_stamp_ns_ - track.last_seen_ns) * kNanosecond_s;
     const double age_s = static_cast<double>(last_stamp_ns_ - track.first_seen_ns) * kNanosecond_s;
     const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
-    const bool has_stood = !track.confirmed && age_s > config_.longest_tentative_s;
     const bool never_moved = track.confirmed && is_held_never_to_have_moved(track, last_stamp_ns_, config_);
-    const bool is_dead = is_lost || has_stood || never_moved || contradicts_itself(track, config_) || track.score < config_.reject_score;
+    const bool is_dead = is_lost || is_given_up(track, age_s, config_) || never_moved || contradicts_itself(track, config_) || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {
       ++counters_.tracks_rejected;
       restore(track);

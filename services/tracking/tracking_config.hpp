@@ -66,13 +66,13 @@ struct TrackingConfig {
   double sure_moved_share = 0.7;            ///< and such a share,
   double least_travel_m = 0.3;              ///< or must have come this far from where it began,
   double least_travel_sigmas = 3.0;         ///< and so many of its own standard deviations,
-  double most_speed_sigma_mps = 0.5;        ///< with a velocity as well known as this.
+  double most_speed_sigma_mps = 0.5;        ///< with a velocity as well known as this, or, out of nowhere and as predicted, as is published.
   double longest_unseen_s = 3.0;            ///< Without a segment before a track ends, however well it is explained.
   double longest_unseen_published_s = 0.02;  ///< After which it is followed, but not published as confirmed.
   double publish_score = 0.0;               ///< Nor with a score below this,
   double most_speed_sigma_published_mps = 0.7;  ///< or a velocity less well known than this, as after it was hidden.
   double longest_unseen_tentative_s = 0.4;
-  double longest_tentative_s = 1.5;         ///< What has not proven to move by then is rejected.
+  double longest_tentative_s = 1.5;         ///< What has not proven to move by then is rejected; what seems to, after twice that.
 
   // Body.
   double box_from_extent_m = 1.2;           ///< Larger objects have sides; smaller ones are blobs.

@@ -79,7 +79,7 @@ const config::FieldTable<TrackingConfig>& tracking_fields() {
        "While its velocity is known less well it is not published as confirmed either.", kPositive},
       {"publish_score", &C::publish_score, "With a lower score it is not published as confirmed.", kScore},
       {"longest_unseen_tentative_s", &C::longest_unseen_tentative_s, "The same for one that is not confirmed.", kPositive},
-      {"longest_tentative_s", &C::longest_tentative_s, "What has not proven to move by then is rejected.", kPositive},
+      {"longest_tentative_s", &C::longest_tentative_s, "What has not proven to move by then is rejected; what seems to, after twice that.", kPositive},
       {"box_from_extent_m", &C::box_from_extent_m, "Larger objects have sides; smaller ones are blobs.", kNotNegative},
       {"box_from_speed_mps", &C::box_from_speed_mps, "Their heading is that of motion above this speed.", kNotNegative},
       {"size_scale", &C::size_scale, "Of all road users, against real ones.", kPositive},

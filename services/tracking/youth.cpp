@@ -50,7 +50,7 @@ Life life_of(const Track& track, Body body, const TrackingConfig& config) {
     body.width_held = measured.body.width_held;
     motion = filters::imm_update(models, motion, measured.centre_m - measured.recentring_m, measured.covariance_m2 + kept.pose_covariance_m2).posterior;
   }
-  return {body, motion, filters::imm_combine(models, motion)};
+  return {body, motion, filters::imm_combine(models, motion), {}};
 }
 
 /// That the body goes along its length, at any speed.
@@ -79,7 +79,7 @@ Body along_its_sides(Body body) {
 
 }  // namespace
 
-Life life(const Track& track) { return {track.body, track.motion, track.estimate}; }
+Life life(const Track& track) { return {track.body, track.motion, track.estimate, track.agreement}; }
 
 Life relived(const Track& track, const TrackingConfig& config) {
   if (!track.body.has_sides || track.youth.size() < 2) return life(track);
@@ -99,6 +99,7 @@ void live_as(Track& track, const Life& life) {
   track.body = life.body;
   track.motion = life.motion;
   track.estimate = life.estimate;
+  track.agreement = life.agreement;
   track.may_turn = false;
   track.birth_position_m += by_m;
   track.anchor_m += by_m;

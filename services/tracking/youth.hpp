@@ -12,6 +12,7 @@ struct Life {
   Body body;
   filters::ImmState motion;
   filters::MotionState estimate;
+  Agreement agreement = {};  ///< None of what was filtered again: what it predicted was held against nothing.
 };
 
 /// As it is believed now.

@@ -333,10 +333,13 @@ Track out_from_behind_others(const TrackingConfig& config) {
   return track;
 }
 
-TEST(Track, HasMovedByFewVotesIfByTheMapItHasComeOutOfNowhere) {
+TEST(Track, HasMovedByOneVoteIfByTheMapItHasComeOutOfNowhere) {
   const TrackingConfig config;
   const Track track = out_from_behind_others(config);
   EXPECT_TRUE(has_proven_to_move(track, config));
+  Track once = track;
+  once.evidence = {0.9, 0.0, 32.0};
+  EXPECT_TRUE(has_proven_to_move(once, config));
   Track unmapped = track;  // say, what a van hid for as long as there is a map
   unmapped.youth_echoes.in_free_space = 20.0;
   EXPECT_FALSE(has_proven_to_move(unmapped, config));
@@ -350,6 +353,70 @@ TEST(Track, HasMovedByFewVotesIfByTheMapItHasComeOutOfNowhere) {
   crumb.echoes = 2.0;
   EXPECT_FALSE(has_proven_to_move(crumb, config));
   EXPECT_FALSE(is_out_of_nowhere(track, among_people()));
+}
+
+TEST(Track, IsConfirmedAsSoonAsItCanBePublishedIfItComesOutOfNowhereAsPredicted) {
+  const TrackingConfig config;
+  Track track = out_from_behind_others(config);
+  track.evidence = {20.0, 0.0, 10.0};
+  track.estimate.covariance.block<2, 2>(2, 2) = 0.65 * 0.65 * Eigen::Matrix2d::Identity();
+  track.agreement = {0.05, 0.6, 5.0};
+  EXPECT_TRUE(has_proven_to_move(track, config));
+  Track surprising = track;
+  surprising.agreement.surprise2 = 2.5;
+  EXPECT_FALSE(has_proven_to_move(surprising, config));
+  Track unmapped = track;
+  unmapped.youth_echoes.in_free_space = 20.0;
+  EXPECT_FALSE(has_proven_to_move(unmapped, config));
+}
+
+TEST(Track, IsNotConfirmedAsABodyOnTheSidesOfWhichItsEchoesDoNotLie) {
+  const TrackingConfig config;
+  Track track = out_from_behind_others(config);
+  track.body.has_sides = true;
+  track.agreement = {0.15, 0.6, 5.0};
+  EXPECT_TRUE(has_proven_to_move(track, config));
+  track.agreement.off_sides_m = 0.25;  // say, two who walk, held to be a car
+  EXPECT_FALSE(has_proven_to_move(track, config));
+}
+
+TEST(Track, HasComeFromWhereItWasByTheBodyThatItHasByNow) {
+  const TrackingConfig config;
+  Track track = out_from_behind_others(config);
+  track.body.has_sides = track.body.is_oriented = true;
+  track.body.heading_rad = 0.0;
+  track.body = with_likely_sizes(track.body, config);
+  track.estimate.mean.head<2>() << 28.2, 0.0;
+  track.birth_position_m = {24.0, 0.0};
+  track.birth_covariance_m2 = 9.0 * Eigen::Matrix2d::Identity();  // all that was seen of it was of some side of something
+  EXPECT_FALSE(has_proven_to_move(track, config));
+  std::vector<Eigen::Vector2d> rear;
+  for (double y_m = -0.9; y_m < 0.91; y_m += 0.2) rear.emplace_back(20.0, y_m);
+  Glimpse glimpse;
+  glimpse.points_m = rear;
+  glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
+  track.youth.add(0, glimpse, 1e-4 * Eigen::Matrix2d::Identity());
+  EXPECT_TRUE(has_proven_to_move(track, config));
+}
+
+TEST(Track, ThatSeemsToMoveIsWaitedForTwiceAsLong) {
+  const TrackingConfig config;
+  const Track moving = out_from_behind_others(config);
+  Track slow = moving;
+  slow.estimate.mean.segment<2>(2).setZero();
+  Track here = moving;
+  here.estimate.mean.head<2>().setZero();
+  Track unlikely = moving;
+  unlikely.score = 0.0;
+  const double late_s = config.longest_tentative_s + 0.1;
+  EXPECT_FALSE(is_given_up(moving, late_s, config));
+  EXPECT_TRUE(is_given_up(moving, 2.0 * late_s, config));
+  for (const Track* other : {&slow, &here, &unlikely}) {
+    EXPECT_TRUE(is_given_up(*other, late_s, config));
+    EXPECT_FALSE(is_given_up(*other, config.longest_tentative_s - 0.1, config));
+  }
+  slow.confirmed = true;
+  EXPECT_FALSE(is_given_up(slow, late_s, config));
 }
 
 TEST(Tracker, IsSureOfACarThatComesOutFromBehindABusBeforeEarlierScansTellItsSpeed) {

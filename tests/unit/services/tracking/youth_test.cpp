@@ -86,6 +86,16 @@ TEST(Youth, MovesWhereItBeganWithTheMiddle) {
   EXPECT_LT((track.position_m() - track.birth_position_m - way_m).norm(), 1e-9);
 }
 
+TEST(Youth, FilteredAgainHasPredictedNothingThatWasSeen) {
+  Track track = begun_as_a_front(12);
+  track.agreement = {0.05, 0.5, 12.0};
+  const Life before = life(track);
+  live_as(track, relived(track, kConfig));
+  EXPECT_EQ(track.agreement.weight, 0.0);
+  live_as(track, before);
+  EXPECT_EQ(track.agreement.weight, 12.0);
+}
+
 TEST(Youth, IsForgottenButForItsEnd) {
   Track track = begun_as_a_front(100);
   EXPECT_EQ(track.youth.size(), 40U);
