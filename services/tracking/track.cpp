@@ -251,6 +251,7 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   constexpr double kShapeAlongM = 0.05;
   constexpr double kByCourseAloneRad = 0.1;   // the course of what comes out from behind something is off alike for many scans
   constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
+  constexpr double kFrameOrRiderM = 0.15;     // a bicycle is as wide as its frame or as who rides it, by the height of the scan
   constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
   double along_m2 = 0.0;
   double across_m2 = 0.0;
@@ -259,6 +260,7 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
     const double heading_rad2 = std::clamp(track.body.heading_variance_rad2, least_rad2, kMostHeadingRad2);
     along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * (track.body.length.variance_m2 + heading_rad2 * std::pow(track.body.width.value_m, 2));
     across_m2 = 0.25 * (track.body.width.variance_m2 + heading_rad2 * std::pow(track.body.length.value_m, 2));
+    if (track.body.kind == Kind::kBicycle) across_m2 += std::pow(kFrameOrRiderM * config.size_scale, 2);
     if (!track.body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind
       constexpr double kTurnedShare = 0.25;
       const double off_m2 = kTurnedShare * std::pow(0.5 * (track.body.length.value_m - track.body.width.value_m), 2);

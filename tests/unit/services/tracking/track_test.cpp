@@ -86,6 +86,15 @@ TEST(Track, IsPublishedWithWhatItsHeadingDoesToTheCentreBehindTheSidesThatAreSee
   EXPECT_NEAR(sigma_across_m(track), std::hypot(surely_m, 0.3 * 2.2), 1e-6);
 }
 
+TEST(Track, MayBeTheFrameOrTheRiderOfABicycle) {
+  Track track = followed_car();
+  track.body.is_oriented = true;
+  track.body.axis_variance_rad2 = 0.001;
+  const double of_a_car_m = sigma_across_m(track);
+  track.body.kind = Kind::kBicycle;
+  EXPECT_GT(sigma_across_m(track), std::hypot(of_a_car_m, 0.1));
+}
+
 TEST(Track, OfWhichNoSideTellsTheHeadingIsNotPublishedAsIfItsCourseDidSurely) {
   Track track = followed_car();
   track.body.is_oriented = true;
