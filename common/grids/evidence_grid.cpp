@@ -401,6 +401,29 @@ void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {
   if (window_.contains(cell)) raise_so(cell, hit_steps_);
 }
 
+void EvidenceGrid::free_occupied_in(const Box& box) {
+  const Eigen::Vector2d along(std::cos(box.heading_rad), std::sin(box.heading_rad));
+  const Eigen::Vector2d reach_m(std::abs(along.x()) * box.half_m.x() + std::abs(along.y()) * box.half_m.y(),
+                                std::abs(along.y()) * box.half_m.x() + std::abs(along.x()) * box.half_m.y());
+  const Cell low = window_.cell_at(box.centre_m.x() - reach_m.x(), box.centre_m.y() - reach_m.y());
+  const Cell high = window_.cell_at(box.centre_m.x() + reach_m.x(), box.centre_m.y() + reach_m.y());
+  const auto block_of = [](std::int32_t place, std::int32_t count) { return std::clamp(place, 0, count - 1) >> kBlockShift; };
+  if (high.column < window_.first.column || high.row < window_.first.row || low.column >= window_.first.column + window_.columns || low.row >= window_.first.row + window_.rows) return;
+  for (std::int32_t block_row = block_of(low.row - window_.first.row, window_.rows); block_row <= block_of(high.row - window_.first.row, window_.rows); ++block_row) {
+    for (std::int32_t block_column = block_of(low.column - window_.first.column, window_.columns); block_column <= block_of(high.column - window_.first.column, window_.columns); ++block_column) {
+      std::uint64_t bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block_column)];
+      for (; bits != 0; bits &= bits - 1) {
+        const std::int32_t bit = std::countr_zero(bits);
+        const Cell cell{window_.first.column + (block_column << kBlockShift) + (bit & kInBlock), window_.first.row + (block_row << kBlockShift) + (bit >> kBlockShift)};
+        const Eigen::Vector2d from_centre_m = window_.centre_of(cell) - box.centre_m;
+        const double ahead_m = along.dot(from_centre_m);
+        const double aside_m = along.x() * from_centre_m.y() - along.y() * from_centre_m.x();
+        if (std::abs(ahead_m) <= box.half_m.x() && std::abs(aside_m) <= box.half_m.y()) raise_so(cell, -free_steps_);
+      }
+    }
+  }
+}
+
 int EvidenceGrid::highest_so_steps(Cell cell, int radius) const {
   const GridWindow square{window_.cell_size_m, {cell.column - radius, cell.row - radius}, 2 * radius + 1, 2 * radius + 1};
   if (!window_.contains(cell)) return 0;  // never seen outside

@@ -23,6 +23,13 @@ struct EvidenceModel {
   double moving_gain = 0.25;        ///< Share of the missing evidence that one moving echo adds to the MO-map.
 };
 
+/// A rectangle in the grid's frame.
+struct Box {
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
+  double heading_rad = 0.0;
+  Eigen::Vector2d half_m = Eigen::Vector2d::Zero();  ///< Of its length and its width.
+};
+
 enum class Echo : std::uint8_t { kNone, kStationary, kMoving };
 
 /// One beam to integrate, in the grid's frame.
@@ -56,6 +63,10 @@ class EvidenceGrid {
 
   /// Adds one stationary echo without its beam: a point given back by tracking.
   void restore_stationary(const Eigen::Vector2d& point_m);
+
+  /// Takes as much from each occupied cell whose centre the box covers as a beam that passes does: something is there that does
+  /// not stand still.
+  void free_occupied_in(const Box& box);
 
   /// In steps of kLogOddsStep, positive = occupied, 0 = never seen or outside.
   int so_steps(Cell cell) const { return window_.contains(cell) ? so_[window_.index(cell)] : 0; }

@@ -36,7 +36,7 @@ class DeferredEvidence {
   /// EvidenceGrid::integrate, perhaps beside what the caller does next.
   void integrate(const Eigen::Vector2d& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
     if (state_->help == nullptr) return state_->grid.integrate(origin_m, rays, beam_step_rad);
-    if (state_->is_being_integrated || !state_->restored_m.empty()) state_->settle();
+    if (state_->is_being_integrated || !state_->restored_m.empty() || !state_->boxes.empty()) state_->settle();
     state_->labelled.take(origin_m, rays, beam_step_rad);
     state_->is_settled = false;
     state_->is_being_integrated = true;
@@ -50,6 +50,12 @@ class DeferredEvidence {
   void restore_stationary(const Eigen::Vector2d& point_m) {
     if (state_->is_settled) return state_->grid.restore_stationary(point_m);
     state_->restored_m.push_back(point_m);
+  }
+
+  /// EvidenceGrid::free_occupied_in, after the scans that were integrated before.
+  void free_occupied_in(const grids::Box& box) {
+    if (state_->is_settled) return state_->grid.free_occupied_in(box);
+    state_->boxes.push_back(box);
   }
 
   grids::EvidenceGrid& grid() {
@@ -89,6 +95,8 @@ class DeferredEvidence {
       is_being_integrated = false;
       for (const Eigen::Vector2d& point_m : restored_m) grid.restore_stationary(point_m);
       restored_m.clear();
+      for (const grids::Box& box : boxes) grid.free_occupied_in(box);
+      boxes.clear();
     }
 
     grids::EvidenceGrid grid;
@@ -98,7 +106,8 @@ class DeferredEvidence {
     bool has_begun_to_prepare = false;
     Scan ahead;                                           ///< That is prepared for,
     Scan labelled;                                        ///< and that is integrated: the same one, or one before it.
-    std::vector<Eigen::Vector2d> restored_m;              ///< To follow it.
+    std::vector<Eigen::Vector2d> restored_m;              ///< To follow it,
+    std::vector<grids::Box> boxes;                        ///< and these.
   };
   std::unique_ptr<State> state_;
 };

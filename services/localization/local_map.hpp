@@ -52,6 +52,9 @@ class LocalMap {
   /// Gives back a point that was held to be moving.
   void restore_stationary(const geometry::Vector2& point_in_odom_m);
 
+  /// Where a body is that moves nothing stands.
+  void free_occupied_in(const grids::Box& box) { evidence_.free_occupied_in(box); }
+
   /// What the map says about the cell in which a beam ended.
   void look_up_end(const geometry::Vector2& end_in_odom_m, flow::LocalizedBeam& beam) const;
 

@@ -43,6 +43,18 @@ bool is_believable(const sensing::MotionEstimate& estimate) {
 }
 
 /// What a point does to the maps.
+/// Whether a vehicle is seen in the scan of this stamp, has been known for a while, and is surely not at rest.
+bool is_surely_moving_vehicle(const flow::TrackedObject& object, std::int64_t stamp_ns) {
+  constexpr double kLeastSpeedMps = 1.0;
+  constexpr double kSigmas = 3.0;
+  constexpr double kLeastKnownS = 0.5;
+  constexpr double kShortestVehicleM = 1.5;
+  if (!object.confirmed || object.last_seen_ns != stamp_ns || object.length_m < kShortestVehicleM) return false;
+  const double speed_mps = object.velocity_in_odom_mps.norm();
+  const double sigma_mps = std::sqrt(object.covariance.bottomRightCorner<2, 2>().trace());
+  return speed_mps >= std::max(kLeastSpeedMps, kSigmas * sigma_mps) && static_cast<double>(stamp_ns - object.first_seen_ns) * kNanosecond_s >= kLeastKnownS;
+}
+
 grids::Echo echo_of(PointLabel label) {
   switch (label) {
     case PointLabel::kNoEcho: return grids::Echo::kNone;
@@ -611,6 +623,7 @@ void Localizer::integrate(const flow::ScanLabels& labels) {
   while (is_awaited && !is_labelled(pending_.front())) integrate_first_without_tracking();
   if (is_awaited) integrate_first(&labels.labels);
   restore_points(labels);
+  if (is_awaited) free_bodies(labels);
 }
 
 void Localizer::restore_points(const flow::ScanLabels& labels) {
@@ -624,6 +637,15 @@ void Localizer::restore_points(const flow::ScanLabels& labels) {
       map_.restore_stationary(scan->rays[beam].end_m);
       ++progress_.counters.restored_points;
     }
+  }
+}
+
+void Localizer::free_bodies(const flow::ScanLabels& labels) {
+  constexpr double kMarginM = 0.1;  // half a cell: echoes come from the sides themselves
+  if (expected_objects_.sequence != labels.sequence || expected_objects_.stamp_ns != labels.stamp_ns || !config_.leave_out_moving) return;
+  for (const flow::TrackedObject& object : expected_objects_.objects) {
+    if (!is_surely_moving_vehicle(object, labels.stamp_ns)) continue;
+    map_.free_occupied_in({object.position_in_odom_m, object.heading_in_odom_rad, {0.5 * object.length_m + kMarginM, 0.5 * object.width_m + kMarginM}});
   }
 }
 

@@ -143,7 +143,8 @@ class Localizer {
   /// too many for a match that is believed, it is the first scan, the vehicle is or was lost, it has been integrated, or another came since.
   std::optional<flow::LocalizedScan> localize_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels);
 
-  /// What tracking predicts to be there: left out of the next matches.
+  /// What tracking says to be there: left out of the next matches. Where one that surely moves is in the scan of which the labels
+  /// come next nothing stands.
   void expect(const flow::TrackedObjects& objects);
 
   /// Labels by detection, used when tracking's do not come.
@@ -323,6 +324,7 @@ class Localizer {
   void integrate_first_without_tracking();
   void integrate_overdue(std::int64_t now_ns);
   void restore_points(const flow::ScanLabels& labels);
+  void free_bodies(const flow::ScanLabels& labels);
   void begin_next_submap_if_due();
   void end_submap();
 

@@ -304,6 +304,28 @@ TEST(EvidenceGrid, GivesBackAPointAsAnEcho) {
   grid.restore_stationary({1e6, 0.0});  // outside: nothing happens
 }
 
+TEST(EvidenceGrid, TakesFromWhatIsOccupiedUnderABoxAsMuchAsABeamThatPasses) {
+  EvidenceGrid grid = empty_grid();
+  std::vector<Vector2d> echoes_m;
+  for (double along = -4.0; along <= 4.0; along += 0.5)
+    for (double across = -2.0; across <= 2.0; across += 0.5) echoes_m.push_back({along, across});
+  for (const Vector2d& echo_m : echoes_m) grid.restore_stationary(echo_m);
+  const EvidenceGrid before = grid;
+  const Box box{{0.5, -0.5}, 0.6, {2.0, 0.9}};
+  grid.free_occupied_in(box);
+  int changed = 0;
+  for_each_cell(grid.window(), [&](Cell cell) {
+    const Vector2d from_centre_m = Eigen::Rotation2Dd(-box.heading_rad) * (grid.window().centre_of(cell) - box.centre_m);
+    const bool is_inside = std::abs(from_centre_m.x()) <= box.half_m.x() && std::abs(from_centre_m.y()) <= box.half_m.y();
+    const bool is_taken_from = is_inside && before.so_steps(cell) > 0;
+    ASSERT_EQ(grid.so_steps(cell), before.so_steps(cell) - (is_taken_from ? kFree : 0)) << cell.column << " " << cell.row;
+    changed += is_taken_from ? 1 : 0;
+  });
+  EXPECT_GT(changed, 20);
+  for (const Box& elsewhere : {Box{{1e6, 0.0}, 0.0, {2.0, 1.0}}, Box{{0.0, -1e6}, 1.0, {2.0, 1.0}}}) grid.free_occupied_in(elsewhere);
+  grid.free_occupied_in({{9.9, 9.9}, 0.3, {30.0, 0.1}});  // partly outside
+}
+
 TEST(EvidenceGrid, MovesWithTheWorld) {
   const Vector2d by_m(37 * kCell_m, -91 * kCell_m);
   const Vector2d origin_m(0.125, 0.25);

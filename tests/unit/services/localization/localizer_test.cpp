@@ -772,6 +772,37 @@ TEST_F(WithAMover, ComesBackIntoTheMapWhenTrackingFindsItStands) {
   EXPECT_EQ(localizer_.counters().restored_points, restored.beams.size());
 }
 
+TEST_F(WithAMover, IsTakenOutOfTheMapWhereItDrives) {
+  const auto walls_under_one = [&](const std::function<void(flow::TrackedObject&)>& change) {
+    Localizer localizer(small_map_config());
+    SimulatedDrive drive(drive_.setup());
+    drive_through(localizer, drive, 0, 20);
+    localizer.add_odometry(drive.odometry(20));
+    const auto localized = *localizer.localize(drive.scan(20));
+    flow::TrackedObject object;
+    object.confirmed = true;
+    object.first_seen_ns = localized.stamp_ns - 600'000'000;
+    object.last_seen_ns = localized.stamp_ns;
+    object.velocity_in_odom_mps = {0.0, 3.0};
+    object.covariance = 0.04 * Eigen::Matrix4d::Identity();
+    object.length_m = object.width_m = 100.0;  // all of the room
+    change(object);
+    localizer.expect({localized.stamp_ns, localized.sequence, {}, {}, {object}, {}, {}});
+    localizer.integrate(all_stationary(localized));
+    const auto& evidence = localizer.local_map().evidence();
+    double sum = 0.0;
+    for (const std::int8_t steps : evidence.so_cells()) sum += std::max<int>(0, steps);
+    return sum;
+  };
+  const double under_one_at_rest = walls_under_one([](flow::TrackedObject& object) { object.velocity_in_odom_mps.setZero(); });
+  EXPECT_LT(walls_under_one([](flow::TrackedObject&) {}), under_one_at_rest);
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.confirmed = false; }), under_one_at_rest);
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.covariance *= 100.0; }), under_one_at_rest);
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.last_seen_ns -= 1; }), under_one_at_rest);
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.first_seen_ns += 200'000'000; }), under_one_at_rest);
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.length_m = 0.5; }), under_one_at_rest) << "who walks";
+}
+
 TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
   // A wall of a thing right before the scanner, that moves sideways with all its points and would pull the pose along.
   DriveSetup setup = drive_.setup();
