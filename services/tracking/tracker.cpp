@@ -249,7 +249,7 @@ bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std:
 /// Whether two that are long known drive alike, and are so near to each other that they fit into one car, or, where their bodies
 /// overlap, into one truck.
 bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) {
-  constexpr int kLongKnownHits = 20;
+  constexpr int kLongKnownHits = 10;
   constexpr double kSlowVehicleMps = 1.0;
   constexpr double kCarLengthM = 4.9;
   constexpr double kCarWidthM = 2.1;
