@@ -32,6 +32,10 @@ bool is_sound(const slammot_UncertainPose2& pose) { return is_sound(pose.mean) &
 bool is_sound(const slammot_Vector2& vector) { return std::isfinite(vector.x) && std::isfinite(vector.y); }
 bool is_sound(const slammot_Point2f& point) { return std::isfinite(point.x_m) && std::isfinite(point.y_m); }
 bool is_amount(double number) { return std::isfinite(number) && number >= 0.0; }
+bool is_sweep(double sweep_s) {
+  constexpr double kLongestS = 10.0;
+  return std::abs(sweep_s) <= kLongestS;  // false for NaN
+}
 bool is_probability(double number) { return number >= -kRounding && number <= 1.0 + kRounding; }
 
 }  // namespace slammot::wire

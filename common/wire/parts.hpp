@@ -38,6 +38,8 @@ bool is_sound(const slammot_Point2f& point);
 
 /// Whether a number is finite and not below zero.
 bool is_amount(double number);
+/// Whether a scan may take so long, either way round; what claims to take hours would send tracks astray.
+bool is_sweep(double sweep_s);
 bool is_probability(double number);
 
 /// Square matrices travel row by row.

@@ -30,7 +30,7 @@ std::string_view fault_of_scan_header(const Sample& sample) {
   if (!is_sound(sample.base_from_laser)) return "base_from_laser is not finite";
   if (!is_amount(sample.max_range_m)) return "max_range_m is negative or not finite";
   if (!is_sound(sample.beam_step_rad)) return "beam_step_rad is not finite";
-  if (!is_sound(sample.sweep_s)) return "sweep_s is not finite";
+  if (!is_sweep(sample.sweep_s)) return "sweep_s is more than ten seconds or not finite";
   if (!is_sound(sample.odom_from_base)) return "odom_from_base or its covariance is unsound";
   if (!is_sound(sample.map_from_odom)) return "map_from_odom is not finite";
   return "";

@@ -33,7 +33,7 @@ Decoded<sensing::LaserScan> decode(const slammot_LaserScan& sample) {
   if (!is_sound(sample.base_from_laser)) return Fault{"base_from_laser is not finite"};
   if (!is_sound(sample.first_beam_rad) || !is_sound(sample.beam_step_rad)) return Fault{"beam angles are not finite"};
   if (!is_amount(sample.max_range_m) || sample.max_range_m == 0.0) return Fault{"max_range_m is not above zero"};
-  if (!is_amount(sample.sweep_s)) return Fault{"sweep_s is negative or not finite"};
+  if (!is_amount(sample.sweep_s) || !is_sweep(sample.sweep_s)) return Fault{"sweep_s is negative, more than ten seconds or not finite"};
   const auto ranges_m = elements(sample.ranges_m);
   if (ranges_m.empty()) return Fault{"no beams"};
   return sensing::LaserScan{.stamp_ns = sample.stamp_ns,

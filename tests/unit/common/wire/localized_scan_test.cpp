@@ -66,6 +66,8 @@ TEST_F(LocalizedScanOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.base_from_laser.heading_rad = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.max_range_m = -1.0; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.sweep_s = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.sweep_s = -1e6; }), "");
+  EXPECT_EQ(fault_after([](auto& s) { s.sweep_s = -0.1; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beam_step_rad = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.odom_from_base.mean.x_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.odom_from_base.covariance[4] = -1.0; }), "");

@@ -90,6 +90,8 @@ TEST_F(SegmentedScanOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.base_from_laser.x_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.max_range_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.sweep_s = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.sweep_s = -1e6; }), "");
+  EXPECT_EQ(fault_after([](auto& s) { s.sweep_s = -0.1; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beam_step_rad = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.odom_from_base.covariance[0] = -1.0; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.map_from_odom.x_m = kNan; }), "");

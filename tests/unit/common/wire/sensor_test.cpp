@@ -57,6 +57,7 @@ TEST_F(LaserScanOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.max_range_m = 0.0; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.max_range_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.sweep_s = -0.1; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.sweep_s = 1e6; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.ranges_m._length = 0; }), "");
 }
 
