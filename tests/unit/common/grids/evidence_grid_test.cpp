@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
