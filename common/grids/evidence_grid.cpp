@@ -402,25 +402,28 @@ void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {
 }
 
 void EvidenceGrid::free_occupied_in(const Box& box) {
-  const Eigen::Vector2d along(std::cos(box.heading_rad), std::sin(box.heading_rad));
-  const Eigen::Vector2d reach_m(std::abs(along.x()) * box.half_m.x() + std::abs(along.y()) * box.half_m.y(),
-                                std::abs(along.y()) * box.half_m.x() + std::abs(along.x()) * box.half_m.y());
-  const Cell low = window_.cell_at(box.centre_m.x() - reach_m.x(), box.centre_m.y() - reach_m.y());
-  const Cell high = window_.cell_at(box.centre_m.x() + reach_m.x(), box.centre_m.y() + reach_m.y());
-  const auto block_of = [](std::int32_t place, std::int32_t count) { return std::clamp(place, 0, count - 1) >> kBlockShift; };
-  if (high.column < window_.first.column || high.row < window_.first.row || low.column >= window_.first.column + window_.columns || low.row >= window_.first.row + window_.rows) return;
-  for (std::int32_t block_row = block_of(low.row - window_.first.row, window_.rows); block_row <= block_of(high.row - window_.first.row, window_.rows); ++block_row) {
-    for (std::int32_t block_column = block_of(low.column - window_.first.column, window_.columns); block_column <= block_of(high.column - window_.first.column, window_.columns); ++block_column) {
-      std::uint64_t bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block_column)];
-      for (; bits != 0; bits &= bits - 1) {
-        const std::int32_t bit = std::countr_zero(bits);
-        const Cell cell{window_.first.column + (block_column << kBlockShift) + (bit & kInBlock), window_.first.row + (block_row << kBlockShift) + (bit >> kBlockShift)};
-        const Eigen::Vector2d from_centre_m = window_.centre_of(cell) - box.centre_m;
-        const double ahead_m = along.dot(from_centre_m);
-        const double aside_m = along.x() * from_centre_m.y() - along.y() * from_centre_m.x();
-        if (std::abs(ahead_m) <= box.half_m.x() && std::abs(aside_m) <= box.half_m.y()) raise_so(cell, -free_steps_);
-      }
-    }
+  const Eigen::Vector2d along = box.along.cwiseAbs();
+  const Eigen::Vector2d reach_m(along.x() * box.half_m.x() + along.y() * box.half_m.y(), along.y() * box.half_m.x() + along.x() * box.half_m.y());
+  const Cell end{window_.first.column + window_.columns - 1, window_.first.row + window_.rows - 1};
+  const Eigen::Vector2d low_m = (box.centre_m - reach_m).cwiseMax(window_.centre_of(window_.first));
+  const Eigen::Vector2d high_m = (box.centre_m + reach_m).cwiseMin(window_.centre_of(end));
+  if ((low_m.array() > high_m.array()).any()) return;  // before places so far away that they have no cell
+  const auto blocks_before = [&](const Eigen::Vector2d& at_m) {
+    const Cell cell = window_.cell_at(at_m.x(), at_m.y());
+    return Cell{(cell.column - window_.first.column) >> kBlockShift, (cell.row - window_.first.row) >> kBlockShift};
+  };
+  const Cell low = blocks_before(low_m);
+  const Cell high = blocks_before(high_m);
+  for (std::int32_t row = low.row; row <= high.row; ++row)
+    for (std::int32_t column = low.column; column <= high.column; ++column) free_occupied_in_block(box, column, row);
+}
+
+void EvidenceGrid::free_occupied_in_block(const Box& box, std::int32_t block_column, std::int32_t block_row) {
+  std::uint64_t bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block_column)];
+  for (; bits != 0; bits &= bits - 1) {
+    const std::int32_t bit = std::countr_zero(bits);
+    const Cell cell{window_.first.column + (block_column << kBlockShift) + (bit & kInBlock), window_.first.row + (block_row << kBlockShift) + (bit >> kBlockShift)};
+    if (box.covers(window_.centre_of(cell))) raise_so(cell, -free_steps_);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -26,8 +27,13 @@ struct EvidenceModel {
 /// A rectangle in the grid's frame.
 struct Box {
   Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
-  double heading_rad = 0.0;
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< Direction of its length.
   Eigen::Vector2d half_m = Eigen::Vector2d::Zero();  ///< Of its length and its width.
+
+  bool covers(const Eigen::Vector2d& point_m) const {
+    const Eigen::Vector2d way_m = point_m - centre_m;
+    return std::abs(along.dot(way_m)) <= half_m.x() && std::abs(along.x() * way_m.y() - along.y() * way_m.x()) <= half_m.y();
+  }
 };
 
 enum class Echo : std::uint8_t { kNone, kStationary, kMoving };
@@ -154,6 +160,7 @@ class EvidenceGrid {
   void unnote_freed(std::int32_t row, std::int32_t word, std::uint64_t free_cells);
   void raise_echoes(const std::vector<Ray>& rays);
   void raise_so(Cell cell, int steps);
+  void free_occupied_in_block(const Box& box, std::int32_t block_column, std::int32_t block_row);
   void note_occupied(std::size_t index);
   void note_all_occupied();
   void note_block(std::int32_t block_column, std::int32_t block_row, bool is_occupied);

@@ -43,6 +43,12 @@ bool is_believable(const sensing::MotionEstimate& estimate) {
 }
 
 /// What a point does to the maps.
+/// Where the object is so long after it was published, in odom.
+grids::Box box_of(const flow::TrackedObject& object, double after_s, double margin_m) {
+  return {object.position_in_odom_m + after_s * object.velocity_in_odom_mps, {std::cos(object.heading_in_odom_rad), std::sin(object.heading_in_odom_rad)},
+          {0.5 * object.length_m + margin_m, 0.5 * object.width_m + margin_m}};
+}
+
 /// Whether a vehicle is seen in the scan of this stamp, has been known for a while, and is surely not at rest.
 bool is_surely_moving_vehicle(const flow::TrackedObject& object, std::int64_t stamp_ns) {
   constexpr double kLeastSpeedMps = 1.0;
@@ -242,16 +248,12 @@ void Localizer::mask_expected_objects(std::int64_t stamp_ns) {
   if (after_s > kLongestExpectation_s || !config_.leave_out_moving) return;
   for (const flow::TrackedObject& object : expected_objects_.objects) {
     if (!object.confirmed) continue;
-    masks_.push_back({object.position_in_odom_m + after_s * object.velocity_in_odom_mps, geometry::rotation(-object.heading_in_odom_rad),
-                      {0.5 * object.length_m + config_.mask_margin_m, 0.5 * object.width_m + config_.mask_margin_m}});
+    masks_.push_back(box_of(object, after_s, config_.mask_margin_m));
   }
 }
 
 bool Localizer::is_masked(const Vector2& point_in_odom_m) const {
-  return std::any_of(masks_.begin(), masks_.end(), [&](const Mask& mask) {
-    const Vector2 in_box_m = mask.box_from_odom * (point_in_odom_m - mask.centre_in_odom_m);
-    return std::abs(in_box_m.x()) <= mask.half_m.x() && std::abs(in_box_m.y()) <= mask.half_m.y();
-  });
+  return std::ranges::any_of(masks_, [&](const grids::Box& mask) { return mask.covers(point_in_odom_m); });
 }
 
 void Localizer::select_points(const sensing::LaserScan& scan, const Pose2& odom_from_base) {
@@ -643,10 +645,8 @@ void Localizer::restore_points(const flow::ScanLabels& labels) {
 void Localizer::free_bodies(const flow::ScanLabels& labels) {
   constexpr double kMarginM = 0.1;  // half a cell: echoes come from the sides themselves
   if (expected_objects_.sequence != labels.sequence || expected_objects_.stamp_ns != labels.stamp_ns || !config_.leave_out_moving) return;
-  for (const flow::TrackedObject& object : expected_objects_.objects) {
-    if (!is_surely_moving_vehicle(object, labels.stamp_ns)) continue;
-    map_.free_occupied_in({object.position_in_odom_m, object.heading_in_odom_rad, {0.5 * object.length_m + kMarginM, 0.5 * object.width_m + kMarginM}});
-  }
+  for (const flow::TrackedObject& object : expected_objects_.objects)
+    if (is_surely_moving_vehicle(object, labels.stamp_ns)) map_.free_occupied_in(box_of(object, 0.0, kMarginM));
 }
 
 void Localizer::begin_next_submap_if_due() {

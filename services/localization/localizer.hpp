@@ -212,13 +212,6 @@ class Localizer {
     double new_share = 0.0;         ///< How much of the map it was matched against is new; 0 where it left some direction to the prediction: that the map says nothing of.
   };
 
-  /// Box of something that moves, with a margin.
-  struct Mask {
-    geometry::Vector2 centre_in_odom_m;
-    geometry::Matrix2 box_from_odom;
-    geometry::Vector2 half_m;
-  };
-
   struct PendingScan {
     bool is_withheld = false;                   ///< From the map,
     bool is_doubted = false;                    ///< or only until it is clear whether the vehicle is lost.
@@ -372,7 +365,7 @@ class Localizer {
   std::vector<std::size_t> left_out_beams_;          ///< and those of them that labels leave out; ascending, as they are.
   sensing::LaserScan swept_scan_;                    ///< The scan at hand with its sweep as it is believed to be.
   std::vector<double> share_of_sweep_;               ///< By match point, where the sweep is learned.
-  std::vector<Mask> masks_;
+  std::vector<grids::Box> masks_;  ///< Of what moves, in odom.
 };
 
 }  // namespace slammot::localization

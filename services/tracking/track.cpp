@@ -284,6 +284,13 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   return along_m2 * along * along.transpose() + across_m2 * across * across.transpose();
 }
 
+/// Position and velocity so much later, at this velocity.
+Eigen::Matrix4d covariance_after(const Eigen::Matrix4d& covariance, double time_s) {
+  Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
+  F.topRightCorner<2, 2>().diagonal().setConstant(time_s);
+  return F * covariance * F.transpose();
+}
+
 /// What the deviations of position and velocity are multiplied with, since the filter takes everybody to swing as legs do.
 Eigen::DiagonalMatrix<double, 4> with_own_gait(const Track& track, const TrackingConfig& config) {
   const bool is_known = walks(track) && track.gait.variance_m2 && config.gait_noise_m > 0.0;
@@ -338,8 +345,7 @@ bool is_no_such_body(const Track& track, const TrackingConfig& config) {
 MeasuredCentre birth_of(const Track& track, const TrackingConfig& config) {
   const MeasuredCentre then{track.birth_position_m, track.birth_covariance_m2};
   if (!track.body.has_sides || track.youth.size() == 0) return then;
-  Glimpse glimpse = track.youth[0].glimpse;
-  glimpse.points_m = track.youth[0].points_m;
+  const Glimpse glimpse = track.youth[0].with_points();
   const BodyMeasurement measured = measure_box(track.body, supposed_centre_m(track.body, glimpse), glimpse, config);
   return measured.covariance_m2.trace() < then.R.trace() ? MeasuredCentre{measured.centre_m - measured.recentring_m, measured.covariance_m2} : then;
 }
@@ -392,6 +398,12 @@ Answers with_answers(Answers answers, std::size_t echoes, int gaps, double time_
   const double kept = std::exp(-time_s / kMemoryS);
   const double between = echoes > 2 ? static_cast<double>(echoes - 2) : 0.0;  // that there are two ends tells nothing
   return {kept * answers.missed + gaps, kept * answers.asked + gaps + between};
+}
+
+Glimpse KeptGlimpse::with_points() const {
+  Glimpse seen = glimpse;
+  seen.points_m = points_m;
+  return seen;
 }
 
 void KeptGlimpses::add(std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2) {
@@ -631,13 +643,6 @@ bool is_held_never_to_have_moved(const Track& track, std::int64_t stamp_ns, cons
   const bool is_vehicle_that_came = !only_people_move(config) && track.body.has_sides && track.way_m >= config.least_travel_to_stand_m;
   const std::int64_t idle_since_ns = is_vehicle_that_came ? std::max(track.last_moving_ns, track.last_seen_ns) : track.last_moving_ns;
   return static_cast<double>(stamp_ns - idle_since_ns) * 1e-9 > may_stand_s;
-}
-
-/// Position and velocity so much later, at this velocity.
-Eigen::Matrix4d covariance_after(const Eigen::Matrix4d& covariance, double time_s) {
-  Eigen::Matrix4d F = Eigen::Matrix4d::Identity();
-  F.topRightCorner<2, 2>().diagonal().setConstant(time_s);
-  return F * covariance * F.transpose();
 }
 
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {

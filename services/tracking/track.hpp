@@ -46,6 +46,9 @@ struct KeptGlimpse {
   std::vector<Eigen::Vector2d> points_m;     ///< Of the glimpse, whose own may be gone.
   Glimpse glimpse;
   Eigen::Matrix2d pose_covariance_m2 = Eigen::Matrix2d::Zero();
+
+  /// The glimpse of the points that are kept, for as long as they are.
+  Glimpse with_points() const;
 };
 
 /// How many of the beams between the outermost echoes of a thing were not answered, of the last moments.

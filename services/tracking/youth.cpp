@@ -16,8 +16,7 @@ using Eigen::Vector2d;
 
 /// With what is known by now of how seldom the thing answers.
 Glimpse glimpse_of(const KeptGlimpse& kept, const Track& track) {
-  Glimpse glimpse = kept.glimpse;
-  glimpse.points_m = kept.points_m;
+  Glimpse glimpse = kept.with_points();
   glimpse.unanswered_share = track.answers.unanswered_share();
   return glimpse;
 }

@@ -312,19 +312,23 @@ TEST(EvidenceGrid, TakesFromWhatIsOccupiedUnderABoxAsMuchAsABeamThatPasses) {
     for (double across = -2.0; across <= 2.0; across += 0.5) echoes_m.push_back({along, across});
   for (const Vector2d& echo_m : echoes_m) grid.restore_stationary(echo_m);
   const EvidenceGrid before = grid;
-  const Box box{{0.5, -0.5}, 0.6, {2.0, 0.9}};
+  constexpr double kHeadingRad = 0.6;
+  const Box box{{0.5, -0.5}, {std::cos(kHeadingRad), std::sin(kHeadingRad)}, {2.0, 0.9}};
   grid.free_occupied_in(box);
   int changed = 0;
   for_each_cell(grid.window(), [&](Cell cell) {
-    const Vector2d from_centre_m = Eigen::Rotation2Dd(-box.heading_rad) * (grid.window().centre_of(cell) - box.centre_m);
+    const Vector2d from_centre_m = Eigen::Rotation2Dd(-kHeadingRad) * (grid.window().centre_of(cell) - box.centre_m);
     const bool is_inside = std::abs(from_centre_m.x()) <= box.half_m.x() && std::abs(from_centre_m.y()) <= box.half_m.y();
     const bool is_taken_from = is_inside && before.so_steps(cell) > 0;
     ASSERT_EQ(grid.so_steps(cell), before.so_steps(cell) - (is_taken_from ? kFree : 0)) << cell.column << " " << cell.row;
     changed += is_taken_from ? 1 : 0;
   });
   EXPECT_GT(changed, 20);
-  for (const Box& elsewhere : {Box{{1e6, 0.0}, 0.0, {2.0, 1.0}}, Box{{0.0, -1e6}, 1.0, {2.0, 1.0}}}) grid.free_occupied_in(elsewhere);
-  grid.free_occupied_in({{9.9, 9.9}, 0.3, {30.0, 0.1}});  // partly outside
+  for (const Box& elsewhere : {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}}, Box{{1e300, -1e300}, {1.0, 0.0}, {2.0, 1.0}}}) grid.free_occupied_in(elsewhere);
+  grid.free_occupied_in({{9.9, 9.9}, {0.6, 0.8}, {30.0, 0.1}});  // partly outside
+  const int before_all = grid.so_steps({0, 0});
+  grid.free_occupied_in({{0.0, 0.0}, {1.0, 0.0}, {1e300, 1e300}});
+  EXPECT_EQ(grid.so_steps({0, 0}), before_all - kFree);
 }
 
 TEST(EvidenceGrid, MovesWithTheWorld) {
