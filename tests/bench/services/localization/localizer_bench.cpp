@@ -1,8 +1,20 @@
 #include "services/localization/localizer.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <vector>
+
 #include <benchmark/benchmark.h>
 
+#include "common/matching/point_to_line.hpp"
+#include "common/sensing/deskew.hpp"
+#include "common/simulation/drive.hpp"
+#include "services/detection/detector.hpp"
+#include "services/simulator/scenario_files.hpp"
+#include "services/tracking/tracker.hpp"
 #include "tests/support/localizer_drive.hpp"
+#include "tests/support/percentile.hpp"
 
 namespace slammot::localization {
 namespace {
@@ -60,6 +72,63 @@ void localize_and_integrate_a_scan(benchmark::State& state) {
   state.counters["times_real_time"] = benchmark::Counter(kScanPeriod_s, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(localize_and_integrate_a_scan)->Unit(benchmark::kMicrosecond);
+
+/// Scans, maps and predictions as they are on a drive through a city in traffic: half a minute of the scenario "block" goes through localization,
+/// detection and tracking; of each scan of what follows the match against the map as it then is is timed, from where the wheels say that it is.
+/// Wanted: p50 of 60 us, as for 361 beams on one core.
+void deskew_and_match_in_a_city(benchmark::State& state) {
+  constexpr int kScansBefore = 30 * 75 / 2;
+  simulation::Drive drive(*simulator::load_scenario("block"));
+  const LocalizerConfig config;
+  Localizer localizer{config};
+  tracking::Tracker tracker{{}};
+  matching::PointToLineMatcher matcher;
+  std::vector<geometry::Vector2> points_in_base_m;
+  std::vector<matching::MatchPoint> points;
+  std::vector<double> times_us;
+  flow::LocalizedScan last;
+  geometry::Pose2 last_wheel_from_base;
+  const auto match = [&](const simulation::SimulatedScan& now) {
+    const geometry::Pose2 step = geometry::inverse(last_wheel_from_base) * now.odometry.wheel_from_base;
+    const geometry::UncertainPose2 prior{last.odom_from_base.pose * step, last.odom_from_base.covariance + geometry::Matrix3(Eigen::Vector3d(1e-5, 1e-5, 1e-6).asDiagonal())};
+    const auto start = std::chrono::steady_clock::now();
+    sensing::deskew(now.scan, last.speed_mps, last.yaw_rate_radps, points_in_base_m);
+    points.clear();
+    for (std::size_t beam = 0; beam < now.scan.range_m.size(); ++beam) {
+      const float range_m = now.scan.range_m[beam];
+      if (sensing::is_echo(range_m, std::min(config.match_range_m, now.scan.scanner.max_range_m)))
+        points.push_back({points_in_base_m[beam], config.range_noise_m + config.range_noise_per_m * static_cast<double>(range_m)});
+    }
+    benchmark::DoNotOptimize(matcher.match(points, localizer.local_map().surfels(), prior, prior.pose, config.match));
+    times_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+  };
+  int scans = 0;
+  const auto go_on = [&](bool is_timed) {
+    std::optional<simulation::SimulatedScan> now = drive.next();
+    if (!now) return false;
+    if (is_timed) match(*now);
+    localizer.add_odometry(now->odometry);
+    const auto localized = localizer.localize(now->scan);
+    const tracking::TrackingResult tracked = tracker.track(detection::detect(*localized, {}));
+    localizer.expect(tracked.objects);
+    localizer.integrate(tracked.labels);
+    last = *localized;
+    last_wheel_from_base = now->odometry.wheel_from_base;
+    ++scans;
+    return true;
+  };
+  while (scans < kScansBefore && go_on(false)) {}
+  for (auto _ : state) {
+    if (!go_on(true)) {
+      state.SkipWithError("the drive is over");
+      break;
+    }
+    state.SetIterationTime(1e-6 * times_us.back());
+  }
+  state.counters["p50_us"] = testing::percentile(times_us, 0.5);
+  state.counters["p99_us"] = testing::percentile(times_us, 0.99);
+}
+BENCHMARK(deskew_and_match_in_a_city)->UseManualTime()->Iterations(2000)->Unit(benchmark::kMicrosecond);
 
 /// What the service does once a second beside its scans.
 void make_a_checkpoint(benchmark::State& state) {

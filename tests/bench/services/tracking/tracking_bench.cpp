@@ -2,13 +2,13 @@
 // them and of 5 ms for 100. All of them are as old as one another here, and so are checked in the same scans: the worst case.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <vector>
 
 #include "services/detection/detector.hpp"
 #include "services/tracking/tracker.hpp"
+#include "tests/support/percentile.hpp"
 #include "tests/support/street.hpp"
 
 namespace slammot {
@@ -22,12 +22,6 @@ flow::LocalizedScan scan_of_traffic(int movers, int step) {
     street.unknown.push_back({{range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad), bearing_rad}, i % 2 ? 4.5 : 0.5, i % 2 ? 1.8 : 0.5});
   }
   return street.scan(static_cast<std::int64_t>(step * 26'666'667LL), static_cast<std::uint32_t>(step));
-}
-
-double percentile(std::vector<double> values, double share) {
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
 }
 
 void detect_traffic(benchmark::State& state) {
@@ -53,8 +47,8 @@ void track_traffic(benchmark::State& state) {
     benchmark::DoNotOptimize(tracker.track(scans[next++]));
     times_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
   }
-  state.counters["p50_us"] = percentile(times_us, 0.5);
-  state.counters["p99_us"] = percentile(times_us, 0.99);
+  state.counters["p50_us"] = testing::percentile(times_us, 0.5);
+  state.counters["p99_us"] = testing::percentile(times_us, 0.99);
 }
 BENCHMARK(track_traffic)->Arg(0)->Arg(20)->Arg(100)->Unit(benchmark::kMicrosecond);
 
