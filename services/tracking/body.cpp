@@ -53,6 +53,27 @@ struct Spread {
   double most_m = std::numeric_limits<double>::lowest();
   void include(double value_m) { least_m = std::min(least_m, value_m), most_m = std::max(most_m, value_m); }
   double width_m() const { return most_m - least_m; }
+  bool has_in_middle(double value_m) const {
+    constexpr double kEndShare = 0.2;
+    return value_m >= least_m + kEndShare * width_m() && value_m <= most_m - kEndShare * width_m();
+  }
+};
+
+/// Mean of what lies on a side; not of its ends, which are round, if that leaves enough.
+class SideMean {
+ public:
+  void include(double at_m, bool is_in_middle) { sum_m_ += at_m, ++count_; if (is_in_middle) middle_sum_m_ += at_m, ++middle_count_; }
+  double mean_m() const {
+    constexpr int kFewestInMiddle = 3;
+    return middle_count_ >= kFewestInMiddle ? middle_sum_m_ / middle_count_ : sum_m_ / count_;
+  }
+  int count() const { return count_; }
+
+ private:
+  double sum_m_ = 0.0;
+  double middle_sum_m_ = 0.0;
+  int count_ = 0;
+  int middle_count_ = 0;
 };
 
 Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double face_depth_m) {
@@ -68,16 +89,25 @@ Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2
   }
   Spread low_across;
   Spread high_across;
+  const auto across_of = [&](const Vector2d& point) { return axis.x() * point.y() - axis.y() * point.x(); };
   for (const Vector2d& point : glimpse.points_m) {
     const double s = axis.dot(point - centre_m);
-    const double across_m = axis.x() * point.y() - axis.y() * point.x();
-    if (s < shadow.low_m + face_depth_m) shadow.low_face_m += s, ++shadow.low_count, low_across.include(across_m);
-    if (s > shadow.high_m - face_depth_m) shadow.high_face_m += s, ++shadow.high_count, high_across.include(across_m);
+    if (s < shadow.low_m + face_depth_m) low_across.include(across_of(point));
+    if (s > shadow.high_m - face_depth_m) high_across.include(across_of(point));
+  }
+  SideMean low;
+  SideMean high;
+  for (const Vector2d& point : glimpse.points_m) {
+    const double s = axis.dot(point - centre_m);
+    if (s < shadow.low_m + face_depth_m) low.include(s, low_across.has_in_middle(across_of(point)));
+    if (s > shadow.high_m - face_depth_m) high.include(s, high_across.has_in_middle(across_of(point)));
   }
   shadow.low_across_m = low_across.width_m();
   shadow.high_across_m = high_across.width_m();
-  shadow.low_face_m /= shadow.low_count;
-  shadow.high_face_m /= shadow.high_count;
+  shadow.low_face_m = low.mean_m();
+  shadow.high_face_m = high.mean_m();
+  shadow.low_count = low.count();
+  shadow.high_count = high.count();
   shadow.count = static_cast<int>(count);
   return shadow;
 }
@@ -93,31 +123,52 @@ void note_seen(SizeEvidence& evidence, double seen_m) {
   if (seen_m > evidence.least_m) evidence.least_m += evidence.least_m == 0.0 ? seen_m : kTrust * (seen_m - evidence.least_m);
 }
 
-void note_whole(SizeEvidence& evidence, double seen_m, double variance_m2, double scale) {
+/// A size seen from edge to edge.
+struct SeenWhole {
+  double size_m = 0.0;
+  double variance_m2 = 1.0;
+  double missed_share = 0.0;  ///< Of the corners' depth.
+};
+
+void note_whole(SizeEvidence& evidence, const SeenWhole& seen, double scale) {
   constexpr double kShorterM = 0.5;       // than what was seen before: a piece, or a side seen askew
   constexpr double kForgotten = 0.02;     // of it, for each scan that says so: it may have been several things
   constexpr double kSharedShare = 0.25;   // of the variance: neighbouring scans err alike, so that many know little more than one
-  const bool is_shorter = seen_m < evidence.least_m - kShorterM * scale;
-  evidence.least_m = std::min(evidence.least_m, evidence.least_m + kForgotten * (seen_m - evidence.least_m));
+  const bool is_shorter = seen.size_m < evidence.least_m - kShorterM * scale;
+  evidence.least_m = std::min(evidence.least_m, evidence.least_m + kForgotten * (seen.size_m - evidence.least_m));
   if (is_shorter) return;
-  const double least_variance_m2 = std::max(squared(kWholeSigmaM * scale), kSharedShare * variance_m2);
-  if (evidence.whole.variance_m2 <= kSharedShare * variance_m2) return;
-  const double gain = evidence.whole.variance_m2 / (evidence.whole.variance_m2 + variance_m2);
-  evidence.whole.value_m += gain * (seen_m - evidence.whole.value_m);
+  const double least_variance_m2 = std::max(squared(kWholeSigmaM * scale), kSharedShare * seen.variance_m2);
+  if (evidence.whole.variance_m2 <= kSharedShare * seen.variance_m2) return;
+  const double gain = evidence.whole.variance_m2 / (evidence.whole.variance_m2 + seen.variance_m2);
+  evidence.whole.value_m += gain * (seen.size_m - evidence.whole.value_m);
+  evidence.missed_share += gain * (seen.missed_share - evidence.missed_share);
   evidence.whole.variance_m2 = std::max(least_variance_m2, (1.0 - gain) * evidence.whole.variance_m2);
 }
+
+/// What is missed of a corner of this depth. Cuts and circles differ.
+Size missed_of(const Size& corner, double share) {
+  constexpr double kShapeShare = 0.2;
+  return {share * corner.value_m, squared(share) * corner.variance_m2 + squared(std::min(share, kShapeShare) * corner.value_m)};
+}
+
+/// How the laser looks at an end of a side.
+struct EndView {
+  double spacing_m = 0.0;           ///< Between the echoes there.
+  double missed_share = 0.0;        ///< Of the depth of its corner: so much farther the body goes than beams meet it.
+};
 
 /// One axis of a body and how the laser looks at it.
 struct AxisView {
   double laser_at_m = 0.0;          ///< Relative to the predicted centre.
   double face_variance_m2 = 0.0;    ///< Of one echo from a side across the axis.
-  double low_spacing_m = 0.0;       ///< Between the echoes of a side along the axis, at its low
-  double high_spacing_m = 0.0;      ///< and at its high end.
+  EndView low;                      ///< Of a side along the axis.
+  EndView high;
   double gaps = 0.0;                ///< Beams in a row that were not answered, in the mean.
   double least_side_m = 0.4;        ///< What is narrower is no side.
   double clear_spacing_m = 0.5;     ///< Wider spaced echoes do not tell where a side ends.
   double scale = 1.0;               ///< Of all sizes, against those of real road users.
   bool is_length = true;            ///< Along which a flank goes; across it, an echo of a flank is where its side is.
+  Size corner;                      ///< How deep the corners are.
 };
 
 /// Whether the low end is a side across the axis, and not where something hides the rest of a flank.
@@ -126,17 +177,23 @@ bool is_side(const Shadow& shadow, const AxisView& view) {
 }
 
 /// How far a side goes on beyond its outermost echo without being answered, in the mean, and one sigma of that.
-double unanswered_m(const AxisView& view, double spacing_m, Edge edge) {
+double unanswered_m(const AxisView& view, const EndView& end, Edge edge) {
   constexpr double kMostM = 1.3;  // a car on which all places are as likely
-  return edge == Edge::kNoEcho ? std::min(view.gaps * spacing_m, kMostM * view.scale) : 0.0;
+  return edge == Edge::kNoEcho ? std::min(view.gaps * end.spacing_m, kMostM * view.scale) : 0.0;
 }
 
-/// How far beyond its outermost echo a side ends in the mean: half a spacing on, or as many as go unanswered in a row.
-double beyond_m(const AxisView& view, double spacing_m, Edge edge) { return 0.5 * spacing_m + unanswered_m(view, spacing_m, edge); }
+/// How far beyond its outermost echo a flat side goes on in the mean: half a spacing, or as many as go unanswered in a row.
+double flat_beyond_m(const AxisView& view, const EndView& end, Edge edge) { return 0.5 * end.spacing_m + unanswered_m(view, end, edge); }
 
 /// Variance of where that is.
-double end_variance_m2(const AxisView& view, double spacing_m, Edge edge) {
-  return view.face_variance_m2 + spacing_m * spacing_m / 12.0 + squared(unanswered_m(view, spacing_m, edge));
+double flat_end_variance_m2(const AxisView& view, const EndView& end, Edge edge) {
+  return view.face_variance_m2 + end.spacing_m * end.spacing_m / 12.0 + squared(unanswered_m(view, end, edge));
+}
+
+/// The same of the body, whose corner is round.
+double beyond_m(const AxisView& view, const EndView& end, Edge edge) { return flat_beyond_m(view, end, edge) + missed_of(view.corner, end.missed_share).value_m; }
+double end_variance_m2(const AxisView& view, const EndView& end, Edge edge) {
+  return flat_end_variance_m2(view, end, edge) + missed_of(view.corner, end.missed_share).variance_m2;
 }
 
 /// The laser lies beyond the low side, which so looks at it; the high end is at the end of a flank, if that is in view.
@@ -144,18 +201,19 @@ void note_sizes_from_low_side(SizeEvidence& evidence, const Shadow& shadow, cons
   const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
   note_seen(evidence, shadow.high_m - low_m);
   const bool low_is_seen = shadow.low_edge == Edge::kOpen || is_side(shadow, view);
-  const bool high_is_seen = flank_is_visible && shadow.high_edge != Edge::kHidden && view.high_spacing_m < view.clear_spacing_m &&
+  const bool high_is_seen = flank_is_visible && shadow.high_edge != Edge::kHidden && view.high.spacing_m < view.clear_spacing_m &&
                             shadow.count - shadow.low_count >= kFewestOnFlank;
   if (low_is_seen && high_is_seen)  // the flank ends somewhere between its last echo and where the next one would be
-    note_whole(evidence, shadow.high_m + beyond_m(view, view.high_spacing_m, shadow.high_edge) - low_m, end_variance_m2(view, view.high_spacing_m, shadow.high_edge), view.scale);
+    note_whole(evidence, {shadow.high_m + flat_beyond_m(view, view.high, shadow.high_edge) - low_m, flat_end_variance_m2(view, view.high, shadow.high_edge), view.high.missed_share}, view.scale);
 }
 
 void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view) {
   note_seen(evidence, shadow.high_m - shadow.low_m);
-  const double spacing_m = std::max(view.low_spacing_m, view.high_spacing_m);
+  const double spacing_m = std::max(view.low.spacing_m, view.high.spacing_m);
   if (shadow.low_edge != Edge::kHidden && shadow.high_edge != Edge::kHidden && spacing_m < view.clear_spacing_m && shadow.count >= kFewestOnFlank)
-    note_whole(evidence, shadow.high_m - shadow.low_m + beyond_m(view, spacing_m, shadow.low_edge) + beyond_m(view, spacing_m, shadow.high_edge),
-               end_variance_m2(view, spacing_m, shadow.low_edge) + end_variance_m2(view, spacing_m, shadow.high_edge), view.scale);
+    note_whole(evidence, {shadow.high_m - shadow.low_m + flat_beyond_m(view, view.low, shadow.low_edge) + flat_beyond_m(view, view.high, shadow.high_edge),
+                          flat_end_variance_m2(view, view.low, shadow.low_edge) + flat_end_variance_m2(view, view.high, shadow.high_edge),
+                          view.low.missed_share + view.high.missed_share}, view.scale);
 }
 
 /// Whether so few beams are answered that the outermost echoes are likely not those of the ends, of which nothing hides any.
@@ -168,7 +226,7 @@ bool may_end_anywhere(const Shadow& shadow, const AxisView& view) {
 /// if the first of them, and if the last, was an end, and all places between are as likely.
 AxisMeasurement centre_from_few(const Size& size, const Shadow& shadow, const AxisView& view) {
   const double unseen_m = std::max(0.0, size.value_m - (shadow.high_m - shadow.low_m));
-  const double spacing_m = std::max(view.low_spacing_m, view.high_spacing_m);
+  const double spacing_m = std::max(view.low.spacing_m, view.high.spacing_m);
   return {0.5 * (shadow.low_m + shadow.high_m), view.face_variance_m2 + squared(spacing_m) / 12.0 + squared(unseen_m) / 12.0, 0};
 }
 
@@ -176,12 +234,12 @@ AxisMeasurement centre_from_few(const Size& size, const Shadow& shadow, const Ax
 AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const AxisView& view) {
   if (may_end_anywhere(shadow, view)) return centre_from_few(size, shadow, view);
   AxisMeasurement axis;
-  const double low_m = shadow.low_m - beyond_m(view, view.low_spacing_m, shadow.low_edge) + 0.5 * size.value_m;
-  const double high_m = shadow.high_m + beyond_m(view, view.high_spacing_m, shadow.high_edge) - 0.5 * size.value_m;
+  const double low_m = shadow.low_m - beyond_m(view, view.low, shadow.low_edge) + 0.5 * size.value_m;
+  const double high_m = shadow.high_m + beyond_m(view, view.high, shadow.high_edge) - 0.5 * size.value_m;
   const bool low_is_seen = shadow.low_edge != Edge::kHidden;
   const bool high_is_seen = shadow.high_edge != Edge::kHidden;
-  const double low_variance_m2 = end_variance_m2(view, view.low_spacing_m, shadow.low_edge);
-  const double high_variance_m2 = end_variance_m2(view, view.high_spacing_m, shadow.high_edge);
+  const double low_variance_m2 = end_variance_m2(view, view.low, shadow.low_edge);
+  const double high_variance_m2 = end_variance_m2(view, view.high, shadow.high_edge);
   // Where the two ends disagree, part of the body was not seen: the difference says how much the middle may be off.
   if (low_is_seen && high_is_seen) {
     axis.held = 0;
@@ -201,18 +259,18 @@ AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, con
   if (shadow.low_edge != Edge::kHidden || is_side(shadow, view)) {
     const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
     axis.centre_m = low_m + 0.5 * size.value_m;
-    axis.variance_m2 = is_side(shadow, view) ? view.face_variance_m2 : end_variance_m2(view, view.low_spacing_m, shadow.low_edge);
+    axis.variance_m2 = is_side(shadow, view) ? view.face_variance_m2 : end_variance_m2(view, view.low, shadow.low_edge);
     axis.held = -1;
   } else if (flank_is_visible && shadow.high_edge == Edge::kOpen) {
-    axis.centre_m = shadow.high_m + 0.5 * view.high_spacing_m - 0.5 * size.value_m;
-    axis.variance_m2 = view.face_variance_m2 + view.high_spacing_m * view.high_spacing_m / 12.0;
+    axis.centre_m = shadow.high_m + beyond_m(view, view.high, shadow.high_edge) - 0.5 * size.value_m;
+    axis.variance_m2 = end_variance_m2(view, view.high, shadow.high_edge);
     axis.held = 1;
   }
   return axis;
 }
 
 AxisView mirrored(const AxisView& view) {
-  return {-view.laser_at_m, view.face_variance_m2, view.high_spacing_m, view.low_spacing_m, view.gaps, view.least_side_m, view.clear_spacing_m, view.scale, view.is_length};
+  return {-view.laser_at_m, view.face_variance_m2, view.high, view.low, view.gaps, view.least_side_m, view.clear_spacing_m, view.scale, view.is_length, view.corner};
 }
 
 std::optional<int> mirrored(std::optional<int> held) { return held ? std::optional(-*held) : std::nullopt; }
@@ -240,13 +298,57 @@ double echo_sigma_m(double range_m, const TrackingConfig& config) {
   return config.range_noise_m + config.range_noise_per_m * range_m;
 }
 
-/// Between neighbouring echoes of a side along the axis, at the place.
-double spacing_m(const Glimpse& glimpse, const Vector2d& place_m, const Vector2d& axis) {
+/// Of the depth of a corner, as much is not met by beams that graze the side before it at an angle of this sine: a cut at 45 degrees
+/// hides all of itself behind the side up to that angle and nothing beyond, a quarter circle r (1 - sine), of r = 1.7 depths.
+double missed_share(double sine) { return std::min(1.15, 2.0 * (1.0 - sine)); }
+
+/// The end of a side along the axis, at the place.
+EndView end_view(const Glimpse& glimpse, const Vector2d& place_m, const Vector2d& axis) {
   constexpr double kLeastIncidence = 0.05;
   const Vector2d sight_m = place_m - glimpse.laser_m;
   const double range_m = std::max(sight_m.norm(), 1e-3);
-  const double incidence = std::abs(axis.x() * sight_m.y() - axis.y() * sight_m.x()) / range_m;
-  return range_m * glimpse.beam_step_rad / std::max(incidence, kLeastIncidence);
+  const double sine = std::min(1.0, std::abs(axis.x() * sight_m.y() - axis.y() * sight_m.x()) / range_m);
+  return {range_m * glimpse.beam_step_rad / std::max(sine, kLeastIncidence), missed_share(sine)};
+}
+
+/// The side of the body that looks at the laser, along one axis: where it is, and the way inwards. None where too little of it is seen.
+struct NearSide {
+  double at_m = 0.0;
+  double inwards = 1.0;
+};
+
+std::optional<NearSide> near_side(const Size& size, const Shadow& shadow, const AxisView& view) {
+  const double beyond_m = std::abs(view.laser_at_m) - 0.5 * size.value_m;
+  const bool is_low = view.laser_at_m < 0.0;
+  if (beyond_m < 0.0 || !(is_low ? is_side(shadow, view) : is_side(mirrored(shadow), mirrored(view)))) return std::nullopt;
+  return is_low ? NearSide{shadow.low_face_m, 1.0} : NearSide{shadow.high_face_m, -1.0};
+}
+
+/// What one glimpse of both sides tells of the corner between them. None where its echoes are too far apart to tell.
+std::optional<Size> seen_corner(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& along, const AxisView& u_view, const AxisView& v_view, const NearSide& u, const NearSide& v) {
+  constexpr double kWidestSpacingM = 0.3;
+  constexpr double kDeepestM = 0.7;     // farther off the echo next to the corner is missing
+  constexpr double kNextEchoShare = 0.25;      // of the spacing: so far from a sharp corner its nearest echo is in the mean,
+  constexpr double kNextEchoSigmaShare = 0.3;  // and one sigma of it
+  constexpr double kNearestSigmas = 1.0;       // by which noise brings the nearest of the few echoes on a cut nearer
+  constexpr double kSidesSigmaM = 0.04;
+  const Vector2d across{-along.y(), along.x()};
+  const double spacing_m = std::min(u.inwards > 0.0 ? u_view.low.spacing_m : u_view.high.spacing_m, v.inwards > 0.0 ? v_view.low.spacing_m : v_view.high.spacing_m);
+  if (spacing_m > kWidestSpacingM * u_view.scale) return std::nullopt;
+  double depth_m = std::numeric_limits<double>::max();
+  for (const Vector2d& point : glimpse.points_m)
+    depth_m = std::min(depth_m, u.inwards * (along.dot(point - centre_m) - u.at_m) + v.inwards * (across.dot(point - centre_m) - v.at_m));
+  if (depth_m > kDeepestM * u_view.scale) return std::nullopt;
+  const double sharp_share = std::clamp(1.0 - depth_m / spacing_m, 0.0, 1.0);  // a cut that is longer than the spacing has an echo
+  return Size{std::max(0.0, depth_m - kNextEchoShare * sharp_share * spacing_m + kNearestSigmas * (1.0 - sharp_share) * std::sqrt(u_view.face_variance_m2)),
+              u_view.face_variance_m2 + squared(kNextEchoSigmaShare * spacing_m) + squared(kSidesSigmaM * u_view.scale)};
+}
+
+/// With what one more scan says; neighbouring scans err alike.
+Size with_corner(const Size& before, const Size& seen, double scale) {
+  constexpr double kLeastSigmaM = 0.02;
+  const double gain = before.variance_m2 / (before.variance_m2 + seen.variance_m2);
+  return {before.value_m + gain * (seen.value_m - before.value_m), std::max(squared(kLeastSigmaM * scale), (1.0 - gain) * before.variance_m2)};
 }
 
 /// Beams in a row that were not answered, in the mean.
@@ -298,15 +400,31 @@ struct KindFit {
   AxisFit width;
 };
 
-KindFit kind_fit(const KindOfBody& kind, const Body& body, double scale) {
+KindFit kind_fit(const KindOfBody& kind, const Body& body, const TrackingConfig& config) {
+  const double scale = config.size_scale;
   KindFit fit;
-  fit.length = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, body.length_evidence, scale);
-  fit.width = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, body.width_evidence, scale);
+  fit.length = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, with_corners(body.length_evidence, kind.kind, body, config), scale);
+  fit.width = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, with_corners(body.width_evidence, kind.kind, body, config), scale);
   fit.log_fit = std::log(kind.share) + fit.length.log_fit + fit.width.log_fit;
   return fit;
 }
 
 }  // namespace
+
+Size corner_of(const Body& body, Kind kind, const TrackingConfig& config) {
+  if (kind == Kind::kBicycle || only_people_move(config)) return {0.0, 0.0};
+  const double prior_m2 = squared(config.size_scale) * kCorner.variance_m2;
+  const double gain = prior_m2 / (prior_m2 + body.corner_seen.variance_m2);
+  const double prior_m = config.size_scale * kCorner.value_m;
+  return {prior_m + gain * (body.corner_seen.value_m - prior_m), (1.0 - gain) * prior_m2};
+}
+
+SizeEvidence with_corners(SizeEvidence evidence, Kind kind, const Body& body, const TrackingConfig& config) {
+  const Size missed = missed_of(corner_of(body, kind, config), evidence.missed_share);
+  evidence.whole.value_m += missed.value_m;
+  evidence.whole.variance_m2 += missed.variance_m2;
+  return evidence;
+}
 
 double log_sum(double a, double b) { return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))); }
 
@@ -318,7 +436,7 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
   std::array<KindFit, kKinds.size()> fits;
-  std::ranges::transform(kKinds, fits.begin(), [&](const KindOfBody& kind) { return kind_fit(kind, body, config.size_scale); });
+  std::ranges::transform(kKinds, fits.begin(), [&](const KindOfBody& kind) { return kind_fit(kind, body, config); });
   const auto best = std::ranges::max_element(fits, {}, &KindFit::log_fit);
   body.kind = kKinds[static_cast<std::size_t>(best - fits.begin())].kind;
   body.length = {best->length.size.value_m, 0.0};
@@ -339,7 +457,7 @@ Body with_likely_sizes(Body body, const TrackingConfig& config) {
 
 double log_evidence_of_sizes(const Body& body, const TrackingConfig& config) {
   double sum = -std::numeric_limits<double>::max();
-  for (const KindOfBody& kind : kKinds) sum = log_sum(sum, kind_fit(kind, body, config.size_scale).log_fit);
+  for (const KindOfBody& kind : kKinds) sum = log_sum(sum, kind_fit(kind, body, config).log_fit);
   return sum;
 }
 
@@ -353,9 +471,10 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   const Shadow u = shadow_of(glimpse, predicted_centre_m, along, face_depth_m);
   const Shadow v = shadow_of(glimpse, predicted_centre_m, across, face_depth_m);
   const double gaps = gaps_in_a_row(glimpse);
+  const Size corner = corner_of(body, body.kind, config);
   const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
-    return AxisView{axis.dot(to_laser_m), squared(sigma_m), spacing_m(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
-                    spacing_m(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale, config.size_scale};
+    return AxisView{axis.dot(to_laser_m), squared(sigma_m), end_view(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
+                    end_view(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale, config.size_scale, true, corner};
   };
   const AxisView u_view = view_of(along, u);
   AxisView v_view = view_of(across, v);
@@ -365,6 +484,12 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   const bool face_is_visible = std::abs(u_view.laser_at_m) > 0.5 * body.length.value_m + clear_m;
   BodyMeasurement measurement;
   measurement.body = body;
+  const std::optional<NearSide> near_u = near_side(body.length, u, u_view);
+  const std::optional<NearSide> near_v = near_side(body.width, v, v_view);
+  if (near_u && near_v) {
+    const std::optional<Size> seen = seen_corner(glimpse, predicted_centre_m, along, u_view, v_view, *near_u, *near_v);
+    if (seen) measurement.body.corner_seen = with_corner(body.corner_seen, *seen, config.size_scale);
+  }
   note_sizes(measurement.body.length_evidence, body.length, u, u_view, flank_is_visible);
   note_sizes(measurement.body.width_evidence, body.width, v, v_view, face_is_visible);
   if (!body.is_oriented) {  // only what a body cannot be smaller than, whichever way it lies

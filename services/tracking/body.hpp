@@ -30,10 +30,15 @@ struct Size {
   double variance_m2 = 1.0;
 };
 
+/// How deep the corners of vehicles are, of real ones: nothing of them is nearer to where two sides would meet, measured along both
+/// together. Of an exact box nothing, where a corner is cut what is cut of either side, of a quarter circle 0.6 of its radius.
+inline constexpr Size kCorner{0.2, 0.15 * 0.15};
+
 /// What the scans said of a size so far.
 struct SizeEvidence {
   double least_m = 0.0;               ///< So much was seen at once: it is not smaller.
   Size whole = {0.0, 1e6};            ///< Seen from edge to edge; a huge variance where it never was.
+  double missed_share = 0.0;          ///< Of the depth of the body's corners, which has to be added to what was seen so.
 };
 
 /// What is known of an object's outline: a box with sides, or a blob without.
@@ -48,6 +53,7 @@ struct Body {
   Size width;
   SizeEvidence length_evidence;
   SizeEvidence width_evidence;
+  Size corner_seen = {0.0, 1e6};      ///< How deep its corners are, as far as scans showed them; a huge variance where none did.
   bool was_seen_whole = false;        ///< Both ends of it at once, with something farther beside them; of a blob.
   Kind kind = Kind::kCar;             ///< The likeliest, of a body with sides.
   /// From which end of the length, and of the width, the centre was last measured: -1 the rear (the right side), +1 the front
@@ -110,6 +116,12 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 /// Sizes and kind as they follow from the body's evidence: a mixture over the kinds of road users, of which the likeliest
 /// counts.
 Body with_likely_sizes(Body body, const TrackingConfig& config);
+
+/// The same of a body of this kind: what was seen from edge to edge goes on by what its corners are round.
+SizeEvidence with_corners(SizeEvidence evidence, Kind kind, const Body& body, const TrackingConfig& config);
+
+/// How deep the corners of a body are believed to be, if it is of this kind; bicycles, and what people carry, have none.
+Size corner_of(const Body& body, Kind kind, const TrackingConfig& config);
 
 /// Logarithm of how well the evidence of sizes fits the kinds of road users, to a constant.
 double log_evidence_of_sizes(const Body& body, const TrackingConfig& config);

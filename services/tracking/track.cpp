@@ -248,7 +248,8 @@ bool walks(const Track& track) {
 /// the size that is assumed, the heading along which the middle is sought behind the sides that are seen, and how far the shape is
 /// from a box.
 Matrix2d shared_error_covariance(const Track& track, double heading_rad, const TrackingConfig& config) {
-  constexpr double kShapeAlongM = 0.05;
+  constexpr double kFaceM = 0.02;             // so flat is the front or rear from which the middle is measured,
+  constexpr double kFaceShareOfCorner = 0.15; // and the less the rounder its corners are
   constexpr double kByCourseAloneRad = 0.1;   // the course of what comes out from behind something is off alike for many scans
   constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
   constexpr double kFrameOrRiderM = 0.15;     // a bicycle is as wide as its frame or as who rides it, by the height of the scan
@@ -258,7 +259,8 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   if (track.body.has_sides) {
     const double least_rad2 = track.body.axis_variance_rad2 > kKnownAxisRad2 ? std::pow(kByCourseAloneRad, 2) : 0.0;
     const double heading_rad2 = std::clamp(track.body.heading_variance_rad2, least_rad2, kMostHeadingRad2);
-    along_m2 += std::pow(kShapeAlongM * config.size_scale, 2) + 0.25 * (track.body.length.variance_m2 + heading_rad2 * std::pow(track.body.width.value_m, 2));
+    const double corner_m = corner_of(track.body, track.body.kind, config).value_m;
+    along_m2 += std::pow(kFaceM * config.size_scale, 2) + std::pow(kFaceShareOfCorner * corner_m, 2) + 0.25 * (track.body.length.variance_m2 + heading_rad2 * std::pow(track.body.width.value_m, 2));
     across_m2 = 0.25 * (track.body.width.variance_m2 + heading_rad2 * std::pow(track.body.length.value_m, 2));
     if (track.body.kind == Kind::kBicycle) across_m2 += std::pow(kFrameOrRiderM * config.size_scale, 2);
     if (!track.body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind

@@ -78,6 +78,42 @@ TEST(Body, IsAsLongAsItsFlankWhenThatIsSeenFromEndToEnd) {
   EXPECT_LT((measurement.centre_m - Vector2d(8.0, 12.0)).norm(), 0.2);
 }
 
+/// Echoes of a box at heading 0 with its corners cut off at 45 degrees, so much of either side.
+std::vector<Vector2d> echoes_of_cut(const Vector2d& centre_m, double length_m, double width_m, double cut_m) {
+  std::vector<Vector2d> points;
+  const double u_m = 0.5 * length_m, v_m = 0.5 * width_m;
+  const std::vector<Vector2d> corners = {{u_m - cut_m, v_m}, {u_m, v_m - cut_m}, {u_m, cut_m - v_m}, {u_m - cut_m, -v_m},
+                                         {cut_m - u_m, -v_m}, {-u_m, cut_m - v_m}, {-u_m, v_m - cut_m}, {cut_m - u_m, v_m}};
+  for (double angle = -M_PI / 2.0; angle <= M_PI / 2.0; angle += kStepRad) {
+    const Vector2d way{std::cos(angle), std::sin(angle)};
+    double nearest_m = 1e9;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vector2d from_m = centre_m + corners[i];
+      const Vector2d side_m = corners[(i + 1) % corners.size()] - corners[i];
+      const double crossed = way.x() * side_m.y() - way.y() * side_m.x();
+      if (std::abs(crossed) < 1e-9) continue;
+      const double range_m = (from_m.x() * side_m.y() - from_m.y() * side_m.x()) / crossed;
+      const double share = (from_m.x() * way.y() - from_m.y() * way.x()) / crossed;
+      if (range_m > 0.0 && share >= 0.0 && share <= 1.0) nearest_m = std::min(nearest_m, range_m);
+    }
+    constexpr double kNoiseM = 0.03;
+    if (nearest_m < 1e9) points.push_back((nearest_m + kNoiseM * std::sin(1e4 * angle)) * way);
+  }
+  return points;
+}
+
+TEST(Body, IsAsLongAsItIsThoughItsCornersAreRound) {
+  const Vector2d centre_m{9.0, 5.0};
+  for (const double cut_m : {0.0, 0.35}) {
+    const auto points = echoes_of_cut(centre_m, 4.8, 1.8, cut_m);
+    const Glimpse glimpse = glimpse_of(points);
+    const BodyMeasurement measurement = settled(likely_box(0.0, glimpse, kConfig), centre_m, glimpse);
+    EXPECT_NEAR(measurement.body.corner_seen.value_m, cut_m, 0.08);
+    EXPECT_NEAR(measurement.body.length.value_m, 4.8, 0.1) << "of a flank seen askew the last " << cut_m << " m lie behind the rest";
+    EXPECT_LT((measurement.centre_m - centre_m).norm(), 0.09);
+  }
+}
+
 TEST(Body, OfAModelIsMeasuredAsThatOfACarIs) {
   const auto points = echoes_of({8.0, 4.0}, 4.6, 1.9);
   const BodyMeasurement car = settled(likely_box(0.0, glimpse_of(points), kConfig), {8.0, 4.0}, glimpse_of(points));
