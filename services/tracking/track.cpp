@@ -108,7 +108,7 @@ void turn(Track& track, double by_rad, const Glimpse& glimpse, const TrackingCon
 }
 
 /// Brings the body's axis, and its heading, to that of the long side that is seen.
-void follow_side(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
+void follow_side(Track& track, const Glimpse& glimpse, double time_s, const TrackingConfig& config) {
   if (!glimpse.side) return;
   Body& body = track.body;
   // A rectangle has sides at right angles: it may be a face or a flank.
@@ -125,13 +125,14 @@ void follow_side(Track& track, const Glimpse& glimpse, const TrackingConfig& con
   body.axis_rad = wrap_angle(body.axis_rad + axis_gain * off_axis_rad);
   body.axis_variance_rad2 *= 1.0 - axis_gain;
   if (std::abs(off_rad) > kFarthestRad) return;
+  track.steadiness = with_heading(track.steadiness, off_rad, body.heading_variance_rad2 + sigma_rad * sigma_rad, time_s);
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + sigma_rad * sigma_rad);
   turn(track, gain * off_rad, glimpse, config);
   body.heading_variance_rad2 *= 1.0 - gain;
 }
 
 /// Brings the body's heading to the course. A body that goes backwards or sideways was drawn the wrong way round.
-void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
+void follow_course(Track& track, const Glimpse& glimpse, double time_s, const TrackingConfig& config) {
   if (track.velocity_mps().norm() < config.box_from_speed_mps) return;
   const Course course = course_of(track);
   if (course.variance_rad2 > 0.1) return;
@@ -153,6 +154,7 @@ void follow_course(Track& track, const Glimpse& glimpse, const TrackingConfig& c
   body.is_oriented = body.is_oriented || (is_decisive && course.variance_rad2 < 0.03);
   if (!is_decisive) return;
   const double variance_rad2 = course.variance_rad2 + 0.002;  // wheels do not always roll where the body points
+  track.steadiness = with_heading(track.steadiness, off_rad, body.heading_variance_rad2 + variance_rad2, time_s);
   const double gain = body.heading_variance_rad2 / (body.heading_variance_rad2 + variance_rad2);
   turn(track, gain * off_rad, glimpse, config);
   body.heading_variance_rad2 *= 1.0 - gain;
@@ -251,14 +253,15 @@ Matrix2d shared_error_covariance(const Track& track, double heading_rad, const T
   constexpr double kFaceM = 0.02;             // so flat is the front or rear from which the middle is measured,
   constexpr double kFaceShareOfCorner = 0.15; // and the less the rounder its corners are
   constexpr double kByCourseAloneRad = 0.1;   // the course of what comes out from behind something is off alike for many scans
+  constexpr double kBySidesRad = 0.01;        // and its sides, by so much
   constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
   constexpr double kFrameOrRiderM = 0.15;     // a bicycle is as wide as its frame or as who rides it, by the height of the scan
   constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
   double along_m2 = 0.0;
   double across_m2 = 0.0;
   if (track.body.has_sides) {
-    const double least_rad2 = track.body.axis_variance_rad2 > kKnownAxisRad2 ? std::pow(kByCourseAloneRad, 2) : 0.0;
-    const double heading_rad2 = std::clamp(track.body.heading_variance_rad2, least_rad2, kMostHeadingRad2);
+    const double least_rad = track.body.axis_variance_rad2 > kKnownAxisRad2 ? kByCourseAloneRad : kBySidesRad;
+    const double heading_rad2 = std::clamp(track.steadiness.share * track.body.heading_variance_rad2, least_rad * least_rad, kMostHeadingRad2);
     const double corner_m = corner_of(track.body, track.body.kind, config).value_m;
     along_m2 += std::pow(kFaceM * config.size_scale, 2) + std::pow(kFaceShareOfCorner * corner_m, 2) + 0.25 * (track.body.length.variance_m2 + heading_rad2 * std::pow(track.body.width.value_m, 2));
     across_m2 = 0.25 * (track.body.width.variance_m2 + heading_rad2 * std::pow(track.body.length.value_m, 2));
@@ -442,6 +445,13 @@ Gait with_step(const Gait& before, const Vector2d& surprise_m, const Matrix2d& n
   return {std::clamp(now_m2, kLeastShare * most_m2, most_m2)};
 }
 
+Steadiness with_heading(const Steadiness& before, double off_rad, double variance_rad2, double time_s) {
+  constexpr double kMemoryS = 1.5;
+  constexpr double kMostShare = 4.0;
+  const double seen = std::min(off_rad * off_rad / variance_rad2, kMostShare);
+  return {before.share + (1.0 - std::exp(-time_s / kMemoryS)) * (seen - before.share)};
+}
+
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
             const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   Track track;
@@ -484,12 +494,12 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   const filters::ModelSet models = models_of(track, config);
+  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   if (track.body.has_sides) lie_along_what_is_seen(track, glimpse, config);
-  if (track.body.has_sides) follow_side(track, glimpse, config);  // first: sizes are measured along the sides
+  if (track.body.has_sides) follow_side(track, glimpse, unseen_s, config);  // first: sizes are measured along the sides
   const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
   Matrix2d R = measurement.covariance_m2 + pose_covariance_m2;
   const Matrix2d noise_at_rest_m2 = R;
-  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   if (walks(track)) R += gait_variance_m2(unseen_s, config) * Matrix2d::Identity();
   const Vector2d surprise_m = measurement.centre_m - measurement.recentring_m - track.position_m();
   const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + measurement.step_covariance_m2 + R);
@@ -509,7 +519,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   // What is hidden goes on unseen: only when it is seen again, its claim can be judged.
   track.claimed_m += std::max(0.0, track.velocity_mps().norm() - config.moving_above_mps) * unseen_s;
   if (track.body.has_sides) steer(track, unseen_s, config);
-  if (track.body.has_sides) follow_course(track, glimpse, config);
+  if (track.body.has_sides) follow_course(track, glimpse, unseen_s, config);
   else draw_sides_when_known(track, glimpse, config);
   track.agreement = with_scan(track.agreement, distance_from_sides_m(track, glimpse.points_m), distance2, unseen_s);
   update_motion_state(track, config);

@@ -89,6 +89,12 @@ struct Gait {
   std::optional<double> variance_m2;  ///< Along each axis; none as long as nothing is known.
 };
 
+/// How far sides and course are off the heading that the body is held to have, against what its filter takes for their noise: that
+/// holds for round and far bodies in bends, and is far too much for a long flank on a straight road. Of the published covariance only.
+struct Steadiness {
+  double share = 1.0;   ///< Of the variance, in the last moments.
+};
+
 constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
 
 /// One object that is followed, or supposed to be one.
@@ -101,6 +107,7 @@ struct Track {
   std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
   Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.
   Gait gait;                                 ///< Of who walks.
+  Steadiness steadiness;                     ///< Of what has sides.
   Agreement agreement;                       ///< Of the echoes with the body.
   double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
   bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
@@ -165,6 +172,9 @@ double gait_variance_m2(double after_s, const TrackingConfig& config);
 /// With one more scan, in which the centre was measured so far from where it had been predicted, with this noise besides, time_s after
 /// the one before. At most the config's.
 Gait with_step(const Gait& before, const Eigen::Vector2d& surprise_m, const Eigen::Matrix2d& noise_m2, double time_s, const TrackingConfig& config);
+
+/// With one more heading that was so far off the one held, with this variance of both together, time_s after the one before.
+Steadiness with_heading(const Steadiness& before, double off_rad, double variance_rad2, double time_s);
 
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,

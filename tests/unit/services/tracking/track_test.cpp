@@ -80,9 +80,9 @@ TEST(Track, IsPublishedWithWhatItsHeadingDoesToTheCentreBehindTheSidesThatAreSee
   Track track = followed_car();
   track.body.is_oriented = true;
   track.body.axis_variance_rad2 = 0.001;
-  track.body.heading_variance_rad2 = 0.0;
+  track.body.heading_variance_rad2 = 0.1 * 0.1;
   const double surely_m = sigma_across_m(track);
-  track.body.heading_variance_rad2 = 0.3 * 0.3;
+  track.body.heading_variance_rad2 = 0.1 * 0.1 + 0.3 * 0.3;
   EXPECT_NEAR(sigma_across_m(track), std::hypot(surely_m, 0.3 * 2.2), 1e-6);
 }
 
@@ -279,6 +279,39 @@ TEST(Track, LiesAlongWhatIsLongerThanAnyFront) {
     ASSERT_TRUE(update(track, stamp_ns += 27'000'000, flank_m(3.1), 1e-4 * Eigen::Matrix2d::Identity(), config));
   }
   EXPECT_GT(std::abs(std::sin(track.body.heading_rad)), 0.9);
+}
+
+/// A car seen from behind, of which the sides are known.
+Track known_car() {
+  Track track;
+  track.confirmed = true;
+  track.way_m = 20.0;
+  track.body.has_sides = track.body.is_oriented = true;
+  track.body.length_evidence = {4.5, {4.6, 0.004}};
+  track.body.width_evidence = {1.7, {1.8, 0.004}};
+  track.body.corner_seen = {0.1, 0.001};
+  track.body.heading_variance_rad2 = 0.0016;
+  track.body.axis_variance_rad2 = 0.0016;
+  track.body = with_likely_sizes(track.body, {});
+  track.motion = filters::imm_start(motion_models({}), track.estimate);
+  return track;
+}
+
+TEST(Track, IsKnownAcrossAsWellAsItsSidesKeepTheirHeading) {
+  Steadiness straight;
+  Steadiness swaying;
+  for (int i = 0; i < 200; ++i) {
+    straight = with_heading(straight, 0.005, 0.0025, kPeriodS);
+    swaying = with_heading(swaying, 0.05, 0.0025, kPeriodS);
+  }
+  EXPECT_LT(straight.share, 0.1);
+  EXPECT_NEAR(swaying.share, 1.0, 0.05);
+  Track track = known_car();
+  const double as_taken_m2 = described(track, 0, {}).covariance(1, 1);
+  track.steadiness = straight;
+  EXPECT_LT(described(track, 0, {}).covariance(1, 1), as_taken_m2 - 0.004);
+  track.body.axis_variance_rad2 = 1.0;
+  EXPECT_GT(described(track, 0, {}).covariance(1, 1), as_taken_m2) << "no side tells the heading";
 }
 
 }  // namespace
