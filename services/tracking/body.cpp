@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "common/geometry/pose2.hpp"
 #include "services/tracking/tracking_config.hpp"
@@ -403,6 +404,7 @@ struct KindFit {
 KindFit kind_fit(const KindOfBody& kind, const Body& body, const TrackingConfig& config) {
   const double scale = config.size_scale;
   KindFit fit;
+  if (kind.share <= 0.0) return {-std::numeric_limits<double>::max(), {}, {}};
   fit.length = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, with_corners(body.length_evidence, kind.kind, body, config), scale);
   fit.width = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, with_corners(body.width_evidence, kind.kind, body, config), scale);
   fit.log_fit = std::log(kind.share) + fit.length.log_fit + fit.width.log_fit;
@@ -413,9 +415,9 @@ KindFit kind_fit(const KindOfBody& kind, const Body& body, const TrackingConfig&
 
 Size corner_of(const Body& body, Kind kind, const TrackingConfig& config) {
   if (kind == Kind::kBicycle || only_people_move(config)) return {0.0, 0.0};
-  const double prior_m2 = squared(config.size_scale) * kCorner.variance_m2;
+  const double prior_m2 = squared(config.size_scale) * body.road_users.corner.variance_m2;
   const double gain = prior_m2 / (prior_m2 + body.corner_seen.variance_m2);
-  const double prior_m = config.size_scale * kCorner.value_m;
+  const double prior_m = config.size_scale * body.road_users.corner.value_m;
   return {prior_m + gain * (body.corner_seen.value_m - prior_m), (1.0 - gain) * prior_m2};
 }
 
@@ -435,10 +437,10 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 }
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
-  std::array<KindFit, kKinds.size()> fits;
-  std::ranges::transform(kKinds, fits.begin(), [&](const KindOfBody& kind) { return kind_fit(kind, body, config); });
+  std::array<KindFit, std::tuple_size_v<decltype(RoadUsers::kinds)>> fits;
+  std::ranges::transform(body.road_users.kinds, fits.begin(), [&](const KindOfBody& kind) { return kind_fit(kind, body, config); });
   const auto best = std::ranges::max_element(fits, {}, &KindFit::log_fit);
-  body.kind = kKinds[static_cast<std::size_t>(best - fits.begin())].kind;
+  body.kind = body.road_users.kinds[static_cast<std::size_t>(best - fits.begin())].kind;
   body.length = {best->length.size.value_m, 0.0};
   body.width = {best->width.size.value_m, 0.0};
   double total = 0.0;
@@ -457,7 +459,7 @@ Body with_likely_sizes(Body body, const TrackingConfig& config) {
 
 double log_evidence_of_sizes(const Body& body, const TrackingConfig& config) {
   double sum = -std::numeric_limits<double>::max();
-  for (const KindOfBody& kind : kKinds) sum = log_sum(sum, kind_fit(kind, body, config).log_fit);
+  for (const KindOfBody& kind : body.road_users.kinds) sum = log_sum(sum, kind_fit(kind, body, config).log_fit);
   return sum;
 }
 
@@ -539,7 +541,7 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
   return measurement;
 }
 
-Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config) {
+Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config, const RoadUsers& road_users) {
   const auto span_along = [&](double heading_rad) {
     const Vector2d axis{std::cos(heading_rad), std::sin(heading_rad)};
     const Shadow shadow = shadow_of(glimpse, glimpse.points_m.front(), axis, kFaceDepthM);
@@ -552,6 +554,7 @@ Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingCo
   const bool is_face = longer_m > kNarrowestM * config.size_scale && longer_m < kWidestFaceM * config.size_scale &&
                        shorter_m < 0.5 * longer_m;
   Body body;
+  body.road_users = road_users;
   body.has_sides = true;
   body.heading_rad = geometry::wrap_angle(box_heading_rad + (is_face ? kQuarterRad : 0.0));
   body.heading_variance_rad2 = is_face ? 0.3 : 0.1;

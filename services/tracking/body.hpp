@@ -1,38 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 #include <Eigen/Core>
 
+#include "services/tracking/road_users.hpp"
+
 namespace slammot::tracking {
 
 struct TrackingConfig;
-
-/// Kinds of road users with sides; what is smaller is a blob.
-enum class Kind : std::uint8_t { kBicycle, kCar, kTruck, kBus };
-
-/// Means and one sigma of the sizes of one kind, and how common it is.
-struct KindOfBody {
-  Kind kind;
-  double share, length_m, length_sigma_m, width_m, width_sigma_m;
-};
-inline constexpr std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.14, 1.75, 0.2, 0.65, 0.15},
-                                                      {Kind::kCar, 0.75, 4.4, 0.4, 1.8, 0.12},
-                                                      {Kind::kTruck, 0.07, 7.0, 1.2, 2.35, 0.2},
-                                                      {Kind::kBus, 0.04, 12.0, 1.2, 2.5, 0.12}}};
-
-/// A size of a body: how long or wide it is believed to be.
-struct Size {
-  double value_m = 0.0;
-  double variance_m2 = 1.0;
-};
-
-/// How deep the corners of vehicles are, of real ones: nothing of them is nearer to where two sides would meet, measured along both
-/// together. Of an exact box nothing, where a corner is cut what is cut of either side, of a quarter circle 0.6 of its radius.
-inline constexpr Size kCorner{0.2, 0.15 * 0.15};
 
 /// What the scans said of a size so far.
 struct SizeEvidence {
@@ -56,6 +34,7 @@ struct Body {
   Size corner_seen = {0.0, 1e6};      ///< How deep its corners are, as far as scans showed them; a huge variance where none did.
   bool was_seen_whole = false;        ///< Both ends of it at once, with something farther beside them; of a blob.
   Kind kind = Kind::kCar;             ///< The likeliest, of a body with sides.
+  RoadUsers road_users;               ///< Of which it may be one.
   /// From which end of the length, and of the width, the centre was last measured: -1 the rear (the right side), +1 the front
   /// (the left side), 0 both; none before the first time.
   std::optional<int> length_held;
@@ -128,7 +107,7 @@ double log_evidence_of_sizes(const Body& body, const TrackingConfig& config);
 
 /// A box around something first seen now. box_heading_rad: of the longer visible side; which way the body points along it
 /// is not known, and where only one short side is seen, that it is the width is only likely.
-Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config);
+Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config, const RoadUsers& road_users = {});
 
 /// The body pointing the other way: its front is its rear.
 Body turned_about(Body body);

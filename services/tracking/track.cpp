@@ -189,10 +189,10 @@ void steer(Track& track, double time_s, const TrackingConfig& config) {
 /// A box around the echoes, along the course where that is known.
 Body box_along_course(const Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
   const Vector2d way = glimpse.points_m.back() - glimpse.points_m.front();
-  Body body = likely_box(std::atan2(way.y(), way.x()), glimpse, config);
+  Body body = likely_box(std::atan2(way.y(), way.x()), glimpse, config, track.body.road_users);
   const Course course = course_of(track);
   if (track.velocity_mps().norm() > config.box_from_speed_mps && course.variance_rad2 < 0.05) {
-    body = likely_box(course.heading_rad, glimpse, config);
+    body = likely_box(course.heading_rad, glimpse, config, track.body.road_users);
     if (std::abs(std::cos(body.heading_rad - course.heading_rad)) < 0.7) body = turned_by_a_quarter(body, 1.0, config);
     body.heading_rad = course.heading_rad;
     body.heading_variance_rad2 = course.variance_rad2;
@@ -453,8 +453,9 @@ Steadiness with_heading(const Steadiness& before, double off_rad, double varianc
 }
 
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
-            const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
+            const Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users) {
   Track track;
+  track.body.road_users = road_users;
   track.track_id = track_id;
   track.first_seen_ns = stamp_ns;
   track.score = config.birth_score;
@@ -463,7 +464,7 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
   track.body.width = {extent_m, 1.0};
   BodyMeasurement first = measure_blob(track.body, glimpse, config);
   if (extent_m > config.box_from_extent_m) {
-    track.body = likely_box(box_heading_rad, glimpse, config);
+    track.body = likely_box(box_heading_rad, glimpse, config, road_users);
     first = measure_box(track.body, supposed_centre_m(track.body, glimpse), glimpse, config);
   }
   track.body = first.body;
@@ -727,6 +728,22 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
   track.estimate = start;
   track.birth_position_m = track.anchor_m = object.position_in_odom_m;
   return track;
+}
+
+void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config) {
+  constexpr double kKnownM = 0.15;     // one sigma
+  constexpr double kLeastWayM = 5.0;   // so far what came is no piece of something else
+  const Body& body = track.body;
+  const double scale = config.size_scale;
+  if (!track.confirmed || !body.has_sides || !body.is_oriented || track.way_m < kLeastWayM * scale) return;
+  const double known_m2 = std::pow(kKnownM * scale, 2);
+  const auto of_real_one = [&](const Size& size) { return Size{size.value_m / scale, size.variance_m2 / (scale * scale)}; };
+  const Size length = with_corners(body.length_evidence, body.kind, body, config).whole;
+  const Size width = with_corners(body.width_evidence, body.kind, body, config).whole;
+  if (length.variance_m2 > known_m2 || body.length.variance_m2 > known_m2) return;  // the length tells the kind
+  seen.add_length(body.kind, of_real_one(length));
+  if (width.variance_m2 <= known_m2 && body.width.variance_m2 <= known_m2) seen.add_width(body.kind, of_real_one(width));
+  if (body.kind != Kind::kBicycle && body.corner_seen.variance_m2 <= known_m2) seen.add_corner(of_real_one(body.corner_seen));
 }
 
 double existence_of(double score) { return 1.0 / (1.0 + std::exp(-score)); }

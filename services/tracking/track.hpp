@@ -178,7 +178,7 @@ Steadiness with_heading(const Steadiness& before, double off_rad, double varianc
 
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
-            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config);
+            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users = {});
 
 /// Moves the track over time_s >= 0.
 void predict(Track& track, double time_s, const TrackingConfig& config);
@@ -237,6 +237,9 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
 
 /// A track as far as what was published of it tells.
 Track resumed(const flow::TrackedObject& object, const TrackingConfig& config);
+
+/// Adds the sizes of something of which they are surely known.
+void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 
 double existence_of(double score);
 

@@ -552,7 +552,7 @@ void Tracker::begin_tracks(const ScanView& view) {
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
     // Detection fits boxes to what moves only.
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m, config_.range_noise_m).heading_rad;
-    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_));
+    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_, road_users_));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
     tracks_.back().after_stamp_s = after_stamp_s;
     tracks_.back().youth.add(view.scan().stamp_ns + nanoseconds(after_stamp_s), glimpse, pose_covariance_m2);
@@ -783,8 +783,10 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
       ++counters_.tracks_rejected;
       restore(track);
     }
+    if (is_dead) note_sizes(road_users_seen_, track, config_);
     return is_dead;
   });
+  road_users_ = road_users_seen_.known();
   constexpr std::size_t kMostRestored = 64;
   if (labels.restored.size() > kMostRestored) labels.restored.resize(kMostRestored);
 }
@@ -802,6 +804,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
   last_stamp_ns_ = scan.stamp_ns;
   ++counters_.scans;
   const ScanView view(scan);
+  for (Track& track : tracks_) track.body.road_users = road_users_;
   for (Track& track : tracks_) predict_to_its_beam(track, time_s, view.polar(), config_);
   rivals_.predict(time_s);
   compare_with_past(view);
@@ -853,6 +856,8 @@ flow::TrackedObjects Tracker::describe(const flow::SegmentedScan& scan) const {
 
 void Tracker::take_up(const flow::TrackedObjects& objects) {
   tracks_.clear();
+  road_users_seen_ = {};
+  road_users_ = {};
   rivals_ = Rivals(config_);
   formations_ = Formations(config_);
   history_.clear();

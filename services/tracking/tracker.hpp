@@ -15,6 +15,7 @@
 #include "common/work/side_work.hpp"
 #include "services/tracking/formations.hpp"
 #include "services/tracking/rivals.hpp"
+#include "services/tracking/road_users.hpp"
 #include "services/tracking/scan_history.hpp"
 #include "services/tracking/scan_view.hpp"
 #include "services/tracking/track.hpp"
@@ -138,6 +139,8 @@ class Tracker {
   std::vector<std::vector<Eigen::Vector2d>> glimpse_points_m_;  ///< Of each track while it is being corrected.
   std::vector<Outcome> outcomes_;               ///< Of each track, when it was.
   std::vector<char> has_shifted_;               ///< Beams on faces that have moved.
+  RoadUsersSeen road_users_seen_;               ///< Each when its track ended.
+  RoadUsers road_users_;
   Rivals rivals_;
   Formations formations_;
   ScanHistory history_;

@@ -114,6 +114,20 @@ TEST(Body, IsAsLongAsItIsThoughItsCornersAreRound) {
   }
 }
 
+TEST(Body, IsAsLargeAsThoseOfItsKindAreHere) {
+  const auto points = echoes_of({20.0, 0.0}, 4.8, 1.8);
+  const Glimpse glimpse = glimpse_of(points);
+  RoadUsersSeen seen;
+  for (int i = 0; i < 20; ++i) seen.add_length(Kind::kCar, {4.8, 0.004}), seen.add_width(Kind::kCar, {1.8, 0.004});
+  const Body anywhere = settled(likely_box(M_PI / 2.0, glimpse, kConfig), {20.0, 0.0}, glimpse).body;
+  const Body here = settled(likely_box(M_PI / 2.0, glimpse, kConfig, seen.known()), {20.0, 0.0}, glimpse).body;
+  EXPECT_NEAR(here.length.value_m, 4.8, 0.05) << "only the back of it is seen";
+  EXPECT_LT(here.length.variance_m2, 0.25 * anywhere.length.variance_m2);
+  Body longer = here;
+  longer.length_evidence = {5.4, {5.6, 0.004}};
+  EXPECT_NEAR(with_likely_sizes(longer, kConfig).length.value_m, 5.6, 0.1) << "one from elsewhere";
+}
+
 TEST(Body, OfAModelIsMeasuredAsThatOfACarIs) {
   const auto points = echoes_of({8.0, 4.0}, 4.6, 1.9);
   const BodyMeasurement car = settled(likely_box(0.0, glimpse_of(points), kConfig), {8.0, 4.0}, glimpse_of(points));

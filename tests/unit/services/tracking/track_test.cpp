@@ -314,5 +314,25 @@ TEST(Track, IsKnownAcrossAsWellAsItsSidesKeepTheirHeading) {
   EXPECT_GT(described(track, 0, {}).covariance(1, 1), as_taken_m2) << "no side tells the heading";
 }
 
+TEST(Track, IsOneOfThoseHereIfItsSizesAreSurelyKnown) {
+  const auto length_sigma_m_after = [](const Track& track) {
+    RoadUsersSeen seen;
+    for (int i = 0; i < 10; ++i) note_sizes(seen, track, {});
+    return seen.known().kinds[1].length_sigma_m;
+  };
+  const double unknown_m = RoadUsersSeen().known().kinds[1].length_sigma_m;
+  EXPECT_LT(length_sigma_m_after(known_car()), 0.7 * unknown_m);
+  Track other = known_car();
+  other.confirmed = false;
+  EXPECT_EQ(length_sigma_m_after(other), unknown_m);
+  other = known_car();
+  other.way_m = 0.0;
+  EXPECT_EQ(length_sigma_m_after(other), unknown_m) << "a piece of something";
+  other = known_car();
+  other.body.length_evidence.whole = {0.0, 1e6};
+  other.body = with_likely_sizes(other.body, {});
+  EXPECT_EQ(length_sigma_m_after(other), unknown_m) << "only its back was seen";
+}
+
 }  // namespace
 }  // namespace slammot::tracking

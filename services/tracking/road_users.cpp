@@ -1,0 +1,62 @@
+#include "services/tracking/road_users.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slammot::tracking {
+namespace {
+
+// Of the variance of a size over all road users anywhere, half is between the means of places and half within a place.
+constexpr double kWithinShare = 0.5;
+constexpr double kSpreadWorth = 4.0;       ///< In bodies: what is known of the spread before any was seen.
+constexpr double kElsewhereShare = 0.05;   ///< Of those here: they are as those anywhere.
+constexpr double kLeastSigmaShare = 0.1;   ///< No place is more uniform, nor measured better.
+
+}  // namespace
+
+void RoadUsersSeen::Sample::add(const Size& seen) {
+  count += 1.0;
+  const double off_m = seen.value_m - mean_m;
+  mean_m += off_m / count;
+  squares_m2 += off_m * (seen.value_m - mean_m);
+  error_m2 += seen.variance_m2;
+}
+
+double RoadUsersSeen::Sample::true_squares_m2() const { return count > 1.0 ? std::max(0.0, squares_m2 - degrees() * error_m2 / count) : 0.0; }
+
+/// Of the variance that a size has anywhere, what it has here: where cars are alike, trucks are likely to be, too.
+double RoadUsersSeen::spread_share() const {
+  double squares = kSpreadWorth * kWithinShare;
+  double degrees = kSpreadWorth;
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    squares += sizes_[i].length.true_squares_m2() / std::pow(kKinds[i].length_sigma_m, 2) + sizes_[i].width.true_squares_m2() / std::pow(kKinds[i].width_sigma_m, 2);
+    degrees += sizes_[i].length.degrees() + sizes_[i].width.degrees();
+  }
+  return squares / degrees;
+}
+
+/// What the next one of these will be.
+Size RoadUsersSeen::next(const Sample& sample, double mean_m, double sigma_m, double spread_share) {
+  const double variance_m2 = sigma_m * sigma_m;
+  const double within_m2 = (kSpreadWorth * spread_share * variance_m2 + sample.true_squares_m2()) / (kSpreadWorth + sample.degrees());
+  const double between_m2 = (1.0 - kWithinShare) * variance_m2;
+  const double of_mean_m2 = sample.count > 0.0 ? (within_m2 + sample.error_m2 / sample.count) / sample.count : 0.0;
+  const double gain = sample.count > 0.0 ? between_m2 / (between_m2 + of_mean_m2) : 0.0;
+  return {mean_m + gain * (sample.mean_m - mean_m), std::max(within_m2 + (1.0 - gain) * between_m2, std::pow(kLeastSigmaShare * sigma_m, 2))};
+}
+
+RoadUsers RoadUsersSeen::known() const {
+  RoadUsers here;
+  const double share = spread_share();
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    const Size length = next(sizes_[i].length, kKinds[i].length_m, kKinds[i].length_sigma_m, share);
+    const Size width = next(sizes_[i].width, kKinds[i].width_m, kKinds[i].width_sigma_m, share);
+    here.kinds[i] = {kKinds[i].kind, (1.0 - kElsewhereShare) * kKinds[i].share, length.value_m, std::sqrt(length.variance_m2), width.value_m, std::sqrt(width.variance_m2)};
+    here.kinds[kKinds.size() + i] = kKinds[i];
+    here.kinds[kKinds.size() + i].share *= kElsewhereShare;
+  }
+  here.corner = next(corner_, kCorner.value_m, std::sqrt(kCorner.variance_m2), kWithinShare);
+  return here;
+}
+
+}  // namespace slammot::tracking

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace slammot::tracking {
+
+/// Kinds of road users with sides; what is smaller is a blob.
+enum class Kind : std::uint8_t { kBicycle, kCar, kTruck, kBus };
+
+/// Means and one sigma of the sizes of one kind, and how common it is.
+struct KindOfBody {
+  Kind kind;
+  double share, length_m, length_sigma_m, width_m, width_sigma_m;
+};
+
+/// Those of real road users anywhere.
+inline constexpr std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.14, 1.75, 0.2, 0.65, 0.15},
+                                                      {Kind::kCar, 0.75, 4.4, 0.4, 1.8, 0.12},
+                                                      {Kind::kTruck, 0.07, 7.0, 1.2, 2.35, 0.2},
+                                                      {Kind::kBus, 0.04, 12.0, 1.2, 2.5, 0.12}}};
+
+/// A size of a body: how long or wide it is believed to be.
+struct Size {
+  double value_m = 0.0;
+  double variance_m2 = 1.0;
+};
+
+/// How deep the corners of vehicles are, of real ones: nothing of them is nearer to where two sides would meet, measured along both
+/// together. Of an exact box nothing, where a corner is cut what is cut of either side, of a quarter circle 0.6 of its radius.
+inline constexpr Size kCorner{0.2, 0.15 * 0.15};
+
+/// What is known of the road users of a place, of real sizes.
+struct RoadUsers {
+  /// First each kind as it is here, then each as it is anywhere: one in so many here is like those elsewhere. Shares of none are left out.
+  std::array<KindOfBody, 2 * kKinds.size()> kinds = {kKinds[0], kKinds[1], kKinds[2], kKinds[3]};
+  Size corner = kCorner;
+};
+
+/// Learns what the road users of a place are like from those that were seen from end to end.
+class RoadUsersSeen {
+ public:
+  void add_length(Kind kind, const Size& seen) { sizes_[index(kind)].length.add(seen); }
+  void add_width(Kind kind, const Size& seen) { sizes_[index(kind)].width.add(seen); }
+  void add_corner(const Size& seen) { corner_.add(seen); }
+
+  /// With nothing seen, those anywhere.
+  RoadUsers known() const;
+
+ private:
+  /// Sizes of several bodies, each measured with an error.
+  struct Sample {
+    double count = 0.0;
+    double mean_m = 0.0;
+    double squares_m2 = 0.0;        ///< Sum of the squared deviations from the mean.
+    double error_m2 = 0.0;          ///< Sum of the variances of the errors.
+
+    void add(const Size& seen);
+    double degrees() const { return count > 1.0 ? count - 1.0 : 0.0; }
+    double true_squares_m2() const; ///< Of the sizes themselves.
+  };
+  struct Sizes {
+    Sample length;
+    Sample width;
+  };
+
+  static std::size_t index(Kind kind) { return static_cast<std::size_t>(kind); }
+  static Size next(const Sample& sample, double mean_m, double sigma_m, double spread_share);
+  double spread_share() const;
+
+  std::array<Sizes, kKinds.size()> sizes_;
+  Sample corner_;
+};
+
+}  // namespace slammot::tracking

@@ -1,0 +1,67 @@
+#include "services/tracking/road_users.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace slammot::tracking {
+namespace {
+
+constexpr std::size_t kCar = 1;
+constexpr std::size_t kTruck = 2;
+constexpr double kErrorM2 = 0.004;
+
+/// Lengths of cars, this far apart on either side of 4.5 m.
+RoadUsersSeen cars_seen(int count, double off_m) {
+  RoadUsersSeen seen;
+  for (int i = 0; i < count; ++i) seen.add_length(Kind::kCar, {4.5 + (i % 2 == 0 ? off_m : -off_m), kErrorM2});
+  return seen;
+}
+
+TEST(RoadUsers, AreThoseAnywhereUntilSomeWereSeen) {
+  const RoadUsers known = RoadUsersSeen().known();
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    EXPECT_NEAR(known.kinds[i].length_m, kKinds[i].length_m, 1e-9);
+    EXPECT_NEAR(known.kinds[i].length_sigma_m, kKinds[i].length_sigma_m, 1e-9);
+    EXPECT_NEAR(known.kinds[i].width_sigma_m, kKinds[i].width_sigma_m, 1e-9);
+    EXPECT_NEAR(known.kinds[i].share + known.kinds[kKinds.size() + i].share, kKinds[i].share, 1e-9);
+  }
+  EXPECT_NEAR(known.corner.variance_m2, kCorner.variance_m2, 1e-9);
+}
+
+TEST(RoadUsers, AreAsAlikeAsThoseSeen) {
+  EXPECT_NEAR(cars_seen(40, 0.0).known().kinds[kCar].length_m, 4.5, 0.02);
+  EXPECT_LT(cars_seen(40, 0.0).known().kinds[kCar].length_sigma_m, 0.1);
+  EXPECT_NEAR(cars_seen(40, 0.3).known().kinds[kCar].length_sigma_m, 0.3, 0.05);
+  EXPECT_GT(cars_seen(2, 0.0).known().kinds[kCar].length_sigma_m, 0.2) << "two tell little";
+}
+
+TEST(RoadUsers, DifferByLessThanTheyAreMeasuredTo) {
+  const double error_m = std::sqrt(kErrorM2);
+  EXPECT_LT(cars_seen(40, error_m).known().kinds[kCar].length_sigma_m, cars_seen(40, 2.0 * error_m).known().kinds[kCar].length_sigma_m - 0.03);
+}
+
+TEST(RoadUsers, AreAlikeWhereOthersAre) {
+  const auto with_a_truck = [](RoadUsersSeen seen) {
+    seen.add_length(Kind::kTruck, {7.4, kErrorM2});
+    return seen.known().kinds[kTruck];
+  };
+  EXPECT_NEAR(with_a_truck(cars_seen(40, 0.0)).length_m, 7.4, 0.1);
+  EXPECT_LT(with_a_truck(cars_seen(40, 0.0)).length_sigma_m, 0.6 * with_a_truck(cars_seen(40, 0.4)).length_sigma_m);
+}
+
+TEST(RoadUsers, MayBeAsThoseAnywhereAllTheSame) {
+  const RoadUsers known = cars_seen(40, 0.0).known();
+  EXPECT_GT(known.kinds[kKinds.size() + kCar].share, 0.0);
+  EXPECT_EQ(known.kinds[kKinds.size() + kCar].length_sigma_m, kKinds[kCar].length_sigma_m);
+}
+
+TEST(RoadUsers, HaveCornersAsRoundAsThoseSeen) {
+  RoadUsersSeen seen;
+  for (int i = 0; i < 10; ++i) seen.add_corner({0.02, 0.0004});
+  EXPECT_NEAR(seen.known().corner.value_m, 0.02, 0.02);
+  EXPECT_LT(seen.known().corner.variance_m2, 0.5 * kCorner.variance_m2);
+}
+
+}  // namespace
+}  // namespace slammot::tracking
