@@ -355,6 +355,42 @@ Size with_corner(const Size& before, const Size& seen, double scale) {
 /// Beams in a row that were not answered, in the mean.
 double gaps_in_a_row(const Glimpse& glimpse) { return glimpse.unanswered_share / (1.0 - glimpse.unanswered_share); }
 
+/// A glimpse along both axes of a body, and which of its sides look at the laser.
+struct Sighting {
+  Vector2d along = Vector2d::UnitX();
+  Vector2d across = Vector2d::UnitY();
+  Shadow u;
+  Shadow v;
+  AxisView u_view;
+  AxisView v_view;
+  bool flank_is_visible = false;
+  bool face_is_visible = false;
+};
+
+Sighting sighting_of(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
+  Sighting seen;
+  seen.along = {std::cos(body.heading_rad), std::sin(body.heading_rad)};
+  seen.across = {-seen.along.y(), seen.along.x()};
+  const Vector2d to_laser_m = glimpse.laser_m - predicted_centre_m;
+  const double sigma_m = std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.shape_noise_m);
+  const double face_depth_m = kFaceDepthM * config.size_scale + kFaceDepthSigmas * sigma_m;
+  seen.u = shadow_of(glimpse, predicted_centre_m, seen.along, face_depth_m);
+  seen.v = shadow_of(glimpse, predicted_centre_m, seen.across, face_depth_m);
+  const double gaps = gaps_in_a_row(glimpse);
+  const Size corner = corner_of(body, body.kind, config);
+  const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
+    return AxisView{axis.dot(to_laser_m), squared(sigma_m), end_view(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
+                    end_view(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale, config.size_scale, true, corner};
+  };
+  seen.u_view = view_of(seen.along, seen.u);
+  seen.v_view = view_of(seen.across, seen.v);
+  seen.v_view.is_length = false;
+  const double clear_m = 0.3 * config.size_scale;
+  seen.flank_is_visible = std::abs(seen.v_view.laser_at_m) > 0.5 * body.width.value_m + clear_m;
+  seen.face_is_visible = std::abs(seen.u_view.laser_at_m) > 0.5 * body.length.value_m + clear_m;
+  return seen;
+}
+
 Size likely_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
   const double information = 1.0 / squared(sigma_m) + 1.0 / evidence.whole.variance_m2;
   const double value_m = (mean_m / squared(sigma_m) + evidence.whole.value_m / evidence.whole.variance_m2) / information;
@@ -465,25 +501,7 @@ double log_evidence_of_sizes(const Body& body, const TrackingConfig& config) {
 
 BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse,
                             const TrackingConfig& config) {
-  const Vector2d along{std::cos(body.heading_rad), std::sin(body.heading_rad)};
-  const Vector2d across{-along.y(), along.x()};
-  const Vector2d to_laser_m = glimpse.laser_m - predicted_centre_m;
-  const double sigma_m = std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.shape_noise_m);
-  const double face_depth_m = kFaceDepthM * config.size_scale + kFaceDepthSigmas * sigma_m;
-  const Shadow u = shadow_of(glimpse, predicted_centre_m, along, face_depth_m);
-  const Shadow v = shadow_of(glimpse, predicted_centre_m, across, face_depth_m);
-  const double gaps = gaps_in_a_row(glimpse);
-  const Size corner = corner_of(body, body.kind, config);
-  const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
-    return AxisView{axis.dot(to_laser_m), squared(sigma_m), end_view(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
-                    end_view(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale, config.size_scale, true, corner};
-  };
-  const AxisView u_view = view_of(along, u);
-  AxisView v_view = view_of(across, v);
-  v_view.is_length = false;
-  const double clear_m = 0.3 * config.size_scale;
-  const bool flank_is_visible = std::abs(v_view.laser_at_m) > 0.5 * body.width.value_m + clear_m;
-  const bool face_is_visible = std::abs(u_view.laser_at_m) > 0.5 * body.length.value_m + clear_m;
+  const auto& [along, across, u, v, u_view, v_view, flank_is_visible, face_is_visible] = sighting_of(body, predicted_centre_m, glimpse, config);
   BodyMeasurement measurement;
   measurement.body = body;
   const std::optional<NearSide> near_u = near_side(body.length, u, u_view);
@@ -495,8 +513,10 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   note_sizes(measurement.body.length_evidence, body.length, u, u_view, flank_is_visible);
   note_sizes(measurement.body.width_evidence, body.width, v, v_view, face_is_visible);
   if (!body.is_oriented) {  // only what a body cannot be smaller than, whichever way it lies
-    measurement.body.length_evidence.whole = body.length_evidence.whole;
-    measurement.body.width_evidence.whole = body.width_evidence.whole;
+    for (const auto size : {&Body::length_evidence, &Body::width_evidence}) {
+      (measurement.body.*size).whole = (body.*size).whole;
+      (measurement.body.*size).missed_share = (body.*size).missed_share;
+    }
   }
   measurement.body = with_likely_sizes(measurement.body, config);
   const AxisMeasurement at_u = measure_axis(measurement.body.length, u, u_view, flank_is_visible);
@@ -511,6 +531,12 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   if (at_u.held) measurement.body.length_held = at_u.held;
   if (at_v.held) measurement.body.width_held = at_v.held;
   return measurement;
+}
+
+Vector2d box_centre_m(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
+  const Sighting seen = sighting_of(body, predicted_centre_m, glimpse, config);
+  return predicted_centre_m + measure_axis(body.length, seen.u, seen.u_view, seen.flank_is_visible).centre_m * seen.along +
+         measure_axis(body.width, seen.v, seen.v_view, seen.face_is_visible).centre_m * seen.across;
 }
 
 BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const TrackingConfig& config) {

@@ -83,6 +83,9 @@ struct BodyMeasurement {
 BodyMeasurement measure_box(const Body& body, const Eigen::Vector2d& predicted_centre_m, const Glimpse& glimpse,
                             const TrackingConfig& config);
 
+/// The centre alone of a box of just these sizes, whatever the echoes say of them.
+Eigen::Vector2d box_centre_m(const Body& body, const Eigen::Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config);
+
 /// Middle of the echoes, pushed behind the surface that they lie on by what half the object's depth may be.
 BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const TrackingConfig& config);
 

@@ -72,8 +72,7 @@ BodyMeasurement measure(const Body& body, const Vector2d& predicted_centre_m, co
 
 /// Where the echoes put the centre of a body of just this size, whatever they say of the size.
 Vector2d seen_centre_m(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
-  const BodyMeasurement measurement = measure(body, predicted_centre_m, glimpse, config);
-  return measurement.centre_m - measurement.recentring_m;
+  return body.has_sides ? box_centre_m(body, predicted_centre_m, glimpse, config) : measure_blob(body, glimpse, config).centre_m;
 }
 
 /// Moves the centre, and the places that are remembered of it; the velocity stays. The estimate is the caller's to combine.
