@@ -436,12 +436,13 @@ double gait_variance_m2(double after_s, const TrackingConfig& config) {
 
 Gait with_step(const Gait& before, const Vector2d& surprise_m, const Matrix2d& noise_m2, double time_s, const TrackingConfig& config) {
   constexpr double kMemoryS = 1.5;      // a few steps
-  constexpr double kLeastShare = 0.25;  // arms swing, too
-  const double most_m2 = config.gait_noise_m * config.gait_noise_m;
-  const double was_m2 = before.variance_m2.value_or(most_m2);
-  const double seen_m2 = std::min(0.5 * (surprise_m.squaredNorm() - noise_m2.trace()), 4.0 * most_m2);  // one scan does not count for all
+  constexpr double kMostShare = 9.0;    // what errs by more is none who walks
+  const double least_share = only_people_move(config) ? 1.0 : 0.25;  // arms swing, too; legs as is taken for them
+  const double usual_m2 = config.gait_noise_m * config.gait_noise_m;
+  const double was_m2 = before.variance_m2.value_or(usual_m2);
+  const double seen_m2 = std::min(0.5 * (surprise_m.squaredNorm() - noise_m2.trace()), 4.0 * kMostShare * usual_m2);  // one scan does not count for all
   const double now_m2 = was_m2 + (1.0 - std::exp(-time_s / kMemoryS)) * (seen_m2 - was_m2);
-  return {std::clamp(now_m2, kLeastShare * most_m2, most_m2)};
+  return {std::clamp(now_m2, least_share * usual_m2, kMostShare * usual_m2)};
 }
 
 Steadiness with_heading(const Steadiness& before, double off_rad, double variance_rad2, double time_s) {
@@ -505,7 +506,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + measurement.step_covariance_m2 + R);
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
   track.surprise_m = surprise_m.norm();
-  if (walks(track) && !only_people_move(config)) track.gait = with_step(track.gait, surprise_m, noise_at_rest_m2, unseen_s, config);
+  if (walks(track)) track.gait = with_step(track.gait, surprise_m, noise_at_rest_m2, unseen_s, config);
   shift(track, measurement.recentring_m, models);
   filters::imm_loosen(models, track.motion, measurement.step_covariance_m2);
   track.body = measurement.body;

@@ -170,7 +170,7 @@ constexpr double kSureOdds = 3.0;
 double gait_variance_m2(double after_s, const TrackingConfig& config);
 
 /// With one more scan, in which the centre was measured so far from where it had been predicted, with this noise besides, time_s after
-/// the one before. At most the config's.
+/// the one before.
 Gait with_step(const Gait& before, const Eigen::Vector2d& surprise_m, const Eigen::Matrix2d& noise_m2, double time_s, const TrackingConfig& config);
 
 /// With one more heading that was so far off the one held, with this variance of both together, time_s after the one before.

@@ -25,17 +25,27 @@ TEST(Answers, AreForgottenAfterAWhile) {
   EXPECT_LT(answers.unanswered_share(), 0.05);
 }
 
-TEST(Gait, IsThatOfLegsUntilLessIsSeen) {
-  const TrackingConfig config;
+/// What is learned of one who is always so far from where they were predicted.
+double sigma_after_m(double surprise_m, const TrackingConfig& config) {
   const Eigen::Matrix2d noise_m2 = 1e-4 * Eigen::Matrix2d::Identity();
-  const auto sigma_after_m = [&](double surprise_m) {
-    Gait gait;
-    for (int scan = 0; scan < 150; ++scan) gait = with_step(gait, {surprise_m, surprise_m}, noise_m2, kPeriodS, config);
-    return std::sqrt(*gait.variance_m2);
-  };
-  EXPECT_NEAR(sigma_after_m(0.07), 0.07, 0.01);
-  EXPECT_NEAR(sigma_after_m(0.0), 0.5 * config.gait_noise_m, 1e-12);
-  EXPECT_NEAR(sigma_after_m(0.2), config.gait_noise_m, 1e-12);
+  Gait gait;
+  for (int scan = 0; scan < 250; ++scan) gait = with_step(gait, {surprise_m, surprise_m}, noise_m2, kPeriodS, config);
+  return std::sqrt(*gait.variance_m2);
+}
+
+TEST(Gait, IsThatOfLegsUntilLessOrMoreIsSeen) {
+  const TrackingConfig config;
+  EXPECT_NEAR(sigma_after_m(0.07, config), 0.07, 0.01);
+  EXPECT_NEAR(sigma_after_m(0.0, config), 0.5 * config.gait_noise_m, 1e-12);
+  EXPECT_NEAR(sigma_after_m(0.2, config), 0.2, 0.01);
+  EXPECT_NEAR(sigma_after_m(1.0, config), 3.0 * config.gait_noise_m, 1e-12) << "nobody who walks";
+}
+
+TEST(Gait, IsNeverLessThanThatOfLegsWhereOnlyPeopleMove) {
+  TrackingConfig config;
+  config.longest_body_m = 2.0;
+  EXPECT_NEAR(sigma_after_m(0.0, config), config.gait_noise_m, 1e-12);
+  EXPECT_NEAR(sigma_after_m(0.2, config), 0.2, 0.01);
 }
 
 TEST(Gait, IsInThePublishedCovarianceAsFarAsItIsSeen) {
