@@ -245,47 +245,70 @@ bool walks(const Track& track) {
   return !track.body.has_sides && track.largest_extent_m < 1.0 && track.velocity_mps().norm() < kFastestWalkMps;
 }
 
+/// Variances of a centre in the frame of its body.
+struct CentreErrors {
+  double along_m2 = 0.0;
+  double across_m2 = 0.0;
+};
+
+/// Of what is drawn with sides and, by its speed, is likely smaller: it is one of its echoes, and the others are of something else.
+CentreErrors errors_if_smaller(const Track& track, const TrackingConfig& config) {
+  constexpr double kWalkerM = 0.5;
+  CentreErrors errors;
+  const auto add_if = [&](double probability, double length_m, double width_m) {
+    errors.along_m2 += probability * std::pow(0.5 * std::max(0.0, track.body.length.value_m - length_m * config.size_scale), 2);
+    errors.across_m2 += probability * std::pow(0.5 * std::max(0.0, track.body.width.value_m - width_m * config.size_scale), 2);
+  };
+  add_if(track.class_probability[0], kWalkerM, kWalkerM);
+  add_if(track.class_probability[1], kKinds[0].length_m, kKinds[0].width_m);
+  return errors;
+}
+
+CentreErrors errors_of_box(const Track& track, const TrackingConfig& config) {
+  constexpr double kFaceM = 0.02;             // so flat is the front or rear from which the middle is measured,
+  constexpr double kFaceShareOfCorner = 0.15; // and the less the rounder its corners are
+  constexpr double kByCourseAloneRad = 0.1;   // the course of what comes out from behind something is off alike for many scans,
+  constexpr double kBySidesRad = 0.01;        // and its sides, by so much
+  constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
+  constexpr double kFrameOrRiderM = 0.15;     // a bicycle is as wide as its frame or as who rides it, by the height of the scan
+  const Body& body = track.body;
+  const double least_rad = body.axis_variance_rad2 > kKnownAxisRad2 ? kByCourseAloneRad : kBySidesRad;
+  const double heading_rad2 = std::clamp(track.steadiness.share * body.heading_variance_rad2, least_rad * least_rad, kMostHeadingRad2);
+  const double corner_m = corner_of(body, body.kind, config).value_m;
+  CentreErrors errors = errors_if_smaller(track, config);
+  errors.along_m2 += std::pow(kFaceM * config.size_scale, 2) + std::pow(kFaceShareOfCorner * corner_m, 2) + 0.25 * (body.length.variance_m2 + heading_rad2 * std::pow(body.width.value_m, 2));
+  errors.across_m2 += 0.25 * (body.width.variance_m2 + heading_rad2 * std::pow(body.length.value_m, 2));
+  if (body.kind == Kind::kBicycle) errors.across_m2 += std::pow(kFrameOrRiderM * config.size_scale, 2);
+  if (!body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind
+    constexpr double kTurnedShare = 0.25;
+    const double off_m2 = kTurnedShare * std::pow(0.5 * (body.length.value_m - body.width.value_m), 2);
+    errors.along_m2 += off_m2;
+    errors.across_m2 += off_m2 + kTurnedShare * 0.25 * body.length.variance_m2;
+  }
+  return errors;
+}
+
+CentreErrors errors_of_blob(const Track& track, const TrackingConfig& config) {
+  constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
+  CentreErrors errors;
+  if (!walks(track)) errors = {std::pow(kHalfACycleM * config.size_scale, 2), std::pow(0.5 * kHalfACycleM * config.size_scale, 2)};
+  // All that shows of a vehicle may be a corner.
+  constexpr std::array<std::pair<std::size_t, KindOfBody>, 2> kVehicles = {{{2, kKinds[1]}, {3, kKinds[2]}}};  // by the entries of class_probability
+  for (const auto& [entry, kind] : kVehicles) {
+    errors.along_m2 += track.class_probability[entry] * std::pow(0.5 * kind.length_m * config.size_scale, 2);
+    errors.across_m2 += track.class_probability[entry] * std::pow(0.5 * kind.width_m * config.size_scale, 2);
+  }
+  return errors;
+}
+
 /// What is wrong with the centre in many scans alike, so that the filter, for which errors are new in each, does not see it:
 /// the size that is assumed, the heading along which the middle is sought behind the sides that are seen, and how far the shape is
 /// from a box.
 Matrix2d shared_error_covariance(const Track& track, double heading_rad, const TrackingConfig& config) {
-  constexpr double kFaceM = 0.02;             // so flat is the front or rear from which the middle is measured,
-  constexpr double kFaceShareOfCorner = 0.15; // and the less the rounder its corners are
-  constexpr double kByCourseAloneRad = 0.1;   // the course of what comes out from behind something is off alike for many scans
-  constexpr double kBySidesRad = 0.01;        // and its sides, by so much
-  constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
-  constexpr double kFrameOrRiderM = 0.15;     // a bicycle is as wide as its frame or as who rides it, by the height of the scan
-  constexpr double kHalfACycleM = 0.5;  // of something small and fast only a wheel or the rider may be seen
-  double along_m2 = 0.0;
-  double across_m2 = 0.0;
-  if (track.body.has_sides) {
-    const double least_rad = track.body.axis_variance_rad2 > kKnownAxisRad2 ? kByCourseAloneRad : kBySidesRad;
-    const double heading_rad2 = std::clamp(track.steadiness.share * track.body.heading_variance_rad2, least_rad * least_rad, kMostHeadingRad2);
-    const double corner_m = corner_of(track.body, track.body.kind, config).value_m;
-    along_m2 += std::pow(kFaceM * config.size_scale, 2) + std::pow(kFaceShareOfCorner * corner_m, 2) + 0.25 * (track.body.length.variance_m2 + heading_rad2 * std::pow(track.body.width.value_m, 2));
-    across_m2 = 0.25 * (track.body.width.variance_m2 + heading_rad2 * std::pow(track.body.length.value_m, 2));
-    if (track.body.kind == Kind::kBicycle) across_m2 += std::pow(kFrameOrRiderM * config.size_scale, 2);
-    if (!track.body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind
-      constexpr double kTurnedShare = 0.25;
-      const double off_m2 = kTurnedShare * std::pow(0.5 * (track.body.length.value_m - track.body.width.value_m), 2);
-      along_m2 += off_m2;
-      across_m2 += off_m2 + kTurnedShare * 0.25 * track.body.length.variance_m2;
-    }
-  } else {
-    if (!walks(track)) {
-      along_m2 += std::pow(kHalfACycleM * config.size_scale, 2);
-      across_m2 = std::pow(0.5 * kHalfACycleM * config.size_scale, 2);
-    }
-    // All that shows of a vehicle may be a corner.
-    constexpr std::array<std::pair<std::size_t, KindOfBody>, 2> kVehicles = {{{2, kKinds[1]}, {3, kKinds[2]}}};  // by the entries of class_probability
-    for (const auto& [entry, kind] : kVehicles) {
-      along_m2 += track.class_probability[entry] * std::pow(0.5 * kind.length_m * config.size_scale, 2);
-      across_m2 += track.class_probability[entry] * std::pow(0.5 * kind.width_m * config.size_scale, 2);
-    }
-  }
+  const CentreErrors errors = track.body.has_sides ? errors_of_box(track, config) : errors_of_blob(track, config);
   const Vector2d along{std::cos(heading_rad), std::sin(heading_rad)};
   const Vector2d across{-along.y(), along.x()};
-  return along_m2 * along * along.transpose() + across_m2 * across * across.transpose();
+  return errors.along_m2 * along * along.transpose() + errors.across_m2 * across * across.transpose();
 }
 
 /// Position and velocity so much later, at this velocity.

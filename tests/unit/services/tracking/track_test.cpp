@@ -105,6 +105,16 @@ TEST(Track, MayBeTheFrameOrTheRiderOfABicycle) {
   EXPECT_GT(sigma_across_m(track), std::hypot(of_a_car_m, 0.1));
 }
 
+TEST(Track, DrawnAsACarMayBeTheBicycleThatItsSpeedSaysItIs) {
+  Track track = followed_car();
+  track.body.is_oriented = true;
+  track.body.axis_variance_rad2 = 0.001;
+  track.class_probability = {0.0, 0.0, 1.0, 0.0};
+  const double surely_m = sigma_across_m(track);
+  track.class_probability = {0.0, 0.5, 0.5, 0.0};
+  EXPECT_NEAR(sigma_across_m(track), std::hypot(surely_m, std::sqrt(0.5) * 0.5 * (1.8 - 0.65)), 1e-3);
+}
+
 TEST(Track, OfWhichNoSideTellsTheHeadingIsNotPublishedAsIfItsCourseDidSurely) {
   Track track = followed_car();
   track.body.is_oriented = true;
