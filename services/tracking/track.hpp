@@ -15,6 +15,7 @@
 #include "common/flow/tracked_objects.hpp"
 #include "services/tracking/body.hpp"
 #include "services/tracking/object_class.hpp"
+#include "services/tracking/road_users.hpp"
 #include "services/tracking/scan_view.hpp"
 #include "services/tracking/tracking_config.hpp"
 
