@@ -38,6 +38,8 @@ using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
 using TwoMasks [[gnu::vector_size(16)]] = std::uint64_t;
 constexpr std::int32_t kCellsPerRegister = 16;
 
+bool is_mapped(Echo echo) { return echo == Echo::kStationary || echo == Echo::kMoving; }
+
 /// The first cell of so many whose centre lies at the place or beyond.
 std::int32_t first_centre(double place, std::int32_t count) {
   const double at = std::clamp(place - 0.5, 0.0, static_cast<double>(count));
@@ -248,7 +250,7 @@ void EvidenceGrid::walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::V
 void EvidenceGrid::find_echoes(const std::vector<Ray>& rays) {
   echoes_.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (rays[i].echo == Echo::kNone) continue;
+    if (!is_mapped(rays[i].echo)) continue;
     const Cell cell = window_.cell_at(rays[i].end_m.x(), rays[i].end_m.y());
     if (window_.contains(cell)) echoes_.push_back({cell.column - window_.first.column, cell.row - window_.first.row, i});
   }
@@ -359,7 +361,7 @@ bool EvidenceGrid::find_more_free_cells(const Eigen::Vector2d& origin_m) {
 }
 
 bool EvidenceGrid::is_prepared_for(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) const {
-  const auto tell_of_the_same_cells = [](const Ray& a, const Ray& b) { return a.end_m == b.end_m && (a.echo == Echo::kNone) == (b.echo == Echo::kNone); };
+  const auto tell_of_the_same_cells = [](const Ray& a, const Ray& b) { return a.end_m == b.end_m && (a.echo == b.echo || (is_mapped(a.echo) && is_mapped(b.echo))); };
   return is_prepared_ && origin_m == prepared_origin_m_ && beam_step_rad == prepared_step_rad_ && std::ranges::equal(rays, prepared_rays_, tell_of_the_same_cells);
 }
 

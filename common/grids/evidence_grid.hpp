@@ -36,12 +36,17 @@ struct Box {
   }
 };
 
-enum class Echo : std::uint8_t { kNone, kStationary, kMoving };
+enum class Echo : std::uint8_t {
+  kNone,        ///< The beam tells about free space only.
+  kStationary,
+  kMoving,
+  kTooFar,      ///< To be mapped: the beam tells about the free space before it.
+};
 
 /// One beam to integrate, in the grid's frame.
 struct Ray {
   Eigen::Vector2d end_m = Eigen::Vector2d::Zero();  ///< Where the echo came from, or where the free part is cut off.
-  Echo echo = Echo::kNone;                          ///< kNone: the beam tells about free space only.
+  Echo echo = Echo::kNone;
 };
 
 /// The stationary-object map (SO-map) and the moving-object map (MO-map) of one window, side by side; Wang 2004, 6.3.

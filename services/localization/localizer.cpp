@@ -454,7 +454,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
     if (beam.end_cell != EndCell::kNoEcho) {
       pending.rays[i].end_m = localized.odom_from_base.pose.translation_m() + turn * points_in_base_m_[i];
       const bool is_far = (pending.rays[i].end_m - pending.origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
-      pending.rays[i].echo = is_far ? grids::Echo::kNone : grids::Echo::kStationary;
+      pending.rays[i].echo = is_far ? grids::Echo::kTooFar : grids::Echo::kStationary;
       continue;
     }
     // Nearer echoes than the least range tell nothing, not even that there is free space.
@@ -587,7 +587,7 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
     return;
   }
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    if (scan.rays[i].echo == grids::Echo::kNone || !config_.leave_out_moving) continue;
+    if (scan.rays[i].echo != grids::Echo::kStationary || !config_.leave_out_moving) continue;
     scan.rays[i].echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
   }
   if (scan.is_doubted && progress_.lost_since_ns) doubted_.push_back(std::move(scan));
@@ -635,7 +635,7 @@ void Localizer::restore_points(const flow::ScanLabels& labels) {
     });
     if (scan == integrated_.end()) continue;
     for (const std::uint16_t beam : restored.beams) {
-      if (beam >= scan->rays.size() || scan->end_cells[beam] == EndCell::kNoEcho) continue;
+      if (beam >= scan->rays.size() || scan->end_cells[beam] == EndCell::kNoEcho || scan->rays[beam].echo == grids::Echo::kTooFar) continue;
       map_.restore_stationary(scan->rays[beam].end_m);
       ++progress_.counters.restored_points;
     }

@@ -149,6 +149,15 @@ TEST(EvidenceGrid, HoldsWhatLiesBeforeASurfaceForFreeAsFarAsTheShorterBeamGoes) 
   EXPECT_EQ(beside(11.5), 0);  // nearer to the longer beam
 }
 
+TEST(EvidenceGrid, TellsOfTheSpaceBeforeWhatIsTooFarToBeMapped) {
+  EvidenceGrid grid = empty_grid(40.0);
+  grid.integrate({0.1, 0.1}, {{{10.1, 0.1}, Echo::kTooFar}}, 0.0);
+  EXPECT_EQ(free_at(grid, 9.0), -kFree);
+  EXPECT_EQ(free_at(grid, 9.9), 0);  // there it ends
+  EXPECT_EQ(free_at(grid, 10.0), 0);
+  EXPECT_EQ(grid.moving(grid.window().cell_at(10.1, 0.1)), 0);
+}
+
 TEST(EvidenceGrid, LetsTheBeamsOfTwoThingsStandForHalfOfWhatLiesBetween) {
   const EvidenceGrid grid = grid_after_two_beams(10.0, 17.0, 0.045);  // 0.45 m apart where the first one ends
   const auto beside = [&](double range_m, double angle_rad) {

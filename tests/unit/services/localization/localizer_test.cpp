@@ -772,6 +772,21 @@ TEST_F(WithAMover, ComesBackIntoTheMapWhenTrackingFindsItStands) {
   EXPECT_EQ(localizer_.counters().restored_points, restored.beams.size());
 }
 
+TEST_F(WithAMover, IsNotGivenBackFromFartherThanIsMapped) {
+  LocalizerConfig config = small_map_config();
+  config.map_range_m = 1.0;
+  Localizer localizer(config);
+  const auto [range, on_mover] = scan_with_mover(20);
+  localizer.integrate(labels(*localizer.localize(range), on_mover));
+  auto later = labels(*localizer.localize(scan_with_mover(21).first), scan_with_mover(21).second);
+  later.restored = {{20, {}}};
+  for (std::size_t i = 0; i < on_mover.size(); ++i) {
+    if (on_mover[i]) later.restored.front().beams.push_back(static_cast<std::uint16_t>(i));
+  }
+  localizer.integrate(later);
+  EXPECT_EQ(localizer.counters().restored_points, 0U);
+}
+
 TEST_F(WithAMover, IsTakenOutOfTheMapWhereItDrives) {
   const auto walls_under_one = [&](const std::function<void(flow::TrackedObject&)>& change) {
     Localizer localizer(small_map_config());
