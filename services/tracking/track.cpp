@@ -130,6 +130,20 @@ void follow_side(Track& track, const Glimpse& glimpse, double time_s, const Trac
   body.heading_variance_rad2 *= 1.0 - gain;
 }
 
+/// A box around the echoes, along the course where that is known.
+Body box_along_course(const Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
+  const Vector2d way = glimpse.points_m.back() - glimpse.points_m.front();
+  Body body = likely_box(std::atan2(way.y(), way.x()), glimpse, config, track.body.road_users);
+  const Course course = course_of(track);
+  if (track.velocity_mps().norm() > config.box_from_speed_mps && course.variance_rad2 < 0.05) {
+    body = likely_box(course.heading_rad, glimpse, config, track.body.road_users);
+    if (std::abs(std::cos(body.heading_rad - course.heading_rad)) < 0.7) body = turned_by_a_quarter(body, 1.0, config);
+    body.heading_rad = course.heading_rad;
+    body.heading_variance_rad2 = course.variance_rad2;
+  }
+  return body;
+}
+
 /// Brings the body's heading to the course. A body that goes backwards or sideways was drawn the wrong way round.
 void follow_course(Track& track, const Glimpse& glimpse, double time_s, const TrackingConfig& config) {
   if (track.velocity_mps().norm() < config.box_from_speed_mps) return;
@@ -140,9 +154,10 @@ void follow_course(Track& track, const Glimpse& glimpse, double time_s, const Tr
     track.body = turned_about(track.body);
     off_rad = wrap_angle(off_rad + std::numbers::pi);
   } else if (std::abs(off_rad) > 0.3 * std::numbers::pi) {
+    if (course.variance_rad2 > 0.03) return;
     const Body turned = turned_by_a_quarter(track.body, off_rad, config);
-    if (course.variance_rad2 > 0.03 || !is_plausible(turned, config)) return;
-    redraw(track, turned, glimpse, config);
+    // What would be wider than anything on the road was drawn around several things.
+    redraw(track, is_plausible(turned, config) ? turned : box_along_course(track, glimpse, config), glimpse, config);
     off_rad = wrap_angle(course.heading_rad - track.body.heading_rad);
   }
   Body& body = track.body;
@@ -183,20 +198,6 @@ void steer(Track& track, double time_s, const TrackingConfig& config) {
   const filters::ModelSet models = models_of(track, config);
   track.motion = filters::imm_update_speed(models, track.motion, across, 0.0, variance);
   track.estimate = filters::imm_combine(models, track.motion);
-}
-
-/// A box around the echoes, along the course where that is known.
-Body box_along_course(const Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
-  const Vector2d way = glimpse.points_m.back() - glimpse.points_m.front();
-  Body body = likely_box(std::atan2(way.y(), way.x()), glimpse, config, track.body.road_users);
-  const Course course = course_of(track);
-  if (track.velocity_mps().norm() > config.box_from_speed_mps && course.variance_rad2 < 0.05) {
-    body = likely_box(course.heading_rad, glimpse, config, track.body.road_users);
-    if (std::abs(std::cos(body.heading_rad - course.heading_rad)) < 0.7) body = turned_by_a_quarter(body, 1.0, config);
-    body.heading_rad = course.heading_rad;
-    body.heading_variance_rad2 = course.variance_rad2;
-  }
-  return body;
 }
 
 /// Gives sides to a blob that has become large.

@@ -301,6 +301,33 @@ TEST(Track, LiesAlongWhatIsLongerThanAnyFront) {
   EXPECT_GT(std::abs(std::sin(track.body.heading_rad)), 0.9);
 }
 
+TEST(Track, IsDrawnAnewWhereItWouldBeWiderThanAnythingThatGoesItsWay) {
+  const TrackingConfig config;
+  std::vector<Eigen::Vector2d> points;
+  const auto bicycle_at = [&](double x_m) {
+    points.clear();
+    for (double x = 0.0; x < 1.7; x += 0.3) points.emplace_back(x_m + x, 8.0);
+    Glimpse glimpse;
+    glimpse.points_m = points;
+    glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
+    return glimpse;
+  };
+  Track track = begun({1}, 0, bicycle_at(10.0), 0.0, 1e-4 * Eigen::Matrix2d::Identity(), config);
+  track.body.heading_rad = 0.5 * M_PI;
+  track.body.length_evidence.least_m = 4.1;  // once a parked car was taken for a part of it
+  track.body.width_evidence.least_m = 1.7;
+  track.body = with_likely_sizes(track.body, config);
+  restart_motion(track, {5.5, 0.0}, 0.3, config);
+  track.confirmed = true;
+  for (int scan = 1; scan < 10; ++scan) {
+    predict(track, kPeriodS, config);
+    update(track, scan * 27'000'000, bicycle_at(10.0 + 5.5 * kPeriodS * scan), 1e-4 * Eigen::Matrix2d::Identity(), config);
+  }
+  EXPECT_LT(std::abs(std::sin(track.body.heading_rad)), 0.1);
+  EXPECT_LT(track.body.length.value_m, 2.5);
+  EXPECT_LT(track.body.width.value_m, 1.0);
+}
+
 /// A car seen from behind, of which the sides are known.
 Track known_car() {
   Track track;
