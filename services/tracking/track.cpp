@@ -764,9 +764,14 @@ void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
   const auto of_real_one = [&](const Size& size) { return Size{size.value_m / scale, size.variance_m2 / (scale * scale)}; };
   const Size length = with_corners(body.length_evidence, body.kind, body, config).whole;
   const Size width = with_corners(body.width_evidence, body.kind, body, config).whole;
+  // Seen from edge to edge it lacks what sent no echoes there; the most that was ever seen of it holds the farthest that any erred.
+  const auto between = [](const Size& whole, double least_m) {
+    const double off_m = 0.5 * std::max(0.0, least_m - whole.value_m);
+    return Size{whole.value_m + off_m, whole.variance_m2 + off_m * off_m};
+  };
   if (length.variance_m2 > known_m2 || body.length.variance_m2 > known_m2) return;  // the length tells the kind
-  seen.add_length(body.kind, of_real_one(length));
-  if (width.variance_m2 <= known_m2 && body.width.variance_m2 <= known_m2) seen.add_width(body.kind, of_real_one(width));
+  seen.add_length(body.kind, of_real_one(between(length, body.length_evidence.least_m)));
+  if (width.variance_m2 <= known_m2 && body.width.variance_m2 <= known_m2) seen.add_width(body.kind, of_real_one(between(width, body.width_evidence.least_m)));
   if (body.kind != Kind::kBicycle && body.corner_seen.variance_m2 <= known_m2) seen.add_corner(of_real_one(body.corner_seen));
 }
 

@@ -361,6 +361,14 @@ TEST(Track, IsKnownAcrossAsWellAsItsSidesKeepTheirHeading) {
   EXPECT_GT(described(track, 0, {}).covariance(1, 1), as_taken_m2) << "no side tells the heading";
 }
 
+TEST(Track, IsAsWideAsLiesBetweenWhatWasSeenFromEdgeToEdgeAndTheMostThatWasSeen) {
+  RoadUsersSeen seen;
+  Track track = known_car();
+  track.body.width_evidence = {1.95, {1.65, 0.004}};
+  for (int i = 0; i < 40; ++i) note_sizes(seen, track, {});
+  EXPECT_NEAR(seen.known().kinds[1].width_m, 1.8, 0.03);
+}
+
 TEST(Track, IsOneOfThoseHereIfItsSizesAreSurelyKnown) {
   const auto length_sigma_m_after = [](const Track& track) {
     RoadUsersSeen seen;
