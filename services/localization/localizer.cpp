@@ -42,7 +42,6 @@ bool is_believable(const sensing::MotionEstimate& estimate) {
          estimate.calibration.norm() < 1.0 && estimate.velocity.norm() < kFastestRestored;
 }
 
-/// What a point does to the maps.
 /// Where the object is so long after it was published, in odom.
 grids::Box box_of(const flow::TrackedObject& object, double after_s, double margin_m) {
   return {object.position_in_odom_m + after_s * object.velocity_in_odom_mps, {std::cos(object.heading_in_odom_rad), std::sin(object.heading_in_odom_rad)},
@@ -61,6 +60,7 @@ bool is_surely_moving_vehicle(const flow::TrackedObject& object, std::int64_t st
   return speed_mps >= std::max(kLeastSpeedMps, kSigmas * sigma_mps) && static_cast<double>(stamp_ns - object.first_seen_ns) * kNanosecond_s >= kLeastKnownS;
 }
 
+/// What a point does to the maps.
 grids::Echo echo_of(PointLabel label) {
   switch (label) {
     case PointLabel::kNoEcho: return grids::Echo::kNone;
