@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "common/association/assignment.hpp"
+#include "common/association/pairing_costs.hpp"
 
 namespace slammot::association {
 

@@ -92,14 +92,11 @@ MotionState imm_combine(const ModelSet& set, const ImmState& state) {
   return moment_match(modes_of(set, state), {state.probability.data(), set.size});
 }
 
-std::vector<MotionState> imm_foretell(const ModelSet& set, ImmState state, double step_s, int steps) {
-  std::vector<MotionState> path;
-  path.reserve(static_cast<std::size_t>(steps));
-  for (int step = 0; step < steps; ++step) {
+void imm_foretell(const ModelSet& set, ImmState state, double step_s, std::span<MotionState> path) {
+  for (MotionState& there : path) {
     state = imm_predict(set, state, step_s);
-    path.push_back(imm_combine(set, state));
+    there = imm_combine(set, state);
   }
-  return path;
 }
 
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -44,9 +44,9 @@ ImmState imm_update_speed(const ModelSet& set, const ImmState& predicted, const 
 /// Moment-matched mean and covariance of the mixture; Wang 2004, Eqs. (2.52)-(2.53).
 MotionState imm_combine(const ModelSet& set, const ImmState& state);
 
-/// Mean and covariance of the mixture after step_s, 2 step_s, ..., `steps` times, if nothing is measured: each step mixes and
+/// Fills the path with mean and covariance of the mixture after step_s, 2 step_s, ..., if nothing is measured: each step mixes and
 /// predicts as imm_predict does, so that what manoeuvres now may go on to, or cease.
-std::vector<MotionState> imm_foretell(const ModelSet& set, ImmState state, double step_s, int steps);
+void imm_foretell(const ModelSet& set, ImmState state, double step_s, std::span<MotionState> path);
 
 /// Moves every mode's position by the same known amount: the same object seen from another reference point.
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m);

@@ -9,11 +9,11 @@
 
 namespace slammot::detection {
 
-/// Unit vectors along the beams of a scan, in base.
+/// Unit vectors along the beams of a scan, in base. Keeps its memory from scan to scan.
 class BeamDirections {
  public:
-  explicit BeamDirections(const flow::LocalizedScan& scan) {
-    directions_.reserve(scan.beams.size());
+  void look_along(const flow::LocalizedScan& scan) {
+    directions_.clear();
     sensing::TurningDirection direction(first_beam_rad(scan), scan.beam_step_rad);
     for (std::size_t i = 0; i < scan.beams.size(); ++i, direction.advance()) directions_.push_back(direction.now());
   }

@@ -1,5 +1,8 @@
 #include "services/detection/detection_service.hpp"
 
+#include <string>
+#include <utility>
+
 #include "common/wire/localized_scan.hpp"
 #include "services/detection/detection_fields.hpp"
 
@@ -10,7 +13,7 @@ std::vector<config::BoundStage> DetectionService::stages(Settings& settings) {
 }
 
 DetectionService::DetectionService(app::ServiceContext& context, const Settings& settings)
-    : context_(context), config_(settings.config), segmented_scans_(context.write(dds::topics::kSegmentedScan)) {
+    : context_(context), detector_(settings.config), segmented_scans_(context.write(dds::topics::kSegmentedScan)) {
   context.read(dds::topics::kLocalizedScan, app::Input::kSteady, [this](const auto& sample) { take(sample); });
 }
 
@@ -18,7 +21,8 @@ void DetectionService::take(const slammot_LocalizedScan& sample) {
   const auto scan = wire::decode(sample);
   if (!scan) return context_.warn("faulty_localized_scan", "dropped a localized scan: " + std::string(scan.fault()));
   const app::Stopwatch stopwatch(context_.status().latency("detect"));
-  segmented_scans_.write(encoder_.encode(context_.vehicle_id(), detect(*scan, config_)));
+  done_with_ = detector_.detect(*scan, std::move(done_with_));
+  segmented_scans_.write(encoder_.encode(context_.vehicle_id(), done_with_));
   ++context_.status().counter("scans");
 }
 

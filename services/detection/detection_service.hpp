@@ -8,7 +8,7 @@
 
 namespace slammot::detection {
 
-/// Cuts localized scans into segments. Keeps nothing from scan to scan.
+/// Cuts localized scans into segments. Keeps nothing from scan to scan but memory.
 class DetectionService {
  public:
   struct Settings {
@@ -25,7 +25,8 @@ class DetectionService {
   void take(const slammot_LocalizedScan& sample);
 
   app::ServiceContext& context_;
-  DetectionConfig config_;
+  Detector detector_;
+  flow::SegmentedScan done_with_;   ///< Memory for the next one.
   dds::Writer<slammot_SegmentedScan>& segmented_scans_;
   wire::SegmentedScanEncoder encoder_;
 };

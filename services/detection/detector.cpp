@@ -24,13 +24,6 @@ using geometry::Matrix2;
 using geometry::Vector2;
 using sensing::BeamSpan;
 
-/// Neighbouring echoes of one label, as indices into the segment's beams.
-struct Run {
-  std::size_t first = 0;
-  std::size_t count = 0;
-  bool is_moving = false;
-};
-
 PointLabel label_of(const LocalizedBeam& beam, const DetectionConfig& config) {
   switch (beam.end_cell) {
     case EndCell::kNoEcho: return PointLabel::kNoEcho;
@@ -201,14 +194,6 @@ PointLabel label_of_segment(const Segment& segment, const LocalizedScan& localiz
   return moved_here_before ? PointLabel::kMoving : PointLabel::kUnknown;
 }
 
-/// A new segment at the place, in the memory of one that was there.
-Segment& segment_at(std::size_t place, std::vector<Segment>& segments) {
-  if (place == segments.size()) return segments.emplace_back();
-  Segment fresh;
-  fresh.beams = std::move(segments[place].beams);
-  return segments[place] = std::move(fresh);
-}
-
 /// Whether the neighbour `step` (+1 or -1) beams on, where there is an echo, lies in front of the beam's.
 bool is_hidden_beyond(std::uint16_t beam, int step, const SegmentedScan& scan, const DetectionConfig& config) {
   constexpr int kBeamsLookedAt = 2;
@@ -281,47 +266,58 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
 
 }  // namespace
 
-SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config, SegmentedScan done_with, work::SideWork* help) {
-  SegmentedScan segmented = with_header_of(scan, std::move(done_with));
-  const BeamDirections directions(scan);
-  label_points(scan, directions, config, segmented);
-  const std::vector<char> is_ground = find_ground(segmented, directions, config);
-  std::vector<float> range_without_ground_m = segmented.range_m;
-  for (std::size_t i = 0; i < is_ground.size(); ++i) {
-    if (!is_ground[i]) continue;
-    segmented.labels[i] = PointLabel::kNoEcho;
-    range_without_ground_m[i] = 0.0F;
+SegmentedScan Detector::detect(const LocalizedScan& localized, SegmentedScan done_with) {
+  SegmentedScan scan = with_header_of(localized, std::move(done_with));
+  directions_.look_along(localized);
+  label_points(localized, directions_, config_, scan);
+  leave_out_ground(scan);
+  cut(localized, scan);
+  finish_segments(localized, scan);
+  return scan;
+}
+
+void Detector::leave_out_ground(SegmentedScan& scan) {
+  find_ground(scan, directions_, config_, is_ground_);
+  range_without_ground_m_ = scan.range_m;
+  for (std::size_t i = 0; i < is_ground_.size(); ++i) {
+    if (!is_ground_[i]) continue;
+    scan.labels[i] = PointLabel::kNoEcho;
+    range_without_ground_m_[i] = 0.0F;
   }
-  std::vector<BeamSpan> spans;
-  sensing::segment_by_distance(segmented.points_in_base_m, range_without_ground_m, scan.beam_step_rad, config.segmentation, spans);
-  segmented.segments.reserve(spans.size() + 16);
+}
+
+/// Into segments of which nothing but the beams is known.
+void Detector::cut(const LocalizedScan& localized, SegmentedScan& scan) {
+  sensing::segment_by_distance(scan.points_in_base_m, range_without_ground_m_, localized.beam_step_rad, config_.segmentation, spans_);
+  const bool goes_on_at_first = sensing::goes_on_across_seam(scan.points_in_base_m, range_without_ground_m_, localized.beam_step_rad, config_.segmentation, spans_);
   std::size_t count = 0;
-  std::vector<std::uint16_t> beams;
-  std::vector<Run> runs;
-  const bool goes_on_at_first = sensing::goes_on_across_seam(segmented.points_in_base_m, range_without_ground_m, scan.beam_step_rad, config.segmentation, spans);
-  for (std::size_t i = goes_on_at_first ? 1 : 0; i < spans.size(); ++i) {
-    beams.clear();
-    add_echoes(spans[i], range_without_ground_m, beams);
-    if (goes_on_at_first && i + 1 == spans.size()) add_echoes(spans.front(), range_without_ground_m, beams);
-    split_by_label(beams, segmented, config, runs);
-    for (const Run& run : runs) {
-      Segment& segment = segment_at(count++, segmented.segments);
-      const auto first = beams.begin() + static_cast<std::ptrdiff_t>(run.first);
-      segment.beams.assign(first, first + static_cast<std::ptrdiff_t>(run.count));
+  for (std::size_t i = goes_on_at_first ? 1 : 0; i < spans_.size(); ++i) {
+    beams_.clear();
+    add_echoes(spans_[i], range_without_ground_m_, beams_);
+    if (goes_on_at_first && i + 1 == spans_.size()) add_echoes(spans_.front(), range_without_ground_m_, beams_);
+    split_by_label(beams_, scan, config_, runs_);
+    for (const Run& run : runs_) {
+      if (count == scan.segments.size()) spare_segments_.resize(scan.segments, count + 1);
+      std::vector<std::uint16_t>& beams = scan.segments[count++].beams;
+      if (!beams.empty() && beams.capacity() < run.count) beams.reserve(scan.range_m.size());  // once for good, where it was too small
+      const auto first = beams_.begin() + static_cast<std::ptrdiff_t>(run.first);
+      beams.assign(first, first + static_cast<std::ptrdiff_t>(run.count));
     }
   }
-  segmented.segments.resize(count);
-  const Matrix2 odom_from_base_turn = geometry::rotation(scan.odom_from_base.pose.heading_rad);
-  constexpr std::size_t kRanges = 4;  // segments are of very different sizes
-  work::share_in_ranges(help, count, kRanges, [&](std::size_t first, std::size_t end) {
-    std::vector<Vector2> points_in_odom_m;
-    points_in_odom_m.reserve(scan.beams.size());
-    for (std::size_t i = first; i < end; ++i) {
-      segmented.segments[i].segment_id = static_cast<std::uint32_t>(i);
-      finish_segment(segmented.segments[i], scan, config, segmented, odom_from_base_turn, points_in_odom_m);
+  spare_segments_.resize(scan.segments, count);
+}
+
+void Detector::finish_segments(const LocalizedScan& localized, SegmentedScan& scan) {
+  const Matrix2 odom_from_base_turn = geometry::rotation(localized.odom_from_base.pose.heading_rad);
+  const std::size_t count = scan.segments.size();
+  work::share(help_, kRanges, [&](std::size_t range) {
+    for (std::size_t i = count * range / kRanges; i < count * (range + 1) / kRanges; ++i) {
+      scan.segments[i].segment_id = static_cast<std::uint32_t>(i);
+      finish_segment(scan.segments[i], localized, config_, scan, odom_from_base_turn, points_in_odom_m_[range]);
     }
   });
-  return segmented;
 }
+
+SegmentedScan detect(const LocalizedScan& scan, const DetectionConfig& config) { return Detector(config).detect(scan); }
 
 }  // namespace slammot::detection

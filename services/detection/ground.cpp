@@ -121,8 +121,8 @@ class Ground {
 
 }  // namespace
 
-std::vector<char> find_ground(const flow::SegmentedScan& scan, const BeamDirections& directions, const DetectionConfig& config) {
-  std::vector<char> is_ground(scan.range_m.size(), 0);
+void find_ground(const flow::SegmentedScan& scan, const BeamDirections& directions, const DetectionConfig& config, std::vector<char>& is_ground) {
+  is_ground.assign(scan.range_m.size(), 0);
   const Ground ground(scan, directions, config);
   constexpr std::size_t kFewestEchoes = 4;
   constexpr std::size_t kMostEchoes = 12;   // enough for a line, short enough to follow one that bends
@@ -140,7 +140,6 @@ std::vector<char> find_ground(const flow::SegmentedScan& scan, const BeamDirecti
     }
     first = last;
   }
-  return is_ground;
 }
 
 }  // namespace slammot::detection

@@ -18,7 +18,6 @@ using geometry::UncertainPose2;
 using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
-constexpr std::size_t kScansKeptForRestoring = 80;
 constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7461;  // "slammota": the last digit, hexadecimal, counts the forms of a checkpoint
 constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
@@ -104,7 +103,10 @@ void Localizer::add_odometry(const sensing::Odometry& sample) {
   if (config_.use_odometry && odometry_stamps_.believes(sample.stamp_ns)) odometry_.add(sample);
 }
 
-void Localizer::expect(const flow::TrackedObjects& objects) { expected_objects_ = objects; }
+void Localizer::expect(const flow::TrackedObjects& objects) {
+  spare_objects_.resize(expected_objects_.objects, objects.objects.size());
+  expected_objects_ = objects;
+}
 
 bool Localizer::is_usable(const sensing::LaserScan& scan) {
   if (!scan_stamps_.believes(scan.stamp_ns)) {
@@ -434,7 +436,7 @@ void Localizer::list_asked_beams(const flow::LocalizedScan& localized) {
 
 void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized) {
   const Pose2 odom_from_laser = localized.odom_from_base.pose * scan.scanner.base_from_laser;
-  PendingScan pending = std::move(done_with_);
+  PendingScan& pending = pending_.push_back();
   pending.fallback.clear();
   pending.stamp_ns = scan.stamp_ns;
   pending.sequence = scan.sequence;
@@ -462,8 +464,7 @@ void Localizer::remember(const sensing::LaserScan& scan, const flow::LocalizedSc
     const double free_m = is_too_near ? 0.0 : std::min(config_.map.no_echo_free_m, scan.scanner.max_range_m);
     pending.rays[i].end_m = pending.origin_in_odom_m + free_m * beams_in_odom_[i];
   }
-  pending_.push_back(std::move(pending));
-  if (pending_.size() == 1 && !pending_.front().is_withheld) map_.prepare(pending_.front().origin_in_odom_m, pending_.front().rays, pending_.front().beam_step_rad);
+  if (pending_.size() == 1 && !pending.is_withheld) map_.prepare(pending.origin_in_odom_m, pending.rays, pending.beam_step_rad);
 }
 
 std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan, flow::LocalizedScan done_with) {
@@ -573,7 +574,7 @@ std::optional<flow::LocalizedScan> Localizer::localize_again(const sensing::Lase
 }
 
 void Localizer::note(const flow::SegmentedScan& segmented) {
-  for (PendingScan& scan : pending_) {
+  for (PendingScan& scan : pending_.all()) {
     const bool is_it = scan.sequence == segmented.sequence && scan.scanner_id == segmented.scanner_id;
     if (is_it && segmented.labels.size() == scan.rays.size()) scan.fallback = segmented.labels;
   }
@@ -591,17 +592,16 @@ void Localizer::integrate_first(const std::vector<PointLabel>* labels) {
     scan.rays[i].echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
   }
   if (scan.is_doubted && progress_.lost_since_ns) doubted_.push_back(std::move(scan));
-  else integrate(std::move(scan));
+  else integrate(scan);
   pending_.pop_front();
 }
 
-void Localizer::integrate(PendingScan scan) {
+/// Takes it, and leaves memory in its place.
+void Localizer::integrate(PendingScan& scan) {
   before_scan_.reset();  // the map is no longer what the last scan was matched against
   map_.integrate(scan.stamp_ns, scan.origin_in_odom_m, scan.rays, scan.beam_step_rad);
-  integrated_.push_back(std::move(scan));
-  if (integrated_.size() <= kScansKeptForRestoring) return;
-  done_with_ = std::move(integrated_.front());
-  integrated_.pop_front();
+  if (integrated_.size() == kScansKeptForRestoring) integrated_.pop_front();
+  std::swap(integrated_.push_back(), scan);
 }
 
 void Localizer::integrate_first_without_tracking() {
@@ -621,7 +621,7 @@ void Localizer::integrate(const flow::ScanLabels& labels) {
   const auto is_labelled = [&](const PendingScan& scan) {
     return scan.sequence == labels.sequence && scan.scanner_id == labels.scanner_id && scan.rays.size() == labels.labels.size();
   };
-  const bool is_awaited = std::any_of(pending_.begin(), pending_.end(), is_labelled);
+  const bool is_awaited = std::ranges::any_of(pending_.all(), is_labelled);
   while (is_awaited && !is_labelled(pending_.front())) integrate_first_without_tracking();
   if (is_awaited) integrate_first(&labels.labels);
   restore_points(labels);
@@ -630,13 +630,14 @@ void Localizer::integrate(const flow::ScanLabels& labels) {
 
 void Localizer::restore_points(const flow::ScanLabels& labels) {
   for (const flow::RestoredPoints& restored : labels.restored) {
-    const auto scan = std::find_if(integrated_.begin(), integrated_.end(), [&](const PendingScan& one) {
-      return one.sequence == restored.sequence && one.scanner_id == labels.scanner_id;
-    });
-    if (scan == integrated_.end()) continue;
+    auto integrated = integrated_.all();
+    const auto is_it = [&](const PendingScan& one) { return one.sequence == restored.sequence && one.scanner_id == labels.scanner_id; };
+    const auto found = std::ranges::find_if(integrated, is_it);
+    if (found == integrated.end()) continue;
+    const PendingScan& scan = *found;
     for (const std::uint16_t beam : restored.beams) {
-      if (beam >= scan->rays.size() || scan->end_cells[beam] == EndCell::kNoEcho || scan->rays[beam].echo == grids::Echo::kTooFar) continue;
-      map_.restore_stationary(scan->rays[beam].end_m);
+      if (beam >= scan.rays.size() || scan.end_cells[beam] == EndCell::kNoEcho || scan.rays[beam].echo == grids::Echo::kTooFar) continue;
+      map_.restore_stationary(scan.rays[beam].end_m);
       ++progress_.counters.restored_points;
     }
   }

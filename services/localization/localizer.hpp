@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -18,6 +17,8 @@
 #include "common/flow/tracked_objects.hpp"
 #include "common/matching/correlative.hpp"
 #include "common/matching/point_to_line.hpp"
+#include "common/memory/recycling_queue.hpp"
+#include "common/memory/spares.hpp"
 #include "common/sensing/deskew.hpp"
 #include "common/sensing/motion_model.hpp"
 #include "common/sensing/odometry_buffer.hpp"
@@ -212,6 +213,7 @@ class Localizer {
     double new_share = 0.0;         ///< How much of the map it was matched against is new; 0 where it left some direction to the prediction: that the map says nothing of.
   };
 
+  static constexpr std::size_t kScansKeptForRestoring = 80;
   struct PendingScan {
     bool is_withheld = false;                   ///< From the map,
     bool is_doubted = false;                    ///< or only until it is clear whether the vehicle is lost.
@@ -311,7 +313,7 @@ class Localizer {
   void list_asked_beams(const flow::LocalizedScan& localized);
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
-  void integrate(PendingScan scan);
+  void integrate(PendingScan& scan);
   void integrate_doubted();
   void drop_doubted();
   void integrate_first_without_tracking();
@@ -346,10 +348,10 @@ class Localizer {
   std::int32_t short_submaps_left_ = 0;              ///< After it has gone astray.
   std::uint32_t correction_sequence_ = 0;
   flow::TrackedObjects expected_objects_;
-  std::deque<PendingScan> pending_;
+  memory::Spares<flow::TrackedObject> spare_objects_;
+  memory::RecyclingQueue<PendingScan> pending_;
   std::vector<PendingScan> doubted_;
-  std::deque<PendingScan> integrated_;               ///< The last ones, for points that tracking gives back.
-  PendingScan done_with_;                            ///< Memory for the next one.
+  memory::RecyclingQueue<PendingScan> integrated_{kScansKeptForRestoring};   ///< The last ones, for points that tracking gives back.
   std::vector<flow::Submap> finished_;
   matching::CorrelativeMatcher searcher_;
   matching::CorrelativeMatcher finder_;              ///< After a lost match: of several poses.

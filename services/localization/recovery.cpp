@@ -79,7 +79,7 @@ Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sen
 
 /// It was there all the time: the scanner saw the ground, or traffic on all sides.
 void Localizer::integrate_doubted() {
-  for (PendingScan& scan : doubted_) integrate(std::move(scan));
+  for (PendingScan& scan : doubted_) integrate(scan);
   doubted_.clear();
 }
 

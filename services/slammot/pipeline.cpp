@@ -5,7 +5,7 @@
 namespace slammot {
 
 Pipeline::Pipeline(const Profile& profile, int iterations)
-    : detection_(profile.detection), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking, &side_thread_), loop_closer_(profile.loop_closing), iterations_(iterations) {}
+    : detector_(profile.detection, &side_thread_), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking, &side_thread_), loop_closer_(profile.loop_closing), iterations_(iterations) {}
 
 /// The graph is made again from its submaps, as it was made when they came.
 void Pipeline::go_on_in(const std::vector<flow::Submap>& stored) {
@@ -25,7 +25,7 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   if (!detected) return;
   if (iterations_ > 1) detected = times_.measure("iteration", [&] { return iterate(scan, *std::move(detected)); });
   auto& [localized, segmented] = *detected;
-  const auto tracked = times_.measure("tracking", [&] { return tracker_.track(segmented); });
+  auto tracked = times_.measure("tracking", [&] { return tracker_.track(segmented, std::move(tracked_done_with_)); });
   localizer_.expect(tracked.objects);
   times_.measure("mapping", [&] { localizer_.integrate(tracked.labels); });
   record_.add(localized);
@@ -34,13 +34,14 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add(tracked.objects);
   localized_done_with_ = std::move(localized);
   segmented_done_with_ = std::move(segmented);
+  tracked_done_with_ = std::move(tracked);
   close_loops();
 }
 
 std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::LaserScan& scan) {
   auto localized = times_.measure("localization", [&] { return localizer_.localize(scan, std::move(localized_done_with_)); });
   if (!localized) return std::nullopt;
-  auto segmented = times_.measure("detection", [&] { return detection::detect(*localized, detection_, std::move(segmented_done_with_), &side_thread_); });
+  auto segmented = times_.measure("detection", [&] { return detector_.detect(*localized, std::move(segmented_done_with_)); });
   return Detected{*std::move(localized), std::move(segmented)};
 }
 
@@ -49,7 +50,7 @@ Pipeline::Detected Pipeline::iterate(const sensing::LaserScan& scan, Detected de
   for (int iteration = 1; iteration < iterations_; ++iteration) {
     auto localized = localizer_.localize_again(scan, detected.segmented.labels);
     if (!localized) return detected;
-    auto segmented = detection::detect(*localized, detection_);
+    auto segmented = detector_.detect(*localized, std::move(detected.segmented));
     detected = {*std::move(localized), std::move(segmented)};
     if (iteration == 1) ++scans_iterated_;
     ++matches_again_;

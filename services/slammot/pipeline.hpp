@@ -57,12 +57,13 @@ class Pipeline {
   void close_loops();
 
   SideThread side_thread_;   ///< Before what it helps.
-  detection::DetectionConfig detection_;
+  detection::Detector detector_;
   localization::Localizer localizer_;
   tracking::Tracker tracker_;
   loop_closing::LoopCloser loop_closer_;
   flow::LocalizedScan localized_done_with_;   ///< Memory for the next one,
-  flow::SegmentedScan segmented_done_with_;   ///< and so.
+  flow::SegmentedScan segmented_done_with_;   ///< and so,
+  tracking::TrackingResult tracked_done_with_; ///< and so.
   files::RunRecord record_;
   StageTimes times_;
   int iterations_;

@@ -1,7 +1,6 @@
 #include "services/tracking/scan_history.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace slammot::tracking {
 namespace {
@@ -22,22 +21,25 @@ bool had_something_near(const EarlierScan& scan, const Eigen::Vector2d& point_in
 
 bool ScanHistory::is_due(std::int64_t stamp_ns) const { return scans_.empty() || stamp_ns - scans_.back().stamp_ns >= kIntervalNs; }
 
-void ScanHistory::add(std::int64_t stamp_ns, const PolarView& view, std::vector<Owner> owners) {
+void ScanHistory::add(std::int64_t stamp_ns, const PolarView& view, std::span<const Owner> owners) {
   if (!is_due(stamp_ns)) return;
-  scans_.push_back({stamp_ns, view, std::move(owners)});
-  scans_.back().view.measure_depths();
-  while (stamp_ns - scans_.front().stamp_ns > kLongestNs) scans_.pop_front();
+  while (!scans_.empty() && stamp_ns - scans_.front().stamp_ns > kLongestNs) scans_.pop_front();
+  EarlierScan& scan = scans_.push_back();
+  scan.stamp_ns = stamp_ns;
+  scan.view = view;
+  scan.view.measure_depths();
+  scan.owners.assign(owners.begin(), owners.end());
 }
 
 void ScanHistory::confirm(flow::TrackId track_id) {
-  for (EarlierScan& scan : scans_)
+  for (EarlierScan& scan : scans_.all())
     for (Owner& owner : scan.owners) owner.is_confirmed = owner.is_confirmed || (owner.is_owned && owner.track_id == track_id);
 }
 
 const EarlierScan* ScanHistory::older_than(std::int64_t stamp_ns, double age_s) const {
   const auto latest_ns = stamp_ns - static_cast<std::int64_t>(age_s * 1e9);
-  for (auto scan = scans_.rbegin(); scan != scans_.rend(); ++scan)
-    if (scan->stamp_ns <= latest_ns) return &*scan;
+  for (std::size_t i = scans_.size(); i-- > 0;)
+    if (scans_[i].stamp_ns <= latest_ns) return &scans_[i];
   return nullptr;
 }
 
@@ -57,7 +59,7 @@ Past ScanHistory::past_of(std::size_t beam, const SightOfPlace& before, const Po
       const Eigen::Vector2d from_laser_m = point_m - now.laser_in_odom_m();
       const std::int64_t a_while_ago_ns = scans_.back().stamp_ns - kGoesAlongForNs;
       const std::int64_t since_ns = std::min(then.stamp_ns, scans_.back().stamp_ns - kGoesAlongSinceNs);
-      const bool was_near = std::ranges::any_of(scans_, [&](const EarlierScan& scan) {
+      const bool was_near = std::ranges::any_of(scans_.all(), [&](const EarlierScan& scan) {
         return (scan.stamp_ns <= then.stamp_ns && had_something_near(scan, point_m, kNearM)) ||
                (scan.stamp_ns >= since_ns && scan.stamp_ns <= a_while_ago_ns &&
                 had_something_near(scan, scan.view.laser_in_odom_m() + from_laser_m, kGoesAlongM));

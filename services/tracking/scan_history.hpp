@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <span>
 #include <vector>
 
 #include "common/flow/ids.hpp"
+#include "common/memory/recycling_queue.hpp"
 #include "services/tracking/scan_view.hpp"
 
 namespace slammot::tracking {
@@ -40,7 +41,7 @@ class ScanHistory {
   bool is_due(std::int64_t stamp_ns) const;
 
   /// Keeps the scan if it is due.
-  void add(std::int64_t stamp_ns, const PolarView& view, std::vector<Owner> owners);
+  void add(std::int64_t stamp_ns, const PolarView& view, std::span<const Owner> owners);
 
   /// The youngest kept scan at least age_s older than the stamp; none where the history is shorter.
   const EarlierScan* older_than(std::int64_t stamp_ns, double age_s) const;
@@ -60,7 +61,7 @@ class ScanHistory {
   void clear() { scans_.clear(); }
 
  private:
-  std::deque<EarlierScan> scans_;  ///< Oldest first.
+  memory::RecyclingQueue<EarlierScan> scans_;
 };
 
 }  // namespace slammot::tracking

@@ -29,6 +29,20 @@ double rough_angle_rad(const Vector2d& way) {
   return std::copysign(way.x() < 0.0 ? std::numbers::pi - from_x_axis_rad : from_x_axis_rad, way.y());
 }
 
+/// Each value becomes the extreme one of it and those of as many neighbours on each side as may have met a place; beyond the ends there is nothing.
+template <typename Extreme>
+void spread_to_neighbours(std::vector<double>& values, double nothing, const Extreme& extreme) {
+  constexpr std::size_t kAside = kBeamsAside;
+  std::array<double, kAside + 1> before;  // of those that are written over, and the one at hand, newest last
+  before.fill(nothing);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::rotate(before.begin(), before.begin() + 1, before.end());
+    before.back() = values[i];
+    for (const double value : before) values[i] = extreme(values[i], value);
+    for (std::size_t next = i + 1; next <= std::min(i + kAside, values.size() - 1); ++next) values[i] = extreme(values[i], values[next]);
+  }
+}
+
 std::array<Vector2d, 4> corners_of(const Body& body, const Vector2d& centre_m, double margin_m) {
   const Vector2d along = (0.5 * body.length.value_m + margin_m) * Vector2d(std::cos(body.heading_rad), std::sin(body.heading_rad));
   const Vector2d across = (0.5 * body.width.value_m + margin_m) * Vector2d(-std::sin(body.heading_rad), std::cos(body.heading_rad));
@@ -37,15 +51,18 @@ std::array<Vector2d, 4> corners_of(const Body& body, const Vector2d& centre_m, d
 
 }  // namespace
 
-PolarView::PolarView(const flow::SegmentedScan& scan)
-    : range_m_(scan.range_m),
-      laser_in_odom_m_(scan.odom_from_base.pose * scan.base_from_laser.translation_m()),
-      beam_step_rad_(std::abs(scan.beam_step_rad)),
-      beams_per_rad_(1.0 / beam_step_rad_),
-      sweep_s_(scan.sweep_s),
-      half_view_rad_(0.5 * beam_step_rad_ * static_cast<double>(scan.range_m.size())),
-      is_clockwise_(scan.beam_step_rad < 0.0),
-      goes_all_round_(geometry::goes_all_round(scan.range_m.size(), scan.beam_step_rad)) {
+void PolarView::look_at(const flow::SegmentedScan& scan) {
+  range_m_ = scan.range_m;
+  nearest_m_.clear();
+  farthest_m_.clear();
+  laser_in_odom_m_ = scan.odom_from_base.pose * scan.base_from_laser.translation_m();
+  first_beam_in_odom_rad_ = 0.0;
+  beam_step_rad_ = std::abs(scan.beam_step_rad);
+  beams_per_rad_ = 1.0 / beam_step_rad_;
+  sweep_s_ = scan.sweep_s;
+  half_view_rad_ = 0.5 * beam_step_rad_ * static_cast<double>(scan.range_m.size());
+  is_clockwise_ = scan.beam_step_rad < 0.0;
+  goes_all_round_ = geometry::goes_all_round(scan.range_m.size(), scan.beam_step_rad);
   const Eigen::Matrix2d R = geometry::rotation(scan.odom_from_base.pose.heading_rad);
   const Vector2d t = scan.odom_from_base.pose.translation_m();
   points_in_odom_m_.resize(scan.range_m.size());
@@ -64,24 +81,18 @@ PolarView::PolarView(const flow::SegmentedScan& scan)
 void PolarView::measure_depths() {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const std::size_t count = range_m_.size();
-  std::vector<double> nearest_m(count + 2 * kBeamsAside, kNever);  // with neighbours that the first and the last beams do not have
-  std::vector<double> farthest_m(count + 2 * kBeamsAside, -kNever);
-  for (std::size_t beam = 0; beam < count; ++beam) {
-    if (range_m_[beam] <= 0.0F) continue;
-    const std::size_t i = beam + kBeamsAside;
-    nearest_m[i] = farthest_m[i] = (points_in_odom_m_[beam] - laser_in_odom_m_).norm();
-    if (beam == 0 || range_m_[beam - 1] <= 0.0F) continue;
-    const double length2 = (points_in_odom_m_[beam] - points_in_odom_m_[beam - 1]).squaredNorm();
-    if (length2 <= kLongestSideM * kLongestSideM) nearest_m[i] = std::min(farthest_m[i], farthest_m[i - 1]) - 0.5 * std::sqrt(length2);
-  }
   nearest_m_.assign(count, kNever);
   farthest_m_.assign(count, -kNever);
-  for (std::size_t aside = 0; aside <= 2 * kBeamsAside; ++aside) {
-    for (std::size_t beam = 0; beam < count; ++beam) {
-      nearest_m_[beam] = std::min(nearest_m_[beam], nearest_m[beam + aside]);
-      farthest_m_[beam] = std::max(farthest_m_[beam], farthest_m[beam + aside]);
-    }
+  double before_m = -kNever;  // of the echo of the beam before
+  for (std::size_t beam = 0; beam < count; before_m = farthest_m_[beam++]) {
+    if (range_m_[beam] <= 0.0F) continue;
+    nearest_m_[beam] = farthest_m_[beam] = (points_in_odom_m_[beam] - laser_in_odom_m_).norm();
+    if (beam == 0 || range_m_[beam - 1] <= 0.0F) continue;
+    const double length2 = (points_in_odom_m_[beam] - points_in_odom_m_[beam - 1]).squaredNorm();
+    if (length2 <= kLongestSideM * kLongestSideM) nearest_m_[beam] = std::min(farthest_m_[beam], before_m) - 0.5 * std::sqrt(length2);
   }
+  spread_to_neighbours(nearest_m_, kNever, [](double a, double b) { return std::min(a, b); });
+  spread_to_neighbours(farthest_m_, -kNever, [](double a, double b) { return std::max(a, b); });
 }
 
 std::optional<std::size_t> PolarView::neighbour_of(std::size_t beam, long steps) const {
@@ -190,7 +201,9 @@ SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   return {};
 }
 
-ScanView::ScanView(const flow::SegmentedScan& scan) : scan_(&scan), polar_(scan) {
+void ScanView::look_at(const flow::SegmentedScan& scan) {
+  scan_ = &scan;
+  polar_.look_at(scan);
   segment_of_beam_.assign(scan.range_m.size(), kNone);
   for (std::size_t segment = 0; segment < scan.segments.size(); ++segment)
     for (const std::uint16_t beam : scan.segments[segment].beams) segment_of_beam_[beam] = segment;

@@ -38,7 +38,10 @@ struct SightOfPlace {
 /// Where the beams of one scan ended, in odom, with the means to ask what lies in a direction. Owns what it tells of.
 class PolarView {
  public:
-  explicit PolarView(const flow::SegmentedScan& scan);
+  PolarView() = default;
+  explicit PolarView(const flow::SegmentedScan& scan) { look_at(scan); }
+  /// In the memory of the last one.
+  void look_at(const flow::SegmentedScan& scan);
 
   std::size_t beam_count() const { return range_m_.size(); }
   const Eigen::Vector2d& point_in_odom_m(std::size_t beam) const { return points_in_odom_m_[beam]; }
@@ -94,10 +97,13 @@ class PolarView {
   bool goes_all_round_ = false;
 };
 
-/// The current scan in odom. Refers to the scan, which must outlive it.
+/// The current scan in odom. Refers to the scan, which must be there for as long as it is asked.
 class ScanView {
  public:
-  explicit ScanView(const flow::SegmentedScan& scan);
+  ScanView() = default;
+  explicit ScanView(const flow::SegmentedScan& scan) { look_at(scan); }
+  /// In the memory of the last one.
+  void look_at(const flow::SegmentedScan& scan);
 
   const flow::SegmentedScan& scan() const { return *scan_; }
   const PolarView& polar() const { return polar_; }
@@ -119,7 +125,7 @@ class ScanView {
   Visibility visibility_of(const Body& body, const Eigen::Vector2d& centre_m) const;
 
  private:
-  const flow::SegmentedScan* scan_;
+  const flow::SegmentedScan* scan_ = nullptr;
   PolarView polar_;
   std::vector<std::size_t> segment_of_beam_;
 };

@@ -327,18 +327,18 @@ Eigen::DiagonalMatrix<double, 4> with_own_gait(const Track& track, const Trackin
 }
 
 /// Three seconds ahead by the mixture of modes; who is held to stand may start off as any mode says, and is not known to.
-std::vector<flow::PredictedPosition> predicted_path(const Track& track, const Matrix2d& shared_error_m2, const TrackingConfig& config) {
-  constexpr int kSteps = 6;
+void predict_path(const Track& track, const Matrix2d& shared_error_m2, const TrackingConfig& config, std::vector<flow::PredictedPosition>& path) {
+  constexpr std::size_t kSteps = 6;
   constexpr double kStepS = 0.5;
   const filters::ModelSet models = models_of(track, config);
   filters::ImmState now = track.motion;
   if (track.move_stop.stands) now.modes.fill(filters::estimate_of(track.move_stop, track.estimate));
-  std::vector<flow::PredictedPosition> path;
-  for (const filters::MotionState& there : filters::imm_foretell(models, now, kStepS, kSteps)) {
+  std::array<filters::MotionState, kSteps> foretold;
+  filters::imm_foretell(models, now, kStepS, foretold);
+  for (const filters::MotionState& there : foretold) {
     const double after_s = kStepS * static_cast<double>(path.size() + 1);
     path.push_back({after_s, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>() + shared_error_m2});
   }
-  return path;
 }
 
 /// Of points from the sides of the body, in the mean.
@@ -407,6 +407,18 @@ bool has_known_velocity(const Track& track, const TrackingConfig& config) {
   return speed_sigma_mps(track) <= most_mps;
 }
 
+/// A new track in the memory of one that has ended.
+Track emptied(Track done_with) {
+  Track track;
+  track.contour_in_odom_m = std::move(done_with.contour_in_odom_m);
+  track.youth = std::move(done_with.youth);
+  track.past = std::move(done_with.past);
+  track.contour_in_odom_m.clear();
+  track.youth.clear();
+  track.past.clear();
+  return track;
+}
+
 void observe(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse) {
   ++track.hits;
   track.last_seen_ns = stamp_ns;
@@ -435,9 +447,8 @@ Glimpse KeptGlimpse::with_points() const {
 }
 
 void KeptGlimpses::add(std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2) {
-  const bool is_full = kept_.size() == kMost;
-  KeptGlimpse& kept = is_full ? kept_[oldest_] : kept_.emplace_back();
-  if (is_full) oldest_ = (oldest_ + 1) % kMost;
+  if (kept_.size() == kMost) kept_.pop_front();
+  KeptGlimpse& kept = kept_.push_back();
   kept.stamp_ns = stamp_ns;
   kept.points_m.assign(glimpse.points_m.begin(), glimpse.points_m.end());
   kept.glimpse = glimpse;
@@ -477,8 +488,8 @@ Steadiness with_heading(const Steadiness& before, double off_rad, double varianc
 }
 
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
-            const Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users) {
-  Track track;
+            const Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users, Track done_with) {
+  Track track = emptied(std::move(done_with));
   track.body.road_users = road_users;
   track.track_id = track_id;
   track.first_seen_ns = stamp_ns;
@@ -682,8 +693,8 @@ bool is_held_never_to_have_moved(const Track& track, std::int64_t stamp_ns, cons
   return static_cast<double>(stamp_ns - idle_since_ns) * 1e-9 > may_stand_s;
 }
 
-flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
-  flow::TrackedObject object;
+flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config, flow::TrackedObject done_with) {
+  flow::TrackedObject object = std::move(done_with);
   object.track_id = track.track_id;
   const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
   // What has got nowhere yet and seems to stand already may never have moved; it is followed until that is known. Where only
@@ -713,7 +724,8 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   for (Eigen::Vector2f& point_m : object.contour_in_odom_m) point_m -= since_stamp_m.cast<float>();
   const Matrix2d shared_error_m2 = shared_error_covariance(track, object.heading_in_odom_rad, config);
   object.covariance.topLeftCorner<2, 2>() += shared_error_m2;
-  if (track.confirmed) object.predicted_path = predicted_path(track, shared_error_m2, config);
+  object.predicted_path.clear();
+  if (track.confirmed) predict_path(track, shared_error_m2, config, object.predicted_path);
   for (flow::PredictedPosition& there : object.predicted_path) there.position_in_odom_m -= since_stamp_m;
   return object;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "common/memory/recycling_queue.hpp"
 #include "services/tracking/body.hpp"
 #include "services/tracking/object_class.hpp"
 #include "services/tracking/road_users.hpp"
@@ -61,20 +61,19 @@ struct Answers {
   double unanswered_share() const;
 };
 
-/// The last glimpses of something, in the order in which they were added. Allocates until as many are kept as ever are, and no more.
+/// The last glimpses of something, in the order in which they were added.
 class KeptGlimpses {
  public:
   static constexpr std::size_t kMost = 40;  ///< The oldest of more go.
 
   void add(std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2);
-  void clear() { kept_.clear(), oldest_ = 0; }
+  void clear() { kept_.clear(); }
   std::size_t size() const { return kept_.size(); }
   /// 0: the oldest.
-  const KeptGlimpse& operator[](std::size_t i) const { return kept_[(oldest_ + i) % kept_.size()]; }
+  const KeptGlimpse& operator[](std::size_t i) const { return kept_[i]; }
 
  private:
-  std::vector<KeptGlimpse> kept_;
-  std::size_t oldest_ = 0;
+  memory::RecyclingQueue<KeptGlimpse> kept_;
 };
 
 /// How well the echoes of the last moments agree with the body.
@@ -140,7 +139,7 @@ struct Track {
   double outgrown_s = 0.0;                   ///< For which someone long known to walk has been given more echoes than one has.
   std::vector<Eigen::Vector2f> contour_in_odom_m;
   KeptGlimpses youth;                        ///< What was seen of it until it was confirmed.
-  std::deque<flow::RestoredPoints> past;     ///< Points of a track not yet confirmed, newest last.
+  memory::RecyclingQueue<flow::RestoredPoints> past;  ///< Points of a track not yet confirmed, newest last.
 
   Eigen::Vector2d position_m() const { return estimate.mean.head<2>(); }
   Eigen::Vector2d velocity_mps() const { return estimate.mean.segment<2>(2); }
@@ -177,9 +176,10 @@ Gait with_step(const Gait& before, const Eigen::Vector2d& surprise_m, const Eige
 /// With one more heading that was so far off the one held, with this variance of both together, time_s after the one before.
 Steadiness with_heading(const Steadiness& before, double off_rad, double variance_rad2, double time_s);
 
-/// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side.
+/// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side. done_with: a track that
+/// has ended, of which nothing but memory is used.
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
-            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users = {});
+            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users = {}, Track done_with = {});
 
 /// Moves the track over time_s >= 0.
 void predict(Track& track, double time_s, const TrackingConfig& config);
@@ -233,8 +233,8 @@ bool contradicts_itself(const Track& track, const TrackingConfig& config);
 /// least_travel_to_stand_m stands for as long as it is seen: it waits, or is parked.
 bool is_held_never_to_have_moved(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
 
-/// The track as it is published.
-flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
+/// The track as it is published. done_with: an object that nobody needs any more, of which nothing but memory is used.
+flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config, flow::TrackedObject done_with = {});
 
 /// A track as far as what was published of it tells.
 Track resumed(const flow::TrackedObject& object, const TrackingConfig& config);

@@ -343,14 +343,15 @@ void Tracker::give_to_rivals(const ScanView& view, association::CostMatrix& cost
 
 void Tracker::give_whole_segments(const ScanView& view) {
   const std::vector<Segment>& segments = view.scan().segments;
-  association::CostMatrix costs(tracks_.size(), segments.size(), association::kForbidden);
+  association::CostMatrix& costs = costs_;
+  costs.assign(tracks_.size(), segments.size(), association::kForbidden);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (std::size_t s = 0; s < segments.size(); ++s) {
       costs(t, s) = pair_cost(tracks_[t].body, tracks_[t].estimate, segments[s], config_);
       if (costs(t, s) != association::kForbidden && is_of_another_past(s, t, view)) costs(t, s) = association::kForbidden;
     }
   if (config_.most_hypotheses > 1) give_to_rivals(view, costs);
-  const std::vector<std::size_t> segment_of_track = association::assign(costs, kCostOfLeavingOut);
+  const std::vector<std::size_t>& segment_of_track = assigner_.assign(costs, kCostOfLeavingOut);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     if (segment_of_track[t] != kUnassigned) shares_.track_of_segment[segment_of_track[t]] = t;
   // A body with sides may be seen in pieces: what lies inside it is its own.
@@ -378,7 +379,7 @@ void Tracker::divide_shared_segments(const ScanView& view) {
     if (!shares_.beams_of_track[t].empty() || !track.confirmed) continue;
     const double margin_m = margin_of(track, config_);
     const ScanView::Directions directions = view.directions_of(track.body, track.position_m(), margin_m);
-    std::vector<std::uint16_t> beams;
+    std::vector<std::uint16_t>& beams = shares_.beams_of_track[t];
     PointLabel label = PointLabel::kUnknown;
     for (std::size_t i = 0; i < directions.count; ++i) {
       const std::size_t beam = *view.polar().neighbour_of(directions.first, static_cast<long>(i));
@@ -400,15 +401,14 @@ void Tracker::divide_shared_segments(const ScanView& view) {
     std::sort(beams.begin(), beams.end());
     for (std::size_t other = 0; other < tracks_.size(); ++other) {
       std::vector<std::uint16_t>& theirs = shares_.beams_of_track[other];
-      std::erase_if(theirs, [&](std::uint16_t beam) { return std::binary_search(beams.begin(), beams.end(), beam); });
+      if (other != t) std::erase_if(theirs, [&](std::uint16_t beam) { return std::binary_search(beams.begin(), beams.end(), beam); });
     }
-    shares_.beams_of_track[t] = std::move(beams);
     shares_.label_of_track[t] = label;
   }
 }
 
 void Tracker::associate(const ScanView& view) {
-  shares_.beams_of_track.resize(tracks_.size());
+  spare_beams_.resize(shares_.beams_of_track, tracks_.size());
   for (auto& beams : shares_.beams_of_track) beams.clear();
   shares_.label_of_track.assign(tracks_.size(), PointLabel::kUnknown);
   shares_.track_of_segment.assign(view.scan().segments.size(), kUnassigned);
@@ -542,17 +542,16 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
 }
 
 void Tracker::begin_tracks(const ScanView& view) {
-  std::vector<Vector2d> points_m;
   for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
     const Segment& segment = view.scan().segments[s];
     if (shares_.track_of_segment[s] != kUnassigned || !may_begin(segment, s)) continue;
     const Answers answers = with_answers({}, segment.beams.size(), gaps_between(segment.beams, view.polar()), 0.0);
     const double after_stamp_s = view.polar().delay_towards_s(segment.centroid_in_odom_m);
-    const Glimpse glimpse = glimpse_of(segment.beams, {after_stamp_s, Vector2d::Zero()}, answers, view, config_.size_scale, points_m);
+    const Glimpse glimpse = glimpse_of(segment.beams, {after_stamp_s, Vector2d::Zero()}, answers, view, config_.size_scale, points_m_);
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
     // Detection fits boxes to what moves only.
-    const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m, config_.range_noise_m).heading_rad;
-    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_, road_users_));
+    const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m_, config_.range_noise_m).heading_rad;
+    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_, road_users_, spare_tracks_.take()));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
     tracks_.back().after_stamp_s = after_stamp_s;
     tracks_.back().youth.add(view.scan().stamp_ns + nanoseconds(after_stamp_s), glimpse, pose_covariance_m2);
@@ -560,7 +559,8 @@ void Tracker::begin_tracks(const ScanView& view) {
     tracks_.back().echoes = static_cast<double>(segment.beams.size());
     tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
     shares_.track_of_segment[s] = tracks_.size() - 1;
-    shares_.beams_of_track.push_back(segment.beams);
+    spare_beams_.resize(shares_.beams_of_track, tracks_.size());
+    shares_.beams_of_track.back() = segment.beams;
     shares_.label_of_track.push_back(segment.label);
     ++counters_.tracks_begun;
   }
@@ -639,14 +639,14 @@ void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const Sc
 
 void Tracker::remember(const ScanView& view) {
   if (!history_.is_due(view.scan().stamp_ns)) return;
-  std::vector<Owner> owners(view.scan().range_m.size());
+  owners_.assign(view.scan().range_m.size(), {});
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    for (const std::uint16_t beam : shares_.beams_of_track[t]) owners[beam] = {tracks_[t].track_id, true, tracks_[t].confirmed, tracks_[t].confirmed && tracks_[t].body.has_sides};
+    for (const std::uint16_t beam : shares_.beams_of_track[t]) owners_[beam] = {tracks_[t].track_id, true, tracks_[t].confirmed, tracks_[t].confirmed && tracks_[t].body.has_sides};
   for (std::size_t s = 0; s < past_of_segment_.size(); ++s) {
     if (!past_of_segment_[s].has_come) continue;
-    for (const std::uint16_t beam : view.scan().segments[s].beams) owners[beam].has_come = true;
+    for (const std::uint16_t beam : view.scan().segments[s].beams) owners_[beam].has_come = true;
   }
-  history_.add(view.scan().stamp_ns, view.polar(), std::move(owners));
+  history_.add(view.scan().stamp_ns, view.polar(), owners_);
 }
 
 /// The echoes are of something else, which may become a track of its own.
@@ -742,13 +742,12 @@ void Tracker::absorb(std::size_t a, std::size_t b) {
 
 /// Two ends of one vehicle, the middle of which is hidden or dark, are seen as two.
 void Tracker::join_pieces(const ScanView& view) {
-  std::vector<Vector2d> points_m;
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
       if (a == b || tracks_[a].hits < tracks_[b].hits || tracks_[b].hits == 0 || shares_.beams_of_track[a].empty() || shares_.beams_of_track[b].empty()) continue;
       if (!drive_as_one(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
       absorb(a, b);
-      draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], swept_motion(tracks_[a]), tracks_[a].answers, view, config_.size_scale, points_m), config_);
+      draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], swept_motion(tracks_[a]), tracks_[a].answers, view, config_.size_scale, points_m_), config_);
     }
   }
 }
@@ -765,14 +764,18 @@ void Tracker::merge_duplicates() {
 
 void Tracker::remove_dead(flow::ScanLabels& labels) {
   const auto restore = [&](const Track& track) {
-    for (const flow::RestoredPoints& past : track.past) {
-      const auto same = std::find_if(labels.restored.begin(), labels.restored.end(), [&](const auto& one) { return one.sequence == past.sequence; });
+    for (const flow::RestoredPoints& past : track.past.all()) {
+      const auto same = std::ranges::find_if(labels.restored, [&](const auto& one) { return one.sequence == past.sequence; });
       counters_.points_restored += past.beams.size();
-      if (same == labels.restored.end()) labels.restored.push_back(past);
-      else add_beams(same->beams, past.beams);
+      if (same != labels.restored.end()) {
+        add_beams(same->beams, past.beams);
+      } else {
+        spare_restored_.resize(labels.restored, labels.restored.size() + 1);
+        labels.restored.back() = past;
+      }
     }
   };
-  std::erase_if(tracks_, [&](const Track& track) {
+  const auto is_over = [&](const Track& track) {
     if (track.hits == 0) return true;
     const double unseen_s = static_cast<double>(last_stamp_ns_ - track.last_seen_ns) * kNanosecond_s;
     const double age_s = static_cast<double>(last_stamp_ns_ - track.first_seen_ns) * kNanosecond_s;
@@ -785,25 +788,40 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     }
     if (is_dead) note_sizes(road_users_seen_, track, config_);
     return is_dead;
-  });
+  };
+  std::size_t kept = 0;
+  for (Track& track : tracks_) {
+    if (is_over(track)) {
+      spare_tracks_.give(std::move(track));
+      continue;
+    }
+    if (&track != &tracks_[kept]) tracks_[kept] = std::move(track);
+    ++kept;
+  }
+  tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(kept), tracks_.end());
   road_users_ = road_users_seen_.known();
   constexpr std::size_t kMostRestored = 64;
-  if (labels.restored.size() > kMostRestored) labels.restored.resize(kMostRestored);
+  if (labels.restored.size() > kMostRestored) spare_restored_.resize(labels.restored, kMostRestored);
 }
 
-TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
-  TrackingResult result;
+TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult done_with) {
+  TrackingResult result = std::move(done_with);
+  result.labels.stamp_ns = scan.stamp_ns;
+  result.labels.sequence = scan.sequence;
+  result.labels.scanner_id = scan.scanner_id;
+  result.labels.labels = scan.labels;
+  spare_restored_.resize(result.labels.restored, 0);
   if (has_scan_ && scan.stamp_ns <= last_stamp_ns_) {
     ++counters_.late_scans;
-    result.labels = {scan.stamp_ns, scan.sequence, scan.scanner_id, scan.labels, {}};
-    result.objects = describe(scan);
+    describe(scan, result.objects);
     return result;
   }
   const double time_s = has_scan_ ? static_cast<double>(scan.stamp_ns - last_stamp_ns_) * kNanosecond_s : 0.0;
   has_scan_ = true;
   last_stamp_ns_ = scan.stamp_ns;
   ++counters_.scans;
-  const ScanView view(scan);
+  view_.look_at(scan);
+  const ScanView& view = view_;
   for (Track& track : tracks_) track.body.road_users = road_users_;
   for (Track& track : tracks_) predict_to_its_beam(track, time_s, view.polar(), config_);
   rivals_.predict(time_s);
@@ -815,23 +833,25 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan) {
   join_pieces(view);
   merge_duplicates();
   remember(view);
-  result.labels = label(view);
+  label(view, result.labels);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     Track& track = tracks_[t];
     if (track.confirmed || shares_.beams_of_track[t].empty()) continue;
-    track.past.push_back({scan.sequence, shares_.beams_of_track[t]});
+    if (track.past.size() == kMostPastScans) track.past.pop_front();
+    flow::RestoredPoints& past = track.past.push_back();
+    past.sequence = scan.sequence;
+    past.beams = shares_.beams_of_track[t];
     // What is known to have come is not given back to the map with a track that has proven nothing.
-    std::erase_if(track.past.back().beams, [&](std::uint16_t beam) { return past_of_segment_[view.segment_of_beam(beam)].has_come; });
-    if (track.past.size() > kMostPastScans) track.past.pop_front();
+    std::erase_if(past.beams, [&](std::uint16_t beam) { return past_of_segment_[view.segment_of_beam(beam)].has_come; });
   }
   remove_dead(result.labels);
-  result.objects = describe(scan);
+  describe(scan, result.objects);
   return result;
 }
 
-flow::ScanLabels Tracker::label(const ScanView& view) const {
+/// In labels that are those of detection until now.
+void Tracker::label(const ScanView& view, flow::ScanLabels& labels) {
   const flow::SegmentedScan& scan = view.scan();
-  flow::ScanLabels labels{scan.stamp_ns, scan.sequence, scan.scanner_id, scan.labels, {}};
   for (std::size_t s = 0; s < scan.segments.size(); ++s) {
     const Segment& segment = scan.segments[s];
     for (const std::uint16_t beam : segment.beams) {
@@ -844,14 +864,17 @@ flow::ScanLabels Tracker::label(const ScanView& view) const {
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     if (tracks_[t].confirmed)
       for (const std::uint16_t beam : shares_.beams_of_track[t]) labels.labels[beam] = PointLabel::kMoving;
-  return labels;
 }
 
-flow::TrackedObjects Tracker::describe(const flow::SegmentedScan& scan) const {
-  flow::TrackedObjects objects{scan.stamp_ns, scan.sequence, scan.map_from_odom, scan.odom_from_base.pose, {}, scan.map_id, scan.odom_id};
-  objects.objects.resize(tracks_.size());
-  work::share(help_, tracks_.size(), [&](std::size_t t) { objects.objects[t] = described(tracks_[t], scan.stamp_ns, config_); });
-  return objects;
+void Tracker::describe(const flow::SegmentedScan& scan, flow::TrackedObjects& objects) {
+  objects.stamp_ns = scan.stamp_ns;
+  objects.sequence = scan.sequence;
+  objects.map_from_odom = scan.map_from_odom;
+  objects.odom_from_base = scan.odom_from_base.pose;
+  objects.map_id = scan.map_id;
+  objects.odom_id = scan.odom_id;
+  spare_objects_.resize(objects.objects, tracks_.size());
+  work::share(help_, tracks_.size(), [&](std::size_t t) { objects.objects[t] = described(tracks_[t], scan.stamp_ns, config_, std::move(objects.objects[t])); });
 }
 
 void Tracker::take_up(const flow::TrackedObjects& objects) {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "common/memory/spares.hpp"
 #include "common/work/side_work.hpp"
 #include "services/tracking/formations.hpp"
 #include "services/tracking/rivals.hpp"
@@ -59,8 +59,9 @@ class Tracker {
   /// help (null: none) must outlive this; the results are the same with it and without.
   explicit Tracker(const TrackingConfig& config, work::SideWork* help = nullptr);
 
-  /// Takes one scan and tells what is believed after it, and what each of its points is.
-  TrackingResult track(const flow::SegmentedScan& scan);
+  /// Takes one scan and tells what is believed after it, and what each of its points is. done_with: a result that nobody needs any
+  /// more; of it nothing but memory is used. Given back one, this allocates nothing while no more is in view than ever was.
+  TrackingResult track(const flow::SegmentedScan& scan, TrackingResult done_with = {});
 
   /// Goes on with what was published last, after a restart: ids stay and are not given again. Forgets all else.
   void take_up(const flow::TrackedObjects& objects);
@@ -126,8 +127,8 @@ class Tracker {
   void join_pieces(const ScanView& view);
   void merge_duplicates();
   void remove_dead(flow::ScanLabels& labels);
-  flow::ScanLabels label(const ScanView& view) const;
-  flow::TrackedObjects describe(const flow::SegmentedScan& scan) const;
+  void label(const ScanView& view, flow::ScanLabels& labels);
+  void describe(const flow::SegmentedScan& scan, flow::TrackedObjects& objects);
 
   TrackingConfig config_;
   work::SideWork* help_;
@@ -144,6 +145,16 @@ class Tracker {
   Rivals rivals_;
   Formations formations_;
   ScanHistory history_;
+  /// Memory that is used again.
+  ScanView view_;                               ///< Of the current scan.
+  std::vector<Owner> owners_;
+  std::vector<Eigen::Vector2d> points_m_;
+  association::CostMatrix costs_;
+  association::Assigner assigner_;
+  memory::Spares<Track> spare_tracks_;
+  memory::Spares<std::vector<std::uint16_t>> spare_beams_;
+  memory::Spares<flow::TrackedObject> spare_objects_;
+  memory::Spares<flow::RestoredPoints> spare_restored_;
   std::uint32_t next_id_ = 1;
   std::int64_t last_stamp_ns_ = 0;
   bool has_scan_ = false;

@@ -90,9 +90,9 @@ void TrackingService::track(const flow::SegmentedScan& scan) {
     return publish(last->second);
   }
   const app::Stopwatch stopwatch(context_.status().latency("track"));
-  TrackingResult result = tracker_.track(scan);
+  TrackingResult& result = last_results_[scan.scanner_id];
+  result = tracker_.track(scan, std::move(result));
   publish(result);
-  last_results_[scan.scanner_id] = std::move(result);
 }
 
 /// Objects first: localization must know them when the labels let the next scan come.

@@ -11,7 +11,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-ALGORITHM_FOLDERS = {"geometry", "sensing", "flow", "work", "grids", "matching", "filters", "association", "graphs",
+ALGORITHM_FOLDERS = {"geometry", "sensing", "flow", "memory", "work", "grids", "matching", "filters", "association", "graphs",
                      "simulation", "metrics"}
 # Their own code is pure; ingest and map_store do nothing but carry data, so they are shell throughout.
 ALGORITHM_SERVICES = {"localization", "detection", "tracking", "loop_closing"}

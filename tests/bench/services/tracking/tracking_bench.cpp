@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "services/detection/detector.hpp"
@@ -26,7 +27,12 @@ flow::LocalizedScan scan_of_traffic(int movers, int step) {
 
 void detect_traffic(benchmark::State& state) {
   const flow::LocalizedScan scan = scan_of_traffic(static_cast<int>(state.range(0)), 0);
-  for (auto _ : state) benchmark::DoNotOptimize(detection::detect(scan, {}));
+  detection::Detector detector{{}};
+  flow::SegmentedScan segmented;
+  for (auto _ : state) {
+    segmented = detector.detect(scan, std::move(segmented));
+    benchmark::DoNotOptimize(segmented);
+  }
 }
 BENCHMARK(detect_traffic)->Arg(0)->Arg(20)->Arg(100)->Unit(benchmark::kMicrosecond);
 
@@ -35,16 +41,18 @@ void track_traffic(benchmark::State& state) {
   for (int step = 0; step < 60; ++step) scans.push_back(detection::detect(scan_of_traffic(static_cast<int>(state.range(0)), step), {}));
   std::size_t next = scans.size();
   tracking::Tracker tracker{{}};
+  tracking::TrackingResult result;
   std::vector<double> times_us;
   for (auto _ : state) {
     if (next == scans.size()) {
       state.PauseTiming();
       tracker = tracking::Tracker{{}};
-      for (next = 0; next < 20; ++next) benchmark::DoNotOptimize(tracker.track(scans[next]));  // until they are confirmed
+      for (next = 0; next < 20; ++next) result = tracker.track(scans[next], std::move(result));  // until they are confirmed
       state.ResumeTiming();
     }
     const auto start = std::chrono::steady_clock::now();
-    benchmark::DoNotOptimize(tracker.track(scans[next++]));
+    result = tracker.track(scans[next++], std::move(result));
+    benchmark::DoNotOptimize(result);
     times_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
   }
   state.counters["p50_us"] = testing::percentile(times_us, 0.5);

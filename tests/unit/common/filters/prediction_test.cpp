@@ -90,10 +90,16 @@ std::vector<double> mean_nees(int runs, const Foretell& foretell) {
   return nees;
 }
 
+std::vector<MotionState> foretold(const ModelSet& set, const ImmState& state) {
+  std::vector<MotionState> path(kSteps);
+  imm_foretell(set, state, kStepS, path);
+  return path;
+}
+
 TEST(Foretelling, IsAsSureAsItMayBeOfWhatMovesAsTheModelsSay) {
   // The mean of 1000 independent samples of two degrees of freedom lies within 1.83 and 2.18 in 95 of 100 cases; errors of a
   // mixture have longer tails, and one Gaussian for each mode is an approximation.
-  for (const double nees : mean_nees(1000, [](const ModelSet& set, const ImmState& state) { return imm_foretell(set, state, kStepS, kSteps); })) {
+  for (const double nees : mean_nees(1000, foretold)) {
     EXPECT_GT(nees, 1.75);
     EXPECT_LT(nees, 2.25);
   }
@@ -115,7 +121,7 @@ TEST(Foretelling, FollowsAnAccelerationThatLasts) {
   now.covariance = 0.01 * Matrix6::Identity();
   ImmState state = imm_start(set, now);
   state.probability = {0.0, 1.0, 0.0};
-  const std::vector<MotionState> path = imm_foretell(set, state, kStepS, kSteps);
+  const std::vector<MotionState> path = foretold(set, state);
   for (std::size_t step = 0; step < path.size(); ++step) {
     const Vector2d truth_m = testing::accelerating(1.0 + kStepS * static_cast<double>(step + 1)).head<2>();
     const double sigma_m = std::sqrt(path[step].covariance(0, 0));
@@ -129,7 +135,7 @@ TEST(Foretelling, IsPredictionWhereThereIsOneModel) {
   ModelSet set = traffic();
   set.size = 1;
   const MotionState expected = predict(set.models[0], somewhere(), kSteps * kStepS);
-  const MotionState last = imm_foretell(set, imm_start(set, somewhere()), kStepS, kSteps).back();
+  const MotionState last = foretold(set, imm_start(set, somewhere())).back();
   EXPECT_THAT(last.mean, MatrixNear(expected.mean, 1e-12));
   EXPECT_THAT(last.covariance, MatrixNear(expected.covariance, 1e-12));
 }

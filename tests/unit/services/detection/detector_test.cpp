@@ -59,11 +59,12 @@ TEST(Detector, TakesNothingButMemoryFromAScanThatIsDoneWith) {
   full_street.unknown = {{{20.0, 5.0, 0.3}}, {{12.0, -4.0, 1.2}}, {{30.0, 2.0, 0.0}}};
   const flow::LocalizedScan few = empty_street.scan(0, 0);
   const flow::LocalizedScan many = full_street.scan(100, 1);
-  expect_same(detect(few, {}, detect(many, {})), detect(few, {}));
-  expect_same(detect(many, {}, detect(few, {})), detect(many, {}));
-  flow::SegmentedScan done_with = detect(many, {});
+  Detector detector{{}};
+  expect_same(detector.detect(few, detector.detect(many)), detect(few, {}));
+  expect_same(detector.detect(many, detector.detect(few)), detect(many, {}));
+  flow::SegmentedScan done_with = detector.detect(many);
   const std::uint16_t* const beams = done_with.segments.front().beams.data();
-  EXPECT_EQ(detect(many, {}, std::move(done_with)).segments.front().beams.data(), beams);
+  EXPECT_EQ(detector.detect(many, std::move(done_with)).segments.front().beams.data(), beams);
 }
 
 TEST(Detector, FindsTheSameWithHelp) {
@@ -72,7 +73,7 @@ TEST(Detector, FindsTheSameWithHelp) {
   street.unknown = {{{20.0, 5.0, 0.3}}, {{12.0, -4.0, 1.2}}, {{30.0, 2.0, 0.0}}, {{15.0, 0.0, 0.0}}};
   const flow::LocalizedScan scan = street.scan(0, 0);
   slammot::testing::HelpAtTheLastMoment help;
-  expect_same(detect(scan, {}, {}, &help), detect(scan, {}));
+  expect_same(Detector({}, &help).detect(scan), detect(scan, {}));
   EXPECT_GT(help.shared(), 0);
 }
 
