@@ -36,8 +36,8 @@ std::string content_of(const path& file) {
 }
 
 std::string title_of(const path& folder) {
-  const path name = folder.filename().empty() ? folder.parent_path().filename() : folder.filename();
-  return "slammot: " + name.string();
+  const path whole = std::filesystem::absolute(folder).lexically_normal();  // "." has a name, too
+  return "slammot: " + (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
 int write_report(const ReportOptions& options) {

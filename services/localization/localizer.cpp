@@ -201,6 +201,12 @@ void Localizer::watch_stamps(std::int64_t stamp_ns, const Step& step, const Matc
   progress_.applies_stamp_offset = true;
 }
 
+sensing::MotionEstimate Localizer::moved_by_wheels(const Pose2& by_wheels, std::int64_t stamp_ns, double duration_s) const {
+  const sensing::MotionEstimate& before = progress_.estimate;
+  if (!progress_.applies_stamp_offset) return sensing::moved_by_wheels(before, {by_wheels, duration_s}, motion_of_one_clock_);
+  return sensing::moved_by_wheels(before, {by_wheels, duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(before))}, config_.motion);
+}
+
 bool Localizer::is_still(const Pose2& by_wheels, double duration_s) {
   return std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m && std::abs(by_wheels.heading_rad) <= kStandsWithin_radps * duration_s;
 }
@@ -221,9 +227,8 @@ Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Po
       step.is_by_wheels = true;
       step.stood_s = is_still(by_wheels, step.duration_s) ? progress_.last->stood_s + step.duration_s : 0.0;
       step.is_standing = !config_.may_be_picked_up && step.stood_s > kStandsAfter_s;
-      step.after = step.is_standing ? sensing::stood_still(progress_.estimate, step.duration_s, config_.motion) : progress_.applies_stamp_offset
-                       ? sensing::moved_by_wheels(progress_.estimate, {by_wheels, step.duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(progress_.estimate))}, config_.motion)
-                       : sensing::moved_by_wheels(progress_.estimate, {by_wheels, step.duration_s}, motion_of_one_clock_);
+      if (step.is_standing) step.after = sensing::stood_still(progress_.estimate, step.duration_s, config_.motion);
+      else step.after = moved_by_wheels(by_wheels, stamp_ns, step.duration_s);
       step.before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * step.after.odom_from_base;
       return step;
     }

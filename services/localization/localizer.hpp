@@ -272,6 +272,7 @@ class Localizer {
   void watch_stamps(std::int64_t stamp_ns, const Step& step, const Match& found);
   static bool is_still(const geometry::Pose2& by_wheels, double duration_s);
   Step predict(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
+  sensing::MotionEstimate moved_by_wheels(const geometry::Pose2& by_wheels, std::int64_t stamp_ns, double duration_s) const;
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
   bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;
   sensing::MotionEstimate doubted_velocity(const geometry::Pose2& by_wheels, double duration_s) const;

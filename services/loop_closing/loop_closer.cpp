@@ -309,12 +309,14 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
 bool LoopCloser::knows_where_it_is() const { return places_.empty() || islands_now().at(places_.rbegin()->first) == places_.begin()->first; }
 
 flow::GraphCorrection LoopCloser::correction() {
-  if (places_.empty()) return {.sequence = ++sequence_};
+  flow::GraphCorrection correction;
+  correction.sequence = ++sequence_;
+  if (places_.empty()) return correction;
   const Place& newest = places_.rbegin()->second;
-  return {.sequence = ++sequence_,
-          .map_from_odom = graph_.map_from_node(newest.id) * geometry::inverse(newest.odom_from_submap),
-          .submaps = graph_.nodes(),
-          .is_untied = !knows_where_it_is()};
+  correction.map_from_odom = graph_.map_from_node(newest.id) * geometry::inverse(newest.odom_from_submap);
+  correction.submaps = graph_.nodes();
+  correction.is_untied = !knows_where_it_is();
+  return correction;
 }
 
 }  // namespace slammot::loop_closing
