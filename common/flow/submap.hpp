@@ -33,7 +33,7 @@ struct Submap {
   double min_y_m = 0.0;
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;
-  std::vector<std::int8_t> so_log_odds;             ///< Stationary: 1/16 of a unit of log-odds each; 0 = not seen.
+  std::vector<std::int8_t> so_log_odds;             ///< Stationary, what lasts of it: 1/16 of a unit of log-odds each; 0 = not seen.
   std::vector<std::uint8_t> mo_evidence;            ///< Moving: 0 never, 255 always seen moving.
   std::vector<Surfel> surfels;
   double saliency = 0.0;                            ///< Object saliency score, Wang 2004, Eq. (3.11); 0 when not computed.

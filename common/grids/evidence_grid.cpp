@@ -1,15 +1,14 @@
 #include "common/grids/evidence_grid.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
 #include "common/geometry/full_turn.hpp"
+#include "common/grids/lowered_cells.hpp"
 #include "common/grids/ray_walk.hpp"
 
 namespace slammot::grids {
@@ -20,23 +19,6 @@ constexpr double kCellsBeforeEcho = 1.5;
 constexpr double kCellsBetweenBeams = 3.0;  ///< What is wider than a quarter of that is hit often enough to stay in the map.
 constexpr double kMostSlope = 10.0;         ///< Echoes whose ranges differ by more times their distance are of two things.
 constexpr std::uint64_t kInRow = 0xff;      ///< Bits of a block's first row.
-constexpr std::int32_t kCellsPerWord = 64;
-
-/// For each pattern of eight bits a byte of ones or zeros a bit.
-constexpr auto kMaskOfBits = [] {
-  std::array<std::uint64_t, 256> masks{};
-  for (std::size_t bits = 0; bits < masks.size(); ++bits) {
-    std::array<std::uint8_t, 8> bytes{};
-    for (std::size_t bit = 0; bit < 8; ++bit) bytes[bit] = bits >> bit & 1 ? std::uint8_t{0xff} : std::uint8_t{0};
-    masks[bits] = std::bit_cast<std::uint64_t>(bytes);
-  }
-  return masks;
-}();
-
-/// Sixteen cells in one register, of GCC and Clang on every processor: what they make of a loop over bytes is either, by luck.
-using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
-using TwoMasks [[gnu::vector_size(16)]] = std::uint64_t;
-constexpr std::int32_t kCellsPerRegister = 16;
 
 bool is_mapped(Echo echo) { return echo == Echo::kStationary || echo == Echo::kMoving; }
 
@@ -45,6 +27,35 @@ std::int32_t first_centre(double place, std::int32_t count) {
   const double at = std::clamp(place - 0.5, 0.0, static_cast<double>(count));
   const auto below = static_cast<std::int32_t>(at);
   return below + (static_cast<double>(below) < at);  // rounded up, in fewer instructions than std::ceil
+}
+
+/// Flips, in each row whose middle the edge crosses, the first cell whose centre lies right of it: from there to the next
+/// flip the row is inside the outline. In cells of the window.
+void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const GridWindow& window, BitRows& outline) {
+  const auto [low, high] = from.y() < to.y() ? std::pair(from, to) : std::pair(to, from);
+  const std::int32_t first_row = first_centre(low.y(), window.rows);
+  const std::int32_t end_row = first_centre(high.y(), window.rows);
+  if (first_row >= end_row) return;
+  const double slope = (high.x() - low.x()) / (high.y() - low.y());
+  for (std::int32_t row = first_row; row < end_row; ++row) {
+    outline.flip(first_centre(low.x() + slope * (row + 0.5 - low.y()), window.columns), row);
+  }
+}
+
+void fill(BitRows& outline) {
+  for (std::size_t row = 0; row < outline.first_word.size(); ++row) {
+    std::uint64_t* const words = outline.row(static_cast<std::int32_t>(row));
+    std::uint64_t carry = 0;
+    for (std::int32_t word = outline.first_word[row]; word <= outline.last_word[row]; ++word) {
+      std::uint64_t inside = words[word];
+      if (inside != 0) {
+        for (const int shift : {1, 2, 4, 8, 16, 32}) inside ^= inside << shift;  // parity of the flips up to each bit
+      }
+      inside ^= carry;
+      carry = inside >> 63 ? ~std::uint64_t{0} : 0;
+      words[word] = inside;
+    }
+  }
 }
 
 /// How far a ray that starts inside goes before it leaves the window; 0 when it starts outside.
@@ -93,9 +104,7 @@ struct EvidenceGrid::RayInCells {
   Axis y;
 };
 
-int steps_of_log_odds(double log_odds) { return static_cast<int>(std::lround(log_odds / kLogOddsStep)); }
-
-EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model)
+EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model, const LastingModel& lasting)
     : window_(window),
       model_(model),
       hit_steps_(steps_of_log_odds(model.hit_log_odds)),
@@ -106,41 +115,13 @@ EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model)
       block_rows_((window.rows >> kBlockShift) + 1),
       so_(window.cell_count()),
       mo_(window.cell_count(), 0),
+      lasting_(window, lasting),
       occupied_bits_(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_), 0),
       rows_of_blocks_(block_rows_, block_columns_),
       columns_of_blocks_(block_columns_, block_rows_),
       free_(window.columns, window.rows),
+      surely_free_(window.columns, window.rows),
       echoed_(window.columns, window.rows) {}
-
-EvidenceGrid::BitRows::BitRows(std::int32_t columns, std::int32_t rows)
-    : words_per_row(columns / 64 + 1),
-      words(static_cast<std::size_t>(words_per_row) * static_cast<std::size_t>(rows), 0),
-      first_word(static_cast<std::size_t>(rows), words_per_row),
-      last_word(static_cast<std::size_t>(rows), -1) {}
-
-void EvidenceGrid::BitRows::use(std::int32_t row, std::int32_t word) {
-  const auto at = static_cast<std::size_t>(row);
-  first_word[at] = std::min(first_word[at], word);
-  last_word[at] = std::max(last_word[at], word);
-}
-
-void EvidenceGrid::BitRows::flip(std::int32_t column, std::int32_t row) {
-  use(row, column >> 6);
-  this->row(row)[column >> 6] ^= std::uint64_t{1} << (column & 63);
-}
-
-void EvidenceGrid::BitRows::set(std::int32_t column, std::int32_t row) {
-  use(row, column >> 6);
-  this->row(row)[column >> 6] |= std::uint64_t{1} << (column & 63);
-}
-
-void EvidenceGrid::BitRows::clear(std::int32_t column, std::int32_t row) {
-  this->row(row)[column >> 6] &= ~(std::uint64_t{1} << (column & 63));
-}
-
-bool EvidenceGrid::BitRows::is_set(std::int32_t column, std::int32_t row) const {
-  return words[static_cast<std::size_t>(row) * static_cast<std::size_t>(words_per_row) + static_cast<std::size_t>(column >> 6)] >> (column & 63) & 1;
-}
 
 void EvidenceGrid::note_occupied(std::size_t index) {
   const auto row = static_cast<std::int32_t>(static_cast<std::uint32_t>(index) / static_cast<std::uint32_t>(window_.columns));
@@ -171,7 +152,7 @@ void EvidenceGrid::measure_free_ways(const Eigen::Vector2d& origin_m, const std:
     const double length_m = way_m.norm();
     // An echo's own cell, and the one that a shallow beam crosses just before it, are not free.
     const double free_m = rays[i].echo == Echo::kNone ? length_m : length_m - kCellsBeforeEcho * window_.cell_size_m;
-    ways_[i] = {length_m > 0.0 ? Eigen::Vector2d(way_m / length_m) : Eigen::Vector2d(1.0, 0.0), std::max(0.0, free_m), 0.0, 0.0, Eigen::Vector2d::Zero()};
+    ways_[i] = {length_m > 0.0 ? Eigen::Vector2d(way_m / length_m) : Eigen::Vector2d(1.0, 0.0), std::max(0.0, free_m), 0.0, 0.0, 0.0, Eigen::Vector2d::Zero()};
   }
   if (beam_step_rad == 0.0) return;
   const double dense_m = kCellsBetweenBeams * window_.cell_size_m / std::abs(beam_step_rad);
@@ -188,6 +169,17 @@ void EvidenceGrid::measure_free_ways(const Eigen::Vector2d& origin_m, const std:
     way.to_next_m = std::min(dense_m, are_of_one_surface ? shorter_m : way.length_m);
     next.to_previous_m = std::min(dense_m, are_of_one_surface ? shorter_m : next.length_m);
   }
+  measure_surely_free_ways(rays);
+}
+
+void EvidenceGrid::measure_surely_free_ways(const std::vector<Ray>& rays) {
+  const auto end_m = [&](std::size_t i) { return rays[i].echo == Echo::kNone ? std::numeric_limits<double>::infinity() : ways_[i].length_m; };
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    const std::size_t next = i + 1 == ways_.size() ? 0 : i + 1;
+    const std::size_t previous = i == 0 ? ways_.size() - 1 : i - 1;
+    const bool is_between = !ways_[i].half_way.isZero() && !ways_[previous].half_way.isZero();
+    ways_[i].surely_m = is_between ? std::min({end_m(previous), ways_[i].length_m, end_m(next)}) : 0.0;
+  }
 }
 
 void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way) {
@@ -195,6 +187,7 @@ void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m, std::size
   const auto at = [&](const Eigen::Vector2d& direction, double distance_m) -> Eigen::Vector2d {
     return (origin_m + distance_m * direction) / window_.cell_size_m - corner;
   };
+  const auto add_edge = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) { grids::add_edge(from, to, window_, free_); };
   for (std::size_t i = first_way; i < end_way; ++i) {
     const FreeWay& way = ways_[i];
     const FreeWay& next = ways_[i + 1 == ways_.size() ? 0 : i + 1];
@@ -206,33 +199,23 @@ void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m, std::size
   }
 }
 
-/// Flips, in each row whose middle the edge crosses, the first cell whose centre lies right of it: from there to the next
-/// flip the row is inside the outline. In cells of the window.
-void EvidenceGrid::add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  const auto [low, high] = from.y() < to.y() ? std::pair(from, to) : std::pair(to, from);
-  const std::int32_t first_row = first_centre(low.y(), window_.rows);
-  const std::int32_t end_row = first_centre(high.y(), window_.rows);
-  if (first_row >= end_row) return;
-  const double slope = (high.x() - low.x()) / (high.y() - low.y());
-  for (std::int32_t row = first_row; row < end_row; ++row) {
-    free_.flip(first_centre(low.x() + slope * (row + 0.5 - low.y()), window_.columns), row);
-  }
-}
-
-void EvidenceGrid::fill_outline() {
-  for (std::int32_t row = 0; row < window_.rows; ++row) {
-    const auto at = static_cast<std::size_t>(row);
-    std::uint64_t* const words = free_.row(row);
-    std::uint64_t carry = 0;
-    for (std::int32_t word = free_.first_word[at]; word <= free_.last_word[at]; ++word) {
-      std::uint64_t inside = words[word];
-      if (inside != 0) {
-        for (const int shift : {1, 2, 4, 8, 16, 32}) inside ^= inside << shift;  // parity of the flips up to each bit
-      }
-      inside ^= carry;
-      carry = inside >> 63 ? ~std::uint64_t{0} : 0;
-      words[word] = inside;
-    }
+/// As far as the echoes of the beams beside it let each beam be taken for what lies half way to them: however far apart they are.
+void EvidenceGrid::outline_surely_free(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way) {
+  const Eigen::Vector2d corner(window_.first.column, window_.first.row);
+  const auto at = [&](const Eigen::Vector2d& direction, double distance_m) -> Eigen::Vector2d {
+    return (origin_m + distance_m * direction) / window_.cell_size_m - corner;
+  };
+  if (first_way == end_way) return;
+  const FreeWay& before = ways_[first_way == 0 ? ways_.size() - 1 : first_way - 1];
+  Eigen::Vector2d begins = at(before.half_way, ways_[first_way].surely_m);
+  for (std::size_t i = first_way; i < end_way; ++i) {
+    const FreeWay& way = ways_[i];
+    const FreeWay& next = ways_[i + 1 == ways_.size() ? 0 : i + 1];
+    const Eigen::Vector2d ends = at(way.half_way, way.surely_m);
+    const Eigen::Vector2d next_begins = at(way.half_way, next.surely_m);
+    if (way.surely_m > 0.0) add_edge(begins, ends, window_, surely_free_);
+    if (way.surely_m != next.surely_m) add_edge(ends, next_begins, window_, surely_free_);
+    begins = next_begins;
   }
 }
 
@@ -257,34 +240,17 @@ void EvidenceGrid::find_echoes(const std::vector<Ray>& rays) {
 }
 
 void EvidenceGrid::keep_echoes_out() {
-  for (const EchoedCell& echo : echoes_) free_.clear(echo.column, echo.row);
+  for (const EchoedCell& echo : echoes_) {
+    free_.clear(echo.column, echo.row);
+    surely_free_.clear(echo.column, echo.row);
+  }
 }
 
-/// Lowers up to 64 cells of a row by masks, whichever they are, however short the runs. Cells are taken for unsigned, 128
-/// higher: every x86-64 knows the larger of two unsigned bytes.
 void EvidenceGrid::lower(std::int32_t row, std::int32_t word, std::uint64_t free_cells) {
-  constexpr std::uint8_t kHigher = 0x80;
   const std::int32_t first_column = word * kCellsPerWord;
   const std::int32_t count = std::min(kCellsPerWord, window_.columns - first_column);
   std::int8_t* const cells = so_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
-  const auto step = static_cast<std::int8_t>(free_steps_);
-  const auto lowest = static_cast<std::int8_t>(free_steps_ - limit_steps_);
-  const Bytes steps = Bytes{} + static_cast<std::uint8_t>(step);
-  const Bytes lowest_higher = Bytes{} + static_cast<std::uint8_t>(static_cast<std::uint8_t>(lowest) ^ kHigher);
-  std::int32_t first = 0;
-  for (; first + kCellsPerRegister <= count; first += kCellsPerRegister) {
-    const Bytes mask = std::bit_cast<Bytes>(TwoMasks{kMaskOfBits[free_cells >> first & 0xff], kMaskOfBits[free_cells >> (first + 8) & 0xff]});
-    Bytes higher;
-    std::memcpy(&higher, cells + first, sizeof higher);
-    higher ^= kHigher;
-    const Bytes least = lowest_higher & mask;
-    higher = (higher > least ? higher : least) - (steps & mask);
-    higher ^= kHigher;
-    std::memcpy(cells + first, &higher, sizeof higher);
-  }
-  for (; first < count; ++first) {
-    if (free_cells >> first & 1) cells[first] = static_cast<std::int8_t>(std::max(cells[first], lowest) - step);
-  }
+  lower_cells(cells, count, free_cells, free_steps_, -limit_steps_);
   unnote_freed(row, word, free_cells);
 }
 
@@ -314,15 +280,13 @@ void EvidenceGrid::lower_free_cells() {
       const std::uint64_t free_cells = std::exchange(words[word], 0);
       if (free_cells != 0) lower(row, word, free_cells);
     }
-    free_.first_word[at] = free_.words_per_row;
-    free_.last_word[at] = -1;
+    free_.unuse(row);
   }
 }
 
 void EvidenceGrid::clear_free_cells() {
-  std::ranges::fill(free_.words, 0);
-  std::ranges::fill(free_.first_word, free_.words_per_row);
-  std::ranges::fill(free_.last_word, -1);
+  free_.clear_all();
+  surely_free_.clear_all();
 }
 
 void EvidenceGrid::raise_echoes(const std::vector<Ray>& rays) {
@@ -332,6 +296,7 @@ void EvidenceGrid::raise_echoes(const std::vector<Ray>& rays) {
     const Cell cell{window_.first.column + echo.column, window_.first.row + echo.row};
     if (rays[echo.ray].echo == Echo::kStationary) {
       raise_so(cell, hit_steps_);
+      lasting_.hit(window_.index(cell));
     } else {
       std::uint8_t& moved = mo_[window_.index(cell)];
       moved = static_cast<std::uint8_t>(moved + static_cast<int>(std::ceil((255.0 - moved) * model_.moving_gain)));
@@ -352,9 +317,11 @@ bool EvidenceGrid::find_more_free_cells(const Eigen::Vector2d& origin_m) {
   constexpr std::size_t kWaysAtOnce = 48;
   const std::size_t end_way = std::min(outlined_ways_ + kWaysAtOnce, ways_.size());
   outline_free_space(origin_m, outlined_ways_, end_way);
+  outline_surely_free(origin_m, outlined_ways_, end_way);
   outlined_ways_ = end_way;
   if (outlined_ways_ < ways_.size()) return true;
-  fill_outline();
+  fill(free_);
+  fill(surely_free_);
   for (const FreeWay& way : ways_) walk_free_way(origin_m, way.direction, std::max(way.to_next_m, way.to_previous_m), way.length_m);
   keep_echoes_out();
   return false;
@@ -394,30 +361,27 @@ void EvidenceGrid::integrate(const Eigen::Vector2d& origin_m, const std::vector<
     while (find_more_free_cells(origin_m)) {}
   }
   is_prepared_ = is_being_prepared_ = false;
+  lasting_.pass(surely_free_);
   lower_free_cells();
   raise_echoes(rays);
 }
 
-void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m) {
+void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m, Echo integrated_as) {
   const Cell cell = window_.cell_at(point_m.x(), point_m.y());
-  if (window_.contains(cell)) raise_so(cell, hit_steps_);
+  if (!window_.contains(cell)) return;
+  raise_so(cell, hit_steps_);
+  if (integrated_as != Echo::kStationary) lasting_.hit(window_.index(cell));
 }
 
-void EvidenceGrid::free_occupied_in(const Box& box) {
-  const Eigen::Vector2d along = box.along.cwiseAbs();
-  const Eigen::Vector2d reach_m(along.x() * box.half_m.x() + along.y() * box.half_m.y(), along.y() * box.half_m.x() + along.x() * box.half_m.y());
-  const Cell end{window_.first.column + window_.columns - 1, window_.first.row + window_.rows - 1};
-  const Eigen::Vector2d low_m = (box.centre_m - reach_m).cwiseMax(window_.centre_of(window_.first));
-  const Eigen::Vector2d high_m = (box.centre_m + reach_m).cwiseMin(window_.centre_of(end));
-  if ((low_m.array() > high_m.array()).any()) return;  // before places so far away that they have no cell
-  const auto blocks_before = [&](const Eigen::Vector2d& at_m) {
-    const Cell cell = window_.cell_at(at_m.x(), at_m.y());
-    return Cell{(cell.column - window_.first.column) >> kBlockShift, (cell.row - window_.first.row) >> kBlockShift};
-  };
-  const Cell low = blocks_before(low_m);
-  const Cell high = blocks_before(high_m);
+void EvidenceGrid::drive_over(const Box& body) {
+  const CellRange cells = cells_around(body, window_);
+  if (cells.is_empty()) return;
+  const auto block_of = [&](const Cell& cell) { return Cell{(cell.column - window_.first.column) >> kBlockShift, (cell.row - window_.first.row) >> kBlockShift}; };
+  const Cell low = block_of(cells.low);
+  const Cell high = block_of(cells.high);
   for (std::int32_t row = low.row; row <= high.row; ++row)
-    for (std::int32_t column = low.column; column <= high.column; ++column) free_occupied_in_block(box, column, row);
+    for (std::int32_t column = low.column; column <= high.column; ++column) free_occupied_in_block(body, column, row);
+  lasting_.drive_over(body, window_);
 }
 
 void EvidenceGrid::free_occupied_in_block(const Box& box, std::int32_t block_column, std::int32_t block_row) {
@@ -560,7 +524,7 @@ double EvidenceGrid::ray_to_occupied_in_block(const RayInCells& ray, std::int32_
 
 EvidenceGrid EvidenceGrid::moved_to(const GridWindow& window) const {
   assert(window.cell_size_m == window_.cell_size_m);
-  EvidenceGrid moved(window, model_);
+  EvidenceGrid moved(window, model_, lasting_.model());
   const GridWindow shared = intersection(window, window_);
   for (std::int32_t row = 0; row < shared.rows; ++row) {
     const Cell cell{shared.first.column, shared.first.row + row};
@@ -568,15 +532,17 @@ EvidenceGrid EvidenceGrid::moved_to(const GridWindow& window) const {
     const std::size_t to = window.index(cell);
     std::copy_n(so_.data() + from, shared.columns, moved.so_.data() + to);
     std::copy_n(mo_.data() + from, shared.columns, moved.mo_.data() + to);
+    moved.lasting_.copy_from(lasting_, from, shared.columns, to);
   }
   moved.note_all_occupied();
   return moved;
 }
 
-void EvidenceGrid::set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo) {
+void EvidenceGrid::set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo, std::vector<std::int8_t> lasting) {
   assert(so.size() == window_.cell_count() && mo.size() == window_.cell_count());
   so_ = std::move(so);
   mo_ = std::move(mo);
+  lasting_.set_cells(std::move(lasting));
   std::fill(occupied_bits_.begin(), occupied_bits_.end(), 0);
   rows_of_blocks_ = BlockLanes(block_rows_, block_columns_);
   columns_of_blocks_ = BlockLanes(block_columns_, block_rows_);

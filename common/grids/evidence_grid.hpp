@@ -1,20 +1,16 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/grids/bit_rows.hpp"
+#include "common/grids/box.hpp"
 #include "common/grids/grid_window.hpp"
+#include "common/grids/lasting_evidence.hpp"
 
 namespace slammot::grids {
-
-/// Log-odds in steps of 1/16: what one byte a cell can hold, and finer than any sensor model is known.
-constexpr double kLogOddsStep = 1.0 / 16.0;
-
-/// Nearest whole number of steps.
-int steps_of_log_odds(double log_odds);
 
 struct EvidenceModel {
   double hit_log_odds = 0.85;       ///< Added where a stationary echo ended; Wang 2004, Eq. (3.12).
@@ -22,18 +18,6 @@ struct EvidenceModel {
   double limit_log_odds = 5.0;      ///< No cell is surer than this, so that the world may change.
   double occupied_log_odds = 0.5;   ///< From here on a cell counts as occupied.
   double moving_gain = 0.25;        ///< Share of the missing evidence that one moving echo adds to the MO-map.
-};
-
-/// A rectangle in the grid's frame.
-struct Box {
-  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< Direction of its length.
-  Eigen::Vector2d half_m = Eigen::Vector2d::Zero();  ///< Of its length and its width.
-
-  bool covers(const Eigen::Vector2d& point_m) const {
-    const Eigen::Vector2d way_m = point_m - centre_m;
-    return std::abs(along.dot(way_m)) <= half_m.x() && std::abs(along.x() * way_m.y() - along.y() * way_m.x()) <= half_m.y();
-  }
 };
 
 enum class Echo : std::uint8_t {
@@ -49,11 +33,12 @@ struct Ray {
   Echo echo = Echo::kNone;
 };
 
-/// The stationary-object map (SO-map) and the moving-object map (MO-map) of one window, side by side; Wang 2004, 6.3.
+/// The stationary-object map (SO-map) and the moving-object map (MO-map) of one window, side by side; Wang 2004, 6.3. Beside them
+/// what is to be kept of the SO-map: LastingEvidence.
 class EvidenceGrid {
  public:
   EvidenceGrid() = default;
-  EvidenceGrid(const GridWindow& window, const EvidenceModel& model);
+  EvidenceGrid(const GridWindow& window, const EvidenceModel& model, const LastingModel& lasting = {});
 
   const GridWindow& window() const { return window_; }
 
@@ -72,12 +57,13 @@ class EvidenceGrid {
   void begin_preparing(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
   bool go_on_preparing();
 
-  /// Adds one stationary echo without its beam: a point given back by tracking.
-  void restore_stationary(const Eigen::Vector2d& point_m);
+  /// Adds one stationary echo without its beam: a point given back by tracking. The lasting evidence has those already that were
+  /// integrated as stationary.
+  void restore_stationary(const Eigen::Vector2d& point_m, Echo integrated_as = Echo::kMoving);
 
   /// Takes as much from each occupied cell whose centre the box covers as a beam that passes does: something is there that does
-  /// not stand still.
-  void free_occupied_in(const Box& box);
+  /// not stand still. The lasting evidence remembers it: LastingEvidence::drive_over.
+  void drive_over(const Box& body);
 
   /// In steps of kLogOddsStep, positive = occupied, 0 = never seen or outside.
   int so_steps(Cell cell) const { return window_.contains(cell) ? so_[window_.index(cell)] : 0; }
@@ -100,29 +86,13 @@ class EvidenceGrid {
   /// Cells of the window, row-major. set_cells needs as many as the window has.
   const std::vector<std::int8_t>& so_cells() const { return so_; }
   const std::vector<std::uint8_t>& mo_cells() const { return mo_; }
-  void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo);
+  const std::vector<std::int8_t>& lasting_cells() const { return lasting_.cells(); }
+  void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo, std::vector<std::int8_t> lasting);
 
  private:
   /// Blocks of 8 x 8 cells with a bit for each occupied one: casting a ray looks for blocks that have any, and at their bits.
   static constexpr int kBlockShift = 3;
   static constexpr std::int32_t kInBlock = (1 << kBlockShift) - 1;
-
-  /// One bit a cell, with what of each row is in use.
-  struct BitRows {
-    std::int32_t words_per_row = 0;
-    std::vector<std::uint64_t> words;
-    std::vector<std::int32_t> first_word;   ///< By row; first > last where the row is empty.
-    std::vector<std::int32_t> last_word;
-
-    BitRows() = default;
-    BitRows(std::int32_t columns, std::int32_t rows);
-    std::uint64_t* row(std::int32_t row) { return words.data() + static_cast<std::ptrdiff_t>(row) * words_per_row; }
-    void use(std::int32_t row, std::int32_t word);
-    void flip(std::int32_t column, std::int32_t row);
-    void set(std::int32_t column, std::int32_t row);
-    void clear(std::int32_t column, std::int32_t row);
-    bool is_set(std::int32_t column, std::int32_t row) const;
-  };
 
   /// One bit a block of which any cell is occupied, row by row or column by column: a lane. Along a ray's lanes empty blocks
   /// are passed many at a time.
@@ -150,9 +120,9 @@ class EvidenceGrid {
   struct RayInCells;
 
   void measure_free_ways(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
+  void measure_surely_free_ways(const std::vector<Ray>& rays);
   void outline_free_space(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way);
-  void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
-  void fill_outline();
+  void outline_surely_free(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way);
   void walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double from_m, double to_m);
   void find_echoes(const std::vector<Ray>& rays);
   void begin_finding_free_cells(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
@@ -184,17 +154,20 @@ class EvidenceGrid {
   std::int32_t block_rows_ = 0;
   std::vector<std::int8_t> so_;
   std::vector<std::uint8_t> mo_;
+  LastingEvidence lasting_;
   std::vector<std::uint64_t> occupied_bits_;   ///< By block.
   BlockLanes rows_of_blocks_;
   BlockLanes columns_of_blocks_;
   // Of the scan at hand; kept to reuse the memory.
   BitRows free_;                               ///< Cells that it passes. All clear between scans, but for one that is prepared.
+  BitRows surely_free_;                        ///< Those that the beams beside pass, too; the same.
   BitRows echoed_;                             ///< Cells that an echo came from. All clear between scans.
   struct FreeWay {
     Eigen::Vector2d direction = Eigen::Vector2d::Zero();
     double length_m = 0.0;
     double to_next_m = 0.0;                    ///< Free from this beam half way to the next,
     double to_previous_m = 0.0;                ///< and half way to the one before.
+    double surely_m = 0.0;                     ///< So far the beams beside it pass, too.
     Eigen::Vector2d half_way = Eigen::Vector2d::Zero();  ///< Direction in the middle between this beam and the next.
   };
   std::vector<FreeWay> ways_;                  ///< By ray.

@@ -36,7 +36,7 @@ class DeferredEvidence {
   /// EvidenceGrid::integrate, perhaps beside what the caller does next.
   void integrate(const Eigen::Vector2d& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad) {
     if (state_->help == nullptr) return state_->grid.integrate(origin_m, rays, beam_step_rad);
-    if (state_->is_being_integrated || !state_->restored_m.empty() || !state_->boxes.empty()) state_->settle();
+    if (state_->is_being_integrated || !state_->restored.empty() || !state_->bodies.empty()) state_->settle();
     state_->labelled.take(origin_m, rays, beam_step_rad);
     state_->is_settled = false;
     state_->is_being_integrated = true;
@@ -47,15 +47,15 @@ class DeferredEvidence {
   }
 
   /// EvidenceGrid::restore_stationary, after the scans that were integrated before.
-  void restore_stationary(const Eigen::Vector2d& point_m) {
-    if (state_->is_settled) return state_->grid.restore_stationary(point_m);
-    state_->restored_m.push_back(point_m);
+  void restore_stationary(const Eigen::Vector2d& point_m, grids::Echo integrated_as = grids::Echo::kMoving) {
+    if (state_->is_settled) return state_->grid.restore_stationary(point_m, integrated_as);
+    state_->restored.push_back({point_m, integrated_as});
   }
 
-  /// EvidenceGrid::free_occupied_in, after the scans that were integrated before.
-  void free_occupied_in(const grids::Box& box) {
-    if (state_->is_settled) return state_->grid.free_occupied_in(box);
-    state_->boxes.push_back(box);
+  /// EvidenceGrid::drive_over, after the scans that were integrated before.
+  void drive_over(const grids::Box& body) {
+    if (state_->is_settled) return state_->grid.drive_over(body);
+    state_->bodies.push_back(body);
   }
 
   grids::EvidenceGrid& grid() {
@@ -81,6 +81,10 @@ class DeferredEvidence {
       beam_step_rad = step_rad;
     }
   };
+  struct Restored {
+    Eigen::Vector2d point_m;
+    grids::Echo integrated_as;
+  };
   /// Stays where it is when its owner moves: the work at hand refers to it.
   struct State {
     State(grids::EvidenceGrid empty, work::SideWork* beside) : grid(std::move(empty)), help(beside) {}
@@ -93,10 +97,10 @@ class DeferredEvidence {
       help->wait();
       is_settled = true;
       is_being_integrated = false;
-      for (const Eigen::Vector2d& point_m : restored_m) grid.restore_stationary(point_m);
-      restored_m.clear();
-      for (const grids::Box& box : boxes) grid.free_occupied_in(box);
-      boxes.clear();
+      for (const Restored& one : restored) grid.restore_stationary(one.point_m, one.integrated_as);
+      restored.clear();
+      for (const grids::Box& body : bodies) grid.drive_over(body);
+      bodies.clear();
     }
 
     grids::EvidenceGrid grid;
@@ -106,8 +110,8 @@ class DeferredEvidence {
     bool has_begun_to_prepare = false;
     Scan ahead;                                           ///< That is prepared for,
     Scan labelled;                                        ///< and that is integrated: the same one, or one before it.
-    std::vector<Eigen::Vector2d> restored_m;              ///< To follow it,
-    std::vector<grids::Box> boxes;                        ///< and these.
+    std::vector<Restored> restored;                       ///< To follow it,
+    std::vector<grids::Box> bodies;                       ///< and these.
   };
   std::unique_ptr<State> state_;
 };

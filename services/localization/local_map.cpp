@@ -93,6 +93,14 @@ void keep_changed(std::int8_t* now, const std::int8_t* before, std::size_t count
   }
 }
 
+/// The same of evidence that lasts, and what was driven over.
+void keep_changed_or_driven_over(std::int8_t* now, const std::int8_t* before, std::size_t count, int most_steps) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (grids::LastingEvidence::is_driven_over(now[i])) continue;
+    now[i] = now[i] != before[i] ? static_cast<std::int8_t>(std::clamp<int>(now[i], -most_steps, most_steps)) : std::int8_t{0};
+  }
+}
+
 struct StoredSurfel {
   grids::Cell cell;
   grids::CellMoments moments;
@@ -133,10 +141,11 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m
     : config_(config),
       free_steps_(free_steps(config)),
       end_cell_tolerance_(end_cell_tolerance(config)),
-      evidence_(grids::EvidenceGrid(evidence_window(config, centre_in_odom_m), config.evidence), help),
+      evidence_(grids::EvidenceGrid(evidence_window(config, centre_in_odom_m), config.evidence, config.lasting), help),
       surfels_(surfel_window(config, centre_in_odom_m), config.surfel_weight_limit),
       inherited_so_(evidence().so_cells()),
       inherited_mo_(evidence().mo_cells()),
+      inherited_lasting_(evidence().lasting_cells()),
       inherited_surfels_(surfels_),
       submap_id_(first),
       odom_from_submap_(pose_of_window(evidence().window())) {}
@@ -175,8 +184,8 @@ void LocalMap::forget_surfels_in_free_space() {
   }, evidence_.help());
 }
 
-void LocalMap::restore_stationary(const Vector2& point_in_odom_m) {
-  evidence_.restore_stationary(point_in_odom_m);
+void LocalMap::restore_stationary(const Vector2& point_in_odom_m, grids::Echo integrated_as) {
+  evidence_.restore_stationary(point_in_odom_m, integrated_as);
   surfels_.add(point_in_odom_m, odometer_m_);
 }
 
@@ -207,9 +216,9 @@ bool LocalMap::is_outgrown(const Vector2& position_in_odom_m, double travelled_m
 flow::Submap LocalMap::submap() const {
   const grids::EvidenceGrid& evidence = evidence_.grid();
   const grids::GridWindow& window = evidence.window();
-  const std::vector<std::int8_t>& so = evidence.so_cells();
+  const std::vector<std::int8_t>& lasting = evidence.lasting_cells();
   const std::vector<std::uint8_t>& mo = evidence.mo_cells();
-  const grids::GridWindow bounds = bounds_of_seen(window, {so, mo}, {inherited_so_, inherited_mo_});
+  const grids::GridWindow bounds = bounds_of_seen(window, {lasting, mo}, {inherited_lasting_, inherited_mo_});
   flow::Submap submap;
   submap.submap_id = submap_id_;
   submap.first_stamp_ns = first_stamp_ns_;
@@ -225,7 +234,7 @@ flow::Submap LocalMap::submap() const {
   for (std::int32_t row = 0; row < bounds.rows; ++row) {
     const std::size_t from = window.index({bounds.first.column, bounds.first.row + row});
     const std::ptrdiff_t to = std::ptrdiff_t{row} * bounds.columns;
-    put_own_so(so.data() + from, inherited_so_.data() + from, bounds.columns, submap.so_log_odds.data() + to);
+    put_own_so(lasting.data() + from, inherited_lasting_.data() + from, bounds.columns, submap.so_log_odds.data() + to);
     put_own_mo(mo.data() + from, inherited_mo_.data() + from, bounds.columns, submap.mo_evidence.data() + to);
   }
   std::vector<grids::SurfelView> surfels = surfels_.all();
@@ -258,7 +267,9 @@ void LocalMap::leave_behind_what_was_not_seen() {
   const int most_steps = std::min(127, grids::steps_of_log_odds(kInheritedShareOfLimit * config_.evidence.limit_log_odds));
   std::vector<std::int8_t> so = evidence().so_cells();
   keep_changed(so.data(), inherited_so_.data(), so.size(), most_steps);
-  evidence_.grid().set_cells(std::move(so), evidence().mo_cells());
+  std::vector<std::int8_t> lasting = evidence().lasting_cells();
+  keep_changed_or_driven_over(lasting.data(), inherited_lasting_.data(), lasting.size(), grids::steps_of_log_odds(kInheritedShareOfLimit * config_.lasting.limit_log_odds));
+  evidence_.grid().set_cells(std::move(so), evidence().mo_cells(), std::move(lasting));
   for (const grids::SurfelView& surfel : surfels_.all()) {
     if (surfel.own_echoes <= 0.0) surfels_.erase(surfel.cell);
   }
@@ -270,6 +281,7 @@ void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
   surfels_ = surfels_.moved_to(surfel_window(config_, centre_in_odom_m));
   inherited_so_ = evidence().so_cells();
   inherited_mo_ = evidence().mo_cells();
+  inherited_lasting_ = evidence().lasting_cells();
   inherited_surfels_ = surfels_;
   odom_from_submap_ = pose_of_window(evidence().window());
   ++submap_id_.value;
@@ -288,8 +300,10 @@ void LocalMap::write(std::vector<std::byte>& bytes) const {
   put(bytes, evidence().window());
   put_all(bytes, evidence().so_cells());
   put_all(bytes, evidence().mo_cells());
+  put_all(bytes, evidence().lasting_cells());
   put_all(bytes, inherited_so_);
   put_all(bytes, inherited_mo_);
+  put_all(bytes, inherited_lasting_);
   put(bytes, surfels_.window());
   put_surfels(bytes, surfels_);
   put_surfels(bytes, inherited_surfels_);
@@ -312,11 +326,14 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
   grids::GridWindow surfel_lattice;
   std::vector<std::int8_t> so;
   std::vector<std::uint8_t> mo;
+  std::vector<std::int8_t> lasting;
   from.get(window);
   from.get_all(so);
   from.get_all(mo);
+  from.get_all(lasting);
   from.get_all(map.inherited_so_);
   from.get_all(map.inherited_mo_);
+  from.get_all(map.inherited_lasting_);
   from.get(surfel_lattice);
   const std::vector<StoredSurfel> surfels = get_surfels(from);
   const std::vector<StoredSurfel> inherited_surfels = get_surfels(from);
@@ -334,14 +351,14 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
   const auto is_of_map = [&](std::size_t count) { return count == window.cell_count(); };
   const auto is_of_surfels = [&](const StoredSurfel& one) { return is_possible(one.moments, config.surfel_size_m); };
   const bool fits = from.ok() && is_like(window, evidence_window(config, {0.0, 0.0})) &&
-                    is_like(surfel_lattice, surfel_window(config, {0.0, 0.0})) && is_of_map(so.size()) && is_of_map(mo.size()) &&
-                    is_of_map(map.inherited_so_.size()) && is_of_map(map.inherited_mo_.size()) &&
+                    is_like(surfel_lattice, surfel_window(config, {0.0, 0.0})) && is_of_map(so.size()) && is_of_map(mo.size()) && is_of_map(lasting.size()) &&
+                    is_of_map(map.inherited_so_.size()) && is_of_map(map.inherited_mo_.size()) && is_of_map(map.inherited_lasting_.size()) &&
                     std::all_of(surfels.begin(), surfels.end(), is_of_surfels) &&
                     std::all_of(inherited_surfels.begin(), inherited_surfels.end(), is_of_surfels) &&
                     is_believable(map.odom_from_submap_) && map.odometer_m_ >= 0.0 && std::isfinite(map.odometer_m_) && counted_to_m.allFinite();
   if (!fits) return std::nullopt;
-  map.evidence_ = DeferredEvidence(grids::EvidenceGrid(window, config.evidence), help);
-  map.evidence_.grid().set_cells(std::move(so), std::move(mo));
+  map.evidence_ = DeferredEvidence(grids::EvidenceGrid(window, config.evidence, config.lasting), help);
+  map.evidence_.grid().set_cells(std::move(so), std::move(mo), std::move(lasting));
   map.surfels_ = grids::SurfelMap(surfel_lattice, config.surfel_weight_limit);
   map.inherited_surfels_ = map.surfels_;
   for (const StoredSurfel& surfel : surfels) map.surfels_.set_moments(surfel.cell, surfel.moments);

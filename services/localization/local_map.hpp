@@ -25,11 +25,13 @@ struct LocalMapConfig {
   double free_log_odds = 0.8;           ///< With this much against it a cell counts as free.
   double end_cell_tolerance_m = 0.25;   ///< An occupied cell this near explains an echo.
   grids::EvidenceModel evidence;
+  grids::LastingModel lasting;           ///< Of what becomes the submap.
 };
 
 
 /// The map around the vehicle in odom: SO-map, MO-map and surfels in one window that moves on when the vehicle nears
-/// its edge. What has been seen since it last moved makes the submap in progress. Wang 2004, sections 3.4 and 6.3.
+/// its edge. What has been seen since it last moved makes the submap in progress, by the evidence that lasts in place of the SO-map's:
+/// docs/decisions/0044. Wang 2004, sections 3.4 and 6.3.
 class LocalMap {
  public:
   LocalMap() = default;
@@ -49,11 +51,11 @@ class LocalMap {
   /// its evidence when anybody asks for it.
   void integrate(std::int64_t stamp_ns, const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad);
 
-  /// Gives back a point that was held to be moving.
-  void restore_stationary(const geometry::Vector2& point_in_odom_m);
+  /// Gives back a point that was held to be moving; some of those that tracking gives back never were.
+  void restore_stationary(const geometry::Vector2& point_in_odom_m, grids::Echo integrated_as = grids::Echo::kMoving);
 
   /// Where a body is that moves nothing stands.
-  void free_occupied_in(const grids::Box& box) { evidence_.free_occupied_in(box); }
+  void drive_over(const grids::Box& body) { evidence_.drive_over(body); }
 
   /// What the map says about the cell in which a beam ended.
   void look_up_end(const geometry::Vector2& end_in_odom_m, flow::LocalizedBeam& beam) const;
@@ -96,6 +98,7 @@ class LocalMap {
   grids::SurfelMap surfels_;
   std::vector<std::int8_t> inherited_so_;   ///< What the window held when the submap began,
   std::vector<std::uint8_t> inherited_mo_;
+  std::vector<std::int8_t> inherited_lasting_;
   grids::SurfelMap inherited_surfels_;      ///< so that a submap tells only what was seen in it.
   flow::SubmapId submap_id_;
   geometry::Pose2 odom_from_submap_;

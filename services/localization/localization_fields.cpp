@@ -23,9 +23,18 @@ FieldTable<grids::EvidenceModel> evidence_fields() {
   };
 }
 
+FieldTable<grids::LastingModel> lasting_fields() {
+  using C = grids::LastingModel;
+  return {
+      {"hit_log_odds", &C::hit_log_odds, "Added to what submaps keep where a stationary echo ended; from 0.6 on one echo is a wall.", Range{0.04, 7.8}},
+      {"free_log_odds", &C::free_log_odds, "Taken off where a beam and those beside it passed, once a scan and cell.", Range{0.04, 7.8}},
+      {"limit_log_odds", &C::limit_log_odds, "No cell is surer than this, but for those that were driven over.", Range{0.1, 7.8}},
+  };
+}
+
 FieldTable<LocalMapConfig> map_fields() {
   using C = LocalMapConfig;
-  return with_nested<C>(
+  FieldTable<C> fields = with_nested<C>(
       {
           {"side_m", &C::side_m, "Of the square held around the vehicle.", Range{10.0, 1000.0}},
           {"cell_size_m", &C::cell_size_m, "Of SO-map and MO-map.", Range{0.02, 1.0}},
@@ -41,6 +50,7 @@ FieldTable<LocalMapConfig> map_fields() {
           {"end_cell_tolerance_m", &C::end_cell_tolerance_m, "An occupied cell this near explains an echo.", Range{0.0, 5.0}},
       },
       "evidence", &C::evidence, evidence_fields());
+  return with_nested<C>(std::move(fields), "lasting", &C::lasting, lasting_fields());
 }
 
 FieldTable<sensing::MotionModelConfig> motion_fields() {

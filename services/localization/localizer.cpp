@@ -639,10 +639,10 @@ void Localizer::restore_points(const flow::ScanLabels& labels) {
     const auto is_it = [&](const PendingScan& one) { return one.sequence == restored.sequence && one.scanner_id == labels.scanner_id; };
     const auto found = std::ranges::find_if(integrated, is_it);
     if (found == integrated.end()) continue;
-    const PendingScan& scan = *found;
+    PendingScan& scan = *found;
     for (const std::uint16_t beam : restored.beams) {
       if (beam >= scan.rays.size() || scan.end_cells[beam] == EndCell::kNoEcho || scan.rays[beam].echo == grids::Echo::kTooFar) continue;
-      map_.restore_stationary(scan.rays[beam].end_m);
+      map_.restore_stationary(scan.rays[beam].end_m, std::exchange(scan.rays[beam].echo, grids::Echo::kStationary));
       ++progress_.counters.restored_points;
     }
   }
@@ -652,7 +652,7 @@ void Localizer::free_bodies(const flow::ScanLabels& labels) {
   constexpr double kMarginM = 0.1;  // half a cell: echoes come from the sides themselves
   if (expected_objects_.sequence != labels.sequence || expected_objects_.stamp_ns != labels.stamp_ns || !config_.leave_out_moving) return;
   for (const flow::TrackedObject& object : expected_objects_.objects)
-    if (is_surely_moving_vehicle(object, labels.stamp_ns)) map_.free_occupied_in(box_of(object, 0.0, kMarginM));
+    if (is_surely_moving_vehicle(object, labels.stamp_ns)) map_.drive_over(box_of(object, 0.0, kMarginM));
 }
 
 void Localizer::begin_next_submap_if_due() {

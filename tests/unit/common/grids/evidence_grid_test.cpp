@@ -237,6 +237,7 @@ TEST(EvidenceGrid, SeesNoDifferenceBetweenTheFirstScanAndTheThreeHundredth) {
 void expect_same_cells(const EvidenceGrid& a, const EvidenceGrid& b) {
   EXPECT_EQ(a.so_cells(), b.so_cells());
   EXPECT_EQ(a.mo_cells(), b.mo_cells());
+  EXPECT_EQ(a.lasting_cells(), b.lasting_cells());
 }
 
 TEST(EvidenceGrid, HoldsTheSameWhetherAScanWasPreparedOrNotAndWhateverMoved) {
@@ -323,7 +324,7 @@ TEST(EvidenceGrid, TakesFromWhatIsOccupiedUnderABoxAsMuchAsABeamThatPasses) {
   const EvidenceGrid before = grid;
   constexpr double kHeadingRad = 0.6;
   const Box box{{0.5, -0.5}, {std::cos(kHeadingRad), std::sin(kHeadingRad)}, {2.0, 0.9}};
-  grid.free_occupied_in(box);
+  grid.drive_over(box);
   int changed = 0;
   for_each_cell(grid.window(), [&](Cell cell) {
     const Vector2d from_centre_m = Eigen::Rotation2Dd(-kHeadingRad) * (grid.window().centre_of(cell) - box.centre_m);
@@ -333,11 +334,69 @@ TEST(EvidenceGrid, TakesFromWhatIsOccupiedUnderABoxAsMuchAsABeamThatPasses) {
     changed += is_taken_from ? 1 : 0;
   });
   EXPECT_GT(changed, 20);
-  for (const Box& elsewhere : {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}}, Box{{1e300, -1e300}, {1.0, 0.0}, {2.0, 1.0}}}) grid.free_occupied_in(elsewhere);
-  grid.free_occupied_in({{9.9, 9.9}, {0.6, 0.8}, {30.0, 0.1}});  // partly outside
+  for (const Box& elsewhere : {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}}, Box{{1e300, -1e300}, {1.0, 0.0}, {2.0, 1.0}}}) grid.drive_over(elsewhere);
+  grid.drive_over({{9.9, 9.9}, {0.6, 0.8}, {30.0, 0.1}});  // partly outside
   const int before_all = grid.so_steps({0, 0});
-  grid.free_occupied_in({{0.0, 0.0}, {1.0, 0.0}, {1e300, 1e300}});
+  grid.drive_over({{0.0, 0.0}, {1.0, 0.0}, {1e300, 1e300}});
   EXPECT_EQ(grid.so_steps({0, 0}), before_all - kFree);
+}
+
+/// Beams to the east, side by side, that end at these ranges.
+EvidenceGrid grid_after_a_fan(const std::vector<double>& ranges_m, double beam_step_rad, Echo outer_echo = Echo::kStationary) {
+  EvidenceGrid grid = empty_grid(160.0);
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < ranges_m.size(); ++i) {
+    const double angle_rad = beam_step_rad * (static_cast<double>(i) - 0.5 * static_cast<double>(ranges_m.size() - 1));
+    const bool is_outer = i == 0 || i + 1 == ranges_m.size();
+    rays.push_back({Vector2d(0.1, 0.1) + ranges_m[i] * Vector2d(std::cos(angle_rad), std::sin(angle_rad)), is_outer ? outer_echo : Echo::kStationary});
+  }
+  grid.integrate({0.1, 0.1}, rays, beam_step_rad);
+  return grid;
+}
+
+int lasting_steps(const EvidenceGrid& grid, const Vector2d& at_m) { return grid.lasting_cells()[grid.window().index(grid.window().cell_at(at_m.x(), at_m.y()))]; }
+
+int so_steps(const EvidenceGrid& grid, const Vector2d& at_m) { return grid.so_steps(grid.window().cell_at(at_m.x(), at_m.y())); }
+
+TEST(EvidenceGridThatLasts, IsFreeAsFarAsTheBeamsBesideGo) {
+  const EvidenceGrid grid = grid_after_a_fan({12.0, 30.0, 30.0}, 0.01);
+  EXPECT_LT(lasting_steps(grid, {10.1, 0.1}), 0);
+  EXPECT_EQ(lasting_steps(grid, {15.1, 0.1}), 0);  // beside what ended the beam there
+  EXPECT_LT(so_steps(grid, {15.1, 0.1}), 0);
+  EXPECT_GT(lasting_steps(grid, {30.1, 0.1}), 0);
+}
+
+TEST(EvidenceGridThatLasts, IsFreeBesideABeamThatNothingEnded) {
+  EXPECT_LT(lasting_steps(grid_after_a_fan({12.0, 30.0, 12.0}, 0.01, Echo::kNone), {15.1, 0.1}), 0);
+  EXPECT_EQ(lasting_steps(grid_after_a_fan({12.0, 30.0, 12.0}, 0.01, Echo::kTooFar), {15.1, 0.1}), 0);
+}
+
+TEST(EvidenceGridThatLasts, IsFreeBetweenBeamsThatAreFarApart) {
+  const EvidenceGrid grid = grid_after_a_fan({70.0, 70.0, 70.0}, 0.04);
+  EXPECT_LT(lasting_steps(grid, {60.1, 0.9}), 0);
+  EXPECT_EQ(so_steps(grid, {60.1, 0.9}), 0);
+}
+
+TEST(EvidenceGridThatLasts, SaysNothingOfTheLastBeamsToEitherSide) {
+  const EvidenceGrid grid = grid_after_a_fan({30.0, 30.0}, 0.01);
+  EXPECT_TRUE(std::ranges::none_of(grid.lasting_cells(), [](std::int8_t steps) { return steps < 0; }));
+}
+
+TEST(EvidenceGridThatLasts, TakesBackOnlyWhatWasKeptOutOfIt) {
+  EvidenceGrid grid = empty_grid();
+  grid.restore_stationary({2.6, 0.1}, Echo::kStationary);
+  EXPECT_EQ(lasting_steps(grid, {2.6, 0.1}), 0);
+  EXPECT_EQ(so_steps(grid, {2.6, 0.1}), kHit);
+  grid.restore_stationary({2.6, 0.1}, Echo::kMoving);
+  EXPECT_GT(lasting_steps(grid, {2.6, 0.1}), 0);
+}
+
+TEST(EvidenceGridThatLasts, RemembersWhereABodyDrove) {
+  EvidenceGrid grid = empty_grid();
+  for (int scan = 0; scan < 30; ++scan) grid.drive_over({{0.0, 0.0}, {1.0, 0.0}, {2.0, 1.0}});
+  for (int scan = 0; scan < 300; ++scan) grid.restore_stationary({0.1, 0.1});
+  EXPECT_LT(lasting_steps(grid, {0.1, 0.1}), 0);
+  EXPECT_GT(so_steps(grid, {0.1, 0.1}), 0);
 }
 
 TEST(EvidenceGrid, MovesWithTheWorld) {
@@ -369,6 +428,7 @@ TEST(EvidenceGrid, MovedToAnotherWindowGoesOnAsIfItHadAlwaysBeenThere) {
     }
     EXPECT_EQ(moved_first.so_cells(), moved_last.moved_to(next_window).so_cells()) << scans_before;
     EXPECT_EQ(moved_first.mo_cells(), moved_last.moved_to(next_window).mo_cells()) << scans_before;
+    EXPECT_EQ(moved_first.lasting_cells(), moved_last.moved_to(next_window).lasting_cells()) << scans_before;
   }
 }
 
@@ -376,8 +436,9 @@ TEST(EvidenceGrid, IsWhatItsCellsAre) {
   EvidenceGrid grid = empty_grid();
   for (int i = 0; i < 20; ++i) grid.integrate({0.1, 0.1}, rays_in_a_room({0.1, 0.1}, 180), 0.0);
   EvidenceGrid copy = empty_grid();
-  copy.set_cells(grid.so_cells(), grid.mo_cells());
+  copy.set_cells(grid.so_cells(), grid.mo_cells(), grid.lasting_cells());
   EXPECT_EQ(copy.so_cells(), grid.so_cells());
+  EXPECT_EQ(copy.lasting_cells(), grid.lasting_cells());
   for (int i = 0; i < 360; ++i) {
     const Vector2d direction(std::cos(i), std::sin(i));
     EXPECT_EQ(copy.distance_to_occupied({0.4, 0.3}, direction, 30.0), grid.distance_to_occupied({0.4, 0.3}, direction, 30.0));

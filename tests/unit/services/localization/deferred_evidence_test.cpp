@@ -22,6 +22,7 @@ std::vector<grids::Ray> echoes_at(double x_m) { return {{{x_m, 0.1}, grids::Echo
 void expect_same(const DeferredEvidence& a, const DeferredEvidence& b) {
   EXPECT_EQ(a.grid().so_cells(), b.grid().so_cells());
   EXPECT_EQ(a.grid().mo_cells(), b.grid().mo_cells());
+  EXPECT_EQ(a.grid().lasting_cells(), b.grid().lasting_cells());
 }
 
 TEST(DeferredEvidence, LeavesTheScanToItsHelpUntilTheGridIsAskedFor) {
@@ -43,6 +44,7 @@ TEST(DeferredEvidence, HoldsTheSameWithHelpAndWithout) {
       evidence->integrate({0.1, 0.1}, rays, 0.0);
       rays.clear();  // what was handed over is the caller's again
       if (scan % 3 == 0) evidence->restore_stationary({3.1, 0.1});  // through which the last scan may have seen: the order tells
+      if (scan % 4 == 0) evidence->drive_over({{3.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
     }
   }
   expect_same(helped, alone);

@@ -168,25 +168,39 @@ TEST(Submap, HoldsNothingOfTheOneBefore) {
   EXPECT_EQ(expected_of(map, {8.0, 0.1}).end_cell, EndCell::kOccupied);
 }
 
+/// In steps, at a place in odom; 0 outside.
+int so_log_odds_at(const flow::Submap& submap, const Vector2& in_odom_m) {
+  const Vector2 at_m = geometry::inverse(submap.odom_from_submap) * in_odom_m;
+  const int column = static_cast<int>(std::floor((at_m.x() - submap.min_x_m) / submap.cell_size_m + 1e-6));
+  const int row = static_cast<int>(std::floor((at_m.y() - submap.min_y_m) / submap.cell_size_m + 1e-6));
+  const bool is_inside = column >= 0 && row >= 0 && column < static_cast<int>(submap.columns) && row < static_cast<int>(submap.rows);
+  return is_inside ? int{submap.so_log_odds[static_cast<std::size_t>(row) * submap.columns + static_cast<std::size_t>(column)]} : 0;
+}
+
 TEST(Submap, SumsUpWithTheOnesBeforeToWhatTheMapKnows) {
   LocalMap map = map_of_room(3);
   const flow::Submap first = map.submap();
   map.begin_next({1.0, 1.0});
   for (int i = 0; i < 3; ++i) map.integrate(2000 + i, {-1.0, 0.3}, rays_in(slammot::testing::room(), {-1.0, 0.3}), kBeamStep_rad);
   const flow::Submap second = map.submap();
-  const auto steps_in = [](const flow::Submap& submap, const Vector2& in_odom_m) {
-    const Vector2 at_m = geometry::inverse(submap.odom_from_submap) * in_odom_m;
-    const int column = static_cast<int>(std::floor((at_m.x() - submap.min_x_m) / submap.cell_size_m + 1e-6));
-    const int row = static_cast<int>(std::floor((at_m.y() - submap.min_y_m) / submap.cell_size_m + 1e-6));
-    const bool is_inside = column >= 0 && row >= 0 && column < static_cast<int>(submap.columns) && row < static_cast<int>(submap.rows);
-    return is_inside ? int{submap.so_log_odds[static_cast<std::size_t>(row) * submap.columns + static_cast<std::size_t>(column)]} : 0;
-  };
   const grids::GridWindow& window = map.evidence().window();
   for (std::int32_t row = window.first.row; row < window.first.row + window.rows; ++row) {
     for (std::int32_t column = window.first.column; column < window.first.column + window.columns; ++column) {
       const Vector2 centre_m = window.centre_of({column, row});
-      ASSERT_EQ(steps_in(first, centre_m) + steps_in(second, centre_m), map.evidence().so_steps({column, row}));
+      ASSERT_EQ(so_log_odds_at(first, centre_m) + so_log_odds_at(second, centre_m), map.evidence().lasting_cells()[window.index({column, row})]);
     }
+  }
+}
+
+TEST(Submap, HasNothingStandingWhereABodyDroveInAnEarlierOne) {
+  LocalMap map = map_of_room(1);
+  for (int i = 0; i < 30; ++i) map.drive_over({{2.0, 0.0}, {1.0, 0.0}, {2.0, 1.0}});
+  EXPECT_LT(so_log_odds_at(map.submap(), {2.1, 0.1}), 0);
+  for (int submap = 0; submap < 2; ++submap) {
+    map.begin_next({1.0, 1.0});
+    for (int i = 0; i < 100; ++i) map.integrate(2000 + i, {0.1, 0.1}, {{{2.1, 0.1}, grids::Echo::kStationary}, {{0.1, 2.1}, grids::Echo::kStationary}}, kBeamStep_rad);
+    EXPECT_LE(so_log_odds_at(map.submap(), {2.1, 0.1}), 0);
+    EXPECT_GT(so_log_odds_at(map.submap(), {0.1, 2.1}), 0);
   }
 }
 

@@ -770,6 +770,12 @@ TEST_F(WithAMover, ComesBackIntoTheMapWhenTrackingFindsItStands) {
   localizer_.integrate(later);
   EXPECT_GT(traces_in_the_map(), 0);
   EXPECT_EQ(localizer_.counters().restored_points, restored.beams.size());
+  const std::vector<std::int8_t> once = localizer_.local_map().evidence().lasting_cells();
+  auto again = labels(*localizer_.localize(scan_with_mover(22).first), scan_with_mover(22).second);
+  again.labels.clear();  // of no scan
+  again.restored = {restored};
+  localizer_.integrate(again);
+  EXPECT_EQ(localizer_.local_map().evidence().lasting_cells(), once);
 }
 
 TEST_F(WithAMover, IsNotGivenBackFromFartherThanIsMapped) {

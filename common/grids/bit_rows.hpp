@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace slammot::grids {
+
+constexpr std::int32_t kCellsPerWord = 64;
+
+/// One bit a cell, with what of each row is in use.
+struct BitRows {
+  std::int32_t words_per_row = 0;
+  std::vector<std::uint64_t> words;
+  std::vector<std::int32_t> first_word;   ///< By row; first > last where the row is empty.
+  std::vector<std::int32_t> last_word;
+
+  BitRows() = default;
+  BitRows(std::int32_t columns, std::int32_t rows)
+      : words_per_row(columns / kCellsPerWord + 1),
+        words(static_cast<std::size_t>(words_per_row) * static_cast<std::size_t>(rows), 0),
+        first_word(static_cast<std::size_t>(rows), words_per_row),
+        last_word(static_cast<std::size_t>(rows), -1) {}
+
+  std::uint64_t* row(std::int32_t row) { return words.data() + static_cast<std::ptrdiff_t>(row) * words_per_row; }
+  const std::uint64_t* row(std::int32_t row) const { return words.data() + static_cast<std::ptrdiff_t>(row) * words_per_row; }
+
+  void use(std::int32_t row, std::int32_t word) {
+    const auto at = static_cast<std::size_t>(row);
+    first_word[at] = std::min(first_word[at], word);
+    last_word[at] = std::max(last_word[at], word);
+  }
+  /// When its words are zero again.
+  void unuse(std::int32_t row) {
+    first_word[static_cast<std::size_t>(row)] = words_per_row;
+    last_word[static_cast<std::size_t>(row)] = -1;
+  }
+  void clear_all() {
+    std::ranges::fill(words, 0);
+    std::ranges::fill(first_word, words_per_row);
+    std::ranges::fill(last_word, -1);
+  }
+  void flip(std::int32_t column, std::int32_t row) {
+    use(row, column >> 6);
+    this->row(row)[column >> 6] ^= std::uint64_t{1} << (column & 63);
+  }
+  void set(std::int32_t column, std::int32_t row) {
+    use(row, column >> 6);
+    this->row(row)[column >> 6] |= std::uint64_t{1} << (column & 63);
+  }
+  void clear(std::int32_t column, std::int32_t row) { this->row(row)[column >> 6] &= ~(std::uint64_t{1} << (column & 63)); }
+  bool is_set(std::int32_t column, std::int32_t row) const { return this->row(row)[column >> 6] >> (column & 63) & 1; }
+};
+
+}  // namespace slammot::grids

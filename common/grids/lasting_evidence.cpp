@@ -1,0 +1,62 @@
+#include "common/grids/lasting_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/grids/lowered_cells.hpp"
+
+namespace slammot::grids {
+namespace {
+
+constexpr double kWellInside_m = 0.4;  ///< Of the sides of a body: so far off they may be.
+
+}  // namespace
+
+LastingEvidence::LastingEvidence(const GridWindow& window, const LastingModel& model)
+    : model_(model),
+      hit_steps_(steps_of_log_odds(model.hit_log_odds)),
+      free_steps_(steps_of_log_odds(model.free_log_odds)),
+      limit_steps_(std::min(126, steps_of_log_odds(model.limit_log_odds))),
+      columns_(window.columns),
+      rows_(window.rows),
+      cells_(window.cell_count(), 0) {}
+
+void LastingEvidence::hit(std::size_t index) {
+  std::int8_t& cell = cells_[index];
+  if (!is_driven_over(cell)) cell = static_cast<std::int8_t>(std::min(limit_steps_, cell + hit_steps_));
+}
+
+void LastingEvidence::pass(BitRows& surely_free) {
+  for (std::int32_t row = 0; row < rows_; ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    std::uint64_t* const words = surely_free.row(row);
+    std::int8_t* const cells = cells_.data() + at * static_cast<std::size_t>(columns_);
+    for (std::int32_t word = surely_free.first_word[at]; word <= surely_free.last_word[at]; ++word) {
+      const std::uint64_t passed = std::exchange(words[word], 0);
+      const std::int32_t first_column = word * kCellsPerWord;
+      if (passed != 0) lower_cells(cells + first_column, std::min(kCellsPerWord, columns_ - first_column), passed, free_steps_, -limit_steps_);
+    }
+    surely_free.unuse(row);
+  }
+}
+
+void LastingEvidence::drive_over(const Box& body, const GridWindow& window) {
+  Box inside = body;
+  inside.half_m -= Eigen::Vector2d::Constant(kWellInside_m);
+  const CellRange cells = cells_around(body, window);
+  for (std::int32_t row = cells.low.row; row <= cells.high.row; ++row) {
+    for (std::int32_t column = cells.low.column; column <= cells.high.column; ++column) {
+      std::int8_t& cell = cells_[window.index({column, row})];
+      const Eigen::Vector2d centre_m = window.centre_of({column, row});
+      if (inside.covers(centre_m)) cell = static_cast<std::int8_t>(std::max<int>(kDrivenOver, cell - free_steps_));
+      else if (cell > 0 && body.covers(centre_m)) cell = static_cast<std::int8_t>(cell - free_steps_);
+    }
+  }
+}
+
+void LastingEvidence::copy_from(const LastingEvidence& other, std::size_t from, std::int32_t count, std::size_t to) {
+  std::copy_n(other.cells_.data() + from, count, cells_.data() + to);
+}
+
+}  // namespace slammot::grids
