@@ -95,9 +95,13 @@ void keep_changed(std::int8_t* now, const std::int8_t* before, std::size_t count
 
 /// The same of evidence that lasts, and what was driven over.
 void keep_changed_or_driven_over(std::int8_t* now, const std::int8_t* before, std::size_t count, int most_steps) {
+  const auto most = static_cast<std::int8_t>(most_steps);
+  const auto least = static_cast<std::int8_t>(-most_steps);
   for (std::size_t i = 0; i < count; ++i) {
-    if (grids::LastingEvidence::is_driven_over(now[i])) continue;
-    now[i] = now[i] != before[i] ? static_cast<std::int8_t>(std::clamp<int>(now[i], -most_steps, most_steps)) : std::int8_t{0};
+    const std::int8_t raised = now[i] < least ? least : now[i];
+    const std::int8_t limited = raised > most ? most : raised;
+    const std::int8_t kept = now[i] != before[i] ? limited : std::int8_t{0};
+    now[i] = grids::LastingEvidence::is_driven_over(now[i]) ? now[i] : kept;
   }
 }
 
