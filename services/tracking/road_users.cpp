@@ -11,6 +11,8 @@ constexpr double kWithinShare = 0.5;
 constexpr double kSpreadWorth = 4.0;       ///< In bodies: what is known of the spread before any was seen.
 constexpr double kElsewhereShare = 0.05;   ///< Of those here: they are as those anywhere.
 constexpr double kLeastSigmaShare = 0.1;   ///< No place is more uniform, nor measured better.
+constexpr double kOffSidesWorth = 4.0;     ///< In bodies: what the settings say of how far echoes lie off their sides.
+constexpr double kLeastOffSidesShare = 0.2;
 
 }  // namespace
 
@@ -56,6 +58,8 @@ RoadUsers RoadUsersSeen::known() const {
     here.kinds[kKinds.size() + i].share *= kElsewhereShare;
   }
   here.corner = next(corner_, kCorner.value_m, std::sqrt(kCorner.variance_m2), kWithinShare);
+  const double off_sides_share = (kOffSidesWorth + off_sides_share_.count * off_sides_share_.mean_m) / (kOffSidesWorth + off_sides_share_.count);
+  here.off_sides_share = std::clamp(off_sides_share, kLeastOffSidesShare, 1.0);
   return here;
 }
 

@@ -265,6 +265,37 @@ CentreErrors errors_if_smaller(const Track& track, const TrackingConfig& config)
   return errors;
 }
 
+/// What echoes near by are taken to err by, and besides by their range.
+double echo_sigma_m(double range_m, const TrackingConfig& config) { return config.range_noise_m + config.range_noise_per_m * range_m; }
+
+/// Adds one more scan to how far echoes lie off the sides of the body; of a few echoes the box is drawn through each.
+OffSides with_scan(const OffSides& before, double off_sides_m, std::size_t echoes, double range_m, const TrackingConfig& config) {
+  constexpr std::size_t kFewest = 6;
+  constexpr double kMostShare = 2.0;  // what is farther off is no side of it
+  if (echoes < kFewest) return before;
+  const double near_m = off_sides_m - config.range_noise_per_m * range_m;
+  return {before.shares + std::clamp(near_m / config.range_noise_m, 0.0, kMostShare), before.scans + 1.0};
+}
+
+/// Of what sides and echoes are taken to err by, so much they do here, at the range of the track.
+double echo_share(const Track& track, const TrackingConfig& config) {
+  const double unneeded_m = (1.0 - track.body.road_users.off_sides_share) * config.range_noise_m;
+  return 1.0 - unneeded_m / echo_sigma_m(track.range_m, config);
+}
+
+/// How likely something is not there as it is drawn, for beams go through where it should be, or echoes lie off its sides by much
+/// more than they err. Counted: decision 45.
+double doubt_of_box(const Track& track, const TrackingConfig& config) {
+  constexpr double kUsualPassed = 0.1;      // beside bodies that are a little smaller, or turned a little
+  constexpr double kIfAllPassed = 0.35;
+  constexpr double kUsualOffSides = 2.0;    // times what echoes are taken to err by
+  constexpr double kIfFarOff = 0.25;
+  const double passed = std::max(0.0, (track.passage.share() - kUsualPassed) / (1.0 - kUsualPassed));
+  const double usual_m = kUsualOffSides * echo_sigma_m(track.range_m, config);
+  const double off = std::max(0.0, 1.0 - usual_m / std::max(track.agreement.off_sides_m, 1e-9));
+  return std::max(kIfAllPassed * passed, kIfFarOff * off);
+}
+
 CentreErrors errors_of_box(const Track& track, const TrackingConfig& config) {
   constexpr double kFaceM = 0.02;             // so flat is the front or rear from which the middle is measured,
   constexpr double kFaceShareOfCorner = 0.15; // and the less the rounder its corners are
@@ -273,13 +304,19 @@ CentreErrors errors_of_box(const Track& track, const TrackingConfig& config) {
   constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
   constexpr double kFrameOrRiderM = 0.15;     // a bicycle is as wide as its frame or as who rides it, by the height of the scan
   const Body& body = track.body;
-  const double least_rad = body.axis_variance_rad2 > kKnownAxisRad2 ? kByCourseAloneRad : kBySidesRad;
-  const double heading_rad2 = std::clamp(track.steadiness.share * body.heading_variance_rad2, least_rad * least_rad, kMostHeadingRad2);
+  const double of_echoes = echo_share(track, config);
+  const bool is_told_by_sides = body.axis_variance_rad2 <= kKnownAxisRad2;
+  const double least_rad = is_told_by_sides ? of_echoes * kBySidesRad : kByCourseAloneRad;
+  const double steadiness = track.steadiness.share * (is_told_by_sides ? of_echoes * of_echoes : 1.0);
+  const double heading_rad2 = std::clamp(steadiness * body.heading_variance_rad2, least_rad * least_rad, kMostHeadingRad2);
   const double corner_m = corner_of(body, body.kind, config).value_m;
   CentreErrors errors = errors_if_smaller(track, config);
-  errors.along_m2 += std::pow(kFaceM * config.size_scale, 2) + std::pow(kFaceShareOfCorner * corner_m, 2) + 0.25 * (body.length.variance_m2 + heading_rad2 * std::pow(body.width.value_m, 2));
+  errors.along_m2 += std::pow(of_echoes * kFaceM * config.size_scale, 2) + std::pow(kFaceShareOfCorner * corner_m, 2) + 0.25 * (body.length.variance_m2 + heading_rad2 * std::pow(body.width.value_m, 2));
   errors.across_m2 += 0.25 * (body.width.variance_m2 + heading_rad2 * std::pow(body.length.value_m, 2));
   if (body.kind == Kind::kBicycle) errors.across_m2 += std::pow(kFrameOrRiderM * config.size_scale, 2);
+  const double doubt = doubt_of_box(track, config);  // then it is anywhere in the box
+  errors.along_m2 += doubt * 0.25 * std::pow(body.length.value_m, 2);
+  errors.across_m2 += doubt * 0.25 * std::pow(body.width.value_m, 2);
   if (!body.is_oriented) {  // of a face that is taken for a flank the middle lies farther behind
     constexpr double kTurnedShare = 0.25;
     const double off_m2 = kTurnedShare * std::pow(0.5 * (body.length.value_m - body.width.value_m), 2);
@@ -319,8 +356,13 @@ Eigen::Matrix4d covariance_after(const Eigen::Matrix4d& covariance, double time_
   return F * covariance * F.transpose();
 }
 
-/// What the deviations of position and velocity are multiplied with, since the filter takes everybody to swing as legs do.
-Eigen::DiagonalMatrix<double, 4> with_own_gait(const Track& track, const TrackingConfig& config) {
+/// What the deviations of position and velocity are multiplied with, since the filter takes everybody to swing as legs do, and
+/// echoes to err alike in all drives.
+Eigen::DiagonalMatrix<double, 4> with_own_errors(const Track& track, const TrackingConfig& config) {
+  if (track.body.has_sides) {
+    const double share = echo_share(track, config);
+    return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
+  }
   const bool is_known = walks(track) && track.gait.variance_m2 && config.gait_noise_m > 0.0;
   const double share = is_known ? std::sqrt(*track.gait.variance_m2) / config.gait_noise_m : 1.0;
   return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
@@ -487,6 +529,12 @@ Steadiness with_heading(const Steadiness& before, double off_rad, double varianc
   return {before.share + (1.0 - std::exp(-time_s / kMemoryS)) * (seen - before.share)};
 }
 
+Passage with_beams(const Passage& before, int through, std::size_t met, double time_s) {
+  constexpr double kMemoryS = 0.4;
+  const double gain = 1.0 - std::exp(-time_s / kMemoryS);
+  return {before.through + gain * (through - before.through), before.met + gain * (static_cast<double>(met) - before.met)};
+}
+
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
             const Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users, Track done_with) {
   Track track = emptied(std::move(done_with));
@@ -557,7 +605,10 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   if (track.body.has_sides) steer(track, unseen_s, config);
   if (track.body.has_sides) follow_course(track, glimpse, unseen_s, config);
   else draw_sides_when_known(track, glimpse, config);
-  track.agreement = with_scan(track.agreement, distance_from_sides_m(track, glimpse.points_m), distance2, unseen_s);
+  const double off_sides_m = distance_from_sides_m(track, glimpse.points_m);
+  track.range_m = (track.position_m() - glimpse.laser_m).norm();
+  track.agreement = with_scan(track.agreement, off_sides_m, distance2, unseen_s);
+  if (track.confirmed && track.body.has_sides) track.off_sides = with_scan(track.off_sides, off_sides_m, glimpse.points_m.size(), track.range_m, config);
   update_motion_state(track, config);
   if (track.velocity_mps().norm() > config.moving_above_mps || track.state == flow::Motion::kMoving) track.last_moving_ns = stamp_ns;
   update_class(track, unseen_s, config);
@@ -708,7 +759,7 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   object.velocity_in_odom_mps = estimate.mean.segment<2>(2);
   const Vector2d since_stamp_m = track.after_stamp_s * object.velocity_in_odom_mps;
   object.position_in_odom_m = track.position_m() - since_stamp_m;
-  const Eigen::DiagonalMatrix<double, 4> share = with_own_gait(track, config);
+  const Eigen::DiagonalMatrix<double, 4> share = with_own_errors(track, config);
   object.covariance = share * covariance_after(track.estimate.covariance.topLeftCorner<4, 4>(), -track.after_stamp_s) * share;
   object.acceleration_in_odom_mps2 = estimate.mean.segment<2>(4);
   object.heading_in_odom_rad = track.body.has_sides ? track.body.heading_rad : course_of(track).heading_rad;
@@ -785,6 +836,14 @@ void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
   seen.add_length(body.kind, of_real_one(between(length, body.length_evidence.least_m)));
   if (width.variance_m2 <= known_m2 && body.width.variance_m2 <= known_m2) seen.add_width(body.kind, of_real_one(between(width, body.width_evidence.least_m)));
   if (body.kind != Kind::kBicycle && body.corner_seen.variance_m2 <= known_m2) seen.add_corner(of_real_one(body.corner_seen));
+}
+
+void note_off_sides(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config) {
+  constexpr double kFewestScans = 20.0;
+  constexpr double kLeastWayM = 5.0;
+  const bool is_vehicle = track.confirmed && track.body.has_sides && track.body.is_oriented && track.body.kind != Kind::kBicycle;
+  if (!is_vehicle || only_people_move(config) || track.way_m < kLeastWayM * config.size_scale || track.off_sides.scans < kFewestScans) return;
+  seen.add_off_sides_share(track.off_sides.shares / track.off_sides.scans);
 }
 
 double existence_of(double score) { return 1.0 / (1.0 + std::exp(-score)); }

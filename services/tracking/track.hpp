@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -95,6 +96,21 @@ struct Steadiness {
   double share = 1.0;   ///< Of the variance, in the last moments.
 };
 
+/// Beams that went through the inside of a body, and its echoes, a scan: through what is drawn around a part of it and something
+/// else, or around several who walk, beams go.
+struct Passage {
+  double through = 0.0;  ///< In the last moments.
+  double met = 0.0;
+
+  double share() const { return through / std::max(1.0, through + met); }
+};
+
+/// How far echoes lay off the sides of a body, since it was confirmed.
+struct OffSides {
+  double shares = 0.0;   ///< Sum, a scan, of the share of what the settings take for it near by.
+  double scans = 0.0;
+};
+
 constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
 
 /// One object that is followed, or supposed to be one.
@@ -109,6 +125,9 @@ struct Track {
   Gait gait;                                 ///< Of who walks.
   Steadiness steadiness;                     ///< Of what has sides.
   Agreement agreement;                       ///< Of the echoes with the body.
+  Passage passage;                           ///< Of what is drawn as a vehicle.
+  OffSides off_sides;                        ///< Of the same.
+  double range_m = 0.0;                      ///< From the laser, when it was last seen.
   double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
   bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
   Body body;
@@ -176,6 +195,9 @@ Gait with_step(const Gait& before, const Eigen::Vector2d& surprise_m, const Eige
 /// With one more heading that was so far off the one held, with this variance of both together, time_s after the one before.
 Steadiness with_heading(const Steadiness& before, double off_rad, double variance_rad2, double time_s);
 
+/// With one more scan, time_s after the one before, in which so many beams went through the inside of the body and so many met it.
+Passage with_beams(const Passage& before, int through, std::size_t met, double time_s);
+
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side. done_with: a track that
 /// has ended, of which nothing but memory is used.
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
@@ -241,6 +263,9 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config);
 
 /// Adds the sizes of something of which they are surely known.
 void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
+
+/// Adds how far echoes lay off the sides of a vehicle that was followed for long enough.
+void note_off_sides(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 
 double existence_of(double score);
 

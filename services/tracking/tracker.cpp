@@ -709,7 +709,11 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
   if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return Outcome::kIsOfSomethingElse;
   if (!track.confirmed) track.youth_echoes = with_echoes(track.youth_echoes, beams, view);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
-  if (track.confirmed && is_vehicle(track)) score_passed(track, view.visibility_of(inner_part_of(track), track.position_m()), beams.size(), config_);
+  if (track.confirmed && is_vehicle(track)) {
+    const Visibility inside = view.visibility_of(inner_part_of(track), track.position_m());
+    score_passed(track, inside, beams.size(), config_);
+    track.passage = with_beams(track.passage, inside.passed, beams.size(), time_s);
+  }
   if (!track.confirmed) track.youth.add(view.scan().stamp_ns + nanoseconds(track.after_stamp_s), glimpse, pose_covariance_at(track.position_m(), view.scan()));
   if (!track.confirmed && has_proven_to_move(track, config_)) {
     const Life before = life(track);
@@ -787,6 +791,7 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
       restore(track);
     }
     if (is_dead) note_sizes(road_users_seen_, track, config_);
+    if (is_dead) note_off_sides(road_users_seen_, track, config_);
     return is_dead;
   };
   std::size_t kept = 0;
