@@ -11,8 +11,12 @@ constexpr double kWithinShare = 0.5;
 constexpr double kSpreadWorth = 4.0;       ///< In bodies: what is known of the spread before any was seen.
 constexpr double kElsewhereShare = 0.05;   ///< Of those here: they are as those anywhere.
 constexpr double kLeastSigmaShare = 0.1;   ///< No place is more uniform, nor measured better.
-constexpr double kOffSidesWorth = 4.0;     ///< In bodies: what the settings say of how far echoes lie off their sides.
-constexpr double kLeastOffSidesShare = 0.2;
+
+// Counted: decision 45. Echoes lie off the sides of exact boxes, too, by what the scanner errs, which averages out.
+constexpr double kOffSidesOfBoxes = 0.25;
+constexpr double kOffSidesAsTaken = 0.85;
+constexpr double kShapeWorth = 2.0;        ///< In bodies: bodies of a place differ more than places do.
+constexpr double kLeastShapeShare = 0.2;
 
 }  // namespace
 
@@ -47,6 +51,11 @@ Size RoadUsersSeen::next(const Sample& sample, double mean_m, double sigma_m, do
   return {mean_m + gain * (sample.mean_m - mean_m), std::max(within_m2 + (1.0 - gain) * between_m2, std::pow(kLeastSigmaShare * sigma_m, 2))};
 }
 
+double RoadUsersSeen::shape_share() const {
+  const double off_sides = (kShapeWorth * kOffSidesAsTaken + off_sides_share_.count * off_sides_share_.mean_m) / (kShapeWorth + off_sides_share_.count);
+  return std::clamp((off_sides - kOffSidesOfBoxes) / (kOffSidesAsTaken - kOffSidesOfBoxes), kLeastShapeShare, 1.0);
+}
+
 RoadUsers RoadUsersSeen::known() const {
   RoadUsers here;
   const double share = spread_share();
@@ -58,8 +67,7 @@ RoadUsers RoadUsersSeen::known() const {
     here.kinds[kKinds.size() + i].share *= kElsewhereShare;
   }
   here.corner = next(corner_, kCorner.value_m, std::sqrt(kCorner.variance_m2), kWithinShare);
-  const double off_sides_share = (kOffSidesWorth + off_sides_share_.count * off_sides_share_.mean_m) / (kOffSidesWorth + off_sides_share_.count);
-  here.off_sides_share = std::clamp(off_sides_share, kLeastOffSidesShare, 1.0);
+  here.shape_share = shape_share();
   return here;
 }
 

@@ -36,9 +36,8 @@ struct RoadUsers {
   /// First each kind as it is here, then each as it is anywhere: one in so many here is like those elsewhere. Shares of none are left out.
   std::array<KindOfBody, 2 * kKinds.size()> kinds = {kKinds[0], kKinds[1], kKinds[2], kKinds[3]};
   Size corner = kCorner;
-  /// How far echoes lie off the sides of bodies near by, as a share of what the settings take for it (range_noise_m): little of exact
-  /// boxes and of a good scanner. At most 1.
-  double off_sides_share = 1.0;
+  /// How far bodies are from boxes, as a share of what the settings take for it: little of exact ones. At most 1.
+  double shape_share = 1.0;
 };
 
 /// Learns what the road users of a place are like from those that were seen from end to end.
@@ -47,6 +46,7 @@ class RoadUsersSeen {
   void add_length(Kind kind, const Size& seen) { sizes_[index(kind)].length.add(seen); }
   void add_width(Kind kind, const Size& seen) { sizes_[index(kind)].width.add(seen); }
   void add_corner(const Size& seen) { corner_.add(seen); }
+  /// How far echoes lay off the sides of a body in the mean, beyond what grows with range, as a share of range_noise_m.
   void add_off_sides_share(double share) { off_sides_share_.add({share, 0.0}); }
 
   /// With nothing seen, those anywhere.
@@ -72,6 +72,7 @@ class RoadUsersSeen {
   static std::size_t index(Kind kind) { return static_cast<std::size_t>(kind); }
   static Size next(const Sample& sample, double mean_m, double sigma_m, double spread_share);
   double spread_share() const;
+  double shape_share() const;
 
   std::array<Sizes, kKinds.size()> sizes_;
   Sample corner_;

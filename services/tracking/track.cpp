@@ -268,18 +268,19 @@ CentreErrors errors_if_smaller(const Track& track, const TrackingConfig& config)
 /// What echoes near by are taken to err by, and besides by their range.
 double echo_sigma_m(double range_m, const TrackingConfig& config) { return config.range_noise_m + config.range_noise_per_m * range_m; }
 
-/// Adds one more scan to how far echoes lie off the sides of the body; of a few echoes the box is drawn through each.
+/// With one more scan. Of a few echoes the box is drawn through each.
 OffSides with_scan(const OffSides& before, double off_sides_m, std::size_t echoes, double range_m, const TrackingConfig& config) {
   constexpr std::size_t kFewest = 6;
   constexpr double kMostShare = 2.0;  // what is farther off is no side of it
-  if (echoes < kFewest) return before;
-  const double near_m = off_sides_m - config.range_noise_per_m * range_m;
-  return {before.shares + std::clamp(near_m / config.range_noise_m, 0.0, kMostShare), before.scans + 1.0};
+  const double share = std::max(0.0, off_sides_m - config.range_noise_per_m * range_m) / config.range_noise_m;
+  if (echoes < kFewest || share > kMostShare) return before;
+  const double weight = static_cast<double>(echoes);
+  return {before.shares + weight * share, before.echoes + weight, before.scans + 1};
 }
 
-/// Of what sides and echoes are taken to err by, so much they do here, at the range of the track.
+/// Of what a measured centre is taken to err by, so much it does here, at the range of the track.
 double echo_share(const Track& track, const TrackingConfig& config) {
-  const double unneeded_m = (1.0 - track.body.road_users.off_sides_share) * config.range_noise_m;
+  const double unneeded_m = (1.0 - track.body.road_users.shape_share) * config.range_noise_m;
   return 1.0 - unneeded_m / echo_sigma_m(track.range_m, config);
 }
 
@@ -304,14 +305,14 @@ CentreErrors errors_of_box(const Track& track, const TrackingConfig& config) {
   constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
   constexpr double kFrameOrRiderM = 0.15;     // a bicycle is as wide as its frame or as who rides it, by the height of the scan
   const Body& body = track.body;
-  const double of_echoes = echo_share(track, config);
+  const double of_shape = body.road_users.shape_share;
   const bool is_told_by_sides = body.axis_variance_rad2 <= kKnownAxisRad2;
-  const double least_rad = is_told_by_sides ? of_echoes * kBySidesRad : kByCourseAloneRad;
-  const double steadiness = track.steadiness.share * (is_told_by_sides ? of_echoes * of_echoes : 1.0);
+  const double least_rad = is_told_by_sides ? of_shape * kBySidesRad : kByCourseAloneRad;
+  const double steadiness = track.steadiness.share * (is_told_by_sides ? of_shape * of_shape : 1.0);
   const double heading_rad2 = std::clamp(steadiness * body.heading_variance_rad2, least_rad * least_rad, kMostHeadingRad2);
   const double corner_m = corner_of(body, body.kind, config).value_m;
   CentreErrors errors = errors_if_smaller(track, config);
-  errors.along_m2 += std::pow(of_echoes * kFaceM * config.size_scale, 2) + std::pow(kFaceShareOfCorner * corner_m, 2) + 0.25 * (body.length.variance_m2 + heading_rad2 * std::pow(body.width.value_m, 2));
+  errors.along_m2 += std::pow(of_shape * kFaceM * config.size_scale, 2) + std::pow(kFaceShareOfCorner * corner_m, 2) + 0.25 * (body.length.variance_m2 + heading_rad2 * std::pow(body.width.value_m, 2));
   errors.across_m2 += 0.25 * (body.width.variance_m2 + heading_rad2 * std::pow(body.length.value_m, 2));
   if (body.kind == Kind::kBicycle) errors.across_m2 += std::pow(kFrameOrRiderM * config.size_scale, 2);
   const double doubt = doubt_of_box(track, config);  // then it is anywhere in the box
@@ -839,11 +840,11 @@ void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
 }
 
 void note_off_sides(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config) {
-  constexpr double kFewestScans = 20.0;
+  constexpr int kFewestScans = 20;
   constexpr double kLeastWayM = 5.0;
   const bool is_vehicle = track.confirmed && track.body.has_sides && track.body.is_oriented && track.body.kind != Kind::kBicycle;
   if (!is_vehicle || only_people_move(config) || track.way_m < kLeastWayM * config.size_scale || track.off_sides.scans < kFewestScans) return;
-  seen.add_off_sides_share(track.off_sides.shares / track.off_sides.scans);
+  seen.add_off_sides_share(track.off_sides.shares / track.off_sides.echoes);
 }
 
 double existence_of(double score) { return 1.0 / (1.0 + std::exp(-score)); }

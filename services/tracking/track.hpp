@@ -107,8 +107,9 @@ struct Passage {
 
 /// How far echoes lay off the sides of a body, since it was confirmed.
 struct OffSides {
-  double shares = 0.0;   ///< Sum, a scan, of the share of what the settings take for it near by.
-  double scans = 0.0;
+  double shares = 0.0;   ///< Sum, an echo, of the share of what the settings take for it near by,
+  double echoes = 0.0;   ///< of so many
+  int scans = 0;         ///< in so many scans.
 };
 
 constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
