@@ -16,7 +16,7 @@ constexpr double kLeastSigmaShare = 0.1;   ///< No place is more uniform, nor me
 constexpr double kOffSidesOfBoxes = 0.25;
 constexpr double kOffSidesAsTaken = 0.85;
 constexpr double kShapeWorth = 2.0;        ///< In bodies: bodies of a place differ more than places do.
-constexpr double kLeastShapeShare = 0.2;
+constexpr double kLeastShapeShare = 1.0 / 3.0;  ///< Bends and the sizes held remain, however exact the boxes are.
 
 }  // namespace
 

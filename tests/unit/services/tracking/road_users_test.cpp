@@ -62,5 +62,23 @@ TEST(RoadUsers, HaveCornersAsRoundAsThoseSeen) {
   EXPECT_LT(seen.known().corner.variance_m2, 0.5 * kCorner.variance_m2);
 }
 
+RoadUsersSeen bodies_seen(int count, double off_sides_share) {
+  RoadUsersSeen seen;
+  for (int i = 0; i < count; ++i) seen.add_off_sides_share(off_sides_share);
+  return seen;
+}
+
+TEST(RoadUsers, AreAsNearToBoxesAsEchoesLieToTheirSides) {
+  EXPECT_NEAR(RoadUsersSeen().known().shape_share, 1.0, 1e-9);
+  EXPECT_NEAR(bodies_seen(20, 0.85).known().shape_share, 1.0, 1e-9) << "as is taken";
+  EXPECT_NEAR(bodies_seen(20, 0.55).known().shape_share, 0.5, 0.06);
+  EXPECT_GT(bodies_seen(1, 0.3).known().shape_share, 0.6) << "one tells little";
+}
+
+TEST(RoadUsers, AreNeitherTakenForExactNorForWorseThanTheSettingsSay) {
+  EXPECT_NEAR(bodies_seen(50, 0.0).known().shape_share, 1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(bodies_seen(50, 1.8).known().shape_share, 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace slammot::tracking

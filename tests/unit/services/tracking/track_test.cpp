@@ -389,5 +389,90 @@ TEST(Track, IsOneOfThoseHereIfItsSizesAreSurelyKnown) {
   EXPECT_EQ(length_sigma_m_after(other), unknown_m) << "only its back was seen";
 }
 
+Eigen::Matrix4d published_covariance(const Track& track) { return described(track, 0, {}).covariance; }
+
+TEST(Track, IsKnownAsWellAsBodiesHereAreBoxes) {
+  Track track = known_car();
+  track.estimate.covariance = 0.0009 * track.estimate.covariance.Identity();
+  track.range_m = 5.0;
+  const Eigen::Matrix4d as_taken = published_covariance(track);
+  track.body.road_users.shape_share = 0.4;
+  const Eigen::Matrix4d of_boxes = published_covariance(track);
+  EXPECT_LT(of_boxes(0, 0), as_taken(0, 0) - 0.0007);
+  EXPECT_LT(of_boxes(1, 1), as_taken(1, 1) - 0.006);
+  EXPECT_EQ(of_boxes(2, 2), as_taken(2, 2));
+  track.range_m = 50.0;
+  EXPECT_GT(published_covariance(track)(0, 0), of_boxes(0, 0) + 0.0002) << "the scanner errs as it did";
+  track.body.axis_variance_rad2 = 1.0;
+  EXPECT_GT(published_covariance(track)(1, 1), as_taken(1, 1)) << "no side tells the heading";
+}
+
+TEST(Track, MayBeAnywhereInItsBoxWhereBeamsPassThroughIt) {
+  Track track = known_car();
+  const Eigen::Matrix4d solid = published_covariance(track);
+  for (int i = 0; i < 100; ++i) track.passage = with_beams(track.passage, 1, 19, kPeriodS);
+  EXPECT_EQ(published_covariance(track)(0, 0), solid(0, 0)) << "a beam or two pass by a corner";
+  for (int i = 0; i < 100; ++i) track.passage = with_beams(track.passage, 16, 4, kPeriodS);
+  EXPECT_GT(std::sqrt(published_covariance(track)(0, 0)), 1.0);
+  EXPECT_GT(std::sqrt(published_covariance(track)(1, 1)), 0.4);
+  for (int i = 0; i < 100; ++i) track.passage = with_beams(track.passage, 0, 20, kPeriodS);
+  EXPECT_NEAR(published_covariance(track)(0, 0), solid(0, 0), 1e-3) << "that is over";
+}
+
+TEST(Track, MayBeAnywhereInItsBoxWhereEchoesLieFarOffItsSides) {
+  Track track = known_car();
+  track.range_m = 10.0;
+  track.agreement.off_sides_m = 0.05;
+  const Eigen::Matrix4d near = published_covariance(track);
+  track.agreement.off_sides_m = 0.3;
+  EXPECT_GT(std::sqrt(published_covariance(track)(0, 0)), std::sqrt(near(0, 0)) + 0.5);
+  track.agreement.off_sides_m = 0.15;
+  track.range_m = 50.0;
+  EXPECT_LT(std::sqrt(published_covariance(track)(0, 0)), std::sqrt(near(0, 0)) + 0.05) << "far away that is usual";
+}
+
+double shape_share_after(const Track& track) {
+  RoadUsersSeen seen;
+  for (int i = 0; i < 20; ++i) note_off_sides(seen, track, {});
+  return seen.known().shape_share;
+}
+
+TEST(Track, TellsHowFarEchoesLieOffVehiclesThatWereFollowedForLong) {
+  Track track = known_car();
+  track.off_sides = {0.4 * 800.0, 800.0, 40};
+  EXPECT_LT(shape_share_after(track), 0.4);
+  Track other = track;
+  other.off_sides = {0.4 * 80.0, 80.0, 4};
+  EXPECT_EQ(shape_share_after(other), 1.0);
+  other = track;
+  other.way_m = 0.0;
+  EXPECT_EQ(shape_share_after(other), 1.0) << "a piece of something";
+  other = track;
+  other.body.kind = Kind::kBicycle;
+  EXPECT_EQ(shape_share_after(other), 1.0);
+}
+
+TEST(Track, CountsHowFarEchoesLieOffItsSidesWhileItIsAVehicleThatIsConfirmed) {
+  const TrackingConfig config;
+  std::vector<Eigen::Vector2d> points_m;
+  for (int i = 0; i < 12; ++i) points_m.emplace_back(10.0, -0.9 + 1.8 / 11.0 * i);  // the back of a car
+  Glimpse glimpse;
+  glimpse.points_m = points_m;
+  glimpse.beam_step_rad = 0.015;
+  Track track = known_car();
+  track.estimate.mean.head<2>() = Eigen::Vector2d(12.3, 0.0);
+  track.estimate.covariance = 0.01 * track.estimate.covariance.Identity();
+  track.motion = filters::imm_start(motion_models(config), track.estimate);
+  Track tentative = track;
+  tentative.confirmed = false;
+  ASSERT_TRUE(update(track, 27'000'000, glimpse, Eigen::Matrix2d::Zero(), config));
+  EXPECT_EQ(track.off_sides.scans, 1);
+  EXPECT_EQ(track.off_sides.echoes, 12.0);
+  EXPECT_LT(track.off_sides.shares, 12.0);
+  EXPECT_NEAR(track.range_m, 12.3, 0.3);
+  ASSERT_TRUE(update(tentative, 27'000'000, glimpse, Eigen::Matrix2d::Zero(), config));
+  EXPECT_EQ(tentative.off_sides.scans, 0);
+}
+
 }  // namespace
 }  // namespace slammot::tracking
