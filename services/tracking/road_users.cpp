@@ -14,7 +14,7 @@ constexpr double kLeastSigmaShare = 0.1;   ///< No place is more uniform, nor me
 
 // Counted: decision 45. Echoes lie off the sides of exact boxes, too, by what the scanner errs, which averages out.
 constexpr double kOffSidesOfBoxes = 0.25;
-constexpr double kOffSidesAsTaken = 0.85;
+constexpr double kOffSidesAsTaken = 0.75;
 constexpr double kShapeWorth = 2.0;        ///< In bodies: bodies of a place differ more than places do.
 constexpr double kLeastShapeShare = 1.0 / 3.0;  ///< Bends and the sizes held remain, however exact the boxes are.
 

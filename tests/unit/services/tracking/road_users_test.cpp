@@ -70,8 +70,8 @@ RoadUsersSeen bodies_seen(int count, double off_sides_share) {
 
 TEST(RoadUsers, AreAsNearToBoxesAsEchoesLieToTheirSides) {
   EXPECT_NEAR(RoadUsersSeen().known().shape_share, 1.0, 1e-9);
-  EXPECT_NEAR(bodies_seen(20, 0.85).known().shape_share, 1.0, 1e-9) << "as is taken";
-  EXPECT_NEAR(bodies_seen(20, 0.55).known().shape_share, 0.5, 0.06);
+  EXPECT_NEAR(bodies_seen(20, 0.75).known().shape_share, 1.0, 1e-9) << "as is taken";
+  EXPECT_NEAR(bodies_seen(20, 0.5).known().shape_share, 0.5, 0.06);
   EXPECT_GT(bodies_seen(1, 0.3).known().shape_share, 0.6) << "one tells little";
 }
 
