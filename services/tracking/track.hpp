@@ -130,6 +130,7 @@ struct Track {
   OffSides off_sides;                        ///< Of the same.
   double range_m = 0.0;                      ///< From the laser, when it was last seen.
   double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
+  double refused_s = 0.0;                    ///< For which its echoes have been too far from where it must be.
   bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
   Body body;
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).

@@ -706,7 +706,17 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
   }
   track.answers = with_answers(track.answers, beams.size(), gaps_between(beams, view.polar()), time_s);
   const Glimpse glimpse = glimpse_of(beams, swept_motion(track), track.answers, view, config_.size_scale, glimpse_points_m_[index]);
-  if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_at(track.position_m(), view.scan()), config_)) return Outcome::kIsOfSomethingElse;
+  const Matrix2d pose_covariance_m2 = pose_covariance_at(track.position_m(), view.scan());
+  if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_m2, config_)) {
+    constexpr double kKnownToMoveM = 5.0;
+    constexpr double kDrawnWrongAfterS = 0.1;  // once is somebody else's echoes; again and again, in its place, it is drawn wrong
+    track.refused_s += time_s;
+    const bool may_be_drawn_wrong = track.body.has_sides && shares_.label_of_track[index] == PointLabel::kMoving && track.way_m > kKnownToMoveM * config_.size_scale;
+    if (!may_be_drawn_wrong || track.refused_s < kDrawnWrongAfterS) return Outcome::kIsOfSomethingElse;
+    draw_around(track, glimpse, config_);
+    if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_m2, config_)) return Outcome::kIsOfSomethingElse;
+  }
+  track.refused_s = 0.0;
   if (!track.confirmed) track.youth_echoes = with_echoes(track.youth_echoes, beams, view);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (track.confirmed && is_vehicle(track)) {

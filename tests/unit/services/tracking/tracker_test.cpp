@@ -105,6 +105,25 @@ TEST(Tracker, KnowsWhereACarThatCrossesIsAndHowFast) {
   EXPECT_EQ(play.ids.size(), 1U);
 }
 
+TEST(Tracker, DrawsAnewWhatIsAgainAndAgainTooFarFromWhereItMustBe) {
+  Play play;
+  constexpr double kBesideM = 0.75;  // as if another part of it had come into view
+  const auto scene = [](Street& street, double t) { street.unknown = {{{t < 2.0 ? 20.0 : 20.0 - kBesideM, -15.0 + 8.0 * t, M_PI / 2.0}}}; };
+  play.run(2.0, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  int unpublished = 0;
+  for (int scan = 0; scan < 20; ++scan) {
+    play.step(scene);
+    unpublished += play.confirmed().empty() ? 1 : 0;
+  }
+  EXPECT_GE(unpublished, 1) << "once it may be somebody else";
+  EXPECT_LE(unpublished, 5);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_EQ(play.ids.size(), 1U);
+  EXPECT_LT((play.confirmed().front().position_in_odom_m - Vector2(20.0 - kBesideM, -15.0 + 8.0 * (play.now_s() - kPeriodS))).norm(), 0.3);
+  EXPECT_LT((play.confirmed().front().velocity_in_odom_mps - Vector2(0.0, 8.0)).norm(), 0.5);
+}
+
 TEST(Tracker, FollowsACarAcrossTheSeamOfAFullTurn) {
   Play play;
   play.street.look_all_round();
