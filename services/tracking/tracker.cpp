@@ -693,6 +693,24 @@ void Tracker::correct_all(double time_s, const ScanView& view) {
   }
 }
 
+/// Whether the echoes are the track's own, by which it is corrected then. Once they may be somebody else's; again and again,
+/// in its place, they tell that it is drawn wrong.
+bool Tracker::takes(std::size_t index, const Glimpse& glimpse, double time_s, const flow::SegmentedScan& scan) {
+  constexpr double kKnownToMoveM = 5.0;
+  constexpr double kDrawnWrongAfterS = 0.1;
+  Track& track = tracks_[index];
+  const Matrix2d pose_covariance_m2 = pose_covariance_at(track.position_m(), scan);
+  if (!update(track, scan.stamp_ns, glimpse, pose_covariance_m2, config_)) {
+    track.refused_s += time_s;
+    const bool surely_moves = shares_.label_of_track[index] == PointLabel::kMoving && track.way_m > kKnownToMoveM * config_.size_scale;
+    if (!track.body.has_sides || !surely_moves || track.refused_s < kDrawnWrongAfterS) return false;
+    draw_around(track, glimpse, config_);
+    if (!update(track, scan.stamp_ns, glimpse, pose_covariance_m2, config_)) return false;
+  }
+  track.refused_s = 0.0;
+  return true;
+}
+
 /// Writes of the track only.
 Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
   leave_out_surroundings(index, time_s, view);
@@ -706,17 +724,7 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
   }
   track.answers = with_answers(track.answers, beams.size(), gaps_between(beams, view.polar()), time_s);
   const Glimpse glimpse = glimpse_of(beams, swept_motion(track), track.answers, view, config_.size_scale, glimpse_points_m_[index]);
-  const Matrix2d pose_covariance_m2 = pose_covariance_at(track.position_m(), view.scan());
-  if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_m2, config_)) {
-    constexpr double kKnownToMoveM = 5.0;
-    constexpr double kDrawnWrongAfterS = 0.1;  // once is somebody else's echoes; again and again, in its place, it is drawn wrong
-    track.refused_s += time_s;
-    const bool may_be_drawn_wrong = track.body.has_sides && shares_.label_of_track[index] == PointLabel::kMoving && track.way_m > kKnownToMoveM * config_.size_scale;
-    if (!may_be_drawn_wrong || track.refused_s < kDrawnWrongAfterS) return Outcome::kIsOfSomethingElse;
-    draw_around(track, glimpse, config_);
-    if (!update(track, view.scan().stamp_ns, glimpse, pose_covariance_m2, config_)) return Outcome::kIsOfSomethingElse;
-  }
-  track.refused_s = 0.0;
+  if (!takes(index, glimpse, time_s, view.scan())) return Outcome::kIsOfSomethingElse;
   if (!track.confirmed) track.youth_echoes = with_echoes(track.youth_echoes, beams, view);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (track.confirmed && is_vehicle(track)) {

@@ -110,6 +110,7 @@ class Tracker {
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
   void check_velocity(std::size_t track, const Glimpse& glimpse, const ScanView& view);
   void correct_all(double time_s, const ScanView& view);
+  bool takes(std::size_t track, const Glimpse& glimpse, double time_s, const flow::SegmentedScan& scan);
   Outcome correct(std::size_t track, double time_s, const ScanView& view);
   void confirm(std::size_t track);
   void leave_out_surroundings(std::size_t track, double time_s, const ScanView& view);
