@@ -18,7 +18,7 @@ using geometry::UncertainPose2;
 using geometry::Vector2;
 
 constexpr double kNanosecond_s = 1e-9;
-constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7461;  // "slammota": the last digit, hexadecimal, counts the forms of a checkpoint
+constexpr std::uint64_t kCheckpointMark = 0x736c616d6d6f7462;  // "slammota": the last digit, hexadecimal, counts the forms of a checkpoint
 constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow

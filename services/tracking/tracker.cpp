@@ -698,12 +698,14 @@ void Tracker::correct_all(double time_s, const ScanView& view) {
 bool Tracker::takes(std::size_t index, const Glimpse& glimpse, double time_s, const flow::SegmentedScan& scan) {
   constexpr double kKnownToMoveM = 5.0;
   constexpr double kDrawnWrongAfterS = 0.1;
+  constexpr std::size_t kFewestEchoes = 6;  // around fewer it would be drawn no better
   Track& track = tracks_[index];
   const Matrix2d pose_covariance_m2 = pose_covariance_at(track.position_m(), scan);
   if (!update(track, scan.stamp_ns, glimpse, pose_covariance_m2, config_)) {
     track.refused_s += time_s;
     const bool surely_moves = shares_.label_of_track[index] == PointLabel::kMoving && track.way_m > kKnownToMoveM * config_.size_scale;
-    if (!track.body.has_sides || !surely_moves || track.refused_s < kDrawnWrongAfterS) return false;
+    const bool may_be_drawn = track.body.has_sides && glimpse.points_m.size() >= kFewestEchoes;
+    if (!may_be_drawn || !surely_moves || track.refused_s < kDrawnWrongAfterS) return false;
     draw_around(track, glimpse, config_);
     if (!update(track, scan.stamp_ns, glimpse, pose_covariance_m2, config_)) return false;
   }
