@@ -341,12 +341,12 @@ std::vector<metrics::TrueObject> moving_objects(const Truth& truth, double least
 }
 
 void add_notes(const RunResult& result, const Truth& truth, const EchoSource& echoes, Evaluation& evaluation) {
-  if (!truth.objects && !truth.other_car) evaluation.notes.push_back("no true objects: tracking is not evaluated");
-  if (truth.objects && !echoes) evaluation.notes.push_back("no log: labels of points are not evaluated, and walls count as seen where the map knows the place");
-  if (truth.objects && result.labels.empty()) evaluation.notes.push_back("no labels.csv in the result: labels of points are not evaluated");
-  if (!truth.walls) evaluation.notes.push_back("no true walls: the map is not evaluated");
-  if (truth.walls && !result.map) evaluation.notes.push_back("no map.pgm in the result: the map is not evaluated");
-  if (result.uncertain.empty()) evaluation.notes.push_back("no online_covariance.csv in the result: no NEES of poses");
+  if (!truth.objects && !truth.other_car) evaluation.notes.emplace_back("no true objects: tracking is not evaluated");
+  if (truth.objects && !echoes) evaluation.notes.emplace_back("no log: labels of points are not evaluated, and walls count as seen where the map knows the place");
+  if (truth.objects && result.labels.empty()) evaluation.notes.emplace_back("no labels.csv in the result: labels of points are not evaluated");
+  if (!truth.walls) evaluation.notes.emplace_back("no true walls: the map is not evaluated");
+  if (truth.walls && !result.map) evaluation.notes.emplace_back("no map.pgm in the result: the map is not evaluated");
+  if (result.uncertain.empty()) evaluation.notes.emplace_back("no online_covariance.csv in the result: no NEES of poses");
 }
 
 /// Fills the parts about the vehicle's own way.
@@ -403,7 +403,7 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth, 
     const Truth placed = place_annotations(truth, result, options.rule.least_points);
     if (placed.objects->empty()) return Error{"the clocks do not overlap: no scan of the result (" + span_of(result.online) + ") is between two annotations"};
     if (auto fault = evaluate_scenes(result, placed, echoes, options, evaluation)) return *fault;
-    evaluation.notes.push_back("annotated in the frame of the laser: no trajectory is evaluated, and objects are placed by the result's own");
+    evaluation.notes.emplace_back("annotated in the frame of the laser: no trajectory is evaluated, and objects are placed by the result's own");
     return evaluation;
   }
   if (auto fault = evaluate_way(result, truth, to_ns(options.max_stamp_difference_s), evaluation)) return *fault;
