@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace slammot::grids {
@@ -31,10 +32,19 @@ struct BitRows {
     first_word[at] = std::min(first_word[at], word);
     last_word[at] = std::max(last_word[at], word);
   }
-  /// When its words are zero again.
-  void unuse(std::int32_t row) {
-    first_word[static_cast<std::size_t>(row)] = words_per_row;
-    last_word[static_cast<std::size_t>(row)] = -1;
+  /// Calls take(row, word, bits) for each word of which any bit is set, and clears them.
+  template <typename Take>
+  void take_all(const Take& take) {
+    for (std::size_t at = 0; at < first_word.size(); ++at) {
+      const auto row = static_cast<std::int32_t>(at);
+      std::uint64_t* const words_of_row = this->row(row);
+      for (std::int32_t word = first_word[at]; word <= last_word[at]; ++word) {
+        const std::uint64_t bits = std::exchange(words_of_row[word], 0);
+        if (bits != 0) take(row, word, bits);
+      }
+      first_word[at] = words_per_row;
+      last_word[at] = -1;
+    }
   }
   void clear_all() {
     std::ranges::fill(words, 0);

@@ -29,6 +29,11 @@ std::int32_t first_centre(double place, std::int32_t count) {
   return below + (static_cast<double>(below) < at);  // rounded up, in fewer instructions than std::ceil
 }
 
+/// Place in cells of the window.
+Eigen::Vector2d in_cells(const Eigen::Vector2d& at_m, const GridWindow& window) {
+  return at_m / window.cell_size_m - Eigen::Vector2d(window.first.column, window.first.row);
+}
+
 /// Flips, in each row whose middle the edge crosses, the first cell whose centre lies right of it: from there to the next
 /// flip the row is inside the outline. In cells of the window.
 void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const GridWindow& window, BitRows& outline) {
@@ -183,10 +188,7 @@ void EvidenceGrid::measure_surely_free_ways(const std::vector<Ray>& rays) {
 }
 
 void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way) {
-  const Eigen::Vector2d corner(window_.first.column, window_.first.row);
-  const auto at = [&](const Eigen::Vector2d& direction, double distance_m) -> Eigen::Vector2d {
-    return (origin_m + distance_m * direction) / window_.cell_size_m - corner;
-  };
+  const auto at = [&](const Eigen::Vector2d& direction, double distance_m) { return in_cells(origin_m + distance_m * direction, window_); };
   const auto add_edge = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) { grids::add_edge(from, to, window_, free_); };
   for (std::size_t i = first_way; i < end_way; ++i) {
     const FreeWay& way = ways_[i];
@@ -201,10 +203,7 @@ void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m, std::size
 
 /// As far as the echoes of the beams beside it let each beam be taken for what lies half way to them: however far apart they are.
 void EvidenceGrid::outline_surely_free(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way) {
-  const Eigen::Vector2d corner(window_.first.column, window_.first.row);
-  const auto at = [&](const Eigen::Vector2d& direction, double distance_m) -> Eigen::Vector2d {
-    return (origin_m + distance_m * direction) / window_.cell_size_m - corner;
-  };
+  const auto at = [&](const Eigen::Vector2d& direction, double distance_m) { return in_cells(origin_m + distance_m * direction, window_); };
   if (first_way == end_way) return;
   const FreeWay& before = ways_[first_way == 0 ? ways_.size() - 1 : first_way - 1];
   Eigen::Vector2d begins = at(before.half_way, ways_[first_way].surely_m);
@@ -273,15 +272,7 @@ void EvidenceGrid::unnote_freed(std::int32_t row, std::int32_t word, std::uint64
 }
 
 void EvidenceGrid::lower_free_cells() {
-  for (std::int32_t row = 0; row < window_.rows; ++row) {
-    const auto at = static_cast<std::size_t>(row);
-    std::uint64_t* const words = free_.row(row);
-    for (std::int32_t word = free_.first_word[at]; word <= free_.last_word[at]; ++word) {
-      const std::uint64_t free_cells = std::exchange(words[word], 0);
-      if (free_cells != 0) lower(row, word, free_cells);
-    }
-    free_.unuse(row);
-  }
+  free_.take_all([&](std::int32_t row, std::int32_t word, std::uint64_t free_cells) { lower(row, word, free_cells); });
 }
 
 void EvidenceGrid::clear_free_cells() {
@@ -381,7 +372,7 @@ void EvidenceGrid::drive_over(const Box& body) {
   const Cell high = block_of(cells.high);
   for (std::int32_t row = low.row; row <= high.row; ++row)
     for (std::int32_t column = low.column; column <= high.column; ++column) free_occupied_in_block(body, column, row);
-  lasting_.drive_over(body, window_);
+  lasting_.drive_over(body);
 }
 
 void EvidenceGrid::free_occupied_in_block(const Box& box, std::int32_t block_column, std::int32_t block_row) {

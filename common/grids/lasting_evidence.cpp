@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "common/grids/lowered_cells.hpp"
 
@@ -18,8 +17,7 @@ LastingEvidence::LastingEvidence(const GridWindow& window, const LastingModel& m
       hit_steps_(steps_of_log_odds(model.hit_log_odds)),
       free_steps_(steps_of_log_odds(model.free_log_odds)),
       limit_steps_(std::min(126, steps_of_log_odds(model.limit_log_odds))),
-      columns_(window.columns),
-      rows_(window.rows),
+      window_(window),
       cells_(window.cell_count(), 0) {}
 
 void LastingEvidence::hit(std::size_t index) {
@@ -28,27 +26,21 @@ void LastingEvidence::hit(std::size_t index) {
 }
 
 void LastingEvidence::pass(BitRows& surely_free) {
-  for (std::int32_t row = 0; row < rows_; ++row) {
-    const auto at = static_cast<std::size_t>(row);
-    std::uint64_t* const words = surely_free.row(row);
-    std::int8_t* const cells = cells_.data() + at * static_cast<std::size_t>(columns_);
-    for (std::int32_t word = surely_free.first_word[at]; word <= surely_free.last_word[at]; ++word) {
-      const std::uint64_t passed = std::exchange(words[word], 0);
-      const std::int32_t first_column = word * kCellsPerWord;
-      if (passed != 0) lower_cells(cells + first_column, std::min(kCellsPerWord, columns_ - first_column), passed, free_steps_, -limit_steps_);
-    }
-    surely_free.unuse(row);
-  }
+  surely_free.take_all([&](std::int32_t row, std::int32_t word, std::uint64_t passed) {
+    const std::int32_t first_column = word * kCellsPerWord;
+    std::int8_t* const cells = cells_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
+    lower_cells(cells, std::min(kCellsPerWord, window_.columns - first_column), passed, free_steps_, -limit_steps_);
+  });
 }
 
-void LastingEvidence::drive_over(const Box& body, const GridWindow& window) {
+void LastingEvidence::drive_over(const Box& body) {
   Box inside = body;
   inside.half_m -= Eigen::Vector2d::Constant(kWellInside_m);
-  const CellRange cells = cells_around(body, window);
+  const CellRange cells = cells_around(body, window_);
   for (std::int32_t row = cells.low.row; row <= cells.high.row; ++row) {
     for (std::int32_t column = cells.low.column; column <= cells.high.column; ++column) {
-      std::int8_t& cell = cells_[window.index({column, row})];
-      const Eigen::Vector2d centre_m = window.centre_of({column, row});
+      std::int8_t& cell = cells_[window_.index({column, row})];
+      const Eigen::Vector2d centre_m = window_.centre_of({column, row});
       if (inside.covers(centre_m)) cell = static_cast<std::int8_t>(std::max<int>(kDrivenOver, cell - free_steps_));
       else if (cell > 0 && body.covers(centre_m)) cell = static_cast<std::int8_t>(cell - free_steps_);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/grids/bit_rows.hpp"
@@ -34,7 +35,7 @@ class LastingEvidence {
 
   /// A body is here that surely moves: what is occupied loses as much as by a beam that passes, and what lies well inside beyond the
   /// limit, too. After so many scans of it that a byte holds no more the cell is driven over for good.
-  void drive_over(const Box& body, const GridWindow& window);
+  void drive_over(const Box& body);
 
   static bool is_driven_over(std::int8_t steps) { return steps == kDrivenOver; }
 
@@ -50,8 +51,7 @@ class LastingEvidence {
   int hit_steps_ = 0;
   int free_steps_ = 0;
   int limit_steps_ = 0;
-  std::int32_t columns_ = 0;
-  std::int32_t rows_ = 0;
+  GridWindow window_;
   std::vector<std::int8_t> cells_;
 };
 

@@ -82,27 +82,23 @@ void put_own_mo(const std::uint8_t* now, const std::uint8_t* before, std::int32_
   for (std::int32_t i = 0; i < count; ++i) own[i] = now[i] > before[i] ? now[i] : std::uint8_t{0};
 }
 
-/// Of the cells what has changed, within so many steps.
+/// What has changed of a cell, within so many steps. In a loop no cell needs a branch.
+std::int8_t changed(std::int8_t now, std::int8_t before, std::int8_t most_steps) {
+  const auto least_steps = static_cast<std::int8_t>(-most_steps);
+  const std::int8_t raised = now < least_steps ? least_steps : now;
+  const std::int8_t limited = raised > most_steps ? most_steps : raised;
+  return now != before ? limited : std::int8_t{0};
+}
+
 void keep_changed(std::int8_t* now, const std::int8_t* before, std::size_t count, int most_steps) {
   const auto most = static_cast<std::int8_t>(most_steps);
-  const auto least = static_cast<std::int8_t>(-most_steps);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int8_t raised = now[i] < least ? least : now[i];
-    const std::int8_t limited = raised > most ? most : raised;
-    now[i] = now[i] != before[i] ? limited : std::int8_t{0};
-  }
+  for (std::size_t i = 0; i < count; ++i) now[i] = changed(now[i], before[i], most);
 }
 
 /// The same of evidence that lasts, and what was driven over.
 void keep_changed_or_driven_over(std::int8_t* now, const std::int8_t* before, std::size_t count, int most_steps) {
   const auto most = static_cast<std::int8_t>(most_steps);
-  const auto least = static_cast<std::int8_t>(-most_steps);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int8_t raised = now[i] < least ? least : now[i];
-    const std::int8_t limited = raised > most ? most : raised;
-    const std::int8_t kept = now[i] != before[i] ? limited : std::int8_t{0};
-    now[i] = grids::LastingEvidence::is_driven_over(now[i]) ? now[i] : kept;
-  }
+  for (std::size_t i = 0; i < count; ++i) now[i] = grids::LastingEvidence::is_driven_over(now[i]) ? now[i] : changed(now[i], before[i], most);
 }
 
 struct StoredSurfel {

@@ -295,10 +295,6 @@ AxisMeasurement measure_axis(const Size& size, const Shadow& shadow, const AxisV
   return mirrored(centre_from_low_side(size, mirrored(shadow), mirrored(view), flank_is_visible));
 }
 
-double echo_sigma_m(double range_m, const TrackingConfig& config) {
-  return config.range_noise_m + config.range_noise_per_m * range_m;
-}
-
 /// Of the depth of a corner, as much is not met by beams that graze the side before it at an angle of this sine: a cut at 45 degrees
 /// hides all of itself behind the side up to that angle and nothing beyond, a quarter circle r (1 - sine), of r = 1.7 depths.
 double missed_share(double sine) { return std::min(1.15, 2.0 * (1.0 - sine)); }

@@ -161,12 +161,12 @@ struct Asked {
 Vector2d shift_of(const Face& face, std::size_t echoes, const PolarView& now, const Asked& asked) {
   const TrackingConfig& config = asked.config;
   const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
-  const double echo_sigma_m = config.range_noise_m + config.range_noise_per_m * range_m;
+  const double echo_m = echo_sigma_m(range_m, config);
   if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) return Vector2d::Zero();
-  if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_sigma_m)) return Vector2d::Zero();
-  const double sigma_m = std::hypot(asked.pose_sigma_m(), echo_sigma_m * std::sqrt(2.0 / static_cast<double>(echoes)));
+  if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_m)) return Vector2d::Zero();
+  const double sigma_m = std::hypot(asked.pose_sigma_m(), echo_m * std::sqrt(2.0 / static_cast<double>(echoes)));
   const double least_m = std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
-  return -agreed_off_m(face, now, asked.earlier, {echo_sigma_m, least_m, config.size_scale}) * face.normal;
+  return -agreed_off_m(face, now, asked.earlier, {echo_m, least_m, config.size_scale}) * face.normal;
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ double heading_drift_rad2_per_s(const TrackingConfig& config) { return 0.1 / con
 /// The axis of a rectangle is told but for quarters: which of its sides is meant is sure while three sigmas are less than half of one.
 constexpr double kTellingAxisRad2 = std::numbers::pi * std::numbers::pi / 144.0;
 
+constexpr double kLeastWayM = 5.0;             ///< What has come so far is no piece of something else: the drive may learn from it.
 constexpr double kProgressM = 1.0;             ///< So far something must come once in a while that says to move.
 
 /// What the velocity is known to, in one direction.
@@ -264,9 +265,6 @@ CentreErrors errors_if_smaller(const Track& track, const TrackingConfig& config)
   add_if(track.class_probability[1], kKinds[0].length_m, kKinds[0].width_m);
   return errors;
 }
-
-/// What echoes near by are taken to err by, and besides by their range.
-double echo_sigma_m(double range_m, const TrackingConfig& config) { return config.range_noise_m + config.range_noise_per_m * range_m; }
 
 /// With one more scan. Of a few echoes the box is drawn through each.
 OffSides with_scan(const OffSides& before, double off_sides_m, std::size_t echoes, double range_m, const TrackingConfig& config) {
@@ -820,7 +818,6 @@ Track resumed(const flow::TrackedObject& object, const TrackingConfig& config) {
 
 void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config) {
   constexpr double kKnownM = 0.15;     // one sigma
-  constexpr double kLeastWayM = 5.0;   // so far what came is no piece of something else
   const Body& body = track.body;
   const double scale = config.size_scale;
   if (!track.confirmed || !body.has_sides || !body.is_oriented || track.way_m < kLeastWayM * scale) return;
@@ -841,7 +838,6 @@ void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
 
 void note_off_sides(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config) {
   constexpr int kFewestScans = 20;
-  constexpr double kLeastWayM = 5.0;
   const bool is_vehicle = track.confirmed && track.body.has_sides && track.body.is_oriented && track.body.kind != Kind::kBicycle;
   if (!is_vehicle || only_people_move(config) || track.way_m < kLeastWayM * config.size_scale || track.off_sides.scans < kFewestScans) return;
   seen.add_off_sides_share(track.off_sides.shares / track.off_sides.echoes);

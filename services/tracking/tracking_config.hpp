@@ -85,6 +85,9 @@ struct TrackingConfig {
   double merge_overlap_m = 0.3;             ///< Bodies that reach this deep into each other with like motion are one.
 };
 
+/// One sigma of what an echo from so far away errs by along its beam.
+inline double echo_sigma_m(double range_m, const TrackingConfig& config) { return config.range_noise_m + config.range_noise_per_m * range_m; }
+
 /// Whether these settings are of a place where nothing larger than people moves: what no beam answered before may be taken
 /// for a leg there. On a road bushes, flat walls and the ground come and go in the same way.
 inline bool only_people_move(const TrackingConfig& config) { return config.longest_body_m < 3.0 * config.size_scale; }

@@ -29,7 +29,7 @@ class Lasting : public ::testing::Test {
     }
   }
   void drive_over(int scans) {
-    for (int i = 0; i < scans; ++i) evidence_.drive_over(kBody, window_);
+    for (int i = 0; i < scans; ++i) evidence_.drive_over(kBody);
   }
 
   GridWindow window_ = window_around({0.0, 0.0}, 20.0, kCell_m);
@@ -76,9 +76,9 @@ TEST_F(Lasting, TakesFromTheSidesOfABodyWhatIsOccupiedThereAndNoMore) {
 }
 
 TEST_F(Lasting, KnowsNoBodiesElsewhere) {
-  for (const Box& elsewhere : {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}}}) evidence_.drive_over(elsewhere, window_);
+  for (const Box& elsewhere : {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}}}) evidence_.drive_over(elsewhere);
   EXPECT_TRUE(std::ranges::all_of(evidence_.cells(), [](std::int8_t steps) { return steps == 0; }));
-  evidence_.drive_over({{9.9, 9.9}, {0.6, 0.8}, {3.0, 1.0}}, window_);  // partly outside
+  evidence_.drive_over({{9.9, 9.9}, {0.6, 0.8}, {3.0, 1.0}});  // partly outside
   EXPECT_EQ(steps_at({9.9, 9.9}), -kFree);
 }
 
