@@ -824,9 +824,14 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     ++kept;
   }
   tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(kept), tracks_.end());
-  road_users_ = road_users_seen_.known();
   constexpr std::size_t kMostRestored = 64;
   if (labels.restored.size() > kMostRestored) spare_restored_.resize(labels.restored, kMostRestored);
+}
+
+/// What the tracks that have ended tell: every track that goes on has a copy.
+void Tracker::learn_road_users() {
+  road_users_ = road_users_seen_.known();
+  for (Track& track : tracks_) track.body.road_users = road_users_;
 }
 
 TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult done_with) {
@@ -847,7 +852,6 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult do
   ++counters_.scans;
   view_.look_at(scan);
   const ScanView& view = view_;
-  for (Track& track : tracks_) track.body.road_users = road_users_;
   for (Track& track : tracks_) predict_to_its_beam(track, time_s, view.polar(), config_);
   rivals_.predict(time_s);
   compare_with_past(view);
@@ -869,8 +873,10 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult do
     // What is known to have come is not given back to the map with a track that has proven nothing.
     std::erase_if(past.beams, [&](std::uint16_t beam) { return past_of_segment_[view.segment_of_beam(beam)].has_come; });
   }
+  const std::size_t followed = tracks_.size();
   remove_dead(result.labels);
   describe(scan, result.objects);
+  if (tracks_.size() < followed) learn_road_users();
   return result;
 }
 
@@ -905,7 +911,6 @@ void Tracker::describe(const flow::SegmentedScan& scan, flow::TrackedObjects& ob
 void Tracker::take_up(const flow::TrackedObjects& objects) {
   tracks_.clear();
   road_users_seen_ = {};
-  road_users_ = {};
   rivals_ = Rivals(config_);
   formations_ = Formations(config_);
   history_.clear();
@@ -913,6 +918,7 @@ void Tracker::take_up(const flow::TrackedObjects& objects) {
     next_id_ = std::max(next_id_, object.track_id.value + 1);
     if (object.confirmed) tracks_.push_back(resumed(object, config_));
   }
+  learn_road_users();
   last_stamp_ns_ = objects.stamp_ns;
   has_scan_ = true;
 }
