@@ -545,14 +545,14 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
   const Vector2d along = sight_m / range_m;
   const Vector2d across{-along.y(), along.x()};
   const double extent_m = extent_of(glimpse.points_m);
-  constexpr double kSurfaceToMiddleM = 0.15;  // of a leg or a slim body
+  constexpr double kSurfaceToMiddleM = 0.08;  // pi/4 of half the depth: of a coat 0.1, of legs 0.06
   constexpr double kBetweenLegsM = 0.25;
   constexpr double kMostM = 1.3;
   const double gap_m = std::clamp(gaps_in_a_row(glimpse) * range_m * glimpse.beam_step_rad - kBetweenLegsM * config.size_scale, 0.0, kMostM * config.size_scale);
   const double shape_m = std::hypot(config.blob_noise_share * extent_m, config.shape_noise_m, gap_m);  // something dark is seen now here, now there
   const double sigma_along_m = std::hypot(echo_sigma_m(range_m, config), shape_m);
   const double sigma_across_m = std::hypot(range_m * glimpse.beam_step_rad / 3.5, shape_m);
-  measurement.centre_m = mean_m + kSurfaceToMiddleM * along;
+  measurement.centre_m = mean_m + kSurfaceToMiddleM * config.size_scale * along;
   measurement.covariance_m2 = sigma_along_m * sigma_along_m * along * along.transpose() +
                               sigma_across_m * sigma_across_m * across * across.transpose();
   measurement.body = body;

@@ -16,6 +16,7 @@ constexpr double kLeastSigmaShare = 0.1;   ///< No place is more uniform, nor me
 constexpr double kOffSidesOfBoxes = 0.25;
 constexpr double kOffSidesAsTaken = 0.75;
 constexpr double kShapeWorth = 2.0;        ///< In bodies: bodies of a place differ more than places do.
+constexpr double kSwingWorth = 2.0;        ///< In people: what the settings say of those of a place.
 constexpr double kLeastShapeShare = 1.0 / 3.0;  ///< Bends and the sizes held remain, however exact the boxes are.
 
 }  // namespace
@@ -56,6 +57,10 @@ double RoadUsersSeen::shape_share() const {
   return std::clamp((off_sides - kOffSidesOfBoxes) / (kOffSidesAsTaken - kOffSidesOfBoxes), kLeastShapeShare, 1.0);
 }
 
+double RoadUsersSeen::swing_share() const {
+  return std::min(1.0, (kSwingWorth + swing_share_.count * swing_share_.mean_m) / (kSwingWorth + swing_share_.count));
+}
+
 RoadUsers RoadUsersSeen::known() const {
   RoadUsers here;
   const double share = spread_share();
@@ -68,6 +73,7 @@ RoadUsers RoadUsersSeen::known() const {
   }
   here.corner = next(corner_, kCorner.value_m, std::sqrt(kCorner.variance_m2), kWithinShare);
   here.shape_share = shape_share();
+  here.swing_share = swing_share();
   return here;
 }
 

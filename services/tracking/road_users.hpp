@@ -38,6 +38,9 @@ struct RoadUsers {
   Size corner = kCorner;
   /// How far bodies are from boxes, as a share of what the settings take for it: little of exact ones. At most 1.
   double shape_share = 1.0;
+  /// How far who walks is off the middle of what is seen of them, as a share of the deviation that the settings take for it: little
+  /// where it is coats, much where it is legs. At most 1.
+  double swing_share = 1.0;
 };
 
 /// Learns what the road users of a place are like from those that were seen from end to end.
@@ -48,6 +51,8 @@ class RoadUsersSeen {
   void add_corner(const Size& seen) { corner_.add(seen); }
   /// How far echoes lay off the sides of a body in the mean, beyond what grows with range, as a share of range_noise_m.
   void add_off_sides_share(double share) { off_sides_share_.add({share, 0.0}); }
+  /// How far one who walked was off the middle of what was seen, as a share of the deviation that the settings take for it.
+  void add_swing_share(double share) { swing_share_.add({share, 0.0}); }
 
   /// With nothing seen, those anywhere.
   RoadUsers known() const;
@@ -73,10 +78,12 @@ class RoadUsersSeen {
   static Size next(const Sample& sample, double mean_m, double sigma_m, double spread_share);
   double spread_share() const;
   double shape_share() const;
+  double swing_share() const;
 
   std::array<Sizes, kKinds.size()> sizes_;
   Sample corner_;
   Sample off_sides_share_;
+  Sample swing_share_;
 };
 
 }  // namespace slammot::tracking

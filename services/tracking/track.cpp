@@ -355,6 +355,13 @@ Eigen::Matrix4d covariance_after(const Eigen::Matrix4d& covariance, double time_
   return F * covariance * F.transpose();
 }
 
+/// How far who walks is off the middle of what is seen of them, as a share of the deviation that the settings take for it: as they
+/// were seen to, and before that as those here do.
+double swing_share(const Track& track, const TrackingConfig& config) {
+  if (config.gait_noise_m <= 0.0) return 1.0;
+  return track.gait.variance_m2 ? std::sqrt(*track.gait.variance_m2) / config.gait_noise_m : track.body.road_users.swing_share;
+}
+
 /// What the deviations of position and velocity are multiplied with, since the filter takes everybody to swing as legs do, and
 /// echoes to err alike in all drives.
 Eigen::DiagonalMatrix<double, 4> with_own_errors(const Track& track, const TrackingConfig& config) {
@@ -362,8 +369,7 @@ Eigen::DiagonalMatrix<double, 4> with_own_errors(const Track& track, const Track
     const double share = echo_share(track, config);
     return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
   }
-  const bool is_known = walks(track) && track.gait.variance_m2 && config.gait_noise_m > 0.0;
-  const double share = is_known ? std::sqrt(*track.gait.variance_m2) / config.gait_noise_m : 1.0;
+  const double share = walks(track) ? swing_share(track, config) : 1.0;
   return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
 }
 
@@ -513,7 +519,7 @@ double gait_variance_m2(double after_s, const TrackingConfig& config) {
 Gait with_step(const Gait& before, const Vector2d& surprise_m, const Matrix2d& noise_m2, double time_s, const TrackingConfig& config) {
   constexpr double kMemoryS = 1.5;      // a few steps
   constexpr double kMostShare = 9.0;    // what errs by more is none who walks
-  const double least_share = only_people_move(config) ? 1.0 : 0.25;  // arms swing, too; legs as is taken for them
+  const double least_share = only_people_move(config) ? 1.0 : 0.0625;  // arms swing, too; legs as is taken for them
   const double usual_m2 = config.gait_noise_m * config.gait_noise_m;
   const double was_m2 = before.variance_m2.value_or(usual_m2);
   const double seen_m2 = std::min(0.5 * (surprise_m.squaredNorm() - noise_m2.trace()), 4.0 * kMostShare * usual_m2);  // one scan does not count for all
@@ -588,7 +594,10 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   const double distance2 = association::mahalanobis_squared<2>(surprise_m, track.position_covariance_m2() + measurement.step_covariance_m2 + R);
   if (track.confirmed && distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas && surprise_m.norm() > config.least_surprise_m) return false;
   track.surprise_m = surprise_m.norm();
-  if (walks(track)) track.gait = with_step(track.gait, surprise_m, noise_at_rest_m2, unseen_s, config);
+  if (walks(track)) {
+    const Gait before{std::pow(swing_share(track, config) * config.gait_noise_m, 2)};
+    track.gait = with_step(before, surprise_m, noise_at_rest_m2, unseen_s, config);
+  }
   shift(track, measurement.recentring_m, models);
   filters::imm_loosen(models, track.motion, measurement.step_covariance_m2);
   track.body = measurement.body;
@@ -841,6 +850,13 @@ void note_off_sides(RoadUsersSeen& seen, const Track& track, const TrackingConfi
   const bool is_vehicle = track.confirmed && track.body.has_sides && track.body.is_oriented && track.body.kind != Kind::kBicycle;
   if (!is_vehicle || only_people_move(config) || track.way_m < kLeastWayM * config.size_scale || track.off_sides.scans < kFewestScans) return;
   seen.add_off_sides_share(track.off_sides.shares / track.off_sides.echoes);
+}
+
+void note_swing(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config) {
+  constexpr double kSeenForS = 3.0;  // twice the memory for it
+  const double seen_for_s = static_cast<double>(track.last_seen_ns - track.first_seen_ns) * 1e-9;
+  if (!track.confirmed || !walks(track) || only_people_move(config) || !track.gait.variance_m2 || seen_for_s < kSeenForS) return;
+  seen.add_swing_share(swing_share(track, config));
 }
 
 double existence_of(double score) { return 1.0 / (1.0 + std::exp(-score)); }

@@ -269,6 +269,9 @@ void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
 /// Adds how far echoes lay off the sides of a vehicle that was followed for long enough.
 void note_off_sides(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 
+/// Adds how far somebody who walked for long enough was off the middle of what was seen of them.
+void note_swing(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
+
 double existence_of(double score);
 
 }  // namespace slammot::tracking

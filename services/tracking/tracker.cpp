@@ -812,6 +812,7 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     }
     if (is_dead) note_sizes(road_users_seen_, track, config_);
     if (is_dead) note_off_sides(road_users_seen_, track, config_);
+    if (is_dead) note_swing(road_users_seen_, track, config_);
     return is_dead;
   };
   std::size_t kept = 0;

@@ -295,6 +295,34 @@ TEST(Body, WithoutSidesWasSeenWholeOnceNothingHasHiddenAnEndOfIt) {
   EXPECT_TRUE(measure_blob(whole, with_edges(echoes, Edge::kHidden, Edge::kOpen), kConfig).body.was_seen_whole);
 }
 
+/// Echoes of a round body as a laser at the origin gets them.
+std::vector<Vector2d> echoes_of_disc(const Vector2d& centre_m, double radius_m) {
+  std::vector<Vector2d> points;
+  for (double angle = -M_PI / 2.0; angle <= M_PI / 2.0; angle += 0.1 * kStepRad) {
+    const Vector2d way{std::cos(angle), std::sin(angle)};
+    const double along_m = way.dot(centre_m);
+    const double half2 = radius_m * radius_m - (centre_m - along_m * way).squaredNorm();
+    if (half2 > 0.0) points.push_back((along_m - std::sqrt(half2)) * way);
+  }
+  return points;
+}
+
+TEST(Body, OfLegsOrACoatHasItsMiddleWithinAFewCentimetres) {
+  const Vector2d centre_m{6.0, 1.0};
+  for (const double radius_m : {0.07, 0.125}) {
+    const auto echoes = echoes_of_disc(centre_m, radius_m);
+    EXPECT_LT((measure_blob({}, glimpse_of(echoes), kConfig).centre_m - centre_m).norm(), 0.03) << radius_m;
+  }
+}
+
+TEST(Body, OfSomethingSmallIsAsDeepAsTheScaleSays) {
+  TrackingConfig config;
+  config.size_scale = 0.1;
+  const Vector2d centre_m{2.0, 0.3};
+  const auto echoes = echoes_of_disc(centre_m, 0.01);
+  EXPECT_LT((measure_blob({}, glimpse_of(echoes), config).centre_m - centre_m).norm(), 0.003);
+}
+
 TEST(Body, KnowsTheLengthAsItsWidthAfterAQuarterTurn) {
   Body body;
   body.has_sides = true;

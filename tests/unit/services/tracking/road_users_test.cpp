@@ -80,5 +80,17 @@ TEST(RoadUsers, AreNeitherTakenForExactNorForWorseThanTheSettingsSay) {
   EXPECT_NEAR(bodies_seen(50, 1.8).known().shape_share, 1.0, 1e-9);
 }
 
+TEST(RoadUsers, SwingAsTheyWereSeenToAndNoMoreThanTheSettingsSay) {
+  const auto known_of = [](int count, double share) {
+    RoadUsersSeen seen;
+    for (int i = 0; i < count; ++i) seen.add_swing_share(share);
+    return seen.known().swing_share;
+  };
+  EXPECT_EQ(known_of(0, 0.0), 1.0);
+  EXPECT_NEAR(known_of(2, 0.25), 0.625, 1e-9) << "as much as the settings count";
+  EXPECT_NEAR(known_of(50, 0.25), 0.25, 0.05);
+  EXPECT_EQ(known_of(50, 3.0), 1.0);
+}
+
 }  // namespace
 }  // namespace slammot::tracking

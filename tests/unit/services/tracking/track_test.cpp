@@ -36,7 +36,7 @@ double sigma_after_m(double surprise_m, const TrackingConfig& config) {
 TEST(Gait, IsThatOfLegsUntilLessOrMoreIsSeen) {
   const TrackingConfig config;
   EXPECT_NEAR(sigma_after_m(0.07, config), 0.07, 0.01);
-  EXPECT_NEAR(sigma_after_m(0.0, config), 0.5 * config.gait_noise_m, 1e-12);
+  EXPECT_NEAR(sigma_after_m(0.0, config), 0.25 * config.gait_noise_m, 1e-12);
   EXPECT_NEAR(sigma_after_m(0.2, config), 0.2, 0.01);
   EXPECT_NEAR(sigma_after_m(1.0, config), 3.0 * config.gait_noise_m, 1e-12) << "nobody who walks";
 }
@@ -58,6 +58,39 @@ TEST(Gait, IsInThePublishedCovarianceAsFarAsItIsSeen) {
   const Eigen::Matrix4d by_a_coat = described(track, 0, config).covariance;
   EXPECT_NEAR(by_legs(0, 0) - by_a_coat(0, 0), 0.75 * 0.01, 1e-9);
   EXPECT_EQ(by_legs(2, 2), by_a_coat(2, 2));
+}
+
+/// Followed for so long, to be a person in a coat, of whom less swings than the settings take for it.
+Track walker_in_a_coat(double followed_s, const TrackingConfig& config) {
+  Track track;
+  track.confirmed = true;
+  track.estimate.mean << 10.0, 0.0, 1.3, 0.0, 0.0, 0.0;
+  track.estimate.covariance = 0.01 * track.estimate.covariance.Identity();
+  track.gait.variance_m2 = std::pow(0.3 * config.gait_noise_m, 2);
+  track.last_seen_ns = static_cast<std::int64_t>(followed_s * 1e9);
+  return track;
+}
+
+TEST(Gait, OfThoseWhoWalkedHereIsThatOfWhoComes) {
+  const TrackingConfig config;
+  RoadUsersSeen seen;
+  for (int i = 0; i < 20; ++i) note_swing(seen, walker_in_a_coat(5.0, config), config);
+  EXPECT_NEAR(seen.known().swing_share, 0.3, 0.1);
+  Track newcomer = walker_in_a_coat(0.1, config);
+  newcomer.gait.variance_m2.reset();
+  const double as_taken_m2 = described(newcomer, 0, config).covariance(0, 0);
+  newcomer.body.road_users = seen.known();
+  EXPECT_LT(described(newcomer, 0, config).covariance(0, 0), as_taken_m2 - 0.008);
+}
+
+TEST(Gait, IsLearnedOfThoseOnlyWhoWereFollowedForAWhileAndNotWhereOnlyPeopleMove) {
+  const TrackingConfig config;
+  RoadUsersSeen seen;
+  for (int i = 0; i < 20; ++i) note_swing(seen, walker_in_a_coat(1.0, config), config);
+  TrackingConfig indoors;
+  indoors.longest_body_m = 2.0;
+  for (int i = 0; i < 20; ++i) note_swing(seen, walker_in_a_coat(5.0, indoors), indoors);
+  EXPECT_EQ(seen.known().swing_share, 1.0);
 }
 
 /// Believed in, on its way, and known to be a car.
