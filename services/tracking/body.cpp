@@ -387,16 +387,21 @@ Sighting sighting_of(const Body& body, const Vector2d& predicted_centre_m, const
   return seen;
 }
 
-Size likely_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
+/// A size under one kind of road users, whatever the least that was seen at once.
+Size size_from_whole(double mean_m, double sigma_m, const SizeEvidence& evidence) {
   const double information = 1.0 / squared(sigma_m) + 1.0 / evidence.whole.variance_m2;
-  const double value_m = (mean_m / squared(sigma_m) + evidence.whole.value_m / evidence.whole.variance_m2) / information;
-  return {std::max(value_m, evidence.least_m), 1.0 / information};
+  return {(mean_m / squared(sigma_m) + evidence.whole.value_m / evidence.whole.variance_m2) / information, 1.0 / information};
 }
 
-double log_likelihood_of_least(double mean_m, double sigma_m, double least_m, double scale) {
+Size likely_size(double mean_m, double sigma_m, const SizeEvidence& evidence) {
+  const Size size = size_from_whole(mean_m, sigma_m, evidence);
+  return {std::max(size.value_m, evidence.least_m), size.variance_m2};
+}
+
+double log_likelihood_of_least(const Size& size, double least_m, double scale) {
   constexpr double kLeastSigmaM = 0.2;
-  const double beyond_m = std::max(0.0, least_m - mean_m);
-  return -0.5 * squared(beyond_m) / (squared(sigma_m) + squared(kLeastSigmaM * scale));
+  const double beyond_m = std::max(0.0, least_m - size.value_m);
+  return -0.5 * squared(beyond_m) / (size.variance_m2 + squared(kLeastSigmaM * scale));
 }
 
 /// A size under one kind of road users.
@@ -415,7 +420,7 @@ AxisFit axis_fit(double mean_m, double sigma_m, const SizeEvidence& evidence, do
   if (evidence.whole.variance_m2 >= kNothingKnownM2) return {as_whole, whole};
   const Size piece = likely_size(mean_m, sigma_m, {evidence.least_m, {0.0, kNothingKnownM2}});
   const double log_density = std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // the other one's leaves the root out
-  const double as_piece = log_density + log_likelihood_of_least(mean_m, sigma_m, evidence.least_m, scale);
+  const double as_piece = log_density + log_likelihood_of_least({mean_m, squared(sigma_m)}, evidence.least_m, scale);
   const double of_whole = std::log(1.0 - kMistakenShare) + as_whole;
   const double of_piece = std::log(kMistakenShare) + as_piece;
   const double piece_share = 1.0 / (1.0 + std::exp(of_whole - of_piece));
@@ -465,7 +470,8 @@ double log_sum(double a, double b) { return std::max(a, b) + std::log1p(std::exp
 double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence& evidence, double scale) {
   const double variance_m2 = squared(sigma_m) + evidence.whole.variance_m2;
   return -0.5 * squared(evidence.whole.value_m - mean_m) / variance_m2 - 0.5 * std::log(variance_m2) +
-         log_likelihood_of_least(mean_m, sigma_m, evidence.least_m, scale);
+         std::min(log_likelihood_of_least({mean_m, squared(sigma_m)}, evidence.least_m, scale),
+                  log_likelihood_of_least(size_from_whole(mean_m, sigma_m, evidence), evidence.least_m, scale));
 }
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {

@@ -250,4 +250,24 @@ Visibility ScanView::visibility_of(const Body& body, const Vector2d& centre_m) c
   return visibility;
 }
 
+Edge edge_beyond(const ScanView& view, std::size_t beam, int step, double size_scale) {
+  constexpr int kBeamsLookedAt = 2;
+  constexpr double kFartherM = 0.5;
+  const auto stands = [&](std::size_t neighbour) {
+    const std::size_t segment = view.segment_of_beam(neighbour);
+    return segment == ScanView::kNone || view.scan().segments[segment].label == flow::PointLabel::kStationary;
+  };
+  Edge edge = Edge::kNoEcho;
+  for (int i = 1; i <= kBeamsLookedAt; ++i) {
+    const std::optional<std::size_t> neighbour = view.polar().neighbour_of(beam, i * step);
+    if (!neighbour) return Edge::kHidden;
+    const double range_m = view.polar().range_m(*neighbour);
+    if (range_m <= 0.0) continue;
+    const double farther_m = range_m - view.polar().range_m(beam);
+    if (farther_m < -kFartherM * size_scale || (farther_m < kFartherM * size_scale && !stands(*neighbour))) return Edge::kHidden;
+    edge = Edge::kOpen;
+  }
+  return edge;
+}
+
 }  // namespace slammot::tracking

@@ -130,4 +130,8 @@ class ScanView {
   std::vector<std::size_t> segment_of_beam_;
 };
 
+/// What lies beside the echo of a beam, `step` (+1 or -1) beams on. An echo as far away as it that is not known to stand still hides
+/// the end, too: the body may go on there, as another segment. size_scale: of all lengths, against those of real road users.
+Edge edge_beyond(const ScanView& view, std::size_t beam, int step, double size_scale);
+
 }  // namespace slammot::tracking

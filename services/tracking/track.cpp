@@ -519,7 +519,7 @@ double gait_variance_m2(double after_s, const TrackingConfig& config) {
 Gait with_step(const Gait& before, const Vector2d& surprise_m, const Matrix2d& noise_m2, double time_s, const TrackingConfig& config) {
   constexpr double kMemoryS = 1.5;      // a few steps
   constexpr double kMostShare = 9.0;    // what errs by more is none who walks
-  const double least_share = only_people_move(config) ? 1.0 : 0.0625;  // arms swing, too; legs as is taken for them
+  const double least_share = only_people_move(config) ? 1.0 : 0.125;  // arms swing, too; legs as is taken for them
   const double usual_m2 = config.gait_noise_m * config.gait_noise_m;
   const double was_m2 = before.variance_m2.value_or(usual_m2);
   const double seen_m2 = std::min(0.5 * (surprise_m.squaredNorm() - noise_m2.trace()), 4.0 * kMostShare * usual_m2);  // one scan does not count for all

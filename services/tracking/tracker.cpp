@@ -100,22 +100,6 @@ std::optional<Side> side_of(const std::vector<std::uint16_t>& beams, const ScanV
   return Side{segment.box_heading_rad, segment.box_length_m, distance_from_sides_m(segment, view)};
 }
 
-/// What lies beside the echo of a beam, `step` (+1 or -1) beams on.
-Edge edge_beyond(std::uint16_t beam, int step, const PolarView& view, double size_scale) {
-  constexpr int kBeamsLookedAt = 2;
-  constexpr double kFartherM = 0.5;
-  Edge edge = Edge::kNoEcho;
-  for (int i = 1; i <= kBeamsLookedAt; ++i) {
-    const std::optional<std::size_t> neighbour = view.neighbour_of(beam, i * step);
-    if (!neighbour) return Edge::kHidden;
-    const double range_m = view.range_m(*neighbour);
-    if (range_m <= 0.0) continue;
-    if (range_m < view.range_m(beam) - kFartherM * size_scale) return Edge::kHidden;
-    edge = Edge::kOpen;
-  }
-  return edge;
-}
-
 /// Where beams that are ascending but for one step across the seam of the scan begin, and the first and the last of them, with
 /// nothing but the thing that they met in between.
 struct Ends {
@@ -163,8 +147,8 @@ Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const SweptMotion& m
     const std::uint16_t beam = beams[(ends.start + i) % beams.size()];
     points_m.push_back(view.point_in_odom_m(beam) - (view.polar().delay_s(beam) - motion.after_stamp_s) * motion.velocity_mps);
   }
-  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(ends.first, -1, view.polar(), size_scale),
-          edge_beyond(ends.last, +1, view.polar(), size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
+  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(view, ends.first, -1, size_scale),
+          edge_beyond(view, ends.last, +1, size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
 }
 
 /// To when the beam that points at it is fired, in a scan that begins time_s after the one before.

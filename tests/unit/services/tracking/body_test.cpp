@@ -295,6 +295,17 @@ TEST(Body, WithoutSidesWasSeenWholeOnceNothingHasHiddenAnEndOfIt) {
   EXPECT_TRUE(measure_blob(whole, with_edges(echoes, Edge::kHidden, Edge::kOpen), kConfig).body.was_seen_whole);
 }
 
+TEST(Body, OfWhichMoreWasSeenThanWasTakenForTheWholeWasSeenInPieces) {
+  Body body;
+  body.has_sides = body.is_oriented = true;
+  body.width_evidence = {2.4, {2.45, 0.01}};
+  body.length_evidence = {8.8, {6.6, 0.04}};  // a bus, the rear of which something hid
+  body = with_likely_sizes(body, kConfig);
+  EXPECT_EQ(body.kind, Kind::kBus);
+  EXPECT_GT(body.length.value_m, 11.0);
+  EXPECT_GT(std::sqrt(body.length.variance_m2), 1.0) << "nothing tells how long it is but what buses are";
+}
+
 /// Echoes of a round body as a laser at the origin gets them.
 std::vector<Vector2d> echoes_of_disc(const Vector2d& centre_m, double radius_m) {
   std::vector<Vector2d> points;

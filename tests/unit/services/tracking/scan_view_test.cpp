@@ -128,5 +128,39 @@ TEST(PolarView, SeesTheSameWithDepthsMeasured) {
   }
 }
 
+/// Of ten beams, the first five of which met a body 10 m away, and the rest something so far away that is held to be this.
+Edge edge_beside(float range_m, flow::PointLabel label) {
+  flow::SegmentedScan scan = scan_of(10, 0.5 * std::numbers::pi / 180);
+  scan.segments.resize(2);
+  for (std::uint16_t beam = 0; beam < 10; ++beam) {
+    scan.segments[beam < 5 ? 0 : 1].beams.push_back(beam);
+    if (beam >= 5) scan.range_m[beam] = range_m;
+  }
+  scan.segments[0].label = flow::PointLabel::kMoving;
+  scan.segments[1].label = label;
+  return edge_beyond(ScanView(scan), 4, +1, 1.0);
+}
+
+TEST(EdgeBeyond, IsHiddenBySomethingNearer) {
+  EXPECT_EQ(edge_beside(8.0F, flow::PointLabel::kStationary), Edge::kHidden);
+  EXPECT_EQ(edge_beside(8.0F, flow::PointLabel::kMoving), Edge::kHidden);
+}
+
+TEST(EdgeBeyond, IsOpenBeforeSomethingFarther) {
+  EXPECT_EQ(edge_beside(15.0F, flow::PointLabel::kStationary), Edge::kOpen);
+  EXPECT_EQ(edge_beside(15.0F, flow::PointLabel::kMoving), Edge::kOpen);
+}
+
+TEST(EdgeBeyond, IsHiddenWhereTheBodyMayGoOnAsAnotherSegment) {
+  EXPECT_EQ(edge_beside(10.1F, flow::PointLabel::kMoving), Edge::kHidden);
+  EXPECT_EQ(edge_beside(10.1F, flow::PointLabel::kUnknown), Edge::kHidden);
+  EXPECT_EQ(edge_beside(10.1F, flow::PointLabel::kStationary), Edge::kOpen) << "a wall is no part of it";
+}
+
+TEST(EdgeBeyond, IsUnknownWithoutAnEchoAndHiddenAtTheEndOfTheView) {
+  EXPECT_EQ(edge_beside(0.0F, flow::PointLabel::kUnknown), Edge::kNoEcho);
+  EXPECT_EQ(edge_beyond(ScanView(scan_of(5, 0.01)), 4, +1, 1.0), Edge::kHidden);
+}
+
 }  // namespace
 }  // namespace slammot::tracking

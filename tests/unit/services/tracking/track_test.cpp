@@ -36,7 +36,7 @@ double sigma_after_m(double surprise_m, const TrackingConfig& config) {
 TEST(Gait, IsThatOfLegsUntilLessOrMoreIsSeen) {
   const TrackingConfig config;
   EXPECT_NEAR(sigma_after_m(0.07, config), 0.07, 0.01);
-  EXPECT_NEAR(sigma_after_m(0.0, config), 0.25 * config.gait_noise_m, 1e-12);
+  EXPECT_NEAR(sigma_after_m(0.0, config), std::sqrt(0.125) * config.gait_noise_m, 1e-12);
   EXPECT_NEAR(sigma_after_m(0.2, config), 0.2, 0.01);
   EXPECT_NEAR(sigma_after_m(1.0, config), 3.0 * config.gait_noise_m, 1e-12) << "nobody who walks";
 }
