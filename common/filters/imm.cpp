@@ -32,6 +32,34 @@ ImmState narrowed(const ModelSet& set, const ImmState& state) {
   return narrow;
 }
 
+/// How probable it is to keep to a model for some time, and to leave it for another one.
+struct Switching {
+  double stays = 1.0;
+  double leaves = 0.0;
+};
+
+Switching switching_over(const ModelSet& set, double time_s) {  // of all models alike
+  if (set.size == 1) return {};
+  return {switch_probability(set, 0, 0, time_s), switch_probability(set, 0, 1, time_s)};
+}
+
+ImmState predicted_over(double time_s, const Switching& switching, const ModelSet& set, const ImmState& state) {
+  if (has_models_beyond(set, state)) return predicted_over(time_s, switching, set, narrowed(set, state));
+  ModelWeights probability = {};
+  const auto predicted = [&](std::size_t to) {
+    if (to >= set.size) return MotionState{};
+    ModelWeights weight = {};
+    for (std::size_t from = 0; from < set.size; ++from) probability[to] += weight[from] = (from == to ? switching.stays : switching.leaves) * state.probability[from];
+    for (std::size_t from = 0; from < set.size; ++from) {
+      if (probability[to] > 0.0) weight[from] /= probability[to];
+      else weight[from] = from == to ? 1.0 : 0.0;  // no time has passed for a model that was ruled out
+    }
+    return predict(set.models[to], moment_match(modes_of(set, state), {weight.data(), set.size}), time_s);
+  };
+  static_assert(kMaxModels == 3);
+  return {{predicted(0), predicted(1), predicted(2)}, probability};  // made in place: filling a state with zeros takes as long as a model
+}
+
 }  // namespace
 
 ImmState imm_start(const ModelSet& set, const MotionState& estimate) {
@@ -43,29 +71,17 @@ ImmState imm_start(const ModelSet& set, const MotionState& estimate) {
 
 ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s) {
   assert(time_s >= 0.0);
-  if (has_models_beyond(set, state)) return imm_predict(set, narrowed(set, state), time_s);
-  const double stays = switch_probability(set, 0, 0, time_s);  // of all models alike
-  const double leaves = set.size > 1 ? switch_probability(set, 0, 1, time_s) : 0.0;
-  ModelWeights probability = {};
-  const auto predicted = [&](std::size_t to) {
-    if (to >= set.size) return MotionState{};
-    ModelWeights weight = {};
-    for (std::size_t from = 0; from < set.size; ++from) probability[to] += weight[from] = (from == to ? stays : leaves) * state.probability[from];
-    for (std::size_t from = 0; from < set.size; ++from) {
-      if (probability[to] > 0.0) weight[from] /= probability[to];
-      else weight[from] = from == to ? 1.0 : 0.0;  // no time has passed for a model that was ruled out
-    }
-    return predict(set.models[to], moment_match(modes_of(set, state), {weight.data(), set.size}), time_s);
-  };
-  static_assert(kMaxModels == 3);
-  return {{predicted(0), predicted(1), predicted(2)}, probability};  // made in place: filling a state with zeros takes as long as a model
+  return predicted_over(time_s, switching_over(set, time_s), set, state);
+}
+
+Innovation<2> imm_innovation(const ModelSet& set, const ImmState& predicted, const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R) {
+  const MotionState combined = imm_combine(set, predicted);
+  return innovation<2>(position_m - combined.mean.head<2>(), combined.covariance.topLeftCorner<2, 2>() + R);
 }
 
 ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted, const Eigen::Vector2d& position_m,
                      const Eigen::Matrix2d& R) {
   ImmUpdate update;
-  const MotionState combined = imm_combine(set, predicted);
-  update.innovation = innovation<2>(position_m - combined.mean.head<2>(), combined.covariance.topLeftCorner<2, 2>() + R);
   for (std::size_t i = 0; i < set.size; ++i) {
     const auto mode = update_with_position(predicted.modes[i], position_m, R);
     update.posterior.modes[i] = mode.posterior;
@@ -92,10 +108,11 @@ MotionState imm_combine(const ModelSet& set, const ImmState& state) {
   return moment_match(modes_of(set, state), {state.probability.data(), set.size});
 }
 
-void imm_foretell(const ModelSet& set, ImmState state, double step_s, std::span<MotionState> path) {
-  for (MotionState& there : path) {
-    state = imm_predict(set, state, step_s);
-    there = imm_combine(set, state);
+void imm_foretell(const ModelSet& set, ImmState state, double step_s, std::span<Gaussian<2>> path) {
+  const Switching switching = switching_over(set, step_s);
+  for (Gaussian<2>& there : path) {
+    state = predicted_over(step_s, switching, set, state);
+    there = moment_match_position(modes_of(set, state), {state.probability.data(), set.size});
   }
 }
 

@@ -18,7 +18,6 @@ struct ImmState {
 
 struct ImmUpdate {
   ImmState posterior;
-  Innovation<2> innovation;  ///< Of the combined prediction.
   double log_likelihood = 0.0;  ///< Of the measurement under the mixture.
 };
 
@@ -30,6 +29,9 @@ ImmState imm_start(const ModelSet& set, const MotionState& estimate);
 /// long as one is the beginning of the other (variable structure: Li and Bar-Shalom 1996): a model that is new gets its share
 /// by switches, and the last model that is left takes over from those that are gone.
 ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s);
+
+/// What a measured position (covariance R, positive definite) says about the combined prediction.
+Innovation<2> imm_innovation(const ModelSet& set, const ImmState& predicted, const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R);
 
 /// Mode-matched update with a measured position (covariance R, positive definite) and the models' probabilities;
 /// Wang 2004, Eqs. (2.46)-(2.47).
@@ -44,9 +46,9 @@ ImmState imm_update_speed(const ModelSet& set, const ImmState& predicted, const 
 /// Moment-matched mean and covariance of the mixture; Wang 2004, Eqs. (2.52)-(2.53).
 MotionState imm_combine(const ModelSet& set, const ImmState& state);
 
-/// Fills the path with mean and covariance of the mixture after step_s, 2 step_s, ..., if nothing is measured: each step mixes and
+/// Fills the path with mean and covariance of the mixture's position after step_s, 2 step_s, ..., if nothing is measured: each step mixes and
 /// predicts as imm_predict does, so that what manoeuvres now may go on to, or cease.
-void imm_foretell(const ModelSet& set, ImmState state, double step_s, std::span<MotionState> path);
+void imm_foretell(const ModelSet& set, ImmState state, double step_s, std::span<Gaussian<2>> path);
 
 /// Moves every mode's position by the same known amount: the same object seen from another reference point.
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m);

@@ -5,6 +5,26 @@
 #include <cmath>
 
 namespace slammot::filters {
+namespace {
+
+/// Of the first N numbers of the state.
+template <int N>
+Gaussian<N> moment_match_first(std::span<const MotionState> modes, std::span<const double> weight) {
+  assert(modes.size() == weight.size());
+  Gaussian<N> mixture{weight[0] * modes[0].mean.head<N>(), weight[0] * modes[0].covariance.topLeftCorner<N, N>()};
+  for (std::size_t i = 1; i < modes.size(); ++i) {
+    mixture.mean += weight[i] * modes[i].mean.head<N>();
+    mixture.covariance += weight[i] * modes[i].covariance.topLeftCorner<N, N>();
+    // The spread about the common mean as that between each two: half as many products.
+    for (std::size_t j = 0; j < i; ++j) {
+      const Eigen::Matrix<double, N, 1> apart = modes[i].mean.head<N>() - modes[j].mean.head<N>();
+      mixture.covariance.noalias() += (weight[i] * weight[j] * apart) * apart.transpose();
+    }
+  }
+  return mixture;
+}
+
+}  // namespace
 
 ModelWeights equal_weights(const ModelSet& set) {
   assert(set.size >= 1 && set.size <= kMaxModels);
@@ -19,20 +39,9 @@ double switch_probability(const ModelSet& set, std::size_t from, std::size_t to,
   return from == to ? stay : (1.0 - stay) / static_cast<double>(set.size - 1);
 }
 
-MotionState moment_match(std::span<const MotionState> modes, std::span<const double> weight) {
-  assert(modes.size() == weight.size());
-  MotionState mixture{weight[0] * modes[0].mean, weight[0] * modes[0].covariance};
-  for (std::size_t i = 1; i < modes.size(); ++i) {
-    mixture.mean += weight[i] * modes[i].mean;
-    mixture.covariance += weight[i] * modes[i].covariance;
-    // The spread about the common mean as that between each two: half as many products.
-    for (std::size_t j = 0; j < i; ++j) {
-      const Vector6 apart = modes[i].mean - modes[j].mean;
-      mixture.covariance.noalias() += (weight[i] * weight[j] * apart) * apart.transpose();
-    }
-  }
-  return mixture;
-}
+MotionState moment_match(std::span<const MotionState> modes, std::span<const double> weight) { return moment_match_first<6>(modes, weight); }
+
+Gaussian<2> moment_match_position(std::span<const MotionState> modes, std::span<const double> weight) { return moment_match_first<2>(modes, weight); }
 
 double normalize_logs(std::span<double> log_weight) {
   const double largest = *std::max_element(log_weight.begin(), log_weight.end());
@@ -42,10 +51,24 @@ double normalize_logs(std::span<double> log_weight) {
   return largest + std::log(total);
 }
 
+/// kalman_update() with H = (I 0), without the products with its ones and zeros (imm_cycle in multiple_models_bench.cpp).
 KalmanUpdate<6, 2> update_with_position(const MotionState& predicted, const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R) {
-  Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();
-  H(0, 0) = H(1, 1) = 1.0;
-  return kalman_update<6, 2>(predicted, position_m, H, R);
+  using Matrix62 = Eigen::Matrix<double, 6, 2>;
+  const Matrix6& P = predicted.covariance;
+  const Eigen::Matrix2d S = P.topLeftCorner<2, 2>() + R;
+  const Matrix62 K = S.llt().solve(P.leftCols<2>().transpose()).transpose();
+  const Matrix62 I_KH = Matrix62::Identity() - K;  // its columns that are not those of I
+  Matrix6 I_KH_P = I_KH * P.topRows<2>();
+  I_KH_P.bottomRows<4>() += P.bottomRows<4>();
+  KalmanUpdate<6, 2> update;
+  update.innovation = innovation<2>(position_m - predicted.mean.head<2>(), S);
+  update.posterior.mean = predicted.mean + K * update.innovation.residual;
+  Matrix6& after = update.posterior.covariance;
+  after = I_KH_P.leftCols<2>() * I_KH.transpose();
+  after.rightCols<4>() += I_KH_P.rightCols<4>();
+  after.col(2) = I_KH_P.col(0) * I_KH(2, 0) + (I_KH_P.col(1) * I_KH(2, 1) + I_KH_P.col(2));  // Eigen adds up six products by halves
+  after += K * R * K.transpose();
+  return update;
 }
 
 }  // namespace slammot::filters

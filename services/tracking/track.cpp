@@ -380,11 +380,11 @@ void predict_path(const Track& track, const Matrix2d& shared_error_m2, const Tra
   const filters::ModelSet models = models_of(track, config);
   filters::ImmState now = track.motion;
   if (track.move_stop.stands) now.modes.fill(filters::estimate_of(track.move_stop, track.estimate));
-  std::array<filters::MotionState, kSteps> foretold;
+  std::array<filters::Gaussian<2>, kSteps> foretold;
   filters::imm_foretell(models, now, kStepS, foretold);
-  for (const filters::MotionState& there : foretold) {
+  for (const filters::Gaussian<2>& there : foretold) {
     const double after_s = kStepS * static_cast<double>(path.size() + 1);
-    path.push_back({after_s, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>() + shared_error_m2});
+    path.push_back({after_s, there.mean, there.covariance + shared_error_m2});
   }
 }
 

@@ -27,7 +27,7 @@ BENCHMARK(imm_cycle)->Unit(benchmark::kMicrosecond);
 void imm_path(benchmark::State& state) {  // three seconds ahead, as it is published
   const ModelSet set = velocity_and_acceleration();
   const ImmState now = imm_start(set, testing::start_of(testing::cruising));
-  std::array<MotionState, 6> path;
+  std::array<Gaussian<2>, 6> path;
   for (auto _ : state) {
     imm_foretell(set, now, 0.5, path);
     benchmark::DoNotOptimize(path);

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "common/filters/model_set.hpp"
 #include "common/filters/motion_models.hpp"
 #include "tests/support/matchers.hpp"
 
@@ -33,6 +34,22 @@ TEST(KalmanUpdate, IsTheInformationFormOfBayes) {
   const Eigen::Vector2d mean = information.inverse() * (prior.covariance.inverse() * prior.mean + H.transpose() * R.inverse() * z);
   EXPECT_THAT(update.posterior.covariance, MatrixNear(information.inverse(), 1e-12));
   EXPECT_THAT(update.posterior.mean, MatrixNear(mean, 1e-12));
+}
+
+TEST(KalmanUpdate, ByAPositionIsTheSameToTheLastBitWithoutTheProductsWithOnesAndZeros) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 100; ++i) {
+    const Matrix6 root = Matrix6::NullaryExpr([&] { return normal(random); });
+    const Gaussian<6> prior{root.col(0), root * root.transpose()};
+    const Eigen::Vector2d z{normal(random), normal(random)};
+    const Eigen::Matrix2d R{{0.3, 0.1}, {0.1, 0.2}};
+    const auto expected = kalman_update<6, 2>(prior, z, position_of_state(), R);
+    const auto update = update_with_position(prior, z, R);
+    EXPECT_EQ(update.posterior.mean, expected.posterior.mean);
+    EXPECT_EQ(update.posterior.covariance, expected.posterior.covariance);
+    EXPECT_EQ(update.innovation.log_likelihood, expected.innovation.log_likelihood);
+  }
 }
 
 TEST(Innovation, GivesTheLogarithmOfTheNormalDensity) {
