@@ -66,11 +66,13 @@ double wrap_axis(double heading_rad) {
 
 }  // namespace
 
-double distance_from_sides_m(const OrientedBox& box, const Eigen::Vector2d& point_m) {
-  const Eigen::Vector2d along{std::cos(box.heading_rad), std::sin(box.heading_rad)};
-  const Eigen::Vector2d across{-along.y(), along.x()};
-  const Eigen::Vector2d off_m = point_m - box.centre_m;
-  const Eigen::Vector2d inside_m(0.5 * box.length_m - std::abs(along.dot(off_m)), 0.5 * box.width_m - std::abs(across.dot(off_m)));
+BoxSides::BoxSides(const OrientedBox& box)
+    : centre_m_(box.centre_m), along_(std::cos(box.heading_rad), std::sin(box.heading_rad)), half_size_m_(0.5 * box.length_m, 0.5 * box.width_m) {}
+
+double BoxSides::distance_m(const Eigen::Vector2d& point_m) const {
+  const Eigen::Vector2d across{-along_.y(), along_.x()};
+  const Eigen::Vector2d off_m = point_m - centre_m_;
+  const Eigen::Vector2d inside_m = half_size_m_ - Eigen::Vector2d(std::abs(along_.dot(off_m)), std::abs(across.dot(off_m)));
   return inside_m.minCoeff() >= 0.0 ? inside_m.minCoeff() : inside_m.cwiseMin(0.0).norm();
 }
 

@@ -14,8 +14,18 @@ struct OrientedBox {
   double width_m = 0.0;
 };
 
-/// How far a point is from the nearest side, from inside or outside.
-double distance_from_sides_m(const OrientedBox& box, const Eigen::Vector2d& point_m);
+/// The sides of a box, of which many distances are asked.
+class BoxSides {
+ public:
+  explicit BoxSides(const OrientedBox& box);
+  /// How far a point is from the nearest side, from inside or outside.
+  double distance_m(const Eigen::Vector2d& point_m) const;
+
+ private:
+  Eigen::Vector2d centre_m_;
+  Eigen::Vector2d along_;
+  Eigen::Vector2d half_size_m_;
+};
 
 /// Tightest rectangle of the given heading around the points; at least one point.
 OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double heading_rad);

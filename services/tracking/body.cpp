@@ -452,9 +452,9 @@ KindFit kind_fit(const KindOfBody& kind, const Body& body, const TrackingConfig&
 
 Size corner_of(const Body& body, Kind kind, const TrackingConfig& config) {
   if (kind == Kind::kBicycle || only_people_move(config)) return {0.0, 0.0};
-  const double prior_m2 = squared(config.size_scale) * body.road_users.corner.variance_m2;
+  const double prior_m2 = squared(config.size_scale) * body.road_users->corner.variance_m2;
   const double gain = prior_m2 / (prior_m2 + body.corner_seen.variance_m2);
-  const double prior_m = config.size_scale * body.road_users.corner.value_m;
+  const double prior_m = config.size_scale * body.road_users->corner.value_m;
   return {prior_m + gain * (body.corner_seen.value_m - prior_m), (1.0 - gain) * prior_m2};
 }
 
@@ -476,9 +476,9 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
   std::array<KindFit, std::tuple_size_v<decltype(RoadUsers::kinds)>> fits;
-  std::ranges::transform(body.road_users.kinds, fits.begin(), [&](const KindOfBody& kind) { return kind_fit(kind, body, config); });
+  std::ranges::transform(body.road_users->kinds, fits.begin(), [&](const KindOfBody& kind) { return kind_fit(kind, body, config); });
   const auto best = std::ranges::max_element(fits, {}, &KindFit::log_fit);
-  body.kind = body.road_users.kinds[static_cast<std::size_t>(best - fits.begin())].kind;
+  body.kind = body.road_users->kinds[static_cast<std::size_t>(best - fits.begin())].kind;
   body.length = {best->length.size.value_m, 0.0};
   body.width = {best->width.size.value_m, 0.0};
   double total = 0.0;
@@ -497,7 +497,7 @@ Body with_likely_sizes(Body body, const TrackingConfig& config) {
 
 double log_evidence_of_sizes(const Body& body, const TrackingConfig& config) {
   double sum = -std::numeric_limits<double>::max();
-  for (const KindOfBody& kind : body.road_users.kinds) sum = log_sum(sum, kind_fit(kind, body, config).log_fit);
+  for (const KindOfBody& kind : body.road_users->kinds) sum = log_sum(sum, kind_fit(kind, body, config).log_fit);
   return sum;
 }
 
@@ -582,7 +582,7 @@ Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingCo
   const bool is_face = longer_m > kNarrowestM * config.size_scale && longer_m < kWidestFaceM * config.size_scale &&
                        shorter_m < 0.5 * longer_m;
   Body body;
-  body.road_users = road_users;
+  body.road_users = &road_users;
   body.has_sides = true;
   body.heading_rad = geometry::wrap_angle(box_heading_rad + (is_face ? kQuarterRad : 0.0));
   body.heading_variance_rad2 = is_face ? 0.3 : 0.1;

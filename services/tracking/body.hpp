@@ -34,7 +34,7 @@ struct Body {
   Size corner_seen = {0.0, 1e6};      ///< How deep its corners are, as far as scans showed them; a huge variance where none did.
   bool was_seen_whole = false;        ///< Both ends of it at once, with something farther beside them; of a blob.
   Kind kind = Kind::kCar;             ///< The likeliest, of a body with sides.
-  RoadUsers road_users;               ///< Of which it may be one.
+  const RoadUsers* road_users = &kRoadUsersAnywhere;  ///< Of which it may be one; not the body's own.
   /// From which end of the length, and of the width, the centre was last measured: -1 the rear (the right side), +1 the front
   /// (the left side), 0 both; none before the first time.
   std::optional<int> length_held;
@@ -109,8 +109,8 @@ Size corner_of(const Body& body, Kind kind, const TrackingConfig& config);
 double log_evidence_of_sizes(const Body& body, const TrackingConfig& config);
 
 /// A box around something first seen now. box_heading_rad: of the longer visible side; which way the body points along it
-/// is not known, and where only one short side is seen, that it is the width is only likely.
-Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config, const RoadUsers& road_users = {});
+/// is not known, and where only one short side is seen, that it is the width is only likely. The body refers to the road users.
+Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config, const RoadUsers& road_users = kRoadUsersAnywhere);
 
 /// The body pointing the other way: its front is its rear.
 Body turned_about(Body body);

@@ -62,7 +62,7 @@ ClassProbabilities log_fit_of_box(const Body& body, const TrackingConfig& config
   fit.fill(-1e300);
   fit[kPedestrian] = std::max(log_fit(kCompany, body.length_evidence, body.width_evidence, config.size_scale),
                               log_fit(kCompany, body.width_evidence, body.length_evidence, config.size_scale));
-  for (const KindOfBody& kind : body.road_users.kinds) {
+  for (const KindOfBody& kind : body.road_users->kinds) {
     if (kind.share <= 0.0) continue;
     double& of_class = fit[class_of_kind(kind.kind)];
     of_class = log_sum(of_class, log_fit(kind, with_corners(body.length_evidence, kind.kind, body, config), with_corners(body.width_evidence, kind.kind, body, config), config.size_scale));

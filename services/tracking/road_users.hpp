@@ -43,6 +43,9 @@ struct RoadUsers {
   double swing_share = 1.0;
 };
 
+/// Those anywhere, where nothing is known of a place.
+inline const RoadUsers kRoadUsersAnywhere;
+
 /// Learns what the road users of a place are like from those that were seen from end to end.
 class RoadUsersSeen {
  public:

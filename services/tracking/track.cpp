@@ -134,10 +134,10 @@ void follow_side(Track& track, const Glimpse& glimpse, double time_s, const Trac
 /// A box around the echoes, along the course where that is known.
 Body box_along_course(const Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
   const Vector2d way = glimpse.points_m.back() - glimpse.points_m.front();
-  Body body = likely_box(std::atan2(way.y(), way.x()), glimpse, config, track.body.road_users);
+  Body body = likely_box(std::atan2(way.y(), way.x()), glimpse, config, *track.body.road_users);
   const Course course = course_of(track);
   if (track.velocity_mps().norm() > config.box_from_speed_mps && course.variance_rad2 < 0.05) {
-    body = likely_box(course.heading_rad, glimpse, config, track.body.road_users);
+    body = likely_box(course.heading_rad, glimpse, config, *track.body.road_users);
     if (std::abs(std::cos(body.heading_rad - course.heading_rad)) < 0.7) body = turned_by_a_quarter(body, 1.0, config);
     body.heading_rad = course.heading_rad;
     body.heading_variance_rad2 = course.variance_rad2;
@@ -278,7 +278,7 @@ OffSides with_scan(const OffSides& before, double off_sides_m, std::size_t echoe
 
 /// Of what a measured centre is taken to err by, so much it does here, at the range of the track.
 double echo_share(const Track& track, const TrackingConfig& config) {
-  const double unneeded_m = (1.0 - track.body.road_users.shape_share) * config.range_noise_m;
+  const double unneeded_m = (1.0 - track.body.road_users->shape_share) * config.range_noise_m;
   return 1.0 - unneeded_m / echo_sigma_m(track.range_m, config);
 }
 
@@ -303,7 +303,7 @@ CentreErrors errors_of_box(const Track& track, const TrackingConfig& config) {
   constexpr double kMostHeadingRad2 = 0.25;   // what is turned farther off is not oriented
   constexpr double kFrameOrRiderM = 0.15;     // a bicycle is as wide as its frame or as who rides it, by the height of the scan
   const Body& body = track.body;
-  const double of_shape = body.road_users.shape_share;
+  const double of_shape = body.road_users->shape_share;
   const bool is_told_by_sides = body.axis_variance_rad2 <= kKnownAxisRad2;
   const double least_rad = is_told_by_sides ? of_shape * kBySidesRad : kByCourseAloneRad;
   const double steadiness = track.steadiness.share * (is_told_by_sides ? of_shape * of_shape : 1.0);
@@ -359,7 +359,7 @@ Eigen::Matrix4d covariance_after(const Eigen::Matrix4d& covariance, double time_
 /// were seen to, and before that as those here do.
 double swing_share(const Track& track, const TrackingConfig& config) {
   if (config.gait_noise_m <= 0.0) return 1.0;
-  return track.gait.variance_m2 ? std::sqrt(*track.gait.variance_m2) / config.gait_noise_m : track.body.road_users.swing_share;
+  return track.gait.variance_m2 ? std::sqrt(*track.gait.variance_m2) / config.gait_noise_m : track.body.road_users->swing_share;
 }
 
 /// What the deviations of position and velocity are multiplied with, since the filter takes everybody to swing as legs do, and
@@ -390,9 +390,9 @@ void predict_path(const Track& track, const Matrix2d& shared_error_m2, const Tra
 
 /// Of points from the sides of the body, in the mean.
 double distance_from_sides_m(const Track& track, std::span<const Vector2d> points_m) {
-  const sensing::OrientedBox box{track.position_m(), track.body.heading_rad, track.body.length.value_m, track.body.width.value_m};
+  const sensing::BoxSides sides(sensing::OrientedBox{track.position_m(), track.body.heading_rad, track.body.length.value_m, track.body.width.value_m});
   double sum_m = 0.0;
-  for (const Vector2d& point_m : points_m) sum_m += sensing::distance_from_sides_m(box, point_m);
+  for (const Vector2d& point_m : points_m) sum_m += sides.distance_m(point_m);
   return sum_m / static_cast<double>(points_m.size());
 }
 
@@ -543,7 +543,7 @@ Passage with_beams(const Passage& before, int through, std::size_t met, double t
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
             const Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users, Track done_with) {
   Track track = emptied(std::move(done_with));
-  track.body.road_users = road_users;
+  track.body.road_users = &road_users;
   track.track_id = track_id;
   track.first_seen_ns = stamp_ns;
   track.score = config.birth_score;

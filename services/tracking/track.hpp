@@ -201,9 +201,9 @@ Steadiness with_heading(const Steadiness& before, double off_rad, double varianc
 Passage with_beams(const Passage& before, int through, std::size_t met, double time_s);
 
 /// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side. done_with: a track that
-/// has ended, of which nothing but memory is used.
+/// has ended, of which nothing but memory is used. It refers to the road users for as long as it is followed.
 Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
-            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users = {}, Track done_with = {});
+            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users = kRoadUsersAnywhere, Track done_with = {});
 
 /// Moves the track over time_s >= 0.
 void predict(Track& track, double time_s, const TrackingConfig& config);

@@ -84,9 +84,9 @@ void add_beams(std::vector<std::uint16_t>& beams, const std::vector<std::uint16_
 
 /// Of its echoes, in the mean.
 double distance_from_sides_m(const Segment& segment, const ScanView& view) {
-  const sensing::OrientedBox box{segment.box_centre_in_odom_m, segment.box_heading_rad, segment.box_length_m, segment.box_width_m};
+  const sensing::BoxSides sides(sensing::OrientedBox{segment.box_centre_in_odom_m, segment.box_heading_rad, segment.box_length_m, segment.box_width_m});
   double sum_m = 0.0;
-  for (const std::uint16_t beam : segment.beams) sum_m += sensing::distance_from_sides_m(box, view.point_in_odom_m(beam));
+  for (const std::uint16_t beam : segment.beams) sum_m += sides.distance_m(view.point_in_odom_m(beam));
   return sum_m / static_cast<double>(segment.beams.size());
 }
 
@@ -535,7 +535,7 @@ void Tracker::begin_tracks(const ScanView& view) {
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
     // Detection fits boxes to what moves only.
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m_, config_.range_noise_m).heading_rad;
-    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_, road_users_, spare_tracks_.take()));
+    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_, *road_users_, spare_tracks_.take()));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
     tracks_.back().after_stamp_s = after_stamp_s;
     tracks_.back().youth.add(view.scan().stamp_ns + nanoseconds(after_stamp_s), glimpse, pose_covariance_m2);
@@ -813,12 +813,6 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
   if (labels.restored.size() > kMostRestored) spare_restored_.resize(labels.restored, kMostRestored);
 }
 
-/// What the tracks that have ended tell: every track that goes on has a copy.
-void Tracker::learn_road_users() {
-  road_users_ = road_users_seen_.known();
-  for (Track& track : tracks_) track.body.road_users = road_users_;
-}
-
 TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult done_with) {
   TrackingResult result = std::move(done_with);
   result.labels.stamp_ns = scan.stamp_ns;
@@ -861,7 +855,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult do
   const std::size_t followed = tracks_.size();
   remove_dead(result.labels);
   describe(scan, result.objects);
-  if (tracks_.size() < followed) learn_road_users();
+  if (tracks_.size() < followed) *road_users_ = road_users_seen_.known();
   return result;
 }
 
@@ -903,7 +897,8 @@ void Tracker::take_up(const flow::TrackedObjects& objects) {
     next_id_ = std::max(next_id_, object.track_id.value + 1);
     if (object.confirmed) tracks_.push_back(resumed(object, config_));
   }
-  learn_road_users();
+  *road_users_ = road_users_seen_.known();
+  for (Track& track : tracks_) track.body.road_users = road_users_.get();
   last_stamp_ns_ = objects.stamp_ns;
   has_scan_ = true;
 }

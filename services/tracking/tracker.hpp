@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -128,7 +129,6 @@ class Tracker {
   void join_pieces(const ScanView& view);
   void merge_duplicates();
   void remove_dead(flow::ScanLabels& labels);
-  void learn_road_users();
   void label(const ScanView& view, flow::ScanLabels& labels);
   void describe(const flow::SegmentedScan& scan, flow::TrackedObjects& objects);
 
@@ -143,7 +143,7 @@ class Tracker {
   std::vector<Outcome> outcomes_;               ///< Of each track, when it was.
   std::vector<char> has_shifted_;               ///< Beams on faces that have moved.
   RoadUsersSeen road_users_seen_;               ///< Each when its track ended.
-  RoadUsers road_users_ = road_users_seen_.known();
+  std::unique_ptr<RoadUsers> road_users_ = std::make_unique<RoadUsers>(road_users_seen_.known());  ///< Where it is when the tracker is moved: tracks refer to it.
   Rivals rivals_;
   Formations formations_;
   ScanHistory history_;

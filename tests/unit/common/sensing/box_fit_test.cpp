@@ -61,11 +61,11 @@ TEST(BoxAtHeading, CallsTheLongerSideItsLength) {
 }
 
 TEST(OrientedBox, TellsHowFarAPointIsFromItsSides) {
-  const OrientedBox box{{1.0, 2.0}, 0.5 * M_PI, 4.0, 2.0};
-  EXPECT_NEAR(distance_from_sides_m(box, {1.0, 2.0}), 1.0, 1e-12);
-  EXPECT_NEAR(distance_from_sides_m(box, {1.0, 3.75}), 0.25, 1e-12);
-  EXPECT_NEAR(distance_from_sides_m(box, {1.5, 5.0}), 1.0, 1e-12);
-  EXPECT_NEAR(distance_from_sides_m(box, {2.3, 4.4}), 0.5, 1e-12) << "a corner";
+  const BoxSides sides(OrientedBox{{1.0, 2.0}, 0.5 * M_PI, 4.0, 2.0});
+  EXPECT_NEAR(sides.distance_m({1.0, 2.0}), 1.0, 1e-12);
+  EXPECT_NEAR(sides.distance_m({1.0, 3.75}), 0.25, 1e-12);
+  EXPECT_NEAR(sides.distance_m({1.5, 5.0}), 1.0, 1e-12);
+  EXPECT_NEAR(sides.distance_m({2.3, 4.4}), 0.5, 1e-12) << "a corner";
 }
 
 }  // namespace

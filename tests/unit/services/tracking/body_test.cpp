@@ -119,8 +119,9 @@ TEST(Body, IsAsLargeAsThoseOfItsKindAreHere) {
   const Glimpse glimpse = glimpse_of(points);
   RoadUsersSeen seen;
   for (int i = 0; i < 20; ++i) seen.add_length(Kind::kCar, {4.8, 0.004}), seen.add_width(Kind::kCar, {1.8, 0.004});
+  const RoadUsers known = seen.known();
   const Body anywhere = settled(likely_box(M_PI / 2.0, glimpse, kConfig), {20.0, 0.0}, glimpse).body;
-  const Body here = settled(likely_box(M_PI / 2.0, glimpse, kConfig, seen.known()), {20.0, 0.0}, glimpse).body;
+  const Body here = settled(likely_box(M_PI / 2.0, glimpse, kConfig, known), {20.0, 0.0}, glimpse).body;
   EXPECT_NEAR(here.length.value_m, 4.8, 0.05) << "only the back of it is seen";
   EXPECT_LT(here.length.variance_m2, 0.25 * anywhere.length.variance_m2);
   Body longer = here;

@@ -79,7 +79,8 @@ TEST(Gait, OfThoseWhoWalkedHereIsThatOfWhoComes) {
   Track newcomer = walker_in_a_coat(0.1, config);
   newcomer.gait.variance_m2.reset();
   const double as_taken_m2 = described(newcomer, 0, config).covariance(0, 0);
-  newcomer.body.road_users = seen.known();
+  const RoadUsers known = seen.known();
+  newcomer.body.road_users = &known;
   EXPECT_LT(described(newcomer, 0, config).covariance(0, 0), as_taken_m2 - 0.008);
 }
 
@@ -429,7 +430,9 @@ TEST(Track, IsKnownAsWellAsBodiesHereAreBoxes) {
   track.estimate.covariance = 0.0009 * track.estimate.covariance.Identity();
   track.range_m = 5.0;
   const Eigen::Matrix4d as_taken = published_covariance(track);
-  track.body.road_users.shape_share = 0.4;
+  RoadUsers of_boxes_here;
+  of_boxes_here.shape_share = 0.4;
+  track.body.road_users = &of_boxes_here;
   const Eigen::Matrix4d of_boxes = published_covariance(track);
   EXPECT_LT(of_boxes(0, 0), as_taken(0, 0) - 0.0007);
   EXPECT_LT(of_boxes(1, 1), as_taken(1, 1) - 0.006);
