@@ -412,15 +412,13 @@ struct AxisFit {
 
 /// What was taken for the whole may have been a piece, between two things that hide the rest: then only the kind tells how
 /// large the body is.
-AxisFit axis_fit(double mean_m, double sigma_m, const SizeEvidence& evidence, double scale) {
+AxisFit axis_fit(double mean_m, double sigma_m, const SizeEvidence& evidence, double scale, double log_piece_density) {
   constexpr double kMistakenShare = 0.05;
-  constexpr double kLongestPieceM = 16.0;
   const double as_whole = log_likelihood_of_size(mean_m, sigma_m, evidence, scale);
   const Size whole = likely_size(mean_m, sigma_m, evidence);
   if (evidence.whole.variance_m2 >= kNothingKnownM2) return {as_whole, whole};
   const Size piece = likely_size(mean_m, sigma_m, {evidence.least_m, {0.0, kNothingKnownM2}});
-  const double log_density = std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // the other one's leaves the root out
-  const double as_piece = log_density + log_likelihood_of_least({mean_m, squared(sigma_m)}, evidence.least_m, scale);
+  const double as_piece = log_piece_density + log_likelihood_of_least({mean_m, squared(sigma_m)}, evidence.least_m, scale);
   const double of_whole = std::log(1.0 - kMistakenShare) + as_whole;
   const double of_piece = std::log(kMistakenShare) + as_piece;
   const double piece_share = 1.0 / (1.0 + std::exp(of_whole - of_piece));
@@ -438,14 +436,37 @@ struct KindFit {
   AxisFit width;
 };
 
-KindFit kind_fit(const KindOfBody& kind, const Body& body, const TrackingConfig& config) {
+using KindFits = std::array<KindFit, std::tuple_size_v<decltype(RoadUsers::kinds)>>;
+
+/// Of each kind of road users.
+KindFits kind_fits(const Body& body, const TrackingConfig& config) {
+  constexpr double kLongestPieceM = 16.0;
   const double scale = config.size_scale;
-  KindFit fit;
-  if (kind.share <= 0.0) return {-std::numeric_limits<double>::max(), {}, {}};
-  fit.length = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, with_corners(body.length_evidence, kind.kind, body, config), scale);
-  fit.width = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, with_corners(body.width_evidence, kind.kind, body, config), scale);
-  fit.log_fit = std::log(kind.share) + fit.length.log_fit + fit.width.log_fit;
-  return fit;
+  const double log_piece_density = std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // the other one's leaves the root out
+  const EvidenceByKind evidence = evidence_by_kind(body, config);
+  const auto fit_of = [&](const KindOfBody& kind) {
+    KindFit fit;
+    if (kind.share <= 0.0) return KindFit{-std::numeric_limits<double>::max(), {}, {}};
+    fit.length = axis_fit(scale * kind.length_m, scale * kind.length_sigma_m, evidence.of(kind.kind).length, scale, log_piece_density);
+    fit.width = axis_fit(scale * kind.width_m, scale * kind.width_sigma_m, evidence.of(kind.kind).width, scale, log_piece_density);
+    fit.log_fit = kind.log_share + fit.length.log_fit + fit.width.log_fit;
+    return fit;
+  };
+  KindFits fits;
+  std::ranges::transform(body.road_users->kinds, fits.begin(), fit_of);
+  return fits;
+}
+
+/// What was seen from edge to edge goes on by what the corners are round.
+SizeEvidence with_corners(SizeEvidence evidence, const Size& corner) {
+  const Size missed = missed_of(corner, evidence.missed_share);
+  evidence.whole.value_m += missed.value_m;
+  evidence.whole.variance_m2 += missed.variance_m2;
+  return evidence;
+}
+
+EvidenceOfSizes with_corners(const Body& body, const Size& corner) {
+  return {with_corners(body.length_evidence, corner), with_corners(body.width_evidence, corner)};
 }
 
 }  // namespace
@@ -458,11 +479,8 @@ Size corner_of(const Body& body, Kind kind, const TrackingConfig& config) {
   return {prior_m + gain * (body.corner_seen.value_m - prior_m), (1.0 - gain) * prior_m2};
 }
 
-SizeEvidence with_corners(SizeEvidence evidence, Kind kind, const Body& body, const TrackingConfig& config) {
-  const Size missed = missed_of(corner_of(body, kind, config), evidence.missed_share);
-  evidence.whole.value_m += missed.value_m;
-  evidence.whole.variance_m2 += missed.variance_m2;
-  return evidence;
+EvidenceByKind evidence_by_kind(const Body& body, const TrackingConfig& config) {
+  return {with_corners(body, corner_of(body, Kind::kBicycle, config)), with_corners(body, corner_of(body, Kind::kCar, config))};
 }
 
 double log_sum(double a, double b) { return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))); }
@@ -475,8 +493,7 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 }
 
 Body with_likely_sizes(Body body, const TrackingConfig& config) {
-  std::array<KindFit, std::tuple_size_v<decltype(RoadUsers::kinds)>> fits;
-  std::ranges::transform(body.road_users->kinds, fits.begin(), [&](const KindOfBody& kind) { return kind_fit(kind, body, config); });
+  const KindFits fits = kind_fits(body, config);
   const auto best = std::ranges::max_element(fits, {}, &KindFit::log_fit);
   body.kind = body.road_users->kinds[static_cast<std::size_t>(best - fits.begin())].kind;
   body.length = {best->length.size.value_m, 0.0};
@@ -497,7 +514,7 @@ Body with_likely_sizes(Body body, const TrackingConfig& config) {
 
 double log_evidence_of_sizes(const Body& body, const TrackingConfig& config) {
   double sum = -std::numeric_limits<double>::max();
-  for (const KindOfBody& kind : body.road_users->kinds) sum = log_sum(sum, kind_fit(kind, body, config).log_fit);
+  for (const KindFit& fit : kind_fits(body, config)) sum = log_sum(sum, fit.log_fit);
   return sum;
 }
 

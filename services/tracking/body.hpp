@@ -99,8 +99,21 @@ double log_likelihood_of_size(double mean_m, double sigma_m, const SizeEvidence&
 /// counts.
 Body with_likely_sizes(Body body, const TrackingConfig& config);
 
-/// The same of a body of this kind: what was seen from edge to edge goes on by what its corners are round.
-SizeEvidence with_corners(SizeEvidence evidence, Kind kind, const Body& body, const TrackingConfig& config);
+/// What the scans said of both sizes.
+struct EvidenceOfSizes {
+  SizeEvidence length;
+  SizeEvidence width;
+};
+
+/// The same, had the body the corners of a kind: what was seen from edge to edge goes on by what they are round.
+struct EvidenceByKind {
+  EvidenceOfSizes of_bicycle;
+  EvidenceOfSizes of_vehicle;
+
+  const EvidenceOfSizes& of(Kind kind) const { return kind == Kind::kBicycle ? of_bicycle : of_vehicle; }
+};
+
+EvidenceByKind evidence_by_kind(const Body& body, const TrackingConfig& config);
 
 /// How deep the corners of a body are believed to be, if it is of this kind; bicycles, and what people carry, have none.
 Size corner_of(const Body& body, Kind kind, const TrackingConfig& config);

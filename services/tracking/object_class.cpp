@@ -37,7 +37,7 @@ constexpr std::array<double, 4> kDensityOfWhole = {1.0, 0.2, 0.01, 0.01};
 constexpr std::array<double, 4> kDensityOfPiece = {0.03, 0.05, 0.2, 0.2};
 
 /// Those who walk in company, side by side or one behind the other, are as large as something with sides.
-constexpr KindOfBody kCompany{Kind::kBicycle, 0.08, 1.3, 0.35, 0.6, 0.2};
+const KindOfBody kCompany{Kind::kBicycle, 0.08, 1.3, 0.35, 0.6, 0.2};
 
 double squared(double value) { return value * value; }
 
@@ -51,7 +51,7 @@ double exceeded_share(double value, double mean, double sigma) { return 0.5 * st
 double log_fit(const KindOfBody& kind, const SizeEvidence& length, const SizeEvidence& width, double scale) {
   constexpr double kHeadingErrorRad = 0.06;
   const double width_sigma_m = std::hypot(kind.width_sigma_m, kHeadingErrorRad * kind.length_m);
-  return std::log(kind.share) + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, length, scale) +
+  return kind.log_share + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, length, scale) +
          log_likelihood_of_size(scale * kind.width_m, scale * width_sigma_m, width, scale);
 }
 
@@ -60,12 +60,13 @@ std::size_t class_of_kind(Kind kind) { return kind == Kind::kBicycle ? kBicycle 
 ClassProbabilities log_fit_of_box(const Body& body, const TrackingConfig& config) {
   ClassProbabilities fit;
   fit.fill(-1e300);
+  const EvidenceByKind evidence = evidence_by_kind(body, config);
   fit[kPedestrian] = std::max(log_fit(kCompany, body.length_evidence, body.width_evidence, config.size_scale),
                               log_fit(kCompany, body.width_evidence, body.length_evidence, config.size_scale));
   for (const KindOfBody& kind : body.road_users->kinds) {
     if (kind.share <= 0.0) continue;
     double& of_class = fit[class_of_kind(kind.kind)];
-    of_class = log_sum(of_class, log_fit(kind, with_corners(body.length_evidence, kind.kind, body, config), with_corners(body.width_evidence, kind.kind, body, config), config.size_scale));
+    of_class = log_sum(of_class, log_fit(kind, evidence.of(kind.kind).length, evidence.of(kind.kind).width, config.size_scale));
   }
   return fit;
 }

@@ -68,8 +68,7 @@ RoadUsers RoadUsersSeen::known() const {
     const Size length = next(sizes_[i].length, kKinds[i].length_m, kKinds[i].length_sigma_m, share);
     const Size width = next(sizes_[i].width, kKinds[i].width_m, kKinds[i].width_sigma_m, share);
     here.kinds[i] = {kKinds[i].kind, (1.0 - kElsewhereShare) * kKinds[i].share, length.value_m, std::sqrt(length.variance_m2), width.value_m, std::sqrt(width.variance_m2)};
-    here.kinds[kKinds.size() + i] = kKinds[i];
-    here.kinds[kKinds.size() + i].share *= kElsewhereShare;
+    here.kinds[kKinds.size() + i] = {kKinds[i].kind, kElsewhereShare * kKinds[i].share, kKinds[i].length_m, kKinds[i].length_sigma_m, kKinds[i].width_m, kKinds[i].width_sigma_m};
   }
   here.corner = next(corner_, kCorner.value_m, std::sqrt(kCorner.variance_m2), kWithinShare);
   here.shape_share = shape_share();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -11,12 +12,13 @@ enum class Kind : std::uint8_t { kBicycle, kCar, kTruck, kBus };
 
 /// Means and one sigma of the sizes of one kind, and how common it is.
 struct KindOfBody {
-  Kind kind;
-  double share, length_m, length_sigma_m, width_m, width_sigma_m;
+  Kind kind = Kind::kCar;
+  double share = 0.0, length_m = 0.0, length_sigma_m = 0.0, width_m = 0.0, width_sigma_m = 0.0;
+  double log_share = std::log(share);
 };
 
 /// Those of real road users anywhere.
-inline constexpr std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.14, 1.75, 0.2, 0.65, 0.15},
+inline const std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.14, 1.75, 0.2, 0.65, 0.15},
                                                       {Kind::kCar, 0.75, 4.4, 0.4, 1.8, 0.12},
                                                       {Kind::kTruck, 0.07, 7.0, 1.2, 2.35, 0.2},
                                                       {Kind::kBus, 0.04, 12.0, 1.2, 2.5, 0.12}}};

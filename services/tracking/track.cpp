@@ -330,7 +330,7 @@ CentreErrors errors_of_blob(const Track& track, const TrackingConfig& config) {
   CentreErrors errors;
   if (!walks(track)) errors = {std::pow(kHalfACycleM * config.size_scale, 2), std::pow(0.5 * kHalfACycleM * config.size_scale, 2)};
   // All that shows of a vehicle may be a corner.
-  constexpr std::array<std::pair<std::size_t, KindOfBody>, 2> kVehicles = {{{2, kKinds[1]}, {3, kKinds[2]}}};  // by the entries of class_probability
+  static const std::array<std::pair<std::size_t, KindOfBody>, 2> kVehicles = {{{2, kKinds[1]}, {3, kKinds[2]}}};  // by the entries of class_probability
   for (const auto& [entry, kind] : kVehicles) {
     errors.along_m2 += track.class_probability[entry] * std::pow(0.5 * kind.length_m * config.size_scale, 2);
     errors.across_m2 += track.class_probability[entry] * std::pow(0.5 * kind.width_m * config.size_scale, 2);
@@ -832,8 +832,9 @@ void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
   if (!track.confirmed || !body.has_sides || !body.is_oriented || track.way_m < kLeastWayM * scale) return;
   const double known_m2 = std::pow(kKnownM * scale, 2);
   const auto of_real_one = [&](const Size& size) { return Size{size.value_m / scale, size.variance_m2 / (scale * scale)}; };
-  const Size length = with_corners(body.length_evidence, body.kind, body, config).whole;
-  const Size width = with_corners(body.width_evidence, body.kind, body, config).whole;
+  const EvidenceOfSizes evidence = evidence_by_kind(body, config).of(body.kind);
+  const Size length = evidence.length.whole;
+  const Size width = evidence.width.whole;
   // Seen from edge to edge it lacks what sent no echoes there; the most that was ever seen of it holds the farthest that any erred.
   const auto between = [](const Size& whole, double least_m) {
     const double off_m = 0.5 * std::max(0.0, least_m - whole.value_m);
