@@ -24,14 +24,20 @@ struct Innovation {
   double log_likelihood = 0.0;  ///< Natural logarithm of the density of the measurement.
 };
 
-/// Weighs a residual by its covariance, which must be positive definite.
+/// Weighs a residual by its covariance, of which this is the root.
 template <int M>
-Innovation<M> innovation(const Eigen::Matrix<double, M, 1>& residual, const Eigen::Matrix<double, M, M>& covariance) {
-  const Eigen::LLT<Eigen::Matrix<double, M, M>> root(covariance);
+Innovation<M> innovation(const Eigen::Matrix<double, M, 1>& residual, const Eigen::Matrix<double, M, M>& covariance,
+                         const Eigen::LLT<Eigen::Matrix<double, M, M>>& root) {
   const Eigen::Matrix<double, M, 1> white = root.matrixL().solve(residual);
   const double log_root_determinant = root.matrixLLT().diagonal().array().log().sum();
   const double nis = white.squaredNorm();
   return {residual, covariance, nis, -0.5 * (nis + M * std::log(2.0 * std::numbers::pi)) - log_root_determinant};
+}
+
+/// The same; the covariance must be positive definite.
+template <int M>
+Innovation<M> innovation(const Eigen::Matrix<double, M, 1>& residual, const Eigen::Matrix<double, M, M>& covariance) {
+  return innovation<M>(residual, covariance, Eigen::LLT<Eigen::Matrix<double, M, M>>(covariance));
 }
 
 }  // namespace slammot::filters

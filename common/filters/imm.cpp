@@ -54,7 +54,9 @@ ImmState predicted_over(double time_s, const Switching& switching, const ModelSe
       if (probability[to] > 0.0) weight[from] /= probability[to];
       else weight[from] = from == to ? 1.0 : 0.0;  // no time has passed for a model that was ruled out
     }
-    return predict(set.models[to], moment_match(modes_of(set, state), {weight.data(), set.size}), time_s);
+    const bool forgets_acceleration = set.models[to].kind == MotionKind::kConstantVelocity;
+    const auto mixed = forgets_acceleration ? moment_match_moving : moment_match;
+    return predict(set.models[to], mixed(modes_of(set, state), {weight.data(), set.size}), time_s);
   };
   static_assert(kMaxModels == 3);
   return {{predicted(0), predicted(1), predicted(2)}, probability};  // made in place: filling a state with zeros takes as long as a model

@@ -41,6 +41,14 @@ double switch_probability(const ModelSet& set, std::size_t from, std::size_t to,
 
 MotionState moment_match(std::span<const MotionState> modes, std::span<const double> weight) { return moment_match_first<6>(modes, weight); }
 
+MotionState moment_match_moving(std::span<const MotionState> modes, std::span<const double> weight) {
+  const Gaussian<4> moving = moment_match_first<4>(modes, weight);
+  MotionState mixture;
+  mixture.mean.head<4>() = moving.mean;
+  mixture.covariance.topLeftCorner<4, 4>() = moving.covariance;
+  return mixture;
+}
+
 Gaussian<2> moment_match_position(std::span<const MotionState> modes, std::span<const double> weight) { return moment_match_first<2>(modes, weight); }
 
 double normalize_logs(std::span<double> log_weight) {
@@ -56,12 +64,18 @@ KalmanUpdate<6, 2> update_with_position(const MotionState& predicted, const Eige
   using Matrix62 = Eigen::Matrix<double, 6, 2>;
   const Matrix6& P = predicted.covariance;
   const Eigen::Matrix2d S = P.topLeftCorner<2, 2>() + R;
-  const Matrix62 K = S.llt().solve(P.leftCols<2>().transpose()).transpose();
+  const Eigen::LLT<Eigen::Matrix2d> root(S);
+  const Eigen::Matrix2d& L = root.matrixLLT();
+  const Eigen::Array2d unit = 1.0 / L.diagonal().array();
+  Matrix62 K;  // P H' by the inverses of L and L'
+  K.col(0) = P.col(0) * unit(0);
+  K.col(1) = (P.col(1) - K.col(0) * L(1, 0)) * unit(1) * unit(1);
+  K.col(0) = (K.col(0) - K.col(1) * L(1, 0)) * unit(0);
   const Matrix62 I_KH = Matrix62::Identity() - K;  // its columns that are not those of I
   Matrix6 I_KH_P = I_KH * P.topRows<2>();
   I_KH_P.bottomRows<4>() += P.bottomRows<4>();
   KalmanUpdate<6, 2> update;
-  update.innovation = innovation<2>(position_m - predicted.mean.head<2>(), S);
+  update.innovation = innovation<2>(position_m - predicted.mean.head<2>(), S, root);
   update.posterior.mean = predicted.mean + K * update.innovation.residual;
   Matrix6& after = update.posterior.covariance;
   after = I_KH_P.leftCols<2>() * I_KH.transpose();

@@ -31,6 +31,9 @@ double switch_probability(const ModelSet& set, std::size_t from, std::size_t to,
 /// Mean and covariance of a mixture of Gaussians; Wang 2004, Eqs. (2.52)-(2.53). As many weights as modes, of sum 1.
 MotionState moment_match(std::span<const MotionState> modes, std::span<const double> weight);
 
+/// The same of position and velocity; the acceleration is left at zero.
+MotionState moment_match_moving(std::span<const MotionState> modes, std::span<const double> weight);
+
 /// The same of the position alone.
 Gaussian<2> moment_match_position(std::span<const MotionState> modes, std::span<const double> weight);
 
