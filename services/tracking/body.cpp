@@ -80,14 +80,19 @@ class SideMean {
 Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double face_depth_m) {
   Shadow shadow;
   const std::size_t count = glimpse.points_m.size();
+  std::size_t lowest = 0;
+  std::size_t highest = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double s = axis.dot(glimpse.points_m[i] - centre_m);
-    Edge edge = Edge::kOpen;
-    if (i == 0) edge = glimpse.start;
-    if (i + 1 == count) edge = std::max(edge, glimpse.end);
-    if (s < shadow.low_m) shadow.low_m = s, shadow.low_edge = edge;
-    if (s > shadow.high_m) shadow.high_m = s, shadow.high_edge = edge;
+    if (s < shadow.low_m) shadow.low_m = s, lowest = i;
+    if (s > shadow.high_m) shadow.high_m = s, highest = i;
   }
+  const auto edge_beside = [&](std::size_t point) {
+    const Edge before = point == 0 ? glimpse.start : Edge::kOpen;
+    return point + 1 == count ? std::max(before, glimpse.end) : before;
+  };
+  shadow.low_edge = edge_beside(lowest);
+  shadow.high_edge = edge_beside(highest);
   Spread low_across;
   Spread high_across;
   const auto across_of = [&](const Vector2d& point) { return axis.x() * point.y() - axis.y() * point.x(); };

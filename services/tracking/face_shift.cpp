@@ -157,12 +157,19 @@ struct Asked {
   const TrackingConfig& config;
 };
 
+/// A side is no wider than its ends are apart, which needs no line through it; to what is rounded.
+bool is_surely_too_narrow(std::span<const std::uint16_t> side, const PolarView& view, const TrackingConfig& config) {
+  constexpr double kSurely = 1.0 - 1e-9;
+  const double most_m = kSurely * kNarrowestM * config.size_scale;
+  return (view.point_in_odom_m(side.back()) - view.point_in_odom_m(side.front())).squaredNorm() < most_m * most_m;
+}
+
 /// How far the face has come, of which there are so many echoes; zero if it has not, or is too narrow, too wide or bent.
 Vector2d shift_of(const Face& face, std::size_t echoes, const PolarView& now, const Asked& asked) {
   const TrackingConfig& config = asked.config;
+  if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) return Vector2d::Zero();
   const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
   const double echo_m = echo_sigma_m(range_m, config);
-  if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) return Vector2d::Zero();
   if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_m)) return Vector2d::Zero();
   const double sigma_m = std::hypot(asked.pose_sigma_m(), echo_m * std::sqrt(2.0 / static_cast<double>(echoes)));
   const double least_m = std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
@@ -176,7 +183,7 @@ std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams
   if (segment_beams.size() < kFewestEchoes) return std::nullopt;
   std::optional<FaceShift> best;
   for (const auto side : sides_of(segment_beams, now, config)) {
-    if (side.size() < kFewestEchoes) continue;
+    if (side.size() < kFewestEchoes || is_surely_too_narrow(side, now, config)) continue;
     const Vector2d shift_m = shift_of(face_through(side, {}, now), side.size(), now, {earlier, pose_sigma_m, config});
     if (shift_m.isZero() || (best && best->shift_m.norm() > shift_m.norm())) continue;
     best = FaceShift{side, shift_m};

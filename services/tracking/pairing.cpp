@@ -47,8 +47,9 @@ double pair_cost(const Body& body, const filters::MotionState& motion, const Seg
   Matrix2d S = motion.covariance.topLeftCorner<2, 2>() + segment.centroid_covariance_m2;
   const double shape_m = config.shape_noise_m + config.blob_noise_share * segment.box_length_m;
   S.diagonal().array() += shape_m * shape_m;
-  const double distance2 = association::mahalanobis_squared<2>(residual_m, S);
-  if (distance2 > association::planar_gate(config.gate_share)) return association::kForbidden;
+  const bool is_inside = residual_m == Vector2d::Zero();  // as most that are near are
+  const double distance2 = is_inside ? 0.0 : association::mahalanobis_squared<2>(residual_m, S);
+  if (!is_inside && distance2 > association::planar_gate(config.gate_share)) return association::kForbidden;
   const double body_m = std::max(0.5, body.length.value_m);
   const double outgrown_m = std::max(0.0, segment.box_length_m - body.length.value_m - config.gate_margin_m);
   const double larger_cost = body.has_sides ? config.larger_body_cost_per_m * outgrown_m : 0.3 * outgrown_m;

@@ -230,16 +230,19 @@ bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std:
   return beyond > kMost;
 }
 
+bool is_long_known(const Track& track) {
+  constexpr int kLongKnownHits = 10;
+  return track.confirmed && track.hits >= kLongKnownHits;
+}
+
 /// Whether two that are long known drive alike, and are so near to each other that they fit into one car, or, where their bodies
 /// overlap, into one truck.
 bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) {
-  constexpr int kLongKnownHits = 10;
   constexpr double kSlowVehicleMps = 1.0;
   constexpr double kCarLengthM = 4.9;
   constexpr double kCarWidthM = 2.1;
   constexpr double kTruckLengthM = 8.2;
   constexpr double kTruckWidthM = 2.6;
-  if (!a.confirmed || !b.confirmed || std::min(a.hits, b.hits) < kLongKnownHits) return false;
   if ((a.position_m() - b.position_m()).norm() > 2.0 * kCarLengthM * config.size_scale) return false;
   const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFastestWalkMps;
   const Vector2d velocity_mps = 0.5 * (a.velocity_mps() + b.velocity_mps());
@@ -331,8 +334,8 @@ void Tracker::give_whole_segments(const ScanView& view) {
   costs.assign(tracks_.size(), segments.size(), association::kForbidden);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (std::size_t s = 0; s < segments.size(); ++s) {
-      costs(t, s) = pair_cost(tracks_[t].body, tracks_[t].estimate, segments[s], config_);
-      if (costs(t, s) != association::kForbidden && is_of_another_past(s, t, view)) costs(t, s) = association::kForbidden;
+      const double cost = pair_cost(tracks_[t].body, tracks_[t].estimate, segments[s], config_);
+      if (cost != association::kForbidden && !is_of_another_past(s, t, view)) costs(t, s) = cost;
     }
   if (config_.most_hypotheses > 1) give_to_rivals(view, costs);
   const std::vector<std::size_t>& segment_of_track = assigner_.assign(costs, kCostOfLeavingOut);
@@ -751,8 +754,9 @@ void Tracker::absorb(std::size_t a, std::size_t b) {
 /// Two ends of one vehicle, the middle of which is hidden or dark, are seen as two.
 void Tracker::join_pieces(const ScanView& view) {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
+    if (!is_long_known(tracks_[a]) || shares_.beams_of_track[a].empty()) continue;
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
-      if (a == b || tracks_[a].hits < tracks_[b].hits || tracks_[b].hits == 0 || shares_.beams_of_track[a].empty() || shares_.beams_of_track[b].empty()) continue;
+      if (a == b || tracks_[a].hits < tracks_[b].hits || !is_long_known(tracks_[b]) || shares_.beams_of_track[b].empty()) continue;
       if (!drive_as_one(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
       absorb(a, b);
       draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], swept_motion(tracks_[a]), tracks_[a].answers, view, config_.size_scale, points_m_), config_);
