@@ -62,6 +62,14 @@ ImmState predicted_over(double time_s, const Switching& switching, const ModelSe
   return {{predicted(0), predicted(1), predicted(2)}, probability};  // made in place: filling a state with zeros takes as long as a model
 }
 
+/// Step by step; states are a kilobyte each, and are not copied (imm_path in multiple_models_bench.cpp).
+void foretell(const ModelSet& set, const ImmState& state, double step_s, const Switching& switching, std::span<Gaussian<2>> path) {
+  if (path.empty()) return;
+  const ImmState next = predicted_over(step_s, switching, set, state);
+  path.front() = moment_match_position(modes_of(set, next), {next.probability.data(), set.size});
+  foretell(set, next, step_s, switching, path.subspan(1));
+}
+
 }  // namespace
 
 ImmState imm_start(const ModelSet& set, const MotionState& estimate) {
@@ -110,12 +118,8 @@ MotionState imm_combine(const ModelSet& set, const ImmState& state) {
   return moment_match(modes_of(set, state), {state.probability.data(), set.size});
 }
 
-void imm_foretell(const ModelSet& set, ImmState state, double step_s, std::span<Gaussian<2>> path) {
-  const Switching switching = switching_over(set, step_s);
-  for (Gaussian<2>& there : path) {
-    state = predicted_over(step_s, switching, set, state);
-    there = moment_match_position(modes_of(set, state), {state.probability.data(), set.size});
-  }
+void imm_foretell(const ModelSet& set, const ImmState& state, double step_s, std::span<Gaussian<2>> path) {
+  foretell(set, state, step_s, switching_over(set, step_s), path);
 }
 
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m) {

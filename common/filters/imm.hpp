@@ -48,7 +48,7 @@ MotionState imm_combine(const ModelSet& set, const ImmState& state);
 
 /// Fills the path with mean and covariance of the mixture's position after step_s, 2 step_s, ..., if nothing is measured: each step mixes and
 /// predicts as imm_predict does, so that what manoeuvres now may go on to, or cease.
-void imm_foretell(const ModelSet& set, ImmState state, double step_s, std::span<Gaussian<2>> path);
+void imm_foretell(const ModelSet& set, const ImmState& state, double step_s, std::span<Gaussian<2>> path);
 
 /// Moves every mode's position by the same known amount: the same object seen from another reference point.
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m);

@@ -47,12 +47,10 @@ double normal_density(double offset, double sigma) {
 
 double exceeded_share(double value, double mean, double sigma) { return 0.5 * std::erfc((value - mean) / (sigma * std::numbers::sqrt2)); }
 
-/// Of both sizes, if they are distributed like this. A heading that is a little off makes a body wider the longer it is.
+/// Of both sizes, if they are distributed like this.
 double log_fit(const KindOfBody& kind, const SizeEvidence& length, const SizeEvidence& width, double scale) {
-  constexpr double kHeadingErrorRad = 0.06;
-  const double width_sigma_m = std::hypot(kind.width_sigma_m, kHeadingErrorRad * kind.length_m);
   return kind.log_share + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, length, scale) +
-         log_likelihood_of_size(scale * kind.width_m, scale * width_sigma_m, width, scale);
+         log_likelihood_of_size(scale * kind.width_m, scale * kind.width_sigma_if_askew_m, width, scale);
 }
 
 std::size_t class_of_kind(Kind kind) { return kind == Kind::kBicycle ? kBicycle : kind == Kind::kCar ? kCar : kTruckOrBus; }

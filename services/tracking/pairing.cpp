@@ -34,13 +34,12 @@ bool is_furniture(const Segment& segment, const TrackingConfig& config) {
   return only_people_move(config) && segment.label != PointLabel::kMoving && segment.box_length_m > kWidestOfOneM;
 }
 
-double pair_cost(const Body& body, const filters::MotionState& motion, const Segment& segment, const TrackingConfig& config) {
+/// The cost of a pair that is not far apart.
+double near_pair_cost(const Body& body, const filters::MotionState& motion, const Segment& segment, const TrackingConfig& config) {
   if (is_backdrop(segment, config)) return association::kForbidden;
   if (!body.has_sides && is_furniture(segment, config)) return association::kForbidden;
   const Vector2d position_m = motion.mean.head<2>();
   const Vector2d to_middle_m = segment.centroid_in_odom_m - position_m;
-  const double farthest_m = config.widest_gate_m + 0.5 * (body.length.value_m + body.width.value_m);
-  if (to_middle_m.squaredNorm() > farthest_m * farthest_m) return association::kForbidden;  // most are, and need no root
   const double reach_m = config.widest_gate_m + 0.5 * std::hypot(body.length.value_m, body.width.value_m);
   if (to_middle_m.squaredNorm() > reach_m * reach_m) return association::kForbidden;
   const Vector2d residual_m = offset_from_box(body, position_m, 0.0, segment.centroid_in_odom_m);
@@ -55,6 +54,12 @@ double pair_cost(const Body& body, const filters::MotionState& motion, const Seg
   const double larger_cost = body.has_sides ? config.larger_body_cost_per_m * outgrown_m : 0.3 * outgrown_m;
   return distance2 + 0.5 * to_middle_m.squaredNorm() / (body_m * body_m) + std::log(std::sqrt(S.determinant()) / 0.01) +
          larger_cost + (segment.label == PointLabel::kMoving ? 0.0 : config.other_label_cost);
+}
+
+double pair_cost(const Body& body, const filters::MotionState& motion, const Segment& segment, const TrackingConfig& config) {
+  const double farthest_m = config.widest_gate_m + 0.5 * (body.length.value_m + body.width.value_m);
+  const bool is_far = (segment.centroid_in_odom_m - motion.mean.head<2>()).squaredNorm() > farthest_m * farthest_m;
+  return is_far ? association::kForbidden : near_pair_cost(body, motion, segment, config);  // most are, and need no root
 }
 
 }  // namespace slammot::tracking

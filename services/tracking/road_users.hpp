@@ -15,6 +15,7 @@ struct KindOfBody {
   Kind kind = Kind::kCar;
   double share = 0.0, length_m = 0.0, length_sigma_m = 0.0, width_m = 0.0, width_sigma_m = 0.0;
   double log_share = std::log(share);
+  double width_sigma_if_askew_m = std::hypot(width_sigma_m, 0.06 * length_m);  ///< A heading that is a little off makes a body wider the longer it is.
 };
 
 /// Those of real road users anywhere.

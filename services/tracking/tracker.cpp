@@ -230,6 +230,12 @@ bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std:
   return beyond > kMost;
 }
 
+/// Mostly without the root.
+bool is_longer(const Vector2d& way_m, double than_m) {
+  constexpr double kSurely = 1.0 + 1e-9;
+  return way_m.squaredNorm() > kSurely * than_m * than_m || way_m.norm() > than_m;
+}
+
 bool is_long_known(const Track& track) {
   constexpr int kLongKnownHits = 10;
   return track.confirmed && track.hits >= kLongKnownHits;
@@ -243,7 +249,7 @@ bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) 
   constexpr double kCarWidthM = 2.1;
   constexpr double kTruckLengthM = 8.2;
   constexpr double kTruckWidthM = 2.6;
-  if ((a.position_m() - b.position_m()).norm() > 2.0 * kCarLengthM * config.size_scale) return false;
+  if (is_longer(a.position_m() - b.position_m(), 2.0 * kCarLengthM * config.size_scale)) return false;
   const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFastestWalkMps;
   const Vector2d velocity_mps = 0.5 * (a.velocity_mps() + b.velocity_mps());
   const double speed_mps = velocity_mps.norm();
