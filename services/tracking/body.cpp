@@ -34,13 +34,11 @@ struct Shadow {
   double high_m = std::numeric_limits<double>::lowest();
   Edge low_edge = Edge::kOpen;   ///< Beyond the outermost point, where it is the first or last.
   Edge high_edge = Edge::kOpen;
-  double low_face_m = 0.0;       ///< Mean of the points on the outermost side.
-  double high_face_m = 0.0;
-  double low_across_m = 0.0;     ///< How far these points lie apart across the axis: a side does, the end of a flank does not.
-  double high_across_m = 0.0;
-  int low_count = 0;
-  int high_count = 0;
   int count = 0;
+  /// Of the outermost points towards the laser, the low ones or the high ones:
+  double face_m = 0.0;           ///< their mean,
+  double face_across_m = 0.0;    ///< how far they lie apart across the axis: a side does, the end of a flank does not.
+  int face_count = 0;
 };
 
 struct AxisMeasurement {
@@ -77,7 +75,8 @@ class SideMean {
   int middle_count_ = 0;
 };
 
-Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double face_depth_m) {
+/// Without its face.
+Shadow span_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis) {
   Shadow shadow;
   const std::size_t count = glimpse.points_m.size();
   std::size_t lowest = 0;
@@ -93,34 +92,31 @@ Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2
   };
   shadow.low_edge = edge_beside(lowest);
   shadow.high_edge = edge_beside(highest);
-  Spread low_across;
-  Spread high_across;
-  const auto across_of = [&](const Vector2d& point) { return axis.x() * point.y() - axis.y() * point.x(); };
-  for (const Vector2d& point : glimpse.points_m) {
-    const double s = axis.dot(point - centre_m);
-    if (s < shadow.low_m + face_depth_m) low_across.include(across_of(point));
-    if (s > shadow.high_m - face_depth_m) high_across.include(across_of(point));
-  }
-  SideMean low;
-  SideMean high;
-  for (const Vector2d& point : glimpse.points_m) {
-    const double s = axis.dot(point - centre_m);
-    if (s < shadow.low_m + face_depth_m) low.include(s, low_across.has_in_middle(across_of(point)));
-    if (s > shadow.high_m - face_depth_m) high.include(s, high_across.has_in_middle(across_of(point)));
-  }
-  shadow.low_across_m = low_across.width_m();
-  shadow.high_across_m = high_across.width_m();
-  shadow.low_face_m = low.mean_m();
-  shadow.high_face_m = high.mean_m();
-  shadow.low_count = low.count();
-  shadow.high_count = high.count();
   shadow.count = static_cast<int>(count);
   return shadow;
 }
 
+Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double face_depth_m) {
+  Shadow shadow = span_of(glimpse, centre_m, axis);
+  const double inwards = axis.dot(glimpse.laser_m - centre_m) < 0.0 ? 1.0 : -1.0;
+  const double behind_face_m = (inwards > 0.0 ? shadow.low_m : -shadow.high_m) + face_depth_m;
+  const auto across_of = [&](const Vector2d& point) { return axis.x() * point.y() - axis.y() * point.x(); };
+  Spread across;
+  for (const Vector2d& point : glimpse.points_m)
+    if (inwards * axis.dot(point - centre_m) < behind_face_m) across.include(across_of(point));
+  SideMean face;
+  for (const Vector2d& point : glimpse.points_m) {
+    const double s = axis.dot(point - centre_m);
+    if (inwards * s < behind_face_m) face.include(s, across.has_in_middle(across_of(point)));
+  }
+  shadow.face_m = face.mean_m();
+  shadow.face_across_m = across.width_m();
+  shadow.face_count = face.count();
+  return shadow;
+}
+
 Shadow mirrored(const Shadow& shadow) {
-  return {-shadow.high_m, -shadow.low_m, shadow.high_edge, shadow.low_edge,
-          -shadow.high_face_m, -shadow.low_face_m, shadow.high_across_m, shadow.low_across_m, shadow.high_count, shadow.low_count, shadow.count};
+  return {-shadow.high_m, -shadow.low_m, shadow.high_edge, shadow.low_edge, shadow.count, -shadow.face_m, shadow.face_across_m, shadow.face_count};
 }
 
 /// No body is smaller than what is seen of it; a single outlier does not make it larger.
@@ -177,9 +173,9 @@ struct AxisView {
   Size corner;                      ///< How deep the corners are.
 };
 
-/// Whether the low end is a side across the axis, and not where something hides the rest of a flank.
+/// Whether the end towards the laser is a side across the axis, and not where something hides the rest of a flank.
 bool is_side(const Shadow& shadow, const AxisView& view) {
-  return shadow.low_count >= 3 && shadow.low_across_m > view.least_side_m;
+  return shadow.face_count >= 3 && shadow.face_across_m > view.least_side_m;
 }
 
 /// How far a side goes on beyond its outermost echo without being answered, in the mean, and one sigma of that.
@@ -204,11 +200,11 @@ double end_variance_m2(const AxisView& view, const EndView& end, Edge edge) {
 
 /// The laser lies beyond the low side, which so looks at it; the high end is at the end of a flank, if that is in view.
 void note_sizes_from_low_side(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
-  const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
+  const double low_m = shadow.face_count >= 3 ? shadow.face_m : shadow.low_m;
   note_seen(evidence, shadow.high_m - low_m);
   const bool low_is_seen = shadow.low_edge == Edge::kOpen || is_side(shadow, view);
   const bool high_is_seen = flank_is_visible && shadow.high_edge != Edge::kHidden && view.high.spacing_m < view.clear_spacing_m &&
-                            shadow.count - shadow.low_count >= kFewestOnFlank;
+                            shadow.count - shadow.face_count >= kFewestOnFlank;
   if (low_is_seen && high_is_seen)  // the flank ends somewhere between its last echo and where the next one would be
     note_whole(evidence, {shadow.high_m + flat_beyond_m(view, view.high, shadow.high_edge) - low_m, flat_end_variance_m2(view, view.high, shadow.high_edge), view.high.missed_share}, view.scale);
 }
@@ -263,7 +259,7 @@ AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, con
   AxisMeasurement axis;
   if (may_end_anywhere(shadow, view) && !is_side(shadow, view) && flank_is_visible) return centre_from_few(size, shadow, view);
   if (shadow.low_edge != Edge::kHidden || is_side(shadow, view)) {
-    const double low_m = shadow.low_count >= 3 ? shadow.low_face_m : shadow.low_m;
+    const double low_m = shadow.face_count >= 3 ? shadow.face_m : shadow.low_m;
     axis.centre_m = low_m + 0.5 * size.value_m;
     axis.variance_m2 = is_side(shadow, view) ? view.face_variance_m2 : end_variance_m2(view, view.low, shadow.low_edge);
     axis.held = -1;
@@ -321,9 +317,8 @@ struct NearSide {
 
 std::optional<NearSide> near_side(const Size& size, const Shadow& shadow, const AxisView& view) {
   const double beyond_m = std::abs(view.laser_at_m) - 0.5 * size.value_m;
-  const bool is_low = view.laser_at_m < 0.0;
-  if (beyond_m < 0.0 || !(is_low ? is_side(shadow, view) : is_side(mirrored(shadow), mirrored(view)))) return std::nullopt;
-  return is_low ? NearSide{shadow.low_face_m, 1.0} : NearSide{shadow.high_face_m, -1.0};
+  if (beyond_m < 0.0 || !is_side(shadow, view)) return std::nullopt;
+  return NearSide{shadow.face_m, view.laser_at_m < 0.0 ? 1.0 : -1.0};
 }
 
 /// What one glimpse of both sides tells of the corner between them. None where its echoes are too far apart to tell.
@@ -594,7 +589,7 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
 Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config, const RoadUsers& road_users) {
   const auto span_along = [&](double heading_rad) {
     const Vector2d axis{std::cos(heading_rad), std::sin(heading_rad)};
-    const Shadow shadow = shadow_of(glimpse, glimpse.points_m.front(), axis, kFaceDepthM);
+    const Shadow shadow = span_of(glimpse, glimpse.points_m.front(), axis);
     return shadow.high_m - shadow.low_m;
   };
   constexpr double kQuarterRad = 0.5 * std::numbers::pi;
@@ -622,8 +617,8 @@ Vector2d supposed_centre_m(const Body& body, const Glimpse& glimpse) {
   const Vector2d along{std::cos(body.heading_rad), std::sin(body.heading_rad)};
   const Vector2d across{-along.y(), along.x()};
   const Vector2d origin_m = glimpse.points_m.front();
-  const Shadow u = shadow_of(glimpse, origin_m, along, kFaceDepthM);
-  const Shadow v = shadow_of(glimpse, origin_m, across, kFaceDepthM);
+  const Shadow u = span_of(glimpse, origin_m, along);
+  const Shadow v = span_of(glimpse, origin_m, across);
   const Vector2d middle_m = origin_m + 0.5 * (u.low_m + u.high_m) * along + 0.5 * (v.low_m + v.high_m) * across;
   const Vector2d sight_m = middle_m - glimpse.laser_m;
   const double unseen_along_m = std::max(0.0, body.length.value_m - (u.high_m - u.low_m));
