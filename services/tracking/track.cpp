@@ -53,6 +53,7 @@ Course course_of(const Track& track) {
 /// The modes in which the track now is.
 filters::ModelSet models_of(const Track& track, const TrackingConfig& config) {
   filters::ModelSet set = motion_models(config);
+  if (track.walks_on) set.size = 1;
   if (track.may_turn) set.models[set.size++] = {filters::MotionKind::kCoordinatedTurn, config.turn_noise_density, 0.0};
   return set;
 }
@@ -203,7 +204,7 @@ void steer(Track& track, double time_s, const TrackingConfig& config) {
 
 /// Gives sides to a blob that has become large.
 void draw_sides_when_known(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
-  if (track.body.has_sides || track.largest_extent_m < config.box_from_extent_m) return;
+  if (track.body.has_sides || track.largest_extent_m < config.box_from_extent_m || has_walked_far(track, config)) return;
   redraw(track, box_along_course(track, glimpse, config), glimpse, config);
 }
 
@@ -244,7 +245,14 @@ void remember_contour(Track& track, const Glimpse& glimpse) {
 
 /// Legs swing about the middle of who walks on them, the same way for many scans.
 bool walks(const Track& track) {
-  return !track.body.has_sides && track.largest_extent_m < 1.0 && track.velocity_mps().norm() < kFastestWalkMps;
+  return is_known_to_walk(track) || (!track.body.has_sides && track.largest_extent_m < 1.0 && track.velocity_mps().norm() < kFastestWalkMps);
+}
+
+/// Times which the noise of a centre so far off counts, if it is of somebody known to walk: they are given echoes of others now and
+/// then, and their errors have the tails of Student's t (Lange 1989, Section 3).
+double times_noise(double distance2) {
+  constexpr double kDegreesOfFreedom = 4.0;
+  return std::max(1.0, (kDegreesOfFreedom + distance2) / (kDegreesOfFreedom + 2.0));
 }
 
 /// Variances of a centre in the frame of its body.
@@ -511,6 +519,17 @@ filters::ModelSet motion_models(const TrackingConfig& config) {
   return set;
 }
 
+bool is_known_to_walk(const Track& track) {
+  constexpr int kLongKnownHits = 20;
+  constexpr double kSure = 0.9;
+  return track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.class_probability[0] > kSure;
+}
+
+bool has_walked_far(const Track& track, const TrackingConfig& config) {
+  constexpr double kFarM = 3.0;
+  return is_known_to_walk(track) && track.way_m > kFarM * config.size_scale;
+}
+
 double gait_variance_m2(double after_s, const TrackingConfig& config) {
   const double kept = std::exp(-after_s / config.gait_memory_s);
   return config.gait_noise_m * config.gait_noise_m * (1.0 + kept) / (1.0 - kept);
@@ -573,6 +592,7 @@ Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimps
 void predict(Track& track, double time_s, const TrackingConfig& config) {
   track.measured.reset();
   track.shifted_m.setZero();
+  track.walks_on = is_known_to_walk(track);
   track.may_turn = config.coordinated_turn && is_known_to_go_somewhere(track, config);
   const filters::ModelSet models = models_of(track, config);
   track.motion = filters::imm_predict(models, track.motion, time_s);
@@ -601,8 +621,9 @@ bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const M
   shift(track, measurement.recentring_m, models);
   filters::imm_loosen(models, track.motion, measurement.step_covariance_m2);
   track.body = measurement.body;
-  track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R).posterior;
-  track.measured = {measurement.centre_m, R};
+  const Matrix2d R_of_theirs = track.walks_on ? Matrix2d(times_noise(distance2) * R) : R;
+  track.motion = filters::imm_update(models, track.motion, measurement.centre_m, R_of_theirs).posterior;
+  track.measured = {measurement.centre_m, R_of_theirs};
   track.estimate = filters::imm_combine(models, track.motion);
   filters::MotionState moving = track.estimate;
   moving.covariance *= noise_at_rest_m2.trace() / R.trace();  // legs that stand do not swing
@@ -657,6 +678,7 @@ void restart_motion(Track& track, const Vector2d& velocity_mps, double sigma_mps
 void move_as(Track& track, const filters::MotionState& state, const TrackingConfig& config) {
   track.motion = filters::imm_start(motion_models(config), state);
   track.may_turn = false;
+  track.walks_on = false;
   track.estimate = state;
 }
 

@@ -131,7 +131,8 @@ struct Track {
   double range_m = 0.0;                      ///< From the laser, when it was last seen.
   double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
   double refused_s = 0.0;                    ///< For which its echoes have been too far from where it must be.
-  bool may_turn = false;                     ///< Whether turning is one of its modes; as of the last predict.
+  bool may_turn = false;                     ///< Whether turning is one of its modes,
+  bool walks_on = false;                     ///< and whether cruising is the only one; as of the last predict.
   Body body;
   double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
   bool confirmed = false;
@@ -184,6 +185,13 @@ constexpr double kKnownAxisRad2 = 0.02;
 
 /// Log-odds at which it is sure which side of a body is its flank: twenty to one.
 constexpr double kSureOdds = 3.0;
+
+/// Whether somebody is surely on foot, by the sizes and speeds that were seen of them until now: they go on to be for as long as the
+/// filter says that they fly. Decision 48.
+bool is_known_to_walk(const Track& track);
+
+/// Whether somebody known to walk has come so far that they are no part of something larger, and get no sides.
+bool has_walked_far(const Track& track, const TrackingConfig& config);
 
 /// Variance along each axis that the swing of the legs adds to a centre measured after_s (> 0) after the one before. The filter
 /// takes the errors of all scans for independent; these fade exponentially, and so the closer scans follow each other the more

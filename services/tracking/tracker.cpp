@@ -655,13 +655,14 @@ void Tracker::leave_out_surroundings(std::size_t index, double time_s, const Sca
   constexpr double kBelievedAfterS = 0.5;
   Track& track = tracks_[index];
   std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
-  const bool walks = track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps;
+  const bool is_sure = has_walked_far(track, config_);
+  const bool walks = is_sure || (track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps);
   if (!walks || beams.empty()) return;
-  const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + config_.gate_margin_m; };
+  const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + (is_sure ? 0.0 : config_.gate_margin_m); };
   const Ends ends = ends_of(beams, view.polar());
   const bool has_outgrown = (view.point_in_odom_m(ends.last) - view.point_in_odom_m(ends.first)).norm() > config_.box_from_extent_m;
   track.outgrown_s = has_outgrown ? track.outgrown_s + time_s : 0.0;
-  if (!has_outgrown || track.outgrown_s > kBelievedAfterS || std::ranges::none_of(beams, is_near)) return;
+  if (!has_outgrown || (!is_sure && track.outgrown_s > kBelievedAfterS) || std::ranges::none_of(beams, is_near)) return;
   std::erase_if(beams, [&](std::uint16_t beam) { return !is_near(beam); });
 }
 

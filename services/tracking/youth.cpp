@@ -100,6 +100,7 @@ void live_as(Track& track, const Life& life) {
   track.estimate = life.estimate;
   track.agreement = life.agreement;
   track.may_turn = false;
+  track.walks_on = false;
   track.birth_position_m += by_m;
   track.anchor_m += by_m;
   filters::move_stop_shift(track.move_stop, by_m);

@@ -510,5 +510,89 @@ TEST(Track, CountsHowFarEchoesLieOffItsSidesWhileItIsAVehicleThatIsConfirmed) {
   EXPECT_EQ(tentative.off_sides.scans, 0);
 }
 
+/// Followed for long, at 1.3 m/s along x, so far from the laser that lies beside their way.
+Track known_walker(double x_m, const TrackingConfig& config) {
+  Track track;
+  track.confirmed = true;
+  track.score = 5.0;
+  track.hits = 100;
+  track.way_m = 5.0;
+  track.body.length = {0.5, 0.01};
+  track.body.width = {0.5, 0.01};
+  track.body.was_seen_whole = true;
+  track.largest_extent_m = 0.5;
+  for (int i = 0; i < 150; ++i) track.speeds = with_speed(track.speeds, {1.3, 0.2, kPeriodS}, config);
+  track.class_probability = class_probabilities(track.body, track.speeds, config);
+  filters::MotionState motion;
+  motion.mean << x_m, 8.0, 1.3, 0.0, 0.0, 0.0;
+  motion.covariance = 0.02 * motion.covariance.Identity();
+  move_as(track, motion, config);
+  return track;
+}
+
+/// One scan later there are echoes of somebody, or of something this wide, about this place.
+void see(Track& track, const Eigen::Vector2d& middle_m, double width_m, const TrackingConfig& config) {
+  std::vector<Eigen::Vector2d> points_m;
+  for (int i = 0; i < 7; ++i) points_m.emplace_back(middle_m.x() + width_m * (i / 6.0 - 0.5), middle_m.y() - 0.1);
+  Glimpse glimpse;
+  glimpse.points_m = points_m;
+  glimpse.beam_step_rad = 0.009;
+  predict(track, kPeriodS, config);
+  ASSERT_TRUE(update(track, track.last_seen_ns + 27'000'000, glimpse, Eigen::Matrix2d::Zero(), config));
+}
+
+TEST(Track, OfOneKnownToWalkGoesOnThoughItIsGivenTheEchoesOfOneWhoComesTowardsThem) {
+  const TrackingConfig config;
+  Track track = known_walker(0.0, config);
+  for (int i = 0; i < 40; ++i) see(track, {1.3 * kPeriodS * (i + 1), 8.0}, 0.4, config);
+  ASSERT_TRUE(is_known_to_walk(track));
+  const double met_m = track.position_m().x();
+  for (int i = 0; i < 10; ++i) see(track, {met_m + 0.3 - 1.3 * kPeriodS * (i + 1), 7.6}, 0.4, config);
+  EXPECT_GT(track.velocity_mps().x(), 0.9);
+  EXPECT_LT(std::abs(track.velocity_mps().y()), 0.5);
+}
+
+TEST(Track, OfOneKnownToWalkFollowsThemWhenTheyStop) {
+  const TrackingConfig config;
+  Track track = known_walker(0.0, config);
+  for (int i = 0; i < 40; ++i) see(track, {1.3 * kPeriodS * (i + 1), 8.0}, 0.4, config);
+  const double stopped_m = 1.3 * kPeriodS * 40;
+  for (int i = 0; i < 40; ++i) see(track, {stopped_m, 8.0}, 0.4, config);
+  EXPECT_LT(track.velocity_mps().norm(), 0.3);
+  EXPECT_NEAR(track.position_m().x(), stopped_m, 0.2);
+}
+
+TEST(Track, OfOneKnownToWalkIsSomebodyWhoWalksThoughTheFilterSaysThatTheyFly) {
+  const TrackingConfig config;
+  const auto noise_m2 = [&](double speed_mps, bool is_known) {
+    Track track = known_walker(0.0, config);
+    track.hits = is_known ? 100 : 10;
+    track.motion.modes[0].mean[2] = track.motion.modes[1].mean[2] = speed_mps;
+    see(track, {speed_mps * kPeriodS, 8.0}, 0.4, config);
+    return track.measured->R(0, 0);
+  };
+  EXPECT_LT(noise_m2(3.5, false), 0.3 * noise_m2(1.3, false)) << "no legs swing at that speed";
+  EXPECT_NEAR(noise_m2(3.5, true), noise_m2(1.3, true), 0.01);
+}
+
+TEST(Track, OfOneKnownToWalkGoesOnAtTheirVelocityWhileHidden) {
+  const TrackingConfig config;
+  Track track = known_walker(0.0, config);
+  for (filters::MotionState& mode : track.motion.modes) mode.mean[4] = -1.5;  // as if they were about to turn round
+  for (int i = 0; i < 37; ++i) predict(track, kPeriodS, config);
+  EXPECT_NEAR(track.velocity_mps().x(), 1.3, 0.05);
+}
+
+TEST(Track, OfOneWhoHasWalkedFarGetsNoSides) {
+  const TrackingConfig config;
+  Track track = known_walker(0.0, config);
+  Track other = track;
+  other.way_m = 1.0;
+  see(track, {1.3 * kPeriodS, 8.0}, 1.5, config);
+  see(other, {1.3 * kPeriodS, 8.0}, 1.5, config);
+  EXPECT_FALSE(track.body.has_sides);
+  EXPECT_TRUE(other.body.has_sides) << "may be a part of something";
+}
+
 }  // namespace
 }  // namespace slammot::tracking
