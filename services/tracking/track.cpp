@@ -377,7 +377,10 @@ Eigen::DiagonalMatrix<double, 4> with_own_errors(const Track& track, const Track
     const double share = echo_share(track, config);
     return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
   }
-  const double share = walks(track) ? swing_share(track, config) : 1.0;
+  const double of_noise = walks(track) ? std::pow(swing_share(track, config), 2) : 1.0;
+  // In the steady state of cruising a quarter of the variance is of what they may have done since, however little they swing.
+  constexpr double kOfMotion = 0.25;
+  const double share = std::sqrt(track.walks_on ? std::max(of_noise, kOfMotion + (1.0 - kOfMotion) * of_noise) : of_noise);
   return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
 }
 
@@ -421,6 +424,15 @@ bool echoes_lie_off_sides(const Track& track, const TrackingConfig& config) {
 bool is_no_such_body(const Track& track, const TrackingConfig& config) {
   constexpr double kMostSurprise2 = 2.5;  // of two in the mean where the prediction is as good as it says
   return echoes_lie_off_sides(track, config) && track.agreement.surprise2 > kMostSurprise2;
+}
+
+/// Whether a vehicle whose velocity was unknown a moment ago comes from elsewhere than it should: what came out may be another one.
+bool is_doubted(const Track& track) {
+  constexpr double kMostSurprise2 = 4.0;  // twice what is expected
+  constexpr std::int64_t kLongestNs = 1'000'000'000;
+  const bool is_vehicle = track.body.has_sides && track.body.kind != Kind::kBicycle;
+  const bool is_known_again = track.known_since_ns != 0 && track.last_seen_ns - track.known_since_ns < kLongestNs;
+  return is_vehicle && is_known_again && track.agreement.surprise2 > kMostSurprise2;
 }
 
 /// Where it was when it was first seen. What it was held to be then may have told nothing of where its middle is: the oldest glimpse
@@ -754,6 +766,10 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
          is_surely_fast(track, config) && !echoes_lie_off_sides(track, config) && (has_arrived || has_travelled(track, config));
 }
 
+bool has_published_velocity(const Track& track, const TrackingConfig& config) {
+  return speed_sigma_mps(track) <= config.most_speed_sigma_published_mps;
+}
+
 bool is_given_up(const Track& track, double age_s, const TrackingConfig& config) {
   constexpr double kTimesIfMoving = 2.0;
   if (track.confirmed || age_s <= config.longest_tentative_s) return false;
@@ -782,7 +798,7 @@ flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const T
   // people move it is the foot on which somebody stands while the other swings.
   const bool may_always_have_stood = !only_people_move(config) && track.way_m == 0.0 && (track.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps);
   object.confirmed = track.confirmed && !track.is_refuted && !may_always_have_stood && track.score >= config.publish_score &&
-                     speed_sigma_mps(track) <= config.most_speed_sigma_published_mps &&
+                     has_published_velocity(track, config) && !is_doubted(track) &&
                      unseen_s <= config.longest_unseen_published_s;
   object.existence = existence_of(track.score);
   const filters::MotionState estimate = filters::estimate_of(track.move_stop, track.estimate);

@@ -153,6 +153,7 @@ struct Track {
   Eigen::Vector2d anchor_m = Eigen::Vector2d::Zero();  ///< Where it last got away from;
   double claimed_m = 0.0;                    ///< the way that it says to have gone since.
   bool is_refuted = false;                   ///< Earlier scans do not agree with its velocity.
+  std::int64_t known_since_ns = 0;           ///< When its velocity was last known again, after it was too little known to be published.
   Answers answers;
   double echoes = 0.0;                       ///< A scan, in the last moments.
   double mapped_share = 0.0;                 ///< Of the last moments, in which its echoes came from where the map has something.
@@ -220,6 +221,9 @@ void predict(Track& track, double time_s, const TrackingConfig& config);
 /// heading changed, where they are too far from where a confirmed track must be.
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
             const TrackingConfig& config);
+
+/// Whether the velocity is known well enough to be published.
+bool has_published_velocity(const Track& track, const TrackingConfig& config);
 
 /// It is something, and moves: what it is follows from the speed that it has, too.
 void confirm(Track& track, std::int64_t stamp_ns, const TrackingConfig& config);

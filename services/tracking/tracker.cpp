@@ -604,8 +604,8 @@ MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) con
   return best;
 }
 
-/// Holds the velocity of a young track against what earlier scans saw: ends that come into view, or echoes that another track
-/// takes, make a body seem to fly.
+/// Holds the velocity of a track that is young, or known again, against what earlier scans saw: ends that come into view, echoes that
+/// another track takes, or those of another vehicle that comes by where this was hidden, make a body seem to fly.
 void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const ScanView& view) {
   constexpr double kYoungS = 2.0;
   constexpr double kLongEnoughS = 0.35;     // for what earlier scans did not see well
@@ -616,9 +616,10 @@ void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const Sc
   Track& track = tracks_[index];
   track.is_refuted = false;
   const double age_s = static_cast<double>(view.scan().stamp_ns - track.first_seen_ns) * kNanosecond_s;
+  const double known_s = static_cast<double>(view.scan().stamp_ns - std::max(track.first_seen_ns, track.known_since_ns)) * kNanosecond_s;
   const Vector2d velocity_mps = track.velocity_mps();
   const bool is_fast = velocity_mps.norm() > kSlowMps;
-  if (age_s > kYoungS || (!track.body.has_sides && !is_fast)) return;
+  if (known_s > kYoungS || (!track.body.has_sides && !is_fast)) return;
   const Vector2d along = track.body.has_sides ? Vector2d(std::cos(track.body.heading_rad), std::sin(track.body.heading_rad)) : Vector2d(velocity_mps.normalized());
   const double speed_mps = velocity_mps.dot(along);
   const double across_mps = (velocity_mps - speed_mps * along).norm();
@@ -720,7 +721,10 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
   }
   track.answers = with_answers(track.answers, beams.size(), gaps_between(beams, view.polar()), time_s);
   const Glimpse glimpse = glimpse_of(beams, swept_motion(track), track.answers, view, config_.size_scale, glimpse_points_m_[index]);
+  const bool was_known = has_published_velocity(track, config_);
   if (!takes(index, glimpse, time_s, view.scan())) return Outcome::kIsOfSomethingElse;
+  const bool is_known_again = track.confirmed && !was_known && has_published_velocity(track, config_);
+  if (is_known_again) track.known_since_ns = view.scan().stamp_ns;
   if (!track.confirmed) track.youth_echoes = with_echoes(track.youth_echoes, beams, view);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (track.confirmed && is_vehicle(track)) {
@@ -738,7 +742,7 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
   }
   const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
   constexpr int kHitsBetweenChecks = 5;
-  if (may_be_confirmed || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);
+  if (may_be_confirmed || is_known_again || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);
   return may_be_confirmed && !track.is_refuted && has_proven_to_move(track, config_) ? Outcome::kIsConfirmed : Outcome::kGoesOn;
 }
 

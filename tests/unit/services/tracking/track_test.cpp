@@ -58,6 +58,8 @@ TEST(Gait, IsInThePublishedCovarianceAsFarAsItIsSeen) {
   const Eigen::Matrix4d by_a_coat = described(track, 0, config).covariance;
   EXPECT_NEAR(by_legs(0, 0) - by_a_coat(0, 0), 0.75 * 0.01, 1e-9);
   EXPECT_EQ(by_legs(2, 2), by_a_coat(2, 2));
+  track.walks_on = true;
+  EXPECT_NEAR(by_legs(0, 0) - described(track, 0, config).covariance(0, 0), 0.75 * 0.75 * 0.01, 1e-9) << "the rest is of how they move";
 }
 
 /// Followed for so long, to be a person in a coat, of whom less swings than the settings take for it.
@@ -119,6 +121,17 @@ TEST(Track, IsFollowedButNotPublishedWhileItsVelocityIsHardlyKnown) {
 
 /// One sigma of the published centre, across the heading.
 double sigma_across_m(const Track& track) { return std::sqrt(described(track, 0, TrackingConfig()).covariance(1, 1)); }
+
+TEST(Track, WhoseVelocityWasUnknownIsNotPublishedWhileItComesFromElsewhereThanItShould) {
+  const TrackingConfig config;
+  Track track = followed_car();
+  track.agreement.surprise2 = 6.0;
+  EXPECT_TRUE(described(track, 0, config).confirmed) << "it has been seen all the time";
+  track.known_since_ns = 1;
+  EXPECT_FALSE(described(track, 0, config).confirmed);
+  track.agreement.surprise2 = 3.0;
+  EXPECT_TRUE(described(track, 0, config).confirmed);
+}
 
 TEST(Track, IsPublishedWithWhatItsHeadingDoesToTheCentreBehindTheSidesThatAreSeen) {
   Track track = followed_car();

@@ -266,6 +266,28 @@ TEST(Tracker, TakesAWallBesideSomeoneWhoWalksForNoPartOfThem) {
   EXPECT_LT((play.confirmed().front().position_in_odom_m - Vector2(14.3, -3.0 + 1.4 * (play.now_s() - kPeriodS))).norm(), 0.4);
 }
 
+TEST(Tracker, DoesNotPublishTheVelocityOfOneForAnotherThatComesOutWhereItWasHidden) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    street.known = {kWall};
+    street.unknown = {{{16.0, -9.0 + 6.0 * t, M_PI / 2.0}}};
+    if (t > 1.5) street.known = {kWall, {{9.0, 3.0, M_PI / 2.0}, 14.0, 2.0}};
+    if (t > 1.5) street.unknown = {};
+    if (t > 2.4) street.known = {kWall};
+    if (t > 2.4) street.unknown = {{{16.0, 9.3 - 5.0 * (t - 2.4), -M_PI / 2.0}}};  // it has turned off; one comes towards
+  };
+  play.run(1.4, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.y(), 6.0, 1.0);
+  play.run(1.0, scene);
+  int wrong = 0;
+  for (int i = 0; i < 30; ++i) {
+    play.step(scene);
+    for (const flow::TrackedObject& object : play.confirmed()) wrong += object.velocity_in_odom_mps.y() > 0.0 ? 1 : 0;
+  }
+  EXPECT_LE(wrong, 3);
+}
+
 TEST(Tracker, TakesTheWallBehindWhichSomeoneDisappearsForNoPartOfThem) {
   Play play;
   const auto scene = [](Street& street, double t) {
