@@ -249,7 +249,7 @@ bool walks(const Track& track) {
 }
 
 /// Times which the noise of a centre so far off counts, if it is of somebody known to walk: they are given echoes of others now and
-/// then, and their errors have the tails of Student's t (Lange 1989, Section 3).
+/// then, and their errors have the tails of Student's t, whose weight for a centre is the inverse of this (Lange 1989).
 double times_noise(double distance2) {
   constexpr double kDegreesOfFreedom = 4.0;
   return std::max(1.0, (kDegreesOfFreedom + distance2) / (kDegreesOfFreedom + 2.0));
