@@ -156,6 +156,7 @@ std::vector<std::size_t> Rivals::decide(std::vector<Track>& tracks, const ScanVi
     if (measurement != kUnassigned) segment_of_track[t] = scan.segment_of(measurement);
     if (!hypotheses_.is_revised(track.track_id.value)) continue;
     track.motion = hypotheses_.best(track.track_id.value).predicted;
+    track.walks_on = false;  // the hypotheses have all modes
     track.estimate = filters::imm_combine(motion_models(config_), track.motion);
   }
   return segment_of_track;
