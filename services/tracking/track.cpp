@@ -377,10 +377,7 @@ Eigen::DiagonalMatrix<double, 4> with_own_errors(const Track& track, const Track
     const double share = echo_share(track, config);
     return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
   }
-  const double of_noise = walks(track) ? std::pow(swing_share(track, config), 2) : 1.0;
-  // In the steady state of cruising a quarter of the variance is of what they may have done since, however little they swing.
-  constexpr double kOfMotion = 0.25;
-  const double share = std::sqrt(track.walks_on ? std::max(of_noise, kOfMotion + (1.0 - kOfMotion) * of_noise) : of_noise);
+  const double share = walks(track) ? swing_share(track, config) : 1.0;
   return Eigen::DiagonalMatrix<double, 4>(share, share, 1.0, 1.0);
 }
 
