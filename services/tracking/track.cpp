@@ -763,6 +763,11 @@ bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
          is_surely_fast(track, config) && !echoes_lie_off_sides(track, config) && (has_arrived || has_travelled(track, config));
 }
 
+const Track* drawn_wrong(const Track& a, const Track& b, const TrackingConfig& config) {
+  if (!a.body.has_sides || !b.body.has_sides || is_no_such_body(a, config) == is_no_such_body(b, config)) return nullptr;
+  return is_no_such_body(a, config) ? &a : &b;
+}
+
 bool has_published_velocity(const Track& track, const TrackingConfig& config) {
   return speed_sigma_mps(track) <= config.most_speed_sigma_published_mps;
 }

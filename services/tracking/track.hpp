@@ -222,6 +222,10 @@ void predict(Track& track, double time_s, const TrackingConfig& config);
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
             const TrackingConfig& config);
 
+/// The one of two bodies with sides of which the echoes neither lie on its sides nor come from where it was predicted, if those of
+/// the other do: of two that are drawn over each other the wrong one, however old. Null if neither or both are so.
+const Track* drawn_wrong(const Track& a, const Track& b, const TrackingConfig& config);
+
 /// Whether the velocity is known well enough to be published.
 bool has_published_velocity(const Track& track, const TrackingConfig& config);
 

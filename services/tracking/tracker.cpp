@@ -276,6 +276,7 @@ bool is_worth_more(const Track& a, const Track& b, const TrackingConfig& config)
   };
   if (is_of_crumbs(a, b)) return false;
   if (is_of_crumbs(b, a)) return true;
+  if (const Track* wrong = drawn_wrong(a, b, config)) return wrong == &b;
   if (a.confirmed != b.confirmed) return a.confirmed;
   return a.track_id < b.track_id;
 }

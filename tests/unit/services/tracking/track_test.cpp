@@ -108,6 +108,25 @@ Track followed_car() {
   return track;
 }
 
+/// A car drawn where its echoes are not.
+Track misdrawn_car() {
+  Track track = followed_car();
+  track.agreement = {0.4, 9.0, 10.0};
+  return track;
+}
+
+TEST(Track, IsWrongOfTwoDrawnOverEachOtherIfItsEchoesAreNotWhereItIs) {
+  const TrackingConfig config;
+  const Track right = followed_car();
+  const Track wrong = misdrawn_car();
+  EXPECT_EQ(drawn_wrong(right, wrong, config), &wrong);
+  EXPECT_EQ(drawn_wrong(wrong, right, config), &wrong);
+  EXPECT_EQ(drawn_wrong(right, right, config), nullptr);
+  EXPECT_EQ(drawn_wrong(wrong, wrong, config), nullptr);
+  Track small;
+  EXPECT_EQ(drawn_wrong(wrong, small, config), nullptr) << "what has no sides may be an echo of anything";
+}
+
 TEST(Track, IsFollowedButNotPublishedWhileItsVelocityIsHardlyKnown) {
   const TrackingConfig config;
   Track track = followed_car();
