@@ -76,7 +76,7 @@ struct LocalizerConfig {
   matching::PointToLineConfig match;
   AmbiguousMatchConfig ambiguous;
   /// Of published covariances; measured by NEES on simulated drives: docs/decisions/0022. What is ahead stays in view for long, what is beside does not.
-  sensing::PoseErrors pose_errors{.forward = {0.57, 0.0475, 8.0}, .sideways = {0.57, 0.00855, 2.0}, .heading = {1.615, 0.00494, 1.0}};
+  sensing::PoseErrors pose_errors{.forward = {0.6, 0.05, 8.0}, .sideways = {0.6, 0.009, 2.0}, .heading = {1.7, 0.0052, 1.0}};
 };
 
 /// What happened so far; all grow only.
