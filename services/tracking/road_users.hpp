@@ -20,9 +20,9 @@ struct KindOfBody {
 
 /// Those of real road users anywhere.
 inline const std::array<KindOfBody, 4> kKinds = {{{Kind::kBicycle, 0.14, 1.75, 0.2, 0.65, 0.15},
-                                                      {Kind::kCar, 0.75, 4.4, 0.4, 1.8, 0.12},
-                                                      {Kind::kTruck, 0.07, 7.0, 1.2, 2.35, 0.2},
-                                                      {Kind::kBus, 0.04, 12.0, 1.2, 2.5, 0.12}}};
+                                                  {Kind::kCar, 0.75, 4.4, 0.4, 1.8, 0.12},
+                                                  {Kind::kTruck, 0.07, 7.0, 1.2, 2.35, 0.2},
+                                                  {Kind::kBus, 0.04, 12.0, 1.2, 2.5, 0.12}}};
 
 /// A size of a body: how long or wide it is believed to be.
 struct Size {

@@ -427,9 +427,8 @@ bool is_no_such_body(const Track& track, const TrackingConfig& config) {
 bool is_doubted(const Track& track) {
   constexpr double kMostSurprise2 = 4.0;  // twice what is expected
   constexpr std::int64_t kLongestNs = 1'000'000'000;
-  const bool is_vehicle = track.body.has_sides && track.body.kind != Kind::kBicycle;
   const bool is_known_again = track.known_since_ns != 0 && track.last_seen_ns - track.known_since_ns < kLongestNs;
-  return is_vehicle && is_known_again && track.agreement.surprise2 > kMostSurprise2;
+  return is_vehicle(track) && is_known_again && track.agreement.surprise2 > kMostSurprise2;
 }
 
 /// Where it was when it was first seen. What it was held to be then may have told nothing of where its middle is: the oldest glimpse
@@ -527,6 +526,8 @@ filters::ModelSet motion_models(const TrackingConfig& config) {
   set.mean_stay_s = config.mean_stay_s;
   return set;
 }
+
+bool is_vehicle(const Track& track) { return track.body.has_sides && track.body.kind != Kind::kBicycle; }
 
 bool is_known_to_walk(const Track& track) {
   constexpr int kLongKnownHits = 20;
@@ -888,8 +889,8 @@ void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
 
 void note_off_sides(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config) {
   constexpr int kFewestScans = 20;
-  const bool is_vehicle = track.confirmed && track.body.has_sides && track.body.is_oriented && track.body.kind != Kind::kBicycle;
-  if (!is_vehicle || only_people_move(config) || track.way_m < kLeastWayM * config.size_scale || track.off_sides.scans < kFewestScans) return;
+  const bool is_known_vehicle = track.confirmed && is_vehicle(track) && track.body.is_oriented;
+  if (!is_known_vehicle || only_people_move(config) || track.way_m < kLeastWayM * config.size_scale || track.off_sides.scans < kFewestScans) return;
   seen.add_off_sides_share(track.off_sides.shares / track.off_sides.echoes);
 }
 

@@ -187,6 +187,9 @@ constexpr double kKnownAxisRad2 = 0.02;
 /// Log-odds at which it is sure which side of a body is its flank: twenty to one.
 constexpr double kSureOdds = 3.0;
 
+/// Whether it has sides, and is no bicycle.
+bool is_vehicle(const Track& track);
+
 /// Whether somebody is surely on foot, by the sizes and speeds that were seen of them until now: they go on to be for as long as the
 /// filter says that they fly. Decision 48.
 bool is_known_to_walk(const Track& track);

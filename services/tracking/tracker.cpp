@@ -158,8 +158,6 @@ void predict_to_its_beam(Track& track, double time_s, const PolarView& view, con
   predict(track, std::max(0.0, time_s + track.after_stamp_s - before_s), config);
 }
 
-bool is_vehicle(const Track& track) { return track.body.has_sides && track.body.kind != Kind::kBicycle; }
-
 /// Share of b's box that lies in a's.
 double overlap_share(const Track& a, const Track& b) {
   constexpr int kAlong = 7;
