@@ -57,4 +57,7 @@ def main(copy, result, from_s):
 if __name__ == "__main__":
     if len(sys.argv) != 4:
         sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2], float(sys.argv[3]))
+    try:
+        main(sys.argv[1], sys.argv[2], float(sys.argv[3]))
+    except OSError as fault:
+        sys.exit(f"{fault.filename}: {fault.strerror}")

@@ -13,6 +13,7 @@ import bisect
 import gzip
 import math
 import pathlib
+import sys
 
 POSES = (-14, -11)  # words of a ROBOTLASER1 line where x (m), y (m) and heading (rad) of the laser and of the robot begin
 STAMPS = (-3, -1)  # words that hold the stamp (s)
@@ -127,4 +128,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except OSError as fault:
+        sys.exit(f"{fault.filename}: {fault.strerror}")
