@@ -63,7 +63,8 @@ VarianceFactors published(const VarianceFactors& factors, const PoseErrors& erro
   for (int axis = 0; axis < 3; ++axis) {
     const AxisError& error = *of_axis[axis];
     const double renewed = change.way_m / (change.way_m + error.view_m);
-    const double matched = error.of_surprises * factors.of_axis[axis] + error.of_map * renewed * change.squared_residuals;
+    const double of_map = error.of_surprises * factors.of_axis[axis] + error.of_map * change.squared_residuals;
+    const double matched = error.of_scan * change.squared_residuals + renewed * of_map;
     next.of_axis[axis] = matched + factors.dead_reckoned[axis] * (1.0 - matched);
   }
   return next;

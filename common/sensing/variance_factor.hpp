@@ -27,11 +27,12 @@ VarianceFactors learned(const VarianceFactors& factors, const geometry::Uncertai
 VarianceFactors carried(const VarianceFactors& factors, const geometry::UncertainPose2& before, const geometry::UncertainPose2& predicted,
                         const geometry::UncertainPose2& matched);
 
-/// How one axis of a published pose errs, beside what surprises of matches show. They cannot show what the map shares with the scan: as long as the
-/// same part of the map is in view its error stays the same and is none of the motion; with the way, another part comes into view.
+/// How one axis of a published pose errs, as shares of the filter's variance. What scan and map have in common stays the same as long as the same part of
+/// the map is in view, and is none of the motion; with the way, another part comes into view. What each scan has of its own is there at any way.
 struct AxisError {
-  double of_surprises = 1.0;  ///< Share of what surprises say.
-  double of_map = 0.0;        ///< Share of the filter's variance by which another part of the map is off, where residuals are the scanner's noise.
+  double of_scan = 0.0;       ///< By which each scan is off, where residuals are the scanner's noise.
+  double of_surprises = 1.0;  ///< Times what surprises of matches say, by which another part of the map is off,
+  double of_map = 0.0;        ///< and by which it is besides, where residuals are the scanner's noise: they cannot show what the map shares with the scan.
   double view_m = 1.0;        ///< After this way half of what tells of the axis is another part.
 };
 

@@ -89,28 +89,28 @@ TEST(DeadReckonedShare, IsOfTheWayAheadOnlyWhereNothingIsMatched) {
   EXPECT_EQ(factors.dead_reckoned.z(), 0.0);
 }
 
-constexpr PoseErrors kErrors{.forward = {2.0, 0.1, 8.0}, .sideways = {1.0, 0.02, 2.0}, .heading = {3.0, 0.03, 1.0}};
+constexpr PoseErrors kErrors{.forward = {0.2, 2.0, 0.1, 8.0}, .sideways = {0.1, 1.0, 0.02, 2.0}, .heading = {0.3, 3.0, 0.03, 1.0}};
+const VarianceFactors kSurprised{.of_axis = {0.01, 0.02, 0.03}};
+const VarianceFactors kNotSurprised{.of_axis = Eigen::Vector3d::Zero()};
 
-TEST(PublishedFactors, AreThoseOfSurprisesWhereTheSameMapStaysInView) {
-  const VarianceFactors factors{.of_axis = {0.01, 0.02, 0.03}};
-  EXPECT_TRUE(published(factors, kErrors, {.way_m = 0.0, .squared_residuals = 5.0}).of_axis.isApprox(Eigen::Vector3d(0.02, 0.02, 0.09)));
+TEST(PublishedFactors, AreThoseOfEachScanWhereTheSameMapStaysInView) {
+  EXPECT_TRUE(published(kSurprised, kErrors, {.way_m = 0.0}).of_axis.isApprox(Eigen::Vector3d(0.2, 0.1, 0.3)));
 }
 
 TEST(PublishedFactors, GrowWithTheWayUntilAllThatIsInViewIsAnotherPartOfTheMap) {
-  const VarianceFactors exact{.of_axis = Eigen::Vector3d::Zero()};
-  EXPECT_TRUE(published(exact, kErrors, {.way_m = 8.0}).of_axis.isApprox(Eigen::Vector3d(0.1 / 2.0, 0.02 * 0.8, 0.03 * 8.0 / 9.0)));
-  EXPECT_TRUE(published(exact, kErrors, {.way_m = 1e9}).of_axis.isApprox(Eigen::Vector3d(0.1, 0.02, 0.03), 1e-6));
+  const Eigen::Vector3d of_scan(0.2, 0.1, 0.3);
+  EXPECT_TRUE(published(kSurprised, kErrors, {.way_m = 8.0}).of_axis.isApprox(of_scan + Eigen::Vector3d(0.12 / 2.0, 0.04 * 0.8, 0.12 * 8.0 / 9.0)));
+  EXPECT_TRUE(published(kSurprised, kErrors, {.way_m = 1e9}).of_axis.isApprox(of_scan + Eigen::Vector3d(0.12, 0.04, 0.12), 1e-6));
 }
 
 TEST(PublishedFactors, GrowWithWhatTheMatchLeaves) {
-  const VarianceFactors exact{.of_axis = Eigen::Vector3d::Zero()};
-  const Eigen::Vector3d well = published(exact, kErrors, {.way_m = 3.0, .squared_residuals = 1.0}).of_axis;
-  EXPECT_TRUE(published(exact, kErrors, {.way_m = 3.0, .squared_residuals = 4.0}).of_axis.isApprox(4.0 * well));
+  const Eigen::Vector3d well = published(kNotSurprised, kErrors, {.way_m = 3.0, .squared_residuals = 1.0}).of_axis;
+  EXPECT_TRUE(published(kNotSurprised, kErrors, {.way_m = 3.0, .squared_residuals = 4.0}).of_axis.isApprox(4.0 * well));
 }
 
 TEST(PublishedFactors, AreOneForWhatWasDeadReckoned) {
   const VarianceFactors factors{.of_axis = {0.01, 0.02, 0.03}, .dead_reckoned = {0.25, 1.0, 0.0}};
-  EXPECT_TRUE(published(factors, kErrors, {}).of_axis.isApprox(Eigen::Vector3d(0.75 * 0.02 + 0.25, 1.0, 0.09)));
+  EXPECT_TRUE(published(factors, kErrors, {}).of_axis.isApprox(Eigen::Vector3d(0.75 * 0.2 + 0.25, 1.0, 0.3)));
 }
 
 }  // namespace
