@@ -204,7 +204,7 @@ void steer(Track& track, double time_s, const TrackingConfig& config) {
 
 /// Gives sides to a blob that has become large.
 void draw_sides_when_known(Track& track, const Glimpse& glimpse, const TrackingConfig& config) {
-  if (track.body.has_sides || track.largest_extent_m < config.box_from_extent_m || has_walked_far(track, config)) return;
+  if (track.body.has_sides || track.largest_extent_m < config.box_from_extent_m || is_known_to_walk(track)) return;
   redraw(track, box_along_course(track, glimpse, config), glimpse, config);
 }
 
@@ -533,11 +533,6 @@ bool is_known_to_walk(const Track& track) {
   constexpr int kLongKnownHits = 20;
   constexpr double kSure = 0.9;
   return track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.class_probability[0] > kSure;
-}
-
-bool has_walked_far(const Track& track, const TrackingConfig& config) {
-  constexpr double kFarM = 3.0;
-  return is_known_to_walk(track) && track.way_m > kFarM * config.size_scale;
 }
 
 double gait_variance_m2(double after_s, const TrackingConfig& config) {

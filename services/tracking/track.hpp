@@ -191,11 +191,8 @@ constexpr double kSureOdds = 3.0;
 bool is_vehicle(const Track& track);
 
 /// Whether somebody is surely on foot, by the sizes and speeds that were seen of them until now: they go on to be for as long as the
-/// filter says that they fly. Decision 48.
+/// filter says that they fly (decision 48), and get no sides: what is larger around them is company, or a wall (decision 51).
 bool is_known_to_walk(const Track& track);
-
-/// Whether somebody known to walk has come so far that they are no part of something larger, and get no sides.
-bool has_walked_far(const Track& track, const TrackingConfig& config);
 
 /// Variance along each axis that the swing of the legs adds to a centre measured after_s (> 0) after the one before. The filter
 /// takes the errors of all scans for independent; these fade exponentially, and so the closer scans follow each other the more

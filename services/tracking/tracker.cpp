@@ -11,6 +11,7 @@
 
 #include "common/association/assignment.hpp"
 #include "common/sensing/box_fit.hpp"
+#include "services/tracking/duplicates.hpp"
 #include "services/tracking/face_shift.hpp"
 #include "services/tracking/pairing.hpp"
 #include "services/tracking/speed_evidence.hpp"
@@ -158,57 +159,6 @@ void predict_to_its_beam(Track& track, double time_s, const PolarView& view, con
   predict(track, std::max(0.0, time_s + track.after_stamp_s - before_s), config);
 }
 
-/// Share of b's box that lies in a's.
-double overlap_share(const Track& a, const Track& b) {
-  constexpr int kAlong = 7;
-  constexpr int kAcross = 3;
-  const double reach_m = 0.5 * (a.body.length.value_m + a.body.width.value_m + b.body.length.value_m + b.body.width.value_m);
-  if ((a.position_m() - b.position_m()).squaredNorm() > reach_m * reach_m) return 0.0;
-  const Vector2d along = b.body.length.value_m * Vector2d(std::cos(b.body.heading_rad), std::sin(b.body.heading_rad));
-  const Vector2d across = b.body.width.value_m * Vector2d(-std::sin(b.body.heading_rad), std::cos(b.body.heading_rad));
-  int inside = 0;
-  for (int i = 0; i < kAlong; ++i)
-    for (int j = 0; j < kAcross; ++j) {
-      const Vector2d point_m = b.position_m() + ((i + 0.5) / kAlong - 0.5) * along + ((j + 0.5) / kAcross - 0.5) * across;
-      inside += is_in_box(a.body, a.position_m(), 0.0, point_m) ? 1 : 0;
-    }
-  return static_cast<double>(inside) / (kAlong * kAcross);
-}
-
-/// Whether the small thing is a piece of the vehicle's side.
-bool is_piece_of(const Track& vehicle, const Track& piece, const TrackingConfig& config) {
-  constexpr double kMostEchoesShare = 0.25;
-  constexpr double kMovingMps = 2.0;
-  if (!is_vehicle(vehicle) || is_vehicle(piece) || !vehicle.confirmed || piece.echoes > kMostEchoesShare * vehicle.echoes) return false;
-  if (vehicle.velocity_mps().norm() < kMovingMps || (vehicle.velocity_mps() - piece.velocity_mps()).norm() > 1.5 + 0.2 * vehicle.velocity_mps().norm()) return false;
-  return is_in_box(vehicle.body, vehicle.position_m(), config.gate_margin_m, piece.position_m());
-}
-
-/// Whether there is no need to look closer: nothing of one is near anything of the other.
-bool are_far_apart(const Track& a, const Track& b, const TrackingConfig& config) {
-  const double sizes_m = a.body.length.value_m + a.body.width.value_m + b.body.length.value_m + b.body.width.value_m;
-  const double reach_m = 0.5 * sizes_m + 2.0 * config.gate_margin_m + config.stride_m + config.merge_overlap_m;
-  return (a.position_m() - b.position_m()).squaredNorm() > reach_m * reach_m;
-}
-
-bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
-  if (is_piece_of(a, b, config)) return true;
-  // Nothing can be inside a vehicle; what is smaller may be several who walk.
-  const bool is_supposed = a.confirmed && is_vehicle(a);
-  if (!is_supposed && (a.velocity_mps() - b.velocity_mps()).norm() > 1.5 + 0.2 * a.velocity_mps().norm()) return false;
-  constexpr double kMostOverlap = 0.35;
-  if ((a.confirmed || b.confirmed) && is_vehicle(a) && is_vehicle(b) && std::max(overlap_share(a, b), overlap_share(b, a)) > kMostOverlap) return true;
-  const bool b_in_a = is_in_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m());
-  const bool a_in_b = is_in_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m());
-  if (a.body.has_sides || b.body.has_sides) return b_in_a || a_in_b;
-  constexpr int kLongKnownHits = 75;
-  constexpr double kLikeMps = 0.8;  // legs of one who walks, and not two who pass each other
-  const bool are_long_known = a.confirmed && b.confirmed && std::min(a.hits, b.hits) >= kLongKnownHits;
-  if (are_long_known && (a.velocity_mps() - b.velocity_mps()).norm() > kLikeMps) return false;
-  const bool is_young = a.hits < 20 || b.hits < 20;  // two who walk side by side are not made one
-  return (a.position_m() - b.position_m()).norm() < (is_young ? config.stride_m : config.merge_overlap_m);
-}
-
 /// Whether the beams between two things see past them.
 bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b, const PolarView& view) {
   constexpr double kBeyondM = 0.7;
@@ -228,55 +178,9 @@ bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std:
   return beyond > kMost;
 }
 
-/// Mostly without the root.
-bool is_longer(const Vector2d& way_m, double than_m) {
-  constexpr double kSurely = 1.0 + 1e-9;
-  return way_m.squaredNorm() > kSurely * than_m * than_m || way_m.norm() > than_m;
-}
-
 bool is_long_known(const Track& track) {
   constexpr int kLongKnownHits = 10;
   return track.confirmed && track.hits >= kLongKnownHits;
-}
-
-/// Whether two that are long known drive alike, and are so near to each other that they fit into one car, or, where their bodies
-/// overlap, into one truck.
-bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) {
-  constexpr double kSlowVehicleMps = 1.0;
-  constexpr double kCarLengthM = 4.9;
-  constexpr double kCarWidthM = 2.1;
-  constexpr double kTruckLengthM = 8.2;
-  constexpr double kTruckWidthM = 2.6;
-  if (is_longer(a.position_m() - b.position_m(), 2.0 * kCarLengthM * config.size_scale)) return false;
-  const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFastestWalkMps;
-  const Vector2d velocity_mps = 0.5 * (a.velocity_mps() + b.velocity_mps());
-  const double speed_mps = velocity_mps.norm();
-  if (speed_mps < least_mps || (a.velocity_mps() - b.velocity_mps()).norm() > 0.4 + 0.1 * speed_mps) return false;
-  const Vector2d along = velocity_mps / speed_mps;
-  const Vector2d across{-along.y(), along.x()};
-  Eigen::AlignedBox2d seen;
-  for (const auto* contour : {&a.contour_in_odom_m, &b.contour_in_odom_m})
-    for (const Eigen::Vector2f& point : *contour) seen.extend(Vector2d(along.dot(point.cast<double>()), across.dot(point.cast<double>())));
-  if (seen.sizes().x() < kCarLengthM * config.size_scale && seen.sizes().y() < kCarWidthM * config.size_scale) return true;
-  const double longest_m = std::max({seen.sizes().x(), a.body.length.value_m, b.body.length.value_m});
-  return a.body.has_sides && longest_m < kTruckLengthM * config.size_scale && seen.sizes().y() < kTruckWidthM * config.size_scale &&
-         std::max(overlap_share(a, b), overlap_share(b, a)) > 0.0;
-}
-
-/// What holds the crumbs of an object whose echoes are another's is no object.
-bool is_worth_more(const Track& a, const Track& b, const TrackingConfig& config) {
-  if (is_piece_of(a, b, config)) return true;
-  if (is_piece_of(b, a, config)) return false;
-  const auto is_of_crumbs = [](const Track& one, const Track& other) {
-    constexpr double kFew = 3.0;
-    constexpr double kCrumbsShare = 0.25;
-    return one.echoes < kFew && one.echoes < kCrumbsShare * other.echoes;
-  };
-  if (is_of_crumbs(a, b)) return false;
-  if (is_of_crumbs(b, a)) return true;
-  if (const Track* wrong = drawn_wrong(a, b, config)) return wrong == &b;
-  if (a.confirmed != b.confirmed) return a.confirmed;
-  return a.track_id < b.track_id;
 }
 
 }  // namespace
@@ -655,7 +559,7 @@ void Tracker::leave_out_surroundings(std::size_t index, double time_s, const Sca
   constexpr double kBelievedAfterS = 0.5;
   Track& track = tracks_[index];
   std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
-  const bool is_sure = has_walked_far(track, config_);
+  const bool is_sure = is_known_to_walk(track);
   const bool walks = is_sure || (track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps);
   if (!walks || beams.empty()) return;
   const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + (is_sure ? 0.0 : config_.gate_margin_m); };
@@ -777,9 +681,8 @@ void Tracker::join_pieces(const ScanView& view) {
 void Tracker::merge_duplicates() {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
-      if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0 || are_far_apart(tracks_[a], tracks_[b], config_)) continue;
-      if (!is_worth_more(tracks_[a], tracks_[b], config_) || !bodies_coincide(tracks_[a], tracks_[b], config_)) continue;
-      absorb(a, b);
+      if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0) continue;
+      if (is_superfluous(tracks_[b], tracks_[a], config_)) absorb(a, b);
     }
   }
 }

@@ -613,11 +613,11 @@ TEST(Track, OfOneKnownToWalkGoesOnAtTheirVelocityWhileHidden) {
   EXPECT_NEAR(track.velocity_mps().x(), 1.3, 0.05);
 }
 
-TEST(Track, OfOneWhoHasWalkedFarGetsNoSides) {
+TEST(Track, OfOneKnownToWalkGetsNoSides) {
   const TrackingConfig config;
   Track track = known_walker(0.0, config);
   Track other = track;
-  other.way_m = 1.0;
+  other.hits = 10;
   see(track, {1.3 * kPeriodS, 8.0}, 1.5, config);
   see(other, {1.3 * kPeriodS, 8.0}, 1.5, config);
   EXPECT_FALSE(track.body.has_sides);

@@ -320,6 +320,23 @@ TEST(Tracker, DoesNotStayAtAWallThatSomeoneSlowHasWalkedTo) {
   }
 }
 
+TEST(Tracker, DrawsNoVehicleAroundThoseWhoWalkSideBySide) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    const double apart_m = std::max(0.58, 1.4 - 0.5 * std::max(0.0, t - 1.2));  // they close up
+    street.known = {kWall};
+    street.unknown = {};
+    for (const int i : {-1, 0, 1}) street.unknown.push_back({{10.0 - 1.3 * t + 0.1 * i, 3.0 + i * apart_m, 0.0}, 0.35, 0.5});
+  };
+  play.run(1.2, scene);
+  ASSERT_EQ(play.confirmed().size(), 3U);
+  while (play.now_s() < 5.0) {
+    play.step(scene);
+    for (const flow::TrackedObject& object : play.confirmed()) EXPECT_LT(object.length_m, 1.2) << play.now_s();
+    EXPECT_GE(play.confirmed().size(), 2U) << play.now_s();
+  }
+}
+
 TEST(Tracker, IsUnsureWhereTheMiddleIsOfWhatMayBeTheCornerOfACar) {
   Play play;  // as small as a corner, and at 6 m/s, though nothing is there that would hide the rest
   const auto scene = [](Street& street, double t) {

@@ -1,0 +1,77 @@
+#include "services/tracking/duplicates.hpp"
+
+#include <gtest/gtest.h>
+
+namespace slammot::tracking {
+namespace {
+
+constexpr std::int64_t kNow_ns = 5'000'000'000;
+
+/// One that is followed for long at this place, seen now.
+Track at(const Eigen::Vector2d& position_m, std::uint32_t id) {
+  Track track;
+  track.track_id = {id};
+  track.confirmed = true;
+  track.hits = 100;
+  track.echoes = 10.0;
+  track.last_seen_ns = kNow_ns;
+  track.estimate.mean << position_m, 1.2, 0.0, 0.0, 0.0;
+  track.estimate.covariance = 0.01 * track.estimate.covariance.Identity();
+  return track;
+}
+
+Track walker(const Eigen::Vector2d& position_m, std::uint32_t id) {
+  Track track = at(position_m, id);
+  track.body.length = track.body.width = {0.5, 0.01};
+  track.class_probability = {0.97, 0.01, 0.01, 0.01};
+  return track;
+}
+
+Track car(const Eigen::Vector2d& position_m, std::uint32_t id) {
+  Track track = at(position_m, id);
+  track.body.has_sides = true;
+  track.body.length = {4.3, 0.01};
+  track.body.width = {1.7, 0.01};
+  track.class_probability = {0.01, 0.01, 0.97, 0.01};
+  return track;
+}
+
+TEST(Duplicates, AreNotWhatIsApart) {
+  const Track one = car({10.0, 0.0}, 1);
+  const Track other = car({10.0, 2.5}, 2);
+  EXPECT_FALSE(is_superfluous(one, other, {}));
+  EXPECT_FALSE(is_superfluous(other, one, {}));
+}
+
+TEST(Duplicates, OfOneCarEndWithTheYounger) {
+  const Track one = car({10.0, 0.0}, 1);
+  const Track other = car({10.5, 0.2}, 2);
+  EXPECT_FALSE(is_superfluous(one, other, {}));
+  EXPECT_TRUE(is_superfluous(other, one, {}));
+}
+
+TEST(Duplicates, AreCarsThroughWhichSomebodyIsSeenToWalk) {
+  const Track one = car({10.0, 0.0}, 1);
+  const Track inside = walker({11.0, 0.3}, 2);
+  EXPECT_TRUE(is_superfluous(one, inside, {}));
+  EXPECT_FALSE(is_superfluous(inside, one, {}));
+}
+
+TEST(Duplicates, AreThoseInsideACarWhoMayNotWalk) {
+  const Track one = car({10.0, 0.0}, 1);
+  Track inside = walker({11.0, 0.3}, 2);
+  inside.hits = 10;  // perhaps a corner of it
+  EXPECT_TRUE(is_superfluous(inside, one, {}));
+  EXPECT_FALSE(is_superfluous(one, inside, {}));
+}
+
+TEST(Duplicates, AreThoseInsideACarWhoAreHidden) {
+  const Track one = car({10.0, 0.0}, 1);
+  Track inside = walker({11.0, 0.3}, 2);
+  inside.last_seen_ns = kNow_ns - 1'000'000'000;  // behind it, and thought to be in it
+  EXPECT_TRUE(is_superfluous(inside, one, {}));
+  EXPECT_FALSE(is_superfluous(one, inside, {}));
+}
+
+}  // namespace
+}  // namespace slammot::tracking
