@@ -124,13 +124,14 @@ EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model,
       occupied_bits_(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows_), 0),
       rows_of_blocks_(block_rows_, block_columns_),
       columns_of_blocks_(block_columns_, block_rows_),
+      lowest_(window.columns, window.rows),
       free_(window.columns, window.rows),
       surely_free_(window.columns, window.rows),
       echoed_(window.columns, window.rows) {}
 
-void EvidenceGrid::note_occupied(std::size_t index) {
-  const auto row = static_cast<std::int32_t>(static_cast<std::uint32_t>(index) / static_cast<std::uint32_t>(window_.columns));
-  const auto column = static_cast<std::int32_t>(static_cast<std::uint32_t>(index) % static_cast<std::uint32_t>(window_.columns));
+/// Of the cell that is so far from the window's first.
+void EvidenceGrid::note_occupied(std::int32_t column, std::int32_t row) {
+  const std::size_t index = static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(column);
   std::uint64_t& block = occupied_bits_[static_cast<std::size_t>(row >> kBlockShift) * static_cast<std::size_t>(block_columns_) +
                                         static_cast<std::size_t>(column >> kBlockShift)];
   const std::uint64_t bit = bit_of(column, row);
@@ -145,9 +146,12 @@ void EvidenceGrid::note_block(std::int32_t block_column, std::int32_t block_row,
 }
 
 void EvidenceGrid::raise_so(Cell cell, int steps) {
-  const std::size_t index = window_.index(cell);
-  so_[index] = static_cast<std::int8_t>(std::min(limit_steps_, so_[index] + steps));
-  note_occupied(index);
+  const std::int32_t column = cell.column - window_.first.column;
+  const std::int32_t row = cell.row - window_.first.row;
+  std::int8_t& so_steps = so_[window_.index(cell)];
+  so_steps = static_cast<std::int8_t>(std::min(limit_steps_, so_steps + steps));
+  lowest_.clear(column, row);
+  note_occupied(column, row);
 }
 
 void EvidenceGrid::measure_free_ways(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad) {
@@ -246,11 +250,14 @@ void EvidenceGrid::keep_echoes_out() {
 }
 
 void EvidenceGrid::lower(std::int32_t row, std::int32_t word, std::uint64_t free_cells) {
+  std::uint64_t& lowest = lowest_.row(row)[word];
+  const std::uint64_t to_lower = free_cells & ~lowest;
+  if (to_lower == 0) return;
   const std::int32_t first_column = word * kCellsPerWord;
   const std::int32_t count = std::min(kCellsPerWord, window_.columns - first_column);
   std::int8_t* const cells = so_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
-  lower_cells(cells, count, free_cells, free_steps_, -limit_steps_);
-  unnote_freed(row, word, free_cells);
+  lowest |= lower_cells(cells, count, to_lower, free_steps_, -limit_steps_);
+  unnote_freed(row, word, to_lower);
 }
 
 /// What of the word's free cells in the row was occupied and no longer is.
@@ -287,7 +294,7 @@ void EvidenceGrid::raise_echoes(const std::vector<Ray>& rays) {
     const Cell cell{window_.first.column + echo.column, window_.first.row + echo.row};
     if (rays[echo.ray].echo == Echo::kStationary) {
       raise_so(cell, hit_steps_);
-      lasting_.hit(window_.index(cell));
+      lasting_.hit(cell);
     } else {
       std::uint8_t& moved = mo_[window_.index(cell)];
       moved = static_cast<std::uint8_t>(moved + static_cast<int>(std::ceil((255.0 - moved) * model_.moving_gain)));
@@ -361,7 +368,7 @@ void EvidenceGrid::restore_stationary(const Eigen::Vector2d& point_m, Echo integ
   const Cell cell = window_.cell_at(point_m.x(), point_m.y());
   if (!window_.contains(cell)) return;
   raise_so(cell, hit_steps_);
-  if (integrated_as != Echo::kStationary) lasting_.hit(window_.index(cell));
+  if (integrated_as != Echo::kStationary) lasting_.hit(cell);
 }
 
 void EvidenceGrid::drive_over(const Box& body) {
@@ -532,6 +539,7 @@ EvidenceGrid EvidenceGrid::moved_to(const GridWindow& window) const {
 void EvidenceGrid::set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo, std::vector<std::int8_t> lasting) {
   assert(so.size() == window_.cell_count() && mo.size() == window_.cell_count());
   so_ = std::move(so);
+  lowest_.clear_all();
   mo_ = std::move(mo);
   lasting_.set_cells(std::move(lasting));
   std::fill(occupied_bits_.begin(), occupied_bits_.end(), 0);
@@ -548,8 +556,9 @@ void EvidenceGrid::note_all_occupied() {
     std::int8_t highest = std::numeric_limits<std::int8_t>::min();
     for (std::size_t i = run; i < end; ++i) highest = std::max(highest, so_[i]);
     if (highest < occupied_steps_) continue;
+    const auto columns = static_cast<std::size_t>(window_.columns);
     for (std::size_t i = run; i < end; ++i) {
-      if (so_[i] >= occupied_steps_) note_occupied(i);
+      if (so_[i] >= occupied_steps_) note_occupied(static_cast<std::int32_t>(i % columns), static_cast<std::int32_t>(i / columns));
     }
   }
 }

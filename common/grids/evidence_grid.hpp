@@ -136,7 +136,7 @@ class EvidenceGrid {
   void raise_echoes(const std::vector<Ray>& rays);
   void raise_so(Cell cell, int steps);
   void free_occupied_in_block(const Box& box, std::int32_t block_column, std::int32_t block_row);
-  void note_occupied(std::size_t index);
+  void note_occupied(std::int32_t column, std::int32_t row);
   void note_all_occupied();
   void note_block(std::int32_t block_column, std::int32_t block_row, bool is_occupied);
   double ray_to_occupied_in_block(const RayInCells& ray, std::int32_t block_column, std::int32_t block_row) const;
@@ -158,6 +158,7 @@ class EvidenceGrid {
   std::vector<std::uint64_t> occupied_bits_;   ///< By block.
   BlockLanes rows_of_blocks_;
   BlockLanes columns_of_blocks_;
+  BitRows lowest_;                             ///< Cells of the SO-map that are known to be as low as beams can make them: nearly all that a scan sees through.
   // Of the scan at hand; kept to reuse the memory.
   BitRows free_;                               ///< Cells that it passes. All clear between scans, but for one that is prepared.
   BitRows surely_free_;                        ///< Those that the beams beside pass, too; the same.

@@ -18,18 +18,24 @@ LastingEvidence::LastingEvidence(const GridWindow& window, const LastingModel& m
       free_steps_(steps_of_log_odds(model.free_log_odds)),
       limit_steps_(std::min(126, steps_of_log_odds(model.limit_log_odds))),
       window_(window),
-      cells_(window.cell_count(), 0) {}
+      cells_(window.cell_count(), 0),
+      lowest_(window.columns, window.rows) {}
 
-void LastingEvidence::hit(std::size_t index) {
-  std::int8_t& cell = cells_[index];
-  if (!is_driven_over(cell)) cell = static_cast<std::int8_t>(std::min(limit_steps_, cell + hit_steps_));
+void LastingEvidence::hit(Cell cell) {
+  std::int8_t& steps = cells_[window_.index(cell)];
+  if (is_driven_over(steps)) return;
+  steps = static_cast<std::int8_t>(std::min(limit_steps_, steps + hit_steps_));
+  lowest_.clear(cell.column - window_.first.column, cell.row - window_.first.row);
 }
 
 void LastingEvidence::pass(BitRows& surely_free) {
   surely_free.take_all([&](std::int32_t row, std::int32_t word, std::uint64_t passed) {
+    std::uint64_t& lowest = lowest_.row(row)[word];
+    const std::uint64_t to_lower = passed & ~lowest;
+    if (to_lower == 0) return;
     const std::int32_t first_column = word * kCellsPerWord;
     std::int8_t* const cells = cells_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
-    lower_cells(cells, std::min(kCellsPerWord, window_.columns - first_column), passed, free_steps_, -limit_steps_);
+    lowest |= lower_cells(cells, std::min(kCellsPerWord, window_.columns - first_column), to_lower, free_steps_, -limit_steps_);
   });
 }
 
@@ -45,6 +51,11 @@ void LastingEvidence::drive_over(const Box& body) {
       else if (cell > 0 && body.covers(centre_m)) cell = static_cast<std::int8_t>(cell - free_steps_);
     }
   }
+}
+
+void LastingEvidence::set_cells(std::vector<std::int8_t> cells) {
+  cells_ = std::move(cells);
+  lowest_.clear_all();
 }
 
 void LastingEvidence::copy_from(const LastingEvidence& other, std::size_t from, std::int32_t count, std::size_t to) {

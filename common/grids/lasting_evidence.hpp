@@ -27,8 +27,8 @@ class LastingEvidence {
 
   const LastingModel& model() const { return model_; }
 
-  /// An echo came from the cell of this index. Nothing raises what was driven over.
-  void hit(std::size_t index);
+  /// An echo came from this cell of the window. Nothing raises what was driven over.
+  void hit(Cell cell);
 
   /// A scan surely sees through these cells. Clears them.
   void pass(BitRows& surely_free);
@@ -41,7 +41,8 @@ class LastingEvidence {
 
   /// Row-major. set_cells needs as many as the window has.
   const std::vector<std::int8_t>& cells() const { return cells_; }
-  void set_cells(std::vector<std::int8_t> cells) { cells_ = std::move(cells); }
+  void set_cells(std::vector<std::int8_t> cells);
+  /// Into cells that are as they were made.
   void copy_from(const LastingEvidence& other, std::size_t from, std::int32_t count, std::size_t to);
 
  private:
@@ -53,6 +54,7 @@ class LastingEvidence {
   int limit_steps_ = 0;
   GridWindow window_;
   std::vector<std::int8_t> cells_;
+  BitRows lowest_;   ///< Cells that are known to be as low as beams can make them: nearly all that a scan sees through.
 };
 
 }  // namespace slammot::grids

@@ -19,9 +19,13 @@ inline constexpr auto kMaskOfBits = [] {
   return masks;
 }();
 
+/// The same backwards: a bit for each byte of ones, by a product of which the uppermost byte has one from each.
+constexpr std::uint64_t bits_of_mask(std::uint64_t mask) { return ((mask & 0x0101010101010101) * 0x0102040810204080) >> 56; }
+
 /// Lowers those of up to 64 cells whose bit is set by so many steps, none below the lowest unless it is already: by masks,
 /// whichever they are, however short the runs. Cells are taken for unsigned, 128 higher: every x86-64 knows the larger of two unsigned bytes.
-inline void lower_cells(std::int8_t* cells, std::int32_t count, std::uint64_t bits, int steps_down, int lowest_steps) {
+/// Returns a bit for each of these that cannot be lowered any more, and perhaps for others of which that holds.
+inline std::uint64_t lower_cells(std::int8_t* cells, std::int32_t count, std::uint64_t bits, int steps_down, int lowest_steps) {
   // Sixteen cells in one register, of GCC and Clang on every processor: what they make of a loop over bytes is either, by luck.
   using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
   using TwoMasks [[gnu::vector_size(16)]] = std::uint64_t;
@@ -31,8 +35,11 @@ inline void lower_cells(std::int8_t* cells, std::int32_t count, std::uint64_t bi
   const auto lowest = static_cast<std::int8_t>(lowest_steps + steps_down);  // before the step
   const Bytes steps = Bytes{} + static_cast<std::uint8_t>(step);
   const Bytes lowest_higher = Bytes{} + static_cast<std::uint8_t>(static_cast<std::uint8_t>(lowest) ^ kHigher);
+  const Bytes lowest_of_all = lowest_higher - steps;
+  std::uint64_t cannot_be_lowered = 0;
   std::int32_t first = 0;
   for (; first + kCellsPerRegister <= count; first += kCellsPerRegister) {
+    if ((bits >> first & 0xffff) == 0) continue;
     const Bytes mask = std::bit_cast<Bytes>(TwoMasks{kMaskOfBits[bits >> first & 0xff], kMaskOfBits[bits >> (first + 8) & 0xff]});
     Bytes higher;
     std::memcpy(&higher, cells + first, sizeof higher);
@@ -40,12 +47,16 @@ inline void lower_cells(std::int8_t* cells, std::int32_t count, std::uint64_t bi
     const Bytes least = lowest_higher & mask;
     const Bytes lowered = (higher > least ? higher : least) - (steps & mask);
     higher = lowered < higher ? lowered : higher;
+    const auto at_lowest = std::bit_cast<TwoMasks>(higher <= lowest_of_all);
+    cannot_be_lowered |= (bits_of_mask(at_lowest[0]) | bits_of_mask(at_lowest[1]) << 8) << first;
     higher ^= kHigher;
     std::memcpy(cells + first, &higher, sizeof higher);
   }
   for (; first < count; ++first) {
     if (bits >> first & 1) cells[first] = std::min(cells[first], static_cast<std::int8_t>(std::max(cells[first], lowest) - step));
+    cannot_be_lowered |= std::uint64_t{cells[first] <= lowest_steps} << first;
   }
+  return cannot_be_lowered;
 }
 
 }  // namespace slammot::grids

@@ -16,14 +16,14 @@ const Box kBody{{0.0, 0.0}, {1.0, 0.0}, {2.1, 0.9}};
 
 class Lasting : public ::testing::Test {
  protected:
-  int steps_at(const Eigen::Vector2d& at_m) const { return evidence_.cells()[index_of(at_m)]; }
-  std::size_t index_of(const Eigen::Vector2d& at_m) const { return window_.index(window_.cell_at(at_m.x(), at_m.y())); }
+  int steps_at(const Eigen::Vector2d& at_m) const { return evidence_.cells()[window_.index(cell_at(at_m))]; }
+  Cell cell_at(const Eigen::Vector2d& at_m) const { return window_.cell_at(at_m.x(), at_m.y()); }
   void hit(const Eigen::Vector2d& at_m, int scans) {
-    for (int i = 0; i < scans; ++i) evidence_.hit(index_of(at_m));
+    for (int i = 0; i < scans; ++i) evidence_.hit(cell_at(at_m));
   }
   void pass(const Eigen::Vector2d& at_m, int scans) {
     for (int i = 0; i < scans; ++i) {
-      const Cell cell = window_.cell_at(at_m.x(), at_m.y());
+      const Cell cell = cell_at(at_m);
       passed_.set(cell.column - window_.first.column, cell.row - window_.first.row);
       evidence_.pass(passed_);
     }
@@ -50,6 +50,19 @@ TEST_F(Lasting, IsNeverSurerThanItsLimit) {
   pass({-9.9, 9.9}, 300);
   EXPECT_EQ(steps_at({3.1, 0.1}), kLimit);
   EXPECT_EQ(steps_at({-9.9, 9.9}), -kLimit);
+}
+
+TEST_F(Lasting, LosesAgainWhatItGainedAfterItWasAsLowAsItGets) {
+  for (int time = 0; time < 2; ++time) {
+    pass({3.1, 0.1}, 300);
+    hit({3.1, 0.1}, 3);
+    EXPECT_EQ(steps_at({3.1, 0.1}), 3 * kHit - kLimit);
+    pass({3.1, 0.1}, 1);
+    EXPECT_EQ(steps_at({3.1, 0.1}), 3 * kHit - kLimit - kFree);
+  }
+  evidence_.set_cells(std::vector<std::int8_t>(window_.cell_count(), 0));
+  pass({3.1, 0.1}, 1);
+  EXPECT_EQ(steps_at({3.1, 0.1}), -kFree);
 }
 
 TEST_F(Lasting, KeepsForGoodWhatWasDrivenOver) {
