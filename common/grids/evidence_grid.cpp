@@ -29,6 +29,18 @@ std::int32_t first_centre(double place, std::int32_t count) {
   return below + (static_cast<double>(below) < at);  // rounded up, in fewer instructions than std::ceil
 }
 
+using TwoPlaces [[gnu::vector_size(16)]] = double;
+using TwoCells [[gnu::vector_size(8)]] = std::int32_t;
+
+/// The same of two places at once.
+TwoCells first_centres(TwoPlaces places, TwoPlaces count) {
+  const TwoPlaces from_first = places - 0.5;
+  const TwoPlaces inside = from_first > 0.0 ? from_first : TwoPlaces{};
+  const TwoPlaces at = inside < count ? inside : count;
+  const TwoCells below = __builtin_convertvector(at, TwoCells);
+  return below - __builtin_convertvector(__builtin_convertvector(below, TwoPlaces) < at, TwoCells);  // true is -1
+}
+
 /// Place in cells of the window.
 Eigen::Vector2d in_cells(const Eigen::Vector2d& at_m, const GridWindow& window) {
   return at_m / window.cell_size_m - Eigen::Vector2d(window.first.column, window.first.row);
@@ -42,8 +54,12 @@ void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Grid
   const std::int32_t end_row = first_centre(high.y(), window.rows);
   if (first_row >= end_row) return;
   const double slope = (high.x() - low.x()) / (high.y() - low.y());
-  for (std::int32_t row = first_row; row < end_row; ++row) {
-    outline.flip(first_centre(low.x() + slope * (row + 0.5 - low.y()), window.columns), row);
+  const TwoPlaces column_count = TwoPlaces{} + static_cast<double>(window.columns);
+  TwoPlaces middles{first_row + 0.5, first_row + 1.5};
+  for (std::int32_t row = first_row; row < end_row; row += 2, middles += 2.0) {
+    const TwoCells columns = first_centres(low.x() + slope * (middles - low.y()), column_count);
+    outline.flip(columns[0], row);
+    if (row + 1 < end_row) outline.flip(columns[1], row + 1);
   }
 }
 
