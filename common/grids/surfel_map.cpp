@@ -18,7 +18,7 @@ double seen_over_m(const CellMoments& moments) {
 }  // namespace
 
 SurfelMap::SurfelMap(const GridWindow& window, double weight_limit)
-    : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1), means_m_{kNowhere}, shares_{Moments::Zero()} {}
+    : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1), means_m_{kNowhere}, shares_{Moments::Zero()}, is_stale_{true} {}
 
 std::int32_t SurfelMap::make_slot(Cell cell) {
   std::int32_t& slot = slots_[window_.index(cell)];
@@ -29,15 +29,17 @@ std::int32_t SurfelMap::make_slot(Cell cell) {
     means_m_.push_back(kNowhere);
     shares_.push_back(Moments::Zero());
     shapes_.emplace_back();
+    is_stale_.push_back(true);
   }
   return slot;
 }
 
 void SurfelMap::mark_stale_around(Cell cell) {
+  const bool is_inside = has_all_around(cell);
   for (std::int32_t row = cell.row - 1; row <= cell.row + 1; ++row) {
     for (std::int32_t column = cell.column - 1; column <= cell.column + 1; ++column) {
-      const std::int32_t slot = slot_of({column, row});
-      if (slot >= 0) shapes_[static_cast<std::size_t>(slot)].stale = true;
+      const std::ptrdiff_t slot = is_inside ? slots_[window_.index({column, row})] : slot_of({column, row});
+      is_stale_[static_cast<std::size_t>(slot + 1)] = true;
     }
   }
 }
@@ -92,15 +94,17 @@ void SurfelMap::note_mean(std::size_t place) {
   const bool is_anywhere = moments.weight > 0.0F;
   // The square root: the direction of a surface is a matter of where it was seen, less of how often.
   const double share = is_anywhere ? 1.0 / std::sqrt(static_cast<double>(moments.weight)) : 0.0;
-  const Eigen::Matrix<float, 6, 1> all(moments.weight, moments.x, moments.y, moments.xx, moments.xy, moments.yy);
-  shares_[place + 1] = share * all.cast<double>();
-  means_m_[place + 1] = is_anywhere ? window_.centre_of(cells_[place]) + Eigen::Vector2d(moments.x, moments.y) / static_cast<double>(moments.weight) : kNowhere;
+  const auto shared = [&](float sum) { return share * static_cast<double>(sum); };
+  shares_[place + 1] << shared(moments.weight), shared(moments.x), shared(moments.y), shared(moments.xx), shared(moments.xy), shared(moments.yy);
+  const Eigen::Vector2d centre_m = window_.centre_of(cells_[place]);
+  const auto mean = [&](double centre, float sum) { return centre + static_cast<double>(sum) / static_cast<double>(moments.weight); };
+  means_m_[place + 1] = is_anywhere ? Eigen::Vector2d(mean(centre_m.x(), moments.x), mean(centre_m.y(), moments.y)) : kNowhere;
 }
 
 /// About the cell's centre, of the cell and its eight neighbours. What a neighbour's moments are about this centre is linear in
 /// them, so that they are added up first, by column and by row, and moved here together.
 SurfelMap::Moments SurfelMap::moments_around(Cell cell) const {
-  const bool is_inside = window_.contains({cell.column - 1, cell.row - 1}) && window_.contains({cell.column + 1, cell.row + 1});
+  const bool is_inside = has_all_around(cell);
   const auto share_at = [&](std::int32_t column, std::int32_t row) -> const Moments& {
     const Cell neighbour{cell.column + column, cell.row + row};
     return share_of(is_inside ? slots_[window_.index(neighbour)] : slot_of(neighbour));
@@ -128,9 +132,9 @@ SurfelMap::Moments SurfelMap::moments_around(Cell cell) const {
   return around;
 }
 
-SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
+void SurfelMap::renew_shape(std::size_t place) const {
   const double size_m = window_.cell_size_m;
-  const Moments around = moments_around(cell);
+  const Moments around = moments_around(cells_[place]);
   const double x = around[1] / around[0];
   const double y = around[2] / around[0];
   const double cxx = around[3] / around[0] - x * x;
@@ -141,18 +145,19 @@ SurfelMap::Shape SurfelMap::shape_at(Cell cell) const {
   const double root = std::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy);
   const double large = half_trace + root;
   const double small = std::max(0.0, half_trace - root);
-  Shape shape{0.0F, 0.0F, static_cast<float>(small), false};
+  Shape& shape = shapes_[place];
+  shape = {0.0F, 0.0F, static_cast<float>(small)};
+  is_stale_[place + 1] = false;
   const double least_extent_m = 0.25 * size_m;
-  if (large < least_extent_m * least_extent_m || small > 0.25 * large) return shape;  // a dot or a blob: no direction
+  if (large < least_extent_m * least_extent_m || small > 0.25 * large) return;  // a dot or a blob: no direction
   // Sine and cosine of half the angle whose tangent is 2 cxy / (cxx - cyy): the direction of the larger axis.
   const double cosine_of_twice = root > 0.0 ? 0.5 * (cxx - cyy) / root : 1.0;
   shape.normal_x = static_cast<float>(-std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine_of_twice))), cxy));
   shape.normal_y = static_cast<float>(std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine_of_twice))));
-  return shape;
 }
 
 const SurfelMap::Shape& SurfelMap::fresh_shape(std::size_t place) const {
-  if (shapes_[place].stale) shapes_[place] = shape_at(cells_[place]);
+  if (is_stale_[place + 1]) renew_shape(place);
   return shapes_[place];
 }
 
@@ -198,9 +203,9 @@ std::optional<SurfelView> SurfelMap::nearest(const Eigen::Vector2d& point_m, int
   return view_of(slot);
 }
 
-std::optional<std::size_t> SurfelMap::nearest_place(const Eigen::Vector2d& point_m, int radius) const {
+std::size_t SurfelMap::nearest_place(const Eigen::Vector2d& point_m, int radius) const {
   const std::int32_t slot = find(point_m, radius);
-  return slot < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(slot));
+  return slot < 0 ? kNoPlace : static_cast<std::size_t>(slot);
 }
 
 SurfelMap::Surface SurfelMap::surface_at(std::size_t place) const {
@@ -209,8 +214,8 @@ SurfelMap::Surface SurfelMap::surface_at(std::size_t place) const {
 }
 
 std::optional<SurfelMap::Surface> SurfelMap::nearest_surface(const Eigen::Vector2d& point_m, int radius) const {
-  const std::optional<std::size_t> place = nearest_place(point_m, radius);
-  return place ? std::optional(surface_at(*place)) : std::nullopt;
+  const std::size_t place = nearest_place(point_m, radius);
+  return place == kNoPlace ? std::nullopt : std::optional(surface_at(place));
 }
 
 std::vector<SurfelView> SurfelMap::all() const {
@@ -231,6 +236,7 @@ SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
   moved.means_m_.reserve(moments_.size() + 1);
   moved.shares_.reserve(moments_.size() + 1);
   moved.shapes_.reserve(moments_.size());
+  moved.is_stale_.reserve(moments_.size() + 1);
   for (std::size_t place = 0; place < moments_.size(); ++place) {
     if (is_empty(static_cast<std::int32_t>(place)) || !window.contains(cells_[place])) continue;
     CellMoments moments = moments_[place];

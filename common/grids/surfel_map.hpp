@@ -67,7 +67,8 @@ class SurfelMap {
   std::optional<Surface> nearest_surface(const Eigen::Vector2d& point_m, int radius) const;
 
   /// The same in two steps, of which several may do the first at once; the second computes what has changed.
-  std::optional<std::size_t> nearest_place(const Eigen::Vector2d& point_m, int radius) const;
+  std::size_t nearest_place(const Eigen::Vector2d& point_m, int radius) const;
+  static constexpr std::size_t kNoPlace = static_cast<std::size_t>(-1);
   Surface surface_at(std::size_t place) const;
 
   /// Forgets every surfel for whose mean is_gone(mean_m) holds, which help (null: none) may be asked, too.
@@ -99,7 +100,6 @@ class SurfelMap {
  private:
   struct Shape {
     float normal_x = 0.0F, normal_y = 0.0F, spread_m2 = 0.0F;
-    bool stale = true;
   };
 
   /// Echoes, and their sums of x, y, xx, xy and yy about the cell's centre.
@@ -107,6 +107,8 @@ class SurfelMap {
 
   std::int32_t slot_of(Cell cell) const { return window_.contains(cell) ? slots_[window_.index(cell)] : -1; }
   bool is_empty(std::int32_t slot) const { return slot < 0 || moments_[static_cast<std::size_t>(slot)].weight <= 0.0F; }
+  /// Whether the window holds all nine cells.
+  bool has_all_around(Cell cell) const { return window_.contains({cell.column - 1, cell.row - 1}) && window_.contains({cell.column + 1, cell.row + 1}); }
   /// Works for no slot (-1), too: infinitely far.
   const Eigen::Vector2d& mean_m(std::ptrdiff_t slot) const { return means_m_[static_cast<std::size_t>(slot + 1)]; }
   const Moments& share_of(std::ptrdiff_t slot) const { return shares_[static_cast<std::size_t>(slot + 1)]; }
@@ -115,7 +117,7 @@ class SurfelMap {
   std::int32_t nearest_slot(const Eigen::Vector2d& point_m, int radius) const;
   void mark_stale_around(Cell cell);
   Moments moments_around(Cell cell) const;
-  Shape shape_at(Cell cell) const;
+  void renew_shape(std::size_t place) const;
   const Shape& fresh_shape(std::size_t place) const;
   void note_mean(std::size_t place);
   std::int32_t find(const Eigen::Vector2d& point_m, int radius) const;
@@ -129,7 +131,8 @@ class SurfelMap {
   std::vector<Cell> cells_;             ///< Of each of the moments,
   std::vector<Eigen::Vector2d> means_m_;///< and, one place later, where its echoes are in the mean; infinitely far where there are none;
   std::vector<Moments> shares_;         ///< and so, of zeros where there are none, its share in the direction of the surfaces around it.
-  mutable std::vector<Shape> shapes_;   ///< Computed when first looked at after a change.
+  mutable std::vector<Shape> shapes_;   ///< Computed when first looked at after a change,
+  mutable std::vector<char> is_stale_;  ///< which each, one place later, has had since or not.
 };
 
 }  // namespace slammot::grids

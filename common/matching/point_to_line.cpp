@@ -35,8 +35,8 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
   pairs_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const MatchPoint& point = points[i];
-    if (!places_[i]) continue;
-    const grids::SurfelMap::Surface surface = surfels.surface_at(*places_[i]);
+    if (places_[i] == grids::SurfelMap::kNoPlace) continue;
+    const grids::SurfelMap::Surface surface = surfels.surface_at(places_[i]);
     const bool has_direction = !surface.normal.isZero();
     // A surface without a direction is somewhere in its cell.
     const double variance_m2 = has_direction ? point.sigma_m * point.sigma_m + surface.spread_m2

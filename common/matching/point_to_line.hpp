@@ -84,7 +84,7 @@ class PointToLineMatcher {
   NormalEquations linearize(const geometry::Pose2& map_from_base, double gate_m, const std::optional<geometry::Matrix3>& expected, const PointToLineConfig& config) const;
 
   work::SideWork* help_;
-  std::vector<std::optional<std::size_t>> places_;   ///< Of the surfel nearest to each point.
+  std::vector<std::size_t> places_;       ///< Of the surfel nearest to each point, if there is one.
   std::vector<Pair> pairs_;
 };
 

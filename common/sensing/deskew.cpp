@@ -22,8 +22,11 @@ void deskew(const LaserScan& scan, double speed_mps, double yaw_rate_radps, std:
     const geometry::Vector2& half = half_turn.now();
     const double cosine = half.x() * half.x() - half.y() * half.y();
     const double sine = 2.0 * half.x() * half.y();
-    const geometry::Vector2 laser_m = moved_m * half + geometry::Vector2(cosine * mount_m.x() - sine * mount_m.y(), sine * mount_m.x() + cosine * mount_m.y());
-    points_in_base_m[beam] = laser_m + static_cast<double>(range_m) * beam_in_base.now();
+    // By coordinates: what is put together to a vector by numbers is waited for when it is added up as one.
+    const double laser_x_m = moved_m * half.x() + (cosine * mount_m.x() - sine * mount_m.y());
+    const double laser_y_m = moved_m * half.y() + (sine * mount_m.x() + cosine * mount_m.y());
+    const geometry::Vector2& towards = beam_in_base.now();
+    points_in_base_m[beam] = {laser_x_m + static_cast<double>(range_m) * towards.x(), laser_y_m + static_cast<double>(range_m) * towards.y()};
   }
 }
 

@@ -152,8 +152,8 @@ bool PolarView::may_have_met(long middle, double distance_m, double within_m) co
          (distance_m + within_m + kNoRoundingM > nearest_m_[beam] && distance_m - within_m - kNoRoundingM < farthest_m_[beam]);
 }
 
-/// The first of the beams about the middle one of which an echo, or the side between it and the next, lies so near.
-std::optional<std::size_t> PolarView::beam_that_met(const Vector2d& point_in_odom_m, long middle, double within_m) const {
+/// The first of the beams about the middle one of which an echo, or the side between it and the next, lies so near; kNoBeam if none.
+std::size_t PolarView::beam_that_met(const Vector2d& point_in_odom_m, long middle, double within_m) const {
   const long first = std::max(0L, middle - kBeamsAside);
   const long last = std::min(static_cast<long>(range_m_.size()) - 1, middle + kBeamsAside);
   for (long i = first; i <= last; ++i) {
@@ -169,7 +169,7 @@ std::optional<std::size_t> PolarView::beam_that_met(const Vector2d& point_in_odo
     const double share = std::clamp(side.dot(off) / std::max(length2, 1e-9), 0.0, 1.0);
     if ((off - share * side).squaredNorm() < within_m * within_m) return beam;
   }
-  return std::nullopt;
+  return kNoBeam;
 }
 
 SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
@@ -183,7 +183,7 @@ SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   if (middle < 1 || middle + 1 >= static_cast<long>(range_m_.size())) return {};
   const double near_m = kSamePlaceM + kSamePlacePerM * distance_m;
   if (may_have_met(middle, distance_m, near_m)) {
-    if (const auto beam = beam_that_met(point_in_odom_m, middle, near_m)) return {Sight::kThere, *beam};
+    if (const std::size_t beam = beam_that_met(point_in_odom_m, middle, near_m); beam != kNoBeam) return {Sight::kThere, beam};
   }
   const double margin_m = kBeyondM + kBeyondPerM * distance_m;
   int through = 0;

@@ -79,7 +79,8 @@ class PolarView {
 
  private:
   bool may_have_met(long middle, double distance_m, double within_m) const;
-  std::optional<std::size_t> beam_that_met(const Eigen::Vector2d& point_in_odom_m, long middle, double within_m) const;
+  static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
+  std::size_t beam_that_met(const Eigen::Vector2d& point_in_odom_m, long middle, double within_m) const;
 
   std::vector<Eigen::Vector2d> points_in_odom_m_;
   /// Between which distances from the laser all lies that was met about each beam; nearest > farthest where nothing was. Empty
