@@ -19,13 +19,13 @@ void deskew(const LaserScan& scan, double speed_mps, double yaw_rate_radps, std:
       continue;
     }
     const double moved_m = speed_mps * step_s * static_cast<double>(beam);
-    const geometry::Vector2& half = half_turn.now();
+    const geometry::Vector2 half = half_turn.now();
     const double cosine = half.x() * half.x() - half.y() * half.y();
     const double sine = 2.0 * half.x() * half.y();
-    // By coordinates: what is put together to a vector by numbers is waited for when it is added up as one.
+    // By coordinates: a vector put together by its numbers and then added up as one is waited for.
     const double laser_x_m = moved_m * half.x() + (cosine * mount_m.x() - sine * mount_m.y());
     const double laser_y_m = moved_m * half.y() + (sine * mount_m.x() + cosine * mount_m.y());
-    const geometry::Vector2& towards = beam_in_base.now();
+    const geometry::Vector2 towards = beam_in_base.now();
     points_in_base_m[beam] = {laser_x_m + static_cast<double>(range_m) * towards.x(), laser_y_m + static_cast<double>(range_m) * towards.y()};
   }
 }

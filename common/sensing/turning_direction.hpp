@@ -11,14 +11,19 @@ namespace slammot::sensing {
 class TurningDirection {
  public:
   TurningDirection(double first_rad, double step_rad)
-      : now_(std::cos(first_rad), std::sin(first_rad)), cosine_(std::cos(step_rad)), sine_(std::sin(step_rad)) {}
+      : x_(std::cos(first_rad)), y_(std::sin(first_rad)), cosine_(std::cos(step_rad)), sine_(std::sin(step_rad)) {}
 
-  const geometry::Vector2& now() const { return now_; }
+  geometry::Vector2 now() const { return {x_, y_}; }
 
-  void advance() { now_ = {cosine_ * now_.x() - sine_ * now_.y(), sine_ * now_.x() + cosine_ * now_.y()}; }
+  void advance() {
+    const double x_before = x_;
+    x_ = cosine_ * x_ - sine_ * y_;
+    y_ = sine_ * x_before + cosine_ * y_;
+  }
 
  private:
-  geometry::Vector2 now_;
+  double x_;  // not as a vector, which would be waited for at each step: docs/performance.md
+  double y_;
   double cosine_;
   double sine_;
 };
