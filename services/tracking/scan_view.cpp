@@ -18,13 +18,14 @@ constexpr double kRoughErrorRad = 1e-4;
 constexpr long kBeamsAside = 2;         ///< Of a place's own beam, that may have met it.
 constexpr double kLongestSideM = 3.0;   ///< Between neighbouring echoes; what is longer is two things.
 
-/// Direction to within kRoughErrorRad, without the arctangent: an odd polynomial of least largest error for its degree.
+/// Direction to within kRoughErrorRad, rounding included, without the arctangent: an odd polynomial of least largest error for its degree.
 double rough_angle_rad(const Vector2d& way) {
   const double x = std::abs(way.x());
   const double y = std::abs(way.y());
   const double slope = std::min(x, y) / std::max({x, y, std::numeric_limits<double>::min()});  // at the laser itself any direction will do
   const double slope2 = slope * slope;
-  const double below_diagonal_rad = slope * (0.99921417 + slope2 * (-0.32117868 + slope2 * (0.14627357 - 0.03899266 * slope2)));
+  const double slope4 = slope2 * slope2;
+  const double below_diagonal_rad = slope * (0.99921417 - 0.32117868 * slope2 + slope4 * (0.14627357 - 0.03899266 * slope2));  // in halves, side by side
   const double from_x_axis_rad = y > x ? 0.5 * std::numbers::pi - below_diagonal_rad : below_diagonal_rad;
   return std::copysign(way.x() < 0.0 ? std::numbers::pi - from_x_axis_rad : from_x_axis_rad, way.y());
 }
@@ -75,6 +76,7 @@ void PolarView::look_at(const flow::SegmentedScan& scan) {
     first_beam_in_odom_rad_ = std::atan2(way.y(), way.x()) - static_cast<double>(beam) * scan.beam_step_rad;
     knows_direction = true;
   }
+  middle_of_view_rad_ = (is_clockwise_ ? -first_beam_in_odom_rad_ : first_beam_in_odom_rad_) + half_view_rad_;
 }
 
 /// No point of a side is farther from the nearer of its ends than half its length.
@@ -133,13 +135,12 @@ double PolarView::delay_towards_s(const Vector2d& point_in_odom_m) const {
 
 long PolarView::beam_towards(const Vector2d& way) const {
   constexpr double kFullTurn = 2.0 * std::numbers::pi;
-  const double turned = is_clockwise_ ? -1.0 : 1.0;
-  double off_middle_rad = turned * (rough_angle_rad(way) - first_beam_in_odom_rad_) - half_view_rad_;
+  double off_middle_rad = rough_angle_rad({way.x(), is_clockwise_ ? -way.y() : way.y()}) - middle_of_view_rad_;
   if (off_middle_rad > std::numbers::pi) off_middle_rad -= kFullTurn;
   if (off_middle_rad < -std::numbers::pi) off_middle_rad += kFullTurn;
-  const double steps = (half_view_rad_ + off_middle_rad) * beams_per_rad_;
+  const double steps = half_view_rad_ * beams_per_rad_ + off_middle_rad * beams_per_rad_;
   const auto beam = static_cast<long>(steps + std::copysign(0.5, steps));  // std::lround() but for ties, which are not sure anyway
-  const bool is_sure = std::abs(steps - static_cast<double>(beam)) + kRoughErrorRad * beams_per_rad_ < 0.5 &&
+  const bool is_sure = std::abs(steps - static_cast<double>(beam)) < 0.5 - kRoughErrorRad * beams_per_rad_ &&
                        std::abs(off_middle_rad) + kRoughErrorRad < std::numbers::pi;
   return is_sure ? beam : std::lround(steps_towards(std::atan2(way.y(), way.x())));
 }

@@ -94,6 +94,7 @@ class PolarView {
   double beams_per_rad_ = 0.0;
   double sweep_s_ = 0.0;
   double half_view_rad_ = 0.0;
+  double middle_of_view_rad_ = 0.0;   ///< In odom, counted as the beams go.
   bool is_clockwise_ = false;
   bool goes_all_round_ = false;
 };
