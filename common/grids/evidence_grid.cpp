@@ -22,23 +22,17 @@ constexpr std::uint64_t kInRow = 0xff;      ///< Bits of a block's first row.
 
 bool is_mapped(Echo echo) { return echo == Echo::kStationary || echo == Echo::kMoving; }
 
-/// The first cell of so many whose centre lies at the place or beyond.
-std::int32_t first_centre(double place, std::int32_t count) {
-  const double at = std::clamp(place - 0.5, 0.0, static_cast<double>(count));
-  const auto below = static_cast<std::int32_t>(at);
-  return below + (static_cast<double>(below) < at);  // rounded up, in fewer instructions than std::ceil
-}
-
 using TwoPlaces [[gnu::vector_size(16)]] = double;
 using TwoCells [[gnu::vector_size(8)]] = std::int32_t;
 
-/// The same of two places at once.
-TwoCells first_centres(TwoPlaces places, TwoPlaces count) {
+/// For each of two places the first cell of so many whose centre lies there or beyond.
+TwoCells first_centres(TwoPlaces places, std::int32_t count) {
+  const TwoPlaces end = TwoPlaces{} + static_cast<double>(count);
   const TwoPlaces from_first = places - 0.5;
   const TwoPlaces inside = from_first > 0.0 ? from_first : TwoPlaces{};
-  const TwoPlaces at = inside < count ? inside : count;
+  const TwoPlaces at = inside < end ? inside : end;
   const TwoCells below = __builtin_convertvector(at, TwoCells);
-  return below - __builtin_convertvector(__builtin_convertvector(below, TwoPlaces) < at, TwoCells);  // true is -1
+  return below - __builtin_convertvector(__builtin_convertvector(below, TwoPlaces) < at, TwoCells);  // rounded up: true is -1
 }
 
 /// Place in cells of the window.
@@ -50,11 +44,12 @@ Eigen::Vector2d in_cells(const Eigen::Vector2d& at_m, const GridWindow& window) 
 /// flip the row is inside the outline. In cells of the window.
 void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const GridWindow& window, BitRows& outline) {
   const auto [low, high] = from.y() < to.y() ? std::pair(from, to) : std::pair(to, from);
-  const std::int32_t first_row = first_centre(low.y(), window.rows);
-  const std::int32_t end_row = first_centre(high.y(), window.rows);
+  const TwoCells rows = first_centres(TwoPlaces{low.y(), high.y()}, window.rows);
+  const std::int32_t first_row = rows[0];
+  const std::int32_t end_row = rows[1];
   if (first_row >= end_row) return;
   const double slope = (high.x() - low.x()) / (high.y() - low.y());
-  const TwoPlaces column_count = TwoPlaces{} + static_cast<double>(window.columns);
+  const std::int32_t column_count = window.columns;  // which flips might change, for all a compiler knows
   TwoPlaces middles{first_row + 0.5, first_row + 1.5};
   for (std::int32_t row = first_row; row < end_row; row += 2, middles += 2.0) {
     const TwoCells columns = first_centres(low.x() + slope * (middles - low.y()), column_count);
