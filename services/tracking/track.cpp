@@ -470,6 +470,22 @@ bool has_known_velocity(const Track& track, const TrackingConfig& config) {
   return speed_sigma_mps(track) <= most_mps;
 }
 
+/// Whether all tells that it moves, whatever its body is drawn like.
+bool moves_by_all_signs(const Track& track, const TrackingConfig& config) {
+  const MotionEvidence& evidence = track.evidence;
+  // What comes out from behind others is where no earlier scan could see: its echoes are undecided, most of them. Where the map says
+  // that it has come, a single vote tells that it is not the map that errs: walls that it holds to be free have none.
+  constexpr double kLeastVotes = 0.5;  // one, half forgotten
+  const bool has_moved = (evidence.moved >= config.least_moved_votes &&
+                          evidence.moved >= config.least_moved_share * weight_of(evidence)) ||
+                         (evidence.moved > kLeastVotes && is_out_of_nowhere(track, config));
+  // Nothing that stands comes to be where the beams went through a moment before.
+  const bool has_arrived = evidence.moved >= config.sure_moved_votes &&
+                           evidence.moved >= config.sure_moved_share * weight_of(evidence);
+  return track.hits >= config.least_hits && track.score >= config.confirm_score && has_moved && has_known_velocity(track, config) &&
+         is_surely_fast(track, config) && (has_arrived || has_travelled(track, config));
+}
+
 /// A new track in the memory of one that has ended.
 Track emptied(Track done_with) {
   Track track;
@@ -670,6 +686,15 @@ void draw_around(Track& track, const Glimpse& glimpse, const TrackingConfig& con
   track.largest_extent_m = std::max(track.largest_extent_m, extent_of(glimpse.points_m));
 }
 
+void draw_anew_if_askew(Track& track, const Glimpse& glimpse, double time_s, const TrackingConfig& config) {
+  constexpr double kAfterS = 0.15;
+  constexpr std::size_t kFewestEchoes = 5;
+  track.askew_s = is_drawn_askew(track, config) ? track.askew_s + time_s : 0.0;
+  if (track.askew_s <= kAfterS || glimpse.points_m.size() < kFewestEchoes) return;
+  draw_around(track, glimpse, config);
+  track.askew_s = 0.0;
+}
+
 void restart_motion(Track& track, const Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config) {
   filters::MotionState start;
   start.mean.head<2>() = track.position_m();
@@ -744,20 +769,9 @@ void score_passed(Track& track, const Visibility& inner_part, std::size_t echoes
   track.score += std::max(config.most_passed_score, config.passed_beam_score * excess) * inner_part.passed / inner_part.beams;
 }
 
-bool has_proven_to_move(const Track& track, const TrackingConfig& config) {
-  const MotionEvidence& evidence = track.evidence;
-  // What comes out from behind others is where no earlier scan could see: its echoes are undecided, most of them. Where the map says
-  // that it has come, a single vote tells that it is not the map that errs: walls that it holds to be free have none.
-  constexpr double kLeastVotes = 0.5;  // one, half forgotten
-  const bool has_moved = (evidence.moved >= config.least_moved_votes &&
-                          evidence.moved >= config.least_moved_share * weight_of(evidence)) ||
-                         (evidence.moved > kLeastVotes && is_out_of_nowhere(track, config));
-  // Nothing that stands comes to be where the beams went through a moment before.
-  const bool has_arrived = evidence.moved >= config.sure_moved_votes &&
-                           evidence.moved >= config.sure_moved_share * weight_of(evidence);
-  return track.hits >= config.least_hits && track.score >= config.confirm_score && has_moved && has_known_velocity(track, config) &&
-         is_surely_fast(track, config) && !echoes_lie_off_sides(track, config) && (has_arrived || has_travelled(track, config));
-}
+bool has_proven_to_move(const Track& track, const TrackingConfig& config) { return !echoes_lie_off_sides(track, config) && moves_by_all_signs(track, config); }
+
+bool is_drawn_askew(const Track& track, const TrackingConfig& config) { return echoes_lie_off_sides(track, config) && moves_by_all_signs(track, config); }
 
 const Track* drawn_wrong(const Track& a, const Track& b, const TrackingConfig& config) {
   if (!a.body.has_sides || !b.body.has_sides || is_no_such_body(a, config) == is_no_such_body(b, config)) return nullptr;

@@ -130,6 +130,7 @@ struct Track {
   OffSides off_sides;                        ///< Of the same.
   double range_m = 0.0;                      ///< From the laser, when it was last seen.
   double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
+  double askew_s = 0.0;                      ///< For which nothing but its echoes, which lie off its sides, have kept it from being confirmed.
   double refused_s = 0.0;                    ///< For which its echoes have been too far from where it must be.
   bool may_turn = false;                     ///< Whether turning is one of its modes,
   bool walks_on = false;                     ///< and whether cruising is the only one; as of the last predict.
@@ -235,6 +236,10 @@ void confirm(Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
 /// The same motion, of a body drawn anew around these echoes: what was followed was a piece of it.
 void draw_around(Track& track, const Glimpse& glimpse, const TrackingConfig& config);
 
+/// The same once nothing but its echoes, which lie off its sides, have kept it from being confirmed for a while: what hardly answers is begun
+/// around a few echoes that lie anyhow, and never gets rid of that body. Decision 52.
+void draw_anew_if_askew(Track& track, const Glimpse& glimpse, double time_s, const TrackingConfig& config);
+
 /// The same place, and another velocity.
 void restart_motion(Track& track, const Eigen::Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config);
 
@@ -261,6 +266,9 @@ Body inner_part_of(const Track& track);
 
 /// Whether what has been seen suffices to publish the track as an object that moves.
 bool has_proven_to_move(const Track& track, const TrackingConfig& config);
+
+/// Whether it would, but that its echoes do not lie on its sides. Decision 52.
+bool is_drawn_askew(const Track& track, const TrackingConfig& config);
 
 /// Whether a track so old is no longer waited for to prove that it moves. What has travelled, and is surely fast, lacks but votes, or
 /// does not know its speed well enough yet: it is waited for twice as long.

@@ -636,6 +636,7 @@ Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanVi
     track.passage = with_beams(track.passage, inside.passed, beams.size(), time_s);
   }
   if (!track.confirmed) track.youth.add(view.scan().stamp_ns + nanoseconds(track.after_stamp_s), glimpse, pose_covariance_at(track.position_m(), view.scan()));
+  if (!track.confirmed) draw_anew_if_askew(track, glimpse, time_s, config_);
   if (!track.confirmed && has_proven_to_move(track, config_)) {
     const Life before = life(track);
     live_as(track, relived(track, config_));

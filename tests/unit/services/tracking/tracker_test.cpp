@@ -434,8 +434,39 @@ TEST(Track, IsNotConfirmedAsABodyOnTheSidesOfWhichItsEchoesDoNotLie) {
   track.body.has_sides = true;
   track.agreement = {0.15, 0.6, 5.0};
   EXPECT_TRUE(has_proven_to_move(track, config));
+  EXPECT_FALSE(is_drawn_askew(track, config));
   track.agreement.off_sides_m = 0.25;  // say, two who walk, held to be a car
   EXPECT_FALSE(has_proven_to_move(track, config));
+  EXPECT_TRUE(is_drawn_askew(track, config)) << "nothing else keeps it";
+  track.evidence = {};
+  EXPECT_FALSE(is_drawn_askew(track, config));
+}
+
+TEST(Track, OfWhichOnlyTheSidesAreWrongIsDrawnAnewAfterAWhile) {
+  const TrackingConfig config;
+  Track track = out_from_behind_others(config);
+  track.body.has_sides = true;
+  track.body.heading_rad = 0.7;
+  track.body.length = {4.5, 0.1};
+  track.body.width = {1.8, 0.1};
+  track.agreement = {0.25, 0.6, 5.0};
+  ASSERT_TRUE(is_drawn_askew(track, config));
+  const Eigen::Vector2d along = track.velocity_mps().normalized();
+  std::vector<Eigen::Vector2d> points_m;
+  for (int i = 0; i < 5; ++i) points_m.push_back(track.position_m() + (i - 2.0) * along);  // a flank
+  Glimpse glimpse;
+  glimpse.points_m = points_m;
+  glimpse.beam_step_rad = 0.009;
+  const double drawn_rad = track.body.heading_rad;
+  const auto see_for = [&](double time_s) { for (double s = 0.0; s < time_s; s += kPeriodS) draw_anew_if_askew(track, glimpse, kPeriodS, config); };
+  see_for(0.1);
+  EXPECT_EQ(track.body.heading_rad, drawn_rad);
+  glimpse.points_m = std::span(points_m).first(4);  // around fewer it would be drawn no better
+  see_for(1.0);
+  EXPECT_EQ(track.body.heading_rad, drawn_rad);
+  glimpse.points_m = points_m;
+  see_for(kPeriodS);
+  EXPECT_NEAR(std::abs(std::sin(track.body.heading_rad - std::atan2(along.y(), along.x()))), 0.0, 0.05);
 }
 
 TEST(Track, HasComeFromWhereItWasByTheBodyThatItHasByNow) {
