@@ -135,8 +135,8 @@ FieldTable<sensing::PoseErrors> pose_error_fields() {
   using A = sensing::AxisError;
   const FieldTable<A> axis{
       {"of_scan", &A::of_scan, "Of published variances: share of the filter's by which each scan is off.", kPositive},
-      {"of_surprises", &A::of_surprises, "Share by which another part of the map is off, times what surprises of matches say,", kNotNegative},
-      {"of_map", &A::of_map, "and what it is off besides.", kNotNegative},
+      {"of_surprises", &A::of_surprises, "Share by which another part of the map is off, times what surprises of matches say.", kNotNegative},
+      {"of_map", &A::of_map, "Share by which another part of the map is off besides.", kNotNegative},
       {"view_m", &A::view_m, "After this way half of what tells of the axis is another part of the map.", kPositive},
   };
   FieldTable<C> fields = with_nested<C>({}, "forward", &C::forward, axis);
