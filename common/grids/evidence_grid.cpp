@@ -403,8 +403,8 @@ void EvidenceGrid::free_occupied_in_block(const Box& box, std::int32_t block_col
 }
 
 int EvidenceGrid::highest_so_steps(Cell cell, int radius) const {
+  if (!window_.contains(cell)) return 0;  // never seen outside; what is farther than any cell has no neighbours, either
   const GridWindow square{window_.cell_size_m, {cell.column - radius, cell.row - radius}, 2 * radius + 1, 2 * radius + 1};
-  if (!window_.contains(cell)) return 0;  // never seen outside
   const bool is_inside = window_.contains(square.first) && window_.contains({cell.column + radius, cell.row + radius});
   const GridWindow inside = is_inside ? square : intersection(window_, square);
   int highest = is_inside ? std::numeric_limits<std::int8_t>::min() : 0;

@@ -16,6 +16,10 @@ double squared(double value) { return value * value; }
 constexpr double kSurprise = 16.3;  // chi-square, 3 degrees of freedom, 99.9 %
 
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
+
+/// Of (forward, yaw rate) in a second: how their variances grow.
+Eigen::Vector2d velocity_walk(const MotionModelConfig& config) { return {squared(config.speed_walk_mps), squared(config.yaw_rate_walk_radps)}; }
+
 constexpr int kBesidesPose = kMotionStates - 3;
 using ByCalibration = Eigen::Matrix<double, 3, kCalibrations>;
 using ByAllBesidesPose = Eigen::Matrix<double, 3, kBesidesPose>;
@@ -42,14 +46,15 @@ ByCalibration step_by_calibration(const WheelStep& step, const MotionCalibration
   return J;
 }
 
-/// What a step at constant velocity may be off by because the velocity wanders during it, and a little more, as any step. What turns
-/// about another point than the base slides sideways: by the turn rate times the distance, for as long as it turns.
-geometry::Matrix3 noise_at_velocity(double duration_s, double yaw_rate_radps, const MotionModelConfig& config) {
-  const double cube_s3 = squared(duration_s) * duration_s / 3.0;
-  const double ahead_m2 = squared(config.speed_walk_mps) * cube_s3;
-  const double turn_rad2 = squared(config.yaw_rate_walk_radps) * cube_s3;
+/// What a step at constant velocity may be off by because the velocity, of which the step's derivative is given, wanders during it (a Wiener process),
+/// and a little more, as any step. What turns about another point than the base slides sideways: by the turn rate times the distance, for as
+/// long as it turns.
+geometry::Matrix3 noise_at_velocity(const Matrix32& step_by_velocity, double duration_s, double yaw_rate_radps, const MotionModelConfig& config) {
   const double sideways_m2 = squared(config.pivot_walk_m * yaw_rate_radps) * duration_s;
-  return Eigen::Vector3d(squared(config.position_noise_m) + ahead_m2, squared(config.position_noise_m) + sideways_m2, squared(config.heading_noise_rad) + turn_rad2).asDiagonal();
+  const Eigen::Vector3d of_any_step(squared(config.position_noise_m), squared(config.position_noise_m) + sideways_m2, squared(config.heading_noise_rad));
+  geometry::Matrix3 noise = duration_s / 3.0 * step_by_velocity * velocity_walk(config).asDiagonal() * step_by_velocity.transpose();
+  noise.diagonal() += of_any_step;
+  return noise;
 }
 
 /// The velocity of a step by wheels, known as well as they tell it.
@@ -139,12 +144,12 @@ MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s
   const double distance_m = before.velocity.x() * duration_s;
   const double turn_rad = before.velocity.y() * duration_s;
   const Eigen::Vector2d ahead(std::cos(0.5 * turn_rad), std::sin(0.5 * turn_rad));
-  const geometry::UncertainPose2 step{{distance_m * ahead.x(), distance_m * ahead.y(), geometry::wrap_angle(turn_rad)}, noise_at_velocity(duration_s, before.velocity.y(), config)};
   Matrix32 by_velocity;
   by_velocity << ahead.x(), -0.5 * distance_m * ahead.y(),
                  ahead.y(), 0.5 * distance_m * ahead.x(),
                  0.0, 1.0;
   by_velocity *= duration_s;
+  const geometry::UncertainPose2 step{{distance_m * ahead.x(), distance_m * ahead.y(), geometry::wrap_angle(turn_rad)}, noise_at_velocity(by_velocity, duration_s, before.velocity.y(), config)};
   const geometry::Matrix3 by_step = geometry::compound_jacobian_second(before.odom_from_base);
   MotionCovariance F = MotionCovariance::Identity();
   F.topLeftCorner<3, 3>() = geometry::compound_jacobian_first(before.odom_from_base, step.pose);
@@ -153,7 +158,7 @@ MotionEstimate moved_at_velocity(const MotionEstimate& before, double duration_s
   after.odom_from_base = before.odom_from_base * step.pose;
   after.covariance = F * before.covariance * F.transpose();
   after.covariance.topLeftCorner<3, 3>() += by_step * step.covariance * by_step.transpose();
-  const Eigen::Vector2d walk(squared(config.speed_walk_mps), squared(config.yaw_rate_walk_radps));
+  const Eigen::Vector2d walk = velocity_walk(config);
   after.covariance.bottomRightCorner<2, 2>().diagonal() += duration_s * walk;
   const Matrix32 cross = 0.5 * duration_s * by_step * by_velocity * walk.asDiagonal();
   after.covariance.topRightCorner<3, 2>() += cross;

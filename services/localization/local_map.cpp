@@ -191,6 +191,7 @@ void LocalMap::restore_stationary(const Vector2& point_in_odom_m, grids::Echo in
 
 float LocalMap::expected_range_m(const Vector2& origin_in_odom_m, const Vector2& towards_in_odom_m, double max_range_m) const {
   const Vector2 way_m = towards_in_odom_m - origin_in_odom_m;
+  if (way_m == Vector2::Zero()) return static_cast<float>(max_range_m);  // an echo at the scanner itself lies in no direction
   return static_cast<float>(evidence_.grid().distance_to_occupied(origin_in_odom_m, way_m.normalized(), max_range_m));
 }
 
