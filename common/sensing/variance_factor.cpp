@@ -64,7 +64,7 @@ VarianceFactors published(const VarianceFactors& factors, const PoseErrors& erro
     const AxisError& error = *of_axis[axis];
     const double renewed = change.way_m / (change.way_m + error.view_m);
     const double of_map = error.of_surprises * factors.of_axis[axis] + error.of_map * change.squared_residuals;
-    const double matched = change.counted * (error.of_scan * change.squared_residuals + renewed * of_map);
+    const double matched = error.of_scan * change.squared_residuals + renewed * of_map;
     next.of_axis[axis] = matched + factors.dead_reckoned[axis] * (1.0 - matched);
   }
   return next;

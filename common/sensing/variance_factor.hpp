@@ -46,7 +46,6 @@ struct PoseErrors {
 struct MapChange {
   double way_m = 0.0;               ///< Of the time over which published poses are to be compared.
   double squared_residuals = 1.0;   ///< Mean square of what is left after the match, of what the scanner's noise would leave.
-  double counted = 1.0;             ///< How many times as much as usual the scan counted: the filter's variance is less by that, its error is not.
 };
 
 /// Factors with which to publish: of what was matched those learned and the map's error, 1 for what was dead reckoned.

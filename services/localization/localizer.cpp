@@ -532,7 +532,6 @@ bool Localizer::place(const sensing::LaserScan& scan) {
     const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
     progress_.variance_factors = sensing::learned(progress_.variance_factors, prior, found.odom_from_base, share);
     progress_.map_change.squared_residuals = std::pow(found.rms_residual_m / config_.range_noise_m, 2);
-    progress_.map_change.counted = match_config(step, now).information_share / config_.match.information_share;
   }
   if (found.is_believed && !found.was_sampled) learn_sweep(scan, prior, found.odom_from_base.pose, now);
   progress_.variance_factors = sensing::carried(progress_.variance_factors, before, prior, found.odom_from_base);

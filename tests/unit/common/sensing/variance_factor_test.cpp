@@ -108,11 +108,6 @@ TEST(PublishedFactors, GrowWithWhatTheMatchLeaves) {
   EXPECT_TRUE(published(kNotSurprised, kErrors, {.way_m = 3.0, .squared_residuals = 4.0}).of_axis.isApprox(4.0 * well));
 }
 
-TEST(PublishedFactors, GiveBackWhatAScanThatCountsMoreTakesOfTheVariance) {
-  const Eigen::Vector3d usual = published(kSurprised, kErrors, {.way_m = 3.0}).of_axis;
-  EXPECT_TRUE(published(kSurprised, kErrors, {.way_m = 3.0, .counted = 10.0}).of_axis.isApprox(10.0 * usual));
-}
-
 TEST(PublishedFactors, AreOneForWhatWasDeadReckoned) {
   const VarianceFactors factors{.of_axis = {0.01, 0.02, 0.03}, .dead_reckoned = {0.25, 1.0, 0.0}};
   EXPECT_TRUE(published(factors, kErrors, {}).of_axis.isApprox(Eigen::Vector3d(0.75 * 0.2 + 0.25, 1.0, 0.3)));
