@@ -7,8 +7,6 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include "common/association/assignment.hpp"
 #include "common/sensing/box_fit.hpp"
 #include "services/tracking/duplicates.hpp"

@@ -36,6 +36,11 @@ Track car(const Eigen::Vector2d& position_m, std::uint32_t id) {
   return track;
 }
 
+void expect_only_first_is_superfluous(const Track& track, const Track& other) {
+  EXPECT_TRUE(is_superfluous(track, other, {}));
+  EXPECT_FALSE(is_superfluous(other, track, {}));
+}
+
 TEST(Duplicates, AreNotWhatIsApart) {
   const Track one = car({10.0, 0.0}, 1);
   const Track other = car({10.0, 2.5}, 2);
@@ -46,31 +51,27 @@ TEST(Duplicates, AreNotWhatIsApart) {
 TEST(Duplicates, OfOneCarEndWithTheYounger) {
   const Track one = car({10.0, 0.0}, 1);
   const Track other = car({10.5, 0.2}, 2);
-  EXPECT_FALSE(is_superfluous(one, other, {}));
-  EXPECT_TRUE(is_superfluous(other, one, {}));
+  expect_only_first_is_superfluous(other, one);
 }
 
 TEST(Duplicates, AreCarsThroughWhichSomebodyIsSeenToWalk) {
   const Track one = car({10.0, 0.0}, 1);
   const Track inside = walker({11.0, 0.3}, 2);
-  EXPECT_TRUE(is_superfluous(one, inside, {}));
-  EXPECT_FALSE(is_superfluous(inside, one, {}));
+  expect_only_first_is_superfluous(one, inside);
 }
 
 TEST(Duplicates, AreThoseInsideACarWhoMayNotWalk) {
   const Track one = car({10.0, 0.0}, 1);
   Track inside = walker({11.0, 0.3}, 2);
   inside.hits = 10;  // perhaps a corner of it
-  EXPECT_TRUE(is_superfluous(inside, one, {}));
-  EXPECT_FALSE(is_superfluous(one, inside, {}));
+  expect_only_first_is_superfluous(inside, one);
 }
 
 TEST(Duplicates, AreThoseInsideACarWhoAreHidden) {
   const Track one = car({10.0, 0.0}, 1);
   Track inside = walker({11.0, 0.3}, 2);
   inside.last_seen_ns = kNow_ns - 1'000'000'000;  // behind it, and thought to be in it
-  EXPECT_TRUE(is_superfluous(inside, one, {}));
-  EXPECT_FALSE(is_superfluous(one, inside, {}));
+  expect_only_first_is_superfluous(inside, one);
 }
 
 }  // namespace
