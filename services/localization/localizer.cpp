@@ -25,16 +25,6 @@ constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps 
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects nothing any more
 
 constexpr double kCoarsePriorSigmas = 2.0;  // without wheels: so far off is a prediction while the vehicle begins to turn
-constexpr double kStandsWithin_m = 1e-4;    // a step: wheels that stand count nothing,
-constexpr double kStandsWithin_radps = 0.01;  // and what a gyro says then is its bias
-constexpr double kStandsAfter_s = 0.5;      // odometry may come less often than scans
-constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
-constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps are compared with
-constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/0025-stamps-when-certain
-constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelerates does so for longer
-
-std::int64_t to_ns(double duration_s) { return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s)); }
-
 /// Whether it may have been one of ours.
 bool is_believable(const sensing::MotionEstimate& estimate) {
   return localization::is_believable(estimate.odom_from_base) && localization::is_believable(estimate.covariance) &&
@@ -80,17 +70,14 @@ grids::Echo unexplained_out(EndCell end_cell) {
 Localizer::Localizer(const LocalizerConfig& config, work::SideWork* help)
     : config_(config),
       help_(help),
-      motion_of_one_clock_(config.motion),
       match_without_wheels_(config.match),
       match_by_scans_alone_(config.match),
       scan_stamps_(config.far_ahead_s),
-      odometry_stamps_(config.far_ahead_s),
+      prediction_(config),
+      covariance_(config),
       searcher_(config.search),
       finder_(finder_config(config.search)),
       matcher_(help) {
-  motion_of_one_clock_.stamp_offset_prior_s = 0.0;
-  progress_.estimate = sensing::at_start(motion_of_one_clock_);
-  progress_.with_stamp_offset = sensing::at_start(config.motion);
   match_without_wheels_.unproven_share = 1.0;
   match_without_wheels_.information_share = 1.0;
   match_by_scans_alone_.information_share = 1.0;
@@ -100,7 +87,7 @@ Localizer::Localizer(const LocalizerConfig& config, work::SideWork* help)
 }
 
 void Localizer::add_odometry(const sensing::Odometry& sample) {
-  if (config_.use_odometry && odometry_stamps_.believes(sample.stamp_ns)) odometry_.add(sample);
+  prediction_.add(sample);
 }
 
 void Localizer::expect(const flow::TrackedObjects& objects) {
@@ -113,8 +100,8 @@ bool Localizer::is_usable(const sensing::LaserScan& scan) {
     ++progress_.counters.far_ahead_scans;
     return false;
   }
-  if (!progress_.last || scan.stamp_ns > progress_.last->stamp_ns) return true;
-  if (scan.stamp_ns < progress_.last->stamp_ns) {
+  if (!prediction_.last() || scan.stamp_ns > prediction_.last()->stamp_ns) return true;
+  if (scan.stamp_ns < prediction_.last()->stamp_ns) {
     ++progress_.counters.out_of_order_scans;
     return false;
   }
@@ -122,131 +109,6 @@ bool Localizer::is_usable(const sensing::LaserScan& scan) {
   const bool is_new = !scanners_at_last_.empty() && std::ranges::find(scanners_at_last_, scan.scanner.scanner_id) == scanners_at_last_.end();
   if (!is_new) ++progress_.counters.duplicate_scans;
   return is_new;
-}
-
-bool Localizer::is_impossible(const Pose2& by_wheels, double duration_s) const {
-  return std::hypot(by_wheels.x_m, by_wheels.y_m) > config_.fastest_mps * duration_s;
-}
-
-/// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step is doubted for that.
-bool Localizer::is_doubtful(const Pose2& by_wheels, double duration_s) const {
-  return progress_.last->knows_velocity && !progress_.last->doubted_wheels &&
-         is_wheel_jump(by_wheels, progress_.last->speed_mps, progress_.last->yaw_rate_radps, duration_s, config_.wheel_jump);
-}
-
-/// The wheels' pose at a scan's stamp, by the offset between the clocks as believed.
-std::optional<Pose2> Localizer::wheel_from_base_at(std::int64_t stamp_ns) const {
-  const std::optional<Pose2> at_stamp = odometry_.wheel_from_base_at(stamp_ns);
-  if (!at_stamp || !progress_.applies_stamp_offset) return at_stamp;
-  const std::optional<Pose2> at_offset = odometry_.wheel_from_base_after(stamp_ns, to_ns(sensing::stamp_offset_s(progress_.estimate)));
-  return at_offset ? at_offset : at_stamp;
-}
-
-/// What the wheels say of the step from the last scan to the stamp, or of one so much later.
-std::optional<Pose2> Localizer::wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const {
-  const auto before = odometry_.wheel_from_base_after(progress_.last->stamp_ns, after_ns);
-  const auto after = odometry_.wheel_from_base_after(stamp_ns, after_ns);
-  if (!before || !after) return std::nullopt;
-  return geometry::inverse(*before) * *after;
-}
-
-/// How the step changes with the offset, told from how it changed just before: with the step itself, its noise would be
-/// taken for a change of the velocity, and both together for an offset. Where steps are long, changes are large beside it.
-Eigen::Vector3d Localizer::step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const {
-  if (have_jumped_lately()) return Eigen::Vector3d::Zero();
-  const std::int64_t duration_ns = stamp_ns - progress_.last->stamp_ns;
-  const std::int64_t known_ns = std::min<std::int64_t>(0, to_ns(offset_s));
-  const std::int64_t until_ns = duration_ns <= kLongestLag_ns ? known_ns - duration_ns : known_ns;
-  const auto before = wheel_step(stamp_ns, until_ns - to_ns(kVelocityOver_s));
-  const auto after = wheel_step(stamp_ns, until_ns);
-  if (!before || !after) return Eigen::Vector3d::Zero();
-  return geometry::difference(*after, *before) / kVelocityOver_s;
-}
-
-/// Whether the steps by which a change of the velocity is told may hold a jump of the wheels, which is none.
-bool Localizer::have_jumped_lately() const {
-  return progress_.last->trusted_s < kVelocityOver_s + kNanosecond_s * static_cast<double>(2 * kLongestLag_ns);
-}
-
-/// Over long steps, and where samples come late and many at once, nobody knows how fast it was at either end; nor where wheels
-/// have jumped on the way.
-bool Localizer::tells_of_stamps(std::int64_t stamp_ns) const {
-  const std::int64_t from_ns = progress_.last->stamp_ns;
-  return !have_jumped_lately() && stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
-}
-
-/// The map grows by what is matched to it, with the errors of those matches in it.
-void Localizer::renew_map(const Pose2& before_from_base, const Match& found) {
-  const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
-  const double renewed_share = 1.0 - std::exp(-moved_m * found.new_share / config_.match.new_below_m);
-  progress_.estimate = sensing::against_renewed_map(progress_.estimate, renewed_share);
-  progress_.with_stamp_offset = sensing::against_renewed_map(progress_.with_stamp_offset, renewed_share);
-}
-
-/// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
-void Localizer::watch_stamps(std::int64_t stamp_ns, const Step& step, const Match& found) {
-  if (config_.motion.stamp_offset_prior_s == 0.0 || progress_.applies_stamp_offset) return;
-  sensing::MotionEstimate& watched = progress_.with_stamp_offset;
-  const double offset_s = sensing::stamp_offset_s(watched);
-  const bool tells = step.is_by_wheels && !step.is_standing && found.is_believed && !found.was_sampled && !found.is_lost && tells_of_stamps(stamp_ns);
-  const auto by_wheels = tells ? wheel_step(stamp_ns, to_ns(offset_s)) : std::nullopt;
-  if (!by_wheels) {
-    watched = sensing::put_at(watched, progress_.estimate.uncertain_pose());
-    return;
-  }
-  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(watched, {*by_wheels, step.duration_s, step_by_stamp_offset(stamp_ns, offset_s)}, config_.motion);
-  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(), step.after.uncertain_pose(), found.odom_from_base));
-  if (std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
-  progress_.estimate = watched;
-  progress_.applies_stamp_offset = true;
-}
-
-sensing::MotionEstimate Localizer::moved_by_wheels(const Pose2& by_wheels, std::int64_t stamp_ns, double duration_s) const {
-  const sensing::MotionEstimate& before = progress_.estimate;
-  if (!progress_.applies_stamp_offset) return sensing::moved_by_wheels(before, {by_wheels, duration_s}, motion_of_one_clock_);
-  return sensing::moved_by_wheels(before, {by_wheels, duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(before))}, config_.motion);
-}
-
-bool Localizer::is_still(const Pose2& by_wheels, double duration_s) {
-  return std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m && std::abs(by_wheels.heading_rad) <= kStandsWithin_radps * duration_s;
-}
-
-Localizer::Step Localizer::predict(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
-  Step step;
-  std::optional<Pose2> doubtful_step;
-  step.duration_s = static_cast<double>(stamp_ns - progress_.last->stamp_ns) * kNanosecond_s;
-  if (step.duration_s > config_.longest_step_s) ++progress_.counters.gaps;
-  if (wheel_from_base && progress_.last->has_wheels) {
-    const Pose2 by_wheels = geometry::inverse(wheel_from_base_at(progress_.last->stamp_ns).value_or(progress_.last->wheel_from_base)) * *wheel_from_base;
-    if (is_impossible(by_wheels, step.duration_s)) {
-      step.has_doubted_wheels = true;
-    } else if (is_doubtful(by_wheels, step.duration_s)) {
-      doubtful_step = by_wheels;
-      step.has_doubted_wheels = true;
-    } else {
-      step.is_by_wheels = true;
-      step.stood_s = is_still(by_wheels, step.duration_s) ? progress_.last->stood_s + step.duration_s : 0.0;
-      step.is_standing = !config_.may_be_picked_up && step.stood_s > kStandsAfter_s;
-      if (step.is_standing) step.after = sensing::stood_still(progress_.estimate, step.duration_s, config_.motion);
-      else step.after = moved_by_wheels(by_wheels, stamp_ns, step.duration_s);
-      step.before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * step.after.odom_from_base;
-      return step;
-    }
-    ++progress_.counters.odometry_jumps;
-  } else {
-    ++progress_.counters.without_odometry;
-  }
-  const double extrapolated_s = std::min(step.duration_s, config_.longest_step_s);
-  const sensing::MotionEstimate before = doubtful_step ? doubted_velocity(*doubtful_step, step.duration_s) : progress_.estimate;
-  step.after = sensing::moved_at_velocity(before, extrapolated_s, config_.motion);
-  step.before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * step.after.odom_from_base;
-  return step;
-}
-
-/// Either the wheels have jumped or the vehicle was stopped or pushed: the match decides.
-sensing::MotionEstimate Localizer::doubted_velocity(const Pose2& by_wheels, double duration_s) const {
-  const sensing::Velocity by_wheels_mps{by_wheels.x_m / duration_s, by_wheels.heading_rad / duration_s};
-  return sensing::with_doubted_velocity(progress_.estimate, by_wheels_mps - progress_.estimate.velocity);
 }
 
 void Localizer::mask_expected_objects(std::int64_t stamp_ns) {
@@ -294,10 +156,10 @@ const sensing::LaserScan& Localizer::with_true_sweep(const sensing::LaserScan& s
   return swept_scan_;
 }
 
-void Localizer::learn_sweep(const sensing::LaserScan& scan, const UncertainPose2& prior, const Pose2& odom_from_base, const State& now) {
+void Localizer::learn_sweep(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found) {
   if (!learns_sweep(scan)) return;
-  const SweptScan swept{match_points_, share_of_sweep_, odom_from_base, prior.covariance.inverse(), scan.scanner.sweep_s,
-                        {now.speed_mps, now.yaw_rate_radps}, static_cast<double>(now.stamp_ns - progress_.last->stamp_ns) * kNanosecond_s};
+  const SweptScan swept{match_points_, share_of_sweep_, found.odom_from_base.pose, step.prior().covariance.inverse(), scan.scanner.sweep_s,
+                        {step.speed_mps, step.yaw_rate_radps}, step.duration_s};
   progress_.sweep_factor = learned(progress_.sweep_factor, swept, map_.surfels(), config_.match, config_.sweep_factor_sigma * config_.sweep_factor_sigma);
 }
 
@@ -327,7 +189,9 @@ std::vector<matching::Peak> Localizer::peaks_around(const UncertainPose2& prior,
   return searcher.search(points, prior.pose, window);
 }
 
-matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2& prior, const matching::PointToLineConfig& config) {
+matching::PointToLineResult Localizer::match_in_closed_form(const Step& step) {
+  const UncertainPose2 prior = step.prior();
+  const matching::PointToLineConfig& config = match_config(step.source);
   const auto match_from = [&](const Pose2& initial) { return matcher_.match(match_points_, map_.surfels(), prior, initial, config); };
   if (!is_vague(prior)) return match_from(prior.pose);
   // What a search has found is not as far off as the prediction was.
@@ -336,25 +200,26 @@ matching::PointToLineResult Localizer::match_in_closed_form(const UncertainPose2
     where_it_is.coarse_prior_sigmas = 0.0;
     return matcher_.match(match_points_, map_.surfels(), prior, search(prior), where_it_is);
   };
-  if (!progress_.last->was_sampled) return match_from_search();
+  if (!step.last_was_sampled) return match_from_search();
   // Along a featureless wall a search finds any place as good as any other.
   const matching::PointToLineResult result = match_from(prior.pose);
   return says_little(result.scan_information, config_.ambiguous) ? result : match_from_search();
 }
 
-Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::PointToLineConfig& config, std::uint32_t scan_sequence) {
+ScanMatch Localizer::match(const Step& step, std::uint32_t scan_sequence) {
+  const UncertainPose2 prior = step.prior();
   if (static_cast<int>(match_points_.size()) < config_.min_echoes) {
     ++progress_.counters.too_few_echoes;
-    return {prior, false};
+    return {.odom_from_base = prior};
   }
-  const matching::PointToLineResult result = match_in_closed_form(prior, config);
+  const matching::PointToLineResult result = match_in_closed_form(step);
   if (result.matched_share < config_.least_matched_share) {
     ++progress_.counters.lost_matches;
     return {.odom_from_base = prior, .is_lost = true};
   }
   if (says_little(result.scan_information, config_.ambiguous)) {
     ++progress_.counters.sampled_matches;
-    const UncertainPose2 sampled = ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, config, scan_sequence);
+    const UncertainPose2 sampled = ambiguous_matcher_.match({match_points_, map_.surfels(), prior, result}, config_.ambiguous, match_config(step.source), scan_sequence);
     return {.odom_from_base = sampled, .is_believed = true, .was_sampled = true, .rms_residual_m = result.rms_residual_m};
   }
   return {.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m, .new_share = result.new_share};
@@ -362,22 +227,21 @@ Localizer::Match Localizer::match(const UncertainPose2& prior, const matching::P
 
 /// A single step that wheels are silent or wrong about may be one into what nobody has seen before: what is new counts in full. Without
 /// any wheels it would make the map of its own lag: where each scan is matched against the last one, nothing tells how slow it has become.
-const matching::PointToLineConfig& Localizer::match_config(const Step& step, const State& now) const {
-  if (step.is_by_wheels) return config_.match;
-  return now.has_wheels || progress_.last->has_wheels ? match_without_wheels_ : match_by_scans_alone_;
+const matching::PointToLineConfig& Localizer::match_config(StepSource source) const {
+  switch (source) {
+    case StepSource::kOdometry: return config_.match;
+    case StepSource::kVelocityThisOnce: return match_without_wheels_;
+    case StepSource::kVelocityAlone: break;
+  }
+  return match_by_scans_alone_;
 }
 
-void Localizer::travel(const Pose2& before_from_base, double duration_s) {
+void Localizer::travel(const Pose2& before_from_base) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
   progress_.travelled_m += moved_m;
-  progress_.map_change.way_m = std::exp(-duration_s / config_.compared_over_s) * progress_.map_change.way_m + moved_m;
   const double position_m2 = config_.drift_m_per_sqrt_m * config_.drift_m_per_sqrt_m * moved_m;
   const double heading_rad2 = config_.drift_rad_per_sqrt_m * config_.drift_rad_per_sqrt_m * moved_m;
   progress_.drift.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
-}
-
-UncertainPose2 Localizer::published_pose() const {
-  return {progress_.estimate.odom_from_base, sensing::scaled(progress_.estimate.uncertain_pose(), sensing::published(progress_.variance_factors, config_.pose_errors, progress_.map_change))};
 }
 
 flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const UncertainPose2& odom_from_base, flow::LocalizedScan done_with) {
@@ -392,8 +256,8 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Un
   localized.sweep_s = true_sweep_s(scan);
   localized.odom_from_base = odom_from_base;
   localized.map_from_odom = map_from_odom_;
-  localized.speed_mps = progress_.last->speed_mps;
-  localized.yaw_rate_radps = progress_.last->yaw_rate_radps;
+  localized.speed_mps = prediction_.last()->speed_mps;
+  localized.yaw_rate_radps = prediction_.last()->yaw_rate_radps;
   localized.submap_id = map_.submap_id();
   localized.submap_from_base = geometry::inverse(map_.odom_from_submap()) * odom_from_base.pose;
   const Pose2 odom_from_laser = odom_from_base.pose * scan.scanner.base_from_laser;
@@ -477,18 +341,18 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   ++progress_.counters.scans;
   integrate_overdue(scan.stamp_ns);
   begin_next_submap_if_due();
-  if (!progress_.last || progress_.last->stamp_ns != scan.stamp_ns) scanners_at_last_.clear();
+  if (!prediction_.last() || prediction_.last()->stamp_ns != scan.stamp_ns) scanners_at_last_.clear();
   scanners_at_last_.push_back(scan.scanner.scanner_id);
   left_out_beams_.clear();
-  if (progress_.last) {
+  if (prediction_.last()) {
     const bool was_lost = progress_.lost_since_ns.has_value();
-    before_scan_ = progress_;
+    before_scan_ = progress();
     match_points_before_.swap(match_points_);
     if (!place(scan) || was_lost) before_scan_.reset();  // labels by a map in which it may be elsewhere are worth nothing
   } else {
     begin(scan);
   }
-  flow::LocalizedScan localized = describe(scan, published_pose(), std::move(done_with));
+  flow::LocalizedScan localized = describe(scan, covariance_.published(prediction_.estimate()), std::move(done_with));
   remember(scan, localized);
   return localized;
 }
@@ -497,54 +361,41 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
 void Localizer::begin(const sensing::LaserScan& scan) {
   map_ = LocalMap(config_.map, Vector2::Zero(), help_, first_submap_);
   sensing::deskew(scan, 0.0, 0.0, points_in_base_m_);
-  progress_.last = state_at(scan.stamp_ns, odometry_.wheel_from_base_at(scan.stamp_ns));
-}
-
-Localizer::State Localizer::state_at(std::int64_t stamp_ns, const std::optional<Pose2>& wheel_from_base) {
-  State state;
-  state.stamp_ns = stamp_ns;
-  state.has_wheels = wheel_from_base.has_value();
-  state.wheel_from_base = wheel_from_base.value_or(Pose2{});
-  return state;
+  prediction_.begin(scan.stamp_ns);
 }
 
 /// Takes the estimate to a scan after the first. False where its match is not believed.
 bool Localizer::place(const sensing::LaserScan& scan) {
-  const std::optional<Pose2> wheel_from_base = wheel_from_base_at(scan.stamp_ns);
-  State now = state_at(scan.stamp_ns, wheel_from_base);
-  const Step step = predict(scan.stamp_ns, wheel_from_base);
-  now.doubted_wheels = step.has_doubted_wheels;
-  now.trusted_s = step.has_doubted_wheels ? 0.0 : progress_.last->trusted_s + step.duration_s;
-  now.stood_s = step.stood_s;
-  const bool is_later = step.duration_s > 0.0;  // or another scanner's at the same time, which says nothing about the motion
-  now.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : progress_.last->speed_mps;
-  now.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : progress_.last->yaw_rate_radps;
-  sensing::deskew(with_true_sweep(scan), now.speed_mps, now.yaw_rate_radps, points_in_base_m_);
-  const UncertainPose2 prior = step.after.uncertain_pose();
-  select_points(scan, prior.pose);
-  const UncertainPose2 before = progress_.estimate.uncertain_pose();
-  const Match found = match_or_find(prior, scan, step.is_by_wheels, match_config(step, now));
-  const Pose2 before_from_base = geometry::inverse(progress_.estimate.odom_from_base) * found.odom_from_base.pose;
-  progress_.estimate = found.is_believed ? sensing::matched(step.after, found.odom_from_base) : step.after;
-  watch_stamps(scan.stamp_ns, step, found);
-  renew_map(before_from_base, found);
-  if (found.is_believed) {
-    const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
-    progress_.variance_factors = sensing::learned(progress_.variance_factors, prior, found.odom_from_base, share);
-    progress_.map_change.squared_residuals = std::pow(found.rms_residual_m / config_.range_noise_m, 2);
-  }
-  if (found.is_believed && !found.was_sampled) learn_sweep(scan, prior, found.odom_from_base.pose, now);
-  progress_.variance_factors = sensing::carried(progress_.variance_factors, before, prior, found.odom_from_base);
-  travel(before_from_base, step.duration_s);
-  now.was_sampled = found.was_sampled;
+  const Step step = prediction_.predict(scan.stamp_ns);
+  count(step);
+  sensing::deskew(with_true_sweep(scan), step.speed_mps, step.yaw_rate_radps, points_in_base_m_);
+  select_points(scan, step.after.odom_from_base);
+  const ScanMatch found = match_or_find(step, scan);
+  prediction_.observe(step, found);
+  covariance_.observe(step, found);
+  if (found.is_believed && !found.was_sampled) learn_sweep(scan, step, found);
+  travel(matched_step(step, found));
   if (has_gone_astray(scan.stamp_ns)) begin_astray_submap();
-  now.knows_velocity = is_later || progress_.last->knows_velocity;
-  if (is_later && !step.is_by_wheels) {
-    now.speed_mps = progress_.estimate.velocity.x();
-    now.yaw_rate_radps = progress_.estimate.velocity.y();
-  }
-  progress_.last = now;
   return found.is_believed && !found.is_lost && !progress_.lost_since_ns;
+}
+
+void Localizer::count(const Step& step) {
+  if (step.is_gap) ++progress_.counters.gaps;
+  if (step.has_doubted_wheels) ++progress_.counters.odometry_jumps;
+  else if (!step.is_by_wheels()) ++progress_.counters.without_odometry;
+}
+
+Localizer::Progress Localizer::progress() const {
+  Progress now = progress_;
+  now.prediction = prediction_.state();
+  now.covariance = covariance_.state();
+  return now;
+}
+
+void Localizer::return_to(const Progress& progress) {
+  progress_ = progress;
+  prediction_.set_state(progress.prediction);
+  covariance_.set_state(progress.covariance);
 }
 
 bool Localizer::can_be_placed_again(const sensing::LaserScan& scan, const std::vector<PointLabel>& labels) const {
@@ -565,15 +416,15 @@ std::optional<flow::LocalizedScan> Localizer::localize_again(const sensing::Lase
   if (!can_be_placed_again(scan, labels)) return std::nullopt;
   std::vector<std::size_t> left_out = kept_out(labels);
   if (left_out == left_out_beams_) return std::nullopt;  // the same points give the same pose
-  const Progress with_more_points = progress_;
+  const Progress with_more_points = progress();
   left_out_beams_ = std::move(left_out);
-  progress_ = *before_scan_;
+  return_to(*before_scan_);
   if (!place(scan)) {
-    progress_ = with_more_points;
+    return_to(with_more_points);
     return std::nullopt;
   }
   pending_.pop_back();
-  flow::LocalizedScan localized = describe(scan, published_pose(), {});
+  flow::LocalizedScan localized = describe(scan, covariance_.published(prediction_.estimate()), {});
   remember(scan, localized);
   return localized;
 }
@@ -656,12 +507,12 @@ void Localizer::free_bodies(const flow::ScanLabels& labels) {
 }
 
 void Localizer::begin_next_submap_if_due() {
-  if (!progress_.last) return;
+  if (!prediction_.last()) return;
   const double counted_m = short_submaps_left_ > 0 ? kShorterBy * progress_.travelled_m : progress_.travelled_m;
-  if (!submap_is_ended_ && !map_.is_outgrown(progress_.estimate.odom_from_base.translation_m(), counted_m)) return;
+  if (!submap_is_ended_ && !map_.is_outgrown(prediction_.estimate().odom_from_base.translation_m(), counted_m)) return;
   if (!submap_is_ended_) end_submap();
   const Pose2 odom_from_previous = map_.odom_from_submap();
-  map_.begin_next(progress_.estimate.odom_from_base.translation_m());
+  map_.begin_next(prediction_.estimate().odom_from_base.translation_m());
   previous_from_submap_ = {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), progress_.drift};
   progress_.drift.setZero();
   progress_.travelled_m = 0.0;
@@ -672,7 +523,7 @@ void Localizer::begin_next_submap_if_due() {
 void Localizer::end_submap() {
   flow::Submap submap = map_.submap();
   submap.previous_from_submap = previous_from_submap_;
-  submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * progress_.estimate.odom_from_base;
+  submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * prediction_.estimate().odom_from_base;
   submap.travelled_m = progress_.travelled_m;
   finished_.push_back(std::move(submap));
   submap_is_ended_ = true;
@@ -688,7 +539,7 @@ std::optional<flow::Submap> Localizer::take_finished_submap() {
 
 void Localizer::finish() {
   while (!pending_.empty()) integrate_first_without_tracking();
-  if (progress_.last && !submap_is_ended_ && map_.has_echoes()) end_submap();
+  if (prediction_.last() && !submap_is_ended_ && map_.has_echoes()) end_submap();
 }
 
 void Localizer::correct(const flow::GraphCorrection& correction) {
@@ -697,22 +548,23 @@ void Localizer::correct(const flow::GraphCorrection& correction) {
   map_from_odom_ = correction.map_from_odom;
 }
 
-template <typename Self, typename StateOfLast, typename Visitor>
-void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
+template <typename Self, typename State, typename Visitor>
+void Localizer::for_each_part(Self& self, State& progress, Visitor visit) {
+  auto& last = *progress.prediction.last;
   visit(last.stamp_ns);
-  for (auto* estimate : {&self.progress_.estimate, &self.progress_.with_stamp_offset}) {
+  for (auto* estimate : {&progress.prediction.estimate, &progress.prediction.with_stamp_offset}) {
     visit(estimate->odom_from_base);
     visit(estimate->calibration);
     visit(estimate->velocity);
     visit(estimate->covariance);
   }
-  visit(self.progress_.applies_stamp_offset);
-  visit(self.progress_.variance_factors.of_axis);
-  visit(self.progress_.variance_factors.dead_reckoned);
-  visit(self.progress_.map_change.way_m);
-  visit(self.progress_.map_change.squared_residuals);
-  visit(self.progress_.sweep_factor.value);
-  visit(self.progress_.sweep_factor.variance);
+  visit(progress.prediction.applies_stamp_offset);
+  visit(progress.covariance.factors.of_axis);
+  visit(progress.covariance.factors.dead_reckoned);
+  visit(progress.covariance.map_change.way_m);
+  visit(progress.covariance.map_change.squared_residuals);
+  visit(progress.sweep_factor.value);
+  visit(progress.sweep_factor.variance);
   visit(last.has_wheels);
   visit(last.wheel_from_base);
   visit(last.knows_velocity);
@@ -726,19 +578,20 @@ void Localizer::for_each_part(Self& self, StateOfLast& last, Visitor visit) {
   visit(self.correction_sequence_);
   visit(self.previous_from_submap_.pose);
   visit(self.previous_from_submap_.covariance);
-  visit(self.progress_.drift);
-  visit(self.progress_.travelled_m);
+  visit(progress.drift);
+  visit(progress.travelled_m);
   visit(self.submap_is_ended_);
   visit(self.short_submaps_left_);
-  visit(self.progress_.counters);
+  visit(progress.counters);
 }
 
 std::vector<std::byte> Localizer::checkpoint() const {
   std::vector<std::byte> bytes;
-  if (!progress_.last) return bytes;
+  if (!prediction_.last()) return bytes;
   put(bytes, kCheckpointMark);
-  for_each_part(*this, *progress_.last, [&](const auto& part) { put(bytes, part); });
-  put_all(bytes, odometry_.since(progress_.last->stamp_ns - kOdometryKept_ns));
+  const Progress now = progress();
+  for_each_part(*this, now, [&](const auto& part) { put(bytes, part); });
+  put_all(bytes, prediction_.recent_odometry());
   map_.write(bytes);
   put(bytes, checksum(bytes));
   return bytes;
@@ -750,30 +603,30 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
   ByteReader from(*content);
   Localizer restored(config_, help_);
   std::uint64_t mark = 0;
-  State last;
+  Progress progress = restored.progress();
+  auto& last = progress.prediction.last.emplace();
   from.get(mark);
-  for_each_part(restored, last, [&](auto& part) { from.get(part); });
+  for_each_part(restored, progress, [&](auto& part) { from.get(part); });
   if (mark != kCheckpointMark) return false;
   std::vector<sensing::Odometry> odometry;
   from.get_all(odometry);
   std::optional<LocalMap> map = LocalMap::restored(config_.map, from, help_);
   const bool is_sound = is_believable(restored.map_from_odom_) &&
                         is_believable(restored.previous_from_submap_.pose) &&
-                        is_believable(restored.previous_from_submap_.covariance) && is_believable(restored.progress_.drift) &&
-                        is_believable(restored.progress_.estimate) && is_believable(restored.progress_.with_stamp_offset) &&
-                        restored.progress_.variance_factors.of_axis.minCoeff() >= 0.0 && restored.progress_.variance_factors.of_axis.allFinite() &&
-                        restored.progress_.variance_factors.dead_reckoned.minCoeff() >= 0.0 && restored.progress_.variance_factors.dead_reckoned.maxCoeff() <= 1.0 &&
-                        restored.progress_.map_change.way_m >= 0.0 && std::isfinite(restored.progress_.map_change.way_m) &&
-                        restored.progress_.map_change.squared_residuals >= 0.0 && std::isfinite(restored.progress_.map_change.squared_residuals) &&
-                        std::isfinite(restored.progress_.sweep_factor.value) && restored.progress_.sweep_factor.variance >= 0.0 &&
+                        is_believable(restored.previous_from_submap_.covariance) && is_believable(progress.drift) &&
+                        is_believable(progress.prediction.estimate) && is_believable(progress.prediction.with_stamp_offset) &&
+                        progress.covariance.factors.of_axis.minCoeff() >= 0.0 && progress.covariance.factors.of_axis.allFinite() &&
+                        progress.covariance.factors.dead_reckoned.minCoeff() >= 0.0 && progress.covariance.factors.dead_reckoned.maxCoeff() <= 1.0 &&
+                        progress.covariance.map_change.way_m >= 0.0 && std::isfinite(progress.covariance.map_change.way_m) &&
+                        progress.covariance.map_change.squared_residuals >= 0.0 && std::isfinite(progress.covariance.map_change.squared_residuals) &&
+                        std::isfinite(progress.sweep_factor.value) && progress.sweep_factor.variance >= 0.0 &&
                         last.trusted_s >= 0.0 && last.stood_s >= 0.0 && std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
-                        std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(restored.progress_.travelled_m) &&
+                        std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns && std::isfinite(progress.travelled_m) &&
                         std::ranges::all_of(odometry, [](const sensing::Odometry& sample) { return is_believable(sample.wheel_from_base); });
   if (!map || !is_sound || !from.ok() || !from.at_end()) return false;
-  restored.progress_.last = last;
+  restored.return_to(progress);
   restored.map_ = std::move(*map);
-  if (!progress_.last) restored.odometry_ = std::move(odometry_);  // it bridges what was missed
-  for (const sensing::Odometry& sample : odometry) restored.odometry_.add(sample);
+  restored.prediction_.resume(progress.prediction, odometry, std::move(prediction_));
   *this = std::move(restored);
   return true;
 }

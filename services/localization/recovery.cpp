@@ -50,10 +50,11 @@ matching::CorrelativeConfig Localizer::finder_config(matching::CorrelativeConfig
   return search;
 }
 
-Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sensing::LaserScan& scan, bool has_wheels, const matching::PointToLineConfig& config) {
+ScanMatch Localizer::match_or_find(const Step& step, const sensing::LaserScan& scan) {
+  const bool has_wheels = step.is_by_wheels();
   progress_.contradicts_map = false;
-  Match found = match(prior, config, scan.sequence);
-  const bool is_contradicting = is_contradicted(found, prior, has_wheels);
+  ScanMatch found = match(step, scan.sequence);
+  const bool is_contradicting = is_contradicted(found, step);
   found.is_lost |= is_contradicting;
   if (found.is_lost && config_.recovers) {
     if (!progress_.lost_since_ns) progress_.lost_since_ns = scan.stamp_ns;
@@ -66,7 +67,7 @@ Localizer::Match Localizer::match_or_find(const UncertainPose2& prior, const sen
     if (is_patient) return found;
     ++progress_.lost_scans;
     drop_doubted();
-    if (const auto again = find_again(prior, config)) found = *again;
+    if (const auto again = find_again(step)) found = *again;
   }
   if (!found.is_believed || found.is_lost) return found;
   // In a wrong place a scan or two may fit: that is no end of being lost.
@@ -91,7 +92,9 @@ void Localizer::drop_doubted() {
 /// Where the prediction is sure, much that contradicts the map is traffic; where it is not, the match may be anywhere. But
 /// traffic stands before walls, and does not come from one scan to the next. Where the vehicle has hardly moved, nothing does
 /// but the ground that a braking scanner sees, and another place.
-bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior, bool has_wheels) {
+bool Localizer::is_contradicted(const ScanMatch& found, const Step& step) {
+  const UncertainPose2 prior = step.prior();
+  const bool has_wheels = step.is_by_wheels();
   if (!found.is_believed && !found.is_lost) {
     progress_.explained_before = 0.0;  // beams without echo have cleared the map meanwhile: nothing is to be concluded from that
     return false;
@@ -102,9 +105,9 @@ bool Localizer::is_contradicted(const Match& found, const UncertainPose2& prior,
     progress_.explained_before.reset();  // the map is not asked as long as nobody wants to know: it may still be taking in the last scan
     return false;
   }
-  const double before = progress_.explained_before ? *progress_.explained_before : explained_share(match_points_before_, progress_.estimate.odom_from_base);
+  const double before = progress_.explained_before ? *progress_.explained_before : explained_share(match_points_before_, prediction_.estimate().odom_from_base);
   const double explained = explained_share(match_points_, pose);
-  if (!progress_.lost_since_ns) progress_.everything_changed = may_be_elsewhere && before - explained > kChanged_share && is_same_view(geometry::inverse(progress_.estimate.odom_from_base) * prior.pose);
+  if (!progress_.lost_since_ns) progress_.everything_changed = may_be_elsewhere && before - explained > kChanged_share && is_same_view(geometry::inverse(prediction_.estimate().odom_from_base) * prior.pose);
   progress_.explained_before = explained;
   if (!may_be_elsewhere && !progress_.everything_changed) return false;
   if (found.is_lost && progress_.everything_changed) return true;
@@ -157,12 +160,13 @@ double Localizer::Contradiction::share_of_known(int points) const {
 }
 
 /// Whichever way it looks now: a room looks much the same from both of its ends, and only all the answers together tell.
-std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prior, const matching::PointToLineConfig& config) {
+std::optional<ScanMatch> Localizer::find_again(const Step& step) {
   if (!is_worth_a_search(static_cast<unsigned>(progress_.lost_scans))) return std::nullopt;
   const double sigma_m = std::min(kWindowPerScan_m * progress_.lost_scans, config_.search_reach_m) / config_.search_sigmas;
-  UncertainPose2 anywhere = prior;
+  const matching::PointToLineConfig& config = match_config(step.source);
+  UncertainPose2 anywhere = step.prior();
   anywhere.covariance.diagonal() += Eigen::Vector3d(sigma_m, sigma_m, std::numbers::pi).cwiseAbs2();
-  std::optional<Match> best;
+  std::optional<ScanMatch> best;
   double best_quality = 0.0;
   double rival_quality = 0.0;
   for (const matching::Peak& peak : peaks_around(anywhere, finder_)) {
@@ -175,7 +179,7 @@ std::optional<Localizer::Match> Localizer::find_again(const UncertainPose2& prio
     const bool is_same = best && are_same(best->odom_from_base.pose, result.map_from_base.pose);
     if (!is_same) rival_quality = std::max(rival_quality, std::min(quality, best_quality));
     if (!is_best) continue;
-    best = Match{.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m};
+    best = ScanMatch{.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m};
     best_quality = quality;
   }
   if (!best || rival_quality > kRivalRatio * best_quality) return std::nullopt;
@@ -193,7 +197,7 @@ UncertainPose2 Localizer::anywhere_about(const geometry::Pose2& pose) const {
 }
 
 void Localizer::go_on_after(const flow::CorrectedSubmap& last) {
-  if (progress_.last) return;
+  if (prediction_.last()) return;
   first_submap_ = {last.submap_id.value + 1};
   map_from_odom_ = last.map_from_submap;
   previous_from_submap_ = anywhere_about(geometry::Pose2::identity());
@@ -205,14 +209,13 @@ void Localizer::begin_astray_submap() {
   ++progress_.counters.astray;
   const geometry::Pose2 odom_from_previous = map_.odom_from_submap();
   if (!submap_is_ended_ && map_.has_echoes()) end_submap();
-  map_.begin_astray(progress_.estimate.odom_from_base.translation_m());
+  map_.begin_astray(prediction_.estimate().odom_from_base.translation_m());
   previous_from_submap_ = anywhere_about(geometry::inverse(odom_from_previous) * map_.odom_from_submap());
   progress_.drift.setZero();
   progress_.travelled_m = 0.0;
   submap_is_ended_ = false;
   short_submaps_left_ = kShortSubmaps;
-  progress_.estimate.covariance.topRows<3>().setZero();
-  progress_.estimate.covariance.leftCols<3>().setZero();
+  prediction_.begin_map_here();
   progress_.lost_since_ns.reset();
   progress_.lost_scans = 0;
   progress_.scans_to_prove = 0;

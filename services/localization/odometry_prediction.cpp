@@ -1,0 +1,210 @@
+#include "services/localization/odometry_prediction.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Pose2;
+
+constexpr double kNanosecond_s = 1e-9;
+constexpr double kStandsWithin_m = 1e-4;    // a step: wheels that stand count nothing,
+constexpr double kStandsWithin_radps = 0.01;  // and what a gyro says then is its bias
+constexpr double kStandsAfter_s = 0.5;      // odometry may come less often than scans
+constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
+constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps are compared with
+constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/0025-stamps-when-certain
+constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelerates does so for longer
+
+std::int64_t to_ns(double duration_s) { return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s)); }
+
+bool is_still(const Pose2& by_wheels, double duration_s) {
+  return std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m && std::abs(by_wheels.heading_rad) <= kStandsWithin_radps * duration_s;
+}
+
+}  // namespace
+
+OdometryPrediction::OdometryPrediction(const LocalizerConfig& config)
+    : config_(config), motion_of_one_clock_(config.motion), stamps_(config.far_ahead_s) {
+  motion_of_one_clock_.stamp_offset_prior_s = 0.0;
+  state_.estimate = sensing::at_start(motion_of_one_clock_);
+  state_.with_stamp_offset = sensing::at_start(config.motion);
+}
+
+void OdometryPrediction::add(const sensing::Odometry& sample) {
+  if (config_.use_odometry && stamps_.believes(sample.stamp_ns)) odometry_.add(sample);
+}
+
+void OdometryPrediction::begin(std::int64_t stamp_ns) {
+  const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(stamp_ns);
+  state_.last = LastScan{.stamp_ns = stamp_ns, .has_wheels = wheel_from_base.has_value(), .wheel_from_base = wheel_from_base.value_or(Pose2{})};
+}
+
+bool OdometryPrediction::is_impossible(const Pose2& by_wheels, double duration_s) const {
+  return std::hypot(by_wheels.x_m, by_wheels.y_m) > config_.fastest_mps * duration_s;
+}
+
+/// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step is doubted for that.
+bool OdometryPrediction::is_doubtful(const Pose2& by_wheels, double duration_s) const {
+  return state_.last->knows_velocity && !state_.last->doubted_wheels &&
+         is_wheel_jump(by_wheels, state_.last->speed_mps, state_.last->yaw_rate_radps, duration_s, config_.wheel_jump);
+}
+
+/// The wheels' pose at a scan's stamp, by the offset between the clocks as believed.
+std::optional<Pose2> OdometryPrediction::wheel_from_base_at(std::int64_t stamp_ns) const {
+  const std::optional<Pose2> at_stamp = odometry_.wheel_from_base_at(stamp_ns);
+  if (!at_stamp || !state_.applies_stamp_offset) return at_stamp;
+  const std::optional<Pose2> at_offset = odometry_.wheel_from_base_after(stamp_ns, to_ns(sensing::stamp_offset_s(state_.estimate)));
+  return at_offset ? at_offset : at_stamp;
+}
+
+/// None where wheels spoke at one end of the step only.
+std::optional<Pose2> OdometryPrediction::step_by_wheels(const Step& step) const {
+  if (!step.wheel_from_base || !state_.last->has_wheels) return std::nullopt;
+  return geometry::inverse(wheel_from_base_at(state_.last->stamp_ns).value_or(state_.last->wheel_from_base)) * *step.wheel_from_base;
+}
+
+/// What the wheels say of the step from the last scan to the stamp, or of one so much later.
+std::optional<Pose2> OdometryPrediction::wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const {
+  const auto before = odometry_.wheel_from_base_after(state_.last->stamp_ns, after_ns);
+  const auto after = odometry_.wheel_from_base_after(stamp_ns, after_ns);
+  if (!before || !after) return std::nullopt;
+  return geometry::inverse(*before) * *after;
+}
+
+/// How the step changes with the offset, told from how it changed just before: with the step itself, its noise would be
+/// taken for a change of the velocity, and both together for an offset. Where steps are long, changes are large beside it.
+Eigen::Vector3d OdometryPrediction::step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const {
+  if (have_jumped_lately()) return Eigen::Vector3d::Zero();
+  const std::int64_t duration_ns = stamp_ns - state_.last->stamp_ns;
+  const std::int64_t known_ns = std::min<std::int64_t>(0, to_ns(offset_s));
+  const std::int64_t until_ns = duration_ns <= kLongestLag_ns ? known_ns - duration_ns : known_ns;
+  const auto before = wheel_step(stamp_ns, until_ns - to_ns(kVelocityOver_s));
+  const auto after = wheel_step(stamp_ns, until_ns);
+  if (!before || !after) return Eigen::Vector3d::Zero();
+  return geometry::difference(*after, *before) / kVelocityOver_s;
+}
+
+/// Whether the steps by which a change of the velocity is told may hold a jump of the wheels, which is none.
+bool OdometryPrediction::have_jumped_lately() const {
+  return state_.last->trusted_s < kVelocityOver_s + kNanosecond_s * static_cast<double>(2 * kLongestLag_ns);
+}
+
+/// Over long steps, and where samples come late and many at once, nobody knows how fast it was at either end; nor where wheels
+/// have jumped on the way.
+bool OdometryPrediction::tells_of_stamps(std::int64_t stamp_ns) const {
+  const std::int64_t from_ns = state_.last->stamp_ns;
+  return !have_jumped_lately() && stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
+}
+
+sensing::MotionEstimate OdometryPrediction::moved_by_wheels(const Pose2& by_wheels, std::int64_t stamp_ns, double duration_s) const {
+  const sensing::MotionEstimate& before = state_.estimate;
+  if (!state_.applies_stamp_offset) return sensing::moved_by_wheels(before, {by_wheels, duration_s}, motion_of_one_clock_);
+  return sensing::moved_by_wheels(before, {by_wheels, duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(before))}, config_.motion);
+}
+
+/// Either the wheels have jumped or the vehicle was stopped or pushed: the match decides.
+sensing::MotionEstimate OdometryPrediction::doubted_velocity(const Pose2& by_wheels, double duration_s) const {
+  const sensing::Velocity by_wheels_mps{by_wheels.x_m / duration_s, by_wheels.heading_rad / duration_s};
+  return sensing::with_doubted_velocity(state_.estimate, by_wheels_mps - state_.estimate.velocity);
+}
+
+void OdometryPrediction::follow_wheels(const Pose2& by_wheels, Step& step) const {
+  step.source = StepSource::kOdometry;
+  step.stood_s = is_still(by_wheels, step.duration_s) ? state_.last->stood_s + step.duration_s : 0.0;
+  step.is_standing = !config_.may_be_picked_up && step.stood_s > kStandsAfter_s;
+  if (step.is_standing) step.after = sensing::stood_still(state_.estimate, step.duration_s, config_.motion);
+  else step.after = moved_by_wheels(by_wheels, step.stamp_ns, step.duration_s);
+}
+
+void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const {
+  step.source = step.wheel_from_base || state_.last->has_wheels ? StepSource::kVelocityThisOnce : StepSource::kVelocityAlone;
+  step.after = sensing::moved_at_velocity(before, std::min(step.duration_s, config_.longest_step_s), config_.motion);
+}
+
+Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
+  Step step;
+  step.stamp_ns = stamp_ns;
+  step.duration_s = static_cast<double>(stamp_ns - state_.last->stamp_ns) * kNanosecond_s;
+  step.is_gap = step.duration_s > config_.longest_step_s;
+  step.wheel_from_base = wheel_from_base_at(stamp_ns);
+  step.odom_from_base_before = state_.estimate.uncertain_pose();
+  step.last_was_sampled = state_.last->was_sampled;
+  const std::optional<Pose2> by_wheels = step_by_wheels(step);
+  const bool cannot_be = by_wheels && is_impossible(*by_wheels, step.duration_s);
+  const bool is_jump = by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
+  step.has_doubted_wheels = cannot_be || is_jump;
+  if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
+  else go_on_at_velocity(is_jump ? doubted_velocity(*by_wheels, step.duration_s) : state_.estimate, step);
+  step.before_from_base = geometry::inverse(state_.estimate.odom_from_base) * step.after.odom_from_base;
+  const bool is_later = step.duration_s > 0.0;  // another scanner's at the same time says nothing about the motion
+  step.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : state_.last->speed_mps;
+  step.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : state_.last->yaw_rate_radps;
+  return step;
+}
+
+void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
+  state_.estimate = match.is_believed ? sensing::matched(step.after, match.odom_from_base) : step.after;
+  learn_stamp_offset(step, match);
+  renew_map(matched_step(step, match), match);
+  state_.last = last_after(step, match);
+}
+
+/// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
+void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& match) {
+  if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;
+  sensing::MotionEstimate& watched = state_.with_stamp_offset;
+  const double offset_s = sensing::stamp_offset_s(watched);
+  const bool tells = step.is_by_wheels() && !step.is_standing && match.is_believed && !match.was_sampled && !match.is_lost && tells_of_stamps(step.stamp_ns);
+  const auto by_wheels = tells ? wheel_step(step.stamp_ns, to_ns(offset_s)) : std::nullopt;
+  if (!by_wheels) {
+    watched = sensing::put_at(watched, state_.estimate.uncertain_pose());
+    return;
+  }
+  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(watched, {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s)}, config_.motion);
+  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(), step.prior(), match.odom_from_base));
+  if (std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
+  state_.estimate = watched;
+  state_.applies_stamp_offset = true;
+}
+
+/// The map grows by what is matched to it, with the errors of those matches in it.
+void OdometryPrediction::renew_map(const Pose2& before_from_base, const ScanMatch& match) {
+  const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
+  const double renewed_share = 1.0 - std::exp(-moved_m * match.new_share / config_.match.new_below_m);
+  state_.estimate = sensing::against_renewed_map(state_.estimate, renewed_share);
+  state_.with_stamp_offset = sensing::against_renewed_map(state_.with_stamp_offset, renewed_share);
+}
+
+OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step, const ScanMatch& match) const {
+  const bool is_later = step.duration_s > 0.0;
+  const bool is_by_velocity = is_later && !step.is_by_wheels();
+  return {.stamp_ns = step.stamp_ns,
+          .has_wheels = step.wheel_from_base.has_value(),
+          .wheel_from_base = step.wheel_from_base.value_or(Pose2{}),
+          .knows_velocity = is_later || state_.last->knows_velocity,
+          .was_sampled = match.was_sampled,
+          .speed_mps = is_by_velocity ? state_.estimate.velocity.x() : step.speed_mps,
+          .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,
+          .doubted_wheels = step.has_doubted_wheels,
+          .trusted_s = step.has_doubted_wheels ? 0.0 : state_.last->trusted_s + step.duration_s,
+          .stood_s = step.stood_s};
+}
+
+void OdometryPrediction::begin_map_here() {
+  state_.estimate.covariance.topRows<3>().setZero();
+  state_.estimate.covariance.leftCols<3>().setZero();
+}
+
+std::vector<sensing::Odometry> OdometryPrediction::recent_odometry() const {
+  return state_.last ? odometry_.since(state_.last->stamp_ns - kOdometryKept_ns) : std::vector<sensing::Odometry>{};
+}
+
+void OdometryPrediction::resume(const State& state, const std::vector<sensing::Odometry>& samples, OdometryPrediction&& before) {
+  state_ = state;
+  if (!before.state_.last) odometry_ = std::move(before.odometry_);  // it bridges what was missed
+  for (const sensing::Odometry& sample : samples) odometry_.add(sample);
+}
+
+}  // namespace slammot::localization

@@ -1,0 +1,24 @@
+#include "services/localization/published_covariance.hpp"
+
+#include <cmath>
+
+namespace slammot::localization {
+
+void PublishedCovariance::observe(const Step& step, const ScanMatch& match) {
+  if (match.is_believed) {
+    const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
+    state_.factors = sensing::learned(state_.factors, step.prior(), match.odom_from_base, share);
+    state_.map_change.squared_residuals = std::pow(match.rms_residual_m / config_.range_noise_m, 2);
+  }
+  state_.factors = sensing::carried(state_.factors, step.odom_from_base_before, step.prior(), match.odom_from_base);
+  const geometry::Pose2 before_from_base = matched_step(step, match);
+  const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
+  state_.map_change.way_m = std::exp(-step.duration_s / config_.compared_over_s) * state_.map_change.way_m + moved_m;
+}
+
+geometry::UncertainPose2 PublishedCovariance::published(const sensing::MotionEstimate& estimate) const {
+  const sensing::VarianceFactors factors = sensing::published(state_.factors, config_.pose_errors, state_.map_change);
+  return {estimate.odom_from_base, sensing::scaled(estimate.uncertain_pose(), factors)};
+}
+
+}  // namespace slammot::localization

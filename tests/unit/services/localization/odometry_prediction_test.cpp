@@ -1,0 +1,147 @@
+#include "services/localization/odometry_prediction.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/matchers.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Pose2;
+using slammot::testing::PoseNear;
+
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+constexpr double kPeriod_s = 0.1;
+
+/// A match that is believed and puts the base at the pose, 1 cm and 1 mrad sure.
+ScanMatch matched_at(const Pose2& odom_from_base) {
+  const geometry::Matrix3 covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
+  return {.odom_from_base = {odom_from_base, covariance}, .is_believed = true};
+}
+
+ScanMatch without_match(const Step& step) { return {.odom_from_base = step.prior()}; }
+
+/// A vehicle that goes straight on at 5 m/s, with odometry at each scan.
+class OdometryPredictionTest : public ::testing::Test {
+ protected:
+  static constexpr double kSpeed_mps = 5.0;
+
+  static Pose2 pose_at(int scan) { return {kSpeed_mps * kPeriod_s * scan, 0.0, 0.0}; }
+  static std::int64_t stamp_ns(int scan) { return kPeriod_ns * scan; }
+
+  void drive(int first, int last) {
+    for (int scan = first; scan < last; ++scan) {
+      prediction_.add({stamp_ns(scan), wheel_from_odom_ * pose_at(scan)});
+      if (scan == 0) prediction_.begin(0);
+      else prediction_.observe(prediction_.predict(stamp_ns(scan)), matched_at(pose_at(scan)));
+    }
+  }
+
+  Pose2 wheel_from_odom_{3.0, -7.0, 2.0};
+  OdometryPrediction prediction_{LocalizerConfig{}};
+};
+
+TEST_F(OdometryPredictionTest, PredictsTheStepThatOdometryReports) {
+  drive(0, 5);
+  prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
+  const Step step = prediction_.predict(stamp_ns(5));
+  EXPECT_EQ(step.source, StepSource::kOdometry);
+  EXPECT_DOUBLE_EQ(step.duration_s, kPeriod_s);
+  EXPECT_THAT(step.after.odom_from_base, PoseNear(pose_at(5), 0.01));
+  EXPECT_NEAR(step.speed_mps, kSpeed_mps, 0.1);
+}
+
+TEST_F(OdometryPredictionTest, ChangesNothingByPredicting) {
+  drive(0, 5);
+  prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
+  const Step first = prediction_.predict(stamp_ns(5));
+  const Step second = prediction_.predict(stamp_ns(5));
+  EXPECT_EQ(first.after.odom_from_base, second.after.odom_from_base);
+  EXPECT_EQ(prediction_.last()->stamp_ns, stamp_ns(4));
+}
+
+TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityWhereOdometryJumps) {
+  drive(0, 5);
+  wheel_from_odom_.x_m += 4.0;
+  prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
+  const Step step = prediction_.predict(stamp_ns(5));
+  EXPECT_EQ(step.source, StepSource::kVelocityThisOnce);
+  EXPECT_TRUE(step.has_doubted_wheels);
+  EXPECT_THAT(step.after.odom_from_base, PoseNear(pose_at(5), 0.05));
+  EXPECT_GT(step.prior().covariance(0, 0), 0.01) << "the match has to decide";
+}
+
+TEST_F(OdometryPredictionTest, BelievesAnUnlikelyStepThatIsReportedTwice) {
+  drive(0, 5);
+  const Pose2 stopped = pose_at(4);
+  for (int scan = 5; scan < 7; ++scan) prediction_.add({stamp_ns(scan), wheel_from_odom_ * stopped});
+  const Step first = prediction_.predict(stamp_ns(5));
+  EXPECT_TRUE(first.has_doubted_wheels);
+  prediction_.observe(first, without_match(first));
+  EXPECT_TRUE(prediction_.predict(stamp_ns(6)).is_by_wheels());
+}
+
+TEST_F(OdometryPredictionTest, NeverBelievesAStepFasterThanAnyVehicle) {
+  drive(0, 5);
+  for (int scan = 5; scan < 8; ++scan) {
+    wheel_from_odom_.x_m += 40.0;
+    prediction_.add({stamp_ns(scan), wheel_from_odom_ * pose_at(scan)});
+    const Step step = prediction_.predict(stamp_ns(scan));
+    EXPECT_FALSE(step.is_by_wheels());
+    prediction_.observe(step, matched_at(pose_at(scan)));
+  }
+}
+
+TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityOfTheMatchesWithoutOdometry) {
+  prediction_.begin(0);
+  for (int scan = 1; scan < 30; ++scan) {
+    const Step step = prediction_.predict(stamp_ns(scan));
+    ASSERT_EQ(step.source, StepSource::kVelocityAlone);
+    if (scan > 20) EXPECT_THAT(step.after.odom_from_base, PoseNear(pose_at(scan), 0.1));
+    prediction_.observe(step, matched_at(pose_at(scan)));
+  }
+}
+
+TEST_F(OdometryPredictionTest, HoldsTheVehicleToStandOnceWheelsHaveStoodForAWhile) {
+  drive(0, 1);
+  int standing = 0;
+  for (int scan = 1; scan < 10; ++scan) {
+    prediction_.add({stamp_ns(scan), wheel_from_odom_ * pose_at(0)});
+    const Step step = prediction_.predict(stamp_ns(scan));
+    standing += step.is_standing;
+    prediction_.observe(step, without_match(step));
+  }
+  EXPECT_EQ(standing, 4) << "from 0.6 s on";
+}
+
+TEST_F(OdometryPredictionTest, MarksAGapAndExtrapolatesNoFartherThanThat) {
+  prediction_.begin(0);
+  for (int scan = 1; scan < 30; ++scan) prediction_.observe(prediction_.predict(stamp_ns(scan)), matched_at(pose_at(scan)));
+  const Step step = prediction_.predict(stamp_ns(29) + 10 * 1'000'000'000LL);
+  EXPECT_TRUE(step.is_gap);
+  EXPECT_NEAR(step.after.odom_from_base.x_m - pose_at(29).x_m, kSpeed_mps * LocalizerConfig{}.longest_step_s, 1.0);
+}
+
+TEST_F(OdometryPredictionTest, GoesOnFromAStateAsBefore) {
+  drive(0, 5);
+  const OdometryPrediction::State state = prediction_.state();
+  prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
+  const Step step = prediction_.predict(stamp_ns(5));
+  prediction_.observe(step, matched_at({2.6, 0.1, 0.01}));
+  prediction_.set_state(state);
+  EXPECT_EQ(prediction_.predict(stamp_ns(5)).after.odom_from_base, step.after.odom_from_base);
+}
+
+TEST_F(OdometryPredictionTest, ResumesWithTheSamplesOfACheckpointAndThoseThatCameSince) {
+  drive(0, 5);
+  OdometryPrediction since{LocalizerConfig{}};
+  since.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
+  OdometryPrediction resumed{LocalizerConfig{}};
+  resumed.resume(prediction_.state(), prediction_.recent_odometry(), std::move(since));
+  EXPECT_TRUE(resumed.reaches(stamp_ns(5)));
+  prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
+  EXPECT_EQ(resumed.predict(stamp_ns(5)).after.odom_from_base, prediction_.predict(stamp_ns(5)).after.odom_from_base);
+}
+
+}  // namespace
+}  // namespace slammot::localization

@@ -1,0 +1,59 @@
+#include "services/localization/published_covariance.hpp"
+
+#include <gtest/gtest.h>
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Pose2;
+
+Step step_with_sigma(double sigma_m) {
+  Step step;
+  step.duration_s = 0.1;
+  step.source = StepSource::kOdometry;
+  step.after.covariance.topLeftCorner<3, 3>() = Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-6).asDiagonal();
+  return step;
+}
+
+ScanMatch match_at(double x_m, double sigma_m) {
+  const geometry::Matrix3 covariance = Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-7).asDiagonal();
+  return {.odom_from_base = {Pose2{x_m, 0.0, 0.0}, covariance}, .is_believed = true, .rms_residual_m = 0.03};
+}
+
+double published_variance_m2(double surprise_m) {
+  PublishedCovariance covariance{LocalizerConfig{}};
+  const Step step = step_with_sigma(0.01);
+  for (int scan = 0; scan < 50; ++scan) covariance.observe(step, match_at(surprise_m, 0.005));
+  return covariance.published(step.after).covariance(0, 0);
+}
+
+TEST(PublishedCovariance, GrowsWithTheSurprisesOfMatches) { EXPECT_GT(published_variance_m2(0.03), 2.0 * published_variance_m2(0.0)); }
+
+TEST(PublishedCovariance, KeepsThePoseOfTheEstimate) {
+  PublishedCovariance covariance{LocalizerConfig{}};
+  sensing::MotionEstimate estimate;
+  estimate.odom_from_base = {1.0, 2.0, 0.5};
+  EXPECT_EQ(covariance.published(estimate).pose, estimate.odom_from_base);
+}
+
+TEST(PublishedCovariance, IsThatOfTheFilterWhereNothingWasMatched) {
+  PublishedCovariance covariance{LocalizerConfig{}};
+  const Step step = step_with_sigma(0.5);  // all of it grown in this step
+  covariance.observe(step, {.odom_from_base = step.prior()});
+  EXPECT_NEAR(covariance.published(step.after).covariance(0, 0), 0.25, 1e-9);
+}
+
+TEST(PublishedCovariance, GoesOnFromAStateAsBefore) {
+  PublishedCovariance covariance{LocalizerConfig{}};
+  const Step step = step_with_sigma(0.01);
+  covariance.observe(step, match_at(0.02, 0.005));
+  const auto state = covariance.state();
+  const auto before = covariance.published(step.after).covariance;
+  covariance.observe(step, match_at(0.2, 0.005));
+  EXPECT_NE(covariance.published(step.after).covariance, before);
+  covariance.set_state(state);
+  EXPECT_EQ(covariance.published(step.after).covariance, before);
+}
+
+}  // namespace
+}  // namespace slammot::localization
