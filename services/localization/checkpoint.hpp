@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/sensing/scan.hpp"
+#include "common/work/side_work.hpp"
+#include "services/localization/local_map.hpp"
+#include "services/localization/localizer_config.hpp"
+#include "services/localization/localizer_counters.hpp"
+#include "services/localization/odometry_prediction.hpp"
+#include "services/localization/published_covariance.hpp"
+#include "services/localization/submap_sequence.hpp"
+#include "services/localization/sweep_estimate.hpp"
+
+namespace slammot::localization {
+
+/// What a localizer goes on from after a crash, beside the local map.
+struct Checkpoint {
+  OdometryPrediction::State prediction;   ///< Of a drive that has begun: it has a last scan.
+  PublishedCovariance::State covariance;
+  SweepFactor sweep_factor;
+  SubmapSequence::State submaps;
+  LocalizerCounters counters;
+  std::vector<sensing::Odometry> odometry;
+};
+
+/// In a form of this build, with a checksum.
+std::vector<std::byte> to_bytes(const Checkpoint& checkpoint, const LocalMap& map);
+
+struct RestoredCheckpoint {
+  Checkpoint checkpoint;
+  LocalMap map;
+};
+
+/// before: of a new localizer; what the bytes do not hold is as in it. None when they are damaged or the map in them has another
+/// shape than the configuration's. help, if any, becomes the map's.
+std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes, const Checkpoint& before, const LocalMapConfig& config, work::SideWork* help = nullptr);
+
+}  // namespace slammot::localization

@@ -1,0 +1,69 @@
+#include "services/localization/scan_matcher.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Pose2;
+using geometry::UncertainPose2;
+
+constexpr double kCoarsePriorSigmas = 2.0;  // without wheels: so far off is a prediction while the vehicle begins to turn
+
+}  // namespace
+
+ScanMatcher::ScanMatcher(const LocalizerConfig& config, work::SideWork* help)
+    : config_(config), without_wheels_(config.match), by_scans_alone_(config.match), search_(config, config.search), matcher_(help) {
+  without_wheels_.unproven_share = 1.0;
+  without_wheels_.information_share = 1.0;
+  by_scans_alone_.information_share = 1.0;
+  by_scans_alone_.body_sigma_m = config.body_sigma_without_wheels_m;
+  by_scans_alone_.coarse_prior_sigmas = kCoarsePriorSigmas;
+}
+
+/// A single step that wheels are silent or wrong about may be one into what nobody has seen before: what is new counts in full. Without
+/// any wheels it would make the map of its own lag: where each scan is matched against the last one, nothing tells how slow it has become.
+const matching::PointToLineConfig& ScanMatcher::config_for(StepSource source) const {
+  switch (source) {
+    case StepSource::kOdometry: return config_.match;
+    case StepSource::kVelocityThisOnce: return without_wheels_;
+    case StepSource::kVelocityAlone: break;
+  }
+  return by_scans_alone_;
+}
+
+matching::PointToLineResult ScanMatcher::register_from(const Pose2& odom_from_base, const UncertainPose2& prior, const ScanToMatch& scan) {
+  return matcher_.match(scan.points, scan.surfels, prior, odom_from_base, config_for(scan.step.source));
+}
+
+/// What a search has found is not as far off as the prediction was.
+matching::PointToLineResult ScanMatcher::match_from_search(const ScanToMatch& scan) {
+  const UncertainPose2 prior = scan.step.prior();
+  matching::PointToLineConfig where_it_is = config_for(scan.step.source);
+  where_it_is.coarse_prior_sigmas = 0.0;
+  const std::vector<matching::Peak> peaks = search_.peaks_around(prior, scan.points, scan.surfels);
+  return matcher_.match(scan.points, scan.surfels, prior, peaks.empty() ? prior.pose : peaks.front().target_from_source.pose, where_it_is);
+}
+
+ScanMatch ScanMatcher::match(const ScanToMatch& scan) {
+  const UncertainPose2 prior = scan.step.prior();
+  if (static_cast<int>(scan.points.size()) < config_.min_echoes) return {.odom_from_base = prior};
+  // Along a featureless wall a search finds any place as good as any other.
+  const bool is_unsure = is_vague(prior, config_);
+  bool searches = is_unsure && !scan.step.last_was_sampled;
+  matching::PointToLineResult result;
+  if (!searches) {
+    result = register_from(prior.pose, prior, scan);
+    searches = is_unsure && !says_little(result.scan_information, config_.ambiguous);
+  }
+  if (searches) result = match_from_search(scan);
+  if (result.matched_share < config_.least_matched_share) return {.odom_from_base = prior, .is_lost = true, .was_searched = searches};
+  ScanMatch found{.odom_from_base = result.map_from_base, .is_believed = true, .was_searched = searches, .rms_residual_m = result.rms_residual_m};
+  found.was_sampled = says_little(result.scan_information, config_.ambiguous);
+  if (found.was_sampled) {
+    found.odom_from_base = ambiguous_matcher_.match({scan.points, scan.surfels, prior, result}, config_.ambiguous, config_for(scan.step.source), scan.sequence);
+  } else {
+    found.new_share = result.new_share;
+  }
+  return found;
+}
+
+}  // namespace slammot::localization

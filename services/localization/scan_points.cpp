@@ -1,0 +1,51 @@
+#include "services/localization/scan_points.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "common/sensing/deskew.hpp"
+#include "services/localization/label_echo.hpp"
+
+namespace slammot::localization {
+
+void ScanPoints::begin_scan() {
+  left_out_beams_.clear();
+  matched_before_.swap(matched_);
+}
+
+void ScanPoints::deskew(const sensing::LaserScan& scan, double speed_mps, double yaw_rate_radps) {
+  sensing::deskew(scan, speed_mps, yaw_rate_radps, points_in_base_m_);
+}
+
+bool ScanPoints::is_candidate(const sensing::LaserScan& scan, std::size_t beam) const {
+  const float range_m = scan.range_m[beam];
+  return sensing::is_echo(range_m, std::min(config_.match_range_m, scan.scanner.max_range_m)) && range_m >= config_.min_range_m;
+}
+
+void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base, const std::vector<grids::Box>& masks) {
+  matched_.clear();
+  matched_beams_.clear();
+  candidate_beams_.clear();
+  laser_in_base_m_ = scan.scanner.base_from_laser.translation_m();
+  const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
+  for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
+    if (!is_candidate(scan, beam)) continue;
+    const geometry::Vector2 in_odom_m = odom_from_base.translation_m() + turn * points_in_base_m_[beam];
+    if (std::ranges::any_of(masks, [&](const grids::Box& mask) { return mask.covers(in_odom_m); })) continue;
+    candidate_beams_.push_back(beam);
+    if (std::ranges::binary_search(left_out_beams_, beam)) continue;
+    matched_.push_back({points_in_base_m_[beam], config_.range_noise_m + config_.range_noise_per_m * static_cast<double>(scan.range_m[beam])});
+    matched_beams_.push_back(beam);
+  }
+}
+
+bool ScanPoints::leave_out(const std::vector<flow::PointLabel>& labels) {
+  std::vector<std::size_t> left_out;
+  std::ranges::copy_if(candidate_beams_, std::back_inserter(left_out), [&](std::size_t beam) { return echo_of(labels[beam]) != grids::Echo::kStationary; });
+  if (left_out == left_out_beams_) return false;
+  left_out_beams_ = std::move(left_out);
+  return true;
+}
+
+}  // namespace slammot::localization

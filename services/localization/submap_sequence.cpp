@@ -1,0 +1,100 @@
+#include "services/localization/submap_sequence.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Pose2;
+using geometry::UncertainPose2;
+
+constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
+constexpr std::int32_t kShortSubmaps = 4;      // loop closing needs two or three that agree
+
+}  // namespace
+
+UncertainPose2 SubmapSequence::anywhere_about(const Pose2& pose) const {
+  const double sigma_m2 = config_.astray_sigma_m * config_.astray_sigma_m;
+  return {pose, Eigen::Vector3d(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi).asDiagonal()};
+}
+
+void SubmapSequence::go_on_after(const flow::CorrectedSubmap& last) {
+  first_submap_ = {last.submap_id.value + 1};
+  state_.map_from_odom = last.map_from_submap;
+  state_.previous_from_submap = anywhere_about(Pose2::identity());
+  state_.short_submaps_left = kShortSubmaps;
+}
+
+void SubmapSequence::begin() { map_ = LocalMap(config_.map, geometry::Vector2::Zero(), help_, first_submap_); }
+
+void SubmapSequence::travel(const Pose2& before_from_base) {
+  const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
+  state_.travel.travelled_m += moved_m;
+  const double position_m2 = config_.drift_m_per_sqrt_m * config_.drift_m_per_sqrt_m * moved_m;
+  const double heading_rad2 = config_.drift_rad_per_sqrt_m * config_.drift_rad_per_sqrt_m * moved_m;
+  state_.travel.drift.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
+}
+
+bool SubmapSequence::begin_next_if_due(const Pose2& odom_from_base) {
+  const double counted_m = state_.short_submaps_left > 0 ? kShorterBy * state_.travel.travelled_m : state_.travel.travelled_m;
+  if (!state_.is_ended && !map_.is_outgrown(odom_from_base.translation_m(), counted_m)) return false;
+  const bool ends_one = !state_.is_ended;
+  if (ends_one) end(odom_from_base);
+  const Pose2 odom_from_previous = map_.odom_from_submap();
+  map_.begin_next(odom_from_base.translation_m());
+  begin_with({geometry::inverse(odom_from_previous) * map_.odom_from_submap(), state_.travel.drift});
+  if (state_.short_submaps_left > 0) --state_.short_submaps_left;
+  return ends_one;
+}
+
+bool SubmapSequence::begin_astray(const Pose2& odom_from_base) {
+  const Pose2 odom_from_previous = map_.odom_from_submap();
+  const bool ends_one = finish(odom_from_base);
+  map_.begin_astray(odom_from_base.translation_m());
+  begin_with(anywhere_about(geometry::inverse(odom_from_previous) * map_.odom_from_submap()));
+  state_.short_submaps_left = kShortSubmaps;
+  return ends_one;
+}
+
+void SubmapSequence::begin_with(const UncertainPose2& previous_from_submap) {
+  state_.previous_from_submap = previous_from_submap;
+  state_.travel = {};
+  state_.is_ended = false;
+}
+
+void SubmapSequence::end(const Pose2& odom_from_base) {
+  flow::Submap submap = map_.submap();
+  submap.previous_from_submap = state_.previous_from_submap;
+  submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * odom_from_base;
+  submap.travelled_m = state_.travel.travelled_m;
+  finished_.push_back(std::move(submap));
+  state_.is_ended = true;
+}
+
+bool SubmapSequence::finish(const Pose2& odom_from_base) {
+  if (state_.is_ended || !map_.has_echoes()) return false;
+  end(odom_from_base);
+  return true;
+}
+
+std::optional<flow::Submap> SubmapSequence::take_finished() {
+  if (finished_.empty()) return std::nullopt;
+  flow::Submap submap = std::move(finished_.front());
+  finished_.erase(finished_.begin());
+  return submap;
+}
+
+void SubmapSequence::correct(const flow::GraphCorrection& correction) {
+  if (correction.sequence <= state_.correction_sequence) return;
+  state_.correction_sequence = correction.sequence;
+  state_.map_from_odom = correction.map_from_odom;
+}
+
+void SubmapSequence::resume(const State& state, LocalMap map) {
+  state_ = state;
+  map_ = std::move(map);
+}
+
+}  // namespace slammot::localization
