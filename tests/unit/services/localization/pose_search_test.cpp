@@ -1,0 +1,44 @@
+#include "services/localization/pose_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/mapped_world.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Pose2;
+using geometry::UncertainPose2;
+using slammot::testing::MappedWorld;
+using slammot::testing::PoseNear;
+
+UncertainPose2 prior_at(const Pose2& pose, double sigma_m, double sigma_rad) {
+  return {pose, Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal()};
+}
+
+TEST(IsVague, WherePositionOrHeadingIsUnsure) {
+  const LocalizerConfig config;
+  EXPECT_FALSE(is_vague(prior_at({}, 0.9 * config.search_when_sigma_m, 0.9 * config.search_when_heading_sigma_rad), config));
+  EXPECT_TRUE(is_vague(prior_at({}, 1.1 * config.search_when_sigma_m, 0.0), config));
+  EXPECT_TRUE(is_vague(prior_at({}, 0.0, 1.1 * config.search_when_heading_sigma_rad), config));
+}
+
+TEST(PoseSearch, FindsThePoseWithinItsWindow) {
+  const MappedWorld room(slammot::testing::room());
+  const Pose2 truth{0.5, -0.4, 0.2};
+  PoseSearch search(room.config(), room.config().search);
+  const auto peaks = search.peaks_around(prior_at({0.0, 0.0, 0.0}, 0.5, 0.15), room.points_at(truth).matched(), room.map().surfels());
+  ASSERT_FALSE(peaks.empty());
+  EXPECT_THAT(peaks.front().target_from_source.pose, PoseNear(truth, 0.1));
+}
+
+TEST(PoseSearch, LooksNoFartherThanThePriorAllows) {
+  const MappedWorld room(slammot::testing::room());
+  PoseSearch search(room.config(), room.config().search);
+  const auto peaks = search.peaks_around(prior_at({0.0, 0.0, 0.0}, 0.1, 0.01), room.points_at({2.0, 0.0, 0.0}).matched(), room.map().surfels());
+  for (const auto& peak : peaks) EXPECT_LT(peak.target_from_source.pose.translation_m().norm(), 0.1 * room.config().search_sigmas * std::sqrt(2.0) + 0.15);
+}
+
+}  // namespace
+}  // namespace slammot::localization

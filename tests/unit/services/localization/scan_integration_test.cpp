@@ -1,0 +1,136 @@
+#include "services/localization/scan_integration.hpp"
+
+#include <gtest/gtest.h>
+
+namespace slammot::localization {
+namespace {
+
+using flow::PointLabel;
+using geometry::Vector2;
+
+constexpr std::int64_t kPeriod_ns = 50'000'000;
+
+/// Scans of one beam along x, which sees something at 5 m.
+class ScanIntegrationTest : public ::testing::Test {
+ protected:
+  static LocalizerConfig config() {
+    LocalizerConfig config;
+    config.map.side_m = 40.0;
+    return config;
+  }
+
+  void remember(std::uint32_t sequence, MapAdmission admission = MapAdmission::kMapped, float range_m = 5.0F) {
+    sensing::LaserScan scan;
+    scan.stamp_ns = sequence * kPeriod_ns;
+    scan.sequence = sequence;
+    scan.scanner.max_range_m = 30.0;
+    scan.range_m = {range_m};
+    flow::LocalizedScan localized;
+    localized.beams.resize(1);
+    if (range_m > 0.0F) localized.beams.front().end_cell = end_cell_;
+    integration_.remember({scan, localized, {Vector2(range_m, 0.0)}, {Vector2(1.0, 0.0)}}, admission, map_);
+  }
+
+  static flow::ScanLabels labels(std::uint32_t sequence, PointLabel label = PointLabel::kStationary) {
+    return {sequence * kPeriod_ns, sequence, "front", {label}, {}};
+  }
+
+  IntegrationCounts integrate(const flow::ScanLabels& labels, PoseTrust trust = PoseTrust::kConfirmed) { return integration_.integrate(labels, trust, map_); }
+  std::size_t surfels() const { return map_.surfels().all().size(); }
+  bool saw_moving() const { return map_.evidence().moving(map_.evidence().window().cell_at(5.0, 0.0)) > 0; }
+
+  flow::EndCell end_cell_ = flow::EndCell::kUnseen;
+  LocalMap map_{config().map, Vector2::Zero()};
+  ScanIntegration integration_{config()};
+};
+
+TEST_F(ScanIntegrationTest, MapsByLabels) {
+  remember(1);
+  EXPECT_TRUE(integration_.awaits_labels());
+  integrate(labels(1));
+  EXPECT_EQ(surfels(), 1U);
+  EXPECT_FALSE(integration_.awaits_labels());
+  EXPECT_EQ(integration_.integrated_scans(), 1U);
+}
+
+TEST_F(ScanIntegrationTest, KeepsWhatMovesOutOfTheSoMap) {
+  remember(1);
+  integrate(labels(1, PointLabel::kMoving));
+  EXPECT_EQ(surfels(), 0U);
+  EXPECT_TRUE(saw_moving());
+}
+
+TEST_F(ScanIntegrationTest, IgnoresLabelsOfAnUnknownScan) {
+  remember(1);
+  integrate(labels(2));
+  EXPECT_FALSE(integration_.awaits(labels(2)));
+  EXPECT_TRUE(integration_.awaits(labels(1)));
+  EXPECT_EQ(surfels(), 0U);
+}
+
+TEST_F(ScanIntegrationTest, MapsInOrderAndWithoutLabelsWhatWaitsBefore) {
+  remember(1);
+  remember(2);
+  EXPECT_EQ(integrate(labels(2)).fallback_integrations, 1U);
+  EXPECT_EQ(integration_.integrated_scans(), 2U);
+}
+
+TEST_F(ScanIntegrationTest, TakesLabelsOfDetectionWhereThoseOfTrackingAreOverdue) {
+  remember(1);
+  flow::SegmentedScan segmented;
+  segmented.sequence = 1;
+  segmented.scanner_id = "front";
+  segmented.labels = {PointLabel::kMoving};
+  integration_.note(segmented);
+  EXPECT_EQ(integration_.integrate_overdue(2 * kPeriod_ns, PoseTrust::kConfirmed, map_).fallback_integrations, 0U);
+  EXPECT_EQ(integration_.integrate_overdue(6 * kPeriod_ns, PoseTrust::kConfirmed, map_).fallback_integrations, 1U);
+  EXPECT_TRUE(saw_moving());
+}
+
+TEST_F(ScanIntegrationTest, LeavesOutWhatContradictsTheMapWhereThereAreNoLabels) {
+  end_cell_ = flow::EndCell::kFree;
+  remember(1);
+  integration_.integrate_all(PoseTrust::kConfirmed, map_);
+  EXPECT_EQ(surfels(), 0U);
+  EXPECT_EQ(integration_.integrated_scans(), 1U);
+}
+
+TEST_F(ScanIntegrationTest, NeverMapsAWithheldScan) {
+  remember(1, MapAdmission::kWithheld);
+  EXPECT_EQ(integrate(labels(1)).withheld_scans, 1U);
+  EXPECT_EQ(integration_.integrated_scans(), 0U);
+}
+
+TEST_F(ScanIntegrationTest, MapsADoubtedScanOnceThePoseIsConfirmedOrNever) {
+  for (const bool is_confirmed : {true, false}) {
+    remember(1, MapAdmission::kDoubted);
+    const std::uint64_t before = integration_.integrated_scans();
+    integrate(labels(1), PoseTrust::kDoubted);
+    EXPECT_EQ(integration_.integrated_scans(), before);
+    if (!is_confirmed) EXPECT_EQ(integration_.drop_doubted().withheld_scans, 1U);
+    integration_.integrate_doubted(map_);
+    EXPECT_EQ(integration_.integrated_scans(), before + (is_confirmed ? 1 : 0));
+  }
+}
+
+TEST_F(ScanIntegrationTest, GivesBackRestoredPoints) {
+  remember(1);
+  integrate(labels(1, PointLabel::kMoving));
+  remember(2);
+  flow::ScanLabels with_restored = labels(2, PointLabel::kMoving);
+  with_restored.restored = {{1, {0}}};
+  EXPECT_EQ(integrate(with_restored).restored_points, 1U);
+  EXPECT_EQ(surfels(), 1U);
+}
+
+TEST_F(ScanIntegrationTest, FreesNothingByAnEchoThatIsTooNear) {
+  remember(1, MapAdmission::kMapped, 0.1F);
+  end_cell_ = flow::EndCell::kNoEcho;
+  remember(2, MapAdmission::kMapped, 0.1F);
+  integration_.forget_last();
+  integrate(labels(1));
+  EXPECT_EQ(map_.evidence().so_steps(map_.evidence().window().cell_at(2.0, 0.0)), 0);
+}
+
+}  // namespace
+}  // namespace slammot::localization

@@ -1,0 +1,65 @@
+#include "services/localization/scan_points.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace slammot::localization {
+namespace {
+
+using flow::PointLabel;
+using ::testing::ElementsAre;
+
+/// Three echoes ahead, one too near, one beyond the match range and none.
+sensing::LaserScan scan() {
+  sensing::LaserScan scan;
+  scan.scanner.beam_step_rad = 0.01;
+  scan.scanner.max_range_m = 100.0;
+  scan.range_m = {5.0F, 6.0F, 7.0F, 0.1F, 90.0F, 100.0F};
+  return scan;
+}
+
+ScanPoints selected(const std::vector<grids::Box>& masks = {}, const geometry::Pose2& odom_from_base = {}) {
+  ScanPoints points{LocalizerConfig{}};
+  points.begin_scan();
+  points.deskew(scan(), 0.0, 0.0);
+  points.select(scan(), odom_from_base, masks);
+  return points;
+}
+
+TEST(ScanPoints, AreEchoesWithinTheMatchRange) {
+  const ScanPoints points = selected();
+  EXPECT_THAT(points.matched_beams(), ElementsAre(0U, 1U, 2U));
+  EXPECT_EQ(points.all_in_base_m().size(), 6U);
+  EXPECT_NEAR(points.matched()[1].in_base_m.norm(), 6.0, 1e-6);
+}
+
+TEST(ScanPoints, GrowLessExactWithTheRange) {
+  const ScanPoints points = selected();
+  EXPECT_GT(points.matched()[2].sigma_m, points.matched()[0].sigma_m);
+}
+
+TEST(ScanPoints, LeaveOutWhatIsMaskedWhereThePredictionHasIt) {
+  const grids::Box mask{{16.0, 0.06}, {1.0, 0.0}, {0.2, 0.2}};
+  EXPECT_THAT(selected({mask}, {10.0, 0.0, 0.0}).matched_beams(), ElementsAre(0U, 2U));
+}
+
+TEST(ScanPoints, LeaveOutWhatLabelsKeepOutOfTheSoMapUntilTheNextScan) {
+  ScanPoints points = selected();
+  const std::vector<PointLabel> labels = {PointLabel::kStationary, PointLabel::kMoving, PointLabel::kUnknown, PointLabel::kMoving, PointLabel::kMoving, PointLabel::kNoEcho};
+  EXPECT_TRUE(points.leave_out(labels));
+  points.select(scan(), {}, {});
+  EXPECT_THAT(points.matched_beams(), ElementsAre(0U, 2U));
+  EXPECT_FALSE(points.leave_out(labels)) << "they are left out already";
+  points.begin_scan();
+  points.select(scan(), {}, {});
+  EXPECT_EQ(points.matched_beams().size(), 3U);
+}
+
+TEST(ScanPoints, KeepThoseOfTheScanBefore) {
+  ScanPoints points = selected();
+  points.begin_scan();
+  EXPECT_EQ(points.matched_before().size(), 3U);
+}
+
+}  // namespace
+}  // namespace slammot::localization
