@@ -20,6 +20,16 @@ double seen_over_m(const CellMoments& moments) {
 SurfelMap::SurfelMap(const GridWindow& window, double weight_limit)
     : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1), means_m_{kNowhere}, shares_{Moments::Zero()}, is_stale_{true} {}
 
+void SurfelMap::clear() {
+  for (const Cell& cell : cells_) slots_[window_.index(cell)] = -1;
+  moments_.clear();
+  cells_.clear();
+  shapes_.clear();
+  means_m_.resize(1);
+  shares_.resize(1, Moments::Zero());
+  is_stale_.resize(1);
+}
+
 std::int32_t SurfelMap::make_slot(Cell cell) {
   std::int32_t& slot = slots_[window_.index(cell)];
   if (slot < 0) {

@@ -52,6 +52,9 @@ class SurfelMap {
   /// computed once: see add_a_scan_of_361_points of the benchmark.
   void add_all(std::span<const Eigen::Vector2d> points_m, double odometer_m);
 
+  /// Forgets every surface, and keeps the memory.
+  void clear();
+
   /// Forgets the surface in a cell.
   void erase(Cell cell);
 

@@ -12,10 +12,8 @@ using geometry::Matrix3;
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr double kFull = 255.0;       // a cell on which a target point of weight 1 lies
+constexpr double kFull = SmearKernel::kFull;
 constexpr int kHighestLevel = 6;      // beyond 64 cells a maximum says next to nothing
-constexpr std::int32_t kPhases = 4;   // places within a cell that the smear tells apart, each way
-constexpr double kKernelSigmas = 3.0; // exp(-4.5) = 0.011: below the grid's own steps of what matters
 
 /// Level whose blocks cover the window in few pieces, and no coarser than bounds are worth.
 int top_level_for(std::int32_t half_width_cells) {
@@ -45,34 +43,12 @@ void widen_maximum(const std::vector<std::uint8_t>& source, std::int32_t columns
 
 }  // namespace
 
-CorrelativeMatcher::CorrelativeMatcher(const CorrelativeConfig& config) : config_(config) {
+CorrelativeMatcher::CorrelativeMatcher(const CorrelativeConfig& config) : config_(config), kernel_(config.resolution_m, config.smear_sigma_m), kernel_half_(kernel_.half()) {
   assert(config_.resolution_m > 0.0 && config_.smear_sigma_m > 0.0);
-  kernel_half_ = cells_within(kKernelSigmas * config_.smear_sigma_m, config_.resolution_m);
-  for (std::int32_t phase_y = 0; phase_y < kPhases; ++phase_y) {
-    for (std::int32_t phase_x = 0; phase_x < kPhases; ++phase_x) append_kernel(phase_x, phase_y);
-  }
-}
-
-void CorrelativeMatcher::append_kernel(std::int32_t phase_x, std::int32_t phase_y) {
-  const double point_x = (phase_x + 0.5) / kPhases - 0.5;  // in cells from the centre of the cell it lies in
-  const double point_y = (phase_y + 0.5) / kPhases - 0.5;
-  for (std::int32_t row = -kernel_half_; row <= kernel_half_; ++row) {
-    for (std::int32_t column = -kernel_half_; column <= kernel_half_; ++column) {
-      const double distance_m = config_.resolution_m * std::hypot(column - point_x, row - point_y);
-      const double sigmas = distance_m / config_.smear_sigma_m;
-      kernels_.push_back(static_cast<std::uint8_t>(std::lround(kFull * std::exp(-0.5 * sigmas * sigmas))));
-    }
-  }
 }
 
 const std::uint8_t* CorrelativeMatcher::kernel_for(const Vector2& point_in_target_m, const Cell& cell) const {
-  const auto phase = [](double cells, std::int32_t index) {
-    return std::clamp(static_cast<std::int32_t>(kPhases * (cells - index)), 0, kPhases - 1);
-  };
-  const std::int32_t phase_x = phase((point_in_target_m.x() - min_x_m_) / config_.resolution_m, cell.column);
-  const std::int32_t phase_y = phase((point_in_target_m.y() - min_y_m_) / config_.resolution_m, cell.row);
-  const std::int32_t side = 2 * kernel_half_ + 1;
-  return kernels_.data() + (phase_y * kPhases + phase_x) * side * side;
+  return kernel_.around({(point_in_target_m.x() - min_x_m_) / config_.resolution_m - cell.column, (point_in_target_m.y() - min_y_m_) / config_.resolution_m - cell.row});
 }
 
 void CorrelativeMatcher::set_target(std::span<const TargetPoint> points, const TargetRegion& region) {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry/uncertain_pose2.hpp"
+#include "common/matching/smear_kernel.hpp"
 
 namespace slammot::matching {
 
@@ -95,7 +96,6 @@ class CorrelativeMatcher {
   };
 
   void lay_out(const TargetRegion& region);
-  void append_kernel(std::int32_t phase_x, std::int32_t phase_y);
   const std::uint8_t* kernel_for(const geometry::Vector2& point_in_target_m, const Cell& cell) const;
   void stamp(std::span<const TargetPoint> points);
   void build_pyramid();
@@ -113,7 +113,7 @@ class CorrelativeMatcher {
   std::vector<Cell> cells_of(std::span<const Eigen::Vector2f> points, const geometry::Pose2& target_from_source) const;
 
   CorrelativeConfig config_;
-  std::vector<std::uint8_t> kernels_;  ///< One a place within a cell; squares of side 2 * kernel_half_ + 1.
+  SmearKernel kernel_;
   std::int32_t kernel_half_ = 0;
 
   double min_x_m_ = 0.0;  ///< Of cell (0, 0) of the padded grid.

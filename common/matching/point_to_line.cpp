@@ -151,4 +151,9 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
   return result;
 }
 
+double fit_of(const PointToLineResult& registered, double robust_scale_m) {
+  const double scale_m2 = robust_scale_m * robust_scale_m;
+  return registered.matched_share * scale_m2 / (scale_m2 + registered.rms_residual_m * registered.rms_residual_m);
+}
+
 }  // namespace slammot::matching

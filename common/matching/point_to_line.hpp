@@ -41,6 +41,9 @@ struct PointToLineResult {
   double new_share = 0.0;          ///< Of the matched points, those on surfels first seen less than new_below_m of way ago.
 };
 
+/// Share of the points that lie on surfels, each by how near: half where residuals are as large as robust_scale_m. In [0, 1].
+double fit_of(const PointToLineResult& registered, double robust_scale_m);
+
 /// Registers points against surfels by Gauss-Newton on point-to-line distances with a Gaussian prior; Wang 2004,
 /// section 3.2.1 describes the closed-form ICP that this replaces. Where a surfel has no direction the distance to its
 /// mean counts. Holds nothing from one match to the next but memory.

@@ -1,0 +1,338 @@
+#include "common/matching/log_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/matching/correlative.hpp"
+
+namespace slammot::matching {
+namespace {
+
+using geometry::Pose2;
+using geometry::wrap_angle;
+using std::numbers::pi;
+
+constexpr double kConsistent = 0.75;        // length of a mean direction
+constexpr double kClearly = 0.35;           // by which one explanation is better than another
+constexpr std::size_t kFewestPairs = 8;
+constexpr double kTurningRad = 0.045;
+constexpr double kStraightRad = 0.12;
+constexpr double kMovingM = 0.15;
+constexpr double kArcsSeen = 0.1;
+constexpr double kEitherWay = -0.5;
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const AssumedBeams& beams, double unit_m, std::size_t most) {
+  constexpr float kFarthestM = 30.0F;  // keeps the grid small
+  std::vector<Eigen::Vector2f> points;
+  const std::size_t stride = std::max<std::size_t>(1, ranges.size() / most);
+  for (std::size_t i = 0; i < ranges.size(); i += stride) {
+    const float range_m = ranges[i] * static_cast<float>(unit_m);
+    if (!(range_m > 0.05F && range_m < kFarthestM)) continue;
+    const auto angle_rad = static_cast<float>(beams.first_beam_rad + static_cast<double>(i) * beams.beam_step_rad);
+    points.emplace_back(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
+  }
+  return points;
+}
+
+/// A pair with what odometry and scans say of the motion between.
+struct MatchedPair {
+  Pose2 by_odometry;   // of base, corrected so far
+  Pose2 by_scans;      // of the laser
+  double score = 0.0;
+};
+
+Pose2 motion_by_odometry(const ScanPair& pair, const LogCorrection& correction) {
+  return inverse(corrected(correction, pair.first_recorded)) * corrected(correction, pair.second_recorded);
+}
+
+/// Within a cell of the search: top of the parabola through the scores around the peak, along each axis.
+Pose2 refined(const CorrelativeMatcher& matcher, std::span<const Eigen::Vector2f> source, const Pose2& peak) {
+  constexpr double kStepM = 0.1;
+  constexpr double kStepRad = 0.01;
+  const double middle = matcher.score(source, peak);
+  const auto top = [&](const Pose2& before, const Pose2& after) {
+    const double lower = matcher.score(source, before);
+    const double upper = matcher.score(source, after);
+    const double bend = lower - 2.0 * middle + upper;
+    return bend < 0.0 ? std::clamp(0.5 * (lower - upper) / bend, -0.5, 0.5) : 0.0;
+  };
+  const auto& [x_m, y_m, heading_rad] = peak;
+  return {x_m + kStepM * top({x_m - kStepM, y_m, heading_rad}, {x_m + kStepM, y_m, heading_rad}),
+          y_m + kStepM * top({x_m, y_m - kStepM, heading_rad}, {x_m, y_m + kStepM, heading_rad}),
+          heading_rad + kStepRad * top({x_m, y_m, heading_rad - kStepRad}, {x_m, y_m, heading_rad + kStepRad})};
+}
+
+/// Wide enough for any turn up to 1.5 rad, whatever its sign, and for the way, whatever its direction.
+std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pair, const AssumedBeams& beams, const LogCorrection& correction) {
+  constexpr std::size_t kTargetPoints = 360;
+  constexpr std::size_t kSourcePoints = 90;
+  constexpr std::size_t kFewestPoints = 20;
+  constexpr double kReachM = 1.6;
+  const auto target = points_of(pair.first, beams, correction.range_unit_m, kTargetPoints);
+  const auto source = points_of(pair.second, beams, correction.range_unit_m, kSourcePoints);
+  if (target.size() < kFewestPoints || source.size() < kFewestPoints) return std::nullopt;
+  std::vector<TargetPoint> stamped;
+  float reach_m = 5.0F;
+  for (const Eigen::Vector2f& point : target) {
+    stamped.push_back({point.x(), point.y(), 1.0F});
+    reach_m = std::max({reach_m, std::abs(point.x()), std::abs(point.y())});
+  }
+  const double half_m = static_cast<double>(reach_m) + 0.5;
+  matcher.set_target(stamped, {.half_width_m = half_m, .half_height_m = half_m, .largest_shift_m = kReachM});
+  MatchedPair matched{motion_by_odometry(pair, correction), {}, 0.0};
+  const double turn_rad = std::abs(matched.by_odometry.heading_rad);
+  const auto peaks = matcher.search(source, Pose2::identity(), {kReachM, kReachM, std::clamp(2.3 * turn_rad, 0.3, 1.6)});
+  if (peaks.empty()) return std::nullopt;
+  matched.by_scans = refined(matcher, source, peaks.front().target_from_source.pose);
+  matched.score = peaks.front().score;
+  return matched;
+}
+
+std::vector<MatchedPair> match_all(std::span<const ScanPair> pairs, const AssumedBeams& beams, const LogCorrection& correction) {
+  CorrelativeMatcher matcher({.resolution_m = 0.1, .smear_sigma_m = 0.1, .heading_step_rad = 0.01, .min_score = 0.45});
+  std::vector<MatchedPair> matched;
+  for (const ScanPair& pair : pairs) {
+    if (auto found = match(matcher, pair, beams, correction)) matched.push_back(*found);
+  }
+  return matched;
+}
+
+double mean_score(const std::vector<MatchedPair>& matched, std::size_t tried) {
+  double sum = 0.0;
+  for (const MatchedPair& pair : matched) sum += pair.score;
+  return tried > 0 ? sum / static_cast<double>(tried) : 0.0;
+}
+
+std::vector<MatchedPair> turning(const std::vector<MatchedPair>& matched) {
+  std::vector<MatchedPair> some;
+  std::copy_if(matched.begin(), matched.end(), std::back_inserter(some), [](const MatchedPair& pair) {
+    return std::abs(pair.by_odometry.heading_rad) > kTurningRad && std::abs(pair.by_odometry.heading_rad) < 1.3;
+  });
+  return some;
+}
+
+double same_sign_share(const std::vector<MatchedPair>& turning_pairs) {
+  if (turning_pairs.empty()) return 0.0;
+  const auto same = std::count_if(turning_pairs.begin(), turning_pairs.end(), [](const MatchedPair& pair) { return pair.by_odometry.heading_rad * pair.by_scans.heading_rad > 0.0; });
+  return static_cast<double>(same) / static_cast<double>(turning_pairs.size());
+}
+
+double turn_scale(const std::vector<MatchedPair>& turning_pairs) {
+  std::vector<double> scales;
+  for (const MatchedPair& pair : turning_pairs) scales.push_back(pair.by_scans.heading_rad / pair.by_odometry.heading_rad);
+  return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
+}
+
+/// Pairs of straight motion by scans: where the laser is on the vehicle does not matter then.
+std::vector<MatchedPair> straight(const std::vector<MatchedPair>& matched) {
+  std::vector<MatchedPair> some;
+  std::copy_if(matched.begin(), matched.end(), std::back_inserter(some), [](const MatchedPair& pair) {
+    return std::abs(pair.by_scans.heading_rad) < kStraightRad && pair.by_scans.translation_m().norm() > kMovingM && pair.by_odometry.translation_m().norm() > 0.0;
+  });
+  return some;
+}
+
+double way_scale(const std::vector<MatchedPair>& straight_pairs) {
+  std::vector<double> scales;
+  for (const MatchedPair& pair : straight_pairs) scales.push_back(pair.by_scans.translation_m().norm() / pair.by_odometry.translation_m().norm());
+  return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
+}
+
+/// Mean of exp(i (direction by odometry - direction by scans)) over straight pairs.
+std::complex<double> mounting(const std::vector<MatchedPair>& straight_pairs) {
+  std::complex<double> sum;
+  for (const MatchedPair& pair : straight_pairs) {
+    const std::complex<double> odometry(pair.by_odometry.x_m, pair.by_odometry.y_m);
+    const std::complex<double> scans(pair.by_scans.x_m, pair.by_scans.y_m);
+    sum += odometry / std::abs(odometry) * std::conj(scans / std::abs(scans));
+  }
+  return straight_pairs.empty() ? 0.0 : sum / static_cast<double>(straight_pairs.size());
+}
+
+/// Scanners are mounted straight, backwards or at right angles, unless they clearly are not.
+double at_right_angle(double turn_rad) {
+  constexpr double kNearlyRad = 0.3;
+  const double right_rad = std::round(turn_rad / (0.5 * pi)) * 0.5 * pi;
+  return std::abs(turn_rad - right_rad) < kNearlyRad ? right_rad : turn_rad;
+}
+
+AssumedBeams with_field(const AssumedBeams& beams, double factor) { return {beams.first_beam_rad * factor, beams.beam_step_rad * factor, beams.laser_heading_rad}; }
+
+/// Turns by scans are too large by as much as the field of view that is assumed. A factor must be one that makes of the
+/// stated field one that scanners have, and make scans fit each other better.
+double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams, const LogCorrection& correction, const std::vector<MatchedPair>& as_stated) {
+  constexpr double kBetterScore = 0.02;
+  const double scale = std::abs(turn_scale(turning(as_stated)));
+  if (pairs.empty() || !(scale > 0.0) || (scale > 0.8 && scale < 1.25)) return 1.0;
+  const double stated_rad = std::abs(beams.beam_step_rad) * static_cast<double>(pairs.front().first.size());
+  double best = 1.0;
+  double best_score = mean_score(as_stated, pairs.size()) + kBetterScore;
+  for (const double degrees : {90.0, 120.0, 180.0, 240.0, 270.0, 360.0}) {
+    const double factor = degrees / 180.0 * pi / stated_rad;
+    if (std::abs(factor * scale - 1.0) > 0.25) continue;
+    const auto matched = match_all(pairs, with_field(beams, factor), correction);
+    const double corrected_scale = std::abs(turn_scale(turning(matched)));
+    const double score = mean_score(matched, pairs.size());
+    if (std::abs(corrected_scale - 1.0) > 0.2 || score < best_score) continue;
+    best = factor;
+    best_score = score;
+  }
+  return best;
+}
+
+/// Which of odometry's headings, odometry's positions and beams is mirrored. Beams that go clockwise look like odometry that is
+/// mirrored as a whole. Within its steps sound odometry moves on the arcs of its turns, and odometry made of turns with the wrong
+/// sign moves against them: only the former makes beams the mirrored ones; where neither is seen, the record of beams is believed.
+void correct_signs(const OdometryCheck& odometry, double same_sign, LogEvidence& evidence) {
+  LogCorrection& correction = evidence.correction;
+  constexpr double kMostly = 0.8;
+  const bool turns_agree = same_sign > kMostly;
+  const bool turns_differ = same_sign < 1.0 - kMostly;
+  if (odometry.positions_are_mirrored()) {
+    // direction + heading is constant: either positions or headings are mirrored, and turned by as much.
+    correction.mirrors_position = turns_agree;
+    correction.mirrors_heading = turns_differ;
+    if (turns_agree) correction.position_turn_rad = odometry.mirrored_direction_rad();
+    if (turns_differ) correction.position_turn_rad = -odometry.mirrored_direction_rad();
+    return;
+  }
+  if (!turns_differ) return;
+  correction.reverses_beams = odometry.turns_with_its_arcs();
+  correction.mirrors_position = correction.mirrors_heading = !correction.reverses_beams;
+  evidence.handedness_is_told = correction.reverses_beams || odometry.turns_against_its_arcs();
+}
+
+/// Power of ten that makes the scale one; 1 where it is no such unit.
+double unit_by_scale(double scale) {
+  for (const double unit : {1e-3, 1e-2}) {
+    if (scale > 0.6 * unit && scale < 1.7 * unit) return unit;
+  }
+  return 1.0;
+}
+
+void reverse(ScanPair& pair) {
+  std::reverse(pair.first.begin(), pair.first.end());
+  std::reverse(pair.second.begin(), pair.second.end());
+}
+
+}  // namespace
+
+Pose2 corrected(const LogCorrection& correction, const Pose2& recorded) {
+  if (correction == LogCorrection{}) return {recorded.x_m, recorded.y_m, wrap_angle(recorded.heading_rad)};
+  const double y_m = correction.mirrors_position ? -recorded.y_m : recorded.y_m;
+  const double heading_rad = recorded.heading_rad * correction.heading_unit_rad * (correction.mirrors_heading ? -1.0 : 1.0);
+  const geometry::Vector2 position_m = geometry::rotation(correction.position_turn_rad) * geometry::Vector2{correction.way_unit_m * recorded.x_m, correction.way_unit_m * y_m};
+  return {position_m.x(), position_m.y(), wrap_angle(heading_rad)};
+}
+
+void OdometryCheck::add(const Pose2& recorded) {
+  largest_heading_ = std::max(largest_heading_, std::abs(recorded.heading_rad));
+  const std::optional<Pose2> before = before_;
+  before_ = recorded;
+  if (!before) return;
+  const double way = std::hypot(recorded.x_m - before->x_m, recorded.y_m - before->y_m);
+  if (!(way > 0.0)) return;
+  const double direction = std::atan2(recorded.y_m - before->y_m, recorded.x_m - before->x_m);
+  for (Unit& unit : units_) {
+    const double turn = wrap_angle((recorded.heading_rad - before->heading_rad) * unit.radians);
+    const double heading = before->heading_rad * unit.radians + 0.5 * turn;
+    unit.along += way * std::polar(1.0, 2.0 * (direction - heading));
+    unit.mirrored += way * std::polar(1.0, 2.0 * (direction + heading));
+    const double forward = std::cos(direction - heading) < 0.0 ? pi : 0.0;
+    if (std::abs(turn) > 0.5) continue;
+    unit.arc += way * std::sin(direction - heading - forward) * turn;
+    unit.arc_turn += way * turn * turn;
+  }
+  way_ += way;
+}
+
+bool OdometryCheck::is_in_degrees() const {
+  constexpr double kOneTurn = 6.5;
+  if (largest_heading_ < kOneTurn || way_ <= 0.0) return false;
+  const auto fit = [&](const Unit& unit) { return std::max(std::abs(unit.along), std::abs(unit.mirrored)) / way_; };
+  return fit(units_[1]) > fit(units_[0]) + kClearly;
+}
+
+bool OdometryCheck::positions_are_mirrored() const {
+  if (way_ <= 0.0) return false;
+  const double mirrored = std::abs(unit().mirrored) / way_;
+  return mirrored > kConsistent && mirrored > std::abs(unit().along) / way_ + kClearly;
+}
+
+/// 0 where chords lie along the heading in their middle, as of arcs; -0.5 along the first heading; less where positions are
+/// later than headings, which happens, more where they are earlier. Of turns with the wrong sign a becomes -1 - a.
+double OdometryCheck::arcs_per_turn() const { return unit().arc_turn > 0.0 ? unit().arc / unit().arc_turn : kEitherWay; }
+
+bool OdometryCheck::turns_against_its_arcs() const { return std::abs(arcs_per_turn() + 1.0) < kArcsSeen || arcs_per_turn() > kArcsSeen; }
+
+bool OdometryCheck::turns_with_its_arcs() const { return std::abs(arcs_per_turn()) < kArcsSeen || arcs_per_turn() < -1.0 - kArcsSeen; }
+
+double OdometryCheck::mirrored_direction_rad() const { return 0.5 * std::arg(unit().mirrored); }
+
+double range_unit_of(double median_reading, double far_reading) {
+  constexpr double kNoScannersMedian = 100.0;
+  constexpr double kLeastFarMillimetres = 2500.0;
+  if (median_reading < kNoScannersMedian) return 1.0;
+  return far_reading > kLeastFarMillimetres ? 1e-3 : 1e-2;
+}
+
+namespace {
+
+LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& beams, const OdometryCheck& odometry, double range_unit_m) {
+  LogEvidence evidence;
+  LogCorrection& correction = evidence.correction;
+  correction.range_unit_m = range_unit_m;
+  if (odometry.is_in_degrees()) correction.heading_unit_rad = pi / 180.0;
+  std::vector<MatchedPair> matched = match_all(pairs, beams, correction);
+  evidence.pairs = matched.size();
+  evidence.matched_share = pairs.empty() ? 0.0 : static_cast<double>(matched.size()) / static_cast<double>(pairs.size());
+  const std::vector<MatchedPair> turning_pairs = turning(matched);
+  evidence.turning_pairs = turning_pairs.size();
+  evidence.turn_sign_share = same_sign_share(turning_pairs);
+  if (matched.size() < kFewestPairs) return evidence;
+  if (turning_pairs.size() >= kFewestPairs) {
+    correct_signs(odometry, evidence.turn_sign_share, evidence);
+    correction.field_factor = field_factor(pairs, beams, correction, matched);
+  }
+  // A second look where beams lie otherwise, or where a unit changes what is near enough to count.
+  std::vector<ScanPair> looked_at(pairs.begin(), pairs.end());
+  if (correction.reverses_beams) std::for_each(looked_at.begin(), looked_at.end(), reverse);
+  if (correction.reverses_beams || correction.field_factor != 1.0) matched = match_all(looked_at, with_field(beams, correction.field_factor), correction);
+  const double scale = way_scale(straight(matched));
+  correction.way_unit_m = unit_by_scale(scale);
+  if (correction != LogCorrection{}) matched = match_all(looked_at, with_field(beams, correction.field_factor), correction);
+  const std::vector<MatchedPair> straight_pairs = straight(matched);
+  const std::complex<double> mounted = mounting(straight_pairs) * std::polar(1.0, -beams.laser_heading_rad);
+  const double turn_rad = std::arg(mounted);
+  if (straight_pairs.size() >= kFewestPairs && std::abs(mounted) > kConsistent && std::abs(turn_rad) > 0.4) {
+    if (correction.mirrors_position != correction.mirrors_heading) {
+      correction.position_turn_rad = wrap_angle(correction.position_turn_rad - at_right_angle(turn_rad));
+    } else {
+      correction.laser_turn_rad = at_right_angle(turn_rad);
+    }
+  }
+  evidence.way_scale = way_scale(straight_pairs);
+  evidence.turn_scale = turn_scale(turning(matched));
+  return evidence;
+}
+
+}  // namespace
+
+LogEvidence weigh_log(std::span<const ScanPair> pairs, const AssumedBeams& beams, const OdometryCheck& odometry, double range_unit_m) {
+  LogEvidence evidence = weigh_in_unit(pairs, beams, odometry, range_unit_m);
+  if (range_unit_m == 1.0) return evidence;
+  const auto fits = [](const LogEvidence& one) { return one.correction.way_unit_m == 1.0 && one.way_scale > 0.5 && one.way_scale < 2.0; };
+  if (fits(evidence)) return evidence;
+  const LogEvidence other = weigh_in_unit(pairs, beams, odometry, range_unit_m == 1e-3 ? 1e-2 : 1e-3);
+  return fits(other) ? other : evidence;
+}
+
+}  // namespace slammot::matching

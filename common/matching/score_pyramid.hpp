@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/matching/correlative.hpp"
+
+namespace slammot::matching {
+
+/// Points of one heading, in cells of a pyramid's finest grid.
+struct CellPoints {
+  std::vector<std::int32_t> columns;
+  std::vector<std::int32_t> rows;
+};
+
+/// Likelihood of an echo around target points, with upper bounds for blocks of poses: level k bounds all shifts of
+/// [c, c + 2^k) x [r, r + 2^k) cells at all headings by which no point moves farther than 2^(k-1) cells from where it is
+/// given (Hess et al., ICRA 2016, Section V.B, extended to headings as Olson, IJRR 2015, does). Coarse levels are stored
+/// at a stride of 2^(k-1) cells, which keeps the whole within 2.5 times the finest grid. Immutable.
+class ScorePyramid {
+ public:
+  /// cell_m: of the finest grid; smear_sigma_m: of the Gaussian around each point; top_level: of the coarsest bounds.
+  ScorePyramid(std::span<const TargetPoint> points, double cell_m, double smear_sigma_m, int top_level);
+
+  static constexpr int kStrideFiner = 2;
+
+  /// Steps of the heading that a block of this level takes together, each of which moves no point by more than a cell.
+  static constexpr std::int32_t headings_of(int level) { return 1 << std::max(level - kHeadingFiner, 0); }
+  static constexpr int kHeadingFiner = 1;
+
+  int top_level() const { return static_cast<int>(levels_.size()) - 1; }
+  double cell_m() const { return cell_m_; }
+
+  /// Cells read and written to build it.
+  std::uint64_t work() const { return work_; }
+
+  /// Continuous cell coordinates of a point of the target frame; its cell is their floor.
+  geometry::Vector2 in_cells(const geometry::Vector2& point_in_target_m) const { return (point_in_target_m - origin_m_) / cell_m_; }
+
+  /// Sum over the points, each shifted by (column, row) cells: the exact score at level 0, its bound for the block above.
+  /// SmearKernel::kFull a point is the most.
+  std::uint32_t sum(const CellPoints& points, std::int32_t column, std::int32_t row, int level) const;
+
+ private:
+  struct Level {
+    std::int32_t columns = 0;
+    std::int32_t rows = 0;
+    std::vector<std::uint8_t> values = {};  ///< Row-major. Entry (i, j) is at cell (i - kPad, j - kPad) * stride.
+  };
+
+  void stamp(std::span<const TargetPoint> points, double smear_sigma_m);
+  Level halved(const Level& fine);
+  void append_level(const Level& blocks, int level);
+
+  double cell_m_;
+  geometry::Vector2 origin_m_ = geometry::Vector2::Zero();  ///< Lower left corner of cell (0, 0).
+  std::vector<Level> levels_;
+  std::uint64_t work_ = 0;
+};
+
+}  // namespace slammot::matching

@@ -1,0 +1,217 @@
+#include "common/matching/log_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/matchers.hpp"
+
+namespace slammot::matching {
+namespace {
+
+using geometry::Pose2;
+using std::numbers::pi;
+using testing::PoseNear;
+
+constexpr std::size_t kBeams = 181;
+
+/// Range from (x, y) along a direction to the walls of a room with a niche, so that no two corners look alike.
+double range_m(double x_m, double y_m, double direction_rad) {
+  const double dx = std::cos(direction_rad);
+  const double dy = std::sin(direction_rad);
+  for (double range = 0.05; range < 40.0; range += 0.01) {
+    const double px = x_m + range * dx;
+    const double py = y_m + range * dy;
+    const bool is_in_niche = px > 6.0 && px < 8.5 && py < 7.0;
+    if (px < -4.0 || px > 12.0 || py < -5.0 || (py > 4.0 && !is_in_niche) || py > 7.0 || std::hypot(px - 9.0, py + 2.0) < 0.6) return range;
+  }
+  return 40.0;
+}
+
+std::vector<float> scan_at(const Pose2& pose, double field_rad) {
+  std::vector<float> ranges;
+  for (std::size_t i = 0; i < kBeams; ++i) {
+    const double angle = -0.5 * field_rad + field_rad * static_cast<double>(i) / static_cast<double>(kBeams - 1);
+    ranges.push_back(static_cast<float>(range_m(pose.x_m, pose.y_m, pose.heading_rad + angle)));
+  }
+  return ranges;
+}
+
+/// A drive once around, straight and turning in turns.
+std::vector<Pose2> drive() {
+  std::vector<Pose2> poses{{2.0, -2.0, 0.3}};
+  for (int i = 0; i < 40; ++i) {
+    const double turn = i % 2 == 0 ? 0.02 : 0.28;
+    const Pose2 step{0.28, 0.28 * 0.5 * turn, turn};
+    poses.push_back(poses.back() * step);
+  }
+  return poses;
+}
+
+struct Recording {
+  std::function<Pose2(const Pose2&)> pose = [](const Pose2& pose) { return pose; };
+  std::function<void(std::vector<float>&)> scan = [](std::vector<float>&) {};
+  double field_rad = pi;
+  double looks_rad = 0.0;
+  double range_unit_m = 1.0;
+};
+
+/// Evidence of the drive, recorded in some way, where a half circle is assumed.
+LogEvidence evidence_of(const Recording& recording) {
+  std::vector<ScanPair> pairs;
+  OdometryCheck check;
+  std::optional<ScanPair> before;
+  for (const Pose2& pose : drive()) {
+    ScanPair now;
+    now.first = scan_at(pose * Pose2{0.0, 0.0, recording.looks_rad}, recording.field_rad);
+    recording.scan(now.first);
+    now.first_recorded = recording.pose(pose);
+    check.add(now.first_recorded);
+    if (before) pairs.push_back({before->first, now.first, before->first_recorded, now.first_recorded});
+    before = now;
+  }
+  return weigh_log(pairs, {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0}, check, recording.range_unit_m);
+}
+
+TEST(WeighLog, CorrectsNothingOfASoundLog) {
+  const LogEvidence evidence = evidence_of({});
+  EXPECT_EQ(evidence.correction, LogCorrection{});
+  EXPECT_GT(evidence.matched_share, 0.9);
+  EXPECT_GT(evidence.turn_sign_share, 0.9);
+  EXPECT_NEAR(evidence.turn_scale, 1.0, 0.1);
+}
+
+TEST(WeighLog, FindsBeamsThatGoClockwise) {
+  LogCorrection expected;
+  expected.reverses_beams = true;
+  const LogEvidence evidence = evidence_of({.scan = [](std::vector<float>& ranges) { std::reverse(ranges.begin(), ranges.end()); }});
+  EXPECT_EQ(evidence.correction, expected);
+  EXPECT_TRUE(evidence.handedness_is_told);
+}
+
+/// The poses of the drive put together again from other steps.
+std::function<Pose2(const Pose2&)> redriven(const std::function<Pose2(const Pose2&)>& step) {
+  return [=, before = std::optional<Pose2>(), now = Pose2::identity()](const Pose2& pose) mutable {
+    if (before) now = now * step(inverse(*before) * pose);
+    before = pose;
+    return now;
+  };
+}
+
+TEST(WeighLog, MirrorsOdometryThatTurnsAgainstItsOwnArcs) {
+  const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) { return Pose2{step.x_m, step.y_m, -step.heading_rad}; })});
+  EXPECT_TRUE(evidence.correction.mirrors_position);
+  EXPECT_TRUE(evidence.correction.mirrors_heading);
+  EXPECT_FALSE(evidence.correction.reverses_beams);
+  EXPECT_TRUE(evidence.handedness_is_told);
+}
+
+TEST(WeighLog, LeavesBeamsWhereOdometryHidesTheArcsOfItsTurns) {
+  const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) { return Pose2{step.x_m, 0.0, -step.heading_rad}; })});
+  EXPECT_TRUE(evidence.correction.mirrors_position);
+  EXPECT_TRUE(evidence.correction.mirrors_heading);
+  EXPECT_FALSE(evidence.correction.reverses_beams);
+  EXPECT_FALSE(evidence.handedness_is_told);
+}
+
+TEST(WeighLog, FindsHeadingsOfTheWrongSign) {
+  const LogCorrection correction = evidence_of({.pose = [](const Pose2& pose) { return Pose2{pose.x_m, pose.y_m, -pose.heading_rad}; }}).correction;
+  EXPECT_TRUE(correction.mirrors_heading);
+  EXPECT_FALSE(correction.mirrors_position);
+  EXPECT_FALSE(correction.reverses_beams);
+}
+
+TEST(WeighLog, FindsSwappedAxes) {
+  const LogCorrection correction = evidence_of({.pose = [](const Pose2& pose) { return Pose2{pose.y_m, pose.x_m, pose.heading_rad}; }}).correction;
+  EXPECT_TRUE(correction.mirrors_position);
+  EXPECT_FALSE(correction.mirrors_heading);
+  const auto poses = drive();
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const auto recorded = [&](std::size_t at) { return corrected(correction, {poses[at].y_m, poses[at].x_m, poses[at].heading_rad}); };
+    EXPECT_THAT(inverse(recorded(i - 1)) * recorded(i), PoseNear(inverse(poses[i - 1]) * poses[i], 0.02));
+  }
+}
+
+TEST(WeighLog, FindsUnits) {
+  EXPECT_EQ(evidence_of({.pose = [](const Pose2& pose) { return Pose2{1e3 * pose.x_m, 1e3 * pose.y_m, pose.heading_rad}; }}).correction.way_unit_m, 1e-3);
+  const auto in = [](float units) { return [=](std::vector<float>& ranges) { for (float& range : ranges) range *= units; }; };
+  EXPECT_EQ(evidence_of({.scan = in(1000.0F), .range_unit_m = 1e-3}).correction.range_unit_m, 1e-3);
+  EXPECT_EQ(evidence_of({.scan = in(100.0F), .range_unit_m = 1e-3}).correction.range_unit_m, 1e-2);
+  EXPECT_EQ(evidence_of({.scan = in(1000.0F), .range_unit_m = 1e-2}).correction.range_unit_m, 1e-3);
+}
+
+TEST(WeighLog, FindsTheFieldOfView) {
+  const LogCorrection correction = evidence_of({.field_rad = 0.5 * pi}).correction;
+  EXPECT_NEAR(correction.field_factor, 0.5, 0.02);
+  EXPECT_FALSE(correction.reverses_beams);
+}
+
+TEST(WeighLog, FindsAScannerThatLooksBackwards) { EXPECT_NEAR(std::abs(evidence_of({.looks_rad = pi}).correction.laser_turn_rad), pi, 1e-9); }
+
+TEST(WeighLog, ConcludesNothingFromFewPairs) {
+  const ScanPair pair{scan_at({}, pi), scan_at({0.2, 0.0, 0.1}, pi), {}, {0.2, 0.0, -0.1}};
+  EXPECT_EQ(weigh_log(std::vector<ScanPair>(3, pair), {-0.5 * pi, pi / 180.0}, {}, 1.0).correction, LogCorrection{});
+  EXPECT_EQ(weigh_log({}, {-0.5 * pi, pi / 180.0}, {}, 1.0).pairs, 0u);
+}
+
+TEST(OdometryCheck, TellsDegreesFromRadians) {
+  OdometryCheck radians;
+  OdometryCheck degrees;
+  for (int i = 0; i < 40; ++i) {
+    const double heading_rad = 0.2 * i;  // unwrapped: more than a turn
+    const Pose2 pose{std::sin(heading_rad), -std::cos(heading_rad), heading_rad};
+    radians.add(pose);
+    degrees.add({pose.x_m, pose.y_m, heading_rad * 180.0 / pi});
+  }
+  EXPECT_FALSE(radians.is_in_degrees());
+  EXPECT_FALSE(radians.positions_are_mirrored());
+  EXPECT_TRUE(degrees.is_in_degrees());
+}
+
+TEST(OdometryCheck, SeesHeadingsThatTurnAgainstTheirArcs) {
+  OdometryCheck sound;
+  OdometryCheck mirrored;
+  Pose2 pose;
+  Pose2 other;
+  for (int i = 0; i < 40; ++i) {
+    sound.add(pose);
+    mirrored.add(other);
+    pose = pose * Pose2{0.2, 0.2 * 0.05, 0.1};
+    other = other * Pose2{0.2, 0.2 * 0.05, -0.1};
+  }
+  EXPECT_FALSE(sound.turns_against_its_arcs());
+  EXPECT_TRUE(sound.turns_with_its_arcs());
+  EXPECT_TRUE(mirrored.turns_against_its_arcs());
+  EXPECT_FALSE(mirrored.turns_with_its_arcs());
+}
+
+TEST(OdometryCheck, SeesArcsAlsoWherePositionsAreLate) {
+  OdometryCheck sound;
+  OdometryCheck mirrored;
+  Pose2 pose;
+  Pose2 other;
+  for (int i = 0; i < 40; ++i) {
+    sound.add(pose);
+    mirrored.add(other);
+    pose = pose * Pose2{0.2, -0.2 * 0.1, 0.1};  // along the heading of one and a half steps ago
+    other = other * Pose2{0.2, -0.2 * 0.1, -0.1};
+  }
+  EXPECT_TRUE(sound.turns_with_its_arcs());
+  EXPECT_FALSE(sound.turns_against_its_arcs());
+  EXPECT_TRUE(mirrored.turns_against_its_arcs());
+  EXPECT_FALSE(mirrored.turns_with_its_arcs());
+}
+
+TEST(RangeUnitOf, IsMetresUnlessNoScannerSeesSoFar) {
+  EXPECT_EQ(range_unit_of(30.0, 80.0), 1.0);
+  EXPECT_EQ(range_unit_of(2'000.0, 6'000.0), 1e-3);
+  EXPECT_EQ(range_unit_of(300.0, 900.0), 1e-2);
+}
+
+}  // namespace
+}  // namespace slammot::matching
