@@ -1,0 +1,378 @@
+#include "common/sensing/scan_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slammot::sensing {
+namespace {
+
+constexpr std::size_t kFewestJudged = 10;
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr double kShareOfMost = 0.95;
+
+using Stamps = std::vector<std::int64_t>;
+
+Stamps present_stamps(std::span<const ScanMark> scans) {
+  Stamps stamps;
+  for (const ScanMark& scan : scans) {
+    if (scan.stamp_ns) stamps.push_back(*scan.stamp_ns);
+  }
+  return stamps;
+}
+
+/// Missing stamps become those of the scan before.
+Stamps filled_stamps(std::span<const ScanMark> scans) {
+  Stamps stamps(scans.size());
+  std::int64_t last_ns = 0;
+  for (const ScanMark& scan : scans) {
+    if (!scan.stamp_ns) continue;
+    last_ns = *scan.stamp_ns;
+    break;
+  }
+  for (std::size_t i = 0; i < scans.size(); ++i) stamps[i] = last_ns = scans[i].stamp_ns.value_or(last_ns);
+  return stamps;
+}
+
+Stamps steps_of(const Stamps& stamps) {
+  Stamps steps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
+  return steps;
+}
+
+template <typename Values, typename Predicate>
+double share_of(const Values& values, Predicate is_counted) {
+  if (values.empty()) return 0.0;
+  return static_cast<double>(std::count_if(values.begin(), values.end(), is_counted)) / static_cast<double>(values.size());
+}
+
+template <typename Value>
+Value median_of(std::vector<Value> values) {
+  if (values.empty()) return Value{};
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Value below which the given share of the values lies; 0 for none.
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+/// Of the steps that advance; 0 where none does.
+std::int64_t median_advance_ns(const Stamps& stamps) {
+  Stamps advances = steps_of(stamps);
+  std::erase_if(advances, [](std::int64_t step_ns) { return step_ns <= 0; });
+  return median_of(std::move(advances));
+}
+
+bool is_constant(const Stamps& stamps) {
+  constexpr std::size_t kStampsPerScans = 500;
+  Stamps distinct = stamps;
+  std::sort(distinct.begin(), distinct.end());
+  const auto count = static_cast<std::size_t>(std::unique(distinct.begin(), distinct.end()) - distinct.begin());
+  return count <= 1 + std::min<std::size_t>(1, stamps.size() / kFewestJudged) + stamps.size() / kStampsPerScans;
+}
+
+/// Whole numbers below 5 apart, all the same: 0, 1, 2 or every third of them.
+bool counts_scans(const Stamps& stamps) {
+  constexpr std::int64_t kLargestStep = 4;
+  const std::int64_t step_ns = median_advance_ns(stamps);
+  if (step_ns <= 0) return false;
+  for (const std::int64_t unit_ns : {kSecondNs, kSecondNs / 1'000, kSecondNs / 1'000'000, std::int64_t{1}}) {
+    if (step_ns % unit_ns != 0 || step_ns / unit_ns > kLargestStep) continue;
+    if (unit_ns != kSecondNs && stamps.front() / unit_ns > static_cast<std::int64_t>(stamps.size())) continue;  // a fast scanner's clock
+    return share_of(steps_of(stamps), [=](std::int64_t step) { return step == step_ns; }) >= kShareOfMost;
+  }
+  return false;
+}
+
+bool are_whole_seconds(const Stamps& stamps) {
+  return share_of(stamps, [](std::int64_t stamp_ns) { return stamp_ns % kSecondNs == 0; }) >= kShareOfMost;
+}
+
+/// Speed at which nine of ten steps stay, by stamps taken as seconds.
+double usual_speed_mps(std::span<const ScanMark> scans, const Stamps& stamps) {
+  std::vector<double> speeds;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    const double step_s = 1e-9 * static_cast<double>(stamps[i] - stamps[i - 1]);
+    if (step_s > 0.0) speeds.push_back(scans[i].way_m / step_s);
+  }
+  return percentile(std::move(speeds), 0.9);
+}
+
+/// Numbers per second; 1 for seconds. Nobody scans every 5 s, unless scans were left out for want of motion: a speed by
+/// odometry that is one of vehicles says so.
+std::int64_t units_per_second(std::span<const ScanMark> scans, const Stamps& stamps) {
+  constexpr double kSlowestVehicleMps = 0.02;
+  const double step = 1e-9 * static_cast<double>(median_advance_ns(stamps));
+  if (step < 5.0 || (step < 60.0 && !are_whole_seconds(stamps))) return 1;
+  if (usual_speed_mps(scans, stamps) > kSlowestVehicleMps && step < 60.0) return 1;
+  if (step < 5e3) return 1'000;
+  return step < 5e6 ? 1'000'000 : kSecondNs;
+}
+
+/// Largest of 10, 1, 0.1 and 0.01 s that all stamps are multiples of; 1 ns for none.
+std::int64_t quantum_ns(const Stamps& stamps) {
+  for (const std::int64_t quantum : {10 * kSecondNs, kSecondNs, kSecondNs / 10, kSecondNs / 100}) {
+    if (share_of(stamps, [=](std::int64_t stamp_ns) { return stamp_ns % quantum == 0; }) >= 0.999) return quantum;
+  }
+  return 1;
+}
+
+/// Rounded so coarsely that the steps are no measure of the time between scans. A steady scanner's round period is none.
+bool is_coarse(const Stamps& stamps, std::int64_t quantum) {
+  constexpr double kFineShareOfPeriod = 0.3;
+  constexpr double kSteadyShare = 0.8;  // a steady scanner repeats a stamp or leaves out a scan now and then
+  const double period_ns = static_cast<double>(stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  const Stamps steps = steps_of(stamps);
+  const std::int64_t median_ns = median_of(steps);
+  const bool is_steady = median_ns > 0 && share_of(steps, [=](std::int64_t step) { return step == median_ns; }) >= kSteadyShare;
+  return !is_steady && static_cast<double>(quantum) > kFineShareOfPeriod * period_ns;
+}
+
+/// Way to each scan from the one before, a radian counted as a metre.
+std::vector<double> ways_of(std::span<const ScanMark> scans) {
+  constexpr double kMetresPerRadian = 1.0;
+  std::vector<double> ways;
+  for (const ScanMark& scan : scans) ways.push_back(scan.way_m + kMetresPerRadian * scan.turn_rad);
+  return ways;
+}
+
+/// Time that the way to each scan takes relative to others; 1 where the vehicle hardly moves.
+std::vector<double> weights_by_way(std::span<const ScanMark> scans) {
+  std::vector<double> ways = ways_of(scans);
+  const double usual = median_of(ways);
+  if (!(usual > 0.0)) return std::vector<double>(scans.size(), 1.0);
+  for (double& way : ways) way = std::clamp(way / usual, 0.2, 5.0);
+  return ways;
+}
+
+/// Relative spread of the time per weight, over stretches of scans long enough for the quantum not to matter.
+double unevenness(const Stamps& stamps, const std::vector<double>& weights, std::int64_t quantum) {
+  std::vector<double> seconds_per_weight;
+  double weight = 0.0;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    weight += weights[i];
+    if (stamps[i] - stamps[begin] < 5 * quantum || i - begin < 5) continue;
+    seconds_per_weight.push_back(static_cast<double>(stamps[i] - stamps[begin]) / weight);
+    weight = 0.0;
+    begin = i;
+  }
+  const double middle = median_of(seconds_per_weight);
+  if (!(middle > 0.0)) return 0.0;
+  std::vector<double> deviations;
+  for (const double each : seconds_per_weight) deviations.push_back(std::abs(each - middle) / middle);
+  return median_of(std::move(deviations));
+}
+
+/// Position within each run of equal stamps, by weight, as a first guess.
+std::vector<double> guess_within_quantum(const Stamps& stamps, const std::vector<double>& weights, double quantum_s) {
+  std::vector<double> times_s(stamps.size());
+  for (std::size_t begin = 0; begin < stamps.size();) {
+    std::size_t end = begin;
+    double total = 0.0;
+    for (; end < stamps.size() && stamps[end] == stamps[begin]; ++end) total += weights[end];
+    double passed = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      times_s[i] = 1e-9 * static_cast<double>(stamps[i] - stamps.front()) + quantum_s * (passed + 0.5 * weights[i]) / total;
+      passed += weights[i];
+    }
+    begin = end;
+  }
+  return times_s;
+}
+
+/// Minimizes the sum of (step_i - rate * weight_i)^2 / weight_i with every time within the quantum that begins with its
+/// stamp: convex, by projected successive over-relaxation. The free ends then advance at the usual rate.
+Stamps spread_within_quantum(const Stamps& stamps, const std::vector<double>& weights, std::int64_t quantum) {
+  constexpr int kSweeps = 300;
+  constexpr double kRelaxation = 1.8;
+  constexpr std::int64_t kLeastStepNs = 1'000;
+  const std::size_t n = stamps.size();
+  const double quantum_s = 1e-9 * static_cast<double>(quantum);
+  double total_weight = 0.0;
+  for (std::size_t i = 1; i < n; ++i) total_weight += weights[i];
+  const double rate = 1e-9 * static_cast<double>(stamps.back() - stamps.front()) / total_weight;
+  std::vector<double> times_s = guess_within_quantum(stamps, weights, quantum_s);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double before = i > 0 ? 1.0 / weights[i] : 0.0;
+      const double after = i + 1 < n ? 1.0 / weights[i + 1] : 0.0;
+      double pulled = 0.0;
+      if (i > 0) pulled += before * (times_s[i - 1] + rate * weights[i]);
+      if (i + 1 < n) pulled += after * (times_s[i + 1] - rate * weights[i + 1]);
+      const double lowest_s = 1e-9 * static_cast<double>(stamps[i] - stamps.front());
+      const double relaxed_s = times_s[i] + kRelaxation * (pulled / (before + after) - times_s[i]);
+      times_s[i] = std::clamp(relaxed_s, lowest_s, lowest_s + quantum_s);
+    }
+  }
+  Stamps spread(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    spread[i] = stamps.front() + std::llround(times_s[i] * 1e9);
+    if (i > 0 && stamps[i] >= stamps[i - 1]) spread[i] = std::max(spread[i], spread[i - 1] + kLeastStepNs);
+  }
+  return spread;
+}
+
+/// Whether the stamps after a step back stay behind what was reached before it.
+bool stays_behind(const Stamps& stamps, std::size_t at) {
+  constexpr std::size_t kFollowing = 10;
+  const std::size_t end = std::min(stamps.size(), at + kFollowing);
+  return end - at >= 3 && std::all_of(stamps.begin() + static_cast<std::ptrdiff_t>(at), stamps.begin() + static_cast<std::ptrdiff_t>(end),
+                                      [&](std::int64_t stamp_ns) { return stamp_ns < stamps[at - 1]; });
+}
+
+/// Whether the stamps after a step of more than ten minutes stay as far ahead. A single early stamp before it is no step.
+bool stays_ahead(const Stamps& stamps, std::size_t at) {
+  constexpr std::int64_t kFarAheadNs = 600 * kSecondNs;
+  constexpr std::size_t kFollowing = 3;
+  if (at + kFollowing > stamps.size()) return false;
+  const std::int64_t before_ns = at > 1 ? std::max(stamps[at - 1], stamps[at - 2]) : stamps[at - 1];
+  return std::all_of(stamps.begin() + static_cast<std::ptrdiff_t>(at), stamps.begin() + static_cast<std::ptrdiff_t>(at + kFollowing),
+                     [&](std::int64_t stamp_ns) { return stamp_ns - before_ns > kFarAheadNs; });
+}
+
+std::uint64_t bridge_jumps(Stamps& stamps) {
+  const Stamps recorded = stamps;
+  const std::int64_t period_ns = std::max<std::int64_t>(median_advance_ns(recorded), 1);
+  std::uint64_t jumps = 0;
+  std::int64_t shift_ns = 0;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    // A step back after a single stamp from the future returns to where the clock was: none to bridge.
+    const bool returns = i > 1 && recorded[i] < recorded[i - 1] && recorded[i] >= recorded[i - 2];
+    if (!returns && ((recorded[i] < recorded[i - 1] && stays_behind(recorded, i)) || stays_ahead(recorded, i))) {
+      ++jumps;
+      shift_ns = stamps[i - 1] + period_ns - recorded[i];
+    }
+    stamps[i] = recorded[i] + shift_ns;
+  }
+  return jumps;
+}
+
+/// Differences of such stamps fit into 64 bits.
+bool are_in_range(const Stamps& stamps) {
+  const auto [least, most] = std::minmax_element(stamps.begin(), stamps.end());
+  return *least >= 0 || (*least > -(std::int64_t{1} << 61) && *most < (std::int64_t{1} << 61));
+}
+
+ScanTimes without_clock(ClockFault fault) {
+  ScanTimes times;
+  times.fault = fault;
+  times.is_clock = false;
+  return times;
+}
+
+/// Whether nine of ten scans are newer than the one before: duplicates and a few late scans are the reader's business.
+bool advances_mostly(const Stamps& stamps) {
+  return share_of(steps_of(stamps), [](std::int64_t step) { return step > 0; }) >= 0.9;
+}
+
+/// Stamps on their way from recorded to usable, with what was done to them.
+struct Repair {
+  ScanTimes times;
+  Stamps stamps;
+
+  void note(ClockFault fault) {
+    if (times.fault == ClockFault::kNone) times.fault = fault;
+    times.stamps_ns = stamps;
+  }
+};
+
+void mirror_if_backwards(Repair& repair) {
+  const Stamps steps = steps_of(repair.stamps);
+  const double back = share_of(steps, [](std::int64_t step) { return step < 0; });
+  const double forward = share_of(steps, [](std::int64_t step) { return step > 0; });
+  if (back <= 9.0 * forward) return;
+  const std::int64_t first_ns = repair.stamps.front();
+  const std::int64_t last_ns = repair.stamps.back();
+  for (std::int64_t& stamp_ns : repair.stamps) stamp_ns = last_ns + (first_ns - stamp_ns);
+  repair.note(ClockFault::kBackwards);
+}
+
+void convert_unit(std::span<const ScanMark> scans, Repair& repair) {
+  const std::int64_t units = units_per_second(scans, repair.stamps);
+  if (units == 1) return;
+  for (std::int64_t& stamp_ns : repair.stamps) stamp_ns /= units;
+  repair.times.unit_s = 1.0 / static_cast<double>(units);
+  repair.note(ClockFault::kUnit);
+}
+
+void bridge(Repair& repair) {
+  repair.times.jumps = bridge_jumps(repair.stamps);
+  if (repair.times.jumps > 0) repair.note(ClockFault::kJumps);
+}
+
+void spread_if_coarse(std::span<const ScanMark> scans, Repair& repair) {
+  const std::int64_t quantum = quantum_ns(repair.stamps);
+  if (quantum == 1 || !is_coarse(repair.stamps, quantum)) return;
+  const std::vector<double> by_way = weights_by_way(scans);
+  const std::vector<double> by_count(scans.size(), 1.0);
+  const bool way_is_evener = unevenness(repair.stamps, by_way, quantum) < unevenness(repair.stamps, by_count, quantum);
+  repair.stamps = spread_within_quantum(repair.stamps, way_is_evener ? by_way : by_count, quantum);
+  repair.times.quantum_s = 1e-9 * static_cast<double>(quantum);
+  repair.note(ClockFault::kCoarse);
+}
+
+bool jumps_all_the_time(const Repair& repair) {
+  return static_cast<double>(repair.times.jumps) > 0.02 * static_cast<double>(repair.stamps.size()) + 1.0;
+}
+
+}  // namespace
+
+ScanTimes judge_scan_stamps(std::span<const ScanMark> scans) {
+  const Stamps present = present_stamps(scans);
+  if (present.empty() || static_cast<double>(present.size()) < 0.9 * static_cast<double>(scans.size())) return without_clock(ClockFault::kAbsent);
+  if (scans.size() == 1) return {};
+  if (is_constant(present)) return without_clock(ClockFault::kConstant);
+  Repair repair{{}, filled_stamps(scans)};
+  if (!are_in_range(repair.stamps)) return without_clock(ClockFault::kErratic);
+  if (scans.size() == 2) return repair.stamps.front() < repair.stamps.back() ? ScanTimes{} : without_clock(ClockFault::kErratic);
+  mirror_if_backwards(repair);
+  if (counts_scans(repair.stamps)) return without_clock(ClockFault::kIndex);
+  if (scans.size() >= kFewestJudged) {
+    convert_unit(scans, repair);
+    bridge(repair);
+    if (jumps_all_the_time(repair) || repair.stamps.back() <= repair.stamps.front()) return without_clock(ClockFault::kErratic);
+    spread_if_coarse(scans, repair);
+  }
+  return advances_mostly(repair.stamps) ? repair.times : without_clock(ClockFault::kErratic);
+}
+
+bool comes_by_time(std::span<const ScanMark> scans) {
+  constexpr double kShort = 0.1;       // of what nine of ten stay below
+  constexpr double kShortShare = 0.02;
+  if (scans.size() < kFewestJudged) return false;
+  std::vector<double> ways = ways_of(scans.subspan(1));
+  const double long_way = percentile(ways, 0.9);
+  return long_way > 0.0 && share_of(ways, [&](double way) { return way < kShort * long_way; }) >= kShortShare;
+}
+
+std::vector<std::int64_t> stamps_from_way(std::span<const ScanMark> scans, const WayPace& pace) {
+  constexpr double kTopSpeedPerPace = 4.0;
+  constexpr double kLongestSteadyPeriodS = 1.0;
+  std::vector<double> periods_s;
+  for (const ScanMark& scan : scans) periods_s.push_back(std::max(scan.way_m / pace.speed_mps, scan.turn_rad / pace.turn_rate_radps));
+  if (comes_by_time(scans)) {
+    const double longest_s = std::max(pace.least_period_s, kLongestSteadyPeriodS);
+    const double period_s = std::clamp(percentile(periods_s, 0.9) / kTopSpeedPerPace, pace.least_period_s, longest_s);
+    std::fill(periods_s.begin(), periods_s.end(), period_s);
+  }
+  std::vector<std::int64_t> stamps_ns;
+  double stamp_s = 0.0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (i > 0) stamp_s += std::clamp(periods_s[i], pace.least_period_s, std::max(pace.least_period_s, pace.longest_period_s));
+    stamps_ns.push_back(std::llround(stamp_s * 1e9));
+  }
+  return stamps_ns;
+}
+
+WayPace pace_among(double median_range_m) {
+  constexpr double kSecondsToWhatIsAround = 8.0;
+  return {.speed_mps = std::clamp(median_range_m / kSecondsToWhatIsAround, 0.5, 5.0)};
+}
+
+}  // namespace slammot::sensing
