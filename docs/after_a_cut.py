@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Says of a drive out of which alter_drive.py cut a piece when it was found again, and how far off it was then.
+"""Says of a drive out of which tests/tools/alter_drive.py cut a piece when it was found again, and how far off it was then.
 
 usage: after_a_cut.py COPY RESULT FROM     FROM as given to alter_drive.py --cut, in s since the first scan
 

@@ -1,0 +1,423 @@
+"""What can be done to a recorded drive: functions from a Drive to a Drive, each one fault of a log, a scanner, or wheels.
+
+Times are seconds since the first scan (Drive.times). What is random is drawn by a seed and the scan's index, so that one alteration
+draws the same whatever else is altered.
+"""
+
+import bisect
+import dataclasses
+import math
+import random
+
+import carmen_drive
+from carmen_drive import Odom, Other, Scan, between, compound, inverse, number, with_pose, with_stamps
+
+# ---- stamps ------------------------------------------------------------------------------------------------------------------
+
+
+def with_stamps_by(drive, stamp_of_record):
+    """stamp_of_record(record, scans before it, its stamp or logger's stamp): the new one, for both clocks."""
+    scans, records = 0, []
+    for record in drive.records:
+        if not isinstance(record, Other):
+            logger = number(record.stamps[2]) if len(record.stamps) > 2 else math.nan
+            record = with_stamps(record, stamp_of_record(record, scans, number(record.stamps[0])), stamp_of_record(record, scans, logger))
+            scans += isinstance(record, Scan)
+        records.append(record)
+    return dataclasses.replace(drive, records=tuple(records))
+
+
+def stamps_zero(drive):
+    return with_stamps_by(drive, lambda record, scans, stamp: "0.000000")
+
+
+def stamps_index(drive):
+    """Scans are counted; an ODOM line has the number of the scan before it."""
+    return with_stamps_by(drive, lambda record, scans, stamp: str(scans if isinstance(record, Scan) else max(scans - 1, 0)))
+
+
+def stamps_seconds(drive):
+    return with_stamps_by(drive, lambda record, scans, stamp: f"{math.floor(stamp)}.000000" if math.isfinite(stamp) else "0")
+
+
+def stamps_milliseconds(drive):
+    return with_stamps_by(drive, lambda record, scans, stamp: f"{1000 * stamp:.3f}")
+
+
+def stamps_jump(drive, seconds=3600.0):
+    """From the middle of the drive on, stamps are later by so much."""
+    middle = len(drive.scans()) // 2
+    return with_stamps_by(drive, lambda record, scans, stamp: f"{stamp + (seconds if scans >= middle else 0.0):.6f}")
+
+
+def stamps_backwards(drive):
+    """Time runs from the last stamp to the first."""
+    stamps = [carmen_drive.stamp_of(scan) for scan in drive.scans()]
+    ends = min(stamps) + max(stamps)
+    return with_stamps_by(drive, lambda record, scans, stamp: f"{ends - stamp:.6f}")
+
+
+# ---- which scans -------------------------------------------------------------------------------------------------------------
+
+
+def every_nth(drive, n):
+    """Every nth scan is left, from the first on. ODOM lines stay."""
+    order = iter(range(len(drive.scans())))
+    return drive.replaced(lambda record: record if isinstance(record, Odom) or next(order) % n == 0 else None)
+
+
+def cut(drive, from_s, to_s, no_time_passes):
+    """Carried away: what lies between is missing, the wheels stand meanwhile."""
+    start = drive.scans()[0].recorded_stamp
+    before = [scan for scan in drive.scans() if scan.recorded_stamp < start + from_s]
+    after = [scan for scan in drive.scans() if scan.recorded_stamp >= start + to_s]
+    if not before or not after:
+        raise ValueError("nothing is left before or after the cut")
+    usual_step_s = before[-1].recorded_stamp - before[-2].recorded_stamp if len(before) > 1 else 0.0
+    sooner_s = after[0].recorded_stamp - before[-1].recorded_stamp - usual_step_s if no_time_passes else 0.0
+    old_from_new = compound(before[-1].wheel_from_base, inverse(after[0].wheel_from_base))
+    places = {id(record): place for place, record in enumerate(drive.records)}
+    first, last = places[id(before[-1])], places[id(after[0])]
+
+    def moved(record):
+        if not (places[id(record)] <= first or places[id(record)] >= last):
+            return None
+        if places[id(record)] <= first:
+            return record
+        record = with_pose(record, compound(old_from_new, record.wheel_from_base))
+        if not sooner_s:
+            return record
+        words = [f"{number(word) - sooner_s:.6f}" for word in (record.stamps[0], record.stamps[-1])]
+        return with_stamps(record, *words)
+    return dataclasses.replace(drive.replaced(moved), removed=drive.removed + ((start + from_s, start + to_s),))
+
+
+# ---- what a scan says --------------------------------------------------------------------------------------------------------
+
+
+def is_echo(drive, reading_m):
+    return 0.0 < reading_m < 0.99 * drive.no_echo_m  # false for NaN
+
+
+def no_echo_word(drive):
+    return f"{drive.no_echo_m:.2f}" if round(drive.no_echo_m, 2) == drive.no_echo_m else repr(drive.no_echo_m)
+
+
+def with_readings(drive, new_words):
+    """new_words(scan, its readings as words, a generator of its own): the new words."""
+    def changed(record):
+        return record.with_ranges(new_words(record, record.ranges)) if isinstance(record, Scan) else record
+    return drive.replaced(changed)
+
+
+def generator(seed, what, scan):
+    return random.Random(f"{seed} {what} {scan.index}")
+
+
+def no_farther(drive, most_m):
+    """Echoes from farther than this are missing; "no echo" is written as before."""
+    none = no_echo_word(drive)
+    return with_readings(drive, lambda scan, words: [none if number(word) > most_m else word for word in words])
+
+
+def dropouts(drive, share, seed):
+    none = no_echo_word(drive)
+
+    def lossy(scan, words):
+        draw = generator(seed, "dropouts", scan).random
+        return [none if draw() < share else word for word in words]
+    return with_readings(drive, lossy)
+
+
+def noise(drive, sigma_m, seed):
+    def noisy(scan, words):
+        draw = generator(seed, "noise", scan).gauss
+        return [f"{max(0.01, number(word) + draw(0.0, sigma_m)):.3f}" if is_echo(drive, number(word)) else word for word in words]
+    return with_readings(drive, noisy)
+
+
+def false_echoes(drive, share, seed, farthest_m=20.0):
+    """So many beams end somewhere before what they would have met, evenly distributed."""
+    def mistaken(scan, words):
+        generate = generator(seed, "false echoes", scan)
+        draw, between_m = generate.random, generate.uniform
+        return [f"{between_m(0.2, max(0.2, min(number(word), farthest_m))):.3f}" if draw() < share and number(word) > 0.2 else word
+                for word in words]
+    return with_readings(drive, mistaken)
+
+
+def rain(drive, share, seed, mean_m=3.0):
+    """So many beams meet a drop on their way, the more the nearer; what is far comes back less often (Beer-Lambert)."""
+    none = no_echo_word(drive)
+
+    def wet(scan, words):
+        draw = generator(seed, "rain", scan)
+        changed = []
+        for word in words:
+            drop_m = draw.expovariate(1.0 / mean_m) + 0.3
+            hit, lost = draw.random() < share, draw.random()
+            if hit and not number(word) <= drop_m:
+                changed.append(f"{drop_m:.3f}")
+            elif is_echo(drive, number(word)) and lost < 1.0 - math.exp(-share * number(word) / 10.0):
+                changed.append(none)
+            else:
+                changed.append(word)
+        return changed
+    return with_readings(drive, wet)
+
+
+def nan_in_every_nth(drive, n):
+    """No reading of every nth scan is a number."""
+    return with_readings(drive, lambda scan, words: ["nan"] * len(words) if scan.index % n == n - 1 else words)
+
+
+def no_echo_as(drive, word):
+    return with_readings(drive, lambda scan, words: [old if is_echo(drive, number(old)) else word for old in words])
+
+
+def ranges_scaled(drive, factor):
+    """Another unit than the format's metre, the record's maximum included."""
+    def scaled(record):
+        if not isinstance(record, Scan):
+            return record
+        ranges = (f"{factor * number(word):.0f}" for word in record.ranges)
+        layout = (*record.layout[:4], f"{factor * number(record.layout[4]):.0f}", *record.layout[5:]) if record.layout else ()
+        return dataclasses.replace(record.with_ranges(ranges), layout=layout)
+    return dataclasses.replace(drive.replaced(scaled), no_echo_m=factor * drive.no_echo_m)
+
+
+# ---- how beams lie -----------------------------------------------------------------------------------------------------------
+
+
+def beams_of(scan):
+    """First beam and step [rad], by the record or else by convention: 180 degrees; with both ends if there are oddly many."""
+    count = scan.beams
+    if scan.layout:
+        return number(scan.layout[1]), number(scan.layout[3])
+    return -math.pi / 2, math.pi / (count if count % 2 == 0 else count - 1)
+
+
+def with_beams(scan, chosen):
+    """Only these beams: indices of a constant step. ROBOTLASER1 says how they lie, FLASER cannot."""
+    ranges, remissions = scan.ranges, scan.remissions
+    if remissions and len(remissions) == len(ranges):
+        remissions = tuple(remissions[beam] for beam in chosen)
+    narrowed = scan.with_ranges(ranges[beam] for beam in chosen)
+    if not scan.layout:
+        return narrowed
+    first_rad, step_rad = beams_of(scan)
+    every = chosen[1] - chosen[0] if len(chosen) > 1 else 1
+    new_step_rad = every * step_rad
+    layout = (scan.layout[0], f"{first_rad + chosen[0] * step_rad:.6f}", f"{new_step_rad * (len(chosen) - 1):.6f}", f"{new_step_rad:.6f}",
+              *scan.layout[4:])
+    return dataclasses.replace(narrowed, remissions=remissions, layout=layout)
+
+
+def field_of_view(drive, degrees):
+    """The beams in the middle are left, evenly to both sides of straight ahead of the scanner."""
+    half_rad = math.radians(degrees) / 2 + 1e-4
+
+    def narrowed(record):
+        if not isinstance(record, Scan):
+            return record
+        first_rad, step_rad = beams_of(record)
+        chosen = [beam for beam in range(record.beams) if abs(first_rad + beam * step_rad) <= half_rad]
+        return with_beams(record, chosen) if len(chosen) > 1 else record
+    return drive.replaced(narrowed)
+
+
+def every_nth_beam(drive, n):
+    return drive.replaced(lambda record: with_beams(record, range(0, record.beams, n)) if isinstance(record, Scan) else record)
+
+
+def beams_reversed(drive):
+    """The last beam is written first, and the record does not say so."""
+    return with_readings(drive, lambda scan, words: reversed(words))
+
+
+def upside_down(drive):
+    """The scanner hangs: what it has to the left it writes where it would be to the right. A direction that was not measured has no echo."""
+    none = no_echo_word(drive)
+
+    def hung(scan, words):
+        first_rad, step_rad = beams_of(scan)
+        mirrored = [round(-(first_rad + beam * step_rad + first_rad) / step_rad) for beam in range(len(words))]
+        turn = round(2 * math.pi / step_rad)
+        mirrored = [beam % turn if len(words) >= turn - 1 else beam for beam in mirrored]
+        return [words[beam] if 0 <= beam < len(words) else none for beam in mirrored]
+    return with_readings(drive, hung)
+
+
+def mounted_backwards(drive):
+    """The vehicle's front is where its rear was. The laser's pose says so, and PARAM where the log has such lines."""
+    half_turn = (0.0, 0.0, math.pi)
+
+    def turned(record):
+        x, y, heading = record.wheel_from_base
+        record = with_pose(record, (-x, -y, heading))
+        if not isinstance(record, Scan):
+            return record
+        laser = compound(half_turn, record.base_from_laser)
+        return dataclasses.replace(record, base_from_laser=(*laser[:2], math.remainder(laser[2], 2 * math.pi)), words_of_poses=None)
+
+    records, says_offset = [], False
+    for record in drive.replaced(turned).records:
+        if isinstance(record, Other) and record.words[:1] == ("PARAM",) and record.words[1:2] in (
+                ("robot_frontlaser_offset",), ("robot_frontlaser_side_offset",)):
+            says_offset = True
+            record = Other((*record.words[:2], f"{-number(record.words[2]):.3f}", *record.words[3:]))
+        records.append(record)
+    if says_offset:
+        records.insert(0, Other(("PARAM", "robot_frontlaser_angular_offset", f"{math.pi:.6f}")))
+    return dataclasses.replace(drive, records=tuple(records), base_turn_rad=drive.base_turn_rad + math.pi)
+
+
+# ---- odometry ----------------------------------------------------------------------------------------------------------------
+
+
+def with_motions(drive, new_motion):
+    """new_motion(motion in the base before, time before, time): the motion that the wheels then say, from pose to pose."""
+    records, times = drive.odometry(), drive.times()
+    poses = [records[0].wheel_from_base]
+    for place in range(1, len(records)):
+        dx, dy, turn = compound(inverse(records[place - 1].wheel_from_base), records[place].wheel_from_base)
+        motion = new_motion((dx, dy, math.remainder(turn, 2 * math.pi)), times[place - 1], times[place])
+        x, y, heading = compound(poses[-1], motion)
+        poses.append((x, y, math.remainder(heading, 2 * math.pi)))
+    return drive.with_odometry(poses)
+
+
+def way_scaled(drive, factor):
+    return with_motions(drive, lambda motion, before_s, now_s: (factor * motion[0], factor * motion[1], motion[2]))
+
+
+def turns_scaled(drive, factor):
+    """-1: turns have the wrong sign."""
+    return with_motions(drive, lambda motion, before_s, now_s: (motion[0], motion[1], factor * motion[2]))
+
+
+def yaw_bias(drive, radps):
+    return with_motions(drive, lambda motion, before_s, now_s: (*motion[:2], motion[2] + radps * (now_s - before_s)))
+
+
+def axes_swapped(drive):
+    """x is written where y should be, and y where x should be."""
+    return drive.with_odometry([(y, x, heading) for x, y, heading in (record.wheel_from_base for record in drive.odometry())])
+
+
+def no_odometry(drive):
+    """All poses zero."""
+    return drive.with_odometry([(0.0, 0.0, 0.0)] * len(drive.odometry()))
+
+
+def overlap_s(before_s, now_s, from_s, to_s):
+    return max(0.0, min(now_s, to_s) - max(before_s, from_s))
+
+
+def frozen(drive, from_s, to_s):
+    """The wheels stand while the vehicle goes on: what they would have counted is lost."""
+    return with_motions(drive, lambda motion, before_s, now_s: (0.0, 0.0, 0.0) if from_s < now_s <= to_s else motion)
+
+
+def slipped(drive, from_s, to_s, mps):
+    """The wheels turn faster than the vehicle goes: so much is added ahead."""
+    return with_motions(drive, lambda motion, before_s, now_s: (motion[0] + mps * overlap_s(before_s, now_s, from_s, to_s), *motion[1:]))
+
+
+def jumped(drive, metres, at_s):
+    """From then on the poses by the wheels are elsewhere, so far along x."""
+    return drive.with_odometry([(x + metres if time_s >= at_s else x, y, heading)
+                                for time_s, (x, y, heading) in zip(drive.times(), (record.wheel_from_base for record in drive.odometry()))])
+
+
+def missing(drive, from_s, to_s):
+    """No odometry comes: ODOM lines are missing, scans repeat the last pose; then it is again what it would have been."""
+    last, kept = None, []
+    times = iter(drive.times())
+    for record in drive.records:
+        if not isinstance(record, Other):
+            time_s = next(times)
+            is_missing = last is not None and from_s < time_s <= to_s
+            if is_missing and isinstance(record, Odom):
+                continue
+            if is_missing:
+                record = with_pose(record, last)
+            last = record.wheel_from_base
+        kept.append(record)
+    return dataclasses.replace(drive, records=tuple(kept))
+
+
+def late(drive, lateness_s):
+    """Each scan and ODOM line has the odometry of so much before it (< 0: after it)."""
+    records, times = drive.odometry(), drive.times()
+    poses = []
+    for time_s in times:
+        wanted_s = min(max(time_s - lateness_s, times[0]), times[-1])
+        after = min(max(bisect.bisect_left(times, wanted_s), 1), len(times) - 1)
+        before_s, after_s = times[after - 1], times[after]
+        share = (wanted_s - before_s) / (after_s - before_s) if after_s > before_s else 1.0
+        poses.append(between(records[after - 1].wheel_from_base, records[after].wheel_from_base, share))
+    return drive.with_odometry(poses)
+
+
+def odometry_scaled(drive, factor):
+    """Another unit than the format's metre."""
+    return drive.with_odometry([(factor * x, factor * y, heading) for x, y, heading in (record.wheel_from_base for record in drive.odometry())])
+
+
+def headings_in_degrees(drive):
+    """Of the base as of the laser."""
+    def in_degrees(record):
+        words = carmen_drive.pose_words(record.wheel_from_base)
+        if isinstance(record, Odom):
+            return dataclasses.replace(record, words_of_pose=tuple(pose_words_in_degrees(words)))
+        laser = carmen_drive.pose_words(compound(record.wheel_from_base, record.base_from_laser))
+        return dataclasses.replace(record, words_of_poses=tuple(pose_words_in_degrees(laser) + pose_words_in_degrees(words)))
+    return drive.replaced(in_degrees)
+
+
+def pose_words_in_degrees(words):
+    return [*words[:2], f"{math.degrees(math.remainder(number(words[2]), 2 * math.pi)):.4f}"]
+
+
+def standing(drive, for_s, every_s):
+    """Again and again the wheels stand for a moment while the vehicle goes on."""
+    return with_motions(drive, lambda motion, before_s, now_s: (0.0, 0.0, 0.0) if now_s % every_s < for_s and now_s >= every_s else motion)
+
+
+def second_source(drive, factor):
+    """ODOM lines count the way by another scale than the scans' own poses; where there are none, one is put before each scan."""
+    if not any(isinstance(record, Odom) for record in drive.records):
+        records = []
+        for record in drive.records:
+            if isinstance(record, Scan):
+                records.append(Odom(record.wheel_from_base, ("0", "0", "0"), record.stamps))
+            records.append(record)
+        drive = dataclasses.replace(drive, records=tuple(records))
+    scaled = iter(way_scaled(drive, factor).odometry())
+
+    def differing(record):
+        by_scale = next(scaled)
+        return by_scale if isinstance(record, Odom) else record
+    return drive.replaced(differing)
+
+
+def moving_window(drive, length_s, near_share=0.4, share_of_mean=0.8):
+    """From and to of a window of this length in which the vehicle moves, the nearest to this share of the drive: at least this share
+    of what it goes on average. Altering odometry where the vehicle stands anyway would alter nothing."""
+    records, times = drive.odometry(), drive.times()
+    ways = [0.0]
+    for before, record in zip(records, records[1:]):
+        ways.append(ways[-1] + math.dist(before.wheel_from_base[:2], record.wheel_from_base[:2]))
+    duration_s = max(times[-1], 1e-9)
+    wanted_m = share_of_mean * ways[-1] * min(1.0, length_s / duration_s)
+    best = None
+    for place, from_s in enumerate(times):
+        end = bisect.bisect_right(times, from_s + length_s) - 1
+        if from_s < 0.0 or times[-1] - from_s < length_s or ways[end] - ways[place] < wanted_m:
+            continue
+        off_s = abs(from_s - near_share * duration_s)
+        if best is None or off_s < best[0]:
+            best = off_s, from_s
+    from_s = best[1] if best else near_share * duration_s
+    return from_s, from_s + length_s
