@@ -4,26 +4,19 @@
 #include <cmath>
 #include <utility>
 
-#include "common/files/leg_tracker_log.hpp"
+#include "common/files/log_formats.hpp"
 
 namespace slammot::files {
 namespace {
 
 constexpr std::size_t kMaxWaitingScans = 256;
+constexpr std::size_t kMaxMergingScans = 64;
+constexpr std::int64_t kMergedOver_ns = 250'000'000;  // latencies of scanners differ by less
 
 template <typename... Visitors>
 struct Overloaded : Visitors... {
   using Visitors::operator()...;
 };
-
-/// A CARMEN log, or a folder that can be told as one.
-Result<std::unique_ptr<LineSource>> open_lines(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return LegTrackerLog::open(path);
-  auto lines = LineReader::open(path);
-  if (!lines) return lines.error();
-  return std::unique_ptr<LineSource>(std::make_unique<LineReader>(std::move(*lines)));
-}
 
 /// What a record that is kept takes, and next to what its readings take.
 std::size_t bytes_of(const CarmenRecord& record) {
@@ -37,58 +30,99 @@ CarmenRecord to_keep(CarmenRecord record) {
   return record;
 }
 
-Error no_scans(const std::filesystem::path& path, const LineSource& lines, std::uint64_t malformed_lines) {
-  std::string message = path.string() + ": no laser scan (FLASER or ROBOTLASER1) in " + std::to_string(lines.line_number()) + " lines";
+Error no_scans(const std::filesystem::path& path, const RecordSource& records, std::uint64_t malformed_lines) {
+  std::string message = path.string() + ": no laser scan (FLASER or ROBOTLASER1) in " + std::to_string(records.line_number()) + " lines";
   if (malformed_lines > 0) message += ", " + std::to_string(malformed_lines) + " of them malformed";
-  if (lines.is_cut()) message += "; the file is cut off or damaged";
+  if (records.is_cut()) message += "; the file is cut off or damaged";
   return Error{std::move(message)};
+}
+
+/// The scanners of a log that is no bag, where there are several.
+TopicChoice choice_of(const LogPlan& plan) {
+  TopicChoice choice;
+  if (plan.scanners.size() < 2) return choice;
+  for (const ScannerPlan& scanner : plan.scanners) {
+    TopicCandidate candidate;
+    candidate.topic = scanner.name;
+    candidate.type = "CARMEN";
+    candidate.messages = scanner.scans;
+    candidate.is_chosen = choice.scanners.empty();
+    choice.scanners.push_back(std::move(candidate));
+  }
+  return choice;
+}
+
+/// Frame laser_<scanner_id>, at most 31 characters: the end of long topics tells more than their beginning.
+std::string scanner_id_of(std::string_view scanner) {
+  constexpr std::size_t kLongest = 24;
+  std::string id(scanner.substr(std::min(scanner.find_first_not_of('/'), scanner.size())));
+  if (id.size() > kLongest) id.erase(0, id.size() - kLongest);
+  std::ranges::replace(id, '/', '_');
+  return id;
+}
+
+std::vector<std::string> names_of(const std::vector<ScannerPlan>& scanners) {
+  std::vector<std::string> names;
+  for (const ScannerPlan& scanner : scanners) names.push_back(scanner.name);
+  return names;
 }
 
 }  // namespace
 
 Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const CarmenLogOptions& options) {
-  auto opened = open_lines(path);
+  const RecordOptions record_options{options.topics, options.most_kept_bytes};
+  auto opened = open_records(path, record_options);
   if (!opened) return opened.error();
-  std::unique_ptr<LineSource> first_pass = std::move(*opened);
+  std::unique_ptr<RecordSource> first_pass = std::move(*opened);
   CarmenSurvey survey;
   std::deque<ReadRecord> records;
   std::size_t bytes = 0;
   std::uint64_t malformed_lines = 0;
-  while (const auto line = first_pass->next()) {
-    CarmenRecord record = parse_carmen_line(*line);
-    malformed_lines += std::holds_alternative<MalformedLine>(record) ? 1 : 0;
-    survey.add(record);
-    bytes += bytes_of(record);
-    if (bytes <= options.most_kept_bytes) records.push_back({to_keep(std::move(record)), first_pass->line_number(), first_pass->overlong_lines(), first_pass->fraction_read()});
+  while (auto record = first_pass->next()) {
+    malformed_lines += std::holds_alternative<MalformedLine>(*record) ? 1 : 0;
+    survey.add(*record);
+    bytes += bytes_of(*record);
+    if (bytes <= options.most_kept_bytes) records.push_back({to_keep(std::move(*record)), first_pass->line_number(), first_pass->overlong_lines(), first_pass->fraction_read()});
     else records.clear();
   }
-  const LogPlan plan = survey.conclude(options.fallback_field_of_view_rad);
-  if (plan.figures.scans == 0) return no_scans(path, *first_pass, malformed_lines);
+  const bool has_topics = !first_pass->topics().scanners.empty();  // which have been chosen from already
+  const ScannerWish wish{has_topics ? std::string() : options.topics.scan_topic, options.topics.scanners};
+  std::vector<ScannerPlan> scanners = survey.scanners(wish.main);
+  if (scanners.empty()) return no_scans(path, *first_pass, malformed_lines);
+  if (!wish.main.empty() && !survey.has_scanner(wish.main)) return Error{path.string() + ": no scanner " + wish.main + " in the log: its main one is " + scanners.front().name};
+  if (auto fault = select_scanners(wish.used, scanners)) return Error{path.string() + ": " + fault->message};
+  const LogPlan plan = survey.conclude(options.fallback_field_of_view_rad, wish);
   if (bytes <= options.most_kept_bytes) {
     CarmenLog log(std::move(first_pass), plan, options);
     log.kept_ = std::move(records);
     log.all_is_kept_ = true;
     return log;
   }
-  auto second_pass = open_lines(path);
+  auto second_pass = open_records(path, record_options);
   if (!second_pass) return second_pass.error();
   return CarmenLog(std::move(*second_pass), plan, options);
 }
 
 CarmenLog CarmenLog::follow(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options) {
-  CarmenLog log(std::move(lines), std::move(plan), options);
+  CarmenLog log(std::make_unique<CarmenLines>(std::move(lines)), std::move(plan), options);
   log.survey_.emplace();
   return log;
 }
 
-CarmenLog::CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options)
-    : lines_(std::move(lines)), plan_(std::move(plan)) {
+CarmenLog::CarmenLog(std::unique_ptr<RecordSource> records, LogPlan plan, const CarmenLogOptions& options)
+    : records_(std::move(records)), topics_(records_->topics()), plan_(std::move(plan)), scans_(std::max<std::size_t>(1, plan_.scanners.size())) {
+  is_choice_of_plan_ = topics_.scanners.empty();
+  if (is_choice_of_plan_) topics_ = choice_of(plan_);
   set_options(options);
 }
 
 void CarmenLog::set_options(const CarmenLogOptions& options) {
   options_ = options;
-  if (plan_.base_from_laser == geometry::Pose2::identity()) plan_.base_from_laser = options.fallback_base_from_laser;
+  for (std::size_t i = 1; i < topics_.scanners.size() && is_choice_of_plan_; ++i) topics_.scanners[i].is_chosen = options.uses_all_scanners;
+  const geometry::Pose2 unsaid{0.0, 0.0, plan_.evidence.correction.laser_turn_rad};  // what scans say alone
+  if (options.fallback_base_from_laser == geometry::Pose2::identity() || difference(plan_.base_from_laser, unsaid).norm() > 1e-9) return;
+  plan_.base_from_laser = options.fallback_base_from_laser;
+  plan_.evidence.correction.laser_turn_rad = 0.0;
 }
 
 std::optional<LogEvent> CarmenLog::next() {
@@ -99,7 +133,7 @@ std::optional<LogEvent> CarmenLog::next() {
     }
     if (survey_) survey_->add(now_.record);
     std::visit(Overloaded{[this](const IgnoredLine&) { ++faults_.ignored_lines; }, [this](const MalformedLine&) { note_malformed(); },
-                          [](const ParamRecord&) {},  // heeded by the survey
+                          [](const ParamRecord&) {}, [](const ImuRecord&) {},  // heeded by the survey
                           [this](const OdometryRecord& known) { take(known); },
                           [this](LaserRecord& known) { take(std::move(known)); }},
                now_.record);
@@ -119,22 +153,58 @@ bool CarmenLog::read_on() {
     return true;
   }
   if (all_is_kept_) return false;
-  const auto line = lines_->next();
-  if (!line) return false;
-  now_ = {parse_carmen_line(*line), lines_->line_number(), lines_->overlong_lines(), lines_->fraction_read()};
+  auto record = records_->next();
+  if (!record) return false;
+  now_ = {std::move(*record), records_->line_number(), records_->overlong_lines(), records_->fraction_read()};
   return true;
 }
 
+std::vector<std::string> CarmenLog::scanner_ids() const {
+  if (!has_several_scanners()) return {options_.scanner_id};
+  std::vector<std::string> ids;
+  for (const ScannerPlan& scanner : plan_.scanners) ids.push_back(scanner_id_of(scanner.name));
+  return ids;
+}
+
+/// Which of the plan's scanners it is of; nullopt for what is not to be handed out.
+std::optional<std::size_t> CarmenLog::scanner_of(const LaserRecord& record) const {
+  if (plan_.scanners.empty()) return record.kind == plan_.laser && record.slot == 1 ? std::optional<std::size_t>(0) : std::nullopt;
+  const std::size_t used = options_.uses_all_scanners ? plan_.scanners.size() : 1;
+  for (std::size_t i = 0; i < used; ++i) {
+    if (plan_.scanners[i].kind == record.kind && plan_.scanners[i].slot == record.slot) return i;
+  }
+  return std::nullopt;
+}
+
 void CarmenLog::take(LaserRecord record) {
-  if (record.kind != plan_.laser) {
+  const auto scanner = scanner_of(record);
+  if (!scanner) {
     ++faults_.ignored_lines;
     return;
   }
-  const auto stamp = stamp_ns(record.stamps);
+  const auto stamp = scan_stamp_ns(record.stamps, *scanner);
   if (!stamp) return note_malformed();
-  const geometry::Pose2 wheel_from_base = record.wheel_from_base;
-  sensing::LaserScan scan = scan_of(std::move(record), *stamp);
-  if (++scans_ == 1 && plan_.first_scan_is_ahead) {
+  if (*scanner == 0) odom_lines_since_scan_ = 0;
+  if (!has_several_scanners() || has_replaced_stamps()) return take_in_order(std::move(record), *scanner, *stamp);
+  merging_.emplace(*stamp, MergingScan{std::move(record), *scanner});
+  merge_scans(kMaxMergingScans);
+}
+
+/// Scans of several scanners come one after the other by their stamps: each waits until none can be expected before it.
+void CarmenLog::merge_scans(std::size_t may_wait) {
+  while (!merging_.empty()) {
+    const std::int64_t span_ns = merging_.rbegin()->first - merging_.begin()->first;
+    if (merging_.size() <= may_wait && span_ns <= kMergedOver_ns) return;
+    auto oldest = merging_.extract(merging_.begin());
+    take_in_order(std::move(oldest.mapped().record), oldest.mapped().scanner, oldest.key());
+  }
+}
+
+void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int64_t stamp) {
+  const bool has_pose = record.kind != LaserRecordKind::kRawLaser && record.kind != LaserRecordKind::kDpSlam;
+  const auto wheel_from_base = has_pose ? std::optional(corrected(plan_.evidence.correction, record.wheel_from_base)) : std::nullopt;
+  sensing::LaserScan scan = scan_of(std::move(record), scanner, stamp);
+  if (++scans_[scanner] == 1 && scanner == 0 && plan_.first_scan_is_ahead) {
     first_scan_ = std::move(scan);  // told first, it would make all others late: after the second one, it is only far ahead
     return;
   }
@@ -147,24 +217,21 @@ void CarmenLog::take(LaserRecord record) {
       return put_scan(std::move(scan), wheel_from_base);
     case OdometrySource::kOdomLines:
       waiting_.push_back(std::move(scan));
-      // Without a common clock the line before the scan is the best there is.
-      return put_waiting_scans(plan_.clock == LogClock::kNominal ? 0 : kMaxWaitingScans);
+      return put_waiting_scans(kMaxWaitingScans);
   }
 }
 
 void CarmenLog::take(const OdometryRecord& record) {
-  if (plan_.odometry == OdometrySource::kNone || plan_.odometry == OdometrySource::kLaserRecords) return;
-  // On the nominal clock a line has the time of the scan before it; only the last one before each scan survives.
-  const auto stamp = plan_.clock == LogClock::kNominal ? std::optional<std::int64_t>(0) : stamp_ns(record.stamps);
-  if (!stamp) return note_malformed();
-  if (plan_.clock == LogClock::kNominal) odom_lines_.clear();
+  if (plan_.odometry == OdometrySource::kNone || plan_.odometry == OdometrySource::kLaserRecords || record.kind != plan_.odometry_lines) return;
+  const auto stamp = has_replaced_stamps() ? odometry_stamp_by_order_ns() : recorded_stamp_ns(record.stamps);
+  if (!stamp) return has_replaced_stamps() ? void() : note_malformed();
   const bool is_believed = odometry_stamps_.believes(*stamp);
   if (!is_believed || (!odom_lines_.empty() && *stamp <= odom_lines_.back().stamp_ns)) {
     ++faults_.stale_odometry;
     return;
   }
-  odom_lines_.push_back({*stamp, record.wheel_from_base});
-  if (plan_.odometry == OdometrySource::kOdomLines && plan_.clock != LogClock::kNominal) put_waiting_scans(kMaxWaitingScans);
+  odom_lines_.push_back({*stamp, corrected(plan_.evidence.correction, record.wheel_from_base)});
+  if (plan_.odometry == OdometrySource::kOdomLines) put_waiting_scans(kMaxWaitingScans);
 }
 
 void CarmenLog::note_malformed() {
@@ -176,33 +243,79 @@ void CarmenLog::note_malformed() {
 void CarmenLog::finish_reading() {
   is_finished_ = true;
   // A last line that has no end and makes no sense was cut in the middle.
-  const bool last_line_is_broken = lines_->last_line_is_unfinished() && last_malformed_line_ == lines_->line_number();
-  faults_.is_cut = lines_->is_cut() || last_line_is_broken;
+  const bool last_line_is_broken = records_->last_line_is_unfinished() && last_malformed_line_ == records_->line_number();
+  faults_.is_cut = records_->is_cut() || last_line_is_broken;
+  faults_.damage = records_->damage();
+  merge_scans(0);
   put_waiting_scans(0);
-  if (survey_) plan_.figures = survey_->conclude(options_.fallback_field_of_view_rad).figures;
+  if (!survey_) return;
+  const LogPlan plan = survey_->conclude(options_.fallback_field_of_view_rad, {.main = {}, .used = names_of(plan_.scanners)});
+  plan_.figures = plan.figures;
+  plan_.evidence = plan.evidence;
+  plan_.evidence.correction = {};  // what has been handed out was not corrected
 }
 
-std::optional<std::int64_t> CarmenLog::stamp_ns(const CarmenStamps& stamps) const {
-  switch (plan_.clock) {
-    case LogClock::kIpc: return stamps.ipc_ns;
-    case LogClock::kLogger: return stamps.logger_ns;
-    case LogClock::kNominal: return std::llround(1e9 / kNominalRateHz * static_cast<double>(scans_));
-  }
-  return std::nullopt;
+std::optional<std::int64_t> CarmenLog::recorded_stamp_ns(const CarmenStamps& stamps) const { return plan_.clock == LogClock::kLogger ? stamps.logger_ns : stamps.ipc_ns; }
+
+/// Replaced stamps are those of the main scanner; a further scanner's scan lies between the main one's before and after it.
+std::optional<std::int64_t> CarmenLog::scan_stamp_ns(const CarmenStamps& stamps, std::size_t scanner) const {
+  if (!has_replaced_stamps()) return recorded_stamp_ns(stamps);
+  const std::vector<std::int64_t>& replaced_ns = plan_.times.stamps_ns;
+  const std::size_t next = scans_[0];
+  if (scanner == 0) return next < replaced_ns.size() ? std::optional(replaced_ns[next]) : std::nullopt;
+  if (next == 0 || next >= replaced_ns.size()) return std::nullopt;
+  return replaced_ns[next - 1] + (replaced_ns[next] - replaced_ns[next - 1]) / 2;
 }
 
-sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::int64_t stamp_ns) const {
+/// Where the scans' stamps are replaced, ODOM lines lie evenly between two scans of the main scanner, in the order of the log.
+/// The last line has the time of the scan after it where that scan has no pose of its own. nullopt where the line is not needed.
+std::optional<std::int64_t> CarmenLog::odometry_stamp_by_order_ns() {
+  const bool scans_have_poses = plan_.odometry != OdometrySource::kOdomLines;
+  const std::size_t scan = scans_[0];
+  if (scan >= plan_.odom_lines_before_scan.size()) return std::nullopt;
+  const std::uint32_t lines = plan_.odom_lines_before_scan[scan];
+  const std::uint32_t line = ++odom_lines_since_scan_;
+  const std::int64_t after_ns = plan_.times.stamps_ns[scan];
+  if (scan == 0) return line == lines && !scans_have_poses ? std::optional(after_ns) : std::nullopt;
+  const std::int64_t before_ns = plan_.times.stamps_ns[scan - 1];
+  const double fraction = static_cast<double>(line) / static_cast<double>(scans_have_poses ? lines + 1 : lines);
+  return before_ns + std::llround(fraction * static_cast<double>(after_ns - before_ns));
+}
+
+sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns) const {
   const BeamLayout layout = record.layout.value_or(layout_by_convention(record.range_m.size(), options_.fallback_field_of_view_rad));
+  const bool is_main = scanner == 0;
+  const double max_range_m = is_main ? plan_.max_range_m : plan_.scanners[scanner].max_range_m;
   sensing::LaserScan scan;
   scan.stamp_ns = stamp_ns;
-  scan.sequence = scans_;
-  scan.scanner.scanner_id = options_.scanner_id;
-  scan.scanner.base_from_laser = plan_.base_from_laser;
+  scan.sequence = scans_[scanner];
+  scan.scanner.scanner_id = has_several_scanners() ? scanner_id_of(record.scanner) : options_.scanner_id;
+  scan.scanner.base_from_laser = is_main ? plan_.base_from_laser : plan_.scanners[scanner].base_from_laser;
   scan.scanner.first_beam_rad = layout.first_beam_rad;
   scan.scanner.beam_step_rad = layout.beam_step_rad;
-  scan.scanner.max_range_m = record.max_range_m > 0.0 ? std::min(record.max_range_m, plan_.max_range_m) : plan_.max_range_m;
+  scan.scanner.max_range_m = record.max_range_m > 0.0 ? std::min(record.max_range_m, max_range_m) : max_range_m;
   scan.range_m = std::move(record.range_m);
+  correct(scan, scanner);
   return scan;
+}
+
+/// Beams and ranges as the survey understood them: the unit is the log's, the beams are the main scanner's.
+void CarmenLog::correct(sensing::LaserScan& scan, std::size_t scanner) const {
+  const matching::LogCorrection& correction = plan_.evidence.correction;
+  if (correction.range_unit_m != 1.0) {
+    for (float& range_m : scan.range_m) range_m *= static_cast<float>(correction.range_unit_m);
+  }
+  if (!has_beams_of_the_main_one(scanner)) return;
+  scan.scanner.first_beam_rad *= correction.field_factor;
+  scan.scanner.beam_step_rad *= correction.field_factor;
+  if (!correction.reverses_beams) return;
+  scan.scanner.first_beam_rad += scan.scanner.beam_step_rad * static_cast<double>(scan.range_m.size() - 1);
+  scan.scanner.beam_step_rad = -scan.scanner.beam_step_rad;
+}
+
+/// CARMEN's records of one kind come from one program; in a bag each scanner has a driver of its own.
+bool CarmenLog::has_beams_of_the_main_one(std::size_t scanner) const {
+  return scanner == 0 || (plan_.scanners[scanner].kind == plan_.laser && plan_.laser != LaserRecordKind::kBag);
 }
 
 void CarmenLog::put_odometry(const sensing::Odometry& odometry) {
@@ -227,14 +340,12 @@ void CarmenLog::put_waiting_scans(std::size_t may_wait) {
     if (!has_odometry && waiting_.size() <= may_wait) return;
     sensing::LaserScan scan = std::move(waiting_.front());
     waiting_.pop_front();
-    if (plan_.clock == LogClock::kNominal) {
-      const auto pose = odom_lines_.empty() ? std::nullopt : std::optional(odom_lines_.back().wheel_from_base);
-      put_scan(std::move(scan), pose);
-      continue;
-    }
-    put_odometry_until(scan.stamp_ns - 1);
-    const auto wheel_from_base = wheel_from_base_at(scan.stamp_ns);
+    const std::int64_t stamp = scan.stamp_ns;
+    put_odometry_until(stamp - 1);
+    const auto wheel_from_base = wheel_from_base_at(stamp);
     put_scan(std::move(scan), wheel_from_base);
+    const bool was_its_own = !odom_lines_.empty() && odom_lines_.front().stamp_ns == stamp && newest_odometry_ && newest_odometry_->stamp_ns == stamp;
+    if (was_its_own) odom_lines_.pop_front();
   }
 }
 
@@ -242,7 +353,7 @@ void CarmenLog::put_waiting_scans(std::size_t may_wait) {
 std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_ns) const {
   if (odom_lines_.empty()) return newest_odometry_ ? std::optional(newest_odometry_->wheel_from_base) : std::nullopt;
   const sensing::Odometry& after = odom_lines_.front();
-  if (!newest_odometry_ || after.stamp_ns <= newest_odometry_->stamp_ns) return after.wheel_from_base;
+  if (!newest_odometry_ || after.stamp_ns <= newest_odometry_->stamp_ns || after.stamp_ns == stamp_ns) return after.wheel_from_base;
   const double fraction = static_cast<double>(stamp_ns - newest_odometry_->stamp_ns) / static_cast<double>(after.stamp_ns - newest_odometry_->stamp_ns);
   return geometry::interpolate(newest_odometry_->wheel_from_base, after.wheel_from_base, std::clamp(fraction, 0.0, 1.0));
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -13,8 +14,10 @@
 
 #include "common/files/carmen_record.hpp"
 #include "common/files/carmen_survey.hpp"
-#include "common/files/line_reader.hpp"
+#include "common/files/line_source.hpp"
+#include "common/files/record_source.hpp"
 #include "common/files/result.hpp"
+#include "common/files/topic_choice.hpp"
 #include "common/sensing/scan.hpp"
 #include "common/sensing/stamp_guard.hpp"
 
@@ -24,6 +27,8 @@ struct CarmenLogOptions {
   std::string scanner_id = "front";
   double fallback_field_of_view_rad = std::numbers::pi;  ///< First to last beam, where the records do not say.
   geometry::Pose2 fallback_base_from_laser;              ///< Where the log does not say where the laser is.
+  TopicOptions topics;                                   ///< Where the log leaves a choice.
+  bool uses_all_scanners = false;                        ///< Otherwise only the main one's scans are handed out.
   std::size_t most_kept_bytes = std::size_t{48} << 20;   ///< Of records read by open(), a quarter of an hour at 40 Hz; more are read again.
 };
 
@@ -35,25 +40,30 @@ struct LogFaults {
   std::uint64_t overlong_lines = 0;                 ///< Beyond LineReader::kMaxLineBytes; skipped.
   std::uint64_t ignored_lines = 0;                  ///< Comments and messages that are no input of ours.
   std::uint64_t stale_odometry = 0;                 ///< Not newer than odometry already handed out; left out.
-  bool is_cut = false;                              ///< The file ends before the log does.
+  bool is_cut = false;                              ///< The file ends before the log does, or a part of it is damaged.
+  std::string damage;                               ///< What is damaged and where, where that is known.
 };
 
 using LogEvent = std::variant<sensing::Odometry, sensing::LaserScan>;
 
-/// A CARMEN log as a stream of what the vehicle's sensors said, in the order of the log.
+/// A log as a stream of what the vehicle's sensors said, in the order of the log: CARMEN's text and what open_records() takes
+/// besides.
 ///
 /// Opening reads the whole log once (CarmenSurvey) and decides how to understand it; next() hands out what was read, or
 /// reads it again where that is too much to keep. Lines of a source that cannot be read twice are followed instead.
-/// - Stamps are the log's ipc_timestamp where that is a clock; see LogClock.
+/// - Stamps are the log's ipc_timestamp where that is a clock; see LogClock. Where LogPlan::times replaces the scans' stamps,
+///   ODOM lines are placed between them by their order.
 /// - Where the log has odometry, each scan comes right after an Odometry of the scan's very stamp, and the stamps of
 ///   Odometry always grow; see OdometrySource for ODOM lines. A scan that is not newer than those before it comes
 ///   without one.
-/// - sequence counts the scans handed out, from 0.
+/// - sequence counts the scans handed out, from 0, of each scanner.
+/// - Of several scanners the main one's scans are handed out, or all in the order of their stamps (uses_all_scanners), each with
+///   its own mounting and a scanner_id of its own: the topic or the message's name.
 /// - A scan's range_m is as in the log, NaN for what was no number; sensing::is_echo() tells echoes from the rest.
 /// - sweep_s is left 0: a log does not say it. See sweep_s_for() in log_profile.hpp.
 class CarmenLog {
  public:
-  /// Fails for a file that cannot be read or that holds no scan. A folder is read as LegTrackerLog does.
+  /// Fails for a file that cannot be read or that holds no scan.
   static Result<CarmenLog> open(const std::filesystem::path& path, const CarmenLogOptions& options = {});
 
   /// Lines that can be read only once, so that what they are must be known: the plan without its figures. Those are known at
@@ -68,12 +78,16 @@ class CarmenLog {
 
   const LogPlan& plan() const { return plan_; }
   const LogFaults& faults() const { return faults_; }
+  const TopicChoice& topics() const { return topics_; }
+
+  /// Of the scans that next() hands out.
+  std::vector<std::string> scanner_ids() const;
 
   /// Share of the file taken in by next() so far, [0, 1].
   double fraction_read() const { return now_.fraction_read; }
 
  private:
-  CarmenLog(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options);
+  CarmenLog(std::unique_ptr<RecordSource> records, LogPlan plan, const CarmenLogOptions& options);
 
   /// One line, understood.
   struct ReadRecord {
@@ -85,18 +99,35 @@ class CarmenLog {
 
   bool read_on();
   void take(LaserRecord record);
+  void take_in_order(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns);
+  void merge_scans(std::size_t may_wait);
+  bool has_several_scanners() const { return options_.uses_all_scanners && plan_.scanners.size() > 1; }
+  std::optional<std::size_t> scanner_of(const LaserRecord& record) const;
   void take(const OdometryRecord& record);
   void note_malformed();
   void finish_reading();
-  std::optional<std::int64_t> stamp_ns(const CarmenStamps& stamps) const;
-  sensing::LaserScan scan_of(LaserRecord record, std::int64_t stamp_ns) const;
+  bool has_replaced_stamps() const { return !plan_.times.stamps_ns.empty(); }
+  std::optional<std::int64_t> recorded_stamp_ns(const CarmenStamps& stamps) const;
+  std::optional<std::int64_t> scan_stamp_ns(const CarmenStamps& stamps, std::size_t scanner) const;
+  std::optional<std::int64_t> odometry_stamp_by_order_ns();
+  sensing::LaserScan scan_of(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns) const;
+  void correct(sensing::LaserScan& scan, std::size_t scanner) const;
+  bool has_beams_of_the_main_one(std::size_t scanner) const;
   void put_odometry(const sensing::Odometry& odometry);
   void put_odometry_until(std::int64_t stamp_ns);
   void put_waiting_scans(std::size_t may_wait);
   void put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base);
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
 
-  std::unique_ptr<LineSource> lines_;
+  /// A scan of one of several scanners, until none older can come.
+  struct MergingScan {
+    LaserRecord record;
+    std::size_t scanner = 0;
+  };
+
+  std::unique_ptr<RecordSource> records_;
+  TopicChoice topics_;
+  bool is_choice_of_plan_ = false;                   // topics_, where the log has no topics
   std::deque<ReadRecord> kept_;                      // what is still to come, where
   bool all_is_kept_ = false;                         // the survey's records were few enough
   ReadRecord now_;
@@ -106,7 +137,9 @@ class CarmenLog {
   LogFaults faults_;
   std::uint64_t last_malformed_line_ = 0;
   bool is_finished_ = false;
-  std::uint32_t scans_ = 0;
+  std::vector<std::uint32_t> scans_ = {0};           // by scanner
+  std::uint32_t odom_lines_since_scan_ = 0;          // of the main scanner
+  std::multimap<std::int64_t, MergingScan> merging_; // by stamp
   std::deque<LogEvent> ready_;
   std::deque<sensing::Odometry> odom_lines_;         // held back until the scan after them
   std::optional<sensing::LaserScan> first_scan_;     // until the second one, where its stamp is far ahead

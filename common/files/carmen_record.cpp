@@ -14,6 +14,7 @@ constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::int64_t kMaxStampSeconds = 9'000'000'000;
 constexpr double kMaxCoordinateM = 1e7;  // a quarter of the way round the earth
 constexpr std::size_t kPoseNumbers = 3;
+constexpr std::size_t kStampWords = 3;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\r'; }
@@ -93,7 +94,7 @@ std::optional<geometry::Pose2> next_pose(Words& words) {
   const auto heading_rad = next_finite(words);
   if (!x_m || !y_m || !heading_rad) return std::nullopt;
   if (std::abs(*x_m) > kMaxCoordinateM || std::abs(*y_m) > kMaxCoordinateM || std::abs(*heading_rad) > 1e6) return std::nullopt;
-  return geometry::Pose2{*x_m, *y_m, geometry::wrap_angle(*heading_rad)};
+  return geometry::Pose2{*x_m, *y_m, *heading_rad};
 }
 
 CarmenStamps next_stamps(Words& words) {
@@ -117,9 +118,14 @@ std::optional<std::vector<float>> next_ranges(Words& words) {
   return range_m;
 }
 
-CarmenRecord parse_flaser(Words words) {
+enum class Slot : std::uint8_t { kFront = 1, kRear = 2 };
+
+/// FLASER and RLASER.
+CarmenRecord parse_flaser(std::string_view keyword, Slot slot, Words words) {
   LaserRecord record;
   record.kind = LaserRecordKind::kFlaser;
+  record.slot = static_cast<std::uint8_t>(slot);
+  record.scanner = keyword;
   auto range_m = next_ranges(words);
   if (!range_m) return MalformedLine{};
   record.range_m = std::move(*range_m);
@@ -132,37 +138,21 @@ CarmenRecord parse_flaser(Words words) {
   return record;
 }
 
-/// What the record says about its beams, as exactly as its three rounded numbers allow; nullopt where they contradict
-/// each other or make no sense.
-std::optional<BeamLayout> layout_of_record(double first_beam_rad, double field_rad, double step_rad, std::size_t beam_count) {
-  constexpr double kFullCircle = 2.0 * std::numbers::pi;
-  if (std::abs(first_beam_rad) > kFullCircle || field_rad <= 0.0 || field_rad > kFullCircle + 0.01) return std::nullopt;
-  const double n = static_cast<double>(beam_count);
-  if (step_rad <= 0.0) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
-  const double half_a_step_rad = 0.5 * step_rad;
-  if (std::abs(step_rad * (n - 1.0) - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
-  if (std::abs(step_rad * n - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / n};
-  if (step_rad * (n - 1.0) > kFullCircle) return std::nullopt;
-  return BeamLayout{first_beam_rad, step_rad};  // a part of the scanner's field was logged
-}
-
 /// Goes past the remissions, if the record counts any. Older records have no such count.
-bool skip_remissions(Words& words) {
-  constexpr std::size_t kWordsAfter = 2 * kPoseNumbers + 5 + 3;
+bool skip_remissions(Words& words, std::size_t words_after) {
   const std::size_t left = words.count_left();
-  if (left < kWordsAfter) return false;
-  if (left == kWordsAfter) return true;
+  if (left < words_after) return false;
+  if (left == words_after) return true;
   Words ahead = words;
   const auto remissions = parse_number<std::uint64_t>(ahead.next());
-  if (!remissions || *remissions > left - 1 - kWordsAfter) return true;
+  if (!remissions || *remissions > left - 1 - words_after) return true;
   for (std::uint64_t i = 0; i < *remissions; ++i) ahead.next();
   words = ahead;
   return true;
 }
 
-CarmenRecord parse_robotlaser1(Words words) {
-  LaserRecord record;
-  record.kind = LaserRecordKind::kRobotLaser1;
+/// What ROBOTLASERn and RAWLASERn begin with: type of scanner, field of view, readings. False for what cannot be right.
+bool parse_configured_ranges(Words& words, LaserRecord& record) {
   words.next();  // type of scanner: says nothing that the other fields do not
   const auto first_beam_rad = next_finite(words);
   const auto field_rad = next_finite(words);
@@ -171,10 +161,20 @@ CarmenRecord parse_robotlaser1(Words words) {
   words.next();  // accuracy
   words.next();  // remission mode
   auto range_m = next_ranges(words);
-  if (!first_beam_rad || !field_rad || !step_rad || !max_range_m || !range_m || !skip_remissions(words)) return MalformedLine{};
+  if (!first_beam_rad || !field_rad || !step_rad || !max_range_m || !range_m) return false;
   record.range_m = std::move(*range_m);
   record.layout = layout_of_record(*first_beam_rad, *field_rad, *step_rad, record.range_m.size());
   record.max_range_m = *max_range_m > 0.0F && std::isfinite(*max_range_m) ? static_cast<double>(*max_range_m) : 0.0;
+  return true;
+}
+
+CarmenRecord parse_robotlaser(std::string_view keyword, std::uint8_t slot, Words words) {
+  constexpr std::size_t kWordsAfter = 2 * kPoseNumbers + 5 + kStampWords;
+  LaserRecord record;
+  record.kind = LaserRecordKind::kRobotLaser1;
+  record.slot = slot;
+  record.scanner = keyword;
+  if (!parse_configured_ranges(words, record) || !skip_remissions(words, kWordsAfter)) return MalformedLine{};
   const auto wheel_from_laser = next_pose(words);
   const auto wheel_from_base = next_pose(words);
   if (!wheel_from_laser || !wheel_from_base) return MalformedLine{};
@@ -183,6 +183,61 @@ CarmenRecord parse_robotlaser1(Words words) {
   for (int i = 0; i < 5; ++i) words.next();  // speeds, safety distances, turn axis
   record.stamps = next_stamps(words);
   return record;
+}
+
+CarmenRecord parse_rawlaser(std::string_view keyword, std::uint8_t slot, Words words) {
+  LaserRecord record;
+  record.kind = LaserRecordKind::kRawLaser;
+  record.slot = slot;
+  record.scanner = keyword;
+  if (!parse_configured_ranges(words, record) || !skip_remissions(words, kStampWords)) return MalformedLine{};
+  record.stamps = next_stamps(words);
+  return record;
+}
+
+/// LASERn, older than RAWLASERn: readings and stamps only.
+CarmenRecord parse_bare_laser(std::string_view keyword, std::uint8_t slot, Words words) {
+  LaserRecord record;
+  record.kind = LaserRecordKind::kRawLaser;
+  record.slot = slot;
+  record.scanner = keyword;
+  auto range_m = next_ranges(words);
+  if (!range_m || words.count_left() == 0) return MalformedLine{};
+  record.range_m = std::move(*range_m);
+  record.stamps = next_stamps(words);
+  return record;
+}
+
+CarmenRecord parse_dp_slam_laser(Words words) {
+  LaserRecord record;
+  record.kind = LaserRecordKind::kDpSlam;
+  record.scanner = "Laser";
+  auto range_m = next_ranges(words);
+  if (!range_m) return MalformedLine{};
+  record.range_m = std::move(*range_m);
+  return record;
+}
+
+CarmenRecord parse_dp_slam_odometry(Words words) {
+  const auto wheel_from_base = next_pose(words);
+  if (!wheel_from_base) return MalformedLine{};
+  return OdometryRecord{*wheel_from_base, {}};
+}
+
+CarmenRecord parse_truepos(Words words) {
+  const auto map_from_base = next_pose(words);
+  const auto wheel_from_base = next_pose(words);
+  if (!map_from_base || !wheel_from_base || words.count_left() == 0) return MalformedLine{};
+  return OdometryRecord{*wheel_from_base, next_stamps(words), OdometryRecordKind::kTruePos};
+}
+
+/// Acceleration, orientation as a quaternion, magnetic field, turn rates about x, y and z.
+CarmenRecord parse_imu(Words words) {
+  constexpr int kNumbersBeforeYawRate = 12;
+  for (int i = 0; i < kNumbersBeforeYawRate; ++i) words.next();
+  const auto yaw_rate_radps = next_finite(words);
+  if (!yaw_rate_radps || words.count_left() == 0) return MalformedLine{};
+  return ImuRecord{*yaw_rate_radps, next_stamps(words)};
 }
 
 CarmenRecord parse_odom(Words words) {
@@ -199,10 +254,29 @@ CarmenRecord parse_param(Words words) {
   return ParamRecord{name, value};
 }
 
+/// The number after a keyword's name, 1 to 9; nullopt for another keyword.
+std::optional<std::uint8_t> numbered(std::string_view keyword, std::string_view name) {
+  if (keyword.size() != name.size() + 1 || !keyword.starts_with(name)) return std::nullopt;
+  const char digit = keyword.back();
+  return digit >= '1' && digit <= '9' ? std::optional(static_cast<std::uint8_t>(digit - '0')) : std::nullopt;
+}
+
 std::optional<std::int64_t> parse_stamp_in_exponent_form(std::string_view text) {
   const auto seconds = parse_number<double>(text);
   if (!seconds || !(std::abs(*seconds) < static_cast<double>(kMaxStampSeconds))) return std::nullopt;
   return std::llround(*seconds * 1e9);
+}
+
+/// Whole milliseconds, microseconds or nanoseconds since 1970: a number too large for seconds says by its digits which.
+std::optional<std::int64_t> parse_stamp_since_epoch(std::string_view text) {
+  const auto number = parse_number<std::uint64_t>(text);
+  if (!number) return std::nullopt;
+  for (const std::uint64_t units_per_s : {1'000ULL, 1'000'000ULL, 1'000'000'000ULL}) {
+    const std::uint64_t seconds = *number / units_per_s;
+    if (seconds < 500'000'000 || seconds >= 5'000'000'000) continue;
+    return static_cast<std::int64_t>(*number * (1'000'000'000ULL / units_per_s));
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -216,7 +290,7 @@ std::optional<std::int64_t> parse_stamp_ns(std::string_view text) {
   std::size_t at = 0;
   for (; at < text.size() && is_digit(text[at]); ++at) {
     seconds = seconds * 10 + (text[at] - '0');
-    if (seconds > kMaxStampSeconds) return std::nullopt;
+    if (seconds > kMaxStampSeconds) return is_negative ? std::nullopt : parse_stamp_since_epoch(whole);
   }
   std::int64_t fraction_ns = 0;
   if (at < text.size() && text[at] == '.') {
@@ -228,13 +302,32 @@ std::optional<std::int64_t> parse_stamp_ns(std::string_view text) {
   return is_negative ? -stamp_ns : stamp_ns;
 }
 
+std::optional<BeamLayout> layout_of_record(double first_beam_rad, double field_rad, double step_rad, std::size_t beam_count) {
+  constexpr double kFullCircle = 2.0 * std::numbers::pi;
+  if (std::abs(first_beam_rad) > kFullCircle || field_rad <= 0.0 || field_rad > kFullCircle + 0.01) return std::nullopt;
+  const double n = static_cast<double>(beam_count);
+  if (step_rad <= 0.0) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
+  const double half_a_step_rad = 0.5 * step_rad;
+  if (std::abs(step_rad * (n - 1.0) - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
+  if (std::abs(step_rad * n - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / n};
+  if (step_rad * (n - 1.0) > kFullCircle) return std::nullopt;
+  return BeamLayout{first_beam_rad, step_rad};  // a part of the scanner's field was logged
+}
+
 CarmenRecord parse_carmen_line(std::string_view line) {
   Words words(line);
   const std::string_view keyword = words.next();
-  if (keyword == "FLASER") return parse_flaser(words);
-  if (keyword == "ROBOTLASER1") return parse_robotlaser1(words);
+  if (keyword == "FLASER") return parse_flaser(keyword, Slot::kFront, words);
+  if (keyword == "RLASER") return parse_flaser(keyword, Slot::kRear, words);
   if (keyword == "ODOM") return parse_odom(words);
   if (keyword == "PARAM") return parse_param(words);
+  if (keyword == "TRUEPOS") return parse_truepos(words);
+  if (keyword == "IMU") return parse_imu(words);
+  if (keyword == "Laser") return parse_dp_slam_laser(words);
+  if (keyword == "Odometry") return parse_dp_slam_odometry(words);
+  if (const auto slot = numbered(keyword, "ROBOTLASER")) return parse_robotlaser(keyword, *slot, words);
+  if (const auto slot = numbered(keyword, "RAWLASER")) return parse_rawlaser(keyword, *slot, words);
+  if (const auto slot = numbered(keyword, "LASER")) return parse_bare_laser(keyword, *slot, words);
   return IgnoredLine{};
 }
 

@@ -6,11 +6,14 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <string_view>
+#include <utility>
 
 namespace slammot::files {
 namespace {
 
 constexpr std::size_t kReadingBins = 65'000;
+constexpr std::size_t kReadingUnits = 131'072;  // 131 m in millimetres
 constexpr double kSecondsPerNanosecond = 1e-9;
 constexpr double kFarAhead_s = 60.0;
 
@@ -46,7 +49,30 @@ double range_percentile_m(const std::vector<std::uint32_t>& readings_by_cm, std:
   return 0.0;
 }
 
+/// Whole units below which the given share of the readings lies.
+double reading_percentile(const std::vector<std::uint32_t>& readings_by_unit, double share) {
+  const double total = static_cast<double>(std::accumulate(readings_by_unit.begin(), readings_by_unit.end(), std::uint64_t{0}));
+  double below = 0.0;
+  for (std::size_t unit = 0; unit < readings_by_unit.size(); ++unit) {
+    below += readings_by_unit[unit];
+    if (below > 0.0 && below >= share * total) return static_cast<double>(unit);
+  }
+  return 0.0;
+}
+
+std::size_t echo_bins(double max_range_m) { return static_cast<std::size_t>(std::max(0.0, max_range_m * 100.0 + 0.5)); }
+
 }  // namespace
+
+std::optional<Error> select_scanners(const std::vector<std::string>& wanted, std::vector<ScannerPlan>& scanners) {
+  std::string names;
+  for (const ScannerPlan& scanner : scanners) names += (names.empty() ? "" : ", ") + scanner.name;
+  for (const std::string& name : wanted) {
+    if (std::ranges::find(scanners, name, &ScannerPlan::name) == scanners.end()) return Error{"no scanner " + name + ": there are " + names};
+  }
+  if (!wanted.empty()) std::erase_if(scanners, [&](const ScannerPlan& scanner) { return std::ranges::find(wanted, scanner.name) == wanted.end(); });
+  return std::nullopt;
+}
 
 /// A stamp from the future with which a log begins says that all others are too late.
 void CarmenSurvey::ClockCheck::begin_anew_without_the_first() {
@@ -121,20 +147,39 @@ bool CarmenSurvey::AgreementCheck::agrees() const {
 }
 
 void CarmenSurvey::add(const CarmenRecord& record) {
+  ++lines_;
   if (const auto* laser = std::get_if<LaserRecord>(&record)) add_laser(*laser);
   if (const auto* odom = std::get_if<OdometryRecord>(&record)) add_odom(*odom);
   if (const auto* param = std::get_if<ParamRecord>(&record)) add_param(*param);
+  if (std::holds_alternative<ImuRecord>(record)) ++imu_lines_;
+}
+
+CarmenSurvey::Lasers& CarmenSurvey::lasers_of(const LaserRecord& record) {
+  const auto known = std::ranges::find_if(lasers_, [&](const Lasers& lasers) { return lasers.kind == record.kind && lasers.slot == record.slot; });
+  if (known != lasers_.end()) return *known;
+  lasers_.emplace_back();
+  lasers_.back().kind = record.kind;
+  lasers_.back().slot = record.slot;
+  lasers_.back().scanner = record.scanner;
+  if (newest_odom_) lasers_.back().agreement.add_odom(*newest_odom_);
+  if (newest_odom_by_order_) lasers_.back().agreement_by_order.add_odom(*newest_odom_by_order_);
+  for (std::size_t kind = 0; kind < odometry_lines_.size(); ++kind) lasers_.back().lines_between[kind].since_scan = static_cast<std::uint32_t>(odometry_lines_[kind].count);
+  return lasers_.back();
 }
 
 void CarmenSurvey::add_laser(const LaserRecord& record) {
-  Lasers& lasers = lasers_[static_cast<std::size_t>(record.kind)];
+  Lasers& lasers = lasers_of(record);
   ++lasers.scans;
   ++lasers.scans_by_beams[record.range_m.size()];
   if (record.max_range_m > 0.0) ++lasers.scans_by_recorded_max_range[record.max_range_m];
   if (!lasers.layout) lasers.layout = record.layout;
   lasers.readings_by_cm.resize(kReadingBins);
   lasers.smallest_reading_by_cm.resize(kReadingBins, std::numeric_limits<float>::infinity());
+  lasers.readings += record.range_m.size();
+  if (std::ranges::none_of(record.range_m, [](float reading) { return reading > 0.0F && std::isfinite(reading); })) ++lasers.scans_without_readings;
+  lasers.readings_by_unit.resize(kReadingUnits);
   for (const float reading_m : record.range_m) {
+    if (reading_m >= 1.0F && reading_m < static_cast<float>(kReadingUnits)) ++lasers.readings_by_unit[static_cast<std::size_t>(reading_m)];
     const float reading_cm = reading_m * 100.0F + 0.5F;
     if (!(reading_cm >= 1.0F && reading_cm < static_cast<float>(kReadingBins))) continue;
     const auto bin = static_cast<std::size_t>(reading_cm);
@@ -148,49 +193,252 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
   const StampedPose pose{record.stamps.ipc_ns.value_or(0), record.wheel_from_base};
   lasers.pose_changes = lasers.pose_changes || (!lasers.poses.empty() && differ(lasers.poses.front().wheel_from_base, record.wheel_from_base, 1e-9, 1e-9));
   lasers.poses.push_back(pose);
-  lasers.logger_ns.push_back(record.stamps.logger_ns.value_or(0));
+  lasers.odometry_check.add(record.wheel_from_base);
+  const geometry::Pose2& recorded = lasers.pose_changes ? record.wheel_from_base : chosen_odometry_lines().last_pose;
+  lasers.moved_pairs.add(record.range_m, recorded);
+  lasers.turned_pairs.add(record.range_m, recorded);
+  lasers.ipc_ns.push_back(record.stamps.ipc_ns);
+  lasers.logger_ns.push_back(record.stamps.logger_ns);
+  for (std::size_t kind = 0; kind < odometry_lines_.size(); ++kind) {
+    Lasers::LinesBetween& between = lasers.lines_between[kind];
+    between.before_scan.push_back(std::exchange(between.since_scan, 0));
+    between.pose_before_scan.push_back(odometry_lines_[kind].last_pose);
+  }
   lasers.ipc_clock.add(record.stamps.ipc_ns);
   lasers.logger_clock.add(record.stamps.logger_ns);
   if (record.stamps.ipc_ns) lasers.agreement.add_laser(pose);
+  lasers.agreement_by_order.add_laser({lines_, record.wheel_from_base});
 }
 
 void CarmenSurvey::add_odom(const OdometryRecord& record) {
-  ++odom_lines_;
-  if (!first_odom_pose_) first_odom_pose_ = record.wheel_from_base;
-  odom_pose_changes_ = odom_pose_changes_ || differ(*first_odom_pose_, record.wheel_from_base, 1e-9, 1e-9);
-  if (!record.stamps.ipc_ns) return;
-  for (Lasers& lasers : lasers_) lasers.agreement.add_odom({*record.stamps.ipc_ns, record.wheel_from_base});
+  const auto kind = static_cast<std::size_t>(record.kind);
+  OdometryLines& lines = odometry_lines_[kind];
+  ++lines.count;
+  if (!lines.first_pose) lines.first_pose = record.wheel_from_base;
+  lines.pose_changes = lines.pose_changes || differ(*lines.first_pose, record.wheel_from_base, 1e-9, 1e-9);
+  lines.last_pose = record.wheel_from_base;
+  lines.check.add(record.wheel_from_base);
+  for (Lasers& lasers : lasers_) ++lasers.lines_between[kind].since_scan;
+  if (record.kind == odometry_lines()) {
+    newest_odom_by_order_ = {lines_, record.wheel_from_base};
+    for (Lasers& lasers : lasers_) lasers.agreement_by_order.add_odom(*newest_odom_by_order_);
+  }
+  if (!record.stamps.ipc_ns || record.kind != OdometryRecordKind::kOdom) return;
+  newest_odom_ = {*record.stamps.ipc_ns, record.wheel_from_base};
+  for (Lasers& lasers : lasers_) lasers.agreement.add_odom(*newest_odom_);
+}
+
+/// TRUEPOS only where nothing else says where the wheels are.
+OdometryRecordKind CarmenSurvey::odometry_lines() const {
+  return odometry_lines_[0].count == 0 && odometry_lines_[1].count > 0 ? OdometryRecordKind::kTruePos : OdometryRecordKind::kOdom;
 }
 
 void CarmenSurvey::add_param(const ParamRecord& record) {
+  constexpr std::array<std::string_view, 2> kLaser = {"robot_frontlaser_", "robot_rearlaser_"};
+  constexpr std::array<std::string_view, 2> kMaxRange = {"robot_front_laser_max", "robot_rear_laser_max"};
   double value = 0.0;
   const auto [end, fault] = std::from_chars(record.value.data(), record.value.data() + record.value.size(), value);
-  if (fault != std::errc() || !(std::abs(value) < 100.0)) return;
-  if (record.name == "robot_frontlaser_offset") laser_offset_params_[0] = value;
-  if (record.name == "robot_frontlaser_side_offset") laser_offset_params_[1] = value;
-  if (record.name == "robot_frontlaser_angular_offset") laser_offset_params_[2] = value;
+  if (fault != std::errc() || !(std::abs(value) < 1000.0)) return;
+  for (std::size_t slot = 0; slot < params_.size(); ++slot) {
+    if (record.name == kMaxRange[slot] && value > 0.0) params_[slot].max_range_m = static_cast<double>(static_cast<float>(value));
+    if (!record.name.starts_with(kLaser[slot]) || !(std::abs(value) < 100.0)) continue;
+    const std::string_view what = record.name.substr(kLaser[slot].size());
+    if (what == "offset") params_[slot].offset[0] = value;
+    if (what == "side_offset") params_[slot].offset[1] = value;
+    if (what == "angular_offset") params_[slot].offset[2] = value;
+  }
+  constexpr std::string_view kNumbered = "robot_laser";
+  if (!record.name.starts_with(kNumbered) || record.name.size() < kNumbered.size() + 2 || !(std::abs(value) < 100.0)) return;
+  const char digit = record.name[kNumbered.size()];
+  if (digit < '1' || digit > '9' || record.name[kNumbered.size() + 1] != '_') return;
+  const std::string_view what = record.name.substr(kNumbered.size() + 2);
+  LaserParams& numbered = numbered_params_[static_cast<std::size_t>(digit - '1')];
+  if (what == "offset") numbered.offset[0] = value;
+  if (what == "side_offset") numbered.offset[1] = value;
+  if (what == "angular_offset") numbered.offset[2] = value;
 }
 
-LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad) const {
+/// The same scans may be in the log as the scanner sent them and as the base passed them on, with poses: these are preferred,
+/// and ROBOTLASERn of them, which say more. A few of them do not stand for all the rest.
+std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(const std::string& main_scanner) const {
+  constexpr std::array<double, 5> kWorth = {1.0, 1.0 + 1e-9, 0.5, 0.25, 1.0};  // by LaserRecordKind
+  const auto worth = [&](const Lasers& lasers) { return kWorth[static_cast<std::size_t>(lasers.kind)] * static_cast<double>(lasers.scans); };
+  std::map<std::uint8_t, const Lasers*> best;
+  for (const Lasers& lasers : lasers_) {
+    const Lasers*& so_far = best[lasers.slot];
+    const bool was_asked_for = so_far != nullptr && so_far->scanner == main_scanner;
+    if (so_far == nullptr || lasers.scanner == main_scanner || (!was_asked_for && worth(lasers) > worth(*so_far))) so_far = &lasers;
+  }
+  std::vector<const Lasers*> in_order;
+  for (const auto& [slot, lasers] : best) in_order.push_back(lasers);
+  // The main one is the first that is not much rarer than any other.
+  std::uint64_t most = 0;
+  for (const Lasers* lasers : in_order) most = std::max(most, lasers->scans);
+  auto main = std::ranges::find_if(in_order, [&](const Lasers* lasers) { return lasers->scanner == main_scanner; });
+  if (main == in_order.end()) main = std::ranges::find_if(in_order, [&](const Lasers* lasers) { return 2 * lasers->scans >= most; });
+  if (main != in_order.end()) std::rotate(in_order.begin(), main, main + 1);
+  return in_order;
+}
+
+/// Of several scanners a further one serves only where it is known to be: a guess would bend the map.
+std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::lasers_to_use(const ScannerWish& wish) const {
+  std::vector<const Lasers*> lasers = best_of_each_slot(wish.main);
+  const Lasers* const main = lasers.empty() ? nullptr : lasers.front();
+  std::erase_if(lasers, [&](const Lasers* one) {
+    return wish.used.empty() ? one != main && !mounting_is_known(*one) : std::ranges::find(wish.used, one->scanner) == wish.used.end();
+  });
+  return lasers;
+}
+
+ScannerPlan CarmenSurvey::scanner_plan(const Lasers& lasers) const {
+  return {lasers.scanner, lasers.kind, lasers.slot, lasers.scans, base_from_laser(lasers), max_range_m(lasers), mounting_is_known(lasers)};
+}
+
+bool CarmenSurvey::has_scanner(const std::string& name) const {
+  return std::ranges::any_of(lasers_, [&](const Lasers& lasers) { return lasers.scanner == name; });
+}
+
+std::vector<ScannerPlan> CarmenSurvey::scanners(const std::string& main_scanner) const {
+  std::vector<ScannerPlan> plans;
+  for (const Lasers* lasers : best_of_each_slot(main_scanner)) plans.push_back(scanner_plan(*lasers));
+  return plans;
+}
+
+LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerWish& wish) const {
   LogPlan plan;
-  plan.laser = lasers_[1].scans >= lasers_[0].scans ? LaserRecordKind::kRobotLaser1 : LaserRecordKind::kFlaser;
-  const Lasers& lasers = lasers_[static_cast<std::size_t>(plan.laser)];
-  plan.clock = lasers.ipc_clock.is_usable() ? LogClock::kIpc : lasers.logger_clock.is_usable() ? LogClock::kLogger : LogClock::kNominal;
-  plan.first_scan_is_ahead = (plan.clock == LogClock::kIpc && lasers.ipc_clock.begins_ahead()) || (plan.clock == LogClock::kLogger && lasers.logger_clock.begins_ahead());
-  plan.odometry = odometry_source(lasers, plan.clock);
-  plan.base_from_laser = base_from_laser(lasers);
+  const std::vector<const Lasers*> to_use = lasers_to_use(wish);
+  for (const Lasers* scanner : best_of_each_slot(wish.main)) {
+    const bool is_used = std::ranges::find(to_use, scanner) != to_use.end();
+    if (!is_used && wish.used.empty()) plan.unplaced_scanners.push_back(scanner->scanner);
+  }
+  std::vector<Lasers> scanners;  // in metres
+  for (const Lasers* scanner : to_use) scanners.push_back(*scanner);
+  if (scanners.empty()) scanners.emplace_back();
+  const Lasers& lasers = scanners.front();
+  plan.laser = lasers.kind;
+  plan.odometry_lines = odometry_lines();
+  const double range_unit_m = matching::range_unit_of(reading_percentile(lasers.readings_by_unit, 0.5), reading_percentile(lasers.readings_by_unit, 0.9));
+  const auto convert_to = [&](double unit_m) {
+    for (Lasers& scanner : scanners) convert_readings(scanner, unit_m);
+  };
+  if (range_unit_m != 1.0) convert_to(range_unit_m);
   plan.max_range_m = max_range_m(lasers);
+  plan.evidence.correction.range_unit_m = range_unit_m;
+  plan.base_from_laser = base_from_laser(lasers);
+  plan.evidence = weigh(lasers, plan, fallback_field_of_view_rad);
+  if (plan.evidence.correction.range_unit_m != range_unit_m) {
+    convert_to(plan.evidence.correction.range_unit_m);
+    plan.max_range_m = max_range_m(lasers);
+  }
+  if (plan.evidence.correction.laser_turn_rad != 0.0) plan.base_from_laser.heading_rad = geometry::wrap_angle(plan.base_from_laser.heading_rad + plan.evidence.correction.laser_turn_rad);
+  choose_clock(lasers, plan);
+  plan.odometry = odometry_source(lasers, plan);
+  if (!plan.times.stamps_ns.empty()) plan.odom_lines_before_scan = lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
+  if (lasers.scans == 0) return plan;
+  for (const Lasers& scanner : scanners) plan.scanners.push_back(scanner_plan(scanner));
+  plan.scanners.front().base_from_laser = plan.base_from_laser;
   return plan;
+}
+
+/// Counts readings in another unit by centimetres, as those in metres are.
+void CarmenSurvey::convert_readings(Lasers& lasers, double unit_m) {
+  std::fill(lasers.readings_by_cm.begin(), lasers.readings_by_cm.end(), 0);
+  std::fill(lasers.smallest_reading_by_cm.begin(), lasers.smallest_reading_by_cm.end(), std::numeric_limits<float>::infinity());
+  for (std::size_t unit = 1; unit < lasers.readings_by_unit.size(); ++unit) {
+    const auto reading_m = static_cast<float>(unit) * static_cast<float>(unit_m);
+    const auto bin = static_cast<std::size_t>(reading_m * 100.0F + 0.5F);
+    if (lasers.readings_by_unit[unit] == 0 || bin >= kReadingBins) continue;
+    lasers.readings_by_cm[bin] += lasers.readings_by_unit[unit];
+    lasers.smallest_reading_by_cm[bin] = std::min(lasers.smallest_reading_by_cm[bin], reading_m);
+  }
+}
+
+/// Matches the sampled pairs, without what is no echo. Odometry is judged by ODOM lines where they are: from scan to
+/// scan the arcs of its steps are not seen any more. Without odometry nothing contradicts what is stated.
+matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const {
+  std::vector<matching::ScanPair> pairs = lasers.moved_pairs.pairs();
+  pairs.insert(pairs.end(), lasers.turned_pairs.pairs().begin(), lasers.turned_pairs.pairs().end());
+  if (pairs.empty()) return plan.evidence;
+  const auto no_echo = static_cast<float>(plan.max_range_m / plan.evidence.correction.range_unit_m);
+  const auto leave_out = [&](std::vector<float>& ranges) {
+    for (float& range : ranges) range = range > 0.0F && range < no_echo ? range : std::numeric_limits<float>::quiet_NaN();
+  };
+  for (matching::ScanPair& pair : pairs) {
+    leave_out(pair.first);
+    leave_out(pair.second);
+  }
+  const BeamLayout layout = lasers.layout.value_or(layout_by_convention(pairs.front().first.size(), fallback_field_of_view_rad));
+  return matching::weigh_log(pairs, {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad},
+                             chosen_odometry_lines().pose_changes ? chosen_odometry_lines().check : lasers.odometry_check, plan.evidence.correction.range_unit_m);
+}
+
+/// A pair begins where the one before ended; every other one is given up where they become too many.
+void CarmenSurvey::PairSample::add(const std::vector<float>& ranges, const geometry::Pose2& recorded) {
+  constexpr std::size_t kMostScansBetween = 40;
+  const bool has_moved = anchor_ && differ(anchor_->second, recorded, moved_m_, turned_rad_);
+  if (anchor_ && !has_moved && ++scans_since_anchor_ < kMostScansBetween) return;
+  const bool is_wanted = has_moved && anchor_->first.size() == ranges.size() && distance_m(anchor_->second, recorded) <= most_m_;
+  if (is_wanted && offered_++ % every_ == 0) pairs_.push_back({std::move(anchor_->first), ranges, anchor_->second, recorded});
+  anchor_.emplace(ranges, recorded);
+  scans_since_anchor_ = 0;
+  if (pairs_.size() <= kMost) return;
+  every_ *= 2;
+  std::vector<matching::ScanPair> kept;
+  for (std::size_t i = 0; i < pairs_.size(); i += 2) kept.push_back(std::move(pairs_[i]));
+  pairs_ = std::move(kept);
+}
+
+/// The recorded stamps of one of the two clocks, with the way between scans.
+std::vector<sensing::ScanMark> CarmenSurvey::scan_marks(const Lasers& lasers, const matching::LogCorrection& correction, LogClock clock) const {
+  std::vector<sensing::ScanMark> marks(lasers.scans);
+  const std::vector<geometry::Pose2>& of_lines = lasers.lines_between[static_cast<std::size_t>(odometry_lines())].pose_before_scan;
+  const auto pose = [&](std::size_t i) { return corrected(correction, lasers.pose_changes ? lasers.poses[i].wheel_from_base : of_lines[i]); };
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (clock != LogClock::kNominal) marks[i].stamp_ns = clock == LogClock::kIpc ? lasers.ipc_ns[i] : lasers.logger_ns[i];
+    if (i == 0) continue;
+    marks[i].way_m = distance_m(pose(i - 1), pose(i));
+    marks[i].turn_rad = std::abs(geometry::wrap_angle(pose(i).heading_rad - pose(i - 1).heading_rad));
+  }
+  return marks;
+}
+
+/// A clock without a fault, ipc before logger; else one that can be repaired; else time is made from the way.
+void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
+  plan.clock = LogClock::kNominal;
+  if (lasers.scans == 0) return;
+  const std::array clocks{LogClock::kIpc, LogClock::kLogger};
+  std::array<sensing::ScanTimes, 2> times;
+  for (std::size_t i = 0; i < clocks.size(); ++i) times[i] = sensing::judge_scan_stamps(scan_marks(lasers, plan.evidence.correction, clocks[i]));
+  const auto take = [&](std::size_t i) {
+    plan.clock = clocks[i];
+    plan.times = std::move(times[i]);
+  };
+  const std::array<const ClockCheck*, 2> checks{&lasers.ipc_clock, &lasers.logger_clock};
+  for (std::size_t i = 0; i < clocks.size(); ++i) {
+    const bool begins_ahead = checks[i]->is_usable() && checks[i]->begins_ahead();
+    if (!begins_ahead && times[i].fault != sensing::ClockFault::kNone) continue;
+    take(i);
+    if (begins_ahead) plan.times = {};
+    plan.first_scan_is_ahead = begins_ahead;
+    return;
+  }
+  for (std::size_t i = 0; i < clocks.size(); ++i) {
+    if (times[i].is_clock) return take(i);
+  }
+  plan.times = std::move(times[times[0].fault == sensing::ClockFault::kAbsent ? 1 : 0]);
+  const double median_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.5);
+  plan.times.stamps_ns = sensing::stamps_from_way(scan_marks(lasers, plan.evidence.correction, LogClock::kNominal), sensing::pace_among(median_range_m));
 }
 
 /// "No echo" is a reading that repeats at the far end: some scanners have several such codes within a percent
 /// (LMS: 81.83, 81.90, 81.91), the smallest of them counts. Where the far end does not repeat, every reading is an
 /// echo. A record's own maximum holds unless the data have a code below it.
-double CarmenSurvey::max_range_m(const Lasers& lasers) {
+double CarmenSurvey::max_range_m(const Lasers& lasers) const {
   constexpr double kCodeShare = 1e-3;      // of all readings
   constexpr std::uint64_t kCodeCount = 5;
-  const double recorded_m = most_frequent(lasers.scans_by_recorded_max_range);
+  const double param_m = lasers.slot <= params_.size() ? params_[lasers.slot - 1].max_range_m.value_or(0.0) : 0.0;
+  const double recorded_m = lasers.scans_by_recorded_max_range.empty() ? param_m : most_frequent(lasers.scans_by_recorded_max_range);
   const auto& counts = lasers.readings_by_cm;
   const auto last = std::find_if(counts.rbegin(), counts.rend(), [](std::uint32_t count) { return count > 0; });
   if (last == counts.rend()) return recorded_m > 0.0 ? recorded_m : 1.0;
@@ -205,51 +453,76 @@ double CarmenSurvey::max_range_m(const Lasers& lasers) {
   return recorded_m > 0.0 ? recorded_m : 0.01 * static_cast<double>(last_bin + 1);
 }
 
-OdometrySource CarmenSurvey::odometry_source(const Lasers& lasers, LogClock clock) const {
-  if (!lasers.pose_changes) return odom_pose_changes_ ? OdometrySource::kOdomLines : OdometrySource::kNone;
-  const bool odom_lines_fit = clock == LogClock::kIpc && odom_pose_changes_ && lasers.agreement.agrees();
-  return odom_lines_fit ? OdometrySource::kBoth : OdometrySource::kLaserRecords;
+OdometrySource CarmenSurvey::odometry_source(const Lasers& lasers, const LogPlan& plan) const {
+  const bool lines_change = chosen_odometry_lines().pose_changes;
+  if (!lasers.pose_changes) return lines_change ? OdometrySource::kOdomLines : OdometrySource::kNone;
+  const bool is_replaced = !plan.times.stamps_ns.empty();
+  const bool agrees = is_replaced ? lasers.agreement_by_order.agrees() : plan.clock == LogClock::kIpc && lasers.agreement.agrees();
+  return lines_change && agrees ? OdometrySource::kBoth : OdometrySource::kLaserRecords;
+}
+
+const CarmenSurvey::LaserParams& CarmenSurvey::params_of(const Lasers& lasers) const {
+  static const LaserParams kNone;
+  if (lasers.kind == LaserRecordKind::kBag || lasers.slot < 1 || lasers.slot > numbered_params_.size()) return kNone;
+  const LaserParams& numbered = numbered_params_[lasers.slot - 1];
+  return numbered.tell_mounting() || lasers.slot > params_.size() ? numbered : params_[lasers.slot - 1];
+}
+
+/// A record that puts a further scanner into the vehicle's centre says nothing.
+bool CarmenSurvey::mounting_is_known(const Lasers& lasers) const {
+  if (params_of(lasers).tell_mounting()) return true;
+  if (!lasers.base_from_laser || !lasers.base_from_laser_is_constant) return false;
+  return lasers.kind == LaserRecordKind::kBag || differ(*lasers.base_from_laser, geometry::Pose2::identity(), 0.01, 0.01);
 }
 
 geometry::Pose2 CarmenSurvey::base_from_laser(const Lasers& lasers) const {
-  const auto& [x_m, y_m, heading_rad] = laser_offset_params_;
-  if (x_m || y_m || heading_rad) return {x_m.value_or(0.0), y_m.value_or(0.0), heading_rad.value_or(0.0)};
+  const bool is_rear = lasers.slot == 2 && lasers.kind != LaserRecordKind::kBag;
+  const LaserParams& params = params_of(lasers);
+  const auto& [x_m, y_m, heading_rad] = params.offset;
+  if (params.tell_mounting() && is_rear && &params == &params_[1]) {
+    // The rear laser looks backwards and is behind the centre, be its offset written with a sign or without.
+    return {-std::abs(x_m.value_or(0.0)), y_m.value_or(0.0), heading_rad.value_or(std::numbers::pi)};
+  }
+  if (params.tell_mounting()) return {x_m.value_or(0.0), y_m.value_or(0.0), heading_rad.value_or(0.0)};
   if (lasers.base_from_laser && lasers.base_from_laser_is_constant) return *lasers.base_from_laser;
-  return geometry::Pose2::identity();
+  return is_rear && lasers.kind != LaserRecordKind::kRobotLaser1 ? geometry::Pose2{0.0, 0.0, std::numbers::pi} : geometry::Pose2::identity();
 }
 
 LogFigures CarmenSurvey::figures(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const {
   LogFigures figures;
   figures.scans = lasers.scans;
-  figures.odom_lines = odom_lines_;
+  figures.odom_lines = odometry_lines_[0].count;
+  figures.imu_lines = imu_lines_;
   figures.has_clock = plan.clock != LogClock::kNominal;
   if (lasers.scans == 0) return figures;
   std::map<double, std::uint64_t> scans_by_beams(lasers.scans_by_beams.begin(), lasers.scans_by_beams.end());
   figures.beams = static_cast<std::size_t>(most_frequent(scans_by_beams));
   const BeamLayout layout = lasers.layout.value_or(layout_by_convention(figures.beams, fallback_field_of_view_rad));
-  figures.field_of_view_rad = std::min(layout.beam_step_rad * static_cast<double>(figures.beams), 2.0 * std::numbers::pi);
+  figures.field_of_view_rad = std::min(std::abs(plan.evidence.correction.field_factor * layout.beam_step_rad) * static_cast<double>(figures.beams), 2.0 * std::numbers::pi);
   figures.max_range_m = plan.max_range_m;
-  const auto echo_bins = static_cast<std::size_t>(std::max(0.0, plan.max_range_m * 100.0 + 0.5));
-  figures.median_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins, 0.5);
-  figures.far_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins, 0.9);
+  figures.median_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.5);
+  figures.far_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.9);
   std::vector<double> periods_s;
   std::vector<double> speeds_mps;
-  for (std::size_t i = 1; i < lasers.poses.size(); ++i) {
-    const double step_m = distance_m(lasers.poses[i - 1].wheel_from_base, lasers.poses[i].wheel_from_base);
-    figures.distance_m += step_m;
-    const std::int64_t period_ns = plan.clock == LogClock::kIpc ? lasers.poses[i].stamp_ns - lasers.poses[i - 1].stamp_ns
-                                                                : lasers.logger_ns[i] - lasers.logger_ns[i - 1];
-    if (plan.clock == LogClock::kNominal || period_ns <= 0) continue;
-    periods_s.push_back(static_cast<double>(period_ns) * kSecondsPerNanosecond);
-    speeds_mps.push_back(step_m / periods_s.back());
+  const std::vector<sensing::ScanMark> marks = scan_marks(lasers, plan.evidence.correction, plan.clock);
+  figures.scans_without_readings = lasers.scans_without_readings;
+  const auto echoes_end = lasers.readings_by_cm.begin() + static_cast<std::ptrdiff_t>(std::min(echo_bins(plan.max_range_m), lasers.readings_by_cm.size()));
+  figures.echo_share = static_cast<double>(std::accumulate(lasers.readings_by_cm.begin(), echoes_end, std::uint64_t{0})) / static_cast<double>(std::max<std::uint64_t>(1, lasers.readings));
+  figures.comes_by_time = !figures.has_clock && sensing::comes_by_time(marks);
+  const auto stamp_ns = [&](std::size_t i) { return plan.times.stamps_ns.empty() ? marks[i].stamp_ns : std::optional(plan.times.stamps_ns[i]); };
+  for (std::size_t i = 1; i < marks.size(); ++i) {
+    figures.distance_m += marks[i].way_m;
+    if (!stamp_ns(i - 1) || !stamp_ns(i) || *stamp_ns(i) <= *stamp_ns(i - 1)) continue;
+    periods_s.push_back(static_cast<double>(*stamp_ns(i) - *stamp_ns(i - 1)) * kSecondsPerNanosecond);
+    speeds_mps.push_back(marks[i].way_m / periods_s.back());
   }
-  figures.scan_period_s = plan.clock == LogClock::kNominal ? 1.0 / kNominalRateHz : percentile(periods_s, 0.5);
+  figures.scan_period_s = percentile(periods_s, 0.5);
+  figures.longest_gap_s = percentile(periods_s, 1.0);
   if (figures.scan_period_s > 0.0 && !periods_s.empty()) {
     figures.scan_period_spread = (percentile(periods_s, 0.9) - percentile(periods_s, 0.1)) / figures.scan_period_s;
   }
-  figures.duration_s = plan.clock == LogClock::kNominal ? static_cast<double>(figures.scans - 1) / kNominalRateHz
-                                                        : std::accumulate(periods_s.begin(), periods_s.end(), 0.0);
-  figures.cruising_speed_mps = percentile(speeds_mps, 0.9);
+  figures.duration_s = std::accumulate(periods_s.begin(), periods_s.end(), 0.0);
+  if (figures.has_clock) figures.cruising_speed_mps = percentile(speeds_mps, 0.9);
   return figures;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/carmen_record.hpp"
 #include "common/files/decimal.hpp"
 
 namespace slammot::files {
@@ -44,12 +45,33 @@ std::string stamps(double stamp_s) {
 
 }  // namespace
 
-Result<std::unique_ptr<LineSource>> LegTrackerLog::open(const std::filesystem::path& folder) {
-  auto scans = LineReader::open(plain_or_gz(folder / "scan.txt"));
+Result<std::unique_ptr<LineSource>> LegTrackerLog::open(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(path, ignored);
+  auto scans = LineReader::open(is_folder ? plain_or_gz(path / "scan.txt") : path);
   if (!scans) return scans.error();
-  auto odometry = LineReader::open(plain_or_gz(folder / "odom.txt"));
-  if (!odometry) return odometry.error();
-  return std::unique_ptr<LineSource>(new LegTrackerLog(std::move(*scans), std::move(*odometry)));
+  const std::filesystem::path odometry_path = plain_or_gz(path / "odom.txt");
+  std::optional<LineReader> odometry;
+  if (is_folder && std::filesystem::exists(odometry_path, ignored)) {
+    auto opened = LineReader::open(odometry_path);
+    if (!opened) return opened.error();
+    odometry = std::move(*opened);
+  }
+  return std::unique_ptr<LineSource>(new LegTrackerLog(std::move(*scans), std::move(odometry)));
+}
+
+bool LegTrackerLog::is_scan_file(const std::filesystem::path& path) {
+  constexpr std::size_t kNumbersBeforeRanges = 5;
+  auto lines = LineReader::open(path);
+  if (!lines) return false;
+  while (const auto line = lines->next()) {
+    if (line->empty() || line->front() == '#') continue;
+    const auto words = words_of(*line, kMaxBeams + kNumbersBeforeRanges + 1);
+    if (words.size() <= kNumbersBeforeRanges) return false;
+    const bool begins_with_numbers = std::all_of(words.begin(), words.begin() + kNumbersBeforeRanges, [](std::string_view word) { return number(word).has_value(); });
+    return begins_with_numbers && number(words[4]) == static_cast<double>(words.size() - kNumbersBeforeRanges);
+  }
+  return false;
 }
 
 std::optional<LegTrackerLog::Line> LegTrackerLog::next_scan() {
@@ -67,7 +89,8 @@ std::optional<LegTrackerLog::Line> LegTrackerLog::next_scan() {
 }
 
 std::optional<LegTrackerLog::Line> LegTrackerLog::next_odometry() {
-  while (const auto line = odometry_.next()) {
+  if (!odometry_) return std::nullopt;
+  while (const auto line = odometry_->next()) {
     const auto words = words_of(*line, 6);
     if (words.empty() || words[0].starts_with('#')) continue;
     const auto stamp_s = number(words[0]);

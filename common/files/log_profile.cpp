@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kFasterThanWalkingMps = 3.0;
 constexpr double kFartherThanHallsM = 25.0;
+constexpr double kRareScansS = 0.5;   // scans by way, as robots log them
 
 std::string rounded(double value) {
   char text[32];
@@ -24,9 +25,13 @@ bool sees_all_around(const LogFigures& figures) { return figures.field_of_view_r
 ProfileChoice choose_profile(const LogFigures& figures) {
   const std::string speed = rounded(figures.cruising_speed_mps) + " m/s";
   const std::string range = "9 of 10 echoes within " + rounded(figures.far_range_m) + " m";
-  if (figures.cruising_speed_mps > kFasterThanWalkingMps) return {"urban", "the vehicle drives at " + speed + ", " + range};
-  if (figures.far_range_m > kFartherThanHallsM) return {"urban", "far echoes as in the open, " + range};
-  if (figures.cruising_speed_mps > 0.0) return {"indoor", "the vehicle moves at " + speed + " only, " + range};
+  const bool sees_far = figures.far_range_m > kFartherThanHallsM;
+  const bool is_fast = figures.has_clock && figures.cruising_speed_mps > kFasterThanWalkingMps;
+  if (is_fast) return {"urban", "the vehicle drives at " + speed + ", " + range};
+  const bool is_slow = figures.has_clock ? figures.cruising_speed_mps > 0.0 || figures.scan_period_s > kRareScansS : !figures.comes_by_time;
+  if (sees_far && is_slow) return {"outdoor_robot", "far echoes as in the open and " + (figures.has_clock ? "a speed of " + speed : std::string("a scan for each piece of way")) + ", " + range};
+  if (sees_far) return {"urban", "far echoes as in the open, " + range};
+  if (figures.has_clock && figures.cruising_speed_mps > 0.0) return {"indoor", "the vehicle moves at " + speed + " only, " + range};
   return {"indoor", range};
 }
 
@@ -34,6 +39,8 @@ double sweep_s_for(const LogFigures& figures, double profile_sweep_s) {
   constexpr double kSteadySpread = 0.25;
   constexpr double kSlowestScannerS = 0.25;  // slower than this, scans were left out of the log
   const double period_s = figures.scan_period_s;
+  // Mirrors turn once a scan: where the period is made up, the sweep must keep its share of it.
+  if (!figures.has_clock && figures.comes_by_time && profile_sweep_s > 0.0) return period_s * figures.field_of_view_rad / (2.0 * std::numbers::pi);
   if (sees_all_around(figures) && figures.beams > 1 && period_s > 0.0 && period_s < kSlowestScannerS &&
       figures.scan_period_spread < kSteadySpread && figures.has_clock) {
     const double beams = static_cast<double>(figures.beams);

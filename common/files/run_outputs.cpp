@@ -1,5 +1,6 @@
 #include "common/files/run_outputs.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <string_view>
@@ -52,6 +53,13 @@ std::optional<Error> write_labels(const std::filesystem::path& path, const std::
 
 std::string pose_text(const geometry::Pose2& pose) {
   return fixed_text(pose.x_m, 9) + " " + fixed_text(pose.y_m, 9) + " " + fixed_text(pose.heading_rad, 9);
+}
+
+/// Readers of g2o pass over lines that begin with '#'.
+std::string closure_comment(const flow::Constraint& closure) {
+  std::string text = "# closure " + std::to_string(closure.from.value) + " " + std::to_string(closure.to.value) + " " + to_text(closure.verdict.state);
+  text.append(" pose ").append(pose_text(closure.from_to.pose)).append(" chi_square ").append(fixed_text(closure.verdict.squared_error, 3));
+  return text.append(" agreed ").append(fixed_text(closure.verdict.agreed_share, 3)).append(" reason ").append(closure.verdict.reason).append("\n");
 }
 
 void append_after_comma(std::string& text, std::string_view word) { text.append(1, ',').append(word); }
@@ -152,8 +160,9 @@ std::string to_online_covariance_csv(const std::vector<UncertainStampedPose>& po
 }
 
 std::string to_labels_csv(const std::vector<const LabelRow*>& rows) {
-  std::string text = "timestamp,detection,tracking\n";
-  constexpr std::size_t kStampAndCommas = 24;
+  const bool has_several_scanners = std::ranges::any_of(rows, [&](const LabelRow* row) { return row->scanner_id != rows.front()->scanner_id; });
+  std::string text = has_several_scanners ? "timestamp,detection,tracking,scanner\n" : "timestamp,detection,tracking\n";
+  constexpr std::size_t kStampAndCommas = 48;
   std::size_t length = text.size();
   for (const LabelRow* row : rows) length += row->by_detection.size() + row->by_tracking.size() + kStampAndCommas;
   text.reserve(length);
@@ -161,6 +170,7 @@ std::string to_labels_csv(const std::vector<const LabelRow*>& rows) {
     append_stamp(text, row->stamp_ns);
     append_after_comma(text, row->by_detection);
     append_after_comma(text, row->by_tracking);
+    if (has_several_scanners) append_after_comma(text, row->scanner_id);
     text += '\n';
   }
   return text;
@@ -173,6 +183,8 @@ std::string to_g2o(const RunRecord& record) {
   }
   if (!record.submaps().empty()) text.append("FIX ").append(std::to_string(record.submaps().begin()->first.value)).append("\n");
   for (const flow::Constraint& constraint : record.constraints()) {
+    if (constraint.kind == flow::ConstraintKind::kLoop) text += closure_comment(constraint);
+    if (constraint.verdict.state != flow::ClosureState::kAccepted) continue;
     text.append("EDGE_SE2 ").append(std::to_string(constraint.from.value)).append(" ").append(std::to_string(constraint.to.value));
     text.append(" ").append(pose_text(constraint.from_to.pose));
     const geometry::Matrix3 information = information_at_end(constraint.from_to);

@@ -68,7 +68,10 @@ geometry::Pose2 pose_at(const std::map<std::int64_t, geometry::Pose2>& poses_by_
 }  // namespace
 
 void RunRecord::add(const flow::LocalizedScan& scan) {
-  poses_[scan.stamp_ns] = {scan.map_from_odom * scan.odom_from_base.pose, scan.odom_from_base, scan.submap_id, scan.submap_from_base};
+  LocalizedPose& pose = poses_[scan.stamp_ns];
+  if (!pose.scanner_id.empty() && pose.scanner_id != scan.scanner_id) same_stamp_.emplace(scan.stamp_ns, scan.scanner_id);
+  const std::string& first_scanner_id = pose.scanner_id.empty() ? scan.scanner_id : pose.scanner_id;
+  pose = {first_scanner_id, scan.map_from_odom * scan.odom_from_base.pose, scan.odom_from_base, scan.submap_id, scan.submap_from_base};
 }
 
 void RunRecord::add(const flow::TrackedObjects& tracked) {
@@ -81,14 +84,16 @@ void RunRecord::add(const flow::TrackedObjects& tracked) {
 }
 
 void RunRecord::add(const flow::SegmentedScan& segmented) {
-  LabelRow& row = labels_[segmented.stamp_ns];
+  LabelRow& row = labels_[{segmented.stamp_ns, segmented.scanner_id}];
   row.stamp_ns = segmented.stamp_ns;
+  row.scanner_id = segmented.scanner_id;
   row.by_detection = letters_of(segmented.labels);
 }
 
 void RunRecord::add(const flow::ScanLabels& labels) {
-  LabelRow& row = labels_[labels.stamp_ns];
+  LabelRow& row = labels_[{labels.stamp_ns, labels.scanner_id}];
   row.stamp_ns = labels.stamp_ns;
+  row.scanner_id = labels.scanner_id;
   row.by_tracking = letters_of(labels.labels);
 }
 
@@ -108,6 +113,7 @@ void RunRecord::add(const flow::GraphCorrection& correction) {
 void RunRecord::forget_drive() {
   scan_stamps_ns_.clear();
   poses_.clear();
+  same_stamp_.clear();
   tracks_.clear();
   labels_.clear();
 }
@@ -134,7 +140,7 @@ std::vector<UncertainStampedPose> RunRecord::uncertain_poses() const {
 
 std::vector<const LabelRow*> RunRecord::label_rows() const {
   std::vector<const LabelRow*> all;
-  for (const auto& [stamp_ns, row] : labels_) all.push_back(&row);
+  for (const auto& [scan, row] : labels_) all.push_back(&row);
   return all;
 }
 

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "common/flow/graph_correction.hpp"
@@ -58,6 +60,7 @@ struct LabelRow {
   std::int64_t stamp_ns = 0;
   std::string by_detection;  ///< Empty where nothing came.
   std::string by_tracking;
+  std::string scanner_id;
 };
 
 /// What came out of a drive, collected scan by scan from whoever made it: the stages of one process or the services on
@@ -80,7 +83,7 @@ class RunRecord {
   void forget_drive();
 
   std::uint64_t scans() const { return scan_stamps_ns_.size(); }
-  std::uint64_t localized_scans() const { return poses_.size(); }
+  std::uint64_t localized_scans() const { return poses_.size() + same_stamp_.size(); }
   const std::map<flow::SubmapId, flow::Submap>& submaps() const { return submaps_; }
   std::vector<flow::Constraint> constraints() const;
   std::vector<const TrackRow*> track_rows() const;            ///< These and the next stay where they are until more is added.
@@ -94,7 +97,7 @@ class RunRecord {
   /// Whether the newest submap is tied to the first one, after the last correction.
   bool knows_where_it_is() const { return !correction_.is_untied; }
 
-  /// One pose for every scan of the log, as published live. A scan that was dropped or lost is given the pose between
+  /// One pose for every scan of the log, as published live; scans of several scanners that share a stamp share the pose. A scan that was dropped or lost is given the pose between
   /// its neighbours in time.
   std::vector<StampedPose> online_trajectory() const;
 
@@ -103,19 +106,23 @@ class RunRecord {
 
  private:
   struct LocalizedPose {
+    std::string scanner_id;
     geometry::Pose2 map_from_base;
     geometry::UncertainPose2 odom_from_base;
     flow::SubmapId submap_id;
     geometry::Pose2 submap_from_base;
   };
 
+  using ScanName = std::pair<std::int64_t, std::string>;    ///< Stamp and scanner.
+
   geometry::Pose2 corrected(const LocalizedPose& pose) const;
   std::vector<StampedPose> one_pose_a_scan(const std::map<std::int64_t, geometry::Pose2>& poses_by_stamp) const;
 
   std::vector<std::int64_t> scan_stamps_ns_;
-  std::map<std::int64_t, LocalizedPose> poses_;             // by stamp
+  std::map<std::int64_t, LocalizedPose> poses_;             // by stamp; the last one of several scanners' scans
+  std::set<ScanName> same_stamp_;                           // those that shared a stamp with one that came before
   std::map<std::int64_t, std::vector<TrackRow>> tracks_;    // by stamp
-  std::map<std::int64_t, LabelRow> labels_;                 // by stamp
+  std::map<ScanName, LabelRow> labels_;
   std::map<flow::SubmapId, flow::Submap> submaps_;
   std::map<std::tuple<flow::SubmapId, flow::SubmapId, flow::ConstraintKind>, flow::Constraint> constraints_;
   flow::GraphCorrection correction_;

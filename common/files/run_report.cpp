@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/files/log_findings.hpp"
+#include "common/files/odometry_findings.hpp"
+
 namespace slammot::files {
 namespace {
 
@@ -37,7 +40,10 @@ Json input_of(const RunReport& report) {
   const LogFigures& figures = report.plan.figures;
   return {{"file", report.input},
           {"clock", name_of(report.plan.clock)},
+          {"clock_fault", files::name_of(report.plan.times.fault)},
+          {"time_is_known", figures.has_clock},
           {"odometry", name_of(report.plan.odometry)},
+          {"findings", describe_findings(report.plan)},
           {"duration_s", short_number(figures.duration_s)},
           {"odometry_distance_m", short_number(figures.distance_m)},
           {"beams", figures.beams},
@@ -57,16 +63,78 @@ Json input_of(const RunReport& report) {
           {"is_cut", report.faults.is_cut}};
 }
 
+/// What the quick match of pairs of scans said; 0 for scales that it could not tell.
+Json evidence_of(const matching::LogEvidence& evidence) {
+  return {{"matched_pairs", evidence.pairs},
+          {"turning_pairs", evidence.turning_pairs},
+          {"matched_share", short_number(evidence.matched_share)},
+          {"turn_sign_share", short_number(evidence.turn_sign_share)},
+          {"turn_scale", short_number(evidence.turn_scale)},
+          {"way_scale", short_number(evidence.way_scale)}};
+}
+
 Json counts_of(const RunRecord& record) {
   const auto constraints = record.constraints();
-  const auto loops = std::count_if(constraints.begin(), constraints.end(), [](const flow::Constraint& constraint) { return constraint.kind == flow::ConstraintKind::kLoop; });
+  const auto loops = std::count_if(constraints.begin(), constraints.end(), [](const flow::Constraint& constraint) { return constraint.kind == flow::ConstraintKind::kLoop && constraint.verdict.state == flow::ClosureState::kAccepted; });
+  const auto in_graph = std::count_if(constraints.begin(), constraints.end(), [](const flow::Constraint& constraint) { return constraint.verdict.state == flow::ClosureState::kAccepted; });
   return {{"scans", record.scans()},
           {"localized_scans", record.localized_scans()},
           {"confirmed_tracks", record.confirmed_tracks()},
           {"track_rows", record.track_rows().size()},
           {"submaps", record.submaps().size()},
-          {"constraints", constraints.size()},
+          {"constraints", in_graph},
           {"loop_constraints", loops}};
+}
+
+Json closures_of(const RunRecord& record) {
+  Json closures = Json::array();
+  for (const flow::Constraint& closure : record.constraints()) {
+    if (closure.kind != flow::ConstraintKind::kLoop) continue;
+    const geometry::Pose2& pose = closure.from_to.pose;
+    closures.push_back({{"from", closure.from.value},
+                        {"to", closure.to.value},
+                        {"state", flow::to_text(closure.verdict.state)},
+                        {"x_m", short_number(pose.x_m)},
+                        {"y_m", short_number(pose.y_m)},
+                        {"heading_rad", short_number(pose.heading_rad)},
+                        {"chi_square", short_number(closure.verdict.squared_error)},
+                        {"agreed_share", short_number(closure.verdict.agreed_share)},
+                        {"reason", closure.verdict.reason}});
+  }
+  return closures;
+}
+
+Json episode_of(const sensing::OdometryEpisode& episode, const sensing::OdometryConclusions& odometry) {
+  return {{"fault", files::name_of(episode.fault)},
+          {"begin_s", short_number(static_cast<double>(episode.begin_ns - odometry.first_stamp_ns) * 1e-9)},
+          {"duration_s", short_number(episode.duration_s())},
+          {"first_scan", episode.first_scan},
+          {"scans", episode.scans},
+          {"way_by_odometry_m", short_number(episode.way_by_wheels_m)},
+          {"way_by_scans_m", short_number(episode.way_by_matches_m)},
+          {"turn_by_odometry_rad", short_number(episode.turn_by_wheels_rad)},
+          {"turn_by_scans_rad", short_number(episode.turn_by_matches_rad)}};
+}
+
+Json factors_of(const sensing::WheelFactors& factors) {
+  return {{"way_factor", short_number(factors.way)}, {"turn_factor", short_number(factors.turn)}, {"yaw_bias_radps", short_number(factors.turn_bias_radps)}};
+}
+
+Json odometry_of(const sensing::OdometryConclusions& odometry, bool time_is_known) {
+  Json recalibrations = Json::array();
+  for (const sensing::OdometryRecalibration& one : odometry.recalibrations) {
+    recalibrations.push_back({{"at_s", short_number(static_cast<double>(one.stamp_ns - odometry.first_stamp_ns) * 1e-9)}, {"scan", one.scan}});
+    recalibrations.back().update(factors_of(one.factors));
+  }
+  Json episodes = Json::array();
+  for (const sensing::OdometryEpisode& episode : odometry.episodes) episodes.push_back(episode_of(episode, odometry));
+  Json json = {{"conclusion", describe_odometry(odometry, time_is_known)}, {"steps", odometry.steps}, {"with_odometry", odometry.with_odometry}, {"disbelieved", odometry.disbelieved}};
+  json.update(factors_of(odometry.total));
+  json["stamp_offset_s"] = short_number(odometry.stamp_offset_s);
+  json["recalibrations"] = recalibrations;
+  json["episodes"] = episodes;
+  json["more_episodes"] = odometry.more_episodes;
+  return json;
 }
 
 Json measured_of(const MeasuredRun& measured) {
@@ -102,10 +170,13 @@ std::string to_json_text(const RunRecord& record, const RunReport& report, doubl
                {"profile_reason", report.profile_reason},
                {"is_interrupted", report.is_interrupted},
                {"input", input_of(report)},
+               {"scan_pairs", evidence_of(report.plan.evidence)},
                {"counts", counts_of(record)},
                {"distance_m", short_number(travelled_m)},
                {"counters", report.counters},
-               {"measured", measured_of(report.measured)}};
+               {"closures", closures_of(record)}};
+  if (report.odometry) json["odometry"] = odometry_of(*report.odometry, report.plan.figures.has_clock);
+  json["measured"] = measured_of(report.measured);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

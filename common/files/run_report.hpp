@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/files/carmen_log.hpp"
 #include "common/files/carmen_survey.hpp"
 #include "common/files/run_record.hpp"
+#include "common/sensing/odometry_episodes.hpp"
 
 namespace slammot::files {
 
@@ -40,6 +42,7 @@ struct RunReport {
   LogFaults faults;
   bool is_interrupted = false; ///< The user stopped it: not the whole drive was processed.
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
+  std::optional<sensing::OdometryConclusions> odometry;   ///< None where no one recorded them.
   MeasuredRun measured;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <span>
+#include <vector>
 
 #include "common/flow/graph_correction.hpp"
 #include "common/geometry/uncertain_pose2.hpp"
@@ -13,5 +15,8 @@ namespace slammot::graphs {
 /// bound of the graph's own: right for gates, cheap, and free of the whole graph's inversion.
 std::map<flow::SubmapId, geometry::UncertainPose2> poses_along_best_paths(flow::SubmapId root,
                                                                           std::span<const flow::Constraint> constraints);
+
+/// Constraints along that path between two nodes, as places in `constraints`, from the goal back; none where there is no path.
+std::vector<std::size_t> best_path(flow::SubmapId root, flow::SubmapId goal, std::span<const flow::Constraint> constraints);
 
 }  // namespace slammot::graphs

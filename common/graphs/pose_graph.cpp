@@ -1,5 +1,7 @@
 #include "common/graphs/pose_graph.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <memory>
@@ -23,14 +25,16 @@ Matrix3 whitening_of(const Matrix3& covariance) {
 /// Error of a relative pose in the frame of `from`, whitened; blocks are (x [m], y [m], heading [rad]) in map.
 class RelativePoseCost final : public ceres::SizedCostFunction<3, 3, 3> {
  public:
-  RelativePoseCost(const Pose2& measured_from_to, const Matrix3& whitening)
-      : measured_(measured_from_to), whitening_(whitening) {}
+  /// weight: of the squared error; read at each evaluation.
+  RelativePoseCost(const Pose2& measured_from_to, const Matrix3& whitening, const double& weight)
+      : measured_(measured_from_to), unweighted_(whitening), weight_(weight) {}
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const Pose2 map_from_from{blocks[0][0], blocks[0][1], blocks[0][2]};
     const Pose2 map_from_to{blocks[1][0], blocks[1][1], blocks[1][2]};
     const Pose2 from_to = geometry::inverse(map_from_from) * map_from_to;
-    Eigen::Map<Eigen::Vector3d>{residuals} = whitening_ * geometry::difference(from_to, measured_);
+    const Matrix3 whitening = std::sqrt(weight_) * unweighted_;
+    Eigen::Map<Eigen::Vector3d>{residuals} = whitening * geometry::difference(from_to, measured_);
     if (jacobians == nullptr) return true;
     const Eigen::Matrix2d turn_back = geometry::rotation(-map_from_from.heading_rad);
     using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -40,19 +44,20 @@ class RelativePoseCost final : public ceres::SizedCostFunction<3, 3, 3> {
       J(0, 2) = from_to.y_m;
       J(1, 2) = -from_to.x_m;
       J(2, 2) = -1.0;
-      Eigen::Map<RowMajor>{jacobians[0]} = whitening_ * J;
+      Eigen::Map<RowMajor>{jacobians[0]} = whitening * J;
     }
     if (jacobians[1] != nullptr) {
       Matrix3 J = Matrix3::Identity();
       J.topLeftCorner<2, 2>() = turn_back;
-      Eigen::Map<RowMajor>{jacobians[1]} = whitening_ * J;
+      Eigen::Map<RowMajor>{jacobians[1]} = whitening * J;
     }
     return true;
   }
 
  private:
   Pose2 measured_;
-  Matrix3 whitening_;
+  Matrix3 unweighted_;
+  const double& weight_;
 };
 
 ceres::Solver::Options solver_options(int max_iterations) {
@@ -80,37 +85,126 @@ void PoseGraph::move_node(flow::SubmapId id, const Pose2& map_from_node) { map_f
 void PoseGraph::add_constraint(const flow::Constraint& constraint) {
   assert(contains(constraint.from) && contains(constraint.to));
   constraints_.push_back(constraint);
+  weights_.push_back(1.0);
+  is_enabled_.push_back(true);
+}
+
+void PoseGraph::set_enabled(std::size_t constraint, bool is_enabled) {
+  is_enabled_[constraint] = is_enabled;
+  weights_[constraint] = is_enabled ? 1.0 : 0.0;
+}
+
+/// One problem that is solved several times with changing weights; the poses are those of the graph.
+struct PoseGraph::Solver {
+  explicit Solver(PoseGraph& graph) : graph_(graph) {
+    for (const Pose2& pose : graph.map_from_node_) blocks_.push_back({pose.x_m, pose.y_m, pose.heading_rad});
+    for (std::size_t i = 0; i < graph.constraints_.size(); ++i) {
+      if (!graph.is_enabled_[i]) continue;
+      const flow::Constraint& constraint = graph.constraints_[i];
+      // The problem takes ownership of its cost functions.
+      problem_.AddResidualBlock(new RelativePoseCost(constraint.from_to.pose, whitening_of(constraint.from_to.covariance), graph.weights_[i]), nullptr,
+                                blocks_[graph.index_of_.at(constraint.from)].data(), blocks_[graph.index_of_.at(constraint.to)].data());
+    }
+    if (problem_.HasParameterBlock(blocks_.front().data())) problem_.SetParameterBlockConstant(blocks_.front().data());
+    iterations_left_ = std::max(4, static_cast<int>(graph.config_.most_work / static_cast<double>(graph.constraints_.size())));
+  }
+
+  bool has_iterations_left() const { return iterations_left_ > 0; }
+
+  /// Whether the poses are those of a solution.
+  bool solve(int max_iterations) {
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver_options(std::min(max_iterations, iterations_left_)), &problem_, &summary);
+    const int iterations = std::max(static_cast<int>(summary.iterations.size()) - 1, 1);
+    iterations_left_ -= iterations;
+    if (!has_solved_) result_.initial_cost = summary.initial_cost;
+    has_solved_ = true;
+    result_.final_cost = summary.final_cost;
+    result_.iterations += iterations;
+    result_.has_converged = summary.termination_type == ceres::CONVERGENCE;
+    if (!summary.IsSolutionUsable()) return false;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      graph_.map_from_node_[i] = {blocks_[i][0], blocks_[i][1], geometry::wrap_angle(blocks_[i][2])};
+    }
+    return true;
+  }
+
+  const OptimisationSummary& result() const { return result_; }
+
+ private:
+  PoseGraph& graph_;
+  std::vector<std::array<double, 3>> blocks_;
+  ceres::Problem problem_;
+  OptimisationSummary result_;
+  int iterations_left_ = 0;
+  bool has_solved_ = false;
+};
+
+std::vector<double> PoseGraph::squared_errors() const {
+  std::vector<double> errors;
+  for (const flow::Constraint& constraint : constraints_) errors.push_back(squared_error(constraint, map_from_node(constraint.from), map_from_node(constraint.to)));
+  return errors;
+}
+
+double PoseGraph::truncated_cost(double odometric_sigma_scale) const {
+  const double limit = config_.loop_loss_scale * config_.loop_loss_scale;
+  const std::vector<double> errors = squared_errors();
+  double cost = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!is_enabled_[i]) continue;
+    const bool is_loop = constraints_[i].kind == flow::ConstraintKind::kLoop;
+    if (!is_loop) cost += errors[i] / (odometric_sigma_scale * odometric_sigma_scale);
+    else cost += limit > 0.0 ? std::min(errors[i], limit) : errors[i];
+  }
+  return cost;
 }
 
 OptimisationSummary PoseGraph::optimise() {
+  constexpr double kGrowth = 1.6;       // of the non-convexity from step to step
+  constexpr int kIterationsPerStep = 3;
+  constexpr int kMostSteps = 40;
   if (constraints_.empty()) return {.has_converged = true};
-  std::vector<std::array<double, 3>> blocks;
-  for (const Pose2& pose : map_from_node_) blocks.push_back({pose.x_m, pose.y_m, pose.heading_rad});
-
-  ceres::Problem::Options problem_options;
-  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  std::unique_ptr<ceres::LossFunction> loop_loss;
-  if (config_.loop_loss_scale > 0.0) loop_loss = std::make_unique<ceres::CauchyLoss>(config_.loop_loss_scale);
-  ceres::Problem problem(problem_options);
-  for (const flow::Constraint& constraint : constraints_) {
-    ceres::LossFunction* loss = constraint.kind == flow::ConstraintKind::kLoop ? loop_loss.get() : nullptr;
-    // The problem takes ownership of its cost functions.
-    problem.AddResidualBlock(
-        new RelativePoseCost(constraint.from_to.pose, whitening_of(constraint.from_to.covariance)), loss,
-        blocks[index_of_.at(constraint.from)].data(), blocks[index_of_.at(constraint.to)].data());
+  const double limit = config_.loop_loss_scale * config_.loop_loss_scale;
+  const auto can_lose_weight = [&](std::size_t i) { return is_enabled_[i] && constraints_[i].kind == flow::ConstraintKind::kLoop && limit > 0.0; };
+  const double cost_before = truncated_cost();
+  const std::vector<Pose2> poses_before = map_from_node_;
+  const std::vector<double> weights_before = weights_;
+  Solver solver(*this);
+  const auto go_back = [&] {
+    map_from_node_ = poses_before;
+    weights_ = weights_before;
+    return solver.result();
+  };
+  for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] = is_enabled_[i] ? 1.0 : 0.0;
+  if (!solver.solve(config_.max_iterations)) return go_back();
+  const auto largest_error = [&](const std::vector<double>& errors) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < errors.size(); ++i) largest = can_lose_weight(i) ? std::max(largest, errors[i]) : largest;
+    return largest;
+  };
+  std::vector<double> errors = squared_errors();
+  if (largest_error(errors) <= limit || limit <= 0.0) return solver.result();
+  double mu = limit / (2.0 * largest_error(errors) - limit);
+  for (int step = 0; step < kMostSteps && solver.has_iterations_left(); ++step) {
+    bool is_decided = true;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (!can_lose_weight(i)) continue;
+      const bool is_inlier = errors[i] <= mu / (mu + 1.0) * limit;
+      const bool is_outlier = errors[i] >= (mu + 1.0) / mu * limit;
+      weights_[i] = is_inlier ? 1.0 : is_outlier ? 0.0 : std::sqrt(limit * mu * (mu + 1.0) / errors[i]) - mu;
+      is_decided = is_decided && (is_inlier || is_outlier);
+    }
+    if (!solver.solve(kIterationsPerStep)) return go_back();
+    if (is_decided) break;
+    errors = squared_errors();
+    mu *= kGrowth;
   }
-  if (problem.HasParameterBlock(blocks.front().data())) problem.SetParameterBlockConstant(blocks.front().data());
-
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(config_.max_iterations), &problem, &summary);
-  if (!summary.IsSolutionUsable()) return {.initial_cost = summary.initial_cost, .final_cost = summary.initial_cost};
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    map_from_node_[i] = {blocks[i][0], blocks[i][1], geometry::wrap_angle(blocks[i][2])};
+  if (truncated_cost() > cost_before + 1e-9) map_from_node_ = poses_before;
+  errors = squared_errors();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (can_lose_weight(i)) weights_[i] = errors[i] <= limit ? 1.0 : 0.0;
   }
-  return {.initial_cost = summary.initial_cost,
-          .final_cost = summary.final_cost,
-          .iterations = static_cast<int>(summary.iterations.size()) - 1,
-          .has_converged = summary.termination_type == ceres::CONVERGENCE};
+  return solver.result();
 }
 
 const Pose2& PoseGraph::map_from_node(flow::SubmapId id) const { return map_from_node_[index_of_.at(id)]; }

@@ -1,6 +1,7 @@
 #include "common/wire/graph.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "common/wire/parts.hpp"
@@ -14,6 +15,9 @@ constexpr std::size_t kMostIncomplete = 4;
 
 static_assert(static_cast<int>(flow::ConstraintKind::kOdometric) == slammot_CONSTRAINT_KIND_ODOMETRIC);
 static_assert(static_cast<int>(flow::ConstraintKind::kLoop) == slammot_CONSTRAINT_KIND_LOOP);
+static_assert(static_cast<int>(flow::ClosureState::kAccepted) == slammot_CLOSURE_STATE_ACCEPTED);
+static_assert(static_cast<int>(flow::ClosureState::kRejected) == slammot_CLOSURE_STATE_REJECTED);
+static_assert(static_cast<int>(flow::ClosureState::kWithdrawn) == slammot_CLOSURE_STATE_WITHDRAWN);
 
 std::string_view fault_of(const slammot_GraphCorrection& part) {
   if (part.part_count == 0 || part.part_count > kMostParts) return "part_count is not within 1 and 64";
@@ -42,6 +46,10 @@ slammot_Constraint encode(std::string_view vehicle_id, const flow::Constraint& c
   sample.to_submap_id = constraint.to.value;
   sample.kind = static_cast<slammot_ConstraintKind>(constraint.kind);
   sample.from_from_to = encode(constraint.from_to);
+  sample.state = static_cast<slammot_ClosureState>(constraint.verdict.state);
+  sample.squared_error = constraint.verdict.squared_error;
+  sample.agreed_share = constraint.verdict.agreed_share;
+  set_text(sample.reason, constraint.verdict.reason);
   return sample;
 }
 
@@ -49,11 +57,14 @@ Decoded<flow::Constraint> decode(const slammot_Constraint& sample) {
   if (!is_enumerator(sample.kind, slammot_CONSTRAINT_KIND_LOOP)) return Fault{"kind is unknown"};
   if (sample.from_submap_id == sample.to_submap_id) return Fault{"a submap is constrained to itself"};
   if (!is_sound(sample.from_from_to)) return Fault{"from_from_to or its covariance is unsound"};
+  if (!is_enumerator(sample.state, slammot_CLOSURE_STATE_WITHDRAWN)) return Fault{"state is unknown"};
+  if (!std::isfinite(sample.squared_error) || !std::isfinite(sample.agreed_share)) return Fault{"squared_error or agreed_share is not finite"};
   return flow::Constraint{.from = {sample.from_submap_id},
                           .to = {sample.to_submap_id},
                           .kind = static_cast<flow::ConstraintKind>(sample.kind),
                           .from_to = decode(sample.from_from_to),
-                          .map_id = {sample.map_id}};
+                          .map_id = {sample.map_id},
+                          .verdict = {static_cast<flow::ClosureState>(sample.state), sample.squared_error, sample.agreed_share, std::string(text(sample.reason))}};
 }
 
 void GraphCorrectionEncoder::encode(std::string_view vehicle_id, const flow::GraphCorrection& correction,

@@ -95,10 +95,17 @@ std::optional<Error> read_online_covariance(const path& file, std::vector<metric
   });
 }
 
+/// Of several scanners the first one's, as of the truth's hits.
 std::optional<Error> read_labels(const path& file, std::vector<LabelsAt>& labels) {
-  return read_csv(file, {"timestamp", "detection", "tracking"}, [&](auto fields) -> RowFault {
+  std::vector<std::string_view> columns = {"timestamp", "detection", "tracking"};
+  const bool has_several_scanners = !columns_beginning_with(file, "scanner").empty();
+  if (has_several_scanners) columns.emplace_back("scanner");
+  std::string scanner;
+  return read_csv(file, columns, [&](auto fields) -> RowFault {
     const auto stamp = numbers(fields.first(1));
     if (!stamp) return "a field is no number";
+    if (has_several_scanners && scanner.empty()) scanner = fields[3];
+    if (has_several_scanners && scanner != fields[3]) return std::nullopt;
     labels.push_back({to_ns(stamp->front()), std::string(fields[1]), std::string(fields[2])});
     return std::nullopt;
   });

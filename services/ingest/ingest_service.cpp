@@ -7,6 +7,7 @@
 
 #include "common/wire/text.hpp"
 #include "services/ingest/ingest_fields.hpp"
+#include "services/ingest/topic_arguments.hpp"
 
 namespace slammot::ingest {
 namespace {
@@ -22,7 +23,7 @@ std::chrono::nanoseconds nanoseconds_of(double seconds) {
 
 LogSource open_source(const IngestService::Settings& settings) {
   if (settings.input.empty()) throw app::StartupFailure("--input FILE is needed: the drive to play");
-  auto source = LogSource::open(settings.input, settings.config);
+  auto source = LogSource::open(settings.input, settings.config, settings.topics);
   if (!source) throw app::StartupFailure(source.error().message);
   return std::move(*source);
 }
@@ -56,7 +57,8 @@ std::vector<config::BoundStage> IngestService::stages(Settings& settings) {
 }
 
 void IngestService::add_options(CLI::App& command_line, Settings& settings) {
-  command_line.add_option("--input", settings.input, "CARMEN log, plain or .gz");
+  command_line.add_option("--input", settings.input, "CARMEN or DP-SLAM log, plain or .gz, or a ROS bag");
+  add_topic_options(command_line, settings.topics);
   command_line.add_option("--speed", settings.speed, "Times the recorded speed, or 'max': as fast as the other services are done")
       ->capture_default_str();
   command_line.add_flag("--forgive-cut", settings.forgive_cut, "End with 0 also where the log is cut off, for those who would start it again");
@@ -69,6 +71,7 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
       linger_(settings.linger),
       forgive_cut_(settings.forgive_cut),
       source_(open_source(settings)),
+      scanner_ids_(source_.log().scanner_ids()),
       drive_(mark_path(context.options()), describe(settings.input, source_.log().plan().figures), new_drive_id()),
       pace_(parse_pace(settings.speed)),
       window_({static_cast<std::size_t>(config_.window_scans), nanoseconds_of(config_.resend_after_s)}),
@@ -139,10 +142,16 @@ void IngestService::proceed_with_room() {
   if (window_.is_empty()) finish();
 }
 
+/// Several scanners may share a stamp.
+bool IngestService::is_acknowledged(const sensing::LaserScan& scan) const {
+  if (!acknowledged_ns_ || scan.stamp_ns > *acknowledged_ns_) return false;
+  return scan.stamp_ns < *acknowledged_ns_ || acknowledged_scanners_.contains(scan.scanner.scanner_id);
+}
+
 /// Makes fetched_ the next step that nobody has done with; false at the end of the log. Started again in the middle of a
 /// drive, it so skips what localization had from the process before: the first answer tells how much that is.
 bool IngestService::fetch() {
-  while (!fetched_ || (fetched_->scan && acknowledged_ns_ && fetched_->scan->stamp_ns <= *acknowledged_ns_)) {
+  while (!fetched_ || (fetched_->scan && is_acknowledged(*fetched_->scan))) {
     if (fetched_) ++context_.status().counter("skipped_scans");
     fetched_ = source_.next();
     if (!fetched_) return false;
@@ -165,9 +174,14 @@ void IngestService::send(const Step& step) {
 }
 
 void IngestService::take_labels(const slammot_ScanLabels& labels) {
-  if (wire::text(labels.scanner_id) != config_.scanner_id) return;
+  const std::string scanner_id(wire::text(labels.scanner_id));
+  if (std::ranges::find(scanner_ids_, scanner_id) == scanner_ids_.end()) return;
   const bool is_ahead = fetched_ && fetched_->scan && labels.stamp_ns >= fetched_->scan->stamp_ns;
-  acknowledged_ns_ = std::max(labels.stamp_ns, acknowledged_ns_.value_or(labels.stamp_ns));
+  if (!acknowledged_ns_ || labels.stamp_ns > *acknowledged_ns_) {
+    acknowledged_ns_ = labels.stamp_ns;
+    acknowledged_scanners_.clear();
+  }
+  if (labels.stamp_ns == *acknowledged_ns_) acknowledged_scanners_.insert(scanner_id);
   const std::size_t done = window_.acknowledge(labels.stamp_ns, steady_clock::now());
   in_flight_.erase(in_flight_.begin(), in_flight_.begin() + static_cast<std::ptrdiff_t>(done));
   if (!has_begun_ || has_finished_) return;

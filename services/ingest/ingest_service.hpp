@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,12 +26,13 @@ class IngestService {
   struct Settings {
     IngestConfig config;
     std::filesystem::path input;
+    files::TopicOptions topics;
     std::string speed = "1";
     bool linger = false;       ///< Stay after the end of the log.
     bool forgive_cut = false;  ///< A log that ends early is no failure of this process.
   };
   static constexpr const char* kName = "ingest";
-  static constexpr const char* kPurpose = "Plays a recorded drive (a CARMEN log, plain or .gz) onto the bus.";
+  static constexpr const char* kPurpose = "Plays a recorded drive (a CARMEN log or a ROS bag) onto the bus.";
   static constexpr int kExitCut = 3;  ///< The log ended early.
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
@@ -47,6 +49,7 @@ class IngestService {
   void take_labels(const slammot_ScanLabels& labels);
   void watch_graph();
   bool fetch();
+  bool is_acknowledged(const sensing::LaserScan& scan) const;
   void send_fetched();
   void send(const Step& step);
   void check_progress();
@@ -57,6 +60,7 @@ class IngestService {
   bool linger_;
   bool forgive_cut_;
   LogSource source_;
+  std::vector<std::string> scanner_ids_;
   DriveMark drive_;
   app::Pace pace_;
   ScanWindow window_;
@@ -70,7 +74,8 @@ class IngestService {
   bool has_finished_ = false;
   std::optional<Step> fetched_;                  ///< The next one to be sent.
   std::deque<Step> in_flight_;                   ///< At speed max: sent and not acknowledged.
-  std::optional<std::int64_t> acknowledged_ns_;  ///< Newest scan that was done with.
+  std::optional<std::int64_t> acknowledged_ns_;  ///< Newest scan that was done with,
+  std::set<std::string> acknowledged_scanners_;  ///< and whose scans of that stamp were.
 };
 
 }  // namespace slammot::ingest

@@ -5,12 +5,18 @@
 namespace slammot::ingest {
 
 files::CarmenLogOptions log_options(const IngestConfig& config) {
-  return {config.scanner_id, config.fallback_field_of_view_rad,
-          {config.fallback_laser_ahead_m, config.fallback_laser_left_m, config.fallback_laser_heading_rad}};
+  files::CarmenLogOptions options;
+  options.scanner_id = config.scanner_id;
+  options.uses_all_scanners = true;
+  options.fallback_field_of_view_rad = config.fallback_field_of_view_rad;
+  options.fallback_base_from_laser = {config.fallback_laser_ahead_m, config.fallback_laser_left_m, config.fallback_laser_heading_rad};
+  return options;
 }
 
-files::Result<LogSource> LogSource::open(const std::filesystem::path& file, const IngestConfig& config) {
-  auto log = files::CarmenLog::open(file, log_options(config));
+files::Result<LogSource> LogSource::open(const std::filesystem::path& file, const IngestConfig& config, const files::TopicOptions& topics) {
+  files::CarmenLogOptions options = log_options(config);
+  options.topics = topics;
+  auto log = files::CarmenLog::open(file, options);
   if (!log) return log.error();
   const double sweep_s = files::sweep_s_for(log->plan().figures, config.sweep_s);
   return LogSource(std::move(*log), sweep_s);

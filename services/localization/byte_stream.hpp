@@ -35,6 +35,12 @@ void put(std::vector<std::byte>& bytes, const Eigen::Matrix<double, kRows, kColu
 }
 
 template <class T>
+void put(std::vector<std::byte>& bytes, const std::optional<T>& value) {
+  put(bytes, value.has_value());
+  put(bytes, value.value_or(T{}));
+}
+
+template <class T>
 void put_all(std::vector<std::byte>& bytes, const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
   put(bytes, static_cast<std::uint64_t>(values.size()));
@@ -67,6 +73,15 @@ class ByteReader {
   template <int kRows, int kColumns>
   void get(Eigen::Matrix<double, kRows, kColumns>& matrix) {
     for (double& coefficient : matrix.reshaped()) get(coefficient);
+  }
+
+  template <class T>
+  void get(std::optional<T>& value) {
+    bool has_value = value.has_value();
+    T read = value.value_or(T{});
+    get(has_value);
+    get(read);
+    value = has_value ? std::optional(read) : std::nullopt;
   }
 
   template <class T>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "services/localization/byte_stream.hpp"
@@ -9,8 +10,9 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f7463;  // "slammotc": the last letter counts the forms of a checkpoint
+constexpr std::uint64_t kMark = 0x736c616d6d6f7464;  // "slammotd": the last letter counts the forms of a checkpoint
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
+constexpr double kLargestFactor = 1e4;      // of way or turn: millimetres taken for metres are 1e3
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 
 template <typename Estimate, typename Visitor>
@@ -35,6 +37,40 @@ void visit_last(LastScan& last, Visitor visit) {
   visit(last.stood_s);
 }
 
+template <typename Belief, typename Visitor>
+void visit_belief(Belief& belief, Visitor visit) {
+  visit(belief.weights);
+  visit(belief.last);
+  visit(belief.usual_step_s);
+  visit(belief.last_step);
+  visit(belief.last_by_wheels);
+  visit(belief.last_duration_s);
+  visit(belief.usual_way_m);
+  visit(belief.usual_share);
+  visit(belief.matched_velocity);
+  visit(belief.matched_velocity_variance);
+  visit(belief.factors);
+  belief.estimator.visit(visit);
+  visit(belief.log_odds);
+  visit(belief.log_odds_of_factors);
+  visit(belief.disbeliefs);
+  visit(belief.disbelieved_s);
+  visit(belief.is_disbelieved);
+  visit(belief.recalibrated_scans);
+  visit(belief.recalibrations);
+}
+
+template <typename Monitor, typename Visitor>
+void visit_monitor(Monitor& monitor, Visitor visit) {
+  visit(monitor.lost_since_ns);
+  visit(monitor.unmatched_scans);
+  visit(monitor.lost_scans);
+  visit(monitor.scans_to_prove);
+  visit(monitor.contradicts_map);
+  visit(monitor.explained_before);
+  visit(monitor.everything_changed);
+}
+
 template <typename State, typename Visitor>
 void visit_submaps(State& submaps, Visitor visit) {
   visit(submaps.map_from_odom);
@@ -54,6 +90,8 @@ void visit_parts(AnyCheckpoint& checkpoint, Visitor visit) {
   visit_estimate(checkpoint.prediction.estimate, visit);
   visit_estimate(checkpoint.prediction.with_stamp_offset, visit);
   visit(checkpoint.prediction.applies_stamp_offset);
+  visit_belief(checkpoint.prediction.belief, visit);
+  visit_monitor(checkpoint.monitor, visit);
   visit(checkpoint.covariance.factors.of_axis);
   visit(checkpoint.covariance.factors.dead_reckoned);
   visit(checkpoint.covariance.map_change.way_m);
@@ -78,6 +116,35 @@ bool is_sound(const OdometryPrediction::LastScan& last) {
          std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns;
 }
 
+bool is_sound(const sensing::WheelFactors& factors) {
+  return std::abs(factors.way) < kLargestFactor && std::abs(factors.turn) < kLargestFactor && std::abs(factors.turn_bias_radps) < kFastestRestored;
+}
+
+bool is_count(int value) { return value >= 0 && value < std::numeric_limits<int>::max() / 2; }
+bool is_share(double value) { return value >= 0.0 && value <= 1.0; }
+
+bool is_sound(const std::optional<KeyframeOdometry::Keyframe>& keyframe) {
+  if (!keyframe) return true;
+  return is_believable(keyframe->wheel_from_base) && is_believable(keyframe->odom_from_base) && std::abs(static_cast<double>(keyframe->stamp_ns)) < kFarthestStamp_ns &&
+         std::ranges::all_of(keyframe->points_in_base_m, [](const geometry::Vector2& point_m) { return point_m.allFinite(); });
+}
+
+bool is_sound(const sensing::OdometryBelief& belief) {
+  const bool has_odds = std::isfinite(belief.log_odds) && std::isfinite(belief.log_odds_of_factors) && is_not_negative(belief.disbelieved_s) &&
+                        is_believable(belief.last_step) && is_believable(belief.last_by_wheels) && is_not_negative(belief.last_duration_s) && is_not_negative(belief.usual_way_m);
+  if (!has_odds) return false;
+  const bool has_weights = std::ranges::all_of(belief.weights, is_share) && std::ranges::max(belief.weights) > 0.0;
+  return has_weights && sensing::index_of(belief.last) < sensing::kStepExplanations && is_not_negative(belief.usual_step_s) && is_share(belief.usual_share) &&
+         belief.matched_velocity.norm() < kFastestRestored && belief.matched_velocity_variance.minCoeff() >= 0.0 && belief.matched_velocity_variance.allFinite() &&
+         is_sound(belief.factors) && is_sound(belief.estimator.factors()) && is_believable(belief.estimator.turn_covariance()) && is_not_negative(belief.estimator.way_sigma()) &&
+         is_count(belief.estimator.steps()) && is_count(belief.recalibrated_scans);
+}
+
+bool is_sound(const LocalizationMonitor::State& monitor) {
+  return std::abs(static_cast<double>(monitor.lost_since_ns.value_or(0))) < kFarthestStamp_ns && is_count(monitor.unmatched_scans) && is_count(monitor.lost_scans) &&
+         (monitor.lost_scans == 0 || monitor.lost_since_ns) && is_count(monitor.scans_to_prove) && is_share(monitor.explained_before.value_or(0.0));
+}
+
 bool is_sound(const PublishedCovariance::State& covariance) {
   const sensing::VarianceFactors& factors = covariance.factors;
   return factors.of_axis.minCoeff() >= 0.0 && factors.of_axis.allFinite() && factors.dead_reckoned.minCoeff() >= 0.0 && factors.dead_reckoned.maxCoeff() <= 1.0 &&
@@ -91,8 +158,38 @@ bool is_sound(const SubmapSequence::State& submaps) {
 
 bool is_sound(const Checkpoint& checkpoint) {
   return is_sound(checkpoint.prediction.estimate) && is_sound(checkpoint.prediction.with_stamp_offset) && is_sound(*checkpoint.prediction.last) &&
+         is_sound(checkpoint.prediction.belief) && is_sound(checkpoint.keyframe) && is_sound(checkpoint.monitor) &&
          is_sound(checkpoint.covariance) && is_sound(checkpoint.submaps) && std::isfinite(checkpoint.sweep_factor.value) && checkpoint.sweep_factor.variance >= 0.0 &&
          std::ranges::all_of(checkpoint.odometry, [](const sensing::Odometry& sample) { return is_believable(sample.wheel_from_base); });
+}
+
+void put_keyframe(std::vector<std::byte>& bytes, const std::optional<KeyframeOdometry::Keyframe>& keyframe) {
+  put(bytes, keyframe.has_value());
+  if (!keyframe) return;
+  put(bytes, keyframe->stamp_ns);
+  put(bytes, keyframe->wheel_from_base);
+  put(bytes, keyframe->odom_from_base);
+  put_all(bytes, std::vector<char>(keyframe->scanner_id.begin(), keyframe->scanner_id.end()));
+  std::vector<double> coordinates;
+  for (const geometry::Vector2& point_m : keyframe->points_in_base_m) coordinates.insert(coordinates.end(), {point_m.x(), point_m.y()});
+  put_all(bytes, coordinates);
+}
+
+std::optional<KeyframeOdometry::Keyframe> keyframe_of(ByteReader& from) {
+  bool is_there = false;
+  from.get(is_there);
+  if (!is_there) return std::nullopt;
+  KeyframeOdometry::Keyframe keyframe;
+  std::vector<char> scanner_id;
+  from.get(keyframe.stamp_ns);
+  from.get(keyframe.wheel_from_base);
+  from.get(keyframe.odom_from_base);
+  from.get_all(scanner_id);
+  std::vector<double> coordinates;
+  from.get_all(coordinates);
+  for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2) keyframe.points_in_base_m.emplace_back(coordinates[i], coordinates[i + 1]);
+  keyframe.scanner_id.assign(scanner_id.begin(), scanner_id.end());
+  return keyframe;
 }
 
 }  // namespace
@@ -102,6 +199,7 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint, const LocalMap& ma
   put(bytes, kMark);
   visit_parts(checkpoint, [&](const auto& part) { put(bytes, part); });
   put_all(bytes, checkpoint.odometry);
+  put_keyframe(bytes, checkpoint.keyframe);
   map.write(bytes);
   put(bytes, checksum(bytes));
   return bytes;
@@ -118,6 +216,7 @@ std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes
   if (mark != kMark) return std::nullopt;
   visit_parts(checkpoint, [&](auto& part) { from.get(part); });
   from.get_all(checkpoint.odometry);
+  checkpoint.keyframe = keyframe_of(from);
   std::optional<LocalMap> map = LocalMap::restored(config, from, help);
   if (!map || !from.ok() || !from.at_end() || !is_sound(checkpoint)) return std::nullopt;
   return RestoredCheckpoint{std::move(checkpoint), *std::move(map)};

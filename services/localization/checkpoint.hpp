@@ -8,8 +8,10 @@
 #include "common/sensing/scan.hpp"
 #include "common/work/side_work.hpp"
 #include "services/localization/local_map.hpp"
+#include "services/localization/localization_monitor.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/localizer_counters.hpp"
+#include "services/localization/keyframe_odometry.hpp"
 #include "services/localization/odometry_prediction.hpp"
 #include "services/localization/published_covariance.hpp"
 #include "services/localization/submap_sequence.hpp"
@@ -20,11 +22,13 @@ namespace slammot::localization {
 /// What a localizer goes on from after a crash, beside the local map.
 struct Checkpoint {
   OdometryPrediction::State prediction;   ///< Of a drive that has begun: it has a last scan.
+  LocalizationMonitor::State monitor;
   PublishedCovariance::State covariance;
   SweepFactor sweep_factor;
   SubmapSequence::State submaps;
   LocalizerCounters counters;
   std::vector<sensing::Odometry> odometry;
+  std::optional<KeyframeOdometry::Keyframe> keyframe;
 };
 
 /// In a form of this build, with a checksum.

@@ -92,6 +92,28 @@ FieldTable<WheelJumpConfig> wheel_jump_fields() {
   };
 }
 
+FieldTable<sensing::OdometryBeliefConfig> belief_fields() {
+  using C = sensing::OdometryBeliefConfig;
+  return {
+      {"enabled", &C::enabled, "Weighs several explanations of odometry by the scans; off: odometry is right, or has jumped."},
+      {"switch_per_scan", &C::switch_per_scan, "Probability that the explanation changes from one scan to the next.", kShare},
+      {"rough_prior", &C::rough_prior, "After a change: share of wheels with far more noise.", kShare},
+      {"recalibrated_prior", &C::recalibrated_prior, "Share of wheels with other factors.", kShare},
+      {"other_prior", &C::other_prior, "Share of wheels that say nothing.", kShare},
+      {"rough_sigmas", &C::rough_sigmas, "Noise of rough wheels, times the usual one.", kPositive},
+      {"suspicious_below", &C::suspicious_below, "Below this probability of odometry being right every explanation is matched for itself.", kShare},
+      {"suspicious_share_drop", &C::suspicious_share_drop, "So is it where the matched share falls below its usual value by more than this.", kShare},
+      {"share_nats", &C::share_nats, "Log-likelihood of all points matched against none, if points erred independently.", kPositive},
+      {"usual_step_memory", &C::usual_step_memory, "Weight of one step in the usual time between scans.", kShare},
+      {"usual_share_memory", &C::usual_share_memory, "Weight of one scan in the usual matched share.", kShare},
+      {"reach_m", &C::reach_m, "Wheels that say nothing, without time: one sigma of the position.", kPositive},
+      {"reach_per_m", &C::reach_per_m, "What each metre by odometry adds to it.", kNotNegative},
+      {"usual_reach", &C::usual_reach, "Without odometry, what the usual step adds, as a share of it.", kNotNegative},
+      {"reach_rad", &C::reach_rad, "One sigma of the heading.", kPositive},
+      {"reach_per_rad", &C::reach_per_rad, "What each radian by odometry adds to it.", kNotNegative},
+  };
+}
+
 FieldTable<matching::PointToLineConfig> match_fields() {
   using C = matching::PointToLineConfig;
   return {
@@ -194,6 +216,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"may_be_picked_up", &C::may_be_picked_up, "And set down elsewhere, with wheels that notice nothing; a road vehicle is not."},
       {"sweep_factor_sigma", &C::sweep_factor_sigma, "One sigma of the factor on how long scanners' sweeps are said to take; 0: they are right.", kNotNegative},
       {"body_sigma_without_wheels_m", &C::body_sigma_without_wheels_m, "match.body_sigma_m where no wheels say how far it is.", kNotNegative},
+      {"time_is_known", &C::time_is_known, "Off where stamps are made up: no speed means anything. Set by the log; a profile can only take it off."},
       {"use_odometry", &C::use_odometry, "Off, for wheels that are worse than none: constant velocity predicts."},
       {"mask_margin_m", &C::mask_margin_m, "Around a tracked object's box, left out of the match.", kNotNegative},
       {"longest_step_s", &C::longest_step_s, "Without odometry nothing is extrapolated farther; longer gaps are counted.", kPositive},
@@ -216,6 +239,7 @@ const FieldTable<LocalizerConfig>& localization_fields() {
   static const FieldTable<C> table = [] {
     FieldTable<C> fields = with_nested<C>(own_fields(), "map", &C::map, map_fields());
     fields = with_nested<C>(std::move(fields), "wheel_jump", &C::wheel_jump, wheel_jump_fields());
+    fields = with_nested<C>(std::move(fields), "belief", &C::belief, belief_fields());
     fields = with_nested<C>(std::move(fields), "search", &C::search, search_fields());
     fields = with_nested<C>(std::move(fields), "motion", &C::motion, motion_fields());
     fields = with_nested<C>(std::move(fields), "match", &C::match, match_fields());

@@ -8,6 +8,8 @@
 namespace slammot::localization {
 namespace {
 
+constexpr int kPatientScans = 6;               // that need not fit, however long they take;
+constexpr int kAstrayScans = 16;               // so many in vain before a new map begins
 constexpr double kSeenThroughWalls_share = 0.1;
 constexpr double kChanged_share = 0.5;         // of what was explained one scan before
 
@@ -24,7 +26,11 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
   const bool is_contradicting = is_contradicted(judged);
   if (!is_contradicting && !judged.match.is_lost) return Verdict::kFits;
   if (!config_.recovers) return Verdict::kDoesNotFit;
-  if (!state_.lost_since_ns) state_.lost_since_ns = judged.step.stamp_ns;
+  if (!state_.lost_since_ns) {
+    state_.lost_since_ns = judged.step.stamp_ns;
+    state_.unmatched_scans = 0;
+  }
+  ++state_.unmatched_scans;
   state_.scans_to_prove = config_.found_scans + 1;
   state_.contradicts_map = is_contradicting;
   if (trusts_prediction(judged.step)) return Verdict::kDoesNotFit;
@@ -34,8 +40,8 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
 
 /// Traffic on all sides hides the map for as long as it likes: what drives and was not seen to be moved trusts its wheels.
 bool LocalizationMonitor::trusts_prediction(const Step& step) const {
-  if (!step.is_by_wheels()) return false;
-  return (!state_.everything_changed && !config_.may_be_picked_up) || lost_s(step.stamp_ns) < config_.lost_after_s;
+  if (!step.has_wheels()) return false;
+  return (!state_.everything_changed && !config_.may_be_picked_up) || lost_s(step.stamp_ns) < config_.lost_after_s || state_.unmatched_scans < kPatientScans;
 }
 
 bool LocalizationMonitor::confirm() {
@@ -86,7 +92,7 @@ bool LocalizationMonitor::contradicts_too_much(const MatchToJudge& judged, doubl
 }
 
 bool LocalizationMonitor::has_gone_astray(std::int64_t stamp_ns) const {
-  return state_.lost_since_ns && state_.lost_scans > 0 && lost_s(stamp_ns) > config_.lost_after_s + config_.astray_after_s;
+  return state_.lost_since_ns && state_.lost_scans > 0 && state_.unmatched_scans > kAstrayScans && lost_s(stamp_ns) > config_.lost_after_s + config_.astray_after_s;
 }
 
 void LocalizationMonitor::begin_map() {

@@ -32,6 +32,7 @@ class LocalizationMonitor {
 
   struct State {
     std::optional<std::int64_t> lost_since_ns;      ///< Stamp of the first scan that did not fit.
+    int unmatched_scans = 0;                        ///< Since then.
     int lost_scans = 0;                             ///< Since the prediction is no longer trusted.
     int scans_to_prove = 0;                         ///< Until it is believed that the pose was found again.
     bool contradicts_map = false;                   ///< The scan at hand, where it was matched.
@@ -66,7 +67,7 @@ class LocalizationMonitor {
   void compare_with_scan_before(const MatchToJudge& judged, double explained);
   bool contradicts_too_much(const MatchToJudge& judged, double explained) const;
   bool trusts_prediction(const Step& step) const;
-  bool may_be_elsewhere(const Step& step) const { return !step.is_by_wheels() || config_.may_be_picked_up; }
+  bool may_be_elsewhere(const Step& step) const { return !step.has_wheels() || config_.may_be_picked_up; }
   double lost_s(std::int64_t stamp_ns) const { return static_cast<double>(stamp_ns - *state_.lost_since_ns) * 1e-9; }
 
   LocalizerConfig config_;

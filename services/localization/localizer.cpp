@@ -11,6 +11,14 @@ void count(const Step& step, LocalizerCounters& counters) {
   else if (!step.is_by_wheels()) ++counters.without_odometry;
 }
 
+/// With what was concluded of it.
+sensing::OdometryStep odometry_step(const Step& step, const ScanMatch& match, const sensing::WheelFactors& factors) {
+  sensing::OdometryStep record{.stamp_ns = step.stamp_ns, .duration_s = step.duration_s, .explanation = step.explanation, .is_jump = step.has_doubted_wheels};
+  if (step.has_wheels() || step.has_doubted_wheels) record.by_wheels = sensing::corrected(step.uncorrected_by_wheels, step.duration_s, factors);
+  if (match.is_believed && !match.is_lost) record.by_matches = matched_step(step, match);
+  return record;
+}
+
 void count(const ScanMatch& match, LocalizerCounters& counters) {
   if (match.was_searched) ++counters.searches;
   if (match.was_sampled) ++counters.sampled_matches;
@@ -34,6 +42,8 @@ Localizer::Localizer(const LocalizerConfig& config, work::SideWork* help)
       expected_(config),
       points_(config),
       matcher_(config, help),
+      mixture_(config),
+      keyframes_(config),
       monitor_(config),
       relocalization_(config),
       covariance_(config),
@@ -72,6 +82,7 @@ void Localizer::begin(const sensing::LaserScan& scan) {
   submaps_.begin();
   points_.deskew(scan, 0.0, 0.0);
   prediction_.begin(scan.stamp_ns);
+  episodes_.begin(scan.stamp_ns);
 }
 
 void Localizer::place_next(const sensing::LaserScan& scan) {
@@ -82,21 +93,51 @@ void Localizer::place_next(const sensing::LaserScan& scan) {
 
 /// Takes the estimate to a scan after the first. False where its match is not believed.
 bool Localizer::place(const sensing::LaserScan& scan) {
-  const Step step = prediction_.predict(scan.stamp_ns);
+  Step step = prediction_.predict(scan.stamp_ns);
   count(step, counters_);
-  points_.deskew(sweep_.corrected(scan), step.speed_mps, step.yaw_rate_radps);
-  points_.select(scan, step.after.odom_from_base, expected_.masks_at(scan.stamp_ns));
-  const ScanMatch found = match_or_relocalize(scan, step);
+  take_points(scan, step);
+  const std::optional<ExplainedStep> explained = explain(scan, step);
+  if (explained) step = explained->step;
+  const ScanMatch found = match_or_relocalize(scan, step, explained ? &explained->registered : nullptr);
+  const sensing::OdometryStep concluded = odometry_step(step, found, prediction_.state().belief.factors);
   prediction_.observe(step, found);
+  episodes_.observe(concluded, prediction_.state().belief.factors);
+  counters_.recalibrations = prediction_.state().belief.recalibrations;
   covariance_.observe(step, found);
   sweep_.observe(scan, step, points_, found, submaps_.map().surfels());
   submaps_.travel(matched_step(step, found));
+  if (found.is_believed && !found.is_lost) compare_odometry(scan, step, found);
   if (monitor_.has_gone_astray(scan.stamp_ns)) begin_astray_map();
   return found.is_believed && !found.is_lost && monitor_.trust() == PoseTrust::kConfirmed;
 }
 
-ScanMatch Localizer::match_or_relocalize(const sensing::LaserScan& scan, const Step& step) {
-  ScanMatch found = matcher_.match({points_.matched(), submaps_.map().surfels(), step, scan.sequence});
+void Localizer::compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found) {
+  if (!config_.belief.enabled) return;
+  const auto comparison = keyframes_.observe({step, found.odom_from_base.pose, points_, scan.scanner.scanner_id});
+  if (comparison) prediction_.compare(comparison->by_wheels, comparison->by_scans, comparison->duration_s);
+}
+
+/// The points of the scan, without the motion of the step.
+void Localizer::take_points(const sensing::LaserScan& scan, const Step& step) {
+  points_.deskew(sweep_.corrected(scan), step.speed_mps, step.yaw_rate_radps);
+  points_.select(scan, step.after.odom_from_base, expected_.masks_at(scan.stamp_ns));
+}
+
+/// How the step came about, where odometry predicts it and may be wrong.
+std::optional<ExplainedStep> Localizer::explain(const sensing::LaserScan& scan, const Step& by_wheels) {
+  const bool may_be_judged = config_.belief.enabled && (by_wheels.is_by_wheels() || by_wheels.source == StepSource::kReach) && by_wheels.duration_s > 0.0 && matcher_.can_match(points_.matched());
+  if (!may_be_judged) return std::nullopt;
+  const auto take = [&](const Step& step) { take_points(scan, step); };
+  ExplainedStep explained = mixture_.explain({prediction_.explanations(by_wheels), prediction_.weights(), prediction_.state().belief.usual_share, points_, submaps_.map(), take}, matcher_);
+  prediction_.weigh(explained.weights);
+  counters_.searches += explained.searches;
+  if (explained.step.explanation == sensing::StepExplanation::kRoughWheels) ++counters_.rough_odometry;
+  if (by_wheels.is_by_wheels() && explained.step.explanation == sensing::StepExplanation::kOther) ++counters_.disbelieved_odometry;
+  return explained;
+}
+
+ScanMatch Localizer::match_or_relocalize(const sensing::LaserScan& scan, const Step& step, const matching::PointToLineResult* registered) {
+  ScanMatch found = matcher_.match({points_.matched(), submaps_.map().surfels(), step, scan.sequence, registered});
   count(found, counters_);
   const auto verdict = monitor_.judge({found, step, points_, submaps_.map()});
   found.is_lost = verdict != LocalizationMonitor::Verdict::kFits;
@@ -184,7 +225,11 @@ void Localizer::go_on_after(const flow::CorrectedSubmap& last) {
 }
 
 Checkpoint Localizer::checkpoint_now() const {
-  return {prediction_.state(), covariance_.state(), sweep_.factor(), submaps_.state(), counters_, prediction_.recent_odometry()};
+  return {prediction_.state(), monitor_.state(), covariance_.state(), sweep_.factor(), submaps_.state(), counters_, prediction_.recent_odometry(), keyframes_.keyframe()};
+}
+
+sensing::OdometryConclusions Localizer::odometry_conclusions() const {
+  return episodes_.conclusions(calibration(), applies_stamp_offset() ? stamp_offset_s() : 0.0);
 }
 
 std::vector<std::byte> Localizer::checkpoint() const {
@@ -203,9 +248,12 @@ bool Localizer::restore(std::span<const std::byte> bytes) {
 void Localizer::resume(RestoredCheckpoint restored, OdometryPrediction&& before) {
   const Checkpoint& checkpoint = restored.checkpoint;
   prediction_.resume(checkpoint.prediction, checkpoint.odometry, std::move(before));
+  monitor_.set_state(checkpoint.monitor);
   covariance_.set_state(checkpoint.covariance);
   sweep_.set_factor(checkpoint.sweep_factor);
   counters_ = checkpoint.counters;
+  keyframes_.resume(checkpoint.keyframe);
+  episodes_.begin(checkpoint.prediction.last->stamp_ns);
   submaps_.resume(checkpoint.submaps, std::move(restored.map));
 }
 

@@ -12,14 +12,17 @@
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/submap.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "common/sensing/odometry_episodes.hpp"
 #include "common/sensing/scan.hpp"
 #include "common/work/side_work.hpp"
 #include "services/localization/checkpoint.hpp"
 #include "services/localization/expected_objects.hpp"
+#include "services/localization/keyframe_odometry.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/localization_monitor.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/localizer_counters.hpp"
+#include "services/localization/mixture_match.hpp"
 #include "services/localization/odometry_prediction.hpp"
 #include "services/localization/published_covariance.hpp"
 #include "services/localization/relocalization.hpp"
@@ -93,6 +96,8 @@ class Localizer {
   double stamp_offset_s() const { return prediction_.stamp_offset_s(); }
   double stamp_offset_sigma_s() const { return prediction_.stamp_offset_sigma_s(); }
   bool applies_stamp_offset() const { return prediction_.state().applies_stamp_offset; }
+  /// What was concluded of odometry so far; since the last restore().
+  sensing::OdometryConclusions odometry_conclusions() const;
   const SweepFactor& sweep_factor() const { return sweep_.factor(); }
   const LocalizerCounters& counters() const { return counters_; }
   const LocalMap& local_map() const { return submaps_.map(); }
@@ -123,7 +128,10 @@ class Localizer {
   void begin(const sensing::LaserScan& scan);
   void place_next(const sensing::LaserScan& scan);
   bool place(const sensing::LaserScan& scan);
-  ScanMatch match_or_relocalize(const sensing::LaserScan& scan, const Step& step);
+  void compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found);
+  void take_points(const sensing::LaserScan& scan, const Step& step);
+  std::optional<ExplainedStep> explain(const sensing::LaserScan& scan, const Step& by_wheels);
+  ScanMatch match_or_relocalize(const sensing::LaserScan& scan, const Step& step, const matching::PointToLineResult* registered);
   std::optional<ScanMatch> relocalize(const Step& step);
   void begin_astray_map();
   bool can_be_placed_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) const;
@@ -138,6 +146,8 @@ class Localizer {
   ExpectedObjects expected_;
   ScanPoints points_;                       ///< Of the scan at hand.
   ScanMatcher matcher_;
+  MixtureMatch mixture_;
+  KeyframeOdometry keyframes_;
   LocalizationMonitor monitor_;
   Relocalization relocalization_;
   PublishedCovariance covariance_;
@@ -145,6 +155,7 @@ class Localizer {
   ScanDescription description_;
   ScanIntegration integration_;
   LocalizerCounters counters_;
+  sensing::OdometryEpisodes episodes_;
   std::optional<Progress> before_scan_;     ///< Before the last one, while it may be localized again.
 };
 

@@ -3,6 +3,7 @@
 #include "common/matching/correlative.hpp"
 #include "common/matching/point_to_line.hpp"
 #include "common/sensing/motion_model.hpp"
+#include "common/sensing/odometry_belief.hpp"
 #include "common/sensing/variance_factor.hpp"
 #include "services/localization/ambiguous_match.hpp"
 #include "services/localization/local_map.hpp"
@@ -46,7 +47,9 @@ struct LocalizerConfig {
   double compared_over_s = 1.0;           ///< Published covariances are to be honest about the motion over this time.
   double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
   double drift_rad_per_sqrt_m = 0.0002;  ///< Over 100 m that is 0.1 degrees; simulated drives show 0.04 to 0.06.
+  bool time_is_known = true;              ///< Off where the log has no clock and stamps were made up: no speed means anything.
   WheelJumpConfig wheel_jump;
+  sensing::OdometryBeliefConfig belief;
   LocalMapConfig map;
   matching::CorrelativeConfig search;
   sensing::MotionModelConfig motion;

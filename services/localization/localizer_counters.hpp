@@ -21,6 +21,9 @@ struct LocalizerCounters {
   std::uint64_t withheld_scans = 0;       ///< Not put into the map: it was not sure enough where they were.
   std::uint64_t odometry_jumps = 0;       ///< Steps taken at constant velocity instead.
   std::uint64_t without_odometry = 0;
+  std::uint64_t rough_odometry = 0;       ///< Steps whose odometry was off by several of its sigmas,
+  std::uint64_t disbelieved_odometry = 0; ///< and such as it told nothing of.
+  std::uint64_t recalibrations = 0;       ///< Way and turn factors of odometry set anew.
   std::uint64_t gaps = 0;                 ///< Steps longer than longest_step_s.
   std::uint64_t fallback_integrations = 0;///< Labels came too late or not at all.
   std::uint64_t restored_points = 0;      ///< Given back by tracking.
@@ -42,6 +45,9 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
           {"withheld_scans", counters.withheld_scans},
           {"odometry_jumps", counters.odometry_jumps},
           {"without_odometry", counters.without_odometry},
+          {"rough_odometry", counters.rough_odometry},
+          {"disbelieved_odometry", counters.disbelieved_odometry},
+          {"recalibrations", counters.recalibrations},
           {"gaps", counters.gaps},
           {"fallback_integrations", counters.fallback_integrations},
           {"restored_points", counters.restored_points},

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/localization/step_explanations.hpp"
+
 namespace slammot::localization {
 namespace {
 
@@ -19,8 +21,22 @@ constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelera
 
 std::int64_t to_ns(double duration_s) { return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s)); }
 
+/// With the velocity of the step: another scanner's at the same time says nothing about it.
+Step with_velocity(Step step, const OdometryPrediction::LastScan& last) {
+  step.before_from_base = geometry::inverse(step.odom_from_base_before.pose) * step.after.odom_from_base;
+  const bool is_later = step.duration_s > 0.0;
+  step.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last.speed_mps;
+  step.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last.yaw_rate_radps;
+  return step;
+}
+
 bool is_still(const Pose2& by_wheels, double duration_s) {
   return std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m && std::abs(by_wheels.heading_rad) <= kStandsWithin_radps * duration_s;
+}
+
+bool is_sure_of_velocity(const sensing::MotionEstimate& estimate) {
+  constexpr double kSure_mps = 1.0;  // one sigma
+  return estimate.covariance.bottomRightCorner<2, 2>()(0, 0) < kSure_mps * kSure_mps;
 }
 
 }  // namespace
@@ -59,10 +75,12 @@ std::optional<Pose2> OdometryPrediction::wheel_from_base_at(std::int64_t stamp_n
   return at_offset ? at_offset : at_stamp;
 }
 
-/// None where wheels spoke at one end of the step only.
+/// None where wheels spoke at one end of the step only. Of the last scan they may have spoken since.
 std::optional<Pose2> OdometryPrediction::step_by_wheels(const Step& step) const {
-  if (!step.wheel_from_base || !state_.last->has_wheels) return std::nullopt;
-  return geometry::inverse(wheel_from_base_at(state_.last->stamp_ns).value_or(state_.last->wheel_from_base)) * *step.wheel_from_base;
+  std::optional<Pose2> before = wheel_from_base_at(state_.last->stamp_ns);
+  if (!before && state_.last->has_wheels) before = state_.last->wheel_from_base;
+  if (!before || !step.wheel_from_base) return std::nullopt;
+  return geometry::inverse(*before) * *step.wheel_from_base;
 }
 
 /// What the wheels say of the step from the last scan to the stamp, or of one so much later.
@@ -70,7 +88,7 @@ std::optional<Pose2> OdometryPrediction::wheel_step(std::int64_t stamp_ns, std::
   const auto before = odometry_.wheel_from_base_after(state_.last->stamp_ns, after_ns);
   const auto after = odometry_.wheel_from_base_after(stamp_ns, after_ns);
   if (!before || !after) return std::nullopt;
-  return geometry::inverse(*before) * *after;
+  return sensing::corrected(geometry::inverse(*before) * *after, static_cast<double>(stamp_ns - state_.last->stamp_ns) * kNanosecond_s, state_.belief.factors);
 }
 
 /// How the step changes with the offset, told from how it changed just before: with the step itself, its noise would be
@@ -113,14 +131,20 @@ sensing::MotionEstimate OdometryPrediction::doubted_velocity(const Pose2& by_whe
 void OdometryPrediction::follow_wheels(const Pose2& by_wheels, Step& step) const {
   step.source = StepSource::kOdometry;
   step.stood_s = is_still(by_wheels, step.duration_s) ? state_.last->stood_s + step.duration_s : 0.0;
-  step.is_standing = !config_.may_be_picked_up && step.stood_s > kStandsAfter_s;
+  step.is_standing = step.stood_s > kStandsAfter_s;
   if (step.is_standing) step.after = sensing::stood_still(state_.estimate, step.duration_s, config_.motion);
   else step.after = moved_by_wheels(by_wheels, step.stamp_ns, step.duration_s);
 }
 
 void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const {
+  step.explanation = sensing::StepExplanation::kOther;
   step.source = step.wheel_from_base || state_.last->has_wheels ? StepSource::kVelocityThisOnce : StepSource::kVelocityAlone;
-  step.after = sensing::moved_at_velocity(before, std::min(step.duration_s, config_.longest_step_s), config_.motion);
+  if (has_velocity(step, config_)) {
+    step.after = sensing::moved_at_velocity(before, std::min(step.duration_s, config_.longest_step_s), config_.motion);
+    return;
+  }
+  step.source = StepSource::kReach;
+  step = StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).without_odometry(std::move(step));
 }
 
 Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
@@ -131,24 +155,83 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   step.wheel_from_base = wheel_from_base_at(stamp_ns);
   step.odom_from_base_before = state_.estimate.uncertain_pose();
   step.last_was_sampled = state_.last->was_sampled;
-  const std::optional<Pose2> by_wheels = step_by_wheels(step);
-  const bool cannot_be = by_wheels && is_impossible(*by_wheels, step.duration_s);
-  const bool is_jump = by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
+  step.usual_duration_s = state_.belief.usual_step_s;
+  std::optional<Pose2> by_wheels = step_by_wheels(step);
+  if (by_wheels) {
+    step.uncorrected_by_wheels = *by_wheels;
+    by_wheels = sensing::corrected(*by_wheels, step.duration_s, state_.belief.factors);
+  }
+  const bool was_disbelieved = state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;
+  step.wheels_changed = config_.time_is_known && by_wheels && (was_disbelieved || sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s));
+  const bool cannot_be = config_.time_is_known && by_wheels && is_impossible(*by_wheels, step.duration_s);
+  const bool is_jump = config_.time_is_known && by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
   step.has_doubted_wheels = cannot_be || is_jump;
-  if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
+  if (state_.belief.is_disbelieved && by_wheels) step = StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).other(step);
+  else if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
   else go_on_at_velocity(is_jump ? doubted_velocity(*by_wheels, step.duration_s) : state_.estimate, step);
-  step.before_from_base = geometry::inverse(state_.estimate.odom_from_base) * step.after.odom_from_base;
-  const bool is_later = step.duration_s > 0.0;  // another scanner's at the same time says nothing about the motion
-  step.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : state_.last->speed_mps;
-  step.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : state_.last->yaw_rate_radps;
-  return step;
+  return with_velocity(step, *state_.last);
+}
+
+StepMixture OdometryPrediction::explanations(const Step& by_wheels) const {
+  if (!by_wheels.is_by_wheels()) return {by_wheels};
+  const StepExplanations alternatives{state_.estimate, state_.belief, config_, motion_of_one_clock_};
+  StepMixture steps{by_wheels, alternatives.rough(by_wheels), alternatives.other(by_wheels)};
+  if (auto recalibrated = alternatives.recalibrated(by_wheels)) steps.push_back(*recalibrated);
+  for (Step& step : steps) step = with_velocity(step, *state_.last);
+  return steps;
 }
 
 void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
   state_.estimate = match.is_believed ? sensing::matched(step.after, match.odom_from_base) : step.after;
+  if (step.duration_s > 0.0) learn_wheels(step, match);
   learn_stamp_offset(step, match);
   renew_map(matched_step(step, match), match);
   state_.last = last_after(step, match);
+}
+
+void OdometryPrediction::compare(const Pose2& by_wheels, const std::optional<geometry::UncertainPose2>& by_scans, double duration_s) {
+  constexpr double kAdoptAbove = 2.0;
+  constexpr double kAdoptAfter_s = 8.0;   // wheels slip for seconds
+  sensing::OdometryBelief& belief = state_.belief;
+  const Pose2 corrected = sensing::corrected(by_wheels, duration_s, belief.factors);
+  const Pose2 as_believed = sensing::predict_step(corrected, duration_s, state_.estimate.calibration, motion_of_one_clock_).pose;
+  belief = sensing::compared(belief, {by_wheels, as_believed, by_scans, duration_s});
+  belief.disbelieved_s = belief.is_disbelieved ? belief.disbelieved_s + duration_s : 0.0;
+  if (belief.disbelieved_s < kAdoptAfter_s || belief.log_odds_of_factors < kAdoptAbove) return;
+  adopt_wheel_factors();
+  belief.log_odds = belief.log_odds_of_factors;
+  belief.is_disbelieved = false;
+}
+
+void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) {
+  constexpr double kAdoptAbove = 0.8;
+  constexpr int kAdoptAfterScans = 3;
+  sensing::OdometryBelief& belief = state_.belief;
+  const bool is_matched = match.is_believed && !match.is_lost;
+  belief = sensing::moved(belief, step.explanation, step.duration_s, is_matched ? std::optional(matched_step(step, match)) : std::nullopt, config_.motion, config_.belief);
+  if (is_matched) belief.usual_share += config_.belief.usual_share_memory * (match.matched_share - belief.usual_share);
+  if (step.has_wheels() || step.has_doubted_wheels) belief = sensing::with_wheels(belief, step.uncorrected_by_wheels, step.duration_s);
+  const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels && step.wheel_from_base && state_.last->has_wheels && !step.has_doubted_wheels;
+  if (is_matched && tells_of_wheels && !match.was_sampled) belief.estimator.observe(step.uncorrected_by_wheels, matched_step(step, match), step.duration_s);
+  const bool is_better = belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)] > kAdoptAbove;
+  belief.recalibrated_scans = is_better ? belief.recalibrated_scans + 1 : 0;
+  if (belief.recalibrated_scans >= kAdoptAfterScans) adopt_wheel_factors();
+}
+
+/// What was learned of the wheels beside the old factors is worth nothing beside the new ones.
+void OdometryPrediction::adopt_wheel_factors() {
+  sensing::OdometryBelief& belief = state_.belief;
+  belief.recalibrated_scans = 0;
+  ++belief.recalibrations;
+  belief.factors = belief.estimator.factors();
+  std::swap(belief.weights[sensing::index_of(sensing::StepExplanation::kWheels)], belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)]);
+  const sensing::MotionEstimate fresh = sensing::at_start(motion_of_one_clock_);
+  for (sensing::MotionEstimate* estimate : {&state_.estimate, &state_.with_stamp_offset}) {
+    estimate->calibration.head<3>().setZero();
+    estimate->covariance.middleRows<3>(3).setZero();
+    estimate->covariance.middleCols<3>(3).setZero();
+    estimate->covariance.block<3, 3>(3, 3) = fresh.covariance.block<3, 3>(3, 3);
+  }
 }
 
 /// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
@@ -156,7 +239,7 @@ void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& m
   if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;
   sensing::MotionEstimate& watched = state_.with_stamp_offset;
   const double offset_s = sensing::stamp_offset_s(watched);
-  const bool tells = step.is_by_wheels() && !step.is_standing && match.is_believed && !match.was_sampled && !match.is_lost && tells_of_stamps(step.stamp_ns);
+  const bool tells = step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() && !step.is_standing && match.is_believed && !match.was_sampled && !match.is_lost && tells_of_stamps(step.stamp_ns);
   const auto by_wheels = tells ? wheel_step(step.stamp_ns, to_ns(offset_s)) : std::nullopt;
   if (!by_wheels) {
     watched = sensing::put_at(watched, state_.estimate.uncertain_pose());
@@ -183,7 +266,7 @@ OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step, co
   return {.stamp_ns = step.stamp_ns,
           .has_wheels = step.wheel_from_base.has_value(),
           .wheel_from_base = step.wheel_from_base.value_or(Pose2{}),
-          .knows_velocity = is_later || state_.last->knows_velocity,
+          .knows_velocity = state_.last->knows_velocity || (is_later && (step.is_by_wheels() || is_sure_of_velocity(state_.estimate))),
           .was_sampled = match.was_sampled,
           .speed_mps = is_by_velocity ? state_.estimate.velocity.x() : step.speed_mps,
           .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,

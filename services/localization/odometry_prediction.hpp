@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <vector>
 
 #include "common/sensing/motion_model.hpp"
+#include "common/sensing/odometry_belief.hpp"
 #include "common/sensing/odometry_buffer.hpp"
 #include "common/sensing/stamp_guard.hpp"
 #include "services/localization/localizer_config.hpp"
@@ -16,6 +20,7 @@ namespace slammot::localization {
 /// What a step was predicted by.
 enum class StepSource {
   kOdometry,           ///< Wheels, corrected by their calibration, or known to stand.
+  kReach,              ///< Anywhere within reach: no odometry, and scans too rare for a velocity.
   kVelocityThisOnce,   ///< Constant velocity: wheels were not believed, or spoke at one end of the step only.
   kVelocityAlone,      ///< Constant velocity: there are no wheels.
 };
@@ -36,9 +41,40 @@ struct Step {
   bool has_doubted_wheels = false;                  ///< They reported a motion that the vehicle cannot have made.
   bool is_gap = false;                              ///< Longer than longest_step_s.
   bool last_was_sampled = false;                    ///< The last match left some direction to the prediction.
+  double usual_duration_s = 0.1;                    ///< Of the steps before.
+  sensing::StepExplanation explanation = sensing::StepExplanation::kWheels;   ///< Which component of the mixture of predictions this is.
+  bool wheels_changed = false;                      ///< Odometry changed its velocity as no vehicle does, or was not believed at the last scan.
+  bool explanation_was_chosen = false;              ///< Odometry predicted the step, and another explanation won.
+  geometry::Pose2 uncorrected_by_wheels;            ///< As odometry has the step.
 
+  /// Whether odometry spoke of the step and was no jump, believed or not.
+  bool has_wheels() const { return is_by_wheels() || explanation_was_chosen; }
   bool is_by_wheels() const { return source == StepSource::kOdometry; }
   geometry::UncertainPose2 prior() const { return after.uncertain_pose(); }
+};
+
+/// The explanations of one step, odometry as calibrated first. Holds them without allocation.
+class StepMixture {
+ public:
+  StepMixture(std::initializer_list<Step> steps) {
+    for (const Step& step : steps) push_back(step);
+  }
+
+  /// At most one for each sensing::StepExplanation.
+  void push_back(const Step& step) { steps_.at(size_++) = step; }
+
+  std::size_t size() const { return size_; }
+  const Step& front() const { return steps_.front(); }
+  Step& front() { return steps_.front(); }
+  const Step& operator[](std::size_t i) const { return steps_[i]; }
+  auto begin() { return steps_.begin(); }
+  auto end() { return steps_.begin() + static_cast<std::ptrdiff_t>(size_); }
+  auto begin() const { return steps_.begin(); }
+  auto end() const { return steps_.begin() + static_cast<std::ptrdiff_t>(size_); }
+
+ private:
+  std::array<Step, sensing::kStepExplanations> steps_;
+  std::size_t size_ = 0;
 };
 
 /// The step as the match has it: pose of the base at the scan, in that at the last one.
@@ -71,6 +107,7 @@ class OdometryPrediction {
     sensing::MotionEstimate with_stamp_offset;      ///< Of the same motion, until then: what it would be with the offset learned.
     bool applies_stamp_offset = false;
     std::optional<LastScan> last;                   ///< None before the first scan.
+    sensing::OdometryBelief belief;
   };
 
   explicit OdometryPrediction(const LocalizerConfig& config);
@@ -86,6 +123,17 @@ class OdometryPrediction {
 
   /// The step from the last scan to the stamp, not before it. Changes nothing.
   Step predict(std::int64_t stamp_ns) const;
+
+  /// All explanations of a step that odometry predicts, that one first: see sensing::StepExplanation. Of any other step only it.
+  StepMixture explanations(const Step& by_wheels) const;
+
+  /// Feedback: odometry (not corrected) beside what two scans some way apart tell.
+  void compare(const geometry::Pose2& by_wheels, const std::optional<geometry::UncertainPose2>& by_scans, double duration_s);
+
+  /// Feedback: how likely the scan is under each explanation, before observe().
+  void weigh(const sensing::ExplanationWeights& weights) { state_.belief.weights = weights; }
+  /// Weights of the explanations before the scan at hand.
+  sensing::ExplanationWeights weights() const { return sensing::predicted(state_.belief.weights, config_.belief); }
 
   /// Feedback: what the match of the step's scan said. The estimate is then that at the scan, which becomes the last one.
   void observe(const Step& step, const ScanMatch& match);
@@ -123,6 +171,8 @@ class OdometryPrediction {
   sensing::MotionEstimate moved_by_wheels(const geometry::Pose2& by_wheels, std::int64_t stamp_ns, double duration_s) const;
   void follow_wheels(const geometry::Pose2& by_wheels, Step& step) const;
   void go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const;
+  void adopt_wheel_factors();
+  void learn_wheels(const Step& step, const ScanMatch& match);
   void learn_stamp_offset(const Step& step, const ScanMatch& match);
   void renew_map(const geometry::Pose2& before_from_base, const ScanMatch& match);
   LastScan last_after(const Step& step, const ScanMatch& match) const;

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "common/geometry/uncertain_pose2.hpp"
 #include "common/grids/surfel_map.hpp"
-#include "common/matching/correlative.hpp"
 #include "common/matching/point_to_line.hpp"
+#include "common/matching/wide_search.hpp"
 #include "services/localization/localizer_config.hpp"
 
 namespace slammot::localization {
@@ -13,20 +14,26 @@ namespace slammot::localization {
 /// Whether a prediction is too unsure for a match to begin at it.
 bool is_vague(const geometry::UncertainPose2& prior, const LocalizerConfig& config);
 
-/// Searches the local map for poses at which the points of a scan lie on it, by correlation.
+/// Window of search_sigmas around the prior, no farther than search_reach_m.
+matching::SearchWindow search_window(const geometry::UncertainPose2& prior, const LocalizerConfig& config);
+
+/// Searches the local map for poses at which the points of a scan lie on it: correlation by branch and bound, coarser the wider the
+/// window is, with a bound on the work that is counted and not timed.
 class PoseSearch {
  public:
-  /// search: how many peaks are told apart, and how fine; in place of the configuration's own.
-  PoseSearch(const LocalizerConfig& config, const matching::CorrelativeConfig& search);
+  /// max_peaks: how many poses are told apart at most.
+  PoseSearch(const LocalizerConfig& config, std::size_t max_peaks);
 
-  /// Best first, within search_sigmas of the prior; empty where nothing scores.
-  std::vector<matching::Peak> peaks_around(const geometry::UncertainPose2& prior, const std::vector<matching::MatchPoint>& points, const grids::SurfelMap& surfels);
+  /// Poses in odom, best first, within search_sigmas of the prior; empty where nothing scores. The surfels in reach are taken anew.
+  std::vector<geometry::Pose2> poses_around(const geometry::UncertainPose2& prior, const std::vector<matching::MatchPoint>& points, const grids::SurfelMap& surfels);
 
  private:
-  matching::SearchWindow window_about(const geometry::UncertainPose2& prior) const;
+  double cell_m_for(const matching::SearchWindow& window) const;
+  std::vector<Eigen::Vector2f> thinned(const std::vector<matching::MatchPoint>& points) const;
+  std::vector<matching::TargetPoint> targets_about(const geometry::Vector2& centre_m, const grids::SurfelMap& surfels) const;
 
   LocalizerConfig config_;
-  matching::CorrelativeMatcher matcher_;
+  std::size_t max_peaks_;
 };
 
 }  // namespace slammot::localization

@@ -6,7 +6,9 @@ namespace slammot::localization {
 
 void PublishedCovariance::observe(const Step& step, const ScanMatch& match) {
   if (match.is_believed) {
-    const double share = 1.0 - std::exp(-step.duration_s / config_.variance_memory_s);
+    // What scans of several scanners at the same time say of each other counts as if one came a usual step later.
+    const double apart_s = step.duration_s > 0.0 ? step.duration_s : step.usual_duration_s;
+    const double share = 1.0 - std::exp(-apart_s / config_.variance_memory_s);
     state_.factors = sensing::learned(state_.factors, step.prior(), match.odom_from_base, share);
     state_.map_change.squared_residuals = std::pow(match.rms_residual_m / config_.range_noise_m, 2);
   }

@@ -15,7 +15,6 @@ using geometry::UncertainPose2;
 constexpr double kWindowPerScan_m = 2.0;       // the longer it is lost, the wider it looks
 constexpr unsigned kScansBetweenWideSearches = 16;
 constexpr std::size_t kPoses = 4;              // that are looked at
-constexpr double kLeastPeakRatio = 0.7;
 constexpr double kRivalRatio = 0.98;           // with another pose that is as good as this it waits for a scan that tells
 
 /// A wide search costs as much as hundreds of matches.
@@ -28,15 +27,9 @@ bool are_same(const geometry::Pose2& a, const geometry::Pose2& b) {
   return apart.head<2>().norm() < kSame_m && std::abs(apart.z()) < kSame_rad;
 }
 
-matching::CorrelativeConfig of_several_poses(matching::CorrelativeConfig search) {
-  search.max_peaks = kPoses;
-  search.min_peak_ratio = kLeastPeakRatio;
-  return search;
-}
-
 }  // namespace
 
-Relocalization::Relocalization(const LocalizerConfig& config) : config_(config), search_(config, of_several_poses(config.search)) {}
+Relocalization::Relocalization(const LocalizerConfig& config) : config_(config), search_(config, kPoses) {}
 
 /// Whichever way it looks now: a room looks much the same from both of its ends, and only all the answers together tell.
 UncertainPose2 Relocalization::anywhere_about(const UncertainPose2& prior, int lost_scans) const {
@@ -46,9 +39,8 @@ UncertainPose2 Relocalization::anywhere_about(const UncertainPose2& prior, int l
   return anywhere;
 }
 
-Relocalization::Candidate Relocalization::registered(const matching::Peak& peak, const geometry::Matrix3& covariance, const ScanPoints& points, const LocalMap& map,
+Relocalization::Candidate Relocalization::registered(const geometry::Pose2& about, const geometry::Matrix3& covariance, const ScanPoints& points, const LocalMap& map,
                                                      const ScanToMatch& scan, ScanMatcher& matcher) const {
-  const geometry::Pose2& about = peak.target_from_source.pose;
   const matching::PointToLineResult result = matcher.register_from(about, {about, covariance}, scan);
   const double contradicted = agreement(points, result.map_from_base.pose, map.evidence(), config_.map).contradicting_share();
   if (result.matched_share < config_.found_share || contradicted > kFoundByHalf * config_.most_contradicted_share) return {};
@@ -61,8 +53,8 @@ RelocalizationResult Relocalization::find(int lost_scans, const Step& step, cons
   const UncertainPose2 anywhere = anywhere_about(step.prior(), lost_scans);
   Candidate best;
   double rival_quality = 0.0;
-  for (const matching::Peak& peak : search_.peaks_around(anywhere, points.matched(), map.surfels())) {
-    const Candidate candidate = registered(peak, anywhere.covariance, points, map, {points.matched(), map.surfels(), step}, matcher);
+  for (const geometry::Pose2& pose : search_.poses_around(anywhere, points.matched(), map.surfels())) {
+    const Candidate candidate = registered(pose, anywhere.covariance, points, map, {points.matched(), map.surfels(), step}, matcher);
     if (candidate.quality == 0.0) continue;
     const bool is_same = best.quality > 0.0 && are_same(best.match.odom_from_base.pose, candidate.match.odom_from_base.pose);
     if (!is_same) rival_quality = std::max(rival_quality, std::min(candidate.quality, best.quality));

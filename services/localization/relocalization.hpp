@@ -33,7 +33,7 @@ class Relocalization {
   };
 
   geometry::UncertainPose2 anywhere_about(const geometry::UncertainPose2& prior, int lost_scans) const;
-  Candidate registered(const matching::Peak& peak, const geometry::Matrix3& covariance, const ScanPoints& points, const LocalMap& map, const ScanToMatch& scan,
+  Candidate registered(const geometry::Pose2& about, const geometry::Matrix3& covariance, const ScanPoints& points, const LocalMap& map, const ScanToMatch& scan,
                        ScanMatcher& matcher) const;
 
   LocalizerConfig config_;

@@ -12,6 +12,7 @@ struct ScanMatch {
   bool is_lost = false;           ///< There were enough points, and they did not match.
   bool was_searched = false;      ///< By correlation, before it was refined.
   double rms_residual_m = 0.0;    ///< Of a believed match.
+  double matched_share = 0.0;     ///< Of the points.
   double new_share = 0.0;         ///< Share of the matched map that is new; 0 where was_sampled: the map says nothing of that direction.
 };
 

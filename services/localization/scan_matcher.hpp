@@ -9,6 +9,7 @@
 #include "services/localization/ambiguous_match.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/odometry_prediction.hpp"
+#include "common/matching/correlative.hpp"
 #include "services/localization/pose_search.hpp"
 #include "services/localization/scan_match.hpp"
 
@@ -20,6 +21,7 @@ struct ScanToMatch {
   const grids::SurfelMap& surfels;              ///< In odom.
   const Step& step;                             ///< Its prediction is the prior.
   std::uint32_t sequence = 0;                   ///< Of the scan: seed of what is sampled.
+  const matching::PointToLineResult* registered = nullptr;   ///< Where the points were registered under this prediction already.
 };
 
 /// Matches scans against the local map: point-to-line registration from the prediction, from the best answer of a search where
@@ -32,17 +34,24 @@ class ScanMatcher {
   /// The prediction where there are too few points (neither believed nor lost) or too few of them match (lost).
   ScanMatch match(const ScanToMatch& scan);
 
+  /// Whether there are enough points for a match.
+  bool can_match(const std::vector<matching::MatchPoint>& points) const { return static_cast<int>(points.size()) >= config_.min_echoes; }
+
+  /// Share of a scan's information that counts under this prediction: points of scans shortly after each other share the map's error.
+  double information_share(const Step& step) const { return config_for(step).information_share; }
+
   /// Registers from a pose other than the prediction, with this prior. No judgement of the result.
   matching::PointToLineResult register_from(const geometry::Pose2& odom_from_base, const geometry::UncertainPose2& prior, const ScanToMatch& scan);
 
  private:
-  const matching::PointToLineConfig& config_for(StepSource source) const;
+  matching::PointToLineConfig config_for(const Step& step) const;
+  geometry::Pose2 found_around(const geometry::UncertainPose2& prior, const ScanToMatch& scan);
   matching::PointToLineResult match_from_search(const ScanToMatch& scan);
 
   LocalizerConfig config_;
   matching::PointToLineConfig without_wheels_;       ///< For a step of which wheels say nothing: nothing but the scan tells of it.
   matching::PointToLineConfig by_scans_alone_;       ///< Where there are no wheels at all.
-  PoseSearch search_;
+  matching::CorrelativeMatcher search_;              ///< Exact: without odometry the first steps have nothing else.
   matching::PointToLineMatcher matcher_;
   AmbiguousMatcher ambiguous_matcher_;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <span>
+#include <utility>
 
 #include "common/graphs/path_uncertainty.hpp"
 
@@ -22,6 +24,7 @@ constexpr double kAnyHeading_rad = 1.0;              // one sigma
 constexpr double kSamePlaceCells = 5.0;              // of the search: nearer to each other it does not tell places apart,
 constexpr double kSamePlace_rad = 0.15;              // nor with less between their headings
 constexpr double kClearlyWorse = 2.0;                // times the contradictions of the best,
+constexpr int kMostUnsolved = 10;                    // closures that the graph predicted, before it is solved again
 constexpr double kNoise_share = 0.01;                // and this much more
 constexpr double kSameWithinSquaredSigmas = 11.3;  // chi-square, 3 degrees of freedom, 99 %
 
@@ -77,7 +80,7 @@ Constraint loop_constraint(const Hypothesis& hypothesis) {
 
 }  // namespace
 
-LoopCloser::LoopCloser(const LoopClosingConfig& config) : config_(config), graph_(config.graph), finder_(config.revisit) {}
+LoopCloser::LoopCloser(const LoopClosingConfig& config) : config_(config), graph_(config.graph), searches_(config.search) {}
 
 flow::GraphCorrection LoopCloser::add(const flow::Submap& submap) {
   if (graph_.contains(submap.submap_id)) {
@@ -95,13 +98,38 @@ flow::GraphCorrection LoopCloser::add(const flow::Submap& submap) {
   const Place& source = places_.emplace(submap.submap_id, make_place(submap, travelled_m_, config_.place)).first->second;
   travelled_m_ += submap.travelled_m;
   look_for_revisits(source);
+  for (const SearchQueue::Finished& search : searches_.advance()) take(search);
   close_what_is_firm();
   return correction();
+}
+
+flow::GraphCorrection LoopCloser::finish() {
+  for (const SearchQueue::Finished& search : searches_.finish()) {
+    take(search);
+    close_what_is_firm();
+  }
+  solve_what_waits();
+  return correction();
+}
+
+void LoopCloser::add_constraint(const Constraint& constraint) {
+  graph_.add_constraint(constraint);
+  add_to_islands(constraint);
+}
+
+void LoopCloser::add_to_islands(const Constraint& constraint) {
+  const SubmapId a = island_of_.at(constraint.from);
+  const SubmapId b = island_of_.at(constraint.to);
+  if (a == b) return;
+  for (auto& [id, island] : island_of_) {
+    if (island == std::max(a, b)) island = std::min(a, b);
+  }
 }
 
 void LoopCloser::extend_graph(const flow::Submap& submap) {
   if (places_.empty()) {
     graph_.add_node(submap.submap_id, submap.odom_from_submap);
+    island_of_.emplace(submap.submap_id, submap.submap_id);
     return;
   }
   const Place& previous = places_.rbegin()->second;
@@ -111,13 +139,14 @@ void LoopCloser::extend_graph(const flow::Submap& submap) {
   if (!follows_directly) previous_from_submap.pose = geometry::inverse(previous.odom_from_submap) * submap.odom_from_submap;
   previous_from_submap.covariance = with_floor(previous_from_submap.covariance);
   graph_.add_node(submap.submap_id, graph_.map_from_node(previous.id) * previous_from_submap.pose);
+  island_of_.emplace(submap.submap_id, submap.submap_id);
   // However weak, a tie that is wrong by a kilometre would pull.
   if (has_gone_astray(submap)) return;
-  graph_.add_constraint({previous.id, submap.submap_id, ConstraintKind::kOdometric, previous_from_submap});
+  add_constraint({previous.id, submap.submap_id, ConstraintKind::kOdometric, previous_from_submap});
 }
 
 std::map<SubmapId, UncertainPose2> LoopCloser::expectations_from(SubmapId id) const {
-  std::vector<Constraint> widened = graph_.constraints();
+  std::vector<Constraint> widened = active_constraints();
   const double scale = config_.odometry_sigma_scale * config_.odometry_sigma_scale;
   for (Constraint& constraint : widened) {
     if (constraint.kind == ConstraintKind::kOdometric) constraint.from_to.covariance *= scale;
@@ -138,11 +167,15 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates_for(const Place& sourc
     if (distance_m > config_.max_distance_m + config_.gate_sigmas * widest_sigma_m(source_from_target.covariance)) continue;
     all.push_back({id, geometry::inverse(source_from_target), distance_m});
   }
+  return nearest(std::move(all), config_.max_candidates);
+}
+
+/// Neighbours of a chosen one are part of its target already.
+std::vector<LoopCloser::Candidate> LoopCloser::nearest(std::vector<Candidate> all, int most) const {
   std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.distance_m < b.distance_m; });
   std::vector<Candidate> chosen;
   for (const Candidate& candidate : all) {
-    if (static_cast<int>(chosen.size()) >= config_.max_candidates) break;
-    // Neighbours of a chosen one are part of its target already.
+    if (static_cast<int>(chosen.size()) >= most) break;
     const bool is_covered = std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& one) {
       return std::abs(static_cast<double>(one.id.value) - candidate.id.value) <= config_.neighbours;
     });
@@ -153,25 +186,21 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates_for(const Place& sourc
 
 /// The nearest by the last that is known of the vehicle: nobody knows better where to begin.
 std::vector<LoopCloser::Candidate> LoopCloser::candidates_elsewhere_for(const Place& source) const {
-  const Islands on = islands_now();
   const Vector2 source_in_map_m = graph_.map_from_node(source.id) * source.middle_m;
   std::vector<Candidate> all;
   for (const auto& [id, target] : places_) {
-    if (on.at(id) == on.at(source.id)) continue;
+    if (island_of_.at(id) == island_of_.at(source.id)) continue;
     all.push_back({id, anywhere_on(target, source, config_.max_distance_m), (graph_.map_from_node(id) * target.middle_m - source_in_map_m).norm()});
   }
-  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.distance_m < b.distance_m; });
-  all.resize(std::min(all.size(), static_cast<std::size_t>(config_.max_candidates_elsewhere)));
-  return all;
+  return nearest(std::move(all), config_.max_candidates_elsewhere);
 }
 
 Target LoopCloser::target_around(SubmapId id, const Place& source) const {
-  const Islands on = islands_now();
   Target target{{{&places_.at(id), Pose2::identity()}}};
   const Pose2 target_from_map = geometry::inverse(graph_.map_from_node(id));
   for (int step = -config_.neighbours; step <= config_.neighbours; ++step) {
     const auto found = places_.find({static_cast<std::uint32_t>(static_cast<std::int64_t>(id.value) + step)});
-    if (step == 0 || found == places_.end() || on.at(found->first) != on.at(id)) continue;
+    if (step == 0 || found == places_.end() || island_of_.at(found->first) != island_of_.at(id)) continue;
     if (source.travelled_before_m - found->second.travelled_after_m < config_.min_travel_between_m) continue;
     target.members.push_back({&found->second, target_from_map * graph_.map_from_node(found->first)});
   }
@@ -179,60 +208,72 @@ Target LoopCloser::target_around(SubmapId id, const Place& source) const {
 }
 
 void LoopCloser::look_for_revisits(const Place& source) {
-  std::erase_if(waiting_, [&](const Hypothesis& one) {
-    return one.to.value + static_cast<std::uint32_t>(config_.patience_submaps) < source.id.value;
-  });
   for (const Candidate& candidate : candidates_for(source)) {
     ++counters_.searches;
-    const auto found = finder_.find(target_around(candidate.id, source), source, candidate.target_from_source);
-    if (found.empty()) continue;
-    ++counters_.hypotheses;
-    if (found.front().has_rivals) ++counters_.ambiguous;
-    waiting_.insert(waiting_.end(), found.begin(), found.end());
+    searches_.add({config_.revisit, source, {search_at(candidate, source)}}, SearchQueue::Extent::kExpected);
   }
-  look_elsewhere(source);
+  std::vector<RevisitCandidate> elsewhere;
+  for (const Candidate& candidate : candidates_elsewhere_for(source)) elsewhere.push_back(search_at(candidate, source));
+  if (elsewhere.empty()) return;
+  counters_.searches += elsewhere.size();
+  searches_.add({config_.revisit, source, std::move(elsewhere)}, SearchQueue::Extent::kEverywhere);
 }
 
-/// Two places far from each other may look alike: those found in all of them are each other's rivals.
-void LoopCloser::look_elsewhere(const Place& source) {
-  std::vector<Hypothesis> found;
-  for (const Candidate& candidate : candidates_elsewhere_for(source)) {
-    ++counters_.searches;
-    const auto there = finder_.find(target_around(candidate.id, source), source, candidate.target_from_source);
-    found.insert(found.end(), there.begin(), there.end());
-  }
+RevisitCandidate LoopCloser::search_at(const Candidate& candidate, const Place& source) const {
+  return {target_around(candidate.id, source), candidate.target_from_source, graph_.map_from_node(candidate.id)};
+}
+
+void LoopCloser::take(const SearchQueue::Finished& search) {
+  counters_.searches_given_up = searches_.given_up();
+  counters_.search_work = searches_.work();
+  std::erase_if(waiting_, [&](const Hypothesis& one) {
+    return one.to.value + static_cast<std::uint32_t>(config_.patience_submaps) < search.source.value;
+  });
+  std::vector<Hypothesis> found = search.hypotheses;
+  if (found.empty() && !search.is_given_up && search.extent == SearchQueue::Extent::kExpected) look_at_contradictions(search);
   if (found.empty()) return;
   ++counters_.hypotheses;
-  drop_clearly_worse(found, config_.revisit.rival_ratio);
-  const Islands on = islands_now();
-  for (Hypothesis& one : found) {
-    one.has_rivals = std::any_of(found.begin(), found.end(), [&](const Hypothesis& other) { return are_rivals(one, other, on); });
+  // Two places far from each other may look alike: those found in all of them are each other's rivals.
+  if (search.extent == SearchQueue::Extent::kEverywhere) {
+    drop_clearly_worse(found, config_.revisit.rival_ratio);
+    for (Hypothesis& one : found) {
+      one.has_rivals = std::any_of(found.begin(), found.end(), [&](const Hypothesis& other) { return are_rivals(one, other); });
+    }
+  }
+  if (search.is_given_up) {
+    for (Hypothesis& one : found) one.has_rivals = true;
   }
   if (std::any_of(found.begin(), found.end(), [](const Hypothesis& one) { return one.has_rivals; })) ++counters_.ambiguous;
   waiting_.insert(waiting_.end(), found.begin(), found.end());
 }
 
 /// Whether both put one submap onto one island, in different places.
-bool LoopCloser::are_rivals(const Hypothesis& a, const Hypothesis& b, const Islands& on) const {
-  if (a.to != b.to || on.at(a.from) != on.at(b.from)) return false;
+bool LoopCloser::are_rivals(const Hypothesis& a, const Hypothesis& b) const {
+  if (a.to != b.to || island_of_.at(a.from) != island_of_.at(b.from)) return false;
   const Eigen::Vector3d apart = geometry::difference(graph_.map_from_node(a.from) * a.from_to.pose, graph_.map_from_node(b.from) * b.from_to.pose);
   return apart.head<2>().norm() > kSamePlaceCells * config_.revisit.search_cell_m || std::abs(apart.z()) > kSamePlace_rad;
 }
 
+/// Covariance of the way between two submaps, by the graph: what drifts between them is all the same if neither hypothesis is wrong.
+Matrix3 LoopCloser::drift_between(SubmapId a, SubmapId b) const {
+  constexpr double kDriftShare = 0.02;      // of the way,
+  constexpr double kDrift_radpm = 0.0005;   // and of the heading
+  const double way_m = std::abs(places_.at(a).travelled_before_m - places_.at(b).travelled_before_m);
+  return Eigen::Vector3d(kDriftShare * way_m, kDriftShare * way_m, kDrift_radpm * way_m).cwiseAbs2().asDiagonal();
+}
+
 bool LoopCloser::agree(const Hypothesis& a, const Hypothesis& b) const {
-  const Constraint between_earlier{a.from, b.from, ConstraintKind::kOdometric,
-                                   {geometry::inverse(graph_.map_from_node(a.from)) * graph_.map_from_node(b.from), Matrix3::Zero()}};
+  const UncertainPose2 between_earlier{geometry::inverse(graph_.map_from_node(a.from)) * graph_.map_from_node(b.from), drift_between(a.from, b.from)};
   const Pose2 a_to_from_b_to = geometry::inverse(graph_.map_from_node(a.to)) * graph_.map_from_node(b.to);
-  const UncertainPose2 to_to_by_both =
-      geometry::compound(geometry::compound(geometry::inverse(a.from_to), between_earlier.from_to), b.from_to);
+  UncertainPose2 to_to_by_both = geometry::compound(geometry::compound(geometry::inverse(a.from_to), between_earlier), b.from_to);
+  to_to_by_both.covariance += drift_between(a.to, b.to);
   return graphs::squared_error({a.to, b.to, ConstraintKind::kLoop, to_to_by_both}, Pose2::identity(), a_to_from_b_to) < kSameWithinSquaredSigmas;
 }
 
 int LoopCloser::support_of(const Hypothesis& hypothesis) const {
-  const Islands on = islands_now();
   std::set<SubmapId> supporters{hypothesis.to};
   for (const Hypothesis& other : waiting_) {
-    const bool is_comparable = on.at(other.to) == on.at(hypothesis.to) && on.at(other.from) == on.at(hypothesis.from);
+    const bool is_comparable = island_of_.at(other.to) == island_of_.at(hypothesis.to) && island_of_.at(other.from) == island_of_.at(hypothesis.from);
     if (other.to != hypothesis.to && is_comparable && agree(hypothesis, other)) supporters.insert(other.to);
   }
   return static_cast<int>(supporters.size());
@@ -244,7 +285,6 @@ int LoopCloser::needed_support_for(const Hypothesis& hypothesis) const {
 }
 
 void LoopCloser::close_what_is_firm() {
-  const Islands on = islands_now();
   std::vector<Hypothesis> firm;
   for (const Hypothesis& hypothesis : waiting_) {
     if (hypothesis.agreement.agreed_share() < config_.revisit.min_agreed_share) continue;  // good for the support of others
@@ -252,8 +292,8 @@ void LoopCloser::close_what_is_firm() {
     if (support < needed_support_for(hypothesis)) continue;
     const bool has_equal_rival = std::any_of(waiting_.begin(), waiting_.end(), [&](const Hypothesis& other) {
       // Found anywhere at all, it must be the only one that others support.
-      const bool is_found_elsewhere = on.at(hypothesis.from) != on.at(hypothesis.to);
-      if (is_found_elsewhere) return are_rivals(hypothesis, other, on) && support_of(other) >= std::min(support, config_.needed_support);
+      const bool is_found_elsewhere = island_of_.at(hypothesis.from) != island_of_.at(hypothesis.to);
+      if (is_found_elsewhere) return are_rivals(hypothesis, other) && support_of(other) >= std::min(support, config_.needed_support);
       const bool is_rival = other.to == hypothesis.to && other.from == hypothesis.from && &other != &hypothesis;
       return is_rival && support_of(other) >= support;
     });
@@ -270,43 +310,272 @@ void LoopCloser::close_what_is_firm() {
 }
 
 /// The later island moves, all of it: the map is where the first submap is.
-void LoopCloser::join_islands(const Hypothesis& hypothesis, const Islands& on) {
-  const bool to_moves = on.at(hypothesis.from) < on.at(hypothesis.to);
+void LoopCloser::join_islands(const Hypothesis& hypothesis) {
+  const bool to_moves = island_of_.at(hypothesis.from) < island_of_.at(hypothesis.to);
   const Pose2 map_from_from = graph_.map_from_node(hypothesis.from);
   const Pose2 map_from_to = graph_.map_from_node(hypothesis.to);
   const Pose2 shift = to_moves ? map_from_from * hypothesis.from_to.pose * geometry::inverse(map_from_to)
                                : map_from_to * geometry::inverse(hypothesis.from_to.pose) * geometry::inverse(map_from_from);
-  const SubmapId moving = on.at(to_moves ? hypothesis.to : hypothesis.from);
-  for (const auto& [id, island] : on) {
+  const SubmapId moving = island_of_.at(to_moves ? hypothesis.to : hypothesis.from);
+  for (const auto& [id, island] : island_of_) {
     if (island == moving) graph_.move_node(id, shift * graph_.map_from_node(id));
   }
-  ++counters_.found_elsewhere;
 }
 
 bool LoopCloser::close(const Hypothesis& hypothesis) {
   const Constraint constraint = loop_constraint(hypothesis);
-  const Islands on = islands_now();
-  if (on.at(hypothesis.from) != on.at(hypothesis.to)) {
-    join_islands(hypothesis, on);
-    graph_.add_constraint(constraint);
+  const bool joins = island_of_.at(hypothesis.from) != island_of_.at(hypothesis.to);
+  if (!joins && can_be_solved_later(constraint)) {
+    propose(hypothesis);
+    if (++unsolved_ >= kMostUnsolved) solve_what_waits();
     return true;
   }
-  Constraint widened = constraint;
-  widened.from_to.covariance += expectations_from(hypothesis.from).at(hypothesis.to).covariance;
-  const auto error = [&](const Constraint& one) {
-    return graphs::squared_error(one, graph_.map_from_node(one.from), graph_.map_from_node(one.to));
-  };
-  if (error(widened) > config_.max_squared_error) return false;
+  unsolved_ = 0;
   const graphs::PoseGraph before = graph_;
-  graph_.add_constraint(constraint);
-  graph_.optimise();
-  ++counters_.optimisations;
-  if (error(constraint) <= config_.max_squared_error) return true;
-  graph_ = before;
-  return false;
+  const Islands islands_before = island_of_;
+  if (joins) {
+    join_islands(hypothesis);
+  } else {
+    Constraint widened = constraint;
+    widened.from_to.covariance += expectations_from(hypothesis.from).at(hypothesis.to).covariance;
+    // What is wrong may be the graph: enough that agree with each other may challenge it.
+    if (error_of(widened) > config_.max_squared_error && support_of(hypothesis) < config_.needed_when_ambiguous) {
+      reject(hypothesis, error_of(widened), "farther from where the graph has it than its uncertainty allows");
+      return false;
+    }
+  }
+  const bool founds_group = std::ranges::none_of(closures_, [group = group_for(constraint)](const Closure& one) {
+    return one.group == group && one.constraint.verdict.state == flow::ClosureState::kAccepted;
+  });
+  propose(hypothesis);
+  if (!joins) {
+    graph_.optimise();
+    ++counters_.optimisations;
+    leave_out_what_costs_most(before);
+  }
+  const double weight = graph_.weight(closures_.back().edge);
+  if (weight >= 0.5 && founds_group && contradicts_around(hypothesis)) {
+    graph_ = before;
+    island_of_ = islands_before;
+    closures_.pop_back();
+    reject(hypothesis, error_of(constraint), "submaps before it would contradict the map");
+    return false;
+  }
+  if (joins) ++counters_.found_elsewhere;
+  settle("outweighed by closure " + std::to_string(hypothesis.from.value) + " - " + std::to_string(hypothesis.to.value));
+  if (weight < 0.5) return false;
+  for (const int group : groups_between(hypothesis.from, hypothesis.to)) ++groups_[group].confirmations;
+  return true;
 }
 
-bool LoopCloser::knows_where_it_is() const { return places_.empty() || islands_now().at(places_.rbegin()->first) == places_.begin()->first; }
+/// In a large graph what it predicts within the closure's own uncertainty moves nothing by itself.
+bool LoopCloser::can_be_solved_later(const Constraint& constraint) const {
+  constexpr std::size_t kLargeGraph = 100;  // nodes
+  constexpr double kPredictedSquaredError = 1.0;
+  return places_.size() > kLargeGraph && error_of(constraint) < kPredictedSquaredError;
+}
+
+void LoopCloser::solve_what_waits() {
+  if (unsolved_ == 0) return;
+  unsolved_ = 0;
+  graph_.optimise();
+  ++counters_.optimisations;
+  settle("outweighed by the closures since");
+}
+
+int LoopCloser::group_for(const Constraint& constraint) {
+  const auto is_near = [&](SubmapId a, SubmapId b) { return std::abs(static_cast<double>(a.value) - b.value) <= config_.patience_submaps; };
+  const auto known = std::ranges::find_if(closures_, [&](const Closure& one) {
+    return one.constraint.verdict.state == flow::ClosureState::kAccepted && is_near(one.constraint.from, constraint.from) && is_near(one.constraint.to, constraint.to);
+  });
+  return known != closures_.end() ? known->group : static_cast<int>(closures_.size());
+}
+
+/// Together with what was dropped before and agrees with it.
+LoopCloser::Closure& LoopCloser::propose(const Hypothesis& hypothesis) {
+  for (Closure& dropped : closures_) {
+    const bool is_dropped = dropped.constraint.verdict.state != flow::ClosureState::kAccepted;
+    if (is_dropped && agree(hypothesis, {.from = dropped.constraint.from, .to = dropped.constraint.to, .from_to = dropped.constraint.from_to, .agreement = {}})) graph_.set_enabled(dropped.edge, true);
+  }
+  Constraint constraint = loop_constraint(hypothesis);
+  const int group = group_for(constraint);
+  constraint.verdict = {flow::ClosureState::kAccepted, error_of(constraint), hypothesis.agreement.agreed_share(),
+                        "supported by " + std::to_string(support_of(hypothesis)) + " submaps"};
+  add_constraint(constraint);
+  closures_.push_back({constraint, graph_.constraints().size() - 1, group});
+  groups_.try_emplace(group);
+  return closures_.back();
+}
+
+void LoopCloser::reject(const Hypothesis& hypothesis, double squared_error, std::string reason) {
+  Constraint constraint = loop_constraint(hypothesis);
+  constraint.verdict = {flow::ClosureState::kRejected, squared_error, hypothesis.agreement.agreed_share(), std::move(reason)};
+  rejected_.push_back(constraint);
+}
+
+/// Surer than odometry, closures that contradict each other bend it rather than show an error of their own. Where the
+/// newest, with those that it brought back, bends it more than leaving out some closure would cost, the cheapest is chosen:
+/// to leave out these, or one of the groups that they contradict (truncated least squares over groups).
+void LoopCloser::leave_out_what_costs_most(const graphs::PoseGraph& before) {
+  constexpr std::size_t kMostGroups = 3;
+  const double price = config_.max_squared_error;
+  const auto cost_of = [&](const graphs::PoseGraph& graph) { return graph.truncated_cost(config_.odometry_sigma_scale); };
+  if (cost_of(graph_) <= cost_of(before) + price) return;
+  std::vector<std::size_t> new_edges{closures_.back().edge};
+  for (const Closure& closure : closures_) {
+    if (closure.edge != new_edges.front() && before.weight(closure.edge) < 0.5 && graph_.weight(closure.edge) >= 0.5) new_edges.push_back(closure.edge);
+  }
+  double least_cost = cost_of(before) + price * static_cast<double>(new_edges.size());
+  graphs::PoseGraph best = before;
+  for (const Constraint& constraint : std::span(graph_.constraints()).subspan(before.constraints().size())) best.add_constraint(constraint);
+  for (const std::size_t edge : new_edges) best.set_enabled(edge, false);
+  std::set<int> tried;
+  for (auto closure = closures_.rbegin() + 1; closure != closures_.rend() && tried.size() < kMostGroups; ++closure) {
+    const int group = closure->group;
+    if (group == closures_.back().group || graph_.weight(closure->edge) < 0.5 || !tried.insert(group).second) continue;
+    graphs::PoseGraph without = graph_;
+    std::size_t left_out = 0;
+    for (const Closure& one : closures_) {
+      if (one.group != group || without.weight(one.edge) < 0.5) continue;
+      without.set_enabled(one.edge, false);
+      ++left_out;
+    }
+    without.optimise();
+    ++counters_.optimisations;
+    const double cost = cost_of(without) + price * static_cast<double>(left_out);
+    if (cost >= least_cost) continue;
+    least_cost = cost;
+    best = without;
+  }
+  graph_ = best;
+}
+
+/// Takes over what the graph now makes of each closure.
+void LoopCloser::settle(const std::string& what_decided) {
+  bool has_changed = false;
+  for (Closure& closure : closures_) {
+    flow::ClosureVerdict& verdict = closure.constraint.verdict;
+    const flow::ClosureState before = verdict.state;
+    const bool counts = graph_.weight(closure.edge) >= 0.5;
+    const bool is_newest = &closure == &closures_.back();
+    if (counts) {
+      if (verdict.state != flow::ClosureState::kAccepted) {
+        verdict.reason = "agrees with the graph again";
+        ++counters_.came_back;
+      }
+      verdict.state = flow::ClosureState::kAccepted;
+      verdict.squared_error = error_of(closure.constraint);
+    } else if (verdict.state == flow::ClosureState::kAccepted && is_newest) {
+      verdict.state = flow::ClosureState::kRejected;
+      verdict.squared_error = error_of(closure.constraint);
+      verdict.reason = "would bend the graph more than its uncertainty allows";
+      graph_.set_enabled(closure.edge, false);
+    } else if (verdict.state == flow::ClosureState::kAccepted) {
+      withdraw(closure, what_decided);
+    } else {
+      graph_.set_enabled(closure.edge, false);
+    }
+    has_changed = has_changed || verdict.state != before;
+  }
+  if (has_changed) island_of_ = islands(graph_.nodes(), active_constraints());
+}
+
+void LoopCloser::withdraw(Closure& closure, std::string reason) {
+  closure.constraint.verdict = {flow::ClosureState::kWithdrawn, error_of(closure.constraint), closure.constraint.verdict.agreed_share, std::move(reason)};
+  graph_.set_enabled(closure.edge, false);
+  ++counters_.withdrawn;
+}
+
+/// Where the graph is sure that a submap lies on another and it does not fit, a closure on the way between them is wrong.
+void LoopCloser::look_at_contradictions(const SearchQueue::Finished& search) {
+  constexpr int kMostDoubts = 2;
+  if (search.searched_sigma_m > config_.sure_within_m || island_of_.at(search.source) != island_of_.at(search.target)) return;
+  if (!contradicts(search.target, places_.at(search.source))) return;
+  ++counters_.contradictions;
+  const std::vector<int> between = groups_between(search.source, search.target);
+  if (between.empty()) return;
+  const int weakest = std::ranges::min(between, {}, [&](int group) { return groups_[group].confirmations - groups_[group].doubts; });
+  ClosureGroup& group = groups_[weakest];
+  if (++group.doubts < kMostDoubts || group.doubts <= 2 * group.confirmations) return;
+  for (Closure& closure : closures_) {
+    if (closure.group == weakest && closure.constraint.verdict.state == flow::ClosureState::kAccepted) {
+      withdraw(closure, "contradicted by submap " + std::to_string(search.source.value) + ", which does not fit where this puts it");
+    }
+  }
+  group = {};
+  island_of_ = islands(graph_.nodes(), active_constraints());
+  graph_.optimise();
+  ++counters_.optimisations;
+}
+
+/// Whether the source, moved by what refinement can, sees free where the target has walls or has walls where that is free.
+bool LoopCloser::contradicts(SubmapId target_id, const Place& source) const {
+  constexpr double kMostAgreedShare = 0.6;
+  constexpr double kLeastComparedShare = 0.4;  // of the source's walls
+  const Target target = target_around(target_id, source);
+  const Pose2 target_from_source = geometry::inverse(graph_.map_from_node(target_id)) * graph_.map_from_node(source.id);
+  const Agreement agreement = agreement_after_refining(config_.revisit, target, source, target_from_source);
+  return agreement.occupied_in_both + agreement.contradicted > kLeastComparedShare * agreement.source_walls && agreement.agreed_share() < kMostAgreedShare;
+}
+
+/// Whether most of the submaps just before the one that was found, which come to lie with it, contradict what is there.
+bool LoopCloser::contradicts_around(const Hypothesis& hypothesis) const {
+  constexpr std::uint32_t kBefore = 3;
+  int asked = 0;
+  int contradicting = 0;
+  for (std::uint32_t step = 1; step <= kBefore && step <= hypothesis.to.value; ++step) {
+    const auto found = places_.find({hypothesis.to.value - step});
+    if (found == places_.end() || island_of_.at(found->first) != island_of_.at(hypothesis.from)) continue;
+    const Place& source = found->second;
+    const Vector2 in_map_m = graph_.map_from_node(source.id) * source.middle_m;
+    const Place* nearest_place = nullptr;
+    double nearest_m = 0.5 * config_.max_distance_m;
+    for (const auto& [id, place] : places_) {
+      if (source.travelled_before_m - place.travelled_after_m < config_.min_travel_between_m || island_of_.at(id) != island_of_.at(source.id)) continue;
+      const double distance_m = (graph_.map_from_node(id) * place.middle_m - in_map_m).norm();
+      if (distance_m >= nearest_m) continue;
+      nearest_m = distance_m;
+      nearest_place = &place;
+    }
+    if (nearest_place == nullptr) continue;
+    ++asked;
+    if (contradicts(nearest_place->id, source)) ++contradicting;
+  }
+  return contradicting > 0 && 2 * contradicting >= asked;
+}
+
+std::vector<int> LoopCloser::groups_between(SubmapId a, SubmapId b) const {
+  const std::vector<Constraint> active = active_constraints();
+  std::set<int> groups;
+  for (const std::size_t step : graphs::best_path(a, b, active)) {
+    if (active[step].kind == ConstraintKind::kOdometric) continue;
+    const auto closure = std::ranges::find_if(closures_, [&](const Closure& one) { return one.constraint.from == active[step].from && one.constraint.to == active[step].to; });
+    if (closure != closures_.end()) groups.insert(closure->group);
+  }
+  return {groups.begin(), groups.end()};
+}
+
+std::vector<Constraint> LoopCloser::active_constraints() const {
+  std::vector<Constraint> active;
+  for (std::size_t i = 0; i < graph_.constraints().size(); ++i) {
+    if (graph_.weight(i) >= 0.5) active.push_back(graph_.constraints()[i]);
+  }
+  return active;
+}
+
+std::vector<Constraint> LoopCloser::constraints() const {
+  std::vector<Constraint> all;
+  for (const Constraint& constraint : graph_.constraints()) {
+    if (constraint.kind == ConstraintKind::kOdometric) all.push_back(constraint);
+  }
+  std::map<std::pair<SubmapId, SubmapId>, const Constraint*> loops;
+  for (const Constraint& constraint : rejected_) loops[{constraint.from, constraint.to}] = &constraint;
+  for (const Closure& closure : closures_) loops[{closure.constraint.from, closure.constraint.to}] = &closure.constraint;
+  for (const auto& [ends, constraint] : loops) all.push_back(*constraint);
+  return all;
+}
+
+bool LoopCloser::knows_where_it_is() const { return places_.empty() || island_of_.at(places_.rbegin()->first) == places_.begin()->first; }
 
 flow::GraphCorrection LoopCloser::correction() {
   flow::GraphCorrection correction;

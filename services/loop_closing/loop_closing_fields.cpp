@@ -60,8 +60,19 @@ FieldTable<RevisitConfig> revisit_fields() {
 FieldTable<graphs::PoseGraphConfig> graph_fields() {
   using C = graphs::PoseGraphConfig;
   return {
-      {"loop_loss_scale", &C::loop_loss_scale, "Sigmas at which a closure begins to lose its say; 0 means never.", kNotNegative},
-      {"max_iterations", &C::max_iterations, "Of one optimisation.", Range{1, 10000}},
+      {"loop_loss_scale", &C::loop_loss_scale, "Sigmas beyond which a closure does not count; 0 means that all count.", kNotNegative},
+      {"max_iterations", &C::max_iterations, "Of one linearized solve.", Range{1, 10000}},
+      {"most_work", &C::most_work, "Constraints times iterations of one optimisation.", Range{100.0, 1e12}},
+  };
+}
+
+FieldTable<SearchBudget> search_fields() {
+  using C = SearchBudget;
+  return {
+      {"work_per_submap", &C::work_per_submap, "Cells that searches read for each submap that comes; about 2 ns each.", Range{1e5, 1e12}},
+      {"work_per_search", &C::work_per_search, "A search that has read so many cells is given up.", Range{1e5, 1e12}},
+      {"work_at_end", &C::work_at_end, "Cells that searches left at the end of the drive may read.", Range{0.0, 1e12}},
+      {"most_waiting", &C::most_waiting, "Searches that wait; more, and the oldest is given up.", Range{1, 1000}},
   };
 }
 
@@ -78,11 +89,12 @@ FieldTable<LoopClosingConfig> all_fields() {
       {"needed_support", &C::needed_support, "Submaps that must agree on a closure otherwise.", Range{1, 100}},
       {"needed_when_ambiguous", &C::needed_when_ambiguous, "Submaps that must agree where other poses fit as well.", Range{1, 100}},
       {"patience_submaps", &C::patience_submaps, "How long a hypothesis waits for others that agree.", Range{0, 1000}},
-      {"max_candidates_elsewhere", &C::max_candidates_elsewhere, "Searches for one new submap among those that nothing ties it to yet.", Range{0, 10000}},
+      {"max_candidates_elsewhere", &C::max_candidates_elsewhere, "Targets for one new submap among those that nothing ties it to yet.", Range{0, 10000}},
       {"max_squared_error", &C::max_squared_error, "Chi-square of a closure against the graph before and after.", kPositive},
   };
   table = with_nested(std::move(table), "place", &C::place, place_fields());
   table = with_nested(std::move(table), "revisit", &C::revisit, revisit_fields());
+  table = with_nested(std::move(table), "search", &C::search, search_fields());
   return with_nested(std::move(table), "graph", &C::graph, graph_fields());
 }
 

@@ -1,5 +1,7 @@
 #include "services/loop_closing/loop_closing_service.hpp"
 
+#include <utility>
+
 #include <spdlog/spdlog.h>
 
 #include "services/loop_closing/loop_closing_fields.hpp"
@@ -17,7 +19,10 @@ LoopClosingService::LoopClosingService(app::ServiceContext& context, const Setti
       constraints_(context.write(dds::topics::kConstraint)),
       corrections_(context.write(dds::topics::kGraphCorrection)) {
   context.read(dds::topics::kStoredSubmapTile, app::Input::kOccasional, [this](const auto& tile) { take(tile); });
-  context.before_report([this] { context_.status().set_counters(named(closer_.counters())); });
+  context.before_report([this] {
+    finish_when_idle();
+    context_.status().set_counters(named(closer_.counters()));
+  });
 }
 
 void LoopClosingService::take(const slammot_SubmapTile& tile) {
@@ -35,7 +40,7 @@ void LoopClosingService::begin_map(flow::MapId map_id) {
   closer_ = LoopCloser(config_);
   waiting_.clear();
   added_ = 0;
-  published_constraints_ = 0;
+  published_states_.clear();
   map_id_ = map_id;
 }
 
@@ -57,10 +62,22 @@ void LoopClosingService::add(const flow::Submap& submap) {
   const bool knew_where_it_is = closer_.knows_where_it_is();
   flow::GraphCorrection correction = closer_.add(submap);
   tell_whereabouts(submap.submap_id, knew_where_it_is);
-  correction.map_id = *map_id_;
   ++added_;
+  reports_since_submap_ = 0;
+  publish(std::move(correction));
+}
+
+void LoopClosingService::publish(flow::GraphCorrection correction) {
+  correction.map_id = *map_id_;
   publish_new_constraints();
   correction_encoder_.encode(context_.vehicle_id(), correction, [this](const auto& part) { corrections_.write(part); });
+}
+
+/// Where no submap comes for a while the drive may be over: what its searches would find is said now.
+void LoopClosingService::finish_when_idle() {
+  constexpr int kIdleReports = 3;
+  if (++reports_since_submap_ != kIdleReports || !closer_.has_unfinished_work()) return;
+  publish(closer_.finish());
 }
 
 void LoopClosingService::tell_whereabouts(flow::SubmapId newest, bool knew_before) {
@@ -71,11 +88,12 @@ void LoopClosingService::tell_whereabouts(flow::SubmapId newest, bool knew_befor
   else context_.status().set_trouble("astray", "nothing ties submap " + std::to_string(newest.value) + " to the first one yet");
 }
 
-/// Constraints are only ever added at the end.
+/// Those that are new, and closures about which something else is held now.
 void LoopClosingService::publish_new_constraints() {
-  const std::vector<flow::Constraint>& all = closer_.constraints();
-  for (; published_constraints_ < all.size(); ++published_constraints_) {
-    flow::Constraint constraint = all[published_constraints_];
+  for (flow::Constraint& constraint : closer_.constraints()) {
+    const auto [published, is_new] = published_states_.try_emplace({constraint.from, constraint.to, constraint.kind}, constraint.verdict.state);
+    if (!is_new && published->second == constraint.verdict.state) continue;
+    published->second = constraint.verdict.state;
     constraint.map_id = *map_id_;
     constraints_.write(wire::encode(context_.vehicle_id(), constraint));
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "common/app/run_service.hpp"
@@ -31,7 +32,9 @@ class LoopClosingService {
   void add_waiting();
   void add(const flow::Submap& submap);
   void tell_whereabouts(flow::SubmapId newest, bool knew_before);
+  void publish(flow::GraphCorrection correction);
   void publish_new_constraints();
+  void finish_when_idle();
 
   app::ServiceContext& context_;
   LoopClosingConfig config_;
@@ -43,7 +46,8 @@ class LoopClosingService {
   std::map<flow::SubmapId, flow::Submap> waiting_;  ///< For those before them.
   std::optional<flow::MapId> map_id_;               ///< None before the first submap.
   std::size_t added_ = 0;                           ///< Submaps in the graph: those with numbers below.
-  std::size_t published_constraints_ = 0;
+  int reports_since_submap_ = 0;
+  std::map<std::tuple<flow::SubmapId, flow::SubmapId, flow::ConstraintKind>, flow::ClosureState> published_states_;
 };
 
 }  // namespace slammot::loop_closing

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
+#include "common/geometry/displacement.hpp"
 
 namespace slammot::loop_closing {
 namespace {
@@ -17,13 +18,28 @@ using geometry::Vector2;
 
 constexpr double kSameWithinSquaredSigmas = 11.3;  // chi-square, 3 degrees of freedom, 99 %
 
-matching::CorrelativeConfig search_config(const RevisitConfig& config) {
-  return {.resolution_m = config.search_cell_m,
-          .smear_sigma_m = config.search_cell_m,
-          .min_score = config.min_score,
-          .max_peaks = static_cast<std::size_t>(config.max_peaks),
+constexpr std::size_t kMostPyramids = 64;
+constexpr double kSameShapeCells = 0.25;         // members that moved less against each other draw the same grid
+// Work of the other steps in cells that a search could read in the same time.
+constexpr std::uint64_t kWorkOfRegisteringSurfel = 400;
+constexpr std::uint64_t kWorkOfComparingSurfel = 20;
+
+constexpr double kNearShare = 0.25;   // of the window: a sixtieth of the poses, and most revisits
+constexpr double kBorderCost = 0.1;   // score; the border is three sigmas away
+
+// Searched for everywhere, a place is found by coarser steps and fewer points: refinement bridges the step.
+constexpr double kCoarserOnSeveralTargets = 2.0;
+constexpr int kFewerPointsOnSeveralTargets = 2;
+
+double search_cell_m(const RevisitConfig& config, std::size_t targets) { return targets > 1 ? kCoarserOnSeveralTargets * config.search_cell_m : config.search_cell_m; }
+int most_points(const RevisitConfig& config, std::size_t targets) { return targets > 1 ? config.max_points / kFewerPointsOnSeveralTargets : config.max_points; }
+
+matching::WideSearchConfig search_config(const RevisitConfig& config, std::size_t targets) {
+  return {.min_score = config.min_score,
+          .border_cost = targets > 1 ? 0.0 : kBorderCost,
+          .max_peaks = static_cast<std::size_t>(targets > 1 ? 2 * config.max_peaks : config.max_peaks),
           .min_peak_ratio = 0.8 * config.rival_ratio,
-          .peak_separation_m = 5.0 * config.search_cell_m,
+          .peak_separation_m = 5.0 * search_cell_m(config, targets),
           .peak_separation_rad = 0.15};
 }
 
@@ -64,15 +80,6 @@ std::vector<Eigen::Vector2f> points_about(const Vector2& centre_m, const std::ve
   return points;
 }
 
-matching::TargetRegion region_around(const std::vector<flow::Surfel>& surfels, double largest_shift_m) {
-  Eigen::AlignedBox2d box;
-  for (const flow::Surfel& surfel : surfels) box.extend(Vector2(surfel.x_m, surfel.y_m));
-  return {.centre_m = box.center(),
-          .half_width_m = 0.5 * box.sizes().x() + 0.5,
-          .half_height_m = 0.5 * box.sizes().y() + 0.5,
-          .largest_shift_m = largest_shift_m};
-}
-
 bool is_astray(const UncertainPose2& expected, const RevisitConfig& config) {
   return expected.covariance(2, 2) > config.any_heading_sigma_rad * config.any_heading_sigma_rad;
 }
@@ -92,6 +99,20 @@ void keep_best_of_the_same(std::vector<Hypothesis>& hypotheses) {
   hypotheses = std::move(kept);
 }
 
+/// In corridors all of which look alike most of the walls agree anywhere: what contradicts tells poses apart.
+void drop_contradicted(std::vector<Hypothesis>& hypotheses) {
+  constexpr double kClearlyWorse = 2.0;      // times the contradictions of another pose,
+  constexpr double kNoise_share = 0.01;      // and this much more,
+  constexpr double kComparableShare = 0.5;   // if that explains at least this share of what this one does
+  const auto contradicted_share = [](const Hypothesis& one) { return 1.0 - one.agreement.agreed_share(); };
+  const std::vector<Hypothesis> all = hypotheses;
+  std::erase_if(hypotheses, [&](const Hypothesis& one) {
+    return std::ranges::any_of(all, [&](const Hypothesis& other) {
+      return contradicted_share(one) > kClearlyWorse * contradicted_share(other) + kNoise_share && other.quality() > kComparableShare * one.quality();
+    });
+  });
+}
+
 void drop_poor_rivals(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
   if (hypotheses.empty()) return;
   const double least_quality = rival_ratio * hypotheses.front().quality();
@@ -99,52 +120,140 @@ void drop_poor_rivals(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
   for (Hypothesis& hypothesis : hypotheses) hypothesis.has_rivals = hypotheses.size() > 1;
 }
 
-}  // namespace
+double sigma_m(const UncertainPose2& expected) { return std::sqrt(expected.covariance.topLeftCorner<2, 2>().trace()); }
 
-RevisitFinder::RevisitFinder(const RevisitConfig& config) : config_(config), matcher_(search_config(config)) {}
-
-std::vector<matching::Peak> RevisitFinder::search(const Target& target, const Place& source, const UncertainPose2& expected) {
-  const auto surfels = surfels_in_target(target);
-  const bool astray = is_astray(expected, config_);
-  const auto window_m = [&](double variance_m2) {
-    return std::clamp(config_.window_sigmas * std::sqrt(variance_m2), config_.min_window_m, astray ? config_.astray_window_m : config_.max_window_m);
+/// share: of the window that holds all of the uncertainty.
+matching::SearchWindow window_around(const UncertainPose2& expected, const UncertainPose2& target_from_centre, const RevisitConfig& config, double share) {
+  const bool astray = is_astray(expected, config);
+  const auto window = [&](double variance, double least, double most) {
+    return std::max(share * std::clamp(config.window_sigmas * std::sqrt(variance), least, most), least);
   };
-  const Vector2 centre_m = centroid_of(source.surfels);
-  const Pose2 source_from_centre{centre_m.x(), centre_m.y(), 0.0};
-  const UncertainPose2 target_from_centre = geometry::compound(expected, {source_from_centre, Matrix3::Zero()});
-  const matching::SearchWindow window{
-      window_m(target_from_centre.covariance(0, 0)), window_m(target_from_centre.covariance(1, 1)),
-      std::clamp(config_.window_sigmas * std::sqrt(expected.covariance(2, 2)), config_.min_window_rad,
-                 astray ? std::numbers::pi : config_.max_window_rad)};
-  matcher_.set_target(as_target_points(surfels), region_around(surfels, std::max(window.half_x_m, window.half_y_m)));
-  auto peaks = matcher_.search(points_about(centre_m, source.surfels, config_.max_points), target_from_centre.pose, window);
-  for (matching::Peak& peak : peaks) {
-    peak.target_from_source = geometry::compound(peak.target_from_source, {geometry::inverse(source_from_centre), Matrix3::Zero()});
-  }
-  return peaks;
+  const double most_m = astray ? config.astray_window_m : config.max_window_m;
+  return {window(target_from_centre.covariance(0, 0), config.min_window_m, most_m), window(target_from_centre.covariance(1, 1), config.min_window_m, most_m),
+          window(expected.covariance(2, 2), config.min_window_rad, astray ? std::numbers::pi : config.max_window_rad)};
 }
 
-std::vector<Hypothesis> RevisitFinder::find(const Target& target, const Place& source, const UncertainPose2& expected_target_from_source) {
-  std::vector<Hypothesis> hypotheses;
-  const SurfelIndex index(surfels_in_target(target), config_.registration.coarse_gate_m);
-  if (index.surfels().empty() || source.surfels.empty()) return hypotheses;
-  const double least_agreed_share = is_astray(expected_target_from_source, config_) ? config_.min_agreed_in_support : config_.min_agreed_share;
-  for (const matching::Peak& peak : search(target, source, expected_target_from_source)) {
-    const Registration registration =
-        register_surfels(source.surfels, source.spacing_m, index, peak.target_from_source.pose, config_.registration);
-    const Hypothesis hypothesis{.from = target.members.front().place->id,
-                                .to = source.id,
-                                .from_to = registration.target_from_source,
-                                .agreement = compare(target, source, registration.target_from_source.pose),
-                                .score = peak.score,
-                                .searched_sigma_m = std::sqrt(expected_target_from_source.covariance.topLeftCorner<2, 2>().trace())};
-    const bool holds = hypothesis.agreement.agreed_share() >= least_agreed_share &&
-                       hypothesis.agreement.overlap_share() >= config_.min_overlap_share;
-    if (holds) hypotheses.push_back(hypothesis);
+}  // namespace
+
+bool PyramidCache::is_of(const Entry& entry, const Target& target, double cell_m) {
+  return entry.pyramid->cell_m() == cell_m && std::ranges::equal(entry.members, target.members, [&](const auto& known, const Target::Member& member) {
+    const Eigen::Vector3d moved = geometry::difference(known.second, member.target_from_member);
+    return known.first == member.place->id && geometry::as_seen_10_m_away(moved) < kSameShapeCells * cell_m;
+  });
+}
+
+PyramidCache::Drawn PyramidCache::pyramid_of(const Target& target, double cell_m) {
+  ++uses_;
+  const auto known = std::ranges::find_if(entries_, [&](const Entry& entry) { return is_of(entry, target, cell_m); });
+  if (known != entries_.end()) {
+    known->used = uses_;
+    return {known->pyramid};
   }
-  keep_best_of_the_same(hypotheses);
-  drop_poor_rivals(hypotheses, config_.rival_ratio);
-  return hypotheses;
+  if (entries_.size() >= kMostPyramids) entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
+  Entry entry{.used = uses_};
+  for (const Target::Member& member : target.members) entry.members.emplace_back(member.place->id, member.target_from_member);
+  constexpr int kLevels = 6;
+  entry.pyramid = std::make_shared<const matching::ScorePyramid>(as_target_points(surfels_in_target(target)), cell_m, cell_m, kLevels);
+  entries_.push_back(entry);
+  return {entry.pyramid, entry.pyramid->work()};
+}
+
+RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source, std::vector<RevisitCandidate> candidates)
+    : config_(config),
+      source_(&source),
+      candidates_(std::move(candidates)),
+      source_from_centre_{centroid_of(source.surfels).x(), centroid_of(source.surfels).y(), 0.0},
+      walls_(source.surfels),
+      is_done_(candidates_.empty() || source.surfels.empty()) {
+  if (is_done_) return;
+  const bool begins_near = is_somewhere_expected() && kNearShare * std::min(config.window_sigmas * searched_sigma_m(), config.max_window_m) > config.min_window_m;
+  begin_search(begins_near ? kNearShare : 1.0);
+}
+
+void RevisitSearch::begin_search(double window_share) {
+  window_share_ = window_share;
+  targets_added_ = 0;
+  peaks_judged_ = 0;
+  search_.emplace(points_about(source_from_centre_.translation_m(), source_->surfels, most_points(config_, candidates_.size())), search_cell_m(config_, candidates_.size()), search_config(config_, candidates_.size()));
+}
+
+std::uint64_t RevisitSearch::advance(std::uint64_t most_work, PyramidCache& pyramids) {
+  const std::uint64_t work_before = work_;
+  const double window_share = window_share_;
+  while (!is_done_ && window_share_ == window_share && work_ - work_before < most_work) {
+    if (targets_added_ < candidates_.size()) {
+      work_ += add_next_target(pyramids);
+    } else if (!search_->is_done()) {
+      work_ += search_->advance(most_work - (work_ - work_before));
+    } else if (peaks_judged_ < search_->peaks().size()) {
+      work_ += judge(search_->peaks()[peaks_judged_++]);
+    } else if (!is_expectation_judged_) {
+      is_expectation_judged_ = true;
+      if (is_somewhere_expected()) work_ += judge({.target = 0, .target_from_source = candidates_.front().target_from_source.pose * source_from_centre_});
+    } else if (window_share_ < 1.0) {
+      begin_search(1.0);
+    } else {
+      is_done_ = true;
+    }
+  }
+  return work_ - work_before;
+}
+
+/// The pose that is expected is judged though its walls may overlap less than elsewhere along a corridor.
+bool RevisitSearch::is_somewhere_expected() const { return candidates_.size() == 1 && !is_astray(candidates_.front().target_from_source, config_); }
+
+double RevisitSearch::searched_sigma_m() const { return sigma_m(candidates_.front().target_from_source); }
+
+std::uint64_t RevisitSearch::add_next_target(PyramidCache& pyramids) {
+  const RevisitCandidate& candidate = candidates_[targets_added_++];
+  const auto [pyramid, work] = pyramids.pyramid_of(candidate.target, search_cell_m(config_, candidates_.size()));
+  const UncertainPose2 target_from_centre = geometry::compound(candidate.target_from_source, {source_from_centre_, Matrix3::Zero()});
+  return work + search_->add_target({pyramid, target_from_centre.pose, window_around(candidate.target_from_source, target_from_centre, config_, window_share_), candidate.map_from_target,
+                                     [headings = PlausibleHeadings(WallDirections(surfels_in_target(candidate.target)), walls_)](double heading_rad) { return headings.contains(heading_rad); }});
+}
+
+std::uint64_t RevisitSearch::judge(const matching::WidePeak& peak) {
+  const auto& [target, expected, map_from_target] = candidates_[peak.target];
+  const SurfelIndex index(surfels_in_target(target), config_.registration.coarse_gate_m);
+  const Pose2 target_from_source = peak.target_from_source * geometry::inverse(source_from_centre_);
+  const Registration registration = register_surfels(source_->surfels, source_->spacing_m, index, target_from_source, config_.registration);
+  const Hypothesis hypothesis{.from = target.members.front().place->id,
+                              .to = source_->id,
+                              .from_to = registration.target_from_source,
+                              .agreement = compare(target, *source_, registration.target_from_source.pose),
+                              .score = peak.score,
+                              .searched_sigma_m = sigma_m(expected)};
+  const double least_agreed_share = is_astray(expected, config_) ? config_.min_agreed_in_support : config_.min_agreed_share;
+  const bool holds = hypothesis.agreement.agreed_share() >= least_agreed_share &&
+                     hypothesis.agreement.overlap_share() >= config_.min_overlap_share;
+  if (holds) hypotheses_.push_back(hypothesis);
+  return kWorkOfRegisteringSurfel * source_->surfels.size() + kWorkOfComparingSurfel * index.surfels().size();
+}
+
+std::vector<Hypothesis> RevisitSearch::found() const {
+  std::map<flow::SubmapId, std::vector<Hypothesis>> by_target;
+  for (const Hypothesis& hypothesis : hypotheses_) by_target[hypothesis.from].push_back(hypothesis);
+  std::vector<Hypothesis> all;
+  for (auto& [id, hypotheses] : by_target) {
+    keep_best_of_the_same(hypotheses);
+    drop_contradicted(hypotheses);
+    drop_poor_rivals(hypotheses, config_.rival_ratio);
+    all.insert(all.end(), hypotheses.begin(), hypotheses.end());
+  }
+  return all;
+}
+
+Agreement agreement_after_refining(const RevisitConfig& config, const Target& target, const Place& source, const Pose2& target_from_source) {
+  const SurfelIndex index(surfels_in_target(target), config.registration.coarse_gate_m);
+  const Registration registration = register_surfels(source.surfels, source.spacing_m, index, target_from_source, config.registration);
+  return compare(target, source, registration.target_from_source.pose);
+}
+
+std::vector<Hypothesis> find_revisits(const RevisitConfig& config, const Target& target, const Place& source, const UncertainPose2& expected_target_from_source) {
+  PyramidCache pyramids;
+  RevisitSearch search(config, source, {{target, expected_target_from_source, Pose2::identity()}});
+  while (!search.is_done()) search.advance(1'000'000, pyramids);
+  return search.found();
 }
 
 }  // namespace slammot::loop_closing

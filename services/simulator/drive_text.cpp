@@ -28,6 +28,14 @@ void append_all(std::string& text, std::initializer_list<double> values, int pla
   }
 }
 
+void append_parameter(std::string& text, std::string_view name, double value, int places) {
+  text += "PARAM ";
+  text += name;
+  text += ' ';
+  append(text, value, places);
+  text += '\n';
+}
+
 double seconds(std::int64_t stamp_ns) { return static_cast<double>(stamp_ns) * 1e-9; }
 
 void append_ranges(std::string& text, const SimulatedScan& drive) {
@@ -42,10 +50,10 @@ void append_clocks(std::string& text, const SimulatedScan& drive) {
   text += '\n';
 }
 
-/// ROBOTLASER1 type start field_of_view step max_range accuracy remission_mode n ranges... m laser_pose robot_pose tv rv
+/// ROBOTLASERn type start field_of_view step max_range accuracy remission_mode n ranges... m laser_pose robot_pose tv rv
 /// forward_safety side_safety turn_axis ipc_timestamp host logger_timestamp.
-std::string robotlaser1_line(const SimulatedScan& drive, const simulation::ScannerConfig& config) {
-  std::string text = "ROBOTLASER1 0 ";
+std::string robotlaser_line(const SimulatedScan& drive, const simulation::ScannerConfig& config, std::size_t number) {
+  std::string text = "ROBOTLASER" + std::to_string(number) + " 0 ";
   append_all(text, {config.first_beam_rad, config.field_of_view_rad, drive.scan.scanner.beam_step_rad}, 6, ' ');
   append_all(text, {config.max_range_m, config.resolution_m}, 2, ' ');
   text += "0 ";
@@ -75,27 +83,36 @@ std::string flaser_line(const SimulatedScan& drive) {
 
 }  // namespace
 
-std::string log_header(const simulation::ScenarioConfig& scenario, std::size_t scanner) {
+std::string log_header(const simulation::ScenarioConfig& scenario) {
+  std::string text = header_of_log_of(scenario, 0);
+  for (std::size_t i = 0; i < scenario.more_scanners.size(); ++i) {
+    const simulation::ScannerConfig& mounted = scenario.more_scanners[i];
+    const std::string name = "robot_laser" + std::to_string(i + 2) + "_";
+    append_parameter(text, name + "offset", mounted.ahead_m, 3);
+    append_parameter(text, name + "side_offset", mounted.left_m, 3);
+    append_parameter(text, name + "angular_offset", mounted.heading_rad, 6);
+  }
+  return text;
+}
+
+std::string header_of_log_of(const simulation::ScenarioConfig& scenario, std::size_t scanner) {
   const simulation::ScannerConfig& mounted = scenario.scanner_at(scanner);
   std::string text = "# CARMEN Logfile\n";
-  const auto parameter = [&text](std::string_view name, double value, int places) {
-    text += "PARAM ";
-    text += name;
-    text += ' ';
-    append(text, value, places);
-    text += '\n';
-  };
-  parameter("robot_frontlaser_offset", mounted.ahead_m, 3);
-  if (mounted.left_m != 0.0) parameter("robot_frontlaser_side_offset", mounted.left_m, 3);
-  if (mounted.heading_rad != 0.0) parameter("robot_frontlaser_angular_offset", mounted.heading_rad, 6);
-  parameter("robot_width", scenario.route.width_m, 1);
-  parameter("robot_length", scenario.route.length_m, 1);
+  append_parameter(text, "robot_frontlaser_offset", mounted.ahead_m, 3);
+  if (mounted.left_m != 0.0) append_parameter(text, "robot_frontlaser_side_offset", mounted.left_m, 3);
+  if (mounted.heading_rad != 0.0) append_parameter(text, "robot_frontlaser_angular_offset", mounted.heading_rad, 6);
+  append_parameter(text, "robot_width", scenario.route.width_m, 1);
+  append_parameter(text, "robot_length", scenario.route.length_m, 1);
   return text;
 }
 
 std::string log_line(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
+  return scenario.more_scanners.empty() ? line_of_log_of_its_scanner(drive, scenario) : robotlaser_line(drive, scenario.scanner_at(drive.scanner), drive.scanner + 1);
+}
+
+std::string line_of_log_of_its_scanner(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
   const bool flaser = scenario.log_record == simulation::LogRecord::flaser;
-  return flaser ? flaser_line(drive) : robotlaser1_line(drive, scenario.scanner_at(drive.scanner));
+  return flaser ? flaser_line(drive) : robotlaser_line(drive, scenario.scanner_at(drive.scanner), 1);
 }
 
 std::string tum_line(const SimulatedScan& drive) {

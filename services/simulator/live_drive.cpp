@@ -17,6 +17,42 @@ double with_places(double value, int places) {
   return std::round(value * scale) / scale;
 }
 
+std::uint64_t scans_of(const simulation::ScenarioConfig& scenario, std::size_t scanner) {
+  constexpr double kRoundingScans = 1e-6;
+  const double steps = std::floor(scenario.duration_s * scenario.scanner.rate_hz);
+  if (scanner == 0) return static_cast<std::uint64_t>(steps);
+  const simulation::ScannerConfig& further = scenario.scanner_at(scanner);
+  const double scans = (steps / scenario.scanner.rate_hz - further.delay_s) * further.rate_hz;
+  return static_cast<std::uint64_t>(std::max(0.0, std::ceil(scans - kRoundingScans)));
+}
+
+files::ScannerPlan scanner_plan(const simulation::ScenarioConfig& scenario, std::size_t index) {
+  const simulation::ScannerConfig& scanner = scenario.scanner_at(index);
+  const bool is_flaser = scenario.more_scanners.empty() && scenario.log_record == simulation::LogRecord::flaser;
+  files::ScannerPlan plan;
+  plan.kind = is_flaser ? files::LaserRecordKind::kFlaser : files::LaserRecordKind::kRobotLaser1;
+  plan.name = is_flaser ? "FLASER" : "ROBOTLASER" + std::to_string(index + 1);
+  plan.slot = static_cast<std::uint8_t>(index + 1);
+  plan.base_from_laser = {with_places(scanner.ahead_m, 3), with_places(scanner.left_m, 3), with_places(scanner.heading_rad, 6)};
+  plan.max_range_m = static_cast<double>(static_cast<float>(scanner.max_range_m));
+  plan.scans = scans_of(scenario, index);
+  return plan;
+}
+
+/// What is known of a scanner's figures before the drive.
+files::LogFigures figures_of(const simulation::ScenarioConfig& scenario, std::size_t index) {
+  const simulation::ScannerConfig& scanner = scenario.scanner_at(index);
+  files::LogFigures figures;
+  figures.scans = scans_of(scenario, index);
+  figures.beams = static_cast<std::size_t>(scanner.beams);
+  figures.has_clock = true;
+  figures.field_of_view_rad = scanner.field_of_view_rad;
+  figures.max_range_m = static_cast<double>(static_cast<float>(scanner.max_range_m));
+  figures.scan_period_s = 1.0 / scanner.rate_hz;
+  figures.duration_s = scenario.duration_s;
+  return figures;
+}
+
 }  // namespace
 
 LiveDrive::LiveDrive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& truth_prefix)
@@ -24,7 +60,7 @@ LiveDrive::LiveDrive(const simulation::ScenarioConfig& scenario, const std::file
       drive_(scenario),
       truth_(truth_prefix, drive_.stationary_in_world(), HitsFile::written),
       log_(std::filesystem::path(truth_prefix) += ".log.gz"),
-      scans_(drive_.scan_count()),
+      scans_(count_of_scans(scenario)),
       thread_([this](const std::stop_token& stop) { simulate(stop); }) {}
 
 void LiveDrive::simulate(const std::stop_token& stop) {
@@ -37,7 +73,6 @@ void LiveDrive::simulate(const std::stop_token& stop) {
   }
   while (const auto scan = drive_.next()) {
     truth_.add(*scan);
-    if (scan->scanner != 0) continue;
     std::string line = log_line(*scan, scenario_);
     log_.write(line);
     line.pop_back();
@@ -74,21 +109,22 @@ double LiveDrive::fraction_read() const {
   return scans_ == 0 ? 1.0 : std::min(1.0, static_cast<double>(line_number_) / static_cast<double>(scans_));
 }
 
-files::LogPlan plan_of(const simulation::ScenarioConfig& scenario) {
-  const simulation::ScannerConfig& scanner = scenario.scanner;
+std::uint64_t count_of_scans(const simulation::ScenarioConfig& scenario) {
+  std::uint64_t scans = 0;
+  for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i) scans += scans_of(scenario, i);
+  return scans;
+}
+
+files::Result<files::LogPlan> plan_of(const simulation::ScenarioConfig& scenario, const std::vector<std::string>& wanted) {
   files::LogPlan plan;
-  plan.laser = scenario.log_record == simulation::LogRecord::flaser ? files::LaserRecordKind::kFlaser : files::LaserRecordKind::kRobotLaser1;
   plan.clock = files::LogClock::kIpc;
   plan.odometry = files::OdometrySource::kLaserRecords;
-  plan.base_from_laser = {with_places(scanner.ahead_m, 3), with_places(scanner.left_m, 3), with_places(scanner.heading_rad, 6)};
-  plan.max_range_m = static_cast<double>(static_cast<float>(scanner.max_range_m));
-  plan.figures.scans = static_cast<std::uint64_t>(std::floor(scenario.duration_s * scanner.rate_hz));
-  plan.figures.beams = static_cast<std::size_t>(scanner.beams);
-  plan.figures.has_clock = true;
-  plan.figures.field_of_view_rad = scanner.field_of_view_rad;
-  plan.figures.max_range_m = plan.max_range_m;
-  plan.figures.scan_period_s = 1.0 / scanner.rate_hz;
-  plan.figures.duration_s = scenario.duration_s;
+  for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i) plan.scanners.push_back(scanner_plan(scenario, i));
+  if (auto fault = files::select_scanners(wanted, plan.scanners)) return *fault;
+  plan.laser = plan.scanners.front().kind;
+  plan.base_from_laser = plan.scanners.front().base_from_laser;
+  plan.max_range_m = plan.scanners.front().max_range_m;
+  plan.figures = figures_of(scenario, plan.scanners.front().slot - 1U);
   return plan;
 }
 

@@ -19,7 +19,7 @@ namespace slammot::simulator {
 
 /// A drive that is simulated while it is read: the lines that write_drive() would put into its log. A thread of its own
 /// works ahead of the reader by a few scans and writes the truth and, as PREFIX.log.gz, the lines; who reads fast waits, so that
-/// the lines are the same whatever the speed. Of several scanners it has the first one's.
+/// the lines are the same whatever the speed.
 class LiveDrive : public files::LineSource {
  public:
   LiveDrive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& truth_prefix);
@@ -46,7 +46,11 @@ class LiveDrive : public files::LineSource {
   std::jthread thread_;             // last: it uses all of the above
 };
 
-/// What a survey of the log would say of how to read it, and of its figures what is known before the drive.
-files::LogPlan plan_of(const simulation::ScenarioConfig& scenario);
+/// What a survey of the log would say of how to read it, and of its figures what is known before the drive. wanted: as
+/// CarmenLogOptions::scanners; fails for the name of a scanner that the drive does not have.
+files::Result<files::LogPlan> plan_of(const simulation::ScenarioConfig& scenario, const std::vector<std::string>& wanted = {});
+
+/// Scans of all scanners.
+std::uint64_t count_of_scans(const simulation::ScenarioConfig& scenario);
 
 }  // namespace slammot::simulator

@@ -11,13 +11,14 @@ SensorFiles::SensorFiles(const std::filesystem::path& prefix, const simulation::
     return files_.size() - 1;
   };
   open(".log", log_header(scenario));
-  for (std::size_t i = 1; i <= scenario.more_scanners.size(); ++i) open("." + scenario.scanner_at(i).scanner_id + ".log", log_header(scenario, i));
+  for (std::size_t i = 1; i <= scenario.more_scanners.size(); ++i) open("." + scenario.scanner_at(i).scanner_id + ".log", header_of_log_of(scenario, i));
   if (scenario.gnss.rate_hz > 0.0) gnss_ = open(".gnss.csv", gnss_header());
   if (scenario.compass.rate_hz > 0.0) compass_ = open(".compass.csv", compass_header());
 }
 
 void SensorFiles::add(const simulation::SimulatedScan& drive) {
-  files_[drive.scanner] << log_line(drive, scenario_);
+  files_.front() << log_line(drive, scenario_);
+  if (drive.scanner > 0) files_[drive.scanner] << line_of_log_of_its_scanner(drive, scenario_);
   for (const sensing::GnssFix& fix : drive.gnss) files_[*gnss_] << gnss_line(fix);
   for (const sensing::CompassReading& reading : drive.compass) files_[*compass_] << compass_line(reading);
 }

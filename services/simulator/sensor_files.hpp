@@ -10,7 +10,7 @@
 
 namespace slammot::simulator {
 
-/// What the sensors of a drive said: PREFIX.log of the first scanner, PREFIX.SCANNER.log of each further one, and
+/// What the sensors of a drive said: PREFIX.log of all scanners, PREFIX.SCANNER.log of each further one alone, and
 /// PREFIX.gnss.csv and PREFIX.compass.csv where the vehicle has such. Files of these names are replaced.
 class SensorFiles {
  public:

@@ -1,5 +1,7 @@
 #include "services/simulator/truth_files.hpp"
 
+#include <algorithm>
+
 #include "services/simulator/drive_text.hpp"
 
 namespace slammot::simulator {
@@ -27,14 +29,38 @@ TruthFiles::TruthFiles(const std::filesystem::path& prefix, const simulation::Ou
 
 void TruthFiles::add(const simulation::SimulatedScan& drive) {
   if (hits_) *hits_ << hits_line(drive);
-  if (drive.scanner != 0) return;
-  tum_ << tum_line(drive);
-  objects_ << object_lines(drive);
-  if (last_) distance_m_ += (drive.world_from_base.translation_m() - last_->translation_m()).norm();
-  last_ = drive.world_from_base;
+  if (newest_ && newest_->scan.stamp_ns != drive.scan.stamp_ns) write_newest();
+  newest_ = seen_by_any(drive);
+}
+
+/// The scan with the objects that it or the newest scan of another scanner hit, and the beams of both together.
+simulation::SimulatedScan TruthFiles::seen_by_any(const simulation::SimulatedScan& drive) {
+  std::map<int, int>& own = points_by_scanner_[drive.scanner];
+  own.clear();
+  for (const simulation::ObjectTruth& object : drive.objects) own[object.id] = object.points;
+  simulation::SimulatedScan seen;
+  seen.scan.stamp_ns = drive.scan.stamp_ns;
+  seen.world_from_base = drive.world_from_base;
+  const auto add = [&](simulation::ObjectTruth object) {
+    object.points = 0;
+    for (const auto& [scanner, points] : points_by_scanner_) object.points += points.contains(object.id) ? points.at(object.id) : 0;
+    if (object.points > 0) seen.objects.push_back(object);
+  };
+  std::ranges::for_each(drive.objects, add);
+  std::ranges::for_each(drive.unseen, add);
+  return seen;
+}
+
+void TruthFiles::write_newest() {
+  tum_ << tum_line(*newest_);
+  objects_ << object_lines(*newest_);
+  if (last_) distance_m_ += (newest_->world_from_base.translation_m() - last_->translation_m()).norm();
+  last_ = newest_->world_from_base;
+  newest_.reset();
 }
 
 std::optional<std::string> TruthFiles::close() {
+  if (newest_) write_newest();
   for (std::ofstream* file : {&tum_, &objects_, &walls_, hits_ ? &*hits_ : nullptr}) {
     if (file) file->close();
     if (file && !*file) return "cannot write all of the truth into " + tum_path_.parent_path().string();

@@ -7,14 +7,18 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
 
 #include "common/app/stop_signal.hpp"
+#include "common/config/print.hpp"
 #include "common/dds/config.hpp"
+#include "common/files/atomic_file.hpp"
 #include "common/files/run_outputs.hpp"
+#include "services/ingest/topic_arguments.hpp"
 #include "services/simulator/drive_files.hpp"
 #include "services/simulator/scenario_files.hpp"
 #include "services/slammot/collector.hpp"
@@ -46,16 +50,28 @@ int fail(const std::string& line) {
   return kExitFault;
 }
 
-std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& options, const std::filesystem::path& state_folder) {
+/// The settings' file for the services: as asked for, or all of the job's where the log itself changed some of them.
+files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOptions& options, const std::filesystem::path& folder) {
+  if (job.profile.localization.time_is_known) return options.config;
+  Profile profile = job.profile;
+  const std::filesystem::path file = folder / "settings.textproto";
+  if (const auto fault = files::write_file_atomically(file, config::print(bind_stages(profile)))) return *fault;
+  return file;
+}
+
+std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& options, const std::filesystem::path& settings, const std::filesystem::path& state_folder) {
   std::vector<ServiceProcess> services;
   for (const std::string name : {"map-store", "loop-closing", "localization", "detection", "tracking", "ingest"}) {
     std::vector<std::string> arguments = {folder_of_this_program() / ("slammot-" + name), "--vehicle", kVehicle,
                                           "--domain", std::to_string(options.domain_id), "--state-dir", state_folder,
                                           "--profile", job.profile_name};
-    if (!options.config.empty()) arguments.insert(arguments.end(), {"--config", options.config});
+    if (!settings.empty()) arguments.insert(arguments.end(), {"--config", settings});
     if (name == "localization" && !options.map.empty()) arguments.push_back("--continue-map");
     const bool is_ingest = name == "ingest";
-    if (is_ingest) arguments.insert(arguments.end(), {"--input", options.input, "--speed", options.speed});
+    if (is_ingest) {
+      arguments.insert(arguments.end(), {"--input", options.input, "--speed", options.speed});
+      std::ranges::copy(ingest::arguments_of(options.topics), std::back_inserter(arguments));
+    }
     services.push_back({name, std::move(arguments), is_ingest});
   }
   return services;
@@ -116,7 +132,7 @@ int write(const BenchOptions& options, const files::RunRecord& record, const fil
     return kExitInterrupted;
   }
   if (!report.faults.is_cut) return kExitDone;
-  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed\n", options.input.c_str());
+  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed%s\n", options.input.c_str(), where_damaged(report.faults).c_str());
   return kExitLogIsCut;
 }
 
@@ -149,10 +165,12 @@ int bench(const BenchOptions& asked_for) {
 
   const TemporaryFolder folder("slammot-bench-");
   if (const auto fault = lay_out_map(*job, options, folder.path())) return fail(fault->message);
+  const auto settings = settings_file(*job, options, folder.path());
+  if (!settings) return fail(settings.error().message);
   const std::string dds_config = dds::loopback_config("slammot-bench-" + std::to_string(getpid()));
   Collector collector({kVehicle, options.domain_id, dds_config});
   std::optional<ServiceProcesses> services;
-  services.emplace(services_for(*job, options, folder.path()), folder.path(), std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
+  services.emplace(services_for(*job, options, *settings, folder.path()), folder.path(), std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
   if (const auto fault = attend(collector, *services, stamps_ns, is_interrupted)) return fail(*fault);
   const bool is_cut_short = is_interrupted && !collector.has_drive_ended();
   if (is_cut_short) {

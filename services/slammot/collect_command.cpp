@@ -11,6 +11,7 @@
 #include "common/app/stop_signal.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/run_outputs.hpp"
+#include "services/ingest/topic_arguments.hpp"
 #include "services/slammot/collector.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
@@ -23,6 +24,7 @@ using namespace std::chrono_literals;
 struct CollectOptions : CollectorOptions {
   std::filesystem::path output;
   std::filesystem::path input;  ///< The log that is played; may be empty.
+  files::TopicOptions topics;   ///< As it is played.
 };
 
 int fail(const std::string& line) {
@@ -33,7 +35,10 @@ int fail(const std::string& line) {
 /// What the log says about the drive, where it is at hand: all its scans, heard of or not.
 files::Result<std::vector<std::int64_t>> scans_of_drive(const CollectOptions& options, const Collector& collector, files::RunReport& report) {
   if (options.input.empty()) return collector.scan_stamps_ns();
-  auto log = files::CarmenLog::open(options.input);
+  files::CarmenLogOptions log_options;
+  log_options.topics = options.topics;
+  log_options.uses_all_scanners = true;
+  auto log = files::CarmenLog::open(options.input, log_options);
   if (!log) return log.error();
   std::vector<std::int64_t> stamps_ns = stamps_of(*log);
   report.input = options.input.filename().string();
@@ -56,7 +61,7 @@ int write(const CollectOptions& options, Collector& collector, double wall_s) {
   if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
   collector.forget_journal();
   std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
-  if (report.faults.is_cut) std::fprintf(stderr, "slammot: the log is cut off or damaged: only what could be read of it was processed\n");
+  if (report.faults.is_cut) std::fprintf(stderr, "slammot: the log is cut off or damaged: only what could be read of it was processed%s\n", where_damaged(report.faults).c_str());
   return kExitDone;
 }
 
@@ -90,6 +95,7 @@ void add_collect_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CollectOptions>();
   command->add_option("--output", options->output, "Folder for the results; made where it is missing")->required()->type_name("DIR");
   command->add_option("--input", options->input, "The log that is played, so that scans that nobody heard of have their row, too")->type_name("FILE");
+  ingest::add_topic_options(*command, options->topics);
   command->add_option("--vehicle", options->vehicle_id, "Whose drive")->capture_default_str();
   command->add_option("--domain", options->domain_id, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
   command->callback([options, &exit_code] {

@@ -1,16 +1,78 @@
 #include "services/slammot/command_line.hpp"
 
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 #include "services/evaluator/eval_command.hpp"
 #include "services/evaluator/report_command.hpp"
 #include "services/simulator/simulate_command.hpp"
 #include "services/slammot/bench_command.hpp"
+#include "services/slammot/check_command.hpp"
 #include "services/slammot/collect_command.hpp"
 #include "services/slammot/health_command.hpp"
 #include "services/slammot/run_command.hpp"
 
 namespace slammot {
+namespace {
+
+/// Letters to insert, to leave out or to replace: Levenshtein 1966.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+  return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) { return edit_distance(word, a) < edit_distance(word, b); });
+}
+
+std::vector<std::string> commands_of(CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// One line on the first word that is no command, or no option of its command.
+std::optional<std::string> unknown_word(CLI::App& app, const std::vector<std::string>& words) {
+  if (words.empty() || words.front().starts_with("-")) return std::nullopt;
+  const std::vector<std::string> commands = commands_of(app);
+  if (std::find(commands.begin(), commands.end(), words.front()) == commands.end()) {
+    return "unknown command '" + words.front() + "'; the nearest one is '" + nearest(words.front(), commands) + "', slammot --help lists all";
+  }
+  const std::vector<std::string> options = options_of(*app.get_subcommand(words.front()));
+  for (auto word = words.begin() + 1; word != words.end() && *word != "--"; ++word) {
+    const std::string name = word->substr(0, word->find('='));
+    if (!name.starts_with("--") || std::find(options.begin(), options.end(), name) != options.end()) continue;
+    return "unknown option '" + name + "' of " + words.front() + "; the nearest one is '" + nearest(name, options) + "', slammot " + words.front() + " --help lists all";
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 int run_command_line(int argc, char** argv) {
   CLI::App app{"Localization, mapping and moving object tracking from a vehicle's laser scanners", "slammot"};
@@ -19,11 +81,20 @@ int run_command_line(int argc, char** argv) {
   int exit_code = kExitDone;
   add_run_command(app, exit_code);
   add_bench_command(app, exit_code);
+  add_check_command(app, exit_code);
   add_collect_command(app, exit_code);
   add_health_command(app, exit_code);
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);
   evaluator::add_report_command(app, exit_code);
+  if (argc < 2) {
+    std::fputs(app.help().c_str(), stdout);
+    return kExitFault;
+  }
+  if (const auto fault = unknown_word(app, {argv + 1, argv + argc})) {
+    std::fprintf(stderr, "slammot: %s\n", fault->c_str());
+    return kExitFault;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& fault) {

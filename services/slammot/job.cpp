@@ -11,8 +11,11 @@
 #include "common/config/overlay.hpp"
 #include "common/config/profiles.hpp"
 #include "common/files/atomic_file.hpp"
+#include "common/files/log_findings.hpp"
+#include "common/files/odometry_findings.hpp"
 #include "common/files/log_profile.hpp"
 #include "services/ingest/log_source.hpp"
+#include "services/ingest/topic_arguments.hpp"
 #include "services/simulator/live_drive.hpp"
 #include "services/simulator/scenario_files.hpp"
 
@@ -68,11 +71,15 @@ files::Result<OpenedDrive> open_drive(const JobOptions& options) {
   if (!options.scenario.empty()) {
     auto scenario = simulator::load_scenario(options.scenario, options.seed);
     if (!scenario) return scenario.error();
-    drive.plan = simulator::plan_of(*scenario);
+    auto plan = simulator::plan_of(*scenario, options.topics.scanners);
+    if (!plan) return plan.error();
+    drive.plan = std::move(*plan);
     drive.profile = {scenario->profile, "as the scenario says"};
     drive.scenario = std::move(*scenario);
   } else {
-    auto log = files::CarmenLog::open(options.input);
+    files::CarmenLogOptions log_options;
+    log_options.topics = options.topics;
+    auto log = files::CarmenLog::open(options.input, log_options);
     if (!log) return log.error();
     drive.plan = log->plan();
     drive.profile = files::choose_profile(drive.plan.figures);
@@ -91,6 +98,25 @@ files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options, const file
   return std::move(*drive.log);
 }
 
+/// Why scans were not localized, and which were so without a match; "" where none.
+std::string describe_left_out(const files::RunRecord& record, const files::RunReport& report) {
+  constexpr std::pair<const char*, const char*> kReasons[] = {
+      {"duplicate_scans", "have the stamp of another"}, {"out_of_order_scans", "are older than one before"}, {"far_ahead_scans", "have a stamp far ahead of all others"}};
+  const auto stage = report.counters.find("localization");
+  if (stage == report.counters.end()) return {};
+  std::string reasons;
+  for (const auto& [counter, reason] : kReasons) {
+    const auto count = stage->second.find(counter);
+    if (count == stage->second.end() || count->second == 0) continue;
+    reasons += text("%s%llu %s", reasons.empty() ? "" : ", ", static_cast<unsigned long long>(count->second), reason);
+  }
+  std::string lines;
+  if (record.localized_scans() < record.scans() && !reasons.empty()) lines += "not localized: " + reasons + "\n";
+  const auto few = stage->second.find("too_few_echoes");
+  if (few != stage->second.end() && few->second > 0) lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n", static_cast<unsigned long long>(few->second));
+  return lines;
+}
+
 std::string describe_faults(const files::LogFaults& faults) {
   std::string lines;
   if (faults.malformed_lines > 0) {
@@ -105,7 +131,8 @@ std::string describe_faults(const files::LogFaults& faults) {
 }  // namespace
 
 void add_job_options(CLI::App& command, JobOptions& options) {
-  command.add_option("--input", options.input, "Recorded drive: a CARMEN log, plain or .gz")->type_name("FILE");
+  command.add_option("--input", options.input, "Recorded drive: a CARMEN or DP-SLAM log, plain or .gz, or a ROS bag (.bag, .mcap, .db3, or the folder)")->type_name("FILE");
+  ingest::add_topic_options(command, options.topics);
   command.add_option("--scenario", options.scenario, "Simulated drive in place of a recorded one: see slammot simulate --list")->type_name("NAME");
   command.add_option("--seed", options.seed, "Other world, traffic and noise than the scenario's own")->type_name("N");
   command.add_option("--output", options.output, "Folder for the results; made where it is missing")->required()->type_name("DIR");
@@ -125,6 +152,7 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   if (!drive) return drive.error();
   Profile profile;
   if (auto fault = load_settings(options, drive->profile.profile, profile)) return *fault;
+  profile.localization.time_is_known = profile.localization.time_is_known && drive->plan.figures.has_clock;
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
   return Job{begin(*drive, options, ingest::log_options(profile.ingest)), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};
@@ -143,8 +171,11 @@ std::string describe_job(const Job& job, const JobOptions& options) {
   std::string lines = text("%s %s: %llu scans of %zu beams over %.0f degrees, %.0f s", options.scenario.empty() ? "log:     " : "scenario:",
                            name_of_drive(options).c_str(), static_cast<unsigned long long>(figures.scans), figures.beams,
                            std::floor(figures.field_of_view_rad * 180.0 / std::numbers::pi + 0.25), figures.duration_s);
-  lines += options.scenario.empty() ? text(", %.0f m by odometry\n", figures.distance_m) : "\n";
-  if (!figures.has_clock) lines += text("          its stamps are no clock: a scan is taken to come every %.2f s\n", 1.0 / files::kNominalRateHz);
+  lines += "\n";
+  lines += files::describe(job.log.topics());
+  lines += files::describe_scanners(job.log.plan());
+  if (options.scenario.empty()) lines += "odometry: " + files::describe_odometry(job.log.plan()) + "\n";
+  for (const std::string& finding : files::describe_findings(job.log.plan())) lines += "warning:  " + finding + "\n";
   return lines + text("profile:  %s (%s)\n", job.profile_name.c_str(), job.profile_reason.c_str());
 }
 
@@ -167,15 +198,18 @@ files::RunReport report_of(const Job& job, const JobOptions& options, const std:
 }
 
 std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report, const std::filesystem::path& output) {
-  std::string lines = text("%-14s %10s %10s %10s\n", "stage", "p50 [ms]", "p99 [ms]", "max [ms]");
+  std::string lines = report.odometry ? "odometry: " + files::describe_odometry(*report.odometry, report.plan.figures.has_clock) + "\n" : std::string();
+  lines += text("%-14s %10s %10s %10s\n", "stage", "p50 [ms]", "p99 [ms]", "max [ms]");
   for (const files::StageLatency& stage : report.measured.stages) {
     lines += text("%-14s %10.3f %10.3f %10.3f\n", stage.stage.c_str(), stage.p50_ms, stage.p99_ms, stage.max_ms);
   }
   lines += text("%llu scans, %llu of them localized; %llu confirmed tracks; %zu submaps\n", static_cast<unsigned long long>(record.scans()),
                 static_cast<unsigned long long>(record.localized_scans()), static_cast<unsigned long long>(record.confirmed_tracks()), record.submaps().size());
   lines += text("%.1f s of work, %.1f times real time, %.0f MB at most\n", report.measured.wall_s, report.measured.real_time_factor, report.measured.peak_memory_mb);
-  return lines + describe_faults(report.faults) + "results are in " + output.string() + "\n";
+  return lines + describe_left_out(record, report) + describe_faults(report.faults) + "results are in " + output.string() + "\n";
 }
+
+std::string where_damaged(const files::LogFaults& faults) { return faults.damage.empty() ? std::string() : " (" + faults.damage + ")"; }
 
 double peak_memory_mb() {
   rusage usage{};

@@ -24,6 +24,7 @@ struct JobOptions {
   std::filesystem::path output;
   std::string profile;           ///< Name or file; empty: the log's own figures choose.
   std::filesystem::path config;  ///< Overlaid onto the profile; may be empty.
+  files::TopicOptions topics{};  ///< Where the log leaves a choice.
   std::string speed = "max";     ///< Times the recorded rate, or "max".
   std::filesystem::path map{};   ///< Stored map to go on in; may be empty.
   bool stores_map = false;       ///< Writes the map into the output folder, for the next.
@@ -60,6 +61,9 @@ files::RunReport report_of(const Job& job, const JobOptions& options, const std:
 
 /// What the user wants to know at the end: counts, latencies, speed, what was wrong with the log, where the outputs are.
 std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report, const std::filesystem::path& output);
+
+/// " (the chunk at byte 1234 does not unpack)" where that is known of a damaged log; empty otherwise.
+std::string where_damaged(const files::LogFaults& faults);
 
 /// Memory this process had at most.
 double peak_memory_mb();

@@ -61,6 +61,11 @@ Pipeline::Detected Pipeline::iterate(const sensing::LaserScan& scan, Detected de
 void Pipeline::finish() {
   localizer_.finish();
   close_loops();
+  if (loop_closer_.has_unfinished_work()) {
+    const auto correction = times_.measure("loop_closing", [&] { return loop_closer_.finish(); });
+    localizer_.correct(correction);
+    record_.add(correction);
+  }
   for (const flow::Constraint& constraint : loop_closer_.constraints()) record_.add(constraint);
 }
 

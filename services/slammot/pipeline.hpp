@@ -42,6 +42,14 @@ class Pipeline {
   const StageTimes& times() const { return times_; }
   std::map<std::string, std::map<std::string, std::uint64_t>> counters() const;
 
+  /// Whether the last scan did not match the map.
+  bool is_lost() const { return localizer_.is_lost(); }
+
+  /// Parts of the map begun because the drive was lost for good.
+  std::uint64_t maps_begun() const { return localizer_.counters().astray; }
+
+  sensing::OdometryConclusions odometry_conclusions() const { return localizer_.odometry_conclusions(); }
+
   /// Whether the newest finished submap is tied to the first one of the map.
   bool knows_where_it_is() const { return loop_closer_.knows_where_it_is(); }
 

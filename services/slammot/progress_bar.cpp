@@ -31,6 +31,10 @@ void ProgressBar::show(double fraction, const std::string& note) {
   std::fflush(stderr);
 }
 
+void ProgressBar::say(const std::string& line) {
+  std::fprintf(stderr, "%s%s\n", is_terminal_ ? kClearLine : "", line.c_str());
+}
+
 std::string bar_text(double fraction, int width) {
   fraction = std::clamp(fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(fraction * width);

@@ -16,6 +16,9 @@ class ProgressBar {
   /// fraction in [0, 1]; note is shown behind the bar.
   void show(double fraction, const std::string& note = "");
 
+  /// A line of its own above the bar, also where stderr is no terminal.
+  void say(const std::string& line);
+
  private:
   std::string what_;
   bool is_terminal_ = false;

@@ -11,9 +11,11 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/stop_signal.hpp"
+#include "common/files/log_findings.hpp"
 #include "common/files/run_outputs.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/lost_watch.hpp"
 #include "services/slammot/pipeline.hpp"
 #include "services/slammot/progress_bar.hpp"
 #include "services/slammot/read_ahead.hpp"
@@ -71,6 +73,7 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
   std::optional<Pace> pace;
   std::int64_t first_stamp_ns = 0;
   std::int64_t last_stamp_ns = 0;
+  LostWatch lost(files::likely_causes(job.log.plan()));
   ReadAhead log(job.log);
   auto read = log.next();
   for (; read && !stop.stop_requested(); read = log.next()) {
@@ -84,6 +87,7 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
       pace->wait_for(scan->stamp_ns, stop);
       pipeline.take(*scan);
       last_stamp_ns = std::max(last_stamp_ns, scan->stamp_ns);
+      if (const auto line = lost.see(static_cast<double>(scan->stamp_ns - first_stamp_ns) * 1e-9, scan->sequence, pipeline.is_lost(), pipeline.maps_begun())) progress.say(*line);
       progress.show(read->fraction_read);
     }
   }
@@ -99,7 +103,7 @@ int end_of(const JobOptions& options, const files::RunReport& report, const Driv
     return kExitInterrupted;
   }
   if (!report.faults.is_cut) return kExitDone;
-  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed\n", options.input.c_str());
+  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed%s\n", options.input.c_str(), where_damaged(report.faults).c_str());
   return kExitLogIsCut;
 }
 
@@ -144,6 +148,7 @@ int run(const RunOptions& run_options) {
   }
   files::RunReport report = report_of(*job, options, "run");
   report.counters = pipeline.counters();
+  report.odometry = pipeline.odometry_conclusions();
   report.is_interrupted = driven.is_interrupted;
   const double wall_s = seconds_since(start);
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s, peak_memory_mb()};

@@ -624,7 +624,8 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
 
 bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
   const filters::ModelSet models = models_of(track, config);
-  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
+  constexpr double kLeastStepS = 1e-3;  // of two scanners at the same stamp
+  const double unseen_s = std::max(kLeastStepS, static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9);
   if (track.body.has_sides) lie_along_what_is_seen(track, glimpse, config);
   if (track.body.has_sides) follow_side(track, glimpse, unseen_s, config);  // first: sizes are measured along the sides
   const BodyMeasurement measurement = measure(track.body, track.position_m(), glimpse, config);
@@ -805,7 +806,10 @@ bool is_held_never_to_have_moved(const Track& track, std::int64_t stamp_ns, cons
 flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config, flow::TrackedObject done_with) {
   flow::TrackedObject object = std::move(done_with);
   object.track_id = track.track_id;
-  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9;
+  // Between two scans of the scanner that has it in view it is not unseen, at up to so few a second.
+  constexpr double kLongestBetweenLooksS = 0.25;
+  const double since_look_s = std::min(track.since_look_s, kLongestBetweenLooksS);
+  const double unseen_s = static_cast<double>(stamp_ns - track.last_seen_ns) * 1e-9 - since_look_s;
   // What has got nowhere yet and seems to stand already may never have moved; it is followed until that is known. Where only
   // people move it is the foot on which somebody stands while the other swings.
   const bool may_always_have_stood = !only_people_move(config) && track.way_m == 0.0 && (track.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps);

@@ -114,6 +114,12 @@ struct OffSides {
 
 constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
 
+/// Points of a track in a scan.
+struct PastPoints {
+  std::size_t scanner = 0;                   ///< Whose scan it was, as the tracker counts them.
+  flow::RestoredPoints points;
+};
+
 /// One object that is followed, or supposed to be one.
 struct Track {
   flow::TrackId track_id;
@@ -163,7 +169,9 @@ struct Track {
   double outgrown_s = 0.0;                   ///< For which someone long known to walk has been given more echoes than one has.
   std::vector<Eigen::Vector2f> contour_in_odom_m;
   KeptGlimpses youth;                        ///< What was seen of it until it was confirmed.
-  memory::RecyclingQueue<flow::RestoredPoints> past;  ///< Points of a track not yet confirmed, newest last.
+  memory::RecyclingQueue<PastPoints> past;   ///< Points of a track not yet confirmed, newest last.
+  std::size_t scanner = 0;                   ///< The last one that had it in its field of view.
+  double since_look_s = 0.0;                 ///< Since a scan that had it in its field of view.
 
   Eigen::Vector2d position_m() const { return estimate.mean.head<2>(); }
   Eigen::Vector2d velocity_mps() const { return estimate.mean.segment<2>(2); }

@@ -150,11 +150,14 @@ Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const SweptMotion& m
           edge_beyond(view, ends.last, +1, size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
 }
 
-/// To when the beam that points at it is fired, in a scan that begins time_s after the one before.
+/// To when the beam that points at it is fired, in a scan that begins time_s after the one before; not back to before the beam
+/// of another scanner that met it last.
 void predict_to_its_beam(Track& track, double time_s, const PolarView& view, const TrackingConfig& config) {
   const double before_s = track.after_stamp_s;
-  track.after_stamp_s = view.delay_towards_s(track.position_m() + (time_s - before_s) * track.velocity_mps());
+  const double beam_s = view.delay_towards_s(track.position_m() + (time_s - before_s) * track.velocity_mps());
+  track.after_stamp_s = std::max(beam_s, before_s - time_s);
   predict(track, std::max(0.0, time_s + track.after_stamp_s - before_s), config);
+  track.since_look_s += time_s;
 }
 
 /// Whether the beams between two things see past them.
@@ -190,7 +193,7 @@ bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const S
   // Of what creeps much slides along itself, and seems to stand; who walks has no flank that does.
   const bool may_slide = tracks_[track].body.has_sides || !tracks_[track].confirmed;
   if (!past_of_segment_[segment].stands || (may_slide && is_slow(tracks_[track]))) return false;
-  const EarlierScan* then = history_.older_than(view.scan().stamp_ns, 0.0);
+  const EarlierScan* then = history().older_than(view.scan().stamp_ns, 0.0);
   if (then == nullptr) return false;
   const std::vector<std::uint16_t>& beams = view.scan().segments[segment].beams;
   constexpr std::size_t kMostAsked = 7;
@@ -312,14 +315,14 @@ void Tracker::associate(const ScanView& view) {
 
 Tracker::PastScans Tracker::past_scans(std::int64_t stamp_ns) const {
   PastScans past;
-  past.then = history_.older_than(stamp_ns, config_.compare_after_s);
-  past.just_now = only_people_move(config_) ? history_.older_than(stamp_ns, config_.compare_fast_after_s) : nullptr;
-  past.long_ago = history_.older_than(stamp_ns, config_.compare_slow_after_s);
+  past.then = history().older_than(stamp_ns, config_.compare_after_s);
+  past.just_now = only_people_move(config_) ? history().older_than(stamp_ns, config_.compare_fast_after_s) : nullptr;
+  past.long_ago = history().older_than(stamp_ns, config_.compare_slow_after_s);
   if (only_people_move(config_)) return past;
   constexpr double kSoonS = 0.4;
   constexpr double kLaterS = 0.6;
   for (const double age_s : {config_.compare_fast_after_s, kSoonS, kLaterS, config_.compare_after_s, config_.compare_slow_after_s})
-    if (const EarlierScan* then = history_.older_than(stamp_ns, age_s); then != nullptr) past.for_faces[past.count_for_faces++] = then;
+    if (const EarlierScan* then = history().older_than(stamp_ns, age_s); then != nullptr) past.for_faces[past.count_for_faces++] = then;
   return past;
 }
 
@@ -350,13 +353,13 @@ void Tracker::compare_with_past(std::size_t s, const PastScans& past_scans, cons
       ++seen;
       of_vehicles += past_scans.then->owners[before.beam].has_come ? 1 : 0;
     }
-    const Past of_beam = has_shifted_[beam] ? Past::kArrived : history_.past_of(beam, before, view.polar(), *past_scans.then, only_people_move(config_));
+    const Past of_beam = has_shifted_[beam] ? Past::kArrived : history().past_of(beam, before, view.polar(), *past_scans.then, only_people_move(config_));
     past_of_beam_[beam] = of_beam;
     past.stood += of_beam == Past::kStood ? 1 : 0;
     past.arrived += of_beam == Past::kArrived ? 1 : 0;
     past.receded += of_beam == Past::kReceded ? 1 : 0;
     const bool is_open = of_beam == Past::kUnknown && past_scans.just_now != nullptr;  // say, by who walked ahead
-    const Past since = is_open ? history_.past_of(beam, view.polar(), *past_scans.just_now, true) : of_beam;
+    const Past since = is_open ? history().past_of(beam, view.polar(), *past_scans.just_now, true) : of_beam;
     past.came += since == Past::kArrived || since == Past::kAppeared ? 1 : 0;
     arrival = of_beam == Past::kArrived ? arrival + 1 : 0;
     past.longest_arrival = std::max(past.longest_arrival, arrival);
@@ -448,6 +451,7 @@ void Tracker::begin_tracks(const ScanView& view) {
     tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_, *road_users_, spare_tracks_.take()));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
     tracks_.back().after_stamp_s = after_stamp_s;
+    tracks_.back().scanner = scanner_;
     tracks_.back().youth.add(view.scan().stamp_ns + nanoseconds(after_stamp_s), glimpse, pose_covariance_m2);
     tracks_.back().answers = answers;
     tracks_.back().echoes = static_cast<double>(segment.beams.size());
@@ -464,12 +468,12 @@ void Tracker::begin_tracks(const ScanView& view) {
 /// that are seen through now, say that it has moved.
 MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const {
   MotionEvidence evidence;
-  const bool is_known = &then == history_.older_than(view.scan().stamp_ns, config_.compare_after_s);
+  const bool is_known = &then == history().older_than(view.scan().stamp_ns, config_.compare_after_s);
   for (const std::uint16_t beam : shares_.beams_of_track[track]) {
     // A wall that answers bit by bit appears, too.
     const bool may_appear = only_people_move(config_) && view.scan().segments[view.segment_of_beam(beam)].box_length_m < config_.stride_m;
     const bool is_compared = has_shifted_[beam] || (is_known && !only_people_move(config_));
-    const Past past = is_compared ? past_of_beam_[beam] : history_.past_of(beam, view.polar(), then, may_appear);
+    const Past past = is_compared ? past_of_beam_[beam] : history().past_of(beam, view.polar(), then, may_appear);
     const bool has_stayed = past_of_beam_[beam] == Past::kStood;  // since it came into sight
     if (past == Past::kArrived || (past == Past::kAppeared && !has_stayed)) evidence.moved += 1.0;
     else if (past == Past::kStood || past == Past::kAppeared) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
@@ -496,7 +500,7 @@ MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) con
     return best;
   }
   for (const double age_s : {config_.compare_fast_after_s, config_.compare_after_s, config_.compare_slow_after_s}) {
-    const EarlierScan* then = history_.older_than(stamp_ns, age_s);
+    const EarlierScan* then = history().older_than(stamp_ns, age_s);
     if (then == nullptr) continue;
     const MotionEvidence evidence = evidence_against(*then, track, view);
     const double share = evidence.moved / std::max(1.0, evidence.moved + evidence.stood);
@@ -524,7 +528,7 @@ void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const Sc
   const Vector2d along = track.body.has_sides ? Vector2d(std::cos(track.body.heading_rad), std::sin(track.body.heading_rad)) : Vector2d(velocity_mps.normalized());
   const double speed_mps = velocity_mps.dot(along);
   const double across_mps = (velocity_mps - speed_mps * along).norm();
-  const SpeedEvidence evidence = speed_along(along, glimpse.points_m, view.scan().stamp_ns, history_, kFastestOfSigmas * config_.fastest_mps, track.track_id);
+  const SpeedEvidence evidence = speed_along(along, glimpse.points_m, view.scan().stamp_ns, history(), kFastestOfSigmas * config_.fastest_mps, track.track_id);
   const bool flies_sideways = across_mps > 2.0 + 0.3 * std::abs(speed_mps);
   const bool is_off = flies_sideways || std::abs(speed_mps - evidence.speed_mps) > 3.0 * evidence.sigma_mps + kSlackMps;
   const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps && !is_out_of_nowhere(track, config_);
@@ -533,7 +537,7 @@ void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const Sc
 }
 
 void Tracker::remember(const ScanView& view) {
-  if (!history_.is_due(view.scan().stamp_ns)) return;
+  if (!history().is_due(view.scan().stamp_ns)) return;
   owners_.assign(view.scan().range_m.size(), {});
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (const std::uint16_t beam : shares_.beams_of_track[t]) owners_[beam] = {tracks_[t].track_id, true, tracks_[t].confirmed, tracks_[t].confirmed && tracks_[t].body.has_sides};
@@ -541,7 +545,7 @@ void Tracker::remember(const ScanView& view) {
     if (!past_of_segment_[s].has_come) continue;
     for (const std::uint16_t beam : view.scan().segments[s].beams) owners_[beam].has_come = true;
   }
-  history_.add(view.scan().stamp_ns, view.polar(), owners_);
+  scanners_[scanner_].history.add(view.scan().stamp_ns, view.polar(), owners_);
 }
 
 /// The echoes are of something else, which may become a track of its own.
@@ -579,10 +583,10 @@ EchoesOfYouth Tracker::with_echoes(EchoesOfYouth youth, const std::vector<std::u
 }
 
 /// Takes the echoes of each track; what concerns others than it is done afterwards, in the order of the tracks.
-void Tracker::correct_all(double time_s, const ScanView& view) {
+void Tracker::correct_all(const ScanView& view) {
   if (glimpse_points_m_.size() < tracks_.size()) glimpse_points_m_.resize(tracks_.size());
   outcomes_.resize(tracks_.size());
-  work::share(help_, tracks_.size(), [&](std::size_t t) { outcomes_[t] = correct(t, time_s, view); });
+  work::share(help_, tracks_.size(), [&](std::size_t t) { outcomes_[t] = correct(t, view); });
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (outcomes_[t] == Outcome::kIsOfSomethingElse) release(t);
     if (outcomes_[t] == Outcome::kIsConfirmed) confirm(t);
@@ -609,11 +613,23 @@ bool Tracker::takes(std::size_t index, const Glimpse& glimpse, double time_s, co
   return true;
 }
 
+/// A scan that cannot see the place says nothing of a track that another scanner has in its field of view. Once that one
+/// has lost it from view, too, its own scans say so.
+bool Tracker::is_left_to_another_scanner(const Track& track, const Visibility& visibility) const {
+  return visibility.beams == 0 && track.scanner != scanner_;
+}
+
 /// Writes of the track only.
-Tracker::Outcome Tracker::correct(std::size_t index, double time_s, const ScanView& view) {
-  leave_out_surroundings(index, time_s, view);
+Tracker::Outcome Tracker::correct(std::size_t index, const ScanView& view) {
   Track& track = tracks_[index];
   const std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
+  if (scanners_.size() > 1) {
+    const Visibility visibility = view.visibility_of(track.body, track.position_m());
+    if (beams.empty() && is_left_to_another_scanner(track, visibility)) return Outcome::kGoesOn;
+    if (!beams.empty() || visibility.beams > 0) track.scanner = scanner_;
+  }
+  const double time_s = std::exchange(track.since_look_s, 0.0);
+  leave_out_surroundings(index, time_s, view);
   constexpr double kEchoMemoryS = 0.2;
   track.echoes += (1.0 - std::exp(-time_s / kEchoMemoryS)) * (static_cast<double>(beams.size()) - track.echoes);
   if (beams.empty()) {
@@ -652,7 +668,9 @@ void Tracker::confirm(std::size_t index) {
   Track& track = tracks_[index];
   tracking::confirm(track, last_stamp_ns_, config_);
   // On a road a false track would so excuse whatever stood in its place.
-  if (only_people_move(config_)) history_.confirm(track.track_id);
+  if (only_people_move(config_)) {
+    for (OfScanner& scanner : scanners_) scanner.history.confirm(track.track_id);
+  }
   ++counters_.tracks_confirmed;
 }
 
@@ -686,19 +704,22 @@ void Tracker::merge_duplicates() {
   }
 }
 
-void Tracker::remove_dead(flow::ScanLabels& labels) {
-  const auto restore = [&](const Track& track) {
-    for (const flow::RestoredPoints& past : track.past.all()) {
-      const auto same = std::ranges::find_if(labels.restored, [&](const auto& one) { return one.sequence == past.sequence; });
-      counters_.points_restored += past.beams.size();
-      if (same != labels.restored.end()) {
-        add_beams(same->beams, past.beams);
-      } else {
-        spare_restored_.resize(labels.restored, labels.restored.size() + 1);
-        labels.restored.back() = past;
-      }
+/// What was kept out of the map for the track's sake is told to whose scans it was of.
+void Tracker::restore(const Track& track, flow::ScanLabels& labels) {
+  for (const PastPoints& past : track.past.all()) {
+    std::vector<flow::RestoredPoints>& restored = past.scanner == scanner_ ? labels.restored : scanners_[past.scanner].restored;
+    const auto same = std::ranges::find_if(restored, [&](const auto& one) { return one.sequence == past.points.sequence; });
+    counters_.points_restored += past.points.beams.size();
+    if (same != restored.end()) {
+      add_beams(same->beams, past.points.beams);
+    } else {
+      spare_restored_.resize(restored, restored.size() + 1);
+      restored.back() = past.points;
     }
-  };
+  }
+}
+
+void Tracker::remove_dead(flow::ScanLabels& labels) {
   const auto is_over = [&](const Track& track) {
     if (track.hits == 0) return true;
     const double unseen_s = static_cast<double>(last_stamp_ns_ - track.last_seen_ns) * kNanosecond_s;
@@ -708,7 +729,7 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const bool is_dead = is_lost || is_given_up(track, age_s, config_) || never_moved || contradicts_itself(track, config_) || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {
       ++counters_.tracks_rejected;
-      restore(track);
+      restore(track, labels);
     }
     if (is_dead) note_sizes(road_users_seen_, track, config_);
     if (is_dead) note_off_sides(road_users_seen_, track, config_);
@@ -727,6 +748,25 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
   tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(kept), tracks_.end());
   constexpr std::size_t kMostRestored = 64;
   if (labels.restored.size() > kMostRestored) spare_restored_.resize(labels.restored, kMostRestored);
+  for (OfScanner& scanner : scanners_) {
+    if (scanner.restored.size() > kMostRestored) spare_restored_.resize(scanner.restored, kMostRestored);
+  }
+}
+
+bool Tracker::is_late(const flow::SegmentedScan& scan) const {
+  if (!has_scan_ || scan.stamp_ns > last_stamp_ns_) return false;
+  if (scan.stamp_ns < last_stamp_ns_ || scanners_at_last_.empty()) return true;
+  return std::ranges::any_of(scanners_at_last_, [&](std::size_t scanner) { return scanners_[scanner].scanner_id == scan.scanner_id; });
+}
+
+void Tracker::begin_scan(const flow::SegmentedScan& scan) {
+  const auto known = std::ranges::find(scanners_, scan.scanner_id, &OfScanner::scanner_id);
+  scanner_ = static_cast<std::size_t>(known - scanners_.begin());
+  if (known == scanners_.end()) scanners_.push_back({scan.scanner_id, {}, {}});
+  if (!has_scan_ || scan.stamp_ns != last_stamp_ns_) scanners_at_last_.clear();
+  scanners_at_last_.push_back(scanner_);
+  has_scan_ = true;
+  last_stamp_ns_ = scan.stamp_ns;
 }
 
 TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult done_with) {
@@ -736,14 +776,14 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult do
   result.labels.scanner_id = scan.scanner_id;
   result.labels.labels = scan.labels;
   spare_restored_.resize(result.labels.restored, 0);
-  if (has_scan_ && scan.stamp_ns <= last_stamp_ns_) {
+  if (is_late(scan)) {
     ++counters_.late_scans;
     describe(scan, result.objects);
     return result;
   }
   const double time_s = has_scan_ ? static_cast<double>(scan.stamp_ns - last_stamp_ns_) * kNanosecond_s : 0.0;
-  has_scan_ = true;
-  last_stamp_ns_ = scan.stamp_ns;
+  begin_scan(scan);
+  result.labels.restored.swap(scanners_[scanner_].restored);
   ++counters_.scans;
   view_.look_at(scan);
   const ScanView& view = view_;
@@ -751,7 +791,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult do
   rivals_.predict(time_s);
   compare_with_past(view);
   associate(view);
-  correct_all(time_s, view);
+  correct_all(view);
   if (config_.formations) formations_.follow(tracks_, time_s);
   begin_tracks(view);
   join_pieces(view);
@@ -762,11 +802,12 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult do
     Track& track = tracks_[t];
     if (track.confirmed || shares_.beams_of_track[t].empty()) continue;
     if (track.past.size() == kMostPastScans) track.past.pop_front();
-    flow::RestoredPoints& past = track.past.push_back();
-    past.sequence = scan.sequence;
-    past.beams = shares_.beams_of_track[t];
+    PastPoints& past = track.past.push_back();
+    past.scanner = scanner_;
+    past.points.sequence = scan.sequence;
+    past.points.beams = shares_.beams_of_track[t];
     // What is known to have come is not given back to the map with a track that has proven nothing.
-    std::erase_if(past.beams, [&](std::uint16_t beam) { return past_of_segment_[view.segment_of_beam(beam)].has_come; });
+    std::erase_if(past.points.beams, [&](std::uint16_t beam) { return past_of_segment_[view.segment_of_beam(beam)].has_come; });
   }
   const std::size_t followed = tracks_.size();
   remove_dead(result.labels);
@@ -808,7 +849,8 @@ void Tracker::take_up(const flow::TrackedObjects& objects) {
   road_users_seen_ = {};
   rivals_ = Rivals(config_);
   formations_ = Formations(config_);
-  history_.clear();
+  scanners_.clear();
+  scanners_at_last_.clear();
   for (const flow::TrackedObject& object : objects.objects) {
     next_id_ = std::max(next_id_, object.track_id.value + 1);
     if (object.confirmed) tracks_.push_back(resumed(object, config_));

@@ -89,6 +89,13 @@ class Tracker {
     bool has_come = false;      ///< It is where a vehicle was that has come there: the same, standing.
   };
 
+  /// What is kept for each scanner: what one sees is compared with what it saw itself, and answered to it.
+  struct OfScanner {
+    std::string scanner_id;
+    ScanHistory history;
+    std::vector<flow::RestoredPoints> restored;   ///< To be told with the labels of its next scan.
+  };
+
   /// What a scan is compared with.
   struct PastScans {
     const EarlierScan* then = nullptr;
@@ -100,6 +107,11 @@ class Tracker {
   /// What has become of a track when its echoes were taken.
   enum class Outcome : std::uint8_t { kGoesOn, kIsOfSomethingElse, kIsConfirmed };
 
+  const ScanHistory& history() const { return scanners_[scanner_].history; }
+  bool is_late(const flow::SegmentedScan& scan) const;
+  void begin_scan(const flow::SegmentedScan& scan);
+  bool is_left_to_another_scanner(const Track& track, const Visibility& visibility) const;
+  void restore(const Track& track, flow::ScanLabels& labels);
   PastScans past_scans(std::int64_t stamp_ns) const;
   void compare_with_past(const ScanView& view);
   void compare_with_past(std::size_t segment, const PastScans& past_scans, const ScanView& view);
@@ -110,9 +122,9 @@ class Tracker {
   EchoesOfYouth with_echoes(EchoesOfYouth youth, const std::vector<std::uint16_t>& beams, const ScanView& view) const;
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
   void check_velocity(std::size_t track, const Glimpse& glimpse, const ScanView& view);
-  void correct_all(double time_s, const ScanView& view);
+  void correct_all(const ScanView& view);
   bool takes(std::size_t track, const Glimpse& glimpse, double time_s, const flow::SegmentedScan& scan);
-  Outcome correct(std::size_t track, double time_s, const ScanView& view);
+  Outcome correct(std::size_t track, const ScanView& view);
   void confirm(std::size_t track);
   void leave_out_surroundings(std::size_t track, double time_s, const ScanView& view);
   void release(std::size_t track);
@@ -146,7 +158,9 @@ class Tracker {
   std::unique_ptr<RoadUsers> road_users_ = std::make_unique<RoadUsers>(road_users_seen_.known());  ///< Where it is when the tracker is moved: tracks refer to it.
   Rivals rivals_;
   Formations formations_;
-  ScanHistory history_;
+  std::vector<OfScanner> scanners_;             ///< In the order of their first scans.
+  std::size_t scanner_ = 0;                     ///< That of the current scan.
+  std::vector<std::size_t> scanners_at_last_;   ///< Whose scans have the last stamp; empty after a restart.
   /// Memory that is used again.
   ScanView view_;                               ///< Of the current scan.
   std::vector<Owner> owners_;

@@ -18,7 +18,7 @@ using slammot::testing::random_bytes;
 using slammot::testing::random_words;
 
 const std::vector<std::string_view> kWords = {
-    "FLASER", "ROBOTLASER1", "ODOM", "PARAM", "RAWLASER1", "#", "0", "1", "2", "4", "-1", "181", "8192", "8193", "99999999999",
+    "FLASER", "ROBOTLASER1", "ODOM", "PARAM", "RAWLASER1", "ROBOTLASER2", "RLASER", "LASER3", "TRUEPOS", "IMU", "Laser", "Odometry", "#", "0", "1", "2", "4", "-1", "181", "8192", "8193", "99999999999",
     "1.0", "1e308", "1e-320", "1e999", "nan", "-inf", "0x10", "3.14159", "host", "1575810072.324471", "9223372036.9", "robot_frontlaser_offset",
     "laser_front_laser_resolution", "\t", "\r", "\0", "1.2.3", "--5", "+7", ","};
 

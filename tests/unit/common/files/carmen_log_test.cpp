@@ -157,14 +157,38 @@ TEST_F(CarmenLogTest, GivesScansOfALogThatNeverMovesWithoutOdometry) {
   EXPECT_EQ(read(FlaserLine{.ipc = "1.0"}.text() + FlaserLine{.ipc = "1.1"}.text()).order, "ss");
 }
 
-TEST_F(CarmenLogTest, GivesNumberedScansATimeAtTheNominalRate) {
+TEST_F(CarmenLogTest, GivesNumberedScansTheTimeThatTheirWayTakes) {
   std::string content;
   for (int i = 0; i < 5; ++i) content += FlaserLine{.pose = std::to_string(i) + " 0 0", .ipc = std::to_string(i), .logger = std::to_string(i)}.text();
   const Reading reading = read(content);
   EXPECT_EQ(reading.plan.clock, LogClock::kNominal);
   EXPECT_EQ(reading.scans[0].stamp_ns, 0);
-  EXPECT_EQ(reading.scans[4].stamp_ns, 400'000'000);
+  EXPECT_EQ(reading.scans[4].stamp_ns, 8'000'000'000);  // a metre each at 0.5 m/s
   EXPECT_EQ(reading.order, "ososososos");
+}
+
+TEST_F(CarmenLogTest, PlacesOdomLinesByTheirOrderWhereNoClockRuns) {
+  std::string content = "ODOM 0 0 0 0 0 0 0 h 0\n";
+  for (int i = 0; i < 4; ++i) {
+    content += FlaserLine{.pose = std::to_string(i) + " 0 0", .ipc = "0", .logger = "0"}.text();
+    content += "ODOM " + std::to_string(i) + ".5 0 0 0 0 0 0 h 0\n";
+  }
+  const Reading reading = read(content);
+  EXPECT_EQ(reading.plan.odometry, OdometrySource::kBoth);
+  EXPECT_EQ(reading.order, "osoosoosoos");
+  EXPECT_EQ(reading.odometry[1].stamp_ns, 1'000'000'000);
+  EXPECT_EQ(reading.odometry[2].stamp_ns, reading.scans[1].stamp_ns);
+}
+
+TEST_F(CarmenLogTest, TakesTheOdomLineBeforeAScanWithoutPoseWhereNoClockRuns) {
+  std::string content;
+  for (int i = 0; i < 4; ++i) content += "ODOM " + std::to_string(i) + " 0 0 0 0 0 0 h 0\n" + FlaserLine{.ipc = "0", .logger = "0"}.text();
+  const Reading reading = read(content);
+  EXPECT_EQ(reading.plan.odometry, OdometrySource::kOdomLines);
+  EXPECT_EQ(reading.order, "osososos");
+  EXPECT_THAT(reading.odometry[0].wheel_from_base, PoseNear(Pose2{0.0, 0.0, 0.0}, 1e-12));
+  EXPECT_THAT(reading.odometry[2].wheel_from_base, PoseNear(Pose2{2.0, 0.0, 0.0}, 1e-12));
+  EXPECT_EQ(reading.odometry[2].stamp_ns, reading.scans[2].stamp_ns);
 }
 
 TEST_F(CarmenLogTest, KeepsDuplicateAndLateScansWithTheirOwnStampButWithoutOdometry) {
@@ -233,6 +257,136 @@ TEST_F(CarmenLogTest, RefusesFilesWithoutAScanInOneLine) {
   write_gz(file_, straight_drive(50));
   std::filesystem::resize_file(file_, 30);
   EXPECT_THAT(CarmenLog::open(file_).error().message, HasSubstr("cut off or damaged"));
+}
+
+TEST_F(CarmenLogTest, ReadsALogOfDpSlamByTheNominalClock) {
+  const Reading reading = read("Odometry 0 0 0\nLaser 3 1 2 3\nOdometry 0.5 0 0.1\nLaser 3 1 2 3\n");
+  EXPECT_EQ(reading.order, "osos");
+  EXPECT_EQ(reading.plan.clock, LogClock::kNominal);
+  EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.5, 0.0, 0.1}, 1e-12));
+  EXPECT_NEAR(reading.scans[0].scanner.first_beam_rad, -std::numbers::pi / 2.0, 1e-12);
+}
+
+TEST_F(CarmenLogTest, ReadsRawScansWithOdomLines) {
+  const std::string raw = "RAWLASER1 0 -1.570796 3.141593 1.570796 81.83 0.01 0 3 1 2 3 0 ";
+  const Reading reading = read("ODOM 0 0 0 0 0 0 1.0 h 1.0\n" + raw + "1.05 h 1.05\nODOM 0.1 0 0 0 0 0 1.1 h 1.1\n" + raw + "1.15 h 1.15\nODOM 0.2 0 0 0 0 0 1.2 h 1.2\n");
+  EXPECT_EQ(reading.plan.odometry, OdometrySource::kOdomLines);
+  ASSERT_EQ(reading.scans.size(), 2u);
+  EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.05, 0.0, 0.0}, 1e-9));
+}
+
+TEST_F(CarmenLogTest, PrefersTheRecordsWithPosesWhereTheSameScansAreThereTwice) {
+  std::string log;
+  for (int i = 0; i < 5; ++i) {
+    const std::string stamp = "10" + std::to_string(i) + ".0";
+    log += "RAWLASER1 0 -1.570796 3.141593 1.570796 81.83 0.01 0 3 1 2 3 0 " + stamp + " h " + stamp + "\n";
+    log += FlaserLine{.pose = std::to_string(i) + " 0 0", .ipc = stamp, .logger = stamp}.text();
+  }
+  const Reading reading = read(log);
+  EXPECT_EQ(reading.plan.laser, LaserRecordKind::kFlaser);
+  EXPECT_EQ(reading.scans.size(), 5u);
+  EXPECT_EQ(reading.plan.scanners.size(), 1u);
+}
+
+TEST_F(CarmenLogTest, TakesOdometryOfTruePosWhereThereIsNoOther) {
+  const std::string raw = "RAWLASER1 0 -1.570796 3.141593 1.570796 81.83 0.01 0 3 1 2 3 0 ";
+  const Reading reading = read("TRUEPOS 9 9 0 0 0 0 1.0 h 1.0\n" + raw + "1.1 h 1.1\nTRUEPOS 9 9 0 0.2 0 0 1.2 h 1.2\n");
+  EXPECT_EQ(reading.plan.odometry, OdometrySource::kOdomLines);
+  ASSERT_EQ(reading.scans.size(), 1u);
+  EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.1, 0.0, 0.0}, 1e-9));
+}
+
+/// A front and a rear laser; records of the rear one come late.
+std::string front_and_rear(int scans) {
+  std::string log = "PARAM robot_frontlaser_offset 0.5\nPARAM robot_rearlaser_offset 0.4\n";
+  for (int i = 0; i < scans; ++i) {
+    const std::string s = std::to_string(i / 10) + "." + std::to_string(i % 10);
+    log += FlaserLine{.pose = s + "5 0 0", .ipc = "100" + s + "5", .logger = s + "5"}.text();
+    log += "R" + FlaserLine{.ranges = "3 5.0 6.0 7.0", .pose = s + " 0 0", .ipc = "100" + s, .logger = s}.text().substr(1);
+  }
+  return log;
+}
+
+TEST_F(CarmenLogTest, KnowsTheRearLaserAndHandsOutTheFrontOne) {
+  const Reading reading = read(front_and_rear(5));
+  ASSERT_EQ(reading.plan.scanners.size(), 2u);
+  EXPECT_EQ(reading.plan.scanners[1].name, "RLASER");
+  EXPECT_THAT(reading.plan.scanners[1].base_from_laser, PoseNear(Pose2{-0.4, 0.0, std::numbers::pi}, 1e-12));
+  EXPECT_EQ(reading.scans.size(), 5u);
+  EXPECT_EQ(reading.scans[4].scanner.scanner_id, "front");
+}
+
+TEST_F(CarmenLogTest, HandsOutTheRearLaserWhereAskedFor) {
+  write_file(file_, front_and_rear(5));
+  CarmenLogOptions options;
+  options.topics.scan_topic = "RLASER";
+  const Reading reading = read_with(options);
+  ASSERT_EQ(reading.scans.size(), 5u);
+  EXPECT_EQ(reading.scans[0].range_m.size(), 3u);
+  EXPECT_THAT(reading.scans[0].scanner.base_from_laser, PoseNear(Pose2{-0.4, 0.0, std::numbers::pi}, 1e-12));
+  options.topics.scan_topic = "ROBOTLASER7";
+  EXPECT_THAT(CarmenLog::open(file_, options).error().message, HasSubstr("no scanner ROBOTLASER7"));
+}
+
+TEST_F(CarmenLogTest, HandsOutAllLasersInTheOrderOfTheirStampsWhereAskedFor) {
+  write_file(file_, front_and_rear(5));
+  CarmenLogOptions options;
+  options.uses_all_scanners = true;
+  const Reading reading = read_with(options);
+  ASSERT_EQ(reading.scans.size(), 10u);
+  for (std::size_t i = 0; i < reading.scans.size(); ++i) {
+    EXPECT_EQ(reading.scans[i].scanner.scanner_id, i % 2 == 0 ? "RLASER" : "FLASER");
+    EXPECT_EQ(reading.scans[i].sequence, i / 2);
+    if (i > 0) EXPECT_GT(reading.scans[i].stamp_ns, reading.scans[i - 1].stamp_ns);
+  }
+  EXPECT_EQ(reading.order, "osososososososososos");
+}
+
+TEST_F(CarmenLogTest, SaysOfAFurtherLaserThatItIsUsedOnlyWhereItIs) {
+  write_file(file_, front_and_rear(5));
+  CarmenLogOptions options;
+  const auto front = CarmenLog::open(file_, options);
+  ASSERT_TRUE(front);
+  EXPECT_THAT(describe(front->topics()), HasSubstr("not used: RLASER"));
+  options.uses_all_scanners = true;
+  const auto both = CarmenLog::open(file_, options);
+  ASSERT_TRUE(both);
+  EXPECT_THAT(describe(both->topics()), ::testing::Not(HasSubstr("not used")));
+}
+
+std::string without_rear_offset(std::string log) {
+  const std::string line = "PARAM robot_rearlaser_offset 0.4\n";
+  return log.erase(log.find(line), line.size());
+}
+
+TEST_F(CarmenLogTest, LeavesOutAFurtherLaserOfWhichItDoesNotKnowWhereItIs) {
+  write_file(file_, without_rear_offset(front_and_rear(5)));
+  CarmenLogOptions options;
+  options.uses_all_scanners = true;
+  const Reading reading = read_with(options);
+  EXPECT_EQ(reading.scans.size(), 5u);
+  EXPECT_EQ(reading.scans[0].scanner.scanner_id, "front");
+  EXPECT_THAT(reading.plan.unplaced_scanners, ::testing::ElementsAre("RLASER"));
+}
+
+TEST_F(CarmenLogTest, UsesTheLasersThatWereAskedForOnly) {
+  write_file(file_, without_rear_offset(front_and_rear(5)));
+  CarmenLogOptions options;
+  options.uses_all_scanners = true;
+  options.topics.scanners = {"RLASER"};
+  const Reading reading = read_with(options);
+  ASSERT_EQ(reading.scans.size(), 5u);
+  EXPECT_EQ(reading.scans[0].range_m[0], 5.0F);
+  EXPECT_EQ(reading.plan.base_from_laser.heading_rad, std::numbers::pi);
+  options.topics.scanners = {"RLASER", "LASER3"};
+  const auto refused = CarmenLog::open(file_, options);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("no scanner LASER3: there are FLASER, RLASER"));
+}
+
+TEST_F(CarmenLogTest, KnowsWhereNumberedLasersAre) {
+  std::string log = "PARAM robot_laser2_offset 0.4\nPARAM robot_laser2_side_offset -0.2\nPARAM robot_laser2_angular_offset 1.5\n" + front_and_rear(5);
+  EXPECT_THAT(read(log).plan.scanners.at(1).base_from_laser, PoseNear(Pose2{0.4, -0.2, 1.5}, 1e-12));
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ TEST(ParseStamp, KeepsEveryDigitThatADoubleWouldLose) {
   EXPECT_EQ(parse_stamp_ns("-1.25"), -1'250'000'000);
   EXPECT_EQ(parse_stamp_ns("1.1234567899"), 1'123'456'789);
   EXPECT_EQ(parse_stamp_ns("1.5e3"), 1'500'000'000'000);
+  for (const char* text : {"1575810072324", "1575810072324000", "1575810072324000000"}) EXPECT_EQ(parse_stamp_ns(text), 1'575'810'072'324'000'000) << text;
 }
 
 TEST(ParseStamp, RefusesWhatIsNoTime) {
@@ -132,9 +133,56 @@ TEST(ParseCarmenLine, ReadsOdomAndParam) {
 }
 
 TEST(ParseCarmenLine, IgnoresCommentsAndOtherMessages) {
-  for (const char* line : {"", "   ", "# CARMEN Logfile", "TRUEPOS 1 2 3", "RLASER 2 1 1", "\x01\x02\xff"}) {
+  for (const char* line : {"", "   ", "# CARMEN Logfile", "SYNC begin 1 h 1", "NMEAGGA 1 2 3", "ROBOTLASER 2 1 1", "ROBOTLASER0 2 1 1", "\x01\x02\xff"}) {
     EXPECT_TRUE(std::holds_alternative<IgnoredLine>(parse_carmen_line(line))) << line;
   }
+}
+
+TEST(ParseCarmenLine, KnowsTheRearLaserByItsSlot) {
+  const LaserRecord record = laser("RLASER 2 1 2 3 4 1.5 5 6 0.5 12.5 host 7.5");
+  EXPECT_EQ(record.kind, LaserRecordKind::kFlaser);
+  EXPECT_EQ(record.slot, 2);
+  EXPECT_EQ(record.scanner, "RLASER");
+  EXPECT_THAT(record.wheel_from_base, PoseNear(Pose2{5.0, 6.0, 0.5}, 1e-12));
+}
+
+TEST(ParseCarmenLine, NumbersRobotAndRawLasers) {
+  const LaserRecord robot = laser("ROBOTLASER2" + kHead.substr(std::string("ROBOTLASER1").size()) + kTail);
+  EXPECT_EQ(robot.slot, 2);
+  EXPECT_EQ(robot.scanner, "ROBOTLASER2");
+  const LaserRecord raw = laser("RAWLASER3 0 -1.570796 3.141593 0.785398 81.83 0.01 0 5 1 2 3 4 5 2 0.5 0.6 12.5 host 7.5");
+  EXPECT_EQ(raw.kind, LaserRecordKind::kRawLaser);
+  EXPECT_EQ(raw.slot, 3);
+  EXPECT_THAT(raw.range_m, ElementsAre(1.0F, 2.0F, 3.0F, 4.0F, 5.0F));
+  EXPECT_EQ(raw.stamps.ipc_ns, 12'500'000'000);
+  ASSERT_TRUE(raw.layout);
+  EXPECT_NEAR(raw.layout->beam_step_rad, pi / 4.0, 1e-6);
+  const LaserRecord old = laser("LASER4 2 1 2 12.5 host 7.5");
+  EXPECT_EQ(old.slot, 4);
+  EXPECT_FALSE(old.layout);
+}
+
+TEST(ParseCarmenLine, TakesOdometryFromTheSecondPoseOfTruePos) {
+  const auto record = std::get<OdometryRecord>(parse_carmen_line("TRUEPOS 1 2 0.1 3 4 0.2 12.5 host 7.5"));
+  EXPECT_EQ(record.kind, OdometryRecordKind::kTruePos);
+  EXPECT_THAT(record.wheel_from_base, PoseNear(Pose2{3.0, 4.0, 0.2}, 1e-12));
+  EXPECT_EQ(record.stamps.ipc_ns, 12'500'000'000);
+}
+
+TEST(ParseCarmenLine, TakesTheYawRateOfAnImu) {
+  const auto record = std::get<ImuRecord>(parse_carmen_line("IMU 0 0 9.81 1 0 0 0 1 2 3 0.1 0.2 0.3 12.5 host 7.5"));
+  EXPECT_EQ(record.yaw_rate_radps, 0.3);
+  EXPECT_EQ(record.stamps.ipc_ns, 12'500'000'000);
+}
+
+TEST(ParseCarmenLine, ReadsLinesOfDpSlamWithoutStamps) {
+  const LaserRecord record = laser("Laser 3 1.5 2.5 3.5");
+  EXPECT_EQ(record.kind, LaserRecordKind::kDpSlam);
+  EXPECT_THAT(record.range_m, ElementsAre(1.5F, 2.5F, 3.5F));
+  EXPECT_FALSE(record.stamps.ipc_ns);
+  EXPECT_THAT(std::get<OdometryRecord>(parse_carmen_line("Odometry 1 2 0.5")).wheel_from_base, PoseNear(Pose2{1.0, 2.0, 0.5}, 1e-12));
+  EXPECT_TRUE(is_malformed("Laser 3 1.5 2.5"));
+  EXPECT_TRUE(is_malformed("Odometry 1 2"));
 }
 
 TEST(ParseCarmenLine, RefusesTooFewNumbersAndPosesThatCannotBe) {

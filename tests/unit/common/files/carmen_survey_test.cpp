@@ -11,6 +11,7 @@ namespace slammot::files {
 namespace {
 
 using geometry::Pose2;
+using sensing::ClockFault;
 using std::numbers::pi;
 using testing::PoseNear;
 
@@ -69,19 +70,37 @@ TEST(CarmenSurvey, TakesTheLoggersClockWhenIpcStandsStillOrIsMissing) {
   EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.stamps.ipc_ns.reset(); }).clock, LogClock::kLogger);
 }
 
-TEST(CarmenSurvey, TakesNoClockFromScansThatAreOnlyNumbered) {
+TEST(CarmenSurvey, MakesTimeOfTheWayWhereScansAreOnlyNumbered) {
   const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i * kSecond; });
   EXPECT_EQ(plan.clock, LogClock::kNominal);
-  EXPECT_NEAR(plan.figures.scan_period_s, 1.0 / kNominalRateHz, 1e-12);
+  EXPECT_EQ(plan.times.fault, ClockFault::kIndex);
+  EXPECT_NEAR(plan.figures.scan_period_s, 0.1 / 0.5, 1e-9);  // 0.1 m a scan among walls 2 m away
   EXPECT_EQ(plan.figures.cruising_speed_mps, 0.0);
   EXPECT_FALSE(plan.figures.has_clock);
 }
 
-TEST(CarmenSurvey, TakesNoClockFromStampsThatRepeatOrStartAnew) {
-  const auto coarse = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i / 10 * kSecond; });
-  EXPECT_EQ(coarse.clock, LogClock::kNominal);
-  const auto joined = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i % 25 * kSecond / 10; });
-  EXPECT_EQ(joined.clock, LogClock::kNominal);
+TEST(CarmenSurvey, KeepsTheNominalRateWhereNothingMovesAndNoClockRuns) {
+  const auto plan = plan_of_changed_scans([](LaserRecord& r, int) {
+    r.stamps = {0, 0};
+    r.wheel_from_base = {};
+  });
+  EXPECT_NEAR(plan.figures.scan_period_s, 1.0 / kNominalRateHz, 1e-12);
+}
+
+TEST(CarmenSurvey, SpreadsWholeSecondsWithinThem) {
+  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i / 10 * kSecond; });
+  EXPECT_EQ(plan.clock, LogClock::kIpc);
+  EXPECT_EQ(plan.times.fault, ClockFault::kCoarse);
+  EXPECT_TRUE(plan.figures.has_clock);
+  EXPECT_NEAR(plan.figures.scan_period_s, 0.1, 0.01);
+}
+
+TEST(CarmenSurvey, BridgesStampsThatStartAnew) {
+  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i % 25 * kSecond / 10; });
+  EXPECT_EQ(plan.times.fault, ClockFault::kJumps);
+  EXPECT_EQ(plan.times.jumps, 1u);
+  ASSERT_EQ(plan.times.stamps_ns.size(), 50u);
+  for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(plan.times.stamps_ns[i], static_cast<std::int64_t>(i) * kSecond / 10);
 }
 
 TEST(CarmenSurvey, KeepsAClockThatRepeatsNowAndThen) {

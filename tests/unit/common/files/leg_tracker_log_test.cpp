@@ -72,11 +72,26 @@ TEST_F(LegTrackerFolder, CountsWhatIsMalformed) {
   EXPECT_EQ(scans, 2U);
 }
 
-TEST_F(LegTrackerFolder, IsRefusedWhereAFileIsMissing) {
+TEST_F(LegTrackerFolder, NeedsNoOdometry) {
   std::filesystem::remove(folder_ / "odom.txt");
   const auto log = CarmenLog::open(folder_.path());
+  ASSERT_TRUE(log) << log.error().message;
+  EXPECT_EQ(log->plan().odometry, OdometrySource::kNone);
+  EXPECT_EQ(log->plan().figures.scans, 2U);
+}
+
+TEST_F(LegTrackerFolder, IsReadFromItsScanFileAlone) {
+  std::filesystem::rename(folder_ / "scan.txt", folder_ / "hall.log");
+  const auto log = CarmenLog::open(folder_ / "hall.log");
+  ASSERT_TRUE(log) << log.error().message;
+  EXPECT_EQ(log->plan().figures.scans, 2U);
+}
+
+TEST_F(LegTrackerFolder, IsRefusedWithoutScans) {
+  std::filesystem::remove(folder_ / "scan.txt");
+  const auto log = CarmenLog::open(folder_.path());
   ASSERT_FALSE(log);
-  EXPECT_THAT(log.error().message, ::testing::HasSubstr("odom.txt"));
+  EXPECT_THAT(log.error().message, ::testing::HasSubstr("scan.txt"));
 }
 
 }  // namespace

@@ -12,24 +12,28 @@ using ::testing::HasSubstr;
 using std::numbers::pi;
 
 TEST(ChooseProfile, SendsFastVehiclesToTheStreet) {
-  const auto choice = choose_profile({.far_range_m = 10.0, .cruising_speed_mps = 12.0});
+  const auto choice = choose_profile({.has_clock = true, .far_range_m = 10.0, .cruising_speed_mps = 12.0});
   EXPECT_EQ(choice.profile, "urban");
   EXPECT_THAT(choice.reason, HasSubstr("12.0 m/s"));
 }
 
-TEST(ChooseProfile, SendsSlowVehiclesAmongFarEchoesToTheStreet) {
-  EXPECT_EQ(choose_profile({.far_range_m = 52.0, .cruising_speed_mps = 1.0}).profile, "urban");
+TEST(ChooseProfile, TakesSlowVehiclesAmongFarEchoesForRobotsInTheOpen) {
+  EXPECT_EQ(choose_profile({.has_clock = true, .far_range_m = 52.0, .cruising_speed_mps = 1.0}).profile, "outdoor_robot");
 }
 
 TEST(ChooseProfile, KeepsSlowRobotsAmongNearWallsInsideEvenWithALongRangeScanner) {
-  const auto choice = choose_profile({.max_range_m = 81.83, .far_range_m = 5.8, .cruising_speed_mps = 0.3});
+  const auto choice = choose_profile({.has_clock = true, .max_range_m = 81.83, .far_range_m = 5.8, .cruising_speed_mps = 0.3});
   EXPECT_EQ(choice.profile, "indoor");
   EXPECT_THAT(choice.reason, HasSubstr("5.8 m"));
 }
 
-TEST(ChooseProfile, GoesByTheRangesAloneWithoutAClock) {
+TEST(ChooseProfile, GoesByTheRangesWithoutAClock) {
   EXPECT_EQ(choose_profile({.far_range_m = 5.8}).profile, "indoor");
-  EXPECT_EQ(choose_profile({.far_range_m = 45.0}).profile, "urban");
+  EXPECT_EQ(choose_profile({.comes_by_time = true, .far_range_m = 45.0}).profile, "urban");
+}
+
+TEST(ChooseProfile, TakesScansForEachPieceOfWayForThoseOfARobot) {
+  EXPECT_EQ(choose_profile({.comes_by_time = false, .far_range_m = 45.0}).profile, "outdoor_robot");
 }
 
 constexpr LogFigures kSpinning{
@@ -54,6 +58,12 @@ TEST(SweepTime, IsTheProfilesForOthers) {
 
 TEST(SweepTime, NeverOutlastsThePeriod) {
   EXPECT_EQ(sweep_s_for({.field_of_view_rad = pi, .scan_period_s = 0.01}, 0.013), 0.01);
+}
+
+TEST(SweepTime, KeepsItsShareOfAPeriodThatIsMadeUp) {
+  const LogFigures half_circle{.beams = 361, .has_clock = false, .comes_by_time = true, .field_of_view_rad = pi, .scan_period_s = 0.1};
+  EXPECT_NEAR(sweep_s_for(half_circle, 0.0133), 0.05, 1e-12);
+  EXPECT_EQ(sweep_s_for(half_circle, 0.0), 0.0);
 }
 
 }  // namespace

@@ -99,6 +99,13 @@ TEST(ToLabelsCsv, WritesALetterABeam) {
   EXPECT_EQ(to_labels_csv({&row}), "timestamp,detection,tracking\n1.000000,-sm?,-smm\n");
 }
 
+TEST(ToLabelsCsv, NamesTheScannersWhereThereAreSeveral) {
+  const LabelRow front{1'000'000'000, "s", "s", "front"};
+  const LabelRow rear{1'000'000'000, "?", "m", "rear"};
+  EXPECT_EQ(to_labels_csv({&front}), "timestamp,detection,tracking\n1.000000,s,s\n");
+  EXPECT_EQ(to_labels_csv({&front, &rear}), "timestamp,detection,tracking,scanner\n1.000000,s,s,front\n1.000000,?,m,rear\n");
+}
+
 /// The record of two submaps and a loop between them.
 RunRecord small_record() {
   RunRecord record;

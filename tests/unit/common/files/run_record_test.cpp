@@ -145,6 +145,24 @@ TEST(RunRecord, JoinsTheLabelsOfDetectionAndTracking) {
   EXPECT_EQ(record.label_rows()[0]->by_tracking, "-sm");
 }
 
+TEST(RunRecord, KeepsScansOfSeveralScannersApartThatShareAStamp) {
+  RunRecord record;
+  for (const char* const scanner_id : {"front", "rear", "front"}) {
+    flow::LocalizedScan scan;
+    scan.stamp_ns = 100;
+    scan.scanner_id = scanner_id;
+    record.add(scan);
+    flow::ScanLabels labels;
+    labels.stamp_ns = 100;
+    labels.scanner_id = scanner_id;
+    labels.labels = {flow::PointLabel::kMoving};
+    record.add(labels);
+  }
+  EXPECT_EQ(record.localized_scans(), 2u);
+  ASSERT_EQ(record.label_rows().size(), 2u);
+  EXPECT_EQ(record.label_rows()[1]->scanner_id, "rear");
+}
+
 TEST(RunRecord, KnowsWhereItIsByTheLastCorrection) {
   RunRecord record;
   EXPECT_TRUE(record.knows_where_it_is());

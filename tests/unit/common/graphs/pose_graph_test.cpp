@@ -104,6 +104,45 @@ TEST(PoseGraph, HoldsOutAgainstOneFalseLoopAmongRightOnes) {
   EXPECT_LT(largest_position_error_m(graph, truth), 0.5);
 }
 
+TEST(PoseGraph, TakesTheWeightOfAFalseLoopOnceRightOnesContradictIt) {
+  const auto truth = square_drive(5);
+  PoseGraph graph = bent_chain(truth, 0.01);
+  const std::size_t odometric = graph.constraints().size();
+  graph.add_constraint(constraint_between(2, 20, ConstraintKind::kLoop, Pose2::identity()));  // 4 m off, in reach of the odometry
+  graph.optimise();
+  EXPECT_GT(graph.weight(odometric), 0.5);
+  EXPECT_GT(largest_position_error_m(graph, truth), 2.0);
+  for (const std::uint32_t back : {0U, 1U}) {
+    graph.add_constraint(constraint_between(back, 20, ConstraintKind::kLoop, inverse(truth[back]) * truth[20]));
+  }
+  graph.optimise();
+  EXPECT_LT(graph.weight(odometric), 0.5);
+  EXPECT_GT(graph.weight(odometric + 1), 0.5);
+  EXPECT_LT(largest_position_error_m(graph, truth), 0.5);
+}
+
+TEST(PoseGraph, LeavesOutWhatIsNotEnabled) {
+  const auto truth = square_drive(5);
+  PoseGraph graph = bent_chain(truth, 0.02);
+  const std::size_t loop = graph.constraints().size();
+  graph.add_constraint(constraint_between(0, 20, ConstraintKind::kLoop, Pose2::identity()));
+  graph.set_enabled(loop, false);
+  graph.optimise();
+  EXPECT_GT(largest_position_error_m(graph, truth), 2.0);
+  graph.set_enabled(loop, true);
+  graph.optimise();
+  EXPECT_LT(largest_position_error_m(graph, truth), 0.5);
+}
+
+TEST(BestPath, TakesALoopThatIsSurerThanTheChain) {
+  const PoseGraph graph = bent_chain(square_drive(5), 0.0);
+  std::vector<Constraint> constraints = graph.constraints();
+  const std::size_t loop = constraints.size();
+  constraints.push_back(constraint_between(0, 20, ConstraintKind::kLoop, Pose2::identity()));
+  EXPECT_EQ(best_path(SubmapId{19}, SubmapId{1}, constraints), (std::vector<std::size_t>{0, loop, loop - 1}));
+  EXPECT_TRUE(best_path(SubmapId{0}, SubmapId{99}, constraints).empty());
+}
+
 TEST(PoseGraph, MovesItsAnswerWithItsFirstNode) {
   const auto truth = square_drive(4);
   const Pose2 moved_from_map{50.0, -20.0, 2.5};

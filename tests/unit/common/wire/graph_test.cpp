@@ -15,7 +15,7 @@ using slammot::testing::kNan;
 
 TEST(ConstraintOnTheWire, ComesBackAsItWas) {
   testing::Random random(1);
-  const flow::Constraint constraint{{3}, {9}, flow::ConstraintKind::kLoop, testing::uncertain_pose(random), {17}};
+  const flow::Constraint constraint{{3}, {9}, flow::ConstraintKind::kLoop, testing::uncertain_pose(random), {17}, {flow::ClosureState::kWithdrawn, 21.5, 0.75, "outweighed"}};
   const auto back = decode(encode("car", constraint));
   ASSERT_TRUE(back) << back.fault();
   EXPECT_EQ(back->map_id, constraint.map_id);
@@ -24,6 +24,10 @@ TEST(ConstraintOnTheWire, ComesBackAsItWas) {
   EXPECT_EQ(back->kind, constraint.kind);
   EXPECT_EQ(back->from_to.pose, constraint.from_to.pose);
   EXPECT_EQ(back->from_to.covariance, constraint.from_to.covariance);
+  EXPECT_EQ(back->verdict.state, constraint.verdict.state);
+  EXPECT_EQ(back->verdict.squared_error, constraint.verdict.squared_error);
+  EXPECT_EQ(back->verdict.agreed_share, constraint.verdict.agreed_share);
+  EXPECT_EQ(back->verdict.reason, constraint.verdict.reason);
 }
 
 TEST(ConstraintOnTheWire, IsRefusedWhereItIsUnsound) {
@@ -34,6 +38,8 @@ TEST(ConstraintOnTheWire, IsRefusedWhereItIsUnsound) {
   };
   EXPECT_EQ(fault_after([](auto&) {}), "");
   EXPECT_NE(fault_after([](auto& s) { s.kind = static_cast<slammot_ConstraintKind>(2); }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.state = static_cast<slammot_ClosureState>(3); }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.squared_error = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.to_submap_id = s.from_submap_id; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.from_from_to.mean.x_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.from_from_to.covariance[0] = -1.0; }), "");

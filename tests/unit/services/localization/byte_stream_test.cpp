@@ -45,6 +45,20 @@ TEST(ByteStream, GivesBackWhatWasPut) {
   EXPECT_TRUE(values.none.empty());
 }
 
+TEST(ByteStream, GivesBackOptionalValues) {
+  std::vector<std::byte> bytes;
+  put(bytes, std::optional<std::int64_t>(5));
+  put(bytes, std::optional<double>());
+  ByteReader from(bytes);
+  std::optional<std::int64_t> number;
+  std::optional<double> nothing = 3.0;
+  from.get(number);
+  from.get(nothing);
+  EXPECT_TRUE(from.ok() && from.at_end());
+  EXPECT_EQ(number, 5);
+  EXPECT_FALSE(nothing);
+}
+
 TEST(ByteStream, IsNotOkWhereverItIsCut) {
   const auto bytes = example();
   for (std::size_t size = 0; size < bytes.size(); ++size) {

@@ -38,8 +38,7 @@ class LocalizeAgain : public ::testing::Test {
   static LocalizerConfig config() {
     LocalizerConfig config = small_map_config();
     config.ambiguous.weak_share = 0.0;      // samples disagree about such a scan and keep it from pulling anyway,
-    config.motion.position_noise_m = 0.02;  // and so do wheels that are trusted,
-    config.may_be_picked_up = true;         // most of all where they stand
+    config.use_odometry = false;            // and so do wheels, most of all where they stand
     return config;
   }
 

@@ -56,11 +56,11 @@ Place place_at(const FloorPlan& plan, std::uint32_t id, const Pose2& map_from_ba
   return make_place(submap_seen_from(plan, id, {map_from_base, map_from_base * Pose2{0.5, 0.0, 0.0}}, maker), 0.0, {.tolerance_m = 0.15});
 }
 
-TEST(RevisitFinder, FindsAPlaceAgainFromSeveralMetresOff) {
+TEST(FindRevisits, FindsAPlaceAgainFromSeveralMetresOff) {
   const Place earlier = place_at(hall(), 0, {});
   const Pose2 truth{-1.5, 1.0, 0.5};
   const Place later = place_at(hall(), 7, truth);
-  const auto found = RevisitFinder(indoor_config()).find({{{&earlier, Pose2::identity()}}}, later, expected_about(truth * Pose2{2.0, -1.5, 0.1}, 1.0, 0.1));
+  const auto found = find_revisits(indoor_config(), {{{&earlier, Pose2::identity()}}}, later, expected_about(truth * Pose2{2.0, -1.5, 0.1}, 1.0, 0.1));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_THAT(found.front().from_to.pose, PoseNear(truth, 0.02));
   EXPECT_EQ(found.front().from, flow::SubmapId{0});
@@ -68,7 +68,7 @@ TEST(RevisitFinder, FindsAPlaceAgainFromSeveralMetresOff) {
   EXPECT_FALSE(found.front().has_rivals);
 }
 
-TEST(RevisitFinder, UsesNeighboursOfThePlaceAsWell) {
+TEST(FindRevisits, UsesNeighboursOfThePlaceAsWell) {
   const Place earlier = place_at(hall(), 0, {-8, 0, 0}, 5.0);
   const Pose2 neighbour_pose{8, 0, 0};
   const Place neighbour = place_at(hall(), 1, neighbour_pose, 12.0);
@@ -76,37 +76,37 @@ TEST(RevisitFinder, UsesNeighboursOfThePlaceAsWell) {
   const Place later = place_at(hall(), 7, truth, 7.5);
   const Pose2 first_from_map = inverse(Pose2{-8, 0, 0});
   const Target target{{{&earlier, Pose2::identity()}, {&neighbour, first_from_map * neighbour_pose}}};
-  const auto found = RevisitFinder(indoor_config()).find(target, later, expected_about(first_from_map * truth, 0.5, 0.05));
+  const auto found = find_revisits(indoor_config(), target, later, expected_about(first_from_map * truth, 0.5, 0.05));
   ASSERT_FALSE(found.empty());
   EXPECT_THAT(found.front().from_to.pose, PoseNear(first_from_map * truth, 0.02));
 }
 
-TEST(RevisitFinder, FindsNothingInAnotherRoom) {
+TEST(FindRevisits, FindsNothingInAnotherRoom) {
   FloorPlan other;
   other.add_box({-5, -9}, {8, 7});
   other.add_box({-2, 3}, {1, 3.5});
   const Place earlier = place_at(hall(), 0, {});
   const Place later = place_at(other, 7, {});
-  EXPECT_TRUE(RevisitFinder(indoor_config()).find({{{&earlier, Pose2::identity()}}}, later, expected_about({}, 2.0, 0.2)).empty());
+  EXPECT_TRUE(find_revisits(indoor_config(), {{{&earlier, Pose2::identity()}}}, later, expected_about({}, 2.0, 0.2)).empty());
 }
 
-TEST(RevisitFinder, KnowsThatEqualNichesHaveRivals) {
+TEST(FindRevisits, KnowsThatEqualNichesHaveRivals) {
   std::vector<Pose2> way;
   for (double x = 0.0; x <= 12.0; x += 0.5) way.push_back({x, 0.0, 0.0});
   const Place earlier = make_place(submap_seen_from(corridor_of_equal_niches(), 0, way), 0.0, {.tolerance_m = 0.15});
   const Place later = place_at(corridor_of_equal_niches(), 7, {6.2, 0.0, 0.0}, 4.0);
-  const auto found = RevisitFinder(indoor_config()).find({{{&earlier, Pose2::identity()}}}, later, expected_about({6.0, 0.0, 0.0}, 2.0, 0.02));
+  const auto found = find_revisits(indoor_config(), {{{&earlier, Pose2::identity()}}}, later, expected_about({6.0, 0.0, 0.0}, 2.0, 0.02));
   ASSERT_GE(found.size(), 2U);
   for (const Hypothesis& hypothesis : found) EXPECT_TRUE(hypothesis.has_rivals);
 }
 
-TEST(RevisitFinder, IsWideAlongABareCorridorRatherThanRivalled) {
+TEST(FindRevisits, IsWideAlongABareCorridorRatherThanRivalled) {
   FloorPlan corridor;
   corridor.add({-40, -1}, {40, -1});
   corridor.add({-40, 1}, {40, 1});
   const Place earlier = place_at(corridor, 0, {});
   const Place later = place_at(corridor, 7, {0.3, 0.0, 0.0}, 6.0);
-  const auto found = RevisitFinder(indoor_config()).find({{{&earlier, Pose2::identity()}}}, later, expected_about({}, 1.0, 0.02));
+  const auto found = find_revisits(indoor_config(), {{{&earlier, Pose2::identity()}}}, later, expected_about({}, 1.0, 0.02));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_GT(std::sqrt(found.front().from_to.covariance(0, 0)), 1.0);
   EXPECT_LT(std::sqrt(found.front().from_to.covariance(1, 1)), 0.1);

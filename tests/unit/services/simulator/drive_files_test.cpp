@@ -1,6 +1,7 @@
 #include "services/simulator/drive_files.hpp"
 
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -109,7 +110,45 @@ TEST_F(WriteDrive, WritesALogForEachScannerThatIsReadWithItsMounting) {
   EXPECT_EQ(front_log->plan().figures.scans, 75U);
   EXPECT_EQ(rear_log->plan().figures.scans, 25U);
   EXPECT_EQ(rear_log->plan().base_from_laser, (geometry::Pose2{-2.2, 0.3, 3.141593}));
-  EXPECT_EQ(lines_of(files->tum).size(), 75U);  // of the first scanner's scans
+}
+
+TEST_F(WriteDrive, WritesAllScannersIntoOneLog) {
+  simulation::ScannerConfig rear;
+  rear.scanner_id = "rear";
+  rear.ahead_m = -2.2;
+  rear.left_m = 0.3;
+  rear.heading_rad = 3.141593;
+  rear.rate_hz = 12.5;
+  rear.delay_s = 0.01;
+  scenario_.more_scanners = {rear};
+  const auto files = write_drive(scenario_, folder_.path()).files;
+  ASSERT_TRUE(files.has_value());
+  files::CarmenLogOptions options;
+  options.uses_all_scanners = true;
+  auto log = files::CarmenLog::open(files->log, options);
+  ASSERT_TRUE(log.has_value());
+  EXPECT_EQ(log->plan().scanners.at(1).base_from_laser, (geometry::Pose2{-2.2, 0.3, 3.141593}));
+  std::map<std::string, int> scans;
+  std::int64_t last_ns = 0;
+  while (const auto event = log->next()) {
+    const auto* scan = std::get_if<sensing::LaserScan>(&*event);
+    if (scan == nullptr) continue;
+    ++scans[scan->scanner.scanner_id];
+    EXPECT_GT(scan->stamp_ns, last_ns);
+    last_ns = scan->stamp_ns;
+  }
+  EXPECT_EQ(scans, (std::map<std::string, int>{{"ROBOTLASER1", 75}, {"ROBOTLASER2", 25}}));
+  EXPECT_EQ(lines_of(files->tum).size(), 100U);
+}
+
+TEST_F(WriteDrive, TellsTheTruthOnceForScansOfTheSameStamp) {
+  simulation::ScannerConfig rear;
+  rear.scanner_id = "rear";
+  rear.rate_hz = scenario_.scanner.rate_hz;
+  scenario_.more_scanners = {rear};
+  const auto files = write_drive(scenario_, folder_.path()).files;
+  ASSERT_TRUE(files.has_value());
+  EXPECT_EQ(lines_of(files->tum).size(), 75U);
 }
 
 TEST_F(WriteDrive, WritesWhatReceiverAndCompassSay) {

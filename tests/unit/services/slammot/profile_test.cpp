@@ -52,6 +52,7 @@ TEST(Profile, HasASettingForEveryMemberOfEveryStruct) {
   for (config::BoundStage& stage : bind_stages(profile)) stages[std::string(stage.stage)] = std::move(stage);
   EXPECT_EQ(settings_under(stages["ingest"], ""), members<ingest::IngestConfig>());
   EXPECT_EQ(settings_under(stages["localization"], ""), members<localization::LocalizerConfig>());
+  EXPECT_EQ(settings_under(stages["localization"], "belief."), members<sensing::OdometryBeliefConfig>());
   EXPECT_EQ(settings_under(stages["localization"], "map."), members<localization::LocalMapConfig>());
   EXPECT_EQ(settings_under(stages["localization"], "map.evidence."), members<grids::EvidenceModel>());
   EXPECT_EQ(settings_under(stages["localization"], "motion."), members<sensing::MotionModelConfig>());
@@ -66,6 +67,7 @@ TEST(Profile, HasASettingForEveryMemberOfEveryStruct) {
   EXPECT_EQ(settings_under(stages["loop_closing"], "place."), members<loop_closing::PlaceConfig>());
   EXPECT_EQ(settings_under(stages["loop_closing"], "revisit."), members<loop_closing::RevisitConfig>());
   EXPECT_EQ(settings_under(stages["loop_closing"], "revisit.registration."), members<loop_closing::RegistrationConfig>());
+  EXPECT_EQ(settings_under(stages["loop_closing"], "search."), members<loop_closing::SearchBudget>());
   EXPECT_EQ(settings_under(stages["loop_closing"], "graph."), members<graphs::PoseGraphConfig>());
   EXPECT_EQ(settings_under(stages["map_store"], ""), members<map_store::MapStoreConfig>());
 }

@@ -228,12 +228,60 @@ TEST_F(RunCommand, WantsEitherALogOrAScenario) {
   expect_refused({"--scenario", "atlantis"}, "no scenario is named 'atlantis'");
 }
 
-TEST(CommandLine, SaysWhatIsMissingAndReturnsAFault) {
-  std::string name = "slammot";
-  std::vector<char*> argv{name.data()};
+struct Refusal {
+  int exit_code = 0;
+  std::string standard_output;
+  std::string standard_error;
+};
+
+Refusal call_with(std::vector<std::string> words) {
+  words.insert(words.begin(), "slammot");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
-  EXPECT_EQ(run_command_line(1, argv.data()), kExitFault);
-  EXPECT_THAT(::testing::internal::GetCapturedStderr(), HasSubstr("subcommand is required"));
+  const int exit_code = run_command_line(static_cast<int>(argv.size()), argv.data());
+  std::fflush(stdout);
+  return {exit_code, ::testing::internal::GetCapturedStdout(), ::testing::internal::GetCapturedStderr()};
+}
+
+TEST(CommandLine, ListsItsCommandsWhereNoneIsGiven) {
+  const Refusal refusal = call_with({});
+  EXPECT_EQ(refusal.exit_code, kExitFault);
+  EXPECT_THAT(refusal.standard_output, HasSubstr("check"));
+  EXPECT_THAT(refusal.standard_output, HasSubstr("simulate"));
+}
+
+TEST(CommandLine, NamesAnUnknownCommandAndTheNearestOne) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"chek", "--help"}, {"chek", "a.log"}}) {
+    const Refusal refusal = call_with(words);
+    EXPECT_EQ(refusal.exit_code, kExitFault);
+    EXPECT_THAT(refusal.standard_error, HasSubstr("'chek'"));
+    EXPECT_THAT(refusal.standard_error, HasSubstr("'check'"));
+  }
+}
+
+TEST(CommandLine, NamesAnUnknownOptionAndTheNearestOne) {
+  const Refusal refusal = call_with({"run", "--inptu=a.log"});
+  EXPECT_EQ(refusal.exit_code, kExitFault);
+  EXPECT_THAT(refusal.standard_error, HasSubstr("'--inptu'"));
+  EXPECT_THAT(refusal.standard_error, HasSubstr("'--input'"));
+}
+
+TEST_F(RunCommand, IsToldBeforehandByCheckWhatIsInTheLog) {
+  write(room_log(60));
+  const Outcome sound = call({"check", log_.string()});
+  EXPECT_THAT(sound.standard_output, HasSubstr("scans      60 of"));
+  EXPECT_THAT(sound.standard_output, HasSubstr("slammot run --input " + log_.string()));
+  write("nothing\n");
+  EXPECT_EQ(call({"check", log_.string()}).exit_code, kExitFault);
+}
+
+TEST_F(RunCommand, SaysWhyScansWereNotLocalized) {
+  const std::string log = room_log(60);
+  const std::string last_line = log.substr(log.rfind('\n', log.size() - 2) + 1);
+  write(log + last_line + last_line);
+  EXPECT_THAT(run().standard_output, HasSubstr("not localized: 2 have the stamp of another"));
 }
 
 }  // namespace

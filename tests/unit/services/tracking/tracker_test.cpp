@@ -968,5 +968,114 @@ TEST(Tracker, SaysWhereAnObjectWillBeAndHowSurely) {
   EXPECT_GT(car.predicted_path.back().covariance_m2.trace(), car.predicted_path.front().covariance_m2.trace());
 }
 
+/// A street before a front scanner and behind a rear one at the same place, each of half a circle. They speak in turns, or together.
+class PlayBeforeTwo {
+ public:
+  explicit PlayBeforeTwo(double delay_s) : delay_s_(delay_s), tracker_({}) {
+    front.known = rear.known = {kWall, {{-40.0, 0.0, M_PI / 2.0}, 120.0, 1.0}};
+    rear.first_beam_rad = 0.5 * M_PI;
+  }
+
+  /// Lets a box that is not in the map move.
+  void run(double seconds, const std::function<Vector2(double)>& centre_m) {
+    for (int i = 0; i < std::lround(seconds / kPeriodS); ++i, ++sequence_) {
+      look(front, "front", sequence_ * kPeriodS, centre_m);
+      if (rear_speaks && sequence_ % rear_every == 0) look(rear, "rear", sequence_ * kPeriodS + delay_s_, centre_m);
+      least_confirmed = std::min(least_confirmed, i * kPeriodS > 2.0 ? confirmed() : 1);
+    }
+  }
+
+  std::size_t confirmed() const {
+    return static_cast<std::size_t>(std::ranges::count_if(result.objects.objects, &flow::TrackedObject::confirmed));
+  }
+
+  Tracker& tracker() { return tracker_; }
+
+  Street front;
+  Street rear;
+  bool rear_speaks = true;
+  std::uint32_t rear_every = 1;                ///< So many of the front one's scans.
+  TrackingResult result;
+  std::set<std::uint32_t> ids;                 ///< Of all that were ever confirmed.
+  double least_existence = 1.0;                ///< Of these.
+  std::size_t least_confirmed = 1;             ///< In any scan, 2 s after a run began.
+
+ private:
+  void look(Street& street, const std::string& scanner_id, double now_s, const std::function<Vector2(double)>& centre_m) {
+    street.unknown = {{{centre_m(now_s).x(), centre_m(now_s).y(), 0.0}, 4.5, 1.8}};
+    flow::LocalizedScan scan = street.scan(static_cast<std::int64_t>(now_s * 1e9), sequence_);
+    scan.scanner_id = scanner_id;
+    result = tracker_.track(detection::detect(scan, {}));
+    EXPECT_EQ(result.labels.scanner_id, scanner_id);
+    for (const flow::TrackedObject& object : result.objects.objects) {
+      if (!object.confirmed) continue;
+      ids.insert(object.track_id.value);
+      least_existence = std::min(least_existence, object.existence);
+    }
+  }
+
+  double delay_s_;
+  Tracker tracker_;
+  std::uint32_t sequence_ = 0;
+};
+
+TEST(TrackerOfTwoScanners, DoesNotMissWithOneWhatOnlyTheOtherSees) {
+  PlayBeforeTwo both(0.5 * kPeriodS);
+  both.run(4.0, [](double now_s) { return Vector2(12.0 + 4.0 * now_s, 3.0); });
+  PlayBeforeTwo alone(0.5 * kPeriodS);
+  alone.rear_speaks = false;
+  alone.run(4.0, [](double now_s) { return Vector2(12.0 + 4.0 * now_s, 3.0); });
+  EXPECT_EQ(both.ids.size(), 1U);
+  EXPECT_EQ(both.confirmed(), 1U);
+  EXPECT_NEAR(both.least_existence, alone.least_existence, 1e-6);
+}
+
+TEST(TrackerOfTwoScanners, FollowsAVehicleFromTheViewOfOneIntoThatOfTheOther) {
+  for (const double delay_s : {0.5 * kPeriodS, 0.0}) {
+    PlayBeforeTwo play(delay_s);
+    play.run(5.0, [](double now_s) { return Vector2(20.0 - 8.0 * now_s, 5.0); });
+    EXPECT_EQ(play.ids.size(), 1U);
+    EXPECT_EQ(play.confirmed(), 1U);
+    EXPECT_EQ(play.tracker().counters().late_scans, 0U);
+  }
+}
+
+TEST(TrackerOfTwoScanners, PublishesWhatOnlyTheRarerOneSeesAtEveryScan) {
+  PlayBeforeTwo play(0.5 * kPeriodS);
+  play.rear_every = 4;
+  play.run(4.0, [](double now_s) { return Vector2(-10.0 - 3.0 * now_s, 3.0); });
+  EXPECT_EQ(play.ids.size(), 1U);
+  EXPECT_EQ(play.least_confirmed, 1U);
+}
+
+TEST(TrackerOfTwoScanners, GoesOnWithOneWhenTheOtherFallsSilent) {
+  PlayBeforeTwo play(0.5 * kPeriodS);
+  const auto in_front = [](double now_s) { return Vector2(10.0 + 3.0 * now_s, 3.0); };
+  play.run(3.0, in_front);
+  play.rear_speaks = false;
+  play.run(3.0, in_front);
+  EXPECT_EQ(play.ids.size(), 1U);
+  EXPECT_EQ(play.confirmed(), 1U);
+}
+
+TEST(TrackerOfTwoScanners, EndsTracksThatOnlyTheSilentOneSaw) {
+  PlayBeforeTwo play(0.5 * kPeriodS);
+  const auto behind = [](double now_s) { return Vector2(-10.0 - 3.0 * now_s, 3.0); };
+  play.run(3.0, behind);
+  EXPECT_EQ(play.confirmed(), 1U);
+  play.rear_speaks = false;
+  play.run(TrackingConfig{}.longest_unseen_s + 0.5, behind);
+  EXPECT_EQ(play.confirmed(), 0U);
+}
+
+TEST(Tracker, TakesAScanOfTheSameStampAndScannerForLate) {
+  PlayBeforeTwo play(0.0);
+  play.run(0.1, [](double) { return Vector2(15.0, 3.0); });
+  flow::LocalizedScan again = play.front.scan(play.result.labels.stamp_ns, 99);
+  again.scanner_id = "front";
+  play.tracker().track(detection::detect(again, {}));
+  EXPECT_EQ(play.tracker().counters().late_scans, 1U);
+}
+
 }  // namespace
 }  // namespace slammot::tracking

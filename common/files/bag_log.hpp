@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/bags/frame_tree.hpp"
+#include "common/bags/message_source.hpp"
+#include "common/files/bag_scan.hpp"
+#include "common/files/log_formats.hpp"
+#include "common/files/record_source.hpp"
+#include "common/files/result.hpp"
+
+namespace slammot::files {
+
+/// A bag of ROS as records: scans of sensor_msgs/LaserScan, MultiEchoLaserScan or PointCloud2, odometry of nav_msgs/Odometry or of
+/// the transforms, mountings of the transforms, in the order in which they were recorded.
+///
+/// Opening looks through the whole bag once and chooses topics by what they hold; scans are kept from that as far as they are few
+/// enough, and read again otherwise. The stamp of a header is the record's ipc time, that of recording its logger time.
+class BagLog : public RecordSource {
+ public:
+  /// Fails for what is no bag, holds no scan, or lacks a topic that was asked for.
+  static Result<std::unique_ptr<RecordSource>> open(const std::filesystem::path& path, const RecordOptions& options);
+
+  std::optional<CarmenRecord> next() override;
+  std::uint64_t line_number() const override { return records_; }
+  double fraction_read() const override;
+  bool is_cut() const override { return !damage_.empty(); }
+  std::string damage() const override { return damage_; }
+  TopicChoice topics() const override { return choice_; }
+
+ private:
+  /// One topic with scans, or with clouds.
+  struct ScanTopic {
+    TopicCandidate candidate;
+    bool is_cloud = false;
+    std::int64_t first_ns = 0;        ///< By the time of recording,
+    std::int64_t last_ns = 0;         ///< as this.
+    std::uint64_t advancing = 0;      ///< Messages whose header has a newer stamp than any before,
+    std::uint64_t log_advancing = 0;  ///< and that were recorded later than any before.
+    std::int64_t newest_stamp_ns = 0;
+    std::uint8_t slot = 0;            ///< Of its records; 0: none.
+    std::optional<Mounting> mounting;
+    bags::Transform base_from_cloud;
+    CloudSlice slice;
+  };
+  struct StampedPose {
+    std::int64_t log_time_ns = 0;
+    std::int64_t stamp_ns = 0;
+    std::int64_t index = 0;           ///< Of the message in the bag.
+    geometry::Pose2 wheel_from_base;
+  };
+  /// By which clock odometry and scans are put together.
+  enum class CommonClock : std::uint8_t { kHeaders, kRecording, kOrder };
+  struct OdometryTopic {
+    TopicCandidate candidate;
+    std::string parent_frame;
+    std::uint64_t messages = 0;
+    bool moves = false;
+    std::vector<StampedPose> poses;
+  };
+  struct Scan {
+    std::int64_t log_time_ns = 0;
+    std::int64_t index = 0;           ///< Of the message in the bag.
+    std::size_t topic = 0;
+    LaserRecord record;
+  };
+
+  explicit BagLog(RecordOptions options) : options_(std::move(options)) {}
+
+  void look_through(bags::MessageSource& messages);
+  void sort_kept();
+  void look_at(const bags::RawMessage& message, bags::MessageKind kind);
+  void look_at_scan(const bags::RawMessage& message, bags::MessageKind kind);
+  void look_at_odometry(const bags::RawMessage& message);
+  std::size_t scan_topic(const bags::RawMessage& message, const std::string& frame);
+
+  std::optional<Error> choose(const std::filesystem::path& path);
+  std::optional<std::size_t> main_scanner() const;
+  void choose_scanners(std::size_t main);
+  std::optional<Error> choose_odometry(const std::filesystem::path& path, const std::string& laser_frame);
+  void take_transforms_as_odometry(const std::string& laser_frame);
+  std::string base_frame(const std::string& laser_frame) const;
+  void mount(ScanTopic& topic, const std::string& base_frame);
+  void list_candidates();
+  void sort_odometry();
+  std::int64_t time_of(const StampedPose& pose) const;
+  std::int64_t time_of(const Scan& scan) const;
+  const StampedPose* pose_of(const Scan& scan) const;
+  geometry::Pose2 wheel_from_base_at(const Scan& scan) const;
+  bool comes_before(const StampedPose& pose, const Scan& scan) const;
+  void note(const std::string& line);
+
+  std::optional<Scan> next_scan();
+  std::optional<Scan> read_scan();
+  std::optional<Scan> scan_of(const bags::RawMessage& message) const;
+  CarmenRecord finished(Scan scan);
+
+  RecordOptions options_;
+  TopicChoice choice_;
+  std::vector<ScanTopic> scan_topics_;
+  std::vector<OdometryTopic> odometry_topics_;
+  bags::FrameTree frames_;
+  std::map<std::string, std::string> types_;           ///< Of all topics, for those who look for their scans.
+  std::map<std::string, std::uint64_t> imu_messages_;
+  std::int64_t index_ = 0;                             ///< Of the message that is looked at.
+  std::uint64_t malformed_ = 0;
+  std::size_t kept_bytes_ = 0;
+  bool all_is_kept_ = true;
+  std::deque<Scan> kept_;
+  std::size_t kept_at_first_ = 0;
+  std::unique_ptr<bags::MessageSource> messages_;      ///< Where the scans were too many to be kept.
+  std::vector<StampedPose> odometry_;                  ///< Of the topic that was chosen, by the time of recording.
+  std::size_t odometry_at_ = 0;
+  std::vector<StampedPose> odometry_by_time_;          ///< The same by the common clock,
+  CommonClock clock_ = CommonClock::kRecording;        ///< which is this.
+  std::vector<std::int64_t> told_;                     ///< Odometry that the scans have told, by its index; the last ones.
+  std::optional<Scan> waiting_;
+  std::uint64_t records_ = 0;
+  std::string damage_;
+};
+
+}  // namespace slammot::files

@@ -1,0 +1,31 @@
+#include "services/ingest/topic_arguments.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "common/files/decimal.hpp"
+
+namespace slammot::ingest {
+
+void add_topic_options(CLI::App& command_line, files::TopicOptions& topics) {
+  command_line.add_option("--scanners", topics.scanners, "Of a log with several scanners: names of those to be used; all whose mounting is known when not given")
+      ->type_name("NAME[,NAME]")
+      ->delimiter(',');
+  command_line.add_option("--scan-topic", topics.scan_topic, "Main scanner: a topic of a bag, or RLASER and its like; by what they hold when not given")->type_name("TOPIC");
+  command_line.add_option("--odom-topic", topics.odometry_topic, "Of a bag: topic of the odometry, /tf for the transforms, none for no odometry")->type_name("TOPIC|none");
+  command_line.add_option("--cloud-from", topics.cloud_from_m, "Of a bag's clouds: least height above the base that counts [m]; 0.2 below the sensor when not given")->type_name("M");
+  command_line.add_option("--cloud-to", topics.cloud_to_m, "Of a bag's clouds: most height above the base that counts [m]; 0.2 above the sensor when not given")->type_name("M");
+}
+
+std::vector<std::string> arguments_of(const files::TopicOptions& topics) {
+  constexpr int kDecimals = 6;
+  std::vector<std::string> arguments;
+  for (const std::string& name : topics.scanners) arguments.insert(arguments.end(), {"--scanners", name});
+  if (!topics.scan_topic.empty()) arguments.insert(arguments.end(), {"--scan-topic", topics.scan_topic});
+  if (!topics.odometry_topic.empty()) arguments.insert(arguments.end(), {"--odom-topic", topics.odometry_topic});
+  // With '=', for a number below 0 looks like an option.
+  if (topics.cloud_from_m) arguments.push_back("--cloud-from=" + files::fixed_text(*topics.cloud_from_m, kDecimals));
+  if (topics.cloud_to_m) arguments.push_back("--cloud-to=" + files::fixed_text(*topics.cloud_to_m, kDecimals));
+  return arguments;
+}
+
+}  // namespace slammot::ingest

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/grids/surfel_map.hpp"
+#include "common/matching/point_to_line.hpp"
+#include "services/localization/localizer_config.hpp"
+#include "services/localization/odometry_prediction.hpp"
+#include "services/localization/scan_points.hpp"
+
+namespace slammot::localization {
+
+/// The way between two scans about a metre apart, by odometry and by one scan registered to the other. The local map cannot tell odometry
+/// that is off by a constant factor: it was made by it. Two scans can.
+class KeyframeOdometry {
+ public:
+  /// A scan that was matched.
+  struct Seen {
+    const Step& step;
+    const geometry::Pose2& odom_from_base;
+    const ScanPoints& points;
+    const std::string& scanner_id;
+  };
+
+  /// A comparison of both.
+  struct Comparison {
+    geometry::Pose2 by_wheels;               ///< Not corrected.
+    std::optional<geometry::UncertainPose2> by_scans;   ///< None where they do not match.
+    double duration_s = 0.0;
+  };
+
+  /// The scan that the next ones are compared with.
+  struct Keyframe {
+    std::int64_t stamp_ns = 0;
+    geometry::Pose2 wheel_from_base;
+    geometry::Pose2 odom_from_base;
+    std::string scanner_id;
+    std::vector<geometry::Vector2> points_in_base_m;
+  };
+
+  explicit KeyframeOdometry(const LocalizerConfig& config);
+
+  /// For checkpoints.
+  const std::optional<Keyframe>& keyframe() const { return keyframe_; }
+  void resume(std::optional<Keyframe> keyframe);
+
+  /// After each scan that was matched: where the vehicle has gone far enough since the keyframe, the comparison; this scan is then the next
+  /// keyframe. None without odometry, for another scanner than the keyframe's, and where scans are rare: each is compared with the map by itself.
+  /// The same scan again: the same answer.
+  std::optional<Comparison> observe(const Seen& seen);
+
+ private:
+  void begin(const Seen& seen);
+  std::optional<geometry::UncertainPose2> registered(const geometry::Pose2& expected, const ScanPoints& points);
+
+  matching::PointToLineConfig match_;
+  grids::SurfelMap surfels_;                 ///< Of the keyframe, in its base.
+  std::optional<Keyframe> keyframe_;
+  std::optional<Comparison> last_;           ///< That which the keyframe ended.
+  matching::PointToLineMatcher matcher_;
+};
+
+}  // namespace slammot::localization

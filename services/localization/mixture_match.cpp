@@ -1,0 +1,135 @@
+#include "services/localization/mixture_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "services/localization/map_agreement.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using sensing::StepExplanation;
+
+constexpr std::size_t kWheels = 0;              // places of the explanations that set the window of a search
+constexpr std::size_t kRough = 1;
+constexpr std::size_t kOther = 2;
+constexpr double kStands_s = 1.0;               // without motion by odometry: what walks around it moves the scan, not the vehicle
+constexpr double kIndependentShare = 0.4;       // of the points: neighbours share the errors of a surface
+
+/// Place of a wide explanation; without odometry there is only one.
+std::size_t widest(const StepToExplain& scan, std::size_t wanted) { return std::min(wanted, scan.steps.size() - 1); }
+
+constexpr std::size_t kPoses = 4;               // that a search tells apart
+
+/// Share of a scan's points that say on their own whether they match: those of scans shortly after each other meet the same moving things.
+double independent_share(const Step& step) {
+  constexpr double kFrequent_s = 0.2;
+  constexpr double kRare_s = 0.5;
+  return kIndependentShare * (1.0 + std::clamp((step.usual_duration_s - kFrequent_s) / (kRare_s - kFrequent_s), 0.0, 1.0));
+}
+
+double log_likelihood_of(const Step& step, const geometry::Pose2& optimum, const matching::PointToLineResult& registered) {
+  return sensing::log_marginal_likelihood(step.prior(), optimum, registered.scan_information);
+}
+
+}  // namespace
+
+/// What one scan says against explanations that differ now does not share the errors of the scans before: all of the map counts.
+Step by_scan_alone(Step step) {
+  constexpr double kRare_s = 0.3;   // such scans count like this as they are
+  if (step.usual_duration_s < kRare_s) step.source = StepSource::kVelocityThisOnce;
+  return step;
+}
+
+/// Odometry that reports a change of velocity which no vehicle makes is wrong, whatever the scan says.
+double dynamics(const Step& step, const Step& by_velocity) {
+  if (by_velocity.source != StepSource::kVelocityAlone || step.explanation == StepExplanation::kOther) return 0.0;
+  return sensing::log_likelihood_of_acceleration(step.before_from_base, by_velocity.before_from_base, step.duration_s);
+}
+
+MixtureMatch::MixtureMatch(const LocalizerConfig& config) : config_(config), search_(config, kPoses) {}
+
+/// Every explanation at the pose that odometry leads to: what a pose close by would say of them differs little.
+MixtureMatch::Best MixtureMatch::at_prediction(const StepToExplain& scan, ScanMatcher& matcher) const {
+  const Step& by_wheels = scan.steps.front();
+  const geometry::UncertainPose2 prior = by_wheels.prior();
+  Best best{.step = 0, .registered = matcher.register_from(prior.pose, prior, {scan.points.matched(), scan.map.surfels(), by_wheels})};
+  best.log_likelihoods.fill(-std::numeric_limits<double>::infinity());
+  const geometry::Pose2 optimum = sensing::scan_optimum(prior, best.registered.map_from_base.pose, best.registered.scan_information);
+  for (const Step& step : scan.steps) best.log_likelihoods[sensing::index_of(step.explanation)] = log_likelihood_of(step, optimum, best.registered);
+  return best;
+}
+
+/// Registers from one pose under a wide prediction, and compares every explanation there with the best so far.
+void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start, ScanMatcher& matcher, Best& best) const {
+  const Step& prediction = scan.steps[wide];
+  const Step evidence = by_scan_alone(scan.steps.front());
+  matching::PointToLineResult registered = matcher.register_from(start, prediction.prior(), {scan.points.matched(), scan.map.surfels(), evidence});
+  registered.scan_information *= kIndependentShare;
+  const geometry::Pose2& pose = registered.map_from_base.pose;
+  const geometry::Pose2 optimum = sensing::scan_optimum(prediction.prior(), pose, registered.scan_information);
+  const double fits_share = matching::fit_of(registered, config_.match.robust_scale_m) - agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
+  const Step& by_velocity = scan.steps[widest(scan, kOther)];
+  const double fit = config_.belief.share_nats * independent_share(scan.steps.front()) * fits_share;
+  for (std::size_t i = 0; i < scan.steps.size(); ++i) {
+    const std::size_t explanation = sensing::index_of(scan.steps[i].explanation);
+    const double log_likelihood = fit + log_likelihood_of(scan.steps[i], optimum, registered) + dynamics(scan.steps[i], by_velocity);
+    best.log_likelihoods[explanation] = std::max(best.log_likelihoods[explanation], log_likelihood);
+    const double log_posterior = log_likelihood + std::log(scan.weights[explanation]);
+    if (log_posterior <= best.log_posterior) continue;
+    best.step = i;
+    best.registered = registered;
+    best.log_posterior = log_posterior;
+  }
+}
+
+MixtureMatch::Best MixtureMatch::nothing_yet() {
+  Best best;
+  best.log_posterior = -std::numeric_limits<double>::infinity();
+  best.log_likelihoods.fill(-std::numeric_limits<double>::infinity());
+  return best;
+}
+
+void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher, Best& best) {
+  const Step& prediction = scan.steps[explanation];
+  scan.take_points(prediction);
+  const geometry::UncertainPose2 prior = prediction.prior();
+  compare(scan, explanation, prior.pose, matcher, best);
+  if (!is_vague(prior, config_)) return;
+  ++searches_;
+  for (const geometry::Pose2& pose : search_.poses_around(prior, scan.points.matched(), scan.map.surfels())) compare(scan, explanation, pose, matcher, best);
+}
+
+ExplainedStep MixtureMatch::explain(const StepToExplain& scan, ScanMatcher& matcher) {
+  searches_ = 0;
+  const Step& by_wheels = scan.steps.front();
+  const bool is_unsure = is_vague(by_wheels.prior(), config_) && !by_wheels.last_was_sampled;  // along a bare wall a search finds any place as good as any other
+  Best best = is_unsure ? nothing_yet() : at_prediction(scan, matcher);
+  if (is_unsure) around(scan, widest(scan, kRough), matcher, best);
+  sensing::ExplanationWeights weights = sensing::updated(scan.weights, best.log_likelihoods);
+  const bool stands = by_wheels.stood_s > kStands_s && !by_wheels.wheels_changed;
+  const bool has_changed = !is_unsure && by_wheels.wheels_changed;
+  const bool is_suspicious = has_changed || (!is_unsure && weights[sensing::index_of(StepExplanation::kWheels)] < config_.belief.suspicious_below);
+  const bool fits_less = best.registered.matched_share < scan.usual_share - config_.belief.suspicious_share_drop;
+  if (!is_unsure && (stands || (!is_suspicious && !fits_less))) return {scan.steps.front(), best.registered, weights, 0};
+  if (scan.steps.size() > 1 && (is_suspicious || fits_less)) {
+    if (!is_unsure) {
+      best = nothing_yet();
+      around(scan, kWheels, matcher, best);  // which may fit as well as any other: the surest is not to be missed
+      around(scan, widest(scan, kRough), matcher, best);
+    }
+    around(scan, widest(scan, kOther), matcher, best);
+    weights = sensing::updated(scan.weights, best.log_likelihoods);
+  }
+  // A scan that matches nowhere tells nothing of odometry.
+  const bool is_lost = best.registered.matched_share < config_.least_matched_share;
+  if (is_lost) weights = scan.weights;
+  const Step& step = scan.steps[is_lost ? kWheels : best.step];
+  scan.take_points(step);
+  const geometry::Pose2& start = is_lost ? step.after.odom_from_base : best.registered.map_from_base.pose;
+  const auto registered = matcher.register_from(start, step.prior(), {scan.points.matched(), scan.map.surfels(), step});
+  return {step, registered, weights, searches_};
+}
+
+}  // namespace slammot::localization

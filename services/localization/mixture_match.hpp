@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+
+#include "common/matching/point_to_line.hpp"
+#include "common/sensing/odometry_belief.hpp"
+#include "services/localization/local_map.hpp"
+#include "services/localization/localizer_config.hpp"
+#include "services/localization/pose_search.hpp"
+#include "services/localization/scan_matcher.hpp"
+#include "services/localization/scan_points.hpp"
+
+namespace slammot::localization {
+
+/// A scan, and the mixture of predictions of its pose.
+struct StepToExplain {
+  StepMixture steps;                                   ///< One an explanation; odometry as calibrated first, then its heavy tail, then the rest.
+  sensing::ExplanationWeights weights;                 ///< Before the scan.
+  double usual_share = 0.5;                            ///< Of points that match.
+  const ScanPoints& points;                            ///< Under the prediction taken last.
+  const LocalMap& map;
+  std::function<void(const Step&)> take_points;        ///< Takes the points under another prediction.
+};
+
+struct ExplainedStep {
+  Step step;                                           ///< The most likely explanation,
+  matching::PointToLineResult registered;              ///< and the registration under it.
+  sensing::ExplanationWeights weights;                 ///< After the scan.
+  std::uint64_t searches = 0;
+};
+
+/// Finds the pose of a scan under a mixture of predictions: maximises likelihood of the scan times prior over explanations and poses. Where odometry
+/// is sure and the scan does not contradict it, that is one registration; else the map is searched as far as the explanations reach.
+class MixtureMatch {
+ public:
+  explicit MixtureMatch(const LocalizerConfig& config);
+
+  ExplainedStep explain(const StepToExplain& scan, ScanMatcher& matcher);
+
+ private:
+  using LogLikelihoods = std::array<double, sensing::kStepExplanations>;
+
+  /// The best of what was found so far.
+  struct Best {
+    std::size_t step = 0;                              ///< Index into StepToExplain::steps.
+    matching::PointToLineResult registered;
+    double log_posterior = 0.0;
+    LogLikelihoods log_likelihoods{};                  ///< Of each explanation at its best pose.
+  };
+
+  Best at_prediction(const StepToExplain& scan, ScanMatcher& matcher) const;
+  static Best nothing_yet();
+  void around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher, Best& best);
+  void compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start, ScanMatcher& matcher, Best& best) const;
+
+  LocalizerConfig config_;
+  PoseSearch search_;
+  std::uint64_t searches_ = 0;
+};
+
+}  // namespace slammot::localization

@@ -1,0 +1,85 @@
+#include "services/localization/step_explanations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Matrix3;
+using sensing::StepExplanation;
+
+constexpr double kLongestVelocity_s = 0.6;  // a robot starts, stops and turns within it
+
+}  // namespace
+
+bool has_velocity(const Step& step, const LocalizerConfig& config) { return config.time_is_known && step.usual_duration_s < kLongestVelocity_s; }
+
+Step StepExplanations::without_odometry(Step step) const {
+  const geometry::Pose2& last = belief_.last_step;
+  const geometry::Pose2 half{0.5 * last.x_m, 0.5 * last.y_m, 0.5 * last.heading_rad};
+  step.after = before_;
+  step.after.odom_from_base = before_.odom_from_base * half;
+  const double reach_m = config_.belief.reach_m + config_.belief.usual_reach * belief_.usual_way_m;
+  const double reach_rad = config_.belief.reach_rad;
+  step.after.covariance.topLeftCorner<3, 3>().diagonal() += Eigen::Vector3d(reach_m, reach_m, reach_rad).cwiseAbs2();
+  return step;
+}
+
+Step StepExplanations::rough(const Step& by_wheels) const {
+  Step step = by_wheels;
+  step.explanation = StepExplanation::kRoughWheels;
+  step.explanation_was_chosen = true;
+  const geometry::Pose2 corrected = sensing::corrected(by_wheels.uncorrected_by_wheels, by_wheels.duration_s, belief_.factors);
+  const double more = config_.belief.rough_sigmas * config_.belief.rough_sigmas - 1.0;
+  const Matrix3 by_step = geometry::compound_jacobian_second(before_.odom_from_base);
+  const Matrix3 noise = sensing::predict_step(corrected, by_wheels.duration_s, before_.calibration, motion_).covariance;
+  step.after.covariance.topLeftCorner<3, 3>() += more * by_step * noise * by_step.transpose();
+  return step;
+}
+
+std::optional<Step> StepExplanations::recalibrated(const Step& by_wheels) const {
+  if (!belief_.estimator.is_known()) return std::nullopt;
+  Step step = by_wheels;
+  step.explanation = StepExplanation::kRecalibrated;
+  step.explanation_was_chosen = true;
+  step.is_standing = false;
+  sensing::MotionEstimate before = before_;
+  before.calibration.head<3>().setZero();
+  const geometry::Pose2 corrected = sensing::corrected(by_wheels.uncorrected_by_wheels, by_wheels.duration_s, belief_.estimator.factors());
+  step.after = sensing::moved_by_wheels(before, {corrected, by_wheels.duration_s}, motion_);
+  step.after.calibration = before_.calibration;
+  return step;
+}
+
+Step StepExplanations::at_constant_velocity(Step step) const {
+  sensing::MotionEstimate before = before_;
+  if (belief_.last != StepExplanation::kOther) {  // then the velocity of the estimate is that of odometry
+    before.velocity = belief_.matched_velocity;
+    before.covariance.rightCols<2>().setZero();
+    before.covariance.bottomRows<2>().setZero();
+    before.covariance.bottomRightCorner<2, 2>().diagonal() = belief_.matched_velocity_variance;
+  }
+  step.after = sensing::moved_at_velocity(before, std::min(step.duration_s, config_.longest_step_s), config_.motion);
+  step.source = StepSource::kVelocityAlone;
+  return step;
+}
+
+Step StepExplanations::within_reach(Step step) const {
+  const double way_m = std::hypot(step.before_from_base.x_m, step.before_from_base.y_m);
+  const double reach_m = config_.belief.reach_m + config_.belief.reach_per_m * way_m;
+  const double reach_rad = config_.belief.reach_rad + config_.belief.reach_per_rad * std::abs(step.before_from_base.heading_rad);
+  step.after.covariance.topLeftCorner<3, 3>().diagonal() += Eigen::Vector3d(reach_m, reach_m, reach_rad).cwiseAbs2();
+  return step;
+}
+
+Step StepExplanations::other(const Step& by_wheels) const {
+  Step step = by_wheels;
+  step.explanation = StepExplanation::kOther;
+  step.explanation_was_chosen = true;
+  step.is_standing = false;
+  step.stood_s = 0.0;
+  return has_velocity(by_wheels, config_) ? at_constant_velocity(std::move(step)) : within_reach(std::move(step));
+}
+
+}  // namespace slammot::localization

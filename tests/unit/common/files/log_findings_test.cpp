@@ -1,0 +1,52 @@
+#include "common/files/log_findings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace slammot::files {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+LogPlan sound_plan() {
+  LogPlan plan;
+  plan.odometry = OdometrySource::kLaserRecords;
+  plan.figures = {.scans = 100, .beams = 181, .has_clock = true, .scan_period_s = 0.1, .longest_gap_s = 0.1, .echo_share = 0.9};
+  return plan;
+}
+
+TEST(DescribeFindings, IsSilentAboutASoundLog) { EXPECT_THAT(describe_findings(sound_plan()), IsEmpty()); }
+
+TEST(DescribeFindings, SaysWhatWasDoneToTheClock) {
+  LogPlan plan = sound_plan();
+  plan.times.fault = sensing::ClockFault::kCoarse;
+  plan.times.quantum_s = 1.0;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("rounded to 1 s")));
+}
+
+TEST(DescribeFindings, SaysEachCorrectionInALine) {
+  LogPlan plan = sound_plan();
+  plan.evidence.correction.range_unit_m = 1e-3;
+  plan.evidence.correction.reverses_beams = true;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("millimetres"), HasSubstr("clockwise")));
+}
+
+TEST(DescribeFindings, CountsScansWithoutAReading) {
+  LogPlan plan = sound_plan();
+  plan.figures.scans_without_readings = 14;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("14 of 100 scans")));
+}
+
+TEST(LikelyCauses, NameWhatTheEvidenceLeavesOpen) {
+  LogPlan plan = sound_plan();
+  EXPECT_THAT(likely_causes(plan), HasSubstr("heading sign"));
+  plan.evidence = {.pairs = 40, .matched_share = 0.3};
+  EXPECT_THAT(likely_causes(plan), HasSubstr("range unit"));
+  plan.odometry = OdometrySource::kNone;
+  EXPECT_THAT(likely_causes(plan), HasSubstr("no odometry"));
+}
+
+}  // namespace
+}  // namespace slammot::files

@@ -1,0 +1,139 @@
+#include "services/localization/mixture_match.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/mapped_world.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Pose2;
+using sensing::ExplanationWeights;
+using sensing::StepExplanation;
+using slammot::testing::MappedWorld;
+using slammot::testing::PoseNear;
+
+/// Scans are so far apart in time that each counts for much.
+constexpr double kPeriod_s = 0.5;
+
+Step step_to(const Pose2& odom_from_base, double sigma_m, double sigma_rad, StepExplanation explanation) {
+  Step step;
+  step.duration_s = step.usual_duration_s = kPeriod_s;
+  step.source = explanation == StepExplanation::kOther ? StepSource::kVelocityAlone : StepSource::kOdometry;
+  step.explanation = explanation;
+  step.after.odom_from_base = odom_from_base;
+  step.after.covariance.topLeftCorner<3, 3>() = Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+  return step;
+}
+
+/// Wheels to 1 cm, their tail to 4 cm, and constant velocity to 0.3 m.
+StepMixture explanations_of(const Pose2& by_wheels, const Pose2& at_velocity) {
+  return {step_to(by_wheels, 0.01, 0.003, StepExplanation::kWheels), step_to(by_wheels, 0.04, 0.012, StepExplanation::kRoughWheels),
+          step_to(at_velocity, 0.3, 0.1, StepExplanation::kOther)};
+}
+
+double weight_of(const ExplainedStep& explained, StepExplanation explanation) { return explained.weights[sensing::index_of(explanation)]; }
+
+class MixtureMatchTest : public ::testing::Test {
+ protected:
+  /// A scan at the pose under these predictions.
+  ExplainedStep explain(const Pose2& truth, StepMixture steps, const MappedWorld& world) {
+    const sensing::LaserScan scan = world.scan_at(truth);
+    ScanPoints points(config_);
+    points.begin_scan();
+    const auto take = [&](const Step& step) {
+      points.deskew(scan, 0.0, 0.0);
+      points.select(scan, step.after.odom_from_base, {});
+    };
+    take(steps.front());
+    ScanMatcher matcher(config_);
+    MixtureMatch mixture(config_);
+    weights_ = sensing::predicted(weights_, config_.belief);
+    ExplainedStep explained = mixture.explain({std::move(steps), weights_, usual_share_, points, world.map(), take}, matcher);
+    weights_ = explained.weights;
+    return explained;
+  }
+
+  LocalizerConfig config_ = MappedWorld::config_of_small_map();
+  MappedWorld room_{slammot::testing::room()};
+  ExplanationWeights weights_{1.0, 0.0, 0.0, 0.0};
+  double usual_share_ = 0.9;
+};
+
+TEST_F(MixtureMatchTest, TakesWheelsThatTheScanAgreesWithWithoutASearch) {
+  const Pose2 truth{0.3, 0.2, 0.1};
+  const ExplainedStep explained = explain(truth, explanations_of({0.305, 0.196, 0.101}, {0.2, 0.1, 0.05}), room_);
+  EXPECT_EQ(explained.step.explanation, StepExplanation::kWheels);
+  EXPECT_EQ(explained.searches, 0U);
+  EXPECT_GT(weight_of(explained, StepExplanation::kWheels), 0.9);
+  EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.01));
+}
+
+TEST_F(MixtureMatchTest, FollowsTheScanWhereWheelsAreOffByManySigmas) {
+  const Pose2 truth{0.3, 0.2, 0.1};
+  StepMixture steps = explanations_of({0.9, 0.2, 0.1}, {0.15, 0.1, 0.05});
+  steps.front().wheels_changed = true;
+  const ExplainedStep explained = explain(truth, steps, room_);
+  EXPECT_EQ(explained.step.explanation, StepExplanation::kOther);
+  EXPECT_LT(weight_of(explained, StepExplanation::kWheels), 0.01);
+  EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.03));
+}
+
+TEST_F(MixtureMatchTest, TakesTheTailOfOdometryForErrorsOfAFewSigmasInARow) {
+  const Pose2 truth{0.3, 0.2, 0.1};
+  const StepMixture steps = explanations_of({0.36, 0.2, 0.1}, {-0.6, -0.6, -0.1});
+  ExplainedStep explained = explain(truth, steps, room_);
+  for (int scan = 1; scan < 6; ++scan) explained = explain(truth, steps, room_);
+  EXPECT_EQ(explained.step.explanation, StepExplanation::kRoughWheels);
+  EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.03));
+}
+
+TEST_F(MixtureMatchTest, PrefersRecalibratedWheelsThatPredictSurelyAndRight) {
+  const Pose2 truth{0.3, 0.2, 0.1};
+  StepMixture steps = explanations_of({0.5, 0.2, 0.1}, {0.1, 0.1, 0.05});
+  steps.push_back(step_to({0.302, 0.199, 0.1}, 0.01, 0.003, StepExplanation::kRecalibrated));
+  const ExplainedStep explained = explain(truth, steps, room_);
+  EXPECT_EQ(explained.step.explanation, StepExplanation::kRecalibrated);
+  EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.02));
+}
+
+TEST_F(MixtureMatchTest, LeavesTheWayAlongAWallToTheWheels) {
+  const MappedWorld wall({{{-200.0, 3.0}, {200.0, 3.0}}});
+  const Pose2 by_wheels{0.7, 0.0, 0.0};
+  const ExplainedStep explained = explain({0.2, 0.0, 0.0}, explanations_of(by_wheels, {0.2, 0.0, 0.0}), wall);
+  EXPECT_EQ(explained.step.explanation, StepExplanation::kWheels);
+  EXPECT_NEAR(explained.registered.map_from_base.pose.x_m, by_wheels.x_m, 0.02);
+  EXPECT_GT(weight_of(explained, StepExplanation::kWheels), 0.8) << "nothing was learned of the way";
+}
+
+TEST_F(MixtureMatchTest, BelievesWheelsAgainOnceScansAgreeForAWhile) {
+  const Pose2 truth{0.3, 0.2, 0.1};
+  explain(truth, explanations_of({0.9, 0.2, 0.1}, {0.2, 0.1, 0.05}), room_);
+  int scans = 0;
+  for (; weights_[sensing::index_of(StepExplanation::kWheels)] < 0.9 && scans < 20; ++scans) explain(truth, explanations_of(truth, truth), room_);
+  EXPECT_LT(scans, 8);
+}
+
+TEST_F(MixtureMatchTest, LooksFartherWhereFewerPointsMatchThanUsual) {
+  const Pose2 truth{0.3, 0.2, 0.1};
+  const Pose2 by_wheels{1.6, 0.2, 0.3};  // so far off that little is paired
+  StepMixture steps = explanations_of(by_wheels, {0.2, 0.1, 0.0});
+  const ExplainedStep explained = explain(truth, steps, room_);
+  EXPECT_GT(explained.searches, 0U);
+  EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.03));
+}
+
+TEST_F(MixtureMatchTest, WeighsExplanationsToASumOfOne) {
+  for (const double off_m : {0.0, 0.03, 0.1, 0.5, 2.0}) {
+    const ExplainedStep explained = explain({0.3, 0.2, 0.1}, explanations_of({0.3 + off_m, 0.2, 0.1}, {0.2, 0.1, 0.0}), room_);
+    EXPECT_NEAR(std::accumulate(explained.weights.begin(), explained.weights.end(), 0.0), 1.0, 1e-9) << off_m;
+  }
+}
+
+}  // namespace
+}  // namespace slammot::localization
