@@ -115,4 +115,30 @@ std::uint32_t ScorePyramid::sum(const CellPoints& points, std::int32_t column, s
   return sum;
 }
 
+std::array<std::uint32_t, 4> ScorePyramid::sums_of_four(const CellPoints& points, std::int32_t column, std::int32_t row, std::int32_t step, int level) const {
+  const Level& grid = levels_[static_cast<std::size_t>(level)];
+  const int shift = stride_shift(level);
+  const auto columns = static_cast<std::uint32_t>(grid.columns);
+  const auto rows = static_cast<std::uint32_t>(grid.rows);
+  const std::uint8_t* values = grid.values.data();
+  std::array<std::uint32_t, 4> sums{};
+  for (std::size_t i = 0; i < points.columns.size(); ++i) {
+    const std::int32_t at_column = points.columns[i] + column;
+    const std::int32_t at_row = points.rows[i] + row;
+    const auto left = static_cast<std::uint32_t>((at_column >> shift) + kPad);
+    const auto right = static_cast<std::uint32_t>(((at_column + step) >> shift) + kPad);
+    const auto lower = static_cast<std::uint32_t>((at_row >> shift) + kPad);
+    const auto upper = static_cast<std::uint32_t>(((at_row + step) >> shift) + kPad);
+    if (lower < rows) {
+      if (left < columns) sums[0] += values[lower * columns + left];
+      if (right < columns) sums[1] += values[lower * columns + right];
+    }
+    if (upper < rows) {
+      if (left < columns) sums[2] += values[upper * columns + left];
+      if (right < columns) sums[3] += values[upper * columns + right];
+    }
+  }
+  return sums;
+}
+
 }  // namespace slammot::matching

@@ -17,6 +17,10 @@ using geometry::Vector2;
 
 constexpr int kHighestLevel = 6;        // beyond 64 cells a bound says next to nothing
 constexpr std::uint64_t kTurnWork = 1;  // of one point, in cells read
+constexpr std::int32_t kMostCells = 1 << 20;  // either side of a grid's origin
+
+/// Floor without a call: truncation of what is not negative. See search_a_wide_window of the benchmark.
+std::int32_t floored(double cells) { return static_cast<std::int32_t>(cells + kMostCells) - kMostCells; }
 
 std::int32_t steps_within(double half_width, double step) { return static_cast<std::int32_t>(std::ceil(half_width / step - 1e-9)); }
 
@@ -98,20 +102,28 @@ const CellPoints& WideSearch::turned(std::uint32_t target, double heading_steps)
   if (turned_for_ == std::pair{target, heading_steps} && !turned_.columns.empty()) return turned_;
   turned_for_ = {target, heading_steps};
   const Vector2 at = pyramid.in_cells(middle.translation_m());
-  const Eigen::Matrix2d turn = geometry::rotation(middle.heading_rad + heading_steps * heading_step_rad_) / cell_m_;
+  const double heading_rad = middle.heading_rad + heading_steps * heading_step_rad_;
+  const double cosine = std::cos(heading_rad) / cell_m_;
+  const double sine = std::sin(heading_rad) / cell_m_;
   turned_.columns.resize(points_m_.size());
   turned_.rows.resize(points_m_.size());
+  std::int32_t* const columns = turned_.columns.data();
+  std::int32_t* const rows = turned_.rows.data();
   for (std::size_t i = 0; i < points_m_.size(); ++i) {
-    const Vector2 cell = turn * points_m_[i].cast<double>() + at;
-    turned_.columns[i] = static_cast<std::int32_t>(std::floor(cell.x()));
-    turned_.rows[i] = static_cast<std::int32_t>(std::floor(cell.y()));
+    const double x_m = points_m_[i].x();
+    const double y_m = points_m_[i].y();
+    columns[i] = floored(cosine * x_m - sine * y_m + at.x());
+    rows[i] = floored(sine * x_m + cosine * y_m + at.y());
   }
   work_ += kTurnWork * points_m_.size();
   return turned_;
 }
 
+/// Its middle heading, in steps.
+double WideSearch::middle_of(const Block& block) { return block.heading + 0.5 * (ScorePyramid::headings_of(block.level) - 1); }
+
 std::uint32_t WideSearch::bound_of(const Block& block) {
-  const CellPoints& points = turned(block.target, block.heading + 0.5 * (ScorePyramid::headings_of(block.level) - 1));
+  const CellPoints& points = turned(block.target, middle_of(block));
   work_ += points_m_.size();
   return grids_[block.target].target.pyramid->sum(points, block.column, block.row, block.level);
 }
@@ -140,9 +152,11 @@ bool WideSearch::has_heading(const Block& block) const {
 }
 
 void WideSearch::offer(const Block& block) {
-  if (!has_heading(block)) return;
+  if (has_heading(block)) offer(block, bound_of(block));
+}
+
+void WideSearch::offer(const Block& block, std::uint32_t score) {
   Block bounded = block;
-  const std::uint32_t score = bound_of(block);
   bounded.bound = score - std::min(score, least_cost_of(block));
   if (score < least_score_ || bounded.bound < least_bound_) return;
   queue_.push_back(bounded);
@@ -154,11 +168,15 @@ void WideSearch::expand(const Block& block) {
   const std::int32_t half = 1 << (block.level - 1);
   const std::int32_t headings = ScorePyramid::headings_of(block.level - 1);
   for (std::int32_t heading = block.heading; heading < block.heading + ScorePyramid::headings_of(block.level); heading += headings) {
-    for (const std::int32_t row : {block.row, block.row + half}) {
-      for (const std::int32_t column : {block.column, block.column + half}) {
-        if (heading > grid.half_headings || row > grid.half_rows || column > grid.half_columns) continue;
-        offer({.target = block.target, .level = block.level - 1, .heading = heading, .column = column, .row = row});
-      }
+    Block child{.target = block.target, .level = block.level - 1, .heading = heading, .column = block.column, .row = block.row};
+    if (heading > grid.half_headings || !has_heading(child)) continue;
+    const auto scores = grid.target.pyramid->sums_of_four(turned(child.target, middle_of(child)), block.column, block.row, half, child.level);
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      child.column = block.column + (i % 2 == 1 ? half : 0);
+      child.row = block.row + (i >= 2 ? half : 0);
+      if (child.row > grid.half_rows || child.column > grid.half_columns) continue;
+      work_ += points_m_.size();
+      offer(child, scores[i]);
     }
   }
 }

@@ -86,7 +86,9 @@ class WideSearch {
   std::uint32_t bound_of(const Block& block);
   std::uint32_t least_cost_of(const Block& block) const;
   bool has_heading(const Block& block) const;
+  static double middle_of(const Block& block);
   void offer(const Block& block);
+  void offer(const Block& block, std::uint32_t score);
   void expand(const Block& block);
   void take_leaf(const Block& leaf);
   bool may_hold_a_new_peak(const Block& block) const;

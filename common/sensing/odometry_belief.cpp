@@ -24,6 +24,8 @@ constexpr double kForgetWay = 1e-4;       // variance that a step adds
 constexpr double kForgetTurn = 1e-4;
 constexpr double kLeastTurn_rad = 0.01;   // that tells of the turn factor
 constexpr int kLeastSteps = 6;
+constexpr double kLeastTurnOnTheSpot_rad = 0.1;
+constexpr double kDriveShare = 0.5;       // of the usual drive: a step with less way is a turn
 constexpr double kKnownSigma = 0.1;
 
 double squared(double value) { return value * value; }
@@ -181,9 +183,13 @@ OdometryBelief moved(OdometryBelief belief, StepExplanation explanation, double 
   belief.usual_step_s += config.usual_step_memory * (duration_s - belief.usual_step_s);
   Eigen::Vector2d& variance = belief.matched_velocity_variance;
   variance += duration_s * Eigen::Vector2d(squared(motion.speed_walk_mps), squared(motion.yaw_rate_walk_radps));
-  belief.last_step = before_from_base.value_or(Pose2{});
   if (!before_from_base) return belief;
-  belief.usual_way_m += config.usual_step_memory * (std::hypot(before_from_base->x_m, before_from_base->y_m) - belief.usual_way_m);
+  belief.last_step = *before_from_base;
+  const double way_m = before_from_base->translation_m().norm();
+  belief.usual_way_m += config.usual_step_memory * (way_m - belief.usual_way_m);
+  const double turn_rad = std::abs(before_from_base->heading_rad);
+  if (way_m > kDriveShare * belief.usual_drive_m) belief.usual_drive_m += config.usual_step_memory * (way_m - belief.usual_drive_m);
+  else if (turn_rad > kLeastTurnOnTheSpot_rad) belief.usual_turn_rad += config.usual_step_memory * (turn_rad - belief.usual_turn_rad);
   const Eigen::Vector2d measured(before_from_base->x_m / duration_s, before_from_base->heading_rad / duration_s);
   const Eigen::Vector2d noise = (Eigen::Vector2d(kStepSigma_m, kStepSigma_rad) / duration_s).cwiseAbs2();
   const Eigen::Vector2d gain = variance.cwiseQuotient(variance + noise);

@@ -37,7 +37,10 @@ struct OdometryBeliefConfig {
   double reach_m = 0.3;                     ///< kOther without time: one sigma of the position,
   double reach_per_m = 0.5;                 ///< and what each metre by odometry adds;
   double usual_reach = 0.7;                 ///< without odometry, what the usual step adds, as a share of it;
-  double reach_rad = 0.4;                   ///< one sigma of the heading,
+  double repeat_share = 0.25;               ///< One sigma of a step that is like one before, as a share of it,
+  double repeat_m = 0.08;                   ///< and what is added to it.
+  double repeat_rad = 0.12;                 ///< One sigma of its turn.
+  double reach_rad = 0.6;                   ///< one sigma of the heading,
   double reach_per_rad = 0.5;               ///< and what each radian by odometry adds.
 };
 
@@ -102,7 +105,9 @@ struct OdometryBelief {
   geometry::Pose2 last_step;                           ///< By the matches.
   geometry::Pose2 last_by_wheels;                      ///< Last step as odometry had it, not corrected,
   double last_duration_s = 0.0;                        ///< and how long it took; 0: none yet.
-  double usual_way_m = 0.5;                            ///< Of a step.
+  double usual_way_m = 0.5;                            ///< Of a step,
+  double usual_drive_m = 0.5;                          ///< and of one that is no turn on the spot.
+  double usual_turn_rad = 0.5;                         ///< By which one that is turns, either way.
   double usual_share = 0.5;                            ///< Of the points of a scan that match.
   Velocity matched_velocity = Velocity::Zero();        ///< Of the last steps between matches,
   Eigen::Vector2d matched_velocity_variance = Eigen::Vector2d::Constant(1e3);

@@ -109,6 +109,9 @@ FieldTable<sensing::OdometryBeliefConfig> belief_fields() {
       {"reach_m", &C::reach_m, "Wheels that say nothing, without time: one sigma of the position.", kPositive},
       {"reach_per_m", &C::reach_per_m, "What each metre by odometry adds to it.", kNotNegative},
       {"usual_reach", &C::usual_reach, "Without odometry, what the usual step adds, as a share of it.", kNotNegative},
+      {"repeat_share", &C::repeat_share, "One sigma of a step that is like one before, as a share of it.", kNotNegative},
+      {"repeat_m", &C::repeat_m, "What is added to it.", kPositive},
+      {"repeat_rad", &C::repeat_rad, "One sigma of its turn.", kPositive},
       {"reach_rad", &C::reach_rad, "One sigma of the heading.", kPositive},
       {"reach_per_rad", &C::reach_per_rad, "What each radian by odometry adds to it.", kNotNegative},
   };

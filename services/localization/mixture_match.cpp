@@ -20,6 +20,8 @@ constexpr double kIndependentShare = 0.4;       // of the points: neighbours sha
 /// Place of a wide explanation; without odometry there is only one.
 std::size_t widest(const StepToExplain& scan, std::size_t wanted) { return std::min(wanted, scan.steps.size() - 1); }
 
+constexpr double kUsualDrop = 0.07;             // of the matched share, from scan to scan
+constexpr std::size_t kLikelySteps = 2;         // the last ones of a mixture without odometry: like the last step, and straight on
 constexpr std::size_t kPoses = 4;               // that a search tells apart
 
 /// Share of a scan's points that say on their own whether they match: those of scans shortly after each other meet the same moving things.
@@ -104,6 +106,7 @@ void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, Sc
 ExplainedStep MixtureMatch::explain(const StepToExplain& scan, ScanMatcher& matcher) {
   searches_ = 0;
   const Step& by_wheels = scan.steps.front();
+  if (by_wheels.source == StepSource::kReach) return explain_without_odometry(scan, matcher);
   const bool is_unsure = is_vague(by_wheels.prior(), config_) && !by_wheels.last_was_sampled;  // along a bare wall a search finds any place as good as any other
   Best best = is_unsure ? nothing_yet() : at_prediction(scan, matcher);
   if (is_unsure) around(scan, widest(scan, kRough), matcher, best);
@@ -122,14 +125,28 @@ ExplainedStep MixtureMatch::explain(const StepToExplain& scan, ScanMatcher& matc
     around(scan, widest(scan, kOther), matcher, best);
     weights = sensing::updated(scan.weights, best.log_likelihoods);
   }
-  // A scan that matches nowhere tells nothing of odometry.
+  return concluded(scan, best, weights, matcher);
+}
+
+/// Steps that are like the ones before are likely; where the scan does not fit under them as it usually does, any step is looked for.
+ExplainedStep MixtureMatch::explain_without_odometry(const StepToExplain& scan, ScanMatcher& matcher) {
+  Best best = nothing_yet();
+  const std::size_t likely = scan.steps.size() - kLikelySteps;
+  for (std::size_t i = scan.steps.size(); i-- > 0;) {
+    const bool fits_as_usual = best.registered.matched_share > scan.usual_share - kUsualDrop;
+    if (i >= likely || !fits_as_usual) around(scan, i, matcher, best);
+  }
+  return concluded(scan, best, sensing::updated(scan.weights, best.log_likelihoods), matcher);
+}
+
+/// A scan that matches nowhere tells nothing of odometry.
+ExplainedStep MixtureMatch::concluded(const StepToExplain& scan, const Best& best, const sensing::ExplanationWeights& weights, ScanMatcher& matcher) const {
   const bool is_lost = best.registered.matched_share < config_.least_matched_share;
-  if (is_lost) weights = scan.weights;
   const Step& step = scan.steps[is_lost ? kWheels : best.step];
   scan.take_points(step);
   const geometry::Pose2& start = is_lost ? step.after.odom_from_base : best.registered.map_from_base.pose;
   const auto registered = matcher.register_from(start, step.prior(), {scan.points.matched(), scan.map.surfels(), step});
-  return {step, registered, weights, searches_};
+  return {step, registered, is_lost ? scan.weights : weights, searches_};
 }
 
 }  // namespace slammot::localization

@@ -40,6 +40,7 @@ class MixtureMatch {
   ExplainedStep explain(const StepToExplain& scan, ScanMatcher& matcher);
 
  private:
+  ExplainedStep explain_without_odometry(const StepToExplain& scan, ScanMatcher& matcher);
   using LogLikelihoods = std::array<double, sensing::kStepExplanations>;
 
   /// The best of what was found so far.
@@ -53,6 +54,7 @@ class MixtureMatch {
   Best at_prediction(const StepToExplain& scan, ScanMatcher& matcher) const;
   static Best nothing_yet();
   void around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher, Best& best);
+  ExplainedStep concluded(const StepToExplain& scan, const Best& best, const sensing::ExplanationWeights& weights, ScanMatcher& matcher) const;
   void compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start, ScanMatcher& matcher, Best& best) const;
 
   LocalizerConfig config_;

@@ -173,8 +173,14 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
 }
 
 StepMixture OdometryPrediction::explanations(const Step& by_wheels) const {
-  if (!by_wheels.is_by_wheels()) return {by_wheels};
   const StepExplanations alternatives{state_.estimate, state_.belief, config_, motion_of_one_clock_};
+  if (by_wheels.source == StepSource::kReach) {
+    StepMixture steps{by_wheels, alternatives.to_the_left(by_wheels), alternatives.to_the_right(by_wheels), alternatives.like_the_last(by_wheels),
+                      alternatives.straight_on(by_wheels)};
+    for (Step& step : steps) step = with_velocity(step, *state_.last);
+    return steps;
+  }
+  if (!by_wheels.is_by_wheels()) return {by_wheels};
   StepMixture steps{by_wheels, alternatives.rough(by_wheels), alternatives.other(by_wheels)};
   if (auto recalibrated = alternatives.recalibrated(by_wheels)) steps.push_back(*recalibrated);
   for (Step& step : steps) step = with_velocity(step, *state_.last);

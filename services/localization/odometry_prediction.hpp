@@ -60,7 +60,7 @@ class StepMixture {
     for (const Step& step : steps) push_back(step);
   }
 
-  /// At most one for each sensing::StepExplanation.
+  /// At most kMost.
   void push_back(const Step& step) { steps_.at(size_++) = step; }
 
   std::size_t size() const { return size_; }
@@ -73,7 +73,8 @@ class StepMixture {
   auto end() const { return steps_.begin() + static_cast<std::ptrdiff_t>(size_); }
 
  private:
-  std::array<Step, sensing::kStepExplanations> steps_;
+  static constexpr std::size_t kMost = 5;
+  std::array<Step, kMost> steps_;
   std::size_t size_ = 0;
 };
 
@@ -124,7 +125,8 @@ class OdometryPrediction {
   /// The step from the last scan to the stamp, not before it. Changes nothing.
   Step predict(std::int64_t stamp_ns) const;
 
-  /// All explanations of a step that odometry predicts, that one first: see sensing::StepExplanation. Of any other step only it.
+  /// All explanations of a step that odometry predicts, that one first: see sensing::StepExplanation. Of one that may lead anywhere within
+  /// reach, that and the steps that are like those before. Of any other step only it.
   StepMixture explanations(const Step& by_wheels) const;
 
   /// Feedback: odometry (not corrected) beside what two scans some way apart tell.

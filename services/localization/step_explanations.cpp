@@ -26,6 +26,14 @@ Step StepExplanations::without_odometry(Step step) const {
   return step;
 }
 
+Step StepExplanations::about(Step step, const geometry::Pose2& before_from_base, double sigma_rad) const {
+  const double sigma_m = config_.belief.repeat_m + config_.belief.repeat_share * before_from_base.translation_m().norm();
+  step.after = before_;
+  step.after.odom_from_base = before_.odom_from_base * before_from_base;
+  step.after.covariance.topLeftCorner<3, 3>().diagonal() += Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
+  return step;
+}
+
 Step StepExplanations::rough(const Step& by_wheels) const {
   Step step = by_wheels;
   step.explanation = StepExplanation::kRoughWheels;

@@ -31,7 +31,15 @@ class StepExplanations {
   /// No odometry, and no velocity that could be extrapolated: on by half of the last step, and not known farther than a few usual ones.
   Step without_odometry(Step step) const;
 
+  /// The same, but like the last step, straight on by as much as the usual one, or a turn on the spot: robots log a scan for each piece of
+  /// way and each turn.
+  Step like_the_last(const Step& step) const { return about(step, belief_.last_step, config_.belief.repeat_rad); }
+  Step straight_on(const Step& step) const { return about(step, {belief_.usual_drive_m, 0.0, 0.0}, config_.belief.repeat_rad); }
+  Step to_the_left(const Step& step) const { return about(step, {0.0, 0.0, belief_.usual_turn_rad}, 0.5 * belief_.usual_turn_rad); }
+  Step to_the_right(const Step& step) const { return about(step, {0.0, 0.0, -belief_.usual_turn_rad}, 0.5 * belief_.usual_turn_rad); }
+
  private:
+  Step about(Step step, const geometry::Pose2& before_from_base, double sigma_rad) const;
   Step at_constant_velocity(Step step) const;
   Step within_reach(Step step) const;
 
