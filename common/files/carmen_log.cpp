@@ -202,7 +202,7 @@ void CarmenLog::merge_scans(std::size_t may_wait) {
 
 void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int64_t stamp) {
   const bool has_pose = record.kind != LaserRecordKind::kRawLaser && record.kind != LaserRecordKind::kDpSlam;
-  const auto wheel_from_base = has_pose ? std::optional(corrected(plan_.evidence.correction, record.wheel_from_base)) : std::nullopt;
+  const auto wheel_from_base = has_pose ? std::optional(pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)) : std::nullopt;
   sensing::LaserScan scan = scan_of(std::move(record), scanner, stamp);
   if (++scans_[scanner] == 1 && scanner == 0 && plan_.first_scan_is_ahead) {
     first_scan_ = std::move(scan);  // told first, it would make all others late: after the second one, it is only far ahead
@@ -230,7 +230,7 @@ void CarmenLog::take(const OdometryRecord& record) {
     ++faults_.stale_odometry;
     return;
   }
-  odom_lines_.push_back({*stamp, corrected(plan_.evidence.correction, record.wheel_from_base)});
+  odom_lines_.push_back({*stamp, pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)});
   if (plan_.odometry == OdometrySource::kOdomLines) put_waiting_scans(kMaxWaitingScans);
 }
 
@@ -308,9 +308,8 @@ void CarmenLog::correct(sensing::LaserScan& scan, std::size_t scanner) const {
   if (!has_beams_of_the_main_one(scanner)) return;
   scan.scanner.first_beam_rad *= correction.field_factor;
   scan.scanner.beam_step_rad *= correction.field_factor;
-  if (!correction.reverses_beams) return;
-  scan.scanner.first_beam_rad += scan.scanner.beam_step_rad * static_cast<double>(scan.range_m.size() - 1);
-  scan.scanner.beam_step_rad = -scan.scanner.beam_step_rad;
+  // Taken for a record that was written in reverse: then the sweep runs as the layout says, too. Localization learns where it does not.
+  if (correction.reverses_beams) std::ranges::reverse(scan.range_m);
 }
 
 /// CARMEN's records of one kind come from one program; in a bag each scanner has a driver of its own.

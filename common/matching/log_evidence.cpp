@@ -191,7 +191,7 @@ double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams, 
 /// Which of odometry's headings, odometry's positions and beams is mirrored. Beams that go clockwise look like odometry that is
 /// mirrored as a whole. Within its steps sound odometry moves on the arcs of its turns, and odometry made of turns with the wrong
 /// sign moves against them: only the former makes beams the mirrored ones; where neither is seen, the record of beams is believed.
-void correct_signs(const OdometryCheck& odometry, double same_sign, LogEvidence& evidence) {
+void correct_signs(const OdometryCheck& odometry, double same_sign, double way_unit_m, LogEvidence& evidence) {
   LogCorrection& correction = evidence.correction;
   constexpr double kMostly = 0.8;
   const bool turns_agree = same_sign > kMostly;
@@ -205,9 +205,10 @@ void correct_signs(const OdometryCheck& odometry, double same_sign, LogEvidence&
     return;
   }
   if (!turns_differ) return;
-  correction.reverses_beams = odometry.turns_with_its_arcs();
+  correction.reverses_beams = odometry.turns_with_its_arcs(way_unit_m);
   correction.mirrors_position = correction.mirrors_heading = !correction.reverses_beams;
-  evidence.handedness_is_told = correction.reverses_beams || odometry.turns_against_its_arcs();
+  correction.integrates_turns_anew = odometry.turns_against_its_arcs(way_unit_m);
+  evidence.handedness_is_told = correction.reverses_beams || odometry.turns_against_its_arcs(way_unit_m);
 }
 
 /// Power of ten that makes the scale one; 1 where it is no such unit.
@@ -233,6 +234,18 @@ Pose2 corrected(const LogCorrection& correction, const Pose2& recorded) {
   return {position_m.x(), position_m.y(), wrap_angle(heading_rad)};
 }
 
+Pose2 PoseCorrection::next(const LogCorrection& correction, const Pose2& recorded) {
+  if (!correction.integrates_turns_anew) return corrected(correction, recorded);
+  const Pose2 in_units{correction.way_unit_m * recorded.x_m, correction.way_unit_m * recorded.y_m, recorded.heading_rad * correction.heading_unit_rad};
+  if (last_recorded_) {
+    Pose2 motion = inverse(*last_recorded_) * in_units;
+    motion.heading_rad = -motion.heading_rad;
+    last_ = last_ * motion;
+  }
+  last_recorded_ = in_units;
+  return last_;
+}
+
 void OdometryCheck::add(const Pose2& recorded) {
   largest_heading_ = std::max(largest_heading_, std::abs(recorded.heading_rad));
   const std::optional<Pose2> before = before_;
@@ -250,6 +263,13 @@ void OdometryCheck::add(const Pose2& recorded) {
     if (std::abs(turn) > 0.5) continue;
     unit.arc += way * std::sin(direction - heading - forward) * turn;
     unit.arc_turn += way * turn * turn;
+    const double from_heading = direction - before->heading_rad * unit.radians;
+    const double sideways = way * std::sin(from_heading);
+    const Eigen::Vector2d by(turn, way * std::cos(from_heading) * turn);
+    unit.turning += by * by.transpose();
+    unit.sideways += sideways * by;
+    unit.squared_sideways += sideways * sideways;
+    ++unit.steps;
   }
   way_ += way;
 }
@@ -263,17 +283,42 @@ bool OdometryCheck::is_in_degrees() const {
 
 bool OdometryCheck::positions_are_mirrored() const {
   if (way_ <= 0.0) return false;
+  // Streets that cross at right angles leave both consistent, but one far less exactly.
+  constexpr double kSpreadShare = 0.25;
+  constexpr double kLeastSpread = 1e-3;
   const double mirrored = std::abs(unit().mirrored) / way_;
-  return mirrored > kConsistent && mirrored > std::abs(unit().along) / way_ + kClearly;
+  const double along = std::abs(unit().along) / way_;
+  return mirrored > kConsistent && 1.0 - along > kLeastSpread && 1.0 - mirrored < kSpreadShare * (1.0 - along);
 }
 
 /// 0 where chords lie along the heading in their middle, as of arcs; -0.5 along the first heading; less where positions are
 /// later than headings, which happens, more where they are earlier. Of turns with the wrong sign a becomes -1 - a.
 double OdometryCheck::arcs_per_turn() const { return unit().arc_turn > 0.0 ? unit().arc / unit().arc_turn : kEitherWay; }
 
-bool OdometryCheck::turns_against_its_arcs() const { return std::abs(arcs_per_turn() + 1.0) < kArcsSeen || arcs_per_turn() > kArcsSeen; }
+/// How far the point whose poses these are lies ahead of the axle about which the vehicle turns, if it is as far as on cars: a point c
+/// ahead moves sideways by c times the turn, into it. Of turns with the wrong sign it is -c, and no car is steered from behind its axle.
+std::optional<double> OdometryCheck::ahead_of_axle_m(double unit_m) const {
+  constexpr double kOfCars_m = 0.3;
+  constexpr double kSigmas = 5.0;
+  constexpr double kLeastDistinct = 1e-6;  // at one speed nothing tells an offset from a delay
+  const Eigen::Matrix2d& turning = unit().turning;
+  if (unit().steps < 3 || !(turning.determinant() > kLeastDistinct * turning(0, 0) * turning(1, 1))) return std::nullopt;
+  const Eigen::Matrix2d covariance = turning.inverse();
+  const Eigen::Vector2d fit = covariance * unit().sideways;
+  const double variance = std::max(unit().squared_sideways - fit.dot(unit().sideways), 0.0) / (unit().steps - 2);
+  const bool is_seen = std::abs(fit.x()) > kSigmas * std::sqrt(variance * covariance(0, 0));
+  return is_seen && std::abs(fit.x()) * unit_m > kOfCars_m ? std::optional(fit.x() * unit_m) : std::nullopt;
+}
 
-bool OdometryCheck::turns_with_its_arcs() const { return std::abs(arcs_per_turn()) < kArcsSeen || arcs_per_turn() < -1.0 - kArcsSeen; }
+bool OdometryCheck::turns_against_its_arcs(double unit_m) const {
+  if (const auto ahead_m = ahead_of_axle_m(unit_m)) return *ahead_m < 0.0;
+  return std::abs(arcs_per_turn() + 1.0) < kArcsSeen || arcs_per_turn() > kArcsSeen;
+}
+
+bool OdometryCheck::turns_with_its_arcs(double unit_m) const {
+  if (const auto ahead_m = ahead_of_axle_m(unit_m)) return *ahead_m > 0.0;
+  return std::abs(arcs_per_turn()) < kArcsSeen || arcs_per_turn() < -1.0 - kArcsSeen;
+}
 
 double OdometryCheck::mirrored_direction_rad() const { return 0.5 * std::arg(unit().mirrored); }
 
@@ -299,7 +344,7 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
   evidence.turn_sign_share = same_sign_share(turning_pairs);
   if (matched.size() < kFewestPairs) return evidence;
   if (turning_pairs.size() >= kFewestPairs) {
-    correct_signs(odometry, evidence.turn_sign_share, evidence);
+    correct_signs(odometry, evidence.turn_sign_share, unit_by_scale(way_scale(straight(matched))), evidence);
     correction.field_factor = field_factor(pairs, beams, correction, matched);
   }
   // A second look where beams lie otherwise, or where a unit changes what is near enough to count.

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "common/geometry/pose2.hpp"
 
 namespace slammot::matching {
@@ -19,6 +21,7 @@ struct LogCorrection {
   double heading_unit_rad = 1.0;      ///< Radians a recorded unit of odometry's heading.
   bool mirrors_position = false;      ///< y of odometry changes sign.
   bool mirrors_heading = false;       ///< Heading of odometry changes sign.
+  bool integrates_turns_anew = false; ///< Positions were made of turns with the wrong sign: with PoseCorrection, motions are put together again.
   double position_turn_rad = 0.0;     ///< Turns positions about the origin, after they are mirrored.
   bool reverses_beams = false;        ///< The last beam is the first of the layout.
   double field_factor = 1.0;          ///< On directions of beams, in the laser's frame.
@@ -27,8 +30,19 @@ struct LogCorrection {
   bool operator==(const LogCorrection&) const = default;
 };
 
-/// Recorded pose as it should have been recorded, heading in (-pi, pi].
+/// Recorded pose as it should have been recorded, heading in (-pi, pi]. Of turns with the wrong sign the mirror image, which is right but
+/// for motions sideways.
 geometry::Pose2 corrected(const LogCorrection& correction, const geometry::Pose2& recorded);
+
+/// The same of poses one after the other, exact also where turns had the wrong sign.
+class PoseCorrection {
+ public:
+  geometry::Pose2 next(const LogCorrection& correction, const geometry::Pose2& recorded);
+
+ private:
+  std::optional<geometry::Pose2> last_recorded_;  ///< In metres and radians,
+  geometry::Pose2 last_;                          ///< and as it should have been.
+};
 
 /// Whether positions of odometry go where its headings point, step by step. Steps lie along the heading in their middle,
 /// forward or backward, up to a constant angle; of mirrored positions they do so with the heading's sign changed.
@@ -38,12 +52,16 @@ class OdometryCheck {
 
   bool is_in_degrees() const;
   bool positions_are_mirrored() const;        ///< Relative to the headings; says not which of the two is right.
-  bool turns_against_its_arcs() const;        ///< Chords turn the other way than headings do: the turns' sign is wrong.
-  bool turns_with_its_arcs() const;           ///< Chords turn as headings do. Neither where the arcs of single steps are not seen.
+  /// Chords turn the other way than headings do, or a point far off the turning axle moves as if behind it: the turns' sign is wrong.
+  /// unit_m: of the positions.
+  bool turns_against_its_arcs(double unit_m = 1.0) const;
+  /// Chords turn as headings do, or a point far off the axle moves as ahead of it. Neither where the arcs of single steps are not seen.
+  bool turns_with_its_arcs(double unit_m = 1.0) const;
   double mirrored_direction_rad() const;      ///< Of positions less mirrored headings, modulo pi.
 
  private:
   double arcs_per_turn() const;
+  std::optional<double> ahead_of_axle_m(double unit_m) const;
 
   struct Unit {
     double radians = 1.0;
@@ -51,10 +69,14 @@ class OdometryCheck {
     std::complex<double> mirrored;   ///< and of way * exp(2i (direction + heading)).
     double arc = 0.0;                ///< Sum of way * sin(direction - heading) * turn,
     double arc_turn = 0.0;           ///< and of way * turn^2.
+    Eigen::Matrix2d turning = Eigen::Matrix2d::Zero();           ///< Normal equations of sideways = ahead * turn + k * forward * turn.
+    Eigen::Vector2d sideways = Eigen::Vector2d::Zero();
+    double squared_sideways = 0.0;
+    int steps = 0;
   };
   const Unit& unit() const { return units_[is_in_degrees() ? 1 : 0]; }
 
-  std::array<Unit, 2> units_{Unit{1.0, {}, {}, 0.0, 0.0}, Unit{std::numbers::pi / 180.0, {}, {}, 0.0, 0.0}};
+  std::array<Unit, 2> units_{Unit{.radians = 1.0}, Unit{.radians = std::numbers::pi / 180.0}};
   double way_ = 0.0;
   double largest_heading_ = 0.0;
   std::optional<geometry::Pose2> before_;

@@ -153,6 +153,8 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   Profile profile;
   if (auto fault = load_settings(options, drive->profile.profile, profile)) return *fault;
   profile.localization.time_is_known = profile.localization.time_is_known && drive->plan.figures.has_clock;
+  // Whether the beam that is now the first was measured first, too, is not known: sweeps may run the other way.
+  if (drive->plan.evidence.correction.reverses_beams) profile.localization.sweep_factor_sigma = std::max(profile.localization.sweep_factor_sigma, 1.0);
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
   return Job{begin(*drive, options, ingest::log_options(profile.ingest)), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};

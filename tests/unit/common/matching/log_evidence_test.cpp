@@ -207,6 +207,55 @@ TEST(OdometryCheck, SeesArcsAlsoWherePositionsAreLate) {
   EXPECT_FALSE(mirrored.turns_with_its_arcs());
 }
 
+/// Poses of a point of a car ahead of its rear axle, at changing speed, once with sound turns and once with the wrong sign.
+struct CentresOfACar {
+  explicit CentresOfACar(double unit = 1.0) {
+    Pose2 pose;
+    Pose2 other;
+    for (int i = 0; i < 200; ++i) {
+      sound.add(pose);
+      mirrored.add(other);
+      const double way = (0.05 + 0.3 * (i % 20) / 20.0) * unit;
+      const double turn_rad = 0.02 * std::sin(0.1 * i);
+      const double slip = -4.0 / unit * way * way * turn_rad;  // tails swing out with speed
+      const double sideways = (1.3 * unit + 0.5 * way) * turn_rad + slip;
+      pose = pose * Pose2{way, sideways, turn_rad};
+      other = other * Pose2{way, sideways, -turn_rad};
+    }
+  }
+  OdometryCheck sound;
+  OdometryCheck mirrored;
+};
+
+TEST(OdometryCheck, TellsTurnsWithTheWrongSignByThePointAheadOfTheAxle) {
+  const CentresOfACar car;
+  EXPECT_TRUE(car.sound.turns_with_its_arcs());
+  EXPECT_FALSE(car.sound.turns_against_its_arcs());
+  EXPECT_TRUE(car.mirrored.turns_against_its_arcs());
+  EXPECT_FALSE(car.mirrored.turns_with_its_arcs());
+}
+
+TEST(OdometryCheck, KnowsThePointAheadOfTheAxleInMillimetresToo) {
+  const CentresOfACar car(1000.0);
+  EXPECT_TRUE(car.sound.turns_with_its_arcs(1e-3));
+  EXPECT_TRUE(car.mirrored.turns_against_its_arcs(1e-3));
+}
+
+TEST(OdometryCheck, SeesSwappedAxesOnStreetsThatCrossAtRightAngles) {
+  OdometryCheck sound;
+  OdometryCheck swapped;
+  Pose2 pose;
+  for (int i = 0; i < 400; ++i) {
+    sound.add(pose);
+    swapped.add({pose.y_m, pose.x_m, pose.heading_rad});
+    const bool turns = i % 50 >= 45;
+    const double turn_rad = turns ? 0.1 * std::numbers::pi : 0.0;
+    pose = pose * Pose2{1.0, 0.5 * turn_rad, turn_rad};
+  }
+  EXPECT_FALSE(sound.positions_are_mirrored());
+  EXPECT_TRUE(swapped.positions_are_mirrored());
+}
+
 TEST(RangeUnitOf, IsMetresUnlessNoScannerSeesSoFar) {
   EXPECT_EQ(range_unit_of(30.0, 80.0), 1.0);
   EXPECT_EQ(range_unit_of(2'000.0, 6'000.0), 1e-3);
