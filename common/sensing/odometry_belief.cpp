@@ -27,6 +27,8 @@ constexpr int kLeastSteps = 6;
 constexpr double kLeastTurnOnTheSpot_rad = 0.1;
 constexpr double kDriveShare = 0.5;       // of the usual drive: a step with less way is a turn
 constexpr double kKnownSigma = 0.1;
+constexpr double kMisfitMemory = 0.1;
+constexpr double kMostMisfit = 3.0;
 
 double squared(double value) { return value * value; }
 
@@ -74,8 +76,11 @@ void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_match
   ++steps_;
   const double way_m = by_wheels.x_m;
   way_variance_ += kForgetWay;
-  const double way_gain = way_variance_ * way_m / (way_variance_ * way_m * way_m + squared(kMatchSigma_m) + squared(kStepShare * way_m));
-  factors_.way += way_gain * (by_matches.x_m - factors_.way * way_m);
+  const double way_innovation_m2 = way_variance_ * way_m * way_m + squared(kMatchSigma_m) + squared(kStepShare * way_m);
+  const double way_gain = way_variance_ * way_m / way_innovation_m2;
+  const double way_innovation_m = by_matches.x_m - factors_.way * way_m;
+  misfit_ += kMisfitMemory * (squared(way_innovation_m) / way_innovation_m2 - misfit_);
+  factors_.way += way_gain * way_innovation_m;
   way_variance_ *= 1.0 - way_gain * way_m;
 
   const double turn_rad = std::max(std::abs(by_wheels.heading_rad), std::abs(by_matches.heading_rad));
@@ -89,7 +94,8 @@ void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_match
   turn_covariance_ -= gain * (by.transpose() * turn_covariance_);
 }
 
-bool WheelFactorEstimator::is_known() const { return steps_ >= kLeastSteps && way_sigma() < kKnownSigma; }
+/// Wheels that slip have no factor.
+bool WheelFactorEstimator::is_known() const { return steps_ >= kLeastSteps && way_sigma() < kKnownSigma && misfit_ < kMostMisfit; }
 double WheelFactorEstimator::way_sigma() const { return std::sqrt(std::max(way_variance_, 0.0)); }
 double WheelFactorEstimator::turn_sigma() const { return std::sqrt(std::max(turn_covariance_(0, 0), 0.0)); }
 
@@ -127,8 +133,8 @@ OdometryBelief compared(OdometryBelief belief, const OdometryComparison& compari
   constexpr double kWrongBelow = -1.0;
   const double right_above = 1.0 + asked_more;
   constexpr double kWithoutMatch = 1.0;
-  const auto& [by_wheels, as_believed, by_scans, duration_s] = comparison;
-  const double odds = by_scans ? log_odds_of(as_believed, *by_scans) : kWithoutMatch;
+  const auto& [by_wheels, as_believed, by_scans, duration_s, extra_odds] = comparison;
+  const double odds = (by_scans ? log_odds_of(as_believed, *by_scans) : kWithoutMatch) + extra_odds;
   belief.log_odds = std::clamp(belief.log_odds + odds, -kBound, by_scans ? bound : std::max(belief.log_odds, 1.5));
   if (by_scans && belief.estimator.is_known()) {
     const double odds_of_factors = log_odds_of(corrected(by_wheels, duration_s, belief.estimator.factors()), *by_scans);

@@ -83,15 +83,16 @@ class WheelFactorEstimator {
 
   /// Passes each value of the state to the visitor, in a fixed order: for a checkpoint.
   template <typename Visitor>
-  void visit(Visitor visit) const { visit(factors_), visit(way_variance_), visit(turn_covariance_), visit(steps_); }
+  void visit(Visitor visit) const { visit(factors_), visit(way_variance_), visit(turn_covariance_), visit(steps_), visit(misfit_); }
   template <typename Visitor>
-  void visit(Visitor visit) { visit(factors_), visit(way_variance_), visit(turn_covariance_), visit(steps_); }
+  void visit(Visitor visit) { visit(factors_), visit(way_variance_), visit(turn_covariance_), visit(steps_), visit(misfit_); }
 
  private:
   WheelFactors factors_;
   double way_variance_ = 0.25;
   Eigen::Matrix2d turn_covariance_ = Eigen::Vector2d(2.25, 0.01).asDiagonal();
   int steps_ = 0;
+  double misfit_ = 1.0;             ///< Mean of the squared innovations of the way, over what was expected of them.
 };
 
 /// The step with the factors applied.
@@ -132,6 +133,7 @@ struct OdometryComparison {
   geometry::Pose2 as_believed;                         ///< and with all that is known of odometry applied.
   std::optional<geometry::UncertainPose2> by_scans;    ///< None: they did not match, and odometry is all there is.
   double duration_s = 0.0;
+  double extra_odds = 0.0;                             ///< Of odometry being right, beside what the poses say [nats].
 };
 
 OdometryBelief compared(OdometryBelief belief, const OdometryComparison& comparison);

@@ -26,6 +26,14 @@ constexpr double kLeastWay_m = 0.1;
 constexpr double kSame_m = 0.05;             // two registrations that end nearer to each other
 constexpr double kRivalShare = 0.9;          // another place that fits as well as this share of the best: nothing is told
 constexpr double kClearly = 2.2;             // times the fit of what is expected: the way was another; echoes from the ground move along
+constexpr double kExactly = 1e-3;            // m, rad
+constexpr double kStands_m = 0.3;            // by odometry between two keyframes
+constexpr double kDoubtBelow = 0.05;         // probability that the way by odometry is right
+constexpr double kProminent = 0.06;          // of a fit
+constexpr double kDoubtOdds = 2.0;
+constexpr std::array kWaysOfStanding_m{0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.2, 1.5};
+constexpr double kClearlyDrives = 5.0;       // nats
+constexpr double kAsWell = 0.97;             // of the fit
 constexpr double kSure_m = 0.01;             // one sigma of what is expected, if it is right,
 constexpr double kSureShare = 0.02;          // and what the way adds
 constexpr double kSure_rad = 0.005;
@@ -40,7 +48,7 @@ double squared(double value) { return value * value; }
 
 }  // namespace
 
-KeyframeOdometry::KeyframeOdometry(const LocalizerConfig& config) : match_(config.match), surfels_(grids::window_around(geometry::Vector2::Zero(), 2.0 * kReach_m, config.map.surfel_size_m), kMostEchoes) {
+KeyframeOdometry::KeyframeOdometry(const LocalizerConfig& config) : match_(config.match), surfels_(grids::window_around(geometry::Vector2::Zero(), 2.0 * kReach_m, config.map.surfel_size_m), kMostEchoes), nats_(kInformationShare * config.belief.share_nats) {
   match_.unproven_share = 1.0;
   match_.proven_after_m = 0.0;
   match_.new_below_m = 0.0;
@@ -67,7 +75,12 @@ void KeyframeOdometry::begin(const Seen& seen) {
   for (const geometry::Vector2& point_m : keyframe_->points_in_base_m) surfels_.add(point_m);
 }
 
-std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected, const ScanPoints& points) {
+matching::PointToLineResult KeyframeOdometry::registered_about(const UncertainPose2& expected, const ScanPoints& points) {
+  return matcher_.match(points.matched(), surfels_, expected, expected.pose, match_);
+}
+
+/// expected: by the estimate; by_wheels: with all that is known of odometry applied.
+std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected, const Pose2& by_wheels, const ScanPoints& points) {
   const double way_m = std::hypot(expected.x_m, expected.y_m);
   const double ahead_m = kExpected_m + kExpectedShare * way_m;
   const double turn_rad = kExpected_rad + kExpectedShare * std::abs(expected.heading_rad);
@@ -86,8 +99,16 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
     result = one;
   }
   // What is expected has the first say: along a street many places fit a little better by chance.
-  const UncertainPose2 sure{expected, Eigen::Vector3d(squared(kSure_m + kSureShare * way_m), squared(kSure_m + kSureShare * way_m), squared(kSure_rad)).asDiagonal()};
-  const matching::PointToLineResult as_expected = matcher_.match(points.matched(), surfels_, sure, expected, match_);
+  const geometry::Matrix3 sure_covariance = Eigen::Vector3d(squared(kSure_m + kSureShare * way_m), squared(kSure_m + kSureShare * way_m), squared(kSure_rad)).asDiagonal();
+  UncertainPose2 sure{expected, sure_covariance};
+  matching::PointToLineResult as_expected = registered_about(sure, points);
+  // An estimate that has gone astray confirms itself where places look alike: odometry that fits as well is right.
+  const UncertainPose2 by_odometry{by_wheels, sure_covariance};
+  const matching::PointToLineResult as_by_wheels = registered_about(by_odometry, points);
+  if (matching::fit_of(as_by_wheels, match_.robust_scale_m) > kAsWell * matching::fit_of(as_expected, match_.robust_scale_m)) {
+    as_expected = as_by_wheels;
+    sure = by_odometry;
+  }
   const bool is_clearly_elsewhere = best_fit > kClearly * matching::fit_of(as_expected, match_.robust_scale_m);
   if (!is_clearly_elsewhere) result = as_expected;
   if (result.matched_share < kLeastShare || (is_clearly_elsewhere && rival_fit > kRivalShare * best_fit)) return std::nullopt;
@@ -97,6 +118,56 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
   geometry::Matrix3 covariance = information.inverse();
   covariance.diagonal() += Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
   return UncertainPose2{optimum, covariance};
+}
+
+/// How well the points lie on the keyframe's at this very pose.
+double KeyframeOdometry::fit_at(const Pose2& pose, const ScanPoints& points) {
+  matching::PointToLineConfig once = match_;
+  once.coarse_steps = 0;
+  once.fine_steps = 1;
+  const UncertainPose2 exactly{pose, Eigen::Vector3d(squared(kExactly), squared(kExactly), squared(kExactly)).asDiagonal()};
+  return matching::fit_of(matcher_.match(points.matched(), surfels_, exactly, pose, once), match_.robust_scale_m);
+}
+
+std::optional<UncertainPose2> KeyframeOdometry::registered_near(const Pose2& pose, const ScanPoints& points) {
+  const UncertainPose2 prior{pose, Eigen::Vector3d(squared(kExpected_m), squared(kExpected_m), squared(kExpected_rad)).asDiagonal()};
+  const matching::PointToLineResult result = registered_about(prior, points);
+  if (result.matched_share < kLeastShare) return std::nullopt;
+  geometry::Matrix3 covariance = result.map_from_base.covariance;
+  covariance.diagonal() += Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
+  return UncertainPose2{result.map_from_base.pose, covariance};
+}
+
+/// Compares shares of the way by odometry with each other: registration from what is expected hardly leaves it.
+void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& points, Comparison& comparison) {
+  const double way_m = by_wheels.translation_m().norm();
+  const double heading_rad = comparison.by_scans ? comparison.by_scans->pose.heading_rad : by_wheels.heading_rad;
+  const double direction_rad = std::atan2(by_wheels.y_m, by_wheels.x_m) + 0.5 * (heading_rad - by_wheels.heading_rad);
+  const auto pose_at = [&](double ratio) { return Pose2{ratio * way_m * std::cos(direction_rad), ratio * way_m * std::sin(direction_rad), heading_rad}; };
+  sensing::WayRatioFilter::Profile fits;
+  for (std::size_t i = 0; i < fits.size(); ++i) fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]), points);
+  fits = sensing::WayRatioFilter::prominent(fits, kProminent);
+  for (double& fit : fits) fit *= nats_;
+  way_ratio_.update(fits);
+  if (way_ratio_.sound_probability() > kDoubtBelow) return;
+  comparison.by_scans = registered_near(pose_at(way_ratio_.most_likely_ratio()), points);
+  if (comparison.by_scans) comparison.extra_odds = -kDoubtOdds;
+}
+
+/// Wheels that stand while the vehicle begins to drive.
+void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& points, Comparison& comparison) {
+  const double standing = fit_at(by_wheels, points);
+  double best_m = 0.0;
+  double best = standing;
+  for (const double way_m : kWaysOfStanding_m) {
+    const double fit = fit_at({by_wheels.x_m + way_m, by_wheels.y_m, by_wheels.heading_rad}, points);
+    if (fit <= best) continue;
+    best = fit;
+    best_m = way_m;
+  }
+  if (nats_ * (best - standing) < kClearlyDrives) return;
+  comparison.by_scans = registered_near({by_wheels.x_m + best_m, by_wheels.y_m, by_wheels.heading_rad}, points);
+  if (comparison.by_scans) comparison.extra_odds = -kClearlyDrives;
 }
 
 std::optional<KeyframeOdometry::Comparison> KeyframeOdometry::observe(const Seen& seen) {
@@ -118,12 +189,15 @@ std::optional<KeyframeOdometry::Comparison> KeyframeOdometry::observe(const Seen
   const double turn_rad = std::max(std::abs(by_wheels.heading_rad), std::abs(expected.heading_rad));
   const double duration_s = static_cast<double>(step.stamp_ns - keyframe_->stamp_ns) * 1e-9;
   if (way_m < kFar_m && turn_rad < kFar_rad && duration_s < kLong_s) return std::nullopt;
-  auto by_scans = registered(expected, seen.points);
+  const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
+  last_ = Comparison{by_wheels, registered(expected, as_believed, seen.points), duration_s};
+  if (as_believed.translation_m().norm() > kStands_m) judge_way(as_believed, seen.points, *last_);
+  else judge_standing(as_believed, seen.points, *last_);
   begin(seen);
+  auto& by_scans = last_->by_scans;
   // Traffic on all sides, and the ground that a braking scanner sees, move along: that the vehicle stands is not told by a pair of scans.
   const double way_by_wheels_m = by_wheels.translation_m().norm();
   if (by_scans && way_by_wheels_m > kLeastWay_m && by_scans->pose.translation_m().norm() < kMovesAlong * way_by_wheels_m) by_scans.reset();
-  last_ = Comparison{by_wheels, by_scans, duration_s};
   return last_;
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/grids/surfel_map.hpp"
 #include "common/matching/point_to_line.hpp"
+#include "common/sensing/way_ratio_filter.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/odometry_prediction.hpp"
 #include "services/localization/scan_points.hpp"
@@ -23,6 +24,7 @@ class KeyframeOdometry {
     const geometry::Pose2& odom_from_base;
     const ScanPoints& points;
     const std::string& scanner_id;
+    const OdometryPrediction& prediction;    ///< Knows what to believe of odometry.
   };
 
   /// A comparison of both.
@@ -30,6 +32,7 @@ class KeyframeOdometry {
     geometry::Pose2 by_wheels;               ///< Not corrected.
     std::optional<geometry::UncertainPose2> by_scans;   ///< None where they do not match.
     double duration_s = 0.0;
+    double extra_odds = 0.0;                 ///< Of odometry being right, beside what the two say [nats].
   };
 
   /// The scan that the next ones are compared with.
@@ -54,11 +57,18 @@ class KeyframeOdometry {
 
  private:
   void begin(const Seen& seen);
-  std::optional<geometry::UncertainPose2> registered(const geometry::Pose2& expected, const ScanPoints& points);
+  matching::PointToLineResult registered_about(const geometry::UncertainPose2& expected, const ScanPoints& points);
+  double fit_at(const geometry::Pose2& pose, const ScanPoints& points);
+  std::optional<geometry::UncertainPose2> registered(const geometry::Pose2& expected, const geometry::Pose2& by_wheels, const ScanPoints& points);
+  std::optional<geometry::UncertainPose2> registered_near(const geometry::Pose2& pose, const ScanPoints& points);
+  void judge_way(const geometry::Pose2& by_wheels, const ScanPoints& points, Comparison& comparison);
+  void judge_standing(const geometry::Pose2& by_wheels, const ScanPoints& points, Comparison& comparison);
 
   matching::PointToLineConfig match_;
   grids::SurfelMap surfels_;                 ///< Of the keyframe, in its base.
   std::optional<Keyframe> keyframe_;
+  sensing::WayRatioFilter way_ratio_;
+  double nats_;                              ///< Log-likelihood of a fit of 1 against one of 0.
   std::optional<Comparison> last_;           ///< That which the keyframe ended.
   matching::PointToLineMatcher matcher_;
 };

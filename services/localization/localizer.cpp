@@ -113,8 +113,8 @@ bool Localizer::place(const sensing::LaserScan& scan) {
 
 void Localizer::compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found) {
   if (!config_.belief.enabled) return;
-  const auto comparison = keyframes_.observe({step, found.odom_from_base.pose, points_, scan.scanner.scanner_id});
-  if (comparison) prediction_.compare(comparison->by_wheels, comparison->by_scans, comparison->duration_s);
+  const auto comparison = keyframes_.observe({step, found.odom_from_base.pose, points_, scan.scanner.scanner_id, prediction_});
+  if (comparison) prediction_.compare(comparison->by_wheels, comparison->by_scans, comparison->duration_s, comparison->extra_odds);
 }
 
 /// The points of the scan, without the motion of the step.

@@ -129,8 +129,12 @@ class OdometryPrediction {
   /// reach, that and the steps that are like those before. Of any other step only it.
   StepMixture explanations(const Step& by_wheels) const;
 
+  /// Motion by odometry, not corrected, with all that is known of it applied.
+  geometry::Pose2 as_believed(const geometry::Pose2& by_wheels, double duration_s) const;
+
   /// Feedback: odometry (not corrected) beside what two scans some way apart tell.
-  void compare(const geometry::Pose2& by_wheels, const std::optional<geometry::UncertainPose2>& by_scans, double duration_s);
+  /// extra_odds: of odometry being right, beside what the two say [nats].
+  void compare(const geometry::Pose2& by_wheels, const std::optional<geometry::UncertainPose2>& by_scans, double duration_s, double extra_odds = 0.0);
 
   /// Feedback: how likely the scan is under each explanation, before observe().
   void weigh(const sensing::ExplanationWeights& weights) { state_.belief.weights = weights; }
