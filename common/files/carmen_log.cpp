@@ -208,6 +208,11 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
     first_scan_ = std::move(scan);  // told first, it would make all others late: after the second one, it is only far ahead
     return;
   }
+  if (plan_.odometry_late_s != 0.0) {
+    if (wheel_from_base) keep_odometry({stamp - lateness_ns(), *wheel_from_base});
+    waiting_.push_back(std::move(scan));
+    return put_waiting_scans(kMaxWaitingScans);
+  }
   switch (plan_.odometry) {
     case OdometrySource::kNone:
       return put_scan(std::move(scan), std::nullopt);
@@ -225,13 +230,20 @@ void CarmenLog::take(const OdometryRecord& record) {
   if (plan_.odometry == OdometrySource::kNone || plan_.odometry == OdometrySource::kLaserRecords || record.kind != plan_.odometry_lines) return;
   const auto stamp = has_replaced_stamps() ? odometry_stamp_by_order_ns() : recorded_stamp_ns(record.stamps);
   if (!stamp) return has_replaced_stamps() ? void() : note_malformed();
-  const bool is_believed = odometry_stamps_.believes(*stamp);
-  if (!is_believed || (!odom_lines_.empty() && *stamp <= odom_lines_.back().stamp_ns)) {
+  if (!odometry_stamps_.believes(*stamp) || !keep_odometry({*stamp - lateness_ns(), pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)})) {
     ++faults_.stale_odometry;
     return;
   }
-  odom_lines_.push_back({*stamp, pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)});
-  if (plan_.odometry == OdometrySource::kOdomLines) put_waiting_scans(kMaxWaitingScans);
+  if (plan_.odometry == OdometrySource::kOdomLines || plan_.odometry_late_s != 0.0) put_waiting_scans(kMaxWaitingScans);
+}
+
+std::int64_t CarmenLog::lateness_ns() const { return std::llround(plan_.odometry_late_s * 1e9); }
+
+/// False where it is no newer than what is held back already.
+bool CarmenLog::keep_odometry(const sensing::Odometry& odometry) {
+  if (!odom_lines_.empty() && odometry.stamp_ns <= odom_lines_.back().stamp_ns) return false;
+  odom_lines_.push_back(odometry);
+  return true;
 }
 
 void CarmenLog::note_malformed() {
@@ -350,7 +362,8 @@ void CarmenLog::put_waiting_scans(std::size_t may_wait) {
 
 /// Between what was handed out last and the first line held back; the nearer of the two where there is only one.
 std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_ns) const {
-  if (odom_lines_.empty()) return newest_odometry_ ? std::optional(newest_odometry_->wheel_from_base) : std::nullopt;
+  const bool is_over = plan_.odometry_late_s != 0.0;  // what comes after the last late pose is not known
+  if (odom_lines_.empty()) return newest_odometry_ && !is_over ? std::optional(newest_odometry_->wheel_from_base) : std::nullopt;
   const sensing::Odometry& after = odom_lines_.front();
   if (!newest_odometry_ || after.stamp_ns <= newest_odometry_->stamp_ns || after.stamp_ns == stamp_ns) return after.wheel_from_base;
   const double fraction = static_cast<double>(stamp_ns - newest_odometry_->stamp_ns) / static_cast<double>(after.stamp_ns - newest_odometry_->stamp_ns);

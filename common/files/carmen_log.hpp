@@ -113,6 +113,8 @@ class CarmenLog {
   sensing::LaserScan scan_of(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns) const;
   void correct(sensing::LaserScan& scan, std::size_t scanner) const;
   bool has_beams_of_the_main_one(std::size_t scanner) const;
+  std::int64_t lateness_ns() const;
+  bool keep_odometry(const sensing::Odometry& odometry);
   void put_odometry(const sensing::Odometry& odometry);
   void put_odometry_until(std::int64_t stamp_ns);
   void put_waiting_scans(std::size_t may_wait);

@@ -195,8 +195,8 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
   lasers.poses.push_back(pose);
   lasers.odometry_check.add(record.wheel_from_base);
   const geometry::Pose2& recorded = lasers.pose_changes ? record.wheel_from_base : chosen_odometry_lines().last_pose;
-  lasers.moved_pairs.add(record.range_m, recorded);
-  lasers.turned_pairs.add(record.range_m, recorded);
+  lasers.moved_pairs.add(record.range_m, recorded, lasers.poses.size() - 1);
+  lasers.turned_pairs.add(record.range_m, recorded, lasers.poses.size() - 1);
   lasers.ipc_ns.push_back(record.stamps.ipc_ns);
   lasers.logger_ns.push_back(record.stamps.logger_ns);
   for (std::size_t kind = 0; kind < odometry_lines_.size(); ++kind) {
@@ -333,6 +333,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   if (plan.evidence.correction.laser_turn_rad != 0.0) plan.base_from_laser.heading_rad = geometry::wrap_angle(plan.base_from_laser.heading_rad + plan.evidence.correction.laser_turn_rad);
   choose_clock(lasers, plan);
   plan.odometry = odometry_source(lasers, plan);
+  plan.odometry_late_s = odometry_lateness_s(lasers, plan);
   if (!plan.times.stamps_ns.empty()) plan.odom_lines_before_scan = lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
   if (lasers.scans == 0) return plan;
@@ -373,14 +374,29 @@ matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& p
                              chosen_odometry_lines().pose_changes ? chosen_odometry_lines().check : lasers.odometry_check, plan.evidence.correction.range_unit_m);
 }
 
+/// By the poses in the scans, where both have one clock.
+double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const {
+  const bool has_clock = plan.clock != LogClock::kNominal && plan.times.stamps_ns.empty() && !plan.first_scan_is_ahead;
+  const bool is_in_scans = plan.odometry == OdometrySource::kLaserRecords || plan.odometry == OdometrySource::kBoth;
+  if (!has_clock || !is_in_scans) return 0.0;
+  const std::vector<std::optional<std::int64_t>>& stamps_ns = plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns;
+  if (!std::ranges::all_of(stamps_ns, [](const auto& stamp_ns) { return stamp_ns.has_value(); })) return 0.0;
+  std::vector<matching::TimedPose> odometry;
+  for (std::size_t i = 0; i < lasers.poses.size(); ++i) {
+    odometry.push_back({static_cast<double>(*stamps_ns[i] - *stamps_ns.front()) * 1e-9, corrected(plan.evidence.correction, lasers.poses[i].wheel_from_base)});
+  }
+  return matching::odometry_lateness_s(plan.evidence.motions, odometry, plan.evidence.way_scale);
+}
+
 /// A pair begins where the one before ended; every other one is given up where they become too many.
-void CarmenSurvey::PairSample::add(const std::vector<float>& ranges, const geometry::Pose2& recorded) {
+void CarmenSurvey::PairSample::add(const std::vector<float>& ranges, const geometry::Pose2& recorded, std::size_t scan) {
   constexpr std::size_t kMostScansBetween = 40;
   const bool has_moved = anchor_ && differ(anchor_->second, recorded, moved_m_, turned_rad_);
   if (anchor_ && !has_moved && ++scans_since_anchor_ < kMostScansBetween) return;
   const bool is_wanted = has_moved && anchor_->first.size() == ranges.size() && distance_m(anchor_->second, recorded) <= most_m_;
-  if (is_wanted && offered_++ % every_ == 0) pairs_.push_back({std::move(anchor_->first), ranges, anchor_->second, recorded});
+  if (is_wanted && offered_++ % every_ == 0) pairs_.push_back({std::move(anchor_->first), ranges, anchor_->second, recorded, anchor_scan_, scan});
   anchor_.emplace(ranges, recorded);
+  anchor_scan_ = scan;
   scans_since_anchor_ = 0;
   if (pairs_.size() <= kMost) return;
   every_ *= 2;

@@ -86,6 +86,7 @@ struct LogPlan {
   std::vector<std::uint32_t> odom_lines_before_scan;  ///< One a scan, since the scan before it: places ODOM lines in time where stamps are replaced.
   OdometrySource odometry = OdometrySource::kNone;
   OdometryRecordKind odometry_lines = OdometryRecordKind::kOdom;  ///< Which lines count as ODOM.
+  double odometry_late_s = 0.0;     ///< By so much its stamps lag behind those of the scans; taken back on reading.
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;  ///< A reading at or beyond it is "no echo"; a scan's own record may say less.
   bool first_scan_is_ahead = false;  ///< By its stamp: the two after it are far before it, and agree.
@@ -152,7 +153,8 @@ class CarmenSurvey {
     /// A pair ends where the vehicle has moved or turned by so much, and is left out where it moved by more than the most.
     PairSample(double moved_m, double turned_rad, double most_m) : moved_m_(moved_m), turned_rad_(turned_rad), most_m_(most_m) {}
 
-    void add(const std::vector<float>& ranges, const geometry::Pose2& recorded);
+    /// scan: counted from 0.
+    void add(const std::vector<float>& ranges, const geometry::Pose2& recorded, std::size_t scan);
     const std::vector<matching::ScanPair>& pairs() const { return pairs_; }
 
    private:
@@ -162,6 +164,7 @@ class CarmenSurvey {
     double most_m_;
     std::vector<matching::ScanPair> pairs_;
     std::optional<std::pair<std::vector<float>, geometry::Pose2>> anchor_;
+    std::size_t anchor_scan_ = 0;
     std::size_t scans_since_anchor_ = 0;
     std::size_t every_ = 1;
     std::size_t offered_ = 0;
@@ -232,6 +235,7 @@ class CarmenSurvey {
   ScannerPlan scanner_plan(const Lasers& lasers) const;
   double max_range_m(const Lasers& lasers) const;
   static void convert_readings(Lasers& lasers, double unit_m);
+  double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const;
   matching::LogEvidence weigh(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const;
   std::vector<sensing::ScanMark> scan_marks(const Lasers& lasers, const matching::LogCorrection& correction, LogClock clock) const;
   void choose_clock(const Lasers& lasers, LogPlan& plan) const;

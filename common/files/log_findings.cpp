@@ -63,21 +63,25 @@ void describe_signs(const LogPlan& plan, std::vector<std::string>& findings) {
 void describe_gaps(const LogFigures& figures, std::vector<std::string>& findings) {
   constexpr double kLongGap = 10.0;  // periods
   if (figures.scans_without_readings > 0) {
-    findings.push_back(text("%llu of %llu scans hold no reading at all (NaN, infinity or 0): dead reckoning over them", static_cast<unsigned long long>(figures.scans_without_readings),
+    findings.push_back(text("%llu of %llu scans hold no reading at all (NaN, infinity or 0)", static_cast<unsigned long long>(figures.scans_without_readings),
                             static_cast<unsigned long long>(figures.scans)));
   }
   if (figures.has_clock && figures.longest_gap_s > 2.0 && figures.longest_gap_s > kLongGap * figures.scan_period_s) findings.push_back(text("no scan for %.1f s", figures.longest_gap_s));
   if (figures.echo_share > 0.0 && figures.echo_share < 0.2) findings.push_back(text("only %.0f %% of the beams have an echo", 100.0 * figures.echo_share));
 }
 
+constexpr double kTold = 0.15;  // by which a scale is off
+
+bool is_far_off(double scale) { return scale > 0.0 && std::abs(scale - 1.0) > kTold; }
+
 void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
   constexpr double kMostlyMatched = 0.5;
-  constexpr double kTold = 0.15;
   const matching::LogEvidence& evidence = plan.evidence;
+  if (plan.odometry_late_s != 0.0) findings.push_back(text("odometry is %.2f s %s, by the turns of pairs of scans: taken back", std::abs(plan.odometry_late_s), plan.odometry_late_s > 0.0 ? "late" : "early"));
   if (plan.odometry == OdometrySource::kNone) findings.emplace_back("there is no odometry: scans alone say how the vehicle moves");
   if (evidence.pairs > 0 && evidence.matched_share < kMostlyMatched) findings.push_back(text("only %.0f %% of the sampled pairs of scans match each other: range unit or field of view may be wrong", 100.0 * evidence.matched_share));
-  if (evidence.way_scale > 0.0 && std::abs(evidence.way_scale - 1.0) > kTold) findings.push_back(text("the way by odometry is %.2f times that by scans", 1.0 / evidence.way_scale));
-  if (evidence.turn_scale > 0.0 && std::abs(evidence.turn_scale - 1.0) > kTold) findings.push_back(text("turns by odometry are %.2f times those by scans", 1.0 / evidence.turn_scale));
+  if (is_far_off(evidence.way_scale)) findings.push_back(text("the way by odometry is %.2f times that by scans: corrected by as much to begin with", 1.0 / evidence.way_scale));
+  if (is_far_off(evidence.turn_scale)) findings.push_back(text("turns by odometry are %.2f times those by scans", 1.0 / evidence.turn_scale));
 }
 
 const char* name_of(OdometrySource source) {
@@ -132,6 +136,8 @@ std::string likely_causes(const LogPlan& plan) {
   if (evidence.pairs == 0) return "heading sign, beam order, field of view, unit";
   return "a place without structure, wheels that slip, a jump of the log (heading sign, beam order, field of view and unit look right)";
 }
+
+double way_factor_of(const LogPlan& plan) { return is_far_off(plan.evidence.way_scale) ? plan.evidence.way_scale : 1.0; }
 
 std::vector<std::string> describe_findings(const LogPlan& plan) {
   std::vector<std::string> findings;

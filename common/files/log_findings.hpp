@@ -7,6 +7,9 @@
 
 namespace slammot::files {
 
+/// Way by scans over way by odometry, where the sampled pairs of scans say that it is far from 1; else 1.
+double way_factor_of(const LogPlan& plan);
+
 /// What is unusual in a log, and what is done about it: one sentence each, without a full stop; empty for a sound log.
 std::vector<std::string> describe_findings(const LogPlan& plan);
 

@@ -47,6 +47,8 @@ struct MatchedPair {
   Pose2 by_odometry;   // of base, corrected so far
   Pose2 by_scans;      // of the laser
   double score = 0.0;
+  std::size_t first_scan = 0;
+  std::size_t second_scan = 0;
 };
 
 Pose2 motion_by_odometry(const ScanPair& pair, const LogCorrection& correction) {
@@ -87,12 +89,14 @@ std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pa
   }
   const double half_m = static_cast<double>(reach_m) + 0.5;
   matcher.set_target(stamped, {.half_width_m = half_m, .half_height_m = half_m, .largest_shift_m = kReachM});
-  MatchedPair matched{motion_by_odometry(pair, correction), {}, 0.0};
+  MatchedPair matched{.by_odometry = motion_by_odometry(pair, correction), .by_scans = {}};
   const double turn_rad = std::abs(matched.by_odometry.heading_rad);
   const auto peaks = matcher.search(source, Pose2::identity(), {kReachM, kReachM, std::clamp(2.3 * turn_rad, 0.3, 1.6)});
   if (peaks.empty()) return std::nullopt;
   matched.by_scans = refined(matcher, source, peaks.front().target_from_source.pose);
   matched.score = peaks.front().score;
+  matched.first_scan = pair.first_scan;
+  matched.second_scan = pair.second_scan;
   return matched;
 }
 
@@ -364,6 +368,7 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
       correction.laser_turn_rad = at_right_angle(turn_rad);
     }
   }
+  for (const MatchedPair& pair : matched) evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad, pair.by_scans.translation_m().norm()});
   evidence.way_scale = way_scale(straight_pairs);
   evidence.turn_scale = turn_scale(turning(matched));
   return evidence;

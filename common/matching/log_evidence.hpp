@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "common/geometry/pose2.hpp"
+#include "common/matching/odometry_lateness.hpp"
 
 namespace slammot::matching {
 
@@ -88,6 +89,8 @@ struct ScanPair {
   std::vector<float> second;
   geometry::Pose2 first_recorded;   ///< Pose by odometry, as written,
   geometry::Pose2 second_recorded;  ///< and of the second.
+  std::size_t first_scan = 0;       ///< Counted from 0.
+  std::size_t second_scan = 0;
 };
 
 /// How beams are laid out by what is stated or assumed.
@@ -107,6 +110,7 @@ struct LogEvidence {
   double turn_sign_share = 0.0;       ///< Of turning pairs: turn by scans has the sign of odometry's, as recorded.
   double turn_scale = 0.0;            ///< Turn by scans over turn by odometry, median, corrected; 0 unknown.
   double way_scale = 0.0;             ///< Way by scans over way by odometry, median, corrected; 0 unknown.
+  std::vector<ScanPairMotion> motions;   ///< Of the matched pairs, in metres.
 };
 
 /// Matches the pairs by correlation under the stated layout and draws conclusions where many pairs agree: units, signs,

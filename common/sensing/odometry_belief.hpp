@@ -42,6 +42,7 @@ struct OdometryBeliefConfig {
   double repeat_rad = 0.12;                 ///< One sigma of its turn.
   double reach_rad = 0.6;                   ///< one sigma of the heading,
   double reach_per_rad = 0.5;               ///< and what each radian by odometry adds.
+  double way_at_start = 1.0;                ///< Way by scans over way by odometry, as far as it is known before the first scan.
 };
 
 /// Log of the marginal likelihood of a scan [nats], up to a constant of the scan: integral of prediction times
@@ -70,6 +71,10 @@ struct WheelFactors {
 
 class WheelFactorEstimator {
  public:
+  WheelFactorEstimator() = default;
+  /// As far as they are known beforehand.
+  explicit WheelFactorEstimator(const WheelFactors& at_start) : factors_(at_start) {}
+
   /// One step as odometry has it (not corrected), and as matches have it.
   void observe(const geometry::Pose2& by_wheels, const geometry::Pose2& by_matches, double duration_s);
 

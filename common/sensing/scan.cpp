@@ -2,6 +2,10 @@
 
 namespace slammot::sensing {
 
+bool has_readings(const LaserScan& scan) {
+  return std::ranges::any_of(scan.range_m, [](float range_m) { return !std::isnan(range_m); });
+}
+
 bool is_echo(float range_m, double max_range_m) {
   return range_m > 0.0F && static_cast<double>(range_m) < max_range_m;  // false for NaN
 }

@@ -33,6 +33,9 @@ struct Odometry {
   geometry::Pose2 wheel_from_base;    ///< Drifts without bound and may jump when the source restarts.
 };
 
+/// Whether any reading of the scan is a number. A scan without one says nothing, not even that the way is free.
+bool has_readings(const LaserScan& scan);
+
 /// Whether this reading is an echo from something.
 bool is_echo(float range_m, double max_range_m);
 

@@ -112,6 +112,7 @@ FieldTable<sensing::OdometryBeliefConfig> belief_fields() {
       {"repeat_share", &C::repeat_share, "One sigma of a step that is like one before, as a share of it.", kNotNegative},
       {"repeat_m", &C::repeat_m, "What is added to it.", kPositive},
       {"repeat_rad", &C::repeat_rad, "One sigma of its turn.", kPositive},
+      {"way_at_start", &C::way_at_start, "Way by scans over way by odometry, as far as it is known beforehand. Set by the log where it is far from 1.", kPositive},
       {"reach_rad", &C::reach_rad, "One sigma of the heading.", kPositive},
       {"reach_per_rad", &C::reach_per_rad, "What each radian by odometry adds to it.", kNotNegative},
   };

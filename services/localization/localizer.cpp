@@ -56,6 +56,10 @@ std::optional<std::int64_t> Localizer::last_stamp_ns() const {
 }
 
 bool Localizer::is_usable(const sensing::LaserScan& scan) {
+  if (!sensing::has_readings(scan)) {
+    ++counters_.blank_scans;
+    return false;
+  }
   switch (order_.judge(scan, last_stamp_ns())) {
     case ScanOrder::Verdict::kUsable: return true;
     case ScanOrder::Verdict::kDuplicate: ++counters_.duplicate_scans; break;

@@ -46,6 +46,8 @@ OdometryPrediction::OdometryPrediction(const LocalizerConfig& config)
   motion_of_one_clock_.stamp_offset_prior_s = 0.0;
   state_.estimate = sensing::at_start(motion_of_one_clock_);
   state_.with_stamp_offset = sensing::at_start(config.motion);
+  state_.belief.factors.way = config.belief.way_at_start;
+  state_.belief.estimator = sensing::WheelFactorEstimator(state_.belief.factors);
 }
 
 void OdometryPrediction::add(const sensing::Odometry& sample) {

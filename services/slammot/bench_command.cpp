@@ -52,7 +52,8 @@ int fail(const std::string& line) {
 
 /// The settings' file for the services: as asked for, or all of the job's where the log itself changed some of them.
 files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOptions& options, const std::filesystem::path& folder) {
-  if (job.profile.localization.time_is_known && !job.log.plan().evidence.correction.reverses_beams) return options.config;
+  const bool is_changed = !job.profile.localization.time_is_known || job.log.plan().evidence.correction.reverses_beams || job.profile.localization.belief.way_at_start != 1.0;
+  if (!is_changed) return options.config;
   Profile profile = job.profile;
   const std::filesystem::path file = folder / "settings.textproto";
   if (const auto fault = files::write_file_atomically(file, config::print(bind_stages(profile)))) return *fault;

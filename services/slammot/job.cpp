@@ -1,5 +1,6 @@
 #include "services/slammot/job.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <charconv>
 #include <cstdio>
@@ -101,7 +102,8 @@ files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options, const file
 /// Why scans were not localized, and which were so without a match; "" where none.
 std::string describe_left_out(const files::RunRecord& record, const files::RunReport& report) {
   constexpr std::pair<const char*, const char*> kReasons[] = {
-      {"duplicate_scans", "have the stamp of another"}, {"out_of_order_scans", "are older than one before"}, {"far_ahead_scans", "have a stamp far ahead of all others"}};
+      {"duplicate_scans", "have the stamp of another"}, {"out_of_order_scans", "are older than one before"}, {"far_ahead_scans", "have a stamp far ahead of all others"},
+      {"blank_scans", "hold no reading"}};
   const auto stage = report.counters.find("localization");
   if (stage == report.counters.end()) return {};
   std::string reasons;
@@ -126,6 +128,14 @@ std::string describe_faults(const files::LogFaults& faults) {
   }
   if (faults.overlong_lines > 0) lines += text("warning:  overlong lines of the log, skipped: %llu\n", static_cast<unsigned long long>(faults.overlong_lines));
   return lines;
+}
+
+/// Pairs of scans tell the factor to a few percent; a profile may know it.
+void begin_with_way_factor(double factor, localization::LocalizerConfig& config) {
+  constexpr double kSigma = 0.08;
+  if (factor == 1.0 || config.belief.way_at_start != 1.0) return;
+  config.belief.way_at_start = factor;
+  config.motion.scale_prior = std::max(config.motion.scale_prior, kSigma);
 }
 
 }  // namespace
@@ -155,6 +165,7 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   profile.localization.time_is_known = profile.localization.time_is_known && drive->plan.figures.has_clock;
   // Whether the beam that is now the first was measured first, too, is not known: sweeps may run the other way.
   if (drive->plan.evidence.correction.reverses_beams) profile.localization.sweep_factor_sigma = std::max(profile.localization.sweep_factor_sigma, 1.0);
+  begin_with_way_factor(files::way_factor_of(drive->plan), profile.localization);
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
   return Job{begin(*drive, options, ingest::log_options(profile.ingest)), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};

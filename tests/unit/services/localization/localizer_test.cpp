@@ -652,8 +652,12 @@ TEST(Localizer, TakesScansOfNonsense) {
   EXPECT_TRUE(localizer.localize(scan));
   scan = drive.scan(21);
   scan.range_m.clear();
-  EXPECT_TRUE(localizer.localize(scan)->beams.empty());
-  EXPECT_LT(drive_through(localizer, drive, 22, 40).worst_m, 0.05);
+  EXPECT_FALSE(localizer.localize(scan));
+  scan = drive.scan(22);
+  std::ranges::fill(scan.range_m, std::numeric_limits<float>::quiet_NaN());
+  EXPECT_FALSE(localizer.localize(scan));
+  EXPECT_EQ(localizer.counters().blank_scans, 2u);
+  EXPECT_LT(drive_through(localizer, drive, 23, 40).worst_m, 0.05);
 }
 
 TEST(Localizer, LearnsNothingAboutTheWheelsWhereItDidNotMatch) {
