@@ -103,7 +103,24 @@ void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, Sc
   for (const geometry::Pose2& pose : search_.poses_around(prior, scan.points.matched(), scan.map.surfels())) compare(scan, explanation, pose, matcher, best);
 }
 
-ExplainedStep MixtureMatch::explain(const StepToExplain& scan, ScanMatcher& matcher) {
+/// Wheels that change their velocity as no vehicle does are as likely wrong as right.
+sensing::ExplanationWeights in_doubt(sensing::ExplanationWeights weights) {
+  double& wheels = weights[sensing::index_of(StepExplanation::kWheels)];
+  double& other = weights[sensing::index_of(StepExplanation::kOther)];
+  const double both = wheels + other;
+  other = std::max(other, 0.5 * both);
+  wheels = both - other;
+  return weights;
+}
+
+ExplainedStep MixtureMatch::explain(const StepToExplain& questioned, ScanMatcher& matcher) {
+  if (!questioned.steps.front().wheels_changed) return explain_as_weighed(questioned, matcher);
+  StepToExplain scan = questioned;
+  scan.weights = in_doubt(scan.weights);
+  return explain_as_weighed(scan, matcher);
+}
+
+ExplainedStep MixtureMatch::explain_as_weighed(const StepToExplain& scan, ScanMatcher& matcher) {
   searches_ = 0;
   const Step& by_wheels = scan.steps.front();
   if (by_wheels.source == StepSource::kReach) return explain_without_odometry(scan, matcher);

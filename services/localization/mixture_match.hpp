@@ -40,6 +40,7 @@ class MixtureMatch {
   ExplainedStep explain(const StepToExplain& scan, ScanMatcher& matcher);
 
  private:
+  ExplainedStep explain_as_weighed(const StepToExplain& scan, ScanMatcher& matcher);
   ExplainedStep explain_without_odometry(const StepToExplain& scan, ScanMatcher& matcher);
   using LogLikelihoods = std::array<double, sensing::kStepExplanations>;
 
