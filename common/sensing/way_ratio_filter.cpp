@@ -61,6 +61,11 @@ double WayRatioFilter::sound_probability() const {
   return sum;
 }
 
+bool WayRatioFilter::is_sound() const {
+  const auto is_probability = [](double weight) { return weight >= 0.0 && weight <= 1.0; };
+  return std::ranges::all_of(weights_, is_probability) && *std::ranges::max_element(weights_) > 0.0;
+}
+
 double WayRatioFilter::most_likely_ratio() const { return kRatios[static_cast<std::size_t>(std::ranges::max_element(weights_) - weights_.begin())]; }
 
 }  // namespace slammot::sensing

@@ -26,6 +26,9 @@ class WayRatioFilter {
 
   double most_likely_ratio() const;
 
+  /// Whether the weights are probabilities: not of a damaged checkpoint.
+  bool is_sound() const;
+
  private:
   Profile weights_{};
 };

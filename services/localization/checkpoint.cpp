@@ -10,7 +10,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f7464;  // "slammotd": the last letter counts the forms of a checkpoint
+constexpr std::uint64_t kMark = 0x736c616d6d6f7465;  // "slammote": the last letter counts the forms of a checkpoint
 constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
 constexpr double kLargestFactor = 1e4;      // of way or turn: millimetres taken for metres are 1e3
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
@@ -131,6 +131,10 @@ bool is_sound(const std::optional<KeyframeOdometry::Keyframe>& keyframe) {
          std::ranges::all_of(keyframe->points_in_base_m, [](const geometry::Vector2& point_m) { return point_m.allFinite(); });
 }
 
+bool is_sound(const KeyframeOdometry::State& keyframes) {
+  return is_sound(keyframes.keyframe) && std::abs(static_cast<double>(keyframes.compared_ns.value_or(0))) < kFarthestStamp_ns && keyframes.way_ratio.is_sound();
+}
+
 bool is_sound(const sensing::OdometryBelief& belief) {
   const bool has_odds = std::isfinite(belief.log_odds) && std::isfinite(belief.log_odds_of_factors) && is_not_negative(belief.disbelieved_s) &&
                         is_believable(belief.last_step) && is_believable(belief.last_by_wheels) && is_not_negative(belief.last_duration_s) && is_not_negative(belief.usual_way_m) && is_not_negative(belief.usual_drive_m) && is_not_negative(belief.usual_turn_rad);
@@ -160,7 +164,7 @@ bool is_sound(const SubmapSequence::State& submaps) {
 
 bool is_sound(const Checkpoint& checkpoint) {
   return is_sound(checkpoint.prediction.estimate) && is_sound(checkpoint.prediction.with_stamp_offset) && is_sound(*checkpoint.prediction.last) &&
-         is_sound(checkpoint.prediction.belief) && is_sound(checkpoint.keyframe) && is_sound(checkpoint.monitor) &&
+         is_sound(checkpoint.prediction.belief) && is_sound(checkpoint.keyframes) && is_sound(checkpoint.monitor) &&
          is_sound(checkpoint.covariance) && is_sound(checkpoint.submaps) && std::isfinite(checkpoint.sweep_factor.value) && checkpoint.sweep_factor.variance >= 0.0 &&
          std::ranges::all_of(checkpoint.odometry, [](const sensing::Odometry& sample) { return is_believable(sample.wheel_from_base); });
 }
@@ -201,7 +205,10 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint, const LocalMap& ma
   put(bytes, kMark);
   visit_parts(checkpoint, [&](const auto& part) { put(bytes, part); });
   put_all(bytes, checkpoint.odometry);
-  put_keyframe(bytes, checkpoint.keyframe);
+  put_keyframe(bytes, checkpoint.keyframes.keyframe);
+  put(bytes, checkpoint.keyframes.compared_ns);
+  put(bytes, checkpoint.keyframes.is_in_doubt);
+  put(bytes, checkpoint.keyframes.way_ratio);
   map.write(bytes);
   put(bytes, checksum(bytes));
   return bytes;
@@ -218,7 +225,10 @@ std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes
   if (mark != kMark) return std::nullopt;
   visit_parts(checkpoint, [&](auto& part) { from.get(part); });
   from.get_all(checkpoint.odometry);
-  checkpoint.keyframe = keyframe_of(from);
+  checkpoint.keyframes.keyframe = keyframe_of(from);
+  from.get(checkpoint.keyframes.compared_ns);
+  from.get(checkpoint.keyframes.is_in_doubt);
+  from.get(checkpoint.keyframes.way_ratio);
   std::optional<LocalMap> map = LocalMap::restored(config, from, help);
   if (!map || !from.ok() || !from.at_end() || !is_sound(checkpoint)) return std::nullopt;
   return RestoredCheckpoint{std::move(checkpoint), *std::move(map)};

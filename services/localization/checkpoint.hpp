@@ -28,7 +28,7 @@ struct Checkpoint {
   SubmapSequence::State submaps;
   LocalizerCounters counters;
   std::vector<sensing::Odometry> odometry;
-  std::optional<KeyframeOdometry::Keyframe> keyframe;
+  KeyframeOdometry::State keyframes;
 };
 
 /// In a form of this build, with a checksum.

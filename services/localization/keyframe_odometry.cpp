@@ -25,9 +25,12 @@ constexpr double kMovesAlong = 0.35;         // of the way by odometry, and less
 constexpr double kLeastWay_m = 0.1;
 constexpr double kSame_m = 0.05;             // two registrations that end nearer to each other
 constexpr double kRivalShare = 0.9;          // another place that fits as well as this share of the best: nothing is told
+constexpr double kBestFit = 0.9;             // of any place
 constexpr double kClearly = 2.2;             // times the fit of what is expected: the way was another; echoes from the ground move along
 constexpr double kExactly = 1e-3;            // m, rad
 constexpr double kStands_m = 0.3;            // by odometry between two keyframes
+constexpr std::int64_t kRest_ns = 200'000'000;
+constexpr double kSoundAbove = 0.9;
 constexpr double kDoubtBelow = 0.05;         // probability that the way by odometry is right
 constexpr double kProminent = 0.06;          // of a fit
 constexpr double kDoubtOdds = 2.0;
@@ -56,23 +59,24 @@ KeyframeOdometry::KeyframeOdometry(const LocalizerConfig& config) : match_(confi
   match_.body_sigma_m = config.body_sigma_without_wheels_m;
 }
 
-void KeyframeOdometry::resume(std::optional<Keyframe> keyframe) {
-  keyframe_ = std::move(keyframe);
+void KeyframeOdometry::resume(State state) {
+  state_ = std::move(state);
+  last_.reset();
   surfels_.clear();
-  if (!keyframe_) return;
-  for (const geometry::Vector2& point_m : keyframe_->points_in_base_m) surfels_.add(point_m);
+  if (!state_.keyframe) return;
+  for (const geometry::Vector2& point_m : state_.keyframe->points_in_base_m) surfels_.add(point_m);
 }
 
 void KeyframeOdometry::begin(const Seen& seen) {
-  if (!keyframe_) keyframe_.emplace();
-  keyframe_->stamp_ns = seen.step.stamp_ns;
-  keyframe_->wheel_from_base = *seen.step.wheel_from_base;
-  keyframe_->odom_from_base = seen.odom_from_base;
-  keyframe_->scanner_id = seen.scanner_id;
-  keyframe_->points_in_base_m.clear();
-  for (const matching::MatchPoint& point : seen.points.matched()) keyframe_->points_in_base_m.push_back(point.in_base_m);
+  if (!state_.keyframe) state_.keyframe.emplace();
+  state_.keyframe->stamp_ns = seen.step.stamp_ns;
+  state_.keyframe->wheel_from_base = *seen.step.wheel_from_base;
+  state_.keyframe->odom_from_base = seen.odom_from_base;
+  state_.keyframe->scanner_id = seen.scanner_id;
+  state_.keyframe->points_in_base_m.clear();
+  for (const matching::MatchPoint& point : seen.points.matched()) state_.keyframe->points_in_base_m.push_back(point.in_base_m);
   surfels_.clear();
-  for (const geometry::Vector2& point_m : keyframe_->points_in_base_m) surfels_.add(point_m);
+  for (const geometry::Vector2& point_m : state_.keyframe->points_in_base_m) surfels_.add(point_m);
 }
 
 matching::PointToLineResult KeyframeOdometry::registered_about(const UncertainPose2& expected, const ScanPoints& points) {
@@ -85,19 +89,6 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
   const double ahead_m = kExpected_m + kExpectedShare * way_m;
   const double turn_rad = kExpected_rad + kExpectedShare * std::abs(expected.heading_rad);
   const UncertainPose2 prior{expected, Eigen::Vector3d(squared(ahead_m), squared(kExpected_m), squared(turn_rad)).asDiagonal()};
-  matching::PointToLineResult result;
-  double best_fit = 0.0;
-  double rival_fit = 0.0;
-  for (const double share : kStarts) {
-    const Pose2 start{share * expected.x_m, share * expected.y_m, expected.heading_rad};
-    const matching::PointToLineResult one = matcher_.match(points.matched(), surfels_, prior, start, match_);
-    const double fit = matching::fit_of(one, match_.robust_scale_m);
-    const bool is_same = geometry::difference(one.map_from_base.pose, result.map_from_base.pose).head<2>().norm() < kSame_m;
-    if (!is_same) rival_fit = std::max(rival_fit, std::min(fit, best_fit));
-    if (fit <= best_fit) continue;
-    best_fit = fit;
-    result = one;
-  }
   // What is expected has the first say: along a street many places fit a little better by chance.
   const geometry::Matrix3 sure_covariance = Eigen::Vector3d(squared(kSure_m + kSureShare * way_m), squared(kSure_m + kSureShare * way_m), squared(kSure_rad)).asDiagonal();
   UncertainPose2 sure{expected, sure_covariance};
@@ -109,8 +100,25 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
     as_expected = as_by_wheels;
     sure = by_odometry;
   }
-  const bool is_clearly_elsewhere = best_fit > kClearly * matching::fit_of(as_expected, match_.robust_scale_m);
-  if (!is_clearly_elsewhere) result = as_expected;
+  matching::PointToLineResult result = as_expected;
+  double best_fit = 0.0;
+  double rival_fit = 0.0;
+  const double expected_fit = matching::fit_of(as_expected, match_.robust_scale_m);
+  if (expected_fit * kClearly < kBestFit) {  // otherwise no place is clearly better
+    matching::PointToLineResult best;
+    for (const double share : kStarts) {
+      const Pose2 start{share * expected.x_m, share * expected.y_m, expected.heading_rad};
+      const matching::PointToLineResult one = matcher_.match(points.matched(), surfels_, prior, start, match_);
+      const double fit = matching::fit_of(one, match_.robust_scale_m);
+      const bool is_same = geometry::difference(one.map_from_base.pose, best.map_from_base.pose).head<2>().norm() < kSame_m;
+      if (!is_same) rival_fit = std::max(rival_fit, std::min(fit, best_fit));
+      if (fit <= best_fit) continue;
+      best_fit = fit;
+      best = one;
+    }
+    if (best_fit > kClearly * expected_fit) result = best;
+  }
+  const bool is_clearly_elsewhere = best_fit > kClearly * expected_fit;
   if (result.matched_share < kLeastShare || (is_clearly_elsewhere && rival_fit > kRivalShare * best_fit)) return std::nullopt;
   const Pose2 optimum = sensing::scan_optimum(is_clearly_elsewhere ? prior : sure, result.map_from_base.pose, result.scan_information);
   geometry::Matrix3 information = result.scan_information;
@@ -148,9 +156,9 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
   for (std::size_t i = 0; i < fits.size(); ++i) fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]), points);
   fits = sensing::WayRatioFilter::prominent(fits, kProminent);
   for (double& fit : fits) fit *= nats_;
-  way_ratio_.update(fits);
-  if (way_ratio_.sound_probability() > kDoubtBelow) return;
-  comparison.by_scans = registered_near(pose_at(way_ratio_.most_likely_ratio()), points);
+  state_.way_ratio.update(fits);
+  if (state_.way_ratio.sound_probability() > kDoubtBelow) return;
+  comparison.by_scans = registered_near(pose_at(state_.way_ratio.most_likely_ratio()), points);
   if (comparison.by_scans) comparison.extra_odds = -kDoubtOdds;
 }
 
@@ -173,27 +181,31 @@ void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& 
 std::optional<KeyframeOdometry::Comparison> KeyframeOdometry::observe(const Seen& seen) {
   const Step& step = seen.step;
   if (!step.wheel_from_base || step.usual_duration_s > kRare_s) {
-    keyframe_.reset();
+    state_.keyframe.reset();
+    state_.compared_ns.reset();
     return std::nullopt;
   }
-  if (!keyframe_) {
-    begin(seen);
-    last_.reset();
+  if (state_.compared_ns == step.stamp_ns) return last_;
+  if (!state_.keyframe) {
+    if (!state_.compared_ns || state_.is_in_doubt || step.stamp_ns - *state_.compared_ns >= kRest_ns) begin(seen);
     return std::nullopt;
   }
-  if (keyframe_->scanner_id != seen.scanner_id) return std::nullopt;
-  if (keyframe_->stamp_ns == step.stamp_ns) return last_;
-  const Pose2 by_wheels = geometry::inverse(keyframe_->wheel_from_base) * *step.wheel_from_base;
-  const Pose2 expected = geometry::inverse(keyframe_->odom_from_base) * seen.odom_from_base;
+  if (state_.keyframe->scanner_id != seen.scanner_id) return std::nullopt;
+  const Pose2 by_wheels = geometry::inverse(state_.keyframe->wheel_from_base) * *step.wheel_from_base;
+  const Pose2 expected = geometry::inverse(state_.keyframe->odom_from_base) * seen.odom_from_base;
   const double way_m = std::max(std::hypot(by_wheels.x_m, by_wheels.y_m), std::hypot(expected.x_m, expected.y_m));
   const double turn_rad = std::max(std::abs(by_wheels.heading_rad), std::abs(expected.heading_rad));
-  const double duration_s = static_cast<double>(step.stamp_ns - keyframe_->stamp_ns) * 1e-9;
+  const double duration_s = static_cast<double>(step.stamp_ns - state_.keyframe->stamp_ns) * 1e-9;
   if (way_m < kFar_m && turn_rad < kFar_rad && duration_s < kLong_s) return std::nullopt;
   const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
   last_ = Comparison{by_wheels, registered(expected, as_believed, seen.points), duration_s};
   if (as_believed.translation_m().norm() > kStands_m) judge_way(as_believed, seen.points, *last_);
   else judge_standing(as_believed, seen.points, *last_);
-  begin(seen);
+  state_.compared_ns = step.stamp_ns;
+  // Sound odometry is looked at a few times a second only.
+  state_.is_in_doubt = !last_->by_scans || last_->extra_odds != 0.0 || state_.way_ratio.sound_probability() < kSoundAbove;
+  if (state_.is_in_doubt) begin(seen);
+  else state_.keyframe.reset();
   auto& by_scans = last_->by_scans;
   // Traffic on all sides, and the ground that a braking scanner sees, move along: that the vehicle stands is not told by a pair of scans.
   const double way_by_wheels_m = by_wheels.translation_m().norm();

@@ -47,8 +47,14 @@ class KeyframeOdometry {
   explicit KeyframeOdometry(const LocalizerConfig& config);
 
   /// For checkpoints.
-  const std::optional<Keyframe>& keyframe() const { return keyframe_; }
-  void resume(std::optional<Keyframe> keyframe);
+  struct State {
+    std::optional<Keyframe> keyframe;
+    std::optional<std::int64_t> compared_ns;   ///< Stamp of the scan of the last comparison,
+    bool is_in_doubt = true;                   ///< and whether odometry was in doubt then.
+    sensing::WayRatioFilter way_ratio;
+  };
+  const State& state() const { return state_; }
+  void resume(State state);
 
   /// After each scan that was matched: where the vehicle has gone far enough since the keyframe, the comparison; this scan is then the next
   /// keyframe. None without odometry, for another scanner than the keyframe's, and where scans are rare: each is compared with the map by itself.
@@ -66,10 +72,9 @@ class KeyframeOdometry {
 
   matching::PointToLineConfig match_;
   grids::SurfelMap surfels_;                 ///< Of the keyframe, in its base.
-  std::optional<Keyframe> keyframe_;
-  sensing::WayRatioFilter way_ratio_;
   double nats_;                              ///< Log-likelihood of a fit of 1 against one of 0.
-  std::optional<Comparison> last_;           ///< That which the keyframe ended.
+  State state_;
+  std::optional<Comparison> last_;           ///< What the scan of state_.compared_ns said.
   matching::PointToLineMatcher matcher_;
 };
 

@@ -229,7 +229,7 @@ void Localizer::go_on_after(const flow::CorrectedSubmap& last) {
 }
 
 Checkpoint Localizer::checkpoint_now() const {
-  return {prediction_.state(), monitor_.state(), covariance_.state(), sweep_.factor(), submaps_.state(), counters_, prediction_.recent_odometry(), keyframes_.keyframe()};
+  return {prediction_.state(), monitor_.state(), covariance_.state(), sweep_.factor(), submaps_.state(), counters_, prediction_.recent_odometry(), keyframes_.state()};
 }
 
 sensing::OdometryConclusions Localizer::odometry_conclusions() const {
@@ -256,7 +256,7 @@ void Localizer::resume(RestoredCheckpoint restored, OdometryPrediction&& before)
   covariance_.set_state(checkpoint.covariance);
   sweep_.set_factor(checkpoint.sweep_factor);
   counters_ = checkpoint.counters;
-  keyframes_.resume(checkpoint.keyframe);
+  keyframes_.resume(checkpoint.keyframes);
   episodes_.begin(checkpoint.prediction.last->stamp_ns);
   submaps_.resume(checkpoint.submaps, std::move(restored.map));
 }
