@@ -51,6 +51,7 @@ struct LocalizedScan {
   geometry::Pose2 submap_from_base;             ///< and the pose in it: what stays true when loops close.
   std::vector<LocalizedBeam> beams;             ///< One for each beam of the scan, in its order.
   OdomId odom_id{};
+  double local_variance_share = 1.0;            ///< Of the pose's covariance, what it may be off within the local map; map and pose drift together by the rest. (0, 1]
 };
 
 }  // namespace slammot::flow

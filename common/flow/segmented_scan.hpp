@@ -43,7 +43,7 @@ struct SegmentedScan {
   double max_range_m = 0.0;
   double beam_step_rad = 0.0;
   double sweep_s = 0.0;                           ///< From the first beam's firing, at the stamp, to the last's.
-  geometry::UncertainPose2 odom_from_base;
+  geometry::UncertainPose2 odom_from_base;        ///< Covariance within the local map.
   geometry::Pose2 map_from_odom;
   MapId map_id{};
   std::vector<Eigen::Vector2f> points_in_base_m;  ///< One a beam.

@@ -66,8 +66,8 @@ class OdometryCheck {
 
   struct Unit {
     double radians = 1.0;
-    std::complex<double> along;      ///< Sum of way * exp(2i (direction - heading)),
-    std::complex<double> mirrored;   ///< and of way * exp(2i (direction + heading)).
+    std::complex<double> along = {};      ///< Sum of way * exp(2i (direction - heading)),
+    std::complex<double> mirrored = {};   ///< and of way * exp(2i (direction + heading)).
     double arc = 0.0;                ///< Sum of way * sin(direction - heading) * turn,
     double arc_turn = 0.0;           ///< and of way * turn^2.
     Eigen::Matrix2d turning = Eigen::Matrix2d::Zero();           ///< Normal equations of sideways = ahead * turn + k * forward * turn.

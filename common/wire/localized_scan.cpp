@@ -35,6 +35,7 @@ std::string_view fault_of(const slammot_LocalizedBeam& beam) {
 std::string_view fault_of(const slammot_LocalizedScan& sample) {
   if (const std::string_view fault = fault_of_scan_header(sample); !fault.empty()) return fault;
   if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps)) return "the velocity is not finite";
+  if (!is_probability(sample.local_variance_share) || sample.local_variance_share == 0.0) return "local_variance_share is not within 0 and 1";
   if (!is_sound(sample.submap_from_base)) return "submap_from_base is not finite";
   if (sample.end_cells._length != sample.beams._length) return "beams and end_cells are not equally many";
   for (const slammot_EndCell& end_cell : elements(sample.end_cells)) {
@@ -62,6 +63,7 @@ const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehic
   sample_.yaw_rate_radps = scan.yaw_rate_radps;
   sample_.submap_id = scan.submap_id.value;
   sample_.submap_from_base = wire::encode(scan.submap_from_base);
+  sample_.local_variance_share = scan.local_variance_share;
   show(sample_.beams, beams_);
   show(sample_.end_cells, end_cells_);
   return sample_;
@@ -74,6 +76,7 @@ Decoded<flow::LocalizedScan> decode(const slammot_LocalizedScan& sample) {
   scan.yaw_rate_radps = sample.yaw_rate_radps;
   scan.submap_id = {sample.submap_id};
   scan.submap_from_base = decode(sample.submap_from_base);
+  scan.local_variance_share = sample.local_variance_share;
   const auto beams = elements(sample.beams);
   const auto end_cells = elements(sample.end_cells);
   scan.beams.reserve(beams.size());

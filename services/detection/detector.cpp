@@ -84,6 +84,7 @@ SegmentedScan with_header_of(const LocalizedScan& scan, SegmentedScan segmented)
   segmented.beam_step_rad = scan.beam_step_rad;
   segmented.sweep_s = scan.sweep_s;
   segmented.odom_from_base = scan.odom_from_base;
+  segmented.odom_from_base.covariance *= scan.local_variance_share;  // what moves is judged against the local map
   segmented.map_from_odom = scan.map_from_odom;
   segmented.map_id = scan.map_id;
   segmented.odom_id = scan.odom_id;

@@ -98,6 +98,7 @@ void visit_parts(AnyCheckpoint& checkpoint, Visitor visit) {
   visit(checkpoint.covariance.factors.dead_reckoned);
   visit(checkpoint.covariance.map_change.way_m);
   visit(checkpoint.covariance.map_change.squared_residuals);
+  visit(checkpoint.covariance.by_scans_alone);
   visit(checkpoint.sweep_factor.value);
   visit(checkpoint.sweep_factor.variance);
   visit_submaps(checkpoint.submaps, visit);
@@ -153,7 +154,7 @@ bool is_sound(const LocalizationMonitor::State& monitor) {
 
 bool is_sound(const PublishedCovariance::State& covariance) {
   const sensing::VarianceFactors& factors = covariance.factors;
-  return factors.of_axis.minCoeff() >= 0.0 && factors.of_axis.allFinite() && factors.dead_reckoned.minCoeff() >= 0.0 && factors.dead_reckoned.maxCoeff() <= 1.0 &&
+  return is_share(covariance.by_scans_alone) && factors.of_axis.minCoeff() >= 0.0 && factors.of_axis.allFinite() && factors.dead_reckoned.minCoeff() >= 0.0 && factors.dead_reckoned.maxCoeff() <= 1.0 &&
          is_not_negative(covariance.map_change.way_m) && is_not_negative(covariance.map_change.squared_residuals);
 }
 
@@ -208,6 +209,7 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint, const LocalMap& ma
   put_keyframe(bytes, checkpoint.keyframes.keyframe);
   put(bytes, checkpoint.keyframes.compared_ns);
   put(bytes, checkpoint.keyframes.is_in_doubt);
+  put(bytes, checkpoint.keyframes.rests);
   put(bytes, checkpoint.keyframes.way_ratio);
   map.write(bytes);
   put(bytes, checksum(bytes));
@@ -228,6 +230,7 @@ std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes
   checkpoint.keyframes.keyframe = keyframe_of(from);
   from.get(checkpoint.keyframes.compared_ns);
   from.get(checkpoint.keyframes.is_in_doubt);
+  from.get(checkpoint.keyframes.rests);
   from.get(checkpoint.keyframes.way_ratio);
   std::optional<LocalMap> map = LocalMap::restored(config, from, help);
   if (!map || !from.ok() || !from.at_end() || !is_sound(checkpoint)) return std::nullopt;

@@ -69,6 +69,7 @@ void KeyframeOdometry::resume(State state) {
 
 void KeyframeOdometry::begin(const Seen& seen) {
   if (!state_.keyframe) state_.keyframe.emplace();
+  state_.rests = false;
   state_.keyframe->stamp_ns = seen.step.stamp_ns;
   state_.keyframe->wheel_from_base = *seen.step.wheel_from_base;
   state_.keyframe->odom_from_base = seen.odom_from_base;
@@ -186,7 +187,7 @@ std::optional<KeyframeOdometry::Comparison> KeyframeOdometry::observe(const Seen
     return std::nullopt;
   }
   if (state_.compared_ns == step.stamp_ns) return last_;
-  if (!state_.keyframe) {
+  if (!state_.keyframe || state_.rests) {
     if (!state_.compared_ns || state_.is_in_doubt || step.stamp_ns - *state_.compared_ns >= kRest_ns) begin(seen);
     return std::nullopt;
   }
@@ -205,7 +206,7 @@ std::optional<KeyframeOdometry::Comparison> KeyframeOdometry::observe(const Seen
   // Sound odometry is looked at a few times a second only.
   state_.is_in_doubt = !last_->by_scans || last_->extra_odds != 0.0 || state_.way_ratio.sound_probability() < kSoundAbove;
   if (state_.is_in_doubt) begin(seen);
-  else state_.keyframe.reset();
+  else state_.rests = true;
   auto& by_scans = last_->by_scans;
   // Traffic on all sides, and the ground that a braking scanner sees, move along: that the vehicle stands is not told by a pair of scans.
   const double way_by_wheels_m = by_wheels.translation_m().norm();

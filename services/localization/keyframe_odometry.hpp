@@ -51,6 +51,7 @@ class KeyframeOdometry {
     std::optional<Keyframe> keyframe;
     std::optional<std::int64_t> compared_ns;   ///< Stamp of the scan of the last comparison,
     bool is_in_doubt = true;                   ///< and whether odometry was in doubt then.
+    bool rests = false;                        ///< The keyframe was compared; its memory is kept for the next one.
     sensing::WayRatioFilter way_ratio;
   };
   const State& state() const { return state_; }

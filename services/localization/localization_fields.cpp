@@ -229,6 +229,7 @@ FieldTable<LocalizerConfig> own_fields() {
       {"max_pending", &C::max_pending, "Scans that wait for labels before the map goes on without.", Range{1, 100}},
       {"longest_label_wait_s", &C::longest_label_wait_s, "Nor does it wait longer than this, by the scans' stamps.", Range{0.0, 10.0}},
       {"variance_memory_s", &C::variance_memory_s, "Over which published covariances are fitted to the surprises seen.", kPositive},
+      {"variance_by_scans_alone", &C::variance_by_scans_alone, "Without wheels, published variances over those within the local map.", kPositive},
       {"compared_over_s", &C::compared_over_s, "Published covariances are to be honest about the motion over this time.", kPositive},
       {"drift_m_per_sqrt_m", &C::drift_m_per_sqrt_m, "One sigma that dead reckoning by matching adds to constraints.",
        kPositive},

@@ -169,16 +169,20 @@ void Localizer::begin_astray_map() {
 
 flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& scan, flow::LocalizedScan workspace) {
   const OdometryPrediction::LastScan& now = *prediction_.last();
+  const geometry::UncertainPose2 published = covariance_.published(prediction_.estimate());
+  const geometry::UncertainPose2 within_local_map{published.pose, covariance_.local_variance_share() * published.covariance};
   flow::LocalizedScan localized = description_.describe({.scan = scan,
                                                          .points = points_,
                                                          .map = submaps_.map(),
-                                                         .odom_from_base = covariance_.published(prediction_.estimate()),
+                                                         .odom_from_base = within_local_map,
                                                          .map_from_odom = submaps_.map_from_odom(),
                                                          .speed_mps = now.speed_mps,
                                                          .yaw_rate_radps = now.yaw_rate_radps,
                                                          .sweep_s = sweep_.sweep_s(scan)},
                                                         std::move(workspace));
   integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom()}, monitor_.admission(), submaps_.map());
+  localized.odom_from_base = published;
+  localized.local_variance_share = covariance_.local_variance_share();
   return localized;
 }
 

@@ -13,6 +13,7 @@ class PublishedCovariance {
   struct State {
     sensing::VarianceFactors factors;
     sensing::MapChange map_change;
+    double by_scans_alone = 0.0;      ///< Share of the time over which poses are compared that had no wheels.
   };
 
   explicit PublishedCovariance(const LocalizerConfig& config) : config_(config) {}
@@ -22,6 +23,9 @@ class PublishedCovariance {
 
   /// The pose of an estimate with the covariance to publish; 3x3 over (x [m], y [m], heading [rad]) in odom.
   geometry::UncertainPose2 published(const sensing::MotionEstimate& estimate) const;
+
+  /// Of what is published, what the pose may be off within the local map. Where scans alone tell, map and pose drift together.
+  double local_variance_share() const;
 
   const State& state() const { return state_; }
   void set_state(const State& state) { state_ = state; }

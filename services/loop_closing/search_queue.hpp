@@ -9,9 +9,9 @@
 namespace slammot::loop_closing {
 
 struct SearchBudget {
-  double work_per_submap = 20e6;     ///< Cells that searches read for each submap that comes; about 2 ns each.
-  double work_per_search = 80e6;     ///< A search that has read so many is given up.
-  double work_at_end = 40e6;        ///< For what is left when the drive ends.
+  double work_per_submap = 60e6;     ///< Cells that searches read for each submap that comes; about 1 ns each.
+  double work_per_search = 160e6;    ///< A search that has read so many is given up.
+  double work_at_end = 80e6;        ///< For what is left when the drive ends.
   int most_waiting = 6;              ///< Searches that wait; more, and the oldest is given up.
 };
 

@@ -40,6 +40,7 @@ TEST_F(LocalizedScanOnTheWire, ComesBackAsItWas) {
   EXPECT_EQ(back->yaw_rate_radps, scan.yaw_rate_radps);
   EXPECT_EQ(back->submap_id, scan.submap_id);
   EXPECT_EQ(back->submap_from_base, scan.submap_from_base);
+  EXPECT_EQ(back->local_variance_share, scan.local_variance_share);
 }
 
 TEST_F(LocalizedScanOnTheWire, BringsItsBeamsBackInTheirOrder) {
@@ -75,6 +76,8 @@ TEST_F(LocalizedScanOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.speed_mps = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.yaw_rate_radps = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.submap_from_base.y_m = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.local_variance_share = 0.0; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.local_variance_share = 1.5; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].point_in_base.x_m = kNanF; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].range_m = -1.0F; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].expected_range_m = kNanF; }), "");

@@ -145,7 +145,7 @@ TEST_P(OdometryFaultsOfRobots, DISABLED_DoNotMoveThePoseWhereWheelsCountTooMuchO
 
 TEST_P(OdometryFaultsOfRobots, DoNotTurnThePoseWhereWheelsTurnTooMuch) { expect_good(drive(scaled(1.0, 1.15))); }
 
-TEST_P(OdometryFaultsOfRobots, DISABLED_DoNotTurnThePoseWhereTurnsHaveTheWrongSign) { expect_good(drive(scaled(1.0, -1.0))); }
+TEST_P(OdometryFaultsOfRobots, DoNotTurnThePoseWhereTurnsHaveTheWrongSign) { expect_good(drive(scaled(1.0, -1.0))); }
 
 TEST_P(OdometryFaultsOfRobots, DISABLED_DoNotHoldThePoseWhereWheelsFreezeWhileTheVehicleDrives) { expect_good(drive(during(6.0, 12.0, frozen))); }
 
@@ -177,11 +177,11 @@ TEST(OdometryFaultsOfACar, DISABLED_DoNotMoveThePoseWhereWheelsCountTooMuch) {
   for (const double way : {1.3, 0.7}) expect_good(drive_with(car(), scaled(way, 1.0), kScans));
 }
 
-TEST(OdometryFaultsOfACar, DISABLED_DoNotMoveThePoseWhereWheelsBeginToCountTooMuch) { expect_good(drive_with(car(), later(scaled(1.3, 1.0)), kScans)); }
+TEST(OdometryFaultsOfACar, DoNotMoveThePoseWhereWheelsBeginToCountTooMuch) { expect_good(drive_with(car(), later(scaled(1.3, 1.0)), kScans)); }
 
 TEST(OdometryFaultsOfACar, DISABLED_DoNotTurnThePoseWhereTurnsHaveTheWrongSign) { expect_good(drive_with(car(), scaled(1.0, -1.0), kScans)); }
 
-TEST(OdometryFaultsOfACar, DISABLED_DoNotHoldThePoseWhereWheelsFreezeWhileItDrives) { expect_good(drive_with(car(), during(6.0, 12.0, frozen), kScans)); }
+TEST(OdometryFaultsOfACar, DoNotHoldThePoseWhereWheelsFreezeWhileItDrives) { expect_good(drive_with(car(), during(6.0, 12.0, frozen), kScans)); }
 
 TEST(OdometryFaultsOfACar, DISABLED_DoNotHoldThePoseWhereWheelsNeverMove) { expect_good(drive_with(car(), frozen, kScans)); }
 
@@ -203,7 +203,7 @@ TEST(OdometryFaults, GoWithWheelsAlongABareCorridorAndTheCovarianceSaysSo) {
   EXPECT_GT(result.covariance(0, 0), 25.0 * result.covariance(1, 1));
 }
 
-TEST(OdometryFaults, DISABLED_OfTurnsAreSeenInABareCorridorThoughTheWayIsNot) {
+TEST(OdometryFaults, OfTurnsAreSeenInABareCorridorThoughTheWayIsNot) {
   const Fault turns = during(6.0, 12.0, [](const Pose2& step, double) { return Pose2{step.x_m, step.y_m, 0.02}; });
   const DriveResult result = drive_with(along_a_bare_corridor(), turns, kScans);
   EXPECT_LT(std::abs(result.error.y_m), 0.05);
