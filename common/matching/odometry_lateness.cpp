@@ -22,7 +22,7 @@ constexpr double kWaySigma_m = 0.05;
 constexpr double kWayShare = 0.06;
 constexpr double kMostSquaredError = 9.0;   // of a pair: some match wrongly
 constexpr double kLeastError = 0.2;
-constexpr double kClearly = 20.0;           // usual squared errors
+constexpr double kClearly = 12.0;           // usual squared errors: an F statistic of one parameter, with a dozen delays to choose from
 
 std::optional<Pose2> pose_at(std::span<const TimedPose> odometry, double time_s) {
   const auto after = std::ranges::lower_bound(odometry, time_s, {}, &TimedPose::time_s);

@@ -56,7 +56,10 @@ std::optional<std::int64_t> Localizer::last_stamp_ns() const {
 }
 
 bool Localizer::is_usable(const sensing::LaserScan& scan) {
-  if (!sensing::has_readings(scan)) {
+  // Between rare scans dead reckoning says more than the line between two poses.
+  constexpr double kRare_s = 0.3;
+  const bool is_blank = scan.range_m.empty() || (!sensing::has_readings(scan) && prediction_.state().belief.usual_step_s < kRare_s);
+  if (is_blank) {
     ++counters_.blank_scans;
     return false;
   }
