@@ -44,7 +44,7 @@ struct LocalizerConfig {
   int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
   double longest_label_wait_s = 0.15;     ///< Nor does it wait longer than this, by the scans' stamps.
   double variance_memory_s = 2.0;         ///< Over which published covariances are fitted to the surprises seen.
-  double variance_by_scans_alone = 10.0;  ///< Without wheels, published variances over those within the local map: measured by NEES on simulated drives.
+  double variance_by_scans_alone = 13.0;  ///< Without wheels, published variances over those within the local map: measured by NEES on simulated drives.
   double compared_over_s = 1.0;           ///< Published covariances are to be honest about the motion over this time.
   double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
   double drift_rad_per_sqrt_m = 0.0002;  ///< Over 100 m that is 0.1 degrees; simulated drives show 0.04 to 0.06.

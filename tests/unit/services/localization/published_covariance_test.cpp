@@ -43,6 +43,22 @@ TEST(PublishedCovariance, IsThatOfTheFilterWhereNothingWasMatched) {
   EXPECT_NEAR(covariance.published(step.after).covariance(0, 0), 0.25, 1e-9);
 }
 
+TEST(PublishedCovariance, IsLargerThanThatWithinTheLocalMapWhereScansAloneTell) {
+  const LocalizerConfig config;
+  PublishedCovariance with_wheels{config};
+  PublishedCovariance without{config};
+  const Step by_wheels = step_with_sigma(0.01);
+  Step by_scans = by_wheels;
+  by_scans.source = StepSource::kVelocityAlone;
+  for (int scan = 0; scan < 100; ++scan) {
+    with_wheels.observe(by_wheels, match_at(0.0, 0.005));
+    without.observe(by_scans, match_at(0.0, 0.005));
+  }
+  EXPECT_EQ(with_wheels.local_variance_share(), 1.0);
+  EXPECT_NEAR(without.local_variance_share(), 1.0 / config.variance_by_scans_alone, 1e-3);
+  EXPECT_NEAR(without.published(by_scans.after).covariance(0, 0) * without.local_variance_share(), with_wheels.published(by_wheels.after).covariance(0, 0), 1e-9);
+}
+
 TEST(PublishedCovariance, GoesOnFromAStateAsBefore) {
   PublishedCovariance covariance{LocalizerConfig{}};
   const Step step = step_with_sigma(0.01);

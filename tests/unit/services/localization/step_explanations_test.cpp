@@ -98,6 +98,19 @@ TEST_F(StepExplanationsTest, WithoutOdometryNothingIsTakenToStand) {
   EXPECT_EQ(other.stood_s, 0.0);
 }
 
+TEST_F(StepExplanationsTest, WithoutOdometryStepsLikeThoseBeforeAreNarrowerThanReach) {
+  belief_.last_step = {0.9, 0.1, 0.2};
+  belief_.usual_drive_m = 1.0;
+  belief_.usual_turn_rad = 0.5;
+  const Step step = explanations().without_odometry(by_wheels({}));
+  const auto expected = [&](const Pose2& before_from_base) { return kBefore * before_from_base; };
+  EXPECT_THAT(explanations().like_the_last(step).after.odom_from_base, PoseNear(expected({0.9, 0.1, 0.2}), 1e-9));
+  EXPECT_THAT(explanations().straight_on(step).after.odom_from_base, PoseNear(expected({1.0, 0.0, 0.0}), 1e-9));
+  EXPECT_THAT(explanations().to_the_left(step).after.odom_from_base, PoseNear(expected({0.0, 0.0, 0.5}), 1e-9));
+  EXPECT_THAT(explanations().to_the_right(step).after.odom_from_base, PoseNear(expected({0.0, 0.0, -0.5}), 1e-9));
+  EXPECT_LT(explanations().straight_on(step).after.covariance(0, 0), 0.5 * step.after.covariance(0, 0));
+}
+
 TEST_F(StepExplanationsTest, ReachGrowsWithTheWayWhereNoTimeIsKnown) {
   config_.time_is_known = false;
   const Step near = explanations().other(by_wheels({0.1, 0.0, 0.0}));
