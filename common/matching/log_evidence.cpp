@@ -212,7 +212,7 @@ void correct_signs(const OdometryCheck& odometry, double same_sign, double way_u
   correction.reverses_beams = odometry.turns_with_its_arcs(way_unit_m);
   correction.mirrors_position = correction.mirrors_heading = !correction.reverses_beams;
   correction.integrates_turns_anew = odometry.turns_against_its_arcs(way_unit_m);
-  evidence.handedness_is_told = correction.reverses_beams || odometry.turns_against_its_arcs(way_unit_m);
+  evidence.handedness_is_told = correction.reverses_beams || correction.integrates_turns_anew;
 }
 
 /// Power of ten that makes the scale one; 1 where it is no such unit.

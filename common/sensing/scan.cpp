@@ -2,8 +2,9 @@
 
 namespace slammot::sensing {
 
-bool has_readings(const LaserScan& scan) {
-  return std::ranges::any_of(scan.range_m, [](float range_m) { return !std::isnan(range_m); });
+bool is_blank(const LaserScan& scan, double period_s) {
+  if (scan.range_m.empty()) return true;
+  return period_s < kRareScans_s && std::ranges::all_of(scan.range_m, [](float range_m) { return std::isnan(range_m); });
 }
 
 bool is_echo(float range_m, double max_range_m) {

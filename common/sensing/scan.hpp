@@ -33,8 +33,11 @@ struct Odometry {
   geometry::Pose2 wheel_from_base;    ///< Drifts without bound and may jump when the source restarts.
 };
 
-/// Whether any reading of the scan is a number. A scan without one says nothing, not even that the way is free.
-bool has_readings(const LaserScan& scan);
+inline constexpr double kRareScans_s = 0.3;   ///< Between two scans: their errors are hardly shared, and much happens between them.
+
+/// Whether the scan is left out: it has no beams, or no reading that is a number, so that it does not even say that the way is free. Where
+/// scans are rare the latter is kept: dead reckoning says more than the line between two poses. period_s: usual time between scans.
+bool is_blank(const LaserScan& scan, double period_s);
 
 /// Whether this reading is an echo from something.
 bool is_echo(float range_m, double max_range_m);

@@ -151,9 +151,8 @@ bool IngestService::is_acknowledged(const sensing::LaserScan& scan) const {
 /// Makes fetched_ the next step that nobody has done with; false at the end of the log. Started again in the middle of a
 /// drive, it so skips what localization had from the process before: the first answer tells how much that is.
 bool IngestService::fetch() {
-  constexpr double kRare_s = 0.3;  // as localization, which would not answer
-  const bool are_rare = source_.log().plan().figures.scan_period_s >= kRare_s;
-  const auto is_blank = [&] { return fetched_->scan && !are_rare && !sensing::has_readings(*fetched_->scan); };
+  // Localization would not answer.
+  const auto is_blank = [&] { return fetched_->scan && sensing::is_blank(*fetched_->scan, source_.log().plan().figures.scan_period_s); };
   while (!fetched_ || is_blank() || (fetched_->scan && is_acknowledged(*fetched_->scan))) {
     if (fetched_) ++context_.status().counter(is_blank() ? "blank_scans" : "skipped_scans");
     fetched_ = source_.next();

@@ -13,7 +13,6 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-constexpr double kRare_s = 0.3;              // between scans
 constexpr double kFar_m = 1.0;               // from the keyframe,
 constexpr double kFar_rad = 0.25;
 constexpr double kLong_s = 1.0;              // after which what stands still is forgotten
@@ -49,6 +48,11 @@ constexpr double kMostEchoes = 1000.0;     // weight limit: more than a scan has
 
 double squared(double value) { return value * value; }
 
+UncertainPose2 with_floor(UncertainPose2 pose) {
+  pose.covariance.diagonal() += Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
+  return pose;
+}
+
 }  // namespace
 
 KeyframeOdometry::KeyframeOdometry(const LocalizerConfig& config) : match_(config.match), surfels_(grids::window_around(geometry::Vector2::Zero(), 2.0 * kReach_m, config.map.surfel_size_m), kMostEchoes), nats_(kInformationShare * config.belief.share_nats) {
@@ -62,6 +66,10 @@ KeyframeOdometry::KeyframeOdometry(const LocalizerConfig& config) : match_(confi
 void KeyframeOdometry::resume(State state) {
   state_ = std::move(state);
   last_.reset();
+  map_keyframe();
+}
+
+void KeyframeOdometry::map_keyframe() {
   surfels_.clear();
   if (!state_.keyframe) return;
   for (const geometry::Vector2& point_m : state_.keyframe->points_in_base_m) surfels_.add(point_m);
@@ -76,12 +84,26 @@ void KeyframeOdometry::begin(const Seen& seen) {
   state_.keyframe->scanner_id = seen.scanner_id;
   state_.keyframe->points_in_base_m.clear();
   for (const matching::MatchPoint& point : seen.points.matched()) state_.keyframe->points_in_base_m.push_back(point.in_base_m);
-  surfels_.clear();
-  for (const geometry::Vector2& point_m : state_.keyframe->points_in_base_m) surfels_.add(point_m);
+  map_keyframe();
 }
 
 matching::PointToLineResult KeyframeOdometry::registered_about(const UncertainPose2& expected, const ScanPoints& points) {
   return matcher_.match(points.matched(), surfels_, expected, expected.pose, match_);
+}
+
+KeyframeOdometry::BestPlace KeyframeOdometry::best_place(const UncertainPose2& prior, const ScanPoints& points) {
+  BestPlace best;
+  for (const double share : kStarts) {
+    const Pose2 start{share * prior.pose.x_m, share * prior.pose.y_m, prior.pose.heading_rad};
+    const matching::PointToLineResult one = matcher_.match(points.matched(), surfels_, prior, start, match_);
+    const double fit = matching::fit_of(one, match_.robust_scale_m);
+    const bool is_same = geometry::difference(one.map_from_base.pose, best.registered.map_from_base.pose).head<2>().norm() < kSame_m;
+    if (!is_same) best.rival_fit = std::max(best.rival_fit, std::min(fit, best.fit));
+    if (fit <= best.fit) continue;
+    best.fit = fit;
+    best.registered = one;
+  }
+  return best;
 }
 
 /// expected: by the estimate; by_wheels: with all that is known of odometry applied.
@@ -101,32 +123,16 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
     as_expected = as_by_wheels;
     sure = by_odometry;
   }
-  matching::PointToLineResult result = as_expected;
-  double best_fit = 0.0;
-  double rival_fit = 0.0;
   const double expected_fit = matching::fit_of(as_expected, match_.robust_scale_m);
-  if (expected_fit * kClearly < kBestFit) {  // otherwise no place is clearly better
-    matching::PointToLineResult best;
-    for (const double share : kStarts) {
-      const Pose2 start{share * expected.x_m, share * expected.y_m, expected.heading_rad};
-      const matching::PointToLineResult one = matcher_.match(points.matched(), surfels_, prior, start, match_);
-      const double fit = matching::fit_of(one, match_.robust_scale_m);
-      const bool is_same = geometry::difference(one.map_from_base.pose, best.map_from_base.pose).head<2>().norm() < kSame_m;
-      if (!is_same) rival_fit = std::max(rival_fit, std::min(fit, best_fit));
-      if (fit <= best_fit) continue;
-      best_fit = fit;
-      best = one;
-    }
-    if (best_fit > kClearly * expected_fit) result = best;
-  }
-  const bool is_clearly_elsewhere = best_fit > kClearly * expected_fit;
-  if (result.matched_share < kLeastShare || (is_clearly_elsewhere && rival_fit > kRivalShare * best_fit)) return std::nullopt;
+  const bool may_be_elsewhere = expected_fit * kClearly < kBestFit;
+  const BestPlace best = may_be_elsewhere ? best_place(prior, points) : BestPlace{};
+  const bool is_clearly_elsewhere = best.fit > kClearly * expected_fit;
+  const matching::PointToLineResult& result = is_clearly_elsewhere ? best.registered : as_expected;
+  if (result.matched_share < kLeastShare || (is_clearly_elsewhere && best.rival_fit > kRivalShare * best.fit)) return std::nullopt;
   const Pose2 optimum = sensing::scan_optimum(is_clearly_elsewhere ? prior : sure, result.map_from_base.pose, result.scan_information);
   geometry::Matrix3 information = result.scan_information;
   information.diagonal() += Eigen::Vector3d(1e-2, 1e-2, 1e-2);
-  geometry::Matrix3 covariance = information.inverse();
-  covariance.diagonal() += Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
-  return UncertainPose2{optimum, covariance};
+  return with_floor({optimum, information.inverse()});
 }
 
 /// How well the points lie on the keyframe's at this very pose.
@@ -142,13 +148,11 @@ std::optional<UncertainPose2> KeyframeOdometry::registered_near(const Pose2& pos
   const UncertainPose2 prior{pose, Eigen::Vector3d(squared(kExpected_m), squared(kExpected_m), squared(kExpected_rad)).asDiagonal()};
   const matching::PointToLineResult result = registered_about(prior, points);
   if (result.matched_share < kLeastShare) return std::nullopt;
-  geometry::Matrix3 covariance = result.map_from_base.covariance;
-  covariance.diagonal() += Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
-  return UncertainPose2{result.map_from_base.pose, covariance};
+  return with_floor(result.map_from_base);
 }
 
 /// Compares shares of the way by odometry with each other: registration from what is expected hardly leaves it.
-void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& points, Comparison& comparison) {
+void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& points, sensing::OdometryComparison& comparison) {
   const double way_m = by_wheels.translation_m().norm();
   const double heading_rad = comparison.by_scans ? comparison.by_scans->pose.heading_rad : by_wheels.heading_rad;
   const double direction_rad = std::atan2(by_wheels.y_m, by_wheels.x_m) + 0.5 * (heading_rad - by_wheels.heading_rad);
@@ -164,7 +168,7 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
 }
 
 /// Wheels that stand while the vehicle begins to drive.
-void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& points, Comparison& comparison) {
+void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& points, sensing::OdometryComparison& comparison) {
   const double standing = fit_at(by_wheels, points);
   double best_m = 0.0;
   double best = standing;
@@ -179,9 +183,9 @@ void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& 
   if (comparison.by_scans) comparison.extra_odds = -kClearlyDrives;
 }
 
-std::optional<KeyframeOdometry::Comparison> KeyframeOdometry::observe(const Seen& seen) {
+std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen& seen) {
   const Step& step = seen.step;
-  if (!step.wheel_from_base || step.usual_duration_s > kRare_s) {
+  if (!step.wheel_from_base || step.usual_duration_s > sensing::kRareScans_s) {
     state_.keyframe.reset();
     state_.compared_ns.reset();
     return std::nullopt;
@@ -199,7 +203,7 @@ std::optional<KeyframeOdometry::Comparison> KeyframeOdometry::observe(const Seen
   const double duration_s = static_cast<double>(step.stamp_ns - state_.keyframe->stamp_ns) * 1e-9;
   if (way_m < kFar_m && turn_rad < kFar_rad && duration_s < kLong_s) return std::nullopt;
   const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
-  last_ = Comparison{by_wheels, registered(expected, as_believed, seen.points), duration_s};
+  last_ = sensing::OdometryComparison{by_wheels, as_believed, registered(expected, as_believed, seen.points), duration_s};
   if (as_believed.translation_m().norm() > kStands_m) judge_way(as_believed, seen.points, *last_);
   else judge_standing(as_believed, seen.points, *last_);
   state_.compared_ns = step.stamp_ns;

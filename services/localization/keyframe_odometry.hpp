@@ -7,6 +7,7 @@
 
 #include "common/grids/surfel_map.hpp"
 #include "common/matching/point_to_line.hpp"
+#include "common/sensing/odometry_belief.hpp"
 #include "common/sensing/way_ratio_filter.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/odometry_prediction.hpp"
@@ -25,14 +26,6 @@ class KeyframeOdometry {
     const ScanPoints& points;
     const std::string& scanner_id;
     const OdometryPrediction& prediction;    ///< Knows what to believe of odometry.
-  };
-
-  /// A comparison of both.
-  struct Comparison {
-    geometry::Pose2 by_wheels;               ///< Not corrected.
-    std::optional<geometry::UncertainPose2> by_scans;   ///< None where they do not match.
-    double duration_s = 0.0;
-    double extra_odds = 0.0;                 ///< Of odometry being right, beside what the two say [nats].
   };
 
   /// The scan that the next ones are compared with.
@@ -60,22 +53,30 @@ class KeyframeOdometry {
   /// After each scan that was matched: where the vehicle has gone far enough since the keyframe, the comparison; this scan is then the next
   /// keyframe. None without odometry, for another scanner than the keyframe's, and where scans are rare: each is compared with the map by itself.
   /// The same scan again: the same answer.
-  std::optional<Comparison> observe(const Seen& seen);
+  std::optional<sensing::OdometryComparison> observe(const Seen& seen);
 
  private:
   void begin(const Seen& seen);
+  void map_keyframe();
   matching::PointToLineResult registered_about(const geometry::UncertainPose2& expected, const ScanPoints& points);
   double fit_at(const geometry::Pose2& pose, const ScanPoints& points);
+  /// The best of registrations from several shares of the expected way, and how well the best other place fits.
+  struct BestPlace {
+    matching::PointToLineResult registered;
+    double fit = 0.0;
+    double rival_fit = 0.0;
+  };
+  BestPlace best_place(const geometry::UncertainPose2& prior, const ScanPoints& points);
   std::optional<geometry::UncertainPose2> registered(const geometry::Pose2& expected, const geometry::Pose2& by_wheels, const ScanPoints& points);
   std::optional<geometry::UncertainPose2> registered_near(const geometry::Pose2& pose, const ScanPoints& points);
-  void judge_way(const geometry::Pose2& by_wheels, const ScanPoints& points, Comparison& comparison);
-  void judge_standing(const geometry::Pose2& by_wheels, const ScanPoints& points, Comparison& comparison);
+  void judge_way(const geometry::Pose2& by_wheels, const ScanPoints& points, sensing::OdometryComparison& comparison);
+  void judge_standing(const geometry::Pose2& by_wheels, const ScanPoints& points, sensing::OdometryComparison& comparison);
 
   matching::PointToLineConfig match_;
   grids::SurfelMap surfels_;                 ///< Of the keyframe, in its base.
   double nats_;                              ///< Log-likelihood of a fit of 1 against one of 0.
   State state_;
-  std::optional<Comparison> last_;           ///< What the scan of state_.compared_ns said.
+  std::optional<sensing::OdometryComparison> last_;   ///< What the scan of state_.compared_ns said.
   matching::PointToLineMatcher matcher_;
 };
 

@@ -56,10 +56,7 @@ std::optional<std::int64_t> Localizer::last_stamp_ns() const {
 }
 
 bool Localizer::is_usable(const sensing::LaserScan& scan) {
-  // Between rare scans dead reckoning says more than the line between two poses.
-  constexpr double kRare_s = 0.3;
-  const bool is_blank = scan.range_m.empty() || (!sensing::has_readings(scan) && prediction_.state().belief.usual_step_s < kRare_s);
-  if (is_blank) {
+  if (sensing::is_blank(scan, prediction_.state().belief.usual_step_s)) {
     ++counters_.blank_scans;
     return false;
   }
@@ -121,7 +118,7 @@ bool Localizer::place(const sensing::LaserScan& scan) {
 void Localizer::compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found) {
   if (!config_.belief.enabled) return;
   const auto comparison = keyframes_.observe({step, found.odom_from_base.pose, points_, scan.scanner.scanner_id, prediction_});
-  if (comparison) prediction_.compare(comparison->by_wheels, comparison->by_scans, comparison->duration_s, comparison->extra_odds);
+  if (comparison) prediction_.compare(*comparison);
 }
 
 /// The points of the scan, without the motion of the step.

@@ -37,10 +37,10 @@ double log_likelihood_of(const Step& step, const geometry::Pose2& optimum, const
 
 }  // namespace
 
-/// What one scan says against explanations that differ now does not share the errors of the scans before: all of the map counts.
+/// What one scan says against explanations that differ now does not share the errors of the scans before: all of the map counts, as it
+/// does where scans are rare.
 Step by_scan_alone(Step step) {
-  constexpr double kRare_s = 0.3;   // such scans count like this as they are
-  if (step.usual_duration_s < kRare_s) step.source = StepSource::kVelocityThisOnce;
+  if (step.usual_duration_s < sensing::kRareScans_s) step.source = StepSource::kVelocityThisOnce;
   return step;
 }
 

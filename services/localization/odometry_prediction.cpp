@@ -201,12 +201,12 @@ Pose2 OdometryPrediction::as_believed(const Pose2& by_wheels, double duration_s)
   return sensing::predict_step(sensing::corrected(by_wheels, duration_s, state_.belief.factors), duration_s, state_.estimate.calibration, motion_of_one_clock_).pose;
 }
 
-void OdometryPrediction::compare(const Pose2& by_wheels, const std::optional<geometry::UncertainPose2>& by_scans, double duration_s, double extra_odds) {
+void OdometryPrediction::compare(const sensing::OdometryComparison& comparison) {
   constexpr double kAdoptAbove = 2.0;
   constexpr double kAdoptAfter_s = 8.0;   // wheels slip for seconds
   sensing::OdometryBelief& belief = state_.belief;
-  belief = sensing::compared(belief, {by_wheels, as_believed(by_wheels, duration_s), by_scans, duration_s, extra_odds});
-  belief.disbelieved_s = belief.is_disbelieved ? belief.disbelieved_s + duration_s : 0.0;
+  belief = sensing::compared(belief, comparison);
+  belief.disbelieved_s = belief.is_disbelieved ? belief.disbelieved_s + comparison.duration_s : 0.0;
   if (belief.disbelieved_s < kAdoptAfter_s || belief.log_odds_of_factors < kAdoptAbove) return;
   adopt_wheel_factors();
   belief.log_odds = belief.log_odds_of_factors;

@@ -132,9 +132,8 @@ class OdometryPrediction {
   /// Motion by odometry, not corrected, with all that is known of it applied.
   geometry::Pose2 as_believed(const geometry::Pose2& by_wheels, double duration_s) const;
 
-  /// Feedback: odometry (not corrected) beside what two scans some way apart tell.
-  /// extra_odds: of odometry being right, beside what the two say [nats].
-  void compare(const geometry::Pose2& by_wheels, const std::optional<geometry::UncertainPose2>& by_scans, double duration_s, double extra_odds = 0.0);
+  /// Feedback: odometry beside what two scans some way apart tell.
+  void compare(const sensing::OdometryComparison& comparison);
 
   /// Feedback: how likely the scan is under each explanation, before observe().
   void weigh(const sensing::ExplanationWeights& weights) { state_.belief.weights = weights; }

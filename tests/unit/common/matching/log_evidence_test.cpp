@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -173,7 +174,8 @@ TEST(OdometryCheck, TellsDegreesFromRadians) {
   EXPECT_TRUE(degrees.is_in_degrees());
 }
 
-TEST(OdometryCheck, SeesHeadingsThatTurnAgainstTheirArcs) {
+/// Forty equal steps, with sound turns and with the wrong sign.
+std::pair<OdometryCheck, OdometryCheck> turning_by_steps(const Pose2& step) {
   OdometryCheck sound;
   OdometryCheck mirrored;
   Pose2 pose;
@@ -181,9 +183,14 @@ TEST(OdometryCheck, SeesHeadingsThatTurnAgainstTheirArcs) {
   for (int i = 0; i < 40; ++i) {
     sound.add(pose);
     mirrored.add(other);
-    pose = pose * Pose2{0.2, 0.2 * 0.05, 0.1};
-    other = other * Pose2{0.2, 0.2 * 0.05, -0.1};
+    pose = pose * step;
+    other = other * Pose2{step.x_m, step.y_m, -step.heading_rad};
   }
+  return {sound, mirrored};
+}
+
+TEST(OdometryCheck, SeesHeadingsThatTurnAgainstTheirArcs) {
+  const auto [sound, mirrored] = turning_by_steps({0.2, 0.2 * 0.05, 0.1});
   EXPECT_FALSE(sound.turns_against_its_arcs());
   EXPECT_TRUE(sound.turns_with_its_arcs());
   EXPECT_TRUE(mirrored.turns_against_its_arcs());
@@ -191,16 +198,7 @@ TEST(OdometryCheck, SeesHeadingsThatTurnAgainstTheirArcs) {
 }
 
 TEST(OdometryCheck, SeesArcsAlsoWherePositionsAreLate) {
-  OdometryCheck sound;
-  OdometryCheck mirrored;
-  Pose2 pose;
-  Pose2 other;
-  for (int i = 0; i < 40; ++i) {
-    sound.add(pose);
-    mirrored.add(other);
-    pose = pose * Pose2{0.2, -0.2 * 0.1, 0.1};  // along the heading of one and a half steps ago
-    other = other * Pose2{0.2, -0.2 * 0.1, -0.1};
-  }
+  const auto [sound, mirrored] = turning_by_steps({0.2, -0.2 * 0.1, 0.1});  // along the heading of one and a half steps ago
   EXPECT_TRUE(sound.turns_with_its_arcs());
   EXPECT_FALSE(sound.turns_against_its_arcs());
   EXPECT_TRUE(mirrored.turns_against_its_arcs());

@@ -93,14 +93,18 @@ TEST_F(WriteDrive, SaysWhatBeamsHitIfWanted) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "without/block.hits.csv"));
 }
 
-TEST_F(WriteDrive, WritesALogForEachScannerThatIsReadWithItsMounting) {
+simulation::ScannerConfig rear_scanner() {
   simulation::ScannerConfig rear;
   rear.scanner_id = "rear";
   rear.ahead_m = -2.2;
   rear.left_m = 0.3;
   rear.heading_rad = 3.141593;
   rear.rate_hz = 12.5;
-  scenario_.more_scanners = {rear};
+  return rear;
+}
+
+TEST_F(WriteDrive, WritesALogForEachScannerThatIsReadWithItsMounting) {
+  scenario_.more_scanners = {rear_scanner()};
   const auto files = write_drive(scenario_, folder_.path()).files;
   ASSERT_TRUE(files.has_value());
   EXPECT_EQ(files->more_sensors.at(0).filename(), "block.rear.log");
@@ -113,12 +117,7 @@ TEST_F(WriteDrive, WritesALogForEachScannerThatIsReadWithItsMounting) {
 }
 
 TEST_F(WriteDrive, WritesAllScannersIntoOneLog) {
-  simulation::ScannerConfig rear;
-  rear.scanner_id = "rear";
-  rear.ahead_m = -2.2;
-  rear.left_m = 0.3;
-  rear.heading_rad = 3.141593;
-  rear.rate_hz = 12.5;
+  simulation::ScannerConfig rear = rear_scanner();
   rear.delay_s = 0.01;
   scenario_.more_scanners = {rear};
   const auto files = write_drive(scenario_, folder_.path()).files;
