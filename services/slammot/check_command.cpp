@@ -11,6 +11,7 @@
 #include "common/files/log_profile.hpp"
 #include "services/ingest/topic_arguments.hpp"
 #include "services/slammot/command_line.hpp"
+#include "services/slammot/job.hpp"
 
 namespace slammot {
 namespace {
@@ -31,7 +32,7 @@ std::string command_to_run(const CheckOptions& options) {
 int check(const CheckOptions& options) {
   files::CarmenLogOptions log_options;
   log_options.topics = options.topics;
-  const auto log = files::CarmenLog::open(options.log, log_options);
+  auto log = files::CarmenLog::open(options.log, log_options);
   if (!log) {
     std::fprintf(stderr, "slammot: %s\n", log.error().message.c_str());
     return kExitFault;
@@ -41,7 +42,10 @@ int check(const CheckOptions& options) {
   std::fputs(files::describe_log(plan).c_str(), stdout);
   std::fputs(files::describe(log->topics()).c_str(), stdout);
   std::printf("profile    %s (%s)\n", profile.profile.c_str(), profile.reason.c_str());
-  const std::vector<std::string> findings = files::describe_findings(plan);
+  std::vector<std::string> findings = files::describe_findings(plan);
+  while (log->next()) {
+  }
+  if (log->faults().is_cut) findings.push_back("the file is cut off or damaged: this is of what could be read of it" + where_damaged(log->faults()));
   for (const std::string& finding : findings) std::printf("doubtful   %s\n", finding.c_str());
   std::printf("run it     %s\n", command_to_run(options).c_str());
   return findings.empty() ? kExitDone : kExitDoubtful;

@@ -273,6 +273,11 @@ TEST_F(RunCommand, IsToldBeforehandByCheckWhatIsInTheLog) {
   const Outcome sound = call({"check", log_.string()});
   EXPECT_THAT(sound.standard_output, HasSubstr("scans      60 of"));
   EXPECT_THAT(sound.standard_output, HasSubstr("slammot run --input " + log_.string()));
+  const std::string log = room_log(60);
+  write(log.substr(0, log.size() - 100));
+  const Outcome cut = call({"check", log_.string()});
+  EXPECT_THAT(cut.standard_output, HasSubstr("doubtful   the file is cut off"));
+  EXPECT_EQ(cut.exit_code, kExitDoubtful);
   write("nothing\n");
   EXPECT_EQ(call({"check", log_.string()}).exit_code, kExitFault);
 }
