@@ -149,6 +149,13 @@ void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before
   step = StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).without_odometry(std::move(step));
 }
 
+/// Odometry speaks, and is wrong for longer than a step.
+void OdometryPrediction::go_on_without_wheels(Step& step) const {
+  if (has_velocity(step, config_)) step = StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).other(step);
+  else go_on_at_velocity(state_.estimate, step);
+  step.explanation_was_chosen = true;
+}
+
 Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   Step step;
   step.stamp_ns = stamp_ns;
@@ -168,7 +175,7 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   const bool cannot_be = config_.time_is_known && by_wheels && is_impossible(*by_wheels, step.duration_s);
   const bool is_jump = config_.time_is_known && by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
   step.has_doubted_wheels = cannot_be || is_jump;
-  if (state_.belief.is_disbelieved && by_wheels) step = StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).other(step);
+  if (state_.belief.is_disbelieved && by_wheels) go_on_without_wheels(step);
   else if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
   else go_on_at_velocity(is_jump ? doubted_velocity(*by_wheels, step.duration_s) : state_.estimate, step);
   return with_velocity(step, *state_.last);

@@ -176,6 +176,7 @@ class OdometryPrediction {
   sensing::MotionEstimate moved_by_wheels(const geometry::Pose2& by_wheels, std::int64_t stamp_ns, double duration_s) const;
   void follow_wheels(const geometry::Pose2& by_wheels, Step& step) const;
   void go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const;
+  void go_on_without_wheels(Step& step) const;
   void adopt_wheel_factors();
   void learn_wheels(const Step& step, const ScanMatch& match);
   void learn_stamp_offset(const Step& step, const ScanMatch& match);

@@ -114,6 +114,36 @@ TEST_F(OdometryPredictionTest, HoldsTheVehicleToStandOnceWheelsHaveStoodForAWhil
   EXPECT_EQ(standing, 4) << "from 0.6 s on";
 }
 
+/// Comparisons of scans that contradict odometry until it is no longer believed.
+void disbelieve(OdometryPrediction& prediction) {
+  const geometry::Matrix3 covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
+  const Pose2 by_wheels{1.0, 0.0, 0.0};
+  for (int i = 0; i < 5; ++i) prediction.compare({by_wheels, by_wheels, geometry::UncertainPose2{Pose2{0.0, 0.0, 1.0}, covariance}, 1.0});
+  ASSERT_TRUE(prediction.state().belief.is_disbelieved);
+}
+
+TEST_F(OdometryPredictionTest, GoesOnFromTheLastPoseWhereOdometryIsNotBelievedAndTimeIsNotKnown) {
+  LocalizerConfig config;
+  config.time_is_known = false;
+  prediction_ = OdometryPrediction(config);
+  drive(0, 30);
+  disbelieve(prediction_);
+  prediction_.add({stamp_ns(30), wheel_from_odom_ * Pose2{0.0, 0.0, 1.0} * pose_at(30)});
+  const Step step = prediction_.predict(stamp_ns(30));
+  EXPECT_EQ(step.source, StepSource::kReach);
+  EXPECT_TRUE(step.explanation_was_chosen) << "odometry spoke";
+  EXPECT_LT((step.after.odom_from_base.translation_m() - pose_at(29).translation_m()).norm(), 1.0);
+}
+
+TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityOfTheMatchesWhereOdometryIsNotBelieved) {
+  drive(0, 30);
+  disbelieve(prediction_);
+  prediction_.add({stamp_ns(30), wheel_from_odom_ * pose_at(30)});
+  const Step step = prediction_.predict(stamp_ns(30));
+  EXPECT_EQ(step.source, StepSource::kVelocityAlone);
+  EXPECT_TRUE(step.explanation_was_chosen);
+}
+
 TEST_F(OdometryPredictionTest, MarksAGapAndExtrapolatesNoFartherThanThat) {
   prediction_.begin(0);
   for (int scan = 1; scan < 30; ++scan) prediction_.observe(prediction_.predict(stamp_ns(scan)), matched_at(pose_at(scan)));
