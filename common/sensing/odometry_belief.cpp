@@ -191,6 +191,7 @@ OdometryBelief moved(OdometryBelief belief, StepExplanation explanation, double 
   variance += duration_s * Eigen::Vector2d(squared(motion.speed_walk_mps), squared(motion.yaw_rate_walk_radps));
   if (!before_from_base) return belief;
   belief.last_step = *before_from_base;
+  belief.steps.add(*before_from_base);
   const double way_m = before_from_base->translation_m().norm();
   belief.usual_way_m += config.usual_step_memory * (way_m - belief.usual_way_m);
   const double turn_rad = std::abs(before_from_base->heading_rad);

@@ -7,6 +7,7 @@
 
 #include "common/geometry/uncertain_pose2.hpp"
 #include "common/sensing/motion_model.hpp"
+#include "common/sensing/step_history.hpp"
 
 namespace slammot::sensing {
 
@@ -109,6 +110,7 @@ struct OdometryBelief {
   StepExplanation last = StepExplanation::kWheels;     ///< Of the last step.
   double usual_step_s = 0.1;                           ///< Time between scans.
   geometry::Pose2 last_step;                           ///< By the matches.
+  StepHistory steps;                                   ///< The same of those before.
   geometry::Pose2 last_by_wheels;                      ///< Last step as odometry had it, not corrected,
   double last_duration_s = 0.0;                        ///< and how long it took; 0: none yet.
   double usual_way_m = 0.5;                            ///< Of a step,

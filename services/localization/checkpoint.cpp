@@ -43,6 +43,7 @@ void visit_belief(Belief& belief, Visitor visit) {
   visit(belief.last);
   visit(belief.usual_step_s);
   visit(belief.last_step);
+  visit(belief.steps);
   visit(belief.last_by_wheels);
   visit(belief.last_duration_s);
   visit(belief.usual_way_m);
@@ -138,7 +139,7 @@ bool is_sound(const KeyframeOdometry::State& keyframes) {
 
 bool is_sound(const sensing::OdometryBelief& belief) {
   const bool has_odds = std::isfinite(belief.log_odds) && std::isfinite(belief.log_odds_of_factors) && is_not_negative(belief.disbelieved_s) &&
-                        is_believable(belief.last_step) && is_believable(belief.last_by_wheels) && is_not_negative(belief.last_duration_s) && is_not_negative(belief.usual_way_m) && is_not_negative(belief.usual_drive_m) && is_not_negative(belief.usual_turn_rad);
+                        is_believable(belief.last_step) && belief.steps.is_sound() && is_believable(belief.last_by_wheels) && is_not_negative(belief.last_duration_s) && is_not_negative(belief.usual_way_m) && is_not_negative(belief.usual_drive_m) && is_not_negative(belief.usual_turn_rad);
   if (!has_odds) return false;
   const bool has_weights = std::ranges::all_of(belief.weights, is_share) && std::ranges::max(belief.weights) > 0.0;
   return has_weights && sensing::index_of(belief.last) < sensing::kStepExplanations && is_not_negative(belief.usual_step_s) && is_share(belief.usual_share) &&

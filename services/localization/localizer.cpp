@@ -132,7 +132,7 @@ std::optional<ExplainedStep> Localizer::explain(const sensing::LaserScan& scan, 
   const bool may_be_judged = config_.belief.enabled && (by_wheels.is_by_wheels() || by_wheels.source == StepSource::kReach) && by_wheels.duration_s > 0.0 && matcher_.can_match(points_.matched());
   if (!may_be_judged) return std::nullopt;
   const auto take = [&](const Step& step) { take_points(scan, step); };
-  ExplainedStep explained = mixture_.explain({prediction_.explanations(by_wheels), prediction_.weights(), prediction_.state().belief.usual_share, points_, submaps_.map(), take}, matcher_);
+  ExplainedStep explained = mixture_.explain({prediction_.explanations(by_wheels), prediction_.weights(), prediction_.state().belief.usual_share, prediction_.state().belief.steps, points_, submaps_.map(), take}, matcher_);
   prediction_.weigh(explained.weights);
   counters_.searches += explained.searches;
   if (explained.step.explanation == sensing::StepExplanation::kRoughWheels) ++counters_.rough_odometry;

@@ -63,6 +63,34 @@ MixtureMatch::Best MixtureMatch::at_prediction(const StepToExplain& scan, ScanMa
   return best;
 }
 
+/// What is known of a pose before the scan is said of it: without odometry that steps repeat, with it what each explanation predicts.
+MixtureMatch::LogLikelihoods MixtureMatch::log_priors(const StepToExplain& scan, const geometry::Pose2& optimum, const matching::PointToLineResult& registered) {
+  LogLikelihoods logs;
+  logs.fill(-std::numeric_limits<double>::infinity());
+  const Step& first = scan.steps.front();
+  if (first.source == StepSource::kReach) {
+    logs[sensing::index_of(StepExplanation::kOther)] = scan.history.log_marginal(first.odom_from_base_before, first.prior(), optimum, registered.scan_information);
+    return logs;
+  }
+  const Step& by_velocity = scan.steps[widest(scan, kOther)];
+  for (const Step& step : scan.steps) logs[sensing::index_of(step.explanation)] = log_likelihood_of(step, optimum, registered) + dynamics(step, by_velocity);
+  return logs;
+}
+
+/// Of the explanations that are one and the same to sensing, the one whose prediction is nearest to the pose.
+std::size_t MixtureMatch::likeliest_step(const StepToExplain& scan, std::size_t explanation, const geometry::Pose2& optimum, const matching::PointToLineResult& registered) {
+  std::size_t best = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scan.steps.size(); ++i) {
+    if (sensing::index_of(scan.steps[i].explanation) != explanation) continue;
+    const double log_likelihood = log_likelihood_of(scan.steps[i], optimum, registered);
+    if (log_likelihood <= most) continue;
+    most = log_likelihood;
+    best = i;
+  }
+  return best;
+}
+
 /// Registers from one pose under a wide prediction, and compares every explanation there with the best so far.
 void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start, ScanMatcher& matcher, Best& best) const {
   const Step& prediction = scan.steps[wide];
@@ -72,15 +100,14 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide, const ge
   const geometry::Pose2& pose = registered.map_from_base.pose;
   const geometry::Pose2 optimum = sensing::scan_optimum(prediction.prior(), pose, registered.scan_information);
   const double fits_share = matching::fit_of(registered, config_.match.robust_scale_m) - agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
-  const Step& by_velocity = scan.steps[widest(scan, kOther)];
   const double fit = config_.belief.share_nats * independent_share(scan.steps.front()) * fits_share;
-  for (std::size_t i = 0; i < scan.steps.size(); ++i) {
-    const std::size_t explanation = sensing::index_of(scan.steps[i].explanation);
-    const double log_likelihood = fit + log_likelihood_of(scan.steps[i], optimum, registered) + dynamics(scan.steps[i], by_velocity);
+  const LogLikelihoods priors = log_priors(scan, optimum, registered);
+  for (std::size_t explanation = 0; explanation < priors.size(); ++explanation) {
+    const double log_likelihood = fit + priors[explanation];
     best.log_likelihoods[explanation] = std::max(best.log_likelihoods[explanation], log_likelihood);
     const double log_posterior = log_likelihood + std::log(scan.weights[explanation]);
     if (log_posterior <= best.log_posterior) continue;
-    best.step = i;
+    best.step = likeliest_step(scan, explanation, optimum, registered);
     best.registered = registered;
     best.log_posterior = log_posterior;
   }

@@ -19,6 +19,7 @@ struct StepToExplain {
   StepMixture steps;                                   ///< One an explanation; odometry as calibrated first, then its heavy tail, then the rest.
   sensing::ExplanationWeights weights;                 ///< Before the scan.
   double usual_share = 0.5;                            ///< Of points that match.
+  const sensing::StepHistory& history;                 ///< Of the drive: the prior without odometry.
   const ScanPoints& points;                            ///< Under the prediction taken last.
   const LocalMap& map;
   std::function<void(const Step&)> take_points;        ///< Takes the points under another prediction.
@@ -52,6 +53,8 @@ class MixtureMatch {
     LogLikelihoods log_likelihoods{};                  ///< Of each explanation at its best pose.
   };
 
+  static LogLikelihoods log_priors(const StepToExplain& scan, const geometry::Pose2& optimum, const matching::PointToLineResult& registered);
+  static std::size_t likeliest_step(const StepToExplain& scan, std::size_t explanation, const geometry::Pose2& optimum, const matching::PointToLineResult& registered);
   Best at_prediction(const StepToExplain& scan, ScanMatcher& matcher) const;
   static Best nothing_yet();
   void around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher, Best& best);

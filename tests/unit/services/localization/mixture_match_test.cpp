@@ -54,7 +54,7 @@ class MixtureMatchTest : public ::testing::Test {
     ScanMatcher matcher(config_);
     MixtureMatch mixture(config_);
     weights_ = sensing::predicted(weights_, config_.belief);
-    ExplainedStep explained = mixture.explain({std::move(steps), weights_, usual_share_, points, world.map(), take}, matcher);
+    ExplainedStep explained = mixture.explain({std::move(steps), weights_, usual_share_, history_, points, world.map(), take}, matcher);
     weights_ = explained.weights;
     return explained;
   }
@@ -63,6 +63,7 @@ class MixtureMatchTest : public ::testing::Test {
   MappedWorld room_{slammot::testing::room()};
   ExplanationWeights weights_{1.0, 0.0, 0.0, 0.0};
   double usual_share_ = 0.9;
+  sensing::StepHistory history_;
 };
 
 TEST_F(MixtureMatchTest, TakesWheelsThatTheScanAgreesWithWithoutASearch) {
