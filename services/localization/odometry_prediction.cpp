@@ -14,6 +14,8 @@ constexpr double kNanosecond_s = 1e-9;
 constexpr double kStandsWithin_m = 1e-4;    // a step: wheels that stand count nothing,
 constexpr double kStandsWithin_radps = 0.01;  // and what a gyro says then is its bias
 constexpr double kStandsAfter_s = 0.5;      // odometry may come less often than scans
+constexpr double kFarStep_m = 5.0;          // without a clock, a step by odometry longer than this
+constexpr double kFarStepShare = 8.0;       // and so many usual ones is a jump
 constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
 constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps are compared with
 constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/0025-stamps-when-certain
@@ -59,8 +61,10 @@ void OdometryPrediction::begin(std::int64_t stamp_ns) {
   state_.last = LastScan{.stamp_ns = stamp_ns, .has_wheels = wheel_from_base.has_value(), .wheel_from_base = wheel_from_base.value_or(Pose2{})};
 }
 
+/// Where time is not known, by the way of a usual step.
 bool OdometryPrediction::is_impossible(const Pose2& by_wheels, double duration_s) const {
-  return std::hypot(by_wheels.x_m, by_wheels.y_m) > config_.fastest_mps * duration_s;
+  const double farthest_m = config_.time_is_known ? config_.fastest_mps * duration_s : kFarStep_m + kFarStepShare * state_.belief.usual_drive_m;
+  return std::hypot(by_wheels.x_m, by_wheels.y_m) > farthest_m;
 }
 
 /// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step is doubted for that.
@@ -172,7 +176,7 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   }
   const bool was_disbelieved = state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;
   step.wheels_changed = config_.time_is_known && by_wheels && (was_disbelieved || sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s));
-  const bool cannot_be = config_.time_is_known && by_wheels && is_impossible(*by_wheels, step.duration_s);
+  const bool cannot_be = by_wheels && is_impossible(*by_wheels, step.duration_s);
   const bool is_jump = config_.time_is_known && by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
   step.has_doubted_wheels = cannot_be || is_jump;
   if (state_.belief.is_disbelieved && by_wheels) go_on_without_wheels(step);

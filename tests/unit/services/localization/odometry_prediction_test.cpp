@@ -135,6 +135,21 @@ TEST_F(OdometryPredictionTest, GoesOnFromTheLastPoseWhereOdometryIsNotBelievedAn
   EXPECT_LT((step.after.odom_from_base.translation_m() - pose_at(29).translation_m()).norm(), 1.0);
 }
 
+TEST_F(OdometryPredictionTest, TakesAStepFarBeyondTheUsualOnesForAJumpWhereTimeIsNotKnown) {
+  LocalizerConfig config;
+  config.time_is_known = false;
+  prediction_ = OdometryPrediction(config);
+  drive(0, 30);
+  wheel_from_odom_ = Pose2{40.0, 0.0, 0.0} * wheel_from_odom_;
+  prediction_.add({stamp_ns(30), wheel_from_odom_ * pose_at(30)});
+  const Step step = prediction_.predict(stamp_ns(30));
+  EXPECT_TRUE(step.has_doubted_wheels);
+  EXPECT_LT((step.after.odom_from_base.translation_m() - pose_at(29).translation_m()).norm(), 1.0);
+  prediction_.observe(step, matched_at(pose_at(30)));
+  prediction_.add({stamp_ns(31), wheel_from_odom_ * pose_at(31)});
+  EXPECT_FALSE(prediction_.predict(stamp_ns(31)).has_doubted_wheels);
+}
+
 TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityOfTheMatchesWhereOdometryIsNotBelieved) {
   drive(0, 30);
   disbelieve(prediction_);
