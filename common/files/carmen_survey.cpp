@@ -62,6 +62,14 @@ double reading_percentile(const std::vector<std::uint32_t>& readings_by_unit, do
 
 std::size_t echo_bins(double max_range_m) { return static_cast<std::size_t>(std::max(0.0, max_range_m * 100.0 + 0.5)); }
 
+/// Whether most scans that follow each other are more units apart than metres that a vehicle drives between them.
+bool are_in_small_units(const std::vector<matching::ScanPair>& pairs) {
+  constexpr double kFarthest_m = 20.0;
+  std::vector<double> ways;
+  for (const matching::ScanPair& pair : pairs) ways.push_back(distance_m(pair.first_recorded, pair.second_recorded));
+  return percentile(std::move(ways), 0.5) > kFarthest_m;
+}
+
 }  // namespace
 
 std::optional<Error> select_scanners(const std::vector<std::string>& wanted, std::vector<ScannerPlan>& scanners) {
@@ -196,6 +204,7 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
   lasers.odometry_check.add(record.wheel_from_base);
   const geometry::Pose2& recorded = lasers.pose_changes ? record.wheel_from_base : chosen_odometry_lines().last_pose;
   lasers.moved_pairs.add(record.range_m, recorded, lasers.poses.size() - 1);
+  lasers.pairs_in_small_units.add(record.range_m, recorded, lasers.poses.size() - 1);
   lasers.turned_pairs.add(record.range_m, recorded, lasers.poses.size() - 1);
   lasers.ipc_ns.push_back(record.stamps.ipc_ns);
   lasers.logger_ns.push_back(record.stamps.logger_ns);
@@ -358,7 +367,8 @@ void CarmenSurvey::convert_readings(Lasers& lasers, double unit_m) {
 /// Matches the sampled pairs, without what is no echo. Odometry is judged by ODOM lines where they are: from scan to
 /// scan the arcs of its steps are not seen any more. Without odometry nothing contradicts what is stated.
 matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const {
-  std::vector<matching::ScanPair> pairs = lasers.moved_pairs.pairs();
+  const bool has_small_units = are_in_small_units(lasers.moved_pairs.pairs());
+  std::vector<matching::ScanPair> pairs = has_small_units ? lasers.pairs_in_small_units.pairs() : lasers.moved_pairs.pairs();
   pairs.insert(pairs.end(), lasers.turned_pairs.pairs().begin(), lasers.turned_pairs.pairs().end());
   if (pairs.empty()) return plan.evidence;
   const auto no_echo = static_cast<float>(plan.max_range_m / plan.evidence.correction.range_unit_m);

@@ -1,5 +1,6 @@
 #include "common/files/carmen_survey.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -167,6 +168,34 @@ TEST(CarmenSurvey, UsesOdomLinesOnlyWhereTheyDoNotContradictTheLaserRecords) {
   EXPECT_EQ(odometry_source(0.1, 0.0), OdometrySource::kLaserRecords);
   EXPECT_EQ(odometry_source(0.0, 0.1), OdometrySource::kOdomLines);
   EXPECT_EQ(odometry_source(0.0, 0.0), OdometrySource::kNone);
+}
+
+/// Range of a beam in a room from (-1, -2) to (11, 3) m with a pillar-like step in one wall.
+float range_in_room_m(const Pose2& laser, double beam_rad) {
+  const double direction_rad = laser.heading_rad + beam_rad;
+  for (double range_m = 0.0; range_m < 20.0; range_m += 0.01) {
+    const double x_m = laser.x_m + range_m * std::cos(direction_rad);
+    const double y_m = laser.y_m + range_m * std::sin(direction_rad);
+    const bool is_inside = x_m > -1.0 && x_m < 11.0 && y_m > -2.0 && y_m < (x_m > 4.0 && x_m < 6.0 ? 2.0 : 3.0);
+    if (!is_inside) return static_cast<float>(range_m);
+  }
+  return 20.0F;
+}
+
+/// Scans a decimetre apart: in millimetres each is a hundred units from the one before.
+TEST(CarmenSurvey, TellsOdometryInMillimetresWhereScansFollowEachOtherClosely) {
+  CarmenSurvey survey;
+  for (int i = 0; i < 80; ++i) {
+    const Pose2 pose{0.1 * i, 0.0, 0.25 * std::sin(0.15 * i)};
+    LaserRecord record = scan_of_drive({}, i);
+    record.range_m.clear();
+    for (int beam = 0; beam < 181; ++beam) record.range_m.push_back(range_in_room_m(pose, pi * (beam / 180.0 - 0.5)));
+    record.wheel_from_base = {1e3 * pose.x_m, 1e3 * pose.y_m, pose.heading_rad};
+    survey.add(record);
+  }
+  const LogPlan plan = survey.conclude(pi);
+  EXPECT_EQ(plan.evidence.correction.way_unit_m, 1e-3);
+  EXPECT_NEAR(plan.figures.distance_m, 7.9, 0.1);
 }
 
 }  // namespace
