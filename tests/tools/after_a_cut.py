@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Says of a drive out of which tests/tools/alter_drive.py cut a piece when it was found again, and how far off it was then.
+"""Reports when a drive relocalized after tests/tools/alter_drive.py cut a piece out of it, and its position error from then on.
 
 usage: after_a_cut.py COPY RESULT FROM     FROM as given to alter_drive.py --cut, in s since the first scan
 
-Errors are in the frame of the drive's first pose. Found after: from the first pose after the cut to the last of online.tum that is
-more than a metre off. Error: of trajectory.tum from 8 s after the cut on, median and worst.
+Errors are in the frame of the drive's first pose. "Found after" is the time from the first pose after the cut to the last
+pose of online.tum with an error above 1 m. Errors are of trajectory.tum from 8 s after the cut on, median and worst.
 """
 
 import math

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a simulated drive from its truth files: walls dark, the vehicle's way blue, the ways of moving objects by class.
+"""Draws a simulated drive from its truth files: walls dark, the vehicle's path blue, the paths of moving objects by class.
 
 usage: draw_scenario.py TRUTH_PREFIX PICTURE.png [PIXELS_WIDE]
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes copies of a leg_tracker recording that differ a little: in the noise of ranges, in dark beams, in scans left out.
-Figures of few rows scatter with any such change; their mean says what a change of the code is worth.
+"""Writes 22 copies of a leg_tracker recording that differ a little: range noise, beams without echo, scans left out.
+Figures of few rows scatter with any such change; compare their means.
 
 usage: vary_leg_tracker.py RECORDING FOLDER
 """
