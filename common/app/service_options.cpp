@@ -19,17 +19,17 @@ std::string fault_of_name(const std::string& name) {
 void add_service_options(CLI::App& command_line, ServiceOptions& options) {
   const CLI::Validator is_name(fault_of_name, "NAME");
   constexpr std::uint32_t kHighestDomain = 230;  // the highest whose ports exist
-  command_line.add_option("--vehicle", options.vehicle_id, "Whose data to work on; key of every sample")
+  command_line.add_option("--vehicle", options.vehicle_id, "Vehicle whose data is processed; key of every sample")
       ->envname("SLAMMOT_VEHICLE")->capture_default_str()->check(is_name);
   command_line.add_option("--domain", options.domain_id, "DDS domain")
       ->envname("SLAMMOT_DOMAIN")->capture_default_str()->check(CLI::Range(std::uint32_t{0}, kHighestDomain));
-  command_line.add_option("--instance", options.instance, "Tells this process from others of the same service and vehicle")
+  command_line.add_option("--instance", options.instance, "Name of this process, if several of the same service and vehicle run")
       ->capture_default_str()->check(is_name);
-  command_line.add_option("--state-dir", options.state_dir, "Folder for what has to outlive a crash")->capture_default_str();
+  command_line.add_option("--state-dir", options.state_dir, "Folder for state that survives a crash")->capture_default_str();
   command_line.add_option("--profile", options.profile, "Name of a shipped profile, or a file");
-  command_line.add_option("--config", options.config_files, "Settings in protobuf text format, over the profile");
-  command_line.add_flag("--check-config", options.check_config, "Check profile and settings, and leave");
-  command_line.add_flag("--print-config", options.print_config, "Print the settings in effect as a file for --config, and leave");
+  command_line.add_option("--config", options.config_files, "Settings in protobuf text format that override the profile's");
+  command_line.add_flag("--check-config", options.check_config, "Check profile and settings, then exit");
+  command_line.add_flag("--print-config", options.print_config, "Print the effective settings in the format of --config, then exit");
 }
 
 std::optional<std::string> load_config(const ServiceOptions& options, std::span<const config::BoundStage> stages) {

@@ -19,7 +19,7 @@ struct LastingModel {
 
 /// What is to be kept of a place. The SO-map has to know at once what is new, so that an echo outweighs the beams that pass: those
 /// pass beside walls, too, where cells are coarse. Here a beam counts as much as an echo, and only as far as those beside it go,
-/// so that what stands loses next to nothing by it. See docs/decisions/0044-what-submaps-keep.md.
+/// so that what stands loses next to nothing by it. See docs/decisions/maps-and-submaps.md.
 class LastingEvidence {
  public:
   LastingEvidence() = default;

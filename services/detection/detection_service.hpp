@@ -15,7 +15,7 @@ class DetectionService {
     DetectionConfig config;
   };
   static constexpr const char* kName = "detection";
-  static constexpr const char* kPurpose = "Cuts scans into segments and tells which of them contradict the map, and so move.";
+  static constexpr const char* kPurpose = "Cuts scans into segments and labels those that contradict the map as moving.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

@@ -48,13 +48,13 @@ int evaluate_run(const ComparisonOptions& options) {
 }  // namespace
 
 void add_eval_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("eval", "Compare the outputs of a run with the truth; prints a table, writes evaluation.json");
+  CLI::App* const command = app.add_subcommand("eval", "Compare the outputs of a run with ground truth; prints a table, writes evaluation.json");
   const auto options = std::make_shared<ComparisonOptions>();
   add_comparison_options(*command, *options, TruthIs::kRequired);
-  command->add_option("--wall-cell", options->evaluation.walls.cell_size_m, "Compare how sharp maps of such cells are, from the result's poses and from the true ones [m]")
+  command->add_option("--wall-cell", options->evaluation.walls.cell_size_m, "Compare the sharpness of maps with such cells, by the result's poses and by the true ones [m]")
       ->check(CLI::PositiveNumber)
       ->type_name("M");
-  command->add_option("--wall-range", options->evaluation.walls.longest_range_m, "Farther echoes are not in those maps [m]")->capture_default_str()->check(CLI::PositiveNumber);
+  command->add_option("--wall-range", options->evaluation.walls.longest_range_m, "Longest range of echoes in those maps [m]")->capture_default_str()->check(CLI::PositiveNumber);
   command->callback([options, &exit_code] { exit_code = evaluate_run(*options); });
 }
 

@@ -69,11 +69,11 @@ int write_report(const ReportOptions& options) {
 }  // namespace
 
 void add_report_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("report", "One page of HTML about a run: map, tracks, errors, latencies");
+  CLI::App* const command = app.add_subcommand("report", "Write an HTML page about a run: map, tracks, errors, latencies");
   const auto options = std::make_shared<ReportOptions>();
   add_comparison_options(*command, options->comparison, TruthIs::kOptional);
   command->add_option("--output", options->output, "Page to write [DIR/report.html]")->type_name("FILE");
-  command->add_option("--tracks", options->tracks, "Tracks to show one by one, by id; chosen when not given")->delimiter(',')->type_name("ID,ID");
+  command->add_option("--tracks", options->tracks, "Ids of tracks to show in detail; default: selected by the program")->delimiter(',')->type_name("ID,ID");
   command->callback([options, &exit_code] { exit_code = write_report(*options); });
 }
 

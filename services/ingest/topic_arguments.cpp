@@ -7,13 +7,13 @@
 namespace slammot::ingest {
 
 void add_topic_options(CLI::App& command_line, files::TopicOptions& topics) {
-  command_line.add_option("--scanners", topics.scanners, "Of a log with several scanners: names of those to be used; all whose mounting is known when not given")
+  command_line.add_option("--scanners", topics.scanners, "Names of the scanners to use; default: all with a known mounting")
       ->type_name("NAME[,NAME]")
       ->delimiter(',');
-  command_line.add_option("--scan-topic", topics.scan_topic, "Main scanner: a topic of a bag, or RLASER and its like; by what they hold when not given")->type_name("TOPIC");
-  command_line.add_option("--odom-topic", topics.odometry_topic, "Of a bag: topic of the odometry, /tf for the transforms, none for no odometry")->type_name("TOPIC|none");
-  command_line.add_option("--cloud-from", topics.cloud_from_m, "Of a bag's clouds: least height above the base that counts [m]; 0.2 below the sensor when not given")->type_name("M");
-  command_line.add_option("--cloud-to", topics.cloud_to_m, "Of a bag's clouds: most height above the base that counts [m]; 0.2 above the sensor when not given")->type_name("M");
+  command_line.add_option("--scan-topic", topics.scan_topic, "Main scanner: a bag's topic, or a CARMEN name such as RLASER; default: by content")->type_name("TOPIC");
+  command_line.add_option("--odom-topic", topics.odometry_topic, "Odometry of a bag: a topic, /tf for the transforms, or none")->type_name("TOPIC|none");
+  command_line.add_option("--cloud-from", topics.cloud_from_m, "Lowest height above the base of a bag's clouds [m]; default: 0.2 below the sensor")->type_name("M");
+  command_line.add_option("--cloud-to", topics.cloud_to_m, "Highest height above the base of a bag's clouds [m]; default: 0.2 above the sensor")->type_name("M");
 }
 
 std::vector<std::string> arguments_of(const files::TopicOptions& topics) {

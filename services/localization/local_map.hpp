@@ -17,7 +17,7 @@ namespace slammot::localization {
 struct LocalMapConfig {
   double side_m = 240.0;                ///< Of the square held around the vehicle.
   double cell_size_m = 0.2;             ///< Of SO-map and MO-map.
-  double surfel_size_m = 0.5;           ///< Of the cells whose echoes are averaged for matching: docs/decisions/0007.
+  double surfel_size_m = 0.5;           ///< Of the cells whose echoes are averaged for matching: docs/decisions/scan-matching.md.
   double surfel_weight_limit = 1000.0;    ///< Echoes after which a surfel's mean becomes a running one.
   double new_map_after_m = 60.0;        ///< Distance from the map's centre at which a new one begins, or
   double new_map_after_travel_m = 100.0;///< distance travelled in it.
@@ -31,7 +31,7 @@ struct LocalMapConfig {
 
 /// The map around the vehicle in odom: SO-map, MO-map and surfels in one window that moves on when the vehicle nears
 /// its edge. What has been seen since it last moved makes the submap in progress, by the evidence that lasts in place of the SO-map's:
-/// docs/decisions/0044. Wang 2004, sections 3.4 and 6.3.
+/// docs/decisions/maps-and-submaps.md. Wang 2004, sections 3.4 and 6.3.
 class LocalMap {
  public:
   LocalMap() = default;

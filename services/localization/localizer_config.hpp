@@ -56,7 +56,7 @@ struct LocalizerConfig {
   sensing::MotionModelConfig motion;
   matching::PointToLineConfig match;
   AmbiguousMatchConfig ambiguous;
-  /// Of published covariances; measured by NEES on simulated drives: docs/decisions/0050. Positions err with the way, headings with each scan.
+  /// Of published covariances; measured by NEES on simulated drives: docs/decisions/pose-covariance.md. Positions err with the way, headings with each scan.
   sensing::PoseErrors pose_errors{.forward = {.of_scan = 0.0002, .of_surprises = 1.6, .of_map = 0.01, .view_m = 0.15},
                                   .sideways = {.of_scan = 0.0005, .of_surprises = 2.1, .of_map = 0.0, .view_m = 0.03},
                                   .heading = {.of_scan = 0.019, .of_surprises = 0.03, .of_map = 0.0, .view_m = 0.1}};

@@ -18,7 +18,7 @@ constexpr double kFarStep_m = 5.0;          // without a clock, a step by odomet
 constexpr double kFarStepShare = 8.0;       // and so many usual ones is a jump
 constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
 constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps are compared with
-constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/0025-stamps-when-certain
+constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/time-and-stamps.md
 constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelerates does so for longer
 
 std::int64_t to_ns(double duration_s) { return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s)); }

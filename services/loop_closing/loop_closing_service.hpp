@@ -20,7 +20,7 @@ class LoopClosingService {
     LoopClosingConfig config;
   };
   static constexpr const char* kName = "loop_closing";
-  static constexpr const char* kPurpose = "Finds places seen before, and corrects where all submaps are.";
+  static constexpr const char* kPurpose = "Recognizes revisited places and corrects the poses of all submaps.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

@@ -25,7 +25,7 @@ class MapStoreService {
     std::optional<std::uint64_t> map_id;  ///< To be the latest again; none: it is the one to which a submap was added last.
   };
   static constexpr const char* kName = "map_store";
-  static constexpr const char* kPurpose = "Keeps the finished submaps of a vehicle, so that no crash loses one.";
+  static constexpr const char* kPurpose = "Stores the finished submaps of a vehicle, so that no crash loses one.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 

@@ -73,12 +73,12 @@ int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& er
 
 void add_simulate_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = app.add_subcommand("simulate", "Make a drive through a simulated world, with its truth");
-  command->add_flag("--list", options->list, "Name the scenarios");
+  CLI::App* command = app.add_subcommand("simulate", "Simulate a drive and write its log and ground truth");
+  command->add_flag("--list", options->list, "List the scenarios");
   command->add_option("scenario", options->scenario, "Name of the scenario, or a file");
-  command->add_option("--seed", options->seed, "Other world, traffic and noise than the scenario's own");
+  command->add_option("--seed", options->seed, "Seed of world, traffic and noise; default: the scenario's own");
   command->add_option("--output", options->output, "Folder for NAME.log, .tum, .objects.csv and .walls.csv");
-  command->add_flag("--hits", options->hits, "Write NAME.hits.csv, too: which beam hit what");
+  command->add_flag("--hits", options->hits, "Write NAME.hits.csv, too: the object that each beam hit");
   command->callback([options, &exit_code] { exit_code = simulate(*options, std::cout, std::cerr); });
 }
 

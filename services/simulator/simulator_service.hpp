@@ -26,7 +26,7 @@ class SimulatorService {
     bool linger = false;                ///< Stay after the end of the drive.
   };
   static constexpr const char* kName = "simulator";
-  static constexpr const char* kPurpose = "Simulates a drive onto the bus: what its sensors say, and the truth.";
+  static constexpr const char* kPurpose = "Simulates a drive onto the bus: sensor data and ground truth.";
   static std::vector<config::BoundStage> stages(Settings&) { return {}; }  ///< The scenario's file is all there is to set.
   static void add_options(CLI::App& command_line, Settings& settings);
 

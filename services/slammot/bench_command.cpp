@@ -207,7 +207,7 @@ int bench_or_say_why_not(const BenchOptions& options) {
 }  // namespace
 
 void add_bench_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("bench", "Take a drive, recorded or simulated, through the real services, over DDS on this machine");
+  CLI::App* const command = app.add_subcommand("bench", "Process a recorded or simulated drive by the real services, over DDS on this machine");
   const auto options = std::make_shared<BenchOptions>();
   add_job_options(*command, *options);
   command->add_option("--domain", options->domain_id, "DDS domain, on loopback and closed to others")->check(CLI::Range(0, 230))->capture_default_str();

@@ -54,7 +54,7 @@ int check(const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("check", "Tell what is in a log, what will be assumed and what is doubtful");
+  CLI::App* const command = app.add_subcommand("check", "Report the content of a log, what will be assumed and what is doubtful");
   const auto options = std::make_shared<CheckOptions>();
   command->add_option("log", options->log, "Recorded drive: a CARMEN or DP-SLAM log, plain or .gz, or a ROS bag")->required()->type_name("FILE");
   ingest::add_topic_options(*command, options->topics);

@@ -91,12 +91,12 @@ int collect(const CollectOptions& options) {
 }  // namespace
 
 void add_collect_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("collect", "Write what the services on the bus make of a drive, when it has ended");
+  CLI::App* const command = app.add_subcommand("collect", "Collect the outputs of services on the bus and write them when the drive has ended");
   const auto options = std::make_shared<CollectOptions>();
-  command->add_option("--output", options->output, "Folder for the results; made where it is missing")->required()->type_name("DIR");
-  command->add_option("--input", options->input, "The log that is played, so that scans that nobody heard of have their row, too")->type_name("FILE");
+  command->add_option("--output", options->output, "Folder for the results; created if missing")->required()->type_name("DIR");
+  command->add_option("--input", options->input, "The log that is played: scans that were not received get rows, too")->type_name("FILE");
   ingest::add_topic_options(*command, options->topics);
-  command->add_option("--vehicle", options->vehicle_id, "Whose drive")->capture_default_str();
+  command->add_option("--vehicle", options->vehicle_id, "Vehicle whose drive is collected")->capture_default_str();
   command->add_option("--domain", options->domain_id, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
   command->callback([options, &exit_code] {
     try {

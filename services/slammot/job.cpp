@@ -143,14 +143,14 @@ void begin_with_way_factor(double factor, localization::LocalizerConfig& config)
 void add_job_options(CLI::App& command, JobOptions& options) {
   command.add_option("--input", options.input, "Recorded drive: a CARMEN or DP-SLAM log, plain or .gz, or a ROS bag (.bag, .mcap, .db3, or the folder)")->type_name("FILE");
   ingest::add_topic_options(command, options.topics);
-  command.add_option("--scenario", options.scenario, "Simulated drive in place of a recorded one: see slammot simulate --list")->type_name("NAME");
-  command.add_option("--seed", options.seed, "Other world, traffic and noise than the scenario's own")->type_name("N");
-  command.add_option("--output", options.output, "Folder for the results; made where it is missing")->required()->type_name("DIR");
-  command.add_option("--profile", options.profile, "urban, indoor, another name, or a file; chosen by the drive when not given")->type_name("NAME");
-  command.add_option("--config", options.config, "Settings that replace some of the profile's")->type_name("FILE");
-  command.add_option("--speed", options.speed, "Times the recorded rate, or max")->type_name("X|max")->capture_default_str();
-  command.add_option("--map", options.map, "Stored map of earlier drives to go on in: a folder that --store-map wrote, map_store's folder or its file")->type_name("DIR|FILE");
-  command.add_flag("--store-map", options.stores_map, "Write the submaps into the results' folder, as map.sqlite, for --map");
+  command.add_option("--scenario", options.scenario, "Simulated drive instead of a recorded one; slammot simulate --list names them")->type_name("NAME");
+  command.add_option("--seed", options.seed, "Seed of world, traffic and noise; default: the scenario's own")->type_name("N");
+  command.add_option("--output", options.output, "Folder for the results; created if missing")->required()->type_name("DIR");
+  command.add_option("--profile", options.profile, "urban, indoor, another profile's name, or a file; default: by the drive's own figures")->type_name("NAME");
+  command.add_option("--config", options.config, "Settings that override the profile's")->type_name("FILE");
+  command.add_option("--speed", options.speed, "Multiple of the recorded rate, or max")->type_name("X|max")->capture_default_str();
+  command.add_option("--map", options.map, "Stored map in which to continue: a folder written with --store-map, map_store's folder or its file")->type_name("DIR|FILE");
+  command.add_flag("--store-map", options.stores_map, "Write the submaps to map.sqlite in the results, for --map");
 }
 
 files::Result<Job> prepare_job(const JobOptions& options) {

@@ -164,10 +164,10 @@ int run(const RunOptions& run_options) {
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("run", "Take a drive, recorded or simulated, through all stages in this one process");
+  CLI::App* const command = app.add_subcommand("run", "Process a recorded or simulated drive in this one process");
   const auto options = std::make_shared<RunOptions>();
   add_job_options(*command, options->job);
-  command->add_option("--iterations", options->iterations, "Times a scan is matched at most, each time without what was then found to move")
+  command->add_option("--iterations", options->iterations, "Maximum number of matches of a scan, each without what detection then labelled as moving")
       ->type_name("N")
       ->check(CLI::Range(1, kMostIterations))
       ->capture_default_str();

@@ -29,7 +29,7 @@ constexpr std::array<double, 4> kShares = {0.35, 0.09, 0.49, 0.07};
 constexpr double kShareIndoors = 1e-6;  ///< Of vehicles.
 
 /// How likely blobs are to have been seen whole, both ends at once, and for who walks besides how their extents are distributed.
-/// Of a vehicle something shows behind something else, and what is taken for its end is one now and then. Counted: decision 34.
+/// Of a vehicle something shows behind something else, and what is taken for its end is one now and then. Counted: docs/decisions/object-covariance.md.
 constexpr double kWalkerExtentM = 0.55;
 constexpr double kWalkerExtentSigmaM = 0.25;
 constexpr std::array<double, 4> kDensityOfWhole = {1.0, 0.2, 0.01, 0.01};

@@ -12,7 +12,7 @@ constexpr double kSpreadWorth = 4.0;       ///< In bodies: what is known of the 
 constexpr double kElsewhereShare = 0.05;   ///< Of those here: they are as those anywhere.
 constexpr double kLeastSigmaShare = 0.1;   ///< No place is more uniform, nor measured better.
 
-// Counted: decision 45. Echoes lie off the sides of exact boxes, too, by what the scanner errs, which averages out.
+// Counted: docs/decisions/object-covariance.md. Echoes lie off the sides of exact boxes, too, by what the scanner errs, which averages out.
 constexpr double kOffSidesOfBoxes = 0.25;
 constexpr double kOffSidesAsTaken = 0.75;
 constexpr double kShapeWorth = 2.0;        ///< In bodies: bodies of a place differ more than places do.

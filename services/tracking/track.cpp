@@ -291,7 +291,7 @@ double echo_share(const Track& track, const TrackingConfig& config) {
 }
 
 /// How likely something is not there as it is drawn, for beams go through where it should be, or echoes lie off its sides by much
-/// more than they err. Counted: decision 45.
+/// more than they err. Counted: docs/decisions/object-covariance.md.
 double doubt_of_box(const Track& track, const TrackingConfig& config) {
   constexpr double kUsualPassed = 0.1;      // beside bodies that are a little smaller, or turned a little
   constexpr double kIfAllPassed = 0.35;

@@ -200,7 +200,7 @@ constexpr double kSureOdds = 3.0;
 bool is_vehicle(const Track& track);
 
 /// Whether somebody is surely on foot, by the sizes and speeds that were seen of them until now: they go on to be for as long as the
-/// filter says that they fly (decision 48), and get no sides: what is larger around them is company, or a wall (decision 51).
+/// filter says that they fly (docs/decisions/motion-models.md), and get no sides: what is larger around them is company, or a wall (docs/decisions/existence-and-publication.md).
 bool is_known_to_walk(const Track& track);
 
 /// Variance along each axis that the swing of the legs adds to a centre measured after_s (> 0) after the one before. The filter
@@ -245,7 +245,7 @@ void confirm(Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
 void draw_around(Track& track, const Glimpse& glimpse, const TrackingConfig& config);
 
 /// The same once nothing but its echoes, which lie off its sides, have kept it from being confirmed for a while: what hardly answers is begun
-/// around a few echoes that lie anyhow, and never gets rid of that body. Decision 52.
+/// around a few echoes that lie anyhow, and never gets rid of that body. docs/decisions/existence-and-publication.md.
 void draw_anew_if_askew(Track& track, const Glimpse& glimpse, double time_s, const TrackingConfig& config);
 
 /// The same place, and another velocity.
@@ -275,7 +275,7 @@ Body inner_part_of(const Track& track);
 /// Whether what has been seen suffices to publish the track as an object that moves.
 bool has_proven_to_move(const Track& track, const TrackingConfig& config);
 
-/// Whether it would, but that its echoes do not lie on its sides. Decision 52.
+/// Whether it would, but that its echoes do not lie on its sides. docs/decisions/existence-and-publication.md.
 bool is_drawn_askew(const Track& track, const TrackingConfig& config);
 
 /// Whether a track so old is no longer waited for to prove that it moves. What has travelled, and is surely fast, lacks but votes, or
