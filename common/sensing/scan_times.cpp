@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slammot::sensing {
 namespace {
@@ -93,25 +94,46 @@ bool are_whole_seconds(const Stamps& stamps) {
   return share_of(stamps, [](std::int64_t stamp_ns) { return stamp_ns % kSecondNs == 0; }) >= kShareOfMost;
 }
 
-/// Speed at which nine of ten steps stay, by stamps taken as seconds.
-double usual_speed_mps(std::span<const ScanMark> scans, const Stamps& stamps) {
-  std::vector<double> speeds;
+/// Mean speed by stamps taken as seconds, without pauses; also of stamps that repeat because they are coarse.
+double mean_speed_mps(std::span<const ScanMark> scans, const Stamps& stamps, double usual_step_s) {
+  constexpr double kPauseSteps = 100.0;
+  double way_m = 0.0;
+  double time_s = 0.0;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     const double step_s = 1e-9 * static_cast<double>(stamps[i] - stamps[i - 1]);
-    if (step_s > 0.0) speeds.push_back(scans[i].way_m / step_s);
+    if (step_s < 0.0 || step_s > kPauseSteps * usual_step_s) continue;
+    way_m += scans[i].way_m;
+    time_s += step_s;
   }
-  return percentile(std::move(speeds), 0.9);
+  return time_s > 0.0 ? way_m / time_s : 0.0;
 }
 
-/// Numbers per second; 1 for seconds. Nobody scans every 5 s, unless scans were left out for want of motion: a speed by
-/// odometry that is one of vehicles says so.
+/// Log-prior of a value that is spread over decades [nats].
+double log_of_decades(double value, double middle, double sigma_decades) { return -0.5 * std::pow(std::log10(value / middle) / sigma_decades, 2); }
+
+/// Numbers per second; 1 for seconds. The unit with the likeliest time between scans and, where odometry moves, speed.
 std::int64_t units_per_second(std::span<const ScanMark> scans, const Stamps& stamps) {
-  constexpr double kSlowestVehicleMps = 0.02;
+  constexpr double kUsualPeriod_s = 0.15;     // 75 Hz to a scan every 20 s are within two and a half sigma
+  constexpr double kPeriodDecades = 0.8;
+  constexpr double kUsualSpeed_mps = 1.6;
+  constexpr double kSpeedDecades = 0.6;
+  constexpr double kForSeconds = 2.0;         // nats; most logs are in seconds,
+  constexpr double kForSecondsIfWhole = -1.0; // but seldom in whole ones
   const double step = 1e-9 * static_cast<double>(median_advance_ns(stamps));
-  if (step < 5.0 || (step < 60.0 && !are_whole_seconds(stamps))) return 1;
-  if (usual_speed_mps(scans, stamps) > kSlowestVehicleMps && step < 60.0) return 1;
-  if (step < 5e3) return 1'000;
-  return step < 5e6 ? 1'000'000 : kSecondNs;
+  if (!(step > 0.0)) return 1;
+  const double speed = mean_speed_mps(scans, stamps, step);
+  std::int64_t best = 1;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const std::int64_t units : {std::int64_t{1}, std::int64_t{1'000}, std::int64_t{1'000'000}, kSecondNs}) {
+    const double numbers = static_cast<double>(units);
+    double log_prior = log_of_decades(step / numbers, kUsualPeriod_s, kPeriodDecades);
+    if (speed > 0.0) log_prior += log_of_decades(speed * numbers, kUsualSpeed_mps, kSpeedDecades);
+    if (units == 1) log_prior += are_whole_seconds(stamps) && step >= 5.0 ? kForSecondsIfWhole : kForSeconds;
+    if (log_prior <= most) continue;
+    most = log_prior;
+    best = units;
+  }
+  return best;
 }
 
 /// Largest of 10, 1, 0.1 and 0.01 s that all stamps are multiples of; 1 ns for none.

@@ -77,6 +77,23 @@ TEST(JudgeScanStamps, ConvertsOtherUnits) {
   }
 }
 
+/// Numbers that are no whole ones, a fast vehicle, and a robot that logs every five seconds: period and speed decide together.
+TEST(JudgeScanStamps, TellsMillisecondsByPeriodAndSpeed) {
+  struct Case {
+    std::int64_t period_ns;
+    double speed_mps;
+  };
+  for (const auto& [period_ns, speed_mps] : {Case{26'666'700, 13.0}, Case{26'666'700, 0.5}, Case{5'243'170'000, 0.17}, Case{11'370'000'000, 0.3}, Case{100'000'000, 0.0}}) {
+    const auto times_ns = steady_times_ns(200, period_ns);
+    for (const std::int64_t units : {std::int64_t{1}, std::int64_t{1'000}}) {
+      std::vector<ScanMark> scans = marks(times_ns, [&](std::int64_t t) { return t * units; });
+      for (ScanMark& scan : scans) scan.way_m *= speed_mps / 0.4;
+      const ScanTimes times = judge_scan_stamps(scans);
+      EXPECT_DOUBLE_EQ(times.unit_s, 1.0 / static_cast<double>(units)) << period_ns << " ns, " << speed_mps << " m/s";
+    }
+  }
+}
+
 TEST(JudgeScanStamps, SpreadsWholeSecondsOfASteadyScannerEvenly) {
   const auto times_ns = steady_times_ns(400, 26'667'000);
   const ScanTimes times = judge_scan_stamps(marks(times_ns, [](std::int64_t t) { return t / kSecond * kSecond; }));
