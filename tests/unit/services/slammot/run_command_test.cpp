@@ -214,6 +214,15 @@ TEST_F(RunCommand, RefusesNoIterationAndBenchHasNone) {
   EXPECT_THAT(bench.standard_error, HasSubstr("--iterations"));
 }
 
+TEST_F(RunCommand, RefusesAnImplementationThatIsNotThere) {
+  write(room_log(20));
+  const std::string settings = folder_ / "settings.textproto";
+  std::ofstream(settings) << "implementations { tracking: \"gready\" }";
+  const Outcome unknown = run({"--config", settings});
+  EXPECT_EQ(unknown.exit_code, kExitFault);
+  EXPECT_THAT(unknown.standard_error, HasSubstr("no such implementation; there are: standard"));
+}
+
 TEST_F(RunCommand, WantsEitherALogOrAScenario) {
   const auto expect_refused = [&](std::vector<std::string> words, const std::string& reason) {
     words.insert(words.begin(), {"run", "--output", (folder_ / "out").string()});
