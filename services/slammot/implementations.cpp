@@ -3,20 +3,44 @@
 #include <algorithm>
 #include <cassert>
 
+#include "common/config/overlay.hpp"
+#include "common/config/print.hpp"
+#include "examples/greedy_tracker/greedy_tracker.hpp"
+#include "examples/greedy_tracker/greedy_tracker_fields.hpp"
+#include "examples/icp_localizer/icp_localizer.hpp"
+#include "examples/icp_localizer/icp_localizer_fields.hpp"
 #include "services/localization/localizer.hpp"
 #include "services/tracking/tracker.hpp"
 
 namespace slammot {
 namespace {
 
+/// Settings of an implementation that reads some fields of its stage by name: as its own process gets them from the same profile.
+template <class Config>
+Config settings_from(Profile profile, std::string_view stage, const config::FieldTable<Config>& fields) {
+  Config config;
+  const std::vector<config::BoundStage> bound = {config::bind_stage(stage, fields, config)};
+  [[maybe_unused]] const auto fault = config::overlay_text(config::print(bind_stages(profile)), "profile", bound);
+  assert(!fault);
+  return config;
+}
+
 constexpr LocalizationImplementation kLocalization[] = {
     {"standard", "localization", true,
      [](const Profile& profile, work::SideWork* help) -> std::unique_ptr<stages::LocalizationStage> { return std::make_unique<localization::Localizer>(profile.localization, help); }},
+    {"icp", "icp-localizer", false,
+     [](const Profile& profile, work::SideWork*) -> std::unique_ptr<stages::LocalizationStage> {
+       return std::make_unique<icp_localizer::IcpLocalizer>(settings_from(profile, "localization", icp_localizer::icp_localizer_fields()));
+     }},
 };
 
 constexpr TrackingImplementation kTracking[] = {
     {"standard", "tracking", true,
      [](const Profile& profile, work::SideWork* help) -> std::unique_ptr<stages::TrackingStage> { return std::make_unique<tracking::Tracker>(profile.tracking, help); }},
+    {"greedy", "greedy-tracker", true,
+     [](const Profile& profile, work::SideWork*) -> std::unique_ptr<stages::TrackingStage> {
+       return std::make_unique<greedy_tracker::GreedyTracker>(settings_from(profile, "tracking", greedy_tracker::greedy_tracker_fields()));
+     }},
 };
 
 template <class Stage>

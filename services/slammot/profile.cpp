@@ -13,8 +13,8 @@ namespace {
 const config::FieldTable<ImplementationChoice>& implementation_fields() {
   using C = ImplementationChoice;
   static const config::FieldTable<C> table = {
-      {"localization", &C::localization, "Implementation of localization that run and bench use: standard."},
-      {"tracking", &C::tracking, "Implementation of tracking that run and bench use: standard."},
+      {"localization", &C::localization, "Implementation of localization that run and bench use: standard or icp."},
+      {"tracking", &C::tracking, "Implementation of tracking that run and bench use: standard or greedy."},
   };
   return table;
 }

@@ -6,9 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/slammot/pipeline.hpp"
+
 namespace slammot {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -44,7 +47,35 @@ TEST(Implementations, NamesTheKnownOnesWhereANameIsUnknown) {
   EXPECT_THAT(*fault, HasSubstr("tracking: \"gready\""));
   for (const TrackingImplementation& one : tracking_implementations()) EXPECT_THAT(*fault, HasSubstr(std::string(one.name)));
   EXPECT_TRUE(find_fault({.localization = "", .tracking = "standard"}));
-  EXPECT_FALSE(find_fault({.localization = "standard", .tracking = "standard"}));
+  EXPECT_FALSE(find_fault({.localization = "icp", .tracking = "greedy"}));
+}
+
+TEST(Implementations, ReplaceTheStageOfThePipeline) {
+  Profile profile;
+  profile.implementations = {.localization = "icp", .tracking = "greedy"};
+  EXPECT_THAT(replaced_stages(profile.implementations), ElementsAre("localization: icp", "tracking: greedy"));
+  const auto counters = Pipeline(profile).counters();
+  EXPECT_TRUE(counters.at("localization").contains("unmatched_scans"));
+  EXPECT_FALSE(counters.at("localization").contains("odometry_jumps"));
+  EXPECT_FALSE(counters.at("tracking").contains("points_restored"));
+}
+
+/// The local map's cells are the profile's.
+TEST(Implementations, GetTheSettingsOfTheStageThatTheyReplace) {
+  Profile profile;
+  profile.implementations.localization = "icp";
+  profile.localization.map.cell_size_m = 0.1;
+  profile.localization.map.side_m = 50.0;
+  Pipeline pipeline(profile);
+  sensing::LaserScan scan;
+  scan.stamp_ns = 1;
+  scan.scanner.max_range_m = 30.0;
+  scan.scanner.beam_step_rad = 0.01;
+  scan.range_m.assign(100, 5.0F);
+  pipeline.take(scan);
+  pipeline.finish();
+  ASSERT_EQ(pipeline.record().submaps().size(), 1U);
+  EXPECT_EQ(pipeline.record().submaps().begin()->second.cell_size_m, 0.1);
 }
 
 }  // namespace
