@@ -48,9 +48,9 @@ class Examples(unittest.TestCase):
     def bench(self, settings, name, during=lambda process: None):
         """Names of the programs that ran."""
         process = subprocess.Popen(self.command("bench", settings, name), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        programs = wait_until(lambda: len(children_of(process.pid)) == 6 and set(children_of(process.pid).values()), "six services")
-        during(process)
         try:
+            programs = wait_until(lambda: len(children_of(process.pid)) == 6 and set(children_of(process.pid).values()), "six services")
+            during(process)
             words, _ = process.communicate(timeout=120 * PATIENCE)
         finally:
             process.kill()
