@@ -23,8 +23,8 @@ class TrackingStage {
   virtual ~TrackingStage() = default;
 
   /// Takes one scan. Answers every scan, also one that is older than its predecessor: `labels` has one entry a beam, `objects` holds
-  /// confirmed and tentative tracks at the scan's stamp, in odom. workspace: an earlier result of which only the memory is reused.
-  virtual TrackingResult track(const flow::SegmentedScan& scan, TrackingResult workspace) = 0;
+  /// confirmed and tentative tracks at the scan's stamp, in odom. Valid until the next call.
+  virtual const TrackingResult& step(const flow::SegmentedScan& scan) = 0;
 
   /// Counters for the report, by name; none ever falls.
   virtual std::map<std::string, std::uint64_t> named_counters() const = 0;

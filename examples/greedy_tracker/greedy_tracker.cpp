@@ -14,7 +14,6 @@ namespace {
 
 using flow::PointLabel;
 using flow::Segment;
-using stages::TrackingResult;
 using Eigen::Matrix2d;
 using Eigen::Matrix4d;
 using Eigen::Vector2d;
@@ -37,13 +36,13 @@ Matrix2d measurement_covariance(const Segment& segment, const GreedyTrackerConfi
   return segment.centroid_covariance_m2 + sigma_m * sigma_m * Matrix2d::Identity();
 }
 
-flow::ScanLabels unlabelled(const flow::SegmentedScan& scan, flow::ScanLabels labels) {
+/// Detection's labels, until tracking knows better.
+void begin_labels(const flow::SegmentedScan& scan, flow::ScanLabels& labels) {
   labels.stamp_ns = scan.stamp_ns;
   labels.sequence = scan.sequence;
   labels.scanner_id = scan.scanner_id;
   labels.restored.clear();
   labels.labels = scan.labels;
-  return labels;
 }
 
 bool may_begin(const Segment& segment, const GreedyTrackerConfig& config) {
@@ -54,7 +53,7 @@ void label(const Segment& segment, PointLabel label, flow::ScanLabels& labels) {
   for (const std::uint16_t beam : segment.beams) labels.labels[beam] = label;
 }
 
-void set_header(flow::TrackedObjects& objects, const flow::SegmentedScan& scan) {
+void set_header(const flow::SegmentedScan& scan, flow::TrackedObjects& objects) {
   objects.stamp_ns = scan.stamp_ns;
   objects.sequence = scan.sequence;
   objects.map_from_odom = scan.map_from_odom;
@@ -65,19 +64,18 @@ void set_header(flow::TrackedObjects& objects, const flow::SegmentedScan& scan) 
 
 }  // namespace
 
-TrackingResult GreedyTracker::track(const flow::SegmentedScan& scan, TrackingResult workspace) {
-  TrackingResult result = std::move(workspace);
-  result.labels = unlabelled(scan, std::move(result.labels));
+const stages::TrackingResult& GreedyTracker::step(const flow::SegmentedScan& scan) {
+  begin_labels(scan, result_.labels);
   if (scans_ == 0 || scan.stamp_ns >= last_stamp_ns_) {
     predict(scan.stamp_ns);
     const std::vector<std::size_t> paired = segment_of_each_track(scan.segments);
     // Only what a confirmed track has travelled with stays out of the map: the map so unlearns what it wrongly holds to be free.
     for (const Segment& segment : scan.segments)
-      if (segment.label != PointLabel::kUnknown) label(segment, PointLabel::kStationary, result.labels);
+      if (segment.label != PointLabel::kUnknown) label(segment, PointLabel::kStationary, result_.labels);
     for (std::size_t t = 0; t < paired.size(); ++t) {
       if (paired[t] == kNone) continue;
       correct(tracks_[t], scan.segments[paired[t]], scan.stamp_ns);
-      if (tracks_[t].object.confirmed) label(scan.segments[paired[t]], PointLabel::kMoving, result.labels);
+      if (tracks_[t].object.confirmed) label(scan.segments[paired[t]], PointLabel::kMoving, result_.labels);
     }
     for (std::size_t s = 0; s < scan.segments.size(); ++s)
       if (std::ranges::count(paired, s) == 0 && may_begin(scan.segments[s], config_)) begin_track(scan.segments[s], scan.stamp_ns);
@@ -86,10 +84,10 @@ TrackingResult GreedyTracker::track(const flow::SegmentedScan& scan, TrackingRes
   } else {
     ++late_scans_;
   }
-  set_header(result.objects, scan);
-  result.objects.objects.clear();
-  for (const Track& track : tracks_) result.objects.objects.push_back(described(track));
-  return result;
+  set_header(scan, result_.objects);
+  result_.objects.objects.clear();
+  for (const Track& track : tracks_) result_.objects.objects.push_back(described(track));
+  return result_;
 }
 
 void GreedyTracker::predict(std::int64_t stamp_ns) {

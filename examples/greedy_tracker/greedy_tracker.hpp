@@ -29,7 +29,7 @@ class GreedyTracker final : public stages::TrackingStage {
  public:
   explicit GreedyTracker(const GreedyTrackerConfig& config) : config_(config) {}
 
-  stages::TrackingResult track(const flow::SegmentedScan& scan, stages::TrackingResult workspace = {}) override;
+  const stages::TrackingResult& step(const flow::SegmentedScan& scan) override;
   std::map<std::string, std::uint64_t> named_counters() const override;
 
  private:
@@ -50,6 +50,7 @@ class GreedyTracker final : public stages::TrackingStage {
 
   GreedyTrackerConfig config_;
   std::vector<Track> tracks_;
+  stages::TrackingResult result_;        ///< Of the last step().
   std::int64_t last_stamp_ns_ = 0;
   std::uint32_t next_id_ = 1;
   std::uint64_t scans_ = 0;

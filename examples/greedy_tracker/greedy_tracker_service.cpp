@@ -27,9 +27,7 @@ void GreedyTrackerService::take(const slammot_SegmentedScan& sample) {
   // A scan that is sent again: its sender missed the answer.
   if (last != last_results_.end() && scan->stamp_ns <= last->second.labels.stamp_ns) return publish(last->second);
   const app::Stopwatch stopwatch(context_.status().latency("track"));
-  stages::TrackingResult& result = last_results_[scan->scanner_id];
-  result = tracker_.track(*scan, std::move(result));
-  publish(result);
+  publish(last_results_[scan->scanner_id] = tracker_.step(*scan));
 }
 
 /// Tracks of another map or another frame odom mean nothing in this one.

@@ -72,8 +72,7 @@ class Pipeline {
   std::unique_ptr<stages::TrackingStage> tracker_;
   loop_closing::LoopCloser loop_closer_;
   flow::LocalizedScan localized_done_with_;   ///< Memory for the next one,
-  flow::SegmentedScan segmented_done_with_;   ///< and so,
-  stages::TrackingResult tracked_done_with_; ///< and so.
+  flow::SegmentedScan segmented_done_with_;   ///< and so.
   files::RunRecord record_;
   StageTimes times_;
   int iterations_;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/association/assignment.hpp"
@@ -60,7 +61,8 @@ class Tracker final : public stages::TrackingStage {
 
   /// Takes one scan and tells what is believed after it, and what each of its points is. done_with: a result that nobody needs any
   /// more; of it nothing but memory is used. Given back one, this allocates nothing while no more is in view than ever was.
-  TrackingResult track(const flow::SegmentedScan& scan, TrackingResult done_with = {}) override;
+  TrackingResult track(const flow::SegmentedScan& scan, TrackingResult done_with = {});
+  const TrackingResult& step(const flow::SegmentedScan& scan) override { return result_ = track(scan, std::move(result_)); }
 
   /// Goes on with what was published last, after a restart: ids stay and are not given again. Forgets all else.
   void take_up(const flow::TrackedObjects& objects);
@@ -173,6 +175,7 @@ class Tracker final : public stages::TrackingStage {
   std::uint32_t next_id_ = 1;
   std::int64_t last_stamp_ns_ = 0;
   bool has_scan_ = false;
+  TrackingResult result_;                       ///< Of the last step().
 };
 
 }  // namespace slammot::tracking

@@ -72,7 +72,7 @@ struct Scene {
     for (double time_s = from_s; time_s < to_s; time_s += kPeriodS) {
       std::vector<flow::Segment> segments;
       for (const Mover& mover : movers) segments.push_back(moving_segment(mover.at(time_s)));
-      result = tracker.track(scan_of(time_s, std::move(segments)));
+      result = tracker.step(scan_of(time_s, std::move(segments)));
     }
   }
 };
@@ -133,7 +133,7 @@ TEST(GreedyTracker, GivesASegmentToTheNearestOfTwoTracks) {
   ASSERT_THAT(scene.result.objects.objects, SizeIs(2));
   const std::int64_t last_ns = scene.result.objects.stamp_ns;
   const double next_s = static_cast<double>(last_ns) * 1e-9 + kPeriodS;
-  scene.result = scene.tracker.track(scan_of(next_s, {moving_segment({10.6, 3.0 * next_s})}));  // nearer to the second one
+  scene.result = scene.tracker.step(scan_of(next_s, {moving_segment({10.6, 3.0 * next_s})}));  // nearer to the second one
   ASSERT_THAT(scene.result.objects.objects, SizeIs(2));
   EXPECT_EQ(scene.result.objects.objects.at(0).last_seen_ns, last_ns);
   EXPECT_EQ(scene.result.objects.objects.at(1).last_seen_ns, scene.result.objects.stamp_ns);
@@ -171,7 +171,7 @@ TEST(GreedyTracker, AnswersALateScanWithoutGoingBackInTime) {
   Scene scene{.movers = {{{10.0, 0.0}, {0.0, 5.0}}}};
   scene.run(0.0, 1.0);
   const auto now = confirmed(scene.result).at(0);
-  const stages::TrackingResult late = scene.tracker.track(scan_of(0.5, {moving_segment({10.0, 2.5})}));
+  const stages::TrackingResult late = scene.tracker.step(scan_of(0.5, {moving_segment({10.0, 2.5})}));
   EXPECT_THAT(late.labels.labels, SizeIs(3));
   EXPECT_EQ(confirmed(late).at(0).last_seen_ns, now.last_seen_ns);
   EXPECT_EQ(scene.tracker.named_counters().at("late_scans"), 1U);
@@ -188,7 +188,7 @@ TEST(GreedyTracker, FollowsACarThroughDetection) {
   for (std::uint32_t scan = 0; scan < 75; ++scan) {
     time_s = scan * kPeriodS;
     street.unknown = {{{20.0, -15.0 + 8.0 * time_s, M_PI / 2.0}}};
-    result = tracker.track(detection::detect(street.scan(std::llround(time_s * 1e9), scan), {}));
+    result = tracker.step(detection::detect(street.scan(std::llround(time_s * 1e9), scan), {}));
     for (const flow::TrackedObject& object : confirmed(result)) ids.insert(object.track_id);
   }
   EXPECT_THAT(ids, SizeIs(1));
