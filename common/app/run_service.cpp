@@ -1,6 +1,7 @@
 #include "common/app/run_service.hpp"
 
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -14,11 +15,6 @@
 
 namespace slammot::app {
 namespace {
-
-std::string with_dashes(std::string name) {
-  std::ranges::replace(name, '_', '-');
-  return name;
-}
 
 int refuse(const std::string& program, const std::string& why) {
   std::cerr << program << ": " << why << "\n";
@@ -55,7 +51,7 @@ int serve_or_say_why_not(const std::string& program, const ServiceDescription& d
 }  // namespace
 
 int run_service(int argc, char** argv, const ServiceDescription& description) {
-  const std::string program = "slammot-" + with_dashes(description.name);
+  const std::string program = std::filesystem::path(argv[0]).filename();  // not by the name: another program may take the service's place
   CLI::App command_line(description.purpose, program);
   ServiceOptions options;
   command_line.set_version_flag("--version", program + " " + std::string(kVersion));

@@ -23,7 +23,7 @@ class StartupFailure : public std::runtime_error {
 
 /// What distinguishes one service's main from another's.
 struct ServiceDescription {
-  std::string name;     ///< As in slammot-<name>, with '_'.
+  std::string name;     ///< Of the service on the bus.
   std::string purpose;  ///< One sentence for --help.
   std::vector<config::BoundStage> stages;
   std::function<void(CLI::App&)> add_options;

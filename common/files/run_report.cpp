@@ -175,6 +175,7 @@ std::string to_json_text(const RunRecord& record, const RunReport& report, doubl
                {"distance_m", short_number(travelled_m)},
                {"counters", report.counters},
                {"closures", closures_of(record)}};
+  if (!report.replaced_stages.empty()) json["replaced_stages"] = report.replaced_stages;
   if (report.odometry) json["odometry"] = odometry_of(*report.odometry, report.plan.figures.has_clock);
   json["measured"] = measured_of(report.measured);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

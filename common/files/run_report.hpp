@@ -37,6 +37,7 @@ struct RunReport {
   std::string input;           ///< File name, without its folder.
   std::string profile;
   std::string profile_reason;
+  std::vector<std::string> replaced_stages;   ///< "tracking: greedy", of each whose implementation is not the default.
   LogPlan plan;
   double sweep_s = 0.0;        ///< From the first beam to the last, as was assumed.
   LogFaults faults;

@@ -14,6 +14,7 @@
 #include "common/flow/tracked_objects.hpp"
 #include "common/sensing/odometry_episodes.hpp"
 #include "common/sensing/scan.hpp"
+#include "common/stages/localization_stage.hpp"
 #include "common/work/side_work.hpp"
 #include "services/localization/checkpoint.hpp"
 #include "services/localization/expected_objects.hpp"
@@ -38,13 +39,13 @@ namespace slammot::localization {
 
 /// Estimates the pose of the vehicle and the map around it, scan by scan: passes each scan through the parts below, in their
 /// order, and counts what they say. Not thread-safe; reads no clock.
-class Localizer {
+class Localizer final : public stages::LocalizationStage {
  public:
   /// help, if any, does what the next match does not need, which is most of mapping, and half of the polar view. The results are the same with it and without.
   /// It must outlive this.
   explicit Localizer(const LocalizerConfig& config, work::SideWork* help = nullptr);
 
-  void add_odometry(const sensing::Odometry& sample) { prediction_.add(sample); }
+  void add_odometry(const sensing::Odometry& sample) override { prediction_.add(sample); }
 
   /// Whether waiting for more odometry could still improve the prediction at the stamp.
   bool has_odometry_for(std::int64_t stamp_ns) const { return prediction_.reaches(stamp_ns); }
@@ -52,17 +53,17 @@ class Localizer {
   /// Pose of the scan, its points without the sweep's motion, and what the map expected of each beam.
   /// None for a scan that is a duplicate (of the same scanner and stamp), out of order, or far ahead of all before it. Remembers the scan until its labels come.
   /// workspace is memory for the result: any earlier one that nobody needs any more.
-  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan, flow::LocalizedScan workspace = {});
+  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan, flow::LocalizedScan workspace = {}) override;
 
   /// The scan that was localized last, matched once more from the same prediction and against the same map, without the
   /// points that its labels keep out of the SO-map; in place of what was remembered of it. Iterated SLAM with DATMO of Wang 2004, Section 6.2.
   /// None, and nothing changed, where that cannot be or cannot be better: the labels leave out the same points as before or
   /// too many for a match that is believed, it is the first scan, the vehicle is or was lost, it has been integrated, or another came since.
-  std::optional<flow::LocalizedScan> localize_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels);
+  std::optional<flow::LocalizedScan> localize_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) override;
 
   /// What tracking says to be there: left out of the next matches. Where one that surely moves is in the scan of which the labels
   /// come next nothing stands.
-  void expect(const flow::TrackedObjects& objects) { expected_.expect(objects); }
+  void expect(const flow::TrackedObjects& objects) override { expected_.expect(objects); }
 
   /// Labels by detection, used when tracking's do not come.
   void note(const flow::SegmentedScan& segmented) { integration_.note(segmented); }
@@ -71,24 +72,24 @@ class Localizer {
   bool awaits_labels() const { return integration_.awaits_labels(); }
 
   /// Adds the scan, and any that still wait before it, to the maps. Unknown scans are ignored.
-  void integrate(const flow::ScanLabels& labels);
+  void integrate(const flow::ScanLabels& labels) override;
 
   /// Submap that was finished since the last call.
-  std::optional<flow::Submap> take_finished_submap() { return submaps_.take_finished(); }
+  std::optional<flow::Submap> take_finished_submap() override { return submaps_.take_finished(); }
 
   /// Integrates what still waits and ends the submap in progress, as at the end of a drive. Should the drive go on, the
   /// next scan begins the next submap.
-  void finish();
+  void finish() override;
 
-  void correct(const flow::GraphCorrection& correction) { submaps_.correct(correction); }
+  void correct(const flow::GraphCorrection& correction) override { submaps_.correct(correction); }
 
   /// Goes on in a stored map: the drive's first submap follows the map's last one and is tied to it by next to nothing.
   /// Loop closing looks for where it lies; until then poses in map begin where that last one is. To be told again, as the
   /// map comes to be known, until the first scan; later it changes nothing.
-  void go_on_after(const flow::CorrectedSubmap& last);
+  void go_on_after(const flow::CorrectedSubmap& last) override;
 
   /// Whether scans fit the local map, or its place in it is looked for.
-  bool is_lost() const { return monitor_.is_lost(); }
+  bool is_lost() const override { return monitor_.is_lost(); }
 
   const geometry::Pose2& map_from_odom() const { return submaps_.map_from_odom(); }
   const sensing::MotionCalibration& calibration() const { return prediction_.estimate().calibration; }
@@ -98,8 +99,11 @@ class Localizer {
   bool applies_stamp_offset() const { return prediction_.state().applies_stamp_offset; }
   /// What was concluded of odometry so far; since the last restore().
   sensing::OdometryConclusions odometry_conclusions() const;
+  std::optional<sensing::OdometryConclusions> verdict_on_odometry() const override { return odometry_conclusions(); }
   const SweepFactor& sweep_factor() const { return sweep_.factor(); }
   const LocalizerCounters& counters() const { return counters_; }
+  std::map<std::string, std::uint64_t> named_counters() const override { return named(counters_); }
+  std::uint64_t maps_begun_astray() const override { return counters_.astray; }
   const LocalMap& local_map() const { return submaps_.map(); }
 
   /// Everything that is needed to go on after a crash, in a form of this build; empty before the first scan. Scans that

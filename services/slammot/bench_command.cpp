@@ -23,6 +23,7 @@
 #include "services/simulator/scenario_files.hpp"
 #include "services/slammot/collector.hpp"
 #include "services/slammot/command_line.hpp"
+#include "services/slammot/implementations.hpp"
 #include "services/slammot/job.hpp"
 #include "services/slammot/progress_bar.hpp"
 #include "services/slammot/service_processes.hpp"
@@ -60,10 +61,17 @@ files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOp
   return file;
 }
 
+/// The program that takes the part of a service.
+std::string program_of(const std::string& service, const ImplementationChoice& choice) {
+  if (service == "localization") return "slammot-" + std::string(localization_of(choice).program);
+  if (service == "tracking") return "slammot-" + std::string(tracking_of(choice).program);
+  return "slammot-" + service;
+}
+
 std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& options, const std::filesystem::path& settings, const std::filesystem::path& state_folder) {
   std::vector<ServiceProcess> services;
   for (const std::string name : {"map-store", "loop-closing", "localization", "detection", "tracking", "ingest"}) {
-    std::vector<std::string> arguments = {folder_of_this_program() / ("slammot-" + name), "--vehicle", kVehicle,
+    std::vector<std::string> arguments = {folder_of_this_program() / program_of(name, job.profile.implementations), "--vehicle", kVehicle,
                                           "--domain", std::to_string(options.domain_id), "--state-dir", state_folder,
                                           "--profile", job.profile_name};
     if (!settings.empty()) arguments.insert(arguments.end(), {"--config", settings});

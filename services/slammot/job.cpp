@@ -17,6 +17,7 @@
 #include "common/files/log_profile.hpp"
 #include "services/ingest/log_source.hpp"
 #include "services/ingest/topic_arguments.hpp"
+#include "services/slammot/implementations.hpp"
 #include "services/simulator/live_drive.hpp"
 #include "services/simulator/scenario_files.hpp"
 
@@ -42,14 +43,21 @@ files::Result<std::optional<double>> parse_speed(const std::string& speed) {
   return std::optional<double>(times);
 }
 
+std::optional<Error> find_fault_of_implementations(const JobOptions& options, const ImplementationChoice& choice) {
+  if (const auto fault = find_fault(choice)) return Error{*fault};
+  if (!options.map.empty() && !localization_of(choice).takes_up_stored_maps) return Error{"--map: the localization '" + choice.localization + "' does not go on in a stored map"};
+  return std::nullopt;
+}
+
 std::optional<Error> load_settings(const JobOptions& options, const std::string& profile_name, Profile& profile) {
   const std::vector<config::BoundStage> stages = bind_stages(profile);
   const auto profile_file = config::find_profile(profile_name);
   if (!profile_file) return Error{config::unknown_profile(profile_name)};
   if (const auto fault = config::overlay_file(*profile_file, stages)) return Error{fault->text()};
-  if (options.config.empty()) return std::nullopt;
-  if (const auto fault = config::overlay_file(options.config, stages)) return Error{fault->text()};
-  return std::nullopt;
+  if (!options.config.empty()) {
+    if (const auto fault = config::overlay_file(options.config, stages)) return Error{fault->text()};
+  }
+  return find_fault_of_implementations(options, profile.implementations);
 }
 
 std::optional<Error> find_fault_of_source(const JobOptions& options) {
@@ -189,6 +197,7 @@ std::string describe_job(const Job& job, const JobOptions& options) {
   lines += files::describe_scanners(job.log.plan());
   if (options.scenario.empty()) lines += "odometry: " + files::describe_odometry(job.log.plan()) + "\n";
   for (const std::string& finding : files::describe_findings(job.log.plan())) lines += "warning:  " + finding + "\n";
+  for (const std::string& stage : replaced_stages(job.profile.implementations)) lines += "replaced: " + stage + "\n";
   return lines + text("profile:  %s (%s)\n", job.profile_name.c_str(), job.profile_reason.c_str());
 }
 
@@ -207,6 +216,7 @@ files::RunReport report_of(const Job& job, const JobOptions& options, const std:
   report.sweep_s = job.sweep_s;
   report.plan = job.log.plan();
   report.faults = job.log.faults();
+  report.replaced_stages = replaced_stages(job.profile.implementations);
   return report;
 }
 

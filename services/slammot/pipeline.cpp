@@ -2,10 +2,16 @@
 
 #include <utility>
 
+#include "services/slammot/implementations.hpp"
+
 namespace slammot {
 
 Pipeline::Pipeline(const Profile& profile, int iterations)
-    : detector_(profile.detection, &side_thread_), localizer_(profile.localization, &side_thread_), tracker_(profile.tracking, &side_thread_), loop_closer_(profile.loop_closing), iterations_(iterations) {}
+    : detector_(profile.detection, &side_thread_),
+      localizer_(localization_of(profile.implementations).make(profile, &side_thread_)),
+      tracker_(tracking_of(profile.implementations).make(profile, &side_thread_)),
+      loop_closer_(profile.loop_closing),
+      iterations_(iterations) {}
 
 /// The graph is made again from its submaps, as it was made when they came.
 void Pipeline::go_on_in(const std::vector<flow::Submap>& stored) {
@@ -13,11 +19,11 @@ void Pipeline::go_on_in(const std::vector<flow::Submap>& stored) {
     const flow::GraphCorrection correction = loop_closer_.add(submap);
     record_.add(submap);
     record_.add(correction);
-    if (!correction.submaps.empty()) localizer_.go_on_after(correction.submaps.back());
+    if (!correction.submaps.empty()) localizer_->go_on_after(correction.submaps.back());
   }
 }
 
-void Pipeline::take(const sensing::Odometry& odometry) { localizer_.add_odometry(odometry); }
+void Pipeline::take(const sensing::Odometry& odometry) { localizer_->add_odometry(odometry); }
 
 void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add_scan(scan.stamp_ns);
@@ -25,21 +31,20 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   if (!detected) return;
   if (iterations_ > 1) detected = times_.measure("iteration", [&] { return iterate(scan, *std::move(detected)); });
   auto& [localized, segmented] = *detected;
-  auto tracked = times_.measure("tracking", [&] { return tracker_.track(segmented, std::move(tracked_done_with_)); });
-  localizer_.expect(tracked.objects);
-  times_.measure("mapping", [&] { localizer_.integrate(tracked.labels); });
+  const stages::TrackingResult& tracked = times_.measure("tracking", [&]() -> decltype(auto) { return tracker_->step(segmented); });
+  localizer_->expect(tracked.objects);
+  times_.measure("mapping", [&] { localizer_->integrate(tracked.labels); });
   record_.add(localized);
   record_.add(segmented);
   record_.add(tracked.labels);
   record_.add(tracked.objects);
   localized_done_with_ = std::move(localized);
   segmented_done_with_ = std::move(segmented);
-  tracked_done_with_ = std::move(tracked);
   close_loops();
 }
 
 std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::LaserScan& scan) {
-  auto localized = times_.measure("localization", [&] { return localizer_.localize(scan, std::move(localized_done_with_)); });
+  auto localized = times_.measure("localization", [&] { return localizer_->localize(scan, std::move(localized_done_with_)); });
   if (!localized) return std::nullopt;
   auto segmented = times_.measure("detection", [&] { return detector_.detect(*localized, std::move(segmented_done_with_)); });
   return Detected{*std::move(localized), std::move(segmented)};
@@ -48,7 +53,7 @@ std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::L
 /// Tracks have a state and see the scan once, when this is over: until then what moves is said by detection alone.
 Pipeline::Detected Pipeline::iterate(const sensing::LaserScan& scan, Detected detected) {
   for (int iteration = 1; iteration < iterations_; ++iteration) {
-    auto localized = localizer_.localize_again(scan, detected.segmented.labels);
+    auto localized = localizer_->localize_again(scan, detected.segmented.labels);
     if (!localized) return detected;
     auto segmented = detector_.detect(*localized, std::move(detected.segmented));
     detected = {*std::move(localized), std::move(segmented)};
@@ -59,20 +64,20 @@ Pipeline::Detected Pipeline::iterate(const sensing::LaserScan& scan, Detected de
 }
 
 void Pipeline::finish() {
-  localizer_.finish();
+  localizer_->finish();
   close_loops();
   if (loop_closer_.has_unfinished_work()) {
     const auto correction = times_.measure("loop_closing", [&] { return loop_closer_.finish(); });
-    localizer_.correct(correction);
+    localizer_->correct(correction);
     record_.add(correction);
   }
   for (const flow::Constraint& constraint : loop_closer_.constraints()) record_.add(constraint);
 }
 
 void Pipeline::close_loops() {
-  while (auto submap = localizer_.take_finished_submap()) {
+  while (auto submap = localizer_->take_finished_submap()) {
     const auto correction = times_.measure("loop_closing", [&] { return loop_closer_.add(*submap); });
-    localizer_.correct(correction);
+    localizer_->correct(correction);
     record_.add(correction);
     record_.add(std::move(*submap));
   }
@@ -80,7 +85,7 @@ void Pipeline::close_loops() {
 
 std::map<std::string, std::map<std::string, std::uint64_t>> Pipeline::counters() const {
   std::map<std::string, std::map<std::string, std::uint64_t>> counters{
-      {"localization", named(localizer_.counters())}, {"tracking", named(tracker_.counters())}, {"loop_closing", named(loop_closer_.counters())}};
+      {"localization", localizer_->named_counters()}, {"tracking", tracker_->named_counters()}, {"loop_closing", named(loop_closer_.counters())}};
   if (iterations_ > 1) counters["iteration"] = {{"scans_iterated", scans_iterated_}, {"matches_again", matches_again_}};
   return counters;
 }

@@ -2,19 +2,20 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/files/run_record.hpp"
 #include "common/sensing/scan.hpp"
+#include "common/stages/localization_stage.hpp"
+#include "common/stages/tracking_stage.hpp"
 #include "services/detection/detector.hpp"
-#include "services/localization/localizer.hpp"
 #include "services/loop_closing/loop_closer.hpp"
 #include "services/slammot/profile.hpp"
 #include "services/slammot/side_thread.hpp"
 #include "services/slammot/stage_times.hpp"
-#include "services/tracking/tracker.hpp"
 
 namespace slammot {
 
@@ -22,6 +23,7 @@ namespace slammot {
 /// every time.
 class Pipeline {
  public:
+  /// Localization and tracking are those that the profile names; it must name such as there are (find_fault()).
   /// With more than one iteration what detection finds to move is left out and the scan matched and looked at again, so
   /// many times at most: Iterated SLAM with DATMO, Wang 2004, Section 6.2.
   explicit Pipeline(const Profile& profile, int iterations = 1);
@@ -43,12 +45,12 @@ class Pipeline {
   std::map<std::string, std::map<std::string, std::uint64_t>> counters() const;
 
   /// Whether the last scan did not match the map.
-  bool is_lost() const { return localizer_.is_lost(); }
+  bool is_lost() const { return localizer_->is_lost(); }
 
   /// Parts of the map begun because the drive was lost for good.
-  std::uint64_t maps_begun() const { return localizer_.counters().astray; }
+  std::uint64_t maps_begun() const { return localizer_->maps_begun_astray(); }
 
-  sensing::OdometryConclusions odometry_conclusions() const { return localizer_.odometry_conclusions(); }
+  std::optional<sensing::OdometryConclusions> verdict_on_odometry() const { return localizer_->verdict_on_odometry(); }
 
   /// Whether the newest finished submap is tied to the first one of the map.
   bool knows_where_it_is() const { return loop_closer_.knows_where_it_is(); }
@@ -66,12 +68,11 @@ class Pipeline {
 
   SideThread side_thread_;   ///< Before what it helps.
   detection::Detector detector_;
-  localization::Localizer localizer_;
-  tracking::Tracker tracker_;
+  std::unique_ptr<stages::LocalizationStage> localizer_;
+  std::unique_ptr<stages::TrackingStage> tracker_;
   loop_closing::LoopCloser loop_closer_;
   flow::LocalizedScan localized_done_with_;   ///< Memory for the next one,
-  flow::SegmentedScan segmented_done_with_;   ///< and so,
-  tracking::TrackingResult tracked_done_with_; ///< and so.
+  flow::SegmentedScan segmented_done_with_;   ///< and so.
   files::RunRecord record_;
   StageTimes times_;
   int iterations_;

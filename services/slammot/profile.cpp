@@ -8,6 +8,18 @@
 #include "services/tracking/tracking_fields.hpp"
 
 namespace slammot {
+namespace {
+
+const config::FieldTable<ImplementationChoice>& implementation_fields() {
+  using C = ImplementationChoice;
+  static const config::FieldTable<C> table = {
+      {"localization", &C::localization, "Implementation of localization that run and bench use: standard or icp."},
+      {"tracking", &C::tracking, "Implementation of tracking that run and bench use: standard or greedy."},
+  };
+  return table;
+}
+
+}  // namespace
 
 std::vector<config::BoundStage> bind_stages(Profile& profile) {
   return {
@@ -17,6 +29,7 @@ std::vector<config::BoundStage> bind_stages(Profile& profile) {
       config::bind_stage("tracking", tracking::tracking_fields(), profile.tracking),
       config::bind_stage("loop_closing", loop_closing::loop_closing_fields(), profile.loop_closing),
       config::bind_stage("map_store", map_store::map_store_fields(), profile.map_store),
+      config::bind_stage("implementations", implementation_fields(), profile.implementations),
   };
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/config/overlay.hpp"
@@ -12,6 +13,12 @@
 
 namespace slammot {
 
+/// Which implementation of a stage runs, by its name in implementations.cpp.
+struct ImplementationChoice {
+  std::string localization = "standard";
+  std::string tracking = "standard";
+};
+
 /// The settings of all stages, for what runs all of them.
 struct Profile {
   ingest::IngestConfig ingest;
@@ -20,6 +27,7 @@ struct Profile {
   tracking::TrackingConfig tracking;
   loop_closing::LoopClosingConfig loop_closing;
   map_store::MapStoreConfig map_store;
+  ImplementationChoice implementations;
 };
 
 /// Every stage of the profile, for config::overlay_file(), config::print() and config::find_fault(). Points into it.

@@ -120,10 +120,9 @@ std::optional<files::Error> take_up_map(const std::filesystem::path& map, const 
 
 /// What a drive that was lost, or began in a stored map, wants to know.
 std::string describe_whereabouts(const Pipeline& pipeline, const RunOptions& options) {
-  const auto counters = pipeline.counters();
-  const auto astray = counters.at("localization").at("astray");
+  const auto astray = pipeline.maps_begun();
   if (options.job.map.empty() && astray == 0) return {};
-  const auto found = counters.at("loop_closing").at("found_elsewhere");
+  const auto found = pipeline.counters().at("loop_closing").at("found_elsewhere");
   const std::string lost = astray == 0 ? std::string() : "warning:  lost its way and began a new part of the map, " + std::to_string(astray) + " times\n";
   const std::string place = pipeline.knows_where_it_is() ? "found itself in the map (parts joined: " + std::to_string(found) + ")\n"
                                                          : "did not find itself in the map: its poses begin anywhere in it\n";
@@ -148,7 +147,7 @@ int run(const RunOptions& run_options) {
   }
   files::RunReport report = report_of(*job, options, "run");
   report.counters = pipeline.counters();
-  report.odometry = pipeline.odometry_conclusions();
+  report.odometry = pipeline.verdict_on_odometry();
   report.is_interrupted = driven.is_interrupted;
   const double wall_s = seconds_since(start);
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s, peak_memory_mb()};

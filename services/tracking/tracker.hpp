@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/association/assignment.hpp"
@@ -13,6 +14,7 @@
 #include "common/flow/segmented_scan.hpp"
 #include "common/flow/tracked_objects.hpp"
 #include "common/memory/spares.hpp"
+#include "common/stages/tracking_stage.hpp"
 #include "common/work/side_work.hpp"
 #include "services/tracking/formations.hpp"
 #include "services/tracking/rivals.hpp"
@@ -24,10 +26,7 @@
 
 namespace slammot::tracking {
 
-struct TrackingResult {
-  flow::TrackedObjects objects;
-  flow::ScanLabels labels;
-};
+using stages::TrackingResult;
 
 /// What happened so far; all grow only.
 struct TrackerCounters {
@@ -55,7 +54,7 @@ inline std::map<std::string, std::uint64_t> named(const TrackerCounters& counter
 /// Association by gating and global nearest neighbour (Wang 2004, Section 5.1), or by several hypotheses where the settings say
 /// so (Section 5.2), motion by IMM (Section 2.3) and move-stop hypotheses (Section 4.6), existence by the object score
 /// (Eqs. 5.1-5.5); bodies grow with what is seen of them, so that the position is the object's centre.
-class Tracker {
+class Tracker final : public stages::TrackingStage {
  public:
   /// help (null: none) must outlive this; the results are the same with it and without.
   explicit Tracker(const TrackingConfig& config, work::SideWork* help = nullptr);
@@ -63,11 +62,13 @@ class Tracker {
   /// Takes one scan and tells what is believed after it, and what each of its points is. done_with: a result that nobody needs any
   /// more; of it nothing but memory is used. Given back one, this allocates nothing while no more is in view than ever was.
   TrackingResult track(const flow::SegmentedScan& scan, TrackingResult done_with = {});
+  const TrackingResult& step(const flow::SegmentedScan& scan) override { return result_ = track(scan, std::move(result_)); }
 
   /// Goes on with what was published last, after a restart: ids stay and are not given again. Forgets all else.
   void take_up(const flow::TrackedObjects& objects);
 
   const TrackerCounters& counters() const { return counters_; }
+  std::map<std::string, std::uint64_t> named_counters() const override { return named(counters_); }
 
  private:
   /// Which segments, and which of their beams, belong to which track.
@@ -174,6 +175,7 @@ class Tracker {
   std::uint32_t next_id_ = 1;
   std::int64_t last_stamp_ns_ = 0;
   bool has_scan_ = false;
+  TrackingResult result_;                       ///< Of the last step().
 };
 
 }  // namespace slammot::tracking

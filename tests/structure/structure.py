@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ALGORITHM_FOLDERS = {"geometry", "sensing", "flow", "memory", "work", "grids", "matching", "filters", "association", "graphs",
-                     "simulation", "metrics"}
+                     "simulation", "metrics", "stages"}
 # Their own code is pure; ingest and map_store do nothing but carry data, so they are shell throughout.
 ALGORITHM_SERVICES = {"localization", "detection", "tracking", "loop_closing"}
 # Where a service joins the rings.
 JOINING_FILE = re.compile(r"(_service|_fields)\.(hpp|cpp)$|(^|/)main\.cpp$")
-COMPOSER = "slammot"
+COMPOSER = "services/slammot"
+PROGRAMS = ("services/", "examples/")
 
 BUS_FOLDERS = {"common/dds", "common/wire"}
 BUS_TESTS = ("tests/unit/common/dds/", "tests/unit/common/wire/", "tests/integration/")
@@ -64,13 +65,15 @@ def is_algorithm(path):
     parts = path.split("/")
     if parts[0] == "common":
         return parts[1] in ALGORITHM_FOLDERS
-    return parts[0] == "services" and parts[1] in ALGORITHM_SERVICES and not JOINING_FILE.search(path)
+    if JOINING_FILE.search(path):
+        return False
+    return parts[0] == "examples" or (parts[0] == "services" and parts[1] in ALGORITHM_SERVICES)
 
 
 def fault_of_algorithm_include(source, header, quoted):
     if quoted:
-        if header.startswith("services/"):
-            own = header.split("/")[1] == source.path.split("/")[1] and source.path.startswith("services/")
+        if header.startswith(PROGRAMS):
+            own = program_of(header) == program_of(source.path)
             return None if own and is_algorithm(header) else "the algorithm ring includes a service's shell"
         return None if is_algorithm(header) else "the algorithm ring includes the shell ring"
     if header.startswith("Eigen/") or header in PURE_STANDARD_HEADERS:
@@ -80,14 +83,17 @@ def fault_of_algorithm_include(source, header, quoted):
     return "not for the algorithm ring: standard values and algorithms, Eigen and (in graphs) Ceres only"
 
 
-def fault_of_service_include(source, header):
-    target = header.split("/")[1]
+def program_of(path):
+    """services/tracking of services/tracking/tracker.hpp."""
+    return "/".join(path.split("/")[:2])
+
+
+def fault_of_program_include(source, header):
+    """header: of a service or of an example."""
     if source.path.startswith("common/"):
-        return "common includes a service"
-    if source.path.startswith("services/"):
-        own = source.path.split("/")[1]
-        if own != target and own != COMPOSER:
-            return "a service includes another service"
+        return "common includes a service" if header.startswith("services/") else "common includes an example"
+    if source.path.startswith(PROGRAMS) and program_of(source.path) not in (program_of(header), COMPOSER):
+        return "a service or an example includes another one"
     return None
 
 
@@ -96,8 +102,8 @@ def sees_the_bus(source):
 
 
 def fault_of_include(source, header, quoted, root):
-    if header.startswith("services/"):
-        fault = fault_of_service_include(source, header)
+    if header.startswith(PROGRAMS):
+        fault = fault_of_program_include(source, header)
         if fault:
             return fault
     generated = quoted and header.endswith(".h") and not header.endswith(".pb.h")
@@ -128,7 +134,7 @@ def impurity_faults(source):
 
 def main_faults(source):
     lines = len(source.text.splitlines())
-    if re.fullmatch(r"services/\w+/main\.cpp", source.path) and lines >= MAIN_LINES:
+    if re.fullmatch(r"(services|examples)/\w+/main\.cpp", source.path) and lines >= MAIN_LINES:
         yield f"{source.path}:1: {lines} lines; a main that tests do not share stays under {MAIN_LINES}"
 
 
@@ -159,10 +165,10 @@ def link_faults(source, root):
 
 
 def tree_faults(sources, root):
-    services = {source.path.split("/")[1] for source in sources if re.fullmatch(r"services/\w+/.+", source.path)}
-    for service in sorted(services):
-        if not (root / "services" / service / "README.md").is_file():
-            yield f"services/{service}: has no README.md"
+    programs = {program_of(source.path) for source in sources if re.fullmatch(r"(services|examples)/\w+/.+", source.path)}
+    for program in sorted(programs):
+        if not (root / program / "README.md").is_file():
+            yield f"{program}: has no README.md"
     for source in sources:
         if source.path.startswith("tests/unit/") and source.path.endswith("_test.cpp"):
             mirrored = "/".join(source.path.split("/")[2:4])  # Below it a test may have folders of its own.

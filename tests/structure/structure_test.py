@@ -44,6 +44,9 @@ class AlgorithmRing(unittest.TestCase):
         self.assertEqual([], faults_in({"common/graphs/b.cpp": "#include <ceres/ceres.h>\n"}))
         self.assertEqual(1, len(faults_in({"common/matching/b.cpp": "#include <ceres/ceres.h>\n"})))
 
+    def test_covers_the_algorithm_of_an_example(self):
+        self.assertEqual(1, len(faults_in({"examples/greedy/README.md": "", "examples/greedy/greedy.cpp": "#include <thread>\n"})))
+
     def test_covers_the_algorithm_of_a_service_but_not_the_file_that_joins_the_rings(self):
         shell = '#include "common/dds/writer.hpp"\n#include <thread>\n'
         readme = {"services/detection/README.md": "", "common/dds/writer.hpp": ""}
@@ -64,6 +67,15 @@ class Services(unittest.TestCase):
         self.assertIn("common/app/a.cpp:1: common includes a service: services/detection/detector.hpp", faults_in({
             "services/detection/README.md": "", "services/detection/detector.hpp": "",
             "common/app/a.cpp": '#include "services/detection/detector.hpp"\n'}))
+
+    def test_are_included_by_no_example_and_an_example_by_the_command_line_alone(self):
+        files = {"services/tracking/README.md": "", "services/slammot/README.md": "", "services/tracking/tracker.hpp": "",
+                 "examples/greedy/README.md": "", "examples/greedy/greedy.hpp": ""}
+        service, example = '#include "services/tracking/tracker.hpp"\n', '#include "examples/greedy/greedy.hpp"\n'
+        self.assertEqual(1, len(faults_in({**files, "examples/greedy/greedy_service.cpp": service})))
+        self.assertEqual(1, len(faults_in({**files, "services/tracking/tracking_service.cpp": example})))
+        self.assertEqual(1, len(faults_in({**files, "common/app/a.cpp": example})))
+        self.assertEqual([], faults_in({**files, "services/slammot/run.cpp": example, "examples/greedy/greedy_service.cpp": example}))
 
     def test_have_a_readme_and_a_short_main(self):
         self.assertEqual(["services/ingest: has no README.md"],

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/stages/localization_stage.hpp"
 #include "services/localization/localizer.hpp"
 #include "tests/support/synthetic_world.hpp"
 
@@ -85,10 +86,10 @@ inline double turn_rad(const geometry::Pose2& a, const geometry::Pose2& b) {
 }
 
 /// Odometry, scan and labels of one scan, the way a whole system delivers them.
-inline std::optional<flow::LocalizedScan> drive_one(localization::Localizer& localizer, SimulatedDrive& drive, std::uint32_t scan,
+inline std::optional<flow::LocalizedScan> drive_one(stages::LocalizationStage& localizer, SimulatedDrive& drive, std::uint32_t scan,
                                                     bool with_odometry = true) {
   if (with_odometry) localizer.add_odometry(drive.odometry(scan));
-  auto localized = localizer.localize(drive.scan(scan));
+  auto localized = localizer.localize(drive.scan(scan), {});
   if (localized) localizer.integrate(all_stationary(*localized));
   return localized;
 }
@@ -99,7 +100,7 @@ struct DriveErrors {
 };
 
 /// Drives through scans [first, last) and compares each pose with the truth.
-inline DriveErrors drive_through(localization::Localizer& localizer, SimulatedDrive& drive, std::uint32_t first, std::uint32_t last,
+inline DriveErrors drive_through(stages::LocalizationStage& localizer, SimulatedDrive& drive, std::uint32_t first, std::uint32_t last,
                                  bool with_odometry = true) {
   DriveErrors errors;
   for (std::uint32_t scan = first; scan < last; ++scan) {

@@ -63,6 +63,14 @@ TEST_F(RunService, ShowsHelpAndVersion) {
   EXPECT_THAT(run({"--version"}).out, ::testing::StartsWith("slammot-map-store "));
 }
 
+TEST_F(RunService, IsCalledAsItsProgramAlsoInThePlaceOfAnother) {
+  std::string program = "/opt/bin/slammot-other-store", option = "--version";
+  std::vector<char*> argv = {program.data(), option.data(), nullptr};
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(run_service<ExampleService>(2, argv.data()), 0);
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(), ::testing::StartsWith("slammot-other-store "));
+}
+
 TEST_F(RunService, PrintsTheSettingsInEffect) {
   EXPECT_EQ(run({"--config", file("map_store { retry_after_s: 2.5 }"), "--print-config"}).out,
             "map_store {\n  retry_after_s: 2.5  # Patience.\n}\n");

@@ -70,6 +70,7 @@ TEST(Profile, HasASettingForEveryMemberOfEveryStruct) {
   EXPECT_EQ(settings_under(stages["loop_closing"], "search."), members<loop_closing::SearchBudget>());
   EXPECT_EQ(settings_under(stages["loop_closing"], "graph."), members<graphs::PoseGraphConfig>());
   EXPECT_EQ(settings_under(stages["map_store"], ""), members<map_store::MapStoreConfig>());
+  EXPECT_EQ(settings_under(stages["implementations"], ""), members<ImplementationChoice>());
 }
 
 TEST(Profile, TablesAndProtoAgreeFieldByField) {

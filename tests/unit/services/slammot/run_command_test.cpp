@@ -214,6 +214,35 @@ TEST_F(RunCommand, RefusesNoIterationAndBenchHasNone) {
   EXPECT_THAT(bench.standard_error, HasSubstr("--iterations"));
 }
 
+TEST_F(RunCommand, RunsTheImplementationsThatTheSettingsNameAndSaysSo) {
+  write(room_log(60));
+  const std::string settings = folder_ / "settings.textproto";
+  std::ofstream(settings) << "implementations { localization: \"icp\" tracking: \"greedy\" }";
+  const Outcome outcome = run({"--config", settings});
+  ASSERT_EQ(outcome.exit_code, kExitDone) << outcome.standard_error;
+  EXPECT_THAT(outcome.standard_output, HasSubstr("replaced: localization: icp\nreplaced: tracking: greedy\n"));
+  const auto report = nlohmann::json::parse(read(folder_ / "out" / "report.json"));
+  EXPECT_EQ(report["replaced_stages"], nlohmann::json({"localization: icp", "tracking: greedy"}));
+  EXPECT_EQ(report["counters"]["tracking"]["scans"], 60);
+  const std::string online = read(folder_ / "out" / "online.tum");
+  EXPECT_EQ(std::count(online.begin(), online.end(), '\n'), 60);
+  ASSERT_EQ(run().exit_code, kExitDone);
+  EXPECT_FALSE(nlohmann::json::parse(read(folder_ / "out" / "report.json")).contains("replaced_stages"));
+}
+
+TEST_F(RunCommand, RefusesAnImplementationThatIsNotThereOrCannotDoWhatIsAskedFor) {
+  write(room_log(20));
+  const std::string settings = folder_ / "settings.textproto";
+  std::ofstream(settings) << "implementations { tracking: \"gready\" }";
+  const Outcome unknown = run({"--config", settings});
+  EXPECT_EQ(unknown.exit_code, kExitFault);
+  EXPECT_THAT(unknown.standard_error, HasSubstr("no such implementation; there are: standard, greedy"));
+  std::ofstream(settings) << "implementations { localization: \"icp\" }";
+  const Outcome without_map = run({"--config", settings, "--map", folder_ / "map"});
+  EXPECT_EQ(without_map.exit_code, kExitFault);
+  EXPECT_THAT(without_map.standard_error, HasSubstr("the localization 'icp' does not go on in a stored map"));
+}
+
 TEST_F(RunCommand, WantsEitherALogOrAScenario) {
   const auto expect_refused = [&](std::vector<std::string> words, const std::string& reason) {
     words.insert(words.begin(), {"run", "--output", (folder_ / "out").string()});
