@@ -29,7 +29,7 @@ constexpr double kWholeSigmaM = 0.06;     ///< Errors of a size that is seen aga
 double squared(double value) { return value * value; }
 
 /// The glimpse along one axis of the body, relative to the predicted centre.
-struct Shadow {
+struct Projection {
   double low_m = std::numeric_limits<double>::max();
   double high_m = std::numeric_limits<double>::lowest();
   Edge low_edge = Edge::kOpen;   ///< Beyond the outermost point, where it is the first or last.
@@ -76,47 +76,47 @@ class SideMean {
 };
 
 /// Without its face.
-Shadow span_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis) {
-  Shadow shadow;
-  const std::size_t count = glimpse.points_m.size();
+Projection span_of(const Observation& observation, const Vector2d& centre_m, const Vector2d& axis) {
+  Projection projection;
+  const std::size_t count = observation.points_m.size();
   std::size_t lowest = 0;
   std::size_t highest = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double s = axis.dot(glimpse.points_m[i] - centre_m);
-    if (s < shadow.low_m) shadow.low_m = s, lowest = i;
-    if (s > shadow.high_m) shadow.high_m = s, highest = i;
+    const double s = axis.dot(observation.points_m[i] - centre_m);
+    if (s < projection.low_m) projection.low_m = s, lowest = i;
+    if (s > projection.high_m) projection.high_m = s, highest = i;
   }
   const auto edge_beside = [&](std::size_t point) {
-    const Edge before = point == 0 ? glimpse.start : Edge::kOpen;
-    return point + 1 == count ? std::max(before, glimpse.end) : before;
+    const Edge before = point == 0 ? observation.start : Edge::kOpen;
+    return point + 1 == count ? std::max(before, observation.end) : before;
   };
-  shadow.low_edge = edge_beside(lowest);
-  shadow.high_edge = edge_beside(highest);
-  shadow.count = static_cast<int>(count);
-  return shadow;
+  projection.low_edge = edge_beside(lowest);
+  projection.high_edge = edge_beside(highest);
+  projection.count = static_cast<int>(count);
+  return projection;
 }
 
-Shadow shadow_of(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& axis, double face_depth_m) {
-  Shadow shadow = span_of(glimpse, centre_m, axis);
-  const double inwards = axis.dot(glimpse.laser_m - centre_m) < 0.0 ? 1.0 : -1.0;
-  const double behind_face_m = (inwards > 0.0 ? shadow.low_m : -shadow.high_m) + face_depth_m;
+Projection projection_of(const Observation& observation, const Vector2d& centre_m, const Vector2d& axis, double face_depth_m) {
+  Projection projection = span_of(observation, centre_m, axis);
+  const double inwards = axis.dot(observation.laser_m - centre_m) < 0.0 ? 1.0 : -1.0;
+  const double behind_face_m = (inwards > 0.0 ? projection.low_m : -projection.high_m) + face_depth_m;
   const auto across_of = [&](const Vector2d& point) { return axis.x() * point.y() - axis.y() * point.x(); };
   Spread across;
-  for (const Vector2d& point : glimpse.points_m)
+  for (const Vector2d& point : observation.points_m)
     if (inwards * axis.dot(point - centre_m) < behind_face_m) across.include(across_of(point));
   SideMean face;
-  for (const Vector2d& point : glimpse.points_m) {
+  for (const Vector2d& point : observation.points_m) {
     const double s = axis.dot(point - centre_m);
     if (inwards * s < behind_face_m) face.include(s, across.has_in_middle(across_of(point)));
   }
-  shadow.face_m = face.mean_m();
-  shadow.face_across_m = across.width_m();
-  shadow.face_count = face.count();
-  return shadow;
+  projection.face_m = face.mean_m();
+  projection.face_across_m = across.width_m();
+  projection.face_count = face.count();
+  return projection;
 }
 
-Shadow mirrored(const Shadow& shadow) {
-  return {-shadow.high_m, -shadow.low_m, shadow.high_edge, shadow.low_edge, shadow.count, -shadow.face_m, shadow.face_across_m, shadow.face_count};
+Projection mirrored(const Projection& projection) {
+  return {-projection.high_m, -projection.low_m, projection.high_edge, projection.low_edge, projection.count, -projection.face_m, projection.face_across_m, projection.face_count};
 }
 
 /// No body is smaller than what is seen of it; a single outlier does not make it larger.
@@ -174,8 +174,8 @@ struct AxisView {
 };
 
 /// Whether the end towards the laser is a side across the axis, and not where something hides the rest of a flank.
-bool is_side(const Shadow& shadow, const AxisView& view) {
-  return shadow.face_count >= 3 && shadow.face_across_m > view.least_side_m;
+bool is_side(const Projection& projection, const AxisView& view) {
+  return projection.face_count >= 3 && projection.face_across_m > view.least_side_m;
 }
 
 /// How far a side goes on beyond its outermost echo without being answered, in the mean, and one sigma of that.
@@ -199,49 +199,49 @@ double end_variance_m2(const AxisView& view, const EndView& end, Edge edge) {
 }
 
 /// The laser lies beyond the low side, which so looks at it; the high end is at the end of a flank, if that is in view.
-void note_sizes_from_low_side(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
-  const double low_m = shadow.face_count >= 3 ? shadow.face_m : shadow.low_m;
-  note_seen(evidence, shadow.high_m - low_m);
-  const bool low_is_seen = shadow.low_edge == Edge::kOpen || is_side(shadow, view);
-  const bool high_is_seen = flank_is_visible && shadow.high_edge != Edge::kHidden && view.high.spacing_m < view.clear_spacing_m &&
-                            shadow.count - shadow.face_count >= kFewestOnFlank;
+void note_sizes_from_low_side(SizeEvidence& evidence, const Projection& projection, const AxisView& view, bool flank_is_visible) {
+  const double low_m = projection.face_count >= 3 ? projection.face_m : projection.low_m;
+  note_seen(evidence, projection.high_m - low_m);
+  const bool low_is_seen = projection.low_edge == Edge::kOpen || is_side(projection, view);
+  const bool high_is_seen = flank_is_visible && projection.high_edge != Edge::kHidden && view.high.spacing_m < view.clear_spacing_m &&
+                            projection.count - projection.face_count >= kFewestOnFlank;
   if (low_is_seen && high_is_seen)  // the flank ends somewhere between its last echo and where the next one would be
-    note_whole(evidence, {shadow.high_m + flat_beyond_m(view, view.high, shadow.high_edge) - low_m, flat_end_variance_m2(view, view.high, shadow.high_edge), view.high.missed_share}, view.scale);
+    note_whole(evidence, {projection.high_m + flat_beyond_m(view, view.high, projection.high_edge) - low_m, flat_end_variance_m2(view, view.high, projection.high_edge), view.high.missed_share}, view.scale);
 }
 
-void note_sizes_from_beside(SizeEvidence& evidence, const Shadow& shadow, const AxisView& view) {
-  note_seen(evidence, shadow.high_m - shadow.low_m);
+void note_sizes_from_beside(SizeEvidence& evidence, const Projection& projection, const AxisView& view) {
+  note_seen(evidence, projection.high_m - projection.low_m);
   const double spacing_m = std::max(view.low.spacing_m, view.high.spacing_m);
-  if (shadow.low_edge != Edge::kHidden && shadow.high_edge != Edge::kHidden && spacing_m < view.clear_spacing_m && shadow.count >= kFewestOnFlank)
-    note_whole(evidence, {shadow.high_m - shadow.low_m + flat_beyond_m(view, view.low, shadow.low_edge) + flat_beyond_m(view, view.high, shadow.high_edge),
-                          flat_end_variance_m2(view, view.low, shadow.low_edge) + flat_end_variance_m2(view, view.high, shadow.high_edge),
+  if (projection.low_edge != Edge::kHidden && projection.high_edge != Edge::kHidden && spacing_m < view.clear_spacing_m && projection.count >= kFewestOnFlank)
+    note_whole(evidence, {projection.high_m - projection.low_m + flat_beyond_m(view, view.low, projection.low_edge) + flat_beyond_m(view, view.high, projection.high_edge),
+                          flat_end_variance_m2(view, view.low, projection.low_edge) + flat_end_variance_m2(view, view.high, projection.high_edge),
                           view.low.missed_share + view.high.missed_share}, view.scale);
 }
 
 /// Whether so few beams are answered that the outermost echoes are likely not those of the ends, of which nothing hides any.
-bool may_end_anywhere(const Shadow& shadow, const AxisView& view) {
+bool may_end_anywhere(const Projection& projection, const AxisView& view) {
   constexpr double kDarkGaps = 0.5;
-  return view.is_length && view.gaps > kDarkGaps && std::max(shadow.low_edge, shadow.high_edge) == Edge::kNoEcho;
+  return view.is_length && view.gaps > kDarkGaps && std::max(projection.low_edge, projection.high_edge) == Edge::kNoEcho;
 }
 
 /// Few echoes from anywhere on a flank of this length, as many as chance has it at its ends: the middle is between where it would be
 /// if the first of them, and if the last, was an end, and all places between are as likely.
-AxisMeasurement centre_from_few(const Size& size, const Shadow& shadow, const AxisView& view) {
-  const double unseen_m = std::max(0.0, size.value_m - (shadow.high_m - shadow.low_m));
+AxisMeasurement centre_from_few(const Size& size, const Projection& projection, const AxisView& view) {
+  const double unseen_m = std::max(0.0, size.value_m - (projection.high_m - projection.low_m));
   const double spacing_m = std::max(view.low.spacing_m, view.high.spacing_m);
-  return {0.5 * (shadow.low_m + shadow.high_m), view.face_variance_m2 + squared(spacing_m) / 12.0 + squared(unseen_m) / 12.0, 0};
+  return {0.5 * (projection.low_m + projection.high_m), view.face_variance_m2 + squared(spacing_m) / 12.0 + squared(unseen_m) / 12.0, 0};
 }
 
 /// The laser lies beside the body: both ends are outlines of the flank.
-AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const AxisView& view) {
-  if (may_end_anywhere(shadow, view)) return centre_from_few(size, shadow, view);
+AxisMeasurement centre_from_beside(const Size& size, const Projection& projection, const AxisView& view) {
+  if (may_end_anywhere(projection, view)) return centre_from_few(size, projection, view);
   AxisMeasurement axis;
-  const double low_m = shadow.low_m - beyond_m(view, view.low, shadow.low_edge) + 0.5 * size.value_m;
-  const double high_m = shadow.high_m + beyond_m(view, view.high, shadow.high_edge) - 0.5 * size.value_m;
-  const bool low_is_seen = shadow.low_edge != Edge::kHidden;
-  const bool high_is_seen = shadow.high_edge != Edge::kHidden;
-  const double low_variance_m2 = end_variance_m2(view, view.low, shadow.low_edge);
-  const double high_variance_m2 = end_variance_m2(view, view.high, shadow.high_edge);
+  const double low_m = projection.low_m - beyond_m(view, view.low, projection.low_edge) + 0.5 * size.value_m;
+  const double high_m = projection.high_m + beyond_m(view, view.high, projection.high_edge) - 0.5 * size.value_m;
+  const bool low_is_seen = projection.low_edge != Edge::kHidden;
+  const bool high_is_seen = projection.high_edge != Edge::kHidden;
+  const double low_variance_m2 = end_variance_m2(view, view.low, projection.low_edge);
+  const double high_variance_m2 = end_variance_m2(view, view.high, projection.high_edge);
   // Where the two ends disagree, part of the body was not seen: the difference says how much the middle may be off.
   if (low_is_seen && high_is_seen) {
     axis.held = 0;
@@ -255,17 +255,17 @@ AxisMeasurement centre_from_beside(const Size& size, const Shadow& shadow, const
   return axis;
 }
 
-AxisMeasurement centre_from_low_side(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
+AxisMeasurement centre_from_low_side(const Size& size, const Projection& projection, const AxisView& view, bool flank_is_visible) {
   AxisMeasurement axis;
-  if (may_end_anywhere(shadow, view) && !is_side(shadow, view) && flank_is_visible) return centre_from_few(size, shadow, view);
-  if (shadow.low_edge != Edge::kHidden || is_side(shadow, view)) {
-    const double low_m = shadow.face_count >= 3 ? shadow.face_m : shadow.low_m;
+  if (may_end_anywhere(projection, view) && !is_side(projection, view) && flank_is_visible) return centre_from_few(size, projection, view);
+  if (projection.low_edge != Edge::kHidden || is_side(projection, view)) {
+    const double low_m = projection.face_count >= 3 ? projection.face_m : projection.low_m;
     axis.centre_m = low_m + 0.5 * size.value_m;
-    axis.variance_m2 = is_side(shadow, view) ? view.face_variance_m2 : end_variance_m2(view, view.low, shadow.low_edge);
+    axis.variance_m2 = is_side(projection, view) ? view.face_variance_m2 : end_variance_m2(view, view.low, projection.low_edge);
     axis.held = -1;
-  } else if (flank_is_visible && shadow.high_edge == Edge::kOpen) {
-    axis.centre_m = shadow.high_m + beyond_m(view, view.high, shadow.high_edge) - 0.5 * size.value_m;
-    axis.variance_m2 = end_variance_m2(view, view.high, shadow.high_edge);
+  } else if (flank_is_visible && projection.high_edge == Edge::kOpen) {
+    axis.centre_m = projection.high_m + beyond_m(view, view.high, projection.high_edge) - 0.5 * size.value_m;
+    axis.variance_m2 = end_variance_m2(view, view.high, projection.high_edge);
     axis.held = 1;
   }
   return axis;
@@ -284,16 +284,16 @@ double step_variance_m2(std::optional<int> held_before, std::optional<int> held,
   return held_before && held ? squared(0.5 * (*held - *held_before)) * size.variance_m2 : 0.0;
 }
 
-void note_sizes(SizeEvidence& evidence, const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
-  if (std::abs(view.laser_at_m) <= 0.5 * size.value_m) note_sizes_from_beside(evidence, shadow, view);
-  else if (view.laser_at_m < 0.0) note_sizes_from_low_side(evidence, shadow, view, flank_is_visible);
-  else note_sizes_from_low_side(evidence, mirrored(shadow), mirrored(view), flank_is_visible);
+void learn_sizes(SizeEvidence& evidence, const Size& size, const Projection& projection, const AxisView& view, bool flank_is_visible) {
+  if (std::abs(view.laser_at_m) <= 0.5 * size.value_m) note_sizes_from_beside(evidence, projection, view);
+  else if (view.laser_at_m < 0.0) note_sizes_from_low_side(evidence, projection, view, flank_is_visible);
+  else note_sizes_from_low_side(evidence, mirrored(projection), mirrored(view), flank_is_visible);
 }
 
-AxisMeasurement measure_axis(const Size& size, const Shadow& shadow, const AxisView& view, bool flank_is_visible) {
-  if (std::abs(view.laser_at_m) <= 0.5 * size.value_m) return centre_from_beside(size, shadow, view);
-  if (view.laser_at_m < 0.0) return centre_from_low_side(size, shadow, view, flank_is_visible);
-  return mirrored(centre_from_low_side(size, mirrored(shadow), mirrored(view), flank_is_visible));
+AxisMeasurement measure_axis(const Size& size, const Projection& projection, const AxisView& view, bool flank_is_visible) {
+  if (std::abs(view.laser_at_m) <= 0.5 * size.value_m) return centre_from_beside(size, projection, view);
+  if (view.laser_at_m < 0.0) return centre_from_low_side(size, projection, view, flank_is_visible);
+  return mirrored(centre_from_low_side(size, mirrored(projection), mirrored(view), flank_is_visible));
 }
 
 /// Of the depth of a corner, as much is not met by beams that graze the side before it at an angle of this sine: a cut at 45 degrees
@@ -301,12 +301,12 @@ AxisMeasurement measure_axis(const Size& size, const Shadow& shadow, const AxisV
 double missed_share(double sine) { return std::min(1.15, 2.0 * (1.0 - sine)); }
 
 /// The end of a side along the axis, at the place.
-EndView end_view(const Glimpse& glimpse, const Vector2d& place_m, const Vector2d& axis) {
+EndView end_view(const Observation& observation, const Vector2d& place_m, const Vector2d& axis) {
   constexpr double kLeastIncidence = 0.05;
-  const Vector2d sight_m = place_m - glimpse.laser_m;
+  const Vector2d sight_m = place_m - observation.laser_m;
   const double range_m = std::max(sight_m.norm(), 1e-3);
   const double sine = std::min(1.0, std::abs(axis.x() * sight_m.y() - axis.y() * sight_m.x()) / range_m);
-  return {range_m * glimpse.beam_step_rad / std::max(sine, kLeastIncidence), missed_share(sine)};
+  return {range_m * observation.beam_step_rad / std::max(sine, kLeastIncidence), missed_share(sine)};
 }
 
 /// The side of the body that looks at the laser, along one axis: where it is, and the way inwards. None where too little of it is seen.
@@ -315,14 +315,14 @@ struct NearSide {
   double inwards = 1.0;
 };
 
-std::optional<NearSide> near_side(const Size& size, const Shadow& shadow, const AxisView& view) {
+std::optional<NearSide> near_side(const Size& size, const Projection& projection, const AxisView& view) {
   const double beyond_m = std::abs(view.laser_at_m) - 0.5 * size.value_m;
-  if (beyond_m < 0.0 || !is_side(shadow, view)) return std::nullopt;
-  return NearSide{shadow.face_m, view.laser_at_m < 0.0 ? 1.0 : -1.0};
+  if (beyond_m < 0.0 || !is_side(projection, view)) return std::nullopt;
+  return NearSide{projection.face_m, view.laser_at_m < 0.0 ? 1.0 : -1.0};
 }
 
 /// What one glimpse of both sides tells of the corner between them. None where its echoes are too far apart to tell.
-std::optional<Size> seen_corner(const Glimpse& glimpse, const Vector2d& centre_m, const Vector2d& along, const AxisView& u_view, const AxisView& v_view, const NearSide& u, const NearSide& v) {
+std::optional<Size> seen_corner(const Observation& observation, const Vector2d& centre_m, const Vector2d& along, const AxisView& u_view, const AxisView& v_view, const NearSide& u, const NearSide& v) {
   constexpr double kWidestSpacingM = 0.3;
   constexpr double kDeepestM = 0.7;     // farther off the echo next to the corner is missing
   constexpr double kNextEchoShare = 0.25;      // of the spacing: so far from a sharp corner its nearest echo is in the mean,
@@ -333,7 +333,7 @@ std::optional<Size> seen_corner(const Glimpse& glimpse, const Vector2d& centre_m
   const double spacing_m = std::min(u.inwards > 0.0 ? u_view.low.spacing_m : u_view.high.spacing_m, v.inwards > 0.0 ? v_view.low.spacing_m : v_view.high.spacing_m);
   if (spacing_m > kWidestSpacingM * u_view.scale) return std::nullopt;
   double depth_m = std::numeric_limits<double>::max();
-  for (const Vector2d& point : glimpse.points_m)
+  for (const Vector2d& point : observation.points_m)
     depth_m = std::min(depth_m, u.inwards * (along.dot(point - centre_m) - u.at_m) + v.inwards * (across.dot(point - centre_m) - v.at_m));
   if (depth_m > kDeepestM * u_view.scale) return std::nullopt;
   const double sharp_share = std::clamp(1.0 - depth_m / spacing_m, 0.0, 1.0);  // a cut that is longer than the spacing has an echo
@@ -349,34 +349,34 @@ Size with_corner(const Size& before, const Size& seen, double scale) {
 }
 
 /// Beams in a row that were not answered, in the mean.
-double gaps_in_a_row(const Glimpse& glimpse) { return glimpse.unanswered_share / (1.0 - glimpse.unanswered_share); }
+double gaps_in_a_row(const Observation& observation) { return observation.unanswered_share / (1.0 - observation.unanswered_share); }
 
 /// A glimpse along both axes of a body, and which of its sides look at the laser.
-struct Sighting {
+struct BoxProjection {
   Vector2d along = Vector2d::UnitX();
   Vector2d across = Vector2d::UnitY();
-  Shadow u;
-  Shadow v;
+  Projection u;
+  Projection v;
   AxisView u_view;
   AxisView v_view;
   bool flank_is_visible = false;
   bool face_is_visible = false;
 };
 
-Sighting sighting_of(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
-  Sighting seen;
+BoxProjection box_projection_of(const Body& body, const Vector2d& predicted_centre_m, const Observation& observation, const TrackingConfig& config) {
+  BoxProjection seen;
   seen.along = {std::cos(body.heading_rad), std::sin(body.heading_rad)};
   seen.across = {-seen.along.y(), seen.along.x()};
-  const Vector2d to_laser_m = glimpse.laser_m - predicted_centre_m;
+  const Vector2d to_laser_m = observation.laser_m - predicted_centre_m;
   const double sigma_m = std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.shape_noise_m);
   const double face_depth_m = kFaceDepthM * config.size_scale + kFaceDepthSigmas * sigma_m;
-  seen.u = shadow_of(glimpse, predicted_centre_m, seen.along, face_depth_m);
-  seen.v = shadow_of(glimpse, predicted_centre_m, seen.across, face_depth_m);
-  const double gaps = gaps_in_a_row(glimpse);
+  seen.u = projection_of(observation, predicted_centre_m, seen.along, face_depth_m);
+  seen.v = projection_of(observation, predicted_centre_m, seen.across, face_depth_m);
+  const double gaps = gaps_in_a_row(observation);
   const Size corner = corner_of(body, body.kind, config);
-  const auto view_of = [&](const Vector2d& axis, const Shadow& shadow) {
-    return AxisView{axis.dot(to_laser_m), squared(sigma_m), end_view(glimpse, predicted_centre_m + shadow.low_m * axis, axis),
-                    end_view(glimpse, predicted_centre_m + shadow.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale, config.size_scale, true, corner};
+  const auto view_of = [&](const Vector2d& axis, const Projection& projection) {
+    return AxisView{axis.dot(to_laser_m), squared(sigma_m), end_view(observation, predicted_centre_m + projection.low_m * axis, axis),
+                    end_view(observation, predicted_centre_m + projection.high_m * axis, axis), gaps, 0.4 * config.size_scale, 0.5 * config.size_scale, config.size_scale, true, corner};
   };
   seen.u_view = view_of(seen.along, seen.u);
   seen.v_view = view_of(seen.across, seen.v);
@@ -518,19 +518,19 @@ double log_evidence_of_sizes(const Body& body, const TrackingConfig& config) {
   return sum;
 }
 
-BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse,
+BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m, const Observation& observation,
                             const TrackingConfig& config) {
-  const auto& [along, across, u, v, u_view, v_view, flank_is_visible, face_is_visible] = sighting_of(body, predicted_centre_m, glimpse, config);
+  const auto& [along, across, u, v, u_view, v_view, flank_is_visible, face_is_visible] = box_projection_of(body, predicted_centre_m, observation, config);
   BodyMeasurement measurement;
   measurement.body = body;
   const std::optional<NearSide> near_u = near_side(body.length, u, u_view);
   const std::optional<NearSide> near_v = near_side(body.width, v, v_view);
   if (near_u && near_v) {
-    const std::optional<Size> seen = seen_corner(glimpse, predicted_centre_m, along, u_view, v_view, *near_u, *near_v);
+    const std::optional<Size> seen = seen_corner(observation, predicted_centre_m, along, u_view, v_view, *near_u, *near_v);
     if (seen) measurement.body.corner_seen = with_corner(body.corner_seen, *seen, config.size_scale);
   }
-  note_sizes(measurement.body.length_evidence, body.length, u, u_view, flank_is_visible);
-  note_sizes(measurement.body.width_evidence, body.width, v, v_view, face_is_visible);
+  learn_sizes(measurement.body.length_evidence, body.length, u, u_view, flank_is_visible);
+  learn_sizes(measurement.body.width_evidence, body.width, v, v_view, face_is_visible);
   if (!body.is_oriented) {  // only what a body cannot be smaller than, whichever way it lies
     for (const auto size : {&Body::length_evidence, &Body::width_evidence}) {
       (measurement.body.*size).whole = (body.*size).whole;
@@ -552,29 +552,29 @@ BodyMeasurement measure_box(const Body& body, const Vector2d& predicted_centre_m
   return measurement;
 }
 
-Vector2d box_centre_m(const Body& body, const Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config) {
-  const Sighting seen = sighting_of(body, predicted_centre_m, glimpse, config);
+Vector2d box_centre_m(const Body& body, const Vector2d& predicted_centre_m, const Observation& observation, const TrackingConfig& config) {
+  const BoxProjection seen = box_projection_of(body, predicted_centre_m, observation, config);
   return predicted_centre_m + measure_axis(body.length, seen.u, seen.u_view, seen.flank_is_visible).centre_m * seen.along +
          measure_axis(body.width, seen.v, seen.v_view, seen.face_is_visible).centre_m * seen.across;
 }
 
-BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const TrackingConfig& config) {
+BodyMeasurement measure_blob(const Body& body, const Observation& observation, const TrackingConfig& config) {
   BodyMeasurement measurement;
   Vector2d mean_m = Vector2d::Zero();
-  for (const Vector2d& point : glimpse.points_m) mean_m += point;
-  mean_m /= static_cast<double>(glimpse.points_m.size());
-  const Vector2d sight_m = mean_m - glimpse.laser_m;
+  for (const Vector2d& point : observation.points_m) mean_m += point;
+  mean_m /= static_cast<double>(observation.points_m.size());
+  const Vector2d sight_m = mean_m - observation.laser_m;
   const double range_m = std::max(sight_m.norm(), 1e-3);
   const Vector2d along = sight_m / range_m;
   const Vector2d across{-along.y(), along.x()};
-  const double extent_m = extent_of(glimpse.points_m);
+  const double extent_m = extent_of(observation.points_m);
   constexpr double kSurfaceToMiddleM = 0.08;  // pi/4 of half the depth: of a coat 0.1, of legs 0.06
   constexpr double kBetweenLegsM = 0.25;
   constexpr double kMostM = 1.3;
-  const double gap_m = std::clamp(gaps_in_a_row(glimpse) * range_m * glimpse.beam_step_rad - kBetweenLegsM * config.size_scale, 0.0, kMostM * config.size_scale);
+  const double gap_m = std::clamp(gaps_in_a_row(observation) * range_m * observation.beam_step_rad - kBetweenLegsM * config.size_scale, 0.0, kMostM * config.size_scale);
   const double shape_m = std::hypot(config.blob_noise_share * extent_m, config.shape_noise_m, gap_m);  // something dark is seen now here, now there
   const double sigma_along_m = std::hypot(echo_sigma_m(range_m, config), shape_m);
-  const double sigma_across_m = std::hypot(range_m * glimpse.beam_step_rad / 3.5, shape_m);
+  const double sigma_across_m = std::hypot(range_m * observation.beam_step_rad / 3.5, shape_m);
   measurement.centre_m = mean_m + kSurfaceToMiddleM * config.size_scale * along;
   measurement.covariance_m2 = sigma_along_m * sigma_along_m * along * along.transpose() +
                               sigma_across_m * sigma_across_m * across * across.transpose();
@@ -582,15 +582,15 @@ BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const Tra
   const double grown_m = std::max(extent_m, body.length.value_m);
   measurement.body.length.value_m = body.length.value_m + 0.2 * (grown_m - body.length.value_m);
   measurement.body.width.value_m = measurement.body.length.value_m;
-  measurement.body.was_seen_whole = body.was_seen_whole || (glimpse.start == Edge::kOpen && glimpse.end == Edge::kOpen);
+  measurement.body.was_seen_whole = body.was_seen_whole || (observation.start == Edge::kOpen && observation.end == Edge::kOpen);
   return measurement;
 }
 
-Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config, const RoadUsers& road_users) {
+Body likely_box(double box_heading_rad, const Observation& observation, const TrackingConfig& config, const RoadUsers& road_users) {
   const auto span_along = [&](double heading_rad) {
     const Vector2d axis{std::cos(heading_rad), std::sin(heading_rad)};
-    const Shadow shadow = span_of(glimpse, glimpse.points_m.front(), axis);
-    return shadow.high_m - shadow.low_m;
+    const Projection projection = span_of(observation, observation.points_m.front(), axis);
+    return projection.high_m - projection.low_m;
   };
   constexpr double kQuarterRad = 0.5 * std::numbers::pi;
   constexpr double kNarrowestM = 1.2;
@@ -613,14 +613,14 @@ bool is_plausible(const Body& body, const TrackingConfig& config) {
   return !body.has_sides || (body.width_evidence.least_m < kWidestM * config.size_scale && body.length_evidence.least_m < config.longest_body_m);
 }
 
-Vector2d supposed_centre_m(const Body& body, const Glimpse& glimpse) {
+Vector2d supposed_centre_m(const Body& body, const Observation& observation) {
   const Vector2d along{std::cos(body.heading_rad), std::sin(body.heading_rad)};
   const Vector2d across{-along.y(), along.x()};
-  const Vector2d origin_m = glimpse.points_m.front();
-  const Shadow u = span_of(glimpse, origin_m, along);
-  const Shadow v = span_of(glimpse, origin_m, across);
+  const Vector2d origin_m = observation.points_m.front();
+  const Projection u = span_of(observation, origin_m, along);
+  const Projection v = span_of(observation, origin_m, across);
   const Vector2d middle_m = origin_m + 0.5 * (u.low_m + u.high_m) * along + 0.5 * (v.low_m + v.high_m) * across;
-  const Vector2d sight_m = middle_m - glimpse.laser_m;
+  const Vector2d sight_m = middle_m - observation.laser_m;
   const double unseen_along_m = std::max(0.0, body.length.value_m - (u.high_m - u.low_m));
   const double unseen_across_m = std::max(0.0, body.width.value_m - (v.high_m - v.low_m));
   // What is not seen of it lies behind what is.

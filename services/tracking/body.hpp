@@ -56,7 +56,7 @@ struct Side {
 };
 
 /// The echoes that belong to one object, in odom.
-struct Glimpse {
+struct Observation {
   std::span<const Eigen::Vector2d> points_m;  ///< In the order of the beams; at least one.
   Eigen::Vector2d laser_m = Eigen::Vector2d::Zero();
   double beam_step_rad = 0.0;                 ///< Positive.
@@ -80,14 +80,14 @@ struct BodyMeasurement {
 
 /// Sides that look at the laser fix the body where it is seen; sides that do not follow from its remembered size. An end
 /// that something nearer hides fixes nothing, but no body is smaller than what is seen of it.
-BodyMeasurement measure_box(const Body& body, const Eigen::Vector2d& predicted_centre_m, const Glimpse& glimpse,
+BodyMeasurement measure_box(const Body& body, const Eigen::Vector2d& predicted_centre_m, const Observation& observation,
                             const TrackingConfig& config);
 
 /// The centre alone of a box of just these sizes, whatever the echoes say of them.
-Eigen::Vector2d box_centre_m(const Body& body, const Eigen::Vector2d& predicted_centre_m, const Glimpse& glimpse, const TrackingConfig& config);
+Eigen::Vector2d box_centre_m(const Body& body, const Eigen::Vector2d& predicted_centre_m, const Observation& observation, const TrackingConfig& config);
 
 /// Middle of the echoes, pushed behind the surface that they lie on by what half the object's depth may be.
-BodyMeasurement measure_blob(const Body& body, const Glimpse& glimpse, const TrackingConfig& config);
+BodyMeasurement measure_blob(const Body& body, const Observation& observation, const TrackingConfig& config);
 
 /// Logarithm of the sum of two weights that are given by theirs.
 double log_sum(double a, double b);
@@ -123,7 +123,7 @@ double log_evidence_of_sizes(const Body& body, const TrackingConfig& config);
 
 /// A box around something first seen now. box_heading_rad: of the longer visible side; which way the body points along it
 /// is not known, and where only one short side is seen, that it is the width is only likely. The body refers to the road users.
-Body likely_box(double box_heading_rad, const Glimpse& glimpse, const TrackingConfig& config, const RoadUsers& road_users = kRoadUsersAnywhere);
+Body likely_box(double box_heading_rad, const Observation& observation, const TrackingConfig& config, const RoadUsers& road_users = kRoadUsersAnywhere);
 
 /// The body pointing the other way: its front is its rear.
 Body turned_about(Body body);
@@ -132,7 +132,7 @@ Body turned_about(Body body);
 bool is_plausible(const Body& body, const TrackingConfig& config);
 
 /// Where the body's centre is if a glimpse is the first that is known of where it is.
-Eigen::Vector2d supposed_centre_m(const Body& body, const Glimpse& glimpse);
+Eigen::Vector2d supposed_centre_m(const Body& body, const Observation& observation);
 
 /// The body turned by a quarter: what was held to be its length is its width.
 Body turned_by_a_quarter(Body body, double sense, const TrackingConfig& config);

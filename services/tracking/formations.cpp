@@ -76,7 +76,7 @@ std::vector<std::vector<TrackId>> Formations::groups(const std::vector<Track>& t
   return all;
 }
 
-Formations::Formation Formations::begun(const std::vector<TrackId>& members, const std::vector<Track>& tracks) const {
+Formations::Formation Formations::initiated(const std::vector<TrackId>& members, const std::vector<Track>& tracks) const {
   std::vector<filters::MotionState> states;
   for (const TrackId id : members)
     states.push_back(std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) { return track.track_id == id; })->estimate);
@@ -88,7 +88,7 @@ void Formations::step(Formation& formation, std::vector<Track>& tracks, double t
   std::vector<filters::MemberFix> fixes;
   for (std::size_t i = 0; i < formation.members.size(); ++i) {
     const Track& track = track_of(formation.members[i], tracks);
-    filters::formation_shift(formation.state, i, track.shifted_m);
+    filters::formation_shift(formation.state, i, track.recentred_m);
     if (track.measured) fixes.push_back({i, track.measured->centre_m, track.measured->R});
   }
   formation.state = filters::update(formation.state, fixes, Matrix2d::Zero());
@@ -104,7 +104,7 @@ void Formations::follow(std::vector<Track>& tracks, double time_s) {
   for (const std::vector<TrackId>& members : groups(tracks)) {
     const auto known = std::find_if(formations_.begin(), formations_.end(), [&](const Formation& formation) { return formation.members == members; });
     if (known == formations_.end()) {
-      now.push_back(begun(members, tracks));
+      now.push_back(initiated(members, tracks));
       continue;
     }
     now.push_back(std::move(*known));

@@ -28,7 +28,7 @@ class Formations {
 
   void note_pairs(const std::vector<Track>& tracks, double time_s);
   std::vector<std::vector<flow::TrackId>> groups(const std::vector<Track>& tracks) const;
-  Formation begun(const std::vector<flow::TrackId>& members, const std::vector<Track>& tracks) const;
+  Formation initiated(const std::vector<flow::TrackId>& members, const std::vector<Track>& tracks) const;
   void step(Formation& formation, std::vector<Track>& tracks, double time_s) const;
 
   TrackingConfig config_;

@@ -53,8 +53,8 @@ Size RoadUsersSeen::next(const Sample& sample, double mean_m, double sigma_m, do
 }
 
 double RoadUsersSeen::shape_share() const {
-  const double off_sides = (kShapeWorth * kOffSidesAsTaken + off_sides_share_.count * off_sides_share_.mean_m) / (kShapeWorth + off_sides_share_.count);
-  return std::clamp((off_sides - kOffSidesOfBoxes) / (kOffSidesAsTaken - kOffSidesOfBoxes), kLeastShapeShare, 1.0);
+  const double outline_error = (kShapeWorth * kOffSidesAsTaken + off_sides_share_.count * off_sides_share_.mean_m) / (kShapeWorth + off_sides_share_.count);
+  return std::clamp((outline_error - kOffSidesOfBoxes) / (kOffSidesAsTaken - kOffSidesOfBoxes), kLeastShapeShare, 1.0);
 }
 
 double RoadUsersSeen::swing_share() const {

@@ -38,9 +38,9 @@ SpeedEvidence speed_along(const Eigen::Vector2d& direction, std::span<const Eige
     before = then;
     const double time_s = static_cast<double>(stamp_ns - then->stamp_ns) * 1e-9;
     for (int i = 0; i <= 2 * kSteps; ++i) {
-      const Eigen::Vector2d way_m = (i - kSteps) * fastest_mps / kSteps * time_s * direction;
+      const Eigen::Vector2d travelled_m = (i - kSteps) * fastest_mps / kSteps * time_s * direction;
       for (std::size_t echo = 0; echo < echoes_m.size(); echo += stride) {
-        const SightOfPlace place = then->view.sight_of(echoes_m[echo] - way_m);
+        const SightOfPlace place = then->view.sight_of(echoes_m[echo] - travelled_m);
         const bool may_have_been_there = place.sight == Sight::kThere || is_hidden_by_another(place, *then, own);
         log_likelihood[static_cast<std::size_t>(i)] += weight * (place.sight == Sight::kThrough ? kThrough : may_have_been_there ? kThere : 0.0);
       }

@@ -9,11 +9,11 @@
 
 #include "common/association/assignment.hpp"
 #include "common/sensing/box_fit.hpp"
-#include "services/tracking/duplicates.hpp"
+#include "services/tracking/merging.hpp"
 #include "services/tracking/face_shift.hpp"
 #include "services/tracking/pairing.hpp"
 #include "services/tracking/speed_evidence.hpp"
-#include "services/tracking/youth.hpp"
+#include "services/tracking/refiltering.hpp"
 
 namespace slammot::tracking {
 namespace {
@@ -130,34 +130,34 @@ int gaps_between(const std::vector<std::uint16_t>& beams, const PolarView& view)
 
 /// The time to which a body's echoes are moved, and how fast it goes.
 struct SweptMotion {
-  double after_stamp_s = 0.0;
+  double time_offset_s = 0.0;
   Vector2d velocity_mps = Vector2d::Zero();
 };
 
-SweptMotion swept_motion(const Track& track) { return {track.after_stamp_s, track.velocity_mps()}; }
+SweptMotion swept_motion(const Track& track) { return {track.time_offset_s, track.velocity_mps()}; }
 
 /// The points of some beams, with what lies beside them.
-Glimpse glimpse_of(const std::vector<std::uint16_t>& beams, const SweptMotion& motion, const Answers& answers, const ScanView& view, double size_scale,
+Observation observation_of(const std::vector<std::uint16_t>& beams, const SweptMotion& motion, const ResponseRate& responses, const ScanView& view, double size_scale,
                    std::vector<Vector2d>& points_m) {
   constexpr double kLongSideM = 1.4;
   points_m.clear();
   const Ends ends = ends_of(beams, view.polar());
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const std::uint16_t beam = beams[(ends.start + i) % beams.size()];
-    points_m.push_back(view.point_in_odom_m(beam) - (view.polar().delay_s(beam) - motion.after_stamp_s) * motion.velocity_mps);
+    points_m.push_back(view.point_in_odom_m(beam) - (view.polar().delay_s(beam) - motion.time_offset_s) * motion.velocity_mps);
   }
   return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(view, ends.first, -1, size_scale),
-          edge_beyond(view, ends.last, +1, size_scale), side_of(beams, view, kLongSideM * size_scale), answers.unanswered_share()};
+          edge_beyond(view, ends.last, +1, size_scale), side_of(beams, view, kLongSideM * size_scale), responses.unanswered_share()};
 }
 
 /// To when the beam that points at it is fired, in a scan that begins time_s after the one before; not back to before the beam
 /// of another scanner that met it last.
 void predict_to_its_beam(Track& track, double time_s, const PolarView& view, const TrackingConfig& config) {
-  const double before_s = track.after_stamp_s;
+  const double before_s = track.time_offset_s;
   const double beam_s = view.delay_towards_s(track.position_m() + (time_s - before_s) * track.velocity_mps());
-  track.after_stamp_s = std::max(beam_s, before_s - time_s);
-  predict(track, std::max(0.0, time_s + track.after_stamp_s - before_s), config);
-  track.since_look_s += time_s;
+  track.time_offset_s = std::max(beam_s, before_s - time_s);
+  predict(track, std::max(0.0, time_s + track.time_offset_s - before_s), config);
+  track.since_in_view_s += time_s;
 }
 
 /// Whether the beams between two things see past them.
@@ -186,7 +186,7 @@ bool is_long_known(const Track& track) {
 
 }  // namespace
 
-Tracker::Tracker(const TrackingConfig& config, work::SideWork* help) : config_(config), help_(help), rivals_(config), formations_(config) {}
+Tracker::Tracker(const TrackingConfig& config, work::SideWork* help) : config_(config), help_(help), competing_tracks_(config), formations_(config) {}
 
 /// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
 bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
@@ -226,11 +226,11 @@ bool Tracker::is_leg(const Segment& segment, const Track& track) const {
 }
 
 /// Gives those who walk close to one another the segments of their likeliest hypothesis, and forbids these to all others.
-void Tracker::give_to_rivals(const ScanView& view, association::CostMatrix& costs) {
+void Tracker::assign_competing_tracks(const ScanView& view, association::CostMatrix& costs) {
   const auto may_have = [&](std::size_t track, std::size_t segment) { return !is_of_another_past(segment, track, view); };
-  const std::vector<std::size_t> segment_of_track = rivals_.decide(tracks_, view, may_have);
+  const std::vector<std::size_t> segment_of_track = competing_tracks_.decide(tracks_, view, may_have);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
-    if (!rivals_.has(tracks_[t])) continue;
+    if (!competing_tracks_.has(tracks_[t])) continue;
     for (std::size_t s = 0; s < costs.columns; ++s) costs(t, s) = association::kForbidden;
     if (segment_of_track[t] == kUnassigned) continue;
     for (std::size_t other = 0; other < tracks_.size(); ++other) costs(other, segment_of_track[t]) = association::kForbidden;
@@ -247,7 +247,7 @@ void Tracker::give_whole_segments(const ScanView& view) {
       const double cost = pair_cost(tracks_[t].body, tracks_[t].estimate, segments[s], config_);
       if (cost != association::kForbidden && !is_of_another_past(s, t, view)) costs(t, s) = cost;
     }
-  if (config_.most_hypotheses > 1) give_to_rivals(view, costs);
+  if (config_.most_hypotheses > 1) assign_competing_tracks(view, costs);
   const std::vector<std::size_t>& segment_of_track = assigner_.assign(costs, kCostOfLeavingOut);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     if (segment_of_track[t] != kUnassigned) shares_.track_of_segment[segment_of_track[t]] = t;
@@ -442,18 +442,18 @@ void Tracker::begin_tracks(const ScanView& view) {
   for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
     const Segment& segment = view.scan().segments[s];
     if (shares_.track_of_segment[s] != kUnassigned || !may_begin(segment, s)) continue;
-    const Answers answers = with_answers({}, segment.beams.size(), gaps_between(segment.beams, view.polar()), 0.0);
-    const double after_stamp_s = view.polar().delay_towards_s(segment.centroid_in_odom_m);
-    const Glimpse glimpse = glimpse_of(segment.beams, {after_stamp_s, Vector2d::Zero()}, answers, view, config_.size_scale, points_m_);
+    const ResponseRate responses = with_responses({}, segment.beams.size(), gaps_between(segment.beams, view.polar()), 0.0);
+    const double time_offset_s = view.polar().delay_towards_s(segment.centroid_in_odom_m);
+    const Observation observation = observation_of(segment.beams, {time_offset_s, Vector2d::Zero()}, responses, view, config_.size_scale, points_m_);
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
     // Detection fits boxes to what moves only.
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m_, config_.range_noise_m).heading_rad;
-    tracks_.push_back(begun({next_id_++}, view.scan().stamp_ns, glimpse, heading_rad, pose_covariance_m2, config_, *road_users_, spare_tracks_.take()));
+    tracks_.push_back(initiated({next_id_++}, view.scan().stamp_ns, observation, heading_rad, pose_covariance_m2, config_, *road_users_, spare_tracks_.take()));
     tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
-    tracks_.back().after_stamp_s = after_stamp_s;
+    tracks_.back().time_offset_s = time_offset_s;
     tracks_.back().scanner = scanner_;
-    tracks_.back().youth.add(view.scan().stamp_ns + nanoseconds(after_stamp_s), glimpse, pose_covariance_m2);
-    tracks_.back().answers = answers;
+    tracks_.back().observations.add(view.scan().stamp_ns + nanoseconds(time_offset_s), observation, pose_covariance_m2);
+    tracks_.back().responses = responses;
     tracks_.back().echoes = static_cast<double>(segment.beams.size());
     tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
     shares_.track_of_segment[s] = tracks_.size() - 1;
@@ -511,7 +511,7 @@ MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) con
 
 /// Holds the velocity of a track that is young, or known again, against what earlier scans saw: ends that come into view, echoes that
 /// another track takes, or those of another vehicle that comes by where this was hidden, make a body seem to fly.
-void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const ScanView& view) {
+void Tracker::check_velocity(std::size_t index, const Observation& observation, const ScanView& view) {
   constexpr double kYoungS = 2.0;
   constexpr double kLongEnoughS = 0.35;     // for what earlier scans did not see well
   constexpr double kSlowMps = 4.0;
@@ -521,17 +521,17 @@ void Tracker::check_velocity(std::size_t index, const Glimpse& glimpse, const Sc
   Track& track = tracks_[index];
   track.is_refuted = false;
   const double age_s = static_cast<double>(view.scan().stamp_ns - track.first_seen_ns) * kNanosecond_s;
-  const double known_s = static_cast<double>(view.scan().stamp_ns - std::max(track.first_seen_ns, track.known_since_ns)) * kNanosecond_s;
+  const double known_s = static_cast<double>(view.scan().stamp_ns - std::max(track.first_seen_ns, track.velocity_known_since_ns)) * kNanosecond_s;
   const Vector2d velocity_mps = track.velocity_mps();
   const bool is_fast = velocity_mps.norm() > kSlowMps;
   if (known_s > kYoungS || (!track.body.has_sides && !is_fast)) return;
   const Vector2d along = track.body.has_sides ? Vector2d(std::cos(track.body.heading_rad), std::sin(track.body.heading_rad)) : Vector2d(velocity_mps.normalized());
   const double speed_mps = velocity_mps.dot(along);
   const double across_mps = (velocity_mps - speed_mps * along).norm();
-  const SpeedEvidence evidence = speed_along(along, glimpse.points_m, view.scan().stamp_ns, history(), kFastestOfSigmas * config_.fastest_mps, track.track_id);
+  const SpeedEvidence evidence = speed_along(along, observation.points_m, view.scan().stamp_ns, history(), kFastestOfSigmas * config_.fastest_mps, track.track_id);
   const bool flies_sideways = across_mps > 2.0 + 0.3 * std::abs(speed_mps);
   const bool is_off = flies_sideways || std::abs(speed_mps - evidence.speed_mps) > 3.0 * evidence.sigma_mps + kSlackMps;
-  const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps && !is_out_of_nowhere(track, config_);
+  const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps && !appeared_in_free_space(track, config_);
   if (is_off && evidence.sigma_mps < kTellingSigmaMps) restart_motion(track, evidence.speed_mps * along, evidence.sigma_mps, config_);
   else track.is_refuted = is_off || is_vague;
 }
@@ -561,30 +561,30 @@ void Tracker::leave_out_surroundings(std::size_t index, double time_s, const Sca
   constexpr double kBelievedAfterS = 0.5;
   Track& track = tracks_[index];
   std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
-  const bool is_sure = is_known_to_walk(track);
-  const bool walks = is_sure || (track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps);
-  if (!walks || beams.empty()) return;
+  const bool is_sure = is_known_pedestrian(track);
+  const bool may_be_pedestrian = is_sure || (track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps);
+  if (!may_be_pedestrian || beams.empty()) return;
   const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + (is_sure ? 0.0 : config_.gate_margin_m); };
   const Ends ends = ends_of(beams, view.polar());
   const bool has_outgrown = (view.point_in_odom_m(ends.last) - view.point_in_odom_m(ends.first)).norm() > config_.box_from_extent_m;
-  track.outgrown_s = has_outgrown ? track.outgrown_s + time_s : 0.0;
-  if (!has_outgrown || (!is_sure && track.outgrown_s > kBelievedAfterS) || std::ranges::none_of(beams, is_near)) return;
+  track.oversized_s = has_outgrown ? track.oversized_s + time_s : 0.0;
+  if (!has_outgrown || (!is_sure && track.oversized_s > kBelievedAfterS) || std::ranges::none_of(beams, is_near)) return;
   std::erase_if(beams, [&](std::uint16_t beam) { return !is_near(beam); });
 }
 
 /// With those of this scan.
-EchoesOfYouth Tracker::with_echoes(EchoesOfYouth youth, const std::vector<std::uint16_t>& beams, const ScanView& view) const {
+TentativeEvidence Tracker::with_echoes(TentativeEvidence observations, const std::vector<std::uint16_t>& beams, const ScanView& view) const {
   for (const std::uint16_t beam : beams) {
-    youth.seen += 1.0;
-    youth.in_free_space += view.scan().labels[beam] == PointLabel::kMoving ? 1.0 : 0.0;
-    youth.stood += past_of_beam_[beam] == Past::kStood ? 1.0 : 0.0;
+    observations.seen += 1.0;
+    observations.in_free_space += view.scan().labels[beam] == PointLabel::kMoving ? 1.0 : 0.0;
+    observations.stood += past_of_beam_[beam] == Past::kStood ? 1.0 : 0.0;
   }
-  return youth;
+  return observations;
 }
 
 /// Takes the echoes of each track; what concerns others than it is done afterwards, in the order of the tracks.
 void Tracker::correct_all(const ScanView& view) {
-  if (glimpse_points_m_.size() < tracks_.size()) glimpse_points_m_.resize(tracks_.size());
+  if (observed_points_m_.size() < tracks_.size()) observed_points_m_.resize(tracks_.size());
   outcomes_.resize(tracks_.size());
   work::share(help_, tracks_.size(), [&](std::size_t t) { outcomes_[t] = correct(t, view); });
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
@@ -595,21 +595,21 @@ void Tracker::correct_all(const ScanView& view) {
 
 /// Whether the echoes are the track's own, by which it is corrected then. Once they may be somebody else's; again and again,
 /// in its place, they tell that it is drawn wrong.
-bool Tracker::takes(std::size_t index, const Glimpse& glimpse, double time_s, const flow::SegmentedScan& scan) {
+bool Tracker::takes(std::size_t index, const Observation& observation, double time_s, const flow::SegmentedScan& scan) {
   constexpr double kKnownToMoveM = 5.0;
   constexpr double kDrawnWrongAfterS = 0.1;
   constexpr std::size_t kFewestEchoes = 6;  // around fewer it would be drawn no better
   Track& track = tracks_[index];
   const Matrix2d pose_covariance_m2 = pose_covariance_at(track.position_m(), scan);
-  if (!update(track, scan.stamp_ns, glimpse, pose_covariance_m2, config_)) {
-    track.refused_s += time_s;
-    const bool surely_moves = shares_.label_of_track[index] == PointLabel::kMoving && track.way_m > kKnownToMoveM * config_.size_scale;
-    const bool may_be_drawn = track.body.has_sides && glimpse.points_m.size() >= kFewestEchoes;
-    if (!may_be_drawn || !surely_moves || track.refused_s < kDrawnWrongAfterS) return false;
-    draw_around(track, glimpse, config_);
-    if (!update(track, scan.stamp_ns, glimpse, pose_covariance_m2, config_)) return false;
+  if (!update(track, scan.stamp_ns, observation, pose_covariance_m2, config_)) {
+    track.rejected_s += time_s;
+    const bool surely_moves = shares_.label_of_track[index] == PointLabel::kMoving && track.travelled_m > kKnownToMoveM * config_.size_scale;
+    const bool may_be_drawn = track.body.has_sides && observation.points_m.size() >= kFewestEchoes;
+    if (!may_be_drawn || !surely_moves || track.rejected_s < kDrawnWrongAfterS) return false;
+    reinitialise_extent(track, observation, config_);
+    if (!update(track, scan.stamp_ns, observation, pose_covariance_m2, config_)) return false;
   }
-  track.refused_s = 0.0;
+  track.rejected_s = 0.0;
   return true;
 }
 
@@ -628,7 +628,7 @@ Tracker::Outcome Tracker::correct(std::size_t index, const ScanView& view) {
     if (beams.empty() && is_left_to_another_scanner(track, visibility)) return Outcome::kGoesOn;
     if (!beams.empty() || visibility.beams > 0) track.scanner = scanner_;
   }
-  const double time_s = std::exchange(track.since_look_s, 0.0);
+  const double time_s = std::exchange(track.since_in_view_s, 0.0);
   leave_out_surroundings(index, time_s, view);
   constexpr double kEchoMemoryS = 0.2;
   track.echoes += (1.0 - std::exp(-time_s / kEchoMemoryS)) * (static_cast<double>(beams.size()) - track.echoes);
@@ -636,32 +636,32 @@ Tracker::Outcome Tracker::correct(std::size_t index, const ScanView& view) {
     score_miss(track, view.visibility_of(track.body, track.position_m()), time_s, config_);
     return Outcome::kGoesOn;
   }
-  track.answers = with_answers(track.answers, beams.size(), gaps_between(beams, view.polar()), time_s);
-  const Glimpse glimpse = glimpse_of(beams, swept_motion(track), track.answers, view, config_.size_scale, glimpse_points_m_[index]);
+  track.responses = with_responses(track.responses, beams.size(), gaps_between(beams, view.polar()), time_s);
+  const Observation observation = observation_of(beams, swept_motion(track), track.responses, view, config_.size_scale, observed_points_m_[index]);
   const bool was_known = has_published_velocity(track, config_);
-  if (!takes(index, glimpse, time_s, view.scan())) return Outcome::kIsOfSomethingElse;
+  if (!takes(index, observation, time_s, view.scan())) return Outcome::kIsOfSomethingElse;
   const bool is_known_again = track.confirmed && !was_known && has_published_velocity(track, config_);
-  if (is_known_again) track.known_since_ns = view.scan().stamp_ns;
-  if (!track.confirmed) track.youth_echoes = with_echoes(track.youth_echoes, beams, view);
+  if (is_known_again) track.velocity_known_since_ns = view.scan().stamp_ns;
+  if (!track.confirmed) track.tentative_evidence = with_echoes(track.tentative_evidence, beams, view);
   score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
   if (track.confirmed && is_vehicle(track)) {
     const Visibility inside = view.visibility_of(inner_part_of(track), track.position_m());
     score_passed(track, inside, beams.size(), config_);
-    track.passage = with_beams(track.passage, inside.passed, beams.size(), time_s);
+    track.beam_passage = with_beams(track.beam_passage, inside.passed, beams.size(), time_s);
   }
-  if (!track.confirmed) track.youth.add(view.scan().stamp_ns + nanoseconds(track.after_stamp_s), glimpse, pose_covariance_at(track.position_m(), view.scan()));
-  if (!track.confirmed) draw_anew_if_askew(track, glimpse, time_s, config_);
-  if (!track.confirmed && has_proven_to_move(track, config_)) {
-    const Life before = life(track);
-    live_as(track, relived(track, config_));
+  if (!track.confirmed) track.observations.add(view.scan().stamp_ns + nanoseconds(track.time_offset_s), observation, pose_covariance_at(track.position_m(), view.scan()));
+  if (!track.confirmed) reinitialise_extent_if_misfit(track, observation, time_s, config_);
+  if (!track.confirmed && is_confirmable(track, config_)) {
+    const Belief before = belief(track);
+    set_belief(track, refiltered(track, config_));
     const bool was_turned = std::abs(std::sin(before.body.heading_rad - track.body.heading_rad)) > 0.7;
     const bool is_surely_turned = was_turned && track.body.is_oriented;
-    if (!is_surely_turned && !has_proven_to_move(track, config_)) live_as(track, before);  // what it lacks is but certainty
+    if (!is_surely_turned && !is_confirmable(track, config_)) set_belief(track, before);  // what it lacks is but certainty
   }
-  const bool may_be_confirmed = !track.confirmed && has_proven_to_move(track, config_);
+  const bool may_be_confirmed = !track.confirmed && is_confirmable(track, config_);
   constexpr int kHitsBetweenChecks = 5;
-  if (may_be_confirmed || is_known_again || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, glimpse, view);
-  return may_be_confirmed && !track.is_refuted && has_proven_to_move(track, config_) ? Outcome::kIsConfirmed : Outcome::kGoesOn;
+  if (may_be_confirmed || is_known_again || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, observation, view);
+  return may_be_confirmed && !track.is_refuted && is_confirmable(track, config_) ? Outcome::kIsConfirmed : Outcome::kGoesOn;
 }
 
 void Tracker::confirm(std::size_t index) {
@@ -688,9 +688,9 @@ void Tracker::join_pieces(const ScanView& view) {
     if (!is_long_known(tracks_[a]) || shares_.beams_of_track[a].empty()) continue;
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
       if (a == b || tracks_[a].hits < tracks_[b].hits || !is_long_known(tracks_[b]) || shares_.beams_of_track[b].empty()) continue;
-      if (!drive_as_one(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
+      if (!are_parts_of_one_vehicle(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
       absorb(a, b);
-      draw_around(tracks_[a], glimpse_of(shares_.beams_of_track[a], swept_motion(tracks_[a]), tracks_[a].answers, view, config_.size_scale, points_m_), config_);
+      reinitialise_extent(tracks_[a], observation_of(shares_.beams_of_track[a], swept_motion(tracks_[a]), tracks_[a].responses, view, config_.size_scale, points_m_), config_);
     }
   }
 }
@@ -699,7 +699,7 @@ void Tracker::merge_duplicates() {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
       if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0) continue;
-      if (is_superfluous(tracks_[b], tracks_[a], config_)) absorb(a, b);
+      if (is_duplicate(tracks_[b], tracks_[a], config_)) absorb(a, b);
     }
   }
 }
@@ -725,15 +725,15 @@ void Tracker::remove_dead(flow::ScanLabels& labels) {
     const double unseen_s = static_cast<double>(last_stamp_ns_ - track.last_seen_ns) * kNanosecond_s;
     const double age_s = static_cast<double>(last_stamp_ns_ - track.first_seen_ns) * kNanosecond_s;
     const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
-    const bool never_moved = track.confirmed && is_held_never_to_have_moved(track, last_stamp_ns_, config_);
-    const bool is_dead = is_lost || is_given_up(track, age_s, config_) || never_moved || contradicts_itself(track, config_) || track.score < config_.reject_score;
+    const bool never_moved = track.confirmed && has_stood_too_long(track, last_stamp_ns_, config_);
+    const bool is_dead = is_lost || is_timed_out(track, age_s, config_) || never_moved || claims_motion_without_travel(track, config_) || track.score < config_.reject_score;
     if (is_dead && !track.confirmed) {
       ++counters_.tracks_rejected;
       restore(track, labels);
     }
-    if (is_dead) note_sizes(road_users_seen_, track, config_);
-    if (is_dead) note_off_sides(road_users_seen_, track, config_);
-    if (is_dead) note_swing(road_users_seen_, track, config_);
+    if (is_dead) learn_sizes(road_users_seen_, track, config_);
+    if (is_dead) learn_outline_error(road_users_seen_, track, config_);
+    if (is_dead) learn_gait(road_users_seen_, track, config_);
     return is_dead;
   };
   std::size_t kept = 0;
@@ -788,7 +788,7 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult do
   view_.look_at(scan);
   const ScanView& view = view_;
   for (Track& track : tracks_) predict_to_its_beam(track, time_s, view.polar(), config_);
-  rivals_.predict(time_s);
+  competing_tracks_.predict(time_s);
   compare_with_past(view);
   associate(view);
   correct_all(view);
@@ -841,19 +841,19 @@ void Tracker::describe(const flow::SegmentedScan& scan, flow::TrackedObjects& ob
   objects.map_id = scan.map_id;
   objects.odom_id = scan.odom_id;
   spare_objects_.resize(objects.objects, tracks_.size());
-  work::share(help_, tracks_.size(), [&](std::size_t t) { objects.objects[t] = described(tracks_[t], scan.stamp_ns, config_, std::move(objects.objects[t])); });
+  work::share(help_, tracks_.size(), [&](std::size_t t) { objects.objects[t] = published(tracks_[t], scan.stamp_ns, config_, std::move(objects.objects[t])); });
 }
 
-void Tracker::take_up(const flow::TrackedObjects& objects) {
+void Tracker::resume(const flow::TrackedObjects& objects) {
   tracks_.clear();
   road_users_seen_ = {};
-  rivals_ = Rivals(config_);
+  competing_tracks_ = CompetingTracks(config_);
   formations_ = Formations(config_);
   scanners_.clear();
   scanners_at_last_.clear();
   for (const flow::TrackedObject& object : objects.objects) {
     next_id_ = std::max(next_id_, object.track_id.value + 1);
-    if (object.confirmed) tracks_.push_back(resumed(object, config_));
+    if (object.confirmed) tracks_.push_back(track_from_message(object, config_));
   }
   *road_users_ = road_users_seen_.known();
   for (Track& track : tracks_) track.body.road_users = road_users_.get();

@@ -15,7 +15,7 @@
 #include "common/memory/spares.hpp"
 #include "common/work/side_work.hpp"
 #include "services/tracking/formations.hpp"
-#include "services/tracking/rivals.hpp"
+#include "services/tracking/competing_tracks.hpp"
 #include "services/tracking/road_users.hpp"
 #include "services/tracking/scan_history.hpp"
 #include "services/tracking/scan_view.hpp"
@@ -65,7 +65,7 @@ class Tracker {
   TrackingResult track(const flow::SegmentedScan& scan, TrackingResult done_with = {});
 
   /// Goes on with what was published last, after a restart: ids stay and are not given again. Forgets all else.
-  void take_up(const flow::TrackedObjects& objects);
+  void resume(const flow::TrackedObjects& objects);
 
   const TrackerCounters& counters() const { return counters_; }
 
@@ -119,11 +119,11 @@ class Tracker {
   bool may_begin(const flow::Segment& segment, std::size_t index) const;
   bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const;
   MotionEvidence evidence_of(std::size_t track, const ScanView& view) const;
-  EchoesOfYouth with_echoes(EchoesOfYouth youth, const std::vector<std::uint16_t>& beams, const ScanView& view) const;
+  TentativeEvidence with_echoes(TentativeEvidence observations, const std::vector<std::uint16_t>& beams, const ScanView& view) const;
   MotionEvidence evidence_against(const EarlierScan& then, std::size_t track, const ScanView& view) const;
-  void check_velocity(std::size_t track, const Glimpse& glimpse, const ScanView& view);
+  void check_velocity(std::size_t track, const Observation& observation, const ScanView& view);
   void correct_all(const ScanView& view);
-  bool takes(std::size_t track, const Glimpse& glimpse, double time_s, const flow::SegmentedScan& scan);
+  bool takes(std::size_t track, const Observation& observation, double time_s, const flow::SegmentedScan& scan);
   Outcome correct(std::size_t track, const ScanView& view);
   void confirm(std::size_t track);
   void leave_out_surroundings(std::size_t track, double time_s, const ScanView& view);
@@ -133,7 +133,7 @@ class Tracker {
   bool is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const;
   bool is_leg(const flow::Segment& segment, const Track& track) const;
   void associate(const ScanView& view);
-  void give_to_rivals(const ScanView& view, association::CostMatrix& costs);
+  void assign_competing_tracks(const ScanView& view, association::CostMatrix& costs);
   void give_whole_segments(const ScanView& view);
   void divide_shared_segments(const ScanView& view);
   void begin_tracks(const ScanView& view);
@@ -151,12 +151,12 @@ class Tracker {
   Shares shares_;
   std::vector<Past> past_of_beam_;              ///< Of the current scan.
   std::vector<SegmentPast> past_of_segment_;
-  std::vector<std::vector<Eigen::Vector2d>> glimpse_points_m_;  ///< Of each track while it is being corrected.
+  std::vector<std::vector<Eigen::Vector2d>> observed_points_m_;  ///< Of each track while it is being corrected.
   std::vector<Outcome> outcomes_;               ///< Of each track, when it was.
   std::vector<char> has_shifted_;               ///< Beams on faces that have moved.
   RoadUsersSeen road_users_seen_;               ///< Each when its track ended.
   std::unique_ptr<RoadUsers> road_users_ = std::make_unique<RoadUsers>(road_users_seen_.known());  ///< Where it is when the tracker is moved: tracks refer to it.
-  Rivals rivals_;
+  CompetingTracks competing_tracks_;
   Formations formations_;
   std::vector<OfScanner> scanners_;             ///< In the order of their first scans.
   std::size_t scanner_ = 0;                     ///< That of the current scan.

@@ -31,20 +31,20 @@ std::vector<Vector2d> echoes_of(const Vector2d& centre_m, double length_m, doubl
   return points;
 }
 
-Glimpse glimpse_of(const std::vector<Vector2d>& points) {
-  Glimpse glimpse;
-  glimpse.points_m = points;
-  glimpse.beam_step_rad = kStepRad;
-  return glimpse;
+Observation observation_of(const std::vector<Vector2d>& points) {
+  Observation observation;
+  observation.points_m = points;
+  observation.beam_step_rad = kStepRad;
+  return observation;
 }
 
 /// Measured again and again until the belief has settled.
-BodyMeasurement settled(Body body, const Vector2d& predicted_m, const Glimpse& glimpse, const TrackingConfig& config = kConfig) {
+BodyMeasurement settled(Body body, const Vector2d& predicted_m, const Observation& observation, const TrackingConfig& config = kConfig) {
   body.is_oriented = true;
   BodyMeasurement measurement;
   Vector2d centre_m = predicted_m;
   for (int i = 0; i < 20; ++i) {
-    measurement = measure_box(body, centre_m, glimpse, config);
+    measurement = measure_box(body, centre_m, observation, config);
     body = measurement.body;
     centre_m = measurement.centre_m;
   }
@@ -53,11 +53,11 @@ BodyMeasurement settled(Body body, const Vector2d& predicted_m, const Glimpse& g
 
 TEST(Body, IsAsLongAsACarWhenOnlyTheBackOfOneIsSeen) {
   const auto points = echoes_of({20.0, 0.0}, 4.5, 1.8);
-  const Glimpse glimpse = glimpse_of(points);
-  const Body body = likely_box(M_PI / 2.0, glimpse, kConfig);  // the long side that is seen lies across the view
+  const Observation observation = observation_of(points);
+  const Body body = likely_box(M_PI / 2.0, observation, kConfig);  // the long side that is seen lies across the view
   EXPECT_EQ(body.kind, Kind::kCar);
   EXPECT_NEAR(std::abs(std::cos(body.heading_rad)), 1.0, 1e-6);
-  const BodyMeasurement measurement = settled(body, supposed_centre_m(body, glimpse), glimpse);
+  const BodyMeasurement measurement = settled(body, supposed_centre_m(body, observation), observation);
   EXPECT_NEAR(measurement.centre_m.x(), 20.0, 0.15);
   EXPECT_NEAR(measurement.centre_m.y(), 0.0, 0.1);
   EXPECT_NEAR(measurement.body.width.value_m, 1.8, 0.15);
@@ -65,15 +65,15 @@ TEST(Body, IsAsLongAsACarWhenOnlyTheBackOfOneIsSeen) {
 
 TEST(Body, IsLongerThanACarBehindABackThatIsWiderThanACars) {
   const auto points = echoes_of({20.0, 0.0}, 12.0, 2.5);
-  const Body body = likely_box(M_PI / 2.0, glimpse_of(points), kConfig);
+  const Body body = likely_box(M_PI / 2.0, observation_of(points), kConfig);
   EXPECT_TRUE(body.kind == Kind::kTruck || body.kind == Kind::kBus);
   EXPECT_GT(body.length.variance_m2, 1.0);  // which of the two is open
 }
 
 TEST(Body, IsAsLongAsItsFlankWhenThatIsSeenFromEndToEnd) {
   const auto points = echoes_of({8.0, 12.0}, 5.2, 1.9);
-  const Glimpse glimpse = glimpse_of(points);
-  const BodyMeasurement measurement = settled(likely_box(0.0, glimpse, kConfig), {8.0, 12.0}, glimpse);
+  const Observation observation = observation_of(points);
+  const BodyMeasurement measurement = settled(likely_box(0.0, observation, kConfig), {8.0, 12.0}, observation);
   EXPECT_NEAR(measurement.body.length.value_m, 5.2, 0.15);
   EXPECT_LT((measurement.centre_m - Vector2d(8.0, 12.0)).norm(), 0.2);
 }
@@ -106,8 +106,8 @@ TEST(Body, IsAsLongAsItIsThoughItsCornersAreRound) {
   const Vector2d centre_m{9.0, 5.0};
   for (const double cut_m : {0.0, 0.35}) {
     const auto points = echoes_of_cut(centre_m, 4.8, 1.8, cut_m);
-    const Glimpse glimpse = glimpse_of(points);
-    const BodyMeasurement measurement = settled(likely_box(0.0, glimpse, kConfig), centre_m, glimpse);
+    const Observation observation = observation_of(points);
+    const BodyMeasurement measurement = settled(likely_box(0.0, observation, kConfig), centre_m, observation);
     EXPECT_NEAR(measurement.body.corner_seen.value_m, cut_m, 0.08);
     EXPECT_NEAR(measurement.body.length.value_m, 4.8, 0.1) << "of a flank seen askew the last " << cut_m << " m lie behind the rest";
     EXPECT_LT((measurement.centre_m - centre_m).norm(), 0.09);
@@ -116,12 +116,12 @@ TEST(Body, IsAsLongAsItIsThoughItsCornersAreRound) {
 
 TEST(Body, IsAsLargeAsThoseOfItsKindAreHere) {
   const auto points = echoes_of({20.0, 0.0}, 4.8, 1.8);
-  const Glimpse glimpse = glimpse_of(points);
+  const Observation observation = observation_of(points);
   RoadUsersSeen seen;
   for (int i = 0; i < 20; ++i) seen.add_length(Kind::kCar, {4.8, 0.004}), seen.add_width(Kind::kCar, {1.8, 0.004});
   const RoadUsers known = seen.known();
-  const Body anywhere = settled(likely_box(M_PI / 2.0, glimpse, kConfig), {20.0, 0.0}, glimpse).body;
-  const Body here = settled(likely_box(M_PI / 2.0, glimpse, kConfig, known), {20.0, 0.0}, glimpse).body;
+  const Body anywhere = settled(likely_box(M_PI / 2.0, observation, kConfig), {20.0, 0.0}, observation).body;
+  const Body here = settled(likely_box(M_PI / 2.0, observation, kConfig, known), {20.0, 0.0}, observation).body;
   EXPECT_NEAR(here.length.value_m, 4.8, 0.05) << "only the back of it is seen";
   EXPECT_LT(here.length.variance_m2, 0.25 * anywhere.length.variance_m2);
   Body longer = here;
@@ -131,15 +131,15 @@ TEST(Body, IsAsLargeAsThoseOfItsKindAreHere) {
 
 TEST(Body, OfAModelIsMeasuredAsThatOfACarIs) {
   const auto points = echoes_of({8.0, 4.0}, 4.6, 1.9);
-  const BodyMeasurement car = settled(likely_box(0.0, glimpse_of(points), kConfig), {8.0, 4.0}, glimpse_of(points));
+  const BodyMeasurement car = settled(likely_box(0.0, observation_of(points), kConfig), {8.0, 4.0}, observation_of(points));
   const double scale = 0.1;
   TrackingConfig config;
   config.size_scale = scale;
   for (double* length_m : {&config.range_noise_m, &config.shape_noise_m, &config.longest_body_m}) *length_m *= scale;
   std::vector<Vector2d> model_points;
   for (const Vector2d& point : points) model_points.push_back(scale * point);
-  const Glimpse glimpse = glimpse_of(model_points);
-  const BodyMeasurement model = settled(likely_box(0.0, glimpse, config), scale * Vector2d(8.0, 4.0), glimpse, config);
+  const Observation observation = observation_of(model_points);
+  const BodyMeasurement model = settled(likely_box(0.0, observation, config), scale * Vector2d(8.0, 4.0), observation, config);
   EXPECT_NEAR(model.body.length.value_m, scale * car.body.length.value_m, 1e-3);
   EXPECT_NEAR(model.body.width.value_m, scale * car.body.width.value_m, 1e-3);
   EXPECT_LT((model.centre_m - scale * car.centre_m).norm(), 1e-3);
@@ -147,9 +147,9 @@ TEST(Body, OfAModelIsMeasuredAsThatOfACarIs) {
 
 TEST(Body, DoesNotShrinkToThePartThatSomethingNearerLeavesInView) {
   auto points = echoes_of({8.0, 12.0}, 5.2, 1.9);
-  Body body = settled(likely_box(0.0, glimpse_of(points), kConfig), {8.0, 12.0}, glimpse_of(points)).body;
+  Body body = settled(likely_box(0.0, observation_of(points), kConfig), {8.0, 12.0}, observation_of(points)).body;
   points.resize(points.size() / 2);
-  Glimpse half = glimpse_of(points);
+  Observation half = observation_of(points);
   half.end = Edge::kHidden;
   const BodyMeasurement measurement = settled(body, {8.0, 12.0}, half);
   EXPECT_NEAR(measurement.body.length.value_m, 5.2, 0.2);
@@ -158,24 +158,24 @@ TEST(Body, DoesNotShrinkToThePartThatSomethingNearerLeavesInView) {
 TEST(Body, IsNotTakenToEndWhereSomethingNearerCutsItsFlankOff) {
   auto points = echoes_of({2.0, 4.0}, 4.5, 1.8);
   std::erase_if(points, [](const Vector2d& point) { return point.x() < 1.5 || point.y() > 3.2; });  // the rear half of the flank
-  Glimpse glimpse = glimpse_of(points);
-  glimpse.start = Edge::kHidden;
-  glimpse.end = Edge::kHidden;
-  glimpse.laser_m = {-2.0, 0.0};  // beyond the low end, where a face would look at it
-  (points.front().x() > points.back().x() ? glimpse.start : glimpse.end) = Edge::kOpen;
-  Body body = likely_box(0.0, glimpse_of(echoes_of({2.0, 4.0}, 4.5, 1.8)), kConfig);
+  Observation observation = observation_of(points);
+  observation.start = Edge::kHidden;
+  observation.end = Edge::kHidden;
+  observation.laser_m = {-2.0, 0.0};  // beyond the low end, where a face would look at it
+  (points.front().x() > points.back().x() ? observation.start : observation.end) = Edge::kOpen;
+  Body body = likely_box(0.0, observation_of(echoes_of({2.0, 4.0}, 4.5, 1.8)), kConfig);
   body.is_oriented = true;
-  const BodyMeasurement measurement = measure_box(body, {2.0, 4.0}, glimpse, kConfig);
+  const BodyMeasurement measurement = measure_box(body, {2.0, 4.0}, observation, kConfig);
   EXPECT_NEAR(measurement.centre_m.x(), 2.0, 0.3);
 }
 
 TEST(Body, EndsWhereAFlankDoesThoughNothingFartherIsEchoedBeyond) {
   const auto points = echoes_of({8.0, 4.0}, 1.7, 0.6);  // a bicycle at the roadside, in the open
-  Glimpse glimpse = glimpse_of(points);
-  glimpse.start = glimpse.end = Edge::kNoEcho;
+  Observation observation = observation_of(points);
+  observation.start = observation.end = Edge::kNoEcho;
   Body body;
   body.has_sides = true;
-  const BodyMeasurement measurement = settled(with_likely_sizes(body, kConfig), {8.0, 4.0}, glimpse);  // a car, as far as known
+  const BodyMeasurement measurement = settled(with_likely_sizes(body, kConfig), {8.0, 4.0}, observation);  // a car, as far as known
   EXPECT_EQ(measurement.body.kind, Kind::kBicycle);
   EXPECT_NEAR(measurement.body.length.value_m, 1.7, 0.2);
 }
@@ -198,7 +198,7 @@ TEST(Body, ForgetsThatItWasLargerOnceWhenItIsSeenFromEndToEndAgainAndAgain) {
   body.length_evidence.least_m = 10.0;  // for a moment a wall was taken for a part of it
   body = with_likely_sizes(body, kConfig);
   ASSERT_GT(body.length.value_m, 9.0);
-  for (int scan = 0; scan < 150; ++scan) body = measure_box(body, {8.0, 12.0}, glimpse_of(points), kConfig).body;
+  for (int scan = 0; scan < 150; ++scan) body = measure_box(body, {8.0, 12.0}, observation_of(points), kConfig).body;
   EXPECT_NEAR(body.length.value_m, 4.5, 0.3);
 }
 
@@ -207,7 +207,7 @@ TEST(Body, DoesNotLearnItsWidthBetterFromManyScansThatAllSeeItFromFarAway) {
   Body body;
   body.has_sides = body.is_oriented = true;
   body = with_likely_sizes(body, kConfig);
-  for (int scan = 0; scan < 100; ++scan) body = measure_box(body, {57.0, 0.0}, glimpse_of(points), kConfig).body;
+  for (int scan = 0; scan < 100; ++scan) body = measure_box(body, {57.0, 0.0}, observation_of(points), kConfig).body;
   EXPECT_GT(std::sqrt(body.width_evidence.whole.variance_m2), 0.1);
 }
 
@@ -219,7 +219,7 @@ TEST(Body, KeepsTheSideThatIsSeenWhereItIsWhenItGrows) {
   const double back_m = centre_m.x() - 0.5 * body.length.value_m;
   std::vector<Vector2d> points;
   for (double y = -1.25; y <= 1.25; y += 0.1) points.emplace_back(back_m, y);  // wider than a car
-  const BodyMeasurement measurement = measure_box(body, centre_m, glimpse_of(points), kConfig);
+  const BodyMeasurement measurement = measure_box(body, centre_m, observation_of(points), kConfig);
   ASSERT_GT(measurement.body.length.value_m, body.length.value_m + 1.0);
   EXPECT_NEAR((centre_m + measurement.recentring_m).x() - 0.5 * measurement.body.length.value_m, back_m, 1e-6);
 }
@@ -231,12 +231,12 @@ Body car_of_unknown_length() {
   return with_likely_sizes(body, kConfig);
 }
 
-Glimpse with_edges(const std::vector<Vector2d>& points, Edge low, Edge high) {
-  Glimpse glimpse = glimpse_of(points);
+Observation with_edges(const std::vector<Vector2d>& points, Edge low, Edge high) {
+  Observation observation = observation_of(points);
   const bool begins_low = points.front().x() < points.back().x();
-  glimpse.start = begins_low ? low : high;
-  glimpse.end = begins_low ? high : low;
-  return glimpse;
+  observation.start = begins_low ? low : high;
+  observation.end = begins_low ? high : low;
+  return observation;
 }
 
 TEST(Body, SaysThatItsCentreMakesAStepWhenAnotherEndOfItIsSeen) {
@@ -244,7 +244,7 @@ TEST(Body, SaysThatItsCentreMakesAStepWhenAnotherEndOfItIsSeen) {
   for (double x = 8.0; x < 9.6; x += 0.1) flank.emplace_back(x, 3.0);
   const Vector2d centre_m{9.0, 3.9};
   Body body = car_of_unknown_length();
-  const Glimpse far_end = with_edges(flank, Edge::kHidden, Edge::kOpen);
+  const Observation far_end = with_edges(flank, Edge::kHidden, Edge::kOpen);
   const BodyMeasurement first = measure_box(body, centre_m, far_end, kConfig);
   EXPECT_EQ(first.body.length_held, 1);
   EXPECT_TRUE(first.step_covariance_m2.isZero());
@@ -266,11 +266,11 @@ TEST(Body, TurnedAboutIsHeldAtTheEndAtWhichItWas) {
 
 TEST(Body, OfWhichFewBeamsAreAnsweredDoesNotEndAtALoneEcho) {
   const std::vector<Vector2d> echo = {{9.0, 3.0}};
-  Glimpse glimpse = with_edges(echo, Edge::kNoEcho, Edge::kNoEcho);
+  Observation observation = with_edges(echo, Edge::kNoEcho, Edge::kNoEcho);
   const Vector2d centre_m{9.0, 3.9};
   const auto sigma_along_m = [&](double unanswered_share) {
-    glimpse.unanswered_share = unanswered_share;
-    return std::sqrt(measure_box(car_of_unknown_length(), centre_m, glimpse, kConfig).covariance_m2(0, 0));
+    observation.unanswered_share = unanswered_share;
+    return std::sqrt(measure_box(car_of_unknown_length(), centre_m, observation, kConfig).covariance_m2(0, 0));
   };
   EXPECT_LT(sigma_along_m(0.05), 0.3);
   EXPECT_GT(sigma_along_m(0.75), 1.0);
@@ -278,10 +278,10 @@ TEST(Body, OfWhichFewBeamsAreAnsweredDoesNotEndAtALoneEcho) {
 
 TEST(Body, WithoutSidesIsSomewhereAboutAnEchoThatIsRarelyAnswered) {
   const std::vector<Vector2d> echo = {{25.0, 0.0}};
-  Glimpse glimpse = glimpse_of(echo);
+  Observation observation = observation_of(echo);
   const auto sigma_m = [&](double unanswered_share) {
-    glimpse.unanswered_share = unanswered_share;
-    return std::sqrt(measure_blob({}, glimpse, kConfig).covariance_m2(1, 1));
+    observation.unanswered_share = unanswered_share;
+    return std::sqrt(measure_blob({}, observation, kConfig).covariance_m2(1, 1));
   };
   EXPECT_LT(sigma_m(0.05), 0.1);
   EXPECT_GT(sigma_m(0.75), 0.35);
@@ -323,7 +323,7 @@ TEST(Body, OfLegsOrACoatHasItsMiddleWithinAFewCentimetres) {
   const Vector2d centre_m{6.0, 1.0};
   for (const double radius_m : {0.07, 0.125}) {
     const auto echoes = echoes_of_disc(centre_m, radius_m);
-    EXPECT_LT((measure_blob({}, glimpse_of(echoes), kConfig).centre_m - centre_m).norm(), 0.03) << radius_m;
+    EXPECT_LT((measure_blob({}, observation_of(echoes), kConfig).centre_m - centre_m).norm(), 0.03) << radius_m;
   }
 }
 
@@ -332,7 +332,7 @@ TEST(Body, OfSomethingSmallIsAsDeepAsTheScaleSays) {
   config.size_scale = 0.1;
   const Vector2d centre_m{2.0, 0.3};
   const auto echoes = echoes_of_disc(centre_m, 0.01);
-  EXPECT_LT((measure_blob({}, glimpse_of(echoes), config).centre_m - centre_m).norm(), 0.003);
+  EXPECT_LT((measure_blob({}, observation_of(echoes), config).centre_m - centre_m).norm(), 0.003);
 }
 
 TEST(Body, KnowsTheLengthAsItsWidthAfterAQuarterTurn) {

@@ -10,26 +10,26 @@ namespace {
 
 constexpr double kPeriodS = 0.027;
 
-TEST(Answers, AreSupposedToBeManyBeforeAnythingIsKnown) { EXPECT_LT(Answers().unanswered_share(), 0.3); }
+TEST(ResponseRate, AreSupposedToBeManyBeforeAnythingIsKnown) { EXPECT_LT(ResponseRate().unanswered_share(), 0.3); }
 
-TEST(Answers, OfSomethingDarkAreStillKnownToBeFewWhenOneEchoIsAllThatIsSeen) {
-  Answers answers;
-  for (int scan = 0; scan < 20; ++scan) answers = with_answers(answers, 4, 8, kPeriodS);
-  answers = with_answers(answers, 1, 0, kPeriodS);
-  EXPECT_NEAR(answers.unanswered_share(), 0.8, 0.05);  // of the ten between the two outermost
+TEST(ResponseRate, OfSomethingDarkAreStillKnownToBeFewWhenOneEchoIsAllThatIsSeen) {
+  ResponseRate responses;
+  for (int scan = 0; scan < 20; ++scan) responses = with_responses(responses, 4, 8, kPeriodS);
+  responses = with_responses(responses, 1, 0, kPeriodS);
+  EXPECT_NEAR(responses.unanswered_share(), 0.8, 0.05);  // of the ten between the two outermost
 }
 
-TEST(Answers, AreForgottenAfterAWhile) {
-  Answers answers = with_answers({}, 4, 8, kPeriodS);
-  for (int scan = 0; scan < 200; ++scan) answers = with_answers(answers, 10, 0, kPeriodS);
-  EXPECT_LT(answers.unanswered_share(), 0.05);
+TEST(ResponseRate, AreForgottenAfterAWhile) {
+  ResponseRate responses = with_responses({}, 4, 8, kPeriodS);
+  for (int scan = 0; scan < 200; ++scan) responses = with_responses(responses, 10, 0, kPeriodS);
+  EXPECT_LT(responses.unanswered_share(), 0.05);
 }
 
 /// What is learned of one who is always so far from where they were predicted.
-double sigma_after_m(double surprise_m, const TrackingConfig& config) {
+double sigma_after_m(double innovation_m, const TrackingConfig& config) {
   const Eigen::Matrix2d noise_m2 = 1e-4 * Eigen::Matrix2d::Identity();
   Gait gait;
-  for (int scan = 0; scan < 250; ++scan) gait = with_step(gait, {surprise_m, surprise_m}, noise_m2, kPeriodS, config);
+  for (int scan = 0; scan < 250; ++scan) gait = with_step(gait, {innovation_m, innovation_m}, noise_m2, kPeriodS, config);
   return std::sqrt(*gait.variance_m2);
 }
 
@@ -53,9 +53,9 @@ TEST(Gait, IsInThePublishedCovarianceAsFarAsItIsSeen) {
   Track track;
   track.estimate.mean << 10.0, 0.0, 1.3, 0.0, 0.0, 0.0;
   track.estimate.covariance = 0.01 * track.estimate.covariance.Identity();
-  const Eigen::Matrix4d by_legs = described(track, 0, config).covariance;
+  const Eigen::Matrix4d by_legs = published(track, 0, config).covariance;
   track.gait.variance_m2 = 0.25 * config.gait_noise_m * config.gait_noise_m;
-  const Eigen::Matrix4d by_a_coat = described(track, 0, config).covariance;
+  const Eigen::Matrix4d by_a_coat = published(track, 0, config).covariance;
   EXPECT_NEAR(by_legs(0, 0) - by_a_coat(0, 0), 0.75 * 0.01, 1e-9);
   EXPECT_EQ(by_legs(2, 2), by_a_coat(2, 2));
 }
@@ -74,23 +74,23 @@ Track walker_in_a_coat(double followed_s, const TrackingConfig& config) {
 TEST(Gait, OfThoseWhoWalkedHereIsThatOfWhoComes) {
   const TrackingConfig config;
   RoadUsersSeen seen;
-  for (int i = 0; i < 20; ++i) note_swing(seen, walker_in_a_coat(5.0, config), config);
+  for (int i = 0; i < 20; ++i) learn_gait(seen, walker_in_a_coat(5.0, config), config);
   EXPECT_NEAR(seen.known().swing_share, 0.3, 0.1);
   Track newcomer = walker_in_a_coat(0.1, config);
   newcomer.gait.variance_m2.reset();
-  const double as_taken_m2 = described(newcomer, 0, config).covariance(0, 0);
+  const double as_taken_m2 = published(newcomer, 0, config).covariance(0, 0);
   const RoadUsers known = seen.known();
   newcomer.body.road_users = &known;
-  EXPECT_LT(described(newcomer, 0, config).covariance(0, 0), as_taken_m2 - 0.008);
+  EXPECT_LT(published(newcomer, 0, config).covariance(0, 0), as_taken_m2 - 0.008);
 }
 
 TEST(Gait, IsLearnedOfThoseOnlyWhoWereFollowedForAWhileAndNotWhereOnlyPeopleMove) {
   const TrackingConfig config;
   RoadUsersSeen seen;
-  for (int i = 0; i < 20; ++i) note_swing(seen, walker_in_a_coat(1.0, config), config);
+  for (int i = 0; i < 20; ++i) learn_gait(seen, walker_in_a_coat(1.0, config), config);
   TrackingConfig indoors;
   indoors.longest_body_m = 2.0;
-  for (int i = 0; i < 20; ++i) note_swing(seen, walker_in_a_coat(5.0, indoors), indoors);
+  for (int i = 0; i < 20; ++i) learn_gait(seen, walker_in_a_coat(5.0, indoors), indoors);
   EXPECT_EQ(seen.known().swing_share, 1.0);
 }
 
@@ -99,7 +99,7 @@ Track followed_car() {
   Track track;
   track.confirmed = true;
   track.score = 5.0;
-  track.way_m = 10.0;
+  track.travelled_m = 10.0;
   track.body.has_sides = true;
   track.body.length = {4.4, 0.04};
   track.body.width = {1.8, 0.01};
@@ -111,7 +111,7 @@ Track followed_car() {
 /// A car drawn where its echoes are not.
 Track misdrawn_car() {
   Track track = followed_car();
-  track.agreement = {0.4, 9.0, 10.0};
+  track.consistency = {0.4, 9.0, 10.0};
   return track;
 }
 
@@ -119,35 +119,35 @@ TEST(Track, IsWrongOfTwoDrawnOverEachOtherIfItsEchoesAreNotWhereItIs) {
   const TrackingConfig config;
   const Track right = followed_car();
   const Track wrong = misdrawn_car();
-  EXPECT_EQ(drawn_wrong(right, wrong, config), &wrong);
-  EXPECT_EQ(drawn_wrong(wrong, right, config), &wrong);
-  EXPECT_EQ(drawn_wrong(right, right, config), nullptr);
-  EXPECT_EQ(drawn_wrong(wrong, wrong, config), nullptr);
+  EXPECT_EQ(inconsistent_one(right, wrong, config), &wrong);
+  EXPECT_EQ(inconsistent_one(wrong, right, config), &wrong);
+  EXPECT_EQ(inconsistent_one(right, right, config), nullptr);
+  EXPECT_EQ(inconsistent_one(wrong, wrong, config), nullptr);
   Track small;
-  EXPECT_EQ(drawn_wrong(wrong, small, config), nullptr) << "what has no sides may be an echo of anything";
+  EXPECT_EQ(inconsistent_one(wrong, small, config), nullptr) << "what has no sides may be an echo of anything";
 }
 
 TEST(Track, IsFollowedButNotPublishedWhileItsVelocityIsHardlyKnown) {
   const TrackingConfig config;
   Track track = followed_car();
-  EXPECT_TRUE(described(track, 0, config).confirmed);
+  EXPECT_TRUE(published(track, 0, config).confirmed);
   track.estimate.covariance.block<2, 2>(2, 2) = 1.0 * Eigen::Matrix2d::Identity();
-  EXPECT_FALSE(described(track, 0, config).confirmed);
+  EXPECT_FALSE(published(track, 0, config).confirmed);
   EXPECT_TRUE(track.confirmed);
 }
 
 /// One sigma of the published centre, across the heading.
-double sigma_across_m(const Track& track) { return std::sqrt(described(track, 0, TrackingConfig()).covariance(1, 1)); }
+double sigma_across_m(const Track& track) { return std::sqrt(published(track, 0, TrackingConfig()).covariance(1, 1)); }
 
 TEST(Track, WhoseVelocityWasUnknownIsNotPublishedWhileItComesFromElsewhereThanItShould) {
   const TrackingConfig config;
   Track track = followed_car();
-  track.agreement.surprise2 = 6.0;
-  EXPECT_TRUE(described(track, 0, config).confirmed) << "it has been seen all the time";
-  track.known_since_ns = 1;
-  EXPECT_FALSE(described(track, 0, config).confirmed);
-  track.agreement.surprise2 = 3.0;
-  EXPECT_TRUE(described(track, 0, config).confirmed);
+  track.consistency.nis = 6.0;
+  EXPECT_TRUE(published(track, 0, config).confirmed) << "it has been seen all the time";
+  track.velocity_known_since_ns = 1;
+  EXPECT_FALSE(published(track, 0, config).confirmed);
+  track.consistency.nis = 3.0;
+  EXPECT_TRUE(published(track, 0, config).confirmed);
 }
 
 TEST(Track, IsPublishedWithWhatItsHeadingDoesToTheCentreBehindTheSidesThatAreSeen) {
@@ -198,22 +198,22 @@ TEST(Track, ThatIsTooFastForLegsIsNobodyWhoWalksFromTheFirstScanOn) {
   confirm(corner, 0, config);
   EXPECT_TRUE(corner.confirmed);
   EXPECT_EQ(corner.object_class, flow::ObjectClass::kCar);
-  EXPECT_GT(std::sqrt(described(corner, 0, config).covariance(0, 0)), 1.5);  // its middle may be half a car away
+  EXPECT_GT(std::sqrt(published(corner, 0, config).covariance(0, 0)), 1.5);  // its middle may be half a car away
 }
 
 TEST(Track, OfAVehicleThatHasComeMayStandForAsLongAsItIsSeen) {
   const TrackingConfig config;
   constexpr std::int64_t kMinuteNs = 60'000'000'000;
   Track track = followed_car();
-  track.way_m = 2.0;
+  track.travelled_m = 2.0;
   track.last_seen_ns = kMinuteNs;
-  EXPECT_FALSE(is_held_never_to_have_moved(track, kMinuteNs, config));
-  EXPECT_TRUE(is_held_never_to_have_moved(track, kMinuteNs + 3'000'000'000, config));  // where has it been since?
-  track.way_m = 1.0;  // it may be a wall of which more and more came into view
-  EXPECT_TRUE(is_held_never_to_have_moved(track, kMinuteNs, config));
-  track.way_m = 2.0;
+  EXPECT_FALSE(has_stood_too_long(track, kMinuteNs, config));
+  EXPECT_TRUE(has_stood_too_long(track, kMinuteNs + 3'000'000'000, config));  // where has it been since?
+  track.travelled_m = 1.0;  // it may be a wall of which more and more came into view
+  EXPECT_TRUE(has_stood_too_long(track, kMinuteNs, config));
+  track.travelled_m = 2.0;
   track.body.has_sides = false;
-  EXPECT_TRUE(is_held_never_to_have_moved(track, kMinuteNs, config));
+  EXPECT_TRUE(has_stood_too_long(track, kMinuteNs, config));
 }
 
 TEST(Track, IsBelievedInLessWhereMoreBeamsPassThroughTheMiddleOfItThanAreEchoed) {
@@ -256,10 +256,10 @@ Track car_after_two_echoes(double axis_sigma_rad, const Eigen::Vector2d& velocit
   state.covariance = velocity_sigma_mps * velocity_sigma_mps * filters::Matrix6::Identity();
   move_as(track, state, config);
   const std::vector<Eigen::Vector2d> points = {{17.8, -0.2}, {17.8, 0.2}};
-  Glimpse glimpse;
-  glimpse.points_m = points;
-  glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
-  EXPECT_TRUE(update(track, 27'000'000, glimpse, 1e-4 * Eigen::Matrix2d::Identity(), config));
+  Observation observation;
+  observation.points_m = points;
+  observation.beam_step_rad = 0.5 * M_PI / 180.0;
+  EXPECT_TRUE(update(track, 27'000'000, observation, 1e-4 * Eigen::Matrix2d::Identity(), config));
   return track;
 }
 
@@ -281,18 +281,18 @@ TEST(Track, IsNotOrientedByACourseHalfwayBetweenTwoSidesForAsLongAsItsAxisTellsT
 double score_after_two_seconds(double depth_m, double jump_m) {
   const TrackingConfig config;
   std::vector<Eigen::Vector2d> points;
-  Glimpse glimpse;
-  glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
+  Observation observation;
+  observation.beam_step_rad = 0.5 * M_PI / 180.0;
   Track track;
   std::int64_t stamp_ns = 0;
   for (int scan = 0; scan < 74; ++scan) {
     points.clear();
     const double x_m = 20.0 + 5.0 * kPeriodS * scan + (scan % 2 == 0 ? jump_m : 0.0);
     for (int i = 0; i < 10; ++i) points.emplace_back(x_m + depth_m * (i % 3) / 2.0, -0.9 + 0.2 * i);
-    glimpse.points_m = points;
-    if (scan == 0) track = begun({1}, stamp_ns, glimpse, 0.0, 1e-4 * Eigen::Matrix2d::Identity(), config);
+    observation.points_m = points;
+    if (scan == 0) track = initiated({1}, stamp_ns, observation, 0.0, 1e-4 * Eigen::Matrix2d::Identity(), config);
     predict(track, scan == 0 ? 0.0 : kPeriodS, config);
-    EXPECT_TRUE(update(track, stamp_ns, glimpse, 1e-4 * Eigen::Matrix2d::Identity(), config));
+    EXPECT_TRUE(update(track, stamp_ns, observation, 1e-4 * Eigen::Matrix2d::Identity(), config));
     score_hit(track, flow::PointLabel::kMoving, {8.0, 0.0, 2.0}, kPeriodS, config);
     stamp_ns += 27'000'000;
   }
@@ -310,15 +310,15 @@ TEST(Track, DoesNotTurnByWhatIsRound) {
   const TrackingConfig config;
   const std::vector<Eigen::Vector2d> points{{20.0, -0.9}, {20.0, -0.3}, {20.0, 0.3}, {20.0, 0.9}};
   const auto heading_after = [&](double off_m) {
-    Glimpse glimpse;
-    glimpse.points_m = points;
-    glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
-    glimpse.side = Side{0.5 * M_PI + 0.3, 1.8, off_m};
-    Track track = begun({1}, 0, glimpse, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity(), config);
+    Observation observation;
+    observation.points_m = points;
+    observation.beam_step_rad = 0.5 * M_PI / 180.0;
+    observation.side = Side{0.5 * M_PI + 0.3, 1.8, off_m};
+    Track track = initiated({1}, 0, observation, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity(), config);
     track.body.heading_rad = 0.0;
     track.body.heading_variance_rad2 = 0.01;
     predict(track, kPeriodS, config);
-    EXPECT_TRUE(update(track, 27'000'000, glimpse, 1e-4 * Eigen::Matrix2d::Identity(), config));
+    EXPECT_TRUE(update(track, 27'000'000, observation, 1e-4 * Eigen::Matrix2d::Identity(), config));
     return track.body.heading_rad;
   };
   EXPECT_GT(heading_after(0.01), 0.1);
@@ -330,10 +330,10 @@ TEST(Track, MayTurnTheFasterTheSmallerItIs) {
   const auto variance_after_a_second = [&](double size_scale) {
     TrackingConfig config;
     config.size_scale = size_scale;
-    Glimpse glimpse;
-    glimpse.points_m = points;
-    glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
-    Track track = begun({1}, 0, glimpse, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity(), config);
+    Observation observation;
+    observation.points_m = points;
+    observation.beam_step_rad = 0.5 * M_PI / 180.0;
+    Track track = initiated({1}, 0, observation, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity(), config);
     track.body.heading_variance_rad2 = track.body.axis_variance_rad2 = 0.0;
     predict(track, 1.0, config);
     EXPECT_EQ(track.body.axis_variance_rad2, track.body.heading_variance_rad2);
@@ -349,13 +349,13 @@ TEST(Track, LiesAlongWhatIsLongerThanAnyFront) {
   const auto flank_m = [&](double length_m) {
     points.clear();
     for (double y = 0.0; y < length_m; y += 0.2) points.emplace_back(20.0, y);
-    Glimpse glimpse;
-    glimpse.points_m = points;
-    glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
-    glimpse.start = glimpse.end = Edge::kHidden;
-    return glimpse;
+    Observation observation;
+    observation.points_m = points;
+    observation.beam_step_rad = 0.5 * M_PI / 180.0;
+    observation.start = observation.end = Edge::kHidden;
+    return observation;
   };
-  Track track = begun({1}, 0, flank_m(2.0), 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity(), config);
+  Track track = initiated({1}, 0, flank_m(2.0), 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity(), config);
   ASSERT_LT(std::abs(std::sin(track.body.heading_rad)), 0.1);  // as wide as the rear of a car
   std::int64_t stamp_ns = 0;
   for (int scan = 0; scan < 20; ++scan) {
@@ -371,12 +371,12 @@ TEST(Track, IsDrawnAnewWhereItWouldBeWiderThanAnythingThatGoesItsWay) {
   const auto bicycle_at = [&](double x_m) {
     points.clear();
     for (double x = 0.0; x < 1.7; x += 0.3) points.emplace_back(x_m + x, 8.0);
-    Glimpse glimpse;
-    glimpse.points_m = points;
-    glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
-    return glimpse;
+    Observation observation;
+    observation.points_m = points;
+    observation.beam_step_rad = 0.5 * M_PI / 180.0;
+    return observation;
   };
-  Track track = begun({1}, 0, bicycle_at(10.0), 0.0, 1e-4 * Eigen::Matrix2d::Identity(), config);
+  Track track = initiated({1}, 0, bicycle_at(10.0), 0.0, 1e-4 * Eigen::Matrix2d::Identity(), config);
   track.body.heading_rad = 0.5 * M_PI;
   track.body.length_evidence.least_m = 4.1;  // once a parked car was taken for a part of it
   track.body.width_evidence.least_m = 1.7;
@@ -396,7 +396,7 @@ TEST(Track, IsDrawnAnewWhereItWouldBeWiderThanAnythingThatGoesItsWay) {
 Track known_car() {
   Track track;
   track.confirmed = true;
-  track.way_m = 20.0;
+  track.travelled_m = 20.0;
   track.body.has_sides = track.body.is_oriented = true;
   track.body.length_evidence = {4.5, {4.6, 0.004}};
   track.body.width_evidence = {1.7, {1.8, 0.004}};
@@ -409,8 +409,8 @@ Track known_car() {
 }
 
 TEST(Track, IsKnownAcrossAsWellAsItsSidesKeepTheirHeading) {
-  Steadiness straight;
-  Steadiness swaying;
+  HeadingNoise straight;
+  HeadingNoise swaying;
   for (int i = 0; i < 200; ++i) {
     straight = with_heading(straight, 0.005, 0.0025, kPeriodS);
     swaying = with_heading(swaying, 0.05, 0.0025, kPeriodS);
@@ -418,25 +418,25 @@ TEST(Track, IsKnownAcrossAsWellAsItsSidesKeepTheirHeading) {
   EXPECT_LT(straight.share, 0.1);
   EXPECT_NEAR(swaying.share, 1.0, 0.05);
   Track track = known_car();
-  const double as_taken_m2 = described(track, 0, {}).covariance(1, 1);
-  track.steadiness = straight;
-  EXPECT_LT(described(track, 0, {}).covariance(1, 1), as_taken_m2 - 0.004);
+  const double as_taken_m2 = published(track, 0, {}).covariance(1, 1);
+  track.heading_noise = straight;
+  EXPECT_LT(published(track, 0, {}).covariance(1, 1), as_taken_m2 - 0.004);
   track.body.axis_variance_rad2 = 1.0;
-  EXPECT_GT(described(track, 0, {}).covariance(1, 1), as_taken_m2) << "no side tells the heading";
+  EXPECT_GT(published(track, 0, {}).covariance(1, 1), as_taken_m2) << "no side tells the heading";
 }
 
 TEST(Track, IsAsWideAsLiesBetweenWhatWasSeenFromEdgeToEdgeAndTheMostThatWasSeen) {
   RoadUsersSeen seen;
   Track track = known_car();
   track.body.width_evidence = {1.95, {1.65, 0.004}};
-  for (int i = 0; i < 40; ++i) note_sizes(seen, track, {});
+  for (int i = 0; i < 40; ++i) learn_sizes(seen, track, {});
   EXPECT_NEAR(seen.known().kinds[1].width_m, 1.8, 0.03);
 }
 
 TEST(Track, IsOneOfThoseHereIfItsSizesAreSurelyKnown) {
   const auto length_sigma_m_after = [](const Track& track) {
     RoadUsersSeen seen;
-    for (int i = 0; i < 10; ++i) note_sizes(seen, track, {});
+    for (int i = 0; i < 10; ++i) learn_sizes(seen, track, {});
     return seen.known().kinds[1].length_sigma_m;
   };
   const double unknown_m = RoadUsersSeen().known().kinds[1].length_sigma_m;
@@ -445,7 +445,7 @@ TEST(Track, IsOneOfThoseHereIfItsSizesAreSurelyKnown) {
   other.confirmed = false;
   EXPECT_EQ(length_sigma_m_after(other), unknown_m);
   other = known_car();
-  other.way_m = 0.0;
+  other.travelled_m = 0.0;
   EXPECT_EQ(length_sigma_m_after(other), unknown_m) << "a piece of something";
   other = known_car();
   other.body.length_evidence.whole = {0.0, 1e6};
@@ -453,7 +453,7 @@ TEST(Track, IsOneOfThoseHereIfItsSizesAreSurelyKnown) {
   EXPECT_EQ(length_sigma_m_after(other), unknown_m) << "only its back was seen";
 }
 
-Eigen::Matrix4d published_covariance(const Track& track) { return described(track, 0, {}).covariance; }
+Eigen::Matrix4d published_covariance(const Track& track) { return published(track, 0, {}).covariance; }
 
 TEST(Track, IsKnownAsWellAsBodiesHereAreBoxes) {
   Track track = known_car();
@@ -476,42 +476,42 @@ TEST(Track, IsKnownAsWellAsBodiesHereAreBoxes) {
 TEST(Track, MayBeAnywhereInItsBoxWhereBeamsPassThroughIt) {
   Track track = known_car();
   const Eigen::Matrix4d solid = published_covariance(track);
-  for (int i = 0; i < 100; ++i) track.passage = with_beams(track.passage, 1, 19, kPeriodS);
+  for (int i = 0; i < 100; ++i) track.beam_passage = with_beams(track.beam_passage, 1, 19, kPeriodS);
   EXPECT_EQ(published_covariance(track)(0, 0), solid(0, 0)) << "a beam or two pass by a corner";
-  for (int i = 0; i < 100; ++i) track.passage = with_beams(track.passage, 16, 4, kPeriodS);
+  for (int i = 0; i < 100; ++i) track.beam_passage = with_beams(track.beam_passage, 16, 4, kPeriodS);
   EXPECT_GT(std::sqrt(published_covariance(track)(0, 0)), 1.0);
   EXPECT_GT(std::sqrt(published_covariance(track)(1, 1)), 0.4);
-  for (int i = 0; i < 100; ++i) track.passage = with_beams(track.passage, 0, 20, kPeriodS);
+  for (int i = 0; i < 100; ++i) track.beam_passage = with_beams(track.beam_passage, 0, 20, kPeriodS);
   EXPECT_NEAR(published_covariance(track)(0, 0), solid(0, 0), 1e-3) << "that is over";
 }
 
 TEST(Track, MayBeAnywhereInItsBoxWhereEchoesLieFarOffItsSides) {
   Track track = known_car();
   track.range_m = 10.0;
-  track.agreement.off_sides_m = 0.05;
+  track.consistency.off_sides_m = 0.05;
   const Eigen::Matrix4d near = published_covariance(track);
-  track.agreement.off_sides_m = 0.3;
+  track.consistency.off_sides_m = 0.3;
   EXPECT_GT(std::sqrt(published_covariance(track)(0, 0)), std::sqrt(near(0, 0)) + 0.5);
-  track.agreement.off_sides_m = 0.15;
+  track.consistency.off_sides_m = 0.15;
   track.range_m = 50.0;
   EXPECT_LT(std::sqrt(published_covariance(track)(0, 0)), std::sqrt(near(0, 0)) + 0.05) << "far away that is usual";
 }
 
 double shape_share_after(const Track& track) {
   RoadUsersSeen seen;
-  for (int i = 0; i < 20; ++i) note_off_sides(seen, track, {});
+  for (int i = 0; i < 20; ++i) learn_outline_error(seen, track, {});
   return seen.known().shape_share;
 }
 
 TEST(Track, TellsHowFarEchoesLieOffVehiclesThatWereFollowedForLong) {
   Track track = known_car();
-  track.off_sides = {0.4 * 800.0, 800.0, 40};
+  track.outline_error = {0.4 * 800.0, 800.0, 40};
   EXPECT_LT(shape_share_after(track), 0.4);
   Track other = track;
-  other.off_sides = {0.4 * 80.0, 80.0, 4};
+  other.outline_error = {0.4 * 80.0, 80.0, 4};
   EXPECT_EQ(shape_share_after(other), 1.0);
   other = track;
-  other.way_m = 0.0;
+  other.travelled_m = 0.0;
   EXPECT_EQ(shape_share_after(other), 1.0) << "a piece of something";
   other = track;
   other.body.kind = Kind::kBicycle;
@@ -522,22 +522,22 @@ TEST(Track, CountsHowFarEchoesLieOffItsSidesWhileItIsAVehicleThatIsConfirmed) {
   const TrackingConfig config;
   std::vector<Eigen::Vector2d> points_m;
   for (int i = 0; i < 12; ++i) points_m.emplace_back(10.0, -0.9 + 1.8 / 11.0 * i);  // the back of a car
-  Glimpse glimpse;
-  glimpse.points_m = points_m;
-  glimpse.beam_step_rad = 0.015;
+  Observation observation;
+  observation.points_m = points_m;
+  observation.beam_step_rad = 0.015;
   Track track = known_car();
   track.estimate.mean.head<2>() = Eigen::Vector2d(12.3, 0.0);
   track.estimate.covariance = 0.01 * track.estimate.covariance.Identity();
   track.motion = filters::imm_start(motion_models(config), track.estimate);
   Track tentative = track;
   tentative.confirmed = false;
-  ASSERT_TRUE(update(track, 27'000'000, glimpse, Eigen::Matrix2d::Zero(), config));
-  EXPECT_EQ(track.off_sides.scans, 1);
-  EXPECT_EQ(track.off_sides.echoes, 12.0);
-  EXPECT_LT(track.off_sides.shares, 12.0);
+  ASSERT_TRUE(update(track, 27'000'000, observation, Eigen::Matrix2d::Zero(), config));
+  EXPECT_EQ(track.outline_error.scans, 1);
+  EXPECT_EQ(track.outline_error.echoes, 12.0);
+  EXPECT_LT(track.outline_error.shares, 12.0);
   EXPECT_NEAR(track.range_m, 12.3, 0.3);
-  ASSERT_TRUE(update(tentative, 27'000'000, glimpse, Eigen::Matrix2d::Zero(), config));
-  EXPECT_EQ(tentative.off_sides.scans, 0);
+  ASSERT_TRUE(update(tentative, 27'000'000, observation, Eigen::Matrix2d::Zero(), config));
+  EXPECT_EQ(tentative.outline_error.scans, 0);
 }
 
 /// Followed for long, at 1.3 m/s along x, so far from the laser that lies beside their way.
@@ -546,7 +546,7 @@ Track known_walker(double x_m, const TrackingConfig& config) {
   track.confirmed = true;
   track.score = 5.0;
   track.hits = 100;
-  track.way_m = 5.0;
+  track.travelled_m = 5.0;
   track.body.length = {0.5, 0.01};
   track.body.width = {0.5, 0.01};
   track.body.was_seen_whole = true;
@@ -564,18 +564,18 @@ Track known_walker(double x_m, const TrackingConfig& config) {
 void see(Track& track, const Eigen::Vector2d& middle_m, double width_m, const TrackingConfig& config) {
   std::vector<Eigen::Vector2d> points_m;
   for (int i = 0; i < 7; ++i) points_m.emplace_back(middle_m.x() + width_m * (i / 6.0 - 0.5), middle_m.y() - 0.1);
-  Glimpse glimpse;
-  glimpse.points_m = points_m;
-  glimpse.beam_step_rad = 0.009;
+  Observation observation;
+  observation.points_m = points_m;
+  observation.beam_step_rad = 0.009;
   predict(track, kPeriodS, config);
-  ASSERT_TRUE(update(track, track.last_seen_ns + 27'000'000, glimpse, Eigen::Matrix2d::Zero(), config));
+  ASSERT_TRUE(update(track, track.last_seen_ns + 27'000'000, observation, Eigen::Matrix2d::Zero(), config));
 }
 
 TEST(Track, OfOneKnownToWalkGoesOnThoughItIsGivenTheEchoesOfOneWhoComesTowardsThem) {
   const TrackingConfig config;
   Track track = known_walker(0.0, config);
   for (int i = 0; i < 40; ++i) see(track, {1.3 * kPeriodS * (i + 1), 8.0}, 0.4, config);
-  ASSERT_TRUE(is_known_to_walk(track));
+  ASSERT_TRUE(is_known_pedestrian(track));
   const double met_m = track.position_m().x();
   for (int i = 0; i < 10; ++i) see(track, {met_m + 0.3 - 1.3 * kPeriodS * (i + 1), 7.6}, 0.4, config);
   EXPECT_GT(track.velocity_mps().x(), 0.9);

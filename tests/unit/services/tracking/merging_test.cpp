@@ -1,4 +1,4 @@
-#include "services/tracking/duplicates.hpp"
+#include "services/tracking/merging.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,37 +37,37 @@ Track car(const Eigen::Vector2d& position_m, std::uint32_t id) {
 }
 
 void expect_only_first_is_superfluous(const Track& track, const Track& other) {
-  EXPECT_TRUE(is_superfluous(track, other, {}));
-  EXPECT_FALSE(is_superfluous(other, track, {}));
+  EXPECT_TRUE(is_duplicate(track, other, {}));
+  EXPECT_FALSE(is_duplicate(other, track, {}));
 }
 
-TEST(Duplicates, AreNotWhatIsApart) {
+TEST(Merging, AreNotWhatIsApart) {
   const Track one = car({10.0, 0.0}, 1);
   const Track other = car({10.0, 2.5}, 2);
-  EXPECT_FALSE(is_superfluous(one, other, {}));
-  EXPECT_FALSE(is_superfluous(other, one, {}));
+  EXPECT_FALSE(is_duplicate(one, other, {}));
+  EXPECT_FALSE(is_duplicate(other, one, {}));
 }
 
-TEST(Duplicates, OfOneCarEndWithTheYounger) {
+TEST(Merging, OfOneCarEndWithTheYounger) {
   const Track one = car({10.0, 0.0}, 1);
   const Track other = car({10.5, 0.2}, 2);
   expect_only_first_is_superfluous(other, one);
 }
 
-TEST(Duplicates, AreCarsThroughWhichSomebodyIsSeenToWalk) {
+TEST(Merging, AreCarsThroughWhichSomebodyIsSeenToWalk) {
   const Track one = car({10.0, 0.0}, 1);
   const Track inside = walker({11.0, 0.3}, 2);
   expect_only_first_is_superfluous(one, inside);
 }
 
-TEST(Duplicates, AreThoseInsideACarWhoMayNotWalk) {
+TEST(Merging, AreThoseInsideACarWhoMayNotWalk) {
   const Track one = car({10.0, 0.0}, 1);
   Track inside = walker({11.0, 0.3}, 2);
   inside.hits = 10;  // perhaps a corner of it
   expect_only_first_is_superfluous(inside, one);
 }
 
-TEST(Duplicates, AreThoseInsideACarWhoAreHidden) {
+TEST(Merging, AreThoseInsideACarWhoAreHidden) {
   const Track one = car({10.0, 0.0}, 1);
   Track inside = walker({11.0, 0.3}, 2);
   inside.last_seen_ns = kNow_ns - 1'000'000'000;  // behind it, and thought to be in it

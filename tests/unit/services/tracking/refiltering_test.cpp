@@ -1,4 +1,4 @@
-#include "services/tracking/youth.hpp"
+#include "services/tracking/refiltering.hpp"
 
 #include <cmath>
 #include <vector>
@@ -22,43 +22,43 @@ std::vector<Vector2d> flank_at(double time_s) {
   return points;
 }
 
-Glimpse glimpse_of(const std::vector<Vector2d>& points) {
-  Glimpse glimpse;
-  glimpse.points_m = points;
-  glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
-  glimpse.start = Edge::kHidden;
-  return glimpse;
+Observation observation_of(const std::vector<Vector2d>& points) {
+  Observation observation;
+  observation.points_m = points;
+  observation.beam_step_rad = 0.5 * M_PI / 180.0;
+  observation.start = Edge::kHidden;
+  return observation;
 }
 
 /// As if the flank was the front of a car that comes nearer.
 Track begun_as_a_front(int scans) {
   const std::vector<Vector2d> first = flank_at(0.0);
-  Track track = begun({1}, 0, glimpse_of(first), 0.5 * M_PI, 1e-4 * Matrix2d::Identity(), kConfig);
+  Track track = initiated({1}, 0, observation_of(first), 0.5 * M_PI, 1e-4 * Matrix2d::Identity(), kConfig);
   for (int i = 0; i < scans; ++i) {
     const std::vector<Vector2d> points = flank_at(static_cast<double>(i * kPeriodNs) * 1e-9);
-    track.youth.add(i * kPeriodNs, glimpse_of(points), 1e-4 * Matrix2d::Identity());
+    track.observations.add(i * kPeriodNs, observation_of(points), 1e-4 * Matrix2d::Identity());
   }
   return track;
 }
 
-TEST(Youth, TurnsABodyThatWentSideways) {
+TEST(Refiltering, TurnsABodyThatWentSideways) {
   Track track = begun_as_a_front(12);
   ASSERT_NEAR(std::abs(std::cos(track.body.heading_rad)), 1.0, 0.05);
-  live_as(track, relived(track, kConfig));
+  set_belief(track, refiltered(track, kConfig));
   EXPECT_NEAR(std::abs(std::sin(track.body.heading_rad)), 1.0, 0.05);
   EXPECT_TRUE(track.body.is_oriented);
   EXPECT_LT((track.velocity_mps() - Vector2d(0.0, kSpeedMps)).norm(), 0.5);
   EXPECT_LT(track.position_m().y(), kSpeedMps * 11.0 * static_cast<double>(kPeriodNs) * 1e-9 - 1.5);  // behind the front that is seen
 }
 
-TEST(Youth, LeavesOpenWhichSideIsTheFlankOfWhatHasNotMoved) {
+TEST(Refiltering, LeavesOpenWhichSideIsTheFlankOfWhatHasNotMoved) {
   Track track = begun_as_a_front(1);
-  track.youth.add(kPeriodNs, glimpse_of(flank_at(0.0)), 1e-4 * Matrix2d::Identity());
-  live_as(track, relived(track, kConfig));
+  track.observations.add(kPeriodNs, observation_of(flank_at(0.0)), 1e-4 * Matrix2d::Identity());
+  set_belief(track, refiltered(track, kConfig));
   EXPECT_FALSE(track.body.is_oriented);
 }
 
-TEST(Youth, IsNotFastBecauseItsOtherEndComesIntoView) {
+TEST(Refiltering, IsNotFastBecauseItsOtherEndComesIntoView) {
   constexpr int kScans = 24;
   Track track;
   for (int i = 0; i < kScans; ++i) {  // a bicycle that was held to be a car: first its front is seen, then all of it
@@ -66,40 +66,40 @@ TEST(Youth, IsNotFastBecauseItsOtherEndComesIntoView) {
     const double seen_m = std::min(1.6, 0.8 + 0.08 * i);
     std::vector<Vector2d> points;
     for (double behind_m = seen_m; behind_m > -0.01; behind_m -= 0.2) points.emplace_back(20.0, front_m - behind_m);
-    Glimpse glimpse = glimpse_of(points);
-    glimpse.start = seen_m < 1.6 ? Edge::kHidden : Edge::kOpen;
-    if (i == 0) track = begun({1}, 0, glimpse, 0.5 * M_PI, 1e-4 * Matrix2d::Identity(), kConfig);
-    track.youth.add(i * kPeriodNs, glimpse, 1e-4 * Matrix2d::Identity());
+    Observation observation = observation_of(points);
+    observation.start = seen_m < 1.6 ? Edge::kHidden : Edge::kOpen;
+    if (i == 0) track = initiated({1}, 0, observation, 0.5 * M_PI, 1e-4 * Matrix2d::Identity(), kConfig);
+    track.observations.add(i * kPeriodNs, observation, 1e-4 * Matrix2d::Identity());
   }
   track.body = Body();
   track.body.has_sides = track.body.is_oriented = true;
   track.body.heading_rad = 0.5 * M_PI;
   track.body = with_likely_sizes(track.body, kConfig);
-  live_as(track, relived(track, kConfig));
+  set_belief(track, refiltered(track, kConfig));
   EXPECT_LT((track.velocity_mps() - Vector2d(0.0, 3.0)).norm(), 1.0);
 }
 
-TEST(Youth, MovesWhereItBeganWithTheMiddle) {
+TEST(Refiltering, MovesWhereItBeganWithTheMiddle) {
   Track track = begun_as_a_front(12);
-  const Vector2d way_m = track.position_m() - track.birth_position_m;
-  live_as(track, relived(track, kConfig));
-  EXPECT_LT((track.position_m() - track.birth_position_m - way_m).norm(), 1e-9);
+  const Vector2d travelled_m = track.position_m() - track.birth_position_m;
+  set_belief(track, refiltered(track, kConfig));
+  EXPECT_LT((track.position_m() - track.birth_position_m - travelled_m).norm(), 1e-9);
 }
 
-TEST(Youth, FilteredAgainHasPredictedNothingThatWasSeen) {
+TEST(Refiltering, FilteredAgainHasPredictedNothingThatWasSeen) {
   Track track = begun_as_a_front(12);
-  track.agreement = {0.05, 0.5, 12.0};
-  const Life before = life(track);
-  live_as(track, relived(track, kConfig));
-  EXPECT_EQ(track.agreement.weight, 0.0);
-  live_as(track, before);
-  EXPECT_EQ(track.agreement.weight, 12.0);
+  track.consistency = {0.05, 0.5, 12.0};
+  const Belief before = belief(track);
+  set_belief(track, refiltered(track, kConfig));
+  EXPECT_EQ(track.consistency.weight, 0.0);
+  set_belief(track, before);
+  EXPECT_EQ(track.consistency.weight, 12.0);
 }
 
-TEST(Youth, IsForgottenButForItsEnd) {
+TEST(Refiltering, IsForgottenButForItsEnd) {
   Track track = begun_as_a_front(100);
-  EXPECT_EQ(track.youth.size(), 40U);
-  EXPECT_EQ(track.youth[39].stamp_ns, 99 * kPeriodNs);
+  EXPECT_EQ(track.observations.size(), 40U);
+  EXPECT_EQ(track.observations[39].stamp_ns, 99 * kPeriodNs);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "services/tracking/rivals.hpp"
+#include "services/tracking/competing_tracks.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -16,7 +16,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 /// Only those without sides: where a vehicle is its sides tell.
-bool is_rival(const Track& track) { return track.confirmed && !track.body.has_sides; }
+bool may_compete(const Track& track) { return track.confirmed && !track.body.has_sides; }
 
 association::MhtConfig mht_config(const TrackingConfig& config) {
   association::MhtConfig mht;
@@ -26,27 +26,27 @@ association::MhtConfig mht_config(const TrackingConfig& config) {
 }
 
 /// What one segment says if it is somebody who walks.
-struct Walker {
+struct PedestrianMeasurement {
   Vector2d centre_m = Vector2d::Zero();
   Matrix2d R = Matrix2d::Identity();         ///< If it is one alone, without the swing of its legs.
   double extent_m = 0.0;
 };
 
 /// One scan, as multiple hypotheses ask for it.
-class ScanOfRivals {
+class CompetingTracksScan {
  public:
-  ScanOfRivals(const std::vector<Track>& tracks, const ScanView& view, const TrackingConfig& config,
+  CompetingTracksScan(const std::vector<Track>& tracks, const ScanView& view, const TrackingConfig& config,
                const std::function<bool(std::size_t, std::size_t)>& may_have)
       : tracks_(tracks), view_(view), config_(config), may_have_(may_have), models_(motion_models(config)) {
     for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
       const flow::Segment& segment = view.scan().segments[s];
       if (is_backdrop(segment, config) || segment.box_length_m > kWidestGroupM) continue;
       const bool is_near = std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
-        return is_rival(track) && (track.position_m() - segment.centroid_in_odom_m).norm() < config.widest_gate_m;
+        return may_compete(track) && (track.position_m() - segment.centroid_in_odom_m).norm() < config.widest_gate_m;
       });
       if (!is_near) continue;
       segments_.push_back(s);
-      walkers_.push_back(walker_of(segment));
+      measurements_.push_back(pedestrian_measurement_of(segment));
     }
   }
 
@@ -56,35 +56,35 @@ class ScanOfRivals {
   }
 
   std::size_t measurement_count() const { return segments_.size(); }
-  std::size_t capacity(std::size_t measurement) const { return walkers_[measurement].extent_m > kWidestOfOneM ? 2 : 1; }
+  std::size_t capacity(std::size_t measurement) const { return measurements_[measurement].extent_m > kWidestOfOneM ? 2 : 1; }
 
-  double pair_cost(TrackKey key, const SupposedMotion& supposed, std::size_t measurement, std::size_t sharers) const {
+  double pair_cost(TrackKey key, const HypothesisMotion& hypothesis, std::size_t measurement, std::size_t sharers) const {
     constexpr double kSharingCost = 4.0;
     const std::size_t track = track_of(key);
     const std::size_t segment = segments_[measurement];
-    const double cost = tracking::pair_cost(tracks_[track].body, supposed.estimate, view_.scan().segments[segment], config_);
+    const double cost = tracking::pair_cost(tracks_[track].body, hypothesis.estimate, view_.scan().segments[segment], config_);
     if (cost >= kCostOfLeavingOut || !may_have_(track, segment)) return kForbidden;
     return cost + (sharers > 0 ? kSharingCost : 0.0);
   }
 
-  double miss_cost(TrackKey key, const SupposedMotion& supposed) const {
+  double miss_cost(TrackKey key, const HypothesisMotion& hypothesis) const {
     constexpr double kHiddenCost = 8.0;
-    const Visibility visibility = view_.visibility_of(tracks_[track_of(key)].body, supposed.estimate.mean.head<2>());
+    const Visibility visibility = view_.visibility_of(tracks_[track_of(key)].body, hypothesis.estimate.mean.head<2>());
     return 2 * visibility.blocked > visibility.beams ? kHiddenCost : kCostOfLeavingOut;
   }
 
-  SupposedMotion updated(TrackKey key, const SupposedMotion& supposed, std::size_t measurement, std::size_t sharers) const {
-    const Walker& walker = walkers_[measurement];
+  HypothesisMotion updated(TrackKey key, const HypothesisMotion& hypothesis, std::size_t measurement, std::size_t sharers) const {
+    const PedestrianMeasurement& walker = measurements_[measurement];
     const double unseen_s = static_cast<double>(view_.scan().stamp_ns - tracks_[track_of(key)].last_seen_ns) * 1e-9;
     const Matrix2d R = noise_m2(walker, sharers) + gait_variance_m2(unseen_s, config_) * Matrix2d::Identity();
-    SupposedMotion next{supposed.motion, filters::imm_update(models_, supposed.motion, walker.centre_m, R).posterior, {}};
+    HypothesisMotion next{hypothesis.motion, filters::imm_update(models_, hypothesis.motion, walker.centre_m, R).posterior, {}};
     next.estimate = filters::imm_combine(models_, next.motion);
     return next;
   }
 
-  SupposedMotion missed(TrackKey, const SupposedMotion& supposed) const { return {supposed.motion, supposed.motion, supposed.estimate}; }
+  HypothesisMotion missed(TrackKey, const HypothesisMotion& hypothesis) const { return {hypothesis.motion, hypothesis.motion, hypothesis.estimate}; }
 
-  bool are_same(const SupposedMotion& a, const SupposedMotion& b) const {
+  bool are_same(const HypothesisMotion& a, const HypothesisMotion& b) const {
     constexpr double kSame = 0.3;
     return association::mahalanobis_squared<4>((a.estimate.mean - b.estimate.mean).head<4>(), a.estimate.covariance.topLeftCorner<4, 4>()) < kSame;
   }
@@ -93,18 +93,18 @@ class ScanOfRivals {
   static constexpr double kWidestOfOneM = 0.6;  ///< What is wider may be two.
   static constexpr double kWidestGroupM = 3.0;  ///< What is wider is nobody who walks.
 
-  Walker walker_of(const flow::Segment& segment) {
+  PedestrianMeasurement pedestrian_measurement_of(const flow::Segment& segment) {
     points_m_.clear();
     for (const std::uint16_t beam : segment.beams) points_m_.push_back(view_.point_in_odom_m(beam));
-    const Glimpse glimpse{points_m_, view_.laser_in_odom_m(), view_.beam_step_rad(), Edge::kOpen, Edge::kOpen, std::nullopt};
-    const BodyMeasurement measurement = measure_blob({}, glimpse, config_);
+    const Observation observation{points_m_, view_.laser_in_odom_m(), view_.beam_step_rad(), Edge::kOpen, Edge::kOpen, std::nullopt};
+    const BodyMeasurement measurement = measure_blob({}, observation, config_);
     return {measurement.centre_m,
             measurement.covariance_m2 + pose_covariance_at(segment.centroid_in_odom_m, view_.scan()),
             extent_of(points_m_)};
   }
 
   /// Of several who are seen as one, each is somewhere in it.
-  static Matrix2d noise_m2(const Walker& walker, std::size_t sharers) {
+  static Matrix2d noise_m2(const PedestrianMeasurement& walker, std::size_t sharers) {
     return sharers == 0 ? walker.R : Matrix2d(walker.R + 0.25 * walker.extent_m * walker.extent_m * Matrix2d::Identity());
   }
 
@@ -114,39 +114,39 @@ class ScanOfRivals {
   const std::function<bool(std::size_t, std::size_t)>& may_have_;
   filters::ModelSet models_;
   std::vector<std::size_t> segments_;
-  std::vector<Walker> walkers_;
+  std::vector<PedestrianMeasurement> measurements_;
   std::vector<Vector2d> points_m_;
 };
 
 }  // namespace
 
-Rivals::Rivals(const TrackingConfig& config) : config_(config), hypotheses_(mht_config(config)) {}
+CompetingTracks::CompetingTracks(const TrackingConfig& config) : config_(config), hypotheses_(mht_config(config)) {}
 
-void Rivals::predict(double time_s) {
+void CompetingTracks::predict(double time_s) {
   const filters::ModelSet models = motion_models(config_);
-  hypotheses_.change_alternatives([&](TrackKey, SupposedMotion& supposed) {
-    supposed.motion = filters::imm_predict(models, supposed.motion, time_s);
-    supposed.estimate = filters::imm_combine(models, supposed.motion);
+  hypotheses_.change_alternatives([&](TrackKey, HypothesisMotion& hypothesis) {
+    hypothesis.motion = filters::imm_predict(models, hypothesis.motion, time_s);
+    hypothesis.estimate = filters::imm_combine(models, hypothesis.motion);
   });
 }
 
 /// The tracks' own motion is that of the likeliest hypothesis.
-void Rivals::keep_up(const std::vector<Track>& tracks) {
+void CompetingTracks::keep_up(const std::vector<Track>& tracks) {
   for (const TrackKey key : hypotheses_.keys())
-    if (std::none_of(tracks.begin(), tracks.end(), [&](const Track& track) { return track.track_id.value == key && is_rival(track); }))
+    if (std::none_of(tracks.begin(), tracks.end(), [&](const Track& track) { return track.track_id.value == key && may_compete(track); }))
       hypotheses_.remove(key);
   for (const Track& track : tracks) {
-    if (!is_rival(track)) continue;
-    const SupposedMotion own{track.motion, track.motion, track.estimate};
+    if (!may_compete(track)) continue;
+    const HypothesisMotion own{track.motion, track.motion, track.estimate};
     if (has(track)) hypotheses_.set_best(track.track_id.value, own);
     else hypotheses_.add(track.track_id.value, own);
   }
 }
 
-std::vector<std::size_t> Rivals::decide(std::vector<Track>& tracks, const ScanView& view,
+std::vector<std::size_t> CompetingTracks::decide(std::vector<Track>& tracks, const ScanView& view,
                                         const std::function<bool(std::size_t, std::size_t)>& may_have) {
   keep_up(tracks);
-  const ScanOfRivals scan(tracks, view, config_, may_have);
+  const CompetingTracksScan scan(tracks, view, config_, may_have);
   hypotheses_.step(scan);
   std::vector<std::size_t> segment_of_track(tracks.size(), kUnassigned);
   for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -156,7 +156,7 @@ std::vector<std::size_t> Rivals::decide(std::vector<Track>& tracks, const ScanVi
     if (measurement != kUnassigned) segment_of_track[t] = scan.segment_of(measurement);
     if (!hypotheses_.is_revised(track.track_id.value)) continue;
     track.motion = hypotheses_.best(track.track_id.value).predicted;
-    track.walks_on = false;  // the hypotheses have all modes
+    track.cruises_only = false;  // the hypotheses have all modes
     track.estimate = filters::imm_combine(motion_models(config_), track.motion);
   }
   return segment_of_track;

@@ -15,7 +15,7 @@
 namespace slammot::tracking {
 
 /// How a track moves in one hypothesis of which segments were its own.
-struct SupposedMotion {
+struct HypothesisMotion {
   filters::ImmState predicted;        ///< To the current scan,
   filters::ImmState motion;           ///< and with the segment that it has there.
   filters::MotionState estimate;      ///< Of `motion`, its modes together.
@@ -24,9 +24,9 @@ struct SupposedMotion {
 /// Whose segments are whose among those who walk close to one another: confirmed tracks without sides, each cluster of which
 /// is kept in several hypotheses (Wang 2004, Section 5.2). Hypotheses differ in motion only; body, score and evidence are the
 /// tracks' own, and follow what was likeliest.
-class Rivals {
+class CompetingTracks {
  public:
-  explicit Rivals(const TrackingConfig& config);
+  explicit CompetingTracks(const TrackingConfig& config);
 
   /// Predicts what is supposed; the tracks are predicted by whoever owns them.
   void predict(double time_s);
@@ -43,7 +43,7 @@ class Rivals {
   void keep_up(const std::vector<Track>& tracks);
 
   TrackingConfig config_;
-  association::MultipleHypotheses<SupposedMotion> hypotheses_;
+  association::MultipleHypotheses<HypothesisMotion> hypotheses_;
 };
 
 }  // namespace slammot::tracking

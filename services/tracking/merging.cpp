@@ -1,4 +1,4 @@
-#include "services/tracking/duplicates.hpp"
+#include "services/tracking/merging.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,14 +44,14 @@ bool are_far_apart(const Track& a, const Track& b, const TrackingConfig& config)
 }
 
 /// Where somebody surely walks, and is seen no less lately, there is no vehicle.
-bool walks_through(const Track& walker, const Track& vehicle) {
-  return is_known_to_walk(walker) && is_vehicle(vehicle) && walker.last_seen_ns >= vehicle.last_seen_ns;
+bool is_pedestrian_inside(const Track& walker, const Track& vehicle) {
+  return is_known_pedestrian(walker) && is_vehicle(vehicle) && walker.last_seen_ns >= vehicle.last_seen_ns;
 }
 
-bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
+bool extents_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
   if (is_piece_of(a, b, config)) return true;
   // Nothing can be inside a vehicle; what is smaller may be several who walk.
-  const bool is_supposed = (a.confirmed && is_vehicle(a)) || walks_through(a, b);
+  const bool is_supposed = (a.confirmed && is_vehicle(a)) || is_pedestrian_inside(a, b);
   if (!is_supposed && (a.velocity_mps() - b.velocity_mps()).norm() > 1.5 + 0.2 * a.velocity_mps().norm()) return false;
   constexpr double kMostOverlap = 0.35;
   if ((a.confirmed || b.confirmed) && is_vehicle(a) && is_vehicle(b) && std::max(overlap_share(a, b), overlap_share(b, a)) > kMostOverlap) return true;
@@ -67,17 +67,17 @@ bool bodies_coincide(const Track& a, const Track& b, const TrackingConfig& confi
 }
 
 /// Mostly without the root.
-bool is_longer(const Vector2d& way_m, double than_m) {
+bool is_longer(const Vector2d& travelled_m, double than_m) {
   constexpr double kSurely = 1.0 + 1e-9;
-  return way_m.squaredNorm() > kSurely * than_m * than_m || way_m.norm() > than_m;
+  return travelled_m.squaredNorm() > kSurely * than_m * than_m || travelled_m.norm() > than_m;
 }
 
 /// What holds the crumbs of an object whose echoes are another's is no object.
-bool is_worth_more(const Track& a, const Track& b, const TrackingConfig& config) {
+bool outranks(const Track& a, const Track& b, const TrackingConfig& config) {
   if (is_piece_of(a, b, config)) return true;
   if (is_piece_of(b, a, config)) return false;
-  if (walks_through(a, b)) return true;
-  if (walks_through(b, a)) return false;
+  if (is_pedestrian_inside(a, b)) return true;
+  if (is_pedestrian_inside(b, a)) return false;
   const auto is_of_crumbs = [](const Track& one, const Track& other) {
     constexpr double kFew = 3.0;
     constexpr double kCrumbsShare = 0.25;
@@ -85,18 +85,18 @@ bool is_worth_more(const Track& a, const Track& b, const TrackingConfig& config)
   };
   if (is_of_crumbs(a, b)) return false;
   if (is_of_crumbs(b, a)) return true;
-  if (const Track* wrong = drawn_wrong(a, b, config)) return wrong == &b;
+  if (const Track* wrong = inconsistent_one(a, b, config)) return wrong == &b;
   if (a.confirmed != b.confirmed) return a.confirmed;
   return a.track_id < b.track_id;
 }
 
 }  // namespace
 
-bool is_superfluous(const Track& track, const Track& other, const TrackingConfig& config) {
-  return !are_far_apart(other, track, config) && is_worth_more(other, track, config) && bodies_coincide(other, track, config);
+bool is_duplicate(const Track& track, const Track& other, const TrackingConfig& config) {
+  return !are_far_apart(other, track, config) && outranks(other, track, config) && extents_coincide(other, track, config);
 }
 
-bool drive_as_one(const Track& a, const Track& b, const TrackingConfig& config) {
+bool are_parts_of_one_vehicle(const Track& a, const Track& b, const TrackingConfig& config) {
   constexpr double kSlowVehicleMps = 1.0;
   constexpr double kCarLengthM = 4.9;
   constexpr double kCarWidthM = 2.1;

@@ -1,4 +1,4 @@
-#include "services/tracking/rivals.hpp"
+#include "services/tracking/competing_tracks.hpp"
 
 #include <cmath>
 #include <vector>
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> ids_after(const TrackingConfig& config, const Passing
   return ids;
 }
 
-TEST(Rivals, KeepTheirNamesWhenTheyPassEachOther) {
+TEST(CompetingTracks, KeepTheirNamesWhenTheyPassEachOther) {
   for (const Passing& passing : {Passing{}, Passing{0.8, 0.2}, Passing{1.6, 0.4}}) {
     for (const int most_hypotheses : {1, 6}) {
       const auto before = ids_after(config_with(most_hypotheses), passing, 3.0);
@@ -66,12 +66,12 @@ TEST(Rivals, KeepTheirNamesWhenTheyPassEachOther) {
   }
 }
 
-TEST(Rivals, AreTrackedAsByTheBestAssignmentWhileTheyAreFarApart) {
+TEST(CompetingTracks, AreTrackedAsByTheBestAssignmentWhileTheyAreFarApart) {
   EXPECT_EQ(ids_after(config_with(6), {}, 2.5), ids_after(config_with(1), {}, 2.5));
 }
 
-TEST(Rivals, AreOnlyConfirmedTracksWithoutSides) {
-  Rivals rivals(config_with(6));
+TEST(CompetingTracks, AreOnlyConfirmedTracksWithoutSides) {
+  CompetingTracks competing_tracks(config_with(6));
   Street street{{}, {}, {{{10.0, 0.0, 0.0}, 0.4, 0.5}}};
   const flow::SegmentedScan scan = detection::detect(street.scan(0, 0), {});
   const ScanView view(scan);
@@ -79,15 +79,15 @@ TEST(Rivals, AreOnlyConfirmedTracksWithoutSides) {
   for (std::uint32_t i = 0; i < 3; ++i) tracks[i].track_id = {i + 1};
   tracks[0].confirmed = tracks[1].confirmed = true;
   tracks[1].body.has_sides = true;
-  rivals.decide(tracks, view, [](std::size_t, std::size_t) { return true; });
-  EXPECT_TRUE(rivals.has(tracks[0]));
-  EXPECT_FALSE(rivals.has(tracks[1]));
-  EXPECT_FALSE(rivals.has(tracks[2]));
+  competing_tracks.decide(tracks, view, [](std::size_t, std::size_t) { return true; });
+  EXPECT_TRUE(competing_tracks.has(tracks[0]));
+  EXPECT_FALSE(competing_tracks.has(tracks[1]));
+  EXPECT_FALSE(competing_tracks.has(tracks[2]));
   tracks.erase(tracks.begin());
-  rivals.decide(tracks, view, [](std::size_t, std::size_t) { return true; });
+  competing_tracks.decide(tracks, view, [](std::size_t, std::size_t) { return true; });
   Track gone;
   gone.track_id = {1};
-  EXPECT_FALSE(rivals.has(gone));  // forgotten with the track
+  EXPECT_FALSE(competing_tracks.has(gone));  // forgotten with the track
 }
 
 TEST(PairCost, IsLessForTheNearerSegmentAndForbiddenForABackdrop) {
