@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "common/association/gating.hpp"
-#include "services/tracking/pairing.hpp"
+#include "services/tracking/association_cost.hpp"
 
 namespace slammot::tracking {
 namespace {
@@ -16,7 +16,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 /// Only those without sides: where a vehicle is its sides tell.
-bool may_compete(const Track& track) { return track.confirmed && !track.body.has_sides; }
+bool may_compete(const Track& track) { return track.existence.confirmed && track.extent.box() == nullptr; }
 
 association::MhtConfig mht_config(const TrackingConfig& config) {
   association::MhtConfig mht;
@@ -62,20 +62,20 @@ class CompetingTracksScan {
     constexpr double kSharingCost = 4.0;
     const std::size_t track = track_of(key);
     const std::size_t segment = segments_[measurement];
-    const double cost = tracking::pair_cost(tracks_[track].body, hypothesis.estimate, view_.scan().segments[segment], config_);
-    if (cost >= kCostOfLeavingOut || !may_have_(track, segment)) return kForbidden;
+    const double cost = association_cost(tracks_[track].extent.outline, hypothesis.estimate, view_.scan().segments[segment], config_);
+    if (cost >= kCostOfMiss || !may_have_(track, segment)) return kForbidden;
     return cost + (sharers > 0 ? kSharingCost : 0.0);
   }
 
   double miss_cost(TrackKey key, const HypothesisMotion& hypothesis) const {
     constexpr double kHiddenCost = 8.0;
-    const Visibility visibility = view_.visibility_of(tracks_[track_of(key)].body, hypothesis.estimate.mean.head<2>());
-    return 2 * visibility.blocked > visibility.beams ? kHiddenCost : kCostOfLeavingOut;
+    const Visibility visibility = view_.visibility_of(tracks_[track_of(key)].footprint(), hypothesis.estimate.mean.head<2>());
+    return 2 * visibility.blocked > visibility.beams ? kHiddenCost : kCostOfMiss;
   }
 
   HypothesisMotion updated(TrackKey key, const HypothesisMotion& hypothesis, std::size_t measurement, std::size_t sharers) const {
     const PedestrianMeasurement& walker = measurements_[measurement];
-    const double unseen_s = static_cast<double>(view_.scan().stamp_ns - tracks_[track_of(key)].last_seen_ns) * 1e-9;
+    const double unseen_s = static_cast<double>(view_.scan().stamp_ns - tracks_[track_of(key)].history.last_seen_ns) * 1e-9;
     const Matrix2d R = noise_m2(walker, sharers) + gait_variance_m2(unseen_s, config_) * Matrix2d::Identity();
     HypothesisMotion next{hypothesis.motion, filters::imm_update(models_, hypothesis.motion, walker.centre_m, R).posterior, {}};
     next.estimate = filters::imm_combine(models_, next.motion);
@@ -97,10 +97,10 @@ class CompetingTracksScan {
     points_m_.clear();
     for (const std::uint16_t beam : segment.beams) points_m_.push_back(view_.point_in_odom_m(beam));
     const Observation observation{points_m_, view_.laser_in_odom_m(), view_.beam_step_rad(), Edge::kOpen, Edge::kOpen, std::nullopt};
-    const BodyMeasurement measurement = measure_blob({}, observation, config_);
+    const BlobMeasurement measurement = measure_blob({}, observation, config_);
     return {measurement.centre_m,
             measurement.covariance_m2 + pose_covariance_at(segment.centroid_in_odom_m, view_.scan()),
-            extent_of(points_m_)};
+            largest_span_m(points_m_)};
   }
 
   /// Of several who are seen as one, each is somewhere in it.
@@ -137,7 +137,7 @@ void CompetingTracks::keep_up(const std::vector<Track>& tracks) {
       hypotheses_.remove(key);
   for (const Track& track : tracks) {
     if (!may_compete(track)) continue;
-    const HypothesisMotion own{track.motion, track.motion, track.estimate};
+    const HypothesisMotion own{track.kinematics.mixture, track.kinematics.mixture, track.kinematics.estimate};
     if (has(track)) hypotheses_.set_best(track.track_id.value, own);
     else hypotheses_.add(track.track_id.value, own);
   }
@@ -155,9 +155,9 @@ std::vector<std::size_t> CompetingTracks::decide(std::vector<Track>& tracks, con
     const std::size_t measurement = hypotheses_.measurement_of(track.track_id.value);
     if (measurement != kUnassigned) segment_of_track[t] = scan.segment_of(measurement);
     if (!hypotheses_.is_revised(track.track_id.value)) continue;
-    track.motion = hypotheses_.best(track.track_id.value).predicted;
-    track.cruises_only = false;  // the hypotheses have all modes
-    track.estimate = filters::imm_combine(motion_models(config_), track.motion);
+    track.kinematics.mixture = hypotheses_.best(track.track_id.value).predicted;
+    track.kinematics.cruises_only = false;  // the hypotheses have all modes
+    track.kinematics.estimate = filters::imm_combine(motion_models(config_), track.kinematics.mixture);
   }
   return segment_of_track;
 }

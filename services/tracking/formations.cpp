@@ -17,7 +17,7 @@ constexpr double kSharedShare = 0.9;       ///< Of what drives them: they brake 
 constexpr std::size_t kMostMembers = 6;
 
 bool may_be_member(const Track& track, const TrackingConfig& config) {
-  return track.confirmed && track.body.has_sides && track.velocity_mps().norm() > kSlowestMps * config.size_scale;
+  return track.existence.confirmed && track.extent.box() != nullptr && track.velocity_mps().norm() > kSlowestMps * config.size_scale;
 }
 
 bool go_alike(const Track& a, const Track& b, const TrackingConfig& config) {
@@ -43,7 +43,7 @@ void Formations::note_pairs(const std::vector<Track>& tracks, double time_s) {
       if (!(a.track_id < b.track_id)) continue;
       const auto before = alike_s_.find({a.track_id, b.track_id});
       const double so_far_s = before == alike_s_.end() ? 0.0 : before->second;
-      if (!a.measured || !b.measured) {
+      if (!a.kinematics.measured || !b.kinematics.measured) {
         if (so_far_s > 0.0) alike_s[{a.track_id, b.track_id}] = so_far_s;  // nothing new is known
       } else if (go_alike(a, b, config_)) {
         alike_s[{a.track_id, b.track_id}] = so_far_s + time_s;
@@ -79,7 +79,7 @@ std::vector<std::vector<TrackId>> Formations::groups(const std::vector<Track>& t
 Formations::Formation Formations::initiated(const std::vector<TrackId>& members, const std::vector<Track>& tracks) const {
   std::vector<filters::MotionState> states;
   for (const TrackId id : members)
-    states.push_back(std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) { return track.track_id == id; })->estimate);
+    states.push_back(std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) { return track.track_id == id; })->kinematics.estimate);
   return {members, filters::formation_of(states)};
 }
 
@@ -88,13 +88,13 @@ void Formations::step(Formation& formation, std::vector<Track>& tracks, double t
   std::vector<filters::MemberFix> fixes;
   for (std::size_t i = 0; i < formation.members.size(); ++i) {
     const Track& track = track_of(formation.members[i], tracks);
-    filters::formation_shift(formation.state, i, track.recentred_m);
-    if (track.measured) fixes.push_back({i, track.measured->centre_m, track.measured->R});
+    filters::formation_shift(formation.state, i, track.kinematics.recentred_m);
+    if (track.kinematics.measured) fixes.push_back({i, track.kinematics.measured->centre_m, track.kinematics.measured->R});
   }
   formation.state = filters::update(formation.state, fixes, Matrix2d::Zero());
   for (std::size_t i = 0; i < formation.members.size(); ++i) {
     Track& track = track_of(formation.members[i], tracks);
-    if (!track.measured && !fixes.empty()) move_as(track, filters::member_of(formation.state, i), config_);
+    if (!track.kinematics.measured && !fixes.empty()) restart_from(track.kinematics, filters::member_of(formation.state, i), config_);
   }
 }
 

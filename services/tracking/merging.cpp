@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "services/tracking/confirmation.hpp"
+
 namespace slammot::tracking {
 namespace {
 
@@ -14,15 +16,15 @@ using Eigen::Vector2d;
 double overlap_share(const Track& a, const Track& b) {
   constexpr int kAlong = 7;
   constexpr int kAcross = 3;
-  const double reach_m = 0.5 * (a.body.length.value_m + a.body.width.value_m + b.body.length.value_m + b.body.width.value_m);
+  const double reach_m = 0.5 * (a.footprint().length.value_m + a.footprint().width.value_m + b.footprint().length.value_m + b.footprint().width.value_m);
   if ((a.position_m() - b.position_m()).squaredNorm() > reach_m * reach_m) return 0.0;
-  const Vector2d along = b.body.length.value_m * Vector2d(std::cos(b.body.heading_rad), std::sin(b.body.heading_rad));
-  const Vector2d across = b.body.width.value_m * Vector2d(-std::sin(b.body.heading_rad), std::cos(b.body.heading_rad));
+  const Vector2d along = b.footprint().length.value_m * Vector2d(std::cos(b.footprint().heading_rad), std::sin(b.footprint().heading_rad));
+  const Vector2d across = b.footprint().width.value_m * Vector2d(-std::sin(b.footprint().heading_rad), std::cos(b.footprint().heading_rad));
   int inside = 0;
   for (int i = 0; i < kAlong; ++i)
     for (int j = 0; j < kAcross; ++j) {
       const Vector2d point_m = b.position_m() + ((i + 0.5) / kAlong - 0.5) * along + ((j + 0.5) / kAcross - 0.5) * across;
-      inside += is_in_box(a.body, a.position_m(), 0.0, point_m) ? 1 : 0;
+      inside += is_inside(a.footprint(), a.position_m(), 0.0, point_m) ? 1 : 0;
     }
   return static_cast<double>(inside) / (kAlong * kAcross);
 }
@@ -31,38 +33,38 @@ double overlap_share(const Track& a, const Track& b) {
 bool is_piece_of(const Track& vehicle, const Track& piece, const TrackingConfig& config) {
   constexpr double kMostEchoesShare = 0.25;
   constexpr double kMovingMps = 2.0;
-  if (!is_vehicle(vehicle) || is_vehicle(piece) || !vehicle.confirmed || piece.echoes > kMostEchoesShare * vehicle.echoes) return false;
+  if (!is_vehicle(vehicle) || is_vehicle(piece) || !vehicle.existence.confirmed || piece.existence.mean_echoes > kMostEchoesShare * vehicle.existence.mean_echoes) return false;
   if (vehicle.velocity_mps().norm() < kMovingMps || (vehicle.velocity_mps() - piece.velocity_mps()).norm() > 1.5 + 0.2 * vehicle.velocity_mps().norm()) return false;
-  return is_in_box(vehicle.body, vehicle.position_m(), config.gate_margin_m, piece.position_m());
+  return is_inside(vehicle.footprint(), vehicle.position_m(), config.gate_margin_m, piece.position_m());
 }
 
 /// Whether there is no need to look closer: nothing of one is near anything of the other.
 bool are_far_apart(const Track& a, const Track& b, const TrackingConfig& config) {
-  const double sizes_m = a.body.length.value_m + a.body.width.value_m + b.body.length.value_m + b.body.width.value_m;
+  const double sizes_m = a.footprint().length.value_m + a.footprint().width.value_m + b.footprint().length.value_m + b.footprint().width.value_m;
   const double reach_m = 0.5 * sizes_m + 2.0 * config.gate_margin_m + config.stride_m + config.merge_overlap_m;
   return (a.position_m() - b.position_m()).squaredNorm() > reach_m * reach_m;
 }
 
 /// Where somebody surely walks, and is seen no less lately, there is no vehicle.
 bool is_pedestrian_inside(const Track& walker, const Track& vehicle) {
-  return is_known_pedestrian(walker) && is_vehicle(vehicle) && walker.last_seen_ns >= vehicle.last_seen_ns;
+  return is_known_pedestrian(walker) && is_vehicle(vehicle) && walker.history.last_seen_ns >= vehicle.history.last_seen_ns;
 }
 
 bool extents_coincide(const Track& a, const Track& b, const TrackingConfig& config) {
   if (is_piece_of(a, b, config)) return true;
   // Nothing can be inside a vehicle; what is smaller may be several who walk.
-  const bool is_supposed = (a.confirmed && is_vehicle(a)) || is_pedestrian_inside(a, b);
+  const bool is_supposed = (a.existence.confirmed && is_vehicle(a)) || is_pedestrian_inside(a, b);
   if (!is_supposed && (a.velocity_mps() - b.velocity_mps()).norm() > 1.5 + 0.2 * a.velocity_mps().norm()) return false;
   constexpr double kMostOverlap = 0.35;
-  if ((a.confirmed || b.confirmed) && is_vehicle(a) && is_vehicle(b) && std::max(overlap_share(a, b), overlap_share(b, a)) > kMostOverlap) return true;
-  const bool b_in_a = is_in_box(a.body, a.position_m(), -config.merge_overlap_m, b.position_m());
-  const bool a_in_b = is_in_box(b.body, b.position_m(), -config.merge_overlap_m, a.position_m());
-  if (a.body.has_sides || b.body.has_sides) return b_in_a || a_in_b;
+  if ((a.existence.confirmed || b.existence.confirmed) && is_vehicle(a) && is_vehicle(b) && std::max(overlap_share(a, b), overlap_share(b, a)) > kMostOverlap) return true;
+  const bool b_in_a = is_inside(a.footprint(), a.position_m(), -config.merge_overlap_m, b.position_m());
+  const bool a_in_b = is_inside(b.footprint(), b.position_m(), -config.merge_overlap_m, a.position_m());
+  if (a.extent.box() != nullptr || b.extent.box() != nullptr) return b_in_a || a_in_b;
   constexpr int kLongKnownHits = 75;
   constexpr double kLikeMps = 0.8;  // legs of one who walks, and not two who pass each other
-  const bool are_long_known = a.confirmed && b.confirmed && std::min(a.hits, b.hits) >= kLongKnownHits;
+  const bool are_long_known = a.existence.confirmed && b.existence.confirmed && std::min(a.existence.hits, b.existence.hits) >= kLongKnownHits;
   if (are_long_known && (a.velocity_mps() - b.velocity_mps()).norm() > kLikeMps) return false;
-  const bool is_young = a.hits < 20 || b.hits < 20;  // two who walk side by side are not made one
+  const bool is_young = a.existence.hits < 20 || b.existence.hits < 20;  // two who walk side by side are not made one
   return (a.position_m() - b.position_m()).norm() < (is_young ? config.stride_m : config.merge_overlap_m);
 }
 
@@ -81,12 +83,12 @@ bool outranks(const Track& a, const Track& b, const TrackingConfig& config) {
   const auto is_of_crumbs = [](const Track& one, const Track& other) {
     constexpr double kFew = 3.0;
     constexpr double kCrumbsShare = 0.25;
-    return one.echoes < kFew && one.echoes < kCrumbsShare * other.echoes;
+    return one.existence.mean_echoes < kFew && one.existence.mean_echoes < kCrumbsShare * other.existence.mean_echoes;
   };
   if (is_of_crumbs(a, b)) return false;
   if (is_of_crumbs(b, a)) return true;
   if (const Track* wrong = inconsistent_one(a, b, config)) return wrong == &b;
-  if (a.confirmed != b.confirmed) return a.confirmed;
+  if (a.existence.confirmed != b.existence.confirmed) return a.existence.confirmed;
   return a.track_id < b.track_id;
 }
 
@@ -110,11 +112,11 @@ bool are_parts_of_one_vehicle(const Track& a, const Track& b, const TrackingConf
   const Vector2d along = velocity_mps / speed_mps;
   const Vector2d across{-along.y(), along.x()};
   Eigen::AlignedBox2d seen;
-  for (const auto* contour : {&a.contour_in_odom_m, &b.contour_in_odom_m})
+  for (const auto* contour : {&a.extent.contour_in_odom_m, &b.extent.contour_in_odom_m})
     for (const Eigen::Vector2f& point : *contour) seen.extend(Vector2d(along.dot(point.cast<double>()), across.dot(point.cast<double>())));
   if (seen.sizes().x() < kCarLengthM * config.size_scale && seen.sizes().y() < kCarWidthM * config.size_scale) return true;
-  const double longest_m = std::max({seen.sizes().x(), a.body.length.value_m, b.body.length.value_m});
-  return a.body.has_sides && longest_m < kTruckLengthM * config.size_scale && seen.sizes().y() < kTruckWidthM * config.size_scale &&
+  const double longest_m = std::max({seen.sizes().x(), a.footprint().length.value_m, b.footprint().length.value_m});
+  return a.extent.box() != nullptr && longest_m < kTruckLengthM * config.size_scale && seen.sizes().y() < kTruckWidthM * config.size_scale &&
          std::max(overlap_share(a, b), overlap_share(b, a)) > 0.0;
 }
 

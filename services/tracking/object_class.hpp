@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/flow/tracked_objects.hpp"
-#include "services/tracking/body.hpp"
+#include "services/tracking/extent.hpp"
 #include "services/tracking/tracking_config.hpp"
 
 namespace slammot::tracking {
@@ -11,6 +11,14 @@ namespace slammot::tracking {
 struct SpeedsSeen {
   flow::ClassProbabilities log_likelihood = {};
   double surely_mps = 0.0;  ///< It has been as fast as this for a while, which does not fade.
+};
+
+/// Class of an object: pedestrian, bicycle, car, truck or bus.
+/// Invariant: `likeliest` is that of likeliest_class(probability), as of the last update.
+struct Classification {
+  flow::ObjectClass likeliest = flow::ObjectClass::kUnknown;
+  flow::ClassProbabilities probability = {};
+  SpeedsSeen speeds;                         ///< Since confirmation.
 };
 
 /// An estimate of the speed, held for some time.
@@ -29,7 +37,7 @@ SpeedsSeen with_speed(const SpeedsSeen& before, const SpeedHeld& held, const Tra
 
 /// Bayes' rule over pedestrian, bicycle, car, truck or bus: how common they are where this was set up for, the sizes that were
 /// seen with their uncertainty, and the speeds.
-flow::ClassProbabilities class_probabilities(const Body& body, const SpeedsSeen& speeds, const TrackingConfig& config);
+flow::ClassProbabilities class_probabilities(const Outline& outline, const SpeedsSeen& speeds, const TrackingConfig& config);
 
 /// Unknown where no class is likelier than all others together.
 flow::ObjectClass likeliest_class(const flow::ClassProbabilities& probability);

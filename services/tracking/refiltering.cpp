@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/filters/imm.hpp"
 #include "common/filters/move_stop.hpp"
 #include "common/geometry/pose2.hpp"
 
@@ -14,49 +13,55 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// With what is known by now of how seldom the thing answers.
-Observation observation_of(const StoredObservation& kept, const Track& track) {
-  Observation observation = kept.with_points();
-  observation.unanswered_share = track.responses.unanswered_share();
+/// With the response rate as known now.
+Observation observation_of(const StoredObservation& stored, const Track& track) {
+  Observation observation = stored.with_points();
+  observation.unanswered_share = track.extent.responses.unanswered_share();
   return observation;
 }
 
-filters::MotionState beginning_of(const Track& track, const Body& body, const TrackingConfig& config) {
-  const StoredObservation& kept = track.observations[0];
-  const Observation observation = observation_of(kept, track);
-  const BodyMeasurement measured = measure_box(body, supposed_centre_m(body, observation), observation, config);
+/// At rest at the first stored observation.
+filters::MotionState first_state(const Track& track, const Box& box, const TrackingConfig& config) {
+  const StoredObservation& stored = track.history.observations[0];
+  const Observation observation = observation_of(stored, track);
+  const BoxMeasurement measured = measure_box(box, supposed_centre_m(box, observation), observation, config);
   filters::MotionState start;
   start.mean.head<2>() = measured.centre_m - measured.recentring_m;
-  start.covariance.topLeftCorner<2, 2>() = measured.covariance_m2 + kept.pose_covariance_m2;
+  start.covariance.topLeftCorner<2, 2>() = measured.covariance_m2 + stored.pose_covariance_m2;
   start.covariance.block<2, 2>(2, 2) = std::pow(0.5 * config.fastest_mps, 2) * Matrix2d::Identity();
   start.covariance.block<2, 2>(4, 4) = std::pow(config.idle_acceleration_mps2, 2) * Matrix2d::Identity();
   return start;
 }
 
-/// A body of just this size and heading all the time.
-Belief belief_with(const Track& track, Body body, const TrackingConfig& config) {
+/// A box of constant size and heading, and its motion after all stored observations.
+struct FilteredBox {
+  Box box;
+  filters::ImmState mixture;
+  filters::MotionState estimate;
+};
+
+FilteredBox filtered(const Track& track, Box box, const TrackingConfig& config) {
   const filters::ModelSet models = motion_models(config);
-  filters::ImmState motion = filters::imm_start(models, beginning_of(track, body, config));
-  body.length_held.reset();
-  body.width_held.reset();
-  for (std::size_t i = 1; i < track.observations.size(); ++i) {
-    const StoredObservation& kept = track.observations[i];
-    motion = filters::imm_predict(models, motion, static_cast<double>(kept.stamp_ns - track.observations[i - 1].stamp_ns) * 1e-9);
-    const Vector2d predicted_m = filters::imm_combine(models, motion).mean.head<2>();
-    const BodyMeasurement measured = measure_box(body, predicted_m, observation_of(kept, track), config);
-    filters::imm_loosen(models, motion, measured.step_covariance_m2);
-    body.length_held = measured.body.length_held;
-    body.width_held = measured.body.width_held;
-    motion = filters::imm_update(models, motion, measured.centre_m - measured.recentring_m, measured.covariance_m2 + kept.pose_covariance_m2).posterior;
+  const ObservationHistory& observations = track.history.observations;
+  filters::ImmState mixture = filters::imm_start(models, first_state(track, box, config));
+  box.anchors = {};
+  for (std::size_t i = 1; i < observations.size(); ++i) {
+    const StoredObservation& stored = observations[i];
+    mixture = filters::imm_predict(models, mixture, static_cast<double>(stored.stamp_ns - observations[i - 1].stamp_ns) * 1e-9);
+    const Vector2d predicted_m = filters::imm_combine(models, mixture).mean.head<2>();
+    const BoxMeasurement measured = measure_box(box, predicted_m, observation_of(stored, track), config);
+    filters::imm_loosen(models, mixture, measured.step_covariance_m2);
+    box.anchors = measured.box.anchors;
+    mixture = filters::imm_update(models, mixture, measured.centre_m - measured.recentring_m, measured.covariance_m2 + stored.pose_covariance_m2).posterior;
   }
-  return {body, motion, filters::imm_combine(models, motion), {}};
+  return {box, mixture, filters::imm_combine(models, mixture)};
 }
 
-/// That the body goes along its length, at any speed.
-double log_likelihood_of_course(const Belief& belief, const TrackingConfig& config) {
-  const Vector2d velocity_mps = belief.estimate.mean.segment<2>(2);
-  const Matrix2d P = belief.estimate.covariance.block<2, 2>(2, 2);
-  const Vector2d along{std::cos(belief.body.heading_rad), std::sin(belief.body.heading_rad)};
+/// Of a velocity along the length of the box, at any speed.
+double log_likelihood_of_course(const FilteredBox& filtered, const TrackingConfig& config) {
+  const Vector2d velocity_mps = filtered.estimate.mean.segment<2>(2);
+  const Matrix2d P = filtered.estimate.covariance.block<2, 2>(2, 2);
+  const Vector2d along{std::cos(filtered.box.heading_rad), std::sin(filtered.box.heading_rad)};
   const Vector2d across{-along.y(), along.x()};
   const auto log_density = [&](const Vector2d& axis, double variance) {
     const double S = axis.dot(P * axis) + variance;
@@ -66,44 +71,48 @@ double log_likelihood_of_course(const Belief& belief, const TrackingConfig& conf
          log_density(across, std::pow(kSlipMps * config.size_scale, 2) + kSlip * kSlip * velocity_mps.squaredNorm());
 }
 
-double log_likelihood(const Belief& belief, const TrackingConfig& config) {
-  return log_likelihood_of_course(belief, config) + log_evidence_of_sizes(belief.body, config);
+double log_likelihood(const FilteredBox& filtered, const TrackingConfig& config) {
+  return log_likelihood_of_course(filtered, config) + log_evidence_of_sizes(filtered.box, config);
 }
 
-Body along_its_sides(Body body) {
-  if (body.axis_variance_rad2 < kKnownAxisRad2) body.heading_rad += std::remainder(body.axis_rad - body.heading_rad, 0.5 * std::numbers::pi);
-  body.heading_rad = geometry::wrap_angle(body.heading_rad);
-  return body;
+/// The box with its heading along its measured axis.
+Box along_its_sides(Box box) {
+  if (box.axis_variance_rad2 < kKnownAxisRad2) box.heading_rad += std::remainder(box.axis_rad - box.heading_rad, 0.5 * std::numbers::pi);
+  box.heading_rad = geometry::wrap_angle(box.heading_rad);
+  return box;
 }
 
 }  // namespace
 
-Belief belief(const Track& track) { return {track.body, track.motion, track.estimate, track.consistency}; }
+Belief belief_of(const Track& track) {
+  return {track.extent.outline, track.kinematics.mixture, track.kinematics.estimate, track.existence.consistency};
+}
 
 Belief refiltered(const Track& track, const TrackingConfig& config) {
-  if (!track.body.has_sides || track.observations.size() < 2) return belief(track);
-  Belief belief = belief_with(track, along_its_sides(track.body), config);
-  const Body turned = turned_by_a_quarter(belief.body, 1.0, config);
+  const Box* box = track.extent.box();
+  if (box == nullptr || track.history.observations.size() < 2) return belief_of(track);
+  FilteredBox best = filtered(track, along_its_sides(*box), config);
+  const Box turned = turned_by_a_quarter(best.box, 1.0, config);
   if (is_plausible(turned, config)) {
-    const Belief other = belief_with(track, turned, config);
-    const double odds = log_likelihood(other, config) - log_likelihood(belief, config);
-    if (odds > 0.0) belief = other;
-    belief.body.is_oriented = std::abs(odds) > kSureOdds;
+    const FilteredBox other = filtered(track, turned, config);
+    const double odds = log_likelihood(other, config) - log_likelihood(best, config);
+    if (odds > 0.0) best = other;
+    best.box.is_oriented = std::abs(odds) > kSureOdds;
   }
-  return belief;
+  return {best.box, best.mixture, best.estimate, {}};
 }
 
 void set_belief(Track& track, const Belief& belief) {
   const Vector2d by_m = belief.estimate.mean.head<2>() - track.position_m();
-  track.body = belief.body;
-  track.motion = belief.motion;
-  track.estimate = belief.estimate;
-  track.consistency = belief.consistency;
-  track.may_turn = false;
-  track.cruises_only = false;
-  track.birth_position_m += by_m;
-  track.anchor_m += by_m;
-  filters::move_stop_shift(track.move_stop, by_m);
+  track.extent.outline = belief.outline;
+  track.kinematics.mixture = belief.mixture;
+  track.kinematics.estimate = belief.estimate;
+  track.kinematics.may_turn = false;
+  track.kinematics.cruises_only = false;
+  track.existence.consistency = belief.consistency;
+  track.history.birth.centre_m += by_m;
+  track.existence.travel.anchor_m += by_m;
+  filters::move_stop_shift(track.kinematics.move_stop, by_m);
 }
 
 }  // namespace slammot::tracking

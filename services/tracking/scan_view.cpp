@@ -44,9 +44,9 @@ void spread_to_neighbours(std::vector<double>& values, double nothing, const Ext
   }
 }
 
-std::array<Vector2d, 4> corners_of(const Body& body, const Vector2d& centre_m, double margin_m) {
-  const Vector2d along = (0.5 * body.length.value_m + margin_m) * Vector2d(std::cos(body.heading_rad), std::sin(body.heading_rad));
-  const Vector2d across = (0.5 * body.width.value_m + margin_m) * Vector2d(-std::sin(body.heading_rad), std::cos(body.heading_rad));
+std::array<Vector2d, 4> corners_of(const Footprint& footprint, const Vector2d& centre_m, double margin_m) {
+  const Vector2d along = (0.5 * footprint.length.value_m + margin_m) * Vector2d(std::cos(footprint.heading_rad), std::sin(footprint.heading_rad));
+  const Vector2d across = (0.5 * footprint.width.value_m + margin_m) * Vector2d(-std::sin(footprint.heading_rad), std::cos(footprint.heading_rad));
   return {centre_m + along + across, centre_m + along - across, centre_m - along - across, centre_m - along + across};
 }
 
@@ -210,14 +210,14 @@ void ScanView::look_at(const flow::SegmentedScan& scan) {
     for (const std::uint16_t beam : scan.segments[segment].beams) segment_of_beam_[beam] = segment;
 }
 
-ScanView::Directions ScanView::directions_of(const Body& body, const Vector2d& centre_m, double margin_m) const {
+ScanView::Directions ScanView::directions_of(const Footprint& footprint, const Vector2d& centre_m, double margin_m) const {
   const Vector2d to_centre_m = centre_m - laser_in_odom_m();
   const double middle_rad = std::atan2(to_centre_m.y(), to_centre_m.x());
   const double middle = polar_.steps_towards(middle_rad);
   const double sense = scan_->beam_step_rad < 0.0 ? -1.0 : 1.0;
   double low = middle;
   double high = middle;
-  for (const Vector2d& corner : corners_of(body, centre_m, margin_m)) {
+  for (const Vector2d& corner : corners_of(footprint, centre_m, margin_m)) {
     const Vector2d way = corner - laser_in_odom_m();
     const double steps = middle + sense * wrap_angle(std::atan2(way.y(), way.x()) - middle_rad) / beam_step_rad();
     low = std::min(low, steps), high = std::max(high, steps);
@@ -231,12 +231,12 @@ ScanView::Directions ScanView::directions_of(const Body& body, const Vector2d& c
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(last - first)};
 }
 
-Visibility ScanView::visibility_of(const Body& body, const Vector2d& centre_m) const {
+Visibility ScanView::visibility_of(const Footprint& footprint, const Vector2d& centre_m) const {
   constexpr double kMarginM = 0.3;
-  const Directions directions = directions_of(body, centre_m, 0.0);
+  const Directions directions = directions_of(footprint, centre_m, 0.0);
   double nearest_m = 1e9;
   double farthest_m = 0.0;
-  for (const Vector2d& corner : corners_of(body, centre_m, 0.0)) {
+  for (const Vector2d& corner : corners_of(footprint, centre_m, 0.0)) {
     const double range_m = (corner - laser_in_odom_m()).norm();
     nearest_m = std::min(nearest_m, range_m), farthest_m = std::max(farthest_m, range_m);
   }

@@ -9,7 +9,8 @@
 
 #include "common/flow/segmented_scan.hpp"
 #include "common/sensing/scan.hpp"
-#include "services/tracking/body.hpp"
+#include "services/tracking/footprint.hpp"
+#include "services/tracking/observation.hpp"
 
 namespace slammot::tracking {
 
@@ -121,10 +122,10 @@ class ScanView {
     std::size_t first = 0;
     std::size_t count = 0;
   };
-  /// Those that point at the body.
-  Directions directions_of(const Body& body, const Eigen::Vector2d& centre_m, double margin_m) const;
+  /// Those that point at the footprint.
+  Directions directions_of(const Footprint& footprint, const Eigen::Vector2d& centre_m, double margin_m) const;
 
-  Visibility visibility_of(const Body& body, const Eigen::Vector2d& centre_m) const;
+  Visibility visibility_of(const Footprint& footprint, const Eigen::Vector2d& centre_m) const;
 
  private:
   const flow::SegmentedScan* scan_ = nullptr;

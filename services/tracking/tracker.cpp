@@ -11,7 +11,15 @@
 #include "common/sensing/box_fit.hpp"
 #include "services/tracking/merging.hpp"
 #include "services/tracking/face_shift.hpp"
-#include "services/tracking/pairing.hpp"
+#include "services/tracking/association_cost.hpp"
+#include "services/tracking/confirmation.hpp"
+#include "services/tracking/existence_score.hpp"
+#include "services/tracking/extent_update.hpp"
+#include "services/tracking/measurement_update.hpp"
+#include "services/tracking/publication.hpp"
+#include "services/tracking/road_user_learning.hpp"
+#include "services/tracking/termination.hpp"
+#include "services/tracking/track_initiation.hpp"
 #include "services/tracking/speed_evidence.hpp"
 #include "services/tracking/refiltering.hpp"
 
@@ -72,7 +80,7 @@ PointLabel stronger(PointLabel a, PointLabel b) {
 
 /// How far into the body's neighbourhood a point may lie and still be the body's.
 double margin_of(const Track& track, const TrackingConfig& config) {
-  const double sigma_m = std::sqrt(0.5 * track.position_covariance_m2().trace());
+  const double sigma_m = std::sqrt(0.5 * track.kinematics.position_covariance_m2().trace());
   return config.gate_margin_m + std::min(1.0, sigma_m);
 }
 
@@ -134,7 +142,7 @@ struct SweptMotion {
   Vector2d velocity_mps = Vector2d::Zero();
 };
 
-SweptMotion swept_motion(const Track& track) { return {track.time_offset_s, track.velocity_mps()}; }
+SweptMotion swept_motion(const Track& track) { return {track.kinematics.time_offset_s, track.velocity_mps()}; }
 
 /// The points of some beams, with what lies beside them.
 Observation observation_of(const std::vector<std::uint16_t>& beams, const SweptMotion& motion, const ResponseRate& responses, const ScanView& view, double size_scale,
@@ -153,11 +161,11 @@ Observation observation_of(const std::vector<std::uint16_t>& beams, const SweptM
 /// To when the beam that points at it is fired, in a scan that begins time_s after the one before; not back to before the beam
 /// of another scanner that met it last.
 void predict_to_its_beam(Track& track, double time_s, const PolarView& view, const TrackingConfig& config) {
-  const double before_s = track.time_offset_s;
+  const double before_s = track.kinematics.time_offset_s;
   const double beam_s = view.delay_towards_s(track.position_m() + (time_s - before_s) * track.velocity_mps());
-  track.time_offset_s = std::max(beam_s, before_s - time_s);
-  predict(track, std::max(0.0, time_s + track.time_offset_s - before_s), config);
-  track.since_in_view_s += time_s;
+  track.kinematics.time_offset_s = std::max(beam_s, before_s - time_s);
+  predict(track, std::max(0.0, time_s + track.kinematics.time_offset_s - before_s), config);
+  track.history.since_in_view_s += time_s;
 }
 
 /// Whether the beams between two things see past them.
@@ -181,7 +189,7 @@ bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std:
 
 bool is_long_known(const Track& track) {
   constexpr int kLongKnownHits = 10;
-  return track.confirmed && track.hits >= kLongKnownHits;
+  return track.existence.confirmed && track.existence.hits >= kLongKnownHits;
 }
 
 }  // namespace
@@ -191,7 +199,7 @@ Tracker::Tracker(const TrackingConfig& config, work::SideWork* help) : config_(c
 /// Whether the segment stands, and was not the track's own a moment ago: no part of something that moves.
 bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const ScanView& view) const {
   // Of what creeps much slides along itself, and seems to stand; who walks has no flank that does.
-  const bool may_slide = tracks_[track].body.has_sides || !tracks_[track].confirmed;
+  const bool may_slide = tracks_[track].extent.box() != nullptr || !tracks_[track].existence.confirmed;
   if (!past_of_segment_[segment].stands || (may_slide && is_slow(tracks_[track]))) return false;
   const EarlierScan* then = history().older_than(view.scan().stamp_ns, 0.0);
   if (then == nullptr) return false;
@@ -212,16 +220,16 @@ bool Tracker::is_of_another_past(std::size_t segment, std::size_t track, const S
 
 /// Whether the ends and the middle of the segment lie in the track's body.
 bool Tracker::lies_in_body(const Segment& segment, const Track& track, const ScanView& view) const {
-  if (segment.box_length_m > track.body.length.value_m + config_.gate_margin_m) return false;
+  if (segment.box_length_m > track.footprint().length.value_m + config_.gate_margin_m) return false;
   const double margin_m = margin_of(track, config_);
-  const auto is_inside = [&](const Vector2d& point_m) { return is_in_box(track.body, track.position_m(), margin_m, point_m); };
-  return is_inside(segment.centroid_in_odom_m) && is_inside(view.point_in_odom_m(segment.beams.front())) &&
-         is_inside(view.point_in_odom_m(segment.beams.back()));
+  const auto contains = [&](const Vector2d& point_m) { return is_inside(track.footprint(), track.position_m(), margin_m, point_m); };
+  return contains(segment.centroid_in_odom_m) && contains(view.point_in_odom_m(segment.beams.front())) &&
+         contains(view.point_in_odom_m(segment.beams.back()));
 }
 
 /// Whether the segment may be another leg of someone who walks.
 bool Tracker::is_leg(const Segment& segment, const Track& track) const {
-  return !track.body.has_sides && segment.box_length_m < config_.stride_m && track.largest_extent_m < 2.0 * config_.stride_m &&
+  return track.extent.box() == nullptr && segment.box_length_m < config_.stride_m && track.extent.largest_span_m < 2.0 * config_.stride_m &&
          (segment.centroid_in_odom_m - track.position_m()).norm() < config_.stride_m;
 }
 
@@ -244,11 +252,11 @@ void Tracker::give_whole_segments(const ScanView& view) {
   costs.assign(tracks_.size(), segments.size(), association::kForbidden);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     for (std::size_t s = 0; s < segments.size(); ++s) {
-      const double cost = pair_cost(tracks_[t].body, tracks_[t].estimate, segments[s], config_);
+      const double cost = association_cost(tracks_[t].extent.outline, tracks_[t].kinematics.estimate, segments[s], config_);
       if (cost != association::kForbidden && !is_of_another_past(s, t, view)) costs(t, s) = cost;
     }
   if (config_.most_hypotheses > 1) assign_competing_tracks(view, costs);
-  const std::vector<std::size_t>& segment_of_track = assigner_.assign(costs, kCostOfLeavingOut);
+  const std::vector<std::size_t>& segment_of_track = assigner_.assign(costs, kCostOfMiss);
   for (std::size_t t = 0; t < tracks_.size(); ++t)
     if (segment_of_track[t] != kUnassigned) shares_.track_of_segment[segment_of_track[t]] = t;
   // A body with sides may be seen in pieces: what lies inside it is its own.
@@ -256,7 +264,7 @@ void Tracker::give_whole_segments(const ScanView& view) {
     if (shares_.track_of_segment[s] != kUnassigned || is_backdrop(segments[s], config_)) continue;
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       const Track& track = tracks_[t];
-      if (track.body.has_sides ? !lies_in_body(segments[s], track, view) : !is_leg(segments[s], track)) continue;
+      if (track.extent.box() != nullptr ? !lies_in_body(segments[s], track, view) : !is_leg(segments[s], track)) continue;
       if (is_of_another_past(s, t, view)) continue;
       shares_.track_of_segment[s] = t;
       break;
@@ -273,9 +281,9 @@ void Tracker::give_whole_segments(const ScanView& view) {
 void Tracker::divide_shared_segments(const ScanView& view) {
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     const Track& track = tracks_[t];
-    if (!shares_.beams_of_track[t].empty() || !track.confirmed) continue;
+    if (!shares_.beams_of_track[t].empty() || !track.existence.confirmed) continue;
     const double margin_m = margin_of(track, config_);
-    const ScanView::Directions directions = view.directions_of(track.body, track.position_m(), margin_m);
+    const ScanView::Directions directions = view.directions_of(track.footprint(), track.position_m(), margin_m);
     std::vector<std::uint16_t>& beams = shares_.beams_of_track[t];
     PointLabel label = PointLabel::kUnknown;
     for (std::size_t i = 0; i < directions.count; ++i) {
@@ -283,13 +291,13 @@ void Tracker::divide_shared_segments(const ScanView& view) {
       const std::size_t s = view.segment_of_beam(beam);
       if (s == ScanView::kNone) continue;
       const Vector2d& point_m = view.point_in_odom_m(beam);
-      if (!is_in_box(track.body, track.position_m(), margin_m, point_m)) continue;
+      if (!is_inside(track.footprint(), track.position_m(), margin_m, point_m)) continue;
       const Segment& segment = view.scan().segments[s];
       const std::size_t owner = shares_.track_of_segment[s];
       if (owner == kUnassigned && is_of_another_past(s, t, view)) continue;
       if (owner != kUnassigned) {
-        const double to_owner = (point_m - tracks_[owner].position_m()).norm() / std::max(0.3, tracks_[owner].body.width.value_m);
-        const double to_track = (point_m - track.position_m()).norm() / std::max(0.3, track.body.width.value_m);
+        const double to_owner = (point_m - tracks_[owner].position_m()).norm() / std::max(0.3, tracks_[owner].footprint().width.value_m);
+        const double to_track = (point_m - track.position_m()).norm() / std::max(0.3, track.footprint().width.value_m);
         if (to_owner <= to_track) continue;
       }
       beams.push_back(static_cast<std::uint16_t>(beam));
@@ -397,7 +405,7 @@ void Tracker::note_face_shift(std::size_t s, const PastScans& past_scans, const 
 /// Whether the echo lies on a side that points along the track's motion: there an object that moves looks as if it stood.
 bool Tracker::slides_along_itself(std::uint16_t beam, const Track& track, const ScanView& view) const {
   constexpr double kSlowMps = 3.0;  // a faster one leaves the places where its flank was
-  if (!track.body.has_sides || track.velocity_mps().norm() > kSlowMps) return false;
+  if (track.extent.box() == nullptr || track.velocity_mps().norm() > kSlowMps) return false;
   const std::size_t segment = view.segment_of_beam(beam);
   const auto is_beside = [&](int neighbour) {
     return neighbour >= 0 && neighbour < static_cast<int>(view.polar().beam_count()) && view.segment_of_beam(static_cast<std::size_t>(neighbour)) == segment;
@@ -410,7 +418,7 @@ bool Tracker::slides_along_itself(std::uint16_t beam, const Track& track, const 
     if (is_beside(beam + i)) high = beam + i;
   }
   const Vector2d side = view.point_in_odom_m(static_cast<std::size_t>(high)) - view.point_in_odom_m(static_cast<std::size_t>(low));
-  const Vector2d along{std::cos(track.body.heading_rad), std::sin(track.body.heading_rad)};
+  const Vector2d along{std::cos(track.footprint().heading_rad), std::sin(track.footprint().heading_rad)};
   constexpr double kCosine = 0.9;
   return std::abs(side.dot(along)) > kCosine * side.norm() && side.squaredNorm() > 0.0;
 }
@@ -422,8 +430,8 @@ bool Tracker::may_begin(const Segment& segment, std::size_t index) const {
   const auto count = static_cast<int>(segment.beams.size());
   if (count < config_.least_points_at_birth) return false;
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    if (tracks_[t].confirmed && is_vehicle(tracks_[t]) && !shares_.beams_of_track[t].empty() &&
-        is_in_box(tracks_[t].body, tracks_[t].position_m(), config_.gate_margin_m, segment.centroid_in_odom_m))
+    if (tracks_[t].existence.confirmed && is_vehicle(tracks_[t]) && !shares_.beams_of_track[t].empty() &&
+        is_inside(tracks_[t].footprint(), tracks_[t].position_m(), config_.gate_margin_m, segment.centroid_in_odom_m))
       return false;
   if (!past.face_shift_m.isZero()) return true;
   if (segment.label == PointLabel::kMoving) return !past.stood_before;
@@ -448,15 +456,15 @@ void Tracker::begin_tracks(const ScanView& view) {
     const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
     // Detection fits boxes to what moves only.
     const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(points_m_, config_.range_noise_m).heading_rad;
-    tracks_.push_back(initiated({next_id_++}, view.scan().stamp_ns, observation, heading_rad, pose_covariance_m2, config_, *road_users_, spare_tracks_.take()));
-    tracks_.back().birth_position_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
-    tracks_.back().time_offset_s = time_offset_s;
-    tracks_.back().scanner = scanner_;
-    tracks_.back().observations.add(view.scan().stamp_ns + nanoseconds(time_offset_s), observation, pose_covariance_m2);
-    tracks_.back().responses = responses;
-    tracks_.back().echoes = static_cast<double>(segment.beams.size());
-    tracks_.back().moving_hits = segment.label == PointLabel::kMoving ? 1 : 0;
-    shares_.track_of_segment[s] = tracks_.size() - 1;
+    tracks_.push_back(spare_tracks_.take());
+    initiate(tracks_.back(), {{next_id_++}, view.scan().stamp_ns, observation, heading_rad, pose_covariance_m2}, config_, *road_users_);
+    tracks_.back().history.birth.centre_m -= past_of_segment_[s].face_shift_m;  // where it was when it was first seen
+    tracks_.back().kinematics.time_offset_s = time_offset_s;
+    tracks_.back().history.scanner = scanner_;
+    tracks_.back().history.observations.add(view.scan().stamp_ns + nanoseconds(time_offset_s), observation, pose_covariance_m2);
+    tracks_.back().extent.responses = responses;
+    tracks_.back().existence.mean_echoes = static_cast<double>(segment.beams.size());
+      shares_.track_of_segment[s] = tracks_.size() - 1;
     spare_beams_.resize(shares_.beams_of_track, tracks_.size());
     shares_.beams_of_track.back() = segment.beams;
     shares_.label_of_track.push_back(segment.label);
@@ -479,7 +487,7 @@ MotionEvidence Tracker::evidence_against(const EarlierScan& then, std::size_t tr
     else if (past == Past::kStood || past == Past::kAppeared) evidence.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
     else evidence.undecided += 1.0;
   }
-  if (then.stamp_ns < tracks_[track].first_seen_ns) return evidence;  // it had none then
+  if (then.stamp_ns < tracks_[track].history.first_seen_ns) return evidence;  // it had none then
   for (std::size_t beam = 0; beam < then.owners.size(); ++beam) {
     if (!then.owners[beam].is_owned || then.owners[beam].track_id != tracks_[track].track_id) continue;
     if (view.polar().sight_of(then.view.point_in_odom_m(beam)).sight == Sight::kThrough) evidence.moved += 1.0;
@@ -491,7 +499,7 @@ MotionEvidence Tracker::evidence_of(std::size_t track, const ScanView& view) con
   MotionEvidence best;
   double best_share = -1.0;
   const std::int64_t stamp_ns = view.scan().stamp_ns;
-  if (tracks_[track].confirmed) {
+  if (tracks_[track].existence.confirmed) {
     for (const std::uint16_t beam : shares_.beams_of_track[track]) {
       if (past_of_beam_[beam] == Past::kStood) best.stood += slides_along_itself(beam, tracks_[track], view) ? kStoodIfSliding : 1.0;
       best.moved += past_of_beam_[beam] == Past::kArrived || past_of_beam_[beam] == Past::kAppeared ? 1.0 : 0.0;
@@ -519,28 +527,28 @@ void Tracker::check_velocity(std::size_t index, const Observation& observation, 
   constexpr double kTellingSigmaMps = 2.0;
   constexpr double kVagueSigmaMps = 4.0;
   Track& track = tracks_[index];
-  track.is_refuted = false;
-  const double age_s = static_cast<double>(view.scan().stamp_ns - track.first_seen_ns) * kNanosecond_s;
-  const double known_s = static_cast<double>(view.scan().stamp_ns - std::max(track.first_seen_ns, track.velocity_known_since_ns)) * kNanosecond_s;
+  track.existence.velocity_check.is_refuted = false;
+  const double age_s = static_cast<double>(view.scan().stamp_ns - track.history.first_seen_ns) * kNanosecond_s;
+  const double known_s = static_cast<double>(view.scan().stamp_ns - std::max(track.history.first_seen_ns, track.existence.velocity_check.known_since_ns)) * kNanosecond_s;
   const Vector2d velocity_mps = track.velocity_mps();
   const bool is_fast = velocity_mps.norm() > kSlowMps;
-  if (known_s > kYoungS || (!track.body.has_sides && !is_fast)) return;
-  const Vector2d along = track.body.has_sides ? Vector2d(std::cos(track.body.heading_rad), std::sin(track.body.heading_rad)) : Vector2d(velocity_mps.normalized());
+  if (known_s > kYoungS || (track.extent.box() == nullptr && !is_fast)) return;
+  const Vector2d along = track.extent.box() != nullptr ? Vector2d(std::cos(track.footprint().heading_rad), std::sin(track.footprint().heading_rad)) : Vector2d(velocity_mps.normalized());
   const double speed_mps = velocity_mps.dot(along);
   const double across_mps = (velocity_mps - speed_mps * along).norm();
   const SpeedEvidence evidence = speed_along(along, observation.points_m, view.scan().stamp_ns, history(), kFastestOfSigmas * config_.fastest_mps, track.track_id);
   const bool flies_sideways = across_mps > 2.0 + 0.3 * std::abs(speed_mps);
   const bool is_off = flies_sideways || std::abs(speed_mps - evidence.speed_mps) > 3.0 * evidence.sigma_mps + kSlackMps;
   const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps && !appeared_in_free_space(track, config_);
-  if (is_off && evidence.sigma_mps < kTellingSigmaMps) restart_motion(track, evidence.speed_mps * along, evidence.sigma_mps, config_);
-  else track.is_refuted = is_off || is_vague;
+  if (is_off && evidence.sigma_mps < kTellingSigmaMps) restart_velocity(track.kinematics, evidence.speed_mps * along, evidence.sigma_mps, config_);
+  else track.existence.velocity_check.is_refuted = is_off || is_vague;
 }
 
 void Tracker::remember(const ScanView& view) {
   if (!history().is_due(view.scan().stamp_ns)) return;
   owners_.assign(view.scan().range_m.size(), {});
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    for (const std::uint16_t beam : shares_.beams_of_track[t]) owners_[beam] = {tracks_[t].track_id, true, tracks_[t].confirmed, tracks_[t].confirmed && tracks_[t].body.has_sides};
+    for (const std::uint16_t beam : shares_.beams_of_track[t]) owners_[beam] = {tracks_[t].track_id, true, tracks_[t].existence.confirmed, tracks_[t].existence.confirmed && tracks_[t].extent.box() != nullptr};
   for (std::size_t s = 0; s < past_of_segment_.size(); ++s) {
     if (!past_of_segment_[s].has_come) continue;
     for (const std::uint16_t beam : view.scan().segments[s].beams) owners_[beam].has_come = true;
@@ -550,7 +558,7 @@ void Tracker::remember(const ScanView& view) {
 
 /// The echoes are of something else, which may become a track of its own.
 void Tracker::release(std::size_t index) {
-  tracks_[index].score += config_.surprise_score;
+  tracks_[index].existence.score += config_.surprise_score;
   shares_.beams_of_track[index].clear();
   std::replace(shares_.track_of_segment.begin(), shares_.track_of_segment.end(), index, kUnassigned);
 }
@@ -562,13 +570,13 @@ void Tracker::leave_out_surroundings(std::size_t index, double time_s, const Sca
   Track& track = tracks_[index];
   std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
   const bool is_sure = is_known_pedestrian(track);
-  const bool may_be_pedestrian = is_sure || (track.confirmed && !track.body.has_sides && track.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps);
+  const bool may_be_pedestrian = is_sure || (track.existence.confirmed && track.extent.box() == nullptr && track.existence.hits >= kLongKnownHits && track.velocity_mps().norm() < kFastestWalkMps);
   if (!may_be_pedestrian || beams.empty()) return;
   const auto is_near = [&](std::uint16_t beam) { return (view.point_in_odom_m(beam) - track.position_m()).norm() < config_.stride_m + (is_sure ? 0.0 : config_.gate_margin_m); };
   const Ends ends = ends_of(beams, view.polar());
   const bool has_outgrown = (view.point_in_odom_m(ends.last) - view.point_in_odom_m(ends.first)).norm() > config_.box_from_extent_m;
-  track.oversized_s = has_outgrown ? track.oversized_s + time_s : 0.0;
-  if (!has_outgrown || (!is_sure && track.oversized_s > kBelievedAfterS) || std::ranges::none_of(beams, is_near)) return;
+  track.extent.misfit.oversized_s = has_outgrown ? track.extent.misfit.oversized_s + time_s : 0.0;
+  if (!has_outgrown || (!is_sure && track.extent.misfit.oversized_s > kBelievedAfterS) || std::ranges::none_of(beams, is_near)) return;
   std::erase_if(beams, [&](std::uint16_t beam) { return !is_near(beam); });
 }
 
@@ -602,21 +610,21 @@ bool Tracker::takes(std::size_t index, const Observation& observation, double ti
   Track& track = tracks_[index];
   const Matrix2d pose_covariance_m2 = pose_covariance_at(track.position_m(), scan);
   if (!update(track, scan.stamp_ns, observation, pose_covariance_m2, config_)) {
-    track.rejected_s += time_s;
-    const bool surely_moves = shares_.label_of_track[index] == PointLabel::kMoving && track.travelled_m > kKnownToMoveM * config_.size_scale;
-    const bool may_be_drawn = track.body.has_sides && observation.points_m.size() >= kFewestEchoes;
-    if (!may_be_drawn || !surely_moves || track.rejected_s < kDrawnWrongAfterS) return false;
+    track.extent.misfit.rejected_s += time_s;
+    const bool surely_moves = shares_.label_of_track[index] == PointLabel::kMoving && track.existence.travel.travelled_m > kKnownToMoveM * config_.size_scale;
+    const bool may_be_drawn = track.extent.box() != nullptr && observation.points_m.size() >= kFewestEchoes;
+    if (!may_be_drawn || !surely_moves || track.extent.misfit.rejected_s < kDrawnWrongAfterS) return false;
     reinitialise_extent(track, observation, config_);
     if (!update(track, scan.stamp_ns, observation, pose_covariance_m2, config_)) return false;
   }
-  track.rejected_s = 0.0;
+  track.extent.misfit.rejected_s = 0.0;
   return true;
 }
 
 /// A scan that cannot see the place says nothing of a track that another scanner has in its field of view. Once that one
 /// has lost it from view, too, its own scans say so.
 bool Tracker::is_left_to_another_scanner(const Track& track, const Visibility& visibility) const {
-  return visibility.beams == 0 && track.scanner != scanner_;
+  return visibility.beams == 0 && track.history.scanner != scanner_;
 }
 
 /// Writes of the track only.
@@ -624,44 +632,44 @@ Tracker::Outcome Tracker::correct(std::size_t index, const ScanView& view) {
   Track& track = tracks_[index];
   const std::vector<std::uint16_t>& beams = shares_.beams_of_track[index];
   if (scanners_.size() > 1) {
-    const Visibility visibility = view.visibility_of(track.body, track.position_m());
+    const Visibility visibility = view.visibility_of(track.footprint(), track.position_m());
     if (beams.empty() && is_left_to_another_scanner(track, visibility)) return Outcome::kGoesOn;
-    if (!beams.empty() || visibility.beams > 0) track.scanner = scanner_;
+    if (!beams.empty() || visibility.beams > 0) track.history.scanner = scanner_;
   }
-  const double time_s = std::exchange(track.since_in_view_s, 0.0);
+  const double time_s = std::exchange(track.history.since_in_view_s, 0.0);
   leave_out_surroundings(index, time_s, view);
   constexpr double kEchoMemoryS = 0.2;
-  track.echoes += (1.0 - std::exp(-time_s / kEchoMemoryS)) * (static_cast<double>(beams.size()) - track.echoes);
+  track.existence.mean_echoes += (1.0 - std::exp(-time_s / kEchoMemoryS)) * (static_cast<double>(beams.size()) - track.existence.mean_echoes);
   if (beams.empty()) {
-    score_miss(track, view.visibility_of(track.body, track.position_m()), time_s, config_);
+    score_miss(track, view.visibility_of(track.footprint(), track.position_m()), time_s, config_);
     return Outcome::kGoesOn;
   }
-  track.responses = with_responses(track.responses, beams.size(), gaps_between(beams, view.polar()), time_s);
-  const Observation observation = observation_of(beams, swept_motion(track), track.responses, view, config_.size_scale, observed_points_m_[index]);
+  track.extent.responses = with_responses(track.extent.responses, beams.size(), gaps_between(beams, view.polar()), time_s);
+  const Observation observation = observation_of(beams, swept_motion(track), track.extent.responses, view, config_.size_scale, observed_points_m_[index]);
   const bool was_known = has_published_velocity(track, config_);
   if (!takes(index, observation, time_s, view.scan())) return Outcome::kIsOfSomethingElse;
-  const bool is_known_again = track.confirmed && !was_known && has_published_velocity(track, config_);
-  if (is_known_again) track.velocity_known_since_ns = view.scan().stamp_ns;
-  if (!track.confirmed) track.tentative_evidence = with_echoes(track.tentative_evidence, beams, view);
-  score_hit(track, shares_.label_of_track[index], evidence_of(index, view), time_s, config_);
-  if (track.confirmed && is_vehicle(track)) {
-    const Visibility inside = view.visibility_of(inner_part_of(track), track.position_m());
+  const bool is_known_again = track.existence.confirmed && !was_known && has_published_velocity(track, config_);
+  if (is_known_again) track.existence.velocity_check.known_since_ns = view.scan().stamp_ns;
+  if (!track.existence.confirmed) track.existence.tentative = with_echoes(track.existence.tentative, beams, view);
+  score_hit(track, {shares_.label_of_track[index], evidence_of(index, view), time_s}, config_);
+  if (track.existence.confirmed && is_vehicle(track)) {
+    const Visibility inside = view.visibility_of(interior_of(track), track.position_m());
     score_passed(track, inside, beams.size(), config_);
-    track.beam_passage = with_beams(track.beam_passage, inside.passed, beams.size(), time_s);
+    track.existence.passage = with_beams(track.existence.passage, inside.passed, beams.size(), time_s);
   }
-  if (!track.confirmed) track.observations.add(view.scan().stamp_ns + nanoseconds(track.time_offset_s), observation, pose_covariance_at(track.position_m(), view.scan()));
-  if (!track.confirmed) reinitialise_extent_if_misfit(track, observation, time_s, config_);
-  if (!track.confirmed && is_confirmable(track, config_)) {
-    const Belief before = belief(track);
+  if (!track.existence.confirmed) track.history.observations.add(view.scan().stamp_ns + nanoseconds(track.kinematics.time_offset_s), observation, pose_covariance_at(track.position_m(), view.scan()));
+  if (!track.existence.confirmed) reinitialise_extent_if_misfit(track, observation, time_s, config_);
+  if (!track.existence.confirmed && is_confirmable(track, config_)) {
+    const Belief before = belief_of(track);
     set_belief(track, refiltered(track, config_));
-    const bool was_turned = std::abs(std::sin(before.body.heading_rad - track.body.heading_rad)) > 0.7;
-    const bool is_surely_turned = was_turned && track.body.is_oriented;
+    const bool was_turned = std::abs(std::sin(footprint_of(before.outline).heading_rad - track.footprint().heading_rad)) > 0.7;
+    const bool is_surely_turned = was_turned && track.extent.box()->is_oriented;
     if (!is_surely_turned && !is_confirmable(track, config_)) set_belief(track, before);  // what it lacks is but certainty
   }
-  const bool may_be_confirmed = !track.confirmed && is_confirmable(track, config_);
+  const bool may_be_confirmed = !track.existence.confirmed && is_confirmable(track, config_);
   constexpr int kHitsBetweenChecks = 5;
-  if (may_be_confirmed || is_known_again || (track.confirmed && track.hits % kHitsBetweenChecks == 0)) check_velocity(index, observation, view);
-  return may_be_confirmed && !track.is_refuted && is_confirmable(track, config_) ? Outcome::kIsConfirmed : Outcome::kGoesOn;
+  if (may_be_confirmed || is_known_again || (track.existence.confirmed && track.existence.hits % kHitsBetweenChecks == 0)) check_velocity(index, observation, view);
+  return may_be_confirmed && !track.existence.velocity_check.is_refuted && is_confirmable(track, config_) ? Outcome::kIsConfirmed : Outcome::kGoesOn;
 }
 
 void Tracker::confirm(std::size_t index) {
@@ -676,7 +684,7 @@ void Tracker::confirm(std::size_t index) {
 
 /// Gives a all that b has; b is marked for removal.
 void Tracker::absorb(std::size_t a, std::size_t b) {
-  tracks_[b].hits = 0;
+  tracks_[b].existence.hits = 0;
   add_beams(shares_.beams_of_track[a], shares_.beams_of_track[b]);
   shares_.beams_of_track[b].clear();
   ++counters_.tracks_merged;
@@ -687,10 +695,10 @@ void Tracker::join_pieces(const ScanView& view) {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     if (!is_long_known(tracks_[a]) || shares_.beams_of_track[a].empty()) continue;
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
-      if (a == b || tracks_[a].hits < tracks_[b].hits || !is_long_known(tracks_[b]) || shares_.beams_of_track[b].empty()) continue;
+      if (a == b || tracks_[a].existence.hits < tracks_[b].existence.hits || !is_long_known(tracks_[b]) || shares_.beams_of_track[b].empty()) continue;
       if (!are_parts_of_one_vehicle(tracks_[a], tracks_[b], config_) || is_seen_between(shares_.beams_of_track[a], shares_.beams_of_track[b], view.polar())) continue;
       absorb(a, b);
-      reinitialise_extent(tracks_[a], observation_of(shares_.beams_of_track[a], swept_motion(tracks_[a]), tracks_[a].responses, view, config_.size_scale, points_m_), config_);
+      reinitialise_extent(tracks_[a], observation_of(shares_.beams_of_track[a], swept_motion(tracks_[a]), tracks_[a].extent.responses, view, config_.size_scale, points_m_), config_);
     }
   }
 }
@@ -698,7 +706,7 @@ void Tracker::join_pieces(const ScanView& view) {
 void Tracker::merge_duplicates() {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = 0; b < tracks_.size(); ++b) {
-      if (a == b || tracks_[b].hits == 0 || tracks_[a].hits == 0) continue;
+      if (a == b || tracks_[b].existence.hits == 0 || tracks_[a].existence.hits == 0) continue;
       if (is_duplicate(tracks_[b], tracks_[a], config_)) absorb(a, b);
     }
   }
@@ -706,7 +714,7 @@ void Tracker::merge_duplicates() {
 
 /// What was kept out of the map for the track's sake is told to whose scans it was of.
 void Tracker::restore(const Track& track, flow::ScanLabels& labels) {
-  for (const PastPoints& past : track.past.all()) {
+  for (const PastPoints& past : track.history.past_points.all()) {
     std::vector<flow::RestoredPoints>& restored = past.scanner == scanner_ ? labels.restored : scanners_[past.scanner].restored;
     const auto same = std::ranges::find_if(restored, [&](const auto& one) { return one.sequence == past.points.sequence; });
     counters_.points_restored += past.points.beams.size();
@@ -721,19 +729,13 @@ void Tracker::restore(const Track& track, flow::ScanLabels& labels) {
 
 void Tracker::remove_dead(flow::ScanLabels& labels) {
   const auto is_over = [&](const Track& track) {
-    if (track.hits == 0) return true;
-    const double unseen_s = static_cast<double>(last_stamp_ns_ - track.last_seen_ns) * kNanosecond_s;
-    const double age_s = static_cast<double>(last_stamp_ns_ - track.first_seen_ns) * kNanosecond_s;
-    const bool is_lost = unseen_s > (track.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
-    const bool never_moved = track.confirmed && has_stood_too_long(track, last_stamp_ns_, config_);
-    const bool is_dead = is_lost || is_timed_out(track, age_s, config_) || never_moved || claims_motion_without_travel(track, config_) || track.score < config_.reject_score;
-    if (is_dead && !track.confirmed) {
+    if (track.existence.hits == 0) return true;
+    const bool is_dead = has_ended(track, last_stamp_ns_, config_);
+    if (is_dead && !track.existence.confirmed) {
       ++counters_.tracks_rejected;
       restore(track, labels);
     }
-    if (is_dead) learn_sizes(road_users_seen_, track, config_);
-    if (is_dead) learn_outline_error(road_users_seen_, track, config_);
-    if (is_dead) learn_gait(road_users_seen_, track, config_);
+    if (is_dead) learn_from(road_users_seen_, track, config_);
     return is_dead;
   };
   std::size_t kept = 0;
@@ -800,9 +802,9 @@ TrackingResult Tracker::track(const flow::SegmentedScan& scan, TrackingResult do
   label(view, result.labels);
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     Track& track = tracks_[t];
-    if (track.confirmed || shares_.beams_of_track[t].empty()) continue;
-    if (track.past.size() == kMostPastScans) track.past.pop_front();
-    PastPoints& past = track.past.push_back();
+    if (track.existence.confirmed || shares_.beams_of_track[t].empty()) continue;
+    if (track.history.past_points.size() == kMostPastScans) track.history.past_points.pop_front();
+    PastPoints& past = track.history.past_points.push_back();
     past.scanner = scanner_;
     past.points.sequence = scan.sequence;
     past.points.beams = shares_.beams_of_track[t];
@@ -829,7 +831,7 @@ void Tracker::label(const ScanView& view, flow::ScanLabels& labels) {
     }
   }
   for (std::size_t t = 0; t < tracks_.size(); ++t)
-    if (tracks_[t].confirmed)
+    if (tracks_[t].existence.confirmed)
       for (const std::uint16_t beam : shares_.beams_of_track[t]) labels.labels[beam] = PointLabel::kMoving;
 }
 
@@ -841,7 +843,7 @@ void Tracker::describe(const flow::SegmentedScan& scan, flow::TrackedObjects& ob
   objects.map_id = scan.map_id;
   objects.odom_id = scan.odom_id;
   spare_objects_.resize(objects.objects, tracks_.size());
-  work::share(help_, tracks_.size(), [&](std::size_t t) { objects.objects[t] = published(tracks_[t], scan.stamp_ns, config_, std::move(objects.objects[t])); });
+  work::share(help_, tracks_.size(), [&](std::size_t t) { publish(tracks_[t], scan.stamp_ns, config_, objects.objects[t]); });
 }
 
 void Tracker::resume(const flow::TrackedObjects& objects) {
@@ -856,7 +858,7 @@ void Tracker::resume(const flow::TrackedObjects& objects) {
     if (object.confirmed) tracks_.push_back(track_from_message(object, config_));
   }
   *road_users_ = road_users_seen_.known();
-  for (Track& track : tracks_) track.body.road_users = road_users_.get();
+  for (Track& track : tracks_) track.extent.footprint().road_users = road_users_.get();
   last_stamp_ns_ = objects.stamp_ns;
   has_scan_ = true;
 }

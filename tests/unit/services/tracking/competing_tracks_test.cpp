@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "services/detection/detector.hpp"
-#include "services/tracking/pairing.hpp"
+#include "services/tracking/association_cost.hpp"
 #include "services/tracking/tracker.hpp"
 #include "tests/support/street.hpp"
 
@@ -77,8 +77,8 @@ TEST(CompetingTracks, AreOnlyConfirmedTracksWithoutSides) {
   const ScanView view(scan);
   std::vector<Track> tracks(3);
   for (std::uint32_t i = 0; i < 3; ++i) tracks[i].track_id = {i + 1};
-  tracks[0].confirmed = tracks[1].confirmed = true;
-  tracks[1].body.has_sides = true;
+  tracks[0].existence.confirmed = tracks[1].existence.confirmed = true;
+  tracks[1].extent.outline = Box();
   competing_tracks.decide(tracks, view, [](std::size_t, std::size_t) { return true; });
   EXPECT_TRUE(competing_tracks.has(tracks[0]));
   EXPECT_FALSE(competing_tracks.has(tracks[1]));
@@ -88,27 +88,6 @@ TEST(CompetingTracks, AreOnlyConfirmedTracksWithoutSides) {
   Track gone;
   gone.track_id = {1};
   EXPECT_FALSE(competing_tracks.has(gone));  // forgotten with the track
-}
-
-TEST(PairCost, IsLessForTheNearerSegmentAndForbiddenForABackdrop) {
-  const TrackingConfig config;
-  Body body;
-  body.length = body.width = {0.5, 0.1};
-  filters::MotionState motion;
-  motion.covariance = 0.04 * filters::Matrix6::Identity();
-  const auto segment_at = [](double x_m) {
-    flow::Segment segment;
-    segment.label = flow::PointLabel::kMoving;
-    segment.centroid_in_odom_m = {x_m, 0.0};
-    segment.box_length_m = 0.4;
-    return segment;
-  };
-  EXPECT_LT(pair_cost(body, motion, segment_at(0.1), config), pair_cost(body, motion, segment_at(0.5), config));
-  EXPECT_EQ(pair_cost(body, motion, segment_at(3.0), config), association::kForbidden);
-  flow::Segment wall = segment_at(0.1);
-  wall.label = flow::PointLabel::kStationary;
-  wall.box_length_m = 2.0 * config.longest_body_m;
-  EXPECT_EQ(pair_cost(body, motion, wall, config), association::kForbidden);
 }
 
 }  // namespace

@@ -11,28 +11,28 @@ constexpr std::int64_t kNow_ns = 5'000'000'000;
 Track at(const Eigen::Vector2d& position_m, std::uint32_t id) {
   Track track;
   track.track_id = {id};
-  track.confirmed = true;
-  track.hits = 100;
-  track.echoes = 10.0;
-  track.last_seen_ns = kNow_ns;
-  track.estimate.mean << position_m, 1.2, 0.0, 0.0, 0.0;
-  track.estimate.covariance = 0.01 * track.estimate.covariance.Identity();
+  track.existence.confirmed = true;
+  track.existence.hits = 100;
+  track.existence.mean_echoes = 10.0;
+  track.history.last_seen_ns = kNow_ns;
+  track.kinematics.estimate.mean << position_m, 1.2, 0.0, 0.0, 0.0;
+  track.kinematics.estimate.covariance = 0.01 * track.kinematics.estimate.covariance.Identity();
   return track;
 }
 
 Track walker(const Eigen::Vector2d& position_m, std::uint32_t id) {
   Track track = at(position_m, id);
-  track.body.length = track.body.width = {0.5, 0.01};
-  track.class_probability = {0.97, 0.01, 0.01, 0.01};
+  track.extent.footprint().length = track.extent.footprint().width = {0.5, 0.01};
+  track.classification.probability = {0.97, 0.01, 0.01, 0.01};
   return track;
 }
 
 Track car(const Eigen::Vector2d& position_m, std::uint32_t id) {
   Track track = at(position_m, id);
-  track.body.has_sides = true;
-  track.body.length = {4.3, 0.01};
-  track.body.width = {1.7, 0.01};
-  track.class_probability = {0.01, 0.01, 0.97, 0.01};
+  track.extent.outline = Box();
+  track.extent.footprint().length = {4.3, 0.01};
+  track.extent.footprint().width = {1.7, 0.01};
+  track.classification.probability = {0.01, 0.01, 0.97, 0.01};
   return track;
 }
 
@@ -63,14 +63,14 @@ TEST(Merging, AreCarsThroughWhichSomebodyIsSeenToWalk) {
 TEST(Merging, AreThoseInsideACarWhoMayNotWalk) {
   const Track one = car({10.0, 0.0}, 1);
   Track inside = walker({11.0, 0.3}, 2);
-  inside.hits = 10;  // perhaps a corner of it
+  inside.existence.hits = 10;  // perhaps a corner of it
   expect_only_first_is_superfluous(inside, one);
 }
 
 TEST(Merging, AreThoseInsideACarWhoAreHidden) {
   const Track one = car({10.0, 0.0}, 1);
   Track inside = walker({11.0, 0.3}, 2);
-  inside.last_seen_ns = kNow_ns - 1'000'000'000;  // behind it, and thought to be in it
+  inside.history.last_seen_ns = kNow_ns - 1'000'000'000;  // behind it, and thought to be in it
   expect_only_first_is_superfluous(inside, one);
 }
 

@@ -81,7 +81,7 @@ TEST(PolarView, CountsOnAcrossTheSeamOfAFullTurnOnly) {
 TEST(ScanView, SeesBothHalvesOfWhatLiesAcrossTheSeam) {
   flow::SegmentedScan scan = scan_of(720, std::numbers::pi / 360);
   scan.odom_from_base = {};
-  Body car;
+  Footprint car;
   car.length.value_m = 4.5;
   car.width.value_m = 1.8;
   const auto beams_at = [&](double angle_rad) {

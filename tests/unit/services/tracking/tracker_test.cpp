@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "services/detection/detector.hpp"
+#include "tests/support/example_tracks.hpp"
 #include "tests/support/help_at_the_last_moment.hpp"
 #include "tests/support/street.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 using testing::Street;
+using testing::among_people;
 using testing::StreetBox;
 
 constexpr double kPeriodS = 1.0 / 37.5;
@@ -60,21 +62,6 @@ class Play {
   Tracker tracker_;
   std::uint32_t sequence_ = 0;
 };
-
-/// As the profile of a slow robot in a building says.
-TrackingConfig among_people() {
-  TrackingConfig config;
-  config.fastest_mps = 5.0;
-  config.longest_body_m = 2.0;
-  config.longest_unseen_tentative_s = 0.7;
-  config.longest_tentative_s = 3.0;
-  config.moving_hit_score = 1.5;
-  config.least_hits = 4;
-  config.most_score = 5.0;
-  config.contradicted_above_mps = 0.6;
-  config.contradiction_score = -1.0;
-  return config;
-}
 
 /// An open hall of which the map knows nothing, seen at the height of legs 7.5 times a second.
 Play hall() {
@@ -362,152 +349,6 @@ TEST(Tracker, NoticesACarThatCreepsHoweverFastTheMapLearns) {
   EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.y(), 0.0, 0.2);
 }
 
-TEST(Track, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
-  const TrackingConfig config;
-  Track track;
-  track.score = config.confirm_score;
-  track.hits = config.least_hits;
-  track.evidence = {config.sure_moved_votes, 0.0, 0.0};  // a thin post: beams went past it on both sides a moment ago
-  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
-  track.estimate.mean << 1.0, 0.0, 0.5, 0.0, 0.0, 0.0;    // drawn at a stray echo, a metre beside
-  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
-  track.estimate.covariance.block<2, 2>(2, 2) = 0.16 * Eigen::Matrix2d::Identity();
-  EXPECT_FALSE(is_confirmable(track, config));
-  track.estimate.mean(2) = 1.0;
-  EXPECT_TRUE(is_confirmable(track, config));
-}
-
-/// Something fast that has come far, of which earlier scans could hardly see the places where it was.
-Track out_from_behind_others(const TrackingConfig& config) {
-  Track track;
-  track.score = config.confirm_score;
-  track.hits = config.least_hits;
-  track.echoes = 5.0;
-  track.evidence = {3.0, 0.0, 30.0};
-  track.tentative_evidence = {40.0, 36.0, 0.0};
-  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
-  track.estimate.mean << 2.0, 0.0, 8.0, 0.0, 0.0, 0.0;
-  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
-  return track;
-}
-
-TEST(Track, HasMovedByOneVoteIfByTheMapItHasComeOutOfNowhere) {
-  const TrackingConfig config;
-  const Track track = out_from_behind_others(config);
-  EXPECT_TRUE(is_confirmable(track, config));
-  Track once = track;
-  once.evidence = {0.9, 0.0, 32.0};
-  EXPECT_TRUE(is_confirmable(once, config));
-  Track unmapped = track;  // say, what a van hid for as long as there is a map
-  unmapped.tentative_evidence.in_free_space = 20.0;
-  EXPECT_FALSE(is_confirmable(unmapped, config));
-  Track standing = track;
-  standing.tentative_evidence.stood = 10.0;
-  EXPECT_FALSE(is_confirmable(standing, config));
-  Track forgotten = track;  // a wall that the map holds to be free: nothing ever came there
-  forgotten.evidence = {0.0, 0.0, 33.0};
-  EXPECT_FALSE(is_confirmable(forgotten, config));
-  Track crumb = track;
-  crumb.echoes = 2.0;
-  EXPECT_FALSE(is_confirmable(crumb, config));
-  EXPECT_FALSE(appeared_in_free_space(track, among_people()));
-}
-
-TEST(Track, IsConfirmedAsSoonAsItCanBePublishedIfItComesOutOfNowhereAsPredicted) {
-  const TrackingConfig config;
-  Track track = out_from_behind_others(config);
-  track.evidence = {20.0, 0.0, 10.0};
-  track.estimate.covariance.block<2, 2>(2, 2) = 0.65 * 0.65 * Eigen::Matrix2d::Identity();
-  track.consistency = {0.05, 0.6, 5.0};
-  EXPECT_TRUE(is_confirmable(track, config));
-  Track surprising = track;
-  surprising.consistency.nis = 2.5;
-  EXPECT_FALSE(is_confirmable(surprising, config));
-  Track unmapped = track;
-  unmapped.tentative_evidence.in_free_space = 20.0;
-  EXPECT_FALSE(is_confirmable(unmapped, config));
-}
-
-TEST(Track, IsNotConfirmedAsABodyOnTheSidesOfWhichItsEchoesDoNotLie) {
-  const TrackingConfig config;
-  Track track = out_from_behind_others(config);
-  track.body.has_sides = true;
-  track.consistency = {0.15, 0.6, 5.0};
-  EXPECT_TRUE(is_confirmable(track, config));
-  EXPECT_FALSE(misfits_only(track, config));
-  track.consistency.off_sides_m = 0.25;  // say, two who walk, held to be a car
-  EXPECT_FALSE(is_confirmable(track, config));
-  EXPECT_TRUE(misfits_only(track, config)) << "nothing else keeps it";
-  track.evidence = {};
-  EXPECT_FALSE(misfits_only(track, config));
-}
-
-TEST(Track, OfWhichOnlyTheSidesAreWrongIsDrawnAnewAfterAWhile) {
-  const TrackingConfig config;
-  Track track = out_from_behind_others(config);
-  track.body.has_sides = true;
-  track.body.heading_rad = 0.7;
-  track.body.length = {4.5, 0.1};
-  track.body.width = {1.8, 0.1};
-  track.consistency = {0.25, 0.6, 5.0};
-  ASSERT_TRUE(misfits_only(track, config));
-  const Eigen::Vector2d along = track.velocity_mps().normalized();
-  std::vector<Eigen::Vector2d> points_m;
-  for (int i = 0; i < 5; ++i) points_m.push_back(track.position_m() + (i - 2.0) * along);  // a flank
-  Observation observation;
-  observation.points_m = points_m;
-  observation.beam_step_rad = 0.009;
-  const double drawn_rad = track.body.heading_rad;
-  const auto see_for = [&](double time_s) { for (double s = 0.0; s < time_s; s += kPeriodS) reinitialise_extent_if_misfit(track, observation, kPeriodS, config); };
-  see_for(0.1);
-  EXPECT_EQ(track.body.heading_rad, drawn_rad);
-  observation.points_m = std::span(points_m).first(4);  // around fewer it would be drawn no better
-  see_for(1.0);
-  EXPECT_EQ(track.body.heading_rad, drawn_rad);
-  observation.points_m = points_m;
-  see_for(kPeriodS);
-  EXPECT_NEAR(std::abs(std::sin(track.body.heading_rad - std::atan2(along.y(), along.x()))), 0.0, 0.05);
-}
-
-TEST(Track, HasComeFromWhereItWasByTheBodyThatItHasByNow) {
-  const TrackingConfig config;
-  Track track = out_from_behind_others(config);
-  track.body.has_sides = track.body.is_oriented = true;
-  track.body.heading_rad = 0.0;
-  track.body = with_likely_sizes(track.body, config);
-  track.estimate.mean.head<2>() << 28.2, 0.0;
-  track.birth_position_m = {24.0, 0.0};
-  track.birth_covariance_m2 = 9.0 * Eigen::Matrix2d::Identity();  // all that was seen of it was of some side of something
-  EXPECT_FALSE(is_confirmable(track, config));
-  std::vector<Eigen::Vector2d> rear;
-  for (double y_m = -0.9; y_m < 0.91; y_m += 0.2) rear.emplace_back(20.0, y_m);
-  Observation observation;
-  observation.points_m = rear;
-  observation.beam_step_rad = 0.5 * M_PI / 180.0;
-  track.observations.add(0, observation, 1e-4 * Eigen::Matrix2d::Identity());
-  EXPECT_TRUE(is_confirmable(track, config));
-}
-
-TEST(Track, ThatSeemsToMoveIsWaitedForTwiceAsLong) {
-  const TrackingConfig config;
-  const Track moving = out_from_behind_others(config);
-  Track slow = moving;
-  slow.estimate.mean.segment<2>(2).setZero();
-  Track here = moving;
-  here.estimate.mean.head<2>().setZero();
-  Track unlikely = moving;
-  unlikely.score = 0.0;
-  const double late_s = config.longest_tentative_s + 0.1;
-  EXPECT_FALSE(is_timed_out(moving, late_s, config));
-  EXPECT_TRUE(is_timed_out(moving, 2.0 * late_s, config));
-  for (const Track* other : {&slow, &here, &unlikely}) {
-    EXPECT_TRUE(is_timed_out(*other, late_s, config));
-    EXPECT_FALSE(is_timed_out(*other, config.longest_tentative_s - 0.1, config));
-  }
-  slow.confirmed = true;
-  EXPECT_FALSE(is_timed_out(slow, late_s, config));
-}
-
 TEST(Tracker, IsSureOfACarThatComesOutFromBehindABusBeforeEarlierScansTellItsSpeed) {
   Play play;
   const auto scene = [](Street& street, double t) {
@@ -519,38 +360,6 @@ TEST(Tracker, IsSureOfACarThatComesOutFromBehindABusBeforeEarlierScansTellItsSpe
   };
   while (!is_sure() && play.now_s() < 4.0) play.step(scene);
   EXPECT_LT(play.now_s() - kComesOutAtS, 0.23);
-}
-
-TEST(Track, HasComeNoWayByTheJumpThatItHasJustMade) {
-  const TrackingConfig config;
-  Track track;
-  track.score = config.confirm_score;
-  track.hits = config.least_hits;
-  track.evidence = {2.0 * config.least_moved_votes, 0.0, 0.0};
-  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
-  track.estimate.mean << 0.9, 0.0, 1.5, 0.0, 0.0, 0.0;
-  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
-  track.innovation_m = 0.7;  // from one leg of a chair to the next
-  EXPECT_FALSE(is_confirmable(track, config));
-  track.innovation_m = 0.2;
-  EXPECT_TRUE(is_confirmable(track, config));
-}
-
-/// Variance of the mean of `count` errors, of which each keeps so much of the one before; one sigma is 1.
-double variance_of_mean(double kept, int count) {
-  double sum = 0.0;
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j) sum += std::pow(kept, std::abs(i - j));
-  return sum / (count * count);
-}
-
-TEST(Gait, CountsForAsMuchAsErrorsThatFadeDoTogether) {
-  const TrackingConfig config;
-  for (const double period_s : {1.0 / 75.0, 1.0 / 37.5, 1.0 / 7.5, 0.5}) {
-    const int count = static_cast<int>(std::lround(10.0 / period_s));
-    const double together_m2 = config.gait_noise_m * config.gait_noise_m * variance_of_mean(std::exp(-period_s / config.gait_memory_s), count);
-    EXPECT_NEAR(gait_variance_m2(period_s, config) / count / together_m2, 1.0, 0.03) << period_s;
-  }
 }
 
 TEST(Tracker, DoesNotLetABusOfWhichItSeesTheBackSwingRound) {
