@@ -25,7 +25,7 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   if (!detected) return;
   if (iterations_ > 1) detected = times_.measure("iteration", [&] { return iterate(scan, *std::move(detected)); });
   auto& [localized, segmented] = *detected;
-  auto tracked = times_.measure("tracking", [&] { return tracker_.track(segmented, std::move(tracked_done_with_)); });
+  const tracking::TrackingResult& tracked = times_.measure("tracking", [&]() -> decltype(auto) { return tracker_.step(segmented); });
   localizer_.expect(tracked.objects);
   times_.measure("mapping", [&] { localizer_.integrate(tracked.labels); });
   record_.add(localized);
@@ -34,7 +34,6 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add(tracked.objects);
   localized_done_with_ = std::move(localized);
   segmented_done_with_ = std::move(segmented);
-  tracked_done_with_ = std::move(tracked);
   close_loops();
 }
 

@@ -70,8 +70,7 @@ class Pipeline {
   tracking::Tracker tracker_;
   loop_closing::LoopCloser loop_closer_;
   flow::LocalizedScan localized_done_with_;   ///< Memory for the next one,
-  flow::SegmentedScan segmented_done_with_;   ///< and so,
-  tracking::TrackingResult tracked_done_with_; ///< and so.
+  flow::SegmentedScan segmented_done_with_;   ///< and so.
   files::RunRecord record_;
   StageTimes times_;
   int iterations_;

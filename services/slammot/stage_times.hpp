@@ -15,7 +15,7 @@ class StageTimes {
  public:
   /// Runs the stage and returns what it returns.
   template <typename Stage>
-  auto measure(const std::string& name, Stage&& stage) {
+  decltype(auto) measure(const std::string& name, Stage&& stage) {
     const Stopwatch stopwatch(durations_of(name));
     return std::forward<Stage>(stage)();
   }

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "services/tracking/scan_history.hpp"
-#include "services/tracking/scan_view.hpp"
+#include "services/tracking/polar_view.hpp"
 #include "services/tracking/tracking_config.hpp"
 
 namespace slammot::tracking {

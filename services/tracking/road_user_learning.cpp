@@ -57,4 +57,14 @@ void learn_from(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
   learn_gait(seen, track, config);
 }
 
+void LocalRoadUsers::learn(const Track& track, const TrackingConfig& config) {
+  learn_from(seen_, track, config);
+  is_outdated_ = true;
+}
+
+void LocalRoadUsers::refresh() {
+  if (is_outdated_) *known_ = seen_.known();
+  is_outdated_ = false;
+}
+
 }  // namespace slammot::tracking

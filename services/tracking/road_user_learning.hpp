@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "services/tracking/road_users.hpp"
 #include "services/tracking/track.hpp"
 #include "services/tracking/tracking_config.hpp"
@@ -13,5 +15,22 @@ void learn_from(RoadUsersSeen& seen, const Track& track, const TrackingConfig& c
 void learn_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 void learn_outline_error(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 void learn_gait(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
+
+/// What the ended tracks of this drive tell of the road users here. Tracks refer to it: it stays where it is when this is moved.
+class LocalRoadUsers {
+ public:
+  const RoadUsers& known() const { return *known_; }
+
+  /// Learns from an ended track; takes effect with refresh().
+  void learn(const Track& track, const TrackingConfig& config);
+
+  /// Updates what is known if a track has ended since the last call.
+  void refresh();
+
+ private:
+  RoadUsersSeen seen_;
+  std::unique_ptr<RoadUsers> known_ = std::make_unique<RoadUsers>(seen_.known());
+  bool is_outdated_ = false;
+};
 
 }  // namespace slammot::tracking

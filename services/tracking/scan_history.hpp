@@ -6,7 +6,7 @@
 
 #include "common/flow/ids.hpp"
 #include "common/memory/recycling_queue.hpp"
-#include "services/tracking/scan_view.hpp"
+#include "services/tracking/polar_view.hpp"
 
 namespace slammot::tracking {
 

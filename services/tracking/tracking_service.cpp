@@ -91,7 +91,7 @@ void TrackingService::track(const flow::SegmentedScan& scan) {
   }
   const app::Stopwatch stopwatch(context_.status().latency("track"));
   TrackingResult& result = last_results_[scan.scanner_id];
-  result = tracker_.track(scan, std::move(result));
+  result = tracker_.step(scan);
   publish(result);
 }
 

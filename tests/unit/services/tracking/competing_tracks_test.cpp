@@ -44,7 +44,7 @@ std::vector<std::uint32_t> ids_after(const TrackingConfig& config, const Passing
     const double t = scan * kPeriodS;
     street.unknown.clear();
     for (const int who : {0, 1}) street.unknown.push_back({{passing.walker_at(who, t).x(), passing.walker_at(who, t).y(), 0.0}, 0.4, 0.5});
-    result = tracker.track(detection::detect(street.scan(static_cast<std::int64_t>(t * 1e9), static_cast<std::uint32_t>(scan)), {}));
+    result = tracker.step(detection::detect(street.scan(static_cast<std::int64_t>(t * 1e9), static_cast<std::uint32_t>(scan)), {}));
   }
   std::vector<std::uint32_t> ids;
   for (const int who : {0, 1}) {

@@ -38,7 +38,7 @@ class Play {
   void step(const std::function<void(Street&, double)>& scene) {
     scene(street, now_s());
     const auto stamp_ns = static_cast<std::int64_t>(now_s() * 1e9);
-    result = tracker_.track(detection::detect(street.scan(stamp_ns, sequence_), {}));
+    result = tracker_.step(detection::detect(street.scan(stamp_ns, sequence_), {}));
     ++sequence_;
     for (const flow::TrackedObject& object : confirmed()) ids.insert(object.track_id.value);
   }
@@ -744,7 +744,7 @@ TEST(Tracker, LabelsAScanFromThePastAsDetectionDid) {
   Play play;
   play.run(0.5, [](Street&, double) {});
   const flow::SegmentedScan old = detection::detect(play.street.scan(0, 0), {});
-  EXPECT_EQ(play.tracker().track(old).labels.labels, old.labels);
+  EXPECT_EQ(play.tracker().step(old).labels.labels, old.labels);
   EXPECT_EQ(play.tracker().counters().late_scans, 1U);
 }
 
@@ -814,7 +814,7 @@ class PlayBeforeTwo {
     street.unknown = {{{centre_m(now_s).x(), centre_m(now_s).y(), 0.0}, 4.5, 1.8}};
     flow::LocalizedScan scan = street.scan(static_cast<std::int64_t>(now_s * 1e9), sequence_);
     scan.scanner_id = scanner_id;
-    result = tracker_.track(detection::detect(scan, {}));
+    result = tracker_.step(detection::detect(scan, {}));
     EXPECT_EQ(result.labels.scanner_id, scanner_id);
     for (const flow::TrackedObject& object : result.objects.objects) {
       if (!object.confirmed) continue;
@@ -882,7 +882,7 @@ TEST(Tracker, TakesAScanOfTheSameStampAndScannerForLate) {
   play.run(0.1, [](double) { return Vector2(15.0, 3.0); });
   flow::LocalizedScan again = play.front.scan(play.result.labels.stamp_ns, 99);
   again.scanner_id = "front";
-  play.tracker().track(detection::detect(again, {}));
+  play.tracker().step(detection::detect(again, {}));
   EXPECT_EQ(play.tracker().counters().late_scans, 1U);
 }
 
