@@ -60,9 +60,9 @@ bool has_other_past(const Segment& segment, const SegmentComparison& comparison,
 }
 
 /// Gives the tracks that compete the segments of their likeliest hypothesis, and forbids these to all others.
-void Associator::assign_competing_tracks(std::vector<Track>& tracks, const ScanComparison& comparison, const ScanContext& context, Associations& associations) {
+void Associator::assign_competing_tracks(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
   const auto is_allowed = [&](std::size_t track, std::size_t segment) {
-    return !has_other_past(context.scan().segments[segment], comparison.segment(segment), tracks[track], context);
+    return !has_other_past(context.scan().segments[segment], context.comparison.segment(segment), tracks[track], context);
   };
   const std::vector<std::size_t> segment_of_track = competing_tracks_.decide(tracks, context.view, is_allowed);
   for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -74,26 +74,26 @@ void Associator::assign_competing_tracks(std::vector<Track>& tracks, const ScanC
   }
 }
 
-void Associator::assign_whole_segments(std::vector<Track>& tracks, const ScanComparison& comparison, const ScanContext& context, Associations& associations) {
+void Associator::assign_whole_segments(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
   const std::vector<Segment>& segments = context.scan().segments;
   costs_.assign(tracks.size(), segments.size(), kForbidden);
   for (std::size_t t = 0; t < tracks.size(); ++t)
     for (std::size_t s = 0; s < segments.size(); ++s) {
       const double cost = association_cost(tracks[t].extent.outline, tracks[t].kinematics.estimate, segments[s], context.config);
-      if (cost != kForbidden && !has_other_past(segments[s], comparison.segment(s), tracks[t], context)) costs_(t, s) = cost;
+      if (cost != kForbidden && !has_other_past(segments[s], context.comparison.segment(s), tracks[t], context)) costs_(t, s) = cost;
     }
-  if (context.config.most_hypotheses > 1) assign_competing_tracks(tracks, comparison, context, associations);
+  if (context.config.most_hypotheses > 1) assign_competing_tracks(tracks, context, associations);
   const std::vector<std::size_t>& segment_of_track = assigner_.assign(costs_, kCostOfMiss);
   for (std::size_t t = 0; t < tracks.size(); ++t)
     if (segment_of_track[t] != kUnassigned) associations.track_of_segment[segment_of_track[t]] = t;
 }
 
-void Associator::associate(std::vector<Track>& tracks, const ScanComparison& comparison, const ScanContext& context, Associations& associations) {
+void Associator::associate(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
   clear(associations, context.scan().segments.size());
-  assign_whole_segments(tracks, comparison, context, associations);
-  assign_parts(tracks, comparison, context, associations);
+  assign_whole_segments(tracks, context, associations);
+  assign_parts(tracks, context, associations);
   collect_beams(context, associations);
-  divide_shared_segments(tracks, comparison, context, associations);
+  divide_shared_segments(tracks, context, associations);
 }
 
 }  // namespace slammot::tracking

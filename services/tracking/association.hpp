@@ -22,11 +22,11 @@ class Associator {
   void predict(double time_s) { competing_tracks_.predict(time_s); }
 
   /// Writes the associations, whose shares must be one a track. A track whose likeliest hypothesis has changed gets its motion.
-  void associate(std::vector<Track>& tracks, const ScanComparison& comparison, const ScanContext& context, Associations& associations);
+  void associate(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations);
 
  private:
-  void assign_whole_segments(std::vector<Track>& tracks, const ScanComparison& comparison, const ScanContext& context, Associations& associations);
-  void assign_competing_tracks(std::vector<Track>& tracks, const ScanComparison& comparison, const ScanContext& context, Associations& associations);
+  void assign_whole_segments(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations);
+  void assign_competing_tracks(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations);
 
   CompetingTracks competing_tracks_;
   association::CostMatrix costs_;

@@ -15,7 +15,7 @@ using association::TrackKey;
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// Only those without sides: where a vehicle is its sides tell.
+/// Blobs only: the sides of a vehicle tell where it is.
 bool may_compete(const Track& track) { return track.existence.confirmed && track.extent.box() == nullptr; }
 
 association::MhtConfig mht_config(const TrackingConfig& config) {
@@ -25,19 +25,19 @@ association::MhtConfig mht_config(const TrackingConfig& config) {
   return mht;
 }
 
-/// What one segment says if it is somebody who walks.
+/// A segment as a measurement of a pedestrian.
 struct PedestrianMeasurement {
   Vector2d centre_m = Vector2d::Zero();
-  Matrix2d R = Matrix2d::Identity();         ///< If it is one alone, without the swing of its legs.
+  Matrix2d R = Matrix2d::Identity();         ///< Of a single pedestrian, without the gait.
   double extent_m = 0.0;
 };
 
-/// One scan, as multiple hypotheses ask for it.
+/// One scan, in the form that association::MultipleHypotheses asks for.
 class CompetingTracksScan {
  public:
   CompetingTracksScan(const std::vector<Track>& tracks, const ScanView& view, const TrackingConfig& config,
-               const std::function<bool(std::size_t, std::size_t)>& may_have)
-      : tracks_(tracks), view_(view), config_(config), may_have_(may_have), models_(motion_models(config)) {
+               const std::function<bool(std::size_t, std::size_t)>& is_allowed)
+      : tracks_(tracks), view_(view), config_(config), is_allowed_(is_allowed), models_(motion_models(config)) {
     for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
       const flow::Segment& segment = view.scan().segments[s];
       if (is_backdrop(segment, config) || segment.box_length_m > kWidestGroupM) continue;
@@ -63,7 +63,7 @@ class CompetingTracksScan {
     const std::size_t track = track_of(key);
     const std::size_t segment = segments_[measurement];
     const double cost = association_cost(tracks_[track].extent.outline, hypothesis.estimate, view_.scan().segments[segment], config_);
-    if (cost >= kCostOfMiss || !may_have_(track, segment)) return kForbidden;
+    if (cost >= kCostOfMiss || !is_allowed_(track, segment)) return kForbidden;
     return cost + (sharers > 0 ? kSharingCost : 0.0);
   }
 
@@ -74,10 +74,10 @@ class CompetingTracksScan {
   }
 
   HypothesisMotion updated(TrackKey key, const HypothesisMotion& hypothesis, std::size_t measurement, std::size_t sharers) const {
-    const PedestrianMeasurement& walker = measurements_[measurement];
+    const PedestrianMeasurement& pedestrian = measurements_[measurement];
     const double unseen_s = static_cast<double>(view_.scan().stamp_ns - tracks_[track_of(key)].history.last_seen_ns) * 1e-9;
-    const Matrix2d R = noise_m2(walker, sharers) + gait_variance_m2(unseen_s, config_) * Matrix2d::Identity();
-    HypothesisMotion next{hypothesis.motion, filters::imm_update(models_, hypothesis.motion, walker.centre_m, R).posterior, {}};
+    const Matrix2d R = noise_m2(pedestrian, sharers) + gait_variance_m2(unseen_s, config_) * Matrix2d::Identity();
+    HypothesisMotion next{hypothesis.motion, filters::imm_update(models_, hypothesis.motion, pedestrian.centre_m, R).posterior, {}};
     next.estimate = filters::imm_combine(models_, next.motion);
     return next;
   }
@@ -90,8 +90,8 @@ class CompetingTracksScan {
   }
 
  private:
-  static constexpr double kWidestOfOneM = 0.6;  ///< What is wider may be two.
-  static constexpr double kWidestGroupM = 3.0;  ///< What is wider is nobody who walks.
+  static constexpr double kWidestOfOneM = 0.6;  ///< A wider segment may be two pedestrians.
+  static constexpr double kWidestGroupM = 3.0;  ///< A wider segment is not of pedestrians.
 
   PedestrianMeasurement pedestrian_measurement_of(const flow::Segment& segment) {
     points_m_.clear();
@@ -103,15 +103,15 @@ class CompetingTracksScan {
             largest_span_m(points_m_)};
   }
 
-  /// Of several who are seen as one, each is somewhere in it.
-  static Matrix2d noise_m2(const PedestrianMeasurement& walker, std::size_t sharers) {
-    return sharers == 0 ? walker.R : Matrix2d(walker.R + 0.25 * walker.extent_m * walker.extent_m * Matrix2d::Identity());
+  /// If several share a segment, each is somewhere in it.
+  static Matrix2d noise_m2(const PedestrianMeasurement& pedestrian, std::size_t sharers) {
+    return sharers == 0 ? pedestrian.R : Matrix2d(pedestrian.R + 0.25 * pedestrian.extent_m * pedestrian.extent_m * Matrix2d::Identity());
   }
 
   const std::vector<Track>& tracks_;
   const ScanView& view_;
   const TrackingConfig& config_;
-  const std::function<bool(std::size_t, std::size_t)>& may_have_;
+  const std::function<bool(std::size_t, std::size_t)>& is_allowed_;
   filters::ModelSet models_;
   std::vector<std::size_t> segments_;
   std::vector<PedestrianMeasurement> measurements_;
@@ -130,8 +130,8 @@ void CompetingTracks::predict(double time_s) {
   });
 }
 
-/// The tracks' own motion is that of the likeliest hypothesis.
-void CompetingTracks::keep_up(const std::vector<Track>& tracks) {
+/// Removes tracks that no longer compete, adds new ones, and sets the likeliest hypothesis to the track's own motion.
+void CompetingTracks::synchronise(const std::vector<Track>& tracks) {
   for (const TrackKey key : hypotheses_.keys())
     if (std::none_of(tracks.begin(), tracks.end(), [&](const Track& track) { return track.track_id.value == key && may_compete(track); }))
       hypotheses_.remove(key);
@@ -144,9 +144,9 @@ void CompetingTracks::keep_up(const std::vector<Track>& tracks) {
 }
 
 std::vector<std::size_t> CompetingTracks::decide(std::vector<Track>& tracks, const ScanView& view,
-                                        const std::function<bool(std::size_t, std::size_t)>& may_have) {
-  keep_up(tracks);
-  const CompetingTracksScan scan(tracks, view, config_, may_have);
+                                        const std::function<bool(std::size_t, std::size_t)>& is_allowed) {
+  synchronise(tracks);
+  const CompetingTracksScan scan(tracks, view, config_, is_allowed);
   hypotheses_.step(scan);
   std::vector<std::size_t> segment_of_track(tracks.size(), kUnassigned);
   for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -156,7 +156,7 @@ std::vector<std::size_t> CompetingTracks::decide(std::vector<Track>& tracks, con
     if (measurement != kUnassigned) segment_of_track[t] = scan.segment_of(measurement);
     if (!hypotheses_.is_revised(track.track_id.value)) continue;
     track.kinematics.mixture = hypotheses_.best(track.track_id.value).predicted;
-    track.kinematics.cruises_only = false;  // the hypotheses have all modes
+    track.kinematics.cruises_only = false;  // hypotheses have all modes
     track.kinematics.estimate = filters::imm_combine(motion_models(config_), track.kinematics.mixture);
   }
   return segment_of_track;

@@ -14,33 +14,32 @@
 
 namespace slammot::tracking {
 
-/// How a track moves in one hypothesis of which segments were its own.
+/// Motion of a track under one hypothesis of which segments were its own.
 struct HypothesisMotion {
-  filters::ImmState predicted;        ///< To the current scan,
-  filters::ImmState motion;           ///< and with the segment that it has there.
-  filters::MotionState estimate;      ///< Of `motion`, its modes together.
+  filters::ImmState predicted;        ///< To the current scan.
+  filters::ImmState motion;           ///< After the update by its segment there.
+  filters::MotionState estimate;      ///< Moment-matched, of `motion`.
 };
 
-/// Whose segments are whose among those who walk close to one another: confirmed tracks without sides, each cluster of which
-/// is kept in several hypotheses (Wang 2004, Section 5.2). Hypotheses differ in motion only; body, score and evidence are the
-/// tracks' own, and follow what was likeliest.
+/// Association by multiple hypotheses (Wang 2004, Section 5.2) among confirmed blobs, mostly pedestrians, that are close to each other:
+/// each cluster has several hypotheses. Hypotheses differ in motion only; extent, score and evidence follow the likeliest.
 class CompetingTracks {
  public:
   explicit CompetingTracks(const TrackingConfig& config);
 
-  /// Predicts what is supposed; the tracks are predicted by whoever owns them.
+  /// Predicts the hypotheses; the tracks are predicted by their owner.
   void predict(double time_s);
 
-  /// Segment of each track, kUnassigned for none and for tracks of which nothing is supposed. Tracks in whose place another
-  /// past has become likelier move as that says from now on. may_have(track, segment): what the history allows.
+  /// Segment of each track; kUnassigned for none, and for tracks that do not compete. A track of which another past has become likelier
+  /// gets the motion of that. is_allowed(track, segment): what the comparison with earlier scans allows.
   std::vector<std::size_t> decide(std::vector<Track>& tracks, const ScanView& view,
-                                  const std::function<bool(std::size_t track, std::size_t segment)>& may_have);
+                                  const std::function<bool(std::size_t track, std::size_t segment)>& is_allowed);
 
-  /// Whether anything is supposed of the track.
+  /// True if the track competes.
   bool has(const Track& track) const { return hypotheses_.has(track.track_id.value); }
 
  private:
-  void keep_up(const std::vector<Track>& tracks);
+  void synchronise(const std::vector<Track>& tracks);
 
   TrackingConfig config_;
   association::MultipleHypotheses<HypothesisMotion> hypotheses_;

@@ -8,12 +8,12 @@ namespace {
 using Eigen::Matrix2d;
 using flow::TrackId;
 
-constexpr double kAlikeForS = 1.0;         ///< Before two are held to belong together.
-constexpr double kReachM = 18.0;           ///< Between neighbours in a queue;
-constexpr double kMostApartMps = 1.0;      ///< their velocities differ by no more than this,
-constexpr double kMostApartShare = 0.15;   ///< and this share of them.
-constexpr double kSlowestMps = 1.0;        ///< What stands is in no queue.
-constexpr double kSharedShare = 0.9;       ///< Of what drives them: they brake for the same light.
+constexpr double kAlikeForS = 1.0;         ///< Before two tracks belong together.
+constexpr double kReachM = 18.0;           ///< Between neighbours in a queue.
+constexpr double kMostApartMps = 1.0;      ///< Largest difference of their velocities,
+constexpr double kMostApartShare = 0.15;   ///< plus this share of them.
+constexpr double kSlowestMps = 1.0;        ///< Of a member.
+constexpr double kSharedShare = 0.9;       ///< Of the process noise, common to the members: they brake for the same light.
 constexpr std::size_t kMostMembers = 6;
 
 bool may_be_member(const Track& track, const TrackingConfig& config) {
@@ -44,7 +44,7 @@ void Formations::note_pairs(const std::vector<Track>& tracks, double time_s) {
       const auto before = alike_s_.find({a.track_id, b.track_id});
       const double so_far_s = before == alike_s_.end() ? 0.0 : before->second;
       if (!a.kinematics.measured || !b.kinematics.measured) {
-        if (so_far_s > 0.0) alike_s[{a.track_id, b.track_id}] = so_far_s;  // nothing new is known
+        if (so_far_s > 0.0) alike_s[{a.track_id, b.track_id}] = so_far_s;  // no new evidence
       } else if (go_alike(a, b, config_)) {
         alike_s[{a.track_id, b.track_id}] = so_far_s + time_s;
       }

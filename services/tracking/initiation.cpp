@@ -39,10 +39,10 @@ bool has_changed(const Segment& segment, const SegmentComparison& comparison, co
 
 }  // namespace
 
-bool may_initiate(std::size_t index, const std::vector<Track>& tracks, const Associations& associations, const ScanComparison& comparison, const ScanContext& context) {
+bool may_initiate(std::size_t index, const std::vector<Track>& tracks, const Associations& associations, const ComparedScan& context) {
   if (!associations.is_unassigned(index)) return false;
   const Segment& segment = context.scan().segments[index];
-  const SegmentComparison& of_segment = comparison.segment(index);
+  const SegmentComparison& of_segment = context.comparison.segment(index);
   if (static_cast<int>(segment.beams.size()) < context.config.least_points_at_birth) return false;
   if (is_in_confirmed_vehicle(segment, tracks, associations, context.config)) return false;
   if (!of_segment.face_shift_m.isZero()) return true;
@@ -50,7 +50,7 @@ bool may_initiate(std::size_t index, const std::vector<Track>& tracks, const Ass
   return has_changed(segment, of_segment, context.config);
 }
 
-void initiate_from_segment(Track& track, TrackShare& share, const Initiation& initiation, const ScanComparison& comparison, const ScanContext& context) {
+void initiate_from_segment(Track& track, TrackShare& share, const Initiation& initiation, const ComparedScan& context) {
   const ScanView& view = context.view;
   const TrackingConfig& config = context.config;
   const Segment& segment = view.scan().segments[initiation.segment];
@@ -64,7 +64,7 @@ void initiate_from_segment(Track& track, TrackShare& share, const Initiation& in
   track.kinematics.time_offset_s = time_offset_s;
   track.extent.responses = responses;
   track.existence.mean_echoes = static_cast<double>(segment.beams.size());
-  track.history.birth.centre_m -= comparison.segment(initiation.segment).face_shift_m;  // where it was when it was first seen
+  track.history.birth.centre_m -= context.comparison.segment(initiation.segment).face_shift_m;  // where it was when it was first seen
   track.history.scanner = initiation.scanner;
   track.history.observations.add(view.scan().stamp_ns + nanoseconds(time_offset_s), observation, pose_covariance_m2);
   share.beams = segment.beams;

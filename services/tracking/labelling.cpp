@@ -17,29 +17,29 @@ void label_segment(const Segment& segment, const SegmentComparison& comparison, 
 
 }  // namespace
 
-void label_beams(const std::vector<Track>& tracks, const Associations& associations, const ScanComparison& comparison, const ScanContext& context,
+void label_beams(const std::vector<Track>& tracks, const Associations& associations, const ComparedScan& context,
                  std::vector<PointLabel>& labels) {
   const std::vector<Segment>& segments = context.scan().segments;
-  for (std::size_t s = 0; s < segments.size(); ++s) label_segment(segments[s], comparison.segment(s), labels);
+  for (std::size_t s = 0; s < segments.size(); ++s) label_segment(segments[s], context.comparison.segment(s), labels);
   for (std::size_t t = 0; t < tracks.size(); ++t)
     if (tracks[t].existence.confirmed)
       for (const std::uint16_t beam : associations.shares[t].beams) labels[beam] = PointLabel::kMoving;
 }
 
-void find_owners(const std::vector<Track>& tracks, const Associations& associations, const ScanComparison& comparison, const ScanContext& context,
+void find_owners(const std::vector<Track>& tracks, const Associations& associations, const ComparedScan& context,
                  std::vector<Owner>& owners) {
   owners.assign(context.scan().range_m.size(), {});
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const bool is_confirmed = tracks[t].existence.confirmed;
     for (const std::uint16_t beam : associations.shares[t].beams) owners[beam] = {tracks[t].track_id, true, is_confirmed, is_confirmed && tracks[t].extent.box() != nullptr};
   }
-  for (std::size_t s = 0; s < comparison.segment_count(); ++s) {
-    if (!comparison.segment(s).has_come) continue;
+  for (std::size_t s = 0; s < context.comparison.segment_count(); ++s) {
+    if (!context.comparison.segment(s).has_come) continue;
     for (const std::uint16_t beam : context.scan().segments[s].beams) owners[beam].has_come = true;
   }
 }
 
-void keep_points(Track& track, const std::vector<std::uint16_t>& beams, std::size_t scanner, const ScanComparison& comparison, const ScanContext& context) {
+void keep_points(Track& track, const std::vector<std::uint16_t>& beams, std::size_t scanner, const ComparedScan& context) {
   constexpr std::size_t kMostScans = 64;
   if (track.existence.confirmed || beams.empty()) return;
   memory::RecyclingQueue<PastPoints>& past_points = track.history.past_points;
@@ -48,7 +48,7 @@ void keep_points(Track& track, const std::vector<std::uint16_t>& beams, std::siz
   past.scanner = scanner;
   past.points.sequence = context.scan().sequence;
   past.points.beams = beams;
-  std::erase_if(past.points.beams, [&](std::uint16_t beam) { return comparison.segment(context.view.segment_of_beam(beam)).has_come; });
+  std::erase_if(past.points.beams, [&](std::uint16_t beam) { return context.comparison.segment(context.view.segment_of_beam(beam)).has_come; });
 }
 
 }  // namespace slammot::tracking

@@ -34,11 +34,11 @@ bool slides_along_itself(std::uint16_t beam, const Track& track, const ScanView&
 double stood_weight(std::uint16_t beam, const Track& track, const ScanView& view) { return slides_along_itself(beam, track, view) ? kStoodIfSliding : 1.0; }
 
 /// Against the usual earlier scan.
-MotionEvidence evidence_by_comparison(const Track& track, const std::vector<std::uint16_t>& beams, const ScanComparison& comparison, const ScanView& view) {
+MotionEvidence evidence_by_comparison(const Track& track, const std::vector<std::uint16_t>& beams, const ComparedScan& context) {
   MotionEvidence evidence;
   for (const std::uint16_t beam : beams) {
-    const Past past = comparison.beam(beam);
-    if (past == Past::kStood) evidence.stood += stood_weight(beam, track, view);
+    const Past past = context.comparison.beam(beam);
+    if (past == Past::kStood) evidence.stood += stood_weight(beam, track, context.view);
     evidence.moved += past == Past::kArrived || past == Past::kAppeared ? 1.0 : 0.0;
     evidence.undecided += past == Past::kUnknown ? 1.0 : 0.0;
   }
@@ -46,22 +46,22 @@ MotionEvidence evidence_by_comparison(const Track& track, const std::vector<std:
 }
 
 /// What the echo of a beam says against this earlier scan.
-Past past_of(std::uint16_t beam, const EarlierScan& then, bool is_usual, const ScanComparison& comparison, const ScanContext& context) {
+Past past_of(std::uint16_t beam, const EarlierScan& then, bool is_usual, const ComparedScan& context) {
   // A stationary wall that answers now and then appears, too.
   const TrackingConfig& config = context.config;
   const bool may_appear = only_people_move(config) && context.scan().segments[context.view.segment_of_beam(beam)].box_length_m < config.stride_m;
-  const bool is_compared = comparison.has_shifted(beam) || (is_usual && !only_people_move(config));
-  return is_compared ? comparison.beam(beam) : context.history.past_of(beam, context.view.polar(), then, may_appear);
+  const bool is_compared = context.comparison.has_shifted(beam) || (is_usual && !only_people_move(config));
+  return is_compared ? context.comparison.beam(beam) : context.history.past_of(beam, context.view.polar(), then, may_appear);
 }
 
 /// Echoes at places that the earlier scan saw through, and echoes of the earlier scan at places that this one sees through, say that the
 /// object has moved.
-MotionEvidence evidence_against(const EarlierScan& then, const Track& track, const std::vector<std::uint16_t>& beams, const ScanComparison& comparison, const ScanContext& context) {
+MotionEvidence evidence_against(const EarlierScan& then, const Track& track, const std::vector<std::uint16_t>& beams, const ComparedScan& context) {
   MotionEvidence evidence;
   const bool is_usual = &then == context.history.older_than(context.scan().stamp_ns, context.config.compare_after_s);
   for (const std::uint16_t beam : beams) {
-    const Past past = past_of(beam, then, is_usual, comparison, context);
-    const bool has_stayed = comparison.beam(beam) == Past::kStood;  // since it came into view
+    const Past past = past_of(beam, then, is_usual, context);
+    const bool has_stayed = context.comparison.beam(beam) == Past::kStood;  // since it came into view
     if (past == Past::kArrived || (past == Past::kAppeared && !has_stayed)) evidence.moved += 1.0;
     else if (past == Past::kStood || past == Past::kAppeared) evidence.stood += stood_weight(beam, track, context.view);
     else evidence.undecided += 1.0;
@@ -76,25 +76,25 @@ MotionEvidence evidence_against(const EarlierScan& then, const Track& track, con
 
 }  // namespace
 
-MotionEvidence motion_evidence(const Track& track, const std::vector<std::uint16_t>& beams, const ScanComparison& comparison, const ScanContext& context) {
-  if (track.existence.confirmed) return evidence_by_comparison(track, beams, comparison, context.view);
+MotionEvidence motion_evidence(const Track& track, const std::vector<std::uint16_t>& beams, const ComparedScan& context) {
+  if (track.existence.confirmed) return evidence_by_comparison(track, beams, context);
   MotionEvidence best;
   double best_share = -1.0;
   for (const double age_s : {context.config.compare_fast_after_s, context.config.compare_after_s, context.config.compare_slow_after_s}) {
     const EarlierScan* then = context.history.older_than(context.scan().stamp_ns, age_s);
     if (then == nullptr) continue;
-    const MotionEvidence evidence = evidence_against(*then, track, beams, comparison, context);
+    const MotionEvidence evidence = evidence_against(*then, track, beams, context);
     const double share = evidence.moved / std::max(1.0, evidence.moved + evidence.stood);
     if (share > best_share) best_share = share, best = evidence;
   }
   return best;
 }
 
-TentativeEvidence with_echoes(TentativeEvidence tentative, const std::vector<std::uint16_t>& beams, const ScanComparison& comparison, const ScanContext& context) {
+TentativeEvidence with_echoes(TentativeEvidence tentative, const std::vector<std::uint16_t>& beams, const ComparedScan& context) {
   for (const std::uint16_t beam : beams) {
     tentative.seen += 1.0;
     tentative.in_free_space += context.scan().labels[beam] == flow::PointLabel::kMoving ? 1.0 : 0.0;
-    tentative.stood += comparison.beam(beam) == Past::kStood ? 1.0 : 0.0;
+    tentative.stood += context.comparison.beam(beam) == Past::kStood ? 1.0 : 0.0;
   }
   return tentative;
 }

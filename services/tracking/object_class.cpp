@@ -12,31 +12,31 @@ using flow::ClassProbabilities;
 
 enum Class : std::size_t { kPedestrian, kBicycle, kCar, kTruckOrBus };
 
-constexpr double kSpeedMemoryS = 6.0;    ///< For which a speed counts,
-constexpr double kSpeedLastsS = 2.0;     ///< and for which it is one and the same.
-constexpr double kSpeedProvenS = 1.0;    ///< For which a speed must be held to be proven.
-constexpr double kOutlierShare = 0.02;   ///< Of speeds that are those of something else.
-constexpr double kOutlierDensity = 0.04; ///< Of them, anything up to 25 m/s.
+constexpr double kSpeedMemoryS = 6.0;    ///< For which a speed counts.
+constexpr double kSpeedLastsS = 2.0;     ///< Correlation time of the speed.
+constexpr double kSpeedProvenS = 1.0;    ///< For which a speed must be held to count as reached.
+constexpr double kOutlierShare = 0.02;   ///< Of speeds of other objects,
+constexpr double kOutlierDensity = 0.04; ///< uniform up to 25 m/s.
 
-/// Speeds while moving: one sigma about a mean; and the speed that one in six exceeds at some time.
+/// Speeds while moving, normal; and the top speed, which one in six exceeds.
 struct SpeedRange {
   double speed_mps, sigma_mps, top_mps, top_sigma_mps;
 };
 constexpr std::array<SpeedRange, 4> kSpeedRanges = {{{1.35, 0.45, 2.3, 0.5}, {4.2, 1.7, 7.0, 1.5}, {8.0, 5.0, 60.0, 1.0}, {7.0, 4.5, 60.0, 1.0}}};
 
-/// Of blobs; what has sides has the shares of kinds.
+/// Prior of blobs; boxes have the shares of their kinds.
 constexpr std::array<double, 4> kShares = {0.35, 0.09, 0.49, 0.07};
 constexpr double kShareIndoors = 1e-6;  ///< Of vehicles.
 
-/// How likely blobs are to have been seen whole, both ends at once, and for who walks besides how their extents are distributed.
-/// Of a vehicle something shows behind something else, and what is taken for its end is one now and then. Counted: decision 34.
-constexpr double kWalkerExtentM = 0.55;
-constexpr double kWalkerExtentSigmaM = 0.25;
+/// Likelihood of a blob to have been seen whole, both ends at once, and for pedestrians the distribution of their extents. Of a vehicle a
+/// part is visible behind an occluder, whose ends are now and then taken for its own. Counted: decision 34.
+constexpr double kPedestrianExtentM = 0.55;
+constexpr double kPedestrianExtentSigmaM = 0.25;
 constexpr std::array<double, 4> kDensityOfWhole = {1.0, 0.2, 0.01, 0.01};
-/// The same for those of which something has always hidden an end: who walks is soon out of it.
+/// The same if an end has always been hidden: pedestrians soon leave an occlusion.
 constexpr std::array<double, 4> kDensityOfPiece = {0.03, 0.05, 0.2, 0.2};
 
-/// Those who walk in company, side by side or one behind the other, are as large as something with sides.
+/// Several pedestrians side by side or one behind the other, as large as a box.
 const KindOfBody kCompany{Kind::kBicycle, 0.08, 1.3, 0.35, 0.6, 0.2};
 
 double squared(double value) { return value * value; }
@@ -47,7 +47,7 @@ double normal_density(double offset, double sigma) {
 
 double exceeded_share(double value, double mean, double sigma) { return 0.5 * std::erfc((value - mean) / (sigma * std::numbers::sqrt2)); }
 
-/// Of both sizes, if they are distributed like this.
+/// Log-likelihood of both sizes under a kind.
 double log_fit(const KindOfBody& kind, const SizeEvidence& length, const SizeEvidence& width, double scale) {
   return kind.log_share + log_likelihood_of_size(scale * kind.length_m, scale * kind.length_sigma_m, length, scale) +
          log_likelihood_of_size(scale * kind.width_m, scale * kind.width_sigma_if_askew_m, width, scale);
@@ -74,7 +74,7 @@ ClassProbabilities log_fit_of_blob(const Blob& blob, const TrackingConfig& confi
   const auto& density = blob.was_seen_whole ? kDensityOfWhole : kDensityOfPiece;
   ClassProbabilities log_fit;
   for (std::size_t i = 0; i < log_fit.size(); ++i) {
-    const double of_extent = i == kPedestrian ? normal_density(extent_m - kWalkerExtentM, kWalkerExtentSigmaM) : 1.0;
+    const double of_extent = i == kPedestrian ? normal_density(extent_m - kPedestrianExtentM, kPedestrianExtentSigmaM) : 1.0;
     log_fit[i] = std::log(kShares[i] * density[i] * of_extent + 1e-12);
   }
   return log_fit;

@@ -6,11 +6,11 @@
 
 namespace slammot::tracking {
 
-/// What the speeds of an object have said of its class so far. Speeds of neighbouring scans are one and the same evidence:
-/// they count by the time for which they were held, and older ones fade, since whoever creeps in a queue goes on creeping.
+/// Evidence of the class by the speeds of an object. Speeds of neighbouring scans are correlated: they count by the time for which they
+/// were held, and older ones fade, since a vehicle in a queue stays slow.
 struct SpeedsSeen {
   flow::ClassProbabilities log_likelihood = {};
-  double surely_mps = 0.0;  ///< It has been as fast as this for a while, which does not fade.
+  double surely_mps = 0.0;  ///< Largest speed held for a while; does not fade.
 };
 
 /// Class of an object: pedestrian, bicycle, car, truck or bus.
@@ -28,18 +28,17 @@ struct SpeedHeld {
   double time_s = 0.0;  ///< >= 0
 };
 
-/// The first: it tells as much as one that is held for half the time after which it is another, for just confirmed it may yet be wrong.
-/// The time of held is not used.
+/// The first speed, of a track just confirmed: it may be wrong, and counts as one held for half the correlation time. The time of `held` is
+/// not used.
 SpeedsSeen with_first_speed(const SpeedHeld& held, const TrackingConfig& config);
 
-/// The same with one more speed; by the speeds at which people walk and run, and vehicles drive where there are people.
+/// One speed later; likelihoods of the speeds at which people walk and run, and vehicles drive among people.
 SpeedsSeen with_speed(const SpeedsSeen& before, const SpeedHeld& held, const TrackingConfig& config);
 
-/// Bayes' rule over pedestrian, bicycle, car, truck or bus: how common they are where this was set up for, the sizes that were
-/// seen with their uncertainty, and the speeds.
+/// Posterior over pedestrian, bicycle, car, truck or bus by Bayes' rule: prior shares, the evidence of the sizes, and of the speeds.
 flow::ClassProbabilities class_probabilities(const Outline& outline, const SpeedsSeen& speeds, const TrackingConfig& config);
 
-/// Unknown where no class is likelier than all others together.
+/// The class with a probability above one half; unknown if there is none.
 flow::ObjectClass likeliest_class(const flow::ClassProbabilities& probability);
 
 }  // namespace slammot::tracking

@@ -15,26 +15,26 @@ using Eigen::Vector2d;
 using geometry::wrap_angle;
 
 constexpr double kRoughErrorRad = 1e-4;
-constexpr long kBeamsAside = 2;         ///< Of a place's own beam, that may have met it.
-constexpr double kLongestSideM = 3.0;   ///< Between neighbouring echoes; what is longer is two things.
+constexpr long kBeamsAside = 2;         ///< Beams on each side of a place's own that may have met it.
+constexpr double kLongestSideM = 3.0;   ///< Between neighbouring echoes of one surface.
 
-/// Direction to within kRoughErrorRad, rounding included, without the arctangent: an odd polynomial of least largest error for its degree.
+/// Direction to within kRoughErrorRad, rounding included, without the arctangent: a minimax odd polynomial.
 double rough_angle_rad(const Vector2d& way) {
   const double x = std::abs(way.x());
   const double y = std::abs(way.y());
-  const double slope = std::min(x, y) / std::max({x, y, std::numeric_limits<double>::min()});  // at the laser itself any direction will do
+  const double slope = std::min(x, y) / std::max({x, y, std::numeric_limits<double>::min()});  // at the laser itself any direction is right
   const double slope2 = slope * slope;
   const double slope4 = slope2 * slope2;
-  const double below_diagonal_rad = slope * (0.99921417 - 0.32117868 * slope2 + slope4 * (0.14627357 - 0.03899266 * slope2));  // in halves, side by side
+  const double below_diagonal_rad = slope * (0.99921417 - 0.32117868 * slope2 + slope4 * (0.14627357 - 0.03899266 * slope2));  // two independent halves
   const double from_x_axis_rad = y > x ? 0.5 * std::numbers::pi - below_diagonal_rad : below_diagonal_rad;
   return std::copysign(way.x() < 0.0 ? std::numbers::pi - from_x_axis_rad : from_x_axis_rad, way.y());
 }
 
-/// Each value becomes the extreme one of it and those of as many neighbours on each side as may have met a place; beyond the ends there is nothing.
+/// Replaces each value by the extreme one among it and kBeamsAside neighbours on each side; beyond the ends is `nothing`.
 template <typename Extreme>
 void spread_to_neighbours(std::vector<double>& values, double nothing, const Extreme& extreme) {
   constexpr std::size_t kAside = kBeamsAside;
-  std::array<double, kAside + 1> before;  // of those that are written over, and the one at hand, newest last
+  std::array<double, kAside + 1> before;  // overwritten values and the current one, newest last
   before.fill(nothing);
   for (std::size_t i = 0; i < values.size(); ++i) {
     std::rotate(before.begin(), before.begin() + 1, before.end());
@@ -48,8 +48,8 @@ void spread_to_neighbours(std::vector<double>& values, double nothing, const Ext
 
 void PolarView::look_at(const flow::SegmentedScan& scan) {
   range_m_ = scan.range_m;
-  nearest_m_.clear();
-  farthest_m_.clear();
+  depths_.nearest_m.clear();
+  depths_.farthest_m.clear();
   laser_in_odom_m_ = scan.odom_from_base.pose * scan.base_from_laser.translation_m();
   first_beam_in_odom_rad_ = 0.0;
   beam_step_rad_ = std::abs(scan.beam_step_rad);
@@ -65,7 +65,7 @@ void PolarView::look_at(const flow::SegmentedScan& scan) {
   for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
     points_in_odom_m_[beam] = R * scan.points_in_base_m[beam].cast<double>() + t;
     if (knows_direction || scan.range_m[beam] <= 0.0F) continue;
-    // The scan does not carry its first beam's direction; the first echo tells it, to what the sweep's motion moved it.
+    // The scan does not carry the direction of its first beam; the first echo tells it, up to the motion during the sweep.
     const Vector2d way = points_in_odom_m_[beam] - laser_in_odom_m_;
     first_beam_in_odom_rad_ = std::atan2(way.y(), way.x()) - static_cast<double>(beam) * scan.beam_step_rad;
     knows_direction = true;
@@ -73,22 +73,22 @@ void PolarView::look_at(const flow::SegmentedScan& scan) {
   middle_of_view_rad_ = (is_clockwise_ ? -first_beam_in_odom_rad_ : first_beam_in_odom_rad_) + half_view_rad_;
 }
 
-/// No point of a side is farther from the nearer of its ends than half its length.
+/// A point of a side is at most half its length from the nearer end: this bounds the interval.
 void PolarView::measure_depths() {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const std::size_t count = range_m_.size();
-  nearest_m_.assign(count, kNever);
-  farthest_m_.assign(count, -kNever);
-  double before_m = -kNever;  // of the echo of the beam before
-  for (std::size_t beam = 0; beam < count; before_m = farthest_m_[beam++]) {
+  depths_.nearest_m.assign(count, kNever);
+  depths_.farthest_m.assign(count, -kNever);
+  double before_m = -kNever;  // distance of the previous echo
+  for (std::size_t beam = 0; beam < count; before_m = depths_.farthest_m[beam++]) {
     if (range_m_[beam] <= 0.0F) continue;
-    nearest_m_[beam] = farthest_m_[beam] = (points_in_odom_m_[beam] - laser_in_odom_m_).norm();
+    depths_.nearest_m[beam] = depths_.farthest_m[beam] = (points_in_odom_m_[beam] - laser_in_odom_m_).norm();
     if (beam == 0 || range_m_[beam - 1] <= 0.0F) continue;
     const double length2 = (points_in_odom_m_[beam] - points_in_odom_m_[beam - 1]).squaredNorm();
-    if (length2 <= kLongestSideM * kLongestSideM) nearest_m_[beam] = std::min(farthest_m_[beam], before_m) - 0.5 * std::sqrt(length2);
+    if (length2 <= kLongestSideM * kLongestSideM) depths_.nearest_m[beam] = std::min(depths_.farthest_m[beam], before_m) - 0.5 * std::sqrt(length2);
   }
-  spread_to_neighbours(nearest_m_, kNever, [](double a, double b) { return std::min(a, b); });
-  spread_to_neighbours(farthest_m_, -kNever, [](double a, double b) { return std::max(a, b); });
+  spread_to_neighbours(depths_.nearest_m, kNever, [](double a, double b) { return std::min(a, b); });
+  spread_to_neighbours(depths_.farthest_m, -kNever, [](double a, double b) { return std::max(a, b); });
 }
 
 std::optional<std::size_t> PolarView::neighbour_of(std::size_t beam, long steps) const {
@@ -133,21 +133,21 @@ long PolarView::beam_towards(const Vector2d& way) const {
   if (off_middle_rad > std::numbers::pi) off_middle_rad -= kFullTurn;
   if (off_middle_rad < -std::numbers::pi) off_middle_rad += kFullTurn;
   const double steps = half_view_rad_ * beams_per_rad_ + off_middle_rad * beams_per_rad_;
-  const auto beam = static_cast<long>(steps + std::copysign(0.5, steps));  // std::lround() but for ties, which are not sure anyway
+  const auto beam = static_cast<long>(steps + std::copysign(0.5, steps));  // std::lround() but for ties, which are not sure
   const bool is_sure = std::abs(steps - static_cast<double>(beam)) < 0.5 - kRoughErrorRad * beams_per_rad_ &&
                        std::abs(off_middle_rad) + kRoughErrorRad < std::numbers::pi;
   return is_sure ? beam : std::lround(steps_towards(std::atan2(way.y(), way.x())));
 }
 
-/// Without looking at the beams about the middle one: a place is no nearer to an echo than their distances differ.
+/// Without examining beams: a place is at least as far from an echo as their distances from the laser differ.
 bool PolarView::may_have_met(long middle, double distance_m, double within_m) const {
   constexpr double kNoRoundingM = 1e-6;
   const auto beam = static_cast<std::size_t>(middle);
-  return nearest_m_.empty() ||
-         (distance_m + within_m + kNoRoundingM > nearest_m_[beam] && distance_m - within_m - kNoRoundingM < farthest_m_[beam]);
+  return depths_.nearest_m.empty() ||
+         (distance_m + within_m + kNoRoundingM > depths_.nearest_m[beam] && distance_m - within_m - kNoRoundingM < depths_.farthest_m[beam]);
 }
 
-/// The first of the beams about the middle one of which an echo, or the side between it and the next, lies so near; kNoBeam if none.
+/// The first beam about the middle one whose echo, or the side between it and the next echo, is within this distance; kNoBeam if none.
 std::size_t PolarView::beam_that_met(const Vector2d& point_in_odom_m, long middle, double within_m) const {
   const long first = std::max(0L, middle - kBeamsAside);
   const long last = std::min(static_cast<long>(range_m_.size()) - 1, middle + kBeamsAside);
@@ -157,7 +157,7 @@ std::size_t PolarView::beam_that_met(const Vector2d& point_in_odom_m, long middl
     const Vector2d off = point_in_odom_m - points_in_odom_m_[beam];
     if (off.squaredNorm() < within_m * within_m) return beam;
     if (i == last || range_m_[beam + 1] <= 0.0F) continue;
-    // Between two echoes of one oblique surface the place was seen though no beam met it.
+    // Between two echoes of one oblique surface the place is seen although no beam met it.
     const Vector2d side = points_in_odom_m_[beam + 1] - points_in_odom_m_[beam];
     const double length2 = side.squaredNorm();
     if (length2 > kLongestSideM * kLongestSideM) continue;
@@ -186,7 +186,7 @@ SightOfPlace PolarView::sight_of(const Vector2d& point_in_odom_m) const {
   for (long i = middle - 1; i <= middle + 1; ++i) {
     const double range_m = static_cast<double>(range_m_[static_cast<std::size_t>(i)]);
     if (range_m > 0.0 && range_m < distance_m - margin_m) return {Sight::kHidden, static_cast<std::size_t>(i)};
-    // A beam without echo does not tell that it went through: what it met may have been too dark.
+    // A beam without echo may have met a dark surface: it does not count as passed.
     if (range_m > distance_m + margin_m) ++through;
     if (range_m <= 0.0) ++empty;
   }

@@ -56,6 +56,11 @@ class ScanComparison {
   std::vector<char> has_shifted_;
 };
 
+/// The context of a scan after its comparison with earlier ones.
+struct ComparedScan : ScanContext {
+  const ScanComparison& comparison;
+};
+
 /// True if the segment is of a length that may be a vehicle's flank.
 bool may_have_flank(const flow::Segment& segment, const TrackingConfig& config);
 

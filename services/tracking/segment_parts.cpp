@@ -53,27 +53,26 @@ void remove_from_others(Associations& associations, std::size_t owner) {
 }
 
 /// True if the track may take the echo of a segment from its owner, if it has one.
-bool may_take(std::size_t segment, const Vector2d& point_m, const Track& track, const std::vector<Track>& tracks, const ScanComparison& comparison,
-              const ScanContext& context, const Associations& associations) {
-  if (associations.is_unassigned(segment)) return !has_other_past(context.scan().segments[segment], comparison.segment(segment), track, context);
+bool may_take(std::size_t segment, const Vector2d& point_m, const Track& track, const std::vector<Track>& tracks, const ComparedScan& context, const Associations& associations) {
+  if (associations.is_unassigned(segment)) return !has_other_past(context.scan().segments[segment], context.comparison.segment(segment), track, context);
   return relative_distance(point_m, tracks[associations.track_of_segment[segment]]) > relative_distance(point_m, track);
 }
 
 }  // namespace
 
-void assign_parts(const std::vector<Track>& tracks, const ScanComparison& comparison, const ScanContext& context, Associations& associations) {
+void assign_parts(const std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
   const std::vector<Segment>& segments = context.scan().segments;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     if (!associations.is_unassigned(s) || is_backdrop(segments[s], context.config)) continue;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
-      if (!is_part(segments[s], tracks[t], context) || has_other_past(segments[s], comparison.segment(s), tracks[t], context)) continue;
+      if (!is_part(segments[s], tracks[t], context) || has_other_past(segments[s], context.comparison.segment(s), tracks[t], context)) continue;
       associations.track_of_segment[s] = t;
       break;
     }
   }
 }
 
-void divide_shared_segments(const std::vector<Track>& tracks, const ScanComparison& comparison, const ScanContext& context, Associations& associations) {
+void divide_shared_segments(const std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
   const ScanView& view = context.view;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];
@@ -88,7 +87,7 @@ void divide_shared_segments(const std::vector<Track>& tracks, const ScanComparis
       if (s == ScanView::kNone) continue;
       const Vector2d& point_m = view.point_in_odom_m(beam);
       if (!is_inside(track.footprint(), track.position_m(), margin_m, point_m)) continue;
-      if (!may_take(s, point_m, track, tracks, comparison, context, associations)) continue;
+      if (!may_take(s, point_m, track, tracks, context, associations)) continue;
       share.beams.push_back(static_cast<std::uint16_t>(beam));
       label = stronger(label, view.scan().segments[s].label);
     }

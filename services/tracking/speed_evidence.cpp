@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::array<double, 3> kAgesS = {0.1, 0.25, 0.6};
 constexpr std::size_t kMostEchoes = 8;
-constexpr int kSteps = 14;               ///< Either way.
-constexpr double kThere = 0.33;     ///< Log-likelihood: something else may have been there;
-constexpr double kThrough = -0.67;  ///< nothing can have been where a beam went through. Neighbouring beams say the same:
-constexpr double kMostWeight = 1.5; ///< of the echoes that are left out, the ones that are asked speak for so many more.
+constexpr int kSteps = 14;               ///< Of the speed, in each direction.
+constexpr double kThere = 0.33;     ///< Log-likelihood ratio of an echo at the place: it may be of another object.
+constexpr double kThrough = -0.67;  ///< Of a beam through the place. Neighbouring beams are not independent:
+constexpr double kMostWeight = 1.5; ///< a sampled echo counts at most this often for those left out.
 
-/// Behind others the object may well have been, or else a speed at which it would have been in sight were preferred; behind its
-/// own side it was not.
+/// The object may have been behind another one: otherwise speeds at which it would have been in view were preferred. It was not behind
+/// its own side.
 bool is_hidden_by_another(const SightOfPlace& place, const EarlierScan& then, flow::TrackId own) {
   return place.sight == Sight::kHidden && then.owners[place.beam].is_owned && then.owners[place.beam].track_id != own;
 }

@@ -60,11 +60,11 @@ bool accepts(Track& track, const Observation& observation, flow::PointLabel labe
   return true;
 }
 
-void update_existence(Track& track, const TrackShare& share, double time_s, const ScanComparison& comparison, const ScanContext& context) {
+void update_existence(Track& track, const TrackShare& share, double time_s, const ComparedScan& context) {
   const TrackingConfig& config = context.config;
   Existence& existence = track.existence;
-  if (!existence.confirmed) existence.tentative = with_echoes(existence.tentative, share.beams, comparison, context);
-  score_hit(track, {share.label, motion_evidence(track, share.beams, comparison, context), time_s}, config);
+  if (!existence.confirmed) existence.tentative = with_echoes(existence.tentative, share.beams, context);
+  score_hit(track, {share.label, motion_evidence(track, share.beams, context), time_s}, config);
   if (!existence.confirmed || !is_vehicle(track)) return;
   const Visibility interior = context.view.visibility_of(interior_of(track), track.position_m());
   score_passed(track, interior, share.beams.size(), config);
@@ -115,7 +115,7 @@ void count_echoes(Track& track, std::size_t echoes, double time_s) {
 
 }  // namespace
 
-UpdateOutcome update_track(Track& track, TrackShare& share, const ScanComparison& comparison, const ScanContext& context, const CurrentScanner& scanner) {
+UpdateOutcome update_track(Track& track, TrackShare& share, const ComparedScan& context, const CurrentScanner& scanner) {
   const ScanView& view = context.view;
   const TrackingConfig& config = context.config;
   if (!is_concerned(track, share, context, scanner)) return UpdateOutcome::kContinues;
@@ -132,7 +132,7 @@ UpdateOutcome update_track(Track& track, TrackShare& share, const ScanComparison
   if (!accepts(track, observation, share.label, time_s, context)) return UpdateOutcome::kRejected;
   const bool is_known_again = track.existence.confirmed && !was_known && has_published_velocity(track, config);
   if (is_known_again) track.existence.velocity_check.known_since_ns = context.scan().stamp_ns;
-  update_existence(track, share, time_s, comparison, context);
+  update_existence(track, share, time_s, context);
   prepare_confirmation(track, observation, time_s, context);
   return passes_velocity_check(track, observation, is_known_again, context) ? UpdateOutcome::kConfirmable : UpdateOutcome::kContinues;
 }

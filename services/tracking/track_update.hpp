@@ -18,6 +18,6 @@ struct CurrentScanner {
 
 /// Updates a track by its share of the scan: motion, extent and existence. Writes the track and its share only, so that tracks may be
 /// updated side by side.
-UpdateOutcome update_track(Track& track, TrackShare& share, const ScanComparison& comparison, const ScanContext& context, const CurrentScanner& scanner);
+UpdateOutcome update_track(Track& track, TrackShare& share, const ComparedScan& context, const CurrentScanner& scanner);
 
 }  // namespace slammot::tracking

@@ -27,7 +27,7 @@ const TrackingResult& Tracker::step(const flow::SegmentedScan& scan) {
   const double time_s = scanners_.begin(scan);
   result_.labels.restored.swap(scanners_.current().restored);
   current_.view.look_at(scan);
-  const ScanContext context{current_.view, scanners_.current().history, config_};
+  const ComparedScan context{{current_.view, scanners_.current().history, config_}, current_.comparison};
   for (Track& track : tracks_) predict_to_beam(track, time_s, current_.view.polar(), config_);
   estimation_.associator.predict(time_s);
   compare(context);
@@ -56,16 +56,16 @@ void Tracker::compare(const ScanContext& context) {
   workspace_.for_each_in_ranges(context.scan().segments.size(), [&](std::size_t segment) { current_.comparison.compare(segment, context); });
 }
 
-void Tracker::associate(const ScanContext& context) {
+void Tracker::associate(const ComparedScan& context) {
   workspace_.resize(current_.associations.shares, tracks_.size());
-  estimation_.associator.associate(tracks_, current_.comparison, context, current_.associations);
+  estimation_.associator.associate(tracks_, context, current_.associations);
 }
 
 /// What concerns other tracks is done afterwards, in the order of the tracks.
-void Tracker::update(const ScanContext& context) {
+void Tracker::update(const ComparedScan& context) {
   const CurrentScanner scanner{scanners_.current_index(), scanners_.count() == 1};
   std::vector<TrackShare>& shares = current_.associations.shares;
-  workspace_.for_each(tracks_.size(), [&](std::size_t t) { shares[t].outcome = update_track(tracks_[t], shares[t], current_.comparison, context, scanner); });
+  workspace_.for_each(tracks_.size(), [&](std::size_t t) { shares[t].outcome = update_track(tracks_[t], shares[t], context, scanner); });
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (shares[t].outcome == UpdateOutcome::kRejected) {
       tracks_[t].existence.score += config_.surprise_score;
@@ -84,33 +84,33 @@ void Tracker::confirm(Track& track) {
   ++counters_.tracks_confirmed;
 }
 
-void Tracker::initiate(const ScanContext& context) {
+void Tracker::initiate(const ComparedScan& context) {
   Associations& associations = current_.associations;
   for (std::size_t s = 0; s < context.scan().segments.size(); ++s) {
-    if (!may_initiate(s, tracks_, associations, current_.comparison, context)) continue;
+    if (!may_initiate(s, tracks_, associations, context)) continue;
     workspace_.resize(tracks_, tracks_.size() + 1);
     workspace_.resize(associations.shares, tracks_.size());
     const Initiation initiation{{next_id_++}, s, scanners_.current_index(), estimation_.road_users.known()};
-    initiate_from_segment(tracks_.back(), associations.shares.back(), initiation, current_.comparison, context);
+    initiate_from_segment(tracks_.back(), associations.shares.back(), initiation, context);
     associations.track_of_segment[s] = tracks_.size() - 1;
     ++counters_.tracks_begun;
   }
 }
 
-void Tracker::merge(const ScanContext& context) {
+void Tracker::merge(const ComparedScan& context) {
   counters_.tracks_merged += join_parts(tracks_, current_.associations, context);
   counters_.tracks_merged += merge_duplicates(tracks_, current_.associations, config_);
 }
 
 /// Keeps of this scan what later scans need, and labels its points.
-void Tracker::remember(const ScanContext& context) {
+void Tracker::remember(const ComparedScan& context) {
   ScanHistory& history = scanners_.current().history;
   if (history.is_due(context.scan().stamp_ns)) {
-    find_owners(tracks_, current_.associations, current_.comparison, context, current_.owners);
+    find_owners(tracks_, current_.associations, context, current_.owners);
     history.add(context.scan().stamp_ns, context.view.polar(), current_.owners);
   }
-  label_beams(tracks_, current_.associations, current_.comparison, context, result_.labels.labels);
-  for (std::size_t t = 0; t < tracks_.size(); ++t) keep_points(tracks_[t], current_.associations.shares[t].beams, scanners_.current_index(), current_.comparison, context);
+  label_beams(tracks_, current_.associations, context, result_.labels.labels);
+  for (std::size_t t = 0; t < tracks_.size(); ++t) keep_points(tracks_[t], current_.associations.shares[t].beams, scanners_.current_index(), context);
 }
 
 void Tracker::terminate() {

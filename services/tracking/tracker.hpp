@@ -54,12 +54,12 @@ class Tracker {
 
   void begin_result(const flow::SegmentedScan& scan);
   void compare(const ScanContext& context);
-  void associate(const ScanContext& context);
-  void update(const ScanContext& context);
+  void associate(const ComparedScan& context);
+  void update(const ComparedScan& context);
   void confirm(Track& track);
-  void initiate(const ScanContext& context);
-  void merge(const ScanContext& context);
-  void remember(const ScanContext& context);
+  void initiate(const ComparedScan& context);
+  void merge(const ComparedScan& context);
+  void remember(const ComparedScan& context);
   void terminate();
   void give_back_points(const Track& track);
   void publish(const flow::SegmentedScan& scan);
