@@ -10,7 +10,8 @@ namespace {
 
 using flow::ClassProbabilities;
 
-enum Class : std::size_t { kPedestrian, kBicycle, kCar, kTruckOrBus };
+constexpr std::size_t kPedestrian = entry_of(flow::ObjectClass::kPedestrian);
+constexpr std::size_t kFirstVehicle = entry_of(flow::ObjectClass::kCar);
 
 constexpr double kSpeedMemoryS = 6.0;    ///< For which a speed counts.
 constexpr double kSpeedLastsS = 2.0;     ///< Correlation time of the speed.
@@ -18,7 +19,7 @@ constexpr double kSpeedProvenS = 1.0;    ///< For which a speed must be held to 
 constexpr double kOutlierShare = 0.02;   ///< Of speeds of other objects,
 constexpr double kOutlierDensity = 0.04; ///< uniform up to 25 m/s.
 
-/// Speeds while moving, normal; and the top speed, which one in six exceeds.
+/// By the entries of the class probabilities. Speeds while moving, normal; and the top speed, which one in six exceeds.
 struct SpeedRange {
   double speed_mps, sigma_mps, top_mps, top_sigma_mps;
 };
@@ -53,8 +54,6 @@ double log_fit(const KindOfBody& kind, const SizeEvidence& length, const SizeEvi
          log_likelihood_of_size(scale * kind.width_m, scale * kind.width_sigma_if_askew_m, width, scale);
 }
 
-std::size_t class_of_kind(Kind kind) { return kind == Kind::kBicycle ? kBicycle : kind == Kind::kCar ? kCar : kTruckOrBus; }
-
 ClassProbabilities log_fit_of_box(const Box& box, const TrackingConfig& config) {
   ClassProbabilities fit;
   fit.fill(-1e300);
@@ -63,7 +62,7 @@ ClassProbabilities log_fit_of_box(const Box& box, const TrackingConfig& config) 
                               log_fit(kCompany, box.evidence.width, box.evidence.length, config.size_scale));
   for (const KindOfBody& kind : box.road_users->kinds) {
     if (kind.share <= 0.0) continue;
-    double& of_class = fit[class_of_kind(kind.kind)];
+    double& of_class = fit[entry_of(class_of(kind.kind))];
     of_class = log_sum(of_class, log_fit(kind, evidence.of(kind.kind).length, evidence.of(kind.kind).width, config.size_scale));
   }
   return fit;
@@ -111,7 +110,7 @@ ClassProbabilities class_probabilities(const Outline& outline, const SpeedsSeen&
   double most = -1e300;
   for (std::size_t i = 0; i < log_weight.size(); ++i) {
     log_weight[i] += speeds.log_likelihood[i] + std::log(kLeast + exceeded_share(speeds.surely_mps, kSpeedRanges[i].top_mps, kSpeedRanges[i].top_sigma_mps));
-    if (only_people_move(config) && i >= kCar) log_weight[i] += std::log(kShareIndoors);
+    if (only_people_move(config) && i >= kFirstVehicle) log_weight[i] += std::log(kShareIndoors);
     most = std::max(most, log_weight[i]);
   }
   ClassProbabilities probability;

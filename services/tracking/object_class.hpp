@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "common/flow/tracked_objects.hpp"
 #include "services/tracking/extent.hpp"
 #include "services/tracking/tracking_config.hpp"
@@ -13,12 +15,17 @@ struct SpeedsSeen {
   double surely_mps = 0.0;  ///< Largest speed held for a while; does not fade.
 };
 
+/// The entry of a class in flow::ClassProbabilities; not of kUnknown.
+constexpr std::size_t entry_of(flow::ObjectClass object_class) { return static_cast<std::size_t>(object_class) - 1; }
+
 /// Class of an object: pedestrian, bicycle, car, truck or bus.
 /// Invariant: `likeliest` is that of likeliest_class(probability), as of the last update.
 struct Classification {
   flow::ObjectClass likeliest = flow::ObjectClass::kUnknown;
   flow::ClassProbabilities probability = {};
   SpeedsSeen speeds;                         ///< Since confirmation.
+
+  double probability_of(flow::ObjectClass object_class) const { return probability[entry_of(object_class)]; }
 };
 
 /// An estimate of the speed, held for some time.

@@ -1,9 +1,7 @@
 #include "services/tracking/published_covariance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 namespace slammot::tracking {
 namespace {
@@ -26,8 +24,8 @@ CentreErrors errors_if_smaller(const Track& track, const TrackingConfig& config)
     errors.along_m2 += probability * std::pow(0.5 * std::max(0.0, footprint.length.value_m - length_m * config.size_scale), 2);
     errors.across_m2 += probability * std::pow(0.5 * std::max(0.0, footprint.width.value_m - width_m * config.size_scale), 2);
   };
-  add_if(track.classification.probability[0], kPedestrianM, kPedestrianM);
-  add_if(track.classification.probability[1], kKinds[0].length_m, kKinds[0].width_m);
+  add_if(track.classification.probability_of(flow::ObjectClass::kPedestrian), kPedestrianM, kPedestrianM);
+  add_if(track.classification.probability_of(flow::ObjectClass::kBicycle), kKinds[0].length_m, kKinds[0].width_m);
   return errors;
 }
 
@@ -93,11 +91,11 @@ CentreErrors errors_of_blob(const Track& track, const TrackingConfig& config) {
   constexpr double kHalfACycleM = 0.5;  // of a small fast object perhaps only a wheel or the rider is visible
   CentreErrors errors;
   if (!may_be_pedestrian(track)) errors = {std::pow(kHalfACycleM * config.size_scale, 2), std::pow(0.5 * kHalfACycleM * config.size_scale, 2)};
-  // The visible part may be a corner of a vehicle. By the entries of the class probabilities:
-  static const std::array<std::pair<std::size_t, KindOfBody>, 2> kVehicles = {{{2, kKinds[1]}, {3, kKinds[2]}}};
-  for (const auto& [entry, kind] : kVehicles) {
-    errors.along_m2 += track.classification.probability[entry] * std::pow(0.5 * kind.length_m * config.size_scale, 2);
-    errors.across_m2 += track.classification.probability[entry] * std::pow(0.5 * kind.width_m * config.size_scale, 2);
+  for (const std::size_t index : {std::size_t{1}, std::size_t{2}}) {  // the visible part may be a corner of a car or truck
+    const KindOfBody& kind = kKinds[index];
+    const double probability = track.classification.probability_of(class_of(kind.kind));
+    errors.along_m2 += probability * std::pow(0.5 * kind.length_m * config.size_scale, 2);
+    errors.across_m2 += probability * std::pow(0.5 * kind.width_m * config.size_scale, 2);
   }
   return errors;
 }

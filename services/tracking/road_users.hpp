@@ -5,10 +5,18 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/flow/tracked_objects.hpp"
+
 namespace slammot::tracking {
 
-/// Kinds of road users that are boxes; smaller ones are blobs.
+/// Kinds of road users that are boxes; smaller ones are blobs. They refine the published classes by size.
 enum class Kind : std::uint8_t { kBicycle, kCar, kTruck, kBus };
+
+/// The class of a kind: trucks and buses are one.
+constexpr flow::ObjectClass class_of(Kind kind) {
+  if (kind == Kind::kBicycle) return flow::ObjectClass::kBicycle;
+  return kind == Kind::kCar ? flow::ObjectClass::kCar : flow::ObjectClass::kTruckOrBus;
+}
 
 /// Prior of one kind: its share, mean sizes and sigmas.
 struct KindOfBody {

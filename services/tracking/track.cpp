@@ -34,7 +34,7 @@ bool is_vehicle(const Track& track) { return is_vehicle(track.extent.outline); }
 bool is_known_pedestrian(const Track& track) {
   constexpr int kLongKnownHits = 20;
   constexpr double kSure = 0.9;
-  return track.existence.confirmed && track.extent.box() == nullptr && track.existence.hits >= kLongKnownHits && track.classification.probability[0] > kSure;
+  return track.existence.confirmed && track.extent.box() == nullptr && track.existence.hits >= kLongKnownHits && track.classification.probability_of(flow::ObjectClass::kPedestrian) > kSure;
 }
 
 bool may_be_pedestrian(const Track& track) {
