@@ -54,9 +54,11 @@ void initiate_from_segment(Track& track, TrackShare& share, const Initiation& in
   const ScanView& view = context.view;
   const TrackingConfig& config = context.config;
   const Segment& segment = view.scan().segments[initiation.segment];
+  share.beams = segment.beams;
+  share.label = segment.label;
   const ResponseRate responses = with_responses({}, segment.beams.size(), gaps_between(segment.beams, view.polar()), 0.0);
   const double time_offset_s = view.polar().delay_towards_s(segment.centroid_in_odom_m);
-  const Observation observation = observe(segment.beams, {time_offset_s, Vector2d::Zero()}, responses, view, config.size_scale, share.points_m);
+  const Observation observation = observe(share, {time_offset_s, Vector2d::Zero()}, responses, context);
   const Matrix2d pose_covariance_m2 = pose_covariance_at(segment.centroid_in_odom_m, view.scan());
   // Detection fits boxes to moving segments only.
   const double heading_rad = segment.label == PointLabel::kMoving ? segment.box_heading_rad : sensing::fit_box(share.points_m, config.range_noise_m).heading_rad;
@@ -67,8 +69,6 @@ void initiate_from_segment(Track& track, TrackShare& share, const Initiation& in
   track.history.birth.centre_m -= context.comparison.segment(initiation.segment).face_shift_m;  // where it was when it was first seen
   track.history.scanner = initiation.scanner;
   track.history.observations.add(view.scan().stamp_ns + nanoseconds(time_offset_s), observation, pose_covariance_m2);
-  share.beams = segment.beams;
-  share.label = segment.label;
 }
 
 }  // namespace slammot::tracking

@@ -16,13 +16,15 @@ namespace slammot::tracking {
 /// the map does not know or has not yet forgotten what stood there. False inside a confirmed vehicle.
 bool may_initiate(std::size_t segment, const std::vector<Track>& tracks, const Associations& associations, const ComparedScan& context);
 
-/// Initiates a track from a segment, in the memory of an ended one. Writes the track and its share.
+/// What a new track is initiated from.
 struct Initiation {
   flow::TrackId track_id;
   std::size_t segment = 0;
   std::size_t scanner = 0;                   ///< Index of the scan's scanner.
   const RoadUsers& road_users;
 };
+
+/// Initiates a track from a segment, in the memory of an ended one. Writes the track and its share.
 void initiate_from_segment(Track& track, TrackShare& share, const Initiation& initiation, const ComparedScan& context);
 
 }  // namespace slammot::tracking

@@ -143,7 +143,7 @@ std::uint64_t join_parts(std::vector<Track>& tracks, Associations& associations,
       TrackShare& share = associations.shares[a];
       if (!are_parts_of_one_vehicle(tracks[a], tracks[b], context.config) || is_seen_between(share.beams, associations.shares[b].beams, context.view.polar())) continue;
       absorb(tracks, associations, a, b);
-      const Observation whole = observe(share.beams, swept_motion(tracks[a]), tracks[a].extent.responses, context.view, context.config.size_scale, share.points_m);
+      const Observation whole = observe(share, swept_motion(tracks[a]), tracks[a].extent.responses, context);
       reinitialise_extent(tracks[a], whole, context.config);
       ++joined;
     }

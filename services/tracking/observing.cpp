@@ -35,16 +35,18 @@ std::optional<Side> side_of(const std::vector<std::uint16_t>& beams, const ScanV
 
 SweptMotion swept_motion(const Track& track) { return {track.kinematics.time_offset_s, track.velocity_mps()}; }
 
-Observation observe(const std::vector<std::uint16_t>& beams, const SweptMotion& motion, const ResponseRate& responses, const ScanView& view,
-                    double size_scale, std::vector<Vector2d>& points_m) {
+Observation observe(TrackShare& share, const SweptMotion& motion, const ResponseRate& responses, const ScanContext& context) {
   constexpr double kLongSideM = 1.4;
-  points_m.clear();
+  const ScanView& view = context.view;
+  const double size_scale = context.config.size_scale;
+  const std::vector<std::uint16_t>& beams = share.beams;
+  share.points_m.clear();
   const BeamRun run = run_of(beams, view.polar());
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const std::uint16_t beam = beams[(run.start + i) % beams.size()];
-    points_m.push_back(view.point_in_odom_m(beam) - (view.polar().delay_s(beam) - motion.time_offset_s) * motion.velocity_mps);
+    share.points_m.push_back(view.point_in_odom_m(beam) - (view.polar().delay_s(beam) - motion.time_offset_s) * motion.velocity_mps);
   }
-  return {points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(view, run.first, -1, size_scale),
+  return {share.points_m, view.laser_in_odom_m(), view.beam_step_rad(), edge_beyond(view, run.first, -1, size_scale),
           edge_beyond(view, run.last, +1, size_scale), side_of(beams, view, kLongSideM * size_scale), responses.unanswered_share()};
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <Eigen/Core>
 
+#include "services/tracking/associations.hpp"
 #include "services/tracking/observation.hpp"
-#include "services/tracking/scan_view.hpp"
+#include "services/tracking/scan_context.hpp"
 #include "services/tracking/track.hpp"
 
 namespace slammot::tracking {
@@ -19,10 +19,9 @@ struct SweptMotion {
 
 SweptMotion swept_motion(const Track& track);
 
-/// The echoes of these beams as an observation, with what lies beside them. points_m: filled, and referred to by the observation.
-/// size_scale: of all lengths, relative to real road users.
-Observation observe(const std::vector<std::uint16_t>& beams, const SweptMotion& motion, const ResponseRate& responses, const ScanView& view,
-                    double size_scale, std::vector<Eigen::Vector2d>& points_m);
+/// The beams of a share as an observation, with what lies beside them. Fills the points of the share, to which the observation refers.
+/// share.beams: at least one.
+Observation observe(TrackShare& share, const SweptMotion& motion, const ResponseRate& responses, const ScanContext& context);
 
 /// Predicts the track to the time when the beam that points at it is fired, in a scan that begins time_s after the one before. Does not
 /// go back before the beam of another scanner that observed it last.

@@ -127,7 +127,7 @@ UpdateOutcome update_track(Track& track, TrackShare& share, const ComparedScan& 
     return UpdateOutcome::kContinues;
   }
   track.extent.responses = with_responses(track.extent.responses, share.beams.size(), gaps_between(share.beams, view.polar()), time_s);
-  const Observation observation = observe(share.beams, swept_motion(track), track.extent.responses, view, config.size_scale, share.points_m);
+  const Observation observation = observe(share, swept_motion(track), track.extent.responses, context);
   const bool was_known = has_published_velocity(track, config);
   if (!accepts(track, observation, share.label, time_s, context)) return UpdateOutcome::kRejected;
   const bool is_known_again = track.existence.confirmed && !was_known && has_published_velocity(track, config);

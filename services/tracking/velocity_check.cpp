@@ -39,7 +39,7 @@ void check_velocity(Track& track, const Observation& observation, const ScanCont
   const Vector2d along = direction_of(track);
   const double speed_mps = velocity_mps.dot(along);
   const double across_mps = (velocity_mps - speed_mps * along).norm();
-  const SpeedEvidence evidence = speed_along(along, observation.points_m, context.scan().stamp_ns, context.history, kFastestOfSigmas * context.config.fastest_mps, track.track_id);
+  const SpeedEvidence evidence = speed_along({along, observation.points_m, context.scan().stamp_ns, track.track_id}, context.history, kFastestOfSigmas * context.config.fastest_mps);
   const bool moves_sideways = across_mps > 2.0 + 0.3 * std::abs(speed_mps);
   const bool is_off = moves_sideways || std::abs(speed_mps - evidence.speed_mps) > 3.0 * evidence.sigma_mps + kSlackMps;
   const bool is_vague = is_fast && age_s < kLongEnoughS && evidence.sigma_mps > kVagueSigmaMps && !appeared_in_free_space(track, context.config);
