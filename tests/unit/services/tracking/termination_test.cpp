@@ -48,5 +48,41 @@ TEST(Termination, ThatSeemsToMoveIsWaitedForTwiceAsLong) {
   EXPECT_FALSE(is_timed_out(slow, late_s, config));
 }
 
+/// Moving and seen at this stamp.
+Track seen_at(std::int64_t stamp_ns) {
+  Track track = followed_car();
+  track.history.first_seen_ns = 0;
+  track.history.last_seen_ns = track.existence.travel.last_moving_ns = stamp_ns;
+  return track;
+}
+
+TEST(Termination, ComesAfterAWhileUnseenAndSoonerToATentativeTrack) {
+  const TrackingConfig config;
+  Track track = seen_at(1'000'000'000);
+  const auto ends_after = [&](double unseen_s) { return has_ended(track, 1'000'000'000 + static_cast<std::int64_t>(unseen_s * 1e9), config); };
+  EXPECT_FALSE(ends_after(config.longest_unseen_tentative_s + 0.1));
+  EXPECT_TRUE(ends_after(config.longest_unseen_s + 0.1));
+  track.existence.confirmed = false;
+  EXPECT_FALSE(ends_after(config.longest_unseen_tentative_s - 0.1));
+  EXPECT_TRUE(ends_after(config.longest_unseen_tentative_s + 0.1));
+}
+
+TEST(Termination, ComesToATrackThatItsScoreRejects) {
+  const TrackingConfig config;
+  Track track = seen_at(1'000'000'000);
+  EXPECT_FALSE(has_ended(track, 1'000'000'000, config));
+  track.existence.score = config.reject_score - 0.1;
+  EXPECT_TRUE(has_ended(track, 1'000'000'000, config));
+}
+
+TEST(Termination, ComesToATrackThatClaimsToMoveAndGetsNowhere) {
+  const TrackingConfig config;
+  Track track = seen_at(1'000'000'000);
+  track.existence.travel.claimed_m = 4.0 * kProgressM - 0.1;
+  EXPECT_FALSE(has_ended(track, 1'000'000'000, config));
+  track.existence.travel.claimed_m = 4.0 * kProgressM + 0.1;
+  EXPECT_TRUE(has_ended(track, 1'000'000'000, config));
+}
+
 }  // namespace
 }  // namespace slammot::tracking
