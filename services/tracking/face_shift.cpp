@@ -10,27 +10,27 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kFewestEchoes = 4;
-constexpr double kStraightM = 0.06;        ///< One sigma that echoes of one side may lie off a line, besides their noise.
-constexpr double kNarrowestM = 0.8;        ///< Of a vehicle's front; hidden in part, less is seen.
+constexpr double kStraightM = 0.06;        ///< One sigma of echoes of one side about a line, beside their noise.
+constexpr double kNarrowestM = 0.8;        ///< Of a vehicle's front, which may be partly hidden.
 constexpr double kWidestM = 2.8;
-constexpr double kMiddleShare = 0.8;       ///< Of the side: at its ends a flank begins.
-constexpr double kFarthestM = 1.2;         ///< That something slow comes between the two scans.
+constexpr double kMiddleShare = 0.8;       ///< Of the side: at its ends the flanks begin.
+constexpr double kFarthestM = 1.2;         ///< Largest displacement of a slow object.
 constexpr double kLeastShiftM = 0.08;
-constexpr double kLeastShiftPerM = 0.004;  ///< Of range: what the heading of the pose may be off by, and what makes a far side look otherwise.
+constexpr double kLeastShiftPerM = 0.004;  ///< Of range: errors of the heading, and the change of view of a distant side.
 constexpr double kSigmas = 4.0;
 
-/// Echoes on a straight line.
+/// A straight line through echoes.
 struct Face {
   Vector2d middle_m = Vector2d::Zero();
   Vector2d along = Vector2d::UnitX();
   Vector2d normal = Vector2d::UnitY();
   double half_width_m = 0.0;
   double off_m = 0.0;                      ///< RMS distance of the echoes from the line.
-  double gap_from_m = 0.0;                 ///< Along it, from the middle: where there are none, if it is seen in two pieces.
+  double gap_from_m = 0.0;                 ///< Along it, from the middle: the gap between two pieces.
   double gap_to_m = 0.0;
 };
 
-/// Through the echoes of beams that are side by side, or of two such runs, the later beams last.
+/// Line through one run of beams, or through two, the later last.
 Face face_through(std::span<const std::uint16_t> first, std::span<const std::uint16_t> last, const PolarView& view) {
   const auto count = static_cast<double>(first.size() + last.size());
   Face face;
@@ -54,7 +54,7 @@ Face face_through(std::span<const std::uint16_t> first, std::span<const std::uin
   return face;
 }
 
-/// The echo that is farthest from the line through the first and the last.
+/// The echo farthest from the line through the first and the last.
 struct Corner {
   std::size_t index = 0;
   double off_m = 0.0;
@@ -80,7 +80,7 @@ struct Sum {
   double sigma() const { return std::sqrt(std::max(0.0, squares / count - mean() * mean())); }
 };
 
-/// One side, or two that meet in a corner.
+/// One side, or two sides that meet in a corner.
 std::array<std::span<const std::uint16_t>, 2> sides_of(std::span<const std::uint16_t> beams, const PolarView& view, const TrackingConfig& config) {
   constexpr double kCornerM = 0.25;
   const Corner corner = corner_of(beams, view);
@@ -88,7 +88,7 @@ std::array<std::span<const std::uint16_t>, 2> sides_of(std::span<const std::uint
   return {beams.first(corner.index + 1), beams.subspan(corner.index)};
 }
 
-/// How far along its normal the face was from here then.
+/// Distance of the face along its normal from here, in an earlier scan. None where it was not fully in view, hidden or bent.
 std::optional<double> off_then_m(const Face& face, const PolarView& now, const EarlierScan& then, double echo_sigma_m, double size_scale) {
   const double farthest_m = kFarthestM * size_scale;
   const PolarView& view = then.view;
@@ -124,15 +124,15 @@ std::optional<double> off_then_m(const Face& face, const PolarView& now, const E
   return off.mean();
 }
 
-/// What is asked of a shift.
+/// Tolerances of a displacement.
 struct Sought {
   double echo_sigma_m = 0.0;
   double least_m = 0.0;
   double size_scale = 1.0;
 };
 
-/// How far from here the face was in the first of the earlier scans in which it was elsewhere, if another says that it was on
-/// the same side and no older one that it was here; else zero.
+/// Distance of the face from here in the first of the earlier scans in which it was elsewhere, if another agrees on the side and no
+/// older one has it here; else zero.
 double agreed_off_m(const Face& face, const PolarView& now, std::span<const EarlierScan* const> earlier, const Sought& sought) {
   double first_off_m = 0.0;
   int agreeing = 0;
@@ -141,7 +141,7 @@ double agreed_off_m(const Face& face, const PolarView& now, std::span<const Earl
     if (!off_m) continue;
     if (std::abs(*off_m) < sought.least_m) {
       if (agreeing > 0) return 0.0;
-      continue;  // too little time for what is slow
+      continue;  // too soon for a slow object
     }
     if (first_off_m * *off_m < 0.0) return 0.0;
     if (agreeing == 0) first_off_m = *off_m;
@@ -150,21 +150,21 @@ double agreed_off_m(const Face& face, const PolarView& now, std::span<const Earl
   return agreeing > 1 ? first_off_m : 0.0;
 }
 
-/// Against what a face is held.
+/// What a face is compared with.
 struct Asked {
   std::span<const EarlierScan* const> earlier;
   const std::function<double()>& pose_sigma_m;
   const TrackingConfig& config;
 };
 
-/// A side is no wider than its ends are apart, which needs no line through it; to what is rounded.
+/// A side is at most as wide as its ends are apart: needs no line. Up to rounding.
 bool is_surely_too_narrow(std::span<const std::uint16_t> side, const PolarView& view, const TrackingConfig& config) {
   constexpr double kSurely = 1.0 - 1e-9;
   const double most_m = kSurely * kNarrowestM * config.size_scale;
   return (view.point_in_odom_m(side.back()) - view.point_in_odom_m(side.front())).squaredNorm() < most_m * most_m;
 }
 
-/// How far the face has come, of which there are so many echoes; zero if it has not, or is too narrow, too wide or bent.
+/// Displacement of a face with this number of echoes; zero if it has not moved, or is too narrow, too wide or bent.
 Vector2d shift_of(const Face& face, std::size_t echoes, const PolarView& now, const Asked& asked) {
   const TrackingConfig& config = asked.config;
   if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) return Vector2d::Zero();

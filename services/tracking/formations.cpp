@@ -8,16 +8,16 @@ namespace {
 using Eigen::Matrix2d;
 using flow::TrackId;
 
-constexpr double kAlikeForS = 1.0;         ///< Before two are held to belong together.
-constexpr double kReachM = 18.0;           ///< Between neighbours in a queue;
-constexpr double kMostApartMps = 1.0;      ///< their velocities differ by no more than this,
-constexpr double kMostApartShare = 0.15;   ///< and this share of them.
-constexpr double kSlowestMps = 1.0;        ///< What stands is in no queue.
-constexpr double kSharedShare = 0.9;       ///< Of what drives them: they brake for the same light.
+constexpr double kAlikeForS = 1.0;         ///< Before two tracks belong together.
+constexpr double kReachM = 18.0;           ///< Between neighbours in a queue.
+constexpr double kMostApartMps = 1.0;      ///< Largest difference of their velocities,
+constexpr double kMostApartShare = 0.15;   ///< plus this share of them.
+constexpr double kSlowestMps = 1.0;        ///< Of a member.
+constexpr double kSharedShare = 0.9;       ///< Of the process noise, common to the members: they brake for the same light.
 constexpr std::size_t kMostMembers = 6;
 
 bool may_be_member(const Track& track, const TrackingConfig& config) {
-  return track.confirmed && track.body.has_sides && track.velocity_mps().norm() > kSlowestMps * config.size_scale;
+  return track.existence.confirmed && track.extent.box() != nullptr && track.velocity_mps().norm() > kSlowestMps * config.size_scale;
 }
 
 bool go_alike(const Track& a, const Track& b, const TrackingConfig& config) {
@@ -43,8 +43,8 @@ void Formations::note_pairs(const std::vector<Track>& tracks, double time_s) {
       if (!(a.track_id < b.track_id)) continue;
       const auto before = alike_s_.find({a.track_id, b.track_id});
       const double so_far_s = before == alike_s_.end() ? 0.0 : before->second;
-      if (!a.measured || !b.measured) {
-        if (so_far_s > 0.0) alike_s[{a.track_id, b.track_id}] = so_far_s;  // nothing new is known
+      if (!a.kinematics.measured || !b.kinematics.measured) {
+        if (so_far_s > 0.0) alike_s[{a.track_id, b.track_id}] = so_far_s;  // no new evidence
       } else if (go_alike(a, b, config_)) {
         alike_s[{a.track_id, b.track_id}] = so_far_s + time_s;
       }
@@ -76,10 +76,10 @@ std::vector<std::vector<TrackId>> Formations::groups(const std::vector<Track>& t
   return all;
 }
 
-Formations::Formation Formations::begun(const std::vector<TrackId>& members, const std::vector<Track>& tracks) const {
+Formations::Formation Formations::initiated(const std::vector<TrackId>& members, const std::vector<Track>& tracks) const {
   std::vector<filters::MotionState> states;
   for (const TrackId id : members)
-    states.push_back(std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) { return track.track_id == id; })->estimate);
+    states.push_back(std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) { return track.track_id == id; })->kinematics.estimate);
   return {members, filters::formation_of(states)};
 }
 
@@ -88,13 +88,13 @@ void Formations::step(Formation& formation, std::vector<Track>& tracks, double t
   std::vector<filters::MemberFix> fixes;
   for (std::size_t i = 0; i < formation.members.size(); ++i) {
     const Track& track = track_of(formation.members[i], tracks);
-    filters::formation_shift(formation.state, i, track.shifted_m);
-    if (track.measured) fixes.push_back({i, track.measured->centre_m, track.measured->R});
+    filters::formation_shift(formation.state, i, track.kinematics.recentred_m);
+    if (track.kinematics.measured) fixes.push_back({i, track.kinematics.measured->centre_m, track.kinematics.measured->R});
   }
   formation.state = filters::update(formation.state, fixes, Matrix2d::Zero());
   for (std::size_t i = 0; i < formation.members.size(); ++i) {
     Track& track = track_of(formation.members[i], tracks);
-    if (!track.measured && !fixes.empty()) move_as(track, filters::member_of(formation.state, i), config_);
+    if (!track.kinematics.measured && !fixes.empty()) restart_from(track.kinematics, filters::member_of(formation.state, i), config_);
   }
 }
 
@@ -104,7 +104,7 @@ void Formations::follow(std::vector<Track>& tracks, double time_s) {
   for (const std::vector<TrackId>& members : groups(tracks)) {
     const auto known = std::find_if(formations_.begin(), formations_.end(), [&](const Formation& formation) { return formation.members == members; });
     if (known == formations_.end()) {
-      now.push_back(begun(members, tracks));
+      now.push_back(initiated(members, tracks));
       continue;
     }
     now.push_back(std::move(*known));

@@ -10,29 +10,29 @@
 
 namespace slammot::tracking {
 
-/// Vehicles that drive in a queue, tracked as one system beside their own filters (Wang 2004, Section 4.7). Whoever is seen
-/// keeps the estimate of its own filter; whoever is not, behind something else, goes on as the others do.
+/// Vehicles in a queue, tracked as one system beside their own filters (Wang 2004, Section 4.7). An observed member keeps the estimate of
+/// its own filter; a hidden one follows the others.
 class Formations {
  public:
   explicit Formations(const TrackingConfig& config) : config_(config) {}
 
-  /// Takes the tracks as they are after a scan, time_s (>= 0) after the one before, and moves those of members unseen in it.
+  /// Updates the formations by the tracks after a scan, time_s (>= 0) after the one before, and moves the members not observed in it.
   void follow(std::vector<Track>& tracks, double time_s);
 
  private:
   struct Formation {
-    std::vector<flow::TrackId> members;  ///< Ascending; of the state's members in order.
+    std::vector<flow::TrackId> members;  ///< Ascending; in the order of the state's members.
     filters::FormationState state;
   };
   using Pair = std::pair<flow::TrackId, flow::TrackId>;
 
   void note_pairs(const std::vector<Track>& tracks, double time_s);
   std::vector<std::vector<flow::TrackId>> groups(const std::vector<Track>& tracks) const;
-  Formation begun(const std::vector<flow::TrackId>& members, const std::vector<Track>& tracks) const;
+  Formation initiated(const std::vector<flow::TrackId>& members, const std::vector<Track>& tracks) const;
   void step(Formation& formation, std::vector<Track>& tracks, double time_s) const;
 
   TrackingConfig config_;
-  std::map<Pair, double> alike_s_;       ///< For how long two have been seen to go alike.
+  std::map<Pair, double> alike_s_;       ///< How long two tracks have moved alike.
   std::vector<Formation> formations_;
 };
 

@@ -6,18 +6,18 @@
 namespace slammot::tracking {
 namespace {
 
-// Of the variance of a size over all road users anywhere, half is between the means of places and half within a place.
+// Half of the variance of a size anywhere is between the means of places, half within a place.
 constexpr double kWithinShare = 0.5;
-constexpr double kSpreadWorth = 4.0;       ///< In bodies: what is known of the spread before any was seen.
-constexpr double kElsewhereShare = 0.05;   ///< Of those here: they are as those anywhere.
-constexpr double kLeastSigmaShare = 0.1;   ///< No place is more uniform, nor measured better.
+constexpr double kSpreadWorth = 4.0;       ///< Weight of the prior of the spread, in road users.
+constexpr double kElsewhereShare = 0.05;   ///< Share of road users here that are like those anywhere.
+constexpr double kLeastSigmaShare = 0.1;   ///< Floor of the learned sigma.
 
-// Counted: docs/decisions/object-covariance.md. Echoes lie off the sides of exact boxes, too, by what the scanner errs, which averages out.
+// Counted: docs/decisions/object-covariance.md. Echoes of exact boxes have a distance from the sides, too: the noise of the scanner.
 constexpr double kOffSidesOfBoxes = 0.25;
 constexpr double kOffSidesAsTaken = 0.75;
-constexpr double kShapeWorth = 2.0;        ///< In bodies: bodies of a place differ more than places do.
-constexpr double kSwingWorth = 2.0;        ///< In people: what the settings say of those of a place.
-constexpr double kLeastShapeShare = 1.0 / 3.0;  ///< Bends and the sizes held remain, however exact the boxes are.
+constexpr double kShapeWorth = 2.0;        ///< Weight of the prior, in road users.
+constexpr double kSwingWorth = 2.0;        ///< Weight of the configured gait, in pedestrians.
+constexpr double kLeastShapeShare = 1.0 / 3.0;  ///< Errors in bends and of the sizes remain for exact boxes.
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void RoadUsersSeen::Sample::add(const Size& seen) {
 
 double RoadUsersSeen::Sample::true_squares_m2() const { return count > 1.0 ? std::max(0.0, squares_m2 - degrees() * error_m2 / count) : 0.0; }
 
-/// Of the variance that a size has anywhere, what it has here: where cars are alike, trucks are likely to be, too.
+/// Variance of sizes here relative to anywhere, common to all kinds: where cars are alike, trucks probably are, too.
 double RoadUsersSeen::spread_share() const {
   double squares = kSpreadWorth * kWithinShare;
   double degrees = kSpreadWorth;
@@ -42,7 +42,7 @@ double RoadUsersSeen::spread_share() const {
   return squares / degrees;
 }
 
-/// What the next one of these will be.
+/// Prediction of the next road user's size.
 Size RoadUsersSeen::next(const Sample& sample, double mean_m, double sigma_m, double spread_share) {
   const double variance_m2 = sigma_m * sigma_m;
   const double within_m2 = (kSpreadWorth * spread_share * variance_m2 + sample.true_squares_m2()) / (kSpreadWorth + sample.degrees());
@@ -53,8 +53,8 @@ Size RoadUsersSeen::next(const Sample& sample, double mean_m, double sigma_m, do
 }
 
 double RoadUsersSeen::shape_share() const {
-  const double off_sides = (kShapeWorth * kOffSidesAsTaken + off_sides_share_.count * off_sides_share_.mean_m) / (kShapeWorth + off_sides_share_.count);
-  return std::clamp((off_sides - kOffSidesOfBoxes) / (kOffSidesAsTaken - kOffSidesOfBoxes), kLeastShapeShare, 1.0);
+  const double outline_error = (kShapeWorth * kOffSidesAsTaken + off_sides_share_.count * off_sides_share_.mean_m) / (kShapeWorth + off_sides_share_.count);
+  return std::clamp((outline_error - kOffSidesOfBoxes) / (kOffSidesAsTaken - kOffSidesOfBoxes), kLeastShapeShare, 1.0);
 }
 
 double RoadUsersSeen::swing_share() const {

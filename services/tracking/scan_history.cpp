@@ -6,13 +6,13 @@ namespace slammot::tracking {
 namespace {
 
 constexpr std::int64_t kIntervalNs = 100'000'000;
-constexpr double kNearM = 0.5;  ///< Less than a step.
+constexpr double kNearM = 0.5;  ///< Less than a step of a pedestrian.
 constexpr double kGoesAlongM = 0.35;
 constexpr std::int64_t kGoesAlongForNs = 250'000'000;
 constexpr std::int64_t kGoesAlongSinceNs = 700'000'000;
 constexpr std::int64_t kLongestNs = 2'000'000'000;
 
-/// Whether the scan had an echo so near that is not of something known to move.
+/// True if the scan had an echo within this distance, not of an object known to move.
 bool had_something_near(const EarlierScan& scan, const Eigen::Vector2d& point_in_odom_m, double within_m) {
   return scan.view.any_echo_near(point_in_odom_m, within_m, [&](std::size_t beam) { return !scan.owners[beam].is_confirmed; });
 }

@@ -1,110 +1,31 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "common/flow/segmented_scan.hpp"
-#include "common/sensing/scan.hpp"
-#include "services/tracking/body.hpp"
+#include "services/tracking/footprint.hpp"
+#include "services/tracking/observation.hpp"
+#include "services/tracking/polar_view.hpp"
 
 namespace slammot::tracking {
 
-/// How much of a body the scan could have seen.
+/// The beams that point at a footprint.
 struct Visibility {
-  int beams = 0;               ///< That point at the body,
-  int blocked = 0;             ///< of which so many ended in front of it
-  int passed = 0;              ///< and so many went through to something behind it,
-  int unanswered = 0;          ///< and so many gave no echo: passed, or swallowed by something dark.
+  int beams = 0;
+  int blocked = 0;             ///< Of them, ended in front of it.
+  int passed = 0;              ///< Ended behind it.
+  int unanswered = 0;          ///< Without an echo: passed, or absorbed by a dark surface.
 };
 
-/// What a scan says about one place.
-enum class Sight : std::uint8_t {
-  kNothing,  ///< Out of view, or between what the beams can tell.
-  kThere,    ///< Something was echoed from here.
-  kThrough,  ///< The beams went on beyond it.
-  kHidden,   ///< Something nearer is in the way.
-  kEmpty,    ///< Near enough for most things to be echoed, and nothing was: neither from here nor from beyond.
-};
-
-struct SightOfPlace {
-  Sight sight = Sight::kNothing;
-  std::size_t beam = 0;  ///< That tells it.
-};
-
-/// Where the beams of one scan ended, in odom, with the means to ask what lies in a direction. Owns what it tells of.
-class PolarView {
- public:
-  PolarView() = default;
-  explicit PolarView(const flow::SegmentedScan& scan) { look_at(scan); }
-  /// In the memory of the last one.
-  void look_at(const flow::SegmentedScan& scan);
-
-  std::size_t beam_count() const { return range_m_.size(); }
-  const Eigen::Vector2d& point_in_odom_m(std::size_t beam) const { return points_in_odom_m_[beam]; }
-  const Eigen::Vector2d& laser_in_odom_m() const { return laser_in_odom_m_; }
-  double range_m(std::size_t beam) const { return static_cast<double>(range_m_[beam]); }
-  double beam_step_rad() const { return beam_step_rad_; }   ///< Positive.
-  bool goes_all_round() const { return goes_all_round_; }
-  /// The beam so many steps on; none beyond the ends of the field of view, if it has any.
-  std::optional<std::size_t> neighbour_of(std::size_t beam, long steps) const;
-  /// Steps from one beam on to another, across the seam of a scan that goes all round if that is the way; as many as there are
-  /// beams where there is none.
-  std::size_t steps_between(std::size_t from, std::size_t to) const;
-
-  /// Worth it for a scan of which much is asked: sight_of() answers the same, mostly without looking at single beams.
-  void measure_depths();
-
-  /// What this scan says about a place; consistency as in Wang 2004, Section 6.2, but between two scans, so that errors of
-  /// the map do not count.
-  SightOfPlace sight_of(const Eigen::Vector2d& point_in_odom_m) const;
-
-  /// Whether any echo that counts lies so near to a place.
-  bool any_echo_near(const Eigen::Vector2d& point_in_odom_m, double within_m, const std::function<bool(std::size_t beam)>& counts) const;
-
-  /// Direction in steps from beam 0, ascending with the beams; within half a turn of the middle of the field of view.
-  double steps_towards(double direction_in_odom_rad) const;
-
-  /// Time from the scan's stamp to the firing of a beam.
-  double delay_s(std::size_t beam) const { return sensing::beam_delay_s(sweep_s_, beam, beam_count()); }
-  /// The same of the beam that points at a place, or comes nearest to doing so.
-  double delay_towards_s(const Eigen::Vector2d& point_in_odom_m) const;
-
-  /// Number of the beam nearest to the direction of a way in odom, which may be none of the scan's: steps_towards() rounded,
-  /// mostly without its arctangent.
-  long beam_towards(const Eigen::Vector2d& way) const;
-
- private:
-  bool may_have_met(long middle, double distance_m, double within_m) const;
-  static constexpr std::size_t kNoBeam = static_cast<std::size_t>(-1);
-  std::size_t beam_that_met(const Eigen::Vector2d& point_in_odom_m, long middle, double within_m) const;
-
-  std::vector<Eigen::Vector2d> points_in_odom_m_;
-  /// Between which distances from the laser all lies that was met about each beam; nearest > farthest where nothing was. Empty
-  /// where not measured.
-  std::vector<double> nearest_m_;
-  std::vector<double> farthest_m_;
-  std::vector<float> range_m_;
-  Eigen::Vector2d laser_in_odom_m_;
-  double first_beam_in_odom_rad_ = 0.0;
-  double beam_step_rad_ = 0.0;
-  double beams_per_rad_ = 0.0;
-  double sweep_s_ = 0.0;
-  double half_view_rad_ = 0.0;
-  double middle_of_view_rad_ = 0.0;   ///< In odom, counted as the beams go.
-  bool is_clockwise_ = false;
-  bool goes_all_round_ = false;
-};
-
-/// The current scan in odom. Refers to the scan, which must be there for as long as it is asked.
+/// The current scan in odom. Refers to the scan, which must outlive the use of this.
 class ScanView {
  public:
   ScanView() = default;
   explicit ScanView(const flow::SegmentedScan& scan) { look_at(scan); }
-  /// In the memory of the last one.
+  /// Replaces the scan; reuses the memory.
   void look_at(const flow::SegmentedScan& scan);
 
   const flow::SegmentedScan& scan() const { return *scan_; }
@@ -112,19 +33,19 @@ class ScanView {
   const Eigen::Vector2d& point_in_odom_m(std::size_t beam) const { return polar_.point_in_odom_m(beam); }
   const Eigen::Vector2d& laser_in_odom_m() const { return polar_.laser_in_odom_m(); }
   double beam_step_rad() const { return polar_.beam_step_rad(); }   ///< Positive.
-  /// Segment of the beam's echo; kNone without echo.
+  /// Segment of the beam's echo; kNone without an echo.
   std::size_t segment_of_beam(std::size_t beam) const { return segment_of_beam_[beam]; }
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// So many beams on from one, clipped to the scan.
+  /// A run of beams, clipped to the scan.
   struct Directions {
     std::size_t first = 0;
     std::size_t count = 0;
   };
-  /// Those that point at the body.
-  Directions directions_of(const Body& body, const Eigen::Vector2d& centre_m, double margin_m) const;
+  /// Those that point at the footprint.
+  Directions directions_of(const Footprint& footprint, const Eigen::Vector2d& centre_m, double margin_m) const;
 
-  Visibility visibility_of(const Body& body, const Eigen::Vector2d& centre_m) const;
+  Visibility visibility_of(const Footprint& footprint, const Eigen::Vector2d& centre_m) const;
 
  private:
   const flow::SegmentedScan* scan_ = nullptr;
@@ -132,8 +53,8 @@ class ScanView {
   std::vector<std::size_t> segment_of_beam_;
 };
 
-/// What lies beside the echo of a beam, `step` (+1 or -1) beams on. An echo as far away as it that is not known to stand still hides
-/// the end, too: the body may go on there, as another segment. size_scale: of all lengths, against those of real road users.
+/// What is beside the echo of a beam, `step` (+1 or -1) beams on. An equally distant echo that is not known to be stationary hides the
+/// end, too: the object may continue there as another segment. size_scale: of all lengths, relative to real road users.
 Edge edge_beyond(const ScanView& view, std::size_t beam, int step, double size_scale);
 
 }  // namespace slammot::tracking

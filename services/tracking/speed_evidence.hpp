@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include <Eigen/Core>
@@ -8,17 +9,24 @@
 
 namespace slammot::tracking {
 
-/// How fast something seems to go along a direction, and how surely.
+/// Speed along a direction, and its sigma.
 struct SpeedEvidence {
   double speed_mps = 0.0;
   double sigma_mps = 0.0;
 };
 
-/// Speed along a direction (unit length, in odom) of what sends these echoes (in odom, at stamp_ns), from where earlier
-/// scans saw through and where they had echoes: had it that speed, its echoes would have come from there. Needs neither ends
-/// nor shape of the object, so that a flank of which an unknown part is hidden says no more than it can. fastest_mps: no
-/// faster ones are tried; own: whose echoes they are; without a past the speed is 0, one sigma half of that. Cost: 3 scans, 29 speeds, 8 echoes.
-SpeedEvidence speed_along(const Eigen::Vector2d& direction, std::span<const Eigen::Vector2d> echoes_m, std::int64_t stamp_ns,
-                          const ScanHistory& history, double fastest_mps, flow::TrackId own);
+/// The echoes of an object that moves along a known direction.
+struct DirectedEchoes {
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();   ///< Unit vector, in odom.
+  std::span<const Eigen::Vector2d> points_m;              ///< In odom; at least one.
+  std::int64_t stamp_ns = 0;                              ///< Of their scan.
+  flow::TrackId own;                                      ///< The track of the echoes.
+};
+
+/// Speed along the direction by earlier scans. For each speed the echoes are moved back to earlier scans: places that those saw through
+/// speak against the speed, places with echoes for it. Needs neither ends nor shape of the object, so that a partly hidden flank is no
+/// more certain than it can be. fastest_mps: of the search. Without earlier scans the speed is 0 with a sigma of half of fastest_mps. Cost:
+/// 3 scans x 29 speeds x 8 echoes.
+SpeedEvidence speed_along(const DirectedEchoes& echoes, const ScanHistory& history, double fastest_mps);
 
 }  // namespace slammot::tracking

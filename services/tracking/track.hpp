@@ -1,309 +1,60 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
-#include "common/filters/imm.hpp"
-#include "common/filters/move_stop.hpp"
-#include "common/flow/scan_labels.hpp"
-#include "common/flow/segmented_scan.hpp"
-#include "common/flow/tracked_objects.hpp"
-#include "common/memory/recycling_queue.hpp"
-#include "services/tracking/body.hpp"
+#include "common/flow/ids.hpp"
+#include "services/tracking/existence.hpp"
+#include "services/tracking/extent.hpp"
+#include "services/tracking/history.hpp"
+#include "services/tracking/kinematics.hpp"
 #include "services/tracking/object_class.hpp"
-#include "services/tracking/road_users.hpp"
-#include "services/tracking/scan_view.hpp"
 #include "services/tracking/tracking_config.hpp"
 
 namespace slammot::tracking {
 
-/// Echoes that say that an object has moved, comparing scans, and such that say that it stood.
-struct MotionEvidence {
-  double moved = 0.0;
-  double stood = 0.0;
-  double undecided = 0.0;
-};
-
-/// Echoes since something was first seen, and of them such as say where it has been.
-struct EchoesOfYouth {
-  double seen = 0.0;
-  double in_free_space = 0.0;  ///< That contradict the map: from where it has seen through.
-  double stood = 0.0;          ///< From where an earlier scan had an echo, too.
-};
-
-/// Where a scan put the centre of a body.
-struct MeasuredCentre {
-  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
-};
-
-/// A glimpse and what it refers to, for later.
-struct KeptGlimpse {
-  std::int64_t stamp_ns = 0;                 ///< Of its beams, not of the scan.
-  std::vector<Eigen::Vector2d> points_m;     ///< Of the glimpse, whose own may be gone.
-  Glimpse glimpse;
-  Eigen::Matrix2d pose_covariance_m2 = Eigen::Matrix2d::Zero();
-
-  /// The glimpse of the points that are kept, for as long as they are.
-  Glimpse with_points() const;
-};
-
-/// How many of the beams between the outermost echoes of a thing were not answered, of the last moments.
-struct Answers {
-  double missed = 0.0;
-  double asked = 0.0;
-
-  /// Of the beams that meet it; before anything is known, few. At most 1.
-  double unanswered_share() const;
-};
-
-/// The last glimpses of something, in the order in which they were added.
-class KeptGlimpses {
- public:
-  static constexpr std::size_t kMost = 40;  ///< The oldest of more go.
-
-  void add(std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2);
-  void clear() { kept_.clear(); }
-  std::size_t size() const { return kept_.size(); }
-  /// 0: the oldest.
-  const KeptGlimpse& operator[](std::size_t i) const { return kept_[i]; }
-
- private:
-  memory::RecyclingQueue<KeptGlimpse> kept_;
-};
-
-/// How well the echoes of the last moments agree with the body.
-struct Agreement {
-  double off_sides_m = 0.0;  ///< Mean distance of echoes from its nearest side,
-  double surprise2 = 0.0;    ///< squared Mahalanobis distance of the measured centre from the predicted one.
-  double weight = 0.0;       ///< In scans.
-};
-
-/// How far who walks is off the middle of what is seen of them: much where it is legs, little where it is a coat. Of the published
-/// covariance only: gates must let pass the step of one who meets another.
-struct Gait {
-  std::optional<double> variance_m2;  ///< Along each axis; none as long as nothing is known.
-};
-
-/// How far sides and course are off the heading that the body is held to have, against what its filter takes for their noise: that
-/// holds for round and far bodies in bends, and is far too much for a long flank on a straight road. Of the published covariance only.
-struct Steadiness {
-  double share = 1.0;   ///< Of the variance, in the last moments.
-};
-
-/// Beams that went through the inside of a body, and its echoes, a scan: through what is drawn around a part of it and something
-/// else, or around several who walk, beams go.
-struct Passage {
-  double through = 0.0;  ///< In the last moments.
-  double met = 0.0;
-
-  double share() const { return through / std::max(1.0, through + met); }
-};
-
-/// How far echoes lay off the sides of a body, since it was confirmed.
-struct OffSides {
-  double shares = 0.0;   ///< Sum, an echo, of the share of what the settings take for it near by,
-  double echoes = 0.0;   ///< of so many
-  int scans = 0;         ///< in so many scans.
-};
-
-constexpr double kFastestWalkMps = 2.7;  ///< Who walks is slower than this.
-
-/// Points of a track in a scan.
-struct PastPoints {
-  std::size_t scanner = 0;                   ///< Whose scan it was, as the tracker counts them.
-  flow::RestoredPoints points;
-};
-
-/// One object that is followed, or supposed to be one.
+/// One object that is followed, or a hypothesis of one.
 struct Track {
   flow::TrackId track_id;
-  filters::ImmState motion;
-  filters::MotionState estimate;             ///< Of the modes together, as of the last predict or update,
-  double after_stamp_s = 0.0;                ///< and so long after the scan's stamp: when the beam that points at it was fired.
-  filters::MoveStop move_stop;               ///< Whether it moves or stands; the estimate is that of the move hypothesis.
-  std::optional<MeasuredCentre> measured;    ///< In the current scan, if it was seen.
-  Eigen::Vector2d shifted_m = Eigen::Vector2d::Zero();  ///< By which the centre was moved in it, the same object drawn otherwise.
-  Gait gait;                                 ///< Of who walks.
-  Steadiness steadiness;                     ///< Of what has sides.
-  Agreement agreement;                       ///< Of the echoes with the body.
-  Passage passage;                           ///< Of what is drawn as a vehicle.
-  OffSides off_sides;                        ///< Of the same.
-  double range_m = 0.0;                      ///< From the laser, when it was last seen.
-  double surprise_m = 0.0;                   ///< How far the last measured centre was from where it had been predicted.
-  double askew_s = 0.0;                      ///< For which nothing but its echoes, which lie off its sides, have kept it from being confirmed.
-  double refused_s = 0.0;                    ///< For which its echoes have been too far from where it must be.
-  bool may_turn = false;                     ///< Whether turning is one of its modes,
-  bool walks_on = false;                     ///< and whether cruising is the only one; as of the last predict.
-  Body body;
-  double score = 0.0;                        ///< Log-odds of existence; Wang 2004, Eq. (5.2).
-  bool confirmed = false;
-  flow::Motion state = flow::Motion::kMoving;
-  flow::ObjectClass object_class = flow::ObjectClass::kUnknown;  ///< The likeliest
-  flow::ClassProbabilities class_probability = {};               ///< of these.
-  SpeedsSeen speeds;                         ///< Since it was confirmed.
-  int hits = 0;                              ///< Scans with echoes from it,
-  int moving_hits = 0;                       ///< and such that contradicted the map.
-  std::int64_t first_seen_ns = 0;
-  std::int64_t last_seen_ns = 0;
-  Eigen::Vector2d birth_position_m = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d birth_covariance_m2 = Eigen::Matrix2d::Identity();
-  MotionEvidence evidence;                   ///< Of the last moments, faded.
-  EchoesOfYouth youth_echoes;                ///< Until it was confirmed.
-  std::int64_t last_moving_ns = 0;           ///< When it was last faster than something that stands.
-  double way_m = 0.0;                        ///< That it has come since it was confirmed, in steps that are more than jitter.
-  Eigen::Vector2d anchor_m = Eigen::Vector2d::Zero();  ///< Where it last got away from;
-  double claimed_m = 0.0;                    ///< the way that it says to have gone since.
-  bool is_refuted = false;                   ///< Earlier scans do not agree with its velocity.
-  std::int64_t known_since_ns = 0;           ///< When its velocity was last known again, after it was too little known to be published.
-  Answers answers;
-  double echoes = 0.0;                       ///< A scan, in the last moments.
-  double mapped_share = 0.0;                 ///< Of the last moments, in which its echoes came from where the map has something.
-  double without_progress_s = 0.0;           ///< Since the anchor was moved.
-  double largest_extent_m = 0.0;
-  double outgrown_s = 0.0;                   ///< For which someone long known to walk has been given more echoes than one has.
-  std::vector<Eigen::Vector2f> contour_in_odom_m;
-  KeptGlimpses youth;                        ///< What was seen of it until it was confirmed.
-  memory::RecyclingQueue<PastPoints> past;   ///< Points of a track not yet confirmed, newest last.
-  std::size_t scanner = 0;                   ///< The last one that had it in its field of view.
-  double since_look_s = 0.0;                 ///< Since a scan that had it in its field of view.
+  Kinematics kinematics;
+  Extent extent;
+  Existence existence;
+  Classification classification;
+  History history;
 
-  Eigen::Vector2d position_m() const { return estimate.mean.head<2>(); }
-  Eigen::Vector2d velocity_mps() const { return estimate.mean.segment<2>(2); }
-  Eigen::Matrix2d position_covariance_m2() const { return estimate.covariance.topLeftCorner<2, 2>(); }
-  Eigen::Matrix2d velocity_covariance() const { return estimate.covariance.block<2, 2>(2, 2); }
+  Eigen::Vector2d position_m() const { return kinematics.position_m(); }
+  Eigen::Vector2d velocity_mps() const { return kinematics.velocity_mps(); }
+  bool is_confirmed() const { return existence.confirmed; }
+  const Footprint& footprint() const { return extent.footprint(); }
 };
 
-/// After another glimpse, time_s after the one before, with so many echoes and so many beams between them without.
-Answers with_answers(Answers answers, std::size_t echoes, int gaps, double time_s);
-
-/// Cruising and manoeuvring: the modes of everything.
-filters::ModelSet motion_models(const TrackingConfig& config);
-
-/// One sigma of how far the velocity of a body with sides points off its length, as a share of the speed,
-constexpr double kSlip = 0.08;
-/// and besides, for the middle that is followed need not be the one about which it turns.
-constexpr double kSlipMps = 0.3;
-
-/// A body's axis is known from its sides where its variance is less.
-constexpr double kKnownAxisRad2 = 0.02;
-
-/// Log-odds at which it is sure which side of a body is its flank: twenty to one.
-constexpr double kSureOdds = 3.0;
-
-/// Whether it has sides, and is no bicycle.
+/// True for a box that is not a bicycle.
 bool is_vehicle(const Track& track);
 
-/// Whether somebody is surely on foot, by the sizes and speeds that were seen of them until now: they go on to be for as long as the
-/// filter says that they fly (docs/decisions/motion-models.md), and get no sides: what is larger around them is company, or a wall (docs/decisions/existence-and-publication.md).
-bool is_known_to_walk(const Track& track);
+/// Largest speed of a pedestrian [m/s].
+inline constexpr double kFastestWalkMps = 2.7;
 
-/// Variance along each axis that the swing of the legs adds to a centre measured after_s (> 0) after the one before. The filter
-/// takes the errors of all scans for independent; these fade exponentially, and so the closer scans follow each other the more
-/// each has to add for the mean of many to be as uncertain as it is.
-double gait_variance_m2(double after_s, const TrackingConfig& config);
+/// True for a confirmed track that is certainly a pedestrian by the sizes and speeds observed so far. Stays true while the filter
+/// overestimates the speed (docs/decisions/motion-models.md). Such a track never becomes a box: larger echoes around it are companions or a wall (docs/decisions/existence-and-publication.md).
+bool is_known_pedestrian(const Track& track);
 
-/// With one more scan, in which the centre was measured so far from where it had been predicted, with this noise besides, time_s after
-/// the one before.
-Gait with_step(const Gait& before, const Eigen::Vector2d& surprise_m, const Eigen::Matrix2d& noise_m2, double time_s, const TrackingConfig& config);
+/// True for a known pedestrian, and for any small and slow blob: its measured centre moves with the gait.
+bool may_be_pedestrian(const Track& track);
 
-/// With one more heading that was so far off the one held, with this variance of both together, time_s after the one before.
-Steadiness with_heading(const Steadiness& before, double off_rad, double variance_rad2, double time_s);
+/// Moves the reference point of the position in all parts of the track; the velocity stays. The estimate is the caller's to combine.
+void shift(Track& track, const Eigen::Vector2d& by_m, const TrackingConfig& config);
 
-/// With one more scan, time_s after the one before, in which so many beams went through the inside of the body and so many met it.
-Passage with_beams(const Passage& before, int through, std::size_t met, double time_s);
-
-/// A supposed object at these echoes, at rest as far as known. box_heading_rad: of the longer visible side. done_with: a track that
-/// has ended, of which nothing but memory is used. It refers to the road users for as long as it is followed.
-Track begun(flow::TrackId track_id, std::int64_t stamp_ns, const Glimpse& glimpse, double box_heading_rad,
-            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config, const RoadUsers& road_users = kRoadUsersAnywhere, Track done_with = {});
-
-/// Moves the track over time_s >= 0.
+/// Predicts kinematics and heading over time_s >= 0, and selects the motion modes.
 void predict(Track& track, double time_s, const TrackingConfig& config);
 
-/// Corrects position, velocity, heading, size and motion state by the echoes that are its own. False, and nothing but the
-/// heading changed, where they are too far from where a confirmed track must be.
-bool update(Track& track, std::int64_t stamp_ns, const Glimpse& glimpse, const Eigen::Matrix2d& pose_covariance_m2,
-            const TrackingConfig& config);
-
-/// The one of two bodies with sides of which the echoes neither lie on its sides nor come from where it was predicted, if those of
-/// the other do: of two that are drawn over each other the wrong one, however old. Null if neither or both are so.
-const Track* drawn_wrong(const Track& a, const Track& b, const TrackingConfig& config);
-
-/// Whether the velocity is known well enough to be published.
+/// True if the velocity is known well enough to be published.
 bool has_published_velocity(const Track& track, const TrackingConfig& config);
 
-/// It is something, and moves: what it is follows from the speed that it has, too.
+/// Updates the class by the present speed, if known, and the sizes.
+void update_class(Track& track, double time_s, const TrackingConfig& config);
+
+/// Marks the track as an object that moves, and classifies it by its present speed.
 void confirm(Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
-
-/// The same motion, of a body drawn anew around these echoes: what was followed was a piece of it.
-void draw_around(Track& track, const Glimpse& glimpse, const TrackingConfig& config);
-
-/// The same once nothing but its echoes, which lie off its sides, have kept it from being confirmed for a while: what hardly answers is begun
-/// around a few echoes that lie anyhow, and never gets rid of that body. docs/decisions/existence-and-publication.md.
-void draw_anew_if_askew(Track& track, const Glimpse& glimpse, double time_s, const TrackingConfig& config);
-
-/// The same place, and another velocity.
-void restart_motion(Track& track, const Eigen::Vector2d& velocity_mps, double sigma_mps, const TrackingConfig& config);
-
-/// Moves from now on as this says.
-void move_as(Track& track, const filters::MotionState& state, const TrackingConfig& config);
-
-/// Score after a scan with echoes, most of them in segments of this label, time_s after the one before.
-void score_hit(Track& track, flow::PointLabel label, const MotionEvidence& evidence, double time_s, const TrackingConfig& config);
-
-/// Score after time_s without echoes where it was predicted; what hides it excuses it.
-void score_miss(Track& track, const Visibility& visibility, double time_s, const TrackingConfig& config);
-
-/// Whether something has been, ever since it was first seen, where the map has seen through, and next to nothing of it where an
-/// earlier scan had an echo: it has come there, even if the scans that tracking keeps had no view of the place. Of echoes fewer
-/// than three this tells nothing, nor where only people move.
-bool is_out_of_nowhere(const Track& track, const TrackingConfig& config);
-
-/// Score of a body with sides of which there were so many echoes, and through the inner part of which beams have passed: more of
-/// them than echoes say that it is not there, or not such. What the map contradicts is something all the same, drawn too large.
-void score_passed(Track& track, const Visibility& inner_part, std::size_t echoes, const TrackingConfig& config);
-
-/// The part of the body that is filled even if size and place are off by a standard deviation, the place either way.
-Body inner_part_of(const Track& track);
-
-/// Whether what has been seen suffices to publish the track as an object that moves.
-bool has_proven_to_move(const Track& track, const TrackingConfig& config);
-
-/// Whether it would, but that its echoes do not lie on its sides. docs/decisions/existence-and-publication.md.
-bool is_drawn_askew(const Track& track, const TrackingConfig& config);
-
-/// Whether a track so old is no longer waited for to prove that it moves. What has travelled, and is surely fast, lacks but votes, or
-/// does not know its speed well enough yet: it is waited for twice as long.
-bool is_given_up(const Track& track, double age_s, const TrackingConfig& config);
-
-/// Whether it says to move and stays where it is: something that stands, seen now here, now there.
-bool contradicts_itself(const Track& track, const TrackingConfig& config);
-
-/// Whether a confirmed track has stood, or gone unseen, for longer than the way that it has come speaks for. A vehicle that has come
-/// least_travel_to_stand_m stands for as long as it is seen: it waits, or is parked.
-bool is_held_never_to_have_moved(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
-
-/// The track as it is published. done_with: an object that nobody needs any more, of which nothing but memory is used.
-flow::TrackedObject described(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config, flow::TrackedObject done_with = {});
-
-/// A track as far as what was published of it tells.
-Track resumed(const flow::TrackedObject& object, const TrackingConfig& config);
-
-/// Adds the sizes of something of which they are surely known.
-void note_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
-
-/// Adds how far echoes lay off the sides of a vehicle that was followed for long enough.
-void note_off_sides(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
-
-/// Adds how far somebody who walked for long enough was off the middle of what was seen of them.
-void note_swing(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
-
-double existence_of(double score);
 
 }  // namespace slammot::tracking

@@ -69,14 +69,14 @@ void TrackingService::begin_drive(const flow::SegmentedScan& first) {
   tracker_ = Tracker(config_);
   last_results_.clear();
   drive_ = drive_of(first);
-  if (stored_ && drive_of(*stored_) == drive_) take_up(first.stamp_ns);
+  if (stored_ && drive_of(*stored_) == drive_) resume(first.stamp_ns);
   stored_.reset();
 }
 
-void TrackingService::take_up(std::int64_t stamp_ns) {
+void TrackingService::resume(std::int64_t stamp_ns) {
   const std::int64_t absence_ns = stamp_ns - stored_->stamp_ns;
   if (absence_ns < 0 || absence_ns > kLongestAbsenceNs) return;
-  tracker_.take_up(*stored_);
+  tracker_.resume(*stored_);
   ++context_.status().counter("taken_up");
   spdlog::info("takes up {} tracks", stored_->objects.size());
 }
@@ -91,7 +91,7 @@ void TrackingService::track(const flow::SegmentedScan& scan) {
   }
   const app::Stopwatch stopwatch(context_.status().latency("track"));
   TrackingResult& result = last_results_[scan.scanner_id];
-  result = tracker_.track(scan, std::move(result));
+  result = tracker_.step(scan);
   publish(result);
 }
 

@@ -33,7 +33,7 @@ class TrackingService {
   void take_stored(const slammot_TrackedObjects& sample);
   void begin();
   void begin_drive(const flow::SegmentedScan& first);
-  void take_up(std::int64_t stamp_ns);
+  void resume(std::int64_t stamp_ns);
   void track(const flow::SegmentedScan& scan);
   void publish(const TrackingResult& result);
 

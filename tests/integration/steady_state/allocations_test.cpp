@@ -86,7 +86,6 @@ TEST(Allocations, AreNotMadeByDetectionAndTracking) {
   detection::Detector detector{{}};
   tracking::Tracker tracker{{}};
   flow::SegmentedScan segmented;
-  tracking::TrackingResult result;
   std::size_t of_all = 0;
   for (int number = 0; number < kScans; ++number) {
     testing::Street street{{{{60.0, 0.0, 0.0}, 1.0, 120.0}}, {}, {}};
@@ -94,7 +93,7 @@ TEST(Allocations, AreNotMadeByDetectionAndTracking) {
     const flow::LocalizedScan scan = street.scan(number * 26'666'667LL, static_cast<std::uint32_t>(number));
     const std::size_t of_this = allocations_of([&] {
       segmented = detector.detect(scan, std::move(segmented));
-      result = tracker.track(segmented, std::move(result));
+      tracker.step(segmented);
     });
     if (number >= kUntilSteady) of_all += of_this;
   }
@@ -112,7 +111,6 @@ TEST(Allocations, AreFewOnADriveThroughTraffic) {
   tracking::Tracker tracker{{}};
   flow::LocalizedScan localized_done_with;
   flow::SegmentedScan segmented;
-  tracking::TrackingResult tracked;
   std::size_t of_all = 0;
   for (int number = 0; number < kScansBefore + kScans; ++number) {
     const std::optional<simulation::SimulatedScan> now = drive.next();
@@ -121,7 +119,7 @@ TEST(Allocations, AreFewOnADriveThroughTraffic) {
       localizer.add_odometry(now->odometry);
       std::optional<flow::LocalizedScan> localized = localizer.localize(now->scan, std::move(localized_done_with));
       segmented = detector.detect(*localized, std::move(segmented));
-      tracked = tracker.track(segmented, std::move(tracked));
+      const tracking::TrackingResult& tracked = tracker.step(segmented);
       localizer.expect(tracked.objects);
       localizer.integrate(tracked.labels);
       localized_done_with = *std::move(localized);

@@ -109,7 +109,7 @@ void deskew_and_match_in_a_city(benchmark::State& state) {
     if (is_timed) match(*now);
     localizer.add_odometry(now->odometry);
     const auto localized = localizer.localize(now->scan);
-    const tracking::TrackingResult tracked = tracker.track(detection::detect(*localized, {}));
+    const tracking::TrackingResult tracked = tracker.step(detection::detect(*localized, {}));
     localizer.expect(tracked.objects);
     localizer.integrate(tracked.labels);
     last = *localized;

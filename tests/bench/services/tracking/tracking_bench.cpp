@@ -41,18 +41,16 @@ void track_traffic(benchmark::State& state) {
   for (int step = 0; step < 60; ++step) scans.push_back(detection::detect(scan_of_traffic(static_cast<int>(state.range(0)), step), {}));
   std::size_t next = scans.size();
   tracking::Tracker tracker{{}};
-  tracking::TrackingResult result;
   std::vector<double> times_us;
   for (auto _ : state) {
     if (next == scans.size()) {
       state.PauseTiming();
       tracker = tracking::Tracker{{}};
-      for (next = 0; next < 20; ++next) result = tracker.track(scans[next], std::move(result));  // until they are confirmed
+      for (next = 0; next < 20; ++next) tracker.step(scans[next]);  // until they are confirmed
       state.ResumeTiming();
     }
     const auto start = std::chrono::steady_clock::now();
-    result = tracker.track(scans[next++], std::move(result));
-    benchmark::DoNotOptimize(result);
+    benchmark::DoNotOptimize(tracker.step(scans[next++]).objects.objects.data());
     times_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
   }
   state.counters["p50_us"] = testing::percentile(times_us, 0.5);

@@ -67,10 +67,10 @@ Answer shift_after(const std::function<std::vector<StreetBox>(double)>& boxes_at
 }
 
 TEST(FaceShift, TellsHowFarTheRearOfACarAheadHasComeThatCreepsOff) {
-  const auto way_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 1.2), 2); };  // 0.3 m by now, 0.08 m 0.4 s ago
-  const Answer answer = shift_after([&](double t) { return std::vector<StreetBox>{{{14.0 + way_m(t), 0.0, 0.0}}}; }, {12.0, 0.0});
+  const auto travelled_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 1.2), 2); };  // 0.3 m by now, 0.08 m 0.4 s ago
+  const Answer answer = shift_after([&](double t) { return std::vector<StreetBox>{{{14.0 + travelled_m(t), 0.0, 0.0}}}; }, {12.0, 0.0});
   ASSERT_TRUE(answer.shift_m);
-  EXPECT_NEAR(answer.shift_m->x(), way_m(2.0) - way_m(1.6), 0.03);
+  EXPECT_NEAR(answer.shift_m->x(), travelled_m(2.0) - travelled_m(1.6), 0.03);
   EXPECT_NEAR(answer.shift_m->y(), 0.0, 0.02);
   EXPECT_GT(answer.beams, 10U);
 }

@@ -15,21 +15,20 @@ using flow::ObjectClass;
 const TrackingConfig kStreet;
 
 /// A box of which both sizes were seen from edge to edge, as well as sigma_m says.
-Body box_of(double length_m, double width_m, double sigma_m = 0.1) {
-  Body body;
-  body.has_sides = true;
-  body.is_oriented = true;
+Box box_of(double length_m, double width_m, double sigma_m = 0.1) {
+  Box box;
+  box.is_oriented = true;
   const auto surely = [&](double size_m) { return std::max(0.0, size_m - 2.0 * sigma_m); };
-  body.length_evidence = {surely(length_m), {length_m, sigma_m * sigma_m}};
-  body.width_evidence = {surely(width_m), {width_m, sigma_m * sigma_m}};
-  return with_likely_sizes(body, kStreet);
+  box.evidence.length = {surely(length_m), {length_m, sigma_m * sigma_m}};
+  box.evidence.width = {surely(width_m), {width_m, sigma_m * sigma_m}};
+  return with_likely_sizes(box, kStreet);
 }
 
-Body blob_of(double extent_m, bool was_seen_whole = true) {
-  Body body;
-  body.was_seen_whole = was_seen_whole;
-  body.length = body.width = {extent_m, 1.0};
-  return body;
+Blob blob_of(double extent_m, bool was_seen_whole = true) {
+  Blob blob;
+  blob.was_seen_whole = was_seen_whole;
+  blob.length = blob.width = {extent_m, 1.0};
+  return blob;
 }
 
 SpeedsSeen held(double speed_mps, double seconds, SpeedsSeen speeds = {}) {
@@ -55,7 +54,7 @@ TEST(ObjectClass, IsAsOpenAsTheSizesAre) {
 }
 
 TEST(ObjectClass, HasProbabilitiesThatAddUp) {
-  for (const Body& body : {box_of(4.4, 1.8), box_of(30.0, 0.1), blob_of(0.5), blob_of(50.0)}) {
+  for (const Outline& body : {Outline(box_of(4.4, 1.8)), Outline(box_of(30.0, 0.1)), Outline(blob_of(0.5)), Outline(blob_of(50.0))}) {
     for (const double speed_mps : {0.0, 1.4, 200.0}) {
       const ClassProbabilities probability = class_probabilities(body, held(speed_mps, 5.0), kStreet);
       EXPECT_NEAR(std::accumulate(probability.begin(), probability.end(), 0.0), 1.0, 1e-12);
@@ -64,7 +63,7 @@ TEST(ObjectClass, HasProbabilitiesThatAddUp) {
 }
 
 TEST(ObjectClass, OfSomethingSmallIsToldBySpeedInTime) {
-  const Body small = blob_of(0.55);
+  const Blob small = blob_of(0.55);
   EXPECT_EQ(likeliest_class(class_probabilities(small, held(1.4, 2.0), kStreet)), ObjectClass::kPedestrian);
   EXPECT_EQ(likeliest_class(class_probabilities(small, held(4.5, 4.0), kStreet)), ObjectClass::kBicycle);
   const double soon = of(ObjectClass::kBicycle, class_probabilities(small, held(3.5, 0.3), kStreet));
@@ -124,7 +123,7 @@ TEST(ObjectClass, CountsSpeedsByTimeAndNotByScans) {
 TEST(ObjectClass, GoesWithTheScaleOfAModelTown) {
   TrackingConfig town;
   town.size_scale = 0.1;
-  Body model = box_of(0.44, 0.18, 0.01);
+  Box model = box_of(0.44, 0.18, 0.01);
   EXPECT_EQ(likeliest_class(class_probabilities(model, with_speed({}, {0.8, 0.02, 1.0}, town), town)), ObjectClass::kCar);
 }
 

@@ -57,7 +57,7 @@ SpeedEvidence evidence_of(const Scene& scene, double speed_mps) {
       const bool is_hit = view.range_m(beam) > 0.0 && std::abs(in_box_m.x()) < 0.5 * box.length_m + 0.1 && std::abs(in_box_m.y()) < 0.5 * box.width_m + 0.1;
       if (is_hit) echoes_m.push_back(view.point_in_odom_m(beam));
     }
-    return speed_along({1.0, 0.0}, echoes_m, stamp_ns, history, kFastestMps, kOwn);
+    return speed_along({{1.0, 0.0}, echoes_m, stamp_ns, kOwn}, history, kFastestMps);
   }
 }
 
@@ -91,7 +91,7 @@ TEST(SpeedEvidence, DoesNotPreferASpeedAtWhichItWouldHaveBeenSeenWhereAnotherHid
 
 TEST(SpeedEvidence, KnowsNothingWithoutAPast) {
   const std::vector<Vector2> echoes_m = {{10.0, 0.0}, {10.0, 0.1}};
-  const SpeedEvidence evidence = speed_along({1.0, 0.0}, echoes_m, kPeriodNs, ScanHistory(), kFastestMps, kOwn);
+  const SpeedEvidence evidence = speed_along({{1.0, 0.0}, echoes_m, kPeriodNs, kOwn}, ScanHistory(), kFastestMps);
   EXPECT_NEAR(evidence.speed_mps, 0.0, 1e-9);
   EXPECT_GT(evidence.sigma_mps, 0.4 * kFastestMps);
 }

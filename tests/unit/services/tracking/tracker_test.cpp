@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "services/detection/detector.hpp"
+#include "tests/support/example_tracks.hpp"
 #include "tests/support/help_at_the_last_moment.hpp"
 #include "tests/support/street.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 using testing::Street;
+using testing::among_people;
 using testing::StreetBox;
 
 constexpr double kPeriodS = 1.0 / 37.5;
@@ -36,7 +38,7 @@ class Play {
   void step(const std::function<void(Street&, double)>& scene) {
     scene(street, now_s());
     const auto stamp_ns = static_cast<std::int64_t>(now_s() * 1e9);
-    result = tracker_.track(detection::detect(street.scan(stamp_ns, sequence_), {}));
+    result = tracker_.step(detection::detect(street.scan(stamp_ns, sequence_), {}));
     ++sequence_;
     for (const flow::TrackedObject& object : confirmed()) ids.insert(object.track_id.value);
   }
@@ -60,21 +62,6 @@ class Play {
   Tracker tracker_;
   std::uint32_t sequence_ = 0;
 };
-
-/// As the profile of a slow robot in a building says.
-TrackingConfig among_people() {
-  TrackingConfig config;
-  config.fastest_mps = 5.0;
-  config.longest_body_m = 2.0;
-  config.longest_unseen_tentative_s = 0.7;
-  config.longest_tentative_s = 3.0;
-  config.moving_hit_score = 1.5;
-  config.least_hits = 4;
-  config.most_score = 5.0;
-  config.contradicted_above_mps = 0.6;
-  config.contradiction_score = -1.0;
-  return config;
-}
 
 /// An open hall of which the map knows nothing, seen at the height of legs 7.5 times a second.
 Play hall() {
@@ -206,31 +193,31 @@ TEST(Tracker, FollowsACarThatStoodInTheMapAndStartsOff) {
 
 TEST(Tracker, NoticesACarAheadThatCreepsOffBeforeItHasComeHalfAMetre) {
   Play play;
-  const auto way_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
-  const auto scene = [&](Street& street, double t) { street.known = {kWall, {{14.0 + way_m(t), 0.0, 0.0}}}; };  // the map learns at once
+  const auto travelled_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
+  const auto scene = [&](Street& street, double t) { street.known = {kWall, {{14.0 + travelled_m(t), 0.0, 0.0}}}; };  // the map learns at once
   play.run(2.0, scene);
   EXPECT_TRUE(play.ids.empty());
   while (play.confirmed().empty() && play.now_s() < 4.0) play.step(scene);
-  EXPECT_LT(way_m(play.now_s() - kPeriodS), 0.5);
+  EXPECT_LT(travelled_m(play.now_s() - kPeriodS), 0.5);
 }
 
 TEST(Tracker, NoticesATruckAheadThatCreepsOffThoughItsBackMightBeAShortFlank) {
   Play play;
-  const auto way_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
-  const auto scene = [&](Street& street, double t) { street.known = {kWall, {{6.6 + way_m(t), 0.0, 0.0}, 7.1, 2.4}}; };
+  const auto travelled_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
+  const auto scene = [&](Street& street, double t) { street.known = {kWall, {{6.6 + travelled_m(t), 0.0, 0.0}, 7.1, 2.4}}; };
   play.run(2.0, scene);
   while (play.confirmed().empty() && play.now_s() < 6.0) play.step(scene);
-  EXPECT_LT(way_m(play.now_s() - kPeriodS), 0.5);
+  EXPECT_LT(travelled_m(play.now_s() - kPeriodS), 0.5);
 }
 
 TEST(Tracker, NoticesACarAheadThatCreepsOffThoughAPostHidesTheMiddleOfItsRear) {
   Play play;
-  const auto way_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
+  const auto travelled_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
   const StreetBox post{{3.0, 0.0, 0.0}, 0.2, 0.36};
-  const auto scene = [&](Street& street, double t) { street.known = {kWall, post, {{9.75 + way_m(t), 0.0, 0.0}}}; };
+  const auto scene = [&](Street& street, double t) { street.known = {kWall, post, {{9.75 + travelled_m(t), 0.0, 0.0}}}; };
   play.run(2.0, scene);
   while (play.confirmed().empty() && play.now_s() < 5.0) play.step(scene);
-  EXPECT_LT(way_m(play.now_s() - kPeriodS), 0.5);
+  EXPECT_LT(travelled_m(play.now_s() - kPeriodS), 0.5);
 }
 
 TEST(Tracker, NoticesSoonThatACarCreepsThatComesIntoView) {
@@ -362,152 +349,6 @@ TEST(Tracker, NoticesACarThatCreepsHoweverFastTheMapLearns) {
   EXPECT_NEAR(play.confirmed().front().velocity_in_odom_mps.y(), 0.0, 0.2);
 }
 
-TEST(Track, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
-  const TrackingConfig config;
-  Track track;
-  track.score = config.confirm_score;
-  track.hits = config.least_hits;
-  track.evidence = {config.sure_moved_votes, 0.0, 0.0};  // a thin post: beams went past it on both sides a moment ago
-  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
-  track.estimate.mean << 1.0, 0.0, 0.5, 0.0, 0.0, 0.0;    // drawn at a stray echo, a metre beside
-  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
-  track.estimate.covariance.block<2, 2>(2, 2) = 0.16 * Eigen::Matrix2d::Identity();
-  EXPECT_FALSE(has_proven_to_move(track, config));
-  track.estimate.mean(2) = 1.0;
-  EXPECT_TRUE(has_proven_to_move(track, config));
-}
-
-/// Something fast that has come far, of which earlier scans could hardly see the places where it was.
-Track out_from_behind_others(const TrackingConfig& config) {
-  Track track;
-  track.score = config.confirm_score;
-  track.hits = config.least_hits;
-  track.echoes = 5.0;
-  track.evidence = {3.0, 0.0, 30.0};
-  track.youth_echoes = {40.0, 36.0, 0.0};
-  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
-  track.estimate.mean << 2.0, 0.0, 8.0, 0.0, 0.0, 0.0;
-  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
-  return track;
-}
-
-TEST(Track, HasMovedByOneVoteIfByTheMapItHasComeOutOfNowhere) {
-  const TrackingConfig config;
-  const Track track = out_from_behind_others(config);
-  EXPECT_TRUE(has_proven_to_move(track, config));
-  Track once = track;
-  once.evidence = {0.9, 0.0, 32.0};
-  EXPECT_TRUE(has_proven_to_move(once, config));
-  Track unmapped = track;  // say, what a van hid for as long as there is a map
-  unmapped.youth_echoes.in_free_space = 20.0;
-  EXPECT_FALSE(has_proven_to_move(unmapped, config));
-  Track standing = track;
-  standing.youth_echoes.stood = 10.0;
-  EXPECT_FALSE(has_proven_to_move(standing, config));
-  Track forgotten = track;  // a wall that the map holds to be free: nothing ever came there
-  forgotten.evidence = {0.0, 0.0, 33.0};
-  EXPECT_FALSE(has_proven_to_move(forgotten, config));
-  Track crumb = track;
-  crumb.echoes = 2.0;
-  EXPECT_FALSE(has_proven_to_move(crumb, config));
-  EXPECT_FALSE(is_out_of_nowhere(track, among_people()));
-}
-
-TEST(Track, IsConfirmedAsSoonAsItCanBePublishedIfItComesOutOfNowhereAsPredicted) {
-  const TrackingConfig config;
-  Track track = out_from_behind_others(config);
-  track.evidence = {20.0, 0.0, 10.0};
-  track.estimate.covariance.block<2, 2>(2, 2) = 0.65 * 0.65 * Eigen::Matrix2d::Identity();
-  track.agreement = {0.05, 0.6, 5.0};
-  EXPECT_TRUE(has_proven_to_move(track, config));
-  Track surprising = track;
-  surprising.agreement.surprise2 = 2.5;
-  EXPECT_FALSE(has_proven_to_move(surprising, config));
-  Track unmapped = track;
-  unmapped.youth_echoes.in_free_space = 20.0;
-  EXPECT_FALSE(has_proven_to_move(unmapped, config));
-}
-
-TEST(Track, IsNotConfirmedAsABodyOnTheSidesOfWhichItsEchoesDoNotLie) {
-  const TrackingConfig config;
-  Track track = out_from_behind_others(config);
-  track.body.has_sides = true;
-  track.agreement = {0.15, 0.6, 5.0};
-  EXPECT_TRUE(has_proven_to_move(track, config));
-  EXPECT_FALSE(is_drawn_askew(track, config));
-  track.agreement.off_sides_m = 0.25;  // say, two who walk, held to be a car
-  EXPECT_FALSE(has_proven_to_move(track, config));
-  EXPECT_TRUE(is_drawn_askew(track, config)) << "nothing else keeps it";
-  track.evidence = {};
-  EXPECT_FALSE(is_drawn_askew(track, config));
-}
-
-TEST(Track, OfWhichOnlyTheSidesAreWrongIsDrawnAnewAfterAWhile) {
-  const TrackingConfig config;
-  Track track = out_from_behind_others(config);
-  track.body.has_sides = true;
-  track.body.heading_rad = 0.7;
-  track.body.length = {4.5, 0.1};
-  track.body.width = {1.8, 0.1};
-  track.agreement = {0.25, 0.6, 5.0};
-  ASSERT_TRUE(is_drawn_askew(track, config));
-  const Eigen::Vector2d along = track.velocity_mps().normalized();
-  std::vector<Eigen::Vector2d> points_m;
-  for (int i = 0; i < 5; ++i) points_m.push_back(track.position_m() + (i - 2.0) * along);  // a flank
-  Glimpse glimpse;
-  glimpse.points_m = points_m;
-  glimpse.beam_step_rad = 0.009;
-  const double drawn_rad = track.body.heading_rad;
-  const auto see_for = [&](double time_s) { for (double s = 0.0; s < time_s; s += kPeriodS) draw_anew_if_askew(track, glimpse, kPeriodS, config); };
-  see_for(0.1);
-  EXPECT_EQ(track.body.heading_rad, drawn_rad);
-  glimpse.points_m = std::span(points_m).first(4);  // around fewer it would be drawn no better
-  see_for(1.0);
-  EXPECT_EQ(track.body.heading_rad, drawn_rad);
-  glimpse.points_m = points_m;
-  see_for(kPeriodS);
-  EXPECT_NEAR(std::abs(std::sin(track.body.heading_rad - std::atan2(along.y(), along.x()))), 0.0, 0.05);
-}
-
-TEST(Track, HasComeFromWhereItWasByTheBodyThatItHasByNow) {
-  const TrackingConfig config;
-  Track track = out_from_behind_others(config);
-  track.body.has_sides = track.body.is_oriented = true;
-  track.body.heading_rad = 0.0;
-  track.body = with_likely_sizes(track.body, config);
-  track.estimate.mean.head<2>() << 28.2, 0.0;
-  track.birth_position_m = {24.0, 0.0};
-  track.birth_covariance_m2 = 9.0 * Eigen::Matrix2d::Identity();  // all that was seen of it was of some side of something
-  EXPECT_FALSE(has_proven_to_move(track, config));
-  std::vector<Eigen::Vector2d> rear;
-  for (double y_m = -0.9; y_m < 0.91; y_m += 0.2) rear.emplace_back(20.0, y_m);
-  Glimpse glimpse;
-  glimpse.points_m = rear;
-  glimpse.beam_step_rad = 0.5 * M_PI / 180.0;
-  track.youth.add(0, glimpse, 1e-4 * Eigen::Matrix2d::Identity());
-  EXPECT_TRUE(has_proven_to_move(track, config));
-}
-
-TEST(Track, ThatSeemsToMoveIsWaitedForTwiceAsLong) {
-  const TrackingConfig config;
-  const Track moving = out_from_behind_others(config);
-  Track slow = moving;
-  slow.estimate.mean.segment<2>(2).setZero();
-  Track here = moving;
-  here.estimate.mean.head<2>().setZero();
-  Track unlikely = moving;
-  unlikely.score = 0.0;
-  const double late_s = config.longest_tentative_s + 0.1;
-  EXPECT_FALSE(is_given_up(moving, late_s, config));
-  EXPECT_TRUE(is_given_up(moving, 2.0 * late_s, config));
-  for (const Track* other : {&slow, &here, &unlikely}) {
-    EXPECT_TRUE(is_given_up(*other, late_s, config));
-    EXPECT_FALSE(is_given_up(*other, config.longest_tentative_s - 0.1, config));
-  }
-  slow.confirmed = true;
-  EXPECT_FALSE(is_given_up(slow, late_s, config));
-}
-
 TEST(Tracker, IsSureOfACarThatComesOutFromBehindABusBeforeEarlierScansTellItsSpeed) {
   Play play;
   const auto scene = [](Street& street, double t) {
@@ -519,38 +360,6 @@ TEST(Tracker, IsSureOfACarThatComesOutFromBehindABusBeforeEarlierScansTellItsSpe
   };
   while (!is_sure() && play.now_s() < 4.0) play.step(scene);
   EXPECT_LT(play.now_s() - kComesOutAtS, 0.23);
-}
-
-TEST(Track, HasComeNoWayByTheJumpThatItHasJustMade) {
-  const TrackingConfig config;
-  Track track;
-  track.score = config.confirm_score;
-  track.hits = config.least_hits;
-  track.evidence = {2.0 * config.least_moved_votes, 0.0, 0.0};
-  track.birth_covariance_m2 = 0.01 * Eigen::Matrix2d::Identity();
-  track.estimate.mean << 0.9, 0.0, 1.5, 0.0, 0.0, 0.0;
-  track.estimate.covariance = 0.01 * filters::Matrix6::Identity();
-  track.surprise_m = 0.7;  // from one leg of a chair to the next
-  EXPECT_FALSE(has_proven_to_move(track, config));
-  track.surprise_m = 0.2;
-  EXPECT_TRUE(has_proven_to_move(track, config));
-}
-
-/// Variance of the mean of `count` errors, of which each keeps so much of the one before; one sigma is 1.
-double variance_of_mean(double kept, int count) {
-  double sum = 0.0;
-  for (int i = 0; i < count; ++i)
-    for (int j = 0; j < count; ++j) sum += std::pow(kept, std::abs(i - j));
-  return sum / (count * count);
-}
-
-TEST(Gait, CountsForAsMuchAsErrorsThatFadeDoTogether) {
-  const TrackingConfig config;
-  for (const double period_s : {1.0 / 75.0, 1.0 / 37.5, 1.0 / 7.5, 0.5}) {
-    const int count = static_cast<int>(std::lround(10.0 / period_s));
-    const double together_m2 = config.gait_noise_m * config.gait_noise_m * variance_of_mean(std::exp(-period_s / config.gait_memory_s), count);
-    EXPECT_NEAR(gait_variance_m2(period_s, config) / count / together_m2, 1.0, 0.03) << period_s;
-  }
 }
 
 TEST(Tracker, DoesNotLetABusOfWhichItSeesTheBackSwingRound) {
@@ -689,12 +498,12 @@ double error_behind_a_container_m(bool formations) {
   config.formations = formations;
   Play play(config);
   const StreetBox container{{10.0, 0.0, M_PI / 2.0}, 4.5, 1.0};
-  const auto way_m = [](double t) {
+  const auto travelled_m = [](double t) {
     const double braking = std::clamp(t - 2.4, 0.0, 2.0);
     return 8.0 * std::min(t, 2.4) + 8.0 * braking - 1.5 * braking * braking + 2.0 * std::max(0.0, t - 4.4);
   };
   constexpr double kApartM = 13.0;
-  const auto y_of = [&](int car, double t) { return -23.0 - kApartM * (car - 1) + way_m(t); };
+  const auto y_of = [&](int car, double t) { return -23.0 - kApartM * (car - 1) + travelled_m(t); };
   const auto scene = [&](Street& street, double t) {
     street.known = {kWall, container};
     street.unknown.clear();
@@ -910,7 +719,7 @@ TEST(Tracker, GoesOnWithTheSameIdsAfterARestart) {
   const auto scene = [](Street& street, double t) { street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}}; };
   play.run(1.5, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
-  play.tracker().take_up(play.result.objects);
+  play.tracker().resume(play.result.objects);
   play.run(1.0, scene);
   EXPECT_EQ(play.confirmed().size(), 1U);
   EXPECT_EQ(play.ids.size(), 1U);
@@ -935,7 +744,7 @@ TEST(Tracker, LabelsAScanFromThePastAsDetectionDid) {
   Play play;
   play.run(0.5, [](Street&, double) {});
   const flow::SegmentedScan old = detection::detect(play.street.scan(0, 0), {});
-  EXPECT_EQ(play.tracker().track(old).labels.labels, old.labels);
+  EXPECT_EQ(play.tracker().step(old).labels.labels, old.labels);
   EXPECT_EQ(play.tracker().counters().late_scans, 1U);
 }
 
@@ -1005,7 +814,7 @@ class PlayBeforeTwo {
     street.unknown = {{{centre_m(now_s).x(), centre_m(now_s).y(), 0.0}, 4.5, 1.8}};
     flow::LocalizedScan scan = street.scan(static_cast<std::int64_t>(now_s * 1e9), sequence_);
     scan.scanner_id = scanner_id;
-    result = tracker_.track(detection::detect(scan, {}));
+    result = tracker_.step(detection::detect(scan, {}));
     EXPECT_EQ(result.labels.scanner_id, scanner_id);
     for (const flow::TrackedObject& object : result.objects.objects) {
       if (!object.confirmed) continue;
@@ -1073,7 +882,7 @@ TEST(Tracker, TakesAScanOfTheSameStampAndScannerForLate) {
   play.run(0.1, [](double) { return Vector2(15.0, 3.0); });
   flow::LocalizedScan again = play.front.scan(play.result.labels.stamp_ns, 99);
   again.scanner_id = "front";
-  play.tracker().track(detection::detect(again, {}));
+  play.tracker().step(detection::detect(again, {}));
   EXPECT_EQ(play.tracker().counters().late_scans, 1U);
 }
 
