@@ -143,6 +143,87 @@ TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
   if (right != nullptr && right != left) EXPECT_TRUE(right->occluded_at_end);
 }
 
+/// Somebody 12 m ahead, where the map has never seen, and how surely its MO-map remembers motion there.
+flow::LocalizedScan scan_of_somebody(float moving_evidence, double width_m = 0.5) {
+  Street street;
+  street.knows_the_open = false;
+  street.unknown = {{{12.0, 0.0, M_PI / 2.0}, width_m, 0.5}};
+  flow::LocalizedScan scan = street.scan(0, 0);
+  for (flow::LocalizedBeam& beam : scan.beams) beam.moving_evidence = moving_evidence;
+  return scan;
+}
+
+PointLabel label_of_somebody(float moving_evidence, double width_m = 0.5) {
+  const flow::SegmentedScan scan = detect(scan_of_somebody(moving_evidence, width_m), {});
+  const flow::Segment* somebody = segment_at(scan, {11.75, 0.0}, 0.2);
+  return somebody == nullptr ? PointLabel::kNoEcho : somebody->label;
+}
+
+TEST(Detector, HoldsForMovingWhatTheMapCannotDecideWhereItRemembersMotion) {
+  const auto least = static_cast<float>(DetectionConfig().least_moving_evidence);
+  EXPECT_EQ(label_of_somebody(0.0F), PointLabel::kUnknown);
+  EXPECT_EQ(label_of_somebody(0.9F * least), PointLabel::kUnknown);
+  EXPECT_EQ(label_of_somebody(1.1F * least), PointLabel::kMoving);
+}
+
+TEST(Detector, HoldsOnlySmallThingsForMovingByWhatTheMapRemembers) {
+  const int most = DetectionConfig().largest_by_moving_evidence;
+  const double beam_m = 11.75 * M_PI / 360.0;
+  EXPECT_EQ(label_of_somebody(1.0F, (most - 2) * beam_m), PointLabel::kMoving);
+  EXPECT_EQ(label_of_somebody(1.0F, (most + 3) * beam_m), PointLabel::kUnknown);
+}
+
+TEST(Detector, TakesTheMeanOfWhatTheMapRemembersOfASegment) {
+  const auto least = static_cast<float>(DetectionConfig().least_moving_evidence);
+  flow::LocalizedScan scan = scan_of_somebody(0.0F);
+  int echoes = 0;
+  for (const flow::LocalizedBeam& beam : scan.beams) echoes += beam.range_m > 0.0F ? 1 : 0;
+  flow::LocalizedBeam& one = *std::ranges::find_if(scan.beams, [](const flow::LocalizedBeam& beam) { return beam.range_m > 0.0F; });
+  one.moving_evidence = 0.9F * least * static_cast<float>(echoes);
+  EXPECT_EQ(detect(scan, {}).segments.front().label, PointLabel::kUnknown);
+  one.moving_evidence = 1.1F * least * static_cast<float>(echoes);
+  EXPECT_EQ(detect(scan, {}).segments.front().label, PointLabel::kMoving);
+}
+
+TEST(Detector, HoldsForStationaryWhatTheMapKnowsThoughItRemembersMotionThere) {
+  Street street;
+  street.known = {{{12.0, 0.0, M_PI / 2.0}, 0.5, 0.5}};
+  flow::LocalizedScan scan = street.scan(0, 0);
+  for (flow::LocalizedBeam& beam : scan.beams) beam.moving_evidence = 1.0F;
+  const flow::SegmentedScan segmented = detect(scan, {});
+  const flow::Segment* post = segment_at(segmented, {11.75, 0.0}, 0.2);
+  ASSERT_NE(post, nullptr);
+  EXPECT_EQ(post->label, PointLabel::kStationary);
+}
+
+geometry::Matrix2 covariance_of_a_car(const Eigen::Vector3d& variances_of_pose, double local_variance_share = 1.0) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}};
+  flow::LocalizedScan scan = street.scan(0, 0);
+  scan.odom_from_base.covariance = variances_of_pose.asDiagonal();
+  scan.local_variance_share = local_variance_share;
+  const flow::SegmentedScan segmented = detect(scan, {});
+  const flow::Segment* car = segment_at(segmented, {19.1, 0.0}, 0.5);
+  return car == nullptr ? geometry::Matrix2(geometry::Matrix2::Zero()) : car->centroid_covariance_m2;
+}
+
+TEST(Detector, IsAsUnsureOfASegmentAsOfTheVehiclesPose) {
+  const geometry::Matrix2 by_scanner = covariance_of_a_car({0.0, 0.0, 0.0});
+  const geometry::Matrix2 by_pose = covariance_of_a_car({0.04, 0.09, 0.0}) - by_scanner;
+  EXPECT_GT(by_scanner.trace(), 0.0);
+  EXPECT_NEAR(by_pose(0, 0), 0.04, 1e-6);
+  EXPECT_NEAR(by_pose(1, 1), 0.09, 1e-6);
+  const geometry::Matrix2 by_heading = covariance_of_a_car({0.0, 0.0, 1e-4}) - by_scanner;
+  EXPECT_NEAR(by_heading(0, 0), 0.0, 1e-6);
+  EXPECT_NEAR(by_heading(1, 1), 1e-4 * 19.1 * 19.1, 1e-3);  // at the end of the lever
+}
+
+TEST(Detector, TakesOfThePosesVarianceWhatIsAgainstTheLocalMap) {
+  const geometry::Matrix2 by_scanner = covariance_of_a_car({0.0, 0.0, 0.0});
+  EXPECT_NEAR((covariance_of_a_car({0.04, 0.09, 0.0}, 0.25) - by_scanner)(1, 1), 0.25 * 0.09, 1e-6);
+}
+
 /// A line square to the vehicle's axis, `distance_m` ahead, thin.
 StreetBox line_ahead(double distance_m, double width_m) { return {{distance_m, 0.0, M_PI / 2.0}, width_m, 0.1}; }
 
