@@ -169,15 +169,16 @@ class Workshop:
         limit_s = max(LEAST_LIMIT_S, self.limit_factor * self.usual_s.get(test, BUILD_LIMIT_S))
         return run_limited([str(self.tree / "build/release/bin" / test), "--gtest_fail_fast", "--gtest_brief=1"], limit_s, cwd=self.tree / "build/release")
 
-    def replay(self, scenario):
-        code, output = self.build("slammot", keeps_objects=False)
+    def replay(self, scenario, keeps_objects=False):
+        """What noticed, in a few words; None where the scenario is as good as it was."""
+        code, output = self.build("slammot", keeps_objects)
         if code != 0:
             return f"exit code {code} of the build"
         command = [sys.executable, "tests/replay/replay_test.py", "build/release/bin/slammot", scenario]
         code, _ = run_limited(command, 600.0, cwd=self.tree)
         return None if code == 0 else f"replay of {scenario}" + ("" if code else ", time limit")
 
-    def prepare(self, tests):
+    def prepare(self, tests, scenarios=()):
         """Builds and runs the tests as they are: what fails without a fault cannot tell of one."""
         for test in tests:
             code, output = self.build(test, keeps_objects=True)
@@ -188,6 +189,10 @@ class Workshop:
             self.usual_s[test] = time.monotonic() - begin
             if fault:
                 raise RuntimeError(f"{test} fails without a mutant: {fault}")
+        for scenario in scenarios:
+            fault = self.replay(scenario, keeps_objects=True)
+            if fault:
+                raise RuntimeError(f"{fault} fails without a mutant")
 
     def verdict(self, mutant, tests, scenarios=()):
         """(verdict, what noticed). The file is as it was afterwards, and newer than what was built of the mutant."""
@@ -281,7 +286,7 @@ def main(arguments):
         workshop = Workshop(options.work / "tree", options.jobs)
         copy_tree(ROOT, workshop.tree)
         workshop.configure()
-        workshop.prepare(dict.fromkeys(test for part in parts for test in part.tests))
+        workshop.prepare(dict.fromkeys(test for part in parts for test in part.tests), options.replay)
         tried(draws, results, workshop, options.replay, options.again)
     report(draws, results)
     return 0
