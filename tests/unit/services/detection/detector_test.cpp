@@ -100,7 +100,8 @@ TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {
   street.unknown = {{{22.0, 0.0, 0.0}}};
   const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
   const flow::Segment* car = segment_at(segmented, {20.0, 0.0}, 2.0);
-  if (car != nullptr) EXPECT_NE(car->label, PointLabel::kMoving);
+  ASSERT_NE(car, nullptr);
+  EXPECT_EQ(car->label, PointLabel::kUnknown);
 }
 
 TEST(Detector, PutsEveryEchoIntoExactlyOneSegment) {
@@ -133,14 +134,17 @@ TEST(Detector, SeesWhoWalksInFrontOfAWallAsAThingOfItsOwn) {
 TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
   Street street;
   street.known = {kWall};
-  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -1.0, 0.0}, 0.4, 0.5}};  // somebody in front of a car seen from the side
+  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -0.5, 0.0}, 0.4, 0.5}};  // somebody in front of a car seen from the side
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
-  const flow::Segment* right = segment_at(scan, {19.1, -2.2}, 0.5);
-  const flow::Segment* left = segment_at(scan, {19.1, 0.4}, 1.5);
+  const flow::Segment* right = segment_at(scan, {19.1, -1.85}, 0.2);
+  const flow::Segment* left = segment_at(scan, {19.1, 0.9}, 0.2);
   ASSERT_NE(left, nullptr);
   EXPECT_TRUE(left->occluded_at_start);
   EXPECT_FALSE(left->occluded_at_end);
-  if (right != nullptr && right != left) EXPECT_TRUE(right->occluded_at_end);
+  ASSERT_NE(right, nullptr);
+  ASSERT_NE(right, left);
+  EXPECT_TRUE(right->occluded_at_end);
+  EXPECT_FALSE(right->occluded_at_start);
 }
 
 /// Somebody 12 m ahead, where the map has never seen, and how surely its MO-map remembers motion there.

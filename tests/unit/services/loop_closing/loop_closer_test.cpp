@@ -85,8 +85,11 @@ TEST(LoopCloser, GivesTheSameBitsTwice) {
   for (const Submap& submap : submaps) {
     const GraphCorrection a = first.add(submap);
     const GraphCorrection b = second.add(submap);
+    ASSERT_FALSE(a.submaps.empty());
+    ASSERT_EQ(a.submaps.size(), b.submaps.size());
     for (std::size_t i = 0; i < a.submaps.size(); ++i) ASSERT_EQ(a.submaps[i].map_from_submap, b.submaps[i].map_from_submap);
   }
+  EXPECT_GT(first.counters().closures, 0U);
 }
 
 TEST(LoopCloser, DoesNotTakeOneOfEqualCorridorsForAnother) {
