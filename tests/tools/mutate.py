@@ -15,7 +15,9 @@ the same mutants, and more of them with a larger --count.
 
 import argparse
 import collections
+import contextlib
 import dataclasses
+import fcntl
 import fnmatch
 import json
 import os
@@ -94,6 +96,18 @@ class Results:
         with self.path.open("a") as file:
             file.write(("\n" if is_cut_off else "") + json.dumps(row) + "\n")
         self.rows[row["id"]] = row
+
+
+@contextlib.contextmanager
+def alone_in(folder):
+    """Two runs would build each other's mutants."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise RuntimeError(f"another run is at work in {folder}") from None
+        yield
 
 
 def copy_tree(root, tree):
@@ -283,16 +297,23 @@ def main(arguments):
         return 0
     results = Results(options.work / "results.jsonl")
     if not options.report:
-        workshop = Workshop(options.work / "tree", options.jobs)
-        copy_tree(ROOT, workshop.tree)
-        workshop.configure()
-        workshop.prepare(dict.fromkeys(test for part in parts for test in part.tests), options.replay)
-        tried(draws, results, workshop, options.replay, options.again)
+        with alone_in(options.work):
+            workshop = Workshop(options.work / "tree", options.jobs)
+            copy_tree(ROOT, workshop.tree)
+            workshop.configure()
+            workshop.prepare(dict.fromkeys(test for part in parts for test in part.tests), options.replay)
+            tried(draws, results, workshop, options.replay, options.again)
     report(draws, results)
     return 0
 
 
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
 if __name__ == "__main__":
+    for name in (signal.SIGINT, signal.SIGTERM):  # the first is ignored by what a shell started in the background
+        signal.signal(name, interrupt)
     try:
         sys.exit(main(sys.argv[1:]))
     except (RuntimeError, subprocess.CalledProcessError) as fault:

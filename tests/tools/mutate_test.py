@@ -158,6 +158,17 @@ class Failures(unittest.TestCase):
         self.assertEqual((3, "said\n"), mutate.run_limited([sys.executable, "-c", "print('said'); raise SystemExit(3)"], 60.0))
 
 
+class Lock(unittest.TestCase):
+    def test_lets_one_run_at_a_time_into_the_copy(self):
+        with tempfile.TemporaryDirectory() as folder:
+            work = pathlib.Path(folder) / "work"
+            with mutate.alone_in(work):
+                with self.assertRaises(RuntimeError), mutate.alone_in(work):
+                    pass
+            with mutate.alone_in(work):
+                pass
+
+
 class Copy(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
