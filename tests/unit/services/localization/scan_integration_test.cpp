@@ -139,6 +139,22 @@ TEST_F(ScanIntegrationTest, GivesBackPointsOfTheScannerThatSawThem) {
   EXPECT_EQ(surfels(), 0U);
 }
 
+TEST_F(ScanIntegrationTest, RemembersForRestoringWhatIsSomeSecondsOldAndNoMore) {
+  const auto restored_after = [this](std::uint32_t scans) {
+    integration_ = ScanIntegration(config());
+    for (std::uint32_t sequence = 1; sequence <= scans; ++sequence) {
+      remember(sequence);
+      integrate(labels(sequence, PointLabel::kMoving));
+    }
+    remember(scans + 1);
+    flow::ScanLabels with_restored = labels(scans + 1, PointLabel::kMoving);
+    with_restored.restored = {{1, {0}}};
+    return integrate(with_restored).restored_points;
+  };
+  EXPECT_EQ(restored_after(60), 1U);
+  EXPECT_EQ(restored_after(120), 0U);
+}
+
 TEST_F(ScanIntegrationTest, FreesNothingByAnEchoThatIsTooNear) {
   remember(1, MapAdmission::kMapped, 0.1F);
   end_cell_ = flow::EndCell::kNoEcho;
