@@ -268,6 +268,33 @@ TEST(Detector, DoesNotTakeTheBackOfATruckForTheGround) {
   EXPECT_EQ(truck->label, PointLabel::kMoving);
 }
 
+TEST(Detector, DoesNotTakeACarThatFillsANarrowLaneForTheGround) {
+  Street street;
+  street.known = {{{12.0, 5.95, 0.0}, 8.0, 10.0}, {{12.0, -5.95, 0.0}, 8.0, 10.0}};  // houses hide all that is beside it
+  street.unknown = {{{17.5, 0.0, 0.0}}};
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  const flow::Segment* car = segment_at(scan, {15.25, 0.0}, 0.5);
+  ASSERT_NE(car, nullptr);
+  EXPECT_EQ(car->label, PointLabel::kMoving);
+}
+
+PointLabel label_ahead_of_a_line(const geometry::Pose2& odom_from_line) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{odom_from_line, 200.0, 0.1}};
+  return detect(street.scan(0, 0), {}).labels[180];
+}
+
+TEST(Detector, TakesALineForTheGroundOnlyWhereItIsSquareToTheAxisAndNotRightAhead) {
+  const DetectionConfig config;
+  const double square_rad = M_PI / 2.0;
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 0.8 * config.ground_heading_rad}), PointLabel::kNoEcho);
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 1.3 * config.ground_heading_rad}), PointLabel::kMoving);
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad - 1.3 * config.ground_heading_rad}), PointLabel::kMoving);
+  EXPECT_EQ(label_ahead_of_a_line({1.2 * config.ground_nearest_m, 0.0, square_rad}), PointLabel::kNoEcho);
+  EXPECT_EQ(label_ahead_of_a_line({0.8 * config.ground_nearest_m, 0.0, square_rad}), PointLabel::kMoving);
+}
+
 TEST(Detector, MovesWithTheWorld) {
   Street street;
   street.known = {kWall};
