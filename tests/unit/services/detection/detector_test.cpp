@@ -168,6 +168,7 @@ TEST(Detector, HoldsForMovingWhatTheMapCannotDecideWhereItRemembersMotion) {
   EXPECT_EQ(label_of_somebody(0.0F), PointLabel::kUnknown);
   EXPECT_EQ(label_of_somebody(0.9F * least), PointLabel::kUnknown);
   EXPECT_EQ(label_of_somebody(1.1F * least), PointLabel::kMoving);
+  EXPECT_EQ(label_of_somebody(0.5F), PointLabel::kMoving) << "who came by every other time";
 }
 
 TEST(Detector, HoldsOnlySmallThingsForMovingByWhatTheMapRemembers) {
@@ -266,6 +267,39 @@ TEST(Detector, DoesNotTakeTheBackOfATruckForTheGround) {
   const flow::Segment* truck = segment_at(segmented, {15.0, 0.0}, 0.5);
   ASSERT_NE(truck, nullptr);
   EXPECT_EQ(truck->label, PointLabel::kMoving);
+}
+
+/// Something 1 m wide so far in front of a wall.
+PointLabel label_in_front_of_a_wall(double wall_m, double in_front_m) {
+  Street street;
+  street.known = {{{wall_m + 0.5, 0.0, M_PI / 2.0}, 80.0, 1.0}};
+  street.unknown = {{{wall_m - in_front_m + 0.05, 0.0, M_PI / 2.0}, 1.0, 0.1}};
+  return detect(street.scan(0, 0), {}).labels[180];
+}
+
+TEST(Detector, HoldsForPartOfAWallWhatIsAsNearToItAsItMayErrAtThatRange) {
+  EXPECT_EQ(label_in_front_of_a_wall(10.0, 0.33), PointLabel::kStationary);
+  EXPECT_EQ(label_in_front_of_a_wall(10.0, 0.45), PointLabel::kMoving);
+  EXPECT_EQ(label_in_front_of_a_wall(50.0, 0.45), PointLabel::kStationary);
+  EXPECT_EQ(label_in_front_of_a_wall(50.0, 0.75), PointLabel::kMoving);
+}
+
+/// Whether the right end of a car's side, 8 m ahead, counts as hidden by somebody so far in front of it.
+bool is_hidden_by_somebody(double in_front_m) {
+  Street street;
+  street.known = {kWall};
+  const double near_m = 8.0 - in_front_m;  // face of the one who hides it, right of the car's right end
+  street.unknown = {{{8.9, 0.0, M_PI / 2.0}}, {{near_m + 0.2, -2.4 * near_m / 8.0, 0.0}, 0.4, 0.5}};
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  for (const flow::Segment& segment : scan.segments)
+    if (std::abs(segment.centroid_in_odom_m.x() - 8.0) < 0.05) return segment.occluded_at_start;
+  ADD_FAILURE() << "no car is seen behind somebody " << in_front_m << " m in front of it";
+  return false;
+}
+
+TEST(Detector, HoldsAnEndForHiddenWhereSomethingIsClearlyInFrontOfIt) {
+  EXPECT_TRUE(is_hidden_by_somebody(2.0));
+  EXPECT_TRUE(is_hidden_by_somebody(0.8));
 }
 
 TEST(Detector, DoesNotTakeACarThatFillsANarrowLaneForTheGround) {
