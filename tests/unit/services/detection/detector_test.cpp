@@ -131,6 +131,28 @@ TEST(Detector, SeesWhoWalksInFrontOfAWallAsAThingOfItsOwn) {
   EXPECT_LT(walker->box_length_m, 0.8);
 }
 
+/// Labels of the segments of two who walk, a post between them, 10 m ahead and 20 cm nearer, of so many beams.
+std::vector<PointLabel> labels_around_a_post(double beams) {
+  const double beam_m = 9.8 * M_PI / 360.0;
+  const double half_m = 0.5 * beams * beam_m;
+  Street street;
+  street.known = {kWall, {{9.9, 0.0, M_PI / 2.0}, 2.0 * half_m, 0.2}};
+  for (const double side : {-1.0, 1.0}) street.unknown.push_back({{10.1, side * (half_m + 0.35), M_PI / 2.0}, 0.7, 0.2});
+  DetectionConfig config;
+  config.explained_within_m = 0.05;  // or they would be part of the post
+  config.explained_within_per_m = 0.0;
+  std::vector<PointLabel> labels;
+  for (const flow::Segment& segment : detect(street.scan(0, 0), config).segments)
+    if (segment.centroid_in_odom_m.x() < 12.0) labels.push_back(segment.label);
+  return labels;
+}
+
+TEST(Detector, CutsOffWhatTheMapKnowsWhereItIsMoreThanABeamOrTwo) {
+  using enum PointLabel;
+  EXPECT_EQ(labels_around_a_post(2.0), (std::vector{kMoving}));
+  EXPECT_EQ(labels_around_a_post(4.0), (std::vector{kMoving, kStationary, kMoving}));
+}
+
 TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
   Street street;
   street.known = {kWall};
