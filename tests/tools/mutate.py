@@ -67,13 +67,13 @@ def sources_of(part, root):
     return {name: path.read_text() for name, path in names.items() if not any(fnmatch.fnmatch(name, left_out) for left_out in LEFT_OUT)}
 
 
-def drawn(parts, root, count, seed, pattern="*", only="*"):
-    """[(part, mutant)]: `count` of each part, of the files like `pattern`, the parts in turns; of these, those with ids like `only`."""
+def drawn(parts, root, count, seed, pattern="*", only=("*",)):
+    """[(part, mutant)]: `count` of each part, of the files like `pattern`, the parts in turns; of these, those with ids like one of `only`."""
     piles = []
     for part in parts:
         files = {path: text for path, text in sources_of(part, root).items() if fnmatch.fnmatch(path, pattern)}
         piles.append([(part, mutant) for mutant in mutants.drawn(files, f"{seed} {part.name}")[:count]])
-    return [(part, mutant) for part, mutant in mutants.in_turns(piles) if fnmatch.fnmatch(mutant.id, only)]
+    return [(part, mutant) for part, mutant in mutants.in_turns(piles) if any(fnmatch.fnmatch(mutant.id, one) for one in only)]
 
 
 class Results:
@@ -273,7 +273,7 @@ def parse_options(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--part", action="append", choices=[part.name for part in PARTS], help="all when none is given")
     parser.add_argument("--file", metavar="PATTERN", default="*", help="only files like this, e.g. '*/imm.cpp'")
-    parser.add_argument("--only", metavar="PATTERN", default="*", help="of those drawn, the ones with an id like this (file:line:column:operator:...)")
+    parser.add_argument("--only", metavar="PATTERN", action="append", help="of those drawn, the ones with an id like this (file:line:column:operator:...)")
     parser.add_argument("--count", type=int, default=2, help="mutants of each part")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1, help="of the compiler")
@@ -291,7 +291,7 @@ def parse_options(arguments):
 def main(arguments):
     options = parse_options(arguments)
     parts = [part for part in PARTS if not options.part or part.name in options.part]
-    draws = drawn(parts, ROOT, options.count, options.seed, options.file, options.only)
+    draws = drawn(parts, ROOT, options.count, options.seed, options.file, options.only or ("*",))
     if options.list:
         for part, mutant in draws:
             print(f"{part.name:13} {mutant.path}:{mutant.line} {mutant.operator}\n  - {mutant.whole_line.strip()}\n  + {mutant.mutated_line().strip()}")

@@ -101,6 +101,14 @@ class Mutants(unittest.TestCase):
         self.assertEqual([], [path for path in paths if path.endswith(("main.cpp", "_fields.cpp", "_service.cpp"))])
 
 
+    def test_are_chosen_after_they_were_drawn(self):
+        parts = mutate.PARTS[:1]
+        all_of_them = mutate.drawn(parts, mutate.ROOT, 6, 1)
+        first = all_of_them[0][1].id
+        self.assertEqual([first], [mutant.id for _, mutant in mutate.drawn(parts, mutate.ROOT, 6, 1, only=(first[:-8] + "*",))])
+        self.assertEqual(all_of_them[:3], mutate.drawn(parts, mutate.ROOT, 3, 1))
+
+
 class FakeWorkshop:
     """Notices signs, does not compile terms, and passes all else."""
 
