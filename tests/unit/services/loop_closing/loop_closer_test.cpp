@@ -92,6 +92,19 @@ TEST(LoopCloser, GivesTheSameBitsTwice) {
   EXPECT_GT(first.counters().closures, 0U);
 }
 
+TEST(LoopCloser, SolvesAtTheEndOfALongDriveWhatItPutOff) {
+  const auto submaps = drive(ring(), way_around_the_ring(9.0), 0.0);
+  ASSERT_GT(submaps.size(), 110U) << "of fewer each closure is solved at once";
+  LoopCloser closer(indoor_loop_closing());
+  for (const Submap& submap : submaps) closer.add(submap);
+  const auto solved = closer.counters().optimisations;
+  EXPECT_LT(solved, closer.counters().closures);
+  EXPECT_TRUE(closer.has_unfinished_work());
+  closer.finish();
+  EXPECT_GT(closer.counters().optimisations, solved);
+  EXPECT_FALSE(closer.has_unfinished_work());
+}
+
 TEST(LoopCloser, DoesNotTakeOneOfEqualCorridorsForAnother) {
   // Straight on past door after door, each like the last, with an odometry that admits to being metres off.
   FloorPlan plan;
