@@ -12,8 +12,6 @@
 namespace slammot::files {
 namespace {
 
-constexpr double kOdometryLateS = 0.09;  // measured: heading rates of wheels and scans then agree best
-
 std::filesystem::path plain_or_gz(std::filesystem::path path) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) return path;
@@ -95,10 +93,9 @@ std::optional<LegTrackerLog::Line> LegTrackerLog::next_odometry() {
     if (words.empty() || words[0].starts_with('#')) continue;
     const auto stamp_s = number(words[0]);
     if (words.size() < 6 || !stamp_s) return Line{0.0, "ODOM malformed"};
-    const double bag_s = *stamp_s - kOdometryLateS;
     std::string text = "ODOM";
     for (std::size_t i = 1; i < words.size(); ++i) text += ' ' + std::string(words[i]);
-    return Line{bag_s, text + " 0" + stamps(bag_s)};
+    return Line{*stamp_s, text + " 0" + stamps(*stamp_s)};
   }
   return std::nullopt;
 }

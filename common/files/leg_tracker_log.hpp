@@ -15,7 +15,7 @@ namespace slammot::files {
 /// A recording of the leg_tracker data set (Leigh et al. 2015) as text, told in lines of CARMEN: scan.txt ("bag stamp, header
 /// stamp, first beam and step [rad], beams, ranges [m]" a line) becomes ROBOTLASER1, odom.txt beside it ("stamp x y heading
 /// speed yaw_rate"), if there is one, becomes ODOM; each plain or .gz, # begins a comment. Stamps are those of the bag, which the
-/// annotations have; odometry comes 0.09 s late by them, which is taken back. Where the laser is on the base is not said.
+/// annotations have; by how much odometry comes late by them is for localization to find out. Where the laser is on the base is not said.
 class LegTrackerLog : public LineSource {
  public:
   /// A folder with scan.txt, or a file of scan.txt's form, which then stands alone.

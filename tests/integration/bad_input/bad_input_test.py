@@ -62,7 +62,7 @@ class BadInput(unittest.TestCase):
     def look_at_poses(self, command):
         poses = read_tum(self.work / command / "trajectory.tum")
         self.assertEqual(len(poses), self.scans)
-        self.assertLess(aligned_rmse_m(poses, read_tum(self.work / "block.tum")), 0.1)
+        self.assertLess(aligned_rmse_m(poses, read_tum(self.work / "block.tum")), 0.05)
 
     def test_one_process_counts_every_fault_and_stays_where_it_is(self):
         counted = self.take_through("run")["localization"]

@@ -50,8 +50,8 @@ class SeveralScanners(unittest.TestCase):
             self.assertGreater(both["hota"], alone["hota"] + 0.1, scanner)
         bench_result = self.take("bench", "bench")
         bench = self.judge(bench_result)
-        self.assertLess(abs(bench["ate_m"] - both["ate_m"]), 0.01)
-        self.assertLess(abs(bench["hota"] - both["hota"]), 0.02)
+        self.assertLess(abs(bench["ate_m"] - both["ate_m"]), 0.2 * both["ate_m"])
+        self.assertLess(abs(bench["hota"] - both["hota"]), 0.01)
         self.assertEqual(self.stamps(bench_result), self.stamps(both_result))
 
     def test_goes_on_with_the_other_when_one_falls_silent(self):
@@ -60,7 +60,7 @@ class SeveralScanners(unittest.TestCase):
             kept = [line for i, line in enumerate(lines) if i < len(lines) // 2 or not line.startswith(silent)]
             (self.work / "silent.log").write_text("".join(kept))
             result = self.take("run", f"without_{silent}", log="silent.log")
-            self.assertLess(self.judge(result)["ate_m"], 0.1, silent)
+            self.assertLess(self.judge(result)["ate_m"], 0.03, silent)  # 0.02 and 0.015; both to the end: 0.013
             counters = json.loads((result / "report.json").read_text())["counters"]["localization"]
             self.assertEqual((counters["astray"], counters["gaps"]), (0, 0), silent)
 

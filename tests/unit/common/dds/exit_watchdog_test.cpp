@@ -36,7 +36,20 @@ TEST(ExitWatchdogDeathTest, LetsAProcessGoThatLeavesInTime) {
       ::testing::ExitedWithCode(0), "");
 }
 
-TEST(ExitWatchdog, DoesNothingUnlessArmed) { const ExitWatchdog watchdog(0ms); }
+TEST(ExitWatchdogDeathTest, DoesNothingUnlessArmed) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        const ExitWatchdog never_armed(0ms);
+        ExitWatchdog armed(50ms);
+        armed.arm();
+        std::mutex never_unlocked;
+        std::unique_lock lock(never_unlocked);
+        std::condition_variable never_notified;
+        never_notified.wait(lock, [] { return false; });
+      },
+      ::testing::ExitedWithCode(ExitWatchdog::kExitCode), "took longer than 50 ms");
+}
 
 }  // namespace
 }  // namespace slammot::dds

@@ -213,13 +213,27 @@ TEST(ParseCarmenLine, KeepsScansWithReadingsThatAreNoRanges) {
 
 TEST(ParseCarmenLine, SurvivesEveryCutAndManyChangesOfARecord) {
   const std::string whole = kHead + "2 1 2 " + kTail;
-  for (std::size_t length = 0; length <= whole.size(); ++length) parse_carmen_line(whole.substr(0, length));
+  const auto laser_of = [](const std::string& line) {
+    const CarmenRecord record = parse_carmen_line(line);
+    const auto* laser = std::get_if<LaserRecord>(&record);
+    return laser == nullptr ? std::nullopt : std::optional(*laser);
+  };
+  ASSERT_TRUE(laser_of(whole));
+  EXPECT_FALSE(laser_of(whole.substr(0, kHead.size())));
+  for (std::size_t length = 0; length <= whole.size(); ++length)
+    if (const auto laser = laser_of(whole.substr(0, length))) EXPECT_EQ(laser->range_m, laser_of(whole)->range_m) << length;
   std::mt19937 random(1);
+  int lasers = 0;
   for (int i = 0; i < 20'000; ++i) {
     std::string changed = whole;
     for (int k = 0; k < 3; ++k) changed[random() % changed.size()] = static_cast<char>(random() % 256);
-    parse_carmen_line(changed);
+    if (const auto laser = laser_of(changed)) {
+      ++lasers;
+      EXPECT_LE(laser->range_m.size(), changed.size());
+      EXPECT_TRUE(std::isfinite(laser->wheel_from_base.x_m + laser->wheel_from_base.y_m + laser->wheel_from_base.heading_rad)) << changed;
+    }
   }
+  EXPECT_GT(lasers, 0);
 }
 
 TEST(LayoutByConvention, SpreadsEvenCountsOneStepShortAndOddCountsOverTheWholeField) {

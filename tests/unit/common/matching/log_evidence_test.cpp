@@ -104,6 +104,17 @@ std::function<Pose2(const Pose2&)> redriven(const std::function<Pose2(const Pose
   };
 }
 
+TEST(WeighLog, DoesNotTurnTheLaserWhereWaysGoInAllDirections) {
+  const auto evidence = evidence_of({.pose = redriven([count = 0](const Pose2& step) mutable {
+    const double aside_rad = 2.4 * count++;
+    const double way_m = step.translation_m().norm();
+    return Pose2{way_m * std::cos(aside_rad), way_m * std::sin(aside_rad), step.heading_rad};
+  })});
+  EXPECT_GT(evidence.pairs, 20U);
+  EXPECT_EQ(evidence.correction.laser_turn_rad, 0.0);
+  EXPECT_EQ(evidence.correction.position_turn_rad, 0.0);
+}
+
 TEST(WeighLog, MirrorsOdometryThatTurnsAgainstItsOwnArcs) {
   const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) { return Pose2{step.x_m, step.y_m, -step.heading_rad}; })});
   EXPECT_TRUE(evidence.correction.mirrors_position);

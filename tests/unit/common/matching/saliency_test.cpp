@@ -50,18 +50,17 @@ double saliency_of(const std::vector<MatchPoint>& points) {
   return saliency_score(points, {}, random);
 }
 
-TEST(SaliencyScore, OrdersWhatIsSeenAsInTheThesis) {
-  // Wang 2004, Table 3.2: bush 2.2, building wall 9.0, parked car 15.6, whole scan 15.8.
+TEST(SaliencyScore, OrdersWhatIsSeenByHowMuchOfAPoseItTells) {
+  // Wang 2004, Table 3.2: bush 2.2, building wall 9.0, parked car 15.6, whole scan 15.8. Bushes of the simulator are a row of
+  // circles with clean outlines, which tell more than a wall that is straight throughout; the rest is in the thesis' order.
   const auto whole = simulated_scan();
   const auto wall = those_where(whole, [](const Vector2& at_m) { return at_m.y() < -7.0 && at_m.x() < 25.0; });
   const auto car = those_where(whole, [](const Vector2& at_m) { return std::abs(at_m.y() - 4.0) < 1.5 && std::abs(at_m.x() - 9.0) < 3.0; });
   const auto bushes = those_where(whole, [](const Vector2& at_m) { return at_m.y() > 11.0 && at_m.y() < 17.0 && at_m.x() < 26.0; });
   for (const auto* object : {&wall, &car, &bushes}) ASSERT_GT(object->size(), 20U);
-  for (const auto* featureless : {&wall, &bushes}) {
-    EXPECT_LT(saliency_of(*featureless), saliency_of(car));
-    EXPECT_LT(saliency_of(*featureless), saliency_of(whole));
-  }
-  EXPECT_LE(saliency_of(car), saliency_of(whole));
+  EXPECT_LT(saliency_of(wall), saliency_of(bushes));
+  EXPECT_LT(saliency_of(bushes), saliency_of(car));
+  EXPECT_LT(saliency_of(car), saliency_of(whole));
 }
 
 TEST(SaliencyScore, DoesNotDependOnWhereTheFrameIs) {

@@ -139,6 +139,23 @@ TEST(WideSearch, ChoosesAmongSeveralTargetsAndTakesOnePlaceOnce) {
   EXPECT_NE(search.peaks().front().target, 0U);
 }
 
+TEST(WideSearch, FindsNothingThatFitsWorseThanItMay) {
+  const Pose2 truth{0.7, -0.4, 0.2};
+  auto half_of_it_elsewhere = seen_from(room(), truth);
+  for (std::size_t i = half_of_it_elsewhere.size(); i > 0; --i) half_of_it_elsewhere.emplace_back(100.0F, 0.2F * static_cast<float>(i));
+  const auto peaks_from = [&](double min_score) {
+    WideSearch search(half_of_it_elsewhere, kCellM, {.min_score = min_score});
+    search.add_target({pyramid_of(room()), {}, {1.0, 1.0, 0.3}, {}});
+    run_to_its_end(search);
+    return search.peaks();
+  };
+  const auto found = peaks_from(0.35);
+  ASSERT_FALSE(found.empty());
+  EXPECT_THAT(found.front().target_from_source, PoseNear(truth, 0.1));
+  EXPECT_LT(found.front().score, 0.55);
+  EXPECT_TRUE(peaks_from(0.6).empty());
+}
+
 TEST(WideSearch, FindsNothingWithoutPointsOrTargets) {
   WideSearch without_points({}, kCellM, {});
   EXPECT_TRUE(without_points.is_done());

@@ -83,6 +83,7 @@ TEST(AbsoluteError, OfATrajectoryHalfAMetreAsideAtEveryOtherPoseIsAQuarterAfterA
   Trajectory estimate = truth;
   for (std::size_t i : {1U, 2U}) estimate[i].pose.y_m = 0.5;  // symmetric, so that alignment does not turn it
   const auto pairs = associate(truth, estimate, 0);
+  ASSERT_EQ(pairs.size(), truth.size());
   for (const double error_m : absolute_errors_m(pairs, align_rigidly(pairs))) EXPECT_NEAR(error_m, 0.25, 1e-12);
 }
 
@@ -110,7 +111,9 @@ TEST(PairsByPath, AllEndAtTheFirstPoseOfARest) {
 
 TEST(RelativeErrors, OfAScaleOffByOnePercentAreAHundredthOfTheWay) {
   const auto pairs = associate(straight(31), straight(31, 1.01), 0);
-  for (const RelativeError& error : relative_errors(pairs, {{0, 10}, {10, 20}, {20, 30}})) {
+  const auto errors = relative_errors(pairs, {{0, 10}, {10, 20}, {20, 30}});
+  ASSERT_EQ(errors.size(), 3U);
+  for (const RelativeError& error : errors) {
     EXPECT_NEAR(error.translation_m, 0.1, 1e-12);
     EXPECT_NEAR(error.rotation_rad, 0.0, 1e-12);
   }

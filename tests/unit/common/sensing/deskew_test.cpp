@@ -87,7 +87,9 @@ TEST(Deskew, GivesTheLasersPlaceForBeamsWithoutEcho) {
   LaserScan scan;
   scan.scanner = sweeping_scanner();
   scan.range_m = {std::numeric_limits<float>::quiet_NaN(), 0.0F, -1.0F, 50.0F, std::numeric_limits<float>::infinity()};
-  for (const Vector2& point_m : deskewed(scan, 20.0, 1.0)) EXPECT_EQ(point_m, Vector2(2.15, -0.3));
+  const auto points_m = deskewed(scan, 20.0, 1.0);
+  ASSERT_EQ(points_m.size(), scan.range_m.size());
+  for (const Vector2& point_m : points_m) EXPECT_EQ(point_m, Vector2(2.15, -0.3));
 }
 
 TEST(Deskew, OfAScanWithoutBeamsIsEmpty) { EXPECT_TRUE(deskewed(LaserScan{}, 1.0, 1.0).empty()); }

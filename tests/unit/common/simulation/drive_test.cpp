@@ -53,14 +53,17 @@ TEST(Drive, StartsItsOdometryAtZero) {
 }
 
 TEST(Drive, ListsEachObjectThatAScanHitOnceWithItsPoints) {
+  std::size_t listed = 0;
   for (const SimulatedScan& scan : all_scans(short_drive(1))) {
     std::set<int> ids;
     for (const ObjectTruth& object : scan.objects) {
       EXPECT_TRUE(ids.insert(object.id).second);
       EXPECT_GT(object.id, 0);  // the vehicle does not see itself
       EXPECT_GE(object.points, 1);
+      ++listed;
     }
   }
+  EXPECT_GT(listed, 0U);
 }
 
 /// Fraction of the points, placed by the true pose, that lie near a true surface or object: what the truth is worth.
@@ -107,6 +110,8 @@ TEST(Drive, SaysWhichObjectEachBeamHit) {
   for (const SimulatedScan& scan : all_scans(short_drive(1))) {
     ASSERT_EQ(scan.hits.size(), scan.scan.range_m.size());
     for (const ObjectTruth& object : scan.objects) EXPECT_EQ(std::ranges::count(scan.hits, object.id), object.points);
+    for (const int hit : scan.hits)
+      if (hit > 0) EXPECT_TRUE(std::ranges::any_of(scan.objects, [&](const ObjectTruth& object) { return object.id == hit; })) << hit;
     for (std::size_t beam = 0; beam < scan.hits.size(); ++beam) {
       const bool is_echo = sensing::is_echo(scan.scan.range_m[beam], scan.scan.scanner.max_range_m);
       EXPECT_EQ(is_echo, scan.hits[beam] != kHitNothing);

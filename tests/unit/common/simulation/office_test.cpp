@@ -21,6 +21,7 @@ using slammot::testing::PoseNear;
 TEST(BuildOffice, LeavesEveryCorridorFreeFromEndToEnd) {
   const OfficePlan plan = build_office(OfficeConfig{}, 4);
   const RayCaster caster(plan.outline_in_world);
+  ASSERT_FALSE(plan.corridors.ways.empty());
   for (std::size_t from = 0; from < plan.corridors.ways.size(); ++from) {
     for (const WalkGraph::Way& way : plan.corridors.ways[from]) {
       const Vector2 start = plan.corridors.places_in_world[from];
@@ -33,6 +34,7 @@ TEST(BuildOffice, LeavesEveryCorridorFreeFromEndToEnd) {
 TEST(BuildOffice, WallsInEveryDirection) {
   const OfficePlan plan = build_office(OfficeConfig{}, 4);
   const RayCaster caster(plan.outline_in_world);
+  ASSERT_FALSE(plan.corridors.places_in_world.empty());
   for (const Vector2& place : plan.corridors.places_in_world) {
     for (double heading_rad = -3.1; heading_rad < 3.1; heading_rad += 0.01) {
       EXPECT_LT(caster.cast(place, {std::cos(heading_rad), std::sin(heading_rad)}, 100.0).range_m, 100.0);

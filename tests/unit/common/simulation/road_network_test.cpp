@@ -18,6 +18,7 @@ class RoadNetworkOfACity : public ::testing::Test {
 };
 
 TEST_F(RoadNetworkOfACity, JoinsLanesEndToStart) {
+  ASSERT_FALSE(network_.lanes().empty());
   for (const Lane& lane : network_.lanes()) {
     ASSERT_FALSE(lane.next.empty());
     for (const int next : lane.next) {

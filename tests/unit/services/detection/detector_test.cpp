@@ -100,7 +100,8 @@ TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {
   street.unknown = {{{22.0, 0.0, 0.0}}};
   const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
   const flow::Segment* car = segment_at(segmented, {20.0, 0.0}, 2.0);
-  if (car != nullptr) EXPECT_NE(car->label, PointLabel::kMoving);
+  ASSERT_NE(car, nullptr);
+  EXPECT_EQ(car->label, PointLabel::kUnknown);
 }
 
 TEST(Detector, PutsEveryEchoIntoExactlyOneSegment) {
@@ -130,17 +131,124 @@ TEST(Detector, SeesWhoWalksInFrontOfAWallAsAThingOfItsOwn) {
   EXPECT_LT(walker->box_length_m, 0.8);
 }
 
+/// Labels of the segments of two who walk, a post between them, 10 m ahead and 20 cm nearer, of so many beams.
+std::vector<PointLabel> labels_around_a_post(double beams) {
+  const double beam_m = 9.8 * M_PI / 360.0;
+  const double half_m = 0.5 * beams * beam_m;
+  Street street;
+  street.known = {kWall, {{9.9, 0.0, M_PI / 2.0}, 2.0 * half_m, 0.2}};
+  for (const double side : {-1.0, 1.0}) street.unknown.push_back({{10.1, side * (half_m + 0.35), M_PI / 2.0}, 0.7, 0.2});
+  DetectionConfig config;
+  config.explained_within_m = 0.05;  // or they would be part of the post
+  config.explained_within_per_m = 0.0;
+  std::vector<PointLabel> labels;
+  for (const flow::Segment& segment : detect(street.scan(0, 0), config).segments)
+    if (segment.centroid_in_odom_m.x() < 12.0) labels.push_back(segment.label);
+  return labels;
+}
+
+TEST(Detector, CutsOffWhatTheMapKnowsWhereItIsMoreThanABeamOrTwo) {
+  using enum PointLabel;
+  EXPECT_EQ(labels_around_a_post(2.0), (std::vector{kMoving}));
+  EXPECT_EQ(labels_around_a_post(4.0), (std::vector{kMoving, kStationary, kMoving}));
+}
+
 TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
   Street street;
   street.known = {kWall};
-  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -1.0, 0.0}, 0.4, 0.5}};  // somebody in front of a car seen from the side
+  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -0.5, 0.0}, 0.4, 0.5}};  // somebody in front of a car seen from the side
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
-  const flow::Segment* right = segment_at(scan, {19.1, -2.2}, 0.5);
-  const flow::Segment* left = segment_at(scan, {19.1, 0.4}, 1.5);
+  const flow::Segment* right = segment_at(scan, {19.1, -1.85}, 0.2);
+  const flow::Segment* left = segment_at(scan, {19.1, 0.9}, 0.2);
   ASSERT_NE(left, nullptr);
   EXPECT_TRUE(left->occluded_at_start);
   EXPECT_FALSE(left->occluded_at_end);
-  if (right != nullptr && right != left) EXPECT_TRUE(right->occluded_at_end);
+  ASSERT_NE(right, nullptr);
+  ASSERT_NE(right, left);
+  EXPECT_TRUE(right->occluded_at_end);
+  EXPECT_FALSE(right->occluded_at_start);
+}
+
+/// Somebody 12 m ahead, where the map has never seen, and how surely its MO-map remembers motion there.
+flow::LocalizedScan scan_of_somebody(float moving_evidence, double width_m = 0.5) {
+  Street street;
+  street.knows_the_open = false;
+  street.unknown = {{{12.0, 0.0, M_PI / 2.0}, width_m, 0.5}};
+  flow::LocalizedScan scan = street.scan(0, 0);
+  for (flow::LocalizedBeam& beam : scan.beams) beam.moving_evidence = moving_evidence;
+  return scan;
+}
+
+PointLabel label_of_somebody(float moving_evidence, double width_m = 0.5) {
+  const flow::SegmentedScan scan = detect(scan_of_somebody(moving_evidence, width_m), {});
+  const flow::Segment* somebody = segment_at(scan, {11.75, 0.0}, 0.2);
+  return somebody == nullptr ? PointLabel::kNoEcho : somebody->label;
+}
+
+TEST(Detector, HoldsForMovingWhatTheMapCannotDecideWhereItRemembersMotion) {
+  const auto least = static_cast<float>(DetectionConfig().least_moving_evidence);
+  EXPECT_EQ(label_of_somebody(0.0F), PointLabel::kUnknown);
+  EXPECT_EQ(label_of_somebody(0.9F * least), PointLabel::kUnknown);
+  EXPECT_EQ(label_of_somebody(1.1F * least), PointLabel::kMoving);
+  EXPECT_EQ(label_of_somebody(0.5F), PointLabel::kMoving) << "who came by every other time";
+}
+
+TEST(Detector, HoldsOnlySmallThingsForMovingByWhatTheMapRemembers) {
+  const int most = DetectionConfig().largest_by_moving_evidence;
+  const double beam_m = 11.75 * M_PI / 360.0;
+  EXPECT_EQ(label_of_somebody(1.0F, (most - 2) * beam_m), PointLabel::kMoving);
+  EXPECT_EQ(label_of_somebody(1.0F, (most + 3) * beam_m), PointLabel::kUnknown);
+}
+
+TEST(Detector, TakesTheMeanOfWhatTheMapRemembersOfASegment) {
+  const auto least = static_cast<float>(DetectionConfig().least_moving_evidence);
+  flow::LocalizedScan scan = scan_of_somebody(0.0F);
+  int echoes = 0;
+  for (const flow::LocalizedBeam& beam : scan.beams) echoes += beam.range_m > 0.0F ? 1 : 0;
+  flow::LocalizedBeam& one = *std::ranges::find_if(scan.beams, [](const flow::LocalizedBeam& beam) { return beam.range_m > 0.0F; });
+  one.moving_evidence = 0.9F * least * static_cast<float>(echoes);
+  EXPECT_EQ(detect(scan, {}).segments.front().label, PointLabel::kUnknown);
+  one.moving_evidence = 1.1F * least * static_cast<float>(echoes);
+  EXPECT_EQ(detect(scan, {}).segments.front().label, PointLabel::kMoving);
+}
+
+TEST(Detector, HoldsForStationaryWhatTheMapKnowsThoughItRemembersMotionThere) {
+  Street street;
+  street.known = {{{12.0, 0.0, M_PI / 2.0}, 0.5, 0.5}};
+  flow::LocalizedScan scan = street.scan(0, 0);
+  for (flow::LocalizedBeam& beam : scan.beams) beam.moving_evidence = 1.0F;
+  const flow::SegmentedScan segmented = detect(scan, {});
+  const flow::Segment* post = segment_at(segmented, {11.75, 0.0}, 0.2);
+  ASSERT_NE(post, nullptr);
+  EXPECT_EQ(post->label, PointLabel::kStationary);
+}
+
+geometry::Matrix2 covariance_of_a_car(const Eigen::Vector3d& variances_of_pose, double local_variance_share = 1.0) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}};
+  flow::LocalizedScan scan = street.scan(0, 0);
+  scan.odom_from_base.covariance = variances_of_pose.asDiagonal();
+  scan.local_variance_share = local_variance_share;
+  const flow::SegmentedScan segmented = detect(scan, {});
+  const flow::Segment* car = segment_at(segmented, {19.1, 0.0}, 0.5);
+  return car == nullptr ? geometry::Matrix2(geometry::Matrix2::Zero()) : car->centroid_covariance_m2;
+}
+
+TEST(Detector, IsAsUnsureOfASegmentAsOfTheVehiclesPose) {
+  const geometry::Matrix2 by_scanner = covariance_of_a_car({0.0, 0.0, 0.0});
+  const geometry::Matrix2 by_pose = covariance_of_a_car({0.04, 0.09, 0.0}) - by_scanner;
+  EXPECT_GT(by_scanner.trace(), 0.0);
+  EXPECT_NEAR(by_pose(0, 0), 0.04, 1e-6);
+  EXPECT_NEAR(by_pose(1, 1), 0.09, 1e-6);
+  const geometry::Matrix2 by_heading = covariance_of_a_car({0.0, 0.0, 1e-4}) - by_scanner;
+  EXPECT_NEAR(by_heading(0, 0), 0.0, 1e-6);
+  EXPECT_NEAR(by_heading(1, 1), 1e-4 * 19.1 * 19.1, 1e-3);  // at the end of the lever
+}
+
+TEST(Detector, TakesOfThePosesVarianceWhatIsAgainstTheLocalMap) {
+  const geometry::Matrix2 by_scanner = covariance_of_a_car({0.0, 0.0, 0.0});
+  EXPECT_NEAR((covariance_of_a_car({0.04, 0.09, 0.0}, 0.25) - by_scanner)(1, 1), 0.25 * 0.09, 1e-6);
 }
 
 /// A line square to the vehicle's axis, `distance_m` ahead, thin.
@@ -181,6 +289,66 @@ TEST(Detector, DoesNotTakeTheBackOfATruckForTheGround) {
   const flow::Segment* truck = segment_at(segmented, {15.0, 0.0}, 0.5);
   ASSERT_NE(truck, nullptr);
   EXPECT_EQ(truck->label, PointLabel::kMoving);
+}
+
+/// Something 1 m wide so far in front of a wall.
+PointLabel label_in_front_of_a_wall(double wall_m, double in_front_m) {
+  Street street;
+  street.known = {{{wall_m + 0.5, 0.0, M_PI / 2.0}, 80.0, 1.0}};
+  street.unknown = {{{wall_m - in_front_m + 0.05, 0.0, M_PI / 2.0}, 1.0, 0.1}};
+  return detect(street.scan(0, 0), {}).labels[180];
+}
+
+TEST(Detector, HoldsForPartOfAWallWhatIsAsNearToItAsItMayErrAtThatRange) {
+  EXPECT_EQ(label_in_front_of_a_wall(10.0, 0.33), PointLabel::kStationary);
+  EXPECT_EQ(label_in_front_of_a_wall(10.0, 0.45), PointLabel::kMoving);
+  EXPECT_EQ(label_in_front_of_a_wall(50.0, 0.45), PointLabel::kStationary);
+  EXPECT_EQ(label_in_front_of_a_wall(50.0, 0.75), PointLabel::kMoving);
+}
+
+/// Whether the right end of a car's side, 8 m ahead, counts as hidden by somebody so far in front of it.
+bool is_hidden_by_somebody(double in_front_m) {
+  Street street;
+  street.known = {kWall};
+  const double near_m = 8.0 - in_front_m;  // face of the one who hides it, right of the car's right end
+  street.unknown = {{{8.9, 0.0, M_PI / 2.0}}, {{near_m + 0.2, -2.4 * near_m / 8.0, 0.0}, 0.4, 0.5}};
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  for (const flow::Segment& segment : scan.segments)
+    if (std::abs(segment.centroid_in_odom_m.x() - 8.0) < 0.05) return segment.occluded_at_start;
+  ADD_FAILURE() << "no car is seen behind somebody " << in_front_m << " m in front of it";
+  return false;
+}
+
+TEST(Detector, HoldsAnEndForHiddenWhereSomethingIsClearlyInFrontOfIt) {
+  EXPECT_TRUE(is_hidden_by_somebody(2.0));
+  EXPECT_TRUE(is_hidden_by_somebody(0.8));
+}
+
+TEST(Detector, DoesNotTakeACarThatFillsANarrowLaneForTheGround) {
+  Street street;
+  street.known = {{{12.0, 5.95, 0.0}, 8.0, 10.0}, {{12.0, -5.95, 0.0}, 8.0, 10.0}};  // houses hide all that is beside it
+  street.unknown = {{{17.5, 0.0, 0.0}}};
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
+  const flow::Segment* car = segment_at(scan, {15.25, 0.0}, 0.5);
+  ASSERT_NE(car, nullptr);
+  EXPECT_EQ(car->label, PointLabel::kMoving);
+}
+
+PointLabel label_ahead_of_a_line(const geometry::Pose2& odom_from_line) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{odom_from_line, 200.0, 0.1}};
+  return detect(street.scan(0, 0), {}).labels[180];
+}
+
+TEST(Detector, TakesALineForTheGroundOnlyWhereItIsSquareToTheAxisAndNotRightAhead) {
+  const DetectionConfig config;
+  const double square_rad = M_PI / 2.0;
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 0.8 * config.ground_heading_rad}), PointLabel::kNoEcho);
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 1.3 * config.ground_heading_rad}), PointLabel::kMoving);
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad - 1.3 * config.ground_heading_rad}), PointLabel::kMoving);
+  EXPECT_EQ(label_ahead_of_a_line({1.2 * config.ground_nearest_m, 0.0, square_rad}), PointLabel::kNoEcho);
+  EXPECT_EQ(label_ahead_of_a_line({0.8 * config.ground_nearest_m, 0.0, square_rad}), PointLabel::kMoving);
 }
 
 TEST(Detector, MovesWithTheWorld) {

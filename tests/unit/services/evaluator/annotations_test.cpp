@@ -49,6 +49,7 @@ TEST(PlaceAnnotations, TakesThemFromWhereTheLaserIs) {
   Truth truth;
   truth.annotated = {{{2 * kSecondNs, {person(0, 3.0, 0.0)}}, {2 * kSecondNs + kSecondNs / 2, {person(0, 3.0, 0.5)}}}};  // left of the way, stands
   const Truth placed = place_annotations(truth, result, 3);
+  ASSERT_FALSE(placed.objects->empty());
   for (const ObjectsAt& at : *placed.objects) {
     EXPECT_NEAR(at.objects.at(0).world_from_object.x_m, 2.5, 1e-9);
     EXPECT_NEAR(at.objects.at(0).world_from_object.y_m, 3.0, 1e-9);
@@ -89,6 +90,7 @@ TEST(PlaceAnnotations, DoesNotTakeAnUnsteadyHandForAWalk) {
   truth.annotated.emplace();
   for (int i = 0; i <= 10; ++i) truth.annotated->push_back({2 * kSecondNs + i * kSecondNs / 10, {person(0, 5.0 - 0.1 * i, i % 2 == 0 ? 0.1 : -0.1)}});
   const Truth placed = place_annotations(truth, straight_way(), 3);
+  ASSERT_FALSE(placed.objects->empty());
   for (const ObjectsAt& at : *placed.objects) EXPECT_LT(at.objects.at(0).speed_mps, 0.2);
 }
 

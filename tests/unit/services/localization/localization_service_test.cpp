@@ -37,6 +37,13 @@ sensing::LaserScan room_scan(std::uint32_t sequence) {
   return scan;
 }
 
+/// Of one that stands among posts, all of them where the room is empty.
+sensing::LaserScan scan_among_posts(std::uint32_t sequence) {
+  sensing::LaserScan scan = room_scan(sequence);
+  for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) scan.range_m[beam] = 1.0F + 0.25F * static_cast<float>((beam / 6 * 7) % 13);
+  return scan;
+}
+
 struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
   dds::Writer<slammot_LaserScan> scans{neighbour_, dds::topics::kLaserScan};
   dds::Writer<slammot_Odometry> odometry{neighbour_, dds::topics::kOdometry};
@@ -58,6 +65,8 @@ struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
     odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(sequence), {}}));
     scans.write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(sequence)));
   }
+  app::ServiceState state() { return context_->status().state(std::chrono::steady_clock::now()); }
+  std::string explanation() { return context_->status().explanation(std::chrono::steady_clock::now()); }
   bool has_localized(std::size_t count) {
     localized.take_each([this](const slammot_LocalizedScan& scan) {
       sequences.push_back(scan.sequence_number);
@@ -187,6 +196,50 @@ TEST_F(LocalizationOnTheBus, BeginsANewMapWhenTheSameLogIsPlayedAgain) {
   EXPECT_EQ(context_->status().counter("scans_of_earlier_drives"), 0U);
 }
 
+/// Scans that fit the map, do not fit it, and fit it again, to a service that trusts no wheels.
+struct LostOnTheBus : LocalizationOnTheBus {
+  std::uint32_t next = 0;
+
+  void SetUp() override {
+    LocalizationService::Settings settings;
+    settings.config.lost_after_s = 0.0;
+    settings.config.may_be_picked_up = true;
+    begin(settings);
+  }
+  void localize_next(sensing::LaserScan (*scan_of)(std::uint32_t)) {
+    odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(next), {}}));
+    scans.write(wire::LaserScanEncoder(drive_id).encode("car", scan_of(next)));
+    ++next;
+    ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
+  }
+  bool says_it_is_lost() { return explanation().find("looks for itself in the local map") != std::string::npos; }
+};
+
+TEST_F(LostOnTheBus, SaysThatItIsDegradedWhileScansDoNotFitAndNoLonger) {
+  for (int i = 0; i < 20; ++i) localize_next(room_scan);
+  EXPECT_FALSE(says_it_is_lost());
+  for (int i = 0; i < 15 && !says_it_is_lost(); ++i) localize_next(scan_among_posts);
+  EXPECT_TRUE(says_it_is_lost()) << explanation();
+  EXPECT_EQ(state(), app::ServiceState::kDegraded);
+  for (int i = 0; i < 10 && says_it_is_lost(); ++i) localize_next(room_scan);
+  EXPECT_FALSE(says_it_is_lost()) << explanation();
+  EXPECT_EQ(submap_in_use, flow::SubmapId{0});
+  EXPECT_EQ(maps.size(), 1U);
+}
+
+TEST_F(LostOnTheBus, BeginsASubmapTiedToNothingWhereItDoesNotFindItself) {
+  for (int i = 0; i < 20; ++i) localize_next(room_scan);
+  const double patience_s = LocalizerConfig().astray_after_s;
+  int scans_until_astray = 0;
+  for (; submap_in_use == flow::SubmapId{0} && scans_until_astray < 60; ++scans_until_astray) localize_next(scan_among_posts);
+  EXPECT_NEAR(scans_until_astray, patience_s / (kPeriodNs * 1e-9), 3.0);
+  EXPECT_EQ(submap_in_use, flow::SubmapId{1});
+  EXPECT_EQ(maps.size(), 1U);
+  for (int i = 0; i < 10; ++i) localize_next(scan_among_posts);
+  EXPECT_FALSE(says_it_is_lost()) << "the new submap is of this place";
+  EXPECT_TRUE(comes_to([this] { return count("astray") > 0; }));
+}
+
 TEST_F(LocalizationOnTheBus, PublishesTheSubmapInUseWhenToldToFinishIt) {
   begin();
   localize(0, 5);
@@ -220,8 +273,6 @@ struct LocalizationInAStoredMap : LocalizationOnTheBus {
     for (std::uint32_t id = 0; id < submaps; ++id) correction.submaps.push_back({{id}, {10.0 * id, 0.0, 0.0}});
     wire::GraphCorrectionEncoder().encode("car", correction, [this](const slammot_GraphCorrection& part) { corrections.write(part); });
   }
-  app::ServiceState state() { return context_->status().state(std::chrono::steady_clock::now()); }
-  std::string explanation() { return context_->status().explanation(std::chrono::steady_clock::now()); }
   bool has_published(std::uint32_t submap) {
     tiles.take_each([this](const slammot_SubmapTile& tile) { submaps_published.insert(tile.submap_id); });
     return submaps_published.contains(submap);

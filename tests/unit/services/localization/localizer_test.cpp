@@ -980,6 +980,8 @@ TEST_F(OverSeveralSubmaps, EachBeginsWhereTheOneBeforeEndsAndIsTiedToIt) {
 TEST_F(OverSeveralSubmaps, EveryScanSaysItsPoseInTheSubmapThatItNames) {
   Localizer localizer(config());
   const auto submaps = submaps_of_drive(localizer);
+  ASSERT_GT(submaps.size(), 1U);
+  ASSERT_FALSE(scans_.empty());
   for (const flow::LocalizedScan& scan : scans_) {
     const Pose2& odom_from_submap = submaps.at(scan.submap_id.value).odom_from_submap;
     EXPECT_THAT(odom_from_submap * scan.submap_from_base, PoseNear(scan.odom_from_base.pose, 1e-9));

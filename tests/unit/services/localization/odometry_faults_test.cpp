@@ -167,6 +167,13 @@ TEST_P(OdometryFaultsOfRobots, DoNotMoveAVehicleThatStandsWhileItsWheelsTurn) {
 INSTANTIATE_TEST_SUITE_P(TwoScansASecond, OdometryFaultsOfRobots, ::testing::Values(&robot_outdoors, &robot_in_a_room),
                          [](const auto& info) { return info.index == 0 ? std::string("Outdoors") : std::string("InARoom"); });
 
+// Of those that are not reached everywhere, where they are.
+TEST(OdometryFaultsOfARobotInARoom, DoNotCarryThePoseOnWhereWheelsSlip) { expect_good(drive_with(robot_in_a_room(), slip(1.0, 0.5), kScans)); }
+
+TEST(OdometryFaultsOfARobotInARoom, DoNotHoldThePoseWhereWheelsFreezeWhileItDrives) { expect_good(drive_with(robot_in_a_room(), during(6.0, 12.0, frozen), kScans)); }
+
+TEST(OdometryFaultsOfARobotOutdoors, DoNotHoldThePoseWhereWheelsNeverMove) { expect_good(drive_with(robot_outdoors(), frozen, kScans)); }
+
 TEST(OdometryFaultsOfACar, DoNotTurnThePoseWhereWheelsTurnTooMuch) { expect_good(drive_with(car(), scaled(1.0, 1.15), kScans)); }
 
 TEST(OdometryFaultsOfACar, DoNotCarryThePoseAwayWhereWheelsJump) {

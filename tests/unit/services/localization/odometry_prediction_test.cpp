@@ -1,5 +1,8 @@
 #include "services/localization/odometry_prediction.hpp"
 
+#include <functional>
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/matchers.hpp"
@@ -186,6 +189,34 @@ TEST_F(OdometryPredictionTest, ResumesWithTheSamplesOfACheckpointAndThoseThatCam
   EXPECT_TRUE(resumed.reaches(stamp_ns(5)));
   prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
   EXPECT_EQ(resumed.predict(stamp_ns(5)).after.odom_from_base, prediction_.predict(stamp_ns(5)).after.odom_from_base);
+}
+
+/// Seconds of comparisons that disbelieve the wheels until they are recalibrated; none in half a minute.
+std::optional<int> seconds_until_recalibrated(const std::function<Pose2(const Pose2&, int)>& wheels_of) {
+  OdometryPrediction prediction{LocalizerConfig{}};
+  prediction.add({0, {}});
+  prediction.begin(0);
+  const geometry::Matrix3 covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
+  for (int second = 1; second <= 30; ++second) {
+    const Pose2 by_scans{1.0 + 0.3 * (second % 3), 0.0, second % 2 == 0 ? 0.3 : -0.2};
+    const Pose2 by_wheels = wheels_of(by_scans, second);
+    prediction.compare({by_wheels, by_wheels, geometry::UncertainPose2{by_scans, covariance}, 1.0, 0.0});
+    if (prediction.state().belief.recalibrations > 0) return second;
+  }
+  return std::nullopt;
+}
+
+TEST(OdometryPrediction, RecalibratesWheelsThatAreWrongForSecondsWhereFactorsMakeThemRight) {
+  const auto counts_too_much = [](const Pose2& step, int) { return Pose2{1.4 * step.x_m, step.y_m, step.heading_rad}; };
+  const auto after_s = seconds_until_recalibrated(counts_too_much);
+  ASSERT_TRUE(after_s);
+  EXPECT_GT(*after_s, 8) << "wheels may slip as long as that";
+  EXPECT_LT(*after_s, 20);
+}
+
+TEST(OdometryPrediction, DoesNotRecalibrateWheelsThatNoFactorsMakeRight) {
+  const auto at_random = [](const Pose2&, int second) { return Pose2{0.4 * (second * 7 % 5), 0.0, 0.2 * (second * 3 % 7 - 3)}; };
+  EXPECT_FALSE(seconds_until_recalibrated(at_random));
 }
 
 }  // namespace

@@ -36,7 +36,11 @@ TEST(PoseSearch, FindsThePoseWithinItsWindow) {
 TEST(PoseSearch, LooksNoFartherThanThePriorAllows) {
   const MappedWorld room(slammot::testing::room());
   PoseSearch search(room.config(), 1);
-  const auto poses = search.poses_around(prior_at({0.0, 0.0, 0.0}, 0.1, 0.01), room.points_at({2.0, 0.0, 0.0}).matched(), room.map().surfels());
+  const auto points = room.points_at({2.0, 0.0, 0.0}).matched();
+  const auto found = search.poses_around(prior_at({0.0, 0.0, 0.0}, 1.0, 0.01), points, room.map().surfels());
+  ASSERT_FALSE(found.empty());
+  EXPECT_THAT(found.front(), PoseNear(Pose2{2.0, 0.0, 0.0}, 0.15));
+  const auto poses = search.poses_around(prior_at({0.0, 0.0, 0.0}, 0.1, 0.01), points, room.map().surfels());
   for (const auto& pose : poses) EXPECT_LT(pose.translation_m().norm(), 0.1 * room.config().search_sigmas * std::sqrt(2.0) + 0.3);
 }
 

@@ -1,5 +1,6 @@
 #include "services/localization/relocalization.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -38,6 +39,20 @@ TEST(Relocalization, FindsNothingByAScanOfAnotherPlace) {
   const MappedWorld room(slammot::testing::room());
   const MappedWorld elsewhere(slammot::testing::box({0.0, 0.0, 0.3}, 30.0, 26.0));
   EXPECT_FALSE(find(room, elsewhere.points_at({})).found);
+}
+
+TEST(Relocalization, FindsNothingWhereTooMuchOfTheScanIsInFreeSpace) {
+  const MappedWorld room(slammot::testing::room());
+  const Pose2 truth{0.5, -0.8, 0.4};
+  const auto found_beside_a_screen = [&](double half_angle_rad) {
+    const double half_m = 2.0 * std::tan(half_angle_rad);  // 2 m to its right
+    const geometry::Vector2 middle_m = truth.translation_m() - geometry::Vector2(0.0, 2.0);
+    const slammot::testing::World screen{{middle_m - geometry::Vector2(half_m, 0.0), middle_m + geometry::Vector2(half_m, 0.0)}};
+    const MappedWorld changed(slammot::testing::joined(slammot::testing::room(), screen));
+    return find(room, changed.points_at(truth)).found.has_value();
+  };
+  EXPECT_TRUE(found_beside_a_screen(0.5)) << "a sixth of the beams";
+  EXPECT_FALSE(found_beside_a_screen(0.88)) << "28 % of them, less than what it is lost by";
 }
 
 TEST(Relocalization, WaitsWhereTwoPlacesAreAboutAsGood) {

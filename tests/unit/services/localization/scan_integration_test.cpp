@@ -23,6 +23,7 @@ class ScanIntegrationTest : public ::testing::Test {
     sensing::LaserScan scan;
     scan.stamp_ns = sequence * kPeriod_ns;
     scan.sequence = sequence;
+    scan.scanner.scanner_id = scanner_id_;
     scan.scanner.max_range_m = 30.0;
     scan.range_m = {range_m};
     flow::LocalizedScan localized;
@@ -39,6 +40,7 @@ class ScanIntegrationTest : public ::testing::Test {
   std::size_t surfels() const { return map_.surfels().all().size(); }
   bool saw_moving() const { return map_.evidence().moving(map_.evidence().window().cell_at(5.0, 0.0)) > 0; }
 
+  std::string scanner_id_ = "front";
   flow::EndCell end_cell_ = flow::EndCell::kUnseen;
   LocalMap map_{config().map, Vector2::Zero()};
   ScanIntegration integration_{config()};
@@ -121,6 +123,36 @@ TEST_F(ScanIntegrationTest, GivesBackRestoredPoints) {
   with_restored.restored = {{1, {0}}};
   EXPECT_EQ(integrate(with_restored).restored_points, 1U);
   EXPECT_EQ(surfels(), 1U);
+}
+
+TEST_F(ScanIntegrationTest, GivesBackPointsOfTheScannerThatSawThem) {
+  scanner_id_ = "rear";
+  remember(1);
+  flow::ScanLabels of_rear = labels(1, PointLabel::kMoving);
+  of_rear.scanner_id = "rear";
+  integrate(of_rear);
+  scanner_id_ = "front";
+  remember(2);
+  flow::ScanLabels with_restored = labels(2, PointLabel::kMoving);
+  with_restored.restored = {{1, {0}}};  // of a scan that this scanner never made
+  EXPECT_EQ(integrate(with_restored).restored_points, 0U);
+  EXPECT_EQ(surfels(), 0U);
+}
+
+TEST_F(ScanIntegrationTest, RemembersForRestoringWhatIsSomeSecondsOldAndNoMore) {
+  const auto restored_after = [this](std::uint32_t scans) {
+    integration_ = ScanIntegration(config());
+    for (std::uint32_t sequence = 1; sequence <= scans; ++sequence) {
+      remember(sequence);
+      integrate(labels(sequence, PointLabel::kMoving));
+    }
+    remember(scans + 1);
+    flow::ScanLabels with_restored = labels(scans + 1, PointLabel::kMoving);
+    with_restored.restored = {{1, {0}}};
+    return integrate(with_restored).restored_points;
+  };
+  EXPECT_EQ(restored_after(60), 1U);
+  EXPECT_EQ(restored_after(120), 0U);
 }
 
 TEST_F(ScanIntegrationTest, FreesNothingByAnEchoThatIsTooNear) {

@@ -47,5 +47,18 @@ TEST(SweepCorrection, LearnsNothingFromAMatchThatIsNotBelieved) {
   EXPECT_TRUE(learning.factor().mapped_motion);
 }
 
+TEST(SweepCorrection, LearnsNothingFromAScanWithoutSweep) {
+  SweepCorrection learning = correction(1.0);
+  const ScanPoints points{LocalizerConfig{}};
+  Step step;
+  step.duration_s = 0.1;
+  step.after.covariance.setIdentity();
+  sensing::LaserScan at_once = sweeping_scan();
+  at_once.scanner.sweep_s = 0.0;
+  learning.observe(at_once, step, points, {.odom_from_base = {}, .is_believed = true}, grids::SurfelMap{});
+  EXPECT_FALSE(learning.factor().mapped_motion);
+  EXPECT_EQ(&learning.corrected(at_once), &at_once);
+}
+
 }  // namespace
 }  // namespace slammot::localization

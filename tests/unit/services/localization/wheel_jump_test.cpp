@@ -1,5 +1,7 @@
 #include "services/localization/wheel_jump.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace slammot::localization {
@@ -25,6 +27,14 @@ TEST(WheelJump, IsOneWhereOnlyTheHeadingJumpsAlsoAcrossTheEndOfTheCircle) {
   EXPECT_TRUE(is_jump({1.0, 0.015, 0.5}));
   EXPECT_TRUE(is_wheel_jump({0.0, 0.0, -3.1}, 0.0, 0.0, kStep_s, {}));
   EXPECT_FALSE(is_wheel_jump({0.0, 0.0, -3.1}, 0.0, 31.8, kStep_s, {}));
+}
+
+TEST(WheelJump, IsNoneOnABendHoweverSharp) {
+  const auto is_jump_on_bend = [](const Pose2& step) { return is_wheel_jump(step, 10.0, 20.0, kStep_s, {.turn_acceleration_radps2 = 1.0}); };
+  EXPECT_FALSE(is_jump_on_bend({std::cos(1.0), std::sin(1.0), 2.0}));
+  EXPECT_TRUE(is_jump_on_bend({1.0, 0.0, 2.0})) << "on along the tangent";
+  EXPECT_TRUE(is_jump_on_bend({std::cos(1.0), -std::sin(1.0), 2.0}));
+  EXPECT_TRUE(is_jump_on_bend({std::cos(1.0), std::sin(1.0), 1.5}));
 }
 
 TEST(WheelJump, IsNotToldFromDrivingOverALongStep) { EXPECT_FALSE(is_wheel_jump({5.0, 3.0, 2.0}, 0.0, 0.0, 2.0, {})); }

@@ -85,8 +85,24 @@ TEST(LoopCloser, GivesTheSameBitsTwice) {
   for (const Submap& submap : submaps) {
     const GraphCorrection a = first.add(submap);
     const GraphCorrection b = second.add(submap);
+    ASSERT_FALSE(a.submaps.empty());
+    ASSERT_EQ(a.submaps.size(), b.submaps.size());
     for (std::size_t i = 0; i < a.submaps.size(); ++i) ASSERT_EQ(a.submaps[i].map_from_submap, b.submaps[i].map_from_submap);
   }
+  EXPECT_GT(first.counters().closures, 0U);
+}
+
+TEST(LoopCloser, SolvesAtTheEndOfALongDriveWhatItPutOff) {
+  const auto submaps = drive(ring(), way_around_the_ring(9.0), 0.0);
+  ASSERT_GT(submaps.size(), 110U) << "of fewer each closure is solved at once";
+  LoopCloser closer(indoor_loop_closing());
+  for (const Submap& submap : submaps) closer.add(submap);
+  const auto solved = closer.counters().optimisations;
+  EXPECT_LT(solved, closer.counters().closures);
+  EXPECT_TRUE(closer.has_unfinished_work());
+  closer.finish();
+  EXPECT_GT(closer.counters().optimisations, solved);
+  EXPECT_FALSE(closer.has_unfinished_work());
 }
 
 TEST(LoopCloser, DoesNotTakeOneOfEqualCorridorsForAnother) {

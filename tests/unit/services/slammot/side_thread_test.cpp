@@ -68,6 +68,7 @@ TEST(SideThread, WakesAgainAfterARest) {
     }));
     is_done.wait(false);  // not SideThread::wait(), which would do it here
     side.wait();
+    EXPECT_TRUE(is_done);
   }
 }
 
@@ -162,6 +163,10 @@ TEST(SideThread, WaitsForNothingWhereNothingWasBegun) {
   SideThread side;
   side.wait();
   side.wait();
+  bool is_done = false;
+  side.begin(once([&] { is_done = true; }));
+  side.wait();
+  EXPECT_TRUE(is_done);
 }
 
 }  // namespace

@@ -174,6 +174,7 @@ TEST(Tracker, NeverBelievesInTheEndOfAWallThatComesIntoView) {
   play.run(3.0, [&](Street& street, double t) {
     street.unknown = {{{20.0, 8.0, M_PI / 2.0}, 10.0, 0.5}, {{12.0, 5.0 + 2.0 * t, M_PI / 2.0}, 5.0, 2.0}};
   });
+  ASSERT_FALSE(play.confirmed().empty()) << "the van";
   for (const flow::TrackedObject& object : play.confirmed()) EXPECT_LT(object.position_in_odom_m.x(), 15.0);
 }
 

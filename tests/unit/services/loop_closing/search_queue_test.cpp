@@ -1,0 +1,159 @@
+#include "services/loop_closing/search_queue.hpp"
+
+#include <deque>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/floor_plan.hpp"
+
+namespace slammot::loop_closing {
+namespace {
+
+using geometry::Pose2;
+using slammot::testing::FloorPlan;
+using Extent = SearchQueue::Extent;
+
+RevisitConfig indoor_config() {
+  RevisitConfig config;
+  config.search_cell_m = 0.1;
+  config.min_window_m = 0.5;
+  config.registration = {.coarse_gate_m = 0.5, .fine_gate_m = 0.2, .surfel_sigma_m = 0.04, .independent_spacing_m = 0.5};
+  return config;
+}
+
+/// Hall of 30 x 12 m with two different pillars.
+FloorPlan hall() {
+  FloorPlan plan;
+  plan.add_box({-15, -6}, {15, 6});
+  plan.add_box({2, 1}, {3, 2.5});
+  plan.add_box({-6, -3}, {-4, -2.5});
+  return plan;
+}
+
+class SearchQueueTest : public ::testing::Test {
+ protected:
+  SearchQueueTest() { place(0, {}); }
+
+  const Place& place(std::uint32_t id, const Pose2& map_from_base) {
+    slammot::testing::SubmapMaker maker;
+    maker.reach_m = 12.0;
+    places_.push_back(make_place(submap_seen_from(hall(), id, {map_from_base, map_from_base * Pose2{0.5, 0.0, 0.0}}, maker), 0.0, {.tolerance_m = 0.15}));
+    return places_.back();
+  }
+
+  /// For a place that was seen 2 m off its expected pose, on the first one.
+  RevisitSearch search(std::uint32_t id, double sigma_m) {
+    const Pose2 truth{2.0, 0.5, 0.1};
+    const Place& source = place(id, truth);
+    const geometry::UncertainPose2 expected{{}, Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 0.04).asDiagonal()};
+    return {indoor_config(), source, {{{{{&places_.front(), {}}}}, expected, {}}}};
+  }
+
+  std::deque<Place> places_;  ///< Searches refer to them.
+};
+
+std::vector<std::uint32_t> sources_of(const std::vector<SearchQueue::Finished>& finished) {
+  std::vector<std::uint32_t> sources;
+  for (const auto& one : finished) sources.push_back(one.source.value);
+  return sources;
+}
+
+TEST_F(SearchQueueTest, EndsASearchWithWhatItFound) {
+  SearchQueue queue{SearchBudget{}};
+  queue.add(search(1, 1.5), Extent::kExpected);
+  EXPECT_FALSE(queue.is_empty());
+  std::vector<SearchQueue::Finished> finished;
+  for (int submaps = 0; submaps < 20 && finished.empty(); ++submaps) finished = queue.advance();
+  ASSERT_EQ(finished.size(), 1U);
+  EXPECT_EQ(finished.front().source, flow::SubmapId{1});
+  EXPECT_EQ(finished.front().target, flow::SubmapId{0});
+  EXPECT_FALSE(finished.front().is_given_up);
+  EXPECT_FALSE(finished.front().hypotheses.empty());
+  EXPECT_TRUE(queue.is_empty());
+  EXPECT_GT(queue.work(), 0U);
+  EXPECT_EQ(queue.given_up(), 0U);
+}
+
+TEST_F(SearchQueueTest, DoesExpectedOnesBeforeThoseEverywhere) {
+  SearchQueue queue{SearchBudget{}};
+  queue.add(search(1, 1.5), Extent::kEverywhere);
+  queue.add(search(2, 1.5), Extent::kExpected);
+  queue.add(search(3, 1.5), Extent::kExpected);
+  std::vector<std::uint32_t> order;
+  for (int submaps = 0; submaps < 40 && order.size() < 3; ++submaps)
+    for (const std::uint32_t source : sources_of(queue.advance())) order.push_back(source);
+  EXPECT_EQ(order, (std::vector<std::uint32_t>{2, 3, 1}));
+}
+
+/// Work of a search until the condition no longer holds, drawing nothing.
+template <typename Condition>
+std::uint64_t work_while(RevisitSearch& search, PyramidCache& pyramids, const Condition& holds) {
+  const std::uint64_t before = search.work();
+  while (holds(search)) search.advance(1, pyramids);
+  return search.work() - before;
+}
+
+TEST_F(SearchQueueTest, DoesTheNearPartOfEachBeforeAllAroundOfAny) {
+  const auto is_near = [](const RevisitSearch& one) { return one.is_near(); };
+  PyramidCache pyramids;
+  RevisitSearch around = search(1, 4.0);
+  work_while(around, pyramids, is_near);
+  ASSERT_FALSE(around.is_done());
+  const RevisitSearch near = search(2, 4.0);
+  ASSERT_TRUE(near.is_near());
+  RevisitSearch around_alone = around;
+  RevisitSearch near_alone = near;
+  const std::uint64_t work_around = work_while(around_alone, pyramids, [](const RevisitSearch& one) { return !one.is_done(); });
+  const std::uint64_t work_near = work_while(near_alone, pyramids, is_near);
+
+  SearchQueue queue{{.work_per_submap = 1.0, .work_per_search = 1e12}};
+  queue.add(around, Extent::kExpected);
+  queue.add(near, Extent::kExpected);
+  std::vector<std::uint32_t> finished;
+  for (int submaps = 0; submaps < 100'000 && finished.empty(); ++submaps) finished = sources_of(queue.advance());
+  EXPECT_EQ(finished, (std::vector<std::uint32_t>{1}));
+  EXPECT_GE(queue.work(), work_near + work_around);
+}
+
+TEST_F(SearchQueueTest, GivesUpASearchThatHasReadTooMuch) {
+  SearchQueue queue{{.work_per_submap = 60e6, .work_per_search = 1e4}};
+  queue.add(search(1, 4.0), Extent::kExpected);
+  const auto finished = queue.advance();
+  ASSERT_EQ(finished.size(), 1U);
+  EXPECT_TRUE(finished.front().is_given_up);
+  EXPECT_EQ(queue.given_up(), 1U);
+}
+
+TEST_F(SearchQueueTest, GivesUpTheOldestOfThoseEverywhereWhereTooManyWait) {
+  SearchQueue queue{{.work_per_submap = 0.0, .most_waiting = 2}};
+  queue.add(search(1, 1.5), Extent::kExpected);
+  queue.add(search(2, 1.5), Extent::kEverywhere);
+  queue.add(search(3, 1.5), Extent::kEverywhere);
+  const auto finished = queue.advance();
+  EXPECT_EQ(sources_of(finished), (std::vector<std::uint32_t>{2}));
+  EXPECT_TRUE(finished.front().is_given_up);
+  EXPECT_TRUE(queue.advance().empty()) << "told once";
+}
+
+TEST_F(SearchQueueTest, GivesUpAtTheEndWhatIsLeft) {
+  SearchQueue queue{{.work_per_submap = 0.0, .work_at_end = 1.0}};
+  queue.add(search(1, 4.0), Extent::kExpected);
+  queue.add(search(2, 4.0), Extent::kEverywhere);
+  const auto finished = queue.finish();
+  EXPECT_EQ(finished.size(), 2U);
+  EXPECT_TRUE(queue.is_empty());
+  EXPECT_EQ(queue.given_up(), 2U);
+}
+
+TEST_F(SearchQueueTest, HasWorkAtTheEndForWhatIsLeft) {
+  SearchQueue queue{{.work_per_submap = 0.0}};
+  queue.add(search(1, 1.5), Extent::kExpected);
+  EXPECT_TRUE(queue.advance().empty());
+  const auto finished = queue.finish();
+  ASSERT_EQ(finished.size(), 1U);
+  EXPECT_FALSE(finished.front().is_given_up);
+  EXPECT_FALSE(finished.front().hypotheses.empty());
+}
+
+}  // namespace
+}  // namespace slammot::loop_closing
