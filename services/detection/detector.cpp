@@ -24,12 +24,23 @@ using geometry::Matrix2;
 using geometry::Vector2;
 using sensing::BeamSpan;
 
-PointLabel label_of(const LocalizedBeam& beam, const DetectionConfig& config) {
+constexpr double kMovingShare = 0.5;  // A segment moves when more than this of its decidable points do: Wang 2004, 6.2.
+constexpr double kLeastFreeLogOdds = 0.8;  // An end cell less surely free than this says nothing.
+constexpr double kExplainedWithin_m = 0.3;  // An echo this near to the expected outline contradicts nothing: docs/decisions/0009.
+constexpr double kExplainedWithinPerMetre = 0.006;  // What each metre of range adds to that.
+constexpr double kLeastMovingEvidence = 0.3;  // MO-map evidence from which on what the SO-map cannot decide moves, for slow pedestrians: Wang 2004, 6.2.
+constexpr int kLargestByMovingEvidence = 12;  // Points of a segment that may move by the MO-map alone.
+constexpr int kLeastMovingRun = 2;  // Moving beams side by side that make a segment of their own.
+constexpr int kLeastStationaryRun = 3;  // Stationary beams side by side that make one.
+constexpr double kRangeNoisePerMetre = 0.001;  // Of range_noise_m: what each metre of range adds to it.
+constexpr double kOccluderMargin_m = 0.5;  // A neighbouring echo nearer by this hides what lies behind it.
+
+PointLabel label_of(const LocalizedBeam& beam) {
   switch (beam.end_cell) {
     case EndCell::kNoEcho: return PointLabel::kNoEcho;
     case EndCell::kOccupied: return PointLabel::kStationary;
     case EndCell::kFree:
-      return beam.free_evidence >= config.least_free_log_odds ? PointLabel::kMoving : PointLabel::kUnknown;
+      return beam.free_evidence >= kLeastFreeLogOdds ? PointLabel::kMoving : PointLabel::kUnknown;
     case EndCell::kUnseen: break;
   }
   return PointLabel::kUnknown;
@@ -42,9 +53,9 @@ class ExpectedOutline {
 
   /// Whether the echo lies near the line through what neighbouring beams should have met: a wall at a grazing angle is
   /// met far from where one beam expects it, but never far from its line.
-  bool explains(std::size_t beam, const DetectionConfig& config) const {
+  bool explains(std::size_t beam) const {
     const LocalizedBeam& echo = scan_.beams[beam];
-    const double within_m = config.explained_within_m + config.explained_within_per_m * static_cast<double>(echo.range_m);
+    const double within_m = kExplainedWithin_m + kExplainedWithinPerMetre * static_cast<double>(echo.range_m);
     const Vector2 point = echo.point_in_base_m.cast<double>();
     const std::size_t first = beam < flow::kExpectedAside ? 0 : beam - flow::kExpectedAside;
     const std::size_t last = std::min(beam + flow::kExpectedAside + 1, scan_.beams.size());
@@ -91,7 +102,7 @@ SegmentedScan with_header_of(const LocalizedScan& scan, SegmentedScan segmented)
   return segmented;
 }
 
-void label_points(const LocalizedScan& scan, const BeamDirections& directions, const DetectionConfig& config, SegmentedScan& segmented) {
+void label_points(const LocalizedScan& scan, const BeamDirections& directions, SegmentedScan& segmented) {
   segmented.points_in_base_m.resize(scan.beams.size());
   segmented.range_m.resize(scan.beams.size());
   segmented.labels.resize(scan.beams.size());
@@ -99,8 +110,8 @@ void label_points(const LocalizedScan& scan, const BeamDirections& directions, c
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     segmented.points_in_base_m[i] = scan.beams[i].point_in_base_m;
     segmented.range_m[i] = scan.beams[i].range_m;
-    segmented.labels[i] = label_of(scan.beams[i], config);
-    if (segmented.labels[i] == PointLabel::kMoving && outline.explains(i, config)) segmented.labels[i] = PointLabel::kStationary;
+    segmented.labels[i] = label_of(scan.beams[i]);
+    if (segmented.labels[i] == PointLabel::kMoving && outline.explains(i)) segmented.labels[i] = PointLabel::kStationary;
   }
 }
 
@@ -122,7 +133,7 @@ bool lies_on_line(const Eigen::Vector2f& from, const Eigen::Vector2f& to, const 
 /// Whether the moving run only goes on with the line that the stationary runs around it make: a wall of which the map
 /// does not know all cells yet.
 bool goes_on_with_a_wall(std::size_t index, const std::vector<Run>& runs, std::span<const std::uint16_t> beams,
-                         const SegmentedScan& scan, const DetectionConfig& config) {
+                         const SegmentedScan& scan) {
   constexpr std::size_t kBack = 4;
   const auto point = [&](std::size_t i) { return scan.points_in_base_m[beams[i]]; };
   const Run& run = runs[index];
@@ -133,14 +144,13 @@ bool goes_on_with_a_wall(std::size_t index, const std::vector<Run>& runs, std::s
   const std::size_t from = has_before ? run.first - (has_after ? 1 : std::min(kBack, runs[index - 1].count)) : end + std::min(kBack, runs[index + 1].count) - 1;
   const std::size_t to = has_after ? end : run.first - 1;
   for (std::size_t i = run.first; i < end; ++i)
-    if (!lies_on_line(point(from), point(to), point(i), config.explained_within_m)) return false;
+    if (!lies_on_line(point(from), point(to), point(i), kExplainedWithin_m)) return false;
   return true;
 }
 
 /// Runs of moving and not moving beams; where the map cannot say, a beam goes with the one before.
 /// Runs too short to be a thing of their own take the label of their neighbours.
-void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& scan, const DetectionConfig& config,
-                    std::vector<Run>& runs) {
+void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& scan, std::vector<Run>& runs) {
   runs.clear();
   std::size_t undecided = 0;
   for (std::size_t i = 0; i < beams.size(); ++i) {
@@ -156,11 +166,11 @@ void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& s
   }
   if (runs.empty()) runs.push_back({0, beams.size(), false});
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (runs[i].is_moving && goes_on_with_a_wall(i, runs, beams, scan, config)) runs[i].is_moving = false;
+    if (runs[i].is_moving && goes_on_with_a_wall(i, runs, beams, scan)) runs[i].is_moving = false;
   merge_with_equal_neighbours(runs);
   for (int pass = 0; pass < 2 && runs.size() > 1; ++pass) {
     for (Run& run : runs) {
-      const int least = run.is_moving ? config.least_moving_run : config.least_stationary_run;
+      const int least = run.is_moving ? kLeastMovingRun : kLeastStationaryRun;
       if (static_cast<int>(run.count) < least) run.is_moving = !run.is_moving;
     }
     merge_with_equal_neighbours(runs);
@@ -183,20 +193,19 @@ double mean_moving_evidence(const Segment& segment, const LocalizedScan& scan) {
   return sum / static_cast<double>(segment.beams.size());
 }
 
-PointLabel label_of_segment(const Segment& segment, const LocalizedScan& localized, const SegmentedScan& scan,
-                            const DetectionConfig& config) {
-  if (segment.moving_share > config.moving_share) return PointLabel::kMoving;
+PointLabel label_of_segment(const Segment& segment, const LocalizedScan& localized, const SegmentedScan& scan) {
+  if (segment.moving_share > kMovingShare) return PointLabel::kMoving;
   const bool is_stationary = std::any_of(segment.beams.begin(), segment.beams.end(), [&](std::uint16_t beam) {
     return scan.labels[beam] == PointLabel::kStationary;
   });
   if (is_stationary) return PointLabel::kStationary;
-  const bool moved_here_before = static_cast<int>(segment.beams.size()) <= config.largest_by_moving_evidence &&
-                                 mean_moving_evidence(segment, localized) >= config.least_moving_evidence;
+  const bool moved_here_before = static_cast<int>(segment.beams.size()) <= kLargestByMovingEvidence &&
+                                 mean_moving_evidence(segment, localized) >= kLeastMovingEvidence;
   return moved_here_before ? PointLabel::kMoving : PointLabel::kUnknown;
 }
 
 /// Whether the neighbour `step` (+1 or -1) beams on, where there is an echo, lies in front of the beam's.
-bool is_hidden_beyond(std::uint16_t beam, int step, const SegmentedScan& scan, const DetectionConfig& config) {
+bool is_hidden_beyond(std::uint16_t beam, int step, const SegmentedScan& scan) {
   constexpr int kBeamsLookedAt = 2;
   for (int i = 1; i <= kBeamsLookedAt; ++i) {
     const int count = static_cast<int>(scan.range_m.size());
@@ -204,7 +213,7 @@ bool is_hidden_beyond(std::uint16_t beam, int step, const SegmentedScan& scan, c
     if (geometry::goes_all_round(scan.range_m.size(), scan.beam_step_rad)) neighbour = (neighbour + count) % count;
     if (neighbour < 0 || neighbour >= count) return true;  // the field of view ends
     const double range_m = static_cast<double>(scan.range_m[static_cast<std::size_t>(neighbour)]);
-    if (range_m > 0.0) return range_m < static_cast<double>(scan.range_m[beam]) - config.occluder_margin_m;
+    if (range_m > 0.0) return range_m < static_cast<double>(scan.range_m[beam]) - kOccluderMargin_m;
   }
   return false;
 }
@@ -218,7 +227,7 @@ void add_echoes(const BeamSpan& span, const std::vector<float>& range_m, std::ve
 Matrix2 echo_covariance(const Vector2& way_m, double beam_step_rad, const DetectionConfig& config) {
   const double range_m = std::max(way_m.norm(), 1e-3);
   const Vector2 along = way_m / range_m;
-  const double sigma_along_m = config.range_noise_m + config.range_noise_per_m * range_m;
+  const double sigma_along_m = config.range_noise_m + kRangeNoisePerMetre * range_m;
   const double sigma_across_m = range_m * std::abs(beam_step_rad) / std::sqrt(12.0);  // somewhere in the beam's share
   return sigma_along_m * sigma_along_m * along * along.transpose() +
          sigma_across_m * sigma_across_m * (Matrix2::Identity() - along * along.transpose());
@@ -258,9 +267,9 @@ void describe_shape(Segment& segment, const SegmentedScan& scan, const Matrix2& 
 void finish_segment(Segment& segment, const LocalizedScan& localized, const DetectionConfig& config, const SegmentedScan& scan,
                     const Matrix2& odom_from_base_turn, std::vector<Vector2>& points_in_odom_m) {
   segment.moving_share = moving_share(segment, scan);
-  segment.label = label_of_segment(segment, localized, scan, config);
-  segment.occluded_at_start = is_hidden_beyond(segment.beams.front(), -1, scan, config);
-  segment.occluded_at_end = is_hidden_beyond(segment.beams.back(), +1, scan, config);
+  segment.label = label_of_segment(segment, localized, scan);
+  segment.occluded_at_start = is_hidden_beyond(segment.beams.front(), -1, scan);
+  segment.occluded_at_end = is_hidden_beyond(segment.beams.back(), +1, scan);
   describe_shape(segment, scan, odom_from_base_turn, config, points_in_odom_m);
   if (segment.label == PointLabel::kMoving && segment.box_length_m > config.longest_mover_m) segment.label = PointLabel::kUnknown;
 }
@@ -270,7 +279,7 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
 SegmentedScan Detector::detect(const LocalizedScan& localized, SegmentedScan done_with) {
   SegmentedScan scan = with_header_of(localized, std::move(done_with));
   directions_.look_along(localized);
-  label_points(localized, directions_, config_, scan);
+  label_points(localized, directions_, scan);
   leave_out_ground(scan);
   cut(localized, scan);
   finish_segments(localized, scan);
@@ -278,7 +287,7 @@ SegmentedScan Detector::detect(const LocalizedScan& localized, SegmentedScan don
 }
 
 void Detector::leave_out_ground(SegmentedScan& scan) {
-  find_ground(scan, directions_, config_, is_ground_);
+  find_ground(scan, directions_, is_ground_);
   range_without_ground_m_ = scan.range_m;
   for (std::size_t i = 0; i < is_ground_.size(); ++i) {
     if (!is_ground_[i]) continue;
@@ -296,7 +305,7 @@ void Detector::cut(const LocalizedScan& localized, SegmentedScan& scan) {
     beams_.clear();
     add_echoes(spans_[i], range_without_ground_m_, beams_);
     if (goes_on_at_first && i + 1 == spans_.size()) add_echoes(spans_.front(), range_without_ground_m_, beams_);
-    split_by_label(beams_, scan, config_, runs_);
+    split_by_label(beams_, scan, runs_);
     for (const Run& run : runs_) {
       if (count == scan.segments.size()) spare_segments_.resize(scan.segments, count + 1);
       std::vector<std::uint16_t>& beams = scan.segments[count++].beams;

@@ -6,12 +6,17 @@
 #include <optional>
 
 #include "services/detection/beam_directions.hpp"
-#include "services/detection/detector.hpp"
 
 namespace slammot::detection {
 namespace {
 
 using geometry::Vector2;
+
+constexpr double kLeastWidth_m = 3.0;  // A line on the ground is at least so wide across the vehicle's axis.
+constexpr double kThickness_m = 0.4;  // A line on the ground is at most so thick.
+constexpr double kHeading_rad = 0.25;  // A line on the ground is that square to the vehicle's axis.
+constexpr double kNearest_m = 3.0;  // The ground is not hit nearer than this.
+constexpr double kMostBeyond = 0.2;  // Share of the beams on a line on the ground that may see beyond it.
 
 /// x = distance + slope * y, in a frame at the laser parallel to base.
 struct Line {
@@ -23,15 +28,15 @@ enum class Side { kInFront, kOn, kBeyond, kNoEcho, kNotCrossed };
 
 class Ground {
  public:
-  Ground(const flow::SegmentedScan& scan, const BeamDirections& directions, const DetectionConfig& config)
-      : scan_(scan), config_(config), directions_(directions) {}
+  Ground(const flow::SegmentedScan& scan, const BeamDirections& directions)
+      : scan_(scan), directions_(directions) {}
 
   Vector2 from_laser_m(std::size_t beam) const {
     return scan_.points_in_base_m[beam].cast<double>() - scan_.base_from_laser.translation_m();
   }
 
   bool is_candidate(std::size_t beam) const {
-    return scan_.labels[beam] == flow::PointLabel::kMoving && from_laser_m(beam).x() > config_.ground_nearest_m;
+    return scan_.labels[beam] == flow::PointLabel::kMoving && from_laser_m(beam).x() > kNearest_m;
   }
 
   /// Line through the run of moving echoes that begins here, where it is straight and square to the axis.
@@ -44,7 +49,7 @@ class Ground {
     }
     const double spread = syy - sy * sy / n;
     const double slope = (sxy - sx * sy / n) / std::max(spread, 1e-9);
-    if (std::abs(slope) > std::tan(config_.ground_heading_rad)) return std::nullopt;
+    if (std::abs(slope) > std::tan(kHeading_rad)) return std::nullopt;
     return Line{(sx - slope * sy) / n, slope};
   }
 
@@ -56,7 +61,7 @@ class Ground {
     const double crossing_m = line.distance_m / approach;
     if (crossing_m > 0.9 * scan_.max_range_m) return Side::kNotCrossed;
     const auto range_m = static_cast<double>(scan_.range_m[beam]);
-    const double tolerance_m = config_.ground_thickness_m + 0.02 * crossing_m;
+    const double tolerance_m = kThickness_m + 0.02 * crossing_m;
     if (range_m <= 0.0) return Side::kNoEcho;  // dark asphalt may give none
     if (range_m > crossing_m + tolerance_m) return Side::kBeyond;
     return range_m < crossing_m - tolerance_m ? Side::kInFront : Side::kOn;
@@ -108,29 +113,28 @@ class Ground {
 
   bool is_ground(const Line& line) const {
     const Tally tally = tally_of(line);
-    if (tally.high_y_m - tally.low_y_m < config_.ground_least_width_m || tally.beyond > config_.ground_most_beyond * tally.on) return false;
+    if (tally.high_y_m - tally.low_y_m < kLeastWidth_m || tally.beyond > kMostBeyond * tally.on) return false;
     if (tally.without_echo <= tally.on) return true;
     return tally.without_echo_between <= tally.on && ends_before_something(tally.first, -1, line) && ends_before_something(tally.last, +1, line);
   }
 
  private:
   const flow::SegmentedScan& scan_;
-  const DetectionConfig& config_;
   const BeamDirections& directions_;
 };
 
 }  // namespace
 
-void find_ground(const flow::SegmentedScan& scan, const BeamDirections& directions, const DetectionConfig& config, std::vector<char>& is_ground) {
+void find_ground(const flow::SegmentedScan& scan, const BeamDirections& directions, std::vector<char>& is_ground) {
   is_ground.assign(scan.range_m.size(), 0);
-  const Ground ground(scan, directions, config);
+  const Ground ground(scan, directions);
   constexpr std::size_t kFewestEchoes = 4;
   constexpr std::size_t kMostEchoes = 12;   // enough for a line, short enough to follow one that bends
   for (std::size_t first = 0; first + kFewestEchoes <= scan.range_m.size(); ++first) {
     if (is_ground[first] || !ground.is_candidate(first)) continue;
     std::size_t last = first;
     while (last + 1 < scan.range_m.size() && last + 1 < first + kMostEchoes && ground.is_candidate(last + 1) &&
-           std::abs(ground.from_laser_m(last + 1).x() - ground.from_laser_m(last).x()) < config.ground_thickness_m)
+           std::abs(ground.from_laser_m(last + 1).x() - ground.from_laser_m(last).x()) < kThickness_m)
       ++last;
     if (last + 1 < first + kFewestEchoes) continue;
     const std::optional<Line> line = ground.line_from(first, last);
