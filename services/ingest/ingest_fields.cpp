@@ -19,7 +19,7 @@ const config::FieldTable<IngestConfig>& ingest_fields() {
           {"fallback_field_of_view_rad", &C::fallback_field_of_view_rad, "First to last beam, where the log does not say.", Range{0.01, 6.2832},
            {"Walls bend, and scans tell of less turning than there was.", "Walls bend, and scans tell of more turning than there was."}},
           {"fallback_laser_ahead_m", &C::fallback_laser_ahead_m, "Of the laser on the base, where the log does not say.", Range{-100.0, 100.0},
-           {"In turns the scanner swings less than assumed: the map smears.", "The same, the other way."}},
+           {"In turns the scanner swings more than assumed: the map smears.", "The same, the other way."}},
           {"fallback_laser_left_m", &C::fallback_laser_left_m, "Of the laser on the base, where the log does not say.", Range{-100.0, 100.0},
            {"The map smears in turns.", "The same, the other way."}},
           {"fallback_laser_heading_rad", &C::fallback_laser_heading_rad, "Where the laser looks, counter-clockwise from straight ahead, where the log does not say.",
