@@ -10,6 +10,7 @@
 #include "common/app/log.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/app/version.hpp"
+#include "common/config/explain.hpp"
 #include "common/config/print.hpp"
 #include "common/dds/exit_watchdog.hpp"
 
@@ -57,6 +58,7 @@ int run_service(int argc, char** argv, const ServiceDescription& description) {
   command_line.set_version_flag("--version", program + " " + std::string(kVersion));
   add_service_options(command_line, options);
   description.add_options(command_line);
+  command_line.footer([&] { return "Settings of --config:\n" + config::explanation_lines(config::explain(description.stages)); });
   CLI11_PARSE(command_line, argc, argv);
 
   if (const auto fault = load_config(options, description.stages)) return refuse(program, *fault);

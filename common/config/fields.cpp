@@ -1,10 +1,31 @@
 #include "common/config/fields.hpp"
 
+#include <array>
 #include <sstream>
 #include <type_traits>
 
 namespace slammot::config {
 namespace {
+
+struct GroupWords {
+  std::string_view name;
+  std::string_view description;
+};
+
+/// In the order of Group.
+constexpr std::array<GroupWords, 11> kGroups = {{
+    {"sensor", "where a scanner is and what its ranges are worth"},
+    {"odometry", "what wheels say of the motion from scan to scan"},
+    {"map", "the local map and what it holds"},
+    {"matching", "how a scan is matched against the map"},
+    {"closing", "how a revisit is found and the graph corrected"},
+    {"motion", "what moves, and how"},
+    {"extent", "which echoes are one body, and how large it is"},
+    {"existence", "when a track begins, is confirmed and ends"},
+    {"publication", "what is published, and how sure it is said to be"},
+    {"operation", "the services at run time"},
+    {"", ""},
+}};
 
 std::string in_words(const Range& range) {
   std::ostringstream words;
@@ -19,6 +40,27 @@ std::string in_words(const Range& range) {
 }
 
 }  // namespace
+
+std::string_view name_of(Group group) { return kGroups.at(static_cast<std::size_t>(group)).name; }
+
+std::string_view description_of(Group group) { return kGroups.at(static_cast<std::size_t>(group)).description; }
+
+std::string range_in_words(const Range& range) {
+  const bool has_highest = range.highest < std::numeric_limits<double>::max();
+  const bool has_lowest = range.lowest > std::numeric_limits<double>::lowest();
+  std::ostringstream words;
+  if (range.lowest == kPositive.lowest) {
+    words << "above 0";
+    if (has_highest) words << " up to " << range.highest;
+  } else if (has_lowest && has_highest) {
+    words << range.lowest << " to " << range.highest;
+  } else if (has_lowest) {
+    words << range.lowest << " or more";
+  } else if (has_highest) {
+    words << range.highest << " or less";
+  }
+  return words.str();
+}
 
 std::optional<double> number_in(const BoundField& field) {
   return std::visit(

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -22,6 +23,18 @@ struct Range {
 inline constexpr Range kPositive{std::numeric_limits<double>::min(), std::numeric_limits<double>::max()};
 inline constexpr Range kNotNegative{0.0, std::numeric_limits<double>::max()};
 inline constexpr Range kShare{0.0, 1.0};
+
+/// What settings are about: the order of listings.
+enum class Group { sensor, odometry, map, matching, closing, motion, extent, existence, publication, operation, none };
+
+std::string_view name_of(Group group);
+std::string_view description_of(Group group);
+
+/// What goes wrong when a setting is off. Either is empty where the meaning says it.
+struct Consequences {
+  std::string_view too_small = {};
+  std::string_view too_large = {};
+};
 
 struct BoundField;
 
@@ -49,24 +62,44 @@ Value value_in(Member& member) {
   }
 }
 
-/// One row of a stage's field table: {"name as in slammot.proto", pointer to member, "meaning", range}. The meaning is one
-/// line, with the unit where the name does not end in it. The range is not used for bool, string and names.
+/// One row of a stage's field table: {"name as in slammot.proto", pointer to member, "meaning", range, {"too small", "too large"}}.
+/// The meaning is one line, with the unit in brackets where the name does not end in it. The range is not used for bool, string
+/// and names.
 template <class Config>
 struct Field {
   template <class Member>
-  Field(std::string_view name_, Member Config::*member, std::string_view meaning_, Range range_ = {})
-      : name(name_), value_of([member](Config& config) { return value_in(config.*member); }), meaning(meaning_), range(range_) {}
-  Field(std::string name_, std::function<Value(Config&)> value_of_, std::string_view meaning_, Range range_)
-      : name(std::move(name_)), value_of(std::move(value_of_)), meaning(meaning_), range(range_) {}
+  Field(std::string_view name_, Member Config::*member, std::string_view meaning_, Range range_ = {}, Consequences consequences_ = {})
+      : name(name_), value_of([member](Config& config) { return value_in(config.*member); }), meaning(meaning_), range(range_), consequences(consequences_) {}
+  Field(std::string name_, std::function<Value(Config&)> value_of_, std::string_view meaning_, Range range_, Consequences consequences_ = {}, Group group_ = Group::none)
+      : name(std::move(name_)), value_of(std::move(value_of_)), meaning(meaning_), range(range_), consequences(consequences_), group(group_) {}
 
   std::string name;  ///< "outer.inner" for a member of a member.
   std::function<Value(Config&)> value_of;
   std::string_view meaning;
   Range range;
+  Consequences consequences{};
+  Group group = Group::none;
 };
 
 template <class Config>
 using FieldTable = std::vector<Field<Config>>;
+
+/// The table with all its rows in the group that have none yet.
+template <class Config>
+FieldTable<Config> in_group(Group group, FieldTable<Config> table) {
+  for (Field<Config>& row : table) {
+    if (row.group == Group::none) row.group = group;
+  }
+  return table;
+}
+
+/// The rows of all tables, in their order.
+template <class Config>
+FieldTable<Config> joined(std::initializer_list<FieldTable<Config>> tables) {
+  FieldTable<Config> all;
+  for (const FieldTable<Config>& table : tables) all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
 
 /// The table with the rows of a member that is a struct itself added: under "name.", as a message of its own in the proto.
 template <class Config, class Inner>
@@ -75,7 +108,7 @@ FieldTable<Config> with_nested(FieldTable<Config> table, std::string_view name, 
   for (const Field<Inner>& inner : inner_table) {
     table.emplace_back(std::string(name) + "." + inner.name,
                        [member, value_of = inner.value_of](Config& config) { return value_of(config.*member); },
-                       inner.meaning, inner.range);
+                       inner.meaning, inner.range, inner.consequences, inner.group);
   }
   return table;
 }
@@ -86,6 +119,8 @@ struct BoundField {
   Value value;
   std::string_view meaning;
   Range range;
+  Consequences consequences{};
+  Group group = Group::none;
 };
 
 /// All settings of one stage's struct, under the stage's name in Profile.
@@ -97,7 +132,7 @@ struct BoundStage {
 template <class Config>
 std::vector<BoundField> bind_fields(const FieldTable<Config>& table, Config& config) {
   std::vector<BoundField> bound;
-  for (const Field<Config>& row : table) bound.push_back({row.name, row.value_of(config), row.meaning, row.range});
+  for (const Field<Config>& row : table) bound.push_back({row.name, row.value_of(config), row.meaning, row.range, row.consequences, row.group});
   return bound;
 }
 
@@ -115,6 +150,9 @@ Field<Config> list_of(std::string_view name, std::vector<Element> Config::*membe
   };
   return {std::string(name), value_of, meaning, {}};
 }
+
+/// "0.02 to 1", "above 0", "0 or more"; empty for any number.
+std::string range_in_words(const Range& range);
 
 /// The number as the range check sees it; nothing for what is none.
 std::optional<double> number_in(const BoundField& field);

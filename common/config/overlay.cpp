@@ -10,6 +10,8 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/text_format.h>
 
+#include "common/config/nearest.hpp"
+#include "common/config/profiles.hpp"
 #include "common/config/reflection.hpp"
 
 namespace slammot::config {
@@ -17,11 +19,33 @@ namespace {
 
 namespace pb = google::protobuf;
 
+constexpr int kMostBases = 8;  ///< A profile's base may have a base; more are a circle.
+
+/// The part of a text between two others; nothing where they are not there.
+std::optional<std::string> between(const std::string& text, std::string_view before, std::string_view after) {
+  const std::size_t start = text.find(before);
+  if (start == std::string::npos) return std::nullopt;
+  const std::size_t from = start + before.size();
+  const std::size_t end = text.find(after, from);
+  return end == std::string::npos ? std::nullopt : std::optional(text.substr(from, end - from));
+}
+
+/// protobuf's words on a name that a message does not have, in ours and with the nearest name that it has; other faults as they are.
+std::string in_our_words(const std::string& fault) {
+  const auto message = between(fault, "Message type \"", "\"");
+  const auto name = between(fault, "has no field named \"", "\"");
+  const pb::Descriptor* descriptor = message && name ? pb::DescriptorPool::generated_pool()->FindMessageTypeByName(*message) : nullptr;
+  if (descriptor == nullptr || descriptor->field_count() == 0) return fault;
+  std::vector<std::string> known;
+  for (int i = 0; i < descriptor->field_count(); ++i) known.push_back(descriptor->field(i)->name());
+  return "no setting is called \"" + *name + "\" here; the nearest one is \"" + nearest(*name, known) + "\"";
+}
+
 /// Keeps the first error only: later ones are mostly consequences of it.
 class FirstError : public pb::io::ErrorCollector {
  public:
   void AddError(int line, pb::io::ColumnNumber column, const std::string& message) override {
-    if (!fault_) fault_ = Fault{{}, line + 1, column + 1, message};
+    if (!fault_) fault_ = Fault{{}, line + 1, column + 1, in_our_words(message)};
   }
   std::optional<Fault> fault() const { return fault_; }
 
@@ -142,6 +166,31 @@ std::optional<Fault> in_file(std::optional<Fault> fault, const std::string& file
   return fault;
 }
 
+std::optional<Fault> overlay_with_bases(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages, int bases_left);
+
+/// Overlays the profile that another one names as its base.
+std::optional<Fault> overlay_base(const std::string& name, std::span<const BoundStage> stages, int bases_left) {
+  if (bases_left == 0) return Fault{{}, 0, 0, "base: profiles that are each other's base"};
+  const auto file = find_profile(name);
+  const auto text = file ? text_of(*file) : std::nullopt;
+  return text ? overlay_with_bases(*text, file->string(), stages, bases_left - 1) : Fault{{}, 0, 0, "base: " + unknown_profile(name)};
+}
+
+std::optional<Fault> overlay_with_bases(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages, int bases_left) {
+  Profile profile;
+  pb::TextFormat::ParseInfoTree locations;
+  if (auto fault = parse(text, profile, locations)) return in_file(fault, file_name);
+  if (profile.has_base()) {
+    auto fault = overlay_base(profile.base(), stages, bases_left);
+    if (fault && fault->file.empty()) {
+      const auto place = locations.GetLocation(Profile::descriptor()->FindFieldByName("base"), -1);
+      return Fault{file_name, place.line + 1, place.column + 1, fault->message};
+    }
+    if (fault) return fault;
+  }
+  return in_file(overlay_stages(profile, locations, stages), file_name);
+}
+
 }  // namespace
 
 std::string Fault::text() const {
@@ -150,10 +199,7 @@ std::string Fault::text() const {
 }
 
 std::optional<Fault> overlay_text(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages) {
-  Profile profile;
-  pb::TextFormat::ParseInfoTree locations;
-  if (auto fault = parse(text, profile, locations)) return in_file(fault, file_name);
-  return in_file(overlay_stages(profile, locations, stages), file_name);
+  return overlay_with_bases(text, file_name, stages, kMostBases);
 }
 
 std::optional<Fault> overlay_message_text(std::string_view text, const std::string& file_name, const BoundStage& stage) {

@@ -22,7 +22,7 @@ struct Fault {
   std::string text() const;
 };
 
-/// Overlays what the text sets onto the bound stages. Stages that are not bound are checked for syntax and names only.
+/// Overlays what the text sets onto the bound stages; before it the profile that it names as its `base`, if it does. Stages that are not bound are checked for syntax and names only.
 /// On a fault (the first one) the stages may be partly overlaid and must not be used.
 std::optional<Fault> overlay_text(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages);
 

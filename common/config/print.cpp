@@ -14,16 +14,6 @@ namespace {
 
 namespace pb = google::protobuf;
 
-/// The value as the text format writes it: shortest digits that read back the same, strings quoted.
-std::string print_value(const BoundField& field, const pb::FieldDescriptor& descriptor) {
-  const std::unique_ptr<pb::Message> message(
-      pb::MessageFactory::generated_factory()->GetPrototype(descriptor.containing_type())->New());
-  copy_to_message(field.value, *message, descriptor);
-  std::string value;
-  pb::TextFormat::PrintFieldValueToString(*message, &descriptor, -1, &value);
-  return value;
-}
-
 std::string indent(std::size_t depth) { return std::string(2 * depth, ' '); }
 
 /// Braces from one field's place in the nesting to the next one's.
@@ -47,7 +37,7 @@ std::string print_stage(const BoundStage& stage) {
     next_place.pop_back();
     next_place.insert(next_place.begin(), std::string(stage.stage));
     text += move_between(place, next_place);
-    text += indent(next_place.size()) + descriptor->name() + ": " + print_value(field, *descriptor) + "  # " +
+    text += indent(next_place.size()) + descriptor->name() + ": " + print_value(stage, field) + "  # " +
             std::string(field.meaning) + "\n";
     place = std::move(next_place);
   }
@@ -55,6 +45,18 @@ std::string print_stage(const BoundStage& stage) {
 }
 
 }  // namespace
+
+std::string print_value(const BoundStage& stage, const BoundField& field) {
+  const pb::FieldDescriptor* descriptor = find_field(*stage_in_proto(stage.stage)->message_type(), field.name);
+  assert(descriptor != nullptr);
+  if (descriptor->is_repeated()) return "";
+  const std::unique_ptr<pb::Message> message(
+      pb::MessageFactory::generated_factory()->GetPrototype(descriptor->containing_type())->New());
+  copy_to_message(field.value, *message, *descriptor);
+  std::string value;
+  pb::TextFormat::PrintFieldValueToString(*message, descriptor, -1, &value);
+  return value;
+}
 
 std::string print(std::span<const BoundStage> stages) {
   std::string text;

@@ -13,6 +13,8 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 
+constexpr double kSwitchPerScan = 0.05;  // Probability that the explanation changes from one scan to the next.
+
 constexpr double kUnobserved_m = 0.5;     // a scan that knows a direction no better than this knows nothing of it,
 constexpr double kUnobserved_rad = 0.2;
 constexpr double kMatchSigma_m = 0.01;    // of a step between two matches
@@ -51,7 +53,7 @@ Pose2 scan_optimum(const geometry::UncertainPose2& prediction, const Pose2& matc
 }
 
 ExplanationWeights predicted(const ExplanationWeights& weights, const OdometryBeliefConfig& config) {
-  const double share = config.switch_per_scan;
+  const double share = kSwitchPerScan;
   const double faulty = config.rough_prior + config.recalibrated_prior + config.other_prior;
   const ExplanationWeights fresh{1.0 - faulty, config.rough_prior, config.recalibrated_prior, config.other_prior};
   ExplanationWeights next{};

@@ -25,24 +25,14 @@ inline constexpr std::size_t index_of(StepExplanation explanation) { return stat
 
 struct OdometryBeliefConfig {
   bool enabled = true;
-  double switch_per_scan = 0.05;            ///< Probability that the explanation changes from one scan to the next.
   double rough_prior = 0.03;                ///< After a change: share of kRoughWheels,
   double recalibrated_prior = 0.01;         ///< of kRecalibrated,
   double other_prior = 0.003;               ///< and of kOther.
   double rough_sigmas = 4.0;                ///< Noise of kRoughWheels, times that of kWheels.
-  double suspicious_below = 0.9;            ///< Below this probability of kWheels every explanation is matched for itself,
-  double suspicious_share_drop = 0.15;      ///< and where the matched share falls below its usual value by more than this.
   double share_nats = 60.0;                 ///< Log-likelihood of all points matched against none, if points erred independently.
   double usual_step_memory = 0.1;           ///< Weight of one step in the usual time between scans.
-  double usual_share_memory = 0.05;         ///< Weight of one scan in the usual matched share.
-  double reach_m = 0.3;                     ///< kOther without time: one sigma of the position,
-  double reach_per_m = 0.5;                 ///< and what each metre by odometry adds;
-  double usual_reach = 0.7;                 ///< without odometry, what the usual step adds, as a share of it;
-  double repeat_share = 0.25;               ///< One sigma of a step that is like one before, as a share of it,
-  double repeat_m = 0.08;                   ///< and what is added to it.
-  double repeat_rad = 0.12;                 ///< One sigma of its turn.
-  double reach_rad = 0.6;                   ///< one sigma of the heading,
-  double reach_per_rad = 0.5;               ///< and what each radian by odometry adds.
+  double reach_m = 0.3;                     ///< kOther without time: one sigma of the position.
+  double repeat_rad = 0.12;                 ///< One sigma of the turn of a step that is like one before.
   double way_at_start = 1.0;                ///< Way by scans over way by odometry, as far as it is known before the first scan.
 };
 

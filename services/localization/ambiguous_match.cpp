@@ -16,6 +16,11 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
+constexpr double kAlongSigma_m = 1.0;  // What the spread of guesses adds to that of the prediction along that direction.
+constexpr double kAcrossSigma_m = 0.2;  // What the spread of guesses adds to that of the prediction across that direction.
+constexpr double kHeadingSigma_rad = 0.05;  // What it adds in heading.
+constexpr double kLeastNarrowing = 0.7;  // Where sampling narrows the variance of the guesses by less than this share nothing is observed.
+
 struct WeakDirection {
   double information_per_m2 = 0.0;
   double information_across_per_m2 = 0.0;
@@ -112,14 +117,14 @@ UncertainPose2 AmbiguousMatcher::match(const MatchToSample& match, const Ambiguo
   const WeakDirection weak = weakest_direction(match.closed_form.scan_information);
   UncertainPose2 guesses{match.closed_form.map_from_base.pose, prior.covariance};
   const Matrix2 on_it = weak.unit * weak.unit.transpose();
-  guesses.covariance.topLeftCorner<2, 2>() += config.along_sigma_m * config.along_sigma_m * on_it +
-                                              config.across_sigma_m * config.across_sigma_m * (Matrix2::Identity() - on_it);
-  guesses.covariance(2, 2) += config.heading_sigma_rad * config.heading_sigma_rad;
+  guesses.covariance.topLeftCorner<2, 2>() += kAlongSigma_m * kAlongSigma_m * on_it +
+                                              kAcrossSigma_m * kAcrossSigma_m * (Matrix2::Identity() - on_it);
+  guesses.covariance(2, 2) += kHeadingSigma_rad * kHeadingSigma_rad;
   std::mt19937_64 random(seed);
   const matching::ScrimResult sampled = scrim_.match(match.points, match.surfels, guesses, config.scrim, match_config, random);
   const auto fused_with = [&](const UncertainPose2& registered) {
-    Observation seen = across(weak.unit, observed(registered, guesses, match.closed_form.scan_information, config.least_narrowing));
-    const Observation along = observed_along(weak, registered, guesses, config.least_narrowing);
+    Observation seen = across(weak.unit, observed(registered, guesses, match.closed_form.scan_information, kLeastNarrowing));
+    const Observation along = observed_along(weak, registered, guesses, kLeastNarrowing);
     seen.information += along.information;
     seen.weighted_offset += along.weighted_offset;
     return fused(prior, seen, guesses.pose);

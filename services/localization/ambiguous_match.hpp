@@ -9,10 +9,6 @@ namespace slammot::localization {
 
 struct AmbiguousMatchConfig {
   double weak_share = 0.001;         ///< A scan that says less than this share of the most about some direction is sampled; 0: none is.
-  double along_sigma_m = 1.0;        ///< What the spread of the guesses adds to that of the prediction along that direction,
-  double across_sigma_m = 0.2;       ///< across it,
-  double heading_sigma_rad = 0.05;   ///< and in heading.
-  double least_narrowing = 0.7;      ///< Where sampling narrows the guesses' variance by less than this share nothing is observed.
   matching::ScrimConfig scrim{.samples = 12, .cell_size_m = 0.4};   ///< Enough for a covariance: docs/results.md.
 };
 

@@ -11,6 +11,8 @@ namespace {
 
 using geometry::Vector2;
 
+constexpr double kSurfelWeightLimit = 1000.0;  // Echoes after which a surfel's mean becomes a running one.
+
 constexpr std::uint32_t kScansBetweenCleanings = 10;
 constexpr double kInheritedShareOfLimit = 0.75;
 
@@ -142,7 +144,7 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m
       free_steps_(free_steps(config)),
       end_cell_tolerance_(end_cell_tolerance(config)),
       evidence_(grids::EvidenceGrid(evidence_window(config, centre_in_odom_m), config.evidence, config.lasting), help),
-      surfels_(surfel_window(config, centre_in_odom_m), config.surfel_weight_limit),
+      surfels_(surfel_window(config, centre_in_odom_m), kSurfelWeightLimit),
       inherited_so_(evidence().so_cells()),
       inherited_mo_(evidence().mo_cells()),
       inherited_lasting_(evidence().lasting_cells()),
@@ -360,7 +362,7 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
   if (!fits) return std::nullopt;
   map.evidence_ = DeferredEvidence(grids::EvidenceGrid(window, config.evidence, config.lasting), help);
   map.evidence_.grid().set_cells(std::move(so), std::move(mo), std::move(lasting));
-  map.surfels_ = grids::SurfelMap(surfel_lattice, config.surfel_weight_limit);
+  map.surfels_ = grids::SurfelMap(surfel_lattice, kSurfelWeightLimit);
   map.inherited_surfels_ = map.surfels_;
   for (const StoredSurfel& surfel : surfels) map.surfels_.set_moments(surfel.cell, surfel.moments);
   for (const StoredSurfel& surfel : inherited_surfels) map.inherited_surfels_.set_moments(surfel.cell, surfel.moments);

@@ -18,7 +18,6 @@ struct LocalMapConfig {
   double side_m = 240.0;                ///< Of the square held around the vehicle.
   double cell_size_m = 0.2;             ///< Of SO-map and MO-map.
   double surfel_size_m = 0.5;           ///< Of the cells whose echoes are averaged for matching: docs/decisions/scan-matching.md.
-  double surfel_weight_limit = 1000.0;    ///< Echoes after which a surfel's mean becomes a running one.
   double new_map_after_m = 60.0;        ///< Distance from the map's centre at which a new one begins, or
   double new_map_after_travel_m = 100.0;///< distance travelled in it.
   double no_echo_free_m = 40.0;         ///< A beam without echo tells that this much is free.

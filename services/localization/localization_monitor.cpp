@@ -8,6 +8,8 @@
 namespace slammot::localization {
 namespace {
 
+constexpr double kMostContradictedWhenSure = 0.8;  // Lost, too, where the prediction is sure and so many of the points lie in what the map knows to be free: traffic alone does not put so many there.
+
 constexpr int kPatientScans = 6;               // that need not fit, however long they take;
 constexpr int kAstrayScans = 16;               // so many in vain before a new map begins
 constexpr double kSeenThroughWalls_share = 0.1;
@@ -85,8 +87,8 @@ bool LocalizationMonitor::contradicts_too_much(const MatchToJudge& judged, doubl
   const auto there = [&] { return agreement(judged.points, judged.match.odom_from_base.pose, judged.map.evidence(), config_.map); };
   if (is_vague(judged.step.prior(), config_)) return there().contradicting_share() > config_.most_contradicted_share;
   if (was_lost && changed) return there().contradicting_share() > kFoundByHalf * config_.most_contradicted_share;
-  if (!does_not_match && !was_lost && explained >= 1.0 - config_.most_contradicted_when_sure) return false;
-  const double most = does_not_match || was_lost ? config_.most_contradicted_share : config_.most_contradicted_when_sure;
+  if (!does_not_match && !was_lost && explained >= 1.0 - kMostContradictedWhenSure) return false;
+  const double most = does_not_match || was_lost ? config_.most_contradicted_share : kMostContradictedWhenSure;
   const MapAgreement found = there();
   return found.contradicting_share() > most && (changed || found.share_behind_walls() > kSeenThroughWalls_share);
 }

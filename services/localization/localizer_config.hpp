@@ -7,7 +7,6 @@
 #include "common/sensing/variance_factor.hpp"
 #include "services/localization/ambiguous_match.hpp"
 #include "services/localization/local_map.hpp"
-#include "services/localization/wheel_jump.hpp"
 
 namespace slammot::localization {
 
@@ -23,10 +22,8 @@ struct LocalizerConfig {
   double search_when_heading_sigma_rad = 0.02;  ///< or less sure of the heading than this.
   double search_reach_m = 25.0;           ///< Half side of the square of the map that is searched.
   double search_sigmas = 3.0;             ///< Half width of the search window in standard deviations of the prediction.
-  double most_contradicted_share = 0.5;   ///< Lost, too, where the prediction is vague and the match puts more points into what the map knows to be free,
-  double most_contradicted_when_sure = 0.8;  ///< or where it is sure and the match puts so many there: traffic alone does not.
-  double found_share = 0.6;               ///< Lost, it has found itself again where so many points match.
-  int found_scans = 3;                    ///< And so many scans in a row, before they go into the map again.
+  double most_contradicted_share = 0.5;   ///< Lost, too, where the prediction is vague and the match puts more points into what the map knows to be free.
+  int found_scans = 3;                    ///< Lost and found again, so many scans match in a row before they go into the map again.
   bool may_be_picked_up = false;          ///< And set down elsewhere, with wheels that notice nothing; a road vehicle is not.
   bool recovers = true;                   ///< Looks for itself after being carried away; off: goes on by dead reckoning.
   double lost_after_s = 3.0;              ///< Wheels are trusted for so long where scans do not match; then it looks for itself,
@@ -41,15 +38,10 @@ struct LocalizerConfig {
   double longest_step_s = 2.0;            ///< Without odometry nothing is extrapolated farther; longer gaps are counted.
   double far_ahead_s = 60.0;              ///< A stamp so far ahead of those before is believed when a second one agrees.
   double fastest_mps = 60.0;              ///< Odometry that says more has jumped.
-  int max_pending = 4;                    ///< Scans that wait for labels before the map goes on without.
-  double longest_label_wait_s = 0.15;     ///< Nor does it wait longer than this, by the scans' stamps.
-  double variance_memory_s = 2.0;         ///< Over which published covariances are fitted to the surprises seen.
   double variance_by_scans_alone = 13.0;  ///< Without wheels, published variances over those within the local map: measured by NEES on simulated drives.
-  double compared_over_s = 1.0;           ///< Published covariances are to be honest about the motion over this time.
   double drift_m_per_sqrt_m = 0.005;      ///< What dead reckoning by matching adds, one sigma, for submap constraints.
   double drift_rad_per_sqrt_m = 0.0002;  ///< Over 100 m that is 0.1 degrees; simulated drives show 0.04 to 0.06.
   bool time_is_known = true;              ///< Off where the log has no clock and stamps were made up: no speed means anything.
-  WheelJumpConfig wheel_jump;
   sensing::OdometryBeliefConfig belief;
   LocalMapConfig map;
   matching::CorrelativeConfig search;

@@ -11,6 +11,9 @@ namespace {
 
 using sensing::StepExplanation;
 
+constexpr double kSuspiciousBelow = 0.9;  // Below this probability of odometry being right every explanation is matched for itself.
+constexpr double kSuspiciousShareDrop = 0.15;  // Every explanation is matched for itself, too, where the matched share falls below its usual value by more than this.
+
 constexpr std::size_t kWheels = 0;              // places of the explanations that set the window of a search
 constexpr std::size_t kRough = 1;
 constexpr std::size_t kOther = 2;
@@ -157,8 +160,8 @@ ExplainedStep MixtureMatch::explain_as_weighed(const StepToExplain& scan, ScanMa
   sensing::ExplanationWeights weights = sensing::updated(scan.weights, best.log_likelihoods);
   const bool stands = by_wheels.stood_s > kStands_s && !by_wheels.wheels_changed;
   const bool has_changed = !is_unsure && by_wheels.wheels_changed;
-  const bool is_suspicious = has_changed || (!is_unsure && weights[sensing::index_of(StepExplanation::kWheels)] < config_.belief.suspicious_below);
-  const bool fits_less = best.registered.matched_share < scan.usual_share - config_.belief.suspicious_share_drop;
+  const bool is_suspicious = has_changed || (!is_unsure && weights[sensing::index_of(StepExplanation::kWheels)] < kSuspiciousBelow);
+  const bool fits_less = best.registered.matched_share < scan.usual_share - kSuspiciousShareDrop;
   if (!is_unsure && (stands || (!is_suspicious && !fits_less))) return {scan.steps.front(), best.registered, weights, 0};
   if (scan.steps.size() > 1 && (is_suspicious || fits_less)) {
     if (!is_unsure) {

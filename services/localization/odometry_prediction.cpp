@@ -4,11 +4,14 @@
 #include <utility>
 
 #include "services/localization/step_explanations.hpp"
+#include "services/localization/wheel_jump.hpp"
 
 namespace slammot::localization {
 namespace {
 
 using geometry::Pose2;
+
+constexpr double kUsualShareMemory = 0.05;  // Weight of one scan in the usual matched share.
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr double kStandsWithin_m = 1e-4;    // a step: wheels that stand count nothing,
@@ -70,7 +73,7 @@ bool OdometryPrediction::is_impossible(const Pose2& by_wheels, double duration_s
 /// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step is doubted for that.
 bool OdometryPrediction::is_doubtful(const Pose2& by_wheels, double duration_s) const {
   return state_.last->knows_velocity && !state_.last->doubted_wheels &&
-         is_wheel_jump(by_wheels, state_.last->speed_mps, state_.last->yaw_rate_radps, duration_s, config_.wheel_jump);
+         is_wheel_jump(by_wheels, state_.last->speed_mps, state_.last->yaw_rate_radps, duration_s);
 }
 
 /// The wheels' pose at a scan's stamp, by the offset between the clocks as believed.
@@ -230,7 +233,7 @@ void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) 
   sensing::OdometryBelief& belief = state_.belief;
   const bool is_matched = match.is_believed && !match.is_lost;
   belief = sensing::moved(belief, step.explanation, step.duration_s, is_matched ? std::optional(matched_step(step, match)) : std::nullopt, config_.motion, config_.belief);
-  if (is_matched) belief.usual_share += config_.belief.usual_share_memory * (match.matched_share - belief.usual_share);
+  if (is_matched) belief.usual_share += kUsualShareMemory * (match.matched_share - belief.usual_share);
   if (step.has_wheels() || step.has_doubted_wheels) belief = sensing::with_wheels(belief, step.uncorrected_by_wheels, step.duration_s);
   const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels && step.wheel_from_base && state_.last->has_wheels && !step.has_doubted_wheels;
   if (is_matched && tells_of_wheels && !match.was_sampled) belief.estimator.observe(step.uncorrected_by_wheels, matched_step(step, match), step.duration_s);

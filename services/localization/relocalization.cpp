@@ -12,6 +12,8 @@ namespace {
 
 using geometry::UncertainPose2;
 
+constexpr double kFoundShare = 0.6;  // Lost, it has found itself again where so many points match.
+
 constexpr double kWindowPerScan_m = 2.0;       // the longer it is lost, the wider it looks
 constexpr unsigned kScansBetweenWideSearches = 16;
 constexpr std::size_t kPoses = 4;              // that are looked at
@@ -43,7 +45,7 @@ Relocalization::Candidate Relocalization::registered(const geometry::Pose2& abou
                                                      const ScanToMatch& scan, ScanMatcher& matcher) const {
   const matching::PointToLineResult result = matcher.register_from(about, {about, covariance}, scan);
   const double contradicted = agreement(points, result.map_from_base.pose, map.evidence(), config_.map).contradicting_share();
-  if (result.matched_share < config_.found_share || contradicted > kFoundByHalf * config_.most_contradicted_share) return {};
+  if (result.matched_share < kFoundShare || contradicted > kFoundByHalf * config_.most_contradicted_share) return {};
   return {.match = {.odom_from_base = result.map_from_base, .is_believed = true, .rms_residual_m = result.rms_residual_m},
           .quality = result.matched_share * (1.0 - contradicted)};
 }

@@ -12,6 +12,9 @@ using flow::EndCell;
 using flow::PointLabel;
 using geometry::Vector2;
 
+constexpr int kMaxPending = 4;  // Scans that wait for labels before the map goes on without.
+constexpr double kLongestLabelWait_s = 0.15;  // The map does not wait longer for labels than this, by the scans' stamps.
+
 constexpr double kNanosecond_s = 1e-9;
 
 /// Without anybody's labels: what the map does not explain stays out of it.
@@ -108,7 +111,7 @@ void ScanIntegration::integrate_first_without_tracking(PoseTrust trust, LocalMap
 IntegrationCounts ScanIntegration::integrate_overdue(std::int64_t now_ns, PoseTrust trust, LocalMap& map) {
   const auto is_overdue = [&] {
     const double waited_s = static_cast<double>(now_ns - pending_.front().stamp_ns) * kNanosecond_s;
-    return static_cast<int>(pending_.size()) >= config_.max_pending || waited_s > config_.longest_label_wait_s;
+    return static_cast<int>(pending_.size()) >= kMaxPending || waited_s > kLongestLabelWait_s;
   };
   IntegrationCounts counts;
   while (!pending_.empty() && is_overdue()) integrate_first_without_tracking(trust, map, counts);

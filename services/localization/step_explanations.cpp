@@ -9,6 +9,13 @@ namespace {
 using geometry::Matrix3;
 using sensing::StepExplanation;
 
+constexpr double kReachPerMetre = 0.5;  // What each metre by odometry adds to reach_m.
+constexpr double kUsualReach = 0.7;  // Without odometry, what the usual step adds, as a share of it.
+constexpr double kRepeatShare = 0.25;  // One sigma of a step that is like one before, as a share of it.
+constexpr double kRepeat_m = 0.08;  // What is added to kRepeatShare of the step.
+constexpr double kReach_rad = 0.6;  // Wheels that say nothing: one sigma of the heading.
+constexpr double kReachPerRadian = 0.5;  // What each radian by odometry adds to kReach_rad.
+
 constexpr double kLongestVelocity_s = 0.6;  // a robot starts, stops and turns within it
 
 }  // namespace
@@ -20,14 +27,14 @@ Step StepExplanations::without_odometry(Step step) const {
   const geometry::Pose2 half{0.5 * last.x_m, 0.5 * last.y_m, 0.5 * last.heading_rad};
   step.after = before_;
   step.after.odom_from_base = before_.odom_from_base * half;
-  const double reach_m = config_.belief.reach_m + config_.belief.usual_reach * belief_.usual_way_m;
-  const double reach_rad = config_.belief.reach_rad;
+  const double reach_m = config_.belief.reach_m + kUsualReach * belief_.usual_way_m;
+  const double reach_rad = kReach_rad;
   step.after.covariance.topLeftCorner<3, 3>().diagonal() += Eigen::Vector3d(reach_m, reach_m, reach_rad).cwiseAbs2();
   return step;
 }
 
 Step StepExplanations::about(Step step, const geometry::Pose2& before_from_base, double sigma_rad) const {
-  const double sigma_m = config_.belief.repeat_m + config_.belief.repeat_share * before_from_base.translation_m().norm();
+  const double sigma_m = kRepeat_m + kRepeatShare * before_from_base.translation_m().norm();
   step.after = before_;
   step.after.odom_from_base = before_.odom_from_base * before_from_base;
   step.after.covariance.topLeftCorner<3, 3>().diagonal() += Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2();
@@ -75,8 +82,8 @@ Step StepExplanations::at_constant_velocity(Step step) const {
 
 Step StepExplanations::within_reach(Step step) const {
   const double way_m = std::hypot(step.before_from_base.x_m, step.before_from_base.y_m);
-  const double reach_m = config_.belief.reach_m + config_.belief.reach_per_m * way_m;
-  const double reach_rad = config_.belief.reach_rad + config_.belief.reach_per_rad * std::abs(step.before_from_base.heading_rad);
+  const double reach_m = config_.belief.reach_m + kReachPerMetre * way_m;
+  const double reach_rad = kReach_rad + kReachPerRadian * std::abs(step.before_from_base.heading_rad);
   step.after.covariance.topLeftCorner<3, 3>().diagonal() += Eigen::Vector3d(reach_m, reach_m, reach_rad).cwiseAbs2();
   return step;
 }

@@ -20,6 +20,13 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
+constexpr double kGateSigmas = 3.0;  // What the graph's uncertainty adds to max_distance_m.
+constexpr int kNeighbours = 1;  // Submaps before and after the earlier one that join the target.
+constexpr double kOdometrySigmaScale = 2.0;  // What the odometric sigmas are multiplied by in the gate: docs/decisions/loop-closing.md.
+constexpr int kPatienceSubmaps = 6;  // How long a hypothesis waits for others that agree.
+constexpr double kMaxSquaredError = 16.0;  // Chi-square of a closure against the graph before and after: docs/decisions/loop-closing.md.
+constexpr int kMaxCandidatesElsewhere = 40;  // Targets for one new submap among those that nothing ties it to yet.
+
 constexpr double kAnyHeading_rad = 1.0;              // one sigma
 constexpr double kSamePlaceCells = 5.0;              // of the search: nearer to each other it does not tell places apart,
 constexpr double kSamePlace_rad = 0.15;              // nor with less between their headings
@@ -147,7 +154,7 @@ void LoopCloser::extend_graph(const flow::Submap& submap) {
 
 std::map<SubmapId, UncertainPose2> LoopCloser::expectations_from(SubmapId id) const {
   std::vector<Constraint> widened = active_constraints();
-  const double scale = config_.odometry_sigma_scale * config_.odometry_sigma_scale;
+  const double scale = kOdometrySigmaScale * kOdometrySigmaScale;
   for (Constraint& constraint : widened) {
     if (constraint.kind == ConstraintKind::kOdometric) constraint.from_to.covariance *= scale;
   }
@@ -164,7 +171,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates_for(const Place& sourc
     const Place& target = places_.at(id);
     if (source.travelled_before_m - target.travelled_after_m < config_.min_travel_between_m) continue;
     const double distance_m = (source_from_target.pose * target.middle_m - source.middle_m).norm();
-    if (distance_m > config_.max_distance_m + config_.gate_sigmas * widest_sigma_m(source_from_target.covariance)) continue;
+    if (distance_m > config_.max_distance_m + kGateSigmas * widest_sigma_m(source_from_target.covariance)) continue;
     all.push_back({id, geometry::inverse(source_from_target), distance_m});
   }
   return nearest(std::move(all), config_.max_candidates);
@@ -177,7 +184,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::nearest(std::vector<Candidate> al
   for (const Candidate& candidate : all) {
     if (static_cast<int>(chosen.size()) >= most) break;
     const bool is_covered = std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& one) {
-      return std::abs(static_cast<double>(one.id.value) - candidate.id.value) <= config_.neighbours;
+      return std::abs(static_cast<double>(one.id.value) - candidate.id.value) <= kNeighbours;
     });
     if (!is_covered) chosen.push_back(candidate);
   }
@@ -192,13 +199,13 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates_elsewhere_for(const Pl
     if (island_of_.at(id) == island_of_.at(source.id)) continue;
     all.push_back({id, anywhere_on(target, source, config_.max_distance_m), (graph_.map_from_node(id) * target.middle_m - source_in_map_m).norm()});
   }
-  return nearest(std::move(all), config_.max_candidates_elsewhere);
+  return nearest(std::move(all), kMaxCandidatesElsewhere);
 }
 
 Target LoopCloser::target_around(SubmapId id, const Place& source) const {
   Target target{{{&places_.at(id), Pose2::identity()}}};
   const Pose2 target_from_map = geometry::inverse(graph_.map_from_node(id));
-  for (int step = -config_.neighbours; step <= config_.neighbours; ++step) {
+  for (int step = -kNeighbours; step <= kNeighbours; ++step) {
     const auto found = places_.find({static_cast<std::uint32_t>(static_cast<std::int64_t>(id.value) + step)});
     if (step == 0 || found == places_.end() || island_of_.at(found->first) != island_of_.at(id)) continue;
     if (source.travelled_before_m - found->second.travelled_after_m < config_.min_travel_between_m) continue;
@@ -227,7 +234,7 @@ void LoopCloser::take(const SearchQueue::Finished& search) {
   counters_.searches_given_up = searches_.given_up();
   counters_.search_work = searches_.work();
   std::erase_if(waiting_, [&](const Hypothesis& one) {
-    return one.to.value + static_cast<std::uint32_t>(config_.patience_submaps) < search.source.value;
+    return one.to.value + static_cast<std::uint32_t>(kPatienceSubmaps) < search.source.value;
   });
   std::vector<Hypothesis> found = search.hypotheses;
   if (found.empty() && !search.is_given_up && search.extent == SearchQueue::Extent::kExpected) look_at_contradictions(search);
@@ -339,7 +346,7 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
     Constraint widened = constraint;
     widened.from_to.covariance += expectations_from(hypothesis.from).at(hypothesis.to).covariance;
     // What is wrong may be the graph: enough that agree with each other may challenge it.
-    if (error_of(widened) > config_.max_squared_error && support_of(hypothesis) < config_.needed_when_ambiguous) {
+    if (error_of(widened) > kMaxSquaredError && support_of(hypothesis) < config_.needed_when_ambiguous) {
       reject(hypothesis, error_of(widened), "farther from where the graph has it than its uncertainty allows");
       return false;
     }
@@ -384,7 +391,7 @@ void LoopCloser::solve_what_waits() {
 }
 
 int LoopCloser::group_for(const Constraint& constraint) {
-  const auto is_near = [&](SubmapId a, SubmapId b) { return std::abs(static_cast<double>(a.value) - b.value) <= config_.patience_submaps; };
+  const auto is_near = [&](SubmapId a, SubmapId b) { return std::abs(static_cast<double>(a.value) - b.value) <= kPatienceSubmaps; };
   const auto known = std::ranges::find_if(closures_, [&](const Closure& one) {
     return one.constraint.verdict.state == flow::ClosureState::kAccepted && is_near(one.constraint.from, constraint.from) && is_near(one.constraint.to, constraint.to);
   });
@@ -418,8 +425,8 @@ void LoopCloser::reject(const Hypothesis& hypothesis, double squared_error, std:
 /// to leave out these, or one of the groups that they contradict (truncated least squares over groups).
 void LoopCloser::leave_out_what_costs_most(const graphs::PoseGraph& before) {
   constexpr std::size_t kMostGroups = 3;
-  const double price = config_.max_squared_error;
-  const auto cost_of = [&](const graphs::PoseGraph& graph) { return graph.truncated_cost(config_.odometry_sigma_scale); };
+  const double price = kMaxSquaredError;
+  const auto cost_of = [&](const graphs::PoseGraph& graph) { return graph.truncated_cost(kOdometrySigmaScale); };
   if (cost_of(graph_) <= cost_of(before) + price) return;
   std::vector<std::size_t> new_edges{closures_.back().edge};
   for (const Closure& closure : closures_) {

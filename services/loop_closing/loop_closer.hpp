@@ -19,16 +19,10 @@ namespace slammot::loop_closing {
 struct LoopClosingConfig {
   double min_travel_between_m = 200.0;   ///< Driven since the earlier submap; less is no revisit.
   double max_distance_m = 60.0;          ///< Between the middles of two submaps that may show the same place.
-  double gate_sigmas = 3.0;              ///< What the graph's uncertainty adds to that distance.
   int max_candidates = 3;                ///< Searches for one new submap.
-  int neighbours = 1;                    ///< Submaps before and after the earlier one that join the target.
-  double odometry_sigma_scale = 2.0;     ///< What the odometric constraints' sigmas are multiplied by in the gate.
   double sure_within_m = 5.0;            ///< Expected no less surely than this (one sigma), one match is enough,
   int needed_support = 2;                ///< otherwise so many submaps must agree,
   int needed_when_ambiguous = 3;         ///< or so many.
-  int patience_submaps = 6;              ///< How long a hypothesis waits for others that agree.
-  double max_squared_error = 16.0;       ///< Chi-square of a closure against what the graph expects, before and after.
-  int max_candidates_elsewhere = 40;     ///< Targets for one new submap among those that nothing ties it to yet.
   PlaceConfig place;
   RevisitConfig revisit;
   SearchBudget search;

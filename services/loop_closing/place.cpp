@@ -9,6 +9,10 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
+constexpr double kLeastEchoes = 2.0;  // A surfel with fewer echoes may be anything and is left out.
+constexpr double kOccupiedLogOdds = 0.8;  // From here on a cell of a submap counts as occupied.
+constexpr double kFreeLogOdds = 0.8;  // With this much against it a cell counts as free.
+
 constexpr double kStepsPerLogOdds = 16.0;  // of flow::Submap::so_log_odds
 
 std::int8_t steps_of(double log_odds) { return static_cast<std::int8_t>(std::clamp(std::lround(kStepsPerLogOdds * log_odds), 1L, 127L)); }
@@ -22,8 +26,8 @@ void mark_around(Place& place, std::int32_t column, std::int32_t row, std::int32
 }
 
 void take_spots(const flow::Submap& submap, const PlaceConfig& config, Place& place) {
-  const std::int8_t occupied = steps_of(config.occupied_log_odds);
-  const std::int8_t free = steps_of(config.free_log_odds);
+  const std::int8_t occupied = steps_of(kOccupiedLogOdds);
+  const std::int8_t free = steps_of(kFreeLogOdds);
   const auto radius = static_cast<std::int32_t>(std::lround(config.tolerance_m / submap.cell_size_m));
   place.spots.assign(submap.so_log_odds.size(), Spot::kUnknown);
   for (std::size_t i = 0; i < place.spots.size(); ++i) {
@@ -76,7 +80,7 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
   take_spots(submap, config, place);
   for (const flow::Surfel& surfel : submap.surfels) {
     // What was seen a few times and then seen through is no wall.
-    if (surfel.weight < config.least_echoes || place.spot_at({surfel.x_m, surfel.y_m}) == Spot::kFree) continue;
+    if (surfel.weight < kLeastEchoes || place.spot_at({surfel.x_m, surfel.y_m}) == Spot::kFree) continue;
     place.surfels.push_back(surfel);
   }
   return place;

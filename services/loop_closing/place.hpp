@@ -32,9 +32,6 @@ struct Place {
 };
 
 struct PlaceConfig {
-  double least_echoes = 2.0;               ///< A surfel with fewer may be anything.
-  double occupied_log_odds = 0.8;
-  double free_log_odds = 0.8;
   double tolerance_m = 0.4;                ///< A wall this far off still is that wall.
 };
 

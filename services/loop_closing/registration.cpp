@@ -14,6 +14,9 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 
+constexpr int kCoarseSteps = 6;  // Gauss-Newton steps with the wide gate.
+constexpr int kFineSteps = 10;  // Gauss-Newton steps with the narrow gate.
+
 // What keeps a direction without information where it is: too weak to pull at anything the walls do say.
 constexpr double kUnobservedSigmaM = 5.0;
 constexpr double kUnobservedSigmaRad = 0.5;
@@ -80,14 +83,14 @@ Registration register_surfels(std::span<const flow::Surfel> source, double sourc
   const double independent_share = std::min(1.0, source_spacing_m / config.independent_spacing_m);
   Pose2 pose = initial_target_from_source;
   NormalEquations equations;
-  for (int step = 0; step < config.coarse_steps + config.fine_steps; ++step) {
-    const bool is_coarse = step < config.coarse_steps;
+  for (int step = 0; step < kCoarseSteps + kFineSteps; ++step) {
+    const bool is_coarse = step < kCoarseSteps;
     equations = linearize(source, target, pose, is_coarse ? config.coarse_gate_m : config.fine_gate_m, config.surfel_sigma_m);
     const Eigen::Vector3d change = -(independent_share * equations.H + weak_hold()).ldlt().solve(independent_share * equations.g);
     pose = geometry::displaced(pose, change);
     const bool has_converged = geometry::as_seen_10_m_away(change) < kConvergedM;
     if (has_converged && !is_coarse) break;
-    if (has_converged) step = config.coarse_steps - 1;
+    if (has_converged) step = kCoarseSteps - 1;
   }
   Registration registration;
   registration.target_from_source.pose = pose;

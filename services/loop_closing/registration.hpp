@@ -9,14 +9,12 @@
 namespace slammot::loop_closing {
 
 struct RegistrationConfig {
-  int coarse_steps = 6;
-  int fine_steps = 10;
   double coarse_gate_m = 1.0;          ///< Surfels farther apart are no pair,
   double fine_gate_m = 0.4;            ///< in the last steps.
   double surfel_sigma_m = 0.06;        ///< Of the distance between two surfels of one wall, across the wall.
   double independent_spacing_m = 2.0;  ///< Surfels nearer than this on a wall share their error.
-  double position_floor_m = 0.02;      ///< No submap is more rigid than this,
-  double heading_floor_rad = 0.002;    ///< nor than this.
+  double position_floor_m = 0.02;      ///< No closure is surer of the position than this, one sigma,
+  double heading_floor_rad = 0.002;    ///< and of the heading than this.
 };
 
 struct Registration {

@@ -16,6 +16,16 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
+constexpr double kMinScore = 0.35;  // Least score of the search before refinement.
+constexpr int kMaxPeaks = 4;  // Poses of one search that are looked at; twice as many where several targets are searched.
+constexpr int kMaxPoints = 300;  // Surfels of the new submap that take part in the search.
+constexpr double kWindowSigmas = 3.0;  // How far around the expected pose is searched.
+constexpr double kMinWindow_rad = 0.06;  // Half width of the smallest window of the heading.
+constexpr double kMaxWindow_rad = 0.6;  // Half width of the largest window of the heading.
+constexpr double kAnyHeadingSigma_rad = 1.0;  // Less sure of the heading than this, all of the circle is searched.
+constexpr double kMinOverlapShare = 0.3;  // Of the new submap's walls, those that the earlier one has too.
+constexpr double kMinAgreedInSupport = 0.8;  // Searched for everywhere, so much still supports another that agrees.
+
 constexpr double kSameWithinSquaredSigmas = 11.3;  // chi-square, 3 degrees of freedom, 99 %
 
 constexpr std::size_t kMostPyramids = 64;
@@ -32,12 +42,12 @@ constexpr double kCoarserOnSeveralTargets = 2.0;
 constexpr int kFewerPointsOnSeveralTargets = 2;
 
 double search_cell_m(const RevisitConfig& config, std::size_t targets) { return targets > 1 ? kCoarserOnSeveralTargets * config.search_cell_m : config.search_cell_m; }
-int most_points(const RevisitConfig& config, std::size_t targets) { return targets > 1 ? config.max_points / kFewerPointsOnSeveralTargets : config.max_points; }
+int most_points(std::size_t targets) { return targets > 1 ? kMaxPoints / kFewerPointsOnSeveralTargets : kMaxPoints; }
 
 matching::WideSearchConfig search_config(const RevisitConfig& config, std::size_t targets) {
-  return {.min_score = config.min_score,
+  return {.min_score = kMinScore,
           .border_cost = targets > 1 ? 0.0 : kBorderCost,
-          .max_peaks = static_cast<std::size_t>(targets > 1 ? 2 * config.max_peaks : config.max_peaks),
+          .max_peaks = static_cast<std::size_t>(targets > 1 ? 2 * kMaxPeaks : kMaxPeaks),
           .min_peak_ratio = 0.8 * config.rival_ratio,
           .peak_separation_m = 5.0 * search_cell_m(config, targets),
           .peak_separation_rad = 0.15};
@@ -80,8 +90,8 @@ std::vector<Eigen::Vector2f> points_about(const Vector2& centre_m, const std::ve
   return points;
 }
 
-bool is_astray(const UncertainPose2& expected, const RevisitConfig& config) {
-  return expected.covariance(2, 2) > config.any_heading_sigma_rad * config.any_heading_sigma_rad;
+bool is_astray(const UncertainPose2& expected) {
+  return expected.covariance(2, 2) > kAnyHeadingSigma_rad * kAnyHeadingSigma_rad;
 }
 
 bool are_same(const UncertainPose2& a, const UncertainPose2& b) {
@@ -124,13 +134,13 @@ double sigma_m(const UncertainPose2& expected) { return std::sqrt(expected.covar
 
 /// share: of the window that holds all of the uncertainty.
 matching::SearchWindow window_around(const UncertainPose2& expected, const UncertainPose2& target_from_centre, const RevisitConfig& config, double share) {
-  const bool astray = is_astray(expected, config);
+  const bool astray = is_astray(expected);
   const auto window = [&](double variance, double least, double most) {
-    return std::max(share * std::clamp(config.window_sigmas * std::sqrt(variance), least, most), least);
+    return std::max(share * std::clamp(kWindowSigmas * std::sqrt(variance), least, most), least);
   };
   const double most_m = astray ? config.astray_window_m : config.max_window_m;
   return {window(target_from_centre.covariance(0, 0), config.min_window_m, most_m), window(target_from_centre.covariance(1, 1), config.min_window_m, most_m),
-          window(expected.covariance(2, 2), config.min_window_rad, astray ? std::numbers::pi : config.max_window_rad)};
+          window(expected.covariance(2, 2), kMinWindow_rad, astray ? std::numbers::pi : kMaxWindow_rad)};
 }
 
 }  // namespace
@@ -166,7 +176,7 @@ RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source, s
       walls_(source.surfels),
       is_done_(candidates_.empty() || source.surfels.empty()) {
   if (is_done_) return;
-  const bool begins_near = is_somewhere_expected() && kNearShare * std::min(config.window_sigmas * searched_sigma_m(), config.max_window_m) > config.min_window_m;
+  const bool begins_near = is_somewhere_expected() && kNearShare * std::min(kWindowSigmas * searched_sigma_m(), config.max_window_m) > config.min_window_m;
   begin_search(begins_near ? kNearShare : 1.0);
 }
 
@@ -174,7 +184,7 @@ void RevisitSearch::begin_search(double window_share) {
   window_share_ = window_share;
   targets_added_ = 0;
   peaks_judged_ = 0;
-  search_.emplace(points_about(source_from_centre_.translation_m(), source_->surfels, most_points(config_, candidates_.size())), search_cell_m(config_, candidates_.size()), search_config(config_, candidates_.size()));
+  search_.emplace(points_about(source_from_centre_.translation_m(), source_->surfels, most_points(candidates_.size())), search_cell_m(config_, candidates_.size()), search_config(config_, candidates_.size()));
 }
 
 std::uint64_t RevisitSearch::advance(std::uint64_t most_work, PyramidCache& pyramids) {
@@ -200,7 +210,7 @@ std::uint64_t RevisitSearch::advance(std::uint64_t most_work, PyramidCache& pyra
 }
 
 /// The pose that is expected is judged though its walls may overlap less than elsewhere along a corridor.
-bool RevisitSearch::is_somewhere_expected() const { return candidates_.size() == 1 && !is_astray(candidates_.front().target_from_source, config_); }
+bool RevisitSearch::is_somewhere_expected() const { return candidates_.size() == 1 && !is_astray(candidates_.front().target_from_source); }
 
 double RevisitSearch::searched_sigma_m() const { return sigma_m(candidates_.front().target_from_source); }
 
@@ -223,9 +233,9 @@ std::uint64_t RevisitSearch::judge(const matching::WidePeak& peak) {
                               .agreement = compare(target, *source_, registration.target_from_source.pose),
                               .score = peak.score,
                               .searched_sigma_m = sigma_m(expected)};
-  const double least_agreed_share = is_astray(expected, config_) ? config_.min_agreed_in_support : config_.min_agreed_share;
+  const double least_agreed_share = is_astray(expected) ? kMinAgreedInSupport : config_.min_agreed_share;
   const bool holds = hypothesis.agreement.agreed_share() >= least_agreed_share &&
-                     hypothesis.agreement.overlap_share() >= config_.min_overlap_share;
+                     hypothesis.agreement.overlap_share() >= kMinOverlapShare;
   if (holds) hypotheses_.push_back(hypothesis);
   return kWorkOfRegisteringSurfel * source_->surfels.size() + kWorkOfComparingSurfel * index.surfels().size();
 }

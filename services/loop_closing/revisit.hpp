@@ -17,19 +17,10 @@ namespace slammot::loop_closing {
 
 struct RevisitConfig {
   double search_cell_m = 0.4;            ///< Step of the search.
-  double min_score = 0.35;               ///< Of the search, before refinement.
-  int max_peaks = 4;                     ///< Poses of one search that are looked at; twice as many where several targets are searched.
-  int max_points = 300;                  ///< Surfels of the new submap that take part in the search.
-  double window_sigmas = 3.0;            ///< How far around the expected pose is searched,
-  double min_window_m = 2.0;             ///< at least
+  double min_window_m = 2.0;             ///< Half width of the window around the expected pose that is searched, at least
   double max_window_m = 30.0;            ///< and at most.
-  double min_window_rad = 0.06;
-  double max_window_rad = 0.6;
-  double any_heading_sigma_rad = 1.0;    ///< Less sure of the heading than this, all of the circle is searched,
-  double astray_window_m = 60.0;         ///< and at most so far around.
-  double min_overlap_share = 0.3;        ///< Walls of both seen by the other.
+  double astray_window_m = 60.0;         ///< Half width where the heading is not known.
   double min_agreed_share = 0.9;         ///< Of the walls about which the other knows anything.
-  double min_agreed_in_support = 0.8;    ///< Searched for everywhere, so much still speaks for another that agrees.
   double rival_ratio = 0.75;             ///< Another pose that is as good as this share of the best makes it ambiguous.
   RegistrationConfig registration;
 };

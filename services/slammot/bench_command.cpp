@@ -14,7 +14,6 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/stop_signal.hpp"
-#include "common/config/print.hpp"
 #include "common/dds/config.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/run_outputs.hpp"
@@ -55,10 +54,8 @@ int fail(const std::string& line) {
 files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOptions& options, const std::filesystem::path& folder) {
   const bool is_changed = !job.profile.localization.time_is_known || job.log.plan().evidence.correction.reverses_beams || job.profile.localization.belief.way_at_start != 1.0;
   if (!is_changed) return options.config;
-  Profile profile = job.profile;
-  const std::filesystem::path file = folder / "settings.textproto";
-  if (const auto fault = files::write_file_atomically(file, config::print(bind_stages(profile)))) return *fault;
-  return file;
+  if (const auto fault = write_settings(job.profile, folder)) return *fault;
+  return folder / kSettingsFile;
 }
 
 /// The program that takes the part of a service.
@@ -125,8 +122,9 @@ files::RunReport make_report(const Job& job, const BenchOptions& options, const 
   return report;
 }
 
-int write(const BenchOptions& options, const files::RunRecord& record, const files::RunReport& report, double duration_s) {
+int write(const Job& job, const BenchOptions& options, const files::RunRecord& record, const files::RunReport& report, double duration_s) {
   if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
+  if (const auto fault = write_settings(job.profile, options.output)) return fail(fault->message);
   if (options.stores_map) {
     if (const auto fault = write_stored_map(options.output, record.submaps())) return fail(fault->message);
   }
@@ -199,7 +197,7 @@ int bench(const BenchOptions& asked_for) {
   const double duration_s = static_cast<double>(*std::ranges::max_element(stamps_ns) - stamps_ns.front()) * 1e-9;
   report.is_interrupted = is_cut_short;
   report.measured = {collector.latencies(), wall_s, duration_s / wall_s, std::max(peak_memory_mb(), peak_memory_of_services_mb())};
-  const int exit_code = write(options, collector.record(stamps_ns), report, duration_s);
+  const int exit_code = write(*job, options, collector.record(stamps_ns), report, duration_s);
   if (!is_complete && !is_cut_short) return fail("the last submap did not come: the map lacks the end of the drive");
   return exit_code;
 }

@@ -2,45 +2,26 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "common/config/nearest.hpp"
 #include "services/evaluator/eval_command.hpp"
 #include "services/evaluator/report_command.hpp"
 #include "services/simulator/simulate_command.hpp"
 #include "services/slammot/bench_command.hpp"
 #include "services/slammot/check_command.hpp"
 #include "services/slammot/collect_command.hpp"
+#include "services/slammot/config_command.hpp"
 #include "services/slammot/health_command.hpp"
 #include "services/slammot/run_command.hpp"
 
 namespace slammot {
 namespace {
-
-/// Letters to insert, to leave out or to replace: Levenshtein 1966.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-  return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) { return edit_distance(word, a) < edit_distance(word, b); });
-}
 
 std::vector<std::string> commands_of(CLI::App& app) {
   std::vector<std::string> names;
@@ -61,13 +42,13 @@ std::optional<std::string> unknown_word(CLI::App& app, const std::vector<std::st
   if (words.empty() || words.front().starts_with("-")) return std::nullopt;
   const std::vector<std::string> commands = commands_of(app);
   if (std::find(commands.begin(), commands.end(), words.front()) == commands.end()) {
-    return "unknown command '" + words.front() + "'; the nearest one is '" + nearest(words.front(), commands) + "', slammot --help lists all";
+    return "unknown command '" + words.front() + "'; the nearest one is '" + config::nearest(words.front(), commands) + "', slammot --help lists all";
   }
   const std::vector<std::string> options = options_of(*app.get_subcommand(words.front()));
   for (auto word = words.begin() + 1; word != words.end() && *word != "--"; ++word) {
     const std::string name = word->substr(0, word->find('='));
     if (!name.starts_with("--") || std::find(options.begin(), options.end(), name) != options.end()) continue;
-    return "unknown option '" + name + "' of " + words.front() + "; the nearest one is '" + nearest(name, options) + "', slammot " + words.front() + " --help lists all";
+    return "unknown option '" + name + "' of " + words.front() + "; the nearest one is '" + config::nearest(name, options) + "', slammot " + words.front() + " --help lists all";
   }
   return std::nullopt;
 }
@@ -83,6 +64,7 @@ int run_command_line(int argc, char** argv) {
   add_bench_command(app, exit_code);
   add_check_command(app, exit_code);
   add_collect_command(app, exit_code);
+  add_config_command(app, exit_code);
   add_health_command(app, exit_code);
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);

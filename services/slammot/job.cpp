@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <sys/resource.h>
 
-#include "common/config/overlay.hpp"
+#include "common/config/print.hpp"
 #include "common/config/profiles.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/log_findings.hpp"
@@ -47,17 +47,6 @@ std::optional<Error> find_fault_of_implementations(const JobOptions& options, co
   if (const auto fault = find_fault(choice)) return Error{*fault};
   if (!options.map.empty() && !localization_of(choice).takes_up_stored_maps) return Error{"--map: the localization '" + choice.localization + "' does not go on in a stored map"};
   return std::nullopt;
-}
-
-std::optional<Error> load_settings(const JobOptions& options, const std::string& profile_name, Profile& profile) {
-  const std::vector<config::BoundStage> stages = bind_stages(profile);
-  const auto profile_file = config::find_profile(profile_name);
-  if (!profile_file) return Error{config::unknown_profile(profile_name)};
-  if (const auto fault = config::overlay_file(*profile_file, stages)) return Error{fault->text()};
-  if (!options.config.empty()) {
-    if (const auto fault = config::overlay_file(options.config, stages)) return Error{fault->text()};
-  }
-  return find_fault_of_implementations(options, profile.implementations);
 }
 
 std::optional<Error> find_fault_of_source(const JobOptions& options) {
@@ -169,7 +158,8 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   auto drive = open_drive(options);
   if (!drive) return drive.error();
   Profile profile;
-  if (auto fault = load_settings(options, drive->profile.profile, profile)) return *fault;
+  if (auto fault = load_settings(drive->profile.profile, options.config, profile)) return Error{std::move(*fault)};
+  if (auto fault = find_fault_of_implementations(options, profile.implementations)) return *fault;
   profile.localization.time_is_known = profile.localization.time_is_known && drive->plan.figures.has_clock;
   // Whether the beam that is now the first was measured first, too, is not known: sweeps may run the other way.
   if (drive->plan.evidence.correction.reverses_beams) profile.localization.sweep_factor_sigma = std::max(profile.localization.sweep_factor_sigma, 1.0);
@@ -177,6 +167,11 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
   return Job{begin(*drive, options, ingest::log_options(profile.ingest)), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};
+}
+
+std::optional<Error> write_settings(const Profile& profile, const std::filesystem::path& folder) {
+  Profile settings = profile;
+  return files::write_file_atomically(folder / kSettingsFile, config::print(bind_stages(settings)));
 }
 
 std::vector<std::int64_t> stamps_of(files::CarmenLog& log) {

@@ -47,6 +47,11 @@ void add_job_options(CLI::App& command, JobOptions& options);
 /// truth.objects.csv and truth.walls.csv.
 files::Result<Job> prepare_job(const JobOptions& options);
 
+inline constexpr const char* kSettingsFile = "settings.textproto";
+
+/// Writes all settings of a job into its folder of results: with --config they give the same results again.
+std::optional<files::Error> write_settings(const Profile& profile, const std::filesystem::path& folder);
+
 /// Stamps of all scans of the log, in its order. The log is read to its end.
 std::vector<std::int64_t> stamps_of(files::CarmenLog& log);
 

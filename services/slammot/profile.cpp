@@ -1,5 +1,6 @@
 #include "services/slammot/profile.hpp"
 
+#include "common/config/profiles.hpp"
 #include "services/detection/detection_fields.hpp"
 #include "services/ingest/ingest_fields.hpp"
 #include "services/localization/localization_fields.hpp"
@@ -31,6 +32,18 @@ std::vector<config::BoundStage> bind_stages(Profile& profile) {
       config::bind_stage("map_store", map_store::map_store_fields(), profile.map_store),
       config::bind_stage("implementations", implementation_fields(), profile.implementations),
   };
+}
+
+std::optional<std::string> load_settings(const std::string& profile_name, const std::filesystem::path& config_file, Profile& profile) {
+  const std::vector<config::BoundStage> stages = bind_stages(profile);
+  if (!profile_name.empty()) {
+    const auto profile_file = config::find_profile(profile_name);
+    if (!profile_file) return config::unknown_profile(profile_name);
+    if (const auto fault = config::overlay_file(*profile_file, stages)) return fault->text();
+  }
+  if (config_file.empty()) return std::nullopt;
+  const auto fault = config::overlay_file(config_file, stages);
+  return fault ? std::optional(fault->text()) : std::nullopt;
 }
 
 }  // namespace slammot

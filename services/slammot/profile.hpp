@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,5 +34,9 @@ struct Profile {
 
 /// Every stage of the profile, for config::overlay_file(), config::print() and config::find_fault(). Points into it.
 std::vector<config::BoundStage> bind_stages(Profile& profile);
+
+/// Overlays a profile, by name or file, and then a file with settings; either may be empty. Otherwise why that is not possible, in
+/// one line.
+std::optional<std::string> load_settings(const std::string& profile_name, const std::filesystem::path& config_file, Profile& profile);
 
 }  // namespace slammot

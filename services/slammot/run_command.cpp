@@ -152,6 +152,7 @@ int run(const RunOptions& run_options) {
   const double wall_s = seconds_since(start);
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s, peak_memory_mb()};
   if (const auto fault = files::write_outputs(options.output, pipeline.record(), report)) return fail(*fault);
+  if (const auto fault = write_settings(job->profile, options.output)) return fail(*fault);
   if (options.stores_map) {
     if (const auto fault = write_stored_map(options.output, pipeline.record().submaps())) return fail(*fault);
   }

@@ -1,10 +1,13 @@
 #include "common/config/overlay.hpp"
 
 #include <array>
+#include <cstdlib>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/example_stage.hpp"
 
 namespace slammot::config {
@@ -48,6 +51,31 @@ TEST(Overlay, LetsTheLaterFileWin) {
 TEST(Overlay, SaysWhereAnUnknownFieldStands) {
   EXPECT_THAT(fault_of("# first line\nexample {\n  windw_scans: 3\n}"),
               ::testing::AllOf(::testing::StartsWith("drive.textproto:3:"), ::testing::HasSubstr("windw_scans")));
+}
+
+TEST(Overlay, NamesTheNearestSettingThatThereIs) {
+  EXPECT_EQ(fault_of("example {\n  windw_scans: 3\n}"), "drive.textproto:2:14: no setting is called \"windw_scans\" here; the nearest one is \"window_scans\"");
+}
+
+TEST(Overlay, TakesUpTheBaseThatAFileNamesFirst) {
+  testing::TemporaryFolder folder;
+  ::setenv("SLAMMOT_PROFILES", folder.path().c_str(), 1);
+  std::ofstream(folder / "slow.textproto") << "example { window_scans: 3 resend_after_s: 9 }";
+  std::ofstream(folder / "slower.textproto") << "base: \"slow\" example { resend_after_s: 10 }";
+  ExampleConfig config;
+  EXPECT_EQ(fault_of("example { window_scans: 4 } base: \"slower\"", config), "");
+  EXPECT_EQ(config.window_scans, 4);
+  EXPECT_EQ(config.resend_after_s, 10.0);
+}
+
+TEST(Overlay, SaysWhatIsWrongWithABase) {
+  testing::TemporaryFolder folder;
+  ::setenv("SLAMMOT_PROFILES", folder.path().c_str(), 1);
+  std::ofstream(folder / "faulty.textproto") << "example { window_scans: 0 }";
+  std::ofstream(folder / "circle.textproto") << "base: \"circle\"";
+  EXPECT_THAT(fault_of("example {}\nbase: \"moon\""), ::testing::StartsWith("drive.textproto:2:1: base: unknown profile 'moon'"));
+  EXPECT_THAT(fault_of("base: \"faulty\""), ::testing::HasSubstr("faulty.textproto:1:11: example.window_scans = 0"));
+  EXPECT_THAT(fault_of("base: \"circle\""), ::testing::HasSubstr("circle.textproto:1:1: base: profiles that are each other's base"));
 }
 
 TEST(Overlay, SaysWhereAnUnknownStageStands) {

@@ -72,7 +72,7 @@ TEST_F(RunCommand, WritesEveryOutputAndSaysWhereAndWhy) {
   EXPECT_THAT(outcome.standard_output, HasSubstr("results are in " + (folder_ / "out").string()));
   EXPECT_EQ(outcome.standard_error, "");
   for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "map.png", "map.yaml", "moving.pgm", "moving.png",
-                           "moving.yaml", "graph.g2o", "report.json"}) {
+                           "moving.yaml", "graph.g2o", "report.json", "settings.textproto"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / file)) << file;
   }
   const std::string online = read(folder_ / "out" / "online.tum");
@@ -96,6 +96,18 @@ TEST_F(RunCommand, MakesTheSameBytesEveryTime) {
       if (!again) first.push_back(content);
       EXPECT_EQ(content, first.at(i++)) << file;
     }
+  }
+}
+
+TEST_F(RunCommand, MakesTheSameBytesByTheSettingsThatItLeaves) {
+  write(room_log(60));
+  ASSERT_EQ(run().exit_code, kExitDone);
+  const std::filesystem::path settings = folder_ / "kept.textproto";
+  std::filesystem::copy_file(folder_ / "out/settings.textproto", settings);
+  std::filesystem::rename(folder_ / "out", folder_ / "first");
+  ASSERT_EQ(run({"--profile", "urban", "--config", settings.string()}).exit_code, kExitDone);
+  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "labels.csv", "map.pgm", "moving.pgm", "graph.g2o", "settings.textproto"}) {
+    EXPECT_EQ(read(folder_ / "out" / file), read(folder_ / "first" / file)) << file;
   }
 }
 

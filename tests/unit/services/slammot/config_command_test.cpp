@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/slammot/command_line.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace slammot {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Outcome {
+  int exit_code = 0;
+  std::string standard_output;
+  std::string standard_error;
+};
+
+Outcome config_command(std::vector<std::string> words) {
+  words.insert(words.begin(), {"slammot", "config"});
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  Outcome outcome;
+  outcome.exit_code = run_command_line(static_cast<int>(argv.size()), argv.data());
+  std::fflush(stdout);
+  outcome.standard_output = ::testing::internal::GetCapturedStdout();
+  outcome.standard_error = ::testing::internal::GetCapturedStderr();
+  return outcome;
+}
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class ConfigCommand : public ::testing::Test {
+ protected:
+  ConfigCommand() { ::setenv("SLAMMOT_PROFILES", SLAMMOT_SOURCE_DIR "/deploy/profiles", 1); }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(ConfigCommand, ExplainsASettingByTheEndOfItsName) {
+  const Outcome outcome = config_command({"--explain", "side_m"});
+  EXPECT_EQ(outcome.exit_code, kExitDone);
+  EXPECT_THAT(outcome.standard_output, HasSubstr("  localization.map.side_m  (m, 10 to 1000, default "));
+}
+
+TEST_F(ConfigCommand, ExplainsEverySettingWithoutAName) {
+  const std::string explained = config_command({"--explain"}).standard_output;
+  for (const char* name : {"ingest.sweep_s", "localization.map.cell_size_m", "detection.longest_mover_m", "tracking.", "loop_closing.sure_within_m", "map_store.max_database_mb"}) {
+    EXPECT_THAT(explained, HasSubstr(name));
+  }
+}
+
+TEST_F(ConfigCommand, NamesTheNearestSettingWhereItKnowsNone) {
+  const Outcome outcome = config_command({"--explain", "celsize_m"});
+  EXPECT_EQ(outcome.exit_code, kExitFault);
+  EXPECT_EQ(outcome.standard_error, "slammot: no setting or group is called 'celsize_m'; the nearest one is 'cell_size_m'\n");
+}
+
+TEST_F(ConfigCommand, PrintsWhatARunWouldUseAsAFileThatReadsBack) {
+  const std::filesystem::path changes = folder_ / "changes";
+  std::ofstream(changes) << "localization { map { side_m: 77 } }";
+  const std::string effective = config_command({"--effective", "--profile", "indoor", "--config", changes.string()}).standard_output;
+  EXPECT_THAT(effective, HasSubstr("    side_m: 77 "));
+  EXPECT_THAT(effective, HasSubstr("    cell_size_m: 0.05 "));
+  std::ofstream(folder_ / "effective") << effective;
+  EXPECT_EQ(config_command({"--effective", "--config", (folder_ / "effective").string()}).standard_output, effective);
+}
+
+TEST_F(ConfigCommand, RefusesWhatCannotBeMeantInOneLine) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {}, {"--explain", "side_m", "--effective"}, {"--explain", "--profile", "indoor"}, {"--effective", "--profile", "moon"}, {"--effective", "--config", "/nowhere"}}) {
+    const Outcome outcome = config_command(words);
+    EXPECT_EQ(outcome.exit_code, kExitFault);
+    EXPECT_THAT(outcome.standard_error, StartsWith("slammot: "));
+    EXPECT_EQ(std::ranges::count(outcome.standard_error, '\n'), 1) << outcome.standard_error;
+  }
+}
+
+TEST_F(ConfigCommand, HasWrittenThePageOfTheDocumentation) {
+  EXPECT_EQ(config_command({"--page"}).standard_output, read(SLAMMOT_SOURCE_DIR "/docs/settings.md")) << "write it again: slammot config --page > docs/settings.md";
+}
+
+TEST_F(ConfigCommand, ListsTheSettingsInItsHelp) {
+  EXPECT_THAT(config_command({"--help"}).standard_output, HasSubstr("  localization.map.side_m = "));
+}
+
+}  // namespace
+}  // namespace slammot
