@@ -8,18 +8,18 @@
 namespace slammot::matching {
 
 struct SaliencyConfig {
-  double position_sigma_m = 0.5;   ///< By how much the object is displaced before it is registered with itself,
-  double heading_sigma_rad = 0.1;  ///< and turned about its middle.
+  double position_sigma_m = 0.5;   ///< One sigma of the displacement before self-registration.
+  double heading_sigma_rad = 0.1;  ///< One sigma of the rotation about the object's middle.
   double surfel_size_m = 0.2;
   ScrimConfig scrim;
   PointToLineConfig match;
 };
 
-/// Object saliency score: 1 / trace of the covariance [m^2, rad^2] with which the object is registered with itself; Wang
-/// 2004, Eqs. (3.10)-(3.11). The larger, the surer a pose from this shape; 1 / trace of the displacements' covariance for a
-/// shape that tells nothing, 0 for no points. Does not depend on where the points' frame is. The measure that the thesis'
-/// ordering of objects is reproduced with; whether a scan is to be sampled the product tells from the closed form's
-/// information, which it has without registering anything (services/localization/ambiguous_match.hpp).
+/// Object saliency score: 1 / trace of the covariance [m^2, rad^2] of the object's registration with itself; Wang 2004,
+/// Eqs. (3.10)-(3.11). The larger, the better the shape determines a pose. An uninformative shape scores 1 / trace of
+/// the displacements' covariance; no points score 0. The score does not depend on the points' frame. It reproduces the
+/// thesis' ordering of objects. The product decides on sampling by the closed form's information instead, which needs
+/// no registration (services/localization/ambiguous_match.hpp).
 double saliency_score(const std::vector<MatchPoint>& points, const SaliencyConfig& config, std::mt19937_64& random);
 
 }  // namespace slammot::matching
