@@ -12,16 +12,16 @@
 
 namespace slammot::files {
 
-/// A recording of the leg_tracker data set (Leigh et al. 2015) as text, told in lines of CARMEN: scan.txt ("bag stamp, header
-/// stamp, first beam and step [rad], beams, ranges [m]" a line) becomes ROBOTLASER1, odom.txt beside it ("stamp x y heading
-/// speed yaw_rate"), if there is one, becomes ODOM; each plain or .gz, # begins a comment. Stamps are those of the bag, which the
-/// annotations have; odometry comes 0.09 s late by them, which is taken back. Where the laser is on the base is not said.
+/// A recording of the leg_tracker data set (Leigh et al. 2015) as CARMEN lines. scan.txt ("bag stamp, header stamp,
+/// first beam and step [rad], beams, ranges [m]" a line) becomes ROBOTLASER1; odom.txt beside it ("stamp x y heading
+/// speed yaw_rate"), if any, becomes ODOM. Both are plain or .gz; # begins a comment. Stamps are those of the bag, as
+/// in the annotations; odometry's lateness of 0.09 s is removed. The mounting of the laser is unknown.
 class LegTrackerLog : public LineSource {
  public:
-  /// A folder with scan.txt, or a file of scan.txt's form, which then stands alone.
+  /// A folder with scan.txt, or a single file in scan.txt's format.
   static Result<std::unique_ptr<LineSource>> open(const std::filesystem::path& path);
 
-  /// Whether the file is of scan.txt's form, by its first line that is no comment.
+  /// True if the first line that is no comment has scan.txt's format.
   static bool is_scan_file(const std::filesystem::path& path);
 
   std::optional<std::string_view> next() override;
@@ -34,7 +34,7 @@ class LegTrackerLog : public LineSource {
  private:
   struct Line {
     double stamp_s = 0.0;
-    std::string text;                 ///< As CARMEN has it.
+    std::string text;                 ///< As a CARMEN line.
   };
   LegTrackerLog(LineReader scans, std::optional<LineReader> odometry) : scans_(std::move(scans)), odometry_(std::move(odometry)) {}
 
@@ -43,7 +43,7 @@ class LegTrackerLog : public LineSource {
 
   LineReader scans_;
   std::optional<LineReader> odometry_;
-  std::optional<Line> scan_;          ///< The next one of each, once it was read.
+  std::optional<Line> scan_;          ///< Next line of each file, read in advance.
   std::optional<Line> odom_;
   std::string line_;
 };
