@@ -13,7 +13,7 @@
 
 namespace slammot::config {
 
-/// Both ends belong to it. In the field's own unit.
+/// Closed interval in the field's own unit.
 struct Range {
   double lowest = std::numeric_limits<double>::lowest();
   double highest = std::numeric_limits<double>::max();
@@ -25,19 +25,19 @@ inline constexpr Range kShare{0.0, 1.0};
 
 struct BoundField;
 
-/// One of several names: an enum whose numbers are the same in C++ and in the proto.
+/// One of several names: an enum with the same numbers in C++ and in the proto.
 struct Choice {
   std::function<int()> get;
   std::function<void(int)> set;
 };
 
-/// Any number of structs of one kind. What a text lists replaces what was there.
+/// A repeated struct. A list in a text replaces the old content.
 struct List {
   std::function<void()> clear;
-  std::function<std::vector<BoundField>()> append;  ///< A further struct with its defaults, bound; until the next append.
+  std::function<std::vector<BoundField>()> append;  ///< Appends a struct with defaults and returns its bound fields, valid until the next append.
 };
 
-/// Where a setting is kept. Points into a configuration struct and is valid as long as that is.
+/// Location of a setting in a configuration struct; valid as long as the struct.
 using Value = std::variant<bool*, int*, std::uint32_t*, std::int64_t*, std::uint64_t*, float*, double*, std::string*, Choice, List>;
 
 template <class Member>
@@ -68,7 +68,7 @@ struct Field {
 template <class Config>
 using FieldTable = std::vector<Field<Config>>;
 
-/// The table with the rows of a member that is a struct itself added: under "name.", as a message of its own in the proto.
+/// The table extended by the rows of a member struct: under "name.", a separate message in the proto.
 template <class Config, class Inner>
 FieldTable<Config> with_nested(FieldTable<Config> table, std::string_view name, Inner Config::*member,
                                const FieldTable<Inner>& inner_table) {
@@ -116,13 +116,13 @@ Field<Config> list_of(std::string_view name, std::vector<Element> Config::*membe
   return {std::string(name), value_of, meaning, {}};
 }
 
-/// The number as the range check sees it; nothing for what is none.
+/// The number for the range check; none if the value is not numeric.
 std::optional<double> number_in(const BoundField& field);
 
 /// "cell_size_m = 7 is outside [0.02, 1]: Edge of a cell." or nothing when the value may be used. NaN never may.
 std::optional<std::string> find_fault(const BoundField& field);
 
-/// The first fault of the stage, with the stage's name in front.
+/// The first fault of the stage, prefixed by the stage's name.
 std::optional<std::string> find_fault(const BoundStage& stage);
 
 }  // namespace slammot::config
