@@ -34,7 +34,7 @@ struct Choice {
 /// A repeated struct. A list in a text replaces the old content.
 struct List {
   std::function<void()> clear;
-  std::function<std::vector<BoundField>()> append;  ///< Appends a struct with defaults and returns its bound fields, valid until the next append.
+  std::function<std::vector<BoundField>()> append;  ///< Appends a struct with defaults and returns its bound fields.
 };
 
 /// Location of a setting in a configuration struct; valid as long as the struct.
