@@ -26,7 +26,7 @@ struct CommandRequest {
   std::string argument;
 };
 
-/// Does what is asked by a command, once: a request that is repeated because its answer was lost gets the same answer.
+/// Executes each requested command once: a request repeated after a lost reply gets the same reply.
 class CommandDesk {
  public:
   using Handler = std::function<CommandResult(std::string_view argument)>;

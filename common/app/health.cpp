@@ -20,7 +20,7 @@ ServiceState state_of(slammot_ServiceState state) {
   return state <= slammot_SERVICE_STATE_STOPPING ? static_cast<ServiceState>(state) : ServiceState::kStopping;
 }
 
-/// What has been heard of the service so far.
+/// Messages received from the service so far.
 class Listener {
  public:
   explicit Listener(HealthQuestion question)
@@ -34,7 +34,7 @@ class Listener {
     wait_set_.on_data(statuses_, [this] { statuses_.take_each([this](const auto& status) { take(status); }); });
   }
 
-  /// Until both heartbeat and status are known and the service has started, or patience ends.
+  /// Waits until heartbeat and status are known and the service has started, or until the time-out.
   Health listen() {
     const SteadyTime end = std::chrono::steady_clock::now() + question_.patience;
     while (!is_settled() && std::chrono::steady_clock::now() < end) wait_set_.wait(end - std::chrono::steady_clock::now());

@@ -21,8 +21,8 @@ struct Health {
   std::string text;  ///< One line: "running", "degraded: no slammot/laser_scan for 2.1 s", "no heartbeat within 3 s", ...
 };
 
-/// Listens for a service's heartbeat and status. Healthy is what beats and is past its start; a service that misses an
-/// input is healthy itself, and says what it misses. Throws dds::StartupError when the bus cannot be joined.
+/// Listens for a service's heartbeat and status. A service is healthy if it sends heartbeats and has started. A service
+/// that lacks an input is healthy and reports the input. Throws dds::StartupError if the bus cannot be joined.
 Health check_health(const HealthQuestion& question);
 
 }  // namespace slammot::app

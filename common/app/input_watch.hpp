@@ -8,13 +8,13 @@ namespace slammot::app {
 
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// Whether a service can do its work without a topic for longer than a moment.
+/// Whether silence of a topic is a fault.
 enum class Input {
-  kSteady,      ///< Comes scan by scan; its silence is reported.
-  kOccasional,  ///< Comes when there is something to say.
+  kSteady,      ///< Arrives with every scan; silence is reported.
+  kOccasional,  ///< Arrives on events only.
 };
 
-/// When an input last came.
+/// Time of an input's last sample.
 class InputWatch {
  public:
   InputWatch(std::string topic_name, Input kind, SteadyTime since) : topic_name_(std::move(topic_name)), kind_(kind), since_(since) {}
@@ -24,13 +24,13 @@ class InputWatch {
     ++count_;
   }
 
-  /// Whether it has been silent for too long: for `patience` since the last sample or, before the first, since the start.
+  /// True if silent for longer than `patience` since the last sample or, before the first, since the start.
   bool is_missing(SteadyTime now, std::chrono::nanoseconds patience) const;
 
   /// "no slammot/laser_scan for 2.1 s" or "no slammot/laser_scan yet".
   std::string complaint(SteadyTime now) const;
 
-  /// Seconds since the last sample; negative when none ever came.
+  /// Seconds since the last sample; negative if there was none.
   double silent_s(SteadyTime now) const;
 
   const std::string& topic_name() const { return topic_name_; }

@@ -6,13 +6,13 @@
 
 namespace slammot::app {
 
-/// How long the calls of one stage took. Fixed memory; percentiles are at most 10 % too high.
+/// Histogram of the durations of one stage's calls. Fixed memory; percentiles are at most 10 % too high.
 class LatencyHistogram {
  public:
   void add(std::chrono::nanoseconds duration);
 
   std::uint64_t count() const { return count_; }
-  /// Duration that the given share of the calls did not exceed, as the upper end of its bucket; 0 without calls.
+  /// Percentile of the durations at this share, as the upper end of its bucket; 0 without calls.
   double percentile_ms(double share) const;
   double highest_ms() const { return highest_us_ * 1e-3; }
 
@@ -26,7 +26,7 @@ class LatencyHistogram {
   double highest_us_ = 0.0;
 };
 
-/// Adds the time from its construction to its end.
+/// Adds the time from its construction to its destruction.
 class Stopwatch {
  public:
   explicit Stopwatch(LatencyHistogram& histogram) : histogram_(histogram) {}

@@ -8,16 +8,16 @@
 
 namespace slammot::app {
 
-/// From now on spdlog and the DDS library write to stderr, each line with time, service and level. The level is taken from
-/// the environment's SPDLOG_LEVEL.
+/// Makes spdlog and the DDS library write to stderr, each line with time, service and level. The level is SPDLOG_LEVEL
+/// of the environment.
 void set_up_log(std::string_view service_name);
 
-/// Lets one line of a kind through every few seconds, so that a flood of bad input cannot become a flood of lines.
+/// Limits each kind of line to one every few seconds, so that a flood of bad input does not flood the log.
 class RateLimit {
  public:
   static constexpr std::chrono::seconds kPeriod{5};
 
-  /// The line to write now, with the number of lines of its kind held back before; empty when it is to be held back.
+  /// The line to write now, with the number of suppressed lines of its kind; empty if it is suppressed.
   std::string pass(const std::string& kind, std::string_view line, std::chrono::steady_clock::time_point now);
 
  private:

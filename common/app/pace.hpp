@@ -7,22 +7,22 @@
 
 namespace slammot::app {
 
-/// How fast a recorded drive is played. Time is a parameter.
+/// Replay speed of a recorded drive. Time is a parameter.
 class Pace {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// "max", or times the recorded speed: "1", "0.5", "20". None for what is neither.
+  /// "max", or a multiple of the recorded speed: "1", "0.5", "20". None if the text is neither.
   static std::optional<Pace> parse(const std::string& text);
 
-  /// As fast as those who work on it: then flow control decides.
+  /// Unlimited: flow control sets the speed.
   bool is_unlimited() const { return !speed_; }
 
-  /// When what was recorded at the stamp is due. The first call begins the drive at `now`; a stamp that goes back, or
-  /// leaps ahead by more than a minute, begins it anew.
+  /// Time at which the record of this stamp is due. The first call starts the drive at `now`. A stamp that decreases,
+  /// or increases by more than a minute, restarts it.
   Time due(std::int64_t stamp_ns, Time now);
 
-  /// Begins the drive anew with the next stamp.
+  /// Restarts the drive with the next stamp.
   void restart() { start_.reset(); }
 
  private:

@@ -9,7 +9,7 @@ namespace slammot::app {
 
 class ServiceContext;
 
-/// Which of the services that a drive needs are at work, by their heartbeats.
+/// Tracks by heartbeats which services of a drive are running.
 class Readiness {
  public:
   explicit Readiness(const std::vector<std::string>& services) {
@@ -21,7 +21,7 @@ class Readiness {
     if (known != at_work_.end()) known->second = is_at_work;
   }
 
-  /// "detection, tracking"; empty when all are at work.
+  /// Names of missing services, such as "detection, tracking"; empty if all are running.
   std::string missing() const {
     std::string names;
     for (const auto& [service, is_at_work] : at_work_) {
@@ -34,8 +34,8 @@ class Readiness {
   std::map<std::string, bool> at_work_;
 };
 
-/// Whether a source of scans may begin: everybody is at work and its topic is read, or it is no longer patient. What it
-/// waits for, or begins without, is said in its status.
+/// True if a source of scans may start: all services run and its topic has a reader, or its patience has ended. Its
+/// status reports what it waits for or lacks.
 bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic, bool is_read, bool is_patient);
 
 }  // namespace slammot::app

@@ -22,12 +22,12 @@ int refuse(const std::string& program, const std::string& why) {
   return kExitUsage;
 }
 
-/// The service is gone before the context that it points into, and both before the watchdog stops watching.
+/// The service is destroyed before the context that it refers to, and both before the watchdog stops.
 int serve(const ServiceDescription& description, const ServiceOptions& options) {
   dds::ExitWatchdog watchdog;
   ServiceContext context(description.name, options);
   const StopSignal stop_signal([&] {
-    watchdog.arm();  // also against a handler that does not come to its end
+    watchdog.arm();  // also guards against a handler that does not return
     context.stop();
   });
   const std::shared_ptr<void> service = description.make(context);

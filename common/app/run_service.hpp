@@ -12,7 +12,7 @@ namespace slammot::app {
 
 /// A bad command line or configuration; also that of a StartupFailure.
 inline constexpr int kExitUsage = 2;
-/// Something that should not fail did: be restarted.
+/// An unexpected failure: the process should be restarted.
 inline constexpr int kExitFailure = 1;
 
 /// A service cannot start: one line for the user, then exit code kExitUsage. Thrown by constructors of services.
@@ -21,7 +21,7 @@ class StartupFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What distinguishes one service's main from another's.
+/// Parameters of a service's main.
 struct ServiceDescription {
   std::string name;     ///< Of the service on the bus.
   std::string purpose;  ///< One sentence for --help.
@@ -30,7 +30,7 @@ struct ServiceDescription {
   std::function<std::shared_ptr<void>(ServiceContext&)> make;
 };
 
-/// Command line, configuration, log, signals, bus, loop, exit: everything in a service that is not the service.
+/// Runs a service: command line, configuration, log, signals, bus, loop, exit.
 int run_service(int argc, char** argv, const ServiceDescription& description);
 
 /// The same for a class that has

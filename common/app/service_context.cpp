@@ -16,7 +16,7 @@ slammot_Reply reply_to(const slammot_Command& command, const CommandResult& resu
                                   .explanation = result.explanation});
 }
 
-/// Without what changes from second to second, so that a lasting state is written once: digits do not count.
+/// The text without digits, so that a lasting state with changing numbers is logged once.
 std::string without_digits(std::string text) {
   std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
   return text;
@@ -72,7 +72,7 @@ std::chrono::nanoseconds ServiceContext::until_next_timer() const {
 
 void ServiceContext::run_due_timers() {
   const SteadyTime now = std::chrono::steady_clock::now();
-  std::vector<std::function<void()>> due;  // first gathered: work may add timers
+  std::vector<std::function<void()>> due;  // collected first: a callback may add timers
   for (Timer& timer : timers_) {
     if (timer.due > now) continue;
     due.push_back(timer.work);

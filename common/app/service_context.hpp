@@ -20,8 +20,8 @@
 
 namespace slammot::app {
 
-/// What a service stands on: its place on the bus, its loop, its status. A service says in its constructor what it reads,
-/// writes and does periodically; everything happens in the thread that calls run().
+/// Environment of a service: bus, loop and status. A service registers its readers, writers and timers in its
+/// constructor; all callbacks run in the thread that calls run().
 class ServiceContext {
  public:
   ServiceContext(const std::string& service, const ServiceOptions& options);
@@ -58,11 +58,11 @@ class ServiceContext {
     return *writer;
   }
 
-  /// Calls what is to be done again and again, the first time one period from now. Late calls are not made up for.
+  /// Registers a periodic callback, first due one period from now. Missed calls are skipped.
   void every(std::chrono::nanoseconds period, std::function<void()> work);
-  /// Calls it once, `delay` from now.
+  /// Registers a single callback after `delay`.
   void after(std::chrono::nanoseconds delay, std::function<void()> work);
-  /// Calls it before each status, to bring counters up to date.
+  /// Registers a callback before each status, to update counters.
   void before_report(std::function<void()> work) { before_report_.push_back(std::move(work)); }
   void on_command(const std::string& verb, CommandDesk::Handler handler) { desk_.on(verb, std::move(handler)); }
 
@@ -71,13 +71,13 @@ class ServiceContext {
 
   /// Ends run(), from any thread.
   void stop() { wait_set_.stop(); }
-  /// The same, with an exit code for the process. From the loop's thread.
+  /// The same with an exit code of the process. Call it from the loop's thread.
   void stop(int exit_code);
   int exit_code() const { return exit_code_; }
 
-  /// Works until stopped.
+  /// Runs until stopped.
   void run();
-  /// Works for about so long, for tests that are neighbours in the same thread.
+  /// Runs for about this time, for tests with several services in one thread.
   void run_for(std::chrono::nanoseconds duration);
 
  private:

@@ -17,12 +17,12 @@ namespace slammot::app {
 
 inline constexpr std::size_t kLongestName = 32;  ///< Of vehicles, scanners and instances on the bus.
 
-/// What every service's command line says.
+/// Command-line options common to all services.
 struct ServiceOptions {
   std::string vehicle_id = "vehicle";
   std::uint32_t domain_id = 0;
   std::string instance = "main";
-  std::filesystem::path state_dir = "slammot-state";  ///< For what has to outlive a crash.
+  std::filesystem::path state_dir = "slammot-state";  ///< State that survives a crash.
   std::string profile;                                ///< Name or path; empty: none.
   std::vector<std::string> config_files;              ///< Over the profile, the last one wins.
   bool check_config = false;
@@ -33,7 +33,7 @@ struct ServiceOptions {
 /// Adds the options to the command line. `options` must outlive the parsing.
 void add_service_options(CLI::App& command_line, ServiceOptions& options);
 
-/// Overlays profile and files onto the stages, in this order. Otherwise why that is not possible, in one line.
+/// Overlays profile and files onto the stages, in this order. Returns the reason of a failure in one line.
 std::optional<std::string> load_config(const ServiceOptions& options, std::span<const config::BoundStage> stages);
 
 }  // namespace slammot::app

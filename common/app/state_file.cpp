@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'s', 'l', 'a', 'm', 'm', 'o', 't', '1'};
 
-/// Before the bytes. Written and read on the same machine, by the same build.
+/// Header of the file, which is written and read on the same machine by the same build.
 struct Header {
   std::array<char, 8> magic = kMagic;
   std::int64_t stamp_ns = 0;

@@ -12,30 +12,30 @@
 
 namespace slammot::app {
 
-/// What a service needs to go on after a crash, and the stamp of the data that it was made from.
+/// State that a service needs after a crash, with the stamp of its data.
 struct SavedState {
   std::int64_t stamp_ns = 0;
   std::vector<std::byte> bytes;
 };
 
-/// One file that always holds a whole state, the last one or the one before: written under another name by a thread of its
-/// own and then renamed.
+/// A file that always holds a complete state, the last one or the one before: a thread writes it under another name and
+/// renames it.
 class StateFile {
  public:
   explicit StateFile(std::filesystem::path path);
-  /// Finishes writing.
+  /// Waits for the end of writing.
   ~StateFile();
   StateFile(const StateFile&) = delete;
   StateFile& operator=(const StateFile&) = delete;
 
-  /// Nothing when there is none or it is damaged.
+  /// None if the file is missing or damaged.
   std::optional<SavedState> read() const;
 
-  /// Whether a state is still being written: saving another one now would be for nothing.
+  /// True while a state is being written: another save would be in vain.
   bool is_busy() const;
-  /// Returns at once. Of states that are saved while one is being written only the last one is kept.
+  /// Returns at once. Of states saved during a write only the last one is kept.
   void save(SavedState state);
-  /// Why the last state could not be written; empty when it could.
+  /// Error of the last write; empty if it succeeded.
   std::string fault() const;
 
  private:

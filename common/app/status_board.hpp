@@ -14,31 +14,31 @@ namespace slammot::app {
 
 using wire::ServiceState;
 
-/// What a service counts, measures and misses. Of the loop's thread only. References stay valid.
+/// Counters, latencies and faults of a service. For the loop's thread only. References stay valid.
 class StatusBoard {
  public:
   static constexpr std::chrono::seconds kPatience{2};
 
-  /// A count under a name of at most 48 characters, from 0.
+  /// Counter with a name of at most 48 characters; starts at 0.
   std::uint64_t& counter(const std::string& name) { return counters_[name]; }
-  /// Those of an algorithm, which counts for itself.
+  /// Counters of an algorithm, which counts itself.
   void set_counters(const std::map<std::string, std::uint64_t>& totals);
   LatencyHistogram& latency(const std::string& stage) { return latencies_[stage]; }
   InputWatch& input(const std::string& topic_name, Input kind, SteadyTime now);
 
-  /// A trouble that makes the service degraded until it is cleared, in a few words.
+  /// Sets a fault text; the service is degraded until it is cleared.
   void set_trouble(const std::string& what, const std::string& words) { troubles_[what] = words; }
   void clear_trouble(const std::string& what) { troubles_.erase(what); }
 
-  /// Not at work yet, though its process is: sources of scans wait for it.
+  /// The service is not ready, although its process runs: sources of scans wait for it.
   void set_starting(bool is_starting) { is_starting_ = is_starting; }
 
-  /// Starting for as long as it says so; then running, or degraded while an input is missing or there is trouble.
+  /// Starting until the service is ready; then running, or degraded if an input is missing or there is a fault.
   ServiceState state(SteadyTime now) const {
     if (is_starting_) return ServiceState::kStarting;
     return explanation(now).empty() ? ServiceState::kRunning : ServiceState::kDegraded;
   }
-  /// Why it is degraded; empty when it is not.
+  /// Reason of a degraded state; otherwise empty.
   std::string explanation(SteadyTime now) const;
   std::vector<const InputWatch*> missing_inputs(SteadyTime now) const;
 

@@ -8,8 +8,7 @@
 
 namespace slammot::app {
 
-/// Puts a service's heartbeats and its status on the bus. Called in the thread that does the work, so that a hung one
-/// falls silent.
+/// Publishes a service's heartbeats and status from the working thread, so that a hung thread falls silent.
 class StatusPublisher {
  public:
   static constexpr std::chrono::milliseconds kHeartbeatPeriod{200};
@@ -18,9 +17,10 @@ class StatusPublisher {
   StatusPublisher(const dds::Participant& participant, wire::ServiceName name);
 
   void beat(ServiceState state);
-  /// With the state and explanation as they are now, or `state` when stopping.
+  /// With the current state and explanation, or `state` when stopping.
   void report(const StatusBoard& board, ServiceState state);
-  /// Waits until everybody has the last status, or the time is over: what is not sent when the writer goes is lost.
+  /// Waits until all readers have the last status, or until the time-out: unsent data is lost when the writer is
+  /// deleted.
   void wait_until_heard(std::chrono::milliseconds timeout) const { statuses_.wait_for_acknowledgements(timeout); }
 
  private:

@@ -5,8 +5,8 @@
 
 namespace slammot::app {
 
-/// While it lives, SIGINT and SIGTERM call `stop` in a thread of its own instead of ending the process; a second one ends
-/// it at once. Make it before any other thread, so that all of them leave these signals to it.
+/// While it exists, SIGINT and SIGTERM call `stop` in a separate thread instead of ending the process; a second signal
+/// ends it at once. Create it before any other thread, so that all threads block these signals.
 class StopSignal {
  public:
   explicit StopSignal(std::function<void()> stop);

@@ -11,7 +11,7 @@ bool worth_pairing(const CostMatrix& costs, std::size_t row, std::size_t column,
 
 }  // namespace
 
-/// Connected component of the graph of worthwhile pairs that contains the row.
+/// Connected component of the graph of finite-cost pairs (cheaper than leaving out) that contains the row.
 void Assigner::find_cluster_of(std::size_t first_row, const CostMatrix& costs, double cost_of_leaving_out) {
   cluster_.rows.assign(1, first_row);
   cluster_.columns.clear();
@@ -30,7 +30,7 @@ void Assigner::find_cluster_of(std::size_t first_row, const CostMatrix& costs, d
   }
 }
 
-/// Every row also has a column of its own that stands for leaving it out, so that a complete assignment always exists.
+/// Every row has one extra column that means "unassigned", so that a complete assignment always exists.
 void Assigner::solve(const CostMatrix& costs, double cost_of_leaving_out) {
   const std::size_t columns = cluster_.columns.size();
   const auto cost = [&](std::size_t row, std::size_t column) {

@@ -24,20 +24,20 @@ struct CostMatrix {
   double operator()(std::size_t row, std::size_t column) const { return cost[row * columns + column]; }
 };
 
-/// Pairs rows with columns, each at most once, such that the sum of the pairs' costs plus `cost_of_leaving_out` for
-/// every row without a partner is smallest. Returns each row's column or kUnassigned. Costs are finite or kForbidden.
-/// Splits the problem into clusters that share no finite cost below that of leaving out (Wang 2004, Figure 5.3) and
-/// solves each by shortest augmenting paths (Jonker and Volgenant 1987), O(n^3) in a cluster.
+/// Assigns rows to columns, each at most once. Minimizes the sum of the pairs' costs plus `cost_of_leaving_out` for
+/// each unassigned row. Returns each row's column or kUnassigned. Costs are finite or kForbidden. The problem is split
+/// into clusters that share no cost below `cost_of_leaving_out` (Wang 2004, Figure 5.3). Each cluster is solved by
+/// shortest augmenting paths (Jonker and Volgenant 1987) in O(n^3).
 std::vector<std::size_t> assign(const CostMatrix& costs, double cost_of_leaving_out);
 
-/// The same for problem after problem. Keeps its memory, so that problems no larger than those before allocate nothing.
+/// The same for a series of problems. Reuses its memory: problems no larger than earlier ones allocate nothing.
 class Assigner {
  public:
-  /// Good until the next call.
+  /// The result is valid until the next call.
   const std::vector<std::size_t>& assign(const CostMatrix& costs, double cost_of_leaving_out);
 
  private:
-  /// Rows and columns that compete with one another and with nobody else.
+  /// Rows and columns of one connected component of the assignment problem.
   struct Cluster {
     std::vector<std::size_t> rows;
     std::vector<std::size_t> columns;

@@ -7,8 +7,8 @@
 
 namespace slammot::association {
 
-/// Grows a cheapest complete assignment row by row: shortest augmenting paths with potentials (Jonker and Volgenant 1987).
-/// Keeps its memory, so that problems no larger than those before allocate nothing.
+/// Builds a cheapest complete assignment row by row: shortest augmenting paths with potentials (Jonker and Volgenant
+/// 1987). Reuses its memory: problems no larger than earlier ones allocate nothing.
 class AugmentingPaths {
  public:
   void begin(std::size_t rows, std::size_t columns) {
@@ -18,11 +18,11 @@ class AugmentingPaths {
     row_of_column_.assign(columns + 1, kUnassigned);
   }
 
-  /// Finds the cheapest alternating path from a new row to a free column and flips it. cost(row, column): finite or
-  /// kForbidden. False where the row cannot be added; what was grown so far is of no use then.
+  /// Finds the cheapest alternating path from a new row to a free column and flips it. cost(row, column) is finite or
+  /// kForbidden. Returns false if the row cannot be added; the partial assignment is invalid then.
   template <class Cost>
   bool add(std::size_t new_row, const Cost& cost) {
-    const std::size_t start = columns_;  // a column that only the new row occupies
+    const std::size_t start = columns_;  // virtual column that only the new row occupies
     row_of_column_[start] = new_row;
     distance_.assign(columns_ + 1, kForbidden);
     previous_.assign(columns_ + 1, start);
@@ -60,7 +60,7 @@ class AugmentingPaths {
     return true;
   }
 
-  /// kUnassigned where the column is free.
+  /// Row of the column; kUnassigned if the column is free.
   std::size_t row_of_column(std::size_t column) const { return row_of_column_[column]; }
 
  private:

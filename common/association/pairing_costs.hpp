@@ -5,7 +5,7 @@
 
 namespace slammot::association {
 
-/// Marks a pair that must not be made.
+/// Cost of a pair that is not allowed.
 inline constexpr double kForbidden = std::numeric_limits<double>::infinity();
 inline constexpr std::size_t kUnassigned = std::numeric_limits<std::size_t>::max();
 

@@ -29,8 +29,8 @@ const std::vector<RankedAssignment>& AssignmentRanking::rank(const CostMatrix& c
   return results_;
 }
 
-/// Divides what is left of a subproblem without its cheapest assignment: for each free row, those that agree with it before
-/// that row and differ there.
+/// Partitions the rest of a subproblem without its cheapest assignment (Murty 1968): for each free row, the assignments
+/// that agree with the cheapest one before that row and differ in it.
 void AssignmentRanking::branch(std::size_t index) {
   for (std::size_t row = pool_[index].fixed_rows; row < costs_->rows; ++row) {
     const std::size_t child = take_subproblem();
@@ -53,7 +53,7 @@ double AssignmentRanking::cost_of(const Subproblem& subproblem, std::size_t row,
   return column - costs_->columns == row ? cost_of_leaving_out_ : kForbidden;
 }
 
-/// False where the exclusions leave no assignment.
+/// Returns false if the exclusions leave no assignment.
 bool AssignmentRanking::solve(Subproblem& subproblem) {
   paths_.begin(costs_->rows, columns_);
   for (std::size_t row = 0; row < costs_->rows; ++row)

@@ -35,14 +35,14 @@ Form form_of_file(const std::filesystem::path& path) {
   return form_of(text_of(unpacked));
 }
 
-/// Whether a file that does not begin as a bag does is meant to be one.
+/// True if a file without a bag's magic bytes is meant to be a bag.
 bool is_named_as_bag(const std::filesystem::path& path) {
   std::string name = path.filename().string();
   if (name.ends_with(".zstd")) name.resize(name.size() - std::string_view(".zstd").size());
   return name.ends_with(".bag") || name.ends_with(".mcap") || name.ends_with(".db3");
 }
 
-/// Texts with numbers in the order of the numbers: drive_2 before drive_10.
+/// Natural order of names: drive_2 before drive_10.
 bool comes_before(const std::string& a, const std::string& b) {
   const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   std::size_t i = 0;
@@ -66,7 +66,7 @@ bool comes_before(const std::string& a, const std::string& b) {
   return a.size() - i < b.size() - j;
 }
 
-/// The bag's files, all of one form, in their order.
+/// The bag's files in order, all of one format.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
   std::vector<std::pair<Form, std::filesystem::path>> found;
   std::error_code fault;
@@ -83,7 +83,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder)
     }
     if (!files.empty()) break;
   }
-  // What was unpacked beside its packed form is the same once more.
+  // An unpacked file beside its compressed form has the same content.
   std::erase_if(files, [&](const std::filesystem::path& path) { return path.extension() == ".zstd" && std::ranges::find(files, std::filesystem::path(path).replace_extension()) != files.end(); });
   std::ranges::sort(files, [](const auto& a, const auto& b) { return comes_before(a.filename().string(), b.filename().string()); });
   return files;
@@ -102,7 +102,7 @@ OpenedBag open_file(const std::filesystem::path& path) {
   return {std::make_unique<Ros1BagReader>(std::move(file)), {}};
 }
 
-/// The files of a bag one after the other, their messages unpacked where each was packed.
+/// The files of a bag in sequence, with compressed messages unpacked.
 class Bag : public MessageSource {
  public:
   explicit Bag(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
@@ -125,7 +125,7 @@ class Bag : public MessageSource {
       }
       note_damage();
       if (opened_ == files_.size()) return std::nullopt;
-      past_.push_back(std::exchange(now_, nullptr));  // its channels are still referred to
+      past_.push_back(std::exchange(now_, nullptr));  // its channels are still referenced
     }
   }
 
@@ -147,7 +147,7 @@ class Bag : public MessageSource {
     if (!damage.empty()) note(files_.size() > 1 ? files_[opened_ - 1].filename().string() + ": " + damage : damage);
   }
 
-  /// A message of CDR begins with 0, one that is packed does not.
+  /// A CDR message begins with 0; a compressed one does not.
   RawMessage unpacked(RawMessage message) {
     if (message.channel->serialization != Serialization::kCdr || !is_zstd(text_of(message.bytes.first(std::min<std::size_t>(4, message.bytes.size()))))) return message;
     Unpacked plain = unpack("zstd", message.bytes, kMostMessageBytes);

@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kMaxFrames = 4096;
 constexpr std::size_t kMaxKeptPoses = std::size_t{1} << 20;
 constexpr std::size_t kMaxStillPoses = 4096;
-constexpr int kMaxDepth = 64;   // transforms of a damaged bag may go in a circle
+constexpr int kMaxDepth = 64;   // the transforms of a damaged bag may form a cycle
 
 bool differ(const Transform& a, const Transform& b) {
   constexpr double kSame = 1e-6;
@@ -30,13 +30,13 @@ void FrameTree::add(const TransformMessage& message, std::int64_t log_time_ns, s
   if (message.child_frame.empty() || message.child_frame == message.header.frame) return;
   if (edges_.size() >= kMaxFrames && !edges_.contains(message.child_frame)) return;
   Edge& edge = edges_[message.child_frame];
-  if (edge.messages > 0 && edge.parent != message.header.frame) return;  // two publishers that do not agree: the first one's
+  if (edge.messages > 0 && edge.parent != message.header.frame) return;  // of two contradicting publishers the first one is used
   edge.parent = message.header.frame;
   edge.child = message.child_frame;
   ++edge.messages;
   const StampedTransform pose{log_time_ns, message.header.stamp_ns, index, message.parent_from_child};
   edge.moves = edge.moves || (!edge.poses.empty() && differ(edge.poses.front().parent_from_child, message.parent_from_child));
-  // Frames that never move are told again and again: of these the newest is enough.
+  // A fixed transform is republished often: only the newest one is kept.
   if (!edge.moves && edge.poses.size() >= kMaxStillPoses) edge.poses.back() = pose;
   else if (edge.poses.empty() || ++kept_poses_ <= kMaxKeptPoses) edge.poses.push_back(pose);
 }

@@ -10,10 +10,10 @@
 
 namespace slammot::bags {
 
-/// How the frames of a bag hang together: which are fixed to each other, and where each moving one was when.
+/// Tree of a bag's frames: fixed connections, and stamped poses of moving ones.
 class FrameTree {
  public:
-  /// A pose of a frame in its parent.
+  /// Pose of a frame in its parent.
   struct StampedTransform {
     std::int64_t log_time_ns = 0;
     std::int64_t stamp_ns = 0;
@@ -26,29 +26,29 @@ class FrameTree {
     std::string child;
     std::uint64_t messages = 0;
     bool moves = false;
-    std::vector<StampedTransform> poses;   ///< Not all of those that do not move.
+    std::vector<StampedTransform> poses;   ///< Incomplete for fixed frames.
   };
 
-  /// index: of the message in the bag.
+  /// index: that of the message in the bag.
   void add(const TransformMessage& message, std::int64_t log_time_ns, std::int64_t index = 0);
 
-  /// The child in the parent, be it fixed to it through any number of frames; nullopt where it is not.
+  /// Pose of child in parent through fixed frames only; nullopt if there is no such connection.
   std::optional<Transform> fixed(const std::string& parent, const std::string& child) const;
 
-  /// The first edge that moves on the way from this frame to the root; null where nothing moves.
+  /// First moving edge on the way from this frame to the root; null if none.
   const Edge* first_moving_above(const std::string& frame) const;
 
-  /// The farthest frame towards the root that this one is fixed to.
+  /// Ancestor nearest to the root with a fixed connection to this frame.
   std::string fixed_root(const std::string& frame) const;
 
   const Edge* edge_above(const std::string& frame) const;
   bool is_empty() const { return edges_.empty(); }
 
  private:
-  /// In its farthest frame that it is fixed to.
+  /// Pose in that ancestor.
   Transform in_fixed_root(const std::string& frame) const;
 
-  std::map<std::string, Edge> edges_;      ///< By child.
+  std::map<std::string, Edge> edges_;      ///< Indexed by child.
   std::size_t kept_poses_ = 0;
 };
 

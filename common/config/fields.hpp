@@ -14,7 +14,7 @@
 
 namespace slammot::config {
 
-/// Both ends belong to it. In the field's own unit.
+/// Closed interval in the field's own unit.
 struct Range {
   double lowest = std::numeric_limits<double>::lowest();
   double highest = std::numeric_limits<double>::max();
@@ -38,19 +38,19 @@ struct Consequences {
 
 struct BoundField;
 
-/// One of several names: an enum whose numbers are the same in C++ and in the proto.
+/// One of several names: an enum with the same numbers in C++ and in the proto.
 struct Choice {
   std::function<int()> get;
   std::function<void(int)> set;
 };
 
-/// Any number of structs of one kind. What a text lists replaces what was there.
+/// A repeated struct. A list in a text replaces the old content.
 struct List {
   std::function<void()> clear;
-  std::function<std::vector<BoundField>()> append;  ///< A further struct with its defaults, bound; until the next append.
+  std::function<std::vector<BoundField>()> append;  ///< Appends a struct with defaults and returns its bound fields.
 };
 
-/// Where a setting is kept. Points into a configuration struct and is valid as long as that is.
+/// Location of a setting in a configuration struct; valid as long as the struct.
 using Value = std::variant<bool*, int*, std::uint32_t*, std::int64_t*, std::uint64_t*, float*, double*, std::string*, Choice, List>;
 
 template <class Member>
@@ -160,7 +160,7 @@ std::optional<double> number_in(const BoundField& field);
 /// "cell_size_m = 7 is outside [0.02, 1]: Edge of a cell." or nothing when the value may be used. NaN never may.
 std::optional<std::string> find_fault(const BoundField& field);
 
-/// The first fault of the stage, with the stage's name in front.
+/// The first fault of the stage, prefixed by the stage's name.
 std::optional<std::string> find_fault(const BoundStage& stage);
 
 }  // namespace slammot::config

@@ -53,11 +53,11 @@ class FirstError : public pb::io::ErrorCollector {
   std::optional<Fault> fault_;
 };
 
-/// A field that the text sets, and where it does so.
+/// A field set by the text, with its location.
 struct SetField {
   const pb::Message* message;
   const pb::FieldDescriptor* descriptor;
-  const pb::TextFormat::ParseInfoTree* siblings;  ///< Locations in the message that has it.
+  const pb::TextFormat::ParseInfoTree* siblings;  ///< Locations in the message that contains it.
   pb::TextFormat::ParseLocation location;
 };
 
@@ -95,7 +95,7 @@ std::optional<Fault> overlay_list(const SetField& set, const std::string& name, 
   return std::nullopt;
 }
 
-/// Copies what the text sets, field by field.
+/// Copies the fields that the text sets.
 std::optional<Fault> overlay_fields(const pb::Message& message, const pb::TextFormat::ParseInfoTree* locations, const std::string& place,
                                     const std::vector<BoundField>& fields) {
   for (const BoundField& field : fields) {

@@ -11,10 +11,10 @@
 
 namespace slammot::config {
 
-/// Why a configuration cannot be used, and where it says so.
+/// Error of a configuration, with its location.
 struct Fault {
   std::string file;
-  int line = 0;    ///< From 1; 0 when the fault is the whole file's.
+  int line = 0;    ///< From 1; 0 if the error is about the whole file.
   int column = 0;  ///< From 1.
   std::string message;
 
@@ -29,11 +29,12 @@ std::optional<Fault> overlay_text(std::string_view text, const std::string& file
 /// The same for a file. A file that cannot be read is a fault.
 std::optional<Fault> overlay_file(const std::filesystem::path& file, std::span<const BoundStage> stages);
 
-/// Overlays a text that is one message of its own in place of a Profile, such as a Scenario, onto its bound settings.
+/// Overlays a text of a message other than Profile, such as a Scenario, onto its bound settings.
 std::optional<Fault> overlay_message_text(std::string_view text, const std::string& file_name, const BoundStage& message);
 std::optional<Fault> overlay_message_file(const std::filesystem::path& file, const BoundStage& message);
 
-/// Where a field table and slammot.proto differ in names or types, one line each; empty when they agree. Lists grow by a sample each.
+/// Differences between a field table and slammot.proto in names or types, one line each; empty if they agree. Each list
+/// grows by a sample.
 std::vector<std::string> differences_from_proto(const BoundStage& stage);
 
 /// Names of the stages that slammot.proto knows.

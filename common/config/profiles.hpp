@@ -8,9 +8,9 @@
 
 namespace slammot::config {
 
-/// Files of one kind that are shipped: NAME.textproto in a folder of their own.
+/// A kind of shipped files: NAME.textproto in a folder.
 struct Shelf {
-  const char* variable;  ///< Of the environment: a folder to look into first.
+  const char* variable;  ///< Environment variable with a folder that is searched first.
   const char* folder;    ///< In share/slammot of an installation and in deploy of the source tree around the running program.
 };
 inline constexpr Shelf kProfiles{"SLAMMOT_PROFILES", "profiles"};
@@ -19,20 +19,20 @@ inline constexpr Shelf kScenarios{"SLAMMOT_SCENARIOS", "scenarios"};
 /// Folders of a shelf, best first.
 std::vector<std::filesystem::path> folders_of(const Shelf& shelf);
 
-/// A path is taken as it is, a name is looked for in the folders. Nothing when there is none.
+/// A path is used as it is; a name is searched for in the folders. None if there is no such file.
 std::optional<std::filesystem::path> find_file(const Shelf& shelf, const std::string& name_or_path);
 
-/// Names that find_file() knows, sorted.
+/// Names known to find_file(), sorted.
 std::vector<std::string> names_on(const Shelf& shelf);
 
 /// Folders that may hold profiles, best first: $SLAMMOT_PROFILES, then share/slammot/profiles of an installation and
 /// deploy/profiles of the source tree around the running program.
 std::vector<std::filesystem::path> profile_folders();
 
-/// The file of a profile: a path is taken as it is, a name is looked for in the folders. Nothing when there is none.
+/// File of a profile: a path is used as it is; a name is searched for in the folders. None if there is no such file.
 std::optional<std::filesystem::path> find_profile(const std::string& name_or_path);
 
-/// Names that find_profile() knows, sorted.
+/// Names known to find_profile(), sorted.
 std::vector<std::string> profile_names();
 
 /// "unknown profile 'x'; there are: indoor, urban"

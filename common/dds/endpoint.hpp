@@ -14,17 +14,17 @@ struct dds_qos;
 
 namespace slammot::dds {
 
-/// A writer or reader elsewhere that uses the same topic in a way that cannot be connected.
+/// A remote writer or reader of the same topic with incompatible QoS.
 struct QosMismatch {
   std::string topic_name;
-  std::string policy;       ///< Name of the policy of the last one, e.g. "reliability".
-  std::uint32_t total = 0;  ///< Endpoints met so far that did not fit.
+  std::string policy;       ///< Name of the last incompatible policy, e.g. "reliability".
+  std::uint32_t total = 0;  ///< Number of incompatible endpoints so far.
 
   /// One line for the log.
   std::string text() const;
 };
 
-/// What reader and writer have in common: a topic in a participant, and the other side.
+/// Common base of reader and writer: a topic of a participant, and the matched endpoints.
 class Endpoint {
  public:
   Entity::Handle handle() const { return entity_.handle(); }
@@ -37,8 +37,7 @@ class Endpoint {
   Endpoint(const Participant& participant, const TopicInfo& info, Side side, const dds_qos* qos);
 
   std::string describe(const char* call) const;
-  /// Sleeps until `enough()`, which is asked again whenever somebody on the other side comes,
-  /// goes or does not fit.
+  /// Sleeps until `enough()`; tests it again whenever an endpoint matches, leaves or is incompatible.
   bool wait_until(const std::function<bool()>& enough, std::chrono::nanoseconds timeout) const;
   std::optional<QosMismatch> mismatch(std::uint32_t total, std::uint32_t last_policy_id) const;
 

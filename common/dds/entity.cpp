@@ -12,7 +12,7 @@ std::int32_t check(std::int32_t code, const std::string& what) {
 Entity::Entity(Handle handle_or_error, const std::string& what) : handle_(check(handle_or_error, what)) {}
 
 Entity::~Entity() {
-  // Fails only when the participant or the domain was deleted before, and the entity with it.
+  // Fails only if the participant or the domain, and with it the entity, was already deleted.
   if (handle_ > 0) dds_delete(handle_);
 }
 

@@ -7,7 +7,7 @@
 
 namespace slammot::dds {
 
-/// A call that should not fail on a bus that once worked did fail.
+/// An unexpected failure of a call on a working bus.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

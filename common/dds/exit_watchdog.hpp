@@ -22,7 +22,8 @@ class ExitWatchdog {
   ExitWatchdog(const ExitWatchdog&) = delete;
   ExitWatchdog& operator=(const ExitWatchdog&) = delete;
 
-  /// From now on the process has `patience` to get to the destructor; then one line on stderr and exit code kExitCode.
+  /// Starts the time limit `patience` for reaching the destructor; after it, one line on stderr and exit code
+  /// kExitCode.
   void arm();
 
  private:

@@ -90,7 +90,7 @@ LogCapture::~LogCapture() {
     handler = state.handler;
   }
   state.one_capture.unlock();
-  // Errors are for the caller, who asked for them; the rest goes where it would have gone.
+  // Errors go to the caller who captures them; other messages go to the handler.
   for (const Line& line : lines) {
     if (line.level != LogLevel::kError) handler(line.level, line.text);
   }

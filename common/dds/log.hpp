@@ -11,11 +11,11 @@ enum class LogLevel { kInfo, kWarning, kError };
 
 using LogHandler = std::function<void(LogLevel, std::string_view line)>;
 
-/// Where the DDS library's own messages go from now on, one line a call, from any thread; stderr until this is called.
+/// Sets the handler of the DDS library's messages: one line a call, from any thread; stderr by default.
 void set_log_handler(LogHandler handler);
 
-/// While it lives, the DDS library's messages are kept here instead of going to the handler: they hold the reason of a
-/// failure of which the library returns only "Error". At most one lives at a time; a second one waits.
+/// Captures the DDS library's messages while it exists, instead of passing them to the handler: they contain the reason
+/// of a failure of which the library returns only "Error". At most one exists at a time; a second one waits.
 class LogCapture {
  public:
   LogCapture();

@@ -50,7 +50,7 @@ class Participant::Domain {
 };
 
 std::shared_ptr<Participant::Domain> Participant::open_domain(const ParticipantOptions& options) {
-  // The library knows each domain once a process, so this table is one a process too.
+  // The library creates each domain once a process, therefore this table is global, too.
   static std::mutex mutex;
   static std::map<std::uint32_t, std::weak_ptr<Domain>> open_domains;
   const std::scoped_lock lock(mutex);

@@ -21,7 +21,7 @@ struct ParticipantOptions {
   std::optional<std::string> config;  ///< Cyclone XML; config_from_environment() when not set.
 };
 
-/// This process' membership in a DDS domain. Must outlive everything made from it.
+/// Participant in a DDS domain. Must outlive everything created from it.
 /// Participants of one process in the same domain share the configuration of the first.
 class Participant {
  public:

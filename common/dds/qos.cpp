@@ -66,9 +66,9 @@ QosPointer make_qos(const QosProfile& profile, std::int32_t depth) {
   QosPointer qos(dds_create_qos(), dds_delete_qos);
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, nanoseconds(profile.max_blocking));
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
-  // By the reader's clock: with clocks 2 s apart a neighbour's samples would be dropped as old.
+  // By the reader's clock: with clocks 2 s apart, another host's samples would be dropped as old.
   dds_qset_destination_order(qos.get(), DDS_DESTINATIONORDER_BY_RECEPTION_TIMESTAMP);
-  // A writer that dies takes nothing back.
+  // Samples of a dead writer stay valid.
   dds_qset_writer_data_lifecycle(qos.get(), false);
   if (profile.durability == Durability::kTransientLocal) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);

@@ -7,26 +7,26 @@
 
 namespace slammot::dds {
 
-/// Kinds of flow that share one quality of service, for writers and readers alike.
+/// Quality-of-service profiles, for writers and readers.
 enum class Flow {
-  kSensor,     ///< Scans, odometry: what was missed is of no use later.
+  kSensor,     ///< Scans, odometry: late samples are useless.
   kEstimate,   ///< Localized scans, segments, tracks, labels.
-  kTile,       ///< Pieces of maps, each its own key: a late joiner gets all of them.
+  kTile,       ///< Tiles of maps, one key each: a late joiner receives all.
   kGraph,      ///< Constraints and corrections, keyed: a late joiner gets the last ones.
   kStatus,     ///< Keyed by service: a late joiner gets the last one.
   kHeartbeat,  ///< Liveliness asserted by writing.
-  kCommand,    ///< Commands and replies; too late is not at all.
+  kCommand,    ///< Commands and replies: late samples are dropped.
 };
 
 enum class Durability { kVolatile, kTransientLocal };
 
-/// Everything is reliable: best effort loses 12 % where the link loses 5 %. Everything keeps the last few, never all:
-/// with keep-all one stopped reader starves the others.
+/// Everything is reliable: best effort loses 12 % on a link that loses 5 %. Every history is keep-last: with keep-all
+/// one stopped reader starves the others.
 struct QosProfile {
   Durability durability = Durability::kVolatile;
-  std::int32_t reader_depth = 1;                ///< Samples kept per key for a reader that is late.
-  std::int32_t writer_depth = 1;                ///< Samples kept per key to be sent again where the link lost them.
-  std::chrono::milliseconds max_blocking{100};  ///< A write waits so long for slow readers.
+  std::int32_t reader_depth = 1;                ///< Samples kept per key for a slow reader.
+  std::int32_t writer_depth = 1;                ///< Samples kept per key for retransmission.
+  std::chrono::milliseconds max_blocking{100};  ///< Longest time for which a write waits for slow readers.
   std::optional<std::chrono::milliseconds> lifespan = std::nullopt;  ///< Older samples are dropped.
   /// Asserted by each write; automatic when not set.
   std::optional<std::chrono::milliseconds> manual_liveliness = std::nullopt;

@@ -11,8 +11,8 @@
 namespace slammot::dds {
 
 enum class History {
-  kProfile,   ///< As the topic's profile says.
-  kRecorder,  ///< The last 10,000 samples a key, for a reader that must not miss any.
+  kProfile,   ///< Depth of the topic's profile.
+  kRecorder,  ///< The last 10,000 samples a key, for a reader that needs all.
 };
 
 struct ReaderCounters {
@@ -81,17 +81,17 @@ class ReaderBase : public Endpoint {
   Entity data_available_;  // condition: there are samples to take
 };
 
-/// Reads samples of one topic with the topic's own QoS. Not for several threads at once.
+/// Reads samples of one topic with the topic's own QoS. Not thread-safe.
 template <typename Sample>
 class Reader : public ReaderBase {
  public:
   Reader(const Participant& participant, const Topic<Sample>& topic, History history = History::kProfile)
       : ReaderBase(participant, topic, history) {}
 
-  /// The oldest samples that wait, at most LoanBase::kMost; does not wait for any.
+  /// The oldest unread samples, at most LoanBase::kMost; does not wait.
   Loan<Sample> take() { return Loan<Sample>(*this); }
 
-  /// Calls `handle(sample)` for every value that waits, oldest first. Returns how many there were.
+  /// Calls `handle(sample)` for every unread value, oldest first. Returns their number.
   template <typename Handle>
   std::size_t take_each(Handle&& handle) {
     std::size_t count = 0;

@@ -21,7 +21,7 @@ struct TopicInfo {
   std::string_view name;
   const dds_topic_descriptor* type;  ///< The C library's, as idlc generated it.
   Flow flow;
-  Recorded recorded;  ///< By the recorder, unless told otherwise.
+  Recorded recorded;  ///< Default choice of the recorder.
 
   std::string_view type_name() const { return type->m_typename; }
 };
@@ -76,10 +76,10 @@ inline constexpr Topic<slammot_Reply> kReply{{"slammot/reply", &slammot_Reply_de
 
 }  // namespace topics
 
-/// Every topic there is; idl/README.md says what each is for.
+/// All topics; idl/README.md describes each.
 std::span<const TopicInfo* const> topic_table();
 
-/// The row of that name; null when there is none.
+/// Row of that name; null if there is none.
 const TopicInfo* find_topic(std::string_view name);
 
 }  // namespace slammot::dds

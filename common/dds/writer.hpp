@@ -10,7 +10,7 @@ namespace slammot::dds {
 
 enum class WriteResult {
   kWritten,
-  kTimedOut,  ///< A slow reader held it up for longer than the profile's max_blocking; the sample was not sent.
+  kTimedOut,  ///< A slow reader blocked the write for longer than the profile's max_blocking; the sample was not sent.
 };
 
 struct WriterCounters {
@@ -40,7 +40,7 @@ class WriterBase : public Endpoint {
   WriterCounters counters_;
 };
 
-/// Writes samples of one topic with the topic's own QoS. Not for several threads at once.
+/// Writes samples of one topic with the topic's own QoS. Not thread-safe.
 template <typename Sample>
 class Writer : public WriterBase {
  public:

@@ -8,12 +8,11 @@
 
 namespace slammot::files {
 
-/// Writes the whole file under a temporary name and renames it, so that nobody ever sees half of it.
-/// On a fault (no room, no permission) the old file, if any, is as it was.
+/// Writes the whole file under a temporary name and renames it, so that no reader sees a partial file. On a fault (no
+/// space, no permission) the old file, if any, is unchanged.
 std::optional<Error> write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// Makes the folder where it is missing and tries whether a file can be written there: better known before the work
-/// than after.
+/// Creates the folder if it is missing and tests whether a file can be written there, before the work begins.
 std::optional<Error> prepare_output_folder(const std::filesystem::path& folder);
 
 }  // namespace slammot::files

@@ -16,19 +16,19 @@ using bags::MessageKind;
 
 constexpr std::size_t kMaxKeptPoses = std::size_t{1} << 20;
 constexpr std::size_t kMaxScanners = 16;
-constexpr double kAmbiguousShare = 0.5;   // of what the best one sees
+constexpr double kAmbiguousShare = 0.5;   // of the best topic's coverage
 constexpr double kTiltedRad = 0.1;
-constexpr double kCloudSliceM = 0.2;      // above and below the sensor, where no heights are asked for
+constexpr double kCloudSliceM = 0.2;      // above and below the sensor, if no heights are given
 
 bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
-/// What all scans of a topic see together: messages times radians. Of two forms of the same the plain scans are preferred.
+/// Coverage of a topic: scans times field of view [rad]. Of two equivalent topics plain scans are preferred.
 double seen(const TopicCandidate& candidate) {
   const double form = contains(candidate.type, "MultiEcho") ? 0.9 : contains(candidate.type, "PointCloud") ? 1e-6 : 1.0;
   return form * static_cast<double>(candidate.messages) * std::min(candidate.field_of_view_rad, 2.0 * std::numbers::pi);
 }
 
-/// Poses that were computed from scans or are the truth, not what the wheels say.
+/// Topics with poses computed from scans or with ground truth, not odometry.
 bool is_no_wheel_odometry(const std::string& topic, const std::string& parent_frame) {
   return contains(topic, "truth") || contains(topic, "groundtruth") || contains(topic, "gps") || parent_frame == "map" || parent_frame == "world" || parent_frame == "utm";
 }
@@ -83,7 +83,7 @@ void BagLog::look_through(bags::MessageSource& messages) {
   for (const auto& [topic, count] : imu_messages_) note("imu:      " + topic + ", " + std::to_string(count) + " messages, not used");
 }
 
-/// Recorders write in the order of arrival, converters also topic after topic. Scans of one topic stay in the bag's order.
+/// Recorders write in order of arrival, converters also topic by topic. Scans of one topic stay in the bag's order.
 void BagLog::sort_kept() {
   std::vector<std::int64_t> newest_ns(scan_topics_.size(), 0);
   for (Scan& scan : kept_) scan.log_time_ns = newest_ns[scan.topic] = std::max(newest_ns[scan.topic], scan.log_time_ns);
@@ -125,7 +125,7 @@ std::size_t BagLog::scan_topic(const bags::RawMessage& message, const std::strin
 
 void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
   if (kind == MessageKind::kPointCloud) {
-    // Most of a cloud's bytes are of no interest as long as it is not chosen: its first one says which frame it has.
+    // A cloud that is not selected needs no parsing: its first message gives the frame.
     const auto known = std::ranges::find_if(scan_topics_, [&](const ScanTopic& topic) { return topic.candidate.topic == message.channel->topic; });
     const auto cloud = known == scan_topics_.end() ? bags::parse_point_cloud(message) : std::nullopt;
     if (known == scan_topics_.end() && !cloud) {
@@ -137,7 +137,7 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
     topic.candidate.field_of_view_rad = 2.0 * std::numbers::pi;
     topic.candidate.beams = topic.slice.beams;
     ++topic.candidate.messages;
-    topic.advancing = topic.log_advancing += message.log_time_ns > topic.last_ns ? 1 : 0;  // most of a cloud's header is not looked at
+    topic.advancing = topic.log_advancing += message.log_time_ns > topic.last_ns ? 1 : 0;  // the header of a cloud is not parsed
     topic.last_ns = topic.newest_stamp_ns = std::max(topic.last_ns, message.log_time_ns);
     return;
   }
@@ -214,7 +214,7 @@ std::optional<Error> BagLog::choose(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-/// The topic that was asked for, or that which sees most.
+/// The requested topic, or the one with the largest coverage.
 std::optional<std::size_t> BagLog::main_scanner() const {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < scan_topics_.size(); ++i) {
@@ -225,7 +225,8 @@ std::optional<std::size_t> BagLog::main_scanner() const {
   return best;
 }
 
-/// The main one, and of each other frame the topic that sees most: topics of one frame are one scanner, filtered or converted.
+/// The main topic, and for every other frame the topic with the largest coverage: topics of one frame are one scanner,
+/// filtered or converted.
 void BagLog::choose_scanners(std::size_t main) {
   std::uint8_t slot = 0;
   const auto take = [&](ScanTopic& topic) {
@@ -276,7 +277,7 @@ std::optional<Error> BagLog::choose_odometry(const std::filesystem::path& path, 
   return std::nullopt;
 }
 
-/// The first frame above the laser in which something moves: odom above base_link.
+/// First moving frame above the laser: odom above base_link.
 void BagLog::take_transforms_as_odometry(const std::string& laser_frame) {
   const bags::FrameTree::Edge* const edge = frames_.first_moving_above(laser_frame);
   if (edge == nullptr || is_no_wheel_odometry({}, edge->parent)) return;
@@ -293,7 +294,7 @@ void BagLog::take_transforms_as_odometry(const std::string& laser_frame) {
   odometry_topics_.push_back(std::move(topic));
 }
 
-/// The frame whose poses odometry tells; without odometry the frame that the laser is fixed to, by its usual names.
+/// The child frame of odometry; without odometry the frame to which the laser is fixed, by its usual names.
 std::string BagLog::base_frame(const std::string& laser_frame) const {
   for (const OdometryTopic& topic : odometry_topics_) {
     const std::string& child = topic.candidate.frame;
@@ -392,8 +393,8 @@ std::int64_t BagLog::time_of(const StampedPose& pose) const {
   return clock_ == CommonClock::kHeaders ? pose.stamp_ns : pose.log_time_ns;
 }
 
-/// Headers, if those of the scans advance and those of the odometry are of the same hour; otherwise the time of recording, or, where
-/// that stands still, too, the order in the bag.
+/// Header stamps, if those of the scans advance and those of odometry are within the same hour. Otherwise the time of
+/// recording, or the order in the bag if that does not advance either.
 void BagLog::sort_odometry() {
   constexpr double kAdvancingShare = 0.9;
   constexpr std::int64_t kSameHour_ns = 3'600'000'000'000;
@@ -409,7 +410,7 @@ void BagLog::sort_odometry() {
   for (StampedPose& pose : odometry_) pose.log_time_ns = newest_ns = std::max(newest_ns, pose.log_time_ns);
 }
 
-/// What was measured at the scan's very time: of several the last one before it in the bag. In the bag's order, the one before it.
+/// Odometry at exactly the scan's stamp: the last one before it in the bag. With the bag's order, the one before it.
 const BagLog::StampedPose* BagLog::pose_of(const Scan& scan) const {
   const std::int64_t time = time_of(scan);
   const auto by_time = [this](const StampedPose& pose) { return time_of(pose); };
@@ -422,7 +423,7 @@ const BagLog::StampedPose* BagLog::pose_of(const Scan& scan) const {
   return best;
 }
 
-/// Interpolated, where nothing was measured at its time.
+/// Interpolated odometry if there is none at the stamp.
 geometry::Pose2 BagLog::wheel_from_base_at(const Scan& scan) const {
   if (odometry_by_time_.empty()) return geometry::Pose2::identity();
   if (const StampedPose* const pose = pose_of(scan)) return pose->wheel_from_base;
@@ -440,7 +441,7 @@ bool BagLog::comes_before(const StampedPose& pose, const Scan& scan) const {
   return pose.log_time_ns <= scan.log_time_ns;
 }
 
-/// As the log goes on: at its place, and with the pose of its time.
+/// The next scan in order, with its pose.
 CarmenRecord BagLog::finished(Scan scan) {
   constexpr std::size_t kRemembered = 64;
   const ScanTopic& topic = scan_topics_[scan.topic];

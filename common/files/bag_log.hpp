@@ -18,14 +18,14 @@
 
 namespace slammot::files {
 
-/// A bag of ROS as records: scans of sensor_msgs/LaserScan, MultiEchoLaserScan or PointCloud2, odometry of nav_msgs/Odometry or of
-/// the transforms, mountings of the transforms, in the order in which they were recorded.
+/// A ROS bag as records in order of recording: scans of sensor_msgs/LaserScan, MultiEchoLaserScan or PointCloud2;
+/// odometry of nav_msgs/Odometry or of the transforms; mountings of the transforms.
 ///
-/// Opening looks through the whole bag once and chooses topics by what they hold; scans are kept from that as far as they are few
-/// enough, and read again otherwise. The stamp of a header is the record's ipc time, that of recording its logger time.
+/// Opening reads the whole bag once and chooses topics by their content. Scans are kept if they are few enough,
+/// otherwise read again. The header stamp is the record's ipc time; the time of recording is its logger time.
 class BagLog : public RecordSource {
  public:
-  /// Fails for what is no bag, holds no scan, or lacks a topic that was asked for.
+  /// Fails if the file is no bag, holds no scan, or lacks a requested topic.
   static Result<std::unique_ptr<RecordSource>> open(const std::filesystem::path& path, const RecordOptions& options);
 
   std::optional<CarmenRecord> next() override;
@@ -36,16 +36,16 @@ class BagLog : public RecordSource {
   TopicChoice topics() const override { return choice_; }
 
  private:
-  /// One topic with scans, or with clouds.
+  /// A topic of scans or clouds.
   struct ScanTopic {
     TopicCandidate candidate;
     bool is_cloud = false;
-    std::int64_t first_ns = 0;        ///< By the time of recording,
-    std::int64_t last_ns = 0;         ///< as this.
-    std::uint64_t advancing = 0;      ///< Messages whose header has a newer stamp than any before,
-    std::uint64_t log_advancing = 0;  ///< and that were recorded later than any before.
+    std::int64_t first_ns = 0;        ///< Time of recording.
+    std::int64_t last_ns = 0;         ///< Time of recording.
+    std::uint64_t advancing = 0;      ///< Messages with a header stamp newer than all before.
+    std::uint64_t log_advancing = 0;  ///< Messages recorded later than all before.
     std::int64_t newest_stamp_ns = 0;
-    std::uint8_t slot = 0;            ///< Of its records; 0: none.
+    std::uint8_t slot = 0;            ///< Slot of its records; 0: none.
     std::optional<Mounting> mounting;
     bags::Transform base_from_cloud;
     CloudSlice slice;
@@ -56,7 +56,7 @@ class BagLog : public RecordSource {
     std::int64_t index = 0;           ///< Of the message in the bag.
     geometry::Pose2 wheel_from_base;
   };
-  /// By which clock odometry and scans are put together.
+  /// Clock that relates odometry and scans.
   enum class CommonClock : std::uint8_t { kHeaders, kRecording, kOrder };
   struct OdometryTopic {
     TopicCandidate candidate;
@@ -107,20 +107,20 @@ class BagLog : public RecordSource {
   std::vector<ScanTopic> scan_topics_;
   std::vector<OdometryTopic> odometry_topics_;
   bags::FrameTree frames_;
-  std::map<std::string, std::string> types_;           ///< Of all topics, for those who look for their scans.
+  std::map<std::string, std::string> types_;           ///< Of all topics, for messages about missing scans.
   std::map<std::string, std::uint64_t> imu_messages_;
-  std::int64_t index_ = 0;                             ///< Of the message that is looked at.
+  std::int64_t index_ = 0;                             ///< Index of the current message.
   std::uint64_t malformed_ = 0;
   std::size_t kept_bytes_ = 0;
   bool all_is_kept_ = true;
   std::deque<Scan> kept_;
   std::size_t kept_at_first_ = 0;
-  std::unique_ptr<bags::MessageSource> messages_;      ///< Where the scans were too many to be kept.
-  std::vector<StampedPose> odometry_;                  ///< Of the topic that was chosen, by the time of recording.
+  std::unique_ptr<bags::MessageSource> messages_;      ///< If there are too many scans to keep.
+  std::vector<StampedPose> odometry_;                  ///< Of the chosen topic, by time of recording.
   std::size_t odometry_at_ = 0;
-  std::vector<StampedPose> odometry_by_time_;          ///< The same by the common clock,
-  CommonClock clock_ = CommonClock::kRecording;        ///< which is this.
-  std::vector<std::int64_t> told_;                     ///< Odometry that the scans have told, by its index; the last ones.
+  std::vector<StampedPose> odometry_by_time_;          ///< The same by the common clock.
+  CommonClock clock_ = CommonClock::kRecording;        ///< The common clock.
+  std::vector<std::int64_t> told_;                     ///< Indices of odometry that scans have already returned; the last ones.
   std::optional<Scan> waiting_;
   std::uint64_t records_ = 0;
   std::string damage_;

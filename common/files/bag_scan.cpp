@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// What rounding to float32 may have changed.
+/// Largest rounding error of float32.
 double float_error(double value) { return 0.5000001 * std::abs(value) * static_cast<double>(std::numeric_limits<float>::epsilon()); }
 
 std::optional<double> nearest_decimal(double value, int decimals, double error) {
@@ -28,7 +28,7 @@ std::optional<double> few_decimals(double value, int most_decimals, double error
   return std::nullopt;
 }
 
-/// A step of so many to a half turn: 1, 0.5, 0.25, 1/3 degrees are 180, 360, 720, 540.
+/// Steps that divide a half turn: 1, 0.5, 0.25, 1/3 degrees are 180, 360, 720, 540.
 std::optional<double> step_by_count(double step_rad) {
   const double count = std::round(kPi / std::abs(step_rad));
   if (!(count >= 2.0 && count <= 1e5)) return std::nullopt;
@@ -48,8 +48,8 @@ std::optional<double> simple_degrees(double angle_rad) {
 
 double six_decimals(double value) { return std::round(value * 1e6) / 1e6; }
 
-/// CARMEN writes six decimals: what was converted from such a text has -1.570796 where -pi/2 is meant, and 0.008727 where pi/360
-/// is. The layout that ROBOTLASER1 would give, if first beam and step are of that kind.
+/// CARMEN writes six decimals: data converted from such text have -1.570796 for -pi/2, and 0.008727 for pi/360. If
+/// first beam and step are of that kind, the layout is that of ROBOTLASER1.
 std::optional<BeamLayout> layout_of_text(double first_beam_rad, double step_rad, std::size_t beams) {
   const double degrees = std::round(first_beam_rad * 180.0 / kPi * 8.0) / 8.0;
   const double first_rad = six_decimals(kPi * (degrees / 180.0));

@@ -11,39 +11,39 @@
 
 namespace slammot::files {
 
-/// A planar pose out of a spatial one: where it is seen from above, and which way its x axis points.
+/// Projects a spatial pose to the plane: position seen from above, heading of its x axis.
 geometry::Pose2 planar(const bags::Transform& parent_from_child);
 
-/// How a scanner is mounted.
+/// Mounting of a scanner.
 struct Mounting {
   geometry::Pose2 base_from_laser;
-  bool is_upside_down = false;     ///< Its beams go round the other way.
-  double tilt_rad = 0.0;           ///< Of its plane against the base's.
+  bool is_upside_down = false;     ///< Reverses the order of its beams.
+  double tilt_rad = 0.0;           ///< Angle between its scan plane and the base's plane.
 };
 
 Mounting mounting_of(const bags::Transform& base_from_laser);
 
-/// The number with few decimals that is meant by this double, if it is one within a few units in its last place: what a heading
-/// loses on its way through a quaternion. Also of headings that were wrapped on that way.
+/// The decimal number of few digits within a few units in the last place of this double, if there is one: undoes the
+/// rounding of a heading in a quaternion. Also for wrapped headings.
 double heading_as_written(double heading_rad);
 
-/// Beams as they are meant by the float32 of a LaserScan: where an angle is within its rounding of whole or simple parts of degrees,
-/// or of a number with up to six decimals, it is that; first beam, last beam and step then give the layout as ROBOTLASER1 does.
-/// nullopt for angles that make no sense.
+/// Exact beam layout from the float32 angles of a LaserScan: an angle within rounding of a simple fraction of degrees,
+/// or of a number with up to six decimals, becomes that value. First beam, last beam and step then give the layout as
+/// ROBOTLASER1 does. nullopt for invalid angles.
 std::optional<BeamLayout> layout_of_message(float first_beam_rad, float last_beam_rad, float beam_step_rad, std::size_t beams);
 
-/// As a record, without its mounting. nullopt for a scan of too few or too many beams, or of beams that make no sense.
+/// As a record without mounting. nullopt for too few, too many or invalid beams.
 std::optional<LaserRecord> record_of(const bags::LaserScanMessage& scan);
 
-/// The slice of a cloud that counts, by heights in the base's frame [m].
+/// Slice of a cloud by heights in the base's frame [m].
 struct CloudSlice {
   double from_m = 0.0;
   double to_m = 0.0;
-  std::size_t beams = 720;          ///< All around.
+  std::size_t beams = 720;          ///< In a full circle.
 };
 
-/// The nearest point of the slice in each direction from the sensor, as a scan of a laser that stands at the sensor and is turned
-/// as the base is: its mounting is {x, y, 0}. Directions without a point have 0.
+/// The nearest point of the slice in each direction from the sensor, as the scan of a laser at the sensor's position
+/// with the base's heading: its mounting is {x, y, 0}. Directions without a point have range 0.
 LaserRecord record_of(const bags::PointCloudMessage& cloud, const bags::Transform& base_from_cloud, const CloudSlice& slice);
 
 }  // namespace slammot::files

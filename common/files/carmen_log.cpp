@@ -11,20 +11,20 @@ namespace {
 
 constexpr std::size_t kMaxWaitingScans = 256;
 constexpr std::size_t kMaxMergingScans = 64;
-constexpr std::int64_t kMergedOver_ns = 250'000'000;  // latencies of scanners differ by less
+constexpr std::int64_t kMergedOver_ns = 250'000'000;  // scanner latencies differ by less
 
 template <typename... Visitors>
 struct Overloaded : Visitors... {
   using Visitors::operator()...;
 };
 
-/// What a record that is kept takes, and next to what its readings take.
+/// Memory of a kept record, without its readings.
 std::size_t bytes_of(const CarmenRecord& record) {
   const auto* laser = std::get_if<LaserRecord>(&record);
   return sizeof record + (laser != nullptr ? laser->range_m.size() * sizeof(float) : 0);
 }
 
-/// Without what points into the line that it was read from.
+/// Copy without references into the line.
 CarmenRecord to_keep(CarmenRecord record) {
   if (auto* param = std::get_if<ParamRecord>(&record)) *param = {};
   return record;
@@ -37,7 +37,7 @@ Error no_scans(const std::filesystem::path& path, const RecordSource& records, s
   return Error{std::move(message)};
 }
 
-/// The scanners of a log that is no bag, where there are several.
+/// Scanners of a log that is no bag, if there are several.
 TopicChoice choice_of(const LogPlan& plan) {
   TopicChoice choice;
   if (plan.scanners.size() < 2) return choice;
@@ -52,7 +52,7 @@ TopicChoice choice_of(const LogPlan& plan) {
   return choice;
 }
 
-/// Frame laser_<scanner_id>, at most 31 characters: the end of long topics tells more than their beginning.
+/// Frame laser_<scanner_id>, at most 31 characters: the end of a long topic identifies it better than the start.
 std::string scanner_id_of(std::string_view scanner) {
   constexpr std::size_t kLongest = 24;
   std::string id(scanner.substr(std::min(scanner.find_first_not_of('/'), scanner.size())));
@@ -85,7 +85,7 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const Carme
     if (bytes <= options.most_kept_bytes) records.push_back({to_keep(std::move(*record)), first_pass->line_number(), first_pass->overlong_lines(), first_pass->fraction_read()});
     else records.clear();
   }
-  const bool has_topics = !first_pass->topics().scanners.empty();  // which have been chosen from already
+  const bool has_topics = !first_pass->topics().scanners.empty();  // topics are already selected
   const ScannerWish wish{has_topics ? std::string() : options.topics.scan_topic, options.topics.scanners};
   std::vector<ScannerPlan> scanners = survey.scanners(wish.main);
   if (scanners.empty()) return no_scans(path, *first_pass, malformed_lines);
@@ -119,7 +119,7 @@ CarmenLog::CarmenLog(std::unique_ptr<RecordSource> records, LogPlan plan, const 
 void CarmenLog::set_options(const CarmenLogOptions& options) {
   options_ = options;
   for (std::size_t i = 1; i < topics_.scanners.size() && is_choice_of_plan_; ++i) topics_.scanners[i].is_chosen = options.uses_all_scanners;
-  const geometry::Pose2 unsaid{0.0, 0.0, plan_.evidence.correction.laser_turn_rad};  // what scans say alone
+  const geometry::Pose2 unsaid{0.0, 0.0, plan_.evidence.correction.laser_turn_rad};  // for scans without a mounting in the record
   if (options.fallback_base_from_laser == geometry::Pose2::identity() || difference(plan_.base_from_laser, unsaid).norm() > 1e-9) return;
   plan_.base_from_laser = options.fallback_base_from_laser;
   plan_.evidence.correction.laser_turn_rad = 0.0;
@@ -133,7 +133,7 @@ std::optional<LogEvent> CarmenLog::next() {
     }
     if (survey_) survey_->add(now_.record);
     std::visit(Overloaded{[this](const IgnoredLine&) { ++faults_.ignored_lines; }, [this](const MalformedLine&) { note_malformed(); },
-                          [](const ParamRecord&) {}, [](const ImuRecord&) {},  // heeded by the survey
+                          [](const ParamRecord&) {}, [](const ImuRecord&) {},  // processed by the survey
                           [this](const OdometryRecord& known) { take(known); },
                           [this](LaserRecord& known) { take(std::move(known)); }},
                now_.record);
@@ -145,7 +145,7 @@ std::optional<LogEvent> CarmenLog::next() {
   return event;
 }
 
-/// The next record, kept or from the lines: now_. False at the end.
+/// Sets now_ to the next record, kept or parsed. Returns false at the end.
 bool CarmenLog::read_on() {
   if (!kept_.empty()) {
     now_ = std::move(kept_.front());
@@ -166,7 +166,7 @@ std::vector<std::string> CarmenLog::scanner_ids() const {
   return ids;
 }
 
-/// Which of the plan's scanners it is of; nullopt for what is not to be handed out.
+/// Index of the record's scanner in the plan; nullopt if the scan is not used.
 std::optional<std::size_t> CarmenLog::scanner_of(const LaserRecord& record) const {
   if (plan_.scanners.empty()) return record.kind == plan_.laser && record.slot == 1 ? std::optional<std::size_t>(0) : std::nullopt;
   const std::size_t used = options_.uses_all_scanners ? plan_.scanners.size() : 1;
@@ -190,7 +190,7 @@ void CarmenLog::take(LaserRecord record) {
   merge_scans(kMaxMergingScans);
 }
 
-/// Scans of several scanners come one after the other by their stamps: each waits until none can be expected before it.
+/// Merges scans of several scanners by stamp: each waits until no older one can come.
 void CarmenLog::merge_scans(std::size_t may_wait) {
   while (!merging_.empty()) {
     const std::int64_t span_ns = merging_.rbegin()->first - merging_.begin()->first;
@@ -205,7 +205,7 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
   const auto wheel_from_base = has_pose ? std::optional(pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)) : std::nullopt;
   sensing::LaserScan scan = scan_of(std::move(record), scanner, stamp);
   if (++scans_[scanner] == 1 && scanner == 0 && plan_.first_scan_is_ahead) {
-    first_scan_ = std::move(scan);  // told first, it would make all others late: after the second one, it is only far ahead
+    first_scan_ = std::move(scan);  // if returned first, it would make all others late; after the second one it counts as far ahead
     return;
   }
   if (plan_.odometry_late_s != 0.0) {
@@ -239,7 +239,7 @@ void CarmenLog::take(const OdometryRecord& record) {
 
 std::int64_t CarmenLog::lateness_ns() const { return std::llround(plan_.odometry_late_s * 1e9); }
 
-/// False where it is no newer than what is held back already.
+/// Returns false unless it is newer than the lines held back.
 bool CarmenLog::keep_odometry(const sensing::Odometry& odometry) {
   if (!odom_lines_.empty() && odometry.stamp_ns <= odom_lines_.back().stamp_ns) return false;
   odom_lines_.push_back(odometry);
@@ -254,7 +254,7 @@ void CarmenLog::note_malformed() {
 
 void CarmenLog::finish_reading() {
   is_finished_ = true;
-  // A last line that has no end and makes no sense was cut in the middle.
+  // A malformed last line without an end was cut.
   const bool last_line_is_broken = records_->last_line_is_unfinished() && last_malformed_line_ == records_->line_number();
   faults_.is_cut = records_->is_cut() || last_line_is_broken;
   faults_.damage = records_->damage();
@@ -264,12 +264,13 @@ void CarmenLog::finish_reading() {
   const LogPlan plan = survey_->conclude(options_.fallback_field_of_view_rad, {.main = {}, .used = names_of(plan_.scanners)});
   plan_.figures = plan.figures;
   plan_.evidence = plan.evidence;
-  plan_.evidence.correction = {};  // what has been handed out was not corrected
+  plan_.evidence.correction = {};  // earlier returned scans were not corrected
 }
 
 std::optional<std::int64_t> CarmenLog::recorded_stamp_ns(const CarmenStamps& stamps) const { return plan_.clock == LogClock::kLogger ? stamps.logger_ns : stamps.ipc_ns; }
 
-/// Replaced stamps are those of the main scanner; a further scanner's scan lies between the main one's before and after it.
+/// Replaced stamps are those of the main scanner; another scanner's scan lies between the neighbouring ones of the main
+/// scanner.
 std::optional<std::int64_t> CarmenLog::scan_stamp_ns(const CarmenStamps& stamps, std::size_t scanner) const {
   if (!has_replaced_stamps()) return recorded_stamp_ns(stamps);
   const std::vector<std::int64_t>& replaced_ns = plan_.times.stamps_ns;
@@ -279,8 +280,8 @@ std::optional<std::int64_t> CarmenLog::scan_stamp_ns(const CarmenStamps& stamps,
   return replaced_ns[next - 1] + (replaced_ns[next] - replaced_ns[next - 1]) / 2;
 }
 
-/// Where the scans' stamps are replaced, ODOM lines lie evenly between two scans of the main scanner, in the order of the log.
-/// The last line has the time of the scan after it where that scan has no pose of its own. nullopt where the line is not needed.
+/// If scan stamps are replaced, ODOM lines are spaced evenly between two scans of the main scanner, in the order of the
+/// log. The last line has the stamp of the following scan if that scan has no pose. nullopt if the line is not needed.
 std::optional<std::int64_t> CarmenLog::odometry_stamp_by_order_ns() {
   const bool scans_have_poses = plan_.odometry != OdometrySource::kOdomLines;
   const std::size_t scan = scans_[0];
@@ -311,7 +312,7 @@ sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner, s
   return scan;
 }
 
-/// Beams and ranges as the survey understood them: the unit is the log's, the beams are the main scanner's.
+/// Corrects beams and ranges as the survey found: unit by log, beams by main scanner.
 void CarmenLog::correct(sensing::LaserScan& scan, std::size_t scanner) const {
   const matching::LogCorrection& correction = plan_.evidence.correction;
   if (correction.range_unit_m != 1.0) {
@@ -320,11 +321,12 @@ void CarmenLog::correct(sensing::LaserScan& scan, std::size_t scanner) const {
   if (!has_beams_of_the_main_one(scanner)) return;
   scan.scanner.first_beam_rad *= correction.field_factor;
   scan.scanner.beam_step_rad *= correction.field_factor;
-  // Taken for a record that was written in reverse: then the sweep runs as the layout says, too. Localization learns where it does not.
+  // The record counts as written in reverse order, so that the sweep follows the layout; localization estimates the
+  // sense otherwise.
   if (correction.reverses_beams) std::ranges::reverse(scan.range_m);
 }
 
-/// CARMEN's records of one kind come from one program; in a bag each scanner has a driver of its own.
+/// CARMEN's records of one kind come from one program; in a bag each scanner has its own driver.
 bool CarmenLog::has_beams_of_the_main_one(std::size_t scanner) const {
   return scanner == 0 || (plan_.scanners[scanner].kind == plan_.laser && plan_.laser != LaserRecordKind::kBag);
 }
@@ -334,7 +336,7 @@ void CarmenLog::put_odometry(const sensing::Odometry& odometry) {
   ready_.emplace_back(odometry);
 }
 
-/// Hands out the held back ODOM lines up to this time that are newer than what was handed out before.
+/// Returns the held-back ODOM lines up to this time that are newer than the last returned one.
 void CarmenLog::put_odometry_until(std::int64_t stamp_ns) {
   for (; !odom_lines_.empty() && odom_lines_.front().stamp_ns <= stamp_ns; odom_lines_.pop_front()) {
     if (newest_odometry_ && odom_lines_.front().stamp_ns <= newest_odometry_->stamp_ns) {
@@ -360,9 +362,9 @@ void CarmenLog::put_waiting_scans(std::size_t may_wait) {
   }
 }
 
-/// Between what was handed out last and the first line held back; the nearer of the two where there is only one.
+/// Interpolates between the last returned line and the first held-back one; uses the nearer one if only one exists.
 std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_ns) const {
-  const bool is_over = plan_.odometry_late_s != 0.0;  // what comes after the last late pose is not known
+  const bool is_over = plan_.odometry_late_s != 0.0;  // no pose is known after the last late one
   if (odom_lines_.empty()) return newest_odometry_ && !is_over ? std::optional(newest_odometry_->wheel_from_base) : std::nullopt;
   const sensing::Odometry& after = odom_lines_.front();
   if (!newest_odometry_ || after.stamp_ns <= newest_odometry_->stamp_ns || after.stamp_ns == stamp_ns) return after.wheel_from_base;
@@ -373,7 +375,7 @@ std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_
 void CarmenLog::put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base) {
   const bool is_believed = scan_stamps_.believes(scan.stamp_ns);
   if (is_believed && wheel_from_base && (!newest_odometry_ || scan.stamp_ns > newest_odometry_->stamp_ns)) put_odometry({scan.stamp_ns, *wheel_from_base});
-  if (first_scan_) std::swap(first_scan_->sequence, scan.sequence);  // they count in the order in which they are told
+  if (first_scan_) std::swap(first_scan_->sequence, scan.sequence);  // sequences follow the order of return
   ready_.emplace_back(std::move(scan));
   if (first_scan_) ready_.emplace_back(*std::exchange(first_scan_, std::nullopt));
 }

@@ -25,32 +25,31 @@ namespace slammot::files {
 
 struct CarmenLogOptions {
   std::string scanner_id = "front";
-  double fallback_field_of_view_rad = std::numbers::pi;  ///< First to last beam, where the records do not say.
-  geometry::Pose2 fallback_base_from_laser;              ///< Where the log does not say where the laser is.
-  TopicOptions topics;                                   ///< Where the log leaves a choice.
-  bool uses_all_scanners = false;                        ///< Otherwise only the main one's scans are handed out.
-  std::size_t most_kept_bytes = std::size_t{48} << 20;   ///< Of records read by open(), a quarter of an hour at 40 Hz; more are read again.
+  double fallback_field_of_view_rad = std::numbers::pi;  ///< First to last beam, if the records have none.
+  geometry::Pose2 fallback_base_from_laser;              ///< If the log has no mounting.
+  TopicOptions topics;                                   ///< For logs with several candidates.
+  bool uses_all_scanners = false;                        ///< False: only the main scanner's scans are returned.
+  std::size_t most_kept_bytes = std::size_t{48} << 20;   ///< Of records kept by open(): 15 min at 40 Hz; larger logs are read twice.
 };
 
-/// Lines that were of no use, counted while the log is read.
+/// Unusable lines, counted while the log is read.
 struct LogFaults {
   static constexpr std::size_t kNamedLines = 5;
-  std::uint64_t malformed_lines = 0;                ///< Records of ours with too few or impossible numbers; skipped.
+  std::uint64_t malformed_lines = 0;                ///< Known records with too few or impossible numbers; skipped.
   std::vector<std::uint64_t> first_malformed_lines; ///< Their line numbers from 1, at most kNamedLines.
   std::uint64_t overlong_lines = 0;                 ///< Beyond LineReader::kMaxLineBytes; skipped.
-  std::uint64_t ignored_lines = 0;                  ///< Comments and messages that are no input of ours.
-  std::uint64_t stale_odometry = 0;                 ///< Not newer than odometry already handed out; left out.
-  bool is_cut = false;                              ///< The file ends before the log does, or a part of it is damaged.
-  std::string damage;                               ///< What is damaged and where, where that is known.
+  std::uint64_t ignored_lines = 0;                  ///< Comments and unused messages.
+  std::uint64_t stale_odometry = 0;                 ///< Not newer than returned odometry; skipped.
+  bool is_cut = false;                              ///< The file is truncated or damaged.
+  std::string damage;                               ///< Kind and place of the damage, if known.
 };
 
 using LogEvent = std::variant<sensing::Odometry, sensing::LaserScan>;
 
-/// A log as a stream of what the vehicle's sensors said, in the order of the log: CARMEN's text and what open_records() takes
-/// besides.
+/// A log as a stream of sensor events in the order of the log: CARMEN text and the formats of open_records().
 ///
-/// Opening reads the whole log once (CarmenSurvey) and decides how to understand it; next() hands out what was read, or
-/// reads it again where that is too much to keep. Lines of a source that cannot be read twice are followed instead.
+/// Opening reads the whole log once (CarmenSurvey) and decides how to interpret it; next() returns kept records, or
+/// reads again if there are too many. A source that can be read only once is surveyed while it is read.
 /// - Stamps are the log's ipc_timestamp where that is a clock; see LogClock. Where LogPlan::times replaces the scans' stamps,
 ///   ODOM lines are placed between them by their order.
 /// - Where the log has odometry, each scan comes right after an Odometry of the scan's very stamp, and the stamps of
@@ -66,30 +65,30 @@ class CarmenLog {
   /// Fails for a file that cannot be read or that holds no scan.
   static Result<CarmenLog> open(const std::filesystem::path& path, const CarmenLogOptions& options = {});
 
-  /// Lines that can be read only once, so that what they are must be known: the plan without its figures. Those are known at
-  /// the end.
+  /// For lines that can be read only once: their format must be known, and the plan has no statistics. The statistics
+  /// are known at the end.
   static CarmenLog follow(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options = {});
 
-  /// Replaces the options, which a profile may know only once plan() has chosen it. Before the first next().
+  /// Replaces the options, since a profile may depend on plan(). Call before the first next().
   void set_options(const CarmenLogOptions& options);
 
-  /// The next event; nullopt at the end of what can be read.
+  /// The next event; nullopt at the end of the readable part.
   std::optional<LogEvent> next();
 
   const LogPlan& plan() const { return plan_; }
   const LogFaults& faults() const { return faults_; }
   const TopicChoice& topics() const { return topics_; }
 
-  /// Of the scans that next() hands out.
+  /// Of the scans returned by next().
   std::vector<std::string> scanner_ids() const;
 
-  /// Share of the file taken in by next() so far, [0, 1].
+  /// Share of the file read by next(), [0, 1].
   double fraction_read() const { return now_.fraction_read; }
 
  private:
   CarmenLog(std::unique_ptr<RecordSource> records, LogPlan plan, const CarmenLogOptions& options);
 
-  /// One line, understood.
+  /// One parsed line.
   struct ReadRecord {
     CarmenRecord record;
     std::uint64_t line_number = 0;
@@ -121,7 +120,7 @@ class CarmenLog {
   void put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base);
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
 
-  /// A scan of one of several scanners, until none older can come.
+  /// A scan that waits for older scans of other scanners.
   struct MergingScan {
     LaserRecord record;
     std::size_t scanner = 0;

@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::int64_t kMaxStampSeconds = 9'000'000'000;
-constexpr double kMaxCoordinateM = 1e7;  // a quarter of the way round the earth
+constexpr double kMaxCoordinateM = 1e7;  // a quarter of the earth's circumference
 constexpr std::size_t kPoseNumbers = 3;
 constexpr std::size_t kStampWords = 3;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\r'; }
 
-/// Hands out the words of a line one after the other; an empty word is the line's end.
+/// Returns the words of a line in sequence; an empty word is the end of the line.
 class Words {
  public:
   explicit Words(std::string_view line) : rest_(line) {}
@@ -61,8 +61,8 @@ std::optional<Number> parse_number(std::string_view word) {
   return number;
 }
 
-/// The next word, which is a reading. Nearly all are few digits in plain form: their digits and the power of ten are exact in
-/// a float, so that one division rounds as std::from_chars does (Clinger 1990), in one pass over the word.
+/// Parses a reading. Nearly all have few digits in plain notation. Digits and power of ten are then exact in a float,
+/// so that one division rounds like std::from_chars (Clinger 1990), in one pass.
 std::optional<float> next_reading(Words& words) {
   constexpr std::uint32_t kExact = 1 << 24;
   constexpr std::array<float, 8> kPowerOfTen{1e0F, 1e1F, 1e2F, 1e3F, 1e4F, 1e5F, 1e6F, 1e7F};
@@ -129,7 +129,7 @@ CarmenRecord parse_flaser(std::string_view keyword, Slot slot, Words words) {
   auto range_m = next_ranges(words);
   if (!range_m) return MalformedLine{};
   record.range_m = std::move(*range_m);
-  // The first pose may have been corrected by a mapper since, the second one is what the wheels said.
+  // a mapper may have corrected the first pose; the second one is odometry
   if (!next_pose(words)) return MalformedLine{};
   const auto wheel_from_base = next_pose(words);
   if (!wheel_from_base || words.count_left() == 0) return MalformedLine{};
@@ -138,7 +138,7 @@ CarmenRecord parse_flaser(std::string_view keyword, Slot slot, Words words) {
   return record;
 }
 
-/// Goes past the remissions, if the record counts any. Older records have no such count.
+/// Skips the remissions, if the record has a count of them; older records do not.
 bool skip_remissions(Words& words, std::size_t words_after) {
   const std::size_t left = words.count_left();
   if (left < words_after) return false;
@@ -151,9 +151,10 @@ bool skip_remissions(Words& words, std::size_t words_after) {
   return true;
 }
 
-/// What ROBOTLASERn and RAWLASERn begin with: type of scanner, field of view, readings. False for what cannot be right.
+/// Parses the start of ROBOTLASERn and RAWLASERn: type of scanner, field of view, readings. Returns false for
+/// impossible values.
 bool parse_configured_ranges(Words& words, LaserRecord& record) {
-  words.next();  // type of scanner: says nothing that the other fields do not
+  words.next();  // type of scanner: redundant
   const auto first_beam_rad = next_finite(words);
   const auto field_rad = next_finite(words);
   const auto step_rad = next_finite(words);
@@ -254,7 +255,7 @@ CarmenRecord parse_param(Words words) {
   return ParamRecord{name, value};
 }
 
-/// The number after a keyword's name, 1 to 9; nullopt for another keyword.
+/// The digit after a keyword's name, 1 to 9; nullopt for another keyword.
 std::optional<std::uint8_t> numbered(std::string_view keyword, std::string_view name) {
   if (keyword.size() != name.size() + 1 || !keyword.starts_with(name)) return std::nullopt;
   const char digit = keyword.back();
@@ -267,7 +268,7 @@ std::optional<std::int64_t> parse_stamp_in_exponent_form(std::string_view text) 
   return std::llround(*seconds * 1e9);
 }
 
-/// Whole milliseconds, microseconds or nanoseconds since 1970: a number too large for seconds says by its digits which.
+/// Integer milliseconds, microseconds or nanoseconds since 1970: the number of digits tells which.
 std::optional<std::int64_t> parse_stamp_since_epoch(std::string_view text) {
   const auto number = parse_number<std::uint64_t>(text);
   if (!number) return std::nullopt;
@@ -311,7 +312,7 @@ std::optional<BeamLayout> layout_of_record(double first_beam_rad, double field_r
   if (std::abs(step_rad * (n - 1.0) - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
   if (std::abs(step_rad * n - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / n};
   if (step_rad * (n - 1.0) > kFullCircle) return std::nullopt;
-  return BeamLayout{first_beam_rad, step_rad};  // a part of the scanner's field was logged
+  return BeamLayout{first_beam_rad, step_rad};  // only a part of the scanner's field was logged
 }
 
 CarmenRecord parse_carmen_line(std::string_view line) {

@@ -23,7 +23,7 @@ double most_frequent(const std::map<double, Count>& counts) {
   return most == counts.end() ? 0.0 : most->first;
 }
 
-/// Value below which the given share of the values lies; 0 for none.
+/// Quantile of the values at this share; 0 for none.
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -37,7 +37,7 @@ bool differ(const geometry::Pose2& a, const geometry::Pose2& b, double metres, d
   return distance_m(a, b) > metres || std::abs(geometry::wrap_angle(a.heading_rad - b.heading_rad)) > radians;
 }
 
-/// Range in metres below which the given share of the first `bins` bins' readings lies.
+/// Quantile of the first `bins` bins' readings at this share [m].
 double range_percentile_m(const std::vector<std::uint32_t>& readings_by_cm, std::size_t bins, double share) {
   const auto end = readings_by_cm.begin() + static_cast<std::ptrdiff_t>(std::min(bins, readings_by_cm.size()));
   const double total = static_cast<double>(std::accumulate(readings_by_cm.begin(), end, std::uint64_t{0}));
@@ -49,7 +49,7 @@ double range_percentile_m(const std::vector<std::uint32_t>& readings_by_cm, std:
   return 0.0;
 }
 
-/// Whole units below which the given share of the readings lies.
+/// Quantile of the readings at this share [recorded units].
 double reading_percentile(const std::vector<std::uint32_t>& readings_by_unit, double share) {
   const double total = static_cast<double>(std::accumulate(readings_by_unit.begin(), readings_by_unit.end(), std::uint64_t{0}));
   double below = 0.0;
@@ -62,7 +62,7 @@ double reading_percentile(const std::vector<std::uint32_t>& readings_by_unit, do
 
 std::size_t echo_bins(double max_range_m) { return static_cast<std::size_t>(std::max(0.0, max_range_m * 100.0 + 0.5)); }
 
-/// Whether most scans that follow each other are more units apart than metres that a vehicle drives between them.
+/// True if successive scans are mostly more units apart than a vehicle drives metres between them.
 bool are_in_small_units(const std::vector<matching::ScanPair>& pairs) {
   constexpr double kFarthest_m = 20.0;
   std::vector<double> ways;
@@ -82,7 +82,7 @@ std::optional<Error> select_scanners(const std::vector<std::string>& wanted, std
   return std::nullopt;
 }
 
-/// A stamp from the future with which a log begins says that all others are too late.
+/// A first stamp in the future would make all others late.
 void CarmenSurvey::ClockCheck::begin_anew_without_the_first() {
   sensing::StampGuard of_the_others{kFarAhead_s};
   const std::int64_t second_ns = first_ns_[1];
@@ -116,7 +116,7 @@ void CarmenSurvey::ClockCheck::add(std::optional<std::int64_t> stamp_ns) {
 }
 
 bool CarmenSurvey::ClockCheck::is_usable() const {
-  constexpr double kAdvancingShare = 0.9;  // duplicates and a few late scans are the localizer's business
+  constexpr double kAdvancingShare = 0.9;  // localization handles duplicates and a few late scans
   constexpr double kMinPeriodS = 1e-4;
   constexpr double kMaxPeriodS = 60.0;
   if (scans_ == 0) return false;
@@ -135,7 +135,7 @@ void CarmenSurvey::AgreementCheck::add_odom(const StampedPose& odom) {
     const double span_ns = static_cast<double>(odom.stamp_ns - before_->stamp_ns);
     const double fraction = span_ns > 0.0 ? static_cast<double>(laser.stamp_ns - before_->stamp_ns) / span_ns : 0.0;
     ++compared_;
-    // What the vehicle moved between the two ODOM lines is what interpolation may be wrong by.
+    // Interpolation can be wrong by the motion between the two ODOM lines.
     const double slack_m = kMetM + 0.5 * distance_m(before_->wheel_from_base, odom.wheel_from_base);
     const double slack_rad = kMetRad + 0.5 * std::abs(geometry::wrap_angle(odom.wheel_from_base.heading_rad - before_->wheel_from_base.heading_rad));
     if (!differ(geometry::interpolate(before_->wheel_from_base, odom.wheel_from_base, fraction), laser.wheel_from_base, slack_m, slack_rad)) ++met_;
@@ -237,7 +237,7 @@ void CarmenSurvey::add_odom(const OdometryRecord& record) {
   for (Lasers& lasers : lasers_) lasers.agreement.add_odom(*newest_odom_);
 }
 
-/// TRUEPOS only where nothing else says where the wheels are.
+/// TRUEPOS is used only if the log has no other odometry.
 OdometryRecordKind CarmenSurvey::odometry_lines() const {
   return odometry_lines_[0].count == 0 && odometry_lines_[1].count > 0 ? OdometryRecordKind::kTruePos : OdometryRecordKind::kOdom;
 }
@@ -267,10 +267,10 @@ void CarmenSurvey::add_param(const ParamRecord& record) {
   if (what == "angular_offset") numbered.offset[2] = value;
 }
 
-/// The same scans may be in the log as the scanner sent them and as the base passed them on, with poses: these are preferred,
-/// and ROBOTLASERn of them, which say more. A few of them do not stand for all the rest.
+/// A log may contain the same scans from the scanner and from the base, the latter with poses. Records with poses are
+/// preferred, above all ROBOTLASERn, which has more fields. A small number of them does not replace the rest.
 std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(const std::string& main_scanner) const {
-  constexpr std::array<double, 5> kWorth = {1.0, 1.0 + 1e-9, 0.5, 0.25, 1.0};  // by LaserRecordKind
+  constexpr std::array<double, 5> kWorth = {1.0, 1.0 + 1e-9, 0.5, 0.25, 1.0};  // weight by LaserRecordKind
   const auto worth = [&](const Lasers& lasers) { return kWorth[static_cast<std::size_t>(lasers.kind)] * static_cast<double>(lasers.scans); };
   std::map<std::uint8_t, const Lasers*> best;
   for (const Lasers& lasers : lasers_) {
@@ -280,7 +280,7 @@ std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(const s
   }
   std::vector<const Lasers*> in_order;
   for (const auto& [slot, lasers] : best) in_order.push_back(lasers);
-  // The main one is the first that is not much rarer than any other.
+  // The main scanner is the first that is not much rarer than any other.
   std::uint64_t most = 0;
   for (const Lasers* lasers : in_order) most = std::max(most, lasers->scans);
   auto main = std::ranges::find_if(in_order, [&](const Lasers* lasers) { return lasers->scanner == main_scanner; });
@@ -289,7 +289,7 @@ std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(const s
   return in_order;
 }
 
-/// Of several scanners a further one serves only where it is known to be: a guess would bend the map.
+/// Another scanner is used only if its mounting is known: a guess would distort the map.
 std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::lasers_to_use(const ScannerWish& wish) const {
   std::vector<const Lasers*> lasers = best_of_each_slot(wish.main);
   const Lasers* const main = lasers.empty() ? nullptr : lasers.front();
@@ -351,7 +351,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   return plan;
 }
 
-/// Counts readings in another unit by centimetres, as those in metres are.
+/// Counts readings in another unit by centimetres, like those in metres.
 void CarmenSurvey::convert_readings(Lasers& lasers, double unit_m) {
   std::fill(lasers.readings_by_cm.begin(), lasers.readings_by_cm.end(), 0);
   std::fill(lasers.smallest_reading_by_cm.begin(), lasers.smallest_reading_by_cm.end(), std::numeric_limits<float>::infinity());
@@ -364,8 +364,8 @@ void CarmenSurvey::convert_readings(Lasers& lasers, double unit_m) {
   }
 }
 
-/// Matches the sampled pairs, without what is no echo. Odometry is judged by ODOM lines where they are: from scan to
-/// scan the arcs of its steps are not seen any more. Without odometry nothing contradicts what is stated.
+/// Matches the sampled pairs, without no-echo readings. Odometry is judged by ODOM lines if there are any, because scan
+/// intervals hide the arcs of single steps. Without odometry nothing contradicts the stated layout.
 matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const {
   const bool has_small_units = are_in_small_units(lasers.moved_pairs.pairs());
   std::vector<matching::ScanPair> pairs = has_small_units ? lasers.pairs_in_small_units.pairs() : lasers.moved_pairs.pairs();
@@ -384,7 +384,7 @@ matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& p
                              chosen_odometry_lines().pose_changes ? chosen_odometry_lines().check : lasers.odometry_check, plan.evidence.correction.range_unit_m);
 }
 
-/// By the poses in the scans, where both have one clock.
+/// By the poses of the scans, if both have the same clock.
 double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const {
   const bool has_clock = plan.clock != LogClock::kNominal && plan.times.stamps_ns.empty() && !plan.first_scan_is_ahead;
   const bool is_in_scans = plan.odometry == OdometrySource::kLaserRecords || plan.odometry == OdometrySource::kBoth;
@@ -398,7 +398,7 @@ double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& pl
   return matching::odometry_lateness_s(plan.evidence.motions, odometry, plan.evidence.way_scale);
 }
 
-/// A pair begins where the one before ended; every other one is given up where they become too many.
+/// A pair begins at the end of the one before; if there are too many pairs, every other one is dropped.
 void CarmenSurvey::PairSample::add(const std::vector<float>& ranges, const geometry::Pose2& recorded, std::size_t scan) {
   constexpr std::size_t kMostScansBetween = 40;
   const bool has_moved = anchor_ && differ(anchor_->second, recorded, moved_m_, turned_rad_);
@@ -415,7 +415,7 @@ void CarmenSurvey::PairSample::add(const std::vector<float>& ranges, const geome
   pairs_ = std::move(kept);
 }
 
-/// The recorded stamps of one of the two clocks, with the way between scans.
+/// Recorded stamps of one of the two clocks, with the way between scans.
 std::vector<sensing::ScanMark> CarmenSurvey::scan_marks(const Lasers& lasers, const matching::LogCorrection& correction, LogClock clock) const {
   std::vector<sensing::ScanMark> marks(lasers.scans);
   const std::vector<geometry::Pose2>& of_lines = lasers.lines_between[static_cast<std::size_t>(odometry_lines())].pose_before_scan;
@@ -429,7 +429,8 @@ std::vector<sensing::ScanMark> CarmenSurvey::scan_marks(const Lasers& lasers, co
   return marks;
 }
 
-/// A clock without a fault, ipc before logger; else one that can be repaired; else time is made from the way.
+/// Chooses a faultless clock, ipc before logger; otherwise one that can be repaired; otherwise derives time from the
+/// way.
 void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
   plan.clock = LogClock::kNominal;
   if (lasers.scans == 0) return;
@@ -457,9 +458,9 @@ void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
   plan.times.stamps_ns = sensing::stamps_from_way(scan_marks(lasers, plan.evidence.correction, LogClock::kNominal), sensing::pace_among(median_range_m));
 }
 
-/// "No echo" is a reading that repeats at the far end: some scanners have several such codes within a percent
-/// (LMS: 81.83, 81.90, 81.91), the smallest of them counts. Where the far end does not repeat, every reading is an
-/// echo. A record's own maximum holds unless the data have a code below it.
+/// "No echo" is a reading that repeats at the far end of the range. Some scanners have several such codes within a
+/// percent (LMS: 81.83, 81.90, 81.91); the smallest is used. If the far end does not repeat, every reading is an echo.
+/// A record's own maximum holds unless the data have a code below it.
 double CarmenSurvey::max_range_m(const Lasers& lasers) const {
   constexpr double kCodeShare = 1e-3;      // of all readings
   constexpr std::uint64_t kCodeCount = 5;
@@ -494,7 +495,7 @@ const CarmenSurvey::LaserParams& CarmenSurvey::params_of(const Lasers& lasers) c
   return numbered.tell_mounting() || lasers.slot > params_.size() ? numbered : params_[lasers.slot - 1];
 }
 
-/// A record that puts a further scanner into the vehicle's centre says nothing.
+/// Ignores a mounting of a further scanner at the vehicle's centre: it is a default.
 bool CarmenSurvey::mounting_is_known(const Lasers& lasers) const {
   if (params_of(lasers).tell_mounting()) return true;
   if (!lasers.base_from_laser || !lasers.base_from_laser_is_constant) return false;
@@ -506,7 +507,7 @@ geometry::Pose2 CarmenSurvey::base_from_laser(const Lasers& lasers) const {
   const LaserParams& params = params_of(lasers);
   const auto& [x_m, y_m, heading_rad] = params.offset;
   if (params.tell_mounting() && is_rear && &params == &params_[1]) {
-    // The rear laser looks backwards and is behind the centre, be its offset written with a sign or without.
+    // The rear laser looks backwards from behind the centre, whatever the sign of its recorded offset.
     return {-std::abs(x_m.value_or(0.0)), y_m.value_or(0.0), heading_rad.value_or(std::numbers::pi)};
   }
   if (params.tell_mounting()) return {x_m.value_or(0.0), y_m.value_or(0.0), heading_rad.value_or(0.0)};

@@ -18,44 +18,44 @@
 
 namespace slammot::files {
 
-/// Which time becomes the scans' stamp.
+/// Clock of the scan stamps.
 enum class LogClock : std::uint8_t {
-  kIpc,      ///< ipc_timestamp, as it should be.
-  kLogger,   ///< logger_timestamp, where ipc_timestamp stands still, repeats, goes back or only counts scans.
-  kNominal,  ///< Neither is a clock: from 0 on, at kNominalRateHz or slower where the way between scans is long.
+  kIpc,      ///< ipc_timestamp, the usual one.
+  kLogger,   ///< logger_timestamp, if ipc_timestamp is constant, repeats, decreases or only counts scans.
+  kNominal,  ///< Neither is a clock: stamps from 0 on, at kNominalRateHz, or slower for long ways between scans.
 };
 
-/// Where odometry is taken from.
+/// Source of odometry.
 enum class OdometrySource : std::uint8_t {
-  kNone,          ///< No pose in the log ever changes.
-  kLaserRecords,  ///< The pose in the laser records; ODOM lines contradict it or share no clock with it.
-  kOdomLines,     ///< ODOM lines only: the laser records' pose stands still.
-  kBoth,          ///< The laser records' pose, and ODOM lines between the scans, which agree with it.
+  kNone,          ///< All poses in the log are constant.
+  kLaserRecords,  ///< Poses of the laser records; ODOM lines contradict them or have another clock.
+  kOdomLines,     ///< ODOM lines only: the poses of the laser records are constant.
+  kBoth,          ///< Poses of the laser records, and consistent ODOM lines between them.
 };
 
-/// What a log looks like, for choosing a profile and for the report. Zero where it cannot be told.
+/// Statistics of a log, for the choice of a profile and for the report. Zero if unknown.
 struct LogFigures {
   std::uint64_t scans = 0;
   std::uint64_t odom_lines = 0;
   std::uint64_t imu_lines = 0;
   std::size_t beams = 0;               ///< Of most scans.
-  bool has_clock = false;              ///< Differences of its stamps, as recorded or repaired, are times. Otherwise no speed is known.
-  bool comes_by_time = false;          ///< Without a clock: the scanner's rate is steady, though not known. See sensing::comes_by_time().
-  double field_of_view_rad = 0.0;      ///< beams * step: 2 pi for a scanner that sees all around.
+  bool has_clock = false;              ///< Differences of the stamps, recorded or repaired, are times. Otherwise speeds are unknown.
+  bool comes_by_time = false;          ///< Without a clock: the scan rate is constant but unknown. See sensing::comes_by_time().
+  double field_of_view_rad = 0.0;      ///< beams * step: 2 pi for a full-circle scanner.
   double max_range_m = 0.0;
   double median_range_m = 0.0;         ///< Of the echoes.
   double far_range_m = 0.0;            ///< 90 % of the echoes are nearer.
   double scan_period_s = 0.0;          ///< Median.
   double longest_gap_s = 0.0;          ///< Between two scans.
   double echo_share = 0.0;             ///< Of all readings.
-  std::uint64_t scans_without_readings = 0;  ///< Nothing but NaN, infinity or 0.
+  std::uint64_t scans_without_readings = 0;  ///< Blank scans: only NaN, infinity or 0.
   double scan_period_spread = 0.0;     ///< (90th - 10th percentile) / median of the period: 0 for a steady scanner.
   double duration_s = 0.0;
   double distance_m = 0.0;             ///< By odometry.
   double cruising_speed_mps = 0.0;     ///< 90th percentile by odometry; 0 without a clock.
 };
 
-/// One of the scanners that a log has.
+/// A scanner of a log.
 struct ScannerPlan {
   std::string name;                      ///< As in LaserRecord::scanner.
   LaserRecordKind kind = LaserRecordKind::kFlaser;
@@ -63,47 +63,48 @@ struct ScannerPlan {
   std::uint64_t scans = 0;
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;              ///< As in LogPlan.
-  bool mounting_is_known = true;         ///< By the log; otherwise base_from_laser is a guess.
+  bool mounting_is_known = true;         ///< From the log; otherwise base_from_laser is a guess.
 };
 
-/// Which of a log's scanners to use.
+/// Selection of a log's scanners.
 struct ScannerWish {
-  std::string main;                ///< Name of the main one; empty: by what they hold.
-  std::vector<std::string> used;   ///< Names of those to be used, which must be among CarmenSurvey::scanners(); empty: all whose mounting is known.
+  std::string main;                ///< Name of the main scanner; empty: chosen by content.
+  std::vector<std::string> used;   ///< Names of the scanners to use, from CarmenSurvey::scanners(); empty: all with known mounting.
 };
 
-/// Leaves the named scanners, in the order of `scanners`; all where no name is given. Otherwise one line that names those there are.
+/// Keeps the named scanners, in the order of `scanners`; all if no name is given. For an unknown name, one line with
+/// the known ones.
 std::optional<Error> select_scanners(const std::vector<std::string>& wanted, std::vector<ScannerPlan>& scanners);
 
-/// Everything about a log that has to be known before its first scan can be understood.
+/// Interpretation of a log, needed before its first scan is read.
 struct LogPlan {
-  LaserRecordKind laser = LaserRecordKind::kFlaser;  ///< Of the main scanner, which the figures are of.
-  std::vector<ScannerPlan> scanners;                 ///< Those to be used, the main one first. Empty: every record of the kind `laser` is the main one's.
-  std::vector<std::string> unplaced_scanners;         ///< Not used, for the log does not say where they are mounted.
+  LaserRecordKind laser = LaserRecordKind::kFlaser;  ///< Of the main scanner, to which the statistics belong.
+  std::vector<ScannerPlan> scanners;                 ///< Scanners in use, the main one first. Empty: all records of kind `laser` are its.
+  std::vector<std::string> unplaced_scanners;         ///< Unused scanners with unknown mounting.
   LogClock clock = LogClock::kIpc;
-  matching::LogEvidence evidence;                     ///< How poses and beams are to be understood.
-  sensing::ScanTimes times;                           ///< What is wrong with that clock; stamps that replace the recorded ones.
-  std::vector<std::uint32_t> odom_lines_before_scan;  ///< One a scan, since the scan before it: places ODOM lines in time where stamps are replaced.
+  matching::LogEvidence evidence;                     ///< Corrections of poses and beams.
+  sensing::ScanTimes times;                           ///< Defect of the clock, and stamps that replace the recorded ones.
+  std::vector<std::uint32_t> odom_lines_before_scan;  ///< One a scan, since the scan before: gives ODOM lines a time if stamps are replaced.
   OdometrySource odometry = OdometrySource::kNone;
   OdometryRecordKind odometry_lines = OdometryRecordKind::kOdom;  ///< Which lines count as ODOM.
-  double odometry_late_s = 0.0;     ///< By so much its stamps lag behind those of the scans; taken back on reading.
+  double odometry_late_s = 0.0;     ///< Lateness of its stamps against the scans; removed on reading.
   geometry::Pose2 base_from_laser;
-  double max_range_m = 0.0;  ///< A reading at or beyond it is "no echo"; a scan's own record may say less.
-  bool first_scan_is_ahead = false;  ///< By its stamp: the two after it are far before it, and agree.
+  double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may have a lower limit.
+  bool first_scan_is_ahead = false;  ///< The next two scans have consistent stamps far before the first one's.
   LogFigures figures;
 };
 
 inline constexpr double kNominalRateHz = 10.0;
 
-/// Looks at all records of a log once and decides how to read it.
+/// Surveys all records of a log once and decides how to interpret it.
 class CarmenSurvey {
  public:
   void add(const CarmenRecord& record);
 
-  /// fallback_field_of_view_rad: of scanners whose records do not say, from the first to the last beam.
+  /// fallback_field_of_view_rad: from the first to the last beam, for records without one.
   LogPlan conclude(double fallback_field_of_view_rad, const ScannerWish& wish = {}) const;
 
-  /// All that the log has, the main one first.
+  /// All scanners of the log, the main one first.
   std::vector<ScannerPlan> scanners(const std::string& main_scanner = {}) const;
   bool has_scanner(const std::string& name) const;
 
@@ -113,7 +114,7 @@ class CarmenSurvey {
     geometry::Pose2 wheel_from_base;
   };
 
-  /// Whether stamps advance like a clock.
+  /// Tests whether stamps advance like a clock.
   class ClockCheck {
    public:
     void add(std::optional<std::int64_t> stamp_ns);
@@ -128,12 +129,12 @@ class CarmenSurvey {
     std::uint64_t scans_ = 0;
     std::uint64_t advancing_ = 0;  // newer than all before
     bool counts_scans_ = true;     // whole numbers one second apart
-    sensing::StampGuard guard_{600.0};  // one wrong stamp is the localizer's business
+    sensing::StampGuard guard_{600.0};  // localization handles single wrong stamps
     std::optional<std::int64_t> newest_ns_;
     std::vector<std::int64_t> steps_ns_;
   };
 
-  /// Whether ODOM lines, interpolated, meet the poses of the laser records.
+  /// Tests whether interpolated ODOM lines equal the poses of the laser records.
   class AgreementCheck {
    public:
     void add_odom(const StampedPose& odom);
@@ -147,10 +148,10 @@ class CarmenSurvey {
     std::uint64_t met_ = 0;
   };
 
-  /// Pairs of scans with a little motion between, evenly over the log, few enough to be matched at once.
+  /// Sample of scan pairs with little motion in between, spread over the log, limited in number.
   class PairSample {
    public:
-    /// A pair ends where the vehicle has moved or turned by so much, and is left out where it moved by more than the most.
+    /// A pair ends after this way or turn; it is dropped if the way exceeds the maximum.
     PairSample(double moved_m, double turned_rad, double most_m) : moved_m_(moved_m), turned_rad_(turned_rad), most_m_(most_m) {}
 
     /// scan: counted from 0.
@@ -170,7 +171,7 @@ class CarmenSurvey {
     std::size_t offered_ = 0;
   };
 
-  /// What is kept for each kind of laser record of each scanner.
+  /// Statistics of one kind of laser record of one scanner.
   struct Lasers {
     LaserRecordKind kind = LaserRecordKind::kFlaser;
     std::uint8_t slot = 1;
@@ -184,7 +185,7 @@ class CarmenSurvey {
     std::vector<StampedPose> poses;                  // by ipc time, 0 where there is none
     std::vector<std::optional<std::int64_t>> ipc_ns;
     std::vector<std::optional<std::int64_t>> logger_ns;
-    /// What comes between the scans of lines of one OdometryRecordKind.
+    /// Lines of one OdometryRecordKind between scans.
     struct LinesBetween {
       std::uint32_t since_scan = 0;
       std::vector<std::uint32_t> before_scan;        // how many, by scan
@@ -211,7 +212,7 @@ class CarmenSurvey {
   void add_odom(const OdometryRecord& record);
   void add_param(const ParamRecord& record);
 
-  /// What PARAM lines say of one scanner.
+  /// Mounting of one scanner by PARAM lines.
   struct LaserParams {
     std::array<std::optional<double>, 3> offset;  // x, y [m], heading [rad]
     std::optional<double> max_range_m;
@@ -219,7 +220,7 @@ class CarmenSurvey {
     bool tell_mounting() const { return offset[0] || offset[1] || offset[2]; }
   };
 
-  /// What is known of ODOM lines, and of TRUEPOS lines in their place.
+  /// Statistics of ODOM lines, and of TRUEPOS lines in their place.
   struct OdometryLines {
     std::uint64_t count = 0;
     std::optional<geometry::Pose2> first_pose;

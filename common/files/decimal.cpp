@@ -13,8 +13,8 @@ namespace {
 constexpr std::array<double, 17> kPowerOfTen{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16};  // all exact
 constexpr int kSignificant = 5;
 
-/// The whole number nearest to a product or quotient of a double and an exact power of ten, which is off by half a unit in its
-/// last place at most. None where that leaves it open, in the middle between two, and where it is very large.
+/// Nearest integer to a product or quotient of a double and an exact power of ten, with an error of at most half a unit
+/// in the last place. None if that is ambiguous (a tie), or if the value is very large.
 std::optional<std::int64_t> nearest(double scaled) {
   constexpr double kMost = 1e15;
   if (!(scaled >= 0.0 && scaled < kMost)) return std::nullopt;
@@ -29,7 +29,7 @@ void append(std::string& text, std::int64_t number) {
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
 }
 
-/// With zeros in front, so many digits in all.
+/// Pads with leading zeros to this number of digits.
 void append_padded(std::string& text, std::int64_t number, int digits) {
   text.append(static_cast<std::size_t>(digits), '0');
   char* place = text.data() + text.size();
@@ -41,7 +41,7 @@ std::string by_standard_library(double value, std::chars_format format, int prec
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, format, precision).ptr};
 }
 
-/// Of a number other than 0 its first digits, d.dddd times 10 to the exponent.
+/// Leading digits of a nonzero number, as d.dddd times 10 to the exponent.
 struct FirstDigits {
   std::int64_t digits = 0;
   int exponent = 0;

@@ -13,7 +13,7 @@ void append_stamp(std::string& text, std::int64_t stamp_ns);
 std::string fixed_text(double value, int decimals);
 void append_fixed(std::string& text, double value, int decimals);
 
-/// The number with five significant digits at most, as printf's %.5g writes it: for what spans many powers of ten.
+/// At most five significant digits, as printf's %.5g: for values over many powers of ten.
 std::string short_text(double value);
 void append_short(std::string& text, double value);
 

@@ -18,7 +18,7 @@ std::filesystem::path plain_or_gz(std::filesystem::path path) {
   return path += ".gz";
 }
 
-/// The line's words; the last takes all the rest of it.
+/// Words of the line; the last one contains the rest.
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
   std::vector<std::string_view> words;
   for (std::size_t begin = line.find_first_not_of(" \t"); begin != std::string_view::npos && words.size() < most;) {
@@ -76,7 +76,7 @@ std::optional<LegTrackerLog::Line> LegTrackerLog::next_scan() {
   while (const auto line = scans_.next()) {
     const auto words = words_of(*line, 6);
     if (words.empty() || words[0].starts_with('#')) continue;
-    if (words.size() < 6) return Line{0.0, "ROBOTLASER1 malformed"};  // to be counted as such
+    if (words.size() < 6) return Line{0.0, "ROBOTLASER1 malformed"};  // counted as malformed
     const auto bag_s = number(words[0]), step_rad = number(words[3]), beams = number(words[4]);
     if (!bag_s || !step_rad || !beams) return Line{0.0, "ROBOTLASER1 malformed"};
     std::string text = "ROBOTLASER1 0 " + std::string(words[2]) + ' ' + fixed_text(*step_rad * (*beams - 1.0), 8) + ' ' + std::string(words[3]) + " 0 0.01 0 ";

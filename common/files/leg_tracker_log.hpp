@@ -18,10 +18,10 @@ namespace slammot::files {
 /// annotations have; by how much odometry comes late by them is for localization to find out. Where the laser is on the base is not said.
 class LegTrackerLog : public LineSource {
  public:
-  /// A folder with scan.txt, or a file of scan.txt's form, which then stands alone.
+  /// A folder with scan.txt, or a single file in scan.txt's format.
   static Result<std::unique_ptr<LineSource>> open(const std::filesystem::path& path);
 
-  /// Whether the file is of scan.txt's form, by its first line that is no comment.
+  /// True if the first line that is no comment has scan.txt's format.
   static bool is_scan_file(const std::filesystem::path& path);
 
   std::optional<std::string_view> next() override;
@@ -34,7 +34,7 @@ class LegTrackerLog : public LineSource {
  private:
   struct Line {
     double stamp_s = 0.0;
-    std::string text;                 ///< As CARMEN has it.
+    std::string text;                 ///< As a CARMEN line.
   };
   LegTrackerLog(LineReader scans, std::optional<LineReader> odometry) : scans_(std::move(scans)), odometry_(std::move(odometry)) {}
 
@@ -43,7 +43,7 @@ class LegTrackerLog : public LineSource {
 
   LineReader scans_;
   std::optional<LineReader> odometry_;
-  std::optional<Line> scan_;          ///< The next one of each, once it was read.
+  std::optional<Line> scan_;          ///< Next line of each file, read in advance.
   std::optional<Line> odom_;
   std::string line_;
 };

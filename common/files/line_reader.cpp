@@ -66,7 +66,7 @@ LineReader::Unpacked LineReader::unpack(gzFile_s* file, std::vector<char> into) 
   const int bytes = gzread(file, into.data(), static_cast<unsigned>(into.size()));
   int fault = Z_OK;
   gzerror(file, &fault);
-  // Z_BUF_ERROR: the compressed stream ends too early; Z_DATA_ERROR: it is damaged. zlib hands out what came before.
+  // Z_BUF_ERROR: the compressed stream ends too early; Z_DATA_ERROR: it is damaged. zlib returns the data before that.
   unpacked.is_cut = bytes < 0 || fault != Z_OK;
   unpacked.bytes = static_cast<std::size_t>(std::max(bytes, 0));
   unpacked.bytes_read = static_cast<std::uintmax_t>(std::max<z_off_t>(gzoffset(file), 0));

@@ -17,27 +17,28 @@ struct gzFile_s;
 
 namespace slammot::files {
 
-/// Reads a text file line by line, plain or compressed by gzip; which of the two is seen from its first bytes. While the
-/// lines of one chunk are handed out the next one is unpacked on another thread.
+/// Reads a text file line by line, plain or gzip-compressed as its first bytes show. While the lines of one chunk are
+/// returned, another thread decompresses the next one.
 class LineReader : public LineSource {
  public:
-  /// Longer lines are skipped and counted: no record of a scanner is that long.
+  /// Longer lines are skipped and counted: no scanner's record is that long.
   static constexpr std::size_t kMaxLineBytes = 1 << 20;
 
-  /// Fails for what is missing, unreadable or not a regular file.
+  /// Fails if the file is missing, unreadable or not a regular file.
   static Result<LineReader> open(const std::filesystem::path& path);
 
-  /// The next line without its end ("\n" or "\r\n"), valid until the next call; nullopt at the end of what can be read.
+  /// The next line without its end ("\n" or "\r\n"), valid until the next call; nullopt at the end of the readable
+  /// part.
   std::optional<std::string_view> next() override;
 
-  /// Of the line last returned, from 1.
+  /// Number of the last returned line, from 1.
   std::uint64_t line_number() const override { return line_number_; }
   std::uint64_t overlong_lines() const override { return overlong_lines_; }
 
-  /// Whether the last line returned had no line end: the file may have been cut there.
+  /// True if the last returned line had no line end: the file may be truncated.
   bool last_line_is_unfinished() const override { return last_line_is_unfinished_; }
 
-  /// Whether the compressed data ended too early or were damaged, so that the rest of the file could not be read.
+  /// True if the compressed data ended too early or were damaged: the rest of the file is unreadable.
   bool is_cut() const override { return is_cut_; }
 
   /// Share of the file's bytes taken in so far, [0, 1].
@@ -48,7 +49,7 @@ class LineReader : public LineSource {
     void operator()(gzFile_s* file) const;
   };
 
-  /// What one call of zlib gave.
+  /// Result of one call of zlib.
   struct Unpacked {
     std::vector<char> text;
     std::size_t bytes = 0;       ///< Of the text.
@@ -66,9 +67,9 @@ class LineReader : public LineSource {
   std::unique_ptr<gzFile_s, Close> file_;
   std::uintmax_t file_bytes_ = 0;
   Unpacked chunk_;
-  std::size_t begin_ = 0;  // of what is not yet returned, in chunk_
+  std::size_t begin_ = 0;  // start of the unreturned part of chunk_
   std::size_t end_ = 0;
-  std::string partial_;    // start of a line that goes on in the next chunk
+  std::string partial_;    // beginning of a line that continues in the next chunk
   bool skips_line_ = false;
   std::uint64_t line_number_ = 0;
   std::uint64_t overlong_lines_ = 0;

@@ -6,7 +6,7 @@
 
 namespace slammot::files {
 
-/// Lines of text one after the other, wherever they come from.
+/// A sequence of text lines from any source.
 class LineSource {
  public:
   virtual ~LineSource() = default;
@@ -14,19 +14,19 @@ class LineSource {
   /// The next line without its end, valid until the next call; nullopt at the end of what can be read.
   virtual std::optional<std::string_view> next() = 0;
 
-  /// Of the line last returned, from 1.
+  /// Number of the last returned line, from 1.
   virtual std::uint64_t line_number() const = 0;
 
   /// Share taken in so far, [0, 1].
   virtual double fraction_read() const = 0;
 
-  /// Lines that were too long to be returned.
+  /// Number of lines too long to be returned.
   virtual std::uint64_t overlong_lines() const { return 0; }
 
-  /// Whether the last line returned had no line end: the text may have been cut there.
+  /// True if the last returned line had no line end: the text may be truncated.
   virtual bool last_line_is_unfinished() const { return false; }
 
-  /// Whether the text is known to go on where it could not be read.
+  /// True if the text continues beyond an unreadable place.
   virtual bool is_cut() const { return false; }
 };
 

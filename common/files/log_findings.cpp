@@ -70,7 +70,7 @@ void describe_gaps(const LogFigures& figures, std::vector<std::string>& findings
   if (figures.echo_share > 0.0 && figures.echo_share < 0.2) findings.push_back(text("only %.0f %% of the beams have an echo", 100.0 * figures.echo_share));
 }
 
-constexpr double kTold = 0.15;  // by which a scale is off
+constexpr double kTold = 0.15;  // least scale error that is reported
 
 bool is_far_off(double scale) { return scale > 0.0 && std::abs(scale - 1.0) > kTold; }
 

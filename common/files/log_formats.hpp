@@ -11,11 +11,12 @@ namespace slammot::files {
 
 struct RecordOptions {
   TopicOptions topics;
-  std::size_t most_kept_bytes = std::size_t{48} << 20;   ///< Of a bag's scans, while it is looked through; more are read again.
+  std::size_t most_kept_bytes = std::size_t{48} << 20;   ///< Of a bag's scans kept by the survey; larger bags are read twice.
 };
 
-/// Opens a log by what it holds, not by its name: CARMEN's or DP-SLAM's text, plain or .gz; leg_tracker's text, as a file or as a
-/// folder (LegTrackerLog); a ROS bag, as a file (.bag 2.0, .mcap, .db3, these packed by zstd) or as a folder of them (BagLog).
+/// Opens a log by its content, not its name: text of CARMEN or DP-SLAM, plain or .gz; leg_tracker text, as a file or
+/// folder (LegTrackerLog); a ROS bag, as a file (.bag 2.0, .mcap, .db3, also zstd-compressed) or a folder of them
+/// (BagLog).
 Result<std::unique_ptr<RecordSource>> open_records(const std::filesystem::path& path, const RecordOptions& options = {});
 
 }  // namespace slammot::files

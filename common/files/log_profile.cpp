@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFasterThanWalkingMps = 3.0;
 constexpr double kFartherThanHallsM = 25.0;
-constexpr double kRareScansS = 0.5;   // scans by way, as robots log them
+constexpr double kRareScansS = 0.5;   // scans triggered by motion, as robots log them
 
 std::string rounded(double value) {
   char text[32];
@@ -37,9 +37,9 @@ ProfileChoice choose_profile(const LogFigures& figures) {
 
 double sweep_s_for(const LogFigures& figures, double profile_sweep_s) {
   constexpr double kSteadySpread = 0.25;
-  constexpr double kSlowestScannerS = 0.25;  // slower than this, scans were left out of the log
+  constexpr double kSlowestScannerS = 0.25;  // a longer period means that the log omits scans
   const double period_s = figures.scan_period_s;
-  // Mirrors turn once a scan: where the period is made up, the sweep must keep its share of it.
+  // A scanner's mirror turns once a scan: with a synthetic period the sweep keeps its share of it.
   if (!figures.has_clock && figures.comes_by_time && profile_sweep_s > 0.0) return period_s * figures.field_of_view_rad / (2.0 * std::numbers::pi);
   if (sees_all_around(figures) && figures.beams > 1 && period_s > 0.0 && period_s < kSlowestScannerS &&
       figures.scan_period_spread < kSteadySpread && figures.has_clock) {

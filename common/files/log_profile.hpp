@@ -8,15 +8,15 @@ namespace slammot::files {
 
 struct ProfileChoice {
   std::string profile;  ///< "urban" or "indoor".
-  std::string reason;   ///< What in the log says so, to be printed.
+  std::string reason;   ///< Evidence in the log, for printing.
 };
 
-/// The profile that suits what was driven and seen: urban for a vehicle faster than people walk and for places with far
-/// echoes, indoor otherwise. The scanner's own reach says nothing: the same scanners are used inside and outside.
+/// Profile by speed and ranges: urban for a vehicle faster than pedestrians or for places with far echoes, indoor
+/// otherwise. The scanner's maximum range is no criterion: the same scanners are used indoors and outdoors.
 ProfileChoice choose_profile(const LogFigures& figures);
 
-/// Time from the first to the last beam of a scan. A scanner that sees all around at a steady rate never rests, so its
-/// period says it; of others the profile knows, and no sweep outlasts the period.
+/// Time from the first to the last beam of a scan. For a full-circle scanner at a constant rate it follows from the
+/// period. Otherwise it is from the profile, limited by the period.
 double sweep_s_for(const LogFigures& figures, double profile_sweep_s);
 
 }  // namespace slammot::files

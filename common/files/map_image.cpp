@@ -17,8 +17,8 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-// In 1/16 of log-odds. map_server calls a cell occupied from a probability of 0.65 on, log-odds 0.62. A cell is drawn
-// free from less evidence than that convention's 0.196: one scan's beam through a far cell is all there often is.
+// In 1/16 of log-odds. map_server's threshold for occupied is probability 0.65, log-odds 0.62. The threshold for free
+// needs less evidence than that convention's 0.196: far cells often have only one scan's beam.
 constexpr int kOccupiedFrom = 10;
 constexpr int kFreeFrom = -6;
 constexpr double kDefaultResolutionM = 0.1;
@@ -42,7 +42,7 @@ bool is_seen(const flow::Submap& submap, std::size_t cell) {
   return submap.so_log_odds[cell] != 0 || (cell < submap.mo_evidence.size() && submap.mo_evidence[cell] != 0);
 }
 
-/// Edges of the part of the submap that was seen, in its own frame.
+/// Bounding box of the seen part of the submap, in its own frame.
 Box seen_part(const flow::Submap& submap) {
   Box box;
   for (std::uint32_t row = 0; row < submap.rows; ++row) {
@@ -77,7 +77,7 @@ struct Canvas {
   double resolution_m = kDefaultResolutionM;
   double min_x_m = 0.0;
   double min_y_m = 0.0;
-  int samples = 1;  // a pixel is looked at in samples x samples places, so that no thin wall is missed when it is larger than a cell
+  int samples = 1;  // samples per pixel and axis, so that a pixel larger than a cell misses no thin wall
   std::vector<std::int16_t> log_odds;
   std::vector<std::uint8_t> moving;
   std::vector<std::uint8_t> seen;
@@ -89,7 +89,7 @@ Canvas blank_canvas(const Box& box, double cell_size_m, std::uint64_t max_pixels
   if (!box.is_empty()) {
     for (canvas.samples = 1;; ++canvas.samples) {
       canvas.resolution_m = cell_size_m * canvas.samples;
-      // Corners on multiples of the resolution: the same place is the same pixel in pictures of two runs.
+      // Corners on multiples of the resolution: pixels of two runs are aligned.
       canvas.min_x_m = std::floor(box.min_x_m / canvas.resolution_m) * canvas.resolution_m;
       canvas.min_y_m = std::floor(box.min_y_m / canvas.resolution_m) * canvas.resolution_m;
       const double columns = std::ceil((box.max_x_m - canvas.min_x_m) / canvas.resolution_m);
@@ -113,7 +113,7 @@ struct Sample {
   bool seen = false;
 };
 
-/// What the submap holds of a pixel around this point: the most occupied cell, else the least free one.
+/// Submap evidence for a pixel around this point: the most occupied cell, otherwise the least free one.
 Sample look(const flow::Submap& submap, const Vector2& centre_in_submap_m, const Canvas& canvas, const geometry::Matrix2& submap_from_map) {
   Sample result;
   const double pitch_m = canvas.resolution_m / canvas.samples;
@@ -140,8 +140,7 @@ void add_to_pixel(Canvas& canvas, std::size_t pixel, const Sample& sample) {
   canvas.seen[pixel] = 1;
 }
 
-/// Pixels [first, end) of a row of the canvas where each looks at one cell only: the cells' places in the submap are
-/// computed beforehand, many at a time.
+/// Pixels [first, end) of a row of the canvas with one sample each: cell indices are computed in advance, vectorized.
 class SingleLook {
  public:
   SingleLook(const PlacedSubmap& placed, Canvas& canvas, std::int64_t first_column, std::int64_t end_column)
@@ -186,7 +185,7 @@ class SingleLook {
   std::int64_t first_column_;
   geometry::Matrix2 turn_;
   Vector2 origin_m_;
-  std::vector<double> along_x_;        ///< What a column adds to both coordinates in the submap.
+  std::vector<double> along_x_;        ///< Contribution of a column to both coordinates in the submap.
   std::vector<double> along_y_;
   std::vector<std::int32_t> cells_;    ///< -1 outside.
 };
@@ -228,7 +227,7 @@ std::uint8_t moving_pixel(bool seen, int evidence) {
   return static_cast<std::uint8_t>(pixel == kUnknownPixel ? pixel - 1 : pixel);
 }
 
-/// Turned upside down: canvas row 0 is the lowest, an image's the topmost.
+/// Flipped: canvas row 0 is the lowest, an image's row 0 the topmost.
 template <typename PixelOf>
 MapImage image_of(const Canvas& canvas, PixelOf pixel_of) {
   MapImage image{static_cast<std::uint32_t>(canvas.columns), static_cast<std::uint32_t>(canvas.rows), canvas.resolution_m, canvas.min_x_m, canvas.min_y_m, {}};
@@ -277,13 +276,13 @@ Result<std::string> to_png(const MapImage& image) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   if (info == nullptr) return Error{"libpng cannot start"};
-  if (setjmp(png_jmpbuf(png)) != 0) {  // libpng's way to report a fault
+  if (setjmp(png_jmpbuf(png)) != 0) {  // libpng's error handling
     png_destroy_write_struct(&png, &info);
     return Error{"libpng cannot draw a picture of " + std::to_string(image.width) + " x " + std::to_string(image.height)};
   }
   png_set_write_fn(png, &bytes, append_to_string, flush_nothing);
   png_set_compression_level(png, 3);
-  png_set_filter(png, 0, PNG_FILTER_NONE);  // few grey values: filters make it larger
+  png_set_filter(png, 0, PNG_FILTER_NONE);  // with few grey values filters increase the size
   png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
   for (std::uint32_t row = 0; row < image.height; ++row) png_write_row(png, image.pixels.data() + std::size_t{row} * image.width);

@@ -11,7 +11,7 @@
 
 namespace slammot::files {
 
-/// Values of map_server's pictures: probability of being occupied is (255 - pixel) / 255.
+/// Pixel values of map_server: probability of occupancy is (255 - pixel) / 255.
 inline constexpr std::uint8_t kOccupiedPixel = 0;
 inline constexpr std::uint8_t kUnknownPixel = 205;
 inline constexpr std::uint8_t kFreePixel = 254;
@@ -28,7 +28,7 @@ struct MapImage {
 
 struct MapImages {
   MapImage stationary;  ///< SO-map: occupied, free, unknown.
-  MapImage moving;      ///< MO-map: the darker the more often something moved there; unknown where nothing was seen.
+  MapImage moving;      ///< MO-map: darker for more frequent motion; unknown if unseen.
 };
 
 struct PlacedSubmap {
@@ -36,11 +36,11 @@ struct PlacedSubmap {
   geometry::Pose2 map_from_submap;
 };
 
-/// At most this many pixels a picture; larger maps are drawn at two, three, ... times the cell size.
+/// Limit of pixels per image; larger maps are drawn at two, three, ... times the cell size.
 inline constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 26;
 
-/// Joins the submaps into one picture: log-odds of overlapping cells are added, of moving evidence the strongest counts.
-/// Covers just what was seen. No submaps, or empty ones, give a picture of one unknown pixel.
+/// Merges the submaps into one image. Log-odds of overlapping cells are added; of moving evidence the maximum is used.
+/// Covers exactly the seen area. No submaps, or empty ones, give an image of one unknown pixel.
 MapImages draw_map(const std::vector<PlacedSubmap>& submaps, std::uint64_t max_pixels = kMaxPixels);
 
 /// Portable grey map, binary.
@@ -49,7 +49,7 @@ std::string to_pgm(const MapImage& image);
 /// The same as PNG.
 Result<std::string> to_png(const MapImage& image);
 
-/// What map_server wants to know about the picture.
+/// Metadata of the image for map_server.
 std::string to_map_server_yaml(const MapImage& image, const std::string& image_file);
 
 }  // namespace slammot::files

@@ -14,7 +14,7 @@ using sensing::OdometryEpisode;
 using sensing::OdometryFault;
 
 constexpr std::size_t kMostEpisodesTold = 3;
-constexpr double kLeastError = 0.01;             // of way and turn, worth telling
+constexpr double kLeastError = 0.01;             // of way and turn; smaller errors are not reported
 constexpr double kLeastBias_radps = 0.002;
 constexpr double kLeastOffset_s = 0.01;
 constexpr double kMostDisbelievedShare = 0.5;
@@ -35,7 +35,7 @@ std::string joined(const std::vector<std::string>& parts, const char* between) {
 
 double seconds_into(const OdometryConclusions& odometry, std::int64_t stamp_ns) { return static_cast<double>(stamp_ns - odometry.first_stamp_ns) * 1e-9; }
 
-/// Of what odometry says by what is true; empty where that is little.
+/// Ratio of odometry to truth as text; empty if close to 1.
 std::string describe_factor(const char* what, double true_by_said, const char* more, const char* less) {
   if (true_by_said < 0.0) return text("%s with the wrong sign", what);
   const double error = 1.0 / std::max(true_by_said, 1e-6) - 1.0;
@@ -85,7 +85,7 @@ std::string describe_episode(const OdometryEpisode& episode, const OdometryConcl
   return what + text(" at scan %llu", static_cast<unsigned long long>(episode.first_scan));
 }
 
-/// The longest ones in the order of the drive, and how many there are beside them.
+/// The longest episodes in order of the drive, and the number of the others.
 std::vector<std::string> describe_episodes(const OdometryConclusions& odometry, bool time_is_known) {
   std::vector<const OdometryEpisode*> told;
   for (const OdometryEpisode& episode : odometry.episodes) told.push_back(&episode);

@@ -11,7 +11,7 @@
 
 namespace slammot::files {
 
-/// What sensors said, one record after the other, whatever the form of the log.
+/// A sequence of sensor records, independent of the log's format.
 class RecordSource {
  public:
   virtual ~RecordSource() = default;
@@ -19,25 +19,25 @@ class RecordSource {
   /// The next record, valid until the next call; nullopt at the end of what can be read.
   virtual std::optional<CarmenRecord> next() = 0;
 
-  /// Of the record last returned, from 1: its line, or its message among those of a bag that are of use.
+  /// Number of the last returned record, from 1: its line, or its index among the used messages of a bag.
   virtual std::uint64_t line_number() const = 0;
 
   /// Share taken in so far, [0, 1].
   virtual double fraction_read() const = 0;
 
-  /// Lines that were too long to be returned.
+  /// Number of lines too long to be returned.
   virtual std::uint64_t overlong_lines() const { return 0; }
 
-  /// Whether the last record had no end: the text may have been cut there.
+  /// True if the last record had no end: the text may be truncated.
   virtual bool last_line_is_unfinished() const { return false; }
 
-  /// Whether the log is known to go on where it could not be read.
+  /// True if the log continues beyond an unreadable place.
   virtual bool is_cut() const { return false; }
 
-  /// What is damaged and where, as far as it is known: "the chunk at byte 1234 does not unpack".
+  /// Kind and place of the damage, if known: "the chunk at byte 1234 does not unpack".
   virtual std::string damage() const { return {}; }
 
-  /// Which topics were chosen from which; empty where the form of the log leaves no choice.
+  /// Available and chosen topics; empty if the format leaves no choice.
   virtual TopicChoice topics() const { return {}; }
 };
 

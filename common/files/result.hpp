@@ -7,12 +7,12 @@
 
 namespace slammot::files {
 
-/// Why something could not be done, in one line for the person at the terminal.
+/// Reason of a failure, in one line for the terminal.
 struct Error {
   std::string message;
 };
 
-/// A value, or why there is none.
+/// A value, or the error.
 template <typename T>
 class [[nodiscard]] Result {
  public:

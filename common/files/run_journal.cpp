@@ -8,7 +8,7 @@ namespace slammot::files {
 namespace {
 
 constexpr const char* kBegin = "slammot-journal-2";
-constexpr char kEnd = ';';  // of a line that was written to its end
+constexpr char kEnd = ';';  // marks a completely written line
 
 std::ostream& operator<<(std::ostream& to, const geometry::Pose2& pose) { return to << pose.x_m << ' ' << pose.y_m << ' ' << pose.heading_rad; }
 std::istream& operator>>(std::istream& from, geometry::Pose2& pose) { return from >> pose.x_m >> pose.y_m >> pose.heading_rad; }
@@ -22,7 +22,7 @@ std::istream& get_enumerator(std::istream& from, Enum& value) {
   return from;
 }
 
-/// A line that can be read back to the last bit.
+/// A line from which values are restored exactly.
 class Line {
  public:
   Line() { text_.precision(std::numeric_limits<double>::max_digits10); }
@@ -76,7 +76,7 @@ void RunJournal::begin(flow::MapId map_id, flow::OdomId odom_id) {
 
 void RunJournal::resume() {
   stream_ = std::ofstream(file_, std::ios::app);
-  stream_ << '\n' << std::flush;  // after a line that was being written
+  stream_ << '\n' << std::flush;  // ends an incomplete line
 }
 
 void RunJournal::remove() {

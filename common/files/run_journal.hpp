@@ -11,7 +11,7 @@
 
 namespace slammot::files {
 
-/// A scan that was on the bus.
+/// A scan received from the bus.
 struct JournalScan {
   std::string scanner_id;
   std::uint64_t drive_id = 0;
@@ -19,18 +19,18 @@ struct JournalScan {
   std::int64_t stamp_ns = 0;
 };
 
-/// What was taken so far of one drive while it is driven, a line at a time: whoever is started again goes on from here. Submaps,
-/// constraints and corrections are not in it; those who make them keep them.
+/// Journal of a drive while it is recorded, one line at a time: a restarted process continues from it. Submaps,
+/// constraints and corrections are kept by the services that create them.
 class RunJournal {
  public:
   /// Appends to the file; nothing is written before begin() or resume().
   explicit RunJournal(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// Forgets what is in the file.
+  /// Clears the file.
   void begin(flow::MapId map_id, flow::OdomId odom_id);
-  /// Keeps what is in the file.
+  /// Continues the file.
   void resume();
-  /// The work is done.
+  /// Removes the journal of a finished drive.
   void remove();
 
   void add(const JournalScan& scan);
@@ -42,9 +42,9 @@ class RunJournal {
     flow::OdomId odom_id;
     std::vector<JournalScan> scans;
     std::vector<flow::LocalizedScan> localized_scans;    ///< Without their beams.
-    std::vector<flow::TrackedObjects> tracked_objects;   ///< With what a track's row shows.
+    std::vector<flow::TrackedObjects> tracked_objects;   ///< Fields of a track's row only.
   };
-  /// None where there is no journal. A line that was being written at the end is left out.
+  /// None if there is no journal. An incomplete last line is ignored.
   static std::optional<Content> read(const std::filesystem::path& file);
 
  private:

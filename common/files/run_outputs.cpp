@@ -30,7 +30,7 @@ const char* name_of(flow::ObjectClass object_class) {
 geometry::Matrix3 information_at_end(const geometry::UncertainPose2& from_to) {
   geometry::Matrix3 turn = geometry::Matrix3::Identity();
   turn.topLeftCorner<2, 2>() = geometry::rotation(-from_to.pose.heading_rad);
-  constexpr double kLeastVariance = 1e-9;  // a covariance of zero would be infinite information
+  constexpr double kLeastVariance = 1e-9;  // a covariance of zero has no finite information
   const geometry::Matrix3 covariance = turn * from_to.covariance * turn.transpose() + kLeastVariance * geometry::Matrix3::Identity();
   return covariance.ldlt().solve(geometry::Matrix3::Identity());
 }
@@ -43,7 +43,7 @@ std::optional<Error> write_map_files(const std::filesystem::path& folder, const 
   return write_file_atomically(folder / (name + ".yaml"), to_map_server_yaml(image, name + ".pgm"));
 }
 
-/// A file of an earlier run would be taken for one of this.
+/// Removes files of an earlier run, which would be mistaken for this one's.
 std::optional<Error> write_labels(const std::filesystem::path& path, const std::vector<const LabelRow*>& rows) {
   if (!rows.empty()) return write_file_atomically(path, to_labels_csv(rows));
   std::error_code ignored;
@@ -55,7 +55,7 @@ std::string pose_text(const geometry::Pose2& pose) {
   return fixed_text(pose.x_m, 9) + " " + fixed_text(pose.y_m, 9) + " " + fixed_text(pose.heading_rad, 9);
 }
 
-/// Readers of g2o pass over lines that begin with '#'.
+/// g2o readers skip lines that begin with '#'.
 std::string closure_comment(const flow::Constraint& closure) {
   std::string text = "# closure " + std::to_string(closure.from.value) + " " + std::to_string(closure.to.value) + " " + to_text(closure.verdict.state);
   text.append(" pose ").append(pose_text(closure.from_to.pose)).append(" chi_square ").append(fixed_text(closure.verdict.squared_error, 3));
@@ -197,7 +197,7 @@ std::string to_g2o(const RunRecord& record) {
 }
 
 double travelled_m(const std::vector<StampedPose>& trajectory) {
-  constexpr double kCountedStepM = 0.1;  // the noise of a vehicle at rest is no travel
+  constexpr double kCountedStepM = 0.1;  // smaller steps are noise of a standing vehicle
   if (trajectory.empty()) return 0.0;
   double sum_m = 0.0;
   geometry::Vector2 counted_m = trajectory.front().map_from_base.translation_m();
@@ -211,7 +211,7 @@ double travelled_m(const std::vector<StampedPose>& trajectory) {
 }
 
 std::optional<Error> write_outputs(const std::filesystem::path& folder, const RunRecord& record, const RunReport& report) {
-  // Drawing takes as long as all the text does.
+  // Drawing takes as long as writing all text.
   std::future<std::optional<Error>> maps = std::async(std::launch::async, [&] { return write_maps(folder, record); });
   const std::vector<StampedPose> corrected = record.corrected_trajectory();
   if (auto fault = write_file_atomically(folder / "online.tum", to_tum(record.online_trajectory()))) return fault;

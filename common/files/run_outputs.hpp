@@ -17,12 +17,14 @@ std::string to_tum(const std::vector<StampedPose>& trajectory);
 /// Header and one line a row: timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class.
 std::string to_tracks_csv(const std::vector<const TrackRow*>& rows);
 
-/// What tracks.csv leaves out, row by row: timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,
+/// Columns that tracks.csv lacks, row by row:
+/// timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,
 /// p_car,p_truck_or_bus,mode_0,mode_1,...
 /// in map; as many modes as the first row has.
 std::string to_track_details_csv(const std::vector<const TrackRow*>& rows);
 
-/// Where tracks will be, a line a time ahead (whole seconds): timestamp,track_id,after,x,y,var_x,cov_xy,var_y in map.
+/// Predicted positions, one line per prediction time (whole seconds): timestamp,track_id,after,x,y,var_x,cov_xy,var_y
+/// in map.
 std::string to_predictions_csv(const std::vector<const TrackRow*>& rows);
 
 /// Header and one line a pose: timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h in odom, h the heading.
@@ -35,7 +37,7 @@ std::string to_labels_csv(const std::vector<const LabelRow*>& rows);
 /// of the edge's end, so covariances, which count in the frame of its beginning, are turned.
 std::string to_g2o(const RunRecord& record);
 
-/// Distance along the trajectory; what a vehicle at rest seems to tremble is not counted.
+/// Distance along the trajectory, without the noise of a standing vehicle.
 double travelled_m(const std::vector<StampedPose>& trajectory);
 
 /// Writes online.tum, online_covariance.csv, trajectory.tum, tracks.csv, track_details.csv, predictions.csv, labels.csv (where there are labels), graph.g2o, map.{pgm,png,yaml}, moving.{pgm,png,yaml} and report.json

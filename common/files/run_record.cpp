@@ -42,7 +42,7 @@ TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& t
   return row;
 }
 
-/// By a table: neighbouring labels are of every kind, and so foretell no branch.
+/// Table look-up: labels vary too much for branch prediction.
 constexpr std::string_view kLetters = "-sm?";
 static_assert(kLetters[static_cast<std::size_t>(flow::PointLabel::kNoEcho)] == '-' && kLetters[static_cast<std::size_t>(flow::PointLabel::kStationary)] == 's' &&
               kLetters[static_cast<std::size_t>(flow::PointLabel::kMoving)] == 'm' && kLetters[static_cast<std::size_t>(flow::PointLabel::kUnknown)] == '?');
@@ -55,7 +55,7 @@ std::string letters_of(const std::vector<flow::PointLabel>& labels) {
   return letters;
 }
 
-/// Between the two poses nearest in time; the nearest one before the first and after the last.
+/// Interpolates between the neighbours in time; clamps to the first and the last pose.
 geometry::Pose2 pose_at(const std::map<std::int64_t, geometry::Pose2>& poses_by_stamp, std::int64_t stamp_ns) {
   const auto after = poses_by_stamp.lower_bound(stamp_ns);
   if (after == poses_by_stamp.end()) return poses_by_stamp.empty() ? geometry::Pose2::identity() : poses_by_stamp.rbegin()->second;

@@ -25,7 +25,7 @@ struct StampedPose {
   geometry::Pose2 map_from_base;
 };
 
-/// Where a track is said to be some time later, in map.
+/// Predicted position of a track in map.
 struct PredictedPlace {
   double after_s = 0.0;
   geometry::Vector2 position_in_map_m = geometry::Vector2::Zero();
@@ -49,59 +49,59 @@ struct TrackRow {
   std::vector<PredictedPlace> predicted;                        ///< Those of its path that are whole seconds ahead.
 };
 
-/// A pose as published live, with its covariance against the local map, and the frame that never jumps.
+/// A pose as published live, with its covariance relative to the local map, and odom_from_base.
 struct UncertainStampedPose {
   std::int64_t stamp_ns = 0;
   geometry::UncertainPose2 odom_from_base;
 };
 
-/// What the points of one scan were held to be, a letter a beam: '-' no echo, 's' stationary, 'm' moving, '?' unknown.
+/// Labels of one scan's points, one letter a beam: '-' no echo, 's' stationary, 'm' moving, '?' unknown.
 struct LabelRow {
   std::int64_t stamp_ns = 0;
-  std::string by_detection;  ///< Empty where nothing came.
+  std::string by_detection;  ///< Empty if none was received.
   std::string by_tracking;
   std::string scanner_id;
 };
 
-/// What came out of a drive, collected scan by scan from whoever made it: the stages of one process or the services on
-/// the bus. Everything is known by its stamp or id, and what comes again replaces what came before, so that neither
-/// the order of arrival nor a restarted service matters.
+/// Results of a drive, collected scan by scan from the stages of one process or from the services on the bus. Entries
+/// are keyed by stamp or id, and repeated ones replace earlier ones, so that neither order of arrival nor restarts
+/// matter.
 class RunRecord {
  public:
-  /// Every scan of the log, in its order, whatever becomes of it.
+  /// Adds every scan of the log in order, whether it is processed or not.
   void add_scan(std::int64_t stamp_ns) { scan_stamps_ns_.push_back(stamp_ns); }
 
   void add(const flow::LocalizedScan& scan);
-  void add(const flow::TrackedObjects& tracked);  ///< Tentative tracks are left out.
+  void add(const flow::TrackedObjects& tracked);  ///< Skips tentative tracks.
   void add(const flow::SegmentedScan& segmented);
   void add(const flow::ScanLabels& labels);
   void add(flow::Submap submap);
   void add(const flow::Constraint& constraint);
-  void add(const flow::GraphCorrection& correction);  ///< An older one than the last is ignored.
+  void add(const flow::GraphCorrection& correction);  ///< Ignored if older than the last one.
 
-  /// Another drive goes on in the same map: of scans and objects nothing is kept.
+  /// Starts another drive in the same map: clears scans and objects.
   void forget_drive();
 
   std::uint64_t scans() const { return scan_stamps_ns_.size(); }
   std::uint64_t localized_scans() const { return poses_.size() + same_stamp_.size(); }
   const std::map<flow::SubmapId, flow::Submap>& submaps() const { return submaps_; }
   std::vector<flow::Constraint> constraints() const;
-  std::vector<const TrackRow*> track_rows() const;            ///< These and the next stay where they are until more is added.
+  std::vector<const TrackRow*> track_rows() const;            ///< This and the next result are valid until the next add().
   std::vector<UncertainStampedPose> uncertain_poses() const;  ///< Of the scans that were localized.
   std::vector<const LabelRow*> label_rows() const;
-  std::uint64_t confirmed_tracks() const;  ///< Different ones.
+  std::uint64_t confirmed_tracks() const;  ///< Number of distinct confirmed tracks.
 
-  /// Where the submap is after the last correction; by odometry where loop closing never heard of it.
+  /// Submap pose after the last correction; by odometry if loop closing has not received the submap.
   geometry::Pose2 map_from_submap(const flow::Submap& submap) const;
 
-  /// Whether the newest submap is tied to the first one, after the last correction.
+  /// True if the newest submap is tied to the first one after the last correction.
   bool knows_where_it_is() const { return !correction_.is_untied; }
 
   /// One pose for every scan of the log, as published live; scans of several scanners that share a stamp share the pose. A scan that was dropped or lost is given the pose between
   /// its neighbours in time.
   std::vector<StampedPose> online_trajectory() const;
 
-  /// The same after the last correction: the pose in its submap, and the submap where it is now.
+  /// The same after the last correction: pose in the submap, with the submap's corrected pose.
   std::vector<StampedPose> corrected_trajectory() const;
 
  private:
@@ -120,7 +120,7 @@ class RunRecord {
 
   std::vector<std::int64_t> scan_stamps_ns_;
   std::map<std::int64_t, LocalizedPose> poses_;             // by stamp; the last one of several scanners' scans
-  std::set<ScanName> same_stamp_;                           // those that shared a stamp with one that came before
+  std::set<ScanName> same_stamp_;                           // by stamp; the last one if several scanners share a stamp
   std::map<std::int64_t, std::vector<TrackRow>> tracks_;    // by stamp
   std::map<ScanName, LabelRow> labels_;
   std::map<flow::SubmapId, flow::Submap> submaps_;

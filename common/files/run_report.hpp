@@ -22,15 +22,15 @@ struct StageLatency {
   double max_ms = 0.0;
 };
 
-/// Read from the machine's clock and so different from run to run.
+/// Measured by the machine's clock, therefore different in each run.
 struct MeasuredRun {
   std::vector<StageLatency> stages;
   double wall_s = 0.0;
-  double real_time_factor = 0.0;  ///< Seconds of driving done in one second.
+  double real_time_factor = 0.0;  ///< Seconds of driving processed per second.
   double peak_memory_mb = 0.0;
 };
 
-/// Everything about a run that is not in RunRecord.
+/// Properties of a run that are not in RunRecord.
 struct RunReport {
   std::string command;         ///< "run" or "bench".
   std::string version;
@@ -39,18 +39,18 @@ struct RunReport {
   std::string profile_reason;
   std::vector<std::string> replaced_stages;   ///< "tracking: greedy", of each whose implementation is not the default.
   LogPlan plan;
-  double sweep_s = 0.0;        ///< From the first beam to the last, as was assumed.
+  double sweep_s = 0.0;        ///< Assumed time from the first to the last beam.
   LogFaults faults;
-  bool is_interrupted = false; ///< The user stopped it: not the whole drive was processed.
+  bool is_interrupted = false; ///< The user interrupted it before the end of the drive.
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
-  std::optional<sensing::OdometryConclusions> odometry;   ///< None where no one recorded them.
+  std::optional<sensing::OdometryConclusions> odometry;   ///< None if not recorded.
   MeasuredRun measured;
 };
 
 /// Order statistics of one stage's durations.
 StageLatency summarize_latency(std::string stage, std::vector<double> durations_ms);
 
-/// The report as JSON. Everything but its last member, "measured", is the same for the same input and configuration.
+/// The report as JSON. All but its last member, "measured", depends only on input and configuration.
 std::string to_json_text(const RunRecord& record, const RunReport& report, double travelled_m);
 
 }  // namespace slammot::files

@@ -15,16 +15,16 @@ struct Gaussian {
   Eigen::Matrix<double, N, N> covariance = Eigen::Matrix<double, N, N>::Zero();
 };
 
-/// What a measurement says about a prediction, before it is used.
+/// Innovation of a measurement against a prediction.
 template <int M>
 struct Innovation {
   Eigen::Matrix<double, M, 1> residual = Eigen::Matrix<double, M, 1>::Zero();      ///< Measured minus predicted.
   Eigen::Matrix<double, M, M> covariance = Eigen::Matrix<double, M, M>::Identity();
-  double nis = 0.0;             ///< Normalized innovation squared; chi-square with M degrees when the filter is honest.
+  double nis = 0.0;             ///< Normalized innovation squared; chi-square with M degrees of freedom if the filter is consistent.
   double log_likelihood = 0.0;  ///< Natural logarithm of the density of the measurement.
 };
 
-/// Weighs a residual by its covariance, of which this is the root.
+/// Innovation of a residual whose covariance has this Cholesky factor.
 template <int M>
 Innovation<M> innovation(const Eigen::Matrix<double, M, 1>& residual, const Eigen::Matrix<double, M, M>& covariance,
                          const Eigen::LLT<Eigen::Matrix<double, M, M>>& root) {

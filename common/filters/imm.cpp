@@ -16,7 +16,7 @@ bool has_models_beyond(const ModelSet& set, const ImmState& state) {
   return beyond > 0.0;
 }
 
-/// What is in models that the set no longer has goes to its last one.
+/// Merges the models that are no longer in the set into the last remaining one.
 ImmState narrowed(const ModelSet& set, const ImmState& state) {
   ImmState narrow = state;
   const std::size_t last = set.size - 1;
@@ -32,13 +32,13 @@ ImmState narrowed(const ModelSet& set, const ImmState& state) {
   return narrow;
 }
 
-/// How probable it is to keep to a model for some time, and to leave it for another one.
+/// Probabilities over a time step to stay in a model and to switch to each other model.
 struct Switching {
   double stays = 1.0;
   double leaves = 0.0;
 };
 
-Switching switching_over(const ModelSet& set, double time_s) {  // of all models alike
+Switching switching_over(const ModelSet& set, double time_s) {  // the same for every model
   if (set.size == 1) return {};
   return {switch_probability(set, 0, 0, time_s), switch_probability(set, 0, 1, time_s)};
 }
@@ -52,17 +52,17 @@ ImmState predicted_over(double time_s, const Switching& switching, const ModelSe
     for (std::size_t from = 0; from < set.size; ++from) probability[to] += weight[from] = (from == to ? switching.stays : switching.leaves) * state.probability[from];
     for (std::size_t from = 0; from < set.size; ++from) {
       if (probability[to] > 0.0) weight[from] /= probability[to];
-      else weight[from] = from == to ? 1.0 : 0.0;  // no time has passed for a model that was ruled out
+      else weight[from] = from == to ? 1.0 : 0.0;  // a model of probability zero keeps its weight
     }
     const bool forgets_acceleration = set.models[to].kind == MotionKind::kConstantVelocity;
     const auto mixed = forgets_acceleration ? moment_match_moving : moment_match;
     return predict(set.models[to], mixed(modes_of(set, state), {weight.data(), set.size}), time_s);
   };
   static_assert(kMaxModels == 3);
-  return {{predicted(0), predicted(1), predicted(2)}, probability};  // made in place: filling a state with zeros takes as long as a model
+  return {{predicted(0), predicted(1), predicted(2)}, probability};  // in place: zeroing a state costs as much as a prediction
 }
 
-/// Step by step; states are a kilobyte each, and are not copied (imm_path in multiple_models_bench.cpp).
+/// Predicts in place: a state has a kilobyte and is not copied (imm_path in multiple_models_bench.cpp).
 void foretell(const ModelSet& set, const ImmState& state, double step_s, const Switching& switching, std::span<Gaussian<2>> path) {
   if (path.empty()) return;
   const ImmState next = predicted_over(step_s, switching, set, state);

@@ -7,7 +7,7 @@
 namespace slammot::filters {
 namespace {
 
-/// Of the first N numbers of the state.
+/// Moments of the first N entries of the state.
 template <int N>
 Gaussian<N> moment_match_first(std::span<const MotionState> modes, std::span<const double> weight) {
   assert(modes.size() == weight.size());
@@ -15,7 +15,7 @@ Gaussian<N> moment_match_first(std::span<const MotionState> modes, std::span<con
   for (std::size_t i = 1; i < modes.size(); ++i) {
     mixture.mean += weight[i] * modes[i].mean.head<N>();
     mixture.covariance += weight[i] * modes[i].covariance.topLeftCorner<N, N>();
-    // The spread about the common mean as that between each two: half as many products.
+    // The spread about the common mean is computed from pairwise differences: half as many products.
     for (std::size_t j = 0; j < i; ++j) {
       const Eigen::Matrix<double, N, 1> apart = modes[i].mean.head<N>() - modes[j].mean.head<N>();
       mixture.covariance.noalias() += (weight[i] * weight[j] * apart) * apart.transpose();
@@ -59,7 +59,7 @@ double normalize_logs(std::span<double> log_weight) {
   return largest + std::log(total);
 }
 
-/// kalman_update() with H = (I 0), without the products with its ones and zeros (imm_cycle in multiple_models_bench.cpp).
+/// kalman_update() with H = (I 0), without multiplications by ones and zeros (imm_cycle in multiple_models_bench.cpp).
 KalmanUpdate<6, 2> update_with_position(const MotionState& predicted, const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R) {
   using Matrix62 = Eigen::Matrix<double, 6, 2>;
   const Matrix6& P = predicted.covariance;
@@ -71,7 +71,7 @@ KalmanUpdate<6, 2> update_with_position(const MotionState& predicted, const Eige
   K.col(0) = P.col(0) * unit(0);
   K.col(1) = (P.col(1) - K.col(0) * L(1, 0)) * unit(1) * unit(1);
   K.col(0) = (K.col(0) - K.col(1) * L(1, 0)) * unit(0);
-  const Matrix62 I_KH = Matrix62::Identity() - K;  // its columns that are not those of I
+  const Matrix62 I_KH = Matrix62::Identity() - K;  // columns that differ from those of I
   Matrix6 I_KH_P = I_KH * P.topRows<2>();
   I_KH_P.bottomRows<4>() += P.bottomRows<4>();
   KalmanUpdate<6, 2> update;
@@ -80,7 +80,7 @@ KalmanUpdate<6, 2> update_with_position(const MotionState& predicted, const Eige
   Matrix6& after = update.posterior.covariance;
   after = I_KH_P.leftCols<2>() * I_KH.transpose();
   after.rightCols<4>() += I_KH_P.rightCols<4>();
-  after.col(2) = I_KH_P.col(0) * I_KH(2, 0) + (I_KH_P.col(1) * I_KH(2, 1) + I_KH_P.col(2));  // Eigen adds up six products by halves
+  after.col(2) = I_KH_P.col(0) * I_KH(2, 0) + (I_KH_P.col(1) * I_KH(2, 1) + I_KH_P.col(2));  // Eigen sums six products in two halves
   after += K * R * K.transpose();
   return update;
 }

@@ -9,12 +9,12 @@ namespace {
 using Vector2 = Eigen::Vector2d;
 using Matrix2 = Eigen::Matrix2d;
 
-constexpr double kSlowestTurnerMps = 0.5;  ///< Below it the direction of travel, and so the turn, is not known.
+constexpr double kSlowestTurnerMps = 0.5;  ///< Below it the direction of travel, and therefore the turn, is undefined.
 constexpr double kFastestTurnRadps = 2.0;
 
 struct TurnRate {
   double radps = 0.0;
-  Vector2 by_velocity = Vector2::Zero();      ///< Its derivatives; none where it is bounded.
+  Vector2 by_velocity = Vector2::Zero();      ///< Its derivatives by the velocity; zero where the rate is clamped.
   Vector2 by_acceleration = Vector2::Zero();
 };
 
@@ -37,18 +37,18 @@ Matrix2 rotation(double angle_rad) {
 
 Vector2 quarter_turned(const Vector2& vector) { return {-vector.y(), vector.x()}; }
 
-/// Mean direction while turning by twice `half`, relative to that in the middle: chord over arc.
+/// Mean direction during a turn by twice `half`, relative to the direction in the middle: chord over arc.
 double chord_over_arc(double half) { return std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half; }
 
 double chord_over_arc_derivative(double half) {
   return std::abs(half) < 1e-3 ? -half / 3.0 : (std::cos(half) - chord_over_arc(half)) / half;
 }
 
-/// A turn over some time: what its end and its derivatives are made of.
+/// Terms of a turn over a time step: for its end state and its derivatives.
 struct Turn {
   TurnRate rate;
-  Matrix2 half;          ///< Rotation by half of it
-  Matrix2 whole;         ///< and by all.
+  Matrix2 half;          ///< Rotation by half of the turn
+  Matrix2 whole;         ///< and by the whole turn.
   double chord = 1.0;
   double chord_derivative = 0.0;
 };
@@ -60,7 +60,7 @@ Turn turn_of(const Vector6& state, double time_s) {
   return {rate, half, half * half, chord_over_arc(half_rad), chord_over_arc_derivative(half_rad)};
 }
 
-/// Integral of the turning velocity: exact for every angle, without dividing by it.
+/// Integral of the turning velocity: exact for every angle, without division by the angle.
 Vector6 end_of(const Turn& turn, const Vector6& state, double time_s) {
   Vector6 after;
   after.head<2>() = state.head<2>() + time_s * turn.chord * (turn.half * state.segment<2>(2));
@@ -69,7 +69,7 @@ Vector6 end_of(const Turn& turn, const Vector6& state, double time_s) {
   return after;
 }
 
-/// Derivative of the end by the beginning: that of a known turn, and what a change of its rate adds.
+/// Derivative of the end state by the start state: that of a fixed turn rate plus the effect of a change of the rate.
 Matrix6 jacobian_of(const Turn& turn, const Vector6& state, double time_s) {
   const Vector2 half_way = turn.half * state.segment<2>(2);
   Vector6 by_rate;
@@ -84,7 +84,7 @@ Matrix6 jacobian_of(const Turn& turn, const Vector6& state, double time_s) {
   return jacobian;
 }
 
-/// Noise of one axis, (position, velocity, acceleration).
+/// Process noise of one axis: (position, velocity, acceleration).
 Eigen::Matrix3d axis_noise_of_constant_velocity(double t, double noise_density, double idle_acceleration_mps2) {
   Eigen::Matrix3d q;
   q << noise_density * t * t * t / 3.0, noise_density * t * t / 2.0, 0.0,  //
@@ -101,7 +101,7 @@ Eigen::Matrix3d axis_noise_of_constant_acceleration(double t, double noise_densi
   return noise_density * q;
 }
 
-/// P with the same noise in both axes.
+/// Adds the same process noise in both axes to P.
 Matrix6 with_noise(const Matrix6& P, const Eigen::Matrix3d& of_axis) {
   Matrix6 noisy = P;
   for (int row = 0; row < 3; ++row)
@@ -117,7 +117,7 @@ Vector6 accelerated(const Vector6& mean, double time_s) {
   return after;
 }
 
-/// F P F' of constant acceleration; F, mostly zeros, is not written down (imm_path in filters_bench.cpp).
+/// F P F' of constant acceleration, without the zeros of F (imm_path in filters_bench.cpp).
 Matrix6 spread_by_constant_acceleration(const Matrix6& P, double time_s) {
   const double half_t2 = 0.5 * time_s * time_s;
   Matrix6 spread = P;

@@ -58,8 +58,8 @@ MoveStop weigh(const MoveStop& before, const MoveStopScan& scan, const MoveStopC
   if (speed_mps > minimum_detection_speed_mps(scan.moving, config.detection_sigmas)) return {};
   MoveStop after;
   after.series = observed(before.series, scan.position_m, scan.after_s, config.memory_s);
-  // Who stands is held to until the move hypothesis is twice as certain: the simpler model is to be preferred where both
-  // explain the data, Wang 2004, Section 4.5.
+  // The stop hypothesis is kept until the move hypothesis is twice as certain: the simpler model is preferred where
+  // both explain the data, Wang 2004, Section 4.5.
   constexpr double kAsCertain = 4.0;
   const double most_m2 = (before.stands ? kAsCertain : 1.0) * scan.moving.covariance.topLeftCorner<2, 2>().trace();
   after.stands = after.series.age_s >= config.memory_s && after.series.mean_covariance_m2().trace() < most_m2;

@@ -22,11 +22,11 @@ constexpr const char* to_text(ClosureState state) {
   return "";
 }
 
-/// What loop closing holds of a revisit, and why.
+/// Verdict of loop closing on a closure, with its reason.
 struct ClosureVerdict {
   ClosureState state = ClosureState::kAccepted;
-  double squared_error = 0.0;        ///< Against the graph when this was last decided: chi-square, 3 degrees of freedom.
-  double agreed_share = 0.0;         ///< Of the walls of either submap, those that the other has not seen free.
+  double squared_error = 0.0;        ///< Squared Mahalanobis distance to the graph at the last decision: chi-square, 3 degrees of freedom.
+  double agreed_share = 0.0;         ///< Share of the walls of both submaps that the other submap has not seen free.
   std::string reason;
 };
 
@@ -37,7 +37,7 @@ struct Constraint {
   ConstraintKind kind = ConstraintKind::kOdometric;
   geometry::UncertainPose2 from_to;  ///< from_from_to: maps points of submap `to` into submap `from`.
   MapId map_id{};
-  ClosureVerdict verdict{};          ///< Of a loop; an odometric constraint is always accepted. Only accepted ones take part in the graph.
+  ClosureVerdict verdict{};          ///< Of a closure; odometric ones are always accepted. Only accepted ones are in the graph.
 };
 
 struct CorrectedSubmap {
@@ -45,13 +45,13 @@ struct CorrectedSubmap {
   geometry::Pose2 map_from_submap;
 };
 
-/// Where loop closing now believes the submaps to be.
+/// Submap poses estimated by loop closing.
 struct GraphCorrection {
-  std::uint32_t sequence = 0;            ///< Grows with every correction.
-  geometry::Pose2 map_from_odom;         ///< For the newest submap of the graph, and so for what is being driven now.
+  std::uint32_t sequence = 0;            ///< Increases with every correction.
+  geometry::Pose2 map_from_odom;         ///< Of the newest submap of the graph, which is the one in use.
   std::vector<CorrectedSubmap> submaps;  ///< All submaps of the graph, ascending.
   MapId map_id{};
-  bool is_untied = false;                ///< Nothing ties the newest submap to the first one yet: map_from_odom means nothing.
+  bool is_untied = false;                ///< The newest submap is not tied to the first one yet: map_from_odom is invalid.
 };
 
 }  // namespace slammot::flow

@@ -5,27 +5,27 @@
 
 namespace slammot::flow {
 
-/// Counts the submaps of one map from 0, in the order in which they were begun.
+/// Number of a submap within its map, from 0, in order of creation.
 struct SubmapId {
   std::uint32_t value = 0;
   auto operator<=>(const SubmapId&) const = default;
 };
 
-/// Names one map of a vehicle: another one where localization began anew and did not go on in that of drives before. 0 where
-/// there is only one, as in one process.
+/// Identity of a map of a vehicle. It changes if localization restarts without continuing the previous map. 0 if there
+/// is only one, as in one process.
 struct MapId {
   std::uint64_t value = 0;
   auto operator<=>(const MapId&) const = default;
 };
 
-/// Names the frame odom of one drive of a vehicle: another one where localization began anew, be it in the same map, so that
-/// nothing that was in odom before means anything in it. 0 where there is only one, as in one process.
+/// Identity of the odom frame of a drive. It changes if localization restarts, even in the same map: earlier
+/// coordinates in odom are invalid then. 0 if there is only one, as in one process.
 struct OdomId {
   std::uint64_t value = 0;
   auto operator<=>(const OdomId&) const = default;
 };
 
-/// Names one tracked object of one vehicle for as long as it is believed; never used again.
+/// Identity of a tracked object of one vehicle over its lifetime; never reused.
 struct TrackId {
   std::uint32_t value = 0;
   auto operator<=>(const TrackId&) const = default;

@@ -8,13 +8,13 @@
 
 namespace slammot::flow {
 
-/// Points of an earlier scan that were held to be moving and turn out to be stationary after all.
+/// Points of an earlier scan that were labelled moving and are stationary.
 struct RestoredPoints {
   std::uint32_t sequence = 0;
   std::vector<std::uint16_t> beams;
 };
 
-/// What each point of a scan is, as tracking now believes: decides which points go to the SO-map and which to the MO-map.
+/// Labels of a scan's points by tracking: they decide which points go to the SO-map and which to the MO-map.
 struct ScanLabels {
   std::int64_t stamp_ns = 0;
   std::uint32_t sequence = 0;            ///< Of the scan, counted by its scanner.

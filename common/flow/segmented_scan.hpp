@@ -15,26 +15,26 @@ enum class PointLabel : std::uint8_t {
   kNoEcho,
   kStationary,
   kMoving,
-  kUnknown,  ///< Where the map cannot say.
+  kUnknown,  ///< The map has no evidence here.
 };
 
-/// Neighbouring beams that ended on one thing, as far as one scan can tell.
+/// A segment: neighbouring echoes of one scan that may be one object.
 struct Segment {
   std::uint32_t segment_id = 0;                  ///< Index in the scan.
   PointLabel label = PointLabel::kUnknown;
-  std::vector<std::uint16_t> beams;              ///< Ascending; of what lies across the seam of a scan that goes all round, the last come first.
+  std::vector<std::uint16_t> beams;              ///< Ascending; across the seam of a full-circle scan the last beams come first.
   Eigen::Vector2d centroid_in_odom_m = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d centroid_covariance_m2 = Eigen::Matrix2d::Zero();  ///< Laser noise and pose together.
+  Eigen::Matrix2d centroid_covariance_m2 = Eigen::Matrix2d::Zero();  ///< Of scanner noise and pose.
   Eigen::Vector2d box_centre_in_odom_m = Eigen::Vector2d::Zero();    ///< Of the visible part's oriented box.
-  double box_heading_rad = 0.0;                  ///< Of its longer side, in odom; sense is not known.
+  double box_heading_rad = 0.0;                  ///< Of the longer side, in odom; the sense is unknown.
   double box_length_m = 0.0;
   double box_width_m = 0.0;
-  double moving_share = 0.0;                     ///< Moving points among those about which the map can say.
-  bool occluded_at_start = false;                ///< The neighbour before beams.front() is nearer: part may be hidden.
+  double moving_share = 0.0;                     ///< Share of moving points among those with evidence in the map.
+  bool occluded_at_start = false;                ///< The beam before beams.front() is nearer: a part may be occluded.
   bool occluded_at_end = false;
 };
 
-/// One scan cut into segments, stationary ones too.
+/// One scan cut into segments, including stationary ones.
 struct SegmentedScan {
   std::int64_t stamp_ns = 0;
   std::uint32_t sequence = 0;
@@ -42,7 +42,7 @@ struct SegmentedScan {
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;
   double beam_step_rad = 0.0;
-  double sweep_s = 0.0;                           ///< From the first beam's firing, at the stamp, to the last's.
+  double sweep_s = 0.0;                           ///< From the first beam's firing (at the stamp) to the last's.
   geometry::UncertainPose2 odom_from_base;        ///< Covariance within the local map.
   geometry::Pose2 map_from_odom;
   MapId map_id{};

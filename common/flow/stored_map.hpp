@@ -6,13 +6,13 @@
 
 namespace slammot::flow {
 
-/// What is stored of a vehicle's latest map: all that has to be known of it before a drive goes on in it.
+/// Summary of a vehicle's latest stored map, needed before a drive continues in it.
 struct StoredMap {
   MapId map_id{};
-  std::uint32_t submaps = 0;     ///< That can be read; 0 where nothing is stored.
-  std::uint32_t unreadable = 0;  ///< Damaged ones.
-  SubmapId last_submap_id;       ///< The highest number that is taken, readable or not.
-  double cell_size_m = 0.0;      ///< Of all its submaps; 0 where none can be read.
+  std::uint32_t submaps = 0;     ///< Number of readable submaps; 0 if nothing is stored.
+  std::uint32_t unreadable = 0;  ///< Number of damaged submaps.
+  SubmapId last_submap_id;       ///< Highest number in use, readable or not.
+  double cell_size_m = 0.0;      ///< Of all its submaps; 0 if none is readable.
 };
 
 }  // namespace slammot::flow

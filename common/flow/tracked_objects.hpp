@@ -15,10 +15,10 @@ namespace slammot::flow {
 enum class Motion : std::uint8_t { kMoving, kStopped };
 enum class ObjectClass : std::uint8_t { kUnknown, kPedestrian, kBicycle, kCar, kTruckOrBus };
 
-/// Of pedestrian, bicycle, car, truck or bus: of sum 1, or all zero where nobody has asked.
+/// Probabilities of pedestrian, bicycle, car, truck or bus; of sum 1, or all zero if not computed.
 using ClassProbabilities = std::array<double, 4>;
 
-/// The class to which an entry of these belongs.
+/// Class of an entry of ClassProbabilities.
 constexpr ObjectClass class_of(std::size_t entry) { return static_cast<ObjectClass>(entry + 1); }
 
 struct PredictedPosition {
@@ -27,16 +27,16 @@ struct PredictedPosition {
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
 };
 
-/// One object as tracking believes it to be at the stamp of the message.
+/// State of a tracked object at the stamp of the message.
 struct TrackedObject {
   TrackId track_id;
   bool confirmed = false;
   double existence = 0.0;                                        ///< Probability, [0, 1].
   Eigen::Vector2d position_in_odom_m = Eigen::Vector2d::Zero();  ///< Estimated centre of the object's box.
   Eigen::Vector2d velocity_in_odom_mps = Eigen::Vector2d::Zero();
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();          ///< (x, y [m], vx, vy [m/s]) in odom, pose uncertainty compounded in.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();          ///< (x, y [m], vx, vy [m/s]) in odom, including the pose's uncertainty.
   Eigen::Vector2d acceleration_in_odom_mps2 = Eigen::Vector2d::Zero();
-  double heading_in_odom_rad = 0.0;                              ///< Of the box's length, in the sense of motion where known.
+  double heading_in_odom_rad = 0.0;                              ///< Of the box's length, in the direction of motion if known.
   double length_m = 0.0;
   double width_m = 0.0;
   Motion motion = Motion::kMoving;
@@ -54,7 +54,7 @@ struct TrackedObjects {
   std::uint32_t sequence = 0;         ///< Of the scan.
   geometry::Pose2 map_from_odom;      ///< As of that scan: map_from_odom * position_in_odom is the position in map.
   geometry::Pose2 odom_from_base;
-  std::vector<TrackedObject> objects; ///< Tentative ones too.
+  std::vector<TrackedObject> objects; ///< Including tentative ones.
   MapId map_id{};
   OdomId odom_id{};
 };

@@ -4,10 +4,10 @@
 
 namespace slammot::geometry {
 
-/// The pose that differs from this one by so much, as difference() counts it.
+/// Pose at this difference, as defined by difference().
 Pose2 displaced(const Pose2& pose, const Eigen::Vector3d& by);
 
-/// How far a difference of poses moves what lies 10 m away, at most: position and heading in one length [m].
+/// Largest displacement of a point 10 m away by a difference of poses [m]: combines position and heading.
 double as_seen_10_m_away(const Eigen::Vector3d& difference);
 
 }  // namespace slammot::geometry

@@ -6,7 +6,8 @@
 
 namespace slammot::geometry {
 
-/// Whether directions so far apart go all round, so that the first is a neighbour of the last. One of them may be missing.
+/// True if directions at this spacing cover the full circle, so that the first and the last are neighbours. One may be
+/// missing.
 inline bool goes_all_round(std::size_t directions, double step_rad) {
   return directions > 1 && static_cast<double>(directions + 1) * std::abs(step_rad) > 2.0 * std::numbers::pi;
 }

@@ -6,7 +6,7 @@
 namespace slammot::geometry {
 
 double wrap_angle(double angle_rad) {
-  if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi) return angle_rad;  // as most are, and a remainder costs 10 ns
+  if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi) return angle_rad;  // the usual case; a remainder costs 10 ns
   const double wrapped = std::remainder(angle_rad, 2.0 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
 }

@@ -8,7 +8,7 @@ using Vector2 = Eigen::Vector2d;
 using Matrix2 = Eigen::Matrix2d;
 using Matrix3 = Eigen::Matrix3d;
 
-/// Angle brought into (-pi, pi].
+/// Angle wrapped to (-pi, pi].
 double wrap_angle(double angle_rad);
 
 /// Rigid motion in the plane. A variable is named target_from_source and maps points of source to target.
@@ -23,7 +23,7 @@ struct Pose2 {
 
 bool operator==(const Pose2& a, const Pose2& b);
 
-/// a_from_c = a_from_b ∘ b_from_c; Wang 2004, Eq. (2.2).
+/// Composition a_from_c = a_from_b ∘ b_from_c; Wang 2004, Eq. (2.2).
 Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c);
 
 /// Point of b expressed in a.
@@ -32,15 +32,14 @@ Vector2 operator*(const Pose2& a_from_b, const Vector2& point_in_b);
 /// b_from_a; Wang 2004, Eq. (2.6).
 Pose2 inverse(const Pose2& a_from_b);
 
-/// 2x2 matrix that turns by angle_rad, counter-clockwise.
+/// 2x2 rotation by angle_rad, counter-clockwise.
 Matrix2 rotation(double angle_rad);
 
-/// (x [m], y [m], heading [rad]) of a less those of b, heading the short way round: an error in the axes of the frame
-/// that both are given in.
+/// Difference a - b: (x [m], y [m], heading [rad], wrapped), in the axes of the common frame.
 Eigen::Vector3d difference(const Pose2& a, const Pose2& b);
 
-/// Pose at fraction (0 gives from, 1 gives to; outside extrapolates) of the way, x, y and heading each linear,
-/// heading the short way round.
+/// Linear interpolation of x, y and heading (the short way round). fraction 0 gives from, 1 gives to; other values
+/// extrapolate.
 Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction);
 
 }  // namespace slammot::geometry

@@ -13,7 +13,7 @@ struct UncertainPose2 {
 /// Jacobian of (a_from_b ∘ b_from_c) with respect to a_from_b; Wang 2004, Eq. (2.4).
 Matrix3 compound_jacobian_first(const Pose2& a_from_b, const Pose2& b_from_c);
 
-/// The same of the lever alone: the translation of b_from_c, turned into a.
+/// The same Jacobian from the lever alone: the translation of b_from_c, rotated into a.
 Matrix3 compound_jacobian_first(const Vector2& lever_in_a);
 
 /// Jacobian of (a_from_b ∘ b_from_c) with respect to b_from_c; Wang 2004, Eq. (2.5).
@@ -22,8 +22,8 @@ Matrix3 compound_jacobian_second(const Pose2& a_from_b);
 /// Jacobian of the inverse; Wang 2004, Eq. (2.7).
 Matrix3 inverse_jacobian(const Pose2& a_from_b);
 
-/// Chains two uncertain poses, to first order; Wang 2004, Eqs. (2.1)-(2.4). cross: covariance of the first with the
-/// second, rows of the first; with zero they are independent, Eq. (2.5).
+/// Compounds two uncertain poses, to first order; Wang 2004, Eqs. (2.1)-(2.4). cross: covariance of the first with the
+/// second, rows of the first; zero if independent, Eq. (2.5).
 UncertainPose2 compound(const UncertainPose2& a_from_b, const UncertainPose2& b_from_c, const Matrix3& cross = Matrix3::Zero());
 
 /// b_from_a with its covariance, to first order; Wang 2004, Eqs. (2.6)-(2.7).

@@ -33,7 +33,7 @@ std::map<SubmapId, std::vector<Step>> steps_both_ways(std::span<const flow::Cons
 struct Arrival {
   UncertainPose2 root_from_node;
   SubmapId before;
-  std::size_t constraint = 0;  ///< From the node before.
+  std::size_t constraint = 0;  ///< Index of the constraint from the previous node.
 };
 
 std::map<SubmapId, Arrival> arrivals_from(SubmapId root, std::span<const flow::Constraint> constraints) {
@@ -43,7 +43,7 @@ std::map<SubmapId, Arrival> arrivals_from(SubmapId root, std::span<const flow::C
     double sigma_m;
     SubmapId node;
     Arrival arrival;
-    // By id where equally uncertain, so that the order never depends on the queue.
+    // Ties are broken by id, so that the order is deterministic.
     bool operator>(const Reached& other) const {
       return std::tie(sigma_m, node) > std::tie(other.sigma_m, other.node);
     }

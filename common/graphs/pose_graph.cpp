@@ -17,15 +17,15 @@ using geometry::Matrix3;
 using geometry::Pose2;
 using geometry::Vector2;
 
-/// Upper triangular root W of the information: W' W = covariance^-1.
+/// Upper triangular square root W of the information: W' W = covariance^-1.
 Matrix3 whitening_of(const Matrix3& covariance) {
   return Matrix3(covariance.inverse()).llt().matrixU();
 }
 
-/// Error of a relative pose in the frame of `from`, whitened; blocks are (x [m], y [m], heading [rad]) in map.
+/// Whitened error of a relative pose in the frame of `from`; blocks are (x [m], y [m], heading [rad]) in map.
 class RelativePoseCost final : public ceres::SizedCostFunction<3, 3, 3> {
  public:
-  /// weight: of the squared error; read at each evaluation.
+  /// weight: factor on the squared error; read at each evaluation.
   RelativePoseCost(const Pose2& measured_from_to, const Matrix3& whitening, const double& weight)
       : measured_(measured_from_to), unweighted_(whitening), weight_(weight) {}
 
@@ -94,7 +94,7 @@ void PoseGraph::set_enabled(std::size_t constraint, bool is_enabled) {
   weights_[constraint] = is_enabled ? 1.0 : 0.0;
 }
 
-/// One problem that is solved several times with changing weights; the poses are those of the graph.
+/// One problem that is solved repeatedly with changing weights; it optimizes the graph's poses in place.
 struct PoseGraph::Solver {
   explicit Solver(PoseGraph& graph) : graph_(graph) {
     for (const Pose2& pose : graph.map_from_node_) blocks_.push_back({pose.x_m, pose.y_m, pose.heading_rad});
@@ -111,7 +111,7 @@ struct PoseGraph::Solver {
 
   bool has_iterations_left() const { return iterations_left_ > 0; }
 
-  /// Whether the poses are those of a solution.
+  /// True if the poses are a solution.
   bool solve(int max_iterations) {
     ceres::Solver::Summary summary;
     ceres::Solve(solver_options(std::min(max_iterations, iterations_left_)), &problem_, &summary);
@@ -160,7 +160,7 @@ double PoseGraph::truncated_cost(double odometric_sigma_scale) const {
 }
 
 OptimisationSummary PoseGraph::optimise() {
-  constexpr double kGrowth = 1.6;       // of the non-convexity from step to step
+  constexpr double kGrowth = 1.6;       // growth of the non-convexity per step
   constexpr int kIterationsPerStep = 3;
   constexpr int kMostSteps = 40;
   if (constraints_.empty()) return {.has_converged = true};

@@ -11,51 +11,52 @@
 namespace slammot::graphs {
 
 struct PoseGraphConfig {
-  double loop_loss_scale = 3.0;   ///< Sigmas beyond which a loop constraint does not count (truncated least squares); 0: all count.
+  double loop_loss_scale = 3.0;   ///< Sigmas beyond which a loop constraint is ignored (truncated least squares); 0: none is ignored.
   int max_iterations = 50;        ///< Of one linearized solve.
-  double most_work = 60e3;        ///< Constraints times iterations of one call of optimise(); at least four iterations are done.
+  double most_work = 60e3;        ///< Constraints times iterations of one optimise(); at least four iterations are done.
 };
 
 struct OptimisationSummary {
-  double initial_cost = 0.0;     ///< Half the sum of squared (loops: robustified) normalised errors.
+  double initial_cost = 0.0;     ///< Half the sum of squared normalized errors; those of loops are robustified.
   double final_cost = 0.0;
   int iterations = 0;
   bool has_converged = false;
 };
 
-/// Submaps as nodes, relative poses between them as constraints (Wang 2004, section 6.1; Grisetti et al. 2010).
-/// The first node added stays where it is. Single-threaded: the same calls give the same bits.
+/// Pose graph: submaps as nodes, relative poses as constraints (Wang 2004, section 6.1; Grisetti et al. 2010). The
+/// first node is fixed. Single-threaded: the same calls give bitwise the same result.
 class PoseGraph {
  public:
   explicit PoseGraph(const PoseGraphConfig& config);
 
-  /// Adds a node at its first guess. Precondition: the id is new.
+  /// Adds a node at an initial pose. Precondition: the id is new.
   void add_node(flow::SubmapId id, const geometry::Pose2& map_from_node);
 
-  /// Puts a node elsewhere, as where one that was tied to nothing is found. Precondition: it is known.
+  /// Moves a node, for example when an untied one is located. Precondition: the node exists.
   void move_node(flow::SubmapId id, const geometry::Pose2& map_from_node);
 
-  /// Adds what was measured between two nodes. Preconditions: both are known, the covariance is positive definite.
+  /// Adds a measured relative pose. Preconditions: both nodes exist, the covariance is positive definite.
   void add_constraint(const flow::Constraint& constraint);
 
-  /// Moves the nodes to the nearest minimum of the cost, and weighs all loop constraints anew, those without weight as well:
-  /// truncated least squares by graduated non-convexity (Yang et al., RA-L 2020, Eqs. (12)-(14)). Where all agree it is plain
-  /// least squares. A solution that costs more than the one before under the truncated cost is not taken.
+  /// Optimizes the poses to the nearest minimum and recomputes the weights of all loop constraints, including those
+  /// with weight 0: truncated least squares by graduated non-convexity (Yang et al., RA-L 2020, Eqs. (12)-(14)).
+  /// Without outliers it equals least squares. A solution with a higher truncated cost than the previous one is
+  /// rejected.
   OptimisationSummary optimise();
 
-  /// Sum of the squared errors, those of odometric constraints with their sigmas scaled, those of loops truncated; of the enabled ones.
+  /// Sum of squared errors of the enabled constraints: odometric ones with scaled sigmas, loops truncated.
   double truncated_cost(double odometric_sigma_scale = 1.0) const;
 
-  /// Within [0, 1]: how much a constraint counts since the last optimise(); by its place in constraints(). Odometric ones: 1.
+  /// Weight in [0, 1] of a constraint after the last optimise(), by index in constraints(). Odometric ones: 1.
   double weight(std::size_t constraint) const { return weights_[constraint]; }
 
-  /// A constraint that is not enabled has weight 0 until it is.
+  /// A disabled constraint has weight 0.
   void set_enabled(std::size_t constraint, bool is_enabled);
 
   bool contains(flow::SubmapId id) const { return index_of_.contains(id); }
   const geometry::Pose2& map_from_node(flow::SubmapId id) const;
 
-  /// All nodes, ascending ids.
+  /// All nodes, by ascending id.
   std::vector<flow::CorrectedSubmap> nodes() const;
   const std::vector<flow::Constraint>& constraints() const { return constraints_; }
 
@@ -71,8 +72,8 @@ class PoseGraph {
   std::vector<bool> is_enabled_;     // as constraints_
 };
 
-/// Squared Mahalanobis distance between what a constraint measured and what poses say; chi-square with 3 degrees of
-/// freedom where the constraint's covariance is all there is.
+/// Squared Mahalanobis distance between a constraint's measurement and the poses. Chi-square with 3 degrees of freedom
+/// if the poses have no error of their own.
 double squared_error(const flow::Constraint& constraint, const geometry::Pose2& map_from_from,
                      const geometry::Pose2& map_from_to);
 

@@ -10,11 +10,11 @@ namespace slammot::grids {
 
 constexpr std::int32_t kCellsPerWord = 64;
 
-/// One bit a cell, with what of each row is in use.
+/// Bit mask of a window's cells, with the range of used words of each row.
 struct BitRows {
   std::int32_t words_per_row = 0;
   std::vector<std::uint64_t> words;
-  std::vector<std::int32_t> first_word;   ///< By row; first > last where the row is empty.
+  std::vector<std::int32_t> first_word;   ///< Per row; first > last if the row is empty.
   std::vector<std::int32_t> last_word;
 
   BitRows() = default;
@@ -32,7 +32,7 @@ struct BitRows {
     first_word[at] = std::min(first_word[at], word);
     last_word[at] = std::max(last_word[at], word);
   }
-  /// Calls take(row, word, bits) for each word of which any bit is set, and clears them.
+  /// Calls take(row, word, bits) for each word with a set bit, and clears all bits.
   template <typename Take>
   void take_all(const Take& take) {
     for (std::size_t at = 0; at < first_word.size(); ++at) {

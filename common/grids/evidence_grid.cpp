@@ -16,8 +16,8 @@ namespace slammot::grids {
 namespace {
 
 constexpr double kCellsBeforeEcho = 1.5;
-constexpr double kCellsBetweenBeams = 3.0;  ///< What is wider than a quarter of that is hit often enough to stay in the map.
-constexpr double kMostSlope = 10.0;         ///< Echoes whose ranges differ by more times their distance are of two things.
+constexpr double kCellsBetweenBeams = 3.0;  ///< Objects wider than a quarter of it are hit often enough to stay in the map.
+constexpr double kMostSlope = 10.0;         ///< A larger ratio of range difference to distance separates two surfaces.
 constexpr std::uint64_t kInRow = 0xff;      ///< Bits of a block's first row.
 
 bool is_mapped(Echo echo) { return echo == Echo::kStationary || echo == Echo::kMoving; }
@@ -25,7 +25,7 @@ bool is_mapped(Echo echo) { return echo == Echo::kStationary || echo == Echo::kM
 using TwoPlaces [[gnu::vector_size(16)]] = double;
 using TwoCells [[gnu::vector_size(8)]] = std::int32_t;
 
-/// For each of two places the first cell of so many whose centre lies there or beyond.
+/// For each of two coordinates, the first cell whose centre is at or beyond it.
 TwoCells first_centres(TwoPlaces places, std::int32_t count) {
   const TwoPlaces end = TwoPlaces{} + static_cast<double>(count);
   const TwoPlaces from_first = places - 0.5;
@@ -35,13 +35,13 @@ TwoCells first_centres(TwoPlaces places, std::int32_t count) {
   return below - __builtin_convertvector(__builtin_convertvector(below, TwoPlaces) < at, TwoCells);  // rounded up: true is -1
 }
 
-/// Place in cells of the window.
+/// Coordinates in cells of the window.
 Eigen::Vector2d in_cells(const Eigen::Vector2d& at_m, const GridWindow& window) {
   return at_m / window.cell_size_m - Eigen::Vector2d(window.first.column, window.first.row);
 }
 
-/// Flips, in each row whose middle the edge crosses, the first cell whose centre lies right of it: from there to the next
-/// flip the row is inside the outline. In cells of the window.
+/// Flips, in each row whose centre the edge crosses, the first cell whose centre is right of the edge. Between two
+/// flips a row is inside the outline. Coordinates in cells of the window.
 void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const GridWindow& window, BitRows& outline) {
   const auto [low, high] = from.y() < to.y() ? std::pair(from, to) : std::pair(to, from);
   const TwoCells rows = first_centres(TwoPlaces{low.y(), high.y()}, window.rows);
@@ -49,7 +49,7 @@ void add_edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Grid
   const std::int32_t end_row = rows[1];
   if (first_row >= end_row) return;
   const double slope = (high.x() - low.x()) / (high.y() - low.y());
-  const std::int32_t column_count = window.columns;  // which flips might change, for all a compiler knows
+  const std::int32_t column_count = window.columns;  // a local copy: the compiler cannot know that flips leave it unchanged
   TwoPlaces middles{first_row + 0.5, first_row + 1.5};
   for (std::int32_t row = first_row; row < end_row; row += 2, middles += 2.0) {
     const TwoCells columns = first_centres(low.x() + slope * (middles - low.y()), column_count);
@@ -65,7 +65,7 @@ void fill(BitRows& outline) {
     for (std::int32_t word = outline.first_word[row]; word <= outline.last_word[row]; ++word) {
       std::uint64_t inside = words[word];
       if (inside != 0) {
-        for (const int shift : {1, 2, 4, 8, 16, 32}) inside ^= inside << shift;  // parity of the flips up to each bit
+        for (const int shift : {1, 2, 4, 8, 16, 32}) inside ^= inside << shift;  // prefix parity of the flips
       }
       inside ^= carry;
       carry = inside >> 63 ? ~std::uint64_t{0} : 0;
@@ -74,7 +74,7 @@ void fill(BitRows& outline) {
   }
 }
 
-/// How far a ray that starts inside goes before it leaves the window; 0 when it starts outside.
+/// Length of a ray from inside the window to its border; 0 if it starts outside.
 double distance_to_border(const GridWindow& window, const Eigen::Vector2d& start_m, const Eigen::Vector2d& direction) {
   if (!window.contains(window.cell_at(start_m.x(), start_m.y()))) return 0.0;
   const auto along = [&](double start, double step, std::int32_t first, std::int32_t count) {
@@ -82,20 +82,20 @@ double distance_to_border(const GridWindow& window, const Eigen::Vector2d& start
     const double border = (first + (step > 0.0 ? count : 0)) * window.cell_size_m;
     return (border - start) / step;
   };
-  // A little short of it: the walk must not step outside by rounding.
+  // Slightly shorter, so that rounding cannot move the walk out of the window.
   return std::min(along(start_m.x(), direction.x(), window.first.column, window.columns),
                   along(start_m.y(), direction.y(), window.first.row, window.rows)) - 1e-6;
 }
 
 }  // namespace
 
-/// A ray in cells of the window, each coordinate by itself.
+/// A ray in cells of the window, one coordinate.
 struct EvidenceGrid::RayInCells {
   struct Axis {
     double start;
     double direction;
-    double per_cell;     ///< Signed: way along the ray for one cell up; infinite where it never gets there.
-    std::int32_t step;   ///< Of cells, where the ray goes.
+    double per_cell;     ///< Signed: distance along the ray per cell; infinite if parallel to the border.
+    std::int32_t step;   ///< Sign of the ray's direction, in cells.
 
     Axis(double start_at, double towards)
         : start(start_at),
@@ -103,14 +103,14 @@ struct EvidenceGrid::RayInCells {
           per_cell(towards != 0.0 ? 1.0 / towards : std::numeric_limits<double>::infinity()),
           step(towards > 0.0 ? 1 : -1) {}
 
-    /// Way along the ray to where it crosses the border; infinite where it never does.
+    /// Distance along the ray to the border; infinite if the ray never crosses it.
     double way_to(std::int32_t border) const {
       return direction != 0.0 ? (border - start) * per_cell : std::numeric_limits<double>::infinity();
     }
   };
 
   RayInCells(const Eigen::Vector2d& start, const Eigen::Vector2d& direction) : x(start.x(), direction.x()), y(start.y(), direction.y()) {}
-  /// The same ray where cells are counted from elsewhere.
+  /// The same ray with another origin of the cells.
   RayInCells(const Eigen::Vector2d& start, const RayInCells& same) : x(same.x), y(same.y) {
     x.start = start.x();
     y.start = start.y();
@@ -140,7 +140,7 @@ EvidenceGrid::EvidenceGrid(const GridWindow& window, const EvidenceModel& model,
       surely_free_(window.columns, window.rows),
       echoed_(window.columns, window.rows) {}
 
-/// Of the cell that is so far from the window's first.
+/// Index of the cell at this offset from the window's first cell.
 void EvidenceGrid::note_occupied(std::int32_t column, std::int32_t row) {
   const std::size_t index = static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(column);
   std::uint64_t& block = occupied_bits_[static_cast<std::size_t>(row >> kBlockShift) * static_cast<std::size_t>(block_columns_) +
@@ -170,7 +170,7 @@ void EvidenceGrid::measure_free_ways(const Eigen::Vector2d& origin_m, const std:
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Eigen::Vector2d way_m = rays[i].end_m - origin_m;
     const double length_m = way_m.norm();
-    // An echo's own cell, and the one that a shallow beam crosses just before it, are not free.
+    // The echo's own cell is not free, nor is the cell that a beam at grazing incidence crosses just before it.
     const double free_m = rays[i].echo == Echo::kNone ? length_m : length_m - kCellsBeforeEcho * window_.cell_size_m;
     ways_[i] = {length_m > 0.0 ? Eigen::Vector2d(way_m / length_m) : Eigen::Vector2d(1.0, 0.0), std::max(0.0, free_m), 0.0, 0.0, 0.0, Eigen::Vector2d::Zero()};
   }
@@ -216,7 +216,8 @@ void EvidenceGrid::outline_free_space(const Eigen::Vector2d& origin_m, std::size
   }
 }
 
-/// As far as the echoes of the beams beside it let each beam be taken for what lies half way to them: however far apart they are.
+/// Outlines the sectors half way to the neighbouring beams, as far as the echoes of the neighbours allow, whatever
+/// the spacing of the beams.
 void EvidenceGrid::outline_surely_free(const Eigen::Vector2d& origin_m, std::size_t first_way, std::size_t end_way) {
   const auto at = [&](const Eigen::Vector2d& direction, double distance_m) { return in_cells(origin_m + distance_m * direction, window_); };
   if (first_way == end_way) return;
@@ -243,7 +244,7 @@ void EvidenceGrid::walk_free_way(const Eigen::Vector2d& origin_m, const Eigen::V
   }
 }
 
-/// Where the echoes came from, of those inside the window.
+/// Marks the cells of echoes inside the window.
 void EvidenceGrid::find_echoes(const std::vector<Ray>& rays) {
   echoes_.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -271,7 +272,7 @@ void EvidenceGrid::lower(std::int32_t row, std::int32_t word, std::uint64_t free
   unnote_freed(row, word, to_lower);
 }
 
-/// What of the word's free cells in the row was occupied and no longer is.
+/// Clears the occupied bits of the word's cells that are no longer occupied.
 void EvidenceGrid::unnote_freed(std::int32_t row, std::int32_t word, std::uint64_t free_cells) {
   const std::int32_t block_row = row >> kBlockShift;
   const int row_shift = (row & kInBlock) << kBlockShift;
@@ -321,7 +322,7 @@ void EvidenceGrid::begin_finding_free_cells(const Eigen::Vector2d& origin_m, con
   if (window_.contains(window_.cell_at(origin_m.x(), origin_m.y()))) measure_free_ways(origin_m, rays, beam_step_rad);
 }
 
-/// False when all are found.
+/// Returns false once all are found.
 bool EvidenceGrid::find_more_free_cells(const Eigen::Vector2d& origin_m) {
   constexpr std::size_t kWaysAtOnce = 48;
   const std::size_t end_way = std::min(outlined_ways_ + kWaysAtOnce, ways_.size());
@@ -403,7 +404,7 @@ void EvidenceGrid::free_occupied_in_block(const Box& box, std::int32_t block_col
 }
 
 int EvidenceGrid::highest_so_steps(Cell cell, int radius) const {
-  if (!window_.contains(cell)) return 0;  // never seen outside; what is farther than any cell has no neighbours, either
+  if (!window_.contains(cell)) return 0;  // Cells outside are unknown; far cells have no neighbours in the window, either.
   const GridWindow square{window_.cell_size_m, {cell.column - radius, cell.row - radius}, 2 * radius + 1, 2 * radius + 1};
   const bool is_inside = window_.contains(square.first) && window_.contains({cell.column + radius, cell.row + radius});
   const GridWindow inside = is_inside ? square : intersection(window_, square);
@@ -421,7 +422,7 @@ void EvidenceGrid::BlockLanes::set(std::int32_t lane, std::int32_t block, bool i
   word = is_occupied ? word | bit : word & ~bit;
 }
 
-/// Whether any block of the range is occupied, as far as one word tells.
+/// True if any block of the range, within one word, is occupied.
 bool EvidenceGrid::BlockLanes::may_have_any(std::int32_t lane, std::int32_t low, std::int32_t high) const {
   if ((low ^ high) >> 6 != 0) return true;
   const std::uint64_t from_low = words[static_cast<std::size_t>(lane * words_per_lane + (low >> 6))] >> (low & 63);
@@ -450,15 +451,15 @@ bool EvidenceGrid::BlockLanes::any(std::int32_t lane, std::int32_t first, std::i
   return false;
 }
 
-/// Goes from lane to lane of blocks, of which it takes the rows or the columns, whichever the ray crosses less often, and
-/// looks in each for the occupied blocks between where it enters and where it leaves: of thirty blocks on its way it comes
-/// to two. Where that is, is added up in whole numbers: what it is off by is far less than what is looked at besides, and a
-/// block too many costs time and changes nothing. See cast_a_scan of the benchmark; most of a scan's polar map view.
+/// Traverses lanes of blocks: rows or columns, whichever the ray crosses less often. In each lane it tests the occupied
+/// blocks between the ray's entry and exit: two blocks on average of thirty on the ray. Entry and exit are accumulated
+/// in fixed point; the search range is wider than the rounding error. An extra block costs time but cannot change the
+/// result. See cast_a_scan of the benchmark; this is most of a scan's polar map view.
 double EvidenceGrid::distance_to_occupied(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction,
                                           double max_range_m) const {
   constexpr double kPerBlock = 1.0 / (1 << kBlockShift);
   constexpr int kFractionBits = 32;
-  constexpr std::int64_t kBesides = 1 << 13;  // of a block; of what rounding is off by, some hundred times the most
+  constexpr std::int64_t kBesides = 1 << 13;  // of a block, in fixed point: a few hundred times the largest rounding error
   const RayInCells ray(origin_m / window_.cell_size_m - Eigen::Vector2d(window_.first.column, window_.first.row), direction);
   const double max_range = max_range_m / window_.cell_size_m;
   const bool is_along_rows = std::abs(direction.x()) >= std::abs(direction.y());
@@ -496,7 +497,7 @@ double EvidenceGrid::distance_to_occupied(const Eigen::Vector2d& origin_m, const
   return max_range_m;
 }
 
-/// Way to the first occupied cell of the block, in cells; infinite where the ray meets none. Walks from cell to cell:
+/// Distance along the ray to the block's first occupied cell, in cells; infinite if there is none. Cell traversal of
 /// Amanatides and Woo 1987.
 double EvidenceGrid::ray_to_occupied_in_block(const RayInCells& ray, std::int32_t block_column, std::int32_t block_row) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -512,7 +513,7 @@ double EvidenceGrid::ray_to_occupied_in_block(const RayInCells& ray, std::int32_
   if (enters_y < kNever) at = std::max(at, enters_y);
   if (at > std::min(leaves_x, leaves_y)) return kNever;
   const std::uint64_t bits = occupied_bits_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) + static_cast<std::size_t>(block_column)];
-  // In cells of the block. Clamped: rounding must not put the entry beside it.
+  // In cells of the block. Clamped against rounding at the entry.
   const RayInCells inside({ray.x.start - (block_column << kBlockShift), ray.y.start - (block_row << kBlockShift)}, ray);
   const auto entry = [&](const RayInCells::Axis& axis) { return static_cast<std::int32_t>(std::clamp(axis.start + at * axis.direction, 0.0, kBlock - 1.0)); };
   std::int32_t column = entry(inside.x);
@@ -559,7 +560,7 @@ void EvidenceGrid::set_cells(std::vector<std::int8_t> so, std::vector<std::uint8
   note_all_occupied();
 }
 
-/// Where no cell is noted yet. Most cells are free or unseen: whole runs of them are passed at once.
+/// Precondition: no cell is noted as occupied yet. Most cells are free or unseen, so that whole runs are skipped.
 void EvidenceGrid::note_all_occupied() {
   constexpr std::size_t kRun = 64;
   for (std::size_t run = 0; run < so_.size(); run += kRun) {

@@ -13,28 +13,28 @@
 namespace slammot::grids {
 
 struct EvidenceModel {
-  double hit_log_odds = 0.85;       ///< Added where a stationary echo ended; Wang 2004, Eq. (3.12).
-  double free_log_odds = 0.30;      ///< Taken off where a beam passed, once a scan and cell.
-  double limit_log_odds = 5.0;      ///< No cell is surer than this, so that the world may change.
-  double occupied_log_odds = 0.5;   ///< From here on a cell counts as occupied.
-  double moving_gain = 0.25;        ///< Share of the missing evidence that one moving echo adds to the MO-map.
+  double hit_log_odds = 0.85;       ///< Added at a stationary echo; Wang 2004, Eq. (3.12).
+  double free_log_odds = 0.30;      ///< Subtracted where a beam passed, once a scan and cell.
+  double limit_log_odds = 5.0;      ///< Limit of the absolute log-odds, so that the map can change.
+  double occupied_log_odds = 0.5;   ///< A cell is occupied from this value on.
+  double moving_gain = 0.25;        ///< Share of the remaining evidence (up to 1) that one moving echo adds to the MO-map.
 };
 
 enum class Echo : std::uint8_t {
-  kNone,        ///< The beam tells about free space only.
+  kNone,        ///< No echo to map: the beam only frees cells.
   kStationary,
   kMoving,
-  kTooFar,      ///< To be mapped: the beam tells about the free space before it.
+  kTooFar,      ///< Beyond the mapped range: the beam only frees the cells before the echo.
 };
 
 /// One beam to integrate, in the grid's frame.
 struct Ray {
-  Eigen::Vector2d end_m = Eigen::Vector2d::Zero();  ///< Where the echo came from, or where the free part is cut off.
+  Eigen::Vector2d end_m = Eigen::Vector2d::Zero();  ///< Position of the echo, or end of the free part.
   Echo echo = Echo::kNone;
 };
 
-/// The stationary-object map (SO-map) and the moving-object map (MO-map) of one window, side by side; Wang 2004, 6.3. Beside them
-/// what is to be kept of the SO-map: LastingEvidence.
+/// Stationary-object map (SO-map) and moving-object map (MO-map) of one window; Wang 2004, 6.3. It also holds the
+/// lasting evidence of the SO-map: LastingEvidence.
 class EvidenceGrid {
  public:
   EvidenceGrid() = default;
@@ -42,60 +42,60 @@ class EvidenceGrid {
 
   const GridWindow& window() const { return window_; }
 
-  /// Adds one scan, rays in the order of the beams, beam_step_rad apart. Each cell changes at most once a scan, and an echo
-  /// wins over a beam that passed. Where beams are not much farther apart than cells, a beam stands for what lies half way
-  /// to its neighbours, as far as the shorter one goes where both meet one surface; with a step of 0 each beam tells of its
-  /// own cells only.
+  /// Integrates one scan; rays in the order of the beams, beam_step_rad apart. Each cell changes at most once a scan,
+  /// and an echo takes precedence over a passing beam. Where beams are not much farther apart than cells, a beam
+  /// represents the sector half way to its neighbours. On one surface the sector reaches as far as the shorter beam.
+  /// With beam_step_rad = 0 a beam represents only the cells that it crosses.
   void integrate(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
 
-  /// The larger half of integrate(), ahead of it: finds what the scan sees through, for which it need not be known which echoes
-  /// are of what moves. integrate() of the same scan completes it; of another it begins anew, so that the cells are the same as
-  /// without. See integrate_a_scan and complete_a_prepared_scan of the benchmark.
+  /// Computes a scan's free cells, the larger half of integrate(), before it is known which echoes are moving.
+  /// integrate() of the same scan completes it; integrate() of another scan starts again. The result is the same as
+  /// without prepare(). See integrate_a_scan and complete_a_prepared_scan of the benchmark.
   void prepare(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
 
-  /// prepare() in small steps, for who has other things to do between them: go_on_preparing() until it returns false.
+  /// prepare() in small steps, for a thread with other tasks: call go_on_preparing() until it returns false.
   void begin_preparing(const Eigen::Vector2d& origin_m, const std::vector<Ray>& rays, double beam_step_rad);
   bool go_on_preparing();
 
-  /// Adds one stationary echo without its beam: a point given back by tracking. The lasting evidence has those already that were
+  /// Adds a restored stationary point without its beam. The lasting evidence already has the points that were
   /// integrated as stationary.
   void restore_stationary(const Eigen::Vector2d& point_m, Echo integrated_as = Echo::kMoving);
 
-  /// Takes as much from each occupied cell whose centre the box covers as a beam that passes does: something is there that does
-  /// not stand still. The lasting evidence remembers it: LastingEvidence::drive_over.
+  /// Subtracts a passing beam's log-odds from each occupied cell whose centre the box covers, because a moving object
+  /// is there. Also calls LastingEvidence::drive_over.
   void drive_over(const Box& body);
 
-  /// In steps of kLogOddsStep, positive = occupied, 0 = never seen or outside.
+  /// In steps of kLogOddsStep, positive = occupied, 0 = unseen or outside.
   int so_steps(Cell cell) const { return window_.contains(cell) ? so_[window_.index(cell)] : 0; }
 
-  /// In [0, 255]: how often something moved here.
+  /// In [0, 255]: share of sightings in motion.
   std::uint8_t moving(Cell cell) const { return window_.contains(cell) ? mo_[window_.index(cell)] : std::uint8_t{0}; }
 
-  /// Highest SO evidence within radius cells (a square) of the cell, in steps.
+  /// Highest SO evidence within a square of +-radius cells, in steps.
   int highest_so_steps(Cell cell, int radius) const;
 
-  /// Whether any cell within radius cells (a square) of the cell is occupied.
+  /// True if any cell within a square of +-radius cells is occupied.
   bool is_occupied_near(Cell cell, int radius) const { return so_steps(cell) >= occupied_steps_ || highest_so_steps(cell, radius) >= occupied_steps_; }
 
-  /// Distance along direction (unit vector) to the first occupied cell, or max_range_m.
+  /// Distance along direction (unit vector) to the first occupied cell; max_range_m if none.
   double distance_to_occupied(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double max_range_m) const;
 
-  /// Same evidence in another window of the same lattice: what lies in both is kept.
+  /// The grid in another window of the same lattice; cells in both windows are kept.
   EvidenceGrid moved_to(const GridWindow& window) const;
 
-  /// Cells of the window, row-major. set_cells needs as many as the window has.
+  /// Cells of the window, row-major. set_cells needs exactly as many as the window has.
   const std::vector<std::int8_t>& so_cells() const { return so_; }
   const std::vector<std::uint8_t>& mo_cells() const { return mo_; }
   const std::vector<std::int8_t>& lasting_cells() const { return lasting_.cells(); }
   void set_cells(std::vector<std::int8_t> so, std::vector<std::uint8_t> mo, std::vector<std::int8_t> lasting);
 
  private:
-  /// Blocks of 8 x 8 cells with a bit for each occupied one: casting a ray looks for blocks that have any, and at their bits.
+  /// Bitmap of occupied cells in blocks of 8 x 8: ray casting searches for non-empty blocks and tests their bits.
   static constexpr int kBlockShift = 3;
   static constexpr std::int32_t kInBlock = (1 << kBlockShift) - 1;
 
-  /// One bit a block of which any cell is occupied, row by row or column by column: a lane. Along a ray's lanes empty blocks
-  /// are passed many at a time.
+  /// One bit for each non-empty block, by row or by column (a lane). Ray casting skips many empty blocks of a lane at
+  /// once.
   struct BlockLanes {
     std::int32_t words_per_lane = 0;
     std::vector<std::uint64_t> words;
@@ -105,13 +105,13 @@ class EvidenceGrid {
         : words_per_lane((blocks >> 6) + 1), words(static_cast<std::size_t>(lanes) * static_cast<std::size_t>(words_per_lane), 0) {}
     void set(std::int32_t lane, std::int32_t block, bool is_occupied);
 
-    /// Blocks 8 * place and on of the lane, one bit each.
+    /// Bits of the blocks from 8 * place on in the lane.
     std::uint64_t eight(std::int32_t lane, std::int32_t place) const {
       return words[static_cast<std::size_t>(lane) * static_cast<std::size_t>(words_per_lane) + static_cast<std::size_t>(place >> 3)] >> (8 * (place & 7)) & 0xff;
     }
 
-    /// Visits the occupied blocks of a lane from the first to the last, up or down, until visit(block) is true, and tells
-    /// whether it ever was.
+    /// Visits the occupied blocks of a lane from first to last, in either direction, until visit(block) returns true.
+    /// Returns true if any call did.
     template <typename Visit>
     bool any(std::int32_t lane, std::int32_t first, std::int32_t last, Visit visit) const;
     bool may_have_any(std::int32_t lane, std::int32_t low, std::int32_t high) const;
@@ -155,31 +155,31 @@ class EvidenceGrid {
   std::vector<std::int8_t> so_;
   std::vector<std::uint8_t> mo_;
   LastingEvidence lasting_;
-  std::vector<std::uint64_t> occupied_bits_;   ///< By block.
+  std::vector<std::uint64_t> occupied_bits_;   ///< Indexed by block.
   BlockLanes rows_of_blocks_;
   BlockLanes columns_of_blocks_;
-  BitRows lowest_;                             ///< Cells of the SO-map that are known to be as low as beams can make them: nearly all that a scan sees through.
-  // Of the scan at hand; kept to reuse the memory.
-  BitRows free_;                               ///< Cells that it passes. All clear between scans, but for one that is prepared.
-  BitRows surely_free_;                        ///< Those that the beams beside pass, too; the same.
-  BitRows echoed_;                             ///< Cells that an echo came from. All clear between scans.
+  BitRows lowest_;                             ///< SO-map cells at the lower limit: most of the cells that a scan passes.
+  // Working memory of one scan.
+  BitRows free_;                               ///< Cells that the scan passes. Clear between scans unless a scan is prepared.
+  BitRows surely_free_;                        ///< Cells that the neighbouring beams pass, too; cleared in the same way.
+  BitRows echoed_;                             ///< Cells with an echo. Clear between scans.
   struct FreeWay {
     Eigen::Vector2d direction = Eigen::Vector2d::Zero();
     double length_m = 0.0;
-    double to_next_m = 0.0;                    ///< Free from this beam half way to the next,
-    double to_previous_m = 0.0;                ///< and half way to the one before.
-    double surely_m = 0.0;                     ///< So far the beams beside it pass, too.
-    Eigen::Vector2d half_way = Eigen::Vector2d::Zero();  ///< Direction in the middle between this beam and the next.
+    double to_next_m = 0.0;                    ///< Free length between this beam and half way to the next;
+    double to_previous_m = 0.0;                ///< the same to the previous one.
+    double surely_m = 0.0;                     ///< Length that the neighbouring beams pass, too.
+    Eigen::Vector2d half_way = Eigen::Vector2d::Zero();  ///< Direction half way between this beam and the next.
   };
-  std::vector<FreeWay> ways_;                  ///< By ray.
-  std::size_t outlined_ways_ = 0;              ///< The first so many of them have their edges in free_.
+  std::vector<FreeWay> ways_;                  ///< Indexed by ray.
+  std::size_t outlined_ways_ = 0;              ///< Number of leading rays whose outlines are already in free_.
   struct EchoedCell {
-    std::int32_t column = 0;                   ///< In the window.
+    std::int32_t column = 0;                   ///< Column in the window.
     std::int32_t row = 0;
     std::size_t ray = 0;
   };
   std::vector<EchoedCell> echoes_;
-  // What free_ and echoes_ were prepared for, if they were.
+  // Input for which free_ and echoes_ were prepared, if any.
   bool is_prepared_ = false;
   bool is_being_prepared_ = false;
   Eigen::Vector2d prepared_origin_m_ = Eigen::Vector2d::Zero();

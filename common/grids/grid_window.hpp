@@ -8,22 +8,23 @@
 
 namespace slammot::grids {
 
-/// Cell of the endless lattice laid over a frame: (column, row) covers [column, column + 1) * cell size of x, and so of y.
+/// Cell of an unbounded lattice over a frame: (column, row) covers [column, column + 1) * cell size of x, and likewise
+/// of y.
 struct Cell {
   std::int32_t column = 0;
   std::int32_t row = 0;
   bool operator==(const Cell&) const = default;
 };
 
-/// The place rounded down. Not every x86-64 has an instruction for std::floor, which is a call then: of all that looks up a
-/// cell.
+/// Coordinate rounded down. On x86-64 without the rounding instruction std::floor is a function call, which would be
+/// slow in each cell look-up.
 inline std::int32_t whole_below(double place) {
   const auto towards_zero = static_cast<std::int32_t>(place);
   return towards_zero - (static_cast<double>(towards_zero) > place && towards_zero > std::numeric_limits<std::int32_t>::min());
 }
 
-/// Rectangle of that lattice which a grid holds, row-major from the lowest row. Two windows with the same cell size
-/// share the lattice, so copying from one to the other never resamples.
+/// Rectangle of the lattice that a grid covers, row-major from the lowest row. Windows with the same cell size share
+/// the lattice, so that copies need no resampling.
 struct GridWindow {
   double cell_size_m = 0.2;
   Cell first;                 ///< Lowest column and row.
@@ -39,12 +40,12 @@ struct GridWindow {
   }
 
   bool contains(Cell cell) const {
-    // Unsigned throughout: cells from anywhere must not overflow.
+    // Unsigned arithmetic: differences of far cells must not overflow.
     return static_cast<std::uint32_t>(cell.column) - static_cast<std::uint32_t>(first.column) < static_cast<std::uint32_t>(columns) &&
            static_cast<std::uint32_t>(cell.row) - static_cast<std::uint32_t>(first.row) < static_cast<std::uint32_t>(rows);
   }
 
-  /// Place in the array; the cell must be inside.
+  /// Index in the array; the cell must be inside.
   std::size_t index(Cell cell) const {
     return static_cast<std::size_t>(cell.row - first.row) * static_cast<std::size_t>(columns) +
            static_cast<std::size_t>(cell.column - first.column);
@@ -58,7 +59,7 @@ struct GridWindow {
 /// Square window of side_m around a point.
 GridWindow window_around(const Eigen::Vector2d& centre_m, double side_m, double cell_size_m);
 
-/// What two windows of one lattice share; no columns or rows when nothing.
+/// Intersection of two windows of one lattice; no columns or rows if empty.
 GridWindow intersection(const GridWindow& a, const GridWindow& b);
 
 }  // namespace slammot::grids

@@ -8,7 +8,7 @@
 namespace slammot::grids {
 namespace {
 
-constexpr double kWellInside_m = 0.4;  ///< Of the sides of a body: so far off they may be.
+constexpr double kWellInside_m = 0.4;  ///< Margin inside a body, for errors of its sides.
 
 }  // namespace
 

@@ -12,14 +12,14 @@
 namespace slammot::grids {
 
 struct LastingModel {
-  double hit_log_odds = 0.4;        ///< Added where a stationary echo ended.
-  double free_log_odds = 0.4;       ///< Taken off where a beam and those beside it passed, once a scan and cell.
-  double limit_log_odds = 5.0;      ///< No cell is surer than this, but for one that was driven over.
+  double hit_log_odds = 0.4;        ///< Added at a stationary echo.
+  double free_log_odds = 0.4;       ///< Subtracted where a beam and its neighbours passed, once a scan and cell.
+  double limit_log_odds = 5.0;      ///< Limit of the absolute log-odds, except in cells that were driven over.
 };
 
-/// What is to be kept of a place. The SO-map has to know at once what is new, so that an echo outweighs the beams that pass: those
-/// pass beside walls, too, where cells are coarse. Here a beam counts as much as an echo, and only as far as those beside it go,
-/// so that what stands loses next to nothing by it. See docs/decisions/maps-and-submaps.md.
+/// Occupancy that is stored in submaps. The SO-map must react fast, so that there an echo outweighs passing beams. With
+/// coarse cells beams also pass beside walls. Here a beam counts as much as an echo, but only as far as its neighbours
+/// reach, so that stationary objects lose almost no evidence. See docs/decisions/maps-and-submaps.md.
 class LastingEvidence {
  public:
   LastingEvidence() = default;
@@ -27,22 +27,22 @@ class LastingEvidence {
 
   const LastingModel& model() const { return model_; }
 
-  /// An echo came from this cell of the window. Nothing raises what was driven over.
+  /// Adds an echo in this cell of the window. A driven-over cell does not change.
   void hit(Cell cell);
 
-  /// A scan surely sees through these cells. Clears them.
+  /// Lowers cells that a scan passes with certainty, and clears the mask.
   void pass(BitRows& surely_free);
 
-  /// A body is here that surely moves: what is occupied loses as much as by a beam that passes, and what lies well inside beyond the
-  /// limit, too. After so many scans of it that a byte holds no more the cell is driven over for good.
+  /// Lowers cells under a body that certainly moves. Occupied cells lose as much as by a passing beam; cells well
+  /// inside fall below the limit, too. A cell at the lowest value of a byte is driven over and stays free.
   void drive_over(const Box& body);
 
   static bool is_driven_over(std::int8_t steps) { return steps == kDrivenOver; }
 
-  /// Row-major. set_cells needs as many as the window has.
+  /// Row-major. set_cells needs exactly as many as the window has.
   const std::vector<std::int8_t>& cells() const { return cells_; }
   void set_cells(std::vector<std::int8_t> cells);
-  /// Into cells that are as they were made.
+  /// Precondition: the cells are in their initial state.
   void copy_from(const LastingEvidence& other, std::size_t from, std::int32_t count, std::size_t to);
 
  private:
@@ -54,7 +54,7 @@ class LastingEvidence {
   int limit_steps_ = 0;
   GridWindow window_;
   std::vector<std::int8_t> cells_;
-  BitRows lowest_;   ///< Cells that are known to be as low as beams can make them: nearly all that a scan sees through.
+  BitRows lowest_;   ///< Cells at the lower limit: most of the cells that a scan passes.
 };
 
 }  // namespace slammot::grids

@@ -4,7 +4,7 @@
 
 namespace slammot::grids {
 
-/// Log-odds in steps of 1/16: what one byte a cell can hold, and finer than any sensor model is known.
+/// Log-odds in steps of 1/16: fits one byte a cell, and is finer than the accuracy of any sensor model.
 constexpr double kLogOddsStep = 1.0 / 16.0;
 
 /// Nearest whole number of steps.

@@ -8,7 +8,7 @@
 
 namespace slammot::grids {
 
-/// For each pattern of eight bits a byte of ones or zeros a bit.
+/// Table: for each 8-bit pattern, a mask with one byte (0 or 0xff) per bit.
 inline constexpr auto kMaskOfBits = [] {
   std::array<std::uint64_t, 256> masks{};
   for (std::size_t bits = 0; bits < masks.size(); ++bits) {
@@ -19,14 +19,16 @@ inline constexpr auto kMaskOfBits = [] {
   return masks;
 }();
 
-/// The same backwards: a bit for each byte of ones, by a product of which the uppermost byte has one from each.
+/// The inverse: one bit for each 0xff byte, gathered into the top byte by a multiplication.
 constexpr std::uint64_t bits_of_mask(std::uint64_t mask) { return ((mask & 0x0101010101010101) * 0x0102040810204080) >> 56; }
 
-/// Lowers those of up to 64 cells whose bit is set by so many steps, none below the lowest unless it is already: by masks,
-/// whichever they are, however short the runs. Cells are taken for unsigned, 128 higher: every x86-64 knows the larger of two unsigned bytes.
-/// Returns a bit for each of these that cannot be lowered any more, and perhaps for others of which that holds.
+/// Lowers the selected ones of up to 64 cells by this many steps, not below the lowest value unless a cell is already
+/// below it. It uses masks, so that the time does not depend on the pattern. Cells are shifted by 128 to unsigned,
+/// because every x86-64 has a maximum of unsigned bytes. Returns a bit for each selected cell that is at its lowest
+/// value, and possibly for further such cells.
 inline std::uint64_t lower_cells(std::int8_t* cells, std::int32_t count, std::uint64_t bits, int steps_down, int lowest_steps) {
-  // Sixteen cells in one register, of GCC and Clang on every processor: what they make of a loop over bytes is either, by luck.
+  // Sixteen cells in one register, on every processor with GCC and Clang; auto-vectorization of a loop over bytes is
+  // unreliable.
   using Bytes [[gnu::vector_size(16)]] = std::uint8_t;
   using TwoMasks [[gnu::vector_size(16)]] = std::uint64_t;
   constexpr std::int32_t kCellsPerRegister = 16;

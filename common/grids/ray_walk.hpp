@@ -9,7 +9,7 @@
 
 namespace slammot::grids {
 
-/// Walks the lattice from cell to neighbouring cell along a ray; Amanatides and Woo 1987.
+/// Cell traversal along a ray; Amanatides and Woo 1987.
 class RayWalk {
  public:
   /// direction has unit length.
@@ -17,7 +17,7 @@ class RayWalk {
       : columns_(origin_m.x(), direction.x(), cell_size_m), rows_(origin_m.y(), direction.y(), cell_size_m) {}
 
   Cell cell() const { return {columns_.cell, rows_.cell}; }
-  double distance_m() const { return distance_m_; }  ///< At which the ray entered the cell.
+  double distance_m() const { return distance_m_; }  ///< Distance at which the ray entered the cell.
 
   void advance() {
     Axis& nearer = columns_.next_border_m < rows_.next_border_m ? columns_ : rows_;

@@ -73,7 +73,7 @@ void SurfelMap::add_to_moments(std::size_t place, const Eigen::Vector2d& point_m
 }
 
 void SurfelMap::add_all(std::span<const Eigen::Vector2d> points_m, double odometer_m) {
-  std::optional<std::size_t> changed;   // of which the moments are not all yet
+  std::optional<std::size_t> changed;   // cell with pending moments
   const auto conclude = [&] {
     if (!changed) return;
     note_mean(*changed);
@@ -102,7 +102,8 @@ void SurfelMap::erase(Cell cell) {
 void SurfelMap::note_mean(std::size_t place) {
   const CellMoments& moments = moments_[place];
   const bool is_anywhere = moments.weight > 0.0F;
-  // The square root: the direction of a surface is a matter of where it was seen, less of how often.
+  // The square root reduces the weight of frequently seen cells: position matters more to a surface's direction than
+  // counts do.
   const double share = is_anywhere ? 1.0 / std::sqrt(static_cast<double>(moments.weight)) : 0.0;
   const auto shared = [&](float sum) { return share * static_cast<double>(sum); };
   shares_[place + 1] << shared(moments.weight), shared(moments.x), shared(moments.y), shared(moments.xx), shared(moments.xy), shared(moments.yy);
@@ -111,8 +112,8 @@ void SurfelMap::note_mean(std::size_t place) {
   means_m_[place + 1] = is_anywhere ? Eigen::Vector2d(mean(centre_m.x(), moments.x), mean(centre_m.y(), moments.y)) : kNowhere;
 }
 
-/// About the cell's centre, of the cell and its eight neighbours. What a neighbour's moments are about this centre is linear in
-/// them, so that they are added up first, by column and by row, and moved here together.
+/// Moments of the cell and its eight neighbours about the cell's centre. The shift of a neighbour's moments is linear
+/// in them, so that they are summed by column and row first and shifted together.
 SurfelMap::Moments SurfelMap::moments_around(Cell cell) const {
   const bool is_inside = has_all_around(cell);
   const auto share_at = [&](std::int32_t column, std::int32_t row) -> const Moments& {
@@ -159,8 +160,8 @@ void SurfelMap::renew_shape(std::size_t place) const {
   shape = {0.0F, 0.0F, static_cast<float>(small)};
   is_stale_[place + 1] = false;
   const double least_extent_m = 0.25 * size_m;
-  if (large < least_extent_m * least_extent_m || small > 0.25 * large) return;  // a dot or a blob: no direction
-  // Sine and cosine of half the angle whose tangent is 2 cxy / (cxx - cyy): the direction of the larger axis.
+  if (large < least_extent_m * least_extent_m || small > 0.25 * large) return;  // a point or an isotropic cluster: no direction
+  // Sine and cosine of half the angle with tangent 2 cxy / (cxx - cyy): direction of the major axis.
   const double cosine_of_twice = root > 0.0 ? 0.5 * (cxx - cyy) / root : 1.0;
   shape.normal_x = static_cast<float>(-std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine_of_twice))), cxy));
   shape.normal_y = static_cast<float>(std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine_of_twice))));
@@ -180,7 +181,7 @@ SurfelView SurfelMap::view_of(std::int32_t slot) const {
 
 std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius) const {
   const Cell centre = window_.cell_at(point_m.x(), point_m.y());
-  const auto clamped = [](std::int64_t place, std::int32_t first, std::int32_t count) {  // wide: points may be anywhere
+  const auto clamped = [](std::int64_t place, std::int32_t first, std::int32_t count) {  // 64 bits: points may be anywhere
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(place - first, 0, count));
   };
   const std::int32_t first_column = clamped(std::int64_t{centre.column} - radius, window_.first.column, window_.columns);
@@ -194,7 +195,7 @@ std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius)
     for (std::int32_t column = first_column; column < end_column; ++column) {
       const std::int32_t slot = slots[column];
       const double distance_m2 = (mean_m(slot) - point_m).squaredNorm();
-      const bool is_nearer = distance_m2 < best_m2;  // without branches, which nothing foretells
+      const bool is_nearer = distance_m2 < best_m2;  // branch-free, since branches are unpredictable here
       best_m2 = is_nearer ? distance_m2 : best_m2;
       best_slot = is_nearer ? slot : best_slot;
     }

@@ -13,9 +13,9 @@ using geometry::Pose2;
 using geometry::Vector2;
 
 constexpr double kFull = SmearKernel::kFull;
-constexpr int kHighestLevel = 6;      // beyond 64 cells a maximum says next to nothing
+constexpr int kHighestLevel = 6;      // beyond 64 cells a maximum is too loose a bound
 
-/// Level whose blocks cover the window in few pieces, and no coarser than bounds are worth.
+/// Level whose blocks cover the window in few pieces and whose bounds are still useful.
 int top_level_for(std::int32_t half_width_cells) {
   int level = 0;
   while (level < kHighestLevel && (1 << (level + 1)) <= half_width_cells + 1) ++level;
@@ -26,7 +26,7 @@ std::int32_t cells_within(double half_width_m, double resolution_m) {
   return static_cast<std::int32_t>(std::ceil(half_width_m / resolution_m - 1e-9));
 }
 
-/// target(x, y) = max over {x, x + step} x {y, y + step} of source; what lies beyond the end counts as 0.
+/// target(x, y) = max over {x, x + step} x {y, y + step} of source; values beyond the end count as 0.
 void widen_maximum(const std::vector<std::uint8_t>& source, std::int32_t columns, std::int32_t rows, std::int32_t step,
                    std::vector<std::uint8_t>& target) {
   target.resize(source.size());
@@ -61,7 +61,7 @@ void CorrelativeMatcher::lay_out(const TargetRegion& region) {
   const double cell_m = config_.resolution_m;
   largest_shift_ = cells_within(region.largest_shift_m, cell_m);
   top_level_ = top_level_for(largest_shift_);
-  // A point may lie one shift outside the region and be shifted once more, and a block reaches one side further.
+  // A point may lie one shift outside the region and be shifted once more, and a block extends one side further.
   pad_ = 2 * largest_shift_ + (1 << top_level_);
   const std::int32_t half_columns = cells_within(region.half_width_m, cell_m);
   const std::int32_t half_rows = cells_within(region.half_height_m, cell_m);
@@ -83,7 +83,7 @@ void CorrelativeMatcher::stamp(std::span<const TargetPoint> points) {
     if (!smears_into_region) continue;
     const std::uint8_t* kernel = kernel_for(point_in_target_m, cell);
     const std::uint32_t weight_256 = static_cast<std::uint32_t>(std::lround(256.0F * std::clamp(point.weight, 0.0F, 1.0F)));
-    // Only the region itself is filled: the padding stays empty, which is what makes it safe to read anywhere.
+    // Only the region is filled. The padding stays zero, so that any shift can be read safely.
     const std::int32_t first_column = std::max(cell.column - kernel_half_, pad_);
     const std::int32_t last_column = std::min(cell.column + kernel_half_, columns_ - pad_ - 1);
     const std::int32_t first_row = std::max(cell.row - kernel_half_, pad_);
@@ -106,7 +106,7 @@ void CorrelativeMatcher::build_pyramid() {
 }
 
 CorrelativeMatcher::Cell CorrelativeMatcher::cell_of(const Vector2& point_in_target_m) const {
-  // Far outside is all the same; the clamp keeps the conversion defined.
+  // The clamp keeps the conversion to integers defined; cells far outside are equivalent.
   const auto index = [](double cells) { return static_cast<std::int32_t>(std::floor(std::clamp(cells, -1e8, 1e8))); };
   return {index((point_in_target_m.x() - min_x_m_) / config_.resolution_m),
           index((point_in_target_m.y() - min_y_m_) / config_.resolution_m)};
@@ -161,7 +161,7 @@ void CorrelativeMatcher::turn_points(std::span<const Eigen::Vector2f> points, co
     const Eigen::Matrix2d rotation = geometry::rotation(pose.heading_rad);
     for (const Eigen::Vector2f& point : points) {
       const Cell cell = cell_of(rotation * point.cast<double>() + pose.translation_m());
-      // A point this far out cannot be shifted into the region; it scores 0 wherever the window takes it.
+      // A point this far out cannot be shifted into the region and scores 0 in the whole window.
       const bool reachable = cell.column >= pad_ - shifts.columns && cell.column < columns_ - pad_ + shifts.columns &&
                              cell.row >= pad_ - shifts.rows && cell.row < rows_ - pad_ + shifts.rows;
       if (reachable) offsets_.push_back(cell.row * columns_ + cell.column);
@@ -181,7 +181,7 @@ void CorrelativeMatcher::collect_top_blocks(const Shifts& shifts) {
       }
     }
   }
-  // Stable, so that among equal bounds the order, and so the answer, is always the same.
+  // Stable sort: the order of equal bounds, and therefore the result, is deterministic.
   std::stable_sort(top_blocks_.begin(), top_blocks_.end(),
                    [](const Block& a, const Block& b) { return a.bound > b.bound; });
 }
@@ -288,8 +288,8 @@ double CorrelativeMatcher::score(std::span<const Eigen::Vector2f> points_in_sour
 
 Matrix3 CorrelativeMatcher::covariance_around(std::span<const Eigen::Vector2f> points, const Pose2& peak) const {
   constexpr std::int32_t kHalf = 3;           // 7 x 7 x 7 poses around the peak
-  constexpr double kRidge = 0.3;              // relative likelihood at the rim above which the surface is not yet seen
-  constexpr std::int32_t kLongestStride = 64; // then the direction counts as unobserved
+  constexpr double kRidge = 0.3;              // relative likelihood at the rim above which the search area is extended
+  constexpr std::int32_t kLongestStride = 64; // beyond it the direction counts as unobserved
   const double full_sum = kFull * static_cast<double>(points.size());
   std::array<std::vector<Cell>, 2 * kHalf + 1> turned;
   for (std::int32_t turn = -kHalf; turn <= kHalf; ++turn) {
@@ -297,7 +297,7 @@ Matrix3 CorrelativeMatcher::covariance_around(std::span<const Eigen::Vector2f> p
         cells_of(points, {peak.x_m, peak.y_m, peak.heading_rad + turn * heading_step_rad_});
   }
   const double peak_sum = sum_at(turned[kHalf], 0, 0);
-  // For small errors the score falls as the log-likelihood of that many points with the kernel's sigma does.
+  // For small errors the score falls like the log-likelihood of that many independent points with the kernel's sigma.
   const auto likelihood = [&](std::int32_t column, std::int32_t row, std::int32_t turn) {
     const double sum = sum_at(turned[static_cast<std::size_t>(turn + kHalf)], column, row);
     return std::exp(std::min(0.0, config_.independent_points * (sum - peak_sum) / full_sum));

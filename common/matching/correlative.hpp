@@ -12,22 +12,22 @@
 
 namespace slammot::matching {
 
-/// A point of the map that scans are matched against.
+/// A target point that scans are matched against.
 struct TargetPoint {
   float x_m = 0.0F;
   float y_m = 0.0F;
-  float weight = 1.0F;  ///< In (0, 1]: what a point that falls exactly here scores.
+  float weight = 1.0F;  ///< In (0, 1]: score of a source point exactly here.
 };
 
-/// The part of the target frame that is turned into a grid.
+/// Part of the target frame that is rasterized.
 struct TargetRegion {
   geometry::Vector2 centre_m = geometry::Vector2::Zero();
   double half_width_m = 20.0;     ///< Along x.
   double half_height_m = 20.0;    ///< Along y.
-  double largest_shift_m = 0.5;   ///< Largest half width of the windows that will be searched.
+  double largest_shift_m = 0.5;   ///< Largest half width of later search windows.
 };
 
-/// How far around the initial pose to look, each way, in the target frame.
+/// Half widths of the search window around the initial pose, in the target frame.
 struct SearchWindow {
   double half_x_m = 0.5;
   double half_y_m = 0.5;
@@ -35,36 +35,36 @@ struct SearchWindow {
 };
 
 struct CorrelativeConfig {
-  double resolution_m = 0.1;          ///< Cell of the finest grid and step of the search.
-  double smear_sigma_m = 0.1;         ///< Of the Gaussian around every target point.
-  double heading_step_rad = 0.0;      ///< 0: the step that moves the far points by one cell.
-  double min_score = 0.3;             ///< Peaks below it are not looked for.
+  double resolution_m = 0.1;          ///< Cell of the finest grid, and search step.
+  double smear_sigma_m = 0.1;         ///< Sigma of the Gaussian around every target point.
+  double heading_step_rad = 0.0;      ///< 0: the step that moves the farthest points by one cell.
+  double min_score = 0.3;             ///< Peaks with lower scores are not searched.
   std::size_t max_peaks = 1;
-  double min_peak_ratio = 0.7;        ///< Further peaks score at least this share of the best one.
+  double min_peak_ratio = 0.7;        ///< Further peaks score at least this share of the best.
   double peak_separation_m = 0.5;     ///< Further peaks differ by more than this in x or y
   double peak_separation_rad = 0.1;   ///< or by more than this in heading.
-  double independent_points = 30.0;   ///< Points that err independently; scales the covariance. Neighbours share their error.
+  double independent_points = 30.0;   ///< Effective number of independent points; neighbours share their error. Scales the covariance.
 };
 
 struct Peak {
   geometry::UncertainPose2 target_from_source;
-  double score = 0.0;  ///< In [0, 1]: mean over the points of the likelihood where they fall.
+  double score = 0.0;  ///< In [0, 1]: mean likelihood of the points.
 };
 
-/// Exhaustive search of the pose at which points lie best on a map: exact on its grid, by branch and bound over a
-/// pyramid of sliding maxima (Olson, ICRA 2009; Hess et al., ICRA 2016, Algorithms 2 and 3). Sums are integers, so the
-/// answer does not depend on the order of evaluation. Keeps its buffers between calls; one thread an instance.
+/// Exhaustive correlative search for the pose, exact on its grid, by branch and bound over a pyramid of sliding maxima
+/// (Olson, ICRA 2009; Hess et al., ICRA 2016, Algorithms 2 and 3). Sums are integers, so that the result does not
+/// depend on the order of evaluation. Reuses its buffers; use one instance a thread.
 class CorrelativeMatcher {
  public:
   explicit CorrelativeMatcher(const CorrelativeConfig& config);
 
-  /// Takes the target; points outside the region only smear into it. Replaces the one before.
+  /// Sets the target and replaces the previous one. Points outside the region contribute only their smear.
   void set_target(std::span<const TargetPoint> points, const TargetRegion& region);
 
-  /// Best peaks within the window around the initial pose, best first; at most max_peaks, none below min_score.
-  /// The first is the maximum over the window, further ones are local maxima. The covariance comes from the score
-  /// surface around the peak (Olson 2009, Eqs. (14)-(17)) and reaches as far as a ridge does, also beyond the window.
-  /// Windows wider than the region's largest_shift_m are cut to it. Empty when there are no points.
+  /// Returns the best peaks in the window around the initial pose, best first; at most max_peaks, none below min_score.
+  /// The first is the maximum over the window; the others are local maxima. The covariance comes from the score surface
+  /// around the peak (Olson 2009, Eqs. (14)-(17)) and covers a whole ridge, also beyond the window. Windows wider than
+  /// the region's largest_shift_m are cut to it. Empty if there are no points.
   std::vector<Peak> search(std::span<const Eigen::Vector2f> points_in_source_m,
                            const geometry::Pose2& target_from_source, const SearchWindow& window);
 
@@ -76,13 +76,13 @@ class CorrelativeMatcher {
     std::int32_t column;
     std::int32_t row;
   };
-  /// The points turned by one heading, as offsets into a level of the pyramid.
+  /// Points rotated by one heading, as offsets into a level of the pyramid.
   struct TurnedPoints {
     double heading_offset_rad = 0.0;
-    std::uint32_t first = 0;  ///< Into offsets_.
-    std::uint32_t count = 0;  ///< Points that can reach the grid from somewhere in the window.
+    std::uint32_t first = 0;  ///< Index into offsets_.
+    std::uint32_t count = 0;  ///< Points that reach the grid from anywhere in the window.
   };
-  /// All shifts of [column, column + 2^level) x [row, row + 2^level) at one heading, in cells from the initial pose.
+  /// Block of shifts [column, column + 2^level) x [row, row + 2^level) at one heading, in cells from the initial pose.
   struct Block {
     std::uint32_t bound = 0;
     std::uint32_t heading = 0;
@@ -116,14 +116,14 @@ class CorrelativeMatcher {
   SmearKernel kernel_;
   std::int32_t kernel_half_ = 0;
 
-  double min_x_m_ = 0.0;  ///< Of cell (0, 0) of the padded grid.
+  double min_x_m_ = 0.0;  ///< Coordinate of cell (0, 0) of the padded grid.
   double min_y_m_ = 0.0;
   std::int32_t columns_ = 0;  ///< Padded by pad_ on each side, so that no shift in the window leaves the grid.
   std::int32_t rows_ = 0;
   std::int32_t pad_ = 0;
   std::int32_t largest_shift_ = 0;
   int top_level_ = 0;
-  std::vector<std::vector<std::uint8_t>> pyramid_;  ///< Level k: maximum over 2^k x 2^k cells from this one on.
+  std::vector<std::vector<std::uint8_t>> pyramid_;  ///< Level k: maximum over the 2^k x 2^k cells that begin at this one.
 
   geometry::Pose2 initial_;
   double heading_step_rad_ = 0.0;

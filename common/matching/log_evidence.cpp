@@ -13,8 +13,8 @@ using geometry::Pose2;
 using geometry::wrap_angle;
 using std::numbers::pi;
 
-constexpr double kConsistent = 0.75;        // length of a mean direction
-constexpr double kClearly = 0.35;           // by which one explanation is better than another
+constexpr double kConsistent = 0.75;        // least length of a mean direction vector
+constexpr double kClearly = 0.35;           // margin by which one explanation must beat another
 constexpr std::size_t kFewestPairs = 8;
 constexpr double kTurningRad = 0.045;
 constexpr double kStraightRad = 0.12;
@@ -30,7 +30,7 @@ double median_of(std::vector<double> values) {
 }
 
 std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const AssumedBeams& beams, double unit_m, std::size_t most) {
-  constexpr float kFarthestM = 30.0F;  // keeps the grid small
+  constexpr float kFarthestM = 30.0F;  // limits the size of the grid
   std::vector<Eigen::Vector2f> points;
   const std::size_t stride = std::max<std::size_t>(1, ranges.size() / most);
   for (std::size_t i = 0; i < ranges.size(); i += stride) {
@@ -42,9 +42,9 @@ std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const A
   return points;
 }
 
-/// A pair with what odometry and scans say of the motion between.
+/// A pair of scans with its motion by odometry and by scans.
 struct MatchedPair {
-  Pose2 by_odometry;   // of base, corrected so far
+  Pose2 by_odometry;   // of base, with the corrections so far
   Pose2 by_scans;      // of the laser
   double score = 0.0;
   std::size_t first_scan = 0;
@@ -55,7 +55,7 @@ Pose2 motion_by_odometry(const ScanPair& pair, const LogCorrection& correction) 
   return inverse(corrected(correction, pair.first_recorded)) * corrected(correction, pair.second_recorded);
 }
 
-/// Within a cell of the search: top of the parabola through the scores around the peak, along each axis.
+/// Sub-cell position of the peak: vertex of the parabola through the scores around it, along each axis.
 Pose2 refined(const CorrelativeMatcher& matcher, std::span<const Eigen::Vector2f> source, const Pose2& peak) {
   constexpr double kStepM = 0.1;
   constexpr double kStepRad = 0.01;
@@ -72,7 +72,7 @@ Pose2 refined(const CorrelativeMatcher& matcher, std::span<const Eigen::Vector2f
           heading_rad + kStepRad * top({x_m, y_m, heading_rad - kStepRad}, {x_m, y_m, heading_rad + kStepRad})};
 }
 
-/// Wide enough for any turn up to 1.5 rad, whatever its sign, and for the way, whatever its direction.
+/// Search window for any turn up to 1.5 rad of either sign, and for the way in any direction.
 std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pair, const AssumedBeams& beams, const LogCorrection& correction) {
   constexpr std::size_t kTargetPoints = 360;
   constexpr std::size_t kSourcePoints = 90;
@@ -135,7 +135,7 @@ double turn_scale(const std::vector<MatchedPair>& turning_pairs) {
   return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
 }
 
-/// Pairs of straight motion by scans: where the laser is on the vehicle does not matter then.
+/// Pairs with straight motion by scans: the laser's position on the vehicle does not affect them.
 std::vector<MatchedPair> straight(const std::vector<MatchedPair>& matched) {
   std::vector<MatchedPair> some;
   std::copy_if(matched.begin(), matched.end(), std::back_inserter(some), [](const MatchedPair& pair) {
@@ -161,7 +161,7 @@ std::complex<double> mounting(const std::vector<MatchedPair>& straight_pairs) {
   return straight_pairs.empty() ? 0.0 : sum / static_cast<double>(straight_pairs.size());
 }
 
-/// Scanners are mounted straight, backwards or at right angles, unless they clearly are not.
+/// Assumes a scanner mounted straight, backwards or at right angles, unless the evidence clearly differs.
 double at_right_angle(double turn_rad) {
   constexpr double kNearlyRad = 0.3;
   const double right_rad = std::round(turn_rad / (0.5 * pi)) * 0.5 * pi;
@@ -170,8 +170,8 @@ double at_right_angle(double turn_rad) {
 
 AssumedBeams with_field(const AssumedBeams& beams, double factor) { return {beams.first_beam_rad * factor, beams.beam_step_rad * factor, beams.laser_heading_rad}; }
 
-/// Turns by scans are too large by as much as the field of view that is assumed. A factor must be one that makes of the
-/// stated field one that scanners have, and make scans fit each other better.
+/// A wrong field of view scales the turns by scans. An accepted factor must give a field of view of existing scanners
+/// and must make scans fit each other better.
 double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams, const LogCorrection& correction, const std::vector<MatchedPair>& as_stated) {
   constexpr double kBetterScore = 0.02;
   const double scale = std::abs(turn_scale(turning(as_stated)));
@@ -192,16 +192,17 @@ double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams, 
   return best;
 }
 
-/// Which of odometry's headings, odometry's positions and beams is mirrored. Beams that go clockwise look like odometry that is
-/// mirrored as a whole. Within its steps sound odometry moves on the arcs of its turns, and odometry made of turns with the wrong
-/// sign moves against them: only the former makes beams the mirrored ones; where neither is seen, the record of beams is believed.
+/// Decides which is mirrored: odometry's headings, its positions, or the beams. Clockwise beams look like odometry that
+/// is mirrored as a whole. Correct odometry moves on the arcs of its turns; odometry integrated with the wrong turn
+/// sign moves against them. Only correct odometry implies mirrored beams. Without evidence of either, the recorded beam
+/// order is kept.
 void correct_signs(const OdometryCheck& odometry, double same_sign, double way_unit_m, LogEvidence& evidence) {
   LogCorrection& correction = evidence.correction;
   constexpr double kMostly = 0.8;
   const bool turns_agree = same_sign > kMostly;
   const bool turns_differ = same_sign < 1.0 - kMostly;
   if (odometry.positions_are_mirrored()) {
-    // direction + heading is constant: either positions or headings are mirrored, and turned by as much.
+    // direction + heading is constant: either positions or headings are mirrored, and rotated by that angle.
     correction.mirrors_position = turns_agree;
     correction.mirrors_heading = turns_differ;
     if (turns_agree) correction.position_turn_rad = odometry.mirrored_direction_rad();
@@ -215,7 +216,7 @@ void correct_signs(const OdometryCheck& odometry, double same_sign, double way_u
   evidence.handedness_is_told = correction.reverses_beams || correction.integrates_turns_anew;
 }
 
-/// Power of ten that makes the scale one; 1 where it is no such unit.
+/// Power of ten that makes the scale one; 1 if the scale is no power of ten.
 double unit_by_scale(double scale) {
   for (const double unit : {1e-3, 1e-2}) {
     if (scale > 0.6 * unit && scale < 1.7 * unit) return unit;
@@ -287,7 +288,7 @@ bool OdometryCheck::is_in_degrees() const {
 
 bool OdometryCheck::positions_are_mirrored() const {
   if (way_ <= 0.0) return false;
-  // Streets that cross at right angles leave both consistent, but one far less exactly.
+  // On streets that cross at right angles both are consistent, but one fits far less exactly.
   constexpr double kSpreadShare = 0.25;
   constexpr double kLeastSpread = 1e-3;
   const double mirrored = std::abs(unit().mirrored) / way_;
@@ -295,16 +296,18 @@ bool OdometryCheck::positions_are_mirrored() const {
   return mirrored > kConsistent && 1.0 - along > kLeastSpread && 1.0 - mirrored < kSpreadShare * (1.0 - along);
 }
 
-/// 0 where chords lie along the heading in their middle, as of arcs; -0.5 along the first heading; less where positions are
-/// later than headings, which happens, more where they are earlier. Of turns with the wrong sign a becomes -1 - a.
+/// Mean offset of chords against the arc. 0: chords lie along the heading in their middle, as on arcs. -0.5: chords lie
+/// along the first heading. Lower if positions are later than headings, higher if they are earlier. With the wrong turn
+/// sign, a becomes -1 - a.
 double OdometryCheck::arcs_per_turn() const { return unit().arc_turn > 0.0 ? unit().arc / unit().arc_turn : kEitherWay; }
 
-/// How far the point whose poses these are lies ahead of the axle about which the vehicle turns, if it is as far as on cars: a point c
-/// ahead moves sideways by c times the turn, into it. Of turns with the wrong sign it is -c, and no car is steered from behind its axle.
+/// Distance of the reference point ahead of the turning axle, if it is as large as on cars. A point c ahead moves
+/// sideways by c times the turn, into the turn. With the wrong turn sign it is -c, and no car steers from behind its
+/// axle.
 std::optional<double> OdometryCheck::ahead_of_axle_m(double unit_m) const {
   constexpr double kOfCars_m = 0.3;
   constexpr double kSigmas = 5.0;
-  constexpr double kLeastDistinct = 1e-6;  // at one speed nothing tells an offset from a delay
+  constexpr double kLeastDistinct = 1e-6;  // at one speed an offset cannot be told from a delay
   const Eigen::Matrix2d& turning = unit().turning;
   if (unit().steps < 3 || !(turning.determinant() > kLeastDistinct * turning(0, 0) * turning(1, 1))) return std::nullopt;
   const Eigen::Matrix2d covariance = turning.inverse();
@@ -351,7 +354,7 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
     correct_signs(odometry, evidence.turn_sign_share, unit_by_scale(way_scale(straight(matched))), evidence);
     correction.field_factor = field_factor(pairs, beams, correction, matched);
   }
-  // A second look where beams lie otherwise, or where a unit changes what is near enough to count.
+  // A second pass if the beam layout changed, or a unit and with it the points within range.
   std::vector<ScanPair> looked_at(pairs.begin(), pairs.end());
   if (correction.reverses_beams) std::for_each(looked_at.begin(), looked_at.end(), reverse);
   if (correction.reverses_beams || correction.field_factor != 1.0) matched = match_all(looked_at, with_field(beams, correction.field_factor), correction);

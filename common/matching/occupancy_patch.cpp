@@ -15,8 +15,8 @@ using geometry::Vector2;
 
 namespace {
 
-constexpr double kSigmas = 3.0;        // beyond them a measurement says nothing of a cell
-constexpr double kSurest = 0.9;        // no single echo says more of its cell than this
+constexpr double kSigmas = 3.0;        // farther cells are not affected by a measurement
+constexpr double kSurest = 0.9;        // upper limit of the evidence of a single echo
 
 Vector2 reach_m(const UncertainPoint& point, double cell_size_m) {
   return kSigmas * point.covariance_m2.diagonal().cwiseSqrt() + Vector2::Constant(cell_size_m);
@@ -45,7 +45,7 @@ OccupancyPatch::OccupancyPatch(std::span<const UncertainPoint> points, double ce
 
 void OccupancyPatch::add_log_odds(const UncertainPoint& point) {
   const double cell_m = window_.cell_size_m;
-  // The mean of a density over a cell, near enough: that of a Gaussian wider by the cell.
+  // Approximates the mean of the density over a cell by a Gaussian whose variance includes the cell's width.
   const Matrix2 covariance_m2 = point.covariance_m2 + cell_m * cell_m / 12.0 * Matrix2::Identity();
   const Matrix2 information = covariance_m2.inverse();
   const double highest = cell_m * cell_m / (2.0 * std::numbers::pi * std::sqrt(covariance_m2.determinant()));

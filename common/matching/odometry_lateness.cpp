@@ -11,18 +11,18 @@ namespace {
 using geometry::Pose2;
 
 constexpr double kFarthest_s = 1.0;
-constexpr int kSteps = 50;               // either way
+constexpr int kSteps = 50;               // in either direction
 constexpr double kStep_s = kFarthest_s / kSteps;
-constexpr double kLeast_s = 0.08;        // less is learned while the vehicle drives
+constexpr double kLeast_s = 0.08;        // a smaller lateness is estimated during the drive
 constexpr std::size_t kFewestPairs = 12;
 constexpr double kTurnSigma_rad = 0.012;
 constexpr double kTurnShare = 0.05;
 constexpr double kStraight_rad = 0.05;
 constexpr double kWaySigma_m = 0.05;
 constexpr double kWayShare = 0.06;
-constexpr double kMostSquaredError = 9.0;   // of a pair: some match wrongly
+constexpr double kMostSquaredError = 9.0;   // of one pair; limits the effect of wrong matches
 constexpr double kLeastError = 0.2;
-constexpr double kClearly = 12.0;           // usual squared errors: an F statistic of one parameter, with a dozen delays to choose from
+constexpr double kClearly = 12.0;           // in mean squared errors: an F statistic of one parameter, with a dozen candidate delays
 
 std::optional<Pose2> pose_at(std::span<const TimedPose> odometry, double time_s) {
   const auto after = std::ranges::lower_bound(odometry, time_s, {}, &TimedPose::time_s);
@@ -42,11 +42,11 @@ std::optional<Pose2> motion_at(const ScanPairMotion& pair, std::span<const Timed
 double squared_error(const ScanPairMotion& pair, const Pose2& by_odometry, double way_scale) {
   const double turn = geometry::wrap_angle(by_odometry.heading_rad - pair.turn_rad) / (kTurnSigma_rad + kTurnShare * std::abs(pair.turn_rad));
   const double way = (way_scale * by_odometry.translation_m().norm() - pair.way_m) / (kWaySigma_m + kWayShare * pair.way_m);
-  const bool is_straight = std::abs(pair.turn_rad) < kStraight_rad;  // else the laser goes another way than the base
+  const bool is_straight = std::abs(pair.turn_rad) < kStraight_rad;  // otherwise the laser's way differs from that of the base
   return std::min(turn * turn + (is_straight ? way * way : 0.0), kMostSquaredError);
 }
 
-/// Pairs of which odometry speaks at every delay.
+/// Pairs that odometry covers at every delay.
 std::vector<ScanPairMotion> covered(std::span<const ScanPairMotion> pairs, std::span<const TimedPose> odometry) {
   std::vector<ScanPairMotion> some;
   for (const ScanPairMotion& pair : pairs) {
@@ -69,7 +69,7 @@ double odometry_lateness_s(std::span<const ScanPairMotion> pairs, std::span<cons
   }
   const auto best = std::ranges::min_element(errors) - errors.begin();
   const auto at = [&](std::ptrdiff_t i) { return errors[static_cast<std::size_t>(i)]; };
-  const double usual_error = std::max(at(best) / static_cast<double>(compared.size()), kLeastError);  // where pairs fit worse, more is asked
+  const double usual_error = std::max(at(best) / static_cast<double>(compared.size()), kLeastError);  // a bad fit needs a larger improvement
   if (best == 0 || best == 2 * kSteps || at(kSteps) - at(best) < kClearly * usual_error) return 0.0;
   const double bend = at(best - 1) - 2.0 * at(best) + at(best + 1);
   const double within = bend > 0.0 ? std::clamp(0.5 * (at(best - 1) - at(best + 1)) / bend, -0.5, 0.5) : 0.0;

@@ -16,9 +16,9 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 
-constexpr double kGapOfBodies_m = 0.3;         ///< Neighbouring points farther apart than this, and more by the range, are of two bodies:
-constexpr double kGapOfBodies_perM = 0.03;     ///< three beams of half a degree.
-constexpr double kSamePairsWithin = 0.01;     ///< Of a surfel's cell: until the pose has moved so far the nearest surfels stay the nearest.
+constexpr double kGapOfBodies_m = 0.3;         ///< Gap between neighbouring points that separates two bodies; it grows with the range
+constexpr double kGapOfBodies_perM = 0.03;     ///< by this: three beams of half a degree.
+constexpr double kSamePairsWithin = 0.01;     ///< As a share of a surfel's cell: a pose change below it keeps the correspondences.
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
     if (places_[i] == grids::SurfelMap::kNoPlace) continue;
     const grids::SurfelMap::Surface surface = surfels.surface_at(places_[i]);
     const bool has_direction = !surface.normal.isZero();
-    // A surface without a direction is somewhere in its cell.
+    // Without a direction the surface may be anywhere in its cell.
     const double variance_m2 = has_direction ? point.sigma_m * point.sigma_m + surface.spread_m2
                                              : std::pow(point.sigma_m + 0.5 * surfels.window().cell_size_m, 2);
     const double share = surface.seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
@@ -72,7 +72,7 @@ PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& m
                                                                          const PointToLineConfig& config) const {
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
   NormalEquations equations;
-  double xx = 0.0, xy = 0.0, xh = 0.0, yy = 0.0, yh = 0.0, hh = 0.0, x = 0.0, y = 0.0, h = 0.0;  // of J'WJ and J'Wr
+  double xx = 0.0, xy = 0.0, xh = 0.0, yy = 0.0, yh = 0.0, hh = 0.0, x = 0.0, y = 0.0, h = 0.0;  // entries of J'WJ and J'Wr
   const auto robust_scale_m = [&](const geometry::Vector2& direction, double by_heading_m) {
     if (!expected) return config.robust_scale_m;
     const Eigen::Vector3d by_pose(direction.x(), direction.y(), by_heading_m);

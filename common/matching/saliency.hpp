@@ -8,8 +8,8 @@
 namespace slammot::matching {
 
 struct SaliencyConfig {
-  double position_sigma_m = 0.5;   ///< By how much the object is displaced before it is registered with itself,
-  double heading_sigma_rad = 0.1;  ///< and turned about its middle.
+  double position_sigma_m = 0.5;   ///< One sigma of the displacement before self-registration.
+  double heading_sigma_rad = 0.1;  ///< One sigma of the rotation about the object's middle.
   double surfel_size_m = 0.2;
   ScrimConfig scrim;
   PointToLineConfig match;

@@ -11,11 +11,11 @@
 namespace slammot::matching {
 namespace {
 
-constexpr std::int32_t kPad = 8;  // entries on each side from which a window still reaches the grid
+constexpr std::int32_t kPad = 8;  // entries on each side whose window still overlaps the grid
 
 int stride_shift(int level) { return std::max(level - ScorePyramid::kStrideFiner, 0); }
 
-/// By how many cells a point may move within the headings of a block of this level.
+/// Largest displacement of a point, in cells, over the headings of a block of this level.
 std::int32_t cells_by_heading(int level) { return ScorePyramid::headings_of(level) / 2; }
 
 }  // namespace
@@ -72,7 +72,7 @@ void ScorePyramid::stamp(std::span<const TargetPoint> points, double smear_sigma
   work_ += grid.values.size() / 8 + points.size() * static_cast<std::size_t>(side * side);
 }
 
-/// blocks: maxima over the stride, of which an entry's window takes all that any cell of the entry may need.
+/// blocks: maxima over the stride. An entry's window covers the cells of every pose in the entry.
 void ScorePyramid::append_level(const Level& blocks, int level) {
   const std::int32_t stride = 1 << stride_shift(level);
   const std::int32_t first = -((cells_by_heading(level) + stride - 1) / stride);

@@ -21,10 +21,10 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
-constexpr double kLeastEvidence = 0.05;     // cells of the scan with less do not take part
-constexpr double kSigmasAround = 3.0;       // of the prior: the part of the map that is looked at
+constexpr double kLeastEvidence = 0.05;     // cells of the scan with less evidence are ignored
+constexpr double kSigmasAround = 3.0;       // of the prior: extent of the map region in use
 
-/// Draws with mean zero and exactly this covariance, each followed by its opposite.
+/// Samples with zero mean and exactly this covariance, in antithetic pairs.
 std::vector<Eigen::Vector3d> paired_draws(int pairs, const Matrix3& covariance, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::vector<Eigen::Vector3d> draws;
@@ -51,13 +51,13 @@ std::vector<UncertainPoint> uncertain_points(const std::vector<MatchPoint>& poin
   return uncertain;
 }
 
-/// Surfels near the scan: as long as their cell along the surface, as thick as their echoes scatter.
+/// Gaussians of surfels near the scan: length is the cell, thickness is the spread of the echoes.
 std::vector<UncertainPoint> uncertain_points(const grids::SurfelMap& surfels, const Eigen::AlignedBox2d& near) {
   const double along_m2 = surfels.window().cell_size_m * surfels.window().cell_size_m / 12.0;
   std::vector<UncertainPoint> uncertain;
   for (const grids::SurfelView& surfel : surfels.all()) {
     if (!near.contains(surfel.mean_m)) continue;
-    const Matrix2 across = surfel.normal * surfel.normal.transpose();  // zero where it has no direction
+    const Matrix2 across = surfel.normal * surfel.normal.transpose();  // zero if the surfel has no direction
     uncertain.push_back({surfel.mean_m, along_m2 * (Matrix2::Identity() - across) + surfel.spread_m2 * across});
   }
   return uncertain;
@@ -111,7 +111,7 @@ class Scrim::Moments {
 double Scrim::correlation_at(const Pose2& map_from_base) const { return correlation(map_patch_, scan_cells_, map_from_base); }
 
 int Scrim::gather(double valley_share) {
-  // Grows the shortest tree that joins all samples, edge by edge (Prim 1957); an edge across a valley begins a new cluster.
+  // Minimum spanning tree over all samples (Prim 1957); an edge across a valley starts a new cluster.
   struct Reach {
     double length_m = std::numeric_limits<double>::infinity();
     std::size_t from = 0;

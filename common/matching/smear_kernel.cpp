@@ -6,8 +6,8 @@
 namespace slammot::matching {
 namespace {
 
-constexpr std::int32_t kPhases = 4;    // positions within a cell that are told apart, each way
-constexpr double kKernelSigmas = 3.0;  // exp(-4.5) = 0.011: below the grid's own steps of what matters
+constexpr std::int32_t kPhases = 4;    // tabulated subcell positions, in each axis
+constexpr double kKernelSigmas = 3.0;  // exp(-4.5) = 0.011: below the grid's useful resolution
 
 }  // namespace
 

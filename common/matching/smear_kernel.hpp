@@ -7,10 +7,10 @@
 
 namespace slammot::matching {
 
-/// Gaussian that a target point leaves on a grid of bytes, tabulated for a few positions of the point within its cell.
+/// Gaussian of a target point on a grid of bytes, tabulated for a few positions of the point within its cell.
 class SmearKernel {
  public:
-  static constexpr double kFull = 255.0;  ///< A cell in whose centre a point of weight 1 lies.
+  static constexpr double kFull = 255.0;  ///< Value of a cell with a point of weight 1 at its centre.
 
   SmearKernel(double cell_m, double sigma_m);
 

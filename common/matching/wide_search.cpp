@@ -15,11 +15,11 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr int kHighestLevel = 6;        // beyond 64 cells a bound says next to nothing
-constexpr std::uint64_t kTurnWork = 1;  // of one point, in cells read
-constexpr std::int32_t kMostCells = 1 << 20;  // either side of a grid's origin
+constexpr int kHighestLevel = 6;        // beyond 64 cells a bound is too loose
+constexpr std::uint64_t kTurnWork = 1;  // of rotating one point, in cells read
+constexpr std::int32_t kMostCells = 1 << 20;  // on either side of a grid's origin
 
-/// Floor without a call: truncation of what is not negative. See search_a_wide_window of the benchmark.
+/// Floor without a function call, by truncation of a non-negative number: search_a_wide_window of the benchmark.
 std::int32_t floored(double cells) { return static_cast<std::int32_t>(cells + kMostCells) - kMostCells; }
 
 std::int32_t steps_within(double half_width, double step) { return static_cast<std::int32_t>(std::ceil(half_width / step - 1e-9)); }
@@ -49,7 +49,7 @@ std::uint64_t WideSearch::add_target(WideSearchTarget target) {
             .half_rows = steps_within(target.window.half_y_m, cell_m_),
             .half_headings = steps_within(std::min(target.window.half_heading_rad, std::numbers::pi), heading_step_rad_)};
   int level = std::min(useful_level(target.window, cell_m_), target.pyramid->top_level());
-  // Blocks that reach far beyond the window of the heading are bounded by what is not in it.
+  // Limits the level: a block must not cover more headings than the window.
   while (level > 0 && ScorePyramid::headings_of(level) > 2 * grid.half_headings + 1) --level;
   grid.target = std::move(target);
   grid.looked_at.push_back(0);
@@ -89,7 +89,7 @@ std::uint64_t WideSearch::advance(std::uint64_t most_work) {
   return work_ - work_before;
 }
 
-/// Total, so that the order never depends on the heap: among equal bounds the finest block, then the first.
+/// Total order, independent of the heap: among equal bounds the finest block, then the first.
 bool WideSearch::is_after(const Block& a, const Block& b) {
   if (a.bound != b.bound) return a.bound < b.bound;
   return std::tie(a.level, a.target, a.heading, a.row, a.column) > std::tie(b.level, b.target, b.heading, b.row, b.column);
@@ -119,7 +119,7 @@ const CellPoints& WideSearch::turned(std::uint32_t target, double heading_steps)
   return turned_;
 }
 
-/// Its middle heading, in steps.
+/// Middle heading of the block, in steps.
 double WideSearch::middle_of(const Block& block) { return block.heading + 0.5 * (ScorePyramid::headings_of(block.level) - 1); }
 
 std::uint32_t WideSearch::bound_of(const Block& block) {
@@ -128,7 +128,7 @@ std::uint32_t WideSearch::bound_of(const Block& block) {
   return grids_[block.target].target.pyramid->sum(points, block.column, block.row, block.level);
 }
 
-/// Of the pose in the block that is nearest to the middle of the window.
+/// Cost of the prior at the block's pose nearest to the middle of the window.
 std::uint32_t WideSearch::least_cost_of(const Block& block) const {
   if (config_.border_cost == 0.0) return 0;
   const Grid& grid = grids_[block.target];
@@ -189,7 +189,7 @@ void WideSearch::take_leaf(const Block& leaf) {
   least_bound_ = std::max(least_bound_, config_.min_peak_ratio * leaf.bound);
 }
 
-/// Blocks all of whose poses are near a peak hold nothing new.
+/// A block with all poses near a known peak is skipped.
 bool WideSearch::may_hold_a_new_peak(const Block& block) const {
   const Grid& grid = grids_[block.target];
   const double half_side = 0.5 * ((1 << block.level) - 1);

@@ -8,19 +8,19 @@
 
 namespace slammot::memory {
 
-/// First in, first out. What is taken out stays in memory, and its place is handed out again: allocates when it holds more
-/// than it ever did, and whatever the elements themselves allocate, which they do once if they are written over and not made anew.
+/// FIFO queue that recycles its elements. Removed elements stay in memory and are reused. It allocates only beyond its
+/// largest size so far, and where elements allocate themselves; write over an element to keep its memory.
 template <typename T>
 class RecyclingQueue {
  public:
   RecyclingQueue() = default;
-  /// With room for so many, as if it had held them.
+  /// Reserves this capacity, with constructed elements.
   explicit RecyclingQueue(std::size_t places) : places_(places) {}
 
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
 
-  /// 0: the one that has been in it for longest.
+  /// 0 is the oldest element.
   T& operator[](std::size_t i) { return places_[place_of(i)]; }
   const T& operator[](std::size_t i) const { return places_[place_of(i)]; }
   T& front() { return (*this)[0]; }
@@ -28,7 +28,8 @@ class RecyclingQueue {
   T& back() { return (*this)[size_ - 1]; }
   const T& back() const { return (*this)[size_ - 1]; }
 
-  /// The new last element, which holds what was in its place: all of it is the caller's to write. References to others do not last.
+  /// Appends a recycled element with its old content, which the caller must overwrite. Invalidates references to other
+  /// elements.
   T& push_back() {
     if (size_ == places_.size()) make_room();
     ++size_;
@@ -48,7 +49,7 @@ class RecyclingQueue {
 
   void clear() { size_ = 0; }
 
-  /// In order, oldest first.
+  /// All elements, oldest first.
   auto all() {
     return std::views::iota(std::size_t{0}, size_) | std::views::transform([this](std::size_t i) -> T& { return (*this)[i]; });
   }

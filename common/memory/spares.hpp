@@ -6,12 +6,12 @@
 
 namespace slammot::memory {
 
-/// Things that own memory and are not needed just now. A vector of which now more and now fewer elements are needed loses what
-/// those own each time that it is cut; one that is resized with spares does not.
+/// Pool of elements that own memory. Shrinking a vector frees its elements' memory; resizing it with spares keeps that
+/// memory.
 template <typename T>
 class Spares {
  public:
-  /// What comes back holds what it held when it was last needed: all of it is the caller's to write.
+  /// A reused element has its old content, which the caller must overwrite.
   void resize(std::vector<T>& things, std::size_t count) {
     while (things.size() > count) {
       give(std::move(things.back()));

@@ -7,7 +7,7 @@
 namespace slammot::metrics {
 namespace {
 
-constexpr int kMaxTerms = 100000;  // the square root of the degrees of freedom times a few is enough
+constexpr int kMaxTerms = 100000;  // a few times the square root of the degrees of freedom is enough
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 double common_factor(double shape, double x) { return std::exp(-x + shape * std::log(x) - std::lgamma(shape)); }

@@ -7,7 +7,7 @@
 namespace slammot::metrics {
 namespace {
 
-constexpr double kWorthOfContinuity = 1000.0;  // more than all similarities of a scan together
+constexpr double kWorthOfContinuity = 1000.0;  // exceeds the sum of all similarities of a scan
 constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
 
 struct ObjectHistory {
@@ -67,7 +67,7 @@ ClearMot clear_mot(const MotSequence& sequence, double least_similarity) {
     for (const std::size_t object : frame.objects) ++history[object].rows;
     result.matches.push_back(best_pairs(scores(frame, history, least_similarity)));
     const std::size_t matched = result.matches.back().size();
-    // trackeval lets a scan without objects or without tracks pass as if it had not been.
+    // trackeval skips scans without objects or without tracks.
     if (!frame.objects.empty() && !frame.tracks.empty()) note_matches(frame, result.matches.back(), history, result);
     result.true_positives += matched;
     result.false_positives += frame.tracks.size() - matched;

@@ -9,7 +9,7 @@
 namespace slammot::metrics {
 namespace {
 
-constexpr double kOnObjectM = 0.3;    // range noise, and the way that an object goes during the sweep
+constexpr double kOnObjectM = 0.3;    // range noise, and motion of the object during the sweep
 constexpr double kOffObjectM = 1.0;
 
 double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole); }
@@ -48,7 +48,8 @@ BeamTruth judge(const BeamHit& hit, const Scene& scene, const CountingRule& rule
   return {std::abs(object->speed_mps) < rule.least_speed_mps ? BeamKind::kStanding : BeamKind::kMoving, hit.object};
 }
 
-/// The truth says how many echoes an object sent: where more are near its box, the farthest ones may be of what it passes.
+/// The truth has the number of echoes of an object: of more echoes near its box, the farthest ones may be of the
+/// background.
 void doubt_surplus(const Scene& scene, std::map<std::size_t, std::vector<Candidate>> candidates, std::vector<BeamTruth>& truth) {
   for (const TrueObject& object : scene.objects) {
     std::vector<Candidate>& beams = candidates[object.object];

@@ -8,7 +8,7 @@ namespace slammot::metrics {
 
 Gospa gospa(const Eigen::MatrixXd& distance_m, double cutoff_m) {
   const double cutoff_m2 = cutoff_m * cutoff_m;
-  // A pair saves a missed object and a false track, together the cutoff's square.
+  // A pair saves the costs of a missed object and a false track, together the squared cutoff.
   const auto pairs = best_pairs((cutoff_m2 - distance_m.array().square()).matrix());
   Gospa result;
   for (const auto& [object, track] : pairs) {

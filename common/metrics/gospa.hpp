@@ -15,8 +15,8 @@ struct Gospa {
   double false_tracks_m2 = 0.0;
 };
 
-/// Distances in metres, row an object, column a track; what is farther than the cutoff is no pair. A missed object, and
-/// a false track, each cost half of the cutoff's square.
+/// Distances in metres, row an object, column a track; distances beyond the cutoff are no pairs. A missed object and a
+/// false track each cost half of the squared cutoff.
 Gospa gospa(const Eigen::MatrixXd& distance_m, double cutoff_m);
 
 }  // namespace slammot::metrics

@@ -19,7 +19,7 @@ struct Pair {
 struct Counts {
   Eigen::VectorXd rows_of_object;
   Eigen::VectorXd rows_of_track;
-  Eigen::MatrixXd likely_common;  // sum over the scans of how much of their similarities the two have of each other
+  Eigen::MatrixXd likely_common;  // over the scans, sum of the pair's share of all its similarities
 };
 
 Counts count(const MotSequence& sequence) {
@@ -42,7 +42,7 @@ Counts count(const MotSequence& sequence) {
   return counts;
 }
 
-/// One pairing for all thresholds: pairs that fit each other over the whole sequence go first.
+/// One assignment for all thresholds: it prefers pairs that match over the whole sequence.
 std::vector<Pair> pair_up(const MotSequence& sequence, const Counts& counts) {
   std::vector<Pair> pairs;
   for (const MotFrame& frame : sequence.frames) {
@@ -91,7 +91,7 @@ AtThreshold measure(const std::vector<Pair>& pairs, const Counts& counts, double
 }  // namespace
 
 Hota hota(const MotSequence& sequence) {
-  constexpr double kNothing = 1e-10;  // trackeval's: localization of no pairs at all is perfect
+  constexpr double kNothing = 1e-10;  // as in trackeval: without pairs the localization accuracy is 1
   const Counts counts = count(sequence);
   const std::vector<Pair> pairs = pair_up(sequence, counts);
   const double objects = counts.rows_of_object.sum();

@@ -3,7 +3,7 @@
 namespace slammot::metrics {
 namespace {
 
-/// How often the pair was similar enough; row an object, column a track.
+/// Number of scans in which the pair is similar enough; row an object, column a track.
 Eigen::MatrixXd common_rows(const MotSequence& sequence, double least_similarity) {
   Eigen::MatrixXd common = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(sequence.object_count), static_cast<Eigen::Index>(sequence.track_count));
   for (const MotFrame& frame : sequence.frames) {
@@ -22,7 +22,8 @@ double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.
 
 Identity identity(const MotSequence& sequence, double least_similarity) {
   const Eigen::MatrixXd common = common_rows(sequence, least_similarity);
-  // Fewest false rows and most common rows are the same pairing: every common row saves one false one on either side.
+  // The assignment with the fewest false rows is that with the most common rows: each common row saves one false row on
+  // either side.
   Identity result;
   for (const auto& [object, track] : best_pairs(common)) {
     result.true_positives += static_cast<std::size_t>(common(static_cast<Eigen::Index>(object), static_cast<Eigen::Index>(track)));

@@ -6,7 +6,8 @@
 
 namespace slammot::metrics {
 
-/// Identity metrics: Ristani et al. 2016. One track stands for one object all the time; rows outside are errors.
+/// Identity metrics: Ristani et al. 2016. One track represents one object over the whole sequence; other rows are
+/// errors.
 struct Identity {
   std::size_t true_positives = 0;
   std::size_t false_positives = 0;

@@ -22,7 +22,7 @@ struct OccupancyCells {
   std::vector<CellState> state;
 };
 
-/// A piece of what truly stood still, in the world's frame.
+/// A segment of a stationary surface, in the world's frame.
 struct WallSegment {
   geometry::Vector2 from_m = geometry::Vector2::Zero();
   geometry::Vector2 to_m = geometry::Vector2::Zero();
@@ -31,8 +31,8 @@ struct WallSegment {
 struct MapQuality {
   std::size_t occupied_cells = 0;
   std::size_t right_cells = 0;     ///< Occupied with a wall within the tolerance.
-  std::size_t residue_cells = 0;   ///< Occupied, no wall near, and an object in motion was there.
-  std::size_t wall_samples = 0;    ///< Of walls that were seen, one a cell's width.
+  std::size_t residue_cells = 0;   ///< Occupied, without a wall nearby, where a moving object was.
+  std::size_t wall_samples = 0;    ///< Of visible walls, one per cell width.
   std::size_t mapped_samples = 0;  ///< With an occupied cell within the tolerance.
 
   double precision() const;
@@ -40,17 +40,17 @@ struct MapQuality {
   double residue() const;          ///< Share of the occupied cells.
 };
 
-/// Everything in the world's frame.
+/// Ground truth in the world's frame.
 struct MapTruth {
   std::vector<WallSegment> walls;
-  std::vector<TrueObject> moving;                  ///< Every place in which an object was while it moved.
-  std::vector<geometry::Vector2> wall_echoes_m;    ///< Echoes of what stands still, cast from true poses; empty where unknown,
-  std::vector<geometry::Vector2> object_echoes_m;  ///< and of objects, moving or not; empty where unknown.
+  std::vector<TrueObject> moving;                  ///< Every pose of an object while it moved.
+  std::vector<geometry::Vector2> wall_echoes_m;    ///< Echoes of stationary surfaces, from true poses; empty if unknown.
+  std::vector<geometry::Vector2> object_echoes_m;  ///< Echoes of objects, moving or not; empty if unknown.
 };
 
-/// Compares occupied cells with the truth. A wall counts where it was seen: an echo is within half the tolerance or, where
-/// echoes are unknown, a known cell is within the tolerance. An object leaves residue only where it sent an echo from, to
-/// within the tolerance, where echoes are known: the ground that a pitching scanner hits is not its doing.
+/// Compares occupied cells with the truth. A wall counts if it was seen: an echo is within half the tolerance or, if
+/// echoes are unknown, a known cell is within the tolerance. If echoes are known, an object leaves residue only within
+/// the tolerance of its echoes: ground hit by a pitching scanner is excluded.
 MapQuality map_quality(const OccupancyCells& map, const geometry::Pose2& world_from_map, const MapTruth& truth, double tolerance_m);
 
 }  // namespace slammot::metrics

@@ -9,18 +9,17 @@
 
 namespace slammot::metrics {
 
-/// How sure an occupancy map is of its cells. Both maps of a comparison need the same scans and cells.
+/// Certainty of an occupancy map. Two maps to compare need the same scans and cells.
 struct MapSharpness {
-  std::size_t touched_cells = 0;      ///< That a beam passed or ended in.
-  std::size_t occupied_cells = 0;     ///< Of these, more beams ended in it than passed.
-  double entropy_bits = 0.0;          ///< Summed over the touched cells: what is still to be known of them.
+  std::size_t touched_cells = 0;      ///< Cells that a beam crossed or ended in.
+  std::size_t occupied_cells = 0;     ///< Of these, cells in which more beams ended than crossed.
+  double entropy_bits = 0.0;          ///< Sum of the entropies of the touched cells.
 
   double mean_entropy_bits() const { return touched_cells == 0 ? 0.0 : entropy_bits / static_cast<double>(touched_cells); }
 };
 
-/// An occupancy map by counting: of the beams that met a cell, how many ended there. A cell of h ends among n beams is
-/// occupied with probability (h + 1/2) / (n + 1), the posterior mean after Jeffreys' prior; a blurred wall has cells of
-/// which beams say both, and has more of them.
+/// Occupancy map by counting. A cell with h ends among n beams is occupied with probability (h + 1/2) / (n + 1), the
+/// posterior mean under Jeffreys' prior. A blurred wall has more cells, with contradicting beams.
 class EndCounts {
  public:
   /// Cells are squares of a lattice that has a corner at the origin.

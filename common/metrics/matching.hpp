@@ -31,8 +31,7 @@ struct Match {
   std::size_t track = 0;
 };
 
-/// Pairs rows with columns, each at most once, such that the sum of their scores is greatest; a pair of score zero or
-/// less is never made. Ascending rows.
+/// Assignment with the largest sum of scores; pairs with a score of zero or less are excluded. Rows are ascending.
 std::vector<Match> best_pairs(const Eigen::MatrixXd& score);
 
 }  // namespace slammot::metrics

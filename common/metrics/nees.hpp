@@ -9,8 +9,8 @@ namespace slammot::metrics {
 struct NeesSummary {
   std::size_t samples = 0;
   int degrees_of_freedom = 0;   ///< Of one sample.
-  double mean = 0.0;            ///< degrees_of_freedom where the covariances are honest, above where they promise too much.
-  double band_low = 0.0;        ///< The mean of so many independent samples lies in this band with the given probability.
+  double mean = 0.0;            ///< degrees_of_freedom for consistent covariances, higher for overconfident ones.
+  double band_low = 0.0;        ///< Lower limit of the chi-square band for the mean of this many independent samples.
   double band_high = 0.0;
 
   bool is_inside() const { return samples > 0 && mean >= band_low && mean <= band_high; }

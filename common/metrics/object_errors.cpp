@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // nearer rows of one object err alike
+constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // errors of closer rows of one object are correlated
 
 struct Lists {
   std::size_t rows = 0;

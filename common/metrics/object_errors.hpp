@@ -14,11 +14,11 @@ namespace slammot::metrics {
 
 /// Of the matched rows of some objects.
 struct ObjectErrors {
-  std::size_t rows = 0;          ///< Objects that counted, once a scan.
+  std::size_t rows = 0;          ///< Counted objects, once a scan.
   std::size_t matched_rows = 0;
   double recall = 0.0;
   double right_class = 0.0;      ///< Share of the matched rows.
-  std::map<std::string, std::size_t> reported_as;  ///< Matched rows by the class that was reported.
+  std::map<std::string, std::size_t> reported_as;  ///< Matched rows by reported class.
   ErrorSummary centre_m;         ///< Between the boxes' centres.
   ErrorSummary velocity_mps;     ///< Length of the difference.
   ErrorSummary heading_rad;
@@ -31,7 +31,7 @@ struct ObjectErrors {
 struct DistanceBand {
   double from_m = 0.0;
   double to_m = 0.0;
-  std::size_t false_rows = 0;    ///< Tracks there that matched nothing.
+  std::size_t false_rows = 0;    ///< Tracks in the band without a match.
   ObjectErrors errors;
 };
 
@@ -39,7 +39,7 @@ struct ObjectErrorTables {
   ObjectErrors all;
   std::map<std::string, ObjectErrors> by_class;
   std::vector<DistanceBand> by_distance;
-  ErrorSummary detection_delay_s;      ///< From the first row that counted to the first that matched, of what matched at all.
+  ErrorSummary detection_delay_s;      ///< From the first counted row to the first matched one, over matched objects.
   std::size_t never_detected = 0;
 };
 
@@ -48,7 +48,7 @@ struct ObjectErrorTables {
 ObjectErrorTables object_errors(const std::vector<Scene>& scenes, const std::vector<CountedScene>& counted, const ClearMot& matched,
                                 const std::vector<double>& band_starts_m, double range_m);
 
-/// Truth's words for classes and those of tracks ("truck_or_bus") that mean the same.
+/// Maps class names of the truth to those of tracks, such as "truck_or_bus".
 bool is_same_class(const std::string& true_class, const std::string& reported_class);
 
 }  // namespace slammot::metrics

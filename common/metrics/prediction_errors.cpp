@@ -16,7 +16,7 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // nearer predictions of one object err alike
+constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // errors of closer predictions of one object are correlated
 constexpr std::int64_t kLongestGapNs = 200'000'000;      // between two true places
 
 struct Place {

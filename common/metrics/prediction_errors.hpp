@@ -8,17 +8,17 @@
 
 namespace slammot::metrics {
 
-/// How far from where they were said to be objects were, so much later.
+/// Errors of predicted positions.
 struct PredictionErrors {
   double after_s = 0.0;
   ErrorSummary displacement_m;
   NeesSummary nees;           ///< Once a second and object.
-  double inside_share = 0.0;  ///< Of these samples, the share inside the ellipse that is to hold 95 %.
+  double inside_share = 0.0;  ///< Of these samples, the share inside the 95 % ellipse.
 };
 
-/// Of all matched tracks, by how far ahead their predictions are. Scenes ascend in time; scenes, what counts of each, and the
-/// matches of clear_mot are of the same length and order. Where an object is between two scenes is on the line between
-/// its places there; a prediction of a time without a true place does not count.
+/// Over all matched tracks, by prediction time. Scenes ascend in time; scenes, counted objects and matches of clear_mot
+/// have the same length and order. True positions are interpolated between scenes; predictions for times without truth
+/// are ignored.
 std::vector<PredictionErrors> prediction_errors(const std::vector<Scene>& scenes, const std::vector<CountedScene>& counted,
                                                 const std::vector<std::vector<Match>>& matches);
 

@@ -90,7 +90,7 @@ bool does_count(const TrueObject& object, const Scene& scene, const CountingRule
 std::vector<Scene> fill_gaps(std::vector<Scene> scenes, std::int64_t longest_gap_ns) {
   std::unordered_map<std::size_t, LastSeen> last_seen;
   for (std::size_t now = 0; now < scenes.size(); ++now) {
-    const std::vector<TrueObject> seen = scenes[now].objects;  // grows only in scenes before this one
+    const std::vector<TrueObject> seen = scenes[now].objects;  // later insertions affect only earlier scenes
     for (const TrueObject& object : seen) {
       const auto before = last_seen.find(object.object);
       if (before != last_seen.end()) {

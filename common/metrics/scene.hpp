@@ -12,7 +12,7 @@
 
 namespace slammot::metrics {
 
-/// An object as it truly was at the time of one scan.
+/// Ground truth of an object at the time of one scan.
 struct TrueObject {
   std::size_t object = 0;               ///< Index in the drive.
   std::string object_class;
@@ -20,17 +20,17 @@ struct TrueObject {
   double speed_mps = 0.0;               ///< Along its heading.
   double length_m = 0.0;
   double width_m = 0.0;
-  int points = 0;                       ///< Echoes of this scan from it; 0 while it is hidden.
+  int points = 0;                       ///< Number of its echoes in this scan; 0 if occluded.
 };
 
-/// Where a track was said to be so much later, in the frame of whoever holds it.
+/// Predicted position of a track, in the frame of its owner.
 struct PredictedPlace {
   double after_s = 0.0;
   geometry::Vector2 position_m = geometry::Vector2::Zero();
   geometry::Matrix2 covariance_m2 = geometry::Matrix2::Zero();
 };
 
-/// A track as it was reported for one scan, brought into the world's frame.
+/// A track as reported for one scan, transformed to the world's frame.
 struct ReportedTrack {
   std::size_t track = 0;                ///< Index in the drive.
   std::string object_class;
@@ -50,19 +50,19 @@ struct Scene {
   std::vector<ReportedTrack> tracks;
 };
 
-/// Which objects count, and what is near enough; docs/evaluation.md has the reasons.
+/// Which objects count, and matching thresholds; reasons are in docs/evaluation.md.
 struct CountingRule {
-  double range_m = 50.0;             ///< Objects farther from the vehicle do not count,
-  double first_bearing_rad = -std::numbers::pi;  ///< nor those outside of these directions from the vehicle, against its axis,
-  double last_bearing_rad = std::numbers::pi;    ///< which may be all that the truth knows of,
+  double range_m = 50.0;             ///< Objects beyond this distance from the vehicle do not count,
+  double first_bearing_rad = -std::numbers::pi;  ///< nor those outside these bearings from the vehicle's axis,
+  double last_bearing_rad = std::numbers::pi;    ///< to which the truth may be limited,
   double least_speed_mps = 0.5;      ///< nor do slower ones,
   int least_points = 3;              ///< nor those with fewer echoes.
-  double dont_care_margin_m = 1.0;   ///< A track this near to the box of such an object counts neither way.
+  double dont_care_margin_m = 1.0;   ///< A track this near to the box of an uncounted object is don't care.
   double gate_m = 2.0;               ///< From a track's position to the true box: farther is no match.
   double similarity_reach_m = 4.0;   ///< Similarity is max(0, 1 - distance / this).
 };
 
-/// The part of a scene that counts.
+/// The counted part of a scene.
 struct CountedScene {
   MotFrame frame;
   std::vector<std::size_t> objects;  ///< Index in Scene::objects of each row,
@@ -73,16 +73,16 @@ struct CountedScene {
 /// From the point to the object's box; 0 inside. [m]
 double distance_to_box_m(const geometry::Vector2& point_in_world_m, const TrueObject& object);
 
-/// Whether the tracker is asked for the object in this scene.
+/// True if the object counts in this scene.
 bool does_count(const TrueObject& object, const Scene& scene, const CountingRule& rule);
 
-/// Adds hidden objects: between two rows of an object at most longest_gap_ns apart it is where the line between them
-/// says, with no points. A track that is carried through an occlusion is then near something. Scenes ascend in time.
+/// Adds occluded objects: in gaps of at most longest_gap_ns an object is interpolated, with no points, so that a track
+/// through an occlusion has a match. Scenes ascend in time.
 std::vector<Scene> fill_gaps(std::vector<Scene> scenes, std::int64_t longest_gap_ns);
 
-/// All objects, those that do not count too, are first paired with tracks by similarity. Then a track is left out when
-/// its partner does not count; or when it has none and is within the margin of an object that does not count, or out
-/// of range or of the bearings that count.
+/// Pairs all objects, including uncounted ones, with tracks by similarity. A track is ignored if its partner does not
+/// count. A track without partner is ignored within the margin of an uncounted object, or outside the counted range or
+/// bearings.
 CountedScene count_scene(const Scene& scene, const CountingRule& rule);
 
 }  // namespace slammot::metrics

@@ -5,7 +5,7 @@
 
 namespace slammot::metrics {
 
-/// What one number cannot say about a list of errors; all zero where there were none.
+/// Statistics of a list of errors; all zero for an empty list.
 struct ErrorSummary {
   std::size_t count = 0;
   double rmse = 0.0;

@@ -18,7 +18,7 @@ struct StampedPose {
 /// Ascending stamps.
 using Trajectory = std::vector<StampedPose>;
 
-/// The same moment in both trajectories.
+/// Poses of both trajectories at the same time.
 struct PosePair {
   std::int64_t stamp_ns = 0;  ///< Of the estimate.
   geometry::Pose2 truth;      ///< world_from_base
@@ -43,8 +43,8 @@ geometry::Pose2 align_first_pose(const std::vector<PosePair>& pairs);
 std::vector<double> absolute_errors_m(const std::vector<PosePair>& pairs, const geometry::Pose2& world_from_map);
 
 enum class PathPairs {
-  kConsecutive,  ///< One begins where the last ended: the default of `evo_rpe -d N -u m`.
-  kAll,          ///< One begins at each pose: `evo_rpe --all_pairs`.
+  kConsecutive,  ///< A pair begins where the last one ended: the default of `evo_rpe -d N -u m`.
+  kAll,          ///< A pair begins at each pose: `evo_rpe --all_pairs`.
 };
 
 struct IndexPair {
@@ -57,7 +57,7 @@ struct IndexPair {
 std::vector<IndexPair> pairs_by_path(const std::vector<geometry::Pose2>& poses, double delta_m, PathPairs pairing);
 
 struct RelativeError {
-  std::int64_t stamp_ns = 0;       ///< Where the pair ends.
+  std::int64_t stamp_ns = 0;       ///< End of the pair.
   double translation_m = 0.0;
   double rotation_rad = 0.0;
 };
@@ -65,7 +65,7 @@ struct RelativeError {
 /// Relative pose error of each pair of indices, as `evo_rpe` defines it (trans_part, angle).
 std::vector<RelativeError> relative_errors(const std::vector<PosePair>& pairs, const std::vector<IndexPair>& ends);
 
-/// A pose as it was published, with its covariance against the local map.
+/// A published pose with its covariance relative to the local map.
 struct UncertainStampedPose {
   std::int64_t stamp_ns = 0;
   geometry::UncertainPose2 odom_from_base;

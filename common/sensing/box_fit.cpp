@@ -10,7 +10,7 @@ namespace slammot::sensing {
 namespace {
 
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
-constexpr std::size_t kMostPointsWeighed = 48; ///< Larger segments are thinned: see tests/bench/detector_bench.cpp.
+constexpr std::size_t kMostPointsWeighed = 48; ///< Larger segments are subsampled: tests/bench/detector_bench.cpp.
 
 struct Extent {
   double least = std::numeric_limits<double>::max();
@@ -20,11 +20,11 @@ struct Extent {
 
 struct Echoes {
   std::span<const Eigen::Vector2d> points_m;
-  std::size_t stride = 1;  ///< Between the points that are weighed.
+  std::size_t stride = 1;  ///< Stride of the subsampling.
   double range_noise_m = 0.0;
 };
 
-/// Sum over the points of the inverse distance to the nearest side of the tightest box.
+/// Closeness score: sum over the points of the inverse distance to the nearest side of the tightest box.
 double closeness(const Echoes& echoes, double heading_rad) {
   const auto& [points_m, stride, range_noise_m] = echoes;
   const double c = std::cos(heading_rad);

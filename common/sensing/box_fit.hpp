@@ -14,11 +14,11 @@ struct OrientedBox {
   double width_m = 0.0;
 };
 
-/// The sides of a box, of which many distances are asked.
+/// Sides of a box, for many distance queries.
 class BoxSides {
  public:
   explicit BoxSides(const OrientedBox& box);
-  /// How far a point is from the nearest side, from inside or outside.
+  /// Distance of a point to the nearest side, from inside or outside.
   double distance_m(const Eigen::Vector2d& point_m) const;
 
  private:
@@ -30,9 +30,9 @@ class BoxSides {
 /// Tightest rectangle of the given heading around the points; at least one point.
 OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double heading_rad);
 
-/// Rectangle whose sides the points lie closest to: the visible L or I of a vehicle. Search over the heading in two
-/// stages with the closeness criterion of Zhang, Xu, Dong, Dolan (IV 2017), Algorithm 4. At least one point.
-/// range_noise_m: one sigma; a point is not closer to a side than that.
+/// Rectangle whose sides are closest to the points: fits the visible L or I of a vehicle. Two-stage search over the
+/// heading with the closeness criterion of Zhang, Xu, Dong, Dolan (IV 2017), Algorithm 4. Needs at least one point.
+/// range_noise_m: one sigma, the lower limit of a point's distance to a side.
 OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m, double range_noise_m);
 
 }  // namespace slammot::sensing

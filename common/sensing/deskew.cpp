@@ -22,7 +22,7 @@ void deskew(const LaserScan& scan, double speed_mps, double yaw_rate_radps, std:
     const geometry::Vector2 half = half_turn.now();
     const double cosine = half.x() * half.x() - half.y() * half.y();
     const double sine = 2.0 * half.x() * half.y();
-    // By coordinates: a vector put together by its numbers and then added up as one is waited for.
+    // By coordinates: assembling a vector from scalars stalls the vector addition.
     const double laser_x_m = moved_m * half.x() + (cosine * mount_m.x() - sine * mount_m.y());
     const double laser_y_m = moved_m * half.y() + (sine * mount_m.x() + cosine * mount_m.y());
     const geometry::Vector2 towards = beam_in_base.now();

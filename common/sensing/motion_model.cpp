@@ -17,7 +17,7 @@ constexpr double kSurprise = 16.3;  // chi-square, 3 degrees of freedom, 99.9 %
 
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
-/// Of (forward, yaw rate) in a second: how their variances grow.
+/// Growth of the variances of (forward speed, yaw rate) per second.
 Eigen::Vector2d velocity_walk(const MotionModelConfig& config) { return {squared(config.speed_walk_mps), squared(config.yaw_rate_walk_radps)}; }
 
 constexpr int kBesidesPose = kMotionStates - 3;
@@ -26,10 +26,12 @@ using ByAllBesidesPose = Eigen::Matrix<double, 3, kBesidesPose>;
 
 double askew_rad(const MotionCalibration& calibration) { return calibration[kAskew - 3]; }
 
-/// How far a point moves that is off the pivot by one metre: what turns about the pivot swings.
+/// Standard deviation of the motion of a point 1 m off the pivot: rotation about an uncertain pivot moves the base
+/// sideways.
 geometry::Matrix2 swing(double turned_rad) { return geometry::rotation(turned_rad) - geometry::Matrix2::Identity(); }
 
-/// Derivative of the corrected step by the calibration; that of the swing by the biases is left out: millimetres of decimetres.
+/// Jacobian of the corrected step by the calibration. The derivative of the pivot term by the biases is neglected: it
+/// is millimetres in decimetres.
 ByCalibration step_by_calibration(const WheelStep& step, const MotionCalibration& calibration) {
   const Pose2& by_wheels = step.before_from_base;
   const double duration_s = step.duration_s;
@@ -46,9 +48,9 @@ ByCalibration step_by_calibration(const WheelStep& step, const MotionCalibration
   return J;
 }
 
-/// What a step at constant velocity may be off by because the velocity, of which the step's derivative is given, wanders during it (a Wiener process),
-/// and a little more, as any step. What turns about another point than the base slides sideways: by the turn rate times the distance, for as
-/// long as it turns.
+/// Covariance of a step at constant velocity, since the velocity (whose Jacobian is given) is a Wiener process, plus
+/// the noise of any step. If the vehicle turns about another point than the base, the base moves sideways at the turn
+/// rate times the distance, for as long as it turns.
 geometry::Matrix3 noise_at_velocity(const Matrix32& step_by_velocity, double duration_s, double yaw_rate_radps, const MotionModelConfig& config) {
   const double sideways_m2 = squared(config.pivot_walk_m * yaw_rate_radps) * duration_s;
   const Eigen::Vector3d of_any_step(squared(config.position_noise_m), squared(config.position_noise_m) + sideways_m2, squared(config.heading_noise_rad));
@@ -57,7 +59,7 @@ geometry::Matrix3 noise_at_velocity(const Matrix32& step_by_velocity, double dur
   return noise;
 }
 
-/// The velocity of a step by wheels, known as well as they tell it.
+/// Velocity of a step by odometry, with its uncertainty.
 void take_velocity(const geometry::UncertainPose2& step, double duration_s, MotionEstimate& after) {
   if (duration_s <= 0.0) return;
   after.velocity = {step.pose.x_m / duration_s, step.pose.heading_rad / duration_s};
@@ -74,7 +76,7 @@ void let_calibration_wander(double distance_m, double duration_s, const MotionMo
   stamp_offset_s2 = std::min(least_known_s2, stamp_offset_s2 + squared(config.stamp_offset_walk) * duration_s);
 }
 
-/// The step's own uncertainty only.
+/// Covariance of the step alone.
 MotionEstimate moved(const MotionEstimate& before, const geometry::UncertainPose2& before_from_base) {
   MotionEstimate after = before;
   after.odom_from_base = before.odom_from_base * before_from_base.pose;
@@ -102,7 +104,7 @@ geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, d
   const Pose2& wheels = before_from_base_by_wheels;
   const double distance_m = std::hypot(wheels.x_m, wheels.y_m);
   const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
-  // Half of the missing turn happened before the middle of the step.
+  // Half of the missing turn belongs to the first half of the step.
   const geometry::Vector2 moved_m = geometry::rotation(askew_rad(calibration) + 0.5 * turn_bias_rad) * wheels.translation_m() * (1.0 + calibration.x()) +
                                     swing(wheels.heading_rad + turn_bias_rad) * calibration.segment<2>(3);
   geometry::UncertainPose2 step;

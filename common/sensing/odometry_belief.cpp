@@ -19,15 +19,15 @@ constexpr double kUnobserved_m = 0.5;     // a scan that knows a direction no be
 constexpr double kUnobserved_rad = 0.2;
 constexpr double kMatchSigma_m = 0.01;    // of a step between two matches
 constexpr double kMatchSigma_rad = 0.005;
-constexpr double kStepSigma_m = 0.02;      // of the velocity between two matches, for prediction
+constexpr double kStepSigma_m = 0.02;      // of the velocity between two matches, for the prediction
 constexpr double kStepSigma_rad = 0.01;
-constexpr double kStepShare = 0.05;       // odometry's own noise, as a share of the step
+constexpr double kStepShare = 0.05;       // noise of odometry, as a share of the step
 constexpr double kForgetWay = 1e-4;       // variance that a step adds
 constexpr double kForgetTurn = 1e-4;
-constexpr double kLeastTurn_rad = 0.01;   // that tells of the turn factor
+constexpr double kLeastTurn_rad = 0.01;   // least turn that updates the turn factor
 constexpr int kLeastSteps = 6;
 constexpr double kLeastTurnOnTheSpot_rad = 0.1;
-constexpr double kDriveShare = 0.5;       // of the usual drive: a step with less way is a turn
+constexpr double kDriveShare = 0.5;       // of the usual drive: a step with less way counts as a turn on the spot
 constexpr double kKnownSigma = 0.1;
 constexpr double kMisfitMemory = 0.1;
 constexpr double kMostMisfit = 3.0;
@@ -96,7 +96,7 @@ void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_match
   turn_covariance_ -= gain * (by.transpose() * turn_covariance_);
 }
 
-/// Wheels that slip have no factor.
+/// The factors are not updated by steps with wheel slip.
 bool WheelFactorEstimator::is_known() const { return steps_ >= kLeastSteps && way_sigma() < kKnownSigma && misfit_ < kMostMisfit; }
 double WheelFactorEstimator::way_sigma() const { return std::sqrt(std::max(way_variance_, 0.0)); }
 double WheelFactorEstimator::turn_sigma() const { return std::sqrt(std::max(turn_covariance_(0, 0), 0.0)); }
@@ -108,9 +108,9 @@ Pose2 corrected(const Pose2& by_wheels, double duration_s, const WheelFactors& f
 }
 
 double log_odds_of(const Pose2& by_wheels, const geometry::UncertainPose2& by_scans) {
-  constexpr double kRightShare = 0.02;     // of the way: calibrated odometry,
+  constexpr double kRightShare = 0.02;     // of the way: tolerance of calibrated odometry
   constexpr double kRight_m = 0.01;
-  constexpr double kRightTurnShare = 0.04; // and of the turn
+  constexpr double kRightTurnShare = 0.04; // of the turn: the same
   constexpr double kRight_rad = 0.004;
   constexpr double kWrongShare = 0.4;
   constexpr double kWrong_m = 0.1;
@@ -155,7 +155,7 @@ OdometryBelief compared(OdometryBelief belief, const OdometryComparison& compari
 }
 
 bool has_changed(const OdometryBelief& belief, const Pose2& by_wheels, double duration_s) {
-  constexpr double kJitter_m = 0.012;   // counts of the wheels, and moments at which they are read
+  constexpr double kJitter_m = 0.012;   // encoder resolution and read-out times
   constexpr double kJitter_rad = 0.008;
   constexpr double kAcceleration_mps2 = 8.0;
   constexpr double kTurnAcceleration_radps2 = 6.0;
@@ -176,7 +176,7 @@ OdometryBelief with_wheels(OdometryBelief belief, const Pose2& by_wheels, double
 double log_likelihood_of_acceleration(const Pose2& step, const Pose2& at_velocity, double duration_s) {
   constexpr double kAcceleration_mps2 = 5.0;
   constexpr double kTurnAcceleration_radps2 = 5.0;
-  constexpr double kJitter_m = 0.02;       // odometry and scans are not read at the same moment
+  constexpr double kJitter_m = 0.02;       // odometry and scans are not read simultaneously
   constexpr double kJitter_rad = 0.01;
   constexpr double kLeast = -8.0;
   const Pose2 apart = geometry::inverse(at_velocity) * step;

@@ -5,7 +5,7 @@
 namespace slammot::sensing {
 namespace {
 
-constexpr std::int64_t kVelocityOver_ns = 100'000'000;  // shorter, and the noise of two samples would be the velocity
+constexpr std::int64_t kVelocityOver_ns = 100'000'000;  // over a shorter time the noise of two samples dominates the velocity
 
 bool is_before(const Odometry& sample, std::int64_t stamp_ns) { return sample.stamp_ns < stamp_ns; }
 

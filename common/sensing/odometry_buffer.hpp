@@ -8,29 +8,31 @@
 
 namespace slammot::sensing {
 
-/// The last odometry samples, by stamp. Samples may come late or twice; each stamp is kept once, the first wins.
+/// The last odometry samples, ordered by stamp. Samples may arrive late or repeated; the first one of each stamp is
+/// kept.
 class OdometryBuffer {
  public:
   explicit OdometryBuffer(std::size_t capacity = 512);
 
   void add(const Odometry& sample);
 
-  /// Whether a sample at or after the stamp is known, so that waiting for more is pointless.
+  /// True if a sample at or after the stamp exists, so that waiting is unnecessary.
   bool reaches(std::int64_t stamp_ns) const { return !samples_.empty() && samples_.back().stamp_ns >= stamp_ns; }
 
   bool empty() const { return samples_.empty(); }
 
-  /// Pose at the stamp, interpolated between the neighbours; none outside what is known.
+  /// Pose at the stamp by interpolation; none outside the buffered time.
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
 
-  /// Pose so much after the stamp (or before it), told from what was known at the stamp: after it, it goes on at the velocity of
-  /// the last moments, even where later samples are known by now, so that steps from one stamp to the next add up.
+  /// Pose at this offset from the stamp, as known at the stamp. A later pose is extrapolated at the last velocity even
+  /// if later samples exist, so that successive steps add up.
   std::optional<geometry::Pose2> wheel_from_base_after(std::int64_t stamp_ns, std::int64_t after_ns) const;
 
-  /// The samples from the stamp on, by stamp.
+  /// Samples from the stamp on, in order.
   std::vector<Odometry> since(std::int64_t stamp_ns) const;
 
-  /// Whether no two neighbours from before the one stamp until after the other are farther apart. Where a log's samples were stamped in bursts, they are.
+  /// True if no gap between neighbouring samples around the interval is larger. It is false for logs with odometry
+  /// stamped in bursts.
   bool is_dense(std::int64_t from_ns, std::int64_t to_ns, std::int64_t gap_ns) const;
 
  private:

@@ -6,21 +6,21 @@
 namespace slammot::sensing {
 namespace {
 
-constexpr double kApart_s = 2.0;             // between two episodes,
-constexpr std::uint64_t kApart_scans = 5;    // and so many scans, where these are rare
+constexpr double kApart_s = 2.0;             // least time between two episodes
+constexpr std::uint64_t kApart_scans = 5;    // least number of scans between two episodes, if scans are rare
 constexpr std::uint64_t kLeastRoughScans = 5;
 constexpr std::uint64_t kMostJumpScans = 2;
-constexpr double kMoved_m = 0.1;             // less than this is none
+constexpr double kMoved_m = 0.1;             // smaller motion counts as none
 constexpr double kMoved_rad = 0.05;
-constexpr double kStillShare = 0.15;         // of the motion that the other reports
+constexpr double kStillShare = 0.15;         // of the motion by the other source
 constexpr double kOffShare = 0.1;
 
 bool is_motion(double way_m, double turn_rad) { return std::abs(way_m) > kMoved_m || std::abs(turn_rad) > kMoved_rad; }
 
-/// Whether a is next to nothing of b.
+/// True if a is negligible against b.
 bool is_still_beside(double a, double b) { return std::abs(a) < kStillShare * std::abs(b); }
 
-/// A turn is nothing, too, where neither turns.
+/// Turns are also negligible if neither source turns.
 bool is_frozen_beside(double way_m, double turn_rad, double other_way_m, double other_turn_rad) {
   const bool goes_nowhere = std::abs(other_way_m) > kMoved_m ? is_still_beside(way_m, other_way_m) : std::abs(way_m) <= kMoved_m;
   const bool turns_nowhere = std::abs(other_turn_rad) > kMoved_rad ? is_still_beside(turn_rad, other_turn_rad) : std::abs(turn_rad) <= kMoved_rad;
@@ -88,12 +88,12 @@ void OdometryEpisodes::take(const OdometryStep& step) {
   if (since_s > kApart_s && open_->scans_since > kApart_scans) close();
 }
 
-/// What was believed between two steps that were not belongs to the same episode.
+/// Accepted steps between two rejected ones belong to the same episode.
 void OdometryEpisodes::extend(const OdometryStep& step) {
   if (!open_) {
     open_.emplace();
     open_->episode.begin_ns = step.stamp_ns - static_cast<std::int64_t>(step.duration_s * 1e9);
-    open_->episode.first_scan = conclusions_.steps - 1;  // the one before the step
+    open_->episode.first_scan = conclusions_.steps - 1;  // the scan before the step
   }
   add(open_->since, open_->episode);
   Motion of_step;
@@ -109,7 +109,7 @@ void OdometryEpisodes::extend(const OdometryStep& step) {
   open_->is_more_than_rough = open_->is_more_than_rough || !step.by_wheels || step.is_jump || step.explanation != StepExplanation::kRoughWheels;
 }
 
-/// None for a few rough steps: noise has tails.
+/// A few rough steps are no episode: noise has tails.
 std::optional<OdometryEpisode> OdometryEpisodes::concluded(const Open& open) {
   if (!open.is_more_than_rough && open.disbelieved < kLeastRoughScans) return std::nullopt;
   OdometryEpisode episode = open.episode;

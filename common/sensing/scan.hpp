@@ -9,14 +9,14 @@
 
 namespace slammot::sensing {
 
-/// How one planar scanner is mounted and how it sweeps. Travels with every scan, so no consumer keeps state.
+/// Mounting and beam layout of a planar scanner. It is part of every scan, so that consumers keep no state.
 struct Scanner {
   std::string scanner_id = "front";   ///< Frame laser_<scanner_id>; at most 31 characters.
   geometry::Pose2 base_from_laser;
   double first_beam_rad = 0.0;        ///< Direction of beam 0 in the laser frame, counter-clockwise.
   double beam_step_rad = 0.0;         ///< May be negative for a scanner that sweeps clockwise.
   double max_range_m = 0.0;           ///< A reading at or beyond it is "no echo".
-  double sweep_s = 0.0;               ///< From the first to the last beam's firing; 0 when unknown or at once.
+  double sweep_s = 0.0;               ///< From the first to the last beam's firing; 0 if unknown or simultaneous.
 };
 
 /// One sweep of one scanner.
@@ -27,25 +27,26 @@ struct LaserScan {
   std::vector<float> range_m;         ///< One a beam. No echo: NaN, <= 0 or >= max_range_m.
 };
 
-/// What the wheels (and a gyro, where one is fused on the vehicle) say, integrated from an arbitrary start.
+/// Odometry by wheels (and a gyro, if one is fused on the vehicle), integrated from an arbitrary start.
 struct Odometry {
   std::int64_t stamp_ns = 0;
-  geometry::Pose2 wheel_from_base;    ///< Drifts without bound and may jump when the source restarts.
+  geometry::Pose2 wheel_from_base;    ///< Drifts without bound and may jump if the source restarts.
 };
 
-inline constexpr double kRareScans_s = 0.3;   ///< Between two scans: their errors are hardly shared, and much happens between them.
+inline constexpr double kRareScans_s = 0.3;   ///< Longer scan periods are rare scans: their errors are nearly independent.
 
-/// Whether the scan is left out: it has no beams, or no reading that is a number, so that it does not even say that the way is free. Where
-/// scans are rare the latter is kept: dead reckoning says more than the line between two poses. period_s: usual time between scans.
+/// True if the scan is to be skipped: it has no beams, or it is blank (no finite reading), so that it does not show
+/// free space either. A blank scan is kept if scans are rare, because dead reckoning is better than interpolation
+/// between two poses. period_s: usual time between scans.
 bool is_blank(const LaserScan& scan, double period_s);
 
-/// Whether this reading is an echo from something.
+/// True if the reading is an echo.
 bool is_echo(float range_m, double max_range_m);
 
 /// Direction of a beam in the laser frame.
 double beam_angle_rad(const Scanner& scanner, std::size_t beam);
 
-/// Time from the first beam's firing to this one's. beam_count > 1 for a sweep that takes time.
+/// Time from the first beam's firing to this one's. beam_count > 1 if sweep_s > 0.
 double beam_delay_s(const Scanner& scanner, std::size_t beam, std::size_t beam_count);
 double beam_delay_s(double sweep_s, std::size_t beam, std::size_t beam_count);
 

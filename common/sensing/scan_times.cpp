@@ -21,7 +21,7 @@ Stamps present_stamps(std::span<const ScanMark> scans) {
   return stamps;
 }
 
-/// Missing stamps become those of the scan before.
+/// A missing stamp is replaced by that of the scan before.
 Stamps filled_stamps(std::span<const ScanMark> scans) {
   Stamps stamps(scans.size());
   std::int64_t last_ns = 0;
@@ -54,7 +54,7 @@ Value median_of(std::vector<Value> values) {
   return *middle;
 }
 
-/// Value below which the given share of the values lies; 0 for none.
+/// Quantile of the values at this share; 0 for none.
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -62,7 +62,7 @@ double percentile(std::vector<double> values, double share) {
   return *nth;
 }
 
-/// Of the steps that advance; 0 where none does.
+/// Of the steps that advance; 0 if none does.
 std::int64_t median_advance_ns(const Stamps& stamps) {
   Stamps advances = steps_of(stamps);
   std::erase_if(advances, [](std::int64_t step_ns) { return step_ns <= 0; });
@@ -77,7 +77,7 @@ bool is_constant(const Stamps& stamps) {
   return count <= 1 + std::min<std::size_t>(1, stamps.size() / kFewestJudged) + stamps.size() / kStampsPerScans;
 }
 
-/// Whole numbers below 5 apart, all the same: 0, 1, 2 or every third of them.
+/// True for integers with a constant step below 5, such as 0, 1, 2.
 bool counts_scans(const Stamps& stamps) {
   constexpr std::int64_t kLargestStep = 4;
   const std::int64_t step_ns = median_advance_ns(stamps);
@@ -136,7 +136,7 @@ std::int64_t units_per_second(std::span<const ScanMark> scans, const Stamps& sta
   return best;
 }
 
-/// Largest of 10, 1, 0.1 and 0.01 s that all stamps are multiples of; 1 ns for none.
+/// Largest of 10, 1, 0.1 and 0.01 s that divides all stamps; 1 ns if none does.
 std::int64_t quantum_ns(const Stamps& stamps) {
   for (const std::int64_t quantum : {10 * kSecondNs, kSecondNs, kSecondNs / 10, kSecondNs / 100}) {
     if (share_of(stamps, [=](std::int64_t stamp_ns) { return stamp_ns % quantum == 0; }) >= 0.999) return quantum;
@@ -144,10 +144,11 @@ std::int64_t quantum_ns(const Stamps& stamps) {
   return 1;
 }
 
-/// Rounded so coarsely that the steps are no measure of the time between scans. A steady scanner's round period is none.
+/// True if stamps are rounded so coarsely that steps do not measure the time between scans. A round period of a steady
+/// scanner is not rounding.
 bool is_coarse(const Stamps& stamps, std::int64_t quantum) {
   constexpr double kFineShareOfPeriod = 0.3;
-  constexpr double kSteadyShare = 0.8;  // a steady scanner repeats a stamp or leaves out a scan now and then
+  constexpr double kSteadyShare = 0.8;  // a steady scanner sometimes repeats a stamp or misses a scan
   const double period_ns = static_cast<double>(stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
   const Stamps steps = steps_of(stamps);
   const std::int64_t median_ns = median_of(steps);
@@ -163,7 +164,7 @@ std::vector<double> ways_of(std::span<const ScanMark> scans) {
   return ways;
 }
 
-/// Time that the way to each scan takes relative to others; 1 where the vehicle hardly moves.
+/// Relative time for the way to each scan; 1 if the vehicle hardly moves.
 std::vector<double> weights_by_way(std::span<const ScanMark> scans) {
   std::vector<double> ways = ways_of(scans);
   const double usual = median_of(ways);
@@ -172,7 +173,7 @@ std::vector<double> weights_by_way(std::span<const ScanMark> scans) {
   return ways;
 }
 
-/// Relative spread of the time per weight, over stretches of scans long enough for the quantum not to matter.
+/// Relative spread of the time per weight, over stretches of scans much longer than the quantum.
 double unevenness(const Stamps& stamps, const std::vector<double>& weights, std::int64_t quantum) {
   std::vector<double> seconds_per_weight;
   double weight = 0.0;
@@ -208,8 +209,9 @@ std::vector<double> guess_within_quantum(const Stamps& stamps, const std::vector
   return times_s;
 }
 
-/// Minimizes the sum of (step_i - rate * weight_i)^2 / weight_i with every time within the quantum that begins with its
-/// stamp: convex, by projected successive over-relaxation. The free ends then advance at the usual rate.
+/// Minimizes the sum of (step_i - rate * weight_i)^2 / weight_i, with every time within the quantum that begins at its
+/// stamp. The problem is convex and is solved by projected successive over-relaxation. The free ends advance at the
+/// usual rate.
 Stamps spread_within_quantum(const Stamps& stamps, const std::vector<double>& weights, std::int64_t quantum) {
   constexpr int kSweeps = 300;
   constexpr double kRelaxation = 1.8;
@@ -240,7 +242,7 @@ Stamps spread_within_quantum(const Stamps& stamps, const std::vector<double>& we
   return spread;
 }
 
-/// Whether the stamps after a step back stay behind what was reached before it.
+/// True if the stamps after a backward step stay below the highest one before it.
 bool stays_behind(const Stamps& stamps, std::size_t at) {
   constexpr std::size_t kFollowing = 10;
   const std::size_t end = std::min(stamps.size(), at + kFollowing);
@@ -248,7 +250,7 @@ bool stays_behind(const Stamps& stamps, std::size_t at) {
                                       [&](std::int64_t stamp_ns) { return stamp_ns < stamps[at - 1]; });
 }
 
-/// Whether the stamps after a step of more than ten minutes stay as far ahead. A single early stamp before it is no step.
+/// True if the stamps after a forward step of more than ten minutes stay ahead. A single early stamp is not a step.
 bool stays_ahead(const Stamps& stamps, std::size_t at) {
   constexpr std::int64_t kFarAheadNs = 600 * kSecondNs;
   constexpr std::size_t kFollowing = 3;
@@ -264,7 +266,7 @@ std::uint64_t bridge_jumps(Stamps& stamps) {
   std::uint64_t jumps = 0;
   std::int64_t shift_ns = 0;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
-    // A step back after a single stamp from the future returns to where the clock was: none to bridge.
+    // A backward step after a single early stamp returns to the clock and is not a jump.
     const bool returns = i > 1 && recorded[i] < recorded[i - 1] && recorded[i] >= recorded[i - 2];
     if (!returns && ((recorded[i] < recorded[i - 1] && stays_behind(recorded, i)) || stays_ahead(recorded, i))) {
       ++jumps;
@@ -288,12 +290,12 @@ ScanTimes without_clock(ClockFault fault) {
   return times;
 }
 
-/// Whether nine of ten scans are newer than the one before: duplicates and a few late scans are the reader's business.
+/// True if nine of ten scans are newer than the one before. The reader handles duplicates and a few late scans.
 bool advances_mostly(const Stamps& stamps) {
   return share_of(steps_of(stamps), [](std::int64_t step) { return step > 0; }) >= 0.9;
 }
 
-/// Stamps on their way from recorded to usable, with what was done to them.
+/// Stamps during the repair, with a record of the repairs.
 struct Repair {
   ScanTimes times;
   Stamps stamps;
@@ -365,7 +367,7 @@ ScanTimes judge_scan_stamps(std::span<const ScanMark> scans) {
 }
 
 bool comes_by_time(std::span<const ScanMark> scans) {
-  constexpr double kShort = 0.1;       // of what nine of ten stay below
+  constexpr double kShort = 0.1;       // share of the 90th percentile below which a way is short
   constexpr double kShortShare = 0.02;
   if (scans.size() < kFewestJudged) return false;
   std::vector<double> ways = ways_of(scans.subspan(1));

@@ -11,15 +11,15 @@
 namespace slammot::sensing {
 namespace {
 
-/// The outermost echoes of a span towards one end: the last, the one before it, and one a few echoes further in.
+/// Echoes at one end of a span: the last, the one before it, and one a few echoes further in.
 struct Tip {
   Eigen::Vector2f end_m;
   Eigen::Vector2f next_m;
   Eigen::Vector2f inner_m;
-  bool is_line = false;  ///< There are three different echoes.
+  bool is_line = false;  ///< True if the three echoes differ.
 };
 
-/// step +1: the end with the highest beam; -1: with the lowest.
+/// step +1: end with the highest beam; -1: end with the lowest.
 Tip tip_of(const BeamSpan& span, int step, std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m) {
   constexpr int kEchoesLookedAt = 5;
   Tip tip;
@@ -71,7 +71,7 @@ void join_along_lines(std::span<const Eigen::Vector2f> points_m, std::span<const
   std::reverse(spans.begin(), spans.end());
 }
 
-/// Whether all echoes between the two beams lie on the line through the outermost ones.
+/// True if all echoes between the two beams lie on the line through the outermost ones.
 bool are_on_a_line(std::uint16_t first, std::uint16_t last, std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
                    double tolerance_m) {
   const Eigen::Vector2f direction = (points_m[last] - points_m[first]).normalized();
@@ -83,12 +83,12 @@ bool are_on_a_line(std::uint16_t first, std::uint16_t last, std::span<const Eige
   return true;
 }
 
-/// Nothing but beams without echo lies between one span and the next.
+/// True if all beams between neighbouring spans are drop-outs.
 void join_what_is_dark(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, const SegmentationConfig& config,
                        std::vector<BeamSpan>& spans) {
-  constexpr int kMostInARow = 3;  // a lit surface answers to more
+  constexpr int kMostInARow = 3;  // a bright surface returns longer runs of echoes
   constexpr std::size_t kFewestSpans = 3;
-  constexpr double kMostInARowInTheMean = 1.9;  // people abreast answer to more
+  constexpr double kMostInARowInTheMean = 1.9;  // pedestrians abreast return longer runs of echoes
   constexpr double kMostAnsweredShare = 0.5;
   const auto is_short = [](const BeamSpan& span) { return span.last - span.first < kMostInARow; };
   const auto may_follow = [&](const BeamSpan& a, const BeamSpan& b) {

@@ -9,17 +9,17 @@
 
 namespace slammot::sensing {
 
-/// How far apart neighbouring echoes of one thing may lie.
+/// Thresholds on the distance between neighbouring echoes of one segment.
 struct SegmentationConfig {
-  double gap_m = 0.3;              ///< At no distance,
-  double gap_beam_spacings = 3.0;  ///< and this many times the distance between neighbouring beams there.
+  double gap_m = 0.3;              ///< Allowed gap at range zero;
+  double gap_beam_spacings = 3.0;  ///< it grows by this multiple of the beam spacing at the range.
   double widest_gap_m = 1.5;
-  int bridged_beams = 2;           ///< Beams without echo that may lie between two echoes of one thing.
-  double line_gap_m = 6.0;         ///< A straight wall seen at a grazing angle goes on across so wide a gap,
-  double line_gap_growth = 2.5;    ///< at most so many times the one before,
-  double line_tolerance_m = 0.25;  ///< when the next echo lies this near to its line.
-  double dark_gap_m = 1.5;         ///< Echoes of something dark, one here and one there on a line, lie no farther apart,
-  int dark_gap_beams = 12;         ///< with no more beams between them that are not answered; 0: they are not joined.
+  int bridged_beams = 2;           ///< Drop-outs allowed between two echoes of a segment.
+  double line_gap_m = 6.0;         ///< Allowed gap on a straight wall at grazing incidence,
+  double line_gap_growth = 2.5;    ///< at most this multiple of the gap before,
+  double line_tolerance_m = 0.25;  ///< if the next echo is within this distance of the wall's line.
+  double dark_gap_m = 1.5;         ///< Allowed gap between single echoes of a dark object on a line,
+  int dark_gap_beams = 12;         ///< with at most this many drop-outs in between; 0: such echoes are not joined.
 };
 
 /// Beams [first, last] of one segment; beams without echo may lie between.
@@ -28,15 +28,14 @@ struct BeamSpan {
   std::uint16_t last = 0;
 };
 
-/// Cuts a scan where neighbouring echoes lie farther apart than the range explains (Wang 2004, Section 3.2, "Scan
-/// Segmentation"). Points in any one frame, m; range_m 0 for no echo, one each a beam. beam_step_rad may have any sign.
-/// Echoes of a wall at a grazing angle lie ever farther apart; they stay together as long as they lie on its line. So do
-/// three or more single echoes of something dark that answers to less than half of the beams.
-/// Fills `spans`, ascending, which keeps its memory from scan to scan.
+/// Segments a scan at gaps larger than the range explains (Wang 2004, Section 3.2, "Scan Segmentation"). Points in any
+/// common frame [m]; range_m is 0 for no echo; one of each a beam. beam_step_rad may have either sign. Gaps of a wall
+/// at grazing incidence grow; its echoes form one segment while they lie on its line. So do three or more single echoes
+/// of a dark object that returns less than half of the beams. Fills `spans` in ascending order and reuses its memory.
 void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
                          const SegmentationConfig& config, std::vector<BeamSpan>& spans);
 
-/// Whether the last span of a scan that goes all round goes on in its first one, with no end of a thing in between.
+/// True if the last span of a full-circle scan continues in its first span, without an object's edge in between.
 bool goes_on_across_seam(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
                          const SegmentationConfig& config, std::span<const BeamSpan> spans);
 

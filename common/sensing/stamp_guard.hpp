@@ -6,8 +6,8 @@
 
 namespace slammot::sensing {
 
-/// Keeps one wrong stamp from making all that come after it too late: a stamp far ahead of those before is believed only
-/// when another one, not the same, agrees with it. After a true gap that costs one sample.
+/// Rejects single stamps far ahead, which would make all later ones look late. A stamp far ahead is accepted only if a
+/// second, different one confirms it. A true gap costs one sample.
 class StampGuard {
  public:
   explicit StampGuard(double far_ahead_s) : far_ahead_ns_(static_cast<std::int64_t>(far_ahead_s * 1e9)) {}
@@ -25,14 +25,14 @@ class StampGuard {
   }
 
  private:
-  /// Differences of any two stamps fit into 64 bits without a sign.
+  /// Unsigned: the difference of any two stamps fits into 64 bits.
   bool is_within(std::int64_t earlier_ns, std::int64_t later_ns) const {
     return static_cast<std::uint64_t>(later_ns) - static_cast<std::uint64_t>(earlier_ns) <= static_cast<std::uint64_t>(far_ahead_ns_);
   }
 
   std::int64_t far_ahead_ns_;
   std::optional<std::int64_t> newest_ns_;
-  std::optional<std::int64_t> doubted_ns_;   ///< The last one that was not believed.
+  std::optional<std::int64_t> doubted_ns_;   ///< Last rejected stamp.
 };
 
 }  // namespace slammot::sensing

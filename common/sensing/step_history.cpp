@@ -11,10 +11,10 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-constexpr double kKernel_m = 0.06;         // one sigma of a kernel,
-constexpr double kKernelShare = 0.12;      // and what the way
+constexpr double kKernel_m = 0.06;         // one sigma of a kernel at zero step,
+constexpr double kKernelShare = 0.12;      // growth with the way
 constexpr double kKernel_rad = 0.06;
-constexpr double kKernelTurnShare = 0.12;  // and the turn add
+constexpr double kKernelTurnShare = 0.12;  // and with the turn
 constexpr double kWideSteps = 3.0;
 
 Pose2 mirrored(const Pose2& step) { return {step.x_m, -step.y_m, -step.heading_rad}; }

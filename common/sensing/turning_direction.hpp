@@ -6,8 +6,8 @@
 
 namespace slammot::sensing {
 
-/// Unit vectors at first_rad, first_rad + step_rad and so on, each turned out of the one before: a fan of beams without
-/// two sines for each. After 10^5 steps they are exact to 10^-10.
+/// Unit vectors at first_rad, first_rad + step_rad, ..., by repeated rotation: avoids two trigonometric calls a beam.
+/// After 10^5 steps the error is 10^-10.
 class TurningDirection {
  public:
   TurningDirection(double first_rad, double step_rad)
@@ -22,7 +22,7 @@ class TurningDirection {
   }
 
  private:
-  double x_;  // not as a vector, which would be waited for at each step: docs/performance.md
+  double x_;  // scalars, because a vector stalls each step: docs/performance.md
   double y_;
   double cosine_;
   double sine_;

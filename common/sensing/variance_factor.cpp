@@ -8,14 +8,14 @@ namespace {
 
 using geometry::Matrix3;
 
-/// Turns (x, y, heading) of the pose's frame into (forward, left, heading) of the vehicle.
+/// Rotation from the pose's frame (x, y, heading) to vehicle axes (forward, left, heading).
 Matrix3 vehicle_axes(double heading_rad) {
   Matrix3 turn = Matrix3::Identity();
   turn.topLeftCorner<2, 2>() = geometry::rotation(-heading_rad);
   return turn;
 }
 
-constexpr double kSaidNothing = 1e-3;  // share of an axis' variance that a match took away
+constexpr double kSaidNothing = 1e-3;  // least share of an axis' variance that an informative match removes
 
 Eigen::Vector3d along_axes(const Matrix3& covariance, double heading_rad) {
   const Matrix3 turn = vehicle_axes(heading_rad);
@@ -26,7 +26,7 @@ Eigen::Vector3d along_axes(const Matrix3& covariance, double heading_rad) {
 
 VarianceFactors learned(const VarianceFactors& factors, const geometry::UncertainPose2& predicted,
                         const geometry::UncertainPose2& matched, double share) {
-  constexpr double kLargestSurprise = 25.0;  // one wrong match must not drown the rest
+  constexpr double kLargestSurprise = 25.0;  // limits the effect of one wrong match
   const Matrix3 turn = vehicle_axes(predicted.pose.heading_rad);
   const Eigen::Vector3d change = turn * geometry::difference(matched.pose, predicted.pose);
   // Prediction and match are correlated: the variance of their difference is the difference of their variances.

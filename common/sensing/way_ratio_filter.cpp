@@ -7,10 +7,10 @@
 namespace slammot::sensing {
 namespace {
 
-constexpr double kRightShare = 0.04;     // ratios this near to 1 are odometry that is right
+constexpr double kRightShare = 0.04;     // tolerance of correct odometry around ratio 1
 constexpr double kRightPrior = 0.9;
-constexpr double kChanges = 0.03;        // probability that the ratio is drawn anew between two comparisons,
-constexpr double kDrifts = 0.1;          // and that it becomes one of its neighbours
+constexpr double kChanges = 0.03;        // probability per comparison that the ratio is redrawn from the prior,
+constexpr double kDrifts = 0.1;          // and that it moves to a neighbouring ratio
 
 bool is_right(double ratio) { return std::abs(ratio - 1.0) < kRightShare; }
 

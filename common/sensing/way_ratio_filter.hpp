@@ -5,8 +5,8 @@
 
 namespace slammot::sensing {
 
-/// Ratio of the way by scans to the way by odometry, as a discrete Bayes filter over comparisons of scans some way apart. One comparison has
-/// several maxima where a street repeats itself; the true ratio is the one that they have in common.
+/// Discrete Bayes filter of the ratio of way by scans to way by odometry, over comparisons of scans some way apart. On
+/// repetitive streets one comparison has several maxima; the true ratio is common to all comparisons.
 class WayRatioFilter {
  public:
   static constexpr std::array kRatios{0.25, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.94, 0.97, 1.0, 1.03, 1.06, 1.1, 1.15, 1.2, 1.3, 1.5};
@@ -14,19 +14,19 @@ class WayRatioFilter {
 
   WayRatioFilter();
 
-  /// One comparison; log_likelihoods [nats], one a ratio, up to a constant.
+  /// Updates with one comparison; log_likelihoods [nats], one a ratio, up to a constant.
   void update(const Profile& log_likelihoods);
 
-  /// The profile without the straight line through it, since less of a place is new after less of the way; all zero where no ratio stands out
-  /// by `least`: along a bare wall all ratios fit alike, and what is left is chance.
+  /// The profile minus its linear trend, because after less way less of the place is new. All zero unless one ratio
+  /// exceeds the others by `least`: along a bare wall all ratios fit equally and the rest is noise.
   static Profile prominent(Profile profile, double least);
 
-  /// That odometry is right within 4 %.
+  /// Probability that odometry is correct within 4 %.
   double sound_probability() const;
 
   double most_likely_ratio() const;
 
-  /// Whether the weights are probabilities: not of a damaged checkpoint.
+  /// True if the weights are probabilities; false after a damaged checkpoint.
   bool is_sound() const;
 
  private:

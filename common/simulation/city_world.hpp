@@ -7,11 +7,11 @@
 
 namespace slammot::simulation {
 
-/// Everything in the city that stands still for the whole drive, in the world frame: buildings with irregular fronts,
+/// Stationary objects of the city in the world frame: buildings with irregular fronts,
 /// parks, trees, lamps, signal poles and parked cars.
 Outline build_city(const StreetPlan& plan, std::uint64_t seed);
 
-/// Straight segments with a class each, as the walls file lists them: round things become octagons.
+/// Straight segments with a class each, as in the walls file: round objects become octagons.
 std::vector<Segment> true_segments(const Outline& outline_in_world);
 
 }  // namespace slammot::simulation

@@ -7,20 +7,20 @@
 
 namespace slammot::simulation {
 
-/// A magnetic compass in a vehicle, in a world whose x goes east.
+/// Magnetic compass of a vehicle; the world's x axis points east.
 struct CompassConfig {
   double rate_hz = 0.0;               ///< 0: there is none.
   double noise_rad = 0.015;           ///< Of each reading, one sigma.
-  double bias_sigma_rad = 0.03;       ///< By its mounting and the vehicle's own iron; drawn once a drive.
-  double disturbance_rad = 0.05;      ///< By iron around the vehicle: one sigma, and
-  double disturbance_length_m = 20.0; ///< alike over this way.
+  double bias_sigma_rad = 0.03;       ///< Of the mounting and the vehicle's magnetic field; drawn once a drive.
+  double disturbance_rad = 0.05;      ///< Disturbance by iron in the surroundings, one sigma,
+  double disturbance_length_m = 20.0; ///< with this correlation length.
 };
 
 class Compass {
  public:
   Compass(const CompassConfig& config, std::uint64_t seed);
 
-  /// So far after the last reading.
+  /// Reading at this distance after the last one.
   sensing::CompassReading reading(const geometry::Pose2& world_from_base, double moved_m);
 
  private:

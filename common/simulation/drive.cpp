@@ -28,7 +28,7 @@ ObjectTruth truth_of(const MovingObject& object, const Pose2& world_from_base, i
   return {object.id, object.kind, object.size, object.world_from_object, object.speed_mps, points, range_m};
 }
 
-/// Fills objects, unseen and hits.
+/// Fills in objects, unseen and hits.
 void tell_truth(const ScannedWorld& scanned, const Moment& moment, SimulatedScan& result) {
   std::vector<int> points(moment.objects.size(), 0);
   for (const int source : scanned.source) {
@@ -45,7 +45,7 @@ void tell_truth(const ScannedWorld& scanned, const Moment& moment, SimulatedScan
   }
 }
 
-/// The moment at a fraction of the step.
+/// Interpolated moment at a fraction of the step.
 Moment between(const Moment& before, const Moment& after, double fraction) {
   if (fraction == 0.0) return before;
   Moment moment = before;
@@ -59,7 +59,7 @@ Moment between(const Moment& before, const Moment& after, double fraction) {
   return moment;
 }
 
-/// What comes at a rate of its own, from the drive's first scan on.
+/// Periodic events with their own rate, from the drive's first scan on.
 class Beat {
  public:
   Beat(double rate_hz, double first_s) : rate_hz_(rate_hz), first_s_(first_s) {}
@@ -80,7 +80,7 @@ struct OneScanner {
   Beat beat;
 };
 
-/// The first scanner's noise must not depend on whether there are others.
+/// The first scanner's noise must not depend on further scanners.
 std::uint64_t seed_of_scanner(std::uint64_t seed, std::size_t index) { return seed + 0x10001 * index; }
 
 }  // namespace
@@ -111,7 +111,7 @@ struct Drive::World {
     scans = static_cast<std::size_t>(std::floor(config.duration_s * config.scanner.rate_hz));
   }
 
-  /// Each vehicle's own.
+  /// Separate for each vehicle.
   std::uint64_t seed() const { return scenario.seed + static_cast<std::uint64_t>(scenario.ride); }
 
   void advance() {
@@ -179,7 +179,7 @@ struct Drive::World {
     result.odometry.stamp_ns = result.scan.stamp_ns;
   }
 
-  /// Receiver and compass speak at the first scan at or after their time.
+  /// Receiver and compass report at the first scan at or after their time.
   void add_aids(double now_s, SimulatedScan& result) {
     const auto moved_m = [&](const std::optional<Pose2>& last) { return last ? (before.world_from_base.translation_m() - last->translation_m()).norm() : 0.0; };
     if (gnss_beat.due_s() <= now_s) {
@@ -210,7 +210,7 @@ struct Drive::World {
   Beat gnss_beat, compass_beat;
   std::optional<Pose2> last_fix_at, last_reading_at;
   double step_s;
-  double dive_rad = 0.0;              ///< Nose down, by the springs alone.
+  double dive_rad = 0.0;              ///< Pitch by the springs alone, nose down.
   double last_speed_mps;
   Moment before;
   std::size_t scans = 0;

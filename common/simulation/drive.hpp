@@ -12,7 +12,7 @@ namespace slammot::simulation {
 
 /// A moving object at a scan's stamp.
 struct ObjectTruth {
-  int id = 0;                          ///< The same through the whole drive.
+  int id = 0;                          ///< Constant over the drive.
   ObjectClass kind = ObjectClass::car;
   BoxSize size;
   geometry::Pose2 world_from_object;   ///< Centre of its box.
@@ -21,12 +21,12 @@ struct ObjectTruth {
   double range_m = 0.0;                ///< From the vehicle's centre to its centre.
 };
 
-/// What beams hit, where it was no moving object. Ids of objects begin at 1.
+/// Source of a beam's echo other than a moving object. Object ids begin at 1.
 constexpr int kHitStationary = 0;
 constexpr int kHitNothing = -1;        ///< No echo.
 constexpr int kHitSeveral = -2;        ///< Spot split over an edge: the range is of neither surface.
 
-/// One scan with what the wheels said and with the truth, all at the scan's stamp.
+/// One scan with odometry and ground truth, all at the scan's stamp.
 struct SimulatedScan {
   std::size_t scanner = 0;             ///< 0: the scenario's first one.
   sensing::LaserScan scan;
@@ -37,14 +37,14 @@ struct SimulatedScan {
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
   double nose_down_rad = 0.0;
-  std::vector<ObjectTruth> objects;    ///< That it hit.
-  std::vector<ObjectTruth> unseen;     ///< In the world, and no beam's echo is theirs.
-  std::vector<int> hits;               ///< What each beam hit: an object's id, or one of the above.
-  std::vector<sensing::GnssFix> gnss;  ///< With the first scanner's scans only: what came with this scan.
+  std::vector<ObjectTruth> objects;    ///< Objects with echoes.
+  std::vector<ObjectTruth> unseen;     ///< Objects in the world without an echo.
+  std::vector<int> hits;               ///< Source of each beam's echo: an object's id, or one of the constants above.
+  std::vector<sensing::GnssFix> gnss;  ///< New fixes up to this scan; with the first scanner's scans only.
   std::vector<sensing::CompassReading> compass;
 };
 
-/// A simulated drive, one scan after the other; those of several scanners by their stamps.
+/// A simulated drive, scan by scan; scans of several scanners in order of their stamps.
 class Drive {
  public:
   explicit Drive(const ScenarioConfig& scenario);
@@ -55,7 +55,7 @@ class Drive {
   /// The next scan; none after the drive's end.
   std::optional<SimulatedScan> next();
 
-  /// Everything that stands still, in the world frame.
+  /// Stationary objects in the world frame.
   const Outline& stationary_in_world() const;
   /// Of the first scanner.
   std::size_t scan_count() const;

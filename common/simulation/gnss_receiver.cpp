@@ -40,7 +40,7 @@ GnssReceiver::GnssReceiver(const GnssConfig& config, const Outline& stationary_i
 
 bool GnssReceiver::is_hidden(const Satellite& satellite, const Vector2& place_in_world) const {
   const double above_m = config_.building_height_m - config_.antenna_height_m;
-  const double reach_m = above_m / std::tan(satellite.elevation_rad);  // further away a building is too low
+  const double reach_m = above_m / std::tan(satellite.elevation_rad);  // farther buildings do not hide the satellite
   const Vector2 direction{std::cos(satellite.azimuth_rad), std::sin(satellite.azimuth_rad)};
   return std::isfinite(buildings_.cast(place_in_world, direction, reach_m).range_m);
 }

@@ -10,7 +10,7 @@
 
 namespace slammot::simulation {
 
-/// A satellite receiver without corrections, in a world whose x goes east and y north.
+/// GNSS receiver without corrections; the world's x axis points east, y north.
 struct GnssConfig {
   double rate_hz = 0.0;               ///< 0: there is none.
   double latitude_deg = 40.4406;      ///< Of the world's origin,
@@ -18,21 +18,22 @@ struct GnssConfig {
   double altitude_m = 230.0;
   int satellites = 11;                ///< Above the horizon.
   double lowest_rad = 0.17;           ///< Lower ones are not used.
-  double building_height_m = 18.0;    ///< What the sky is hidden by: every wall is so high.
+  double building_height_m = 18.0;    ///< Height of every wall, which hides satellites.
   double antenna_height_m = 1.6;
-  double range_error_m = 0.8;         ///< Of one satellite, one sigma, anew for each fix.
-  double wander_m = 1.0;              ///< By the atmosphere: one sigma each way, and
-  double wander_s = 120.0;            ///< alike over this time.
-  double multipath_m = 12.0;          ///< By reflections: one sigma each way where all satellites but none were hidden, and
-  double multipath_length_m = 15.0;   ///< alike over this way.
+  double range_error_m = 0.8;         ///< Of one satellite, one sigma, independent for each fix.
+  double wander_m = 1.0;              ///< Atmospheric error, one sigma an axis,
+  double wander_s = 120.0;            ///< with this correlation time.
+  double multipath_m = 12.0;          ///< Multipath error, one sigma an axis, scaled with the share of hidden satellites,
+  double multipath_length_m = 15.0;   ///< with this correlation length.
 };
 
-/// Which satellites can be seen over the buildings decides on the fix, its noise and its multipath.
+/// The satellites that are visible over the buildings determine the fix, its noise and its multipath.
 class GnssReceiver {
  public:
   GnssReceiver(const GnssConfig& config, const Outline& stationary_in_world, std::uint64_t seed);
 
-  /// A fix at a place, so long and so far after the last. Fewer than four satellites, or a bad geometry of them, give no fix.
+  /// Fix at a position, at this time and distance after the last one. No fix with fewer than four satellites or a bad
+  /// geometry.
   sensing::GnssFix fix(const geometry::Pose2& world_from_base, double after_s, double moved_m);
 
  private:

@@ -22,14 +22,14 @@ BoxSize usual_size(ObjectClass kind);
 
 double usual_height_m(ObjectClass kind);
 
-/// Something that moves, or could. world_from_object is at the centre of its box, x forward.
+/// An object that can move. world_from_object is at the centre of its box, x forward.
 struct MovingObject {
   int id = 0;
   ObjectClass kind = ObjectClass::car;
   BoxSize size;
   geometry::Pose2 world_from_object;
   double speed_mps = 0.0;
-  Outline outline_in_object;  ///< What a scanner at bumper height sees of it.
+  Outline outline_in_object;  ///< Visible outline at bumper height.
 };
 
 /// What a scanner 0.6 m above the road sees: a car's whole side; of a truck cab, axles and tail, apart from each other;

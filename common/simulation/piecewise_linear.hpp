@@ -5,8 +5,8 @@
 
 namespace slammot::simulation {
 
-/// Value at `at` of the line through the knots, whose `at` rise; level before the first and after the last, 0 without
-/// any. Two members of a knot are its place and its value.
+/// Piecewise linear interpolation at `at` over knots with ascending `at`; constant before the first and after the last,
+/// 0 without knots. Two members of a knot are its place and its value.
 template <typename Knot>
 double piecewise_linear(const std::vector<Knot>& knots, double Knot::* place, double Knot::* value, double at) {
   if (knots.empty()) return 0.0;

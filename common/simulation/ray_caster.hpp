@@ -8,7 +8,7 @@
 
 namespace slammot::simulation {
 
-/// What a ray met first; range_m is infinite where it met nothing.
+/// First hit of a ray; range_m is infinite without a hit.
 struct Hit {
   double range_m = std::numeric_limits<double>::infinity();
   Material material = Material::wall;
@@ -18,7 +18,8 @@ struct Hit {
 /// (Amanatides and Woo 1987). Speed: tests/bench/ray_caster_bench.cpp.
 class RayCaster {
  public:
-  /// cell_m: short against a building's front, long against a beam's spacing; measured best from 4 m to 6 m in a city.
+  /// cell_m: short against a building's front, long against a beam's spacing; the best measured values are 4 m to 6 m
+  /// in a city.
   explicit RayCaster(const Outline& outline_in_world, double cell_m = 5.0);
 
   /// First surface within max_range_m of origin_in_world along a unit direction.

@@ -13,7 +13,7 @@ struct RobotConfig {
   double acceleration_mps2 = 0.5;
   double bend_m = 0.8;                 ///< From where it leaves the straight to the corner.
   double diameter_m = 0.5;
-  double keep_clear_m = 1.2;           ///< Stops for people this near ahead.
+  double keep_clear_m = 1.2;           ///< Stops for pedestrians ahead within this distance.
 };
 
 /// A small robot that follows a way of straight pieces with rounded corners and stops for people.

@@ -11,10 +11,10 @@ using geometry::Pose2;
 using geometry::Vector2;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSplit_m = 0.4;           ///< A spot's rays further apart than this lie on two surfaces.
-constexpr double kGroundDropOut = 0.3;     ///< The road is met at a grazing angle.
+constexpr double kSplit_m = 0.4;           ///< Rays of a spot with a larger range difference are on two surfaces.
+constexpr double kGroundDropOut = 0.3;     ///< The beam meets the road at grazing incidence.
 constexpr double kFoliageDropOut = 0.1;
-constexpr double kFoliageDepth_m = 0.4;    ///< Leaves let the beam in this far.
+constexpr double kFoliageDepth_m = 0.4;    ///< Penetration depth of a beam into foliage.
 
 struct Echo {
   double range_m = kInfinity;
@@ -24,14 +24,14 @@ struct Echo {
 
 Pose2 base_from_laser(const ScannerConfig& config) { return {config.ahead_m, config.left_m, config.heading_rad}; }
 
-/// Index range of the beams that may meet each object, so that a beam tests few objects.
+/// Index range of the beams that may hit each object, so that a beam tests few objects.
 class Candidates {
  public:
   Candidates(const ScannerConfig& config, const Step& step) : by_beam_(static_cast<std::size_t>(config.beams)) {
     for (std::size_t i = 0; i < step.before.objects.size(); ++i) add(config, step, static_cast<int>(i));
   }
   const std::vector<int>& of_beam(int beam) const { return by_beam_[static_cast<std::size_t>(beam)]; }
-  /// Whatever the object does during the sweep, it stays within this of where it was.
+  /// Bound of the object's motion during the sweep.
   double reach_m(int object) const { return reaches_m_[static_cast<std::size_t>(object)]; }
 
  private:
@@ -40,7 +40,7 @@ class Candidates {
     const MovingObject& after = step.after.objects[static_cast<std::size_t>(object)];
     const Pose2 world_from_laser = step.before.world_from_base * base_from_laser(config);
     const Vector2 in_laser = inverse(world_from_laser) * before.world_from_object.translation_m();
-    // Whatever moves or turns during the sweep stays within this distance of where it was; a stride reaches furthest
+    // Bound of the displacement by translation and rotation during the sweep; a stride can exceed a small box most.
     // out of a small box.
     const double steps = std::max(1.0, (step.sweep_after_s + config.sweep_s) / step.duration_s);
     const double moved_m = steps * ((after.world_from_object.translation_m() - before.world_from_object.translation_m()).norm() +
@@ -59,8 +59,8 @@ class Candidates {
       const double bearing_rad = std::atan2(in_laser.y(), in_laser.x());
       first = std::max(first, static_cast<int>(std::floor((bearing_rad - half_rad - config.first_beam_rad) / beam_step_rad)));
       last = std::min(last, static_cast<int>(std::ceil((bearing_rad + half_rad - config.first_beam_rad) / beam_step_rad)));
-      // Behind a half-circle scanner the interval is empty; a full-circle scanner would see it across the cut.
-      // One that is tipped far looks elsewhere than its beams' numbers say.
+      // Behind a half-circle scanner the interval is empty; for a full-circle scanner the object lies across the cut.
+      // A strongly tilted scanner's beams do not follow their indices in the plane.
       const bool is_tipped = std::abs(config.left_up_rad) + std::abs(config.nose_down_rad) > 0.2;
       if (config.field_of_view_rad > 3.2 || is_tipped) first = 0, last = config.beams - 1;
     }
@@ -71,11 +71,11 @@ class Candidates {
   std::vector<double> reaches_m_;
 };
 
-/// The world as one beam finds it: everything where it is when the beam fires.
+/// The world at the moment when one beam fires.
 struct BeamView {
   Pose2 world_from_laser;
   double nose_down_rad;
-  double fraction;                    ///< Of the step that has passed.
+  double fraction;                    ///< Elapsed fraction of the step.
   const std::vector<int>& candidates;
 };
 
@@ -94,13 +94,13 @@ double range_to_object(const MovingObject& object, const Pose2& world_from_objec
   return range_m;
 }
 
-/// Whether the ray cannot meet anything within reach of where the object was.
+/// True if the ray cannot hit anything within reach of the object's position.
 bool passes_by(const MovingObject& before, double reach_m, const Vector2& origin, const Vector2& direction) {
   const Vector2 to_object = before.world_from_object.translation_m() - origin;
   return std::abs(direction.x() * to_object.y() - direction.y() * to_object.x()) > reach_m;
 }
 
-/// A beam in space: over the ground it goes along a direction, and up by so much for each metre of that.
+/// A beam in space: its direction over the ground, and its rise per metre of that.
 struct BeamDirection {
   Vector2 in_world;
   double rise;
@@ -174,7 +174,7 @@ class Sweep {
     return z_m + beam.rise * level_m > road_m + height_m;
   }
 
-  /// The first stationary surface that the beam does not pass over.
+  /// The first stationary surface that the beam does not pass above.
   Hit first_not_below(const Vector2& origin, const BeamDirection& beam, double z_m, double reach_m) const {
     constexpr double kBeyond_m = 0.01;
     Hit hit = stationary_.cast(origin, beam.in_world, reach_m);
@@ -187,7 +187,7 @@ class Sweep {
     return hit;
   }
 
-  /// What the whole spot returns: its middle's echo, or, where an edge splits it, sometimes a range in between.
+  /// Range of the whole spot: that of its centre or, if an edge splits it, sometimes a range in between.
   Echo over_spot(const std::array<Echo, 3>& rays) {
     const auto [nearest, furthest] = std::minmax_element(
         rays.begin(), rays.end(), [](const Echo& a, const Echo& b) { return a.range_m < b.range_m; });

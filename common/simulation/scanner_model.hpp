@@ -11,7 +11,7 @@
 
 namespace slammot::simulation {
 
-/// How much ranges vary.
+/// Model of the range noise.
 enum class RangeNoise {
   as_given,                           ///< By noise_floor_m and noise_per_m.
   data_sheet,                         ///< SICK LMS 2xx: 0.01 m, one sigma, at any range.
@@ -45,14 +45,14 @@ struct ScannerConfig {
   double dark_drop_out = 0.15;        ///< Echo from a car lost at maximum range; grows with the square of range.
 };
 
-/// The moving part of the world at one time.
+/// Moving part of the world at one time.
 struct Moment {
   geometry::Pose2 world_from_base;
   double nose_down_rad = 0.0;         ///< Of the body, by the road and by its springs.
   std::vector<MovingObject> objects;  ///< The same objects in the same order at every moment.
 };
 
-/// A step of the simulation: things move evenly from one moment to the other, and on after it.
+/// A step of the simulation: motion is uniform between the two moments and beyond.
 struct Step {
   const Moment& before;
   const Moment& after;
@@ -63,14 +63,14 @@ struct Step {
 
 constexpr int kStationary = -1;
 constexpr int kNothing = -2;
-constexpr int kMixed = -3;            ///< Two surfaces at once, not both stationary.
+constexpr int kMixed = -3;            ///< A mixed pixel of two surfaces that are not both stationary.
 
 struct ScannedWorld {
   std::vector<float> range_m;         ///< One a beam.
-  std::vector<int> source;            ///< What each beam met: index of a moving object, kStationary, kNothing or kMixed.
+  std::vector<int> source;            ///< Source of each echo: index of a moving object, kStationary, kNothing or kMixed.
 };
 
-/// The scanner's geometry as it travels with its scans; how it is tipped does not.
+/// The scanner's geometry as in its scans, without the tilt.
 sensing::Scanner scanner_of(const ScannerConfig& config);
 
 /// One sigma at that range.

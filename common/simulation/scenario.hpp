@@ -18,17 +18,17 @@
 namespace slammot::simulation {
 
 enum class Place { city, office, script };
-/// Which CARMEN record a log of the drive has.
+/// CARMEN record type of a drive's log.
 enum class LogRecord { robotlaser1, flaser };
 
-/// Everything a simulated drive depends on. The same scenario gives the same bytes.
+/// All parameters of a simulated drive. The same scenario gives bitwise the same result.
 struct ScenarioConfig {
   std::string name;
   std::string description;            ///< One line, for people.
   std::uint64_t seed = 1;
   double duration_s = 80.0;
   double start_stamp_s = 21.0;        ///< Clock at the first scan; a log's clock does not start at 0 either.
-  double warm_up_s = 10.0;            ///< The world moves this long before the vehicle sets out, unrecorded.
+  double warm_up_s = 10.0;            ///< Unrecorded simulation time before the vehicle starts.
   Place place = Place::city;
   WalkersConfig walkers;
   CityConfig city;                    ///< These three of a city,
@@ -44,7 +44,7 @@ struct ScenarioConfig {
   std::vector<HeightAt> terrain;      ///< Empty: level.
   SuspensionConfig suspension;
   OdometryConfig odometry;
-  ScannerConfig scanner;              ///< The first, whose scans beat the time.
+  ScannerConfig scanner;              ///< The first scanner; its scans determine the time steps.
   std::vector<ScannerConfig> more_scanners;
   GnssConfig gnss;
   CompassConfig compass;

@@ -9,17 +9,17 @@ namespace slammot::simulation {
 
 struct ScenarioConfig;
 
-/// A place with everything that happens in it; the scenario selects which. The scanner only needs this much of it.
+/// A place with its moving objects, selected by the scenario: the interface that the scanner needs.
 class Scene {
  public:
   virtual ~Scene() = default;
 
-  /// Everything that never moves, in the world frame. The same for the whole drive.
+  /// Stationary surfaces in the world frame, constant over the drive.
   virtual const Outline& stationary_in_world() const = 0;
   virtual void advance(double dt_s) = 0;
   /// The vehicle that carries the scanners.
   virtual MovingObject vehicle() const = 0;
-  /// Everything else that moves or could, ids from 1 on; the same objects in the same order after every advance.
+  /// All other objects that can move, ids from 1 on; the same objects in the same order after every advance.
   virtual std::vector<MovingObject> others() const = 0;
 };
 
@@ -28,7 +28,7 @@ std::unique_ptr<Scene> make_city_scene(const ScenarioConfig& scenario);
 /// A floor of corridors and rooms with a robot and people.
 std::unique_ptr<Scene> make_office_scene(const ScenarioConfig& scenario);
 
-/// What the scenario's script says.
+/// The scene of the scenario's script.
 std::unique_ptr<Scene> make_script_scene(const ScenarioConfig& scenario);
 
 }  // namespace slammot::simulation

@@ -22,7 +22,7 @@ double speed_at(const std::vector<SpeedAt>& profile, double time_s) {
   return piecewise_linear(profile, &SpeedAt::at_s, &SpeedAt::mps, time_s);
 }
 
-/// One of the script's objects, or one of its copies.
+/// One of the script's objects, or a copy of it.
 class Actor {
  public:
   Actor(const ScriptedObject& script, int id, double start_s, Random& random)
@@ -81,7 +81,7 @@ class Actor {
   Outline outline_in_object_;
 };
 
-/// An object that goes evenly from one recorded place to the next.
+/// An object that moves uniformly between recorded places.
 MovingObject object_at(const RecordedObject& recorded, int id, double time_s) {
   const auto& places = recorded.places;
   const auto after = std::find_if(places.begin(), places.end(), [&](const RecordedPlace& place) { return place.at_s > time_s; });
@@ -138,7 +138,7 @@ class ScriptScene final : public Scene {
     for (std::size_t i = 0; i < actors_.size(); ++i) {
       if (i == ridden_ && !rides_recorded()) continue;
       objects.push_back(actors_[i].object(time_s_));
-      if (i == 0) objects.back().id = static_cast<int>(actors_.size());  // the first vehicle, seen from another
+      if (i == 0) objects.back().id = static_cast<int>(actors_.size());  // the first vehicle, as seen from another one
     }
     for (int i = 0; i < static_cast<int>(recorded_.size()); ++i) {
       if (i != recorded_vehicle_) objects.push_back(recorded(i));

@@ -7,13 +7,13 @@
 
 namespace slammot::simulation {
 
-/// What a beam may meet. The numbers of the first three are the classes of the walls file.
+/// Material of a surface. The numbers of the first three are the classes of the walls file.
 enum class Material : std::uint8_t { wall = 0, parked_car = 1, post = 2, foliage, ground, body };
 
-/// Of the top of what is made of it, above the road; of a moving body its class says more.
+/// Height of the top of this material above the road; for a moving body its class is more accurate.
 double usual_height_m(Material material);
 
-/// Straight piece of a surface, in the frame of what it belongs to.
+/// Straight segment of a surface, in the frame of its object.
 struct Segment {
   geometry::Vector2 a;
   geometry::Vector2 b;
@@ -27,7 +27,7 @@ struct Circle {
   Material material = Material::post;
 };
 
-/// What a planar scanner sees of a thing, in the frame named by the variable that holds it.
+/// Cross-section of an object at the scanner's height, in the frame named by the variable.
 struct Outline {
   std::vector<Segment> segments;
   std::vector<Circle> circles;

@@ -71,7 +71,7 @@ void Traffic::place_drivers(const TrafficConfig& config) {
   const auto place = [&](ObjectClass kind, int count) {
     for (int i = 0; i < count; ++i) {
       Driver driver = make_driver(kind, config);
-      if (!place_at_random(driver)) return;  // the streets are full
+      if (!place_at_random(driver)) return;  // no free place
       drivers_.push_back(std::move(driver));
       extend_plan(drivers_.back());
     }
@@ -144,7 +144,7 @@ int Traffic::choose_turn(Driver& driver, int street_lane) {
       if (network_.lane(network_.lane(turn).next.front()).travel == wanted) return turn;
     }
   }
-  // A bus cannot take a right turn without swinging into the other lane, and bicycles avoid turning left.
+  // Buses cannot turn right without leaving their lane, and bicycles avoid left turns.
   const auto avoid = [&](TurnKind kind) {
     const auto unwanted = [&](int turn) { return network_.lane(turn).turn == kind; };
     if (!std::all_of(turns.begin(), turns.end(), unwanted)) std::erase_if(turns, unwanted);
@@ -233,7 +233,7 @@ double Traffic::bend_braking_mps2(const Driver& driver) const {
 
 Traffic::Obstacle Traffic::leader(std::size_t index) const {
   const Driver& driver = drivers_[index];
-  double lane_start_m = -driver.arc_m;  // of the lane under consideration, ahead of this driver's centre
+  double lane_start_m = -driver.arc_m;  // of the current lane, ahead of this driver's centre
   for (std::size_t i = 0; i < driver.lanes.size() && lane_start_m < kSight_m; ++i) {
     const Lane& lane = network_.lane(driver.lanes[i]);
     for (const std::size_t other : drivers_in_lane_[static_cast<std::size_t>(driver.lanes[i])]) {
@@ -279,7 +279,7 @@ void Traffic::ask_for_turn(Driver& driver) {
 }
 
 bool Traffic::is_next_to_go(const Driver& driver) const {
-  // Who is behind somebody that waits must not hold the turn that this one waits for: both would stand for ever.
+  // A driver behind a waiting one must not reserve the turn that it waits for: that would be a deadlock.
   const auto& lane = drivers_in_lane_[static_cast<std::size_t>(driver.lanes.front())];
   return std::none_of(lane.begin(), lane.end(), [&](std::size_t other) {
     return drivers_[other].arc_m > driver.arc_m && drivers_[other].reserved_turn != drivers_[other].lanes[1];
@@ -292,7 +292,7 @@ bool Traffic::turn_is_free(const Driver& driver, int turn) const {
   for (const int conflict : lane.conflicts) {
     if (reservations_[static_cast<std::size_t>(conflict)] > 0) return false;
   }
-  // Room behind the junction: nobody stops inside it.
+  // Space behind the junction: no vehicle stops inside it.
   const int exit = lane.next.front();
   double room_m = kFar_m;
   for (const std::size_t other : drivers_in_lane_[static_cast<std::size_t>(exit)]) {
@@ -321,7 +321,7 @@ bool Traffic::has_green(int junction, Direction travel) const {
 bool Traffic::may_cross(const Crossing& crossing) const {
   const auto i = static_cast<std::size_t>(crossing.junction);
   if (signalled_[i]) {
-    // People walk with the traffic that does not use this arm, and start only early in its green.
+    // Pedestrians cross with the traffic that does not use this arm, and start only early in its green phase.
     const Direction across = turned_left(crossing.arm, 1);
     const double half_s = config_.green_s + config_.clearance_s;
     const double phase_s = std::fmod(time_s_ + signal_offset_s_[i], half_s);
@@ -360,7 +360,7 @@ double Traffic::person_gap_m(const Driver& driver, const std::vector<PersonOnRoa
   double nearest_m = kFar_m;
   for (const PersonOnRoad& person : people) {
     if ((person.position_in_world - now.translation_m()).norm() > look_m + 6.0) continue;
-    // Nobody sets off while someone squeezes past.
+    // No vehicle starts while a pedestrian passes close by.
     const Vector2 beside = inverse(now) * person.position_in_world;
     const bool touches = std::abs(beside.x()) < 0.5 * driver.length_m + 0.4 && std::abs(beside.y()) < driver.half_width_m + 0.3;
     if (touches && driver.speed_mps < 1.0) return 0.0;
@@ -390,7 +390,7 @@ double Traffic::own_stop_gap_m(Driver& driver) {
     driver.next_stop_m = driver.travelled_m + driver.stop_every_m * random_.uniform(0.6, 1.4);
   }
   if (driver.stop_left_s <= 0.0) return kFar_m;
-  // A stop once begun is reached at a comfortable rate, wherever that is.
+  // A stop uses a comfortable deceleration from its beginning, wherever it ends.
   const double braking_m = driver.speed_mps * driver.speed_mps / (2.0 * kComfortableBraking_mps2);
   return driver.speed_mps < 0.5 ? 0.0 : braking_m + 1.0;
 }
@@ -457,7 +457,7 @@ void Traffic::publish() {
     }
   }
   for (std::size_t i = 0; i < drivers_.size(); ++i) {
-    // The vehicle's centre is where its odometry says it moves straight ahead, so that stays on the way itself.
+    // Odometry's reference point moves straight ahead, so that it stays on the way.
     objects_[i].world_from_object = i == 0 ? pose_ahead(drivers_[i], 0.0) : pose_on_axles(drivers_[i]);
     objects_[i].speed_mps = drivers_[i].speed_mps;
   }

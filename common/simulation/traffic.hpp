@@ -14,8 +14,8 @@ struct TrafficConfig {
   int trucks = 3;
   int buses = 3;
   int bicycles = 8;
-  double stopping_share = 0.15;       ///< Of the cars and trucks: those that stop in the lane now and then (delivery).
-  /// Corners of the route of a car that stops and goes right ahead of the vehicle, from its first junction on; empty: none.
+  double stopping_share = 0.15;       ///< Share of cars and trucks that stop in the lane now and then (delivery).
+  /// Route of a stop-and-go car directly ahead of the vehicle, from its first junction on; empty: none.
   std::vector<JunctionId> car_ahead;
   double green_s = 13.0;              ///< Of each of the two axes at a signalled junction.
   double clearance_s = 3.0;           ///< Red for all after each green.
@@ -23,10 +23,10 @@ struct TrafficConfig {
 
 /// Where the vehicle goes and how it is driven.
 struct RouteConfig {
-  std::vector<JunctionId> junctions;  ///< Corners in turn, straight streets between; goes on at random after the last. Empty: all at random.
+  std::vector<JunctionId> junctions;  ///< Corners in sequence with straight streets between; random after the last. Empty: a random route.
   double start_m = 12.0;              ///< Behind the stop line of the first junction.
   double speed_factor = 0.95;         ///< Of the limit.
-  double hard_brake_every_s = 45.0;   ///< Mean time between moments in which the driver is frightened.
+  double hard_brake_every_s = 45.0;   ///< Mean time between hard brakings.
   double hard_brake_mps2 = 5.5;
   double length_m = 5.0;
   double width_m = 2.0;
@@ -45,15 +45,15 @@ class Traffic {
   Traffic(const StreetPlan& plan, const Setup& setup);
 
   void advance(double dt_s, const std::vector<PersonOnRoad>& people);
-  /// Signal or gap allows a person to start across now.
+  /// True if signal or gap allows a person to start across now.
   bool may_cross(const Crossing& crossing) const;
 
-  /// Whether a vehicle's body covers a place.
+  /// True if a vehicle's body covers the place.
   bool is_occupied(const geometry::Vector2& place_in_world) const;
-  /// may_cross and is_occupied as people ask for them. Refers to this traffic, which must outlive it.
+  /// may_cross and is_occupied for pedestrians. Refers to this traffic, which must outlive it.
   StreetView street_view() const;
 
-  /// The vehicle that carries the scanners, then everybody else; ids from 0 on. Fixed order.
+  /// The vehicle with the scanners, then all other objects; ids from 0 on, in a fixed order.
   const std::vector<MovingObject>& objects() const { return objects_; }
 
  private:
@@ -64,9 +64,9 @@ class Traffic {
     double half_width_m = 0.9;
     double sideways_m = 0.0;            ///< Place to the left of the lane's middle.
     double speed_factor = 1.0;
-    int last_lane = -1;                 ///< The one it came from.
-    std::vector<int> lanes;             ///< The one it is in, then those it will take.
-    double arc_m = 0.0;                 ///< Of its centre, in lanes.front().
+    int last_lane = -1;                 ///< The previous lane.
+    std::vector<int> lanes;             ///< Current lane, then the lanes ahead.
+    double arc_m = 0.0;                 ///< Of its centre along lanes.front().
     double speed_mps = 0.0;
     double travelled_m = 0.0;
     int reserved_turn = -1;
@@ -75,7 +75,7 @@ class Traffic {
     double stop_left_s = 0.0;
     std::vector<JunctionId> route;      ///< Junctions still to be passed, the next one first.
   };
-  /// Something to stop behind.
+  /// An obstacle or line to stop behind.
   struct Obstacle {
     double gap_m;
     double speed_mps;

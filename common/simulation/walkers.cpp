@@ -147,7 +147,7 @@ void Walkers::advance(Group& group, double dt_s, const StreetView& street) {
     group.pause_left_s = random_.uniform(0.3, 1.0) * config_.pause_s;
   }
   group.pause_left_s -= dt_s;
-  // Somebody who and a vehicle that wait for each other would do so for ever; people squeeze past in the end.
+  // A pedestrian and a vehicle could wait for each other for ever, so that pedestrians finally pass.
   const bool blocked = !group.waits_to_cross && vehicle_ahead(group, street) && group.blocked_s < kPatience_s;
   group.blocked_s = blocked ? group.blocked_s + dt_s : std::max(0.0, group.blocked_s - 0.2 * dt_s);
   if (blocked && !crosses) step_aside(group, dt_s);
@@ -160,7 +160,7 @@ void Walkers::advance(Group& group, double dt_s, const StreetView& street) {
   const double turn_rad = std::clamp(wanted_turn_rad, -kTurnRate_radps * dt_s, kTurnRate_radps * dt_s);
   if (!stands) group.heading_rad = geometry::wrap_angle(group.heading_rad + turn_rad);
 
-  // People slow down while they still have to turn, so that they do not circle around where they want to go.
+  // Pedestrians slow down while they turn, so that they do not circle around their goal.
   const double facing = std::max(0.1, std::cos(wanted_turn_rad));
   const double wanted_mps = stands ? 0.0 : group.walking_speed_mps * facing;
   const double change_mps = kAcceleration_mps2 * dt_s;

@@ -29,7 +29,7 @@ struct Crossing {
   Direction arm = Direction::east;
 };
 
-/// Places and the straight ways between them that people walk.
+/// Places and the straight ways between them for pedestrians.
 struct WalkGraph {
   struct Way {
     int to = 0;
@@ -45,39 +45,39 @@ struct WalkGraph {
 /// Pavements on both sides of every street, and crossings at every junction.
 WalkGraph pavements(const StreetPlan& plan);
 
-/// Someone in the way of traffic.
+/// A person in the way of traffic.
 struct PersonOnRoad {
   geometry::Vector2 position_in_world;
   geometry::Vector2 velocity_in_world_mps;
 };
 
-/// What people see of the traffic before and while they cross.
+/// Traffic as pedestrians perceive it before and while they cross.
 struct StreetView {
-  std::function<bool(const Crossing&)> may_start;                          ///< Signal or gap allows it.
-  std::function<bool(const geometry::Vector2& place_in_world)> is_occupied;  ///< A vehicle stands or passes here.
+  std::function<bool(const Crossing&)> may_start;                          ///< Signal or gap allows crossing.
+  std::function<bool(const geometry::Vector2& place_in_world)> is_occupied;  ///< A vehicle is or will be here.
 };
 
-/// People who wander over a walk graph alone or in groups, pause, wait at crossings and cross.
+/// Pedestrians who walk at random over a graph, alone or in groups, pause, wait at crossings and cross.
 class Walkers {
  public:
   Walkers(WalkGraph graph, const WalkersConfig& config, std::uint64_t seed);
 
-  /// Moves everybody on by dt_s.
+  /// Moves all pedestrians by dt_s.
   void advance(double dt_s, const StreetView& street);
 
-  /// Everybody, ids from first_id on, always in the same order.
+  /// All pedestrians, ids from first_id on, in constant order.
   std::vector<MovingObject> objects(int first_id) const;
   std::vector<PersonOnRoad> on_road() const;
 
  private:
   struct Group {
     geometry::Vector2 position_in_world;
-    geometry::Vector2 sideways_in_world;  ///< This group's place beside the middle of every way.
+    geometry::Vector2 sideways_in_world;  ///< Lateral offset of this group from the middle of every way.
     double heading_rad = 0.0;
-    double speed_mps = 0.0;               ///< Now.
+    double speed_mps = 0.0;               ///< Current speed.
     double walking_speed_mps = 0.0;
     double pause_left_s = 0.0;
-    double blocked_s = 0.0;               ///< Held up by vehicles of late.
+    double blocked_s = 0.0;               ///< Recent time for which vehicles blocked it.
     double phase_rad = 0.0;
     int from = 0;
     WalkGraph::Way way;

@@ -11,8 +11,8 @@ struct Fault {
   std::string_view reason;
 };
 
-/// A value taken from the bus, or why it was refused. What comes from the bus is checked in full: sizes that must
-/// agree, enumerators, finite numbers, variances that are none. So the algorithms need not.
+/// A decoded value, or the reason of its rejection. Decoders check everything: consistent sizes, enumerators, finite
+/// numbers, valid variances. Algorithms need no such checks.
 template <typename Value>
 class Decoded {
  public:

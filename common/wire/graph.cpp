@@ -10,7 +10,7 @@
 namespace slammot::wire {
 namespace {
 
-// A correction that newer ones overtake before it is complete never gets its last part.
+// A correction overtaken by newer ones never becomes complete.
 constexpr std::size_t kMostIncomplete = 4;
 
 static_assert(static_cast<int>(flow::ConstraintKind::kOdometric) == slammot_CONSTRAINT_KIND_ODOMETRIC);
@@ -96,7 +96,7 @@ GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(const sl
   if (known != partial_.end()) {
     Partial& partial = known->second;
     if (partial.parts.size() == part.part_count && partial.map_from_odom == map_from_odom && partial.map_id.value == part.map_id) return partial;
-    // A loop closing service that started again counts from the beginning: what it says replaces the old.
+    // A restarted loop closing service counts from the beginning: its corrections replace the old ones.
     partial_.erase(known);
   }
   if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());

@@ -21,11 +21,11 @@ inline constexpr std::uint32_t kMostParts = 64;
 slammot_Constraint encode(std::string_view vehicle_id, const flow::Constraint& constraint);
 Decoded<flow::Constraint> decode(const slammot_Constraint& sample);
 
-/// Cuts corrections into parts that fit on the bus; keeps its buffers.
+/// Splits corrections into parts that fit on the bus; reuses its buffers.
 class GraphCorrectionEncoder {
  public:
-  /// Calls `write` with each part, which is good only during the call. Throws std::length_error for more than
-  /// kMostParts * kMostSubmapsOfPart submaps.
+  /// Calls `write` with each part, valid only during the call. Throws std::length_error for more than kMostParts *
+  /// kMostSubmapsOfPart submaps.
   void encode(std::string_view vehicle_id, const flow::GraphCorrection& correction,
               const std::function<void(const slammot_GraphCorrection&)>& write);
 
@@ -34,13 +34,13 @@ class GraphCorrectionEncoder {
   std::vector<slammot_CorrectedSubmap> submaps_;
 };
 
-/// Puts corrections together again from their parts, which come in any order. One for each vehicle.
+/// Reassembles corrections from parts in any order. Use one a vehicle.
 class GraphCorrectionAssembler {
  public:
-  /// The correction when this was its last part; nothing (and no fault) when more are to come.
+  /// The correction if this was its last missing part; nothing (and no fault) if parts are missing.
   struct Added {
     std::optional<flow::GraphCorrection> correction;
-    std::string_view fault;  ///< Why the part was refused; empty when it was not.
+    std::string_view fault;  ///< Reason of rejection; empty if accepted.
   };
   Added add(const slammot_GraphCorrection& part);
 

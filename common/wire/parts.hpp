@@ -26,19 +26,19 @@ geometry::UncertainPose2 decode(const slammot_UncertainPose2& pose);
 Eigen::Vector2d decode(const slammot_Vector2& vector);
 Eigen::Vector2f decode(const slammot_Point2f& point);
 
-/// Probabilities may miss [0, 1], and variances 0, by as much as sums of rounding errors do.
+/// Tolerance of probabilities outside [0, 1] and of negative variances: rounding errors of sums.
 inline constexpr double kRounding = 1e-6;
 
-/// Whether every number is finite, and for a covariance the variances not negative.
+/// True if every number is finite and, for a covariance, variances are not negative.
 bool is_sound(double number);
 bool is_sound(const slammot_Pose2& pose);
 bool is_sound(const slammot_UncertainPose2& pose);
 bool is_sound(const slammot_Vector2& vector);
 bool is_sound(const slammot_Point2f& point);
 
-/// Whether a number is finite and not below zero.
+/// True if the number is finite and not negative.
 bool is_amount(double number);
-/// Whether a scan may take so long, either way round; what claims to take hours would send tracks astray.
+/// True if the sweep duration is plausible, with either sign; hours would make tracks diverge.
 bool is_sweep(double sweep_s);
 bool is_probability(double number);
 
@@ -80,8 +80,8 @@ void show(Sequence& sequence, std::vector<Element>& buffer) {
   sequence = {size, size, buffer.data(), false};
 }
 
-/// Whether a generated enumerator is one of 0 to `last`. The library checks too, but not every writer is the library.
-/// By reference and by its bytes: to load a value that is none of the enumerators is undefined behaviour.
+/// True if the enumerator is in [0, last]. Writers other than the library may send anything. It reads the bytes by
+/// reference, because loading an invalid enumerator is undefined behaviour.
 template <typename Enum>
 bool is_enumerator(const Enum& value, Enum last) {
   std::underlying_type_t<Enum> number{};

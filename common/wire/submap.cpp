@@ -13,7 +13,7 @@ namespace slammot::wire {
 namespace {
 
 constexpr std::uint32_t kMostSurfelsOfTile = 4608;
-// Bounds what tiles that are never completed can hold; several times the submaps of a day's drive.
+// Limits the memory of incomplete submaps; several times the submaps of a day's drive.
 constexpr std::size_t kMostIncomplete = 4096;
 
 std::uint32_t divide_up(std::uint32_t dividend, std::uint32_t divisor) { return (dividend + divisor - 1) / divisor; }
@@ -71,7 +71,7 @@ slammot_SubmapHeader encode_header(const flow::Submap& submap, std::uint32_t til
   return header;
 }
 
-/// A submap as its header says, with grids and surfels still to be filled in.
+/// A submap from its header, with empty grids and surfels.
 flow::Submap empty_submap(flow::SubmapId submap_id, const slammot_SubmapHeader& header) {
   const std::size_t cells = std::size_t{header.column_count} * header.row_count;
   return {.map_id = {header.map_id},
@@ -296,7 +296,7 @@ SubmapAssembler::Added SubmapAssembler::add(const slammot_SubmapTile& tile) {
     return {};
   }
   Partial& partial = partial_of(tile);
-  // The hash names the version, but a sender may be wrong about it: what was allocated is what counts.
+  // The hash identifies the version, but a sender may be wrong: the allocated size counts.
   if (partial.has_tile.size() != tile.header.tile_count || partial.submap.columns != tile.header.column_count ||
       partial.submap.rows != tile.header.row_count || partial.submap.surfels.size() != tile.header.surfel_count) {
     ++counters_.faulty_tiles;

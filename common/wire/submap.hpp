@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kTileSide = 128;
 inline constexpr std::uint64_t kMostCells = 1U << 24;
 inline constexpr std::uint32_t kMostSurfels = 1U << 20;
 
-/// Cuts submaps into tiles that fit on the bus; keeps its buffers.
+/// Splits submaps into tiles that fit on the bus; reuses its buffers.
 class SubmapEncoder {
  public:
   /// Calls `write` with each tile, which is good only during the call. Tiles in which nothing was seen are left out,
@@ -44,8 +44,8 @@ class SubmapEncoder {
   std::vector<slammot_Surfel> surfels_;
 };
 
-/// Puts submaps together again from tiles that come in any order, more than once, and of several submaps in turn, as
-/// late joiners get them. One for each vehicle.
+/// Reassembles submaps from tiles in any order, repeated, and of several submaps at a time, as late joiners receive
+/// them. Use one a vehicle.
 class SubmapAssembler {
  public:
   struct Counters {
@@ -55,16 +55,16 @@ class SubmapAssembler {
     std::uint64_t replaced_submaps = 0;  ///< A new version of a submap came before the old one was complete.
   };
 
-  /// The submap when this was its last tile, nothing (and no fault) when more are to come or when it was complete
-  /// before and has not changed. Submaps become complete in any order.
+  /// The submap if this was its last missing tile. Nothing (and no fault) if tiles are missing, or if the submap was
+  /// complete before and has not changed. Submaps become complete in any order.
   struct Added {
     std::optional<flow::Submap> submap;
-    std::string_view fault;  ///< Why the tile was refused; empty when it was not.
+    std::string_view fault;  ///< Reason of rejection; empty if accepted.
   };
   Added add(const slammot_SubmapTile& tile);
 
   const Counters& counters() const { return counters_; }
-  /// Submaps of which some tiles came and some did not.
+  /// Number of incomplete submaps.
   std::size_t incomplete() const { return partial_.size(); }
 
  private:
@@ -83,7 +83,7 @@ class SubmapAssembler {
   Counters counters_;
 };
 
-/// FNV-1a (64 bits) over all that a submap holds but its number.
+/// FNV-1a (64 bits) over the submap without its number.
 std::uint64_t content_hash(const flow::Submap& submap);
 
 }  // namespace slammot::wire

@@ -5,32 +5,32 @@
 
 namespace slammot::work {
 
-/// Somewhere that work can go on beside the caller's. Estimators know no threads; whoever composes them may have one to lend.
+/// Interface to a helper thread. Estimators do not create threads; their owner may pass one.
 class SideWork {
  public:
   virtual ~SideWork() = default;
 
-  /// Lets step() be done again and again until it returns false, by the return of wait() at the latest. What was begun before is
-  /// done first; what is shared comes between two steps.
+  /// Starts calls of step() until it returns false, at the latest by the return of wait(). Earlier started work comes
+  /// first; share() is served between two steps.
   virtual void begin(std::function<bool()> step) = 0;
 
-  /// Returns when all that was begun is done, and seen by the caller.
+  /// Returns when all started work is done and visible to the caller.
   virtual void wait() = 0;
 
-  /// Does part(0) to part(parts - 1), each once, in any order and perhaps side by side; returns when all are done, and seen by
-  /// the caller. What was begun before may go on beyond that: no part may rely on it.
+  /// Runs part(0) to part(parts - 1), each once, in any order, possibly concurrently. Returns when all are done and
+  /// visible to the caller. Work started earlier may still run; no part may depend on it.
   virtual void share(std::size_t parts, const std::function<void(std::size_t)>& part) = 0;
 };
 
-/// Does part(i) for each i < parts, by turns with the help if there is any (null: none). Whatever one part writes, no other may
-/// touch: then the result does not depend on who did it.
+/// Runs part(i) for each i < parts, shared with the helper if there is one (may be null). Parts must not write common
+/// data, so that the result does not depend on the schedule.
 template <typename Part>
 void share(SideWork* help, std::size_t parts, const Part& part) {
   if (help != nullptr && parts > 1) return help->share(parts, std::cref(part));  // a reference: no allocation
   for (std::size_t i = 0; i < parts; ++i) part(i);
 }
 
-/// Does work(first, end) for so many ranges that are all of [0, count), as share() does its parts.
+/// Runs work(first, end) on ranges that partition [0, count), as share() runs its parts.
 template <typename Work>
 void share_in_ranges(SideWork* help, std::size_t count, std::size_t ranges, const Work& work) {
   if (help == nullptr || count < ranges) return work(std::size_t{0}, count);
