@@ -2,12 +2,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/slammot/command_line.hpp"
+#include "tests/support/command_line_call.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace slammot {
@@ -15,25 +16,11 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-struct Outcome {
-  int exit_code = 0;
-  std::string standard_output;
-  std::string standard_error;
-};
+using testing::Outcome;
 
 Outcome config_command(std::vector<std::string> words) {
-  words.insert(words.begin(), {"slammot", "config"});
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  ::testing::internal::CaptureStdout();
-  ::testing::internal::CaptureStderr();
-  Outcome outcome;
-  outcome.exit_code = run_command_line(static_cast<int>(argv.size()), argv.data());
-  std::fflush(stdout);
-  outcome.standard_output = ::testing::internal::GetCapturedStdout();
-  outcome.standard_error = ::testing::internal::GetCapturedStderr();
-  return outcome;
+  words.insert(words.begin(), "config");
+  return testing::call(std::move(words));
 }
 
 std::string read(const std::filesystem::path& path) {

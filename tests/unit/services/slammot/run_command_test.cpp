@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "services/slammot/command_line.hpp"
+#include "tests/support/command_line_call.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/slammot/room_log.hpp"
 
@@ -19,13 +19,9 @@ namespace slammot {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::call;
+using testing::Outcome;
 using testing::room_log;
-
-struct Outcome {
-  int exit_code = 0;
-  std::string standard_output;
-  std::string standard_error;
-};
 
 class RunCommand : public ::testing::Test {
  protected:
@@ -36,20 +32,6 @@ class RunCommand : public ::testing::Test {
   std::string read(const std::filesystem::path& path) const {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  static Outcome call(std::vector<std::string> words) {
-    words.insert(words.begin(), "slammot");
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    ::testing::internal::CaptureStdout();
-    ::testing::internal::CaptureStderr();
-    Outcome outcome;
-    outcome.exit_code = run_command_line(static_cast<int>(argv.size()), argv.data());
-    std::fflush(stdout);
-    outcome.standard_output = ::testing::internal::GetCapturedStdout();
-    outcome.standard_error = ::testing::internal::GetCapturedStderr();
-    return outcome;
   }
 
   Outcome run(std::vector<std::string> more = {}) const {

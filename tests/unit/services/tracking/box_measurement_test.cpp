@@ -6,37 +6,17 @@
 #include <gtest/gtest.h>
 
 #include "services/tracking/tracking_config.hpp"
+#include "tests/support/box_echoes.hpp"
 
 namespace slammot::tracking {
 namespace {
 
 using Eigen::Vector2d;
+using testing::echoes_of;
+using testing::kStepRad;
+using testing::observation_of;
 
 const TrackingConfig kConfig;
-constexpr double kStepRad = 0.5 * M_PI / 180.0;
-
-/// Echoes of a box at heading 0 as a laser at the origin gets them.
-std::vector<Vector2d> echoes_of(const Vector2d& centre_m, double length_m, double width_m) {
-  std::vector<Vector2d> points;
-  for (double angle = -M_PI / 2.0; angle <= M_PI / 2.0; angle += kStepRad) {
-    const Vector2d way{std::cos(angle), std::sin(angle)};
-    double near = 0.0, far = 1e9;
-    const double half[2] = {0.5 * length_m, 0.5 * width_m};
-    for (int axis = 0; axis < 2; ++axis) {
-      const double a = (centre_m[axis] - half[axis]) / way[axis], b = (centre_m[axis] + half[axis]) / way[axis];
-      near = std::max(near, std::min(a, b)), far = std::min(far, std::max(a, b));
-    }
-    if (near < far) points.push_back(near * way);
-  }
-  return points;
-}
-
-Observation observation_of(const std::vector<Vector2d>& points) {
-  Observation observation;
-  observation.points_m = points;
-  observation.beam_step_rad = kStepRad;
-  return observation;
-}
 
 /// Measured again and again until the belief has settled.
 BoxMeasurement settled(Box box, const Vector2d& predicted_m, const Observation& observation, const TrackingConfig& config = kConfig) {

@@ -7,23 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/turned_scan.hpp"
+
 namespace slammot::tracking {
 namespace {
 
 using Eigen::Vector2d;
-
-/// Of a scanner turned in odom, whose first beam does not point along an axis.
-flow::SegmentedScan scan_of(std::size_t beams, double beam_step_rad) {
-  flow::SegmentedScan scan;
-  scan.beam_step_rad = beam_step_rad;
-  scan.odom_from_base.pose = {3.0, -2.0, 2.5};
-  for (std::size_t beam = 0; beam < beams; ++beam) {
-    const double angle_rad = -1.3 + static_cast<double>(beam) * beam_step_rad;
-    scan.range_m.push_back(10.0F);
-    scan.points_in_base_m.push_back(10.0F * Eigen::Vector2f(static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))));
-  }
-  return scan;
-}
 
 long exact_beam_towards(const PolarView& view, const Vector2d& way) { return std::lround(view.steps_towards(std::atan2(way.y(), way.x()))); }
 
@@ -34,7 +23,7 @@ flow::SegmentedScan scan_of_things(std::mt19937& random) {
   std::uniform_real_distribution<float> range_m(0.5F, 40.0F);
   std::uniform_real_distribution<float> slope_m(-0.8F, 0.8F);
   std::bernoulli_distribution is_there(0.8);
-  flow::SegmentedScan scan = scan_of(kBeams, std::numbers::pi / 360);
+  flow::SegmentedScan scan = testing::turned_scan(kBeams, std::numbers::pi / 360);
   for (std::size_t beam = 0; beam < kBeams;) {
     const std::size_t end = std::min(kBeams, beam + width(random));
     float at_m = is_there(random) ? range_m(random) : 0.0F;
@@ -51,7 +40,7 @@ TEST(PolarView, KnowsTheBeamNearestToADirectionAsTheArctangentDoes) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-30.0, 30.0);
   for (const auto& [beams, step_rad] : {std::pair(361, std::numbers::pi / 360), std::pair(1081, 0.25 * std::numbers::pi / 180), std::pair(720, -std::numbers::pi / 360)}) {
-    const PolarView view(scan_of(static_cast<std::size_t>(beams), step_rad));
+    const PolarView view(testing::turned_scan(static_cast<std::size_t>(beams), step_rad));
     for (int i = 0; i < 200'000; ++i) {
       const Vector2d way(place(random), place(random));
       ASSERT_EQ(view.beam_towards(way), exact_beam_towards(view, way)) << way.transpose();
@@ -60,7 +49,7 @@ TEST(PolarView, KnowsTheBeamNearestToADirectionAsTheArctangentDoes) {
 }
 
 TEST(PolarView, KnowsTheNearestBeamHalfWayBetweenTwoAndBehindTheScanner) {
-  const PolarView view(scan_of(361, std::numbers::pi / 360));
+  const PolarView view(testing::turned_scan(361, std::numbers::pi / 360));
   const double first_rad = std::atan2(view.point_in_odom_m(0).y() - view.laser_in_odom_m().y(), view.point_in_odom_m(0).x() - view.laser_in_odom_m().x());
   for (int half_steps = -720; half_steps <= 1440; ++half_steps) {
     for (const double off_rad : {-1e-4, -1e-9, 0.0, 1e-9, 1e-4}) {
@@ -75,7 +64,7 @@ TEST(PolarView, KnowsTheNearestBeamHalfWayBetweenTwoAndBehindTheScanner) {
 }
 
 TEST(PolarView, KnowsWhenTheBeamTowardsAPlaceIsFired) {
-  flow::SegmentedScan scan = scan_of(361, std::numbers::pi / 360);
+  flow::SegmentedScan scan = testing::turned_scan(361, std::numbers::pi / 360);
   scan.sweep_s = 0.036;
   const PolarView view(scan);
   EXPECT_DOUBLE_EQ(view.delay_s(360), 0.036);
@@ -86,16 +75,16 @@ TEST(PolarView, KnowsWhenTheBeamTowardsAPlaceIsFired) {
 }
 
 TEST(PolarView, CountsOnAcrossTheSeamOfAFullTurnOnly) {
-  const PolarView round(scan_of(720, std::numbers::pi / 360));
+  const PolarView round(testing::turned_scan(720, std::numbers::pi / 360));
   EXPECT_EQ(round.neighbour_of(719, 2), 1U);
   EXPECT_EQ(round.neighbour_of(0, -1), 719U);
   EXPECT_EQ(round.steps_between(718, 3), 5U);
-  const PolarView half(scan_of(361, std::numbers::pi / 360));
+  const PolarView half(testing::turned_scan(361, std::numbers::pi / 360));
   EXPECT_EQ(half.neighbour_of(360, 1), std::nullopt);
   EXPECT_EQ(half.neighbour_of(0, -1), std::nullopt);
   EXPECT_EQ(half.steps_between(3, 5), 2U);
   EXPECT_EQ(half.steps_between(5, 3), 361U);
-  EXPECT_FALSE(PolarView(scan_of(0, 7.0)).goes_all_round()) << "no beams, however far apart they are said to be";
+  EXPECT_FALSE(PolarView(testing::turned_scan(0, 7.0)).goes_all_round()) << "no beams, however far apart they are said to be";
 }
 
 TEST(PolarView, SeesTheSameWithDepthsMeasured) {

@@ -7,25 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/turned_scan.hpp"
+
 namespace slammot::tracking {
 namespace {
 
-/// Of a scanner turned in odom, whose first beam does not point along an axis.
-flow::SegmentedScan scan_of(std::size_t beams, double beam_step_rad) {
-  flow::SegmentedScan scan;
-  scan.beam_step_rad = beam_step_rad;
-  scan.odom_from_base.pose = {3.0, -2.0, 2.5};
-  for (std::size_t beam = 0; beam < beams; ++beam) {
-    const double angle_rad = -1.3 + static_cast<double>(beam) * beam_step_rad;
-    scan.range_m.push_back(10.0F);
-    scan.points_in_base_m.push_back(10.0F * Eigen::Vector2f(static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))));
-  }
-  return scan;
-}
-
 /// Of ten beams, the first five of which met a body 10 m away, and the rest something so far away that is held to be this.
 Edge edge_beside(float range_m, flow::PointLabel label) {
-  flow::SegmentedScan scan = scan_of(10, 0.5 * std::numbers::pi / 180);
+  flow::SegmentedScan scan = testing::turned_scan(10, 0.5 * std::numbers::pi / 180);
   scan.segments.resize(2);
   for (std::uint16_t beam = 0; beam < 10; ++beam) {
     scan.segments[beam < 5 ? 0 : 1].beams.push_back(beam);
@@ -37,7 +26,7 @@ Edge edge_beside(float range_m, flow::PointLabel label) {
 }
 
 TEST(ScanView, SeesBothHalvesOfWhatLiesAcrossTheSeam) {
-  flow::SegmentedScan scan = scan_of(720, std::numbers::pi / 360);
+  flow::SegmentedScan scan = testing::turned_scan(720, std::numbers::pi / 360);
   scan.odom_from_base = {};
   Footprint car;
   car.length.value_m = 4.5;
@@ -67,7 +56,7 @@ TEST(EdgeBeyond, IsHiddenWhereTheBodyMayGoOnAsAnotherSegment) {
 
 TEST(EdgeBeyond, IsUnknownWithoutAnEchoAndHiddenAtTheEndOfTheView) {
   EXPECT_EQ(edge_beside(0.0F, flow::PointLabel::kUnknown), Edge::kNoEcho);
-  EXPECT_EQ(edge_beyond(ScanView(scan_of(5, 0.01)), 4, +1, 1.0), Edge::kHidden);
+  EXPECT_EQ(edge_beyond(ScanView(testing::turned_scan(5, 0.01)), 4, +1, 1.0), Edge::kHidden);
 }
 
 }  // namespace
