@@ -10,9 +10,10 @@ CommandResult CommandDesk::answer(const CommandRequest& request) {
   });
   if (known != answered_.end()) return known->result;
   const auto handler = handlers_.find(request.verb);
-  const CommandResult result = handler != handlers_.end()
-                                   ? handler->second(request.argument)
-                                   : CommandResult{CommandOutcome::kUnknownVerb, "unknown command '" + request.verb + "'"};
+  const CommandResult result =
+      handler != handlers_.end()
+          ? handler->second(request.argument)
+          : CommandResult{CommandOutcome::kUnknownVerb, "unknown command '" + request.verb + "'"};
   answered_.push_back({request.requester, request.number, result});
   if (answered_.size() > kRemembered) answered_.pop_front();
   return result;

@@ -17,7 +17,8 @@ std::string with_underscores(std::string name) {
 }
 
 ServiceState state_of(slammot_ServiceState state) {
-  return state <= slammot_SERVICE_STATE_STOPPING ? static_cast<ServiceState>(state) : ServiceState::kStopping;
+  return state <= slammot_SERVICE_STATE_STOPPING ? static_cast<ServiceState>(state)
+                                                 : ServiceState::kStopping;
 }
 
 /// Messages received from the service so far.
@@ -30,14 +31,17 @@ class Listener {
         wait_set_(participant_),
         heartbeats_(participant_, dds::topics::kHeartbeat),
         statuses_(participant_, dds::topics::kStatus) {
-    wait_set_.on_data(heartbeats_, [this] { heartbeats_.take_each([this](const auto& beat) { take(beat); }); });
-    wait_set_.on_data(statuses_, [this] { statuses_.take_each([this](const auto& status) { take(status); }); });
+    wait_set_.on_data(heartbeats_,
+                      [this] { heartbeats_.take_each([this](const auto& beat) { take(beat); }); });
+    wait_set_.on_data(
+        statuses_, [this] { statuses_.take_each([this](const auto& status) { take(status); }); });
   }
 
   /// Waits until heartbeat and status are known and the service has started, or until the time-out.
   Health listen() {
     const SteadyTime end = std::chrono::steady_clock::now() + question_.patience;
-    while (!is_settled() && std::chrono::steady_clock::now() < end) wait_set_.wait(end - std::chrono::steady_clock::now());
+    while (!is_settled() && std::chrono::steady_clock::now() < end)
+      wait_set_.wait(end - std::chrono::steady_clock::now());
     return judge();
   }
 
@@ -56,11 +60,14 @@ class Listener {
   }
   bool is_settled() const { return state_ && *state_ != ServiceState::kStarting && explanation_; }
   Health judge() const {
-    const auto patience_s = std::chrono::duration_cast<std::chrono::seconds>(question_.patience).count();
-    if (!state_) return {false, service_ + ": no heartbeat within " + std::to_string(patience_s) + " s"};
+    const auto patience_s =
+        std::chrono::duration_cast<std::chrono::seconds>(question_.patience).count();
+    if (!state_)
+      return {false, service_ + ": no heartbeat within " + std::to_string(patience_s) + " s"};
     const bool is_at_work = *state_ == ServiceState::kRunning || *state_ == ServiceState::kDegraded;
     std::string text = service_ + ": " + std::string(to_string(*state_));
-    if (*state_ == ServiceState::kDegraded && explanation_ && !explanation_->empty()) text += ", " + *explanation_;
+    if (*state_ == ServiceState::kDegraded && explanation_ && !explanation_->empty())
+      text += ", " + *explanation_;
     return {is_at_work, text};
   }
 

@@ -17,14 +17,16 @@ enum class Input {
 /// Time of an input's last sample.
 class InputWatch {
  public:
-  InputWatch(std::string topic_name, Input kind, SteadyTime since) : topic_name_(std::move(topic_name)), kind_(kind), since_(since) {}
+  InputWatch(std::string topic_name, Input kind, SteadyTime since)
+      : topic_name_(std::move(topic_name)), kind_(kind), since_(since) {}
 
   void came(SteadyTime now) {
     last_ = now;
     ++count_;
   }
 
-  /// True if silent for longer than `patience` since the last sample or, before the first, since the start.
+  /// True if silent for longer than `patience` since the last sample or, before the first, since
+  /// the start.
   bool is_missing(SteadyTime now, std::chrono::nanoseconds patience) const;
 
   /// "no slammot/laser_scan for 2.1 s" or "no slammot/laser_scan yet".

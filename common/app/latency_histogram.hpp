@@ -6,7 +6,8 @@
 
 namespace slammot::app {
 
-/// Histogram of the durations of one stage's calls. Fixed memory; percentiles are at most 10 % too high.
+/// Histogram of the durations of one stage's calls. Fixed memory; percentiles are at most 10 % too
+/// high.
 class LatencyHistogram {
  public:
   void add(std::chrono::nanoseconds duration);

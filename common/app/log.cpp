@@ -22,10 +22,13 @@ void set_up_log(std::string_view service_name) {
   spdlog::set_default_logger(spdlog::stderr_color_mt(name));
   spdlog::set_pattern("%H:%M:%S.%e %n %^%l%$: %v");
   spdlog::cfg::load_env_levels();
-  dds::set_log_handler([](dds::LogLevel level, std::string_view line) { spdlog::log(level_of(level), "dds: {}", line); });
+  dds::set_log_handler([](dds::LogLevel level, std::string_view line) {
+    spdlog::log(level_of(level), "dds: {}", line);
+  });
 }
 
-std::string RateLimit::pass(const std::string& kind, std::string_view line, std::chrono::steady_clock::time_point now) {
+std::string RateLimit::pass(const std::string& kind, std::string_view line,
+                            std::chrono::steady_clock::time_point now) {
   const auto [known, is_new] = kinds_.try_emplace(kind, Kind{now, 0});
   Kind& state = known->second;
   if (!is_new && now - state.last < kPeriod) {

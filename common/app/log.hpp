@@ -8,17 +8,20 @@
 
 namespace slammot::app {
 
-/// Makes spdlog and the DDS library write to stderr, each line with time, service and level. The level is SPDLOG_LEVEL
-/// of the environment.
+/// Makes spdlog and the DDS library write to stderr, each line with time, service and level. The
+/// level is SPDLOG_LEVEL of the environment.
 void set_up_log(std::string_view service_name);
 
-/// Limits each kind of line to one every few seconds, so that a flood of bad input does not flood the log.
+/// Limits each kind of line to one every few seconds, so that a flood of bad input does not flood
+/// the log.
 class RateLimit {
  public:
   static constexpr std::chrono::seconds kPeriod{5};
 
-  /// The line to write now, with the number of suppressed lines of its kind; empty if it is suppressed.
-  std::string pass(const std::string& kind, std::string_view line, std::chrono::steady_clock::time_point now);
+  /// The line to write now, with the number of suppressed lines of its kind; empty if it is
+  /// suppressed.
+  std::string pass(const std::string& kind, std::string_view line,
+                   std::chrono::steady_clock::time_point now);
 
  private:
   struct Kind {

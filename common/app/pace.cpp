@@ -24,7 +24,8 @@ Pace::Time Pace::due(std::int64_t stamp_ns, Time now) {
   const bool leaps = stamp_ns < last_stamp_ns_ || stamp_ns - last_stamp_ns_ > kLongestGapNs;
   if (!start_ || leaps) start_ = Start{stamp_ns, now};
   last_stamp_ns_ = stamp_ns;
-  const double since_start_ns = static_cast<double>(stamp_ns - start_->stamp_ns) / speed_.value_or(1.0);
+  const double since_start_ns =
+      static_cast<double>(stamp_ns - start_->stamp_ns) / speed_.value_or(1.0);
   return start_->time + std::chrono::nanoseconds(static_cast<std::int64_t>(since_start_ns));
 }
 

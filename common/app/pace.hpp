@@ -18,8 +18,8 @@ class Pace {
   /// Unlimited: flow control sets the speed.
   bool is_unlimited() const { return !speed_; }
 
-  /// Time at which the record of this stamp is due. The first call starts the drive at `now`. A stamp that decreases,
-  /// or increases by more than a minute, restarts it.
+  /// Time at which the record of this stamp is due. The first call starts the drive at `now`. A
+  /// stamp that decreases, or increases by more than a minute, restarts it.
   Time due(std::int64_t stamp_ns, Time now);
 
   /// Restarts the drive with the next stamp.

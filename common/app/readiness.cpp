@@ -4,7 +4,8 @@
 
 namespace slammot::app {
 
-bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic, bool is_read, bool is_patient) {
+bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic,
+               bool is_read, bool is_patient) {
   std::string missing = readiness.missing();
   if (!is_read) missing = "a reader of " + std::string(topic) + ", " + missing;
   if (!missing.empty() && is_patient) {

@@ -34,8 +34,9 @@ class Readiness {
   std::map<std::string, bool> at_work_;
 };
 
-/// True if a source of scans may start: all services run and its topic has a reader, or its patience has ended. Its
-/// status reports what it waits for or lacks.
-bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic, bool is_read, bool is_patient);
+/// True if a source of scans may start: all services run and its topic has a reader, or its
+/// patience has ended. Its status reports what it waits for or lacks.
+bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic,
+               bool is_read, bool is_patient);
 
 }  // namespace slammot::app

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include "common/app/log.hpp"
 #include "common/app/stop_signal.hpp"
@@ -22,7 +22,8 @@ int refuse(const std::string& program, const std::string& why) {
   return kExitUsage;
 }
 
-/// The service is destroyed before the context that it refers to, and both before the watchdog stops.
+/// The service is destroyed before the context that it refers to, and both before the watchdog
+/// stops.
 int serve(const ServiceDescription& description, const ServiceOptions& options) {
   dds::ExitWatchdog watchdog;
   ServiceContext context(description.name, options);
@@ -36,7 +37,8 @@ int serve(const ServiceDescription& description, const ServiceOptions& options) 
   return context.exit_code();
 }
 
-int serve_or_say_why_not(const std::string& program, const ServiceDescription& description, const ServiceOptions& options) {
+int serve_or_say_why_not(const std::string& program, const ServiceDescription& description,
+                         const ServiceOptions& options) {
   try {
     return serve(description, options);
   } catch (const StartupFailure& failure) {
@@ -52,13 +54,19 @@ int serve_or_say_why_not(const std::string& program, const ServiceDescription& d
 }  // namespace
 
 int run_service(int argc, char** argv, const ServiceDescription& description) {
-  const std::string program = std::filesystem::path(argv[0]).filename();  // not by the name: another program may take the service's place
+  const std::string program = std::filesystem::path(argv[0]).filename();  // not by the name:
+                                                                          // another program may
+                                                                          // take the service's
+                                                                          // place
   CLI::App command_line(description.purpose, program);
   ServiceOptions options;
   command_line.set_version_flag("--version", program + " " + std::string(kVersion));
   add_service_options(command_line, options);
   description.add_options(command_line);
-  command_line.footer([&] { return "Settings of --config:\n" + config::explanation_lines(config::explain(description.stages)); });
+  command_line.footer([&] {
+    return "Settings of --config:\n" +
+           config::explanation_lines(config::explain(description.stages));
+  });
   CLI11_PARSE(command_line, argc, argv);
 
   if (const auto fault = load_config(options, description.stages)) return refuse(program, *fault);

@@ -15,7 +15,8 @@ inline constexpr int kExitUsage = 2;
 /// An unexpected failure: the process should be restarted.
 inline constexpr int kExitFailure = 1;
 
-/// A service cannot start: one line for the user, then exit code kExitUsage. Thrown by constructors of services.
+/// A service cannot start: one line for the user, then exit code kExitUsage. Thrown by constructors
+/// of services.
 class StartupFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -34,18 +35,19 @@ struct ServiceDescription {
 int run_service(int argc, char** argv, const ServiceDescription& description);
 
 /// The same for a class that has
-///   struct Settings                                             its configuration and options, with defaults,
-///   static constexpr const char* kName, *kPurpose,
-///   static std::vector<config::BoundStage> stages(Settings&),
-///   static void add_options(CLI::App&, Settings&),
-///   Service(ServiceContext&, const Settings&)                   which says what it reads, writes and does periodically.
+///   struct Settings                                             its configuration and options,
+///   with defaults, static constexpr const char* kName, *kPurpose, static
+///   std::vector<config::BoundStage> stages(Settings&), static void add_options(CLI::App&,
+///   Settings&), Service(ServiceContext&, const Settings&)                   which says what it
+///   reads, writes and does periodically.
 template <typename Service>
 int run_service(int argc, char** argv) {
   typename Service::Settings settings;
-  return run_service(argc, argv,
-                     {Service::kName, Service::kPurpose, Service::stages(settings),
-                      [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
-                      [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); }});
+  return run_service(
+      argc, argv,
+      {Service::kName, Service::kPurpose, Service::stages(settings),
+       [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
+       [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); }});
 }
 
 }  // namespace slammot::app

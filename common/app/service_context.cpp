@@ -33,16 +33,19 @@ ServiceContext::ServiceContext(const std::string& service, const ServiceOptions&
   publisher_.beat(ServiceState::kStarting);
   publisher_.report(board_, ServiceState::kStarting);
   auto& replies = write(dds::topics::kReply);
-  const auto commands = std::make_shared<dds::Reader<slammot_Command>>(participant_, dds::topics::kCommand);
+  const auto commands =
+      std::make_shared<dds::Reader<slammot_Command>>(participant_, dds::topics::kCommand);
   wait_set_.on_data(*commands, [this, commands = commands.get(), &replies] {
     commands->take_each([&](const slammot_Command& command) {
       if (vehicle_id() != command.vehicle_id || service_ != command.service_name) return;
-      const CommandResult result = desk_.answer({command.requester, command.request_number, command.verb, command.argument});
+      const CommandResult result =
+          desk_.answer({command.requester, command.request_number, command.verb, command.argument});
       replies.write(reply_to(command, result));
     });
   });
   keep(commands);
-  every(StatusPublisher::kHeartbeatPeriod, [this] { publisher_.beat(board_.state(std::chrono::steady_clock::now())); });
+  every(StatusPublisher::kHeartbeatPeriod,
+        [this] { publisher_.beat(board_.state(std::chrono::steady_clock::now())); });
   every(StatusPublisher::kStatusPeriod, [this] { report(); });
 }
 
@@ -120,7 +123,8 @@ void ServiceContext::report_mismatches() {
 
 void ServiceContext::run_for(std::chrono::nanoseconds duration) {
   const SteadyTime end = std::chrono::steady_clock::now() + duration;
-  for (SteadyTime now = std::chrono::steady_clock::now(); now < end; now = std::chrono::steady_clock::now()) {
+  for (SteadyTime now = std::chrono::steady_clock::now(); now < end;
+       now = std::chrono::steady_clock::now()) {
     wait_set_.wait(std::min<std::chrono::nanoseconds>(until_next_timer(), end - now));
     run_due_timers();
   }

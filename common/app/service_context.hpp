@@ -20,8 +20,8 @@
 
 namespace slammot::app {
 
-/// Environment of a service: bus, loop and status. A service registers its readers, writers and timers in its
-/// constructor; all callbacks run in the thread that calls run().
+/// Environment of a service: bus, loop and status. A service registers its readers, writers and
+/// timers in its constructor; all callbacks run in the thread that calls run().
 class ServiceContext {
  public:
   ServiceContext(const std::string& service, const ServiceOptions& options);
@@ -33,12 +33,14 @@ class ServiceContext {
   const dds::Participant& participant() const { return participant_; }
   StatusBoard& status() { return board_; }
 
-  /// Calls handle(sample) for every sample of this vehicle. The reader lives as long as the context.
+  /// Calls handle(sample) for every sample of this vehicle. The reader lives as long as the
+  /// context.
   template <typename Sample, typename Handle>
   dds::Reader<Sample>& read(const dds::Topic<Sample>& topic, Input kind, Handle handle,
                             dds::History history = dds::History::kProfile) {
     const auto reader = std::make_shared<dds::Reader<Sample>>(participant_, topic, history);
-    InputWatch& input = board_.input(std::string(topic.name), kind, std::chrono::steady_clock::now());
+    InputWatch& input =
+        board_.input(std::string(topic.name), kind, std::chrono::steady_clock::now());
     wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle] {
       reader->take_each([&](const Sample& sample) {
         if (vehicle_id() != sample.vehicle_id) return;
@@ -64,7 +66,9 @@ class ServiceContext {
   void after(std::chrono::nanoseconds delay, std::function<void()> work);
   /// Registers a callback before each status, to update counters.
   void before_report(std::function<void()> work) { before_report_.push_back(std::move(work)); }
-  void on_command(const std::string& verb, CommandDesk::Handler handler) { desk_.on(verb, std::move(handler)); }
+  void on_command(const std::string& verb, CommandDesk::Handler handler) {
+    desk_.on(verb, std::move(handler));
+  }
 
   /// Counts under `counter` and warns at a limited rate.
   void warn(const std::string& counter, std::string_view line);

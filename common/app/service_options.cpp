@@ -9,8 +9,11 @@ namespace {
 
 /// Names become keys on the bus, parts of frame names and of file names.
 std::string fault_of_name(const std::string& name) {
-  const bool is_plain = name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == std::string::npos;
-  if (name.empty() || name.size() > kLongestName || !is_plain) return "'" + name + "' is not 1 to 32 letters, digits, '_', '-', '.'";
+  const bool is_plain =
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
+      std::string::npos;
+  if (name.empty() || name.size() > kLongestName || !is_plain)
+    return "'" + name + "' is not 1 to 32 letters, digits, '_', '-', '.'";
   return {};
 }
 
@@ -19,21 +22,37 @@ std::string fault_of_name(const std::string& name) {
 void add_service_options(CLI::App& command_line, ServiceOptions& options) {
   const CLI::Validator is_name(fault_of_name, "NAME");
   constexpr std::uint32_t kHighestDomain = 230;  // the highest whose ports exist
-  command_line.add_option("--vehicle", options.vehicle_id, "Vehicle whose data is processed; key of every sample")
-      ->envname("SLAMMOT_VEHICLE")->capture_default_str()->check(is_name);
+  command_line
+      .add_option("--vehicle", options.vehicle_id,
+                  "Vehicle whose data is processed; key of every sample")
+      ->envname("SLAMMOT_VEHICLE")
+      ->capture_default_str()
+      ->check(is_name);
   command_line.add_option("--domain", options.domain_id, "DDS domain")
-      ->envname("SLAMMOT_DOMAIN")->capture_default_str()->check(CLI::Range(std::uint32_t{0}, kHighestDomain));
-  command_line.add_option("--instance", options.instance, "Name of this process, if several of the same service and vehicle run")
-      ->capture_default_str()->check(is_name);
-  command_line.add_option("--state-dir", options.state_dir, "Folder for state that survives a crash")->capture_default_str();
+      ->envname("SLAMMOT_DOMAIN")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint32_t{0}, kHighestDomain));
+  command_line
+      .add_option("--instance", options.instance,
+                  "Name of this process, if several of the same service and vehicle run")
+      ->capture_default_str()
+      ->check(is_name);
+  command_line
+      .add_option("--state-dir", options.state_dir, "Folder for state that survives a crash")
+      ->capture_default_str();
   command_line.add_option("--profile", options.profile, "Name of a shipped profile, or a file");
-  command_line.add_option("--config", options.config_files, "Settings in protobuf text format that override the profile's");
-  command_line.add_flag("--check-config", options.check_config, "Check profile and settings, then exit");
-  command_line.add_flag("--print-config", options.print_config, "Print the effective settings in the format of --config, then exit");
+  command_line.add_option("--config", options.config_files,
+                          "Settings in protobuf text format that override the profile's");
+  command_line.add_flag("--check-config", options.check_config,
+                        "Check profile and settings, then exit");
+  command_line.add_flag("--print-config", options.print_config,
+                        "Print the effective settings in the format of --config, then exit");
 }
 
-std::optional<std::string> load_config(const ServiceOptions& options, std::span<const config::BoundStage> stages) {
-  std::vector<std::filesystem::path> files(options.config_files.begin(), options.config_files.end());
+std::optional<std::string> load_config(const ServiceOptions& options,
+                                       std::span<const config::BoundStage> stages) {
+  std::vector<std::filesystem::path> files(options.config_files.begin(),
+                                           options.config_files.end());
   if (!options.profile.empty()) {
     const auto profile = config::find_profile(options.profile);
     if (!profile) return config::unknown_profile(options.profile);

@@ -15,7 +15,8 @@ class App;
 
 namespace slammot::app {
 
-inline constexpr std::size_t kLongestName = 32;  ///< Of vehicles, scanners and instances on the bus.
+inline constexpr std::size_t kLongestName = 32;  ///< Of vehicles, scanners and instances on the
+                                                 ///< bus.
 
 /// Command-line options common to all services.
 struct ServiceOptions {
@@ -27,13 +28,16 @@ struct ServiceOptions {
   std::vector<std::string> config_files;              ///< Over the profile, the last one wins.
   bool check_config = false;
   bool print_config = false;
-  std::optional<std::string> dds_config;              ///< Cyclone XML; the environment's when not set. Not on the command line.
+  std::optional<std::string> dds_config;  ///< Cyclone XML; the environment's when not set. Not on
+                                          ///< the command line.
 };
 
 /// Adds the options to the command line. `options` must outlive the parsing.
 void add_service_options(CLI::App& command_line, ServiceOptions& options);
 
-/// Overlays profile and files onto the stages, in this order. Returns the reason of a failure in one line.
-std::optional<std::string> load_config(const ServiceOptions& options, std::span<const config::BoundStage> stages);
+/// Overlays profile and files onto the stages, in this order. Returns the reason of a failure in
+/// one line.
+std::optional<std::string> load_config(const ServiceOptions& options,
+                                       std::span<const config::BoundStage> stages);
 
 }  // namespace slammot::app

@@ -25,7 +25,8 @@ std::uint64_t checksum_of(const std::vector<std::byte>& bytes) {
 
 }  // namespace
 
-StateFile::StateFile(std::filesystem::path path) : path_(std::move(path)), thread_([this] { write_states(); }) {}
+StateFile::StateFile(std::filesystem::path path)
+    : path_(std::move(path)), thread_([this] { write_states(); }) {}
 
 StateFile::~StateFile() {
   {
@@ -39,11 +40,15 @@ StateFile::~StateFile() {
 std::optional<SavedState> StateFile::read() const {
   std::ifstream file(path_, std::ios::binary);
   Header header;
-  if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != kMagic) return std::nullopt;
+  if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != kMagic)
+    return std::nullopt;
   std::error_code unreadable;
-  if (std::filesystem::file_size(path_, unreadable) != sizeof header + header.size) return std::nullopt;
+  if (std::filesystem::file_size(path_, unreadable) != sizeof header + header.size)
+    return std::nullopt;
   SavedState state{header.stamp_ns, std::vector<std::byte>(header.size)};
-  if (!file.read(reinterpret_cast<char*>(state.bytes.data()), static_cast<std::streamsize>(header.size))) return std::nullopt;
+  if (!file.read(reinterpret_cast<char*>(state.bytes.data()),
+                 static_cast<std::streamsize>(header.size)))
+    return std::nullopt;
   if (checksum_of(state.bytes) != header.checksum) return std::nullopt;
   return state;
 }
@@ -89,7 +94,8 @@ std::string StateFile::write(const SavedState& state) const {
   const Header header{kMagic, state.stamp_ns, state.bytes.size(), checksum_of(state.bytes)};
   std::ofstream file(unfinished, std::ios::binary | std::ios::trunc);
   file.write(reinterpret_cast<const char*>(&header), sizeof header);
-  file.write(reinterpret_cast<const char*>(state.bytes.data()), static_cast<std::streamsize>(state.bytes.size()));
+  file.write(reinterpret_cast<const char*>(state.bytes.data()),
+             static_cast<std::streamsize>(state.bytes.size()));
   file.close();
   if (!file) return "cannot write " + unfinished.string() + ": " + std::strerror(errno);
   std::filesystem::rename(unfinished, path_, fault);

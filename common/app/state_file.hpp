@@ -18,8 +18,8 @@ struct SavedState {
   std::vector<std::byte> bytes;
 };
 
-/// A file that always holds a complete state, the last one or the one before: a thread writes it under another name and
-/// renames it.
+/// A file that always holds a complete state, the last one or the one before: a thread writes it
+/// under another name and renames it.
 class StateFile {
  public:
   explicit StateFile(std::filesystem::path path);

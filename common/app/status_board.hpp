@@ -33,7 +33,8 @@ class StatusBoard {
   /// The service is not ready, although its process runs: sources of scans wait for it.
   void set_starting(bool is_starting) { is_starting_ = is_starting; }
 
-  /// Starting until the service is ready; then running, or degraded if an input is missing or there is a fault.
+  /// Starting until the service is ready; then running, or degraded if an input is missing or there
+  /// is a fault.
   ServiceState state(SteadyTime now) const {
     if (is_starting_) return ServiceState::kStarting;
     return explanation(now).empty() ? ServiceState::kRunning : ServiceState::kDegraded;

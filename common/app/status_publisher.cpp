@@ -8,11 +8,14 @@ namespace slammot::app {
 namespace {
 
 std::int64_t system_clock_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 wire::StageLatency describe(const std::string& stage, const LatencyHistogram& histogram) {
-  return {stage, histogram.count(), histogram.percentile_ms(0.50), histogram.percentile_ms(0.99), histogram.highest_ms()};
+  return {stage, histogram.count(), histogram.percentile_ms(0.50), histogram.percentile_ms(0.99),
+          histogram.highest_ms()};
 }
 
 }  // namespace
@@ -24,7 +27,8 @@ StatusPublisher::StatusPublisher(const dds::Participant& participant, wire::Serv
       statuses_(participant, dds::topics::kStatus) {}
 
 void StatusPublisher::beat(ServiceState state) {
-  heartbeats_.write(wire::encode(wire::Heartbeat{name_, system_clock_ns(), beats_++, static_cast<std::uint32_t>(::getpid()), state}));
+  heartbeats_.write(wire::encode(wire::Heartbeat{name_, system_clock_ns(), beats_++,
+                                                 static_cast<std::uint32_t>(::getpid()), state}));
 }
 
 void StatusPublisher::report(const StatusBoard& board, ServiceState state) {
@@ -36,9 +40,11 @@ void StatusPublisher::report(const StatusBoard& board, ServiceState state) {
   status.version = kVersion;
   status.state = state;
   status.explanation = board.explanation(now);
-  for (const InputWatch* input : board.missing_inputs(now)) status.missing_inputs.push_back({input->topic_name(), input->silent_s(now)});
+  for (const InputWatch* input : board.missing_inputs(now))
+    status.missing_inputs.push_back({input->topic_name(), input->silent_s(now)});
   for (const auto& [name, total] : board.counters()) status.counters.push_back({name, total});
-  for (const auto& [stage, histogram] : board.latencies()) status.latencies.push_back(describe(stage, histogram));
+  for (const auto& [stage, histogram] : board.latencies())
+    status.latencies.push_back(describe(stage, histogram));
   statuses_.write(encoder_.encode(status));
 }
 

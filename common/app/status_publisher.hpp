@@ -8,7 +8,8 @@
 
 namespace slammot::app {
 
-/// Publishes a service's heartbeats and status from the working thread, so that a hung thread falls silent.
+/// Publishes a service's heartbeats and status from the working thread, so that a hung thread falls
+/// silent.
 class StatusPublisher {
  public:
   static constexpr std::chrono::milliseconds kHeartbeatPeriod{200};
@@ -19,9 +20,11 @@ class StatusPublisher {
   void beat(ServiceState state);
   /// With the current state and explanation, or `state` when stopping.
   void report(const StatusBoard& board, ServiceState state);
-  /// Waits until all readers have the last status, or until the time-out: unsent data is lost when the writer is
-  /// deleted.
-  void wait_until_heard(std::chrono::milliseconds timeout) const { statuses_.wait_for_acknowledgements(timeout); }
+  /// Waits until all readers have the last status, or until the time-out: unsent data is lost when
+  /// the writer is deleted.
+  void wait_until_heard(std::chrono::milliseconds timeout) const {
+    statuses_.wait_for_acknowledgements(timeout);
+  }
 
  private:
   wire::ServiceName name_;

@@ -5,8 +5,9 @@
 
 namespace slammot::app {
 
-/// While it exists, SIGINT and SIGTERM call `stop` in a separate thread instead of ending the process; a second signal
-/// ends it at once. Create it before any other thread, so that all threads block these signals.
+/// While it exists, SIGINT and SIGTERM call `stop` in a separate thread instead of ending the
+/// process; a second signal ends it at once. Create it before any other thread, so that all threads
+/// block these signals.
 class StopSignal {
  public:
   explicit StopSignal(std::function<void()> stop);

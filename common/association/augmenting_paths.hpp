@@ -7,8 +7,9 @@
 
 namespace slammot::association {
 
-/// Builds a cheapest complete assignment row by row: shortest augmenting paths with potentials (Jonker and Volgenant
-/// 1987). Reuses its memory: problems no larger than earlier ones allocate nothing.
+/// Builds a cheapest complete assignment row by row: shortest augmenting paths with potentials
+/// (Jonker and Volgenant 1987). Reuses its memory: problems no larger than earlier ones allocate
+/// nothing.
 class AugmentingPaths {
  public:
   void begin(std::size_t rows, std::size_t columns) {
@@ -18,8 +19,9 @@ class AugmentingPaths {
     row_of_column_.assign(columns + 1, kUnassigned);
   }
 
-  /// Finds the cheapest alternating path from a new row to a free column and flips it. cost(row, column) is finite or
-  /// kForbidden. Returns false if the row cannot be added; the partial assignment is invalid then.
+  /// Finds the cheapest alternating path from a new row to a free column and flips it. cost(row,
+  /// column) is finite or kForbidden. Returns false if the row cannot be added; the partial
+  /// assignment is invalid then.
   template <class Cost>
   bool add(std::size_t new_row, const Cost& cost) {
     const std::size_t start = columns_;  // virtual column that only the new row occupies
@@ -56,7 +58,8 @@ class AugmentingPaths {
       }
       column = next;
     } while (row_of_column_[column] != kUnassigned);
-    for (; column != start; column = previous_[column]) row_of_column_[column] = row_of_column_[previous_[column]];
+    for (; column != start; column = previous_[column])
+      row_of_column_[column] = row_of_column_[previous_[column]];
     return true;
   }
 

@@ -7,7 +7,9 @@
 
 namespace slammot::association {
 
-const std::vector<RankedAssignment>& AssignmentRanking::rank(const CostMatrix& costs, double cost_of_leaving_out, std::size_t count) {
+const std::vector<RankedAssignment>& AssignmentRanking::rank(const CostMatrix& costs,
+                                                             double cost_of_leaving_out,
+                                                             std::size_t count) {
   assert(count >= 1);
   costs_ = &costs;
   cost_of_leaving_out_ = cost_of_leaving_out;
@@ -29,8 +31,8 @@ const std::vector<RankedAssignment>& AssignmentRanking::rank(const CostMatrix& c
   return results_;
 }
 
-/// Partitions the rest of a subproblem without its cheapest assignment (Murty 1968): for each free row, the assignments
-/// that agree with the cheapest one before that row and differ in it.
+/// Partitions the rest of a subproblem without its cheapest assignment (Murty 1968): for each free
+/// row, the assignments that agree with the cheapest one before that row and differ in it.
 void AssignmentRanking::branch(std::size_t index) {
   for (std::size_t row = pool_[index].fixed_rows; row < costs_->rows; ++row) {
     const std::size_t child = take_subproblem();
@@ -46,7 +48,8 @@ void AssignmentRanking::branch(std::size_t index) {
   }
 }
 
-double AssignmentRanking::cost_of(const Subproblem& subproblem, std::size_t row, std::size_t column) const {
+double AssignmentRanking::cost_of(const Subproblem& subproblem, std::size_t row,
+                                  std::size_t column) const {
   if (row < subproblem.fixed_rows && column != subproblem.column_of_row[row]) return kForbidden;
   if (row == subproblem.fixed_rows && subproblem.is_excluded[column]) return kForbidden;
   if (column < costs_->columns) return (*costs_)(row, column);
@@ -57,7 +60,9 @@ double AssignmentRanking::cost_of(const Subproblem& subproblem, std::size_t row,
 bool AssignmentRanking::solve(Subproblem& subproblem) {
   paths_.begin(costs_->rows, columns_);
   for (std::size_t row = 0; row < costs_->rows; ++row)
-    if (!paths_.add(row, [&](std::size_t i, std::size_t column) { return cost_of(subproblem, i, column); })) return false;
+    if (!paths_.add(
+            row, [&](std::size_t i, std::size_t column) { return cost_of(subproblem, i, column); }))
+      return false;
   subproblem.column_of_row.resize(costs_->rows);
   subproblem.cost = 0.0;
   for (std::size_t column = 0; column < columns_; ++column) {
@@ -81,11 +86,13 @@ std::size_t AssignmentRanking::take_subproblem() {
 
 void AssignmentRanking::push(std::size_t index) {
   heap_.push_back(index);
-  std::push_heap(heap_.begin(), heap_.end(), [&](std::size_t a, std::size_t b) { return pool_[a].cost > pool_[b].cost; });
+  std::push_heap(heap_.begin(), heap_.end(),
+                 [&](std::size_t a, std::size_t b) { return pool_[a].cost > pool_[b].cost; });
 }
 
 std::size_t AssignmentRanking::pop() {
-  std::pop_heap(heap_.begin(), heap_.end(), [&](std::size_t a, std::size_t b) { return pool_[a].cost > pool_[b].cost; });
+  std::pop_heap(heap_.begin(), heap_.end(),
+                [&](std::size_t a, std::size_t b) { return pool_[a].cost > pool_[b].cost; });
   const std::size_t index = heap_.back();
   heap_.pop_back();
   return index;

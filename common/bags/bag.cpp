@@ -13,7 +13,8 @@
 namespace slammot::bags {
 namespace {
 
-constexpr std::int64_t kMostTime_ns = 9'000'000'000'000'000'000;   // differences of two times fit into 64 bits
+constexpr std::int64_t kMostTime_ns = 9'000'000'000'000'000'000;  // differences of two times fit
+                                                                  // into 64 bits
 constexpr std::size_t kMostMessageBytes = std::size_t{64} << 20;
 
 enum class Form : std::uint8_t { kNone, kRos1, kRos1Old, kMcap, kDb3 };
@@ -70,7 +71,8 @@ bool comes_before(const std::string& a, const std::string& b) {
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
   std::vector<std::pair<Form, std::filesystem::path>> found;
   std::error_code fault;
-  for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end; entry.increment(fault)) {
+  for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end;
+       entry.increment(fault)) {
     std::error_code ignored;
     if (!entry->is_regular_file(ignored)) continue;
     const Form form = form_of_file(entry->path());
@@ -84,15 +86,25 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder)
     if (!files.empty()) break;
   }
   // An unpacked file beside its compressed form has the same content.
-  std::erase_if(files, [&](const std::filesystem::path& path) { return path.extension() == ".zstd" && std::ranges::find(files, std::filesystem::path(path).replace_extension()) != files.end(); });
-  std::ranges::sort(files, [](const auto& a, const auto& b) { return comes_before(a.filename().string(), b.filename().string()); });
+  std::erase_if(files, [&](const std::filesystem::path& path) {
+    return path.extension() == ".zstd" &&
+           std::ranges::find(files, std::filesystem::path(path).replace_extension()) != files.end();
+  });
+  std::ranges::sort(files, [](const auto& a, const auto& b) {
+    return comes_before(a.filename().string(), b.filename().string());
+  });
   return files;
 }
 
 OpenedBag open_file(const std::filesystem::path& path) {
   switch (form_of_file(path)) {
-    case Form::kNone: return {nullptr, path.string() + ": it does not begin as a bag of ROS does; it is damaged or something else"};
-    case Form::kRos1Old: return {nullptr, path.string() + ": a bag of ROS 1 of an old version: rosbag migrate makes 2.0 of it"};
+    case Form::kNone:
+      return {nullptr,
+              path.string() +
+                  ": it does not begin as a bag of ROS does; it is damaged or something else"};
+    case Form::kRos1Old:
+      return {nullptr,
+              path.string() + ": a bag of ROS 1 of an old version: rosbag migrate makes 2.0 of it"};
     case Form::kDb3: return {std::make_unique<Db3Reader>(path), {}};
     default: break;
   }
@@ -132,7 +144,9 @@ class Bag : public MessageSource {
   double fraction_read() const override {
     const double of_now = now_ ? now_->fraction_read() : 0.0;
     const std::size_t before = opened_ - (now_ ? 1 : 0);
-    return files_.empty() ? 1.0 : (static_cast<double>(before) + of_now) / static_cast<double>(files_.size());
+    return files_.empty()
+               ? 1.0
+               : (static_cast<double>(before) + of_now) / static_cast<double>(files_.size());
   }
 
   std::string damage() const override { return damage_; }
@@ -144,12 +158,15 @@ class Bag : public MessageSource {
 
   void note_damage() {
     const std::string damage = now_->damage();
-    if (!damage.empty()) note(files_.size() > 1 ? files_[opened_ - 1].filename().string() + ": " + damage : damage);
+    if (!damage.empty())
+      note(files_.size() > 1 ? files_[opened_ - 1].filename().string() + ": " + damage : damage);
   }
 
   /// A CDR message begins with 0; a compressed one does not.
   RawMessage unpacked(RawMessage message) {
-    if (message.channel->serialization != Serialization::kCdr || !is_zstd(text_of(message.bytes.first(std::min<std::size_t>(4, message.bytes.size()))))) return message;
+    if (message.channel->serialization != Serialization::kCdr ||
+        !is_zstd(text_of(message.bytes.first(std::min<std::size_t>(4, message.bytes.size())))))
+      return message;
     Unpacked plain = unpack("zstd", message.bytes, kMostMessageBytes);
     if (!plain.is_whole) note("a message of " + message.channel->topic + " does not unpack");
     message_ = std::move(plain.bytes);
@@ -170,7 +187,9 @@ class Bag : public MessageSource {
 bool is_bag(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return !files_of(path).empty();
-  return std::filesystem::is_regular_file(path, ignored) && (form_of_file(path) != Form::kNone || is_named_as_bag(path) || is_zstd(first_bytes(path, 4)));
+  return std::filesystem::is_regular_file(path, ignored) &&
+         (form_of_file(path) != Form::kNone || is_named_as_bag(path) ||
+          is_zstd(first_bytes(path, 4)));
 }
 
 OpenedBag open_bag(const std::filesystem::path& path) {

@@ -13,24 +13,27 @@ namespace slammot::bags {
 using Bytes = std::span<const std::uint8_t>;
 
 /// The bytes as text.
-inline std::string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+inline std::string_view text_of(Bytes bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
-/// Takes numbers out of bytes, one after the other. What reaches beyond the end is 0 or empty, and so is all after it: sizes that
-/// the bytes name are believed as far as there are bytes.
+/// Takes numbers out of bytes, one after the other. What reaches beyond the end is 0 or empty, and
+/// so is all after it: sizes that the bytes name are believed as far as there are bytes.
 class ByteReader {
  public:
-  explicit ByteReader(Bytes bytes, std::endian order = std::endian::little) : bytes_(bytes), swaps_(order != std::endian::native) {}
+  explicit ByteReader(Bytes bytes, std::endian order = std::endian::little)
+      : bytes_(bytes), swaps_(order != std::endian::native) {}
 
   template <typename Number>
-    requires std::integral<Number> || std::floating_point<Number>
-  Number number() {
+  requires std::integral<Number> || std::floating_point<Number> Number number() {
     Number value{};
     const Bytes raw = take(sizeof value);
     if (raw.size() != sizeof value) return value;
     std::uint8_t* const into = reinterpret_cast<std::uint8_t*>(&value);
     std::memcpy(into, raw.data(), sizeof value);
     if (swaps_) {
-      for (std::size_t i = 0; i < sizeof value / 2; ++i) std::swap(into[i], into[sizeof value - 1 - i]);
+      for (std::size_t i = 0; i < sizeof value / 2; ++i)
+        std::swap(into[i], into[sizeof value - 1 - i]);
     }
     return value;
   }

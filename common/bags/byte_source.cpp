@@ -58,7 +58,8 @@ void ByteSource::read(std::uint64_t count, std::vector<std::uint8_t>& into) {
     const std::size_t had = into.size();
     const auto step = static_cast<std::size_t>(std::min<std::uint64_t>(count - had, kStepBytes));
     into.resize(had + step);
-    const std::size_t got = unpacks_ ? unpack_some(into.data() + had, step) : read_some(into.data() + had, step);
+    const std::size_t got =
+        unpacks_ ? unpack_some(into.data() + had, step) : read_some(into.data() + had, step);
     into.resize(had + got);
     position_ += got;
     if (got == 0) return;
@@ -84,7 +85,9 @@ bool ByteSource::skip(std::uint64_t count) {
 }
 
 double ByteSource::fraction_read() const {
-  return file_bytes_ == 0 ? 1.0 : std::min(1.0, static_cast<double>(file_bytes_read_) / static_cast<double>(file_bytes_));
+  return file_bytes_ == 0 ? 1.0
+                          : std::min(1.0, static_cast<double>(file_bytes_read_) /
+                                              static_cast<double>(file_bytes_));
 }
 
 std::string first_bytes(const std::filesystem::path& path, std::size_t count) {

@@ -14,16 +14,16 @@ struct ZSTD_DCtx_s;
 
 namespace slammot::bags {
 
-/// The bytes of a file one after the other, unpacked where the whole file is packed by zstd (as rosbag2's compression mode "file"
-/// does), with memory for what was asked for only.
+/// The bytes of a file one after the other, unpacked where the whole file is packed by zstd (as
+/// rosbag2's compression mode "file" does), with memory for what was asked for only.
 class ByteSource {
  public:
   explicit ByteSource(const std::filesystem::path& path);
   ~ByteSource();
   ByteSource(ByteSource&&) noexcept;
 
-  /// Up to so many bytes into the buffer, in place of what it holds; fewer at the end. A size that is not true costs no memory
-  /// beyond what is there.
+  /// Up to so many bytes into the buffer, in place of what it holds; fewer at the end. A size that
+  /// is not true costs no memory beyond what is there.
   void read(std::uint64_t count, std::vector<std::uint8_t>& into);
 
   /// False where the end comes before.
@@ -54,7 +54,7 @@ class ByteSource {
   std::uint64_t file_bytes_read_ = 0;
   std::uint64_t position_ = 0;
   bool is_damaged_ = false;
-  std::unique_ptr<ZSTD_DCtx_s, Free> unpacks_;   ///< Null for a plain file.
+  std::unique_ptr<ZSTD_DCtx_s, Free> unpacks_;  ///< Null for a plain file.
   std::vector<std::uint8_t> packed_;
   std::size_t packed_at_ = 0;
   bool frame_is_open_ = false;

@@ -39,7 +39,8 @@ class Db3Reader : public MessageSource {
   void note(const std::string& damage);
   void note_fault();
 
-  std::vector<std::uint8_t> unpacked_;   ///< The whole file, where it is packed. Before the database: it must outlive it.
+  std::vector<std::uint8_t> unpacked_;  ///< The whole file, where it is packed. Before the
+                                        ///< database: it must outlive it.
   std::unique_ptr<sqlite3, CloseDatabase> database_;
   Statement messages_;
   std::map<std::int64_t, Channel> channels_;

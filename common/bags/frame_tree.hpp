@@ -26,7 +26,7 @@ class FrameTree {
     std::string child;
     std::uint64_t messages = 0;
     bool moves = false;
-    std::vector<StampedTransform> poses;   ///< Incomplete for fixed frames.
+    std::vector<StampedTransform> poses;  ///< Incomplete for fixed frames.
   };
 
   /// index: that of the message in the bag.
@@ -48,7 +48,7 @@ class FrameTree {
   /// Pose in that ancestor.
   Transform in_fixed_root(const std::string& frame) const;
 
-  std::map<std::string, Edge> edges_;      ///< Indexed by child.
+  std::map<std::string, Edge> edges_;  ///< Indexed by child.
   std::size_t kept_poses_ = 0;
 };
 

@@ -23,8 +23,12 @@ enum Opcode : std::uint8_t {
   kFirstPrivate = 0x80,
 };
 
-bool is_opcode(std::uint8_t opcode) { return (opcode >= kHeader && opcode <= kLastKnown) || opcode >= kFirstPrivate; }
-bool is_of_use(std::uint8_t opcode) { return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk; }
+bool is_opcode(std::uint8_t opcode) {
+  return (opcode >= kHeader && opcode <= kLastKnown) || opcode >= kFirstPrivate;
+}
+bool is_of_use(std::uint8_t opcode) {
+  return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk;
+}
 
 }  // namespace
 
@@ -68,11 +72,17 @@ bool McapReader::read_record() {
   const auto opcode = head.number<std::uint8_t>();
   const auto length = head.number<std::uint64_t>();
   has_ended_ = true;
-  if (!head.is_ok() || file_.is_damaged()) return note("the file ends at byte " + std::to_string(file_.position()) + ", before its end is said"), false;
+  if (!head.is_ok() || file_.is_damaged())
+    return note("the file ends at byte " + std::to_string(file_.position()) +
+                ", before its end is said"),
+           false;
   if (opcode == kDataEnd || opcode == kFooter) return false;
-  if (!is_opcode(opcode)) return note("no record begins at byte " + std::to_string(record_begins_)), false;
+  if (!is_opcode(opcode))
+    return note("no record begins at byte " + std::to_string(record_begins_)), false;
   if (!is_of_use(opcode) || length > kMostUnpackedBytes) {
-    if (is_of_use(opcode)) note("the record at byte " + std::to_string(record_begins_) + " is said to have " + std::to_string(length) + " bytes");
+    if (is_of_use(opcode))
+      note("the record at byte " + std::to_string(record_begins_) + " is said to have " +
+           std::to_string(length) + " bytes");
     has_ended_ = !file_.skip(length);
     if (has_ended_) note("the file ends in the record at byte " + std::to_string(record_begins_));
     return !has_ended_;
@@ -105,11 +115,14 @@ void McapReader::take_channel(Bytes content) {
   const auto schema = schemas_.find(reader.number<std::uint16_t>());
   const std::string_view topic = reader.text();
   const std::string_view encoding = reader.text();
-  if (!reader.is_ok() || channels_.contains(id)) return;  // channels never change, and messages point to them
+  if (!reader.is_ok() || channels_.contains(id))
+    return;  // channels never change, and messages point to them
   Channel channel;
   channel.topic = topic;
   channel.type = schema == schemas_.end() ? std::string() : schema->second.name;
-  channel.serialization = encoding == "cdr" ? Serialization::kCdr : encoding == "ros1" ? Serialization::kRos1 : Serialization::kOther;
+  channel.serialization = encoding == "cdr"    ? Serialization::kCdr
+                          : encoding == "ros1" ? Serialization::kRos1
+                                               : Serialization::kOther;
   channels_.emplace(id, std::move(channel));
 }
 
@@ -124,9 +137,12 @@ void McapReader::take_chunk(Bytes content, bool is_whole) {
   if (!reader.is_ok()) return note(where + " is too short");
   if (!can_unpack(compression)) return note(where + " is packed in a way that is not known here");
   if (is_whole && packed_bytes > reader.left()) return note(where + " is shorter than it says");
-  Unpacked unpacked = unpack(compression, reader.take(std::min<std::uint64_t>(packed_bytes, reader.left())));
-  if (is_whole && (!unpacked.is_whole || unpacked.bytes.size() != unpacked_bytes)) note(where + " does not unpack to its end");
-  if (unpacked.bytes.size() == unpacked_bytes && crc != 0 && crc32_of(unpacked.bytes) != crc) return note(where + " fails its checksum");
+  Unpacked unpacked =
+      unpack(compression, reader.take(std::min<std::uint64_t>(packed_bytes, reader.left())));
+  if (is_whole && (!unpacked.is_whole || unpacked.bytes.size() != unpacked_bytes))
+    note(where + " does not unpack to its end");
+  if (unpacked.bytes.size() == unpacked_bytes && crc != 0 && crc32_of(unpacked.bytes) != crc)
+    return note(where + " fails its checksum");
   chunk_ = std::move(unpacked.bytes);
   chunk_at_ = 0;
 }

@@ -8,8 +8,9 @@
 
 namespace slammot::bags {
 
-/// Reads an MCAP file (mcap.dev/spec, version 0) from its beginning to its end, so that neither an index nor an end is needed:
-/// a file that was cut is read as far as it goes. Chunks that do not unpack or fail their checksum are left out.
+/// Reads an MCAP file (mcap.dev/spec, version 0) from its beginning to its end, so that neither an
+/// index nor an end is needed: a file that was cut is read as far as it goes. Chunks that do not
+/// unpack or fail their checksum are left out.
 class McapReader : public MessageSource {
  public:
   explicit McapReader(ByteSource file);
@@ -32,10 +33,10 @@ class McapReader : public MessageSource {
   void note(const std::string& damage);
 
   ByteSource file_;
-  std::vector<std::uint8_t> record_;      ///< Outside of chunks.
-  std::vector<std::uint8_t> chunk_;       ///< Unpacked,
-  std::size_t chunk_at_ = 0;              ///< and read so far.
-  std::optional<RawMessage> message_;     ///< Outside of chunks.
+  std::vector<std::uint8_t> record_;   ///< Outside of chunks.
+  std::vector<std::uint8_t> chunk_;    ///< Unpacked,
+  std::size_t chunk_at_ = 0;           ///< and read so far.
+  std::optional<RawMessage> message_;  ///< Outside of chunks.
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   std::uint64_t record_begins_ = 0;

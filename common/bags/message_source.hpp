@@ -14,15 +14,15 @@ enum class Serialization : std::uint8_t { kRos1, kCdr, kOther };
 /// One topic as one writer has it.
 struct Channel {
   std::string topic;
-  std::string type;                                  ///< "sensor_msgs/LaserScan", for ROS 1 and 2 alike.
-  std::string md5;                                   ///< Of the definition, where the bag names it (ROS 1).
+  std::string type;  ///< "sensor_msgs/LaserScan", for ROS 1 and 2 alike.
+  std::string md5;   ///< Of the definition, where the bag names it (ROS 1).
   Serialization serialization = Serialization::kOther;
 };
 
 /// One message as it was recorded. Valid until the next one is read.
 struct RawMessage {
   const Channel* channel = nullptr;
-  std::int64_t log_time_ns = 0;                      ///< When it was recorded.
+  std::int64_t log_time_ns = 0;  ///< When it was recorded.
   Bytes bytes;
 };
 
@@ -37,7 +37,8 @@ class MessageSource {
   /// Share of the file taken in so far, [0, 1].
   virtual double fraction_read() const = 0;
 
-  /// What is damaged and where; empty for a bag that is whole as far as it was read. Parts that are damaged are left out.
+  /// What is damaged and where; empty for a bag that is whole as far as it was read. Parts that are
+  /// damaged are left out.
   virtual std::string damage() const = 0;
 };
 

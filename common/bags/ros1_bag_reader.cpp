@@ -91,21 +91,26 @@ bool Ros1BagReader::read_record() {
   file_.read(sizeof(std::uint32_t), header_);
   const auto header_bytes = ByteReader(header_).number<std::uint32_t>();
   if (header_.size() < sizeof(std::uint32_t)) {
-    note(index_at_ == 0 && header_.empty() && !file_.is_damaged() ? "the bag was never closed"
-                                                                  : "the file ends at byte " + std::to_string(file_.position()) + ", before its index");
+    note(index_at_ == 0 && header_.empty() && !file_.is_damaged()
+             ? "the bag was never closed"
+             : "the file ends at byte " + std::to_string(file_.position()) + ", before its index");
     return false;
   }
-  if (header_bytes > kMaxHeaderBytes) return note("no record begins at byte " + std::to_string(record_begins_)), false;
+  if (header_bytes > kMaxHeaderBytes)
+    return note("no record begins at byte " + std::to_string(record_begins_)), false;
   file_.read(header_bytes, header_);
   const auto head = head_of(header_);
   file_.read(sizeof(std::uint32_t), data_);
-  if (header_.size() < header_bytes || data_.size() < sizeof(std::uint32_t)) return note("the file ends in the record at byte " + std::to_string(record_begins_)), false;
+  if (header_.size() < header_bytes || data_.size() < sizeof(std::uint32_t))
+    return note("the file ends in the record at byte " + std::to_string(record_begins_)), false;
   if (!head) return note("no record begins at byte " + std::to_string(record_begins_)), false;
   const auto data_bytes = ByteReader(data_).number<std::uint32_t>();
   if (head->op == kBagHeader) index_at_ = head->index_at;
   const bool is_of_use = head->op == kChunk || head->op == kConnection;
   if (!is_of_use || data_bytes > kMostUnpackedBytes) {
-    if (is_of_use) note("the record at byte " + std::to_string(record_begins_) + " is said to have " + std::to_string(data_bytes) + " bytes");
+    if (is_of_use)
+      note("the record at byte " + std::to_string(record_begins_) + " is said to have " +
+           std::to_string(data_bytes) + " bytes");
     has_ended_ = !file_.skip(data_bytes);
     if (has_ended_) note("the file ends in the record at byte " + std::to_string(record_begins_));
     return !has_ended_;
@@ -123,14 +128,18 @@ void Ros1BagReader::take_chunk(const Head& head, bool is_whole) {
   const std::string where = "the chunk at byte " + std::to_string(record_begins_);
   chunk_.clear();
   chunk_at_ = 0;
-  if (!can_unpack(head.compression)) return note(where + " is packed in a way that is not known here");
+  if (!can_unpack(head.compression))
+    return note(where + " is packed in a way that is not known here");
   Unpacked unpacked = unpack(head.compression, data_);
-  if (is_whole && (!unpacked.is_whole || unpacked.bytes.size() != head.unpacked_bytes)) note(where + " does not unpack to its end");
+  if (is_whole && (!unpacked.is_whole || unpacked.bytes.size() != head.unpacked_bytes))
+    note(where + " does not unpack to its end");
   chunk_ = std::move(unpacked.bytes);
 }
 
 void Ros1BagReader::take_connection(const Record& record) {
-  if (!record.head.connection || channels_.size() >= kMaxChannels || channels_.contains(*record.head.connection)) return;
+  if (!record.head.connection || channels_.size() >= kMaxChannels ||
+      channels_.contains(*record.head.connection))
+    return;
   Channel channel;
   channel.topic = record.head.topic;
   channel.serialization = Serialization::kRos1;

@@ -8,8 +8,9 @@
 
 namespace slammot::bags {
 
-/// Reads a bag of ROS 1, format 2.0 (wiki.ros.org/Bags/Format/2.0), from its beginning to its end, so that no index is needed: a
-/// file that was cut, or never closed, is read as far as it goes. Chunks that do not unpack are left out.
+/// Reads a bag of ROS 1, format 2.0 (wiki.ros.org/Bags/Format/2.0), from its beginning to its end,
+/// so that no index is needed: a file that was cut, or never closed, is read as far as it goes.
+/// Chunks that do not unpack are left out.
 class Ros1BagReader : public MessageSource {
  public:
   static constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
@@ -47,10 +48,10 @@ class Ros1BagReader : public MessageSource {
   ByteSource file_;
   std::vector<std::uint8_t> header_;
   std::vector<std::uint8_t> data_;
-  std::vector<std::uint8_t> chunk_;     ///< Unpacked,
-  std::size_t chunk_at_ = 0;            ///< and read so far.
+  std::vector<std::uint8_t> chunk_;  ///< Unpacked,
+  std::size_t chunk_at_ = 0;         ///< and read so far.
   std::map<std::uint32_t, Channel> channels_;
-  std::uint64_t index_at_ = 0;          ///< Where the chunks end; 0 in a bag that was never closed.
+  std::uint64_t index_at_ = 0;  ///< Where the chunks end; 0 in a bag that was never closed.
   std::uint64_t record_begins_ = 0;
   bool has_ended_ = false;
   std::string damage_;

@@ -8,11 +8,11 @@
 namespace slammot::bags {
 namespace {
 
-constexpr std::size_t kMostBeams = std::size_t{1} << 20;   // far more than any planar scanner has
+constexpr std::size_t kMostBeams = std::size_t{1} << 20;  // far more than any planar scanner has
 constexpr std::size_t kMostTransforms = 65'536;
 
-/// Takes a message's fields: ROS 1 packs them without gaps, CDR aligns each to its size (OMG DDSI-RTPS 2.5, section 10; XTypes 1.3,
-/// 7.4.1: at most to 4 in its second version).
+/// Takes a message's fields: ROS 1 packs them without gaps, CDR aligns each to its size (OMG
+/// DDSI-RTPS 2.5, section 10; XTypes 1.3, 7.4.1: at most to 4 in its second version).
 class Fields {
  public:
   explicit Fields(const RawMessage& message) : reader_(message.bytes) {
@@ -58,7 +58,8 @@ class Fields {
   Header header() {
     constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
     if (!is_cdr()) number<std::uint32_t>();  // sequence
-    const std::int64_t seconds = is_cdr() ? number<std::int32_t>() : static_cast<std::int64_t>(number<std::uint32_t>());
+    const std::int64_t seconds =
+        is_cdr() ? number<std::int32_t>() : static_cast<std::int64_t>(number<std::uint32_t>());
     const auto nanoseconds = number<std::uint32_t>();
     return {kNanosecondsPerSecond * seconds + nanoseconds, frame()};
   }
@@ -89,7 +90,9 @@ class Fields {
     const Bytes head = reader_.take(kEncapsulationBytes);
     if (head.empty() || head[0] != 0) return reader_.fail();
     const std::uint8_t form = head[1];
-    if (form != kBigEndian && form != kLittleEndian && form != kBigEndian2 && form != kLittleEndian2) return reader_.fail();
+    if (form != kBigEndian && form != kLittleEndian && form != kBigEndian2 &&
+        form != kLittleEndian2)
+      return reader_.fail();
     most_alignment_ = form >= kBigEndian2 ? 4 : 8;
     const bool is_little = form == kLittleEndian || form == kLittleEndian2;
     reader_ = ByteReader(reader_.rest(), is_little ? std::endian::little : std::endian::big);
@@ -105,14 +108,15 @@ class Fields {
   }
 
   ByteReader reader_;
-  std::size_t most_alignment_ = 0;   ///< 0: ROS 1.
+  std::size_t most_alignment_ = 0;  ///< 0: ROS 1.
 };
 
 /// What a rotation must be to be one: drivers that never fill it in send zeros.
 bool is_usable(const Transform& transform) {
   constexpr double kMost = 1e7;
   const double norm = transform.rotation.norm();
-  return transform.translation_m.allFinite() && transform.translation_m.cwiseAbs().maxCoeff() < kMost && norm > 0.5 && norm < 2.0;
+  return transform.translation_m.allFinite() &&
+         transform.translation_m.cwiseAbs().maxCoeff() < kMost && norm > 0.5 && norm < 2.0;
 }
 
 /// The first echo of each beam, 0 where there is none.
@@ -144,12 +148,13 @@ constexpr std::array<KnownType, 7> kKnownTypes = {{
 /// Where a coordinate is in a point, and of which type.
 struct PointField {
   std::size_t offset = 0;
-  std::size_t size = 0;   ///< 4: float, 8: double, 0: not there.
+  std::size_t size = 0;  ///< 4: float, 8: double, 0: not there.
 };
 
 double coordinate(Bytes point, const PointField& field, std::endian order) {
   ByteReader reader(point.subspan(field.offset), order);
-  return field.size == sizeof(float) ? static_cast<double>(reader.number<float>()) : reader.number<double>();
+  return field.size == sizeof(float) ? static_cast<double>(reader.number<float>())
+                                     : reader.number<double>();
 }
 
 }  // namespace
@@ -157,7 +162,8 @@ double coordinate(Bytes point, const PointField& field, std::endian order) {
 MessageKind kind_of(const Channel& channel) {
   if (channel.serialization == Serialization::kOther) return MessageKind::kOther;
   for (const KnownType& known : kKnownTypes) {
-    const bool is_of_its_definition = channel.md5.empty() || channel.md5 == "*" || channel.md5 == known.md5;
+    const bool is_of_its_definition =
+        channel.md5.empty() || channel.md5 == "*" || channel.md5 == known.md5;
     if (channel.type == known.name && is_of_its_definition) return known.kind;
   }
   return MessageKind::kOther;
@@ -174,7 +180,8 @@ std::optional<LaserScanMessage> parse_laser_scan(const RawMessage& message) {
   fields.number<float>();  // time from scan to scan
   scan.least_range_m = fields.number<float>();
   scan.most_range_m = fields.number<float>();
-  scan.range_m = kind_of(*message.channel) == MessageKind::kMultiEcho ? first_echoes(fields) : fields.floats();
+  scan.range_m =
+      kind_of(*message.channel) == MessageKind::kMultiEcho ? first_echoes(fields) : fields.floats();
   if (!fields.is_ok() || scan.range_m.size() > kMostBeams) return std::nullopt;
   return scan;
 }
@@ -199,7 +206,8 @@ std::optional<std::vector<TransformMessage>> parse_transforms(const RawMessage& 
     transform.header = fields.header();
     transform.child_frame = fields.frame();
     transform.parent_from_child = fields.transform();
-    if (fields.is_ok() && is_usable(transform.parent_from_child)) transforms.push_back(std::move(transform));
+    if (fields.is_ok() && is_usable(transform.parent_from_child))
+      transforms.push_back(std::move(transform));
   }
   if (!fields.is_ok()) return std::nullopt;
   return transforms;
@@ -233,14 +241,19 @@ std::optional<PointCloudMessage> parse_point_cloud(const RawMessage& message) {
     const auto type = fields.number<std::uint8_t>();
     fields.number<std::uint32_t>();  // count
     if (name.size() != 1 || name[0] < 'x' || name[0] > 'z') continue;
-    coordinates[static_cast<std::size_t>(name[0] - 'x')] = {offset, type == kFloat ? sizeof(float) : type == kDouble ? sizeof(double) : 0};
+    coordinates[static_cast<std::size_t>(name[0] - 'x')] = {offset, type == kFloat ? sizeof(float)
+                                                                    : type == kDouble
+                                                                        ? sizeof(double)
+                                                                        : 0};
   }
-  const std::endian order = fields.number<std::uint8_t>() != 0 ? std::endian::big : std::endian::little;
+  const std::endian order =
+      fields.number<std::uint8_t>() != 0 ? std::endian::big : std::endian::little;
   const std::size_t point_bytes = fields.number<std::uint32_t>();
   const std::size_t row_bytes = fields.number<std::uint32_t>();
   const Bytes data = fields.bytes();
   if (!fields.is_ok() || point_bytes == 0) return std::nullopt;
-  if (height > 1 && row_bytes < width * point_bytes) return std::nullopt;  // rows that overlap would be read again and again
+  if (height > 1 && row_bytes < width * point_bytes)
+    return std::nullopt;  // rows that overlap would be read again and again
   for (const PointField& field : coordinates) {
     if (field.size == 0 || field.offset + field.size > point_bytes) return std::nullopt;
   }
@@ -249,7 +262,9 @@ std::optional<PointCloudMessage> parse_point_cloud(const RawMessage& message) {
       const std::uint64_t at = row * row_bytes + column * point_bytes;
       if (at + point_bytes > data.size()) break;
       const Bytes point = data.subspan(at, point_bytes);
-      const Eigen::Vector3d point_m(coordinate(point, coordinates[0], order), coordinate(point, coordinates[1], order), coordinate(point, coordinates[2], order));
+      const Eigen::Vector3d point_m(coordinate(point, coordinates[0], order),
+                                    coordinate(point, coordinates[1], order),
+                                    coordinate(point, coordinates[2], order));
       if (point_m.allFinite()) cloud.points_m.push_back(point_m.cast<float>());
     }
   }

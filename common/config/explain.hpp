@@ -13,7 +13,8 @@ namespace slammot::config {
 struct Explanation {
   std::string name;   ///< "localization.map.cell_size_m"
   std::string group;  ///< Title of its group; the stage's name where the setting has none.
-  std::string unit;   ///< "m", "rad/m"; "yes or no", "text" or "names" where it is no number; empty without one.
+  std::string unit;   ///< "m", "rad/m"; "yes or no", "text" or "names" where it is no number; empty
+                      ///< without one.
   std::string range;  ///< "0.02 to 1", "above 0"; empty where any value is accepted.
   std::string value;  ///< As the text format writes it.
   std::string meaning;
@@ -21,10 +22,12 @@ struct Explanation {
   std::string too_large;
 };
 
-/// Every setting with the value that it has now, group by group. Precondition: tables and slammot.proto agree.
+/// Every setting with the value that it has now, group by group. Precondition: tables and
+/// slammot.proto agree.
 std::vector<Explanation> explain(std::span<const BoundStage> stages);
 
-/// Those that a word names: a whole name, its end ("cell_size_m"), its beginning ("localization.map") or a group.
+/// Those that a word names: a whole name, its end ("cell_size_m"), its beginning
+/// ("localization.map") or a group.
 std::vector<Explanation> named(std::string_view word, std::span<const Explanation> settings);
 
 /// For a terminal: some lines a setting under the title of its group.

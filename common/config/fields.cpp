@@ -43,7 +43,9 @@ std::string in_words(const Range& range) {
 
 std::string_view name_of(Group group) { return kGroups.at(static_cast<std::size_t>(group)).name; }
 
-std::string_view description_of(Group group) { return kGroups.at(static_cast<std::size_t>(group)).description; }
+std::string_view description_of(Group group) {
+  return kGroups.at(static_cast<std::size_t>(group)).description;
+}
 
 std::string range_in_words(const Range& range) {
   const bool has_highest = range.highest < std::numeric_limits<double>::max();
@@ -67,7 +69,8 @@ std::optional<double> number_in(const BoundField& field) {
       [](const auto& value) -> std::optional<double> {
         if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(value)>>) {
           using Type = std::remove_cvref_t<decltype(*value)>;
-          if constexpr (!std::is_same_v<Type, bool> && !std::is_same_v<Type, std::string>) return static_cast<double>(*value);
+          if constexpr (!std::is_same_v<Type, bool> && !std::is_same_v<Type, std::string>)
+            return static_cast<double>(*value);
         }
         return std::nullopt;
       },
@@ -77,10 +80,12 @@ std::optional<double> number_in(const BoundField& field) {
 std::optional<std::string> find_fault(const BoundField& field) {
   const std::optional<double> number = number_in(field);
   if (!number) return std::nullopt;
-  const bool inside = *number >= field.range.lowest && *number <= field.range.highest;  // false for NaN
+  const bool inside = *number >= field.range.lowest && *number <= field.range.highest;  // false for
+                                                                                        // NaN
   if (inside) return std::nullopt;
   std::ostringstream fault;
-  fault << field.name << " = " << *number << " is " << in_words(field.range) << ": " << field.meaning;
+  fault << field.name << " = " << *number << " is " << in_words(field.range) << ": "
+        << field.meaning;
   return fault.str();
 }
 

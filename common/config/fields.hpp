@@ -20,12 +20,25 @@ struct Range {
   double highest = std::numeric_limits<double>::max();
 };
 
-inline constexpr Range kPositive{std::numeric_limits<double>::min(), std::numeric_limits<double>::max()};
+inline constexpr Range kPositive{std::numeric_limits<double>::min(),
+                                 std::numeric_limits<double>::max()};
 inline constexpr Range kNotNegative{0.0, std::numeric_limits<double>::max()};
 inline constexpr Range kShare{0.0, 1.0};
 
 /// What settings are about: the order of listings.
-enum class Group { sensor, odometry, map, matching, closing, motion, extent, existence, publication, operation, none };
+enum class Group {
+  sensor,
+  odometry,
+  map,
+  matching,
+  closing,
+  motion,
+  extent,
+  existence,
+  publication,
+  operation,
+  none
+};
 
 std::string_view name_of(Group group);
 std::string_view description_of(Group group);
@@ -47,31 +60,45 @@ struct Choice {
 /// A repeated struct. A list in a text replaces the old content.
 struct List {
   std::function<void()> clear;
-  std::function<std::vector<BoundField>()> append;  ///< Appends a struct with defaults and returns its bound fields.
+  std::function<std::vector<BoundField>()> append;  ///< Appends a struct with defaults and returns
+                                                    ///< its bound fields.
 };
 
 /// Location of a setting in a configuration struct; valid as long as the struct.
-using Value = std::variant<bool*, int*, std::uint32_t*, std::int64_t*, std::uint64_t*, float*, double*, std::string*, Choice, List>;
+using Value = std::variant<bool*, int*, std::uint32_t*, std::int64_t*, std::uint64_t*, float*,
+                           double*, std::string*, Choice, List>;
 
 template <class Member>
 Value value_in(Member& member) {
   if constexpr (std::is_enum_v<Member>) {
-    return Choice{[&member] { return static_cast<int>(member); }, [&member](int number) { member = static_cast<Member>(number); }};
+    return Choice{[&member] { return static_cast<int>(member); },
+                  [&member](int number) { member = static_cast<Member>(number); }};
   } else {
     return &member;
   }
 }
 
-/// One row of a stage's field table: {"name as in slammot.proto", pointer to member, "meaning", range, {"too small", "too large"}}.
-/// The meaning is one line, with the unit in brackets where the name does not end in it. The range is not used for bool, string
-/// and names.
+/// One row of a stage's field table: {"name as in slammot.proto", pointer to member, "meaning",
+/// range, {"too small", "too large"}}. The meaning is one line, with the unit in brackets where the
+/// name does not end in it. The range is not used for bool, string and names.
 template <class Config>
 struct Field {
   template <class Member>
-  Field(std::string_view name_, Member Config::*member, std::string_view meaning_, Range range_ = {}, Consequences consequences_ = {})
-      : name(name_), value_of([member](Config& config) { return value_in(config.*member); }), meaning(meaning_), range(range_), consequences(consequences_) {}
-  Field(std::string name_, std::function<Value(Config&)> value_of_, std::string_view meaning_, Range range_, Consequences consequences_ = {}, Group group_ = Group::none)
-      : name(std::move(name_)), value_of(std::move(value_of_)), meaning(meaning_), range(range_), consequences(consequences_), group(group_) {}
+  Field(std::string_view name_, Member Config::*member, std::string_view meaning_,
+        Range range_ = {}, Consequences consequences_ = {})
+      : name(name_),
+        value_of([member](Config& config) { return value_in(config.*member); }),
+        meaning(meaning_),
+        range(range_),
+        consequences(consequences_) {}
+  Field(std::string name_, std::function<Value(Config&)> value_of_, std::string_view meaning_,
+        Range range_, Consequences consequences_ = {}, Group group_ = Group::none)
+      : name(std::move(name_)),
+        value_of(std::move(value_of_)),
+        meaning(meaning_),
+        range(range_),
+        consequences(consequences_),
+        group(group_) {}
 
   std::string name;  ///< "outer.inner" for a member of a member.
   std::function<Value(Config&)> value_of;
@@ -101,14 +128,16 @@ FieldTable<Config> joined(std::initializer_list<FieldTable<Config>> tables) {
   return all;
 }
 
-/// The table with the rows of a member that is a struct itself added: under "name.", as a message of its own in the proto.
+/// The table with the rows of a member that is a struct itself added: under "name.", as a message
+/// of its own in the proto.
 template <class Config, class Inner>
-FieldTable<Config> with_nested(FieldTable<Config> table, std::string_view name, Inner Config::*member,
-                               const FieldTable<Inner>& inner_table) {
+FieldTable<Config> with_nested(FieldTable<Config> table, std::string_view name,
+                               Inner Config::*member, const FieldTable<Inner>& inner_table) {
   for (const Field<Inner>& inner : inner_table) {
-    table.emplace_back(std::string(name) + "." + inner.name,
-                       [member, value_of = inner.value_of](Config& config) { return value_of(config.*member); },
-                       inner.meaning, inner.range, inner.consequences, inner.group);
+    table.emplace_back(
+        std::string(name) + "." + inner.name,
+        [member, value_of = inner.value_of](Config& config) { return value_of(config.*member); },
+        inner.meaning, inner.range, inner.consequences, inner.group);
   }
   return table;
 }
@@ -132,7 +161,9 @@ struct BoundStage {
 template <class Config>
 std::vector<BoundField> bind_fields(const FieldTable<Config>& table, Config& config) {
   std::vector<BoundField> bound;
-  for (const Field<Config>& row : table) bound.push_back({row.name, row.value_of(config), row.meaning, row.range, row.consequences, row.group});
+  for (const Field<Config>& row : table)
+    bound.push_back(
+        {row.name, row.value_of(config), row.meaning, row.range, row.consequences, row.group});
   return bound;
 }
 
@@ -141,12 +172,15 @@ BoundStage bind_stage(std::string_view stage, const FieldTable<Config>& table, C
   return {stage, bind_fields(table, config)};
 }
 
-/// Row for a member that is a vector of structs: a repeated message in the proto, each with the rows of the table.
+/// Row for a member that is a vector of structs: a repeated message in the proto, each with the
+/// rows of the table.
 template <class Config, class Element>
-Field<Config> list_of(std::string_view name, std::vector<Element> Config::*member, const FieldTable<Element>& table, std::string_view meaning) {
+Field<Config> list_of(std::string_view name, std::vector<Element> Config::*member,
+                      const FieldTable<Element>& table, std::string_view meaning) {
   const auto value_of = [member, table](Config& config) -> Value {
     std::vector<Element>& elements = config.*member;
-    return List{[&elements] { elements.clear(); }, [&elements, table] { return bind_fields(table, elements.emplace_back()); }};
+    return List{[&elements] { elements.clear(); },
+                [&elements, table] { return bind_fields(table, elements.emplace_back()); }};
   };
   return {std::string(name), value_of, meaning, {}};
 }
@@ -157,7 +191,8 @@ std::string range_in_words(const Range& range);
 /// The number as the range check sees it; nothing for what is none.
 std::optional<double> number_in(const BoundField& field);
 
-/// "cell_size_m = 7 is outside [0.02, 1]: Edge of a cell." or nothing when the value may be used. NaN never may.
+/// "cell_size_m = 7 is outside [0.02, 1]: Edge of a cell." or nothing when the value may be used.
+/// NaN never may.
 std::optional<std::string> find_fault(const BoundField& field);
 
 /// The first fault of the stage, prefixed by the stage's name.

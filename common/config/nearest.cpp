@@ -23,7 +23,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   assert(!known.empty());
-  return *std::ranges::min_element(known, {}, [&](const std::string& name) { return edit_distance(word, name); });
+  return *std::ranges::min_element(
+      known, {}, [&](const std::string& name) { return edit_distance(word, name); });
 }
 
 }  // namespace slammot::config

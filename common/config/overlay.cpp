@@ -22,7 +22,8 @@ namespace pb = google::protobuf;
 constexpr int kMostBases = 8;  ///< A profile's base may have a base; more are a circle.
 
 /// The part of a text between two others; nothing where they are not there.
-std::optional<std::string> between(const std::string& text, std::string_view before, std::string_view after) {
+std::optional<std::string> between(const std::string& text, std::string_view before,
+                                   std::string_view after) {
   const std::size_t start = text.find(before);
   if (start == std::string::npos) return std::nullopt;
   const std::size_t from = start + before.size();
@@ -30,15 +31,19 @@ std::optional<std::string> between(const std::string& text, std::string_view bef
   return end == std::string::npos ? std::nullopt : std::optional(text.substr(from, end - from));
 }
 
-/// protobuf's words on a name that a message does not have, in ours and with the nearest name that it has; other faults as they are.
+/// protobuf's words on a name that a message does not have, in ours and with the nearest name that
+/// it has; other faults as they are.
 std::string in_our_words(const std::string& fault) {
   const auto message = between(fault, "Message type \"", "\"");
   const auto name = between(fault, "has no field named \"", "\"");
-  const pb::Descriptor* descriptor = message && name ? pb::DescriptorPool::generated_pool()->FindMessageTypeByName(*message) : nullptr;
+  const pb::Descriptor* descriptor =
+      message && name ? pb::DescriptorPool::generated_pool()->FindMessageTypeByName(*message)
+                      : nullptr;
   if (descriptor == nullptr || descriptor->field_count() == 0) return fault;
   std::vector<std::string> known;
   for (int i = 0; i < descriptor->field_count(); ++i) known.push_back(descriptor->field(i)->name());
-  return "no setting is called \"" + *name + "\" here; the nearest one is \"" + nearest(*name, known) + "\"";
+  return "no setting is called \"" + *name + "\" here; the nearest one is \"" +
+         nearest(*name, known) + "\"";
 }
 
 /// Keeps the first error only: later ones are mostly consequences of it.
@@ -66,7 +71,8 @@ bool is_set(const pb::Message& message, const pb::FieldDescriptor* field) {
   return message.GetReflection()->HasField(message, field);
 }
 
-std::optional<SetField> find_set_field(const pb::Message& stage, const pb::TextFormat::ParseInfoTree* locations,
+std::optional<SetField> find_set_field(const pb::Message& stage,
+                                       const pb::TextFormat::ParseInfoTree* locations,
                                        std::string_view dotted_name) {
   SetField at{&stage, nullptr, nullptr, {}};
   for (const std::string& name : path_of(dotted_name)) {
@@ -82,7 +88,9 @@ std::optional<SetField> find_set_field(const pb::Message& stage, const pb::TextF
   return at;
 }
 
-std::optional<Fault> overlay_fields(const pb::Message& message, const pb::TextFormat::ParseInfoTree* locations, const std::string& place,
+std::optional<Fault> overlay_fields(const pb::Message& message,
+                                    const pb::TextFormat::ParseInfoTree* locations,
+                                    const std::string& place,
                                     const std::vector<BoundField>& fields);
 
 std::optional<Fault> overlay_list(const SetField& set, const std::string& name, const List& list) {
@@ -90,13 +98,17 @@ std::optional<Fault> overlay_list(const SetField& set, const std::string& name, 
   const pb::Reflection& reflection = *set.message->GetReflection();
   for (int i = 0; i < reflection.FieldSize(*set.message, set.descriptor); ++i) {
     const pb::Message& element = reflection.GetRepeatedMessage(*set.message, set.descriptor, i);
-    if (auto fault = overlay_fields(element, set.siblings->GetTreeForNested(set.descriptor, i), name, list.append())) return fault;
+    if (auto fault = overlay_fields(element, set.siblings->GetTreeForNested(set.descriptor, i),
+                                    name, list.append()))
+      return fault;
   }
   return std::nullopt;
 }
 
 /// Copies the fields that the text sets.
-std::optional<Fault> overlay_fields(const pb::Message& message, const pb::TextFormat::ParseInfoTree* locations, const std::string& place,
+std::optional<Fault> overlay_fields(const pb::Message& message,
+                                    const pb::TextFormat::ParseInfoTree* locations,
+                                    const std::string& place,
                                     const std::vector<BoundField>& fields) {
   for (const BoundField& field : fields) {
     const std::optional<SetField> set = find_set_field(message, locations, field.name);
@@ -113,18 +125,22 @@ std::optional<Fault> overlay_fields(const pb::Message& message, const pb::TextFo
   return std::nullopt;
 }
 
-std::optional<Fault> overlay_stages(const Profile& profile, pb::TextFormat::ParseInfoTree& locations,
+std::optional<Fault> overlay_stages(const Profile& profile,
+                                    pb::TextFormat::ParseInfoTree& locations,
                                     std::span<const BoundStage> stages) {
   for (const BoundStage& stage : stages) {
     const pb::FieldDescriptor* descriptor = stage_in_proto(stage.stage);
     if (descriptor == nullptr || !profile.GetReflection()->HasField(profile, descriptor)) continue;
     const pb::Message& message = profile.GetReflection()->GetMessage(profile, descriptor);
-    if (auto fault = overlay_fields(message, locations.GetTreeForNested(descriptor, -1), std::string(stage.stage), stage.fields)) return fault;
+    if (auto fault = overlay_fields(message, locations.GetTreeForNested(descriptor, -1),
+                                    std::string(stage.stage), stage.fields))
+      return fault;
   }
   return std::nullopt;
 }
 
-std::optional<Fault> parse(std::string_view text, pb::Message& message, pb::TextFormat::ParseInfoTree& locations) {
+std::optional<Fault> parse(std::string_view text, pb::Message& message,
+                           pb::TextFormat::ParseInfoTree& locations) {
   FirstError errors;
   pb::TextFormat::Parser parser;
   parser.RecordErrorsTo(&errors);
@@ -141,22 +157,26 @@ std::optional<std::string> text_of(const std::filesystem::path& file) {
   return std::string{std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::vector<std::string> differences(const pb::Descriptor& message, const std::string& prefix, const std::vector<BoundField>& fields) {
+std::vector<std::string> differences(const pb::Descriptor& message, const std::string& prefix,
+                                     const std::vector<BoundField>& fields) {
   std::vector<std::string> found;
   for (const BoundField& field : fields) {
     const pb::FieldDescriptor* descriptor = find_field(message, field.name);
     const List* list = std::get_if<List>(&field.value);
     if (descriptor == nullptr) {
       found.push_back(prefix + field.name + ": only in the table");
-    } else if (descriptor->cpp_type() != cpp_type_of(field.value) || (list != nullptr ? !descriptor->is_repeated() : !descriptor->has_presence())) {
+    } else if (descriptor->cpp_type() != cpp_type_of(field.value) ||
+               (list != nullptr ? !descriptor->is_repeated() : !descriptor->has_presence())) {
       found.push_back(prefix + field.name + ": types differ, or not optional");
     } else if (list != nullptr) {
-      const auto inner = differences(*descriptor->message_type(), prefix + field.name + ".", list->append());
+      const auto inner =
+          differences(*descriptor->message_type(), prefix + field.name + ".", list->append());
       found.insert(found.end(), inner.begin(), inner.end());
     }
   }
   for (const std::string& name : leaf_names(message)) {
-    if (std::ranges::count(fields, name, &BoundField::name) != 1) found.push_back(prefix + name + ": not once in the table");
+    if (std::ranges::count(fields, name, &BoundField::name) != 1)
+      found.push_back(prefix + name + ": not once in the table");
   }
   return found;
 }
@@ -166,17 +186,21 @@ std::optional<Fault> in_file(std::optional<Fault> fault, const std::string& file
   return fault;
 }
 
-std::optional<Fault> overlay_with_bases(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages, int bases_left);
+std::optional<Fault> overlay_with_bases(std::string_view text, const std::string& file_name,
+                                        std::span<const BoundStage> stages, int bases_left);
 
 /// Overlays the profile that another one names as its base.
-std::optional<Fault> overlay_base(const std::string& name, std::span<const BoundStage> stages, int bases_left) {
+std::optional<Fault> overlay_base(const std::string& name, std::span<const BoundStage> stages,
+                                  int bases_left) {
   if (bases_left == 0) return Fault{{}, 0, 0, "base: profiles that are each other's base"};
   const auto file = find_profile(name);
   const auto text = file ? text_of(*file) : std::nullopt;
-  return text ? overlay_with_bases(*text, file->string(), stages, bases_left - 1) : Fault{{}, 0, 0, "base: " + unknown_profile(name)};
+  return text ? overlay_with_bases(*text, file->string(), stages, bases_left - 1)
+              : Fault{{}, 0, 0, "base: " + unknown_profile(name)};
 }
 
-std::optional<Fault> overlay_with_bases(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages, int bases_left) {
+std::optional<Fault> overlay_with_bases(std::string_view text, const std::string& file_name,
+                                        std::span<const BoundStage> stages, int bases_left) {
   Profile profile;
   pb::TextFormat::ParseInfoTree locations;
   if (auto fault = parse(text, profile, locations)) return in_file(fault, file_name);
@@ -198,30 +222,38 @@ std::string Fault::text() const {
   return file + ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + message;
 }
 
-std::optional<Fault> overlay_text(std::string_view text, const std::string& file_name, std::span<const BoundStage> stages) {
+std::optional<Fault> overlay_text(std::string_view text, const std::string& file_name,
+                                  std::span<const BoundStage> stages) {
   return overlay_with_bases(text, file_name, stages, kMostBases);
 }
 
-std::optional<Fault> overlay_message_text(std::string_view text, const std::string& file_name, const BoundStage& stage) {
+std::optional<Fault> overlay_message_text(std::string_view text, const std::string& file_name,
+                                          const BoundStage& stage) {
   assert(prototype_of(stage.stage) != nullptr);
   const std::unique_ptr<pb::Message> message(prototype_of(stage.stage)->New());
   pb::TextFormat::ParseInfoTree locations;
   if (auto fault = parse(text, *message, locations)) return in_file(fault, file_name);
-  return in_file(overlay_fields(*message, &locations, std::string(stage.stage), stage.fields), file_name);
+  return in_file(overlay_fields(*message, &locations, std::string(stage.stage), stage.fields),
+                 file_name);
 }
 
-std::optional<Fault> overlay_file(const std::filesystem::path& file, std::span<const BoundStage> stages) {
+std::optional<Fault> overlay_file(const std::filesystem::path& file,
+                                  std::span<const BoundStage> stages) {
   const auto text = text_of(file);
-  return text ? overlay_text(*text, file.string(), stages) : Fault{file.string(), 0, 0, "cannot be read"};
+  return text ? overlay_text(*text, file.string(), stages)
+              : Fault{file.string(), 0, 0, "cannot be read"};
 }
 
-std::optional<Fault> overlay_message_file(const std::filesystem::path& file, const BoundStage& message) {
+std::optional<Fault> overlay_message_file(const std::filesystem::path& file,
+                                          const BoundStage& message) {
   const auto text = text_of(file);
-  return text ? overlay_message_text(*text, file.string(), message) : Fault{file.string(), 0, 0, "cannot be read"};
+  return text ? overlay_message_text(*text, file.string(), message)
+              : Fault{file.string(), 0, 0, "cannot be read"};
 }
 
 std::vector<std::string> differences_from_proto(const BoundStage& stage) {
-  if (const pb::Message* message = prototype_of(stage.stage)) return differences(*message->GetDescriptor(), std::string(stage.stage) + ".", stage.fields);
+  if (const pb::Message* message = prototype_of(stage.stage))
+    return differences(*message->GetDescriptor(), std::string(stage.stage) + ".", stage.fields);
   const pb::FieldDescriptor* stage_field = stage_in_proto(stage.stage);
   if (stage_field == nullptr) return {std::string(stage.stage) + ": no such message in Profile"};
   return differences(*stage_field->message_type(), std::string(stage.stage) + ".", stage.fields);
@@ -231,7 +263,8 @@ std::vector<std::string> stages_in_proto() {
   std::vector<std::string> stages;
   const pb::Descriptor& profile = *Profile::descriptor();
   for (int i = 0; i < profile.field_count(); ++i) {
-    if (profile.field(i)->cpp_type() == pb::FieldDescriptor::CPPTYPE_MESSAGE) stages.push_back(profile.field(i)->name());
+    if (profile.field(i)->cpp_type() == pb::FieldDescriptor::CPPTYPE_MESSAGE)
+      stages.push_back(profile.field(i)->name());
   }
   return stages;
 }

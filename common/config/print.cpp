@@ -21,7 +21,8 @@ std::string move_between(const std::vector<std::string>& from, const std::vector
   const auto apart = static_cast<std::size_t>(std::ranges::mismatch(from, to).in1 - from.begin());
   std::string text;
   for (std::size_t depth = from.size(); depth > apart; --depth) text += indent(depth - 1) + "}\n";
-  for (std::size_t depth = apart; depth < to.size(); ++depth) text += indent(depth) + to[depth] + " {\n";
+  for (std::size_t depth = apart; depth < to.size(); ++depth)
+    text += indent(depth) + to[depth] + " {\n";
   return text;
 }
 
@@ -37,8 +38,8 @@ std::string print_stage(const BoundStage& stage) {
     next_place.pop_back();
     next_place.insert(next_place.begin(), std::string(stage.stage));
     text += move_between(place, next_place);
-    text += indent(next_place.size()) + descriptor->name() + ": " + print_value(stage, field) + "  # " +
-            std::string(field.meaning) + "\n";
+    text += indent(next_place.size()) + descriptor->name() + ": " + print_value(stage, field) +
+            "  # " + std::string(field.meaning) + "\n";
     place = std::move(next_place);
   }
   return text + move_between(place, {});
@@ -47,7 +48,8 @@ std::string print_stage(const BoundStage& stage) {
 }  // namespace
 
 std::string print_value(const BoundStage& stage, const BoundField& field) {
-  const pb::FieldDescriptor* descriptor = find_field(*stage_in_proto(stage.stage)->message_type(), field.name);
+  const pb::FieldDescriptor* descriptor =
+      find_field(*stage_in_proto(stage.stage)->message_type(), field.name);
   assert(descriptor != nullptr);
   if (descriptor->is_repeated()) return "";
   const std::unique_ptr<pb::Message> message(

@@ -29,8 +29,11 @@ std::vector<fs::path> folders_of(const Shelf& shelf) {
 
 std::optional<fs::path> find_file(const Shelf& shelf, const std::string& name_or_path) {
   std::error_code not_there;
-  const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(kExtension);
-  if (is_path) return fs::is_regular_file(name_or_path, not_there) ? std::optional<fs::path>(name_or_path) : std::nullopt;
+  const bool is_path =
+      name_or_path.find('/') != std::string::npos || name_or_path.ends_with(kExtension);
+  if (is_path)
+    return fs::is_regular_file(name_or_path, not_there) ? std::optional<fs::path>(name_or_path)
+                                                        : std::nullopt;
   for (const fs::path& folder : folders_of(shelf)) {
     const fs::path file = folder / (name_or_path + std::string(kExtension));
     if (fs::is_regular_file(file, not_there)) return file;
@@ -51,7 +54,9 @@ std::vector<std::string> names_on(const Shelf& shelf) {
 
 std::vector<fs::path> profile_folders() { return folders_of(kProfiles); }
 
-std::optional<fs::path> find_profile(const std::string& name_or_path) { return find_file(kProfiles, name_or_path); }
+std::optional<fs::path> find_profile(const std::string& name_or_path) {
+  return find_file(kProfiles, name_or_path);
+}
 
 std::vector<std::string> profile_names() { return names_on(kProfiles); }
 

@@ -11,7 +11,8 @@ namespace slammot::config {
 /// A kind of shipped files: NAME.textproto in a folder.
 struct Shelf {
   const char* variable;  ///< Environment variable with a folder that is searched first.
-  const char* folder;    ///< In share/slammot of an installation and in deploy of the source tree around the running program.
+  const char* folder;    ///< In share/slammot of an installation and in deploy of the source tree
+                         ///< around the running program.
 };
 inline constexpr Shelf kProfiles{"SLAMMOT_PROFILES", "profiles"};
 inline constexpr Shelf kScenarios{"SLAMMOT_SCENARIOS", "scenarios"};
@@ -25,11 +26,12 @@ std::optional<std::filesystem::path> find_file(const Shelf& shelf, const std::st
 /// Names known to find_file(), sorted.
 std::vector<std::string> names_on(const Shelf& shelf);
 
-/// Folders that may hold profiles, best first: $SLAMMOT_PROFILES, then share/slammot/profiles of an installation and
-/// deploy/profiles of the source tree around the running program.
+/// Folders that may hold profiles, best first: $SLAMMOT_PROFILES, then share/slammot/profiles of an
+/// installation and deploy/profiles of the source tree around the running program.
 std::vector<std::filesystem::path> profile_folders();
 
-/// File of a profile: a path is used as it is; a name is searched for in the folders. None if there is no such file.
+/// File of a profile: a path is used as it is; a name is searched for in the folders. None if there
+/// is no such file.
 std::optional<std::filesystem::path> find_profile(const std::string& name_or_path);
 
 /// Names known to find_profile(), sorted.

@@ -16,7 +16,8 @@ struct Overloaded : Functions... {
 }  // namespace
 
 const pb::Message* prototype_of(std::string_view message) {
-  for (const pb::Message* known : {static_cast<const pb::Message*>(&Scenario::default_instance())}) {
+  for (const pb::Message* known :
+       {static_cast<const pb::Message*>(&Scenario::default_instance())}) {
     if (known->GetDescriptor()->name() == message) return known;
   }
   return nullptr;
@@ -58,7 +59,8 @@ std::vector<std::string> leaf_names(const pb::Descriptor& message) {
     if (field.message_type() == nullptr || field.is_repeated()) {
       names.push_back(field.name());
     } else {
-      for (const std::string& inner : leaf_names(*field.message_type())) names.push_back(field.name() + "." + inner);
+      for (const std::string& inner : leaf_names(*field.message_type()))
+        names.push_back(field.name() + "." + inner);
     }
   }
   return names;
@@ -78,7 +80,8 @@ FieldDescriptor::CppType cpp_type_of(const Value& value) {
                     value);
 }
 
-void copy_from_message(const pb::Message& message, const FieldDescriptor& field, const Value& value) {
+void copy_from_message(const pb::Message& message, const FieldDescriptor& field,
+                       const Value& value) {
   const pb::Reflection& from = *message.GetReflection();
   std::visit(Overloaded{[&](bool* to) { *to = from.GetBool(message, &field); },
                         [&](int* to) { *to = from.GetInt32(message, &field); },

@@ -15,7 +15,8 @@
 
 namespace slammot::config {
 
-/// An empty message of that name that is a file of its own, other than Profile; nullptr when there is none.
+/// An empty message of that name that is a file of its own, other than Profile; nullptr when there
+/// is none.
 const google::protobuf::Message* prototype_of(std::string_view message);
 
 /// Profile's field for a stage; nullptr when there is none.
@@ -25,7 +26,8 @@ const google::protobuf::FieldDescriptor* stage_in_proto(std::string_view stage);
 std::vector<std::string> path_of(std::string_view dotted_name);
 
 /// The field under a dotted name, or nullptr.
-const google::protobuf::FieldDescriptor* find_field(const google::protobuf::Descriptor& message, std::string_view dotted_name);
+const google::protobuf::FieldDescriptor* find_field(const google::protobuf::Descriptor& message,
+                                                    std::string_view dotted_name);
 
 /// All fields that are no single messages, with dotted names, in the order of their declaration.
 std::vector<std::string> leaf_names(const google::protobuf::Descriptor& message);
@@ -33,7 +35,9 @@ std::vector<std::string> leaf_names(const google::protobuf::Descriptor& message)
 google::protobuf::FieldDescriptor::CppType cpp_type_of(const Value& value);
 
 /// Precondition: the field is of the value's type (the agreement test sees to it). Not for lists.
-void copy_from_message(const google::protobuf::Message& message, const google::protobuf::FieldDescriptor& field, const Value& value);
-void copy_to_message(const Value& value, google::protobuf::Message& message, const google::protobuf::FieldDescriptor& field);
+void copy_from_message(const google::protobuf::Message& message,
+                       const google::protobuf::FieldDescriptor& field, const Value& value);
+void copy_to_message(const Value& value, google::protobuf::Message& message,
+                     const google::protobuf::FieldDescriptor& field);
 
 }  // namespace slammot::config

@@ -37,7 +37,8 @@ class Endpoint {
   Endpoint(const Participant& participant, const TopicInfo& info, Side side, const dds_qos* qos);
 
   std::string describe(const char* call) const;
-  /// Sleeps until `enough()`; tests it again whenever an endpoint matches, leaves or is incompatible.
+  /// Sleeps until `enough()`; tests it again whenever an endpoint matches, leaves or is
+  /// incompatible.
   bool wait_until(const std::function<bool()>& enough, std::chrono::nanoseconds timeout) const;
   std::optional<QosMismatch> mismatch(std::uint32_t total, std::uint32_t last_policy_id) const;
 

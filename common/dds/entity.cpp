@@ -9,7 +9,8 @@ std::int32_t check(std::int32_t code, const std::string& what) {
   return code;
 }
 
-Entity::Entity(Handle handle_or_error, const std::string& what) : handle_(check(handle_or_error, what)) {}
+Entity::Entity(Handle handle_or_error, const std::string& what)
+    : handle_(check(handle_or_error, what)) {}
 
 Entity::~Entity() {
   // Fails only if the participant or the domain, and with it the entity, was already deleted.

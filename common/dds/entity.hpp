@@ -34,7 +34,8 @@ class Entity {
   Handle handle_ = 0;
 };
 
-/// Throws Error("WHAT: REASON") if `code` is one of the C library's negative return codes; returns it otherwise.
+/// Throws Error("WHAT: REASON") if `code` is one of the C library's negative return codes; returns
+/// it otherwise.
 std::int32_t check(std::int32_t code, const std::string& what);
 
 }  // namespace slammot::dds

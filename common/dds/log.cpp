@@ -17,8 +17,8 @@ struct Line {
 
 void write_to_stderr(LogLevel, std::string_view line) { std::cerr << line << '\n'; }
 
-// The library has one log sink for the process, so its state is one for the process too. Never destroyed: DDS threads
-// may log until the very end.
+// The library has one log sink for the process, so its state is one for the process too. Never
+// destroyed: DDS threads may log until the very end.
 struct LogState {
   std::mutex mutex;
   LogHandler handler = write_to_stderr;

@@ -11,11 +11,13 @@ enum class LogLevel { kInfo, kWarning, kError };
 
 using LogHandler = std::function<void(LogLevel, std::string_view line)>;
 
-/// Sets the handler of the DDS library's messages: one line a call, from any thread; stderr by default.
+/// Sets the handler of the DDS library's messages: one line a call, from any thread; stderr by
+/// default.
 void set_log_handler(LogHandler handler);
 
-/// Captures the DDS library's messages while it exists, instead of passing them to the handler: they contain the reason
-/// of a failure of which the library returns only "Error". At most one exists at a time; a second one waits.
+/// Captures the DDS library's messages while it exists, instead of passing them to the handler:
+/// they contain the reason of a failure of which the library returns only "Error". At most one
+/// exists at a time; a second one waits.
 class LogCapture {
  public:
   LogCapture();

@@ -22,7 +22,8 @@ Entity create_domain(const ParticipantOptions& options) {
   const LogCapture log;
   const dds_entity_t domain = dds_create_domain(options.domain_id, config.c_str());
   if (domain < 0) {
-    throw StartupError("cannot join DDS domain " + std::to_string(options.domain_id) + ": " + reason(domain, log));
+    throw StartupError("cannot join DDS domain " + std::to_string(options.domain_id) + ": " +
+                       reason(domain, log));
   }
   return {domain, "domain"};
 }
@@ -33,8 +34,8 @@ Entity create_participant(const ParticipantOptions& options) {
   const LogCapture log;
   const dds_entity_t participant = dds_create_participant(options.domain_id, qos.get(), nullptr);
   if (participant < 0) {
-    throw StartupError("cannot create a participant in DDS domain " + std::to_string(options.domain_id) + ": " +
-                       reason(participant, log));
+    throw StartupError("cannot create a participant in DDS domain " +
+                       std::to_string(options.domain_id) + ": " + reason(participant, log));
   }
   return {participant, "participant"};
 }
@@ -64,7 +65,9 @@ std::shared_ptr<Participant::Domain> Participant::open_domain(const ParticipantO
 }
 
 Participant::Participant(const ParticipantOptions& options)
-    : domain_id_(options.domain_id), domain_(open_domain(options)), entity_(create_participant(options)) {}
+    : domain_id_(options.domain_id),
+      domain_(open_domain(options)),
+      entity_(create_participant(options)) {}
 
 Participant::~Participant() = default;
 Participant::Participant(Participant&&) noexcept = default;

@@ -9,7 +9,8 @@
 
 namespace slammot::dds {
 
-/// The bus cannot be joined as configured. what() is one line for the user, with the library's own reason.
+/// The bus cannot be joined as configured. what() is one line for the user, with the library's own
+/// reason.
 class StartupError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

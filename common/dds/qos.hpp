@@ -20,13 +20,14 @@ enum class Flow {
 
 enum class Durability { kVolatile, kTransientLocal };
 
-/// Everything is reliable: best effort loses 12 % on a link that loses 5 %. Every history is keep-last: with keep-all
-/// one stopped reader starves the others.
+/// Everything is reliable: best effort loses 12 % on a link that loses 5 %. Every history is
+/// keep-last: with keep-all one stopped reader starves the others.
 struct QosProfile {
   Durability durability = Durability::kVolatile;
   std::int32_t reader_depth = 1;                ///< Samples kept per key for a slow reader.
   std::int32_t writer_depth = 1;                ///< Samples kept per key for retransmission.
-  std::chrono::milliseconds max_blocking{100};  ///< Longest time for which a write waits for slow readers.
+  std::chrono::milliseconds max_blocking{100};  ///< Longest time for which a write waits for slow
+                                                ///< readers.
   std::optional<std::chrono::milliseconds> lifespan = std::nullopt;  ///< Older samples are dropped.
   /// Asserted by each write; automatic when not set.
   std::optional<std::chrono::milliseconds> manual_liveliness = std::nullopt;

@@ -12,7 +12,8 @@ QosPointer reader_qos(const TopicInfo& info, History history) {
   QosPointer qos = make_reader_qos(qos_profile(info.flow));
   if (history == History::kRecorder) {
     dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kRecorderDepth);
-    dds_qset_resource_limits(qos.get(), kRecorderMaxSamples, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    dds_qset_resource_limits(qos.get(), kRecorderMaxSamples, DDS_LENGTH_UNLIMITED,
+                             DDS_LENGTH_UNLIMITED);
   }
   return qos;
 }
@@ -21,8 +22,8 @@ QosPointer reader_qos(const TopicInfo& info, History history) {
 
 LoanBase::LoanBase(ReaderBase& reader) : reader_(reader.handle()) {
   std::array<dds_sample_info_t, kMost> infos;
-  const dds_return_t count =
-      check(dds_take(reader_, samples_.data(), infos.data(), kMost, kMost), reader.describe("dds_take"));
+  const dds_return_t count = check(dds_take(reader_, samples_.data(), infos.data(), kMost, kMost),
+                                   reader.describe("dds_take"));
   size_ = static_cast<std::size_t>(count);
   for (std::size_t i = 0; i < size_; ++i) {
     infos_[i] = {infos[i].source_timestamp, infos[i].publication_handle, infos[i].valid_data};
@@ -36,11 +37,13 @@ LoanBase::~LoanBase() {
 
 ReaderBase::ReaderBase(const Participant& participant, const TopicInfo& info, History history)
     : Endpoint(participant, info, Side::kReader, reader_qos(info, history).get()),
-      data_available_(dds_create_readcondition(handle(), DDS_ANY_STATE), describe("dds_create_readcondition")) {}
+      data_available_(dds_create_readcondition(handle(), DDS_ANY_STATE),
+                      describe("dds_create_readcondition")) {}
 
 std::uint32_t ReaderBase::matched_writers() const {
   dds_subscription_matched_status_t status{};
-  check(dds_get_subscription_matched_status(handle(), &status), describe("dds_get_subscription_matched_status"));
+  check(dds_get_subscription_matched_status(handle(), &status),
+        describe("dds_get_subscription_matched_status"));
   return status.current_count;
 }
 
@@ -63,7 +66,8 @@ ReaderCounters ReaderBase::counters() const {
   dds_sample_lost_status_t lost{};
   dds_sample_rejected_status_t rejected{};
   check(dds_get_sample_lost_status(handle(), &lost), describe("dds_get_sample_lost_status"));
-  check(dds_get_sample_rejected_status(handle(), &rejected), describe("dds_get_sample_rejected_status"));
+  check(dds_get_sample_rejected_status(handle(), &rejected),
+        describe("dds_get_sample_rejected_status"));
   return {taken_, lost.total_count, rejected.total_count};
 }
 

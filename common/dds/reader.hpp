@@ -24,7 +24,8 @@ struct ReaderCounters {
 struct SampleInfo {
   std::int64_t source_time_ns = 0;  ///< The writer's system clock when it wrote.
   std::uint64_t writer_handle = 0;  ///< Tells writers apart while they live.
-  bool has_value = false;           ///< False: the key ended, or lost its last writer; only the key can be read.
+  bool has_value = false;  ///< False: the key ended, or lost its last writer; only the key can be
+                           ///< read.
 };
 
 class ReaderBase;
@@ -57,7 +58,9 @@ template <typename Sample>
 class Loan : public LoanBase {
  public:
   using LoanBase::LoanBase;
-  const Sample& operator[](std::size_t index) const { return *static_cast<const Sample*>(sample(index)); }
+  const Sample& operator[](std::size_t index) const {
+    return *static_cast<const Sample*>(sample(index));
+  }
 };
 
 class ReaderBase : public Endpoint {
@@ -85,7 +88,8 @@ class ReaderBase : public Endpoint {
 template <typename Sample>
 class Reader : public ReaderBase {
  public:
-  Reader(const Participant& participant, const Topic<Sample>& topic, History history = History::kProfile)
+  Reader(const Participant& participant, const Topic<Sample>& topic,
+         History history = History::kProfile)
       : ReaderBase(participant, topic, history) {}
 
   /// The oldest unread samples, at most LoanBase::kMost; does not wait.

@@ -7,21 +7,34 @@ namespace slammot::dds {
 
 std::span<const TopicInfo* const> topic_table() {
   using namespace topics;
-  static constexpr std::array<const TopicInfo*, 21> kTable = {
-      &kLaserScan,     &kOdometry,        &kGnssFix,
-      &kCompassReading, &kTruePose,       &kTrueObjects,
-      &kTrueHits,      &kLocalizedScan,
-      &kSegmentedScan, &kTrackedObjects,  &kStoredTrackedObjects,
-      &kScanLabels,    &kSubmapTile,      &kStoredSubmapTile,
-      &kStoredMap,     &kConstraint,    &kGraphCorrection, &kHeartbeat,
-      &kStatus,        &kCommand,         &kReply};
+  static constexpr std::array<const TopicInfo*, 21> kTable = {&kLaserScan,
+                                                              &kOdometry,
+                                                              &kGnssFix,
+                                                              &kCompassReading,
+                                                              &kTruePose,
+                                                              &kTrueObjects,
+                                                              &kTrueHits,
+                                                              &kLocalizedScan,
+                                                              &kSegmentedScan,
+                                                              &kTrackedObjects,
+                                                              &kStoredTrackedObjects,
+                                                              &kScanLabels,
+                                                              &kSubmapTile,
+                                                              &kStoredSubmapTile,
+                                                              &kStoredMap,
+                                                              &kConstraint,
+                                                              &kGraphCorrection,
+                                                              &kHeartbeat,
+                                                              &kStatus,
+                                                              &kCommand,
+                                                              &kReply};
   return kTable;
 }
 
 const TopicInfo* find_topic(std::string_view name) {
   const auto table = topic_table();
-  const auto row =
-      std::find_if(table.begin(), table.end(), [&](const TopicInfo* topic) { return topic->name == name; });
+  const auto row = std::find_if(table.begin(), table.end(),
+                                [&](const TopicInfo* topic) { return topic->name == name; });
   return row == table.end() ? nullptr : *row;
 }
 

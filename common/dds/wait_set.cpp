@@ -7,7 +7,9 @@
 namespace slammot::dds {
 namespace {
 
-bool is_triggered(Entity::Handle condition) { return check(dds_triggered(condition), "dds_triggered") != 0; }
+bool is_triggered(Entity::Handle condition) {
+  return check(dds_triggered(condition), "dds_triggered") != 0;
+}
 
 }  // namespace
 
@@ -34,6 +36,8 @@ WaitSet::Wake WaitSet::wait(std::chrono::nanoseconds timeout) {
   return Wake::kHandled;
 }
 
-void WaitSet::stop() { check(dds_set_guardcondition(stop_.handle(), true), "dds_set_guardcondition"); }
+void WaitSet::stop() {
+  check(dds_set_guardcondition(stop_.handle(), true), "dds_set_guardcondition");
+}
 
 }  // namespace slammot::dds

@@ -8,8 +8,8 @@
 
 namespace slammot::dds {
 
-/// Sleeps until one of its readers has samples, and then calls what handles them: in the waiting thread, never in one
-/// of the bus. The loop of a service is
+/// Sleeps until one of its readers has samples, and then calls what handles them: in the waiting
+/// thread, never in one of the bus. The loop of a service is
 ///     while (wait_set.wait(100ms) != Wake::kStopped) { ...what time demands... }
 class WaitSet {
  public:
@@ -17,14 +17,16 @@ class WaitSet {
 
   explicit WaitSet(const Participant& participant);
 
-  /// `handler` must take from the reader, or the next wait returns at once. Handlers are called in the order in which
-  /// they were added here. The reader must outlive this wait set's last wait.
+  /// `handler` must take from the reader, or the next wait returns at once. Handlers are called in
+  /// the order in which they were added here. The reader must outlive this wait set's last wait.
   void on_data(const ReaderBase& reader, std::function<void()> handler);
 
-  /// Handles what has come, or waits for it. Once stopped, only returns kStopped. Throws what a handler throws.
+  /// Handles what has come, or waits for it. Once stopped, only returns kStopped. Throws what a
+  /// handler throws.
   Wake wait(std::chrono::nanoseconds timeout);
 
-  /// Makes the wait under way and all later ones return kStopped. From any thread, but not from a signal handler.
+  /// Makes the wait under way and all later ones return kStopped. From any thread, but not from a
+  /// signal handler.
   void stop();
 
  private:

@@ -26,7 +26,8 @@ void WriterBase::end_sample(const void* sample) {
 
 std::uint32_t WriterBase::matched_readers() const {
   dds_publication_matched_status_t status{};
-  check(dds_get_publication_matched_status(handle(), &status), describe("dds_get_publication_matched_status"));
+  check(dds_get_publication_matched_status(handle(), &status),
+        describe("dds_get_publication_matched_status"));
   return status.current_count;
 }
 

@@ -10,7 +10,8 @@ namespace slammot::dds {
 
 enum class WriteResult {
   kWritten,
-  kTimedOut,  ///< A slow reader blocked the write for longer than the profile's max_blocking; the sample was not sent.
+  kTimedOut,  ///< A slow reader blocked the write for longer than the profile's max_blocking; the
+              ///< sample was not sent.
 };
 
 struct WriterCounters {
@@ -44,13 +45,14 @@ class WriterBase : public Endpoint {
 template <typename Sample>
 class Writer : public WriterBase {
  public:
-  Writer(const Participant& participant, const Topic<Sample>& topic) : WriterBase(participant, topic) {}
+  Writer(const Participant& participant, const Topic<Sample>& topic)
+      : WriterBase(participant, topic) {}
 
   /// Throws Error when the sample breaks its type's limits.
   WriteResult write(const Sample& sample) { return write_sample(&sample); }
 
-  /// Says that the sample's key has ended, and frees what was kept for late joiners. Without it every key that ever was
-  /// costs memory for good, here and in the readers.
+  /// Says that the sample's key has ended, and frees what was kept for late joiners. Without it
+  /// every key that ever was costs memory for good, here and in the readers.
   void end(const Sample& sample) { end_sample(&sample); }
 };
 

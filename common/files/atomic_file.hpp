@@ -8,11 +8,13 @@
 
 namespace slammot::files {
 
-/// Writes the whole file under a temporary name and renames it, so that no reader sees a partial file. On a fault (no
-/// space, no permission) the old file, if any, is unchanged.
-std::optional<Error> write_file_atomically(const std::filesystem::path& path, std::string_view content);
+/// Writes the whole file under a temporary name and renames it, so that no reader sees a partial
+/// file. On a fault (no space, no permission) the old file, if any, is unchanged.
+std::optional<Error> write_file_atomically(const std::filesystem::path& path,
+                                           std::string_view content);
 
-/// Creates the folder if it is missing and tests whether a file can be written there, before the work begins.
+/// Creates the folder if it is missing and tests whether a file can be written there, before the
+/// work begins.
 std::optional<Error> prepare_output_folder(const std::filesystem::path& folder);
 
 }  // namespace slammot::files

@@ -16,21 +16,28 @@ using bags::MessageKind;
 
 constexpr std::size_t kMaxKeptPoses = std::size_t{1} << 20;
 constexpr std::size_t kMaxScanners = 16;
-constexpr double kAmbiguousShare = 0.5;   // of the best topic's coverage
+constexpr double kAmbiguousShare = 0.5;  // of the best topic's coverage
 constexpr double kTiltedRad = 0.1;
-constexpr double kCloudSliceM = 0.2;      // above and below the sensor, if no heights are given
+constexpr double kCloudSliceM = 0.2;  // above and below the sensor, if no heights are given
 
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
 
-/// Coverage of a topic: scans times field of view [rad]. Of two equivalent topics plain scans are preferred.
+/// Coverage of a topic: scans times field of view [rad]. Of two equivalent topics plain scans are
+/// preferred.
 double seen(const TopicCandidate& candidate) {
-  const double form = contains(candidate.type, "MultiEcho") ? 0.9 : contains(candidate.type, "PointCloud") ? 1e-6 : 1.0;
-  return form * static_cast<double>(candidate.messages) * std::min(candidate.field_of_view_rad, 2.0 * std::numbers::pi);
+  const double form = contains(candidate.type, "MultiEcho")    ? 0.9
+                      : contains(candidate.type, "PointCloud") ? 1e-6
+                                                               : 1.0;
+  return form * static_cast<double>(candidate.messages) *
+         std::min(candidate.field_of_view_rad, 2.0 * std::numbers::pi);
 }
 
 /// Topics with poses computed from scans or with ground truth, not odometry.
 bool is_no_wheel_odometry(const std::string& topic, const std::string& parent_frame) {
-  return contains(topic, "truth") || contains(topic, "groundtruth") || contains(topic, "gps") || parent_frame == "map" || parent_frame == "world" || parent_frame == "utm";
+  return contains(topic, "truth") || contains(topic, "groundtruth") || contains(topic, "gps") ||
+         parent_frame == "map" || parent_frame == "world" || parent_frame == "utm";
 }
 
 double rate_hz(std::uint64_t messages, std::int64_t first_ns, std::int64_t last_ns) {
@@ -39,11 +46,15 @@ double rate_hz(std::uint64_t messages, std::int64_t first_ns, std::int64_t last_
 }
 
 bool differ(const geometry::Pose2& a, const geometry::Pose2& b) {
-  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) > 1e-9 || std::abs(geometry::wrap_angle(a.heading_rad - b.heading_rad)) > 1e-9;
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) > 1e-9 ||
+         std::abs(geometry::wrap_angle(a.heading_rad - b.heading_rad)) > 1e-9;
 }
 
-std::optional<bags::LaserScanMessage> parse_scan(const bags::RawMessage& message, MessageKind kind) {
-  return kind == MessageKind::kLaserScan || kind == MessageKind::kMultiEcho ? bags::parse_laser_scan(message) : std::nullopt;
+std::optional<bags::LaserScanMessage> parse_scan(const bags::RawMessage& message,
+                                                 MessageKind kind) {
+  return kind == MessageKind::kLaserScan || kind == MessageKind::kMultiEcho
+             ? bags::parse_laser_scan(message)
+             : std::nullopt;
 }
 
 std::string without_slash(std::string topic) {
@@ -51,11 +62,14 @@ std::string without_slash(std::string topic) {
   return topic;
 }
 
-bool is_topic(const std::string& asked_for, const std::string& topic) { return !asked_for.empty() && without_slash(asked_for) == without_slash(topic); }
+bool is_topic(const std::string& asked_for, const std::string& topic) {
+  return !asked_for.empty() && without_slash(asked_for) == without_slash(topic);
+}
 
 }  // namespace
 
-Result<std::unique_ptr<RecordSource>> BagLog::open(const std::filesystem::path& path, const RecordOptions& options) {
+Result<std::unique_ptr<RecordSource>> BagLog::open(const std::filesystem::path& path,
+                                                   const RecordOptions& options) {
   auto first_pass = bags::open_bag(path);
   if (!first_pass.messages) return Error{first_pass.fault};
   std::unique_ptr<BagLog> log(new BagLog(options));
@@ -79,14 +93,18 @@ void BagLog::look_through(bags::MessageSource& messages) {
   index_ = 0;
   sort_kept();
   kept_at_first_ = kept_.size();
-  if (malformed_ > 0) note(std::to_string(malformed_) + " messages could not be understood and were left out");
-  for (const auto& [topic, count] : imu_messages_) note("imu:      " + topic + ", " + std::to_string(count) + " messages, not used");
+  if (malformed_ > 0)
+    note(std::to_string(malformed_) + " messages could not be understood and were left out");
+  for (const auto& [topic, count] : imu_messages_)
+    note("imu:      " + topic + ", " + std::to_string(count) + " messages, not used");
 }
 
-/// Recorders write in order of arrival, converters also topic by topic. Scans of one topic stay in the bag's order.
+/// Recorders write in order of arrival, converters also topic by topic. Scans of one topic stay in
+/// the bag's order.
 void BagLog::sort_kept() {
   std::vector<std::int64_t> newest_ns(scan_topics_.size(), 0);
-  for (Scan& scan : kept_) scan.log_time_ns = newest_ns[scan.topic] = std::max(newest_ns[scan.topic], scan.log_time_ns);
+  for (Scan& scan : kept_)
+    scan.log_time_ns = newest_ns[scan.topic] = std::max(newest_ns[scan.topic], scan.log_time_ns);
   std::ranges::stable_sort(kept_, {}, &Scan::log_time_ns);
 }
 
@@ -104,7 +122,9 @@ void BagLog::look_at(const bags::RawMessage& message, MessageKind kind) {
     case MessageKind::kTransforms: {
       const auto transforms = bags::parse_transforms(message);
       if (!transforms) ++malformed_;
-      else for (const bags::TransformMessage& transform : *transforms) frames_.add(transform, message.log_time_ns, index_);
+      else
+        for (const bags::TransformMessage& transform : *transforms)
+          frames_.add(transform, message.log_time_ns, index_);
       return;
     }
     case MessageKind::kOther: return;
@@ -112,7 +132,9 @@ void BagLog::look_at(const bags::RawMessage& message, MessageKind kind) {
 }
 
 std::size_t BagLog::scan_topic(const bags::RawMessage& message, const std::string& frame) {
-  const auto known = std::ranges::find_if(scan_topics_, [&](const ScanTopic& topic) { return topic.candidate.topic == message.channel->topic; });
+  const auto known = std::ranges::find_if(scan_topics_, [&](const ScanTopic& topic) {
+    return topic.candidate.topic == message.channel->topic;
+  });
   if (known != scan_topics_.end()) return static_cast<std::size_t>(known - scan_topics_.begin());
   ScanTopic topic;
   topic.candidate.topic = message.channel->topic;
@@ -126,18 +148,27 @@ std::size_t BagLog::scan_topic(const bags::RawMessage& message, const std::strin
 void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
   if (kind == MessageKind::kPointCloud) {
     // A cloud that is not selected needs no parsing: its first message gives the frame.
-    const auto known = std::ranges::find_if(scan_topics_, [&](const ScanTopic& topic) { return topic.candidate.topic == message.channel->topic; });
-    const auto cloud = known == scan_topics_.end() ? bags::parse_point_cloud(message) : std::nullopt;
+    const auto known = std::ranges::find_if(scan_topics_, [&](const ScanTopic& topic) {
+      return topic.candidate.topic == message.channel->topic;
+    });
+    const auto cloud =
+        known == scan_topics_.end() ? bags::parse_point_cloud(message) : std::nullopt;
     if (known == scan_topics_.end() && !cloud) {
       ++malformed_;
       return;
     }
-    ScanTopic& topic = scan_topics_[cloud ? scan_topic(message, cloud->header.frame) : static_cast<std::size_t>(known - scan_topics_.begin())];
+    ScanTopic& topic = scan_topics_[cloud ? scan_topic(message, cloud->header.frame)
+                                          : static_cast<std::size_t>(known - scan_topics_.begin())];
     topic.is_cloud = true;
     topic.candidate.field_of_view_rad = 2.0 * std::numbers::pi;
     topic.candidate.beams = topic.slice.beams;
     ++topic.candidate.messages;
-    topic.advancing = topic.log_advancing += message.log_time_ns > topic.last_ns ? 1 : 0;  // the header of a cloud is not parsed
+    topic.advancing = topic.log_advancing += message.log_time_ns > topic.last_ns ? 1 : 0;  // the
+                                                                                           // header
+                                                                                           // of a
+                                                                                           // cloud
+                                                                                           // is not
+                                                                                           // parsed
     topic.last_ns = topic.newest_stamp_ns = std::max(topic.last_ns, message.log_time_ns);
     return;
   }
@@ -156,7 +187,9 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
   topic.last_ns = std::max(topic.last_ns, message.log_time_ns);
   if (topic.candidate.beams < record->range_m.size()) {
     topic.candidate.beams = record->range_m.size();
-    topic.candidate.field_of_view_rad = std::min(2.0 * std::numbers::pi, std::abs(record->layout->beam_step_rad) * static_cast<double>(record->range_m.size()));
+    topic.candidate.field_of_view_rad =
+        std::min(2.0 * std::numbers::pi, std::abs(record->layout->beam_step_rad) *
+                                             static_cast<double>(record->range_m.size()));
   }
   kept_bytes_ += sizeof(Scan) + record->range_m.size() * sizeof(float);
   all_is_kept_ = all_is_kept_ && kept_bytes_ <= options_.most_kept_bytes;
@@ -171,7 +204,9 @@ void BagLog::look_at_odometry(const bags::RawMessage& message) {
     ++malformed_;
     return;
   }
-  auto topic = std::ranges::find_if(odometry_topics_, [&](const OdometryTopic& known) { return known.candidate.topic == message.channel->topic; });
+  auto topic = std::ranges::find_if(odometry_topics_, [&](const OdometryTopic& known) {
+    return known.candidate.topic == message.channel->topic;
+  });
   if (topic == odometry_topics_.end()) {
     odometry_topics_.emplace_back();
     topic = odometry_topics_.end() - 1;
@@ -181,8 +216,11 @@ void BagLog::look_at_odometry(const bags::RawMessage& message) {
     topic->parent_frame = odometry->header.frame;
   }
   ++topic->candidate.messages;
-  const StampedPose pose{message.log_time_ns, odometry->header.stamp_ns, index_, planar(odometry->pose)};
-  topic->moves = topic->moves || (!topic->poses.empty() && differ(topic->poses.front().wheel_from_base, pose.wheel_from_base));
+  const StampedPose pose{message.log_time_ns, odometry->header.stamp_ns, index_,
+                         planar(odometry->pose)};
+  topic->moves =
+      topic->moves ||
+      (!topic->poses.empty() && differ(topic->poses.front().wheel_from_base, pose.wheel_from_base));
   if (topic->poses.size() < kMaxKeptPoses) topic->poses.push_back(pose);
 }
 
@@ -194,14 +232,16 @@ std::optional<Error> BagLog::choose(const std::filesystem::path& path) {
   const auto main = main_scanner();
   if (!main) {
     std::string message = path.string() + ": no laser scan in the bag";
-    if (!options_.topics.scan_topic.empty()) message = path.string() + ": no laser scan of the topic " + options_.topics.scan_topic;
+    if (!options_.topics.scan_topic.empty())
+      message = path.string() + ": no laser scan of the topic " + options_.topics.scan_topic;
     std::string topics;
     for (const auto& [topic, type] : types_) {
       if (topics.size() < 300) topics += (topics.empty() ? "" : ", ") + topic + " (" + type + ")";
     }
     message += types_.empty() ? ", nor any message" : "; its topics: " + topics;
     if (!damage_.empty()) message += "; it is cut off or damaged: " + damage_;
-    std::ranges::replace_if(message, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
+    std::ranges::replace_if(
+        message, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
     return Error{message};
   }
   choose_scanners(*main);
@@ -220,13 +260,15 @@ std::optional<std::size_t> BagLog::main_scanner() const {
   for (std::size_t i = 0; i < scan_topics_.size(); ++i) {
     const TopicCandidate& candidate = scan_topics_[i].candidate;
     if (is_topic(options_.topics.scan_topic, candidate.topic)) return i;
-    if (options_.topics.scan_topic.empty() && (!best || seen(candidate) > seen(scan_topics_[*best].candidate))) best = i;
+    if (options_.topics.scan_topic.empty() &&
+        (!best || seen(candidate) > seen(scan_topics_[*best].candidate)))
+      best = i;
   }
   return best;
 }
 
-/// The main topic, and for every other frame the topic with the largest coverage: topics of one frame are one scanner,
-/// filtered or converted.
+/// The main topic, and for every other frame the topic with the largest coverage: topics of one
+/// frame are one scanner, filtered or converted.
 void BagLog::choose_scanners(std::size_t main) {
   std::uint8_t slot = 0;
   const auto take = [&](ScanTopic& topic) {
@@ -242,25 +284,31 @@ void BagLog::choose_scanners(std::size_t main) {
   for (std::size_t i = 0; i < scan_topics_.size(); ++i) {
     if (i != main && !scan_topics_[i].is_cloud) others.push_back(&scan_topics_[i]);
   }
-  std::ranges::stable_sort(others, [](const ScanTopic* a, const ScanTopic* b) { return seen(a->candidate) > seen(b->candidate); });
+  std::ranges::stable_sort(others, [](const ScanTopic* a, const ScanTopic* b) {
+    return seen(a->candidate) > seen(b->candidate);
+  });
   std::vector<std::string> frames = {scan_topics_[main].candidate.frame};
   for (ScanTopic* other : others) {
     const bool is_known = std::ranges::find(frames, other->candidate.frame) != frames.end();
     if (is_known || scan_topics_[main].is_cloud || slot >= kMaxScanners) continue;
     frames.push_back(other->candidate.frame);
     take(*other);
-    if (options_.topics.scan_topic.empty() && seen(other->candidate) > kAmbiguousShare * seen(scan_topics_[main].candidate)) {
-      note("which scanner is the main one is ambiguous: " + scan_topics_[main].candidate.topic + " sees most; --scan-topic " + other->candidate.topic + " selects the other");
+    if (options_.topics.scan_topic.empty() &&
+        seen(other->candidate) > kAmbiguousShare * seen(scan_topics_[main].candidate)) {
+      note("which scanner is the main one is ambiguous: " + scan_topics_[main].candidate.topic +
+           " sees most; --scan-topic " + other->candidate.topic + " selects the other");
     }
   }
 }
 
-std::optional<Error> BagLog::choose_odometry(const std::filesystem::path& path, const std::string& laser_frame) {
+std::optional<Error> BagLog::choose_odometry(const std::filesystem::path& path,
+                                             const std::string& laser_frame) {
   const std::string& asked_for = options_.topics.odometry_topic;
   if (asked_for == "none") return std::nullopt;
   const auto worth = [&](const OdometryTopic& topic) {
     const bool is_fixed_to_laser = frames_.fixed(topic.candidate.frame, laser_frame).has_value();
-    return std::tuple(topic.moves, !is_no_wheel_odometry(topic.candidate.topic, topic.parent_frame), is_fixed_to_laser, topic.candidate.messages);
+    return std::tuple(topic.moves, !is_no_wheel_odometry(topic.candidate.topic, topic.parent_frame),
+                      is_fixed_to_laser, topic.candidate.messages);
   };
   OdometryTopic* best = nullptr;
   for (OdometryTopic& topic : odometry_topics_) {
@@ -268,9 +316,12 @@ std::optional<Error> BagLog::choose_odometry(const std::filesystem::path& path, 
     if (is_meant && (best == nullptr || worth(topic) > worth(*best))) best = &topic;
   }
   const bool is_tf_asked_for = is_topic(asked_for, "tf");
-  if (best == nullptr && !asked_for.empty() && !is_tf_asked_for) return Error{path.string() + ": no odometry of the topic " + asked_for};
-  const bool is_wheels = best != nullptr && best->moves && !is_no_wheel_odometry(best->candidate.topic, best->parent_frame);
-  if (is_tf_asked_for || (asked_for.empty() && !is_wheels)) take_transforms_as_odometry(laser_frame);
+  if (best == nullptr && !asked_for.empty() && !is_tf_asked_for)
+    return Error{path.string() + ": no odometry of the topic " + asked_for};
+  const bool is_wheels = best != nullptr && best->moves &&
+                         !is_no_wheel_odometry(best->candidate.topic, best->parent_frame);
+  if (is_tf_asked_for || (asked_for.empty() && !is_wheels))
+    take_transforms_as_odometry(laser_frame);
   if (!odometry_.empty() || best == nullptr) return std::nullopt;
   best->candidate.is_chosen = true;
   odometry_ = best->poses;
@@ -289,20 +340,26 @@ void BagLog::take_transforms_as_odometry(const std::string& laser_frame) {
   topic.candidate.is_chosen = true;
   topic.moves = true;
   topic.parent_frame = edge->parent;
-  for (const auto& pose : edge->poses) odometry_.push_back({pose.log_time_ns, pose.stamp_ns, pose.index, planar(pose.parent_from_child)});
+  for (const auto& pose : edge->poses)
+    odometry_.push_back(
+        {pose.log_time_ns, pose.stamp_ns, pose.index, planar(pose.parent_from_child)});
   topic.poses = odometry_;
   odometry_topics_.push_back(std::move(topic));
 }
 
-/// The child frame of odometry; without odometry the frame to which the laser is fixed, by its usual names.
+/// The child frame of odometry; without odometry the frame to which the laser is fixed, by its
+/// usual names.
 std::string BagLog::base_frame(const std::string& laser_frame) const {
   for (const OdometryTopic& topic : odometry_topics_) {
     const std::string& child = topic.candidate.frame;
-    if (topic.candidate.is_chosen && !child.empty() && frames_.fixed(child, laser_frame)) return child;
+    if (topic.candidate.is_chosen && !child.empty() && frames_.fixed(child, laser_frame))
+      return child;
   }
-  constexpr std::array<std::string_view, 5> kUsual = {"base_footprint", "base_link", "base", "base_frame", "chassis"};
+  constexpr std::array<std::string_view, 5> kUsual = {"base_footprint", "base_link", "base",
+                                                      "base_frame", "chassis"};
   for (const std::string_view usual : kUsual) {
-    if (usual != laser_frame && frames_.fixed(std::string(usual), laser_frame)) return std::string(usual);
+    if (usual != laser_frame && frames_.fixed(std::string(usual), laser_frame))
+      return std::string(usual);
   }
   const std::string root = frames_.fixed_root(laser_frame);
   return root == "odom" || root == "map" || root == "world" ? laser_frame : root;
@@ -311,7 +368,9 @@ std::string BagLog::base_frame(const std::string& laser_frame) const {
 void BagLog::mount(ScanTopic& topic, const std::string& base_frame) {
   const auto base_from_laser = frames_.fixed(base_frame, topic.candidate.frame);
   const bool is_known = base_from_laser && base_frame != topic.candidate.frame;
-  if (!is_known && topic.candidate.is_chosen) note("no transform says where " + topic.candidate.frame + " is on the vehicle: as the settings have it (fallback_laser_...)");
+  if (!is_known && topic.candidate.is_chosen)
+    note("no transform says where " + topic.candidate.frame +
+         " is on the vehicle: as the settings have it (fallback_laser_...)");
   topic.base_from_cloud = base_from_laser.value_or(bags::Transform{});
   const double height_m = topic.base_from_cloud.translation_m.z();
   topic.slice.from_m = options_.topics.cloud_from_m.value_or(height_m - kCloudSliceM);
@@ -320,7 +379,10 @@ void BagLog::mount(ScanTopic& topic, const std::string& base_frame) {
   topic.mounting = mounting_of(*base_from_laser);
   if (topic.mounting->is_upside_down) topic.candidate.note = "upside down";
   if (topic.mounting->tilt_rad > kTiltedRad) {
-    topic.candidate.note += std::string(topic.candidate.note.empty() ? "" : ", ") + "tilted by " + std::to_string(std::lround(topic.mounting->tilt_rad * 180.0 / std::numbers::pi)) + " degrees";
+    topic.candidate.note +=
+        std::string(topic.candidate.note.empty() ? "" : ", ") + "tilted by " +
+        std::to_string(std::lround(topic.mounting->tilt_rad * 180.0 / std::numbers::pi)) +
+        " degrees";
   }
 }
 
@@ -330,14 +392,20 @@ void BagLog::list_candidates() {
     choice_.scanners.push_back(topic.candidate);
   }
   const auto slot_of = [&](const TopicCandidate& candidate) {
-    const auto topic = std::ranges::find_if(scan_topics_, [&](const ScanTopic& known) { return known.candidate.topic == candidate.topic; });
+    const auto topic = std::ranges::find_if(scan_topics_, [&](const ScanTopic& known) {
+      return known.candidate.topic == candidate.topic;
+    });
     return topic->slot == 0 ? 256 : static_cast<int>(topic->slot);
   };
-  std::ranges::stable_sort(choice_.scanners, [&](const auto& a, const auto& b) { return slot_of(a) < slot_of(b); });
+  std::ranges::stable_sort(choice_.scanners,
+                           [&](const auto& a, const auto& b) { return slot_of(a) < slot_of(b); });
   for (OdometryTopic& topic : odometry_topics_) {
-    if (!topic.poses.empty()) topic.candidate.rate_hz = rate_hz(topic.poses.size(), topic.poses.front().log_time_ns, topic.poses.back().log_time_ns);
+    if (!topic.poses.empty())
+      topic.candidate.rate_hz = rate_hz(topic.poses.size(), topic.poses.front().log_time_ns,
+                                        topic.poses.back().log_time_ns);
     if (!topic.moves) topic.candidate.note = "never moves";
-    else if (is_no_wheel_odometry(topic.candidate.topic, topic.parent_frame)) topic.candidate.note = "not of wheels by its name or frame";
+    else if (is_no_wheel_odometry(topic.candidate.topic, topic.parent_frame))
+      topic.candidate.note = "not of wheels by its name or frame";
     choice_.odometry.push_back(topic.candidate);
     topic.poses.clear();
     topic.poses.shrink_to_fit();
@@ -346,13 +414,16 @@ void BagLog::list_candidates() {
 
 std::optional<BagLog::Scan> BagLog::scan_of(const bags::RawMessage& message) const {
   const MessageKind kind = bags::kind_of(*message.channel);
-  const auto topic = std::ranges::find_if(scan_topics_, [&](const ScanTopic& known) { return known.slot > 0 && known.candidate.topic == message.channel->topic; });
+  const auto topic = std::ranges::find_if(scan_topics_, [&](const ScanTopic& known) {
+    return known.slot > 0 && known.candidate.topic == message.channel->topic;
+  });
   if (topic == scan_topics_.end()) return std::nullopt;
   const auto index = static_cast<std::size_t>(topic - scan_topics_.begin());
   if (kind == MessageKind::kPointCloud) {
     const auto cloud = bags::parse_point_cloud(message);
     if (!cloud) return std::nullopt;
-    Scan scan{message.log_time_ns, index_, index, record_of(*cloud, topic->base_from_cloud, topic->slice)};
+    Scan scan{message.log_time_ns, index_, index,
+              record_of(*cloud, topic->base_from_cloud, topic->slice)};
     scan.record.stamps = {cloud->header.stamp_ns, message.log_time_ns};
     return scan;
   }
@@ -393,29 +464,38 @@ std::int64_t BagLog::time_of(const StampedPose& pose) const {
   return clock_ == CommonClock::kHeaders ? pose.stamp_ns : pose.log_time_ns;
 }
 
-/// Header stamps, if those of the scans advance and those of odometry are within the same hour. Otherwise the time of
-/// recording, or the order in the bag if that does not advance either.
+/// Header stamps, if those of the scans advance and those of odometry are within the same hour.
+/// Otherwise the time of recording, or the order in the bag if that does not advance either.
 void BagLog::sort_odometry() {
   constexpr double kAdvancingShare = 0.9;
   constexpr std::int64_t kSameHour_ns = 3'600'000'000'000;
   if (odometry_.empty()) return;
   const auto main = std::ranges::find(scan_topics_, std::uint8_t{1}, &ScanTopic::slot);
-  const auto advances = [&](std::uint64_t advancing) { return static_cast<double>(advancing + 1) >= kAdvancingShare * static_cast<double>(main->candidate.messages); };
-  const bool is_common = std::abs(odometry_[odometry_.size() / 2].stamp_ns - main->newest_stamp_ns) < kSameHour_ns + (main->last_ns - main->first_ns);
+  const auto advances = [&](std::uint64_t advancing) {
+    return static_cast<double>(advancing + 1) >=
+           kAdvancingShare * static_cast<double>(main->candidate.messages);
+  };
+  const bool is_common =
+      std::abs(odometry_[odometry_.size() / 2].stamp_ns - main->newest_stamp_ns) <
+      kSameHour_ns + (main->last_ns - main->first_ns);
   if (advances(main->advancing) && is_common) clock_ = CommonClock::kHeaders;
   else clock_ = advances(main->log_advancing) ? CommonClock::kRecording : CommonClock::kOrder;
   odometry_by_time_ = odometry_;
-  std::ranges::stable_sort(odometry_by_time_, {}, [this](const StampedPose& pose) { return time_of(pose); });
+  std::ranges::stable_sort(odometry_by_time_, {},
+                           [this](const StampedPose& pose) { return time_of(pose); });
   std::int64_t newest_ns = 0;
-  for (StampedPose& pose : odometry_) pose.log_time_ns = newest_ns = std::max(newest_ns, pose.log_time_ns);
+  for (StampedPose& pose : odometry_)
+    pose.log_time_ns = newest_ns = std::max(newest_ns, pose.log_time_ns);
 }
 
-/// Odometry at exactly the scan's stamp: the last one before it in the bag. With the bag's order, the one before it.
+/// Odometry at exactly the scan's stamp: the last one before it in the bag. With the bag's order,
+/// the one before it.
 const BagLog::StampedPose* BagLog::pose_of(const Scan& scan) const {
   const std::int64_t time = time_of(scan);
   const auto by_time = [this](const StampedPose& pose) { return time_of(pose); };
   const auto first = std::ranges::lower_bound(odometry_by_time_, time, {}, by_time);
-  if (clock_ == CommonClock::kOrder) return first == odometry_by_time_.begin() ? nullptr : &*(first - 1);
+  if (clock_ == CommonClock::kOrder)
+    return first == odometry_by_time_.begin() ? nullptr : &*(first - 1);
   const StampedPose* best = nullptr;
   for (auto pose = first; pose != odometry_by_time_.end() && time_of(*pose) == time; ++pose) {
     if (best == nullptr || pose->index < scan.index) best = &*pose;
@@ -428,11 +508,13 @@ geometry::Pose2 BagLog::wheel_from_base_at(const Scan& scan) const {
   if (odometry_by_time_.empty()) return geometry::Pose2::identity();
   if (const StampedPose* const pose = pose_of(scan)) return pose->wheel_from_base;
   const std::int64_t time = time_of(scan);
-  const auto after = std::ranges::lower_bound(odometry_by_time_, time, {}, [this](const StampedPose& pose) { return time_of(pose); });
+  const auto after = std::ranges::lower_bound(
+      odometry_by_time_, time, {}, [this](const StampedPose& pose) { return time_of(pose); });
   if (after == odometry_by_time_.end()) return odometry_by_time_.back().wheel_from_base;
   if (after == odometry_by_time_.begin()) return after->wheel_from_base;
   const StampedPose& before = *(after - 1);
-  const double fraction = static_cast<double>(time - time_of(before)) / static_cast<double>(time_of(*after) - time_of(before));
+  const double fraction = static_cast<double>(time - time_of(before)) /
+                          static_cast<double>(time_of(*after) - time_of(before));
   return geometry::interpolate(before.wheel_from_base, after->wheel_from_base, fraction);
 }
 
@@ -455,14 +537,16 @@ CarmenRecord BagLog::finished(Scan scan) {
   record.scanner = topic.candidate.topic;
   if (!topic.mounting) return record;
   record.base_from_laser = topic.mounting->base_from_laser;
-  if (topic.mounting->is_upside_down) record.layout = BeamLayout{-record.layout->first_beam_rad, -record.layout->beam_step_rad};
+  if (topic.mounting->is_upside_down)
+    record.layout = BeamLayout{-record.layout->first_beam_rad, -record.layout->beam_step_rad};
   return record;
 }
 
 std::optional<CarmenRecord> BagLog::next() {
   while (true) {
     if (!waiting_) waiting_ = next_scan();
-    const bool odometry_is_first = odometry_at_ < odometry_.size() && (!waiting_ || comes_before(odometry_[odometry_at_], *waiting_));
+    const bool odometry_is_first = odometry_at_ < odometry_.size() &&
+                                   (!waiting_ || comes_before(odometry_[odometry_at_], *waiting_));
     if (!odometry_is_first && !waiting_) return std::nullopt;
     if (!odometry_is_first) {
       ++records_;
@@ -470,7 +554,8 @@ std::optional<CarmenRecord> BagLog::next() {
     }
     const StampedPose& pose = odometry_[odometry_at_++];
     const StampedPose* const of_waiting = waiting_ ? pose_of(*waiting_) : nullptr;
-    const bool is_told_by_a_scan = (of_waiting != nullptr && of_waiting->index == pose.index) || std::ranges::find(told_, pose.index) != told_.end();
+    const bool is_told_by_a_scan = (of_waiting != nullptr && of_waiting->index == pose.index) ||
+                                   std::ranges::find(told_, pose.index) != told_.end();
     if (is_told_by_a_scan) continue;
     ++records_;
     return OdometryRecord{pose.wheel_from_base, {pose.stamp_ns, pose.log_time_ns}};
@@ -479,7 +564,9 @@ std::optional<CarmenRecord> BagLog::next() {
 
 double BagLog::fraction_read() const {
   if (!all_is_kept_) return messages_ ? messages_->fraction_read() : 1.0;
-  return kept_at_first_ == 0 ? 1.0 : 1.0 - static_cast<double>(kept_.size()) / static_cast<double>(kept_at_first_);
+  return kept_at_first_ == 0
+             ? 1.0
+             : 1.0 - static_cast<double>(kept_.size()) / static_cast<double>(kept_at_first_);
 }
 
 }  // namespace slammot::files

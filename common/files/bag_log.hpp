@@ -18,15 +18,17 @@
 
 namespace slammot::files {
 
-/// A ROS bag as records in order of recording: scans of sensor_msgs/LaserScan, MultiEchoLaserScan or PointCloud2;
-/// odometry of nav_msgs/Odometry or of the transforms; mountings of the transforms.
+/// A ROS bag as records in order of recording: scans of sensor_msgs/LaserScan, MultiEchoLaserScan
+/// or PointCloud2; odometry of nav_msgs/Odometry or of the transforms; mountings of the transforms.
 ///
-/// Opening reads the whole bag once and chooses topics by their content. Scans are kept if they are few enough,
-/// otherwise read again. The header stamp is the record's ipc time; the time of recording is its logger time.
+/// Opening reads the whole bag once and chooses topics by their content. Scans are kept if they are
+/// few enough, otherwise read again. The header stamp is the record's ipc time; the time of
+/// recording is its logger time.
 class BagLog : public RecordSource {
  public:
   /// Fails if the file is no bag, holds no scan, or lacks a requested topic.
-  static Result<std::unique_ptr<RecordSource>> open(const std::filesystem::path& path, const RecordOptions& options);
+  static Result<std::unique_ptr<RecordSource>> open(const std::filesystem::path& path,
+                                                    const RecordOptions& options);
 
   std::optional<CarmenRecord> next() override;
   std::uint64_t line_number() const override { return records_; }
@@ -45,7 +47,7 @@ class BagLog : public RecordSource {
     std::uint64_t advancing = 0;      ///< Messages with a header stamp newer than all before.
     std::uint64_t log_advancing = 0;  ///< Messages recorded later than all before.
     std::int64_t newest_stamp_ns = 0;
-    std::uint8_t slot = 0;            ///< Slot of its records; 0: none.
+    std::uint8_t slot = 0;  ///< Slot of its records; 0: none.
     std::optional<Mounting> mounting;
     bags::Transform base_from_cloud;
     CloudSlice slice;
@@ -53,7 +55,7 @@ class BagLog : public RecordSource {
   struct StampedPose {
     std::int64_t log_time_ns = 0;
     std::int64_t stamp_ns = 0;
-    std::int64_t index = 0;           ///< Of the message in the bag.
+    std::int64_t index = 0;  ///< Of the message in the bag.
     geometry::Pose2 wheel_from_base;
   };
   /// Clock that relates odometry and scans.
@@ -67,7 +69,7 @@ class BagLog : public RecordSource {
   };
   struct Scan {
     std::int64_t log_time_ns = 0;
-    std::int64_t index = 0;           ///< Of the message in the bag.
+    std::int64_t index = 0;  ///< Of the message in the bag.
     std::size_t topic = 0;
     LaserRecord record;
   };
@@ -84,7 +86,8 @@ class BagLog : public RecordSource {
   std::optional<Error> choose(const std::filesystem::path& path);
   std::optional<std::size_t> main_scanner() const;
   void choose_scanners(std::size_t main);
-  std::optional<Error> choose_odometry(const std::filesystem::path& path, const std::string& laser_frame);
+  std::optional<Error> choose_odometry(const std::filesystem::path& path,
+                                       const std::string& laser_frame);
   void take_transforms_as_odometry(const std::string& laser_frame);
   std::string base_frame(const std::string& laser_frame) const;
   void mount(ScanTopic& topic, const std::string& base_frame);
@@ -107,20 +110,21 @@ class BagLog : public RecordSource {
   std::vector<ScanTopic> scan_topics_;
   std::vector<OdometryTopic> odometry_topics_;
   bags::FrameTree frames_;
-  std::map<std::string, std::string> types_;           ///< Of all topics, for messages about missing scans.
+  std::map<std::string, std::string> types_;  ///< Of all topics, for messages about missing scans.
   std::map<std::string, std::uint64_t> imu_messages_;
-  std::int64_t index_ = 0;                             ///< Index of the current message.
+  std::int64_t index_ = 0;  ///< Index of the current message.
   std::uint64_t malformed_ = 0;
   std::size_t kept_bytes_ = 0;
   bool all_is_kept_ = true;
   std::deque<Scan> kept_;
   std::size_t kept_at_first_ = 0;
-  std::unique_ptr<bags::MessageSource> messages_;      ///< If there are too many scans to keep.
-  std::vector<StampedPose> odometry_;                  ///< Of the chosen topic, by time of recording.
+  std::unique_ptr<bags::MessageSource> messages_;  ///< If there are too many scans to keep.
+  std::vector<StampedPose> odometry_;              ///< Of the chosen topic, by time of recording.
   std::size_t odometry_at_ = 0;
-  std::vector<StampedPose> odometry_by_time_;          ///< The same by the common clock.
-  CommonClock clock_ = CommonClock::kRecording;        ///< The common clock.
-  std::vector<std::int64_t> told_;                     ///< Indices of odometry that scans have already returned; the last ones.
+  std::vector<StampedPose> odometry_by_time_;    ///< The same by the common clock.
+  CommonClock clock_ = CommonClock::kRecording;  ///< The common clock.
+  std::vector<std::int64_t> told_;  ///< Indices of odometry that scans have already returned; the
+                                    ///< last ones.
   std::optional<Scan> waiting_;
   std::uint64_t records_ = 0;
   std::string damage_;

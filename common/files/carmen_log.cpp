@@ -30,8 +30,10 @@ CarmenRecord to_keep(CarmenRecord record) {
   return record;
 }
 
-Error no_scans(const std::filesystem::path& path, const RecordSource& records, std::uint64_t malformed_lines) {
-  std::string message = path.string() + ": no laser scan (FLASER or ROBOTLASER1) in " + std::to_string(records.line_number()) + " lines";
+Error no_scans(const std::filesystem::path& path, const RecordSource& records,
+               std::uint64_t malformed_lines) {
+  std::string message = path.string() + ": no laser scan (FLASER or ROBOTLASER1) in " +
+                        std::to_string(records.line_number()) + " lines";
   if (malformed_lines > 0) message += ", " + std::to_string(malformed_lines) + " of them malformed";
   if (records.is_cut()) message += "; the file is cut off or damaged";
   return Error{std::move(message)};
@@ -52,7 +54,8 @@ TopicChoice choice_of(const LogPlan& plan) {
   return choice;
 }
 
-/// Frame laser_<scanner_id>, at most 31 characters: the end of a long topic identifies it better than the start.
+/// Frame laser_<scanner_id>, at most 31 characters: the end of a long topic identifies it better
+/// than the start.
 std::string scanner_id_of(std::string_view scanner) {
   constexpr std::size_t kLongest = 24;
   std::string id(scanner.substr(std::min(scanner.find_first_not_of('/'), scanner.size())));
@@ -69,7 +72,8 @@ std::vector<std::string> names_of(const std::vector<ScannerPlan>& scanners) {
 
 }  // namespace
 
-Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const CarmenLogOptions& options) {
+Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
+                                  const CarmenLogOptions& options) {
   const RecordOptions record_options{options.topics, options.most_kept_bytes};
   auto opened = open_records(path, record_options);
   if (!opened) return opened.error();
@@ -82,15 +86,21 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const Carme
     malformed_lines += std::holds_alternative<MalformedLine>(*record) ? 1 : 0;
     survey.add(*record);
     bytes += bytes_of(*record);
-    if (bytes <= options.most_kept_bytes) records.push_back({to_keep(std::move(*record)), first_pass->line_number(), first_pass->overlong_lines(), first_pass->fraction_read()});
+    if (bytes <= options.most_kept_bytes)
+      records.push_back({to_keep(std::move(*record)), first_pass->line_number(),
+                         first_pass->overlong_lines(), first_pass->fraction_read()});
     else records.clear();
   }
   const bool has_topics = !first_pass->topics().scanners.empty();  // topics are already selected
-  const ScannerWish wish{has_topics ? std::string() : options.topics.scan_topic, options.topics.scanners};
+  const ScannerWish wish{has_topics ? std::string() : options.topics.scan_topic,
+                         options.topics.scanners};
   std::vector<ScannerPlan> scanners = survey.scanners(wish.main);
   if (scanners.empty()) return no_scans(path, *first_pass, malformed_lines);
-  if (!wish.main.empty() && !survey.has_scanner(wish.main)) return Error{path.string() + ": no scanner " + wish.main + " in the log: its main one is " + scanners.front().name};
-  if (auto fault = select_scanners(wish.used, scanners)) return Error{path.string() + ": " + fault->message};
+  if (!wish.main.empty() && !survey.has_scanner(wish.main))
+    return Error{path.string() + ": no scanner " + wish.main + " in the log: its main one is " +
+                 scanners.front().name};
+  if (auto fault = select_scanners(wish.used, scanners))
+    return Error{path.string() + ": " + fault->message};
   const LogPlan plan = survey.conclude(options.fallback_field_of_view_rad, wish);
   if (bytes <= options.most_kept_bytes) {
     CarmenLog log(std::move(first_pass), plan, options);
@@ -103,14 +113,19 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path, const Carme
   return CarmenLog(std::move(*second_pass), plan, options);
 }
 
-CarmenLog CarmenLog::follow(std::unique_ptr<LineSource> lines, LogPlan plan, const CarmenLogOptions& options) {
+CarmenLog CarmenLog::follow(std::unique_ptr<LineSource> lines, LogPlan plan,
+                            const CarmenLogOptions& options) {
   CarmenLog log(std::make_unique<CarmenLines>(std::move(lines)), std::move(plan), options);
   log.survey_.emplace();
   return log;
 }
 
-CarmenLog::CarmenLog(std::unique_ptr<RecordSource> records, LogPlan plan, const CarmenLogOptions& options)
-    : records_(std::move(records)), topics_(records_->topics()), plan_(std::move(plan)), scans_(std::max<std::size_t>(1, plan_.scanners.size())) {
+CarmenLog::CarmenLog(std::unique_ptr<RecordSource> records, LogPlan plan,
+                     const CarmenLogOptions& options)
+    : records_(std::move(records)),
+      topics_(records_->topics()),
+      plan_(std::move(plan)),
+      scans_(std::max<std::size_t>(1, plan_.scanners.size())) {
   is_choice_of_plan_ = topics_.scanners.empty();
   if (is_choice_of_plan_) topics_ = choice_of(plan_);
   set_options(options);
@@ -118,9 +133,15 @@ CarmenLog::CarmenLog(std::unique_ptr<RecordSource> records, LogPlan plan, const 
 
 void CarmenLog::set_options(const CarmenLogOptions& options) {
   options_ = options;
-  for (std::size_t i = 1; i < topics_.scanners.size() && is_choice_of_plan_; ++i) topics_.scanners[i].is_chosen = options.uses_all_scanners;
-  const geometry::Pose2 unsaid{0.0, 0.0, plan_.evidence.correction.laser_turn_rad};  // for scans without a mounting in the record
-  if (options.fallback_base_from_laser == geometry::Pose2::identity() || difference(plan_.base_from_laser, unsaid).norm() > 1e-9) return;
+  for (std::size_t i = 1; i < topics_.scanners.size() && is_choice_of_plan_; ++i)
+    topics_.scanners[i].is_chosen = options.uses_all_scanners;
+  const geometry::Pose2 unsaid{0.0, 0.0, plan_.evidence.correction.laser_turn_rad};  // for scans
+                                                                                     // without a
+                                                                                     // mounting in
+                                                                                     // the record
+  if (options.fallback_base_from_laser == geometry::Pose2::identity() ||
+      difference(plan_.base_from_laser, unsaid).norm() > 1e-9)
+    return;
   plan_.base_from_laser = options.fallback_base_from_laser;
   plan_.evidence.correction.laser_turn_rad = 0.0;
 }
@@ -132,8 +153,10 @@ std::optional<LogEvent> CarmenLog::next() {
       continue;
     }
     if (survey_) survey_->add(now_.record);
-    std::visit(Overloaded{[this](const IgnoredLine&) { ++faults_.ignored_lines; }, [this](const MalformedLine&) { note_malformed(); },
-                          [](const ParamRecord&) {}, [](const ImuRecord&) {},  // processed by the survey
+    std::visit(Overloaded{[this](const IgnoredLine&) { ++faults_.ignored_lines; },
+                          [this](const MalformedLine&) { note_malformed(); },
+                          [](const ParamRecord&) {}, [](const ImuRecord&) {},  // processed by the
+                                                                               // survey
                           [this](const OdometryRecord& known) { take(known); },
                           [this](LaserRecord& known) { take(std::move(known)); }},
                now_.record);
@@ -155,7 +178,8 @@ bool CarmenLog::read_on() {
   if (all_is_kept_) return false;
   auto record = records_->next();
   if (!record) return false;
-  now_ = {std::move(*record), records_->line_number(), records_->overlong_lines(), records_->fraction_read()};
+  now_ = {std::move(*record), records_->line_number(), records_->overlong_lines(),
+          records_->fraction_read()};
   return true;
 }
 
@@ -168,7 +192,9 @@ std::vector<std::string> CarmenLog::scanner_ids() const {
 
 /// Index of the record's scanner in the plan; nullopt if the scan is not used.
 std::optional<std::size_t> CarmenLog::scanner_of(const LaserRecord& record) const {
-  if (plan_.scanners.empty()) return record.kind == plan_.laser && record.slot == 1 ? std::optional<std::size_t>(0) : std::nullopt;
+  if (plan_.scanners.empty())
+    return record.kind == plan_.laser && record.slot == 1 ? std::optional<std::size_t>(0)
+                                                          : std::nullopt;
   const std::size_t used = options_.uses_all_scanners ? plan_.scanners.size() : 1;
   for (std::size_t i = 0; i < used; ++i) {
     if (plan_.scanners[i].kind == record.kind && plan_.scanners[i].slot == record.slot) return i;
@@ -185,7 +211,8 @@ void CarmenLog::take(LaserRecord record) {
   const auto stamp = scan_stamp_ns(record.stamps, *scanner);
   if (!stamp) return note_malformed();
   if (*scanner == 0) odom_lines_since_scan_ = 0;
-  if (!has_several_scanners() || has_replaced_stamps()) return take_in_order(std::move(record), *scanner, *stamp);
+  if (!has_several_scanners() || has_replaced_stamps())
+    return take_in_order(std::move(record), *scanner, *stamp);
   merging_.emplace(*stamp, MergingScan{std::move(record), *scanner});
   merge_scans(kMaxMergingScans);
 }
@@ -201,11 +228,16 @@ void CarmenLog::merge_scans(std::size_t may_wait) {
 }
 
 void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int64_t stamp) {
-  const bool has_pose = record.kind != LaserRecordKind::kRawLaser && record.kind != LaserRecordKind::kDpSlam;
-  const auto wheel_from_base = has_pose ? std::optional(pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)) : std::nullopt;
+  const bool has_pose =
+      record.kind != LaserRecordKind::kRawLaser && record.kind != LaserRecordKind::kDpSlam;
+  const auto wheel_from_base =
+      has_pose
+          ? std::optional(pose_correction_.next(plan_.evidence.correction, record.wheel_from_base))
+          : std::nullopt;
   sensing::LaserScan scan = scan_of(std::move(record), scanner, stamp);
   if (++scans_[scanner] == 1 && scanner == 0 && plan_.first_scan_is_ahead) {
-    first_scan_ = std::move(scan);  // if returned first, it would make all others late; after the second one it counts as far ahead
+    first_scan_ = std::move(scan);  // if returned first, it would make all others late; after the
+                                    // second one it counts as far ahead
     return;
   }
   if (plan_.odometry_late_s != 0.0) {
@@ -214,8 +246,7 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
     return put_waiting_scans(kMaxWaitingScans);
   }
   switch (plan_.odometry) {
-    case OdometrySource::kNone:
-      return put_scan(std::move(scan), std::nullopt);
+    case OdometrySource::kNone: return put_scan(std::move(scan), std::nullopt);
     case OdometrySource::kLaserRecords:
     case OdometrySource::kBoth:
       put_odometry_until(scan.stamp_ns - 1);
@@ -227,14 +258,20 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
 }
 
 void CarmenLog::take(const OdometryRecord& record) {
-  if (plan_.odometry == OdometrySource::kNone || plan_.odometry == OdometrySource::kLaserRecords || record.kind != plan_.odometry_lines) return;
-  const auto stamp = has_replaced_stamps() ? odometry_stamp_by_order_ns() : recorded_stamp_ns(record.stamps);
+  if (plan_.odometry == OdometrySource::kNone || plan_.odometry == OdometrySource::kLaserRecords ||
+      record.kind != plan_.odometry_lines)
+    return;
+  const auto stamp =
+      has_replaced_stamps() ? odometry_stamp_by_order_ns() : recorded_stamp_ns(record.stamps);
   if (!stamp) return has_replaced_stamps() ? void() : note_malformed();
-  if (!odometry_stamps_.believes(*stamp) || !keep_odometry({*stamp - lateness_ns(), pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)})) {
+  if (!odometry_stamps_.believes(*stamp) ||
+      !keep_odometry({*stamp - lateness_ns(),
+                      pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)})) {
     ++faults_.stale_odometry;
     return;
   }
-  if (plan_.odometry == OdometrySource::kOdomLines || plan_.odometry_late_s != 0.0) put_waiting_scans(kMaxWaitingScans);
+  if (plan_.odometry == OdometrySource::kOdomLines || plan_.odometry_late_s != 0.0)
+    put_waiting_scans(kMaxWaitingScans);
 }
 
 std::int64_t CarmenLog::lateness_ns() const { return std::llround(plan_.odometry_late_s * 1e9); }
@@ -249,39 +286,47 @@ bool CarmenLog::keep_odometry(const sensing::Odometry& odometry) {
 void CarmenLog::note_malformed() {
   ++faults_.malformed_lines;
   last_malformed_line_ = now_.line_number;
-  if (faults_.first_malformed_lines.size() < LogFaults::kNamedLines) faults_.first_malformed_lines.push_back(now_.line_number);
+  if (faults_.first_malformed_lines.size() < LogFaults::kNamedLines)
+    faults_.first_malformed_lines.push_back(now_.line_number);
 }
 
 void CarmenLog::finish_reading() {
   is_finished_ = true;
   // A malformed last line without an end was cut.
-  const bool last_line_is_broken = records_->last_line_is_unfinished() && last_malformed_line_ == records_->line_number();
+  const bool last_line_is_broken =
+      records_->last_line_is_unfinished() && last_malformed_line_ == records_->line_number();
   faults_.is_cut = records_->is_cut() || last_line_is_broken;
   faults_.damage = records_->damage();
   merge_scans(0);
   put_waiting_scans(0);
   if (!survey_) return;
-  const LogPlan plan = survey_->conclude(options_.fallback_field_of_view_rad, {.main = {}, .used = names_of(plan_.scanners)});
+  const LogPlan plan = survey_->conclude(options_.fallback_field_of_view_rad,
+                                         {.main = {}, .used = names_of(plan_.scanners)});
   plan_.figures = plan.figures;
   plan_.evidence = plan.evidence;
   plan_.evidence.correction = {};  // earlier returned scans were not corrected
 }
 
-std::optional<std::int64_t> CarmenLog::recorded_stamp_ns(const CarmenStamps& stamps) const { return plan_.clock == LogClock::kLogger ? stamps.logger_ns : stamps.ipc_ns; }
+std::optional<std::int64_t> CarmenLog::recorded_stamp_ns(const CarmenStamps& stamps) const {
+  return plan_.clock == LogClock::kLogger ? stamps.logger_ns : stamps.ipc_ns;
+}
 
-/// Replaced stamps are those of the main scanner; another scanner's scan lies between the neighbouring ones of the main
-/// scanner.
-std::optional<std::int64_t> CarmenLog::scan_stamp_ns(const CarmenStamps& stamps, std::size_t scanner) const {
+/// Replaced stamps are those of the main scanner; another scanner's scan lies between the
+/// neighbouring ones of the main scanner.
+std::optional<std::int64_t> CarmenLog::scan_stamp_ns(const CarmenStamps& stamps,
+                                                     std::size_t scanner) const {
   if (!has_replaced_stamps()) return recorded_stamp_ns(stamps);
   const std::vector<std::int64_t>& replaced_ns = plan_.times.stamps_ns;
   const std::size_t next = scans_[0];
-  if (scanner == 0) return next < replaced_ns.size() ? std::optional(replaced_ns[next]) : std::nullopt;
+  if (scanner == 0)
+    return next < replaced_ns.size() ? std::optional(replaced_ns[next]) : std::nullopt;
   if (next == 0 || next >= replaced_ns.size()) return std::nullopt;
   return replaced_ns[next - 1] + (replaced_ns[next] - replaced_ns[next - 1]) / 2;
 }
 
-/// If scan stamps are replaced, ODOM lines are spaced evenly between two scans of the main scanner, in the order of the
-/// log. The last line has the stamp of the following scan if that scan has no pose. nullopt if the line is not needed.
+/// If scan stamps are replaced, ODOM lines are spaced evenly between two scans of the main scanner,
+/// in the order of the log. The last line has the stamp of the following scan if that scan has no
+/// pose. nullopt if the line is not needed.
 std::optional<std::int64_t> CarmenLog::odometry_stamp_by_order_ns() {
   const bool scans_have_poses = plan_.odometry != OdometrySource::kOdomLines;
   const std::size_t scan = scans_[0];
@@ -291,22 +336,28 @@ std::optional<std::int64_t> CarmenLog::odometry_stamp_by_order_ns() {
   const std::int64_t after_ns = plan_.times.stamps_ns[scan];
   if (scan == 0) return line == lines && !scans_have_poses ? std::optional(after_ns) : std::nullopt;
   const std::int64_t before_ns = plan_.times.stamps_ns[scan - 1];
-  const double fraction = static_cast<double>(line) / static_cast<double>(scans_have_poses ? lines + 1 : lines);
+  const double fraction =
+      static_cast<double>(line) / static_cast<double>(scans_have_poses ? lines + 1 : lines);
   return before_ns + std::llround(fraction * static_cast<double>(after_ns - before_ns));
 }
 
-sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns) const {
-  const BeamLayout layout = record.layout.value_or(layout_by_convention(record.range_m.size(), options_.fallback_field_of_view_rad));
+sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner,
+                                      std::int64_t stamp_ns) const {
+  const BeamLayout layout = record.layout.value_or(
+      layout_by_convention(record.range_m.size(), options_.fallback_field_of_view_rad));
   const bool is_main = scanner == 0;
   const double max_range_m = is_main ? plan_.max_range_m : plan_.scanners[scanner].max_range_m;
   sensing::LaserScan scan;
   scan.stamp_ns = stamp_ns;
   scan.sequence = scans_[scanner];
-  scan.scanner.scanner_id = has_several_scanners() ? scanner_id_of(record.scanner) : options_.scanner_id;
-  scan.scanner.base_from_laser = is_main ? plan_.base_from_laser : plan_.scanners[scanner].base_from_laser;
+  scan.scanner.scanner_id =
+      has_several_scanners() ? scanner_id_of(record.scanner) : options_.scanner_id;
+  scan.scanner.base_from_laser =
+      is_main ? plan_.base_from_laser : plan_.scanners[scanner].base_from_laser;
   scan.scanner.first_beam_rad = layout.first_beam_rad;
   scan.scanner.beam_step_rad = layout.beam_step_rad;
-  scan.scanner.max_range_m = record.max_range_m > 0.0 ? std::min(record.max_range_m, max_range_m) : max_range_m;
+  scan.scanner.max_range_m =
+      record.max_range_m > 0.0 ? std::min(record.max_range_m, max_range_m) : max_range_m;
   scan.range_m = std::move(record.range_m);
   correct(scan, scanner);
   return scan;
@@ -321,14 +372,15 @@ void CarmenLog::correct(sensing::LaserScan& scan, std::size_t scanner) const {
   if (!has_beams_of_the_main_one(scanner)) return;
   scan.scanner.first_beam_rad *= correction.field_factor;
   scan.scanner.beam_step_rad *= correction.field_factor;
-  // The record counts as written in reverse order, so that the sweep follows the layout; localization estimates the
-  // sense otherwise.
+  // The record counts as written in reverse order, so that the sweep follows the layout;
+  // localization estimates the sense otherwise.
   if (correction.reverses_beams) std::ranges::reverse(scan.range_m);
 }
 
 /// CARMEN's records of one kind come from one program; in a bag each scanner has its own driver.
 bool CarmenLog::has_beams_of_the_main_one(std::size_t scanner) const {
-  return scanner == 0 || (plan_.scanners[scanner].kind == plan_.laser && plan_.laser != LaserRecordKind::kBag);
+  return scanner == 0 ||
+         (plan_.scanners[scanner].kind == plan_.laser && plan_.laser != LaserRecordKind::kBag);
 }
 
 void CarmenLog::put_odometry(const sensing::Odometry& odometry) {
@@ -338,7 +390,8 @@ void CarmenLog::put_odometry(const sensing::Odometry& odometry) {
 
 /// Returns the held-back ODOM lines up to this time that are newer than the last returned one.
 void CarmenLog::put_odometry_until(std::int64_t stamp_ns) {
-  for (; !odom_lines_.empty() && odom_lines_.front().stamp_ns <= stamp_ns; odom_lines_.pop_front()) {
+  for (; !odom_lines_.empty() && odom_lines_.front().stamp_ns <= stamp_ns;
+       odom_lines_.pop_front()) {
     if (newest_odometry_ && odom_lines_.front().stamp_ns <= newest_odometry_->stamp_ns) {
       ++faults_.stale_odometry;
     } else {
@@ -349,7 +402,8 @@ void CarmenLog::put_odometry_until(std::int64_t stamp_ns) {
 
 void CarmenLog::put_waiting_scans(std::size_t may_wait) {
   while (!waiting_.empty()) {
-    const bool has_odometry = !odom_lines_.empty() && odom_lines_.back().stamp_ns >= waiting_.front().stamp_ns;
+    const bool has_odometry =
+        !odom_lines_.empty() && odom_lines_.back().stamp_ns >= waiting_.front().stamp_ns;
     if (!has_odometry && waiting_.size() <= may_wait) return;
     sensing::LaserScan scan = std::move(waiting_.front());
     waiting_.pop_front();
@@ -357,25 +411,37 @@ void CarmenLog::put_waiting_scans(std::size_t may_wait) {
     put_odometry_until(stamp - 1);
     const auto wheel_from_base = wheel_from_base_at(stamp);
     put_scan(std::move(scan), wheel_from_base);
-    const bool was_its_own = !odom_lines_.empty() && odom_lines_.front().stamp_ns == stamp && newest_odometry_ && newest_odometry_->stamp_ns == stamp;
+    const bool was_its_own = !odom_lines_.empty() && odom_lines_.front().stamp_ns == stamp &&
+                             newest_odometry_ && newest_odometry_->stamp_ns == stamp;
     if (was_its_own) odom_lines_.pop_front();
   }
 }
 
-/// Interpolates between the last returned line and the first held-back one; uses the nearer one if only one exists.
+/// Interpolates between the last returned line and the first held-back one; uses the nearer one if
+/// only one exists.
 std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_ns) const {
   const bool is_over = plan_.odometry_late_s != 0.0;  // no pose is known after the last late one
-  if (odom_lines_.empty()) return newest_odometry_ && !is_over ? std::optional(newest_odometry_->wheel_from_base) : std::nullopt;
+  if (odom_lines_.empty())
+    return newest_odometry_ && !is_over ? std::optional(newest_odometry_->wheel_from_base)
+                                        : std::nullopt;
   const sensing::Odometry& after = odom_lines_.front();
-  if (!newest_odometry_ || after.stamp_ns <= newest_odometry_->stamp_ns || after.stamp_ns == stamp_ns) return after.wheel_from_base;
-  const double fraction = static_cast<double>(stamp_ns - newest_odometry_->stamp_ns) / static_cast<double>(after.stamp_ns - newest_odometry_->stamp_ns);
-  return geometry::interpolate(newest_odometry_->wheel_from_base, after.wheel_from_base, std::clamp(fraction, 0.0, 1.0));
+  if (!newest_odometry_ || after.stamp_ns <= newest_odometry_->stamp_ns ||
+      after.stamp_ns == stamp_ns)
+    return after.wheel_from_base;
+  const double fraction = static_cast<double>(stamp_ns - newest_odometry_->stamp_ns) /
+                          static_cast<double>(after.stamp_ns - newest_odometry_->stamp_ns);
+  return geometry::interpolate(newest_odometry_->wheel_from_base, after.wheel_from_base,
+                               std::clamp(fraction, 0.0, 1.0));
 }
 
-void CarmenLog::put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base) {
+void CarmenLog::put_scan(sensing::LaserScan scan,
+                         const std::optional<geometry::Pose2>& wheel_from_base) {
   const bool is_believed = scan_stamps_.believes(scan.stamp_ns);
-  if (is_believed && wheel_from_base && (!newest_odometry_ || scan.stamp_ns > newest_odometry_->stamp_ns)) put_odometry({scan.stamp_ns, *wheel_from_base});
-  if (first_scan_) std::swap(first_scan_->sequence, scan.sequence);  // sequences follow the order of return
+  if (is_believed && wheel_from_base &&
+      (!newest_odometry_ || scan.stamp_ns > newest_odometry_->stamp_ns))
+    put_odometry({scan.stamp_ns, *wheel_from_base});
+  if (first_scan_)
+    std::swap(first_scan_->sequence, scan.sequence);  // sequences follow the order of return
   ready_.emplace_back(std::move(scan));
   if (first_scan_) ready_.emplace_back(*std::exchange(first_scan_, std::nullopt));
 }

@@ -61,8 +61,8 @@ std::optional<Number> parse_number(std::string_view word) {
   return number;
 }
 
-/// Parses a reading. Nearly all have few digits in plain notation. Digits and power of ten are then exact in a float,
-/// so that one division rounds like std::from_chars (Clinger 1990), in one pass.
+/// Parses a reading. Nearly all have few digits in plain notation. Digits and power of ten are then
+/// exact in a float, so that one division rounds like std::from_chars (Clinger 1990), in one pass.
 std::optional<float> next_reading(Words& words) {
   constexpr std::uint32_t kExact = 1 << 24;
   constexpr std::array<float, 8> kPowerOfTen{1e0F, 1e1F, 1e2F, 1e3F, 1e4F, 1e5F, 1e6F, 1e7F};
@@ -72,10 +72,12 @@ std::optional<float> next_reading(Words& words) {
   const std::size_t longest = std::min(rest.size(), begin + kPowerOfTen.size());
   std::uint32_t digits = 0;
   std::size_t at = begin;
-  for (; at < longest && is_digit(rest[at]); ++at) digits = 10 * digits + static_cast<std::uint32_t>(rest[at] - '0');
+  for (; at < longest && is_digit(rest[at]); ++at)
+    digits = 10 * digits + static_cast<std::uint32_t>(rest[at] - '0');
   const std::size_t point = at;
   if (at > begin && at < longest && rest[at] == '.') {
-    for (++at; at < longest && is_digit(rest[at]); ++at) digits = 10 * digits + static_cast<std::uint32_t>(rest[at] - '0');
+    for (++at; at < longest && is_digit(rest[at]); ++at)
+      digits = 10 * digits + static_cast<std::uint32_t>(rest[at] - '0');
   }
   const bool is_plain = at > begin && at < rest.size() && is_space(rest[at]) && digits <= kExact;
   if (!is_plain) return parse_number<float>(words.next());
@@ -93,7 +95,9 @@ std::optional<geometry::Pose2> next_pose(Words& words) {
   const auto y_m = next_finite(words);
   const auto heading_rad = next_finite(words);
   if (!x_m || !y_m || !heading_rad) return std::nullopt;
-  if (std::abs(*x_m) > kMaxCoordinateM || std::abs(*y_m) > kMaxCoordinateM || std::abs(*heading_rad) > 1e6) return std::nullopt;
+  if (std::abs(*x_m) > kMaxCoordinateM || std::abs(*y_m) > kMaxCoordinateM ||
+      std::abs(*heading_rad) > 1e6)
+    return std::nullopt;
   return geometry::Pose2{*x_m, *y_m, *heading_rad};
 }
 
@@ -151,21 +155,23 @@ bool skip_remissions(Words& words, std::size_t words_after) {
   return true;
 }
 
-/// Parses the start of ROBOTLASERn and RAWLASERn: type of scanner, field of view, readings. Returns false for
-/// impossible values.
+/// Parses the start of ROBOTLASERn and RAWLASERn: type of scanner, field of view, readings. Returns
+/// false for impossible values.
 bool parse_configured_ranges(Words& words, LaserRecord& record) {
   words.next();  // type of scanner: redundant
   const auto first_beam_rad = next_finite(words);
   const auto field_rad = next_finite(words);
   const auto step_rad = next_finite(words);
-  const auto max_range_m = parse_number<float>(words.next());  // float: a reading of the same digits must compare equal
-  words.next();  // accuracy
-  words.next();  // remission mode
+  const auto max_range_m = parse_number<float>(words.next());  // float: a reading of the same
+                                                               // digits must compare equal
+  words.next();                                                // accuracy
+  words.next();                                                // remission mode
   auto range_m = next_ranges(words);
   if (!first_beam_rad || !field_rad || !step_rad || !max_range_m || !range_m) return false;
   record.range_m = std::move(*range_m);
   record.layout = layout_of_record(*first_beam_rad, *field_rad, *step_rad, record.range_m.size());
-  record.max_range_m = *max_range_m > 0.0F && std::isfinite(*max_range_m) ? static_cast<double>(*max_range_m) : 0.0;
+  record.max_range_m =
+      *max_range_m > 0.0F && std::isfinite(*max_range_m) ? static_cast<double>(*max_range_m) : 0.0;
   return true;
 }
 
@@ -175,7 +181,8 @@ CarmenRecord parse_robotlaser(std::string_view keyword, std::uint8_t slot, Words
   record.kind = LaserRecordKind::kRobotLaser1;
   record.slot = slot;
   record.scanner = keyword;
-  if (!parse_configured_ranges(words, record) || !skip_remissions(words, kWordsAfter)) return MalformedLine{};
+  if (!parse_configured_ranges(words, record) || !skip_remissions(words, kWordsAfter))
+    return MalformedLine{};
   const auto wheel_from_laser = next_pose(words);
   const auto wheel_from_base = next_pose(words);
   if (!wheel_from_laser || !wheel_from_base) return MalformedLine{};
@@ -191,7 +198,8 @@ CarmenRecord parse_rawlaser(std::string_view keyword, std::uint8_t slot, Words w
   record.kind = LaserRecordKind::kRawLaser;
   record.slot = slot;
   record.scanner = keyword;
-  if (!parse_configured_ranges(words, record) || !skip_remissions(words, kStampWords)) return MalformedLine{};
+  if (!parse_configured_ranges(words, record) || !skip_remissions(words, kStampWords))
+    return MalformedLine{};
   record.stamps = next_stamps(words);
   return record;
 }
@@ -259,12 +267,14 @@ CarmenRecord parse_param(Words words) {
 std::optional<std::uint8_t> numbered(std::string_view keyword, std::string_view name) {
   if (keyword.size() != name.size() + 1 || !keyword.starts_with(name)) return std::nullopt;
   const char digit = keyword.back();
-  return digit >= '1' && digit <= '9' ? std::optional(static_cast<std::uint8_t>(digit - '0')) : std::nullopt;
+  return digit >= '1' && digit <= '9' ? std::optional(static_cast<std::uint8_t>(digit - '0'))
+                                      : std::nullopt;
 }
 
 std::optional<std::int64_t> parse_stamp_in_exponent_form(std::string_view text) {
   const auto seconds = parse_number<double>(text);
-  if (!seconds || !(std::abs(*seconds) < static_cast<double>(kMaxStampSeconds))) return std::nullopt;
+  if (!seconds || !(std::abs(*seconds) < static_cast<double>(kMaxStampSeconds)))
+    return std::nullopt;
   return std::llround(*seconds * 1e9);
 }
 
@@ -291,26 +301,32 @@ std::optional<std::int64_t> parse_stamp_ns(std::string_view text) {
   std::size_t at = 0;
   for (; at < text.size() && is_digit(text[at]); ++at) {
     seconds = seconds * 10 + (text[at] - '0');
-    if (seconds > kMaxStampSeconds) return is_negative ? std::nullopt : parse_stamp_since_epoch(whole);
+    if (seconds > kMaxStampSeconds)
+      return is_negative ? std::nullopt : parse_stamp_since_epoch(whole);
   }
   std::int64_t fraction_ns = 0;
   if (at < text.size() && text[at] == '.') {
     std::int64_t digit_ns = kNanosecondsPerSecond / 10;
-    for (++at; at < text.size() && is_digit(text[at]); ++at, digit_ns /= 10) fraction_ns += digit_ns * (text[at] - '0');
+    for (++at; at < text.size() && is_digit(text[at]); ++at, digit_ns /= 10)
+      fraction_ns += digit_ns * (text[at] - '0');
   }
   if (at < text.size()) return parse_stamp_in_exponent_form(whole);
   const std::int64_t stamp_ns = seconds * kNanosecondsPerSecond + fraction_ns;
   return is_negative ? -stamp_ns : stamp_ns;
 }
 
-std::optional<BeamLayout> layout_of_record(double first_beam_rad, double field_rad, double step_rad, std::size_t beam_count) {
+std::optional<BeamLayout> layout_of_record(double first_beam_rad, double field_rad, double step_rad,
+                                           std::size_t beam_count) {
   constexpr double kFullCircle = 2.0 * std::numbers::pi;
-  if (std::abs(first_beam_rad) > kFullCircle || field_rad <= 0.0 || field_rad > kFullCircle + 0.01) return std::nullopt;
+  if (std::abs(first_beam_rad) > kFullCircle || field_rad <= 0.0 || field_rad > kFullCircle + 0.01)
+    return std::nullopt;
   const double n = static_cast<double>(beam_count);
   if (step_rad <= 0.0) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
   const double half_a_step_rad = 0.5 * step_rad;
-  if (std::abs(step_rad * (n - 1.0) - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
-  if (std::abs(step_rad * n - field_rad) < half_a_step_rad) return BeamLayout{first_beam_rad, field_rad / n};
+  if (std::abs(step_rad * (n - 1.0) - field_rad) < half_a_step_rad)
+    return BeamLayout{first_beam_rad, field_rad / (n - 1.0)};
+  if (std::abs(step_rad * n - field_rad) < half_a_step_rad)
+    return BeamLayout{first_beam_rad, field_rad / n};
   if (step_rad * (n - 1.0) > kFullCircle) return std::nullopt;
   return BeamLayout{first_beam_rad, step_rad};  // only a part of the scanner's field was logged
 }
@@ -326,7 +342,8 @@ CarmenRecord parse_carmen_line(std::string_view line) {
   if (keyword == "IMU") return parse_imu(words);
   if (keyword == "Laser") return parse_dp_slam_laser(words);
   if (keyword == "Odometry") return parse_dp_slam_odometry(words);
-  if (const auto slot = numbered(keyword, "ROBOTLASER")) return parse_robotlaser(keyword, *slot, words);
+  if (const auto slot = numbered(keyword, "ROBOTLASER"))
+    return parse_robotlaser(keyword, *slot, words);
   if (const auto slot = numbered(keyword, "RAWLASER")) return parse_rawlaser(keyword, *slot, words);
   if (const auto slot = numbered(keyword, "LASER")) return parse_bare_laser(keyword, *slot, words);
   return IgnoredLine{};

@@ -19,39 +19,50 @@ constexpr double kFarAhead_s = 60.0;
 
 template <typename Count>
 double most_frequent(const std::map<double, Count>& counts) {
-  const auto most = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == counts.end() ? 0.0 : most->first;
 }
 
 /// Quantile of the values at this share; 0 for none.
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }
 
-double distance_m(const geometry::Pose2& a, const geometry::Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+double distance_m(const geometry::Pose2& a, const geometry::Pose2& b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
 
 bool differ(const geometry::Pose2& a, const geometry::Pose2& b, double metres, double radians) {
-  return distance_m(a, b) > metres || std::abs(geometry::wrap_angle(a.heading_rad - b.heading_rad)) > radians;
+  return distance_m(a, b) > metres ||
+         std::abs(geometry::wrap_angle(a.heading_rad - b.heading_rad)) > radians;
 }
 
 /// Quantile of the first `bins` bins' readings at this share [m].
-double range_percentile_m(const std::vector<std::uint32_t>& readings_by_cm, std::size_t bins, double share) {
-  const auto end = readings_by_cm.begin() + static_cast<std::ptrdiff_t>(std::min(bins, readings_by_cm.size()));
-  const double total = static_cast<double>(std::accumulate(readings_by_cm.begin(), end, std::uint64_t{0}));
+double range_percentile_m(const std::vector<std::uint32_t>& readings_by_cm, std::size_t bins,
+                          double share) {
+  const auto end =
+      readings_by_cm.begin() + static_cast<std::ptrdiff_t>(std::min(bins, readings_by_cm.size()));
+  const double total =
+      static_cast<double>(std::accumulate(readings_by_cm.begin(), end, std::uint64_t{0}));
   double below = 0.0;
   for (auto bin = readings_by_cm.begin(); bin != end; ++bin) {
     below += *bin;
-    if (below > 0.0 && below >= share * total) return 0.01 * static_cast<double>(bin - readings_by_cm.begin());
+    if (below > 0.0 && below >= share * total)
+      return 0.01 * static_cast<double>(bin - readings_by_cm.begin());
   }
   return 0.0;
 }
 
 /// Quantile of the readings at this share [recorded units].
 double reading_percentile(const std::vector<std::uint32_t>& readings_by_unit, double share) {
-  const double total = static_cast<double>(std::accumulate(readings_by_unit.begin(), readings_by_unit.end(), std::uint64_t{0}));
+  const double total = static_cast<double>(
+      std::accumulate(readings_by_unit.begin(), readings_by_unit.end(), std::uint64_t{0}));
   double below = 0.0;
   for (std::size_t unit = 0; unit < readings_by_unit.size(); ++unit) {
     below += readings_by_unit[unit];
@@ -60,25 +71,33 @@ double reading_percentile(const std::vector<std::uint32_t>& readings_by_unit, do
   return 0.0;
 }
 
-std::size_t echo_bins(double max_range_m) { return static_cast<std::size_t>(std::max(0.0, max_range_m * 100.0 + 0.5)); }
+std::size_t echo_bins(double max_range_m) {
+  return static_cast<std::size_t>(std::max(0.0, max_range_m * 100.0 + 0.5));
+}
 
 /// True if successive scans are mostly more units apart than a vehicle drives metres between them.
 bool are_in_small_units(const std::vector<matching::ScanPair>& pairs) {
   constexpr double kFarthest_m = 20.0;
   std::vector<double> ways;
-  for (const matching::ScanPair& pair : pairs) ways.push_back(distance_m(pair.first_recorded, pair.second_recorded));
+  for (const matching::ScanPair& pair : pairs)
+    ways.push_back(distance_m(pair.first_recorded, pair.second_recorded));
   return percentile(std::move(ways), 0.5) > kFarthest_m;
 }
 
 }  // namespace
 
-std::optional<Error> select_scanners(const std::vector<std::string>& wanted, std::vector<ScannerPlan>& scanners) {
+std::optional<Error> select_scanners(const std::vector<std::string>& wanted,
+                                     std::vector<ScannerPlan>& scanners) {
   std::string names;
   for (const ScannerPlan& scanner : scanners) names += (names.empty() ? "" : ", ") + scanner.name;
   for (const std::string& name : wanted) {
-    if (std::ranges::find(scanners, name, &ScannerPlan::name) == scanners.end()) return Error{"no scanner " + name + ": there are " + names};
+    if (std::ranges::find(scanners, name, &ScannerPlan::name) == scanners.end())
+      return Error{"no scanner " + name + ": there are " + names};
   }
-  if (!wanted.empty()) std::erase_if(scanners, [&](const ScannerPlan& scanner) { return std::ranges::find(wanted, scanner.name) == wanted.end(); });
+  if (!wanted.empty())
+    std::erase_if(scanners, [&](const ScannerPlan& scanner) {
+      return std::ranges::find(wanted, scanner.name) == wanted.end();
+    });
   return std::nullopt;
 }
 
@@ -87,7 +106,8 @@ void CarmenSurvey::ClockCheck::begin_anew_without_the_first() {
   sensing::StampGuard of_the_others{kFarAhead_s};
   const std::int64_t second_ns = first_ns_[1];
   const std::int64_t third_ns = first_ns_[2];
-  begins_ahead_ = second_ns < third_ns && of_the_others.believes(second_ns) && of_the_others.believes(third_ns) && !of_the_others.believes(first_ns_[0]);
+  begins_ahead_ = second_ns < third_ns && of_the_others.believes(second_ns) &&
+                  of_the_others.believes(third_ns) && !of_the_others.believes(first_ns_[0]);
   if (!begins_ahead_) return;
   guard_ = sensing::StampGuard{600.0};
   newest_ns_.reset();
@@ -110,7 +130,8 @@ void CarmenSurvey::ClockCheck::add(std::optional<std::int64_t> stamp_ns) {
   if (newest_ns_ && *stamp_ns > *newest_ns_) {
     ++advancing_;
     steps_ns_.push_back(*stamp_ns - *newest_ns_);
-    counts_scans_ = counts_scans_ && steps_ns_.back() == 1'000'000'000 && *stamp_ns % 1'000'000'000 == 0;
+    counts_scans_ =
+        counts_scans_ && steps_ns_.back() == 1'000'000'000 && *stamp_ns % 1'000'000'000 == 0;
   }
   if (!newest_ns_ || *stamp_ns > *newest_ns_) newest_ns_ = stamp_ns;
 }
@@ -122,8 +143,10 @@ bool CarmenSurvey::ClockCheck::is_usable() const {
   if (scans_ == 0) return false;
   if (scans_ == 1) return newest_ns_.has_value();
   if (counts_scans_ && scans_ > 2) return false;
-  if (static_cast<double>(advancing_) < kAdvancingShare * static_cast<double>(scans_ - 1)) return false;
-  const double median_s = percentile({steps_ns_.begin(), steps_ns_.end()}, 0.5) * kSecondsPerNanosecond;
+  if (static_cast<double>(advancing_) < kAdvancingShare * static_cast<double>(scans_ - 1))
+    return false;
+  const double median_s =
+      percentile({steps_ns_.begin(), steps_ns_.end()}, 0.5) * kSecondsPerNanosecond;
   return median_s >= kMinPeriodS && median_s <= kMaxPeriodS;
 }
 
@@ -133,12 +156,17 @@ void CarmenSurvey::AgreementCheck::add_odom(const StampedPose& odom) {
   for (const StampedPose& laser : waiting_) {
     if (!before_ || laser.stamp_ns < before_->stamp_ns || laser.stamp_ns > odom.stamp_ns) continue;
     const double span_ns = static_cast<double>(odom.stamp_ns - before_->stamp_ns);
-    const double fraction = span_ns > 0.0 ? static_cast<double>(laser.stamp_ns - before_->stamp_ns) / span_ns : 0.0;
+    const double fraction =
+        span_ns > 0.0 ? static_cast<double>(laser.stamp_ns - before_->stamp_ns) / span_ns : 0.0;
     ++compared_;
     // Interpolation can be wrong by the motion between the two ODOM lines.
     const double slack_m = kMetM + 0.5 * distance_m(before_->wheel_from_base, odom.wheel_from_base);
-    const double slack_rad = kMetRad + 0.5 * std::abs(geometry::wrap_angle(odom.wheel_from_base.heading_rad - before_->wheel_from_base.heading_rad));
-    if (!differ(geometry::interpolate(before_->wheel_from_base, odom.wheel_from_base, fraction), laser.wheel_from_base, slack_m, slack_rad)) ++met_;
+    const double slack_rad =
+        kMetRad + 0.5 * std::abs(geometry::wrap_angle(odom.wheel_from_base.heading_rad -
+                                                      before_->wheel_from_base.heading_rad));
+    if (!differ(geometry::interpolate(before_->wheel_from_base, odom.wheel_from_base, fraction),
+                laser.wheel_from_base, slack_m, slack_rad))
+      ++met_;
   }
   waiting_.clear();
   before_ = odom;
@@ -163,7 +191,9 @@ void CarmenSurvey::add(const CarmenRecord& record) {
 }
 
 CarmenSurvey::Lasers& CarmenSurvey::lasers_of(const LaserRecord& record) {
-  const auto known = std::ranges::find_if(lasers_, [&](const Lasers& lasers) { return lasers.kind == record.kind && lasers.slot == record.slot; });
+  const auto known = std::ranges::find_if(lasers_, [&](const Lasers& lasers) {
+    return lasers.kind == record.kind && lasers.slot == record.slot;
+  });
   if (known != lasers_.end()) return *known;
   lasers_.emplace_back();
   lasers_.back().kind = record.kind;
@@ -171,7 +201,9 @@ CarmenSurvey::Lasers& CarmenSurvey::lasers_of(const LaserRecord& record) {
   lasers_.back().scanner = record.scanner;
   if (newest_odom_) lasers_.back().agreement.add_odom(*newest_odom_);
   if (newest_odom_by_order_) lasers_.back().agreement_by_order.add_odom(*newest_odom_by_order_);
-  for (std::size_t kind = 0; kind < odometry_lines_.size(); ++kind) lasers_.back().lines_between[kind].since_scan = static_cast<std::uint32_t>(odometry_lines_[kind].count);
+  for (std::size_t kind = 0; kind < odometry_lines_.size(); ++kind)
+    lasers_.back().lines_between[kind].since_scan =
+        static_cast<std::uint32_t>(odometry_lines_[kind].count);
   return lasers_.back();
 }
 
@@ -184,10 +216,13 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
   lasers.readings_by_cm.resize(kReadingBins);
   lasers.smallest_reading_by_cm.resize(kReadingBins, std::numeric_limits<float>::infinity());
   lasers.readings += record.range_m.size();
-  if (std::ranges::none_of(record.range_m, [](float reading) { return reading > 0.0F && std::isfinite(reading); })) ++lasers.scans_without_readings;
+  if (std::ranges::none_of(record.range_m,
+                           [](float reading) { return reading > 0.0F && std::isfinite(reading); }))
+    ++lasers.scans_without_readings;
   lasers.readings_by_unit.resize(kReadingUnits);
   for (const float reading_m : record.range_m) {
-    if (reading_m >= 1.0F && reading_m < static_cast<float>(kReadingUnits)) ++lasers.readings_by_unit[static_cast<std::size_t>(reading_m)];
+    if (reading_m >= 1.0F && reading_m < static_cast<float>(kReadingUnits))
+      ++lasers.readings_by_unit[static_cast<std::size_t>(reading_m)];
     const float reading_cm = reading_m * 100.0F + 0.5F;
     if (!(reading_cm >= 1.0F && reading_cm < static_cast<float>(kReadingBins))) continue;
     const auto bin = static_cast<std::size_t>(reading_cm);
@@ -196,13 +231,18 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
   }
   if (record.base_from_laser) {
     if (!lasers.base_from_laser) lasers.base_from_laser = record.base_from_laser;
-    lasers.base_from_laser_is_constant = lasers.base_from_laser_is_constant && !differ(*lasers.base_from_laser, *record.base_from_laser, 0.01, 0.01);
+    lasers.base_from_laser_is_constant =
+        lasers.base_from_laser_is_constant &&
+        !differ(*lasers.base_from_laser, *record.base_from_laser, 0.01, 0.01);
   }
   const StampedPose pose{record.stamps.ipc_ns.value_or(0), record.wheel_from_base};
-  lasers.pose_changes = lasers.pose_changes || (!lasers.poses.empty() && differ(lasers.poses.front().wheel_from_base, record.wheel_from_base, 1e-9, 1e-9));
+  lasers.pose_changes =
+      lasers.pose_changes || (!lasers.poses.empty() && differ(lasers.poses.front().wheel_from_base,
+                                                              record.wheel_from_base, 1e-9, 1e-9));
   lasers.poses.push_back(pose);
   lasers.odometry_check.add(record.wheel_from_base);
-  const geometry::Pose2& recorded = lasers.pose_changes ? record.wheel_from_base : chosen_odometry_lines().last_pose;
+  const geometry::Pose2& recorded =
+      lasers.pose_changes ? record.wheel_from_base : chosen_odometry_lines().last_pose;
   lasers.moved_pairs.add(record.range_m, recorded, lasers.poses.size() - 1);
   lasers.pairs_in_small_units.add(record.range_m, recorded, lasers.poses.size() - 1);
   lasers.turned_pairs.add(record.range_m, recorded, lasers.poses.size() - 1);
@@ -224,7 +264,8 @@ void CarmenSurvey::add_odom(const OdometryRecord& record) {
   OdometryLines& lines = odometry_lines_[kind];
   ++lines.count;
   if (!lines.first_pose) lines.first_pose = record.wheel_from_base;
-  lines.pose_changes = lines.pose_changes || differ(*lines.first_pose, record.wheel_from_base, 1e-9, 1e-9);
+  lines.pose_changes =
+      lines.pose_changes || differ(*lines.first_pose, record.wheel_from_base, 1e-9, 1e-9);
   lines.last_pose = record.wheel_from_base;
   lines.check.add(record.wheel_from_base);
   for (Lasers& lasers : lasers_) ++lasers.lines_between[kind].since_scan;
@@ -239,17 +280,22 @@ void CarmenSurvey::add_odom(const OdometryRecord& record) {
 
 /// TRUEPOS is used only if the log has no other odometry.
 OdometryRecordKind CarmenSurvey::odometry_lines() const {
-  return odometry_lines_[0].count == 0 && odometry_lines_[1].count > 0 ? OdometryRecordKind::kTruePos : OdometryRecordKind::kOdom;
+  return odometry_lines_[0].count == 0 && odometry_lines_[1].count > 0
+             ? OdometryRecordKind::kTruePos
+             : OdometryRecordKind::kOdom;
 }
 
 void CarmenSurvey::add_param(const ParamRecord& record) {
   constexpr std::array<std::string_view, 2> kLaser = {"robot_frontlaser_", "robot_rearlaser_"};
-  constexpr std::array<std::string_view, 2> kMaxRange = {"robot_front_laser_max", "robot_rear_laser_max"};
+  constexpr std::array<std::string_view, 2> kMaxRange = {"robot_front_laser_max",
+                                                         "robot_rear_laser_max"};
   double value = 0.0;
-  const auto [end, fault] = std::from_chars(record.value.data(), record.value.data() + record.value.size(), value);
+  const auto [end, fault] =
+      std::from_chars(record.value.data(), record.value.data() + record.value.size(), value);
   if (fault != std::errc() || !(std::abs(value) < 1000.0)) return;
   for (std::size_t slot = 0; slot < params_.size(); ++slot) {
-    if (record.name == kMaxRange[slot] && value > 0.0) params_[slot].max_range_m = static_cast<double>(static_cast<float>(value));
+    if (record.name == kMaxRange[slot] && value > 0.0)
+      params_[slot].max_range_m = static_cast<double>(static_cast<float>(value));
     if (!record.name.starts_with(kLaser[slot]) || !(std::abs(value) < 100.0)) continue;
     const std::string_view what = record.name.substr(kLaser[slot].size());
     if (what == "offset") params_[slot].offset[0] = value;
@@ -257,7 +303,9 @@ void CarmenSurvey::add_param(const ParamRecord& record) {
     if (what == "angular_offset") params_[slot].offset[2] = value;
   }
   constexpr std::string_view kNumbered = "robot_laser";
-  if (!record.name.starts_with(kNumbered) || record.name.size() < kNumbered.size() + 2 || !(std::abs(value) < 100.0)) return;
+  if (!record.name.starts_with(kNumbered) || record.name.size() < kNumbered.size() + 2 ||
+      !(std::abs(value) < 100.0))
+    return;
   const char digit = record.name[kNumbered.size()];
   if (digit < '1' || digit > '9' || record.name[kNumbered.size() + 1] != '_') return;
   const std::string_view what = record.name.substr(kNumbered.size() + 2);
@@ -267,40 +315,58 @@ void CarmenSurvey::add_param(const ParamRecord& record) {
   if (what == "angular_offset") numbered.offset[2] = value;
 }
 
-/// A log may contain the same scans from the scanner and from the base, the latter with poses. Records with poses are
-/// preferred, above all ROBOTLASERn, which has more fields. A small number of them does not replace the rest.
-std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(const std::string& main_scanner) const {
-  constexpr std::array<double, 5> kWorth = {1.0, 1.0 + 1e-9, 0.5, 0.25, 1.0};  // weight by LaserRecordKind
-  const auto worth = [&](const Lasers& lasers) { return kWorth[static_cast<std::size_t>(lasers.kind)] * static_cast<double>(lasers.scans); };
+/// A log may contain the same scans from the scanner and from the base, the latter with poses.
+/// Records with poses are preferred, above all ROBOTLASERn, which has more fields. A small number
+/// of them does not replace the rest.
+std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(
+    const std::string& main_scanner) const {
+  constexpr std::array<double, 5> kWorth = {1.0, 1.0 + 1e-9, 0.5, 0.25, 1.0};  // weight by
+                                                                               // LaserRecordKind
+  const auto worth = [&](const Lasers& lasers) {
+    return kWorth[static_cast<std::size_t>(lasers.kind)] * static_cast<double>(lasers.scans);
+  };
   std::map<std::uint8_t, const Lasers*> best;
   for (const Lasers& lasers : lasers_) {
     const Lasers*& so_far = best[lasers.slot];
     const bool was_asked_for = so_far != nullptr && so_far->scanner == main_scanner;
-    if (so_far == nullptr || lasers.scanner == main_scanner || (!was_asked_for && worth(lasers) > worth(*so_far))) so_far = &lasers;
+    if (so_far == nullptr || lasers.scanner == main_scanner ||
+        (!was_asked_for && worth(lasers) > worth(*so_far)))
+      so_far = &lasers;
   }
   std::vector<const Lasers*> in_order;
   for (const auto& [slot, lasers] : best) in_order.push_back(lasers);
   // The main scanner is the first that is not much rarer than any other.
   std::uint64_t most = 0;
   for (const Lasers* lasers : in_order) most = std::max(most, lasers->scans);
-  auto main = std::ranges::find_if(in_order, [&](const Lasers* lasers) { return lasers->scanner == main_scanner; });
-  if (main == in_order.end()) main = std::ranges::find_if(in_order, [&](const Lasers* lasers) { return 2 * lasers->scans >= most; });
+  auto main = std::ranges::find_if(
+      in_order, [&](const Lasers* lasers) { return lasers->scanner == main_scanner; });
+  if (main == in_order.end())
+    main = std::ranges::find_if(in_order,
+                                [&](const Lasers* lasers) { return 2 * lasers->scans >= most; });
   if (main != in_order.end()) std::rotate(in_order.begin(), main, main + 1);
   return in_order;
 }
 
 /// Another scanner is used only if its mounting is known: a guess would distort the map.
-std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::lasers_to_use(const ScannerWish& wish) const {
+std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::lasers_to_use(
+    const ScannerWish& wish) const {
   std::vector<const Lasers*> lasers = best_of_each_slot(wish.main);
   const Lasers* const main = lasers.empty() ? nullptr : lasers.front();
   std::erase_if(lasers, [&](const Lasers* one) {
-    return wish.used.empty() ? one != main && !mounting_is_known(*one) : std::ranges::find(wish.used, one->scanner) == wish.used.end();
+    return wish.used.empty() ? one != main && !mounting_is_known(*one)
+                             : std::ranges::find(wish.used, one->scanner) == wish.used.end();
   });
   return lasers;
 }
 
 ScannerPlan CarmenSurvey::scanner_plan(const Lasers& lasers) const {
-  return {lasers.scanner, lasers.kind, lasers.slot, lasers.scans, base_from_laser(lasers), max_range_m(lasers), mounting_is_known(lasers)};
+  return {lasers.scanner,
+          lasers.kind,
+          lasers.slot,
+          lasers.scans,
+          base_from_laser(lasers),
+          max_range_m(lasers),
+          mounting_is_known(lasers)};
 }
 
 bool CarmenSurvey::has_scanner(const std::string& name) const {
@@ -309,7 +375,8 @@ bool CarmenSurvey::has_scanner(const std::string& name) const {
 
 std::vector<ScannerPlan> CarmenSurvey::scanners(const std::string& main_scanner) const {
   std::vector<ScannerPlan> plans;
-  for (const Lasers* lasers : best_of_each_slot(main_scanner)) plans.push_back(scanner_plan(*lasers));
+  for (const Lasers* lasers : best_of_each_slot(main_scanner))
+    plans.push_back(scanner_plan(*lasers));
   return plans;
 }
 
@@ -326,7 +393,9 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   const Lasers& lasers = scanners.front();
   plan.laser = lasers.kind;
   plan.odometry_lines = odometry_lines();
-  const double range_unit_m = matching::range_unit_of(reading_percentile(lasers.readings_by_unit, 0.5), reading_percentile(lasers.readings_by_unit, 0.9));
+  const double range_unit_m =
+      matching::range_unit_of(reading_percentile(lasers.readings_by_unit, 0.5),
+                              reading_percentile(lasers.readings_by_unit, 0.9));
   const auto convert_to = [&](double unit_m) {
     for (Lasers& scanner : scanners) convert_readings(scanner, unit_m);
   };
@@ -339,11 +408,15 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
     convert_to(plan.evidence.correction.range_unit_m);
     plan.max_range_m = max_range_m(lasers);
   }
-  if (plan.evidence.correction.laser_turn_rad != 0.0) plan.base_from_laser.heading_rad = geometry::wrap_angle(plan.base_from_laser.heading_rad + plan.evidence.correction.laser_turn_rad);
+  if (plan.evidence.correction.laser_turn_rad != 0.0)
+    plan.base_from_laser.heading_rad = geometry::wrap_angle(
+        plan.base_from_laser.heading_rad + plan.evidence.correction.laser_turn_rad);
   choose_clock(lasers, plan);
   plan.odometry = odometry_source(lasers, plan);
   plan.odometry_late_s = odometry_lateness_s(lasers, plan);
-  if (!plan.times.stamps_ns.empty()) plan.odom_lines_before_scan = lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
+  if (!plan.times.stamps_ns.empty())
+    plan.odom_lines_before_scan =
+        lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
   if (lasers.scans == 0) return plan;
   for (const Lasers& scanner : scanners) plan.scanners.push_back(scanner_plan(scanner));
@@ -354,7 +427,8 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
 /// Counts readings in another unit by centimetres, like those in metres.
 void CarmenSurvey::convert_readings(Lasers& lasers, double unit_m) {
   std::fill(lasers.readings_by_cm.begin(), lasers.readings_by_cm.end(), 0);
-  std::fill(lasers.smallest_reading_by_cm.begin(), lasers.smallest_reading_by_cm.end(), std::numeric_limits<float>::infinity());
+  std::fill(lasers.smallest_reading_by_cm.begin(), lasers.smallest_reading_by_cm.end(),
+            std::numeric_limits<float>::infinity());
   for (std::size_t unit = 1; unit < lasers.readings_by_unit.size(); ++unit) {
     const auto reading_m = static_cast<float>(unit) * static_cast<float>(unit_m);
     const auto bin = static_cast<std::size_t>(reading_m * 100.0F + 0.5F);
@@ -364,47 +438,64 @@ void CarmenSurvey::convert_readings(Lasers& lasers, double unit_m) {
   }
 }
 
-/// Matches the sampled pairs, without no-echo readings. Odometry is judged by ODOM lines if there are any, because scan
-/// intervals hide the arcs of single steps. Without odometry nothing contradicts the stated layout.
-matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const {
+/// Matches the sampled pairs, without no-echo readings. Odometry is judged by ODOM lines if there
+/// are any, because scan intervals hide the arcs of single steps. Without odometry nothing
+/// contradicts the stated layout.
+matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& plan,
+                                          double fallback_field_of_view_rad) const {
   const bool has_small_units = are_in_small_units(lasers.moved_pairs.pairs());
-  std::vector<matching::ScanPair> pairs = has_small_units ? lasers.pairs_in_small_units.pairs() : lasers.moved_pairs.pairs();
+  std::vector<matching::ScanPair> pairs =
+      has_small_units ? lasers.pairs_in_small_units.pairs() : lasers.moved_pairs.pairs();
   pairs.insert(pairs.end(), lasers.turned_pairs.pairs().begin(), lasers.turned_pairs.pairs().end());
   if (pairs.empty()) return plan.evidence;
   const auto no_echo = static_cast<float>(plan.max_range_m / plan.evidence.correction.range_unit_m);
   const auto leave_out = [&](std::vector<float>& ranges) {
-    for (float& range : ranges) range = range > 0.0F && range < no_echo ? range : std::numeric_limits<float>::quiet_NaN();
+    for (float& range : ranges)
+      range = range > 0.0F && range < no_echo ? range : std::numeric_limits<float>::quiet_NaN();
   };
   for (matching::ScanPair& pair : pairs) {
     leave_out(pair.first);
     leave_out(pair.second);
   }
-  const BeamLayout layout = lasers.layout.value_or(layout_by_convention(pairs.front().first.size(), fallback_field_of_view_rad));
-  return matching::weigh_log(pairs, {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad},
-                             chosen_odometry_lines().pose_changes ? chosen_odometry_lines().check : lasers.odometry_check, plan.evidence.correction.range_unit_m);
+  const BeamLayout layout = lasers.layout.value_or(
+      layout_by_convention(pairs.front().first.size(), fallback_field_of_view_rad));
+  return matching::weigh_log(
+      pairs, {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad},
+      chosen_odometry_lines().pose_changes ? chosen_odometry_lines().check : lasers.odometry_check,
+      plan.evidence.correction.range_unit_m);
 }
 
 /// By the poses of the scans, if both have the same clock.
 double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const {
-  const bool has_clock = plan.clock != LogClock::kNominal && plan.times.stamps_ns.empty() && !plan.first_scan_is_ahead;
-  const bool is_in_scans = plan.odometry == OdometrySource::kLaserRecords || plan.odometry == OdometrySource::kBoth;
+  const bool has_clock =
+      plan.clock != LogClock::kNominal && plan.times.stamps_ns.empty() && !plan.first_scan_is_ahead;
+  const bool is_in_scans =
+      plan.odometry == OdometrySource::kLaserRecords || plan.odometry == OdometrySource::kBoth;
   if (!has_clock || !is_in_scans) return 0.0;
-  const std::vector<std::optional<std::int64_t>>& stamps_ns = plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns;
-  if (!std::ranges::all_of(stamps_ns, [](const auto& stamp_ns) { return stamp_ns.has_value(); })) return 0.0;
+  const std::vector<std::optional<std::int64_t>>& stamps_ns =
+      plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns;
+  if (!std::ranges::all_of(stamps_ns, [](const auto& stamp_ns) { return stamp_ns.has_value(); }))
+    return 0.0;
   std::vector<matching::TimedPose> odometry;
   for (std::size_t i = 0; i < lasers.poses.size(); ++i) {
-    odometry.push_back({static_cast<double>(*stamps_ns[i] - *stamps_ns.front()) * 1e-9, corrected(plan.evidence.correction, lasers.poses[i].wheel_from_base)});
+    odometry.push_back({static_cast<double>(*stamps_ns[i] - *stamps_ns.front()) * 1e-9,
+                        corrected(plan.evidence.correction, lasers.poses[i].wheel_from_base)});
   }
   return matching::odometry_lateness_s(plan.evidence.motions, odometry, plan.evidence.way_scale);
 }
 
-/// A pair begins at the end of the one before; if there are too many pairs, every other one is dropped.
-void CarmenSurvey::PairSample::add(const std::vector<float>& ranges, const geometry::Pose2& recorded, std::size_t scan) {
+/// A pair begins at the end of the one before; if there are too many pairs, every other one is
+/// dropped.
+void CarmenSurvey::PairSample::add(const std::vector<float>& ranges,
+                                   const geometry::Pose2& recorded, std::size_t scan) {
   constexpr std::size_t kMostScansBetween = 40;
   const bool has_moved = anchor_ && differ(anchor_->second, recorded, moved_m_, turned_rad_);
   if (anchor_ && !has_moved && ++scans_since_anchor_ < kMostScansBetween) return;
-  const bool is_wanted = has_moved && anchor_->first.size() == ranges.size() && distance_m(anchor_->second, recorded) <= most_m_;
-  if (is_wanted && offered_++ % every_ == 0) pairs_.push_back({std::move(anchor_->first), ranges, anchor_->second, recorded, anchor_scan_, scan});
+  const bool is_wanted = has_moved && anchor_->first.size() == ranges.size() &&
+                         distance_m(anchor_->second, recorded) <= most_m_;
+  if (is_wanted && offered_++ % every_ == 0)
+    pairs_.push_back(
+        {std::move(anchor_->first), ranges, anchor_->second, recorded, anchor_scan_, scan});
   anchor_.emplace(ranges, recorded);
   anchor_scan_ = scan;
   scans_since_anchor_ = 0;
@@ -416,27 +507,36 @@ void CarmenSurvey::PairSample::add(const std::vector<float>& ranges, const geome
 }
 
 /// Recorded stamps of one of the two clocks, with the way between scans.
-std::vector<sensing::ScanMark> CarmenSurvey::scan_marks(const Lasers& lasers, const matching::LogCorrection& correction, LogClock clock) const {
+std::vector<sensing::ScanMark> CarmenSurvey::scan_marks(const Lasers& lasers,
+                                                        const matching::LogCorrection& correction,
+                                                        LogClock clock) const {
   std::vector<sensing::ScanMark> marks(lasers.scans);
-  const std::vector<geometry::Pose2>& of_lines = lasers.lines_between[static_cast<std::size_t>(odometry_lines())].pose_before_scan;
-  const auto pose = [&](std::size_t i) { return corrected(correction, lasers.pose_changes ? lasers.poses[i].wheel_from_base : of_lines[i]); };
+  const std::vector<geometry::Pose2>& of_lines =
+      lasers.lines_between[static_cast<std::size_t>(odometry_lines())].pose_before_scan;
+  const auto pose = [&](std::size_t i) {
+    return corrected(correction,
+                     lasers.pose_changes ? lasers.poses[i].wheel_from_base : of_lines[i]);
+  };
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    if (clock != LogClock::kNominal) marks[i].stamp_ns = clock == LogClock::kIpc ? lasers.ipc_ns[i] : lasers.logger_ns[i];
+    if (clock != LogClock::kNominal)
+      marks[i].stamp_ns = clock == LogClock::kIpc ? lasers.ipc_ns[i] : lasers.logger_ns[i];
     if (i == 0) continue;
     marks[i].way_m = distance_m(pose(i - 1), pose(i));
-    marks[i].turn_rad = std::abs(geometry::wrap_angle(pose(i).heading_rad - pose(i - 1).heading_rad));
+    marks[i].turn_rad =
+        std::abs(geometry::wrap_angle(pose(i).heading_rad - pose(i - 1).heading_rad));
   }
   return marks;
 }
 
-/// Chooses a faultless clock, ipc before logger; otherwise one that can be repaired; otherwise derives time from the
-/// way.
+/// Chooses a faultless clock, ipc before logger; otherwise one that can be repaired; otherwise
+/// derives time from the way.
 void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
   plan.clock = LogClock::kNominal;
   if (lasers.scans == 0) return;
   const std::array clocks{LogClock::kIpc, LogClock::kLogger};
   std::array<sensing::ScanTimes, 2> times;
-  for (std::size_t i = 0; i < clocks.size(); ++i) times[i] = sensing::judge_scan_stamps(scan_marks(lasers, plan.evidence.correction, clocks[i]));
+  for (std::size_t i = 0; i < clocks.size(); ++i)
+    times[i] = sensing::judge_scan_stamps(scan_marks(lasers, plan.evidence.correction, clocks[i]));
   const auto take = [&](std::size_t i) {
     plan.clock = clocks[i];
     plan.times = std::move(times[i]);
@@ -454,24 +554,35 @@ void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
     if (times[i].is_clock) return take(i);
   }
   plan.times = std::move(times[times[0].fault == sensing::ClockFault::kAbsent ? 1 : 0]);
-  const double median_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.5);
-  plan.times.stamps_ns = sensing::stamps_from_way(scan_marks(lasers, plan.evidence.correction, LogClock::kNominal), sensing::pace_among(median_range_m));
+  const double median_range_m =
+      range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.5);
+  plan.times.stamps_ns =
+      sensing::stamps_from_way(scan_marks(lasers, plan.evidence.correction, LogClock::kNominal),
+                               sensing::pace_among(median_range_m));
 }
 
-/// "No echo" is a reading that repeats at the far end of the range. Some scanners have several such codes within a
-/// percent (LMS: 81.83, 81.90, 81.91); the smallest is used. If the far end does not repeat, every reading is an echo.
-/// A record's own maximum holds unless the data have a code below it.
+/// "No echo" is a reading that repeats at the far end of the range. Some scanners have several such
+/// codes within a percent (LMS: 81.83, 81.90, 81.91); the smallest is used. If the far end does not
+/// repeat, every reading is an echo. A record's own maximum holds unless the data have a code below
+/// it.
 double CarmenSurvey::max_range_m(const Lasers& lasers) const {
-  constexpr double kCodeShare = 1e-3;      // of all readings
+  constexpr double kCodeShare = 1e-3;  // of all readings
   constexpr std::uint64_t kCodeCount = 5;
-  const double param_m = lasers.slot <= params_.size() ? params_[lasers.slot - 1].max_range_m.value_or(0.0) : 0.0;
-  const double recorded_m = lasers.scans_by_recorded_max_range.empty() ? param_m : most_frequent(lasers.scans_by_recorded_max_range);
+  const double param_m =
+      lasers.slot <= params_.size() ? params_[lasers.slot - 1].max_range_m.value_or(0.0) : 0.0;
+  const double recorded_m = lasers.scans_by_recorded_max_range.empty()
+                                ? param_m
+                                : most_frequent(lasers.scans_by_recorded_max_range);
   const auto& counts = lasers.readings_by_cm;
-  const auto last = std::find_if(counts.rbegin(), counts.rend(), [](std::uint32_t count) { return count > 0; });
+  const auto last =
+      std::find_if(counts.rbegin(), counts.rend(), [](std::uint32_t count) { return count > 0; });
   if (last == counts.rend()) return recorded_m > 0.0 ? recorded_m : 1.0;
   const auto last_bin = static_cast<std::size_t>(counts.rend() - last) - 1;
-  const double total = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
-  const auto is_code = [&](std::size_t bin) { return counts[bin] >= kCodeCount && counts[bin] >= kCodeShare * total; };
+  const double total =
+      static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+  const auto is_code = [&](std::size_t bin) {
+    return counts[bin] >= kCodeCount && counts[bin] >= kCodeShare * total;
+  };
   for (std::size_t bin = last_bin - last_bin / 100; bin <= last_bin; ++bin) {
     if (!is_code(bin)) continue;
     const double code_m = static_cast<double>(lasers.smallest_reading_by_cm[bin]);
@@ -482,24 +593,30 @@ double CarmenSurvey::max_range_m(const Lasers& lasers) const {
 
 OdometrySource CarmenSurvey::odometry_source(const Lasers& lasers, const LogPlan& plan) const {
   const bool lines_change = chosen_odometry_lines().pose_changes;
-  if (!lasers.pose_changes) return lines_change ? OdometrySource::kOdomLines : OdometrySource::kNone;
+  if (!lasers.pose_changes)
+    return lines_change ? OdometrySource::kOdomLines : OdometrySource::kNone;
   const bool is_replaced = !plan.times.stamps_ns.empty();
-  const bool agrees = is_replaced ? lasers.agreement_by_order.agrees() : plan.clock == LogClock::kIpc && lasers.agreement.agrees();
+  const bool agrees = is_replaced ? lasers.agreement_by_order.agrees()
+                                  : plan.clock == LogClock::kIpc && lasers.agreement.agrees();
   return lines_change && agrees ? OdometrySource::kBoth : OdometrySource::kLaserRecords;
 }
 
 const CarmenSurvey::LaserParams& CarmenSurvey::params_of(const Lasers& lasers) const {
   static const LaserParams kNone;
-  if (lasers.kind == LaserRecordKind::kBag || lasers.slot < 1 || lasers.slot > numbered_params_.size()) return kNone;
+  if (lasers.kind == LaserRecordKind::kBag || lasers.slot < 1 ||
+      lasers.slot > numbered_params_.size())
+    return kNone;
   const LaserParams& numbered = numbered_params_[lasers.slot - 1];
-  return numbered.tell_mounting() || lasers.slot > params_.size() ? numbered : params_[lasers.slot - 1];
+  return numbered.tell_mounting() || lasers.slot > params_.size() ? numbered
+                                                                  : params_[lasers.slot - 1];
 }
 
 /// Ignores a mounting of a further scanner at the vehicle's centre: it is a default.
 bool CarmenSurvey::mounting_is_known(const Lasers& lasers) const {
   if (params_of(lasers).tell_mounting()) return true;
   if (!lasers.base_from_laser || !lasers.base_from_laser_is_constant) return false;
-  return lasers.kind == LaserRecordKind::kBag || differ(*lasers.base_from_laser, geometry::Pose2::identity(), 0.01, 0.01);
+  return lasers.kind == LaserRecordKind::kBag ||
+         differ(*lasers.base_from_laser, geometry::Pose2::identity(), 0.01, 0.01);
 }
 
 geometry::Pose2 CarmenSurvey::base_from_laser(const Lasers& lasers) const {
@@ -507,46 +624,68 @@ geometry::Pose2 CarmenSurvey::base_from_laser(const Lasers& lasers) const {
   const LaserParams& params = params_of(lasers);
   const auto& [x_m, y_m, heading_rad] = params.offset;
   if (params.tell_mounting() && is_rear && &params == &params_[1]) {
-    // The rear laser looks backwards from behind the centre, whatever the sign of its recorded offset.
-    return {-std::abs(x_m.value_or(0.0)), y_m.value_or(0.0), heading_rad.value_or(std::numbers::pi)};
+    // The rear laser looks backwards from behind the centre, whatever the sign of its recorded
+    // offset.
+    return {-std::abs(x_m.value_or(0.0)), y_m.value_or(0.0),
+            heading_rad.value_or(std::numbers::pi)};
   }
-  if (params.tell_mounting()) return {x_m.value_or(0.0), y_m.value_or(0.0), heading_rad.value_or(0.0)};
+  if (params.tell_mounting())
+    return {x_m.value_or(0.0), y_m.value_or(0.0), heading_rad.value_or(0.0)};
   if (lasers.base_from_laser && lasers.base_from_laser_is_constant) return *lasers.base_from_laser;
-  return is_rear && lasers.kind != LaserRecordKind::kRobotLaser1 ? geometry::Pose2{0.0, 0.0, std::numbers::pi} : geometry::Pose2::identity();
+  return is_rear && lasers.kind != LaserRecordKind::kRobotLaser1
+             ? geometry::Pose2{0.0, 0.0, std::numbers::pi}
+             : geometry::Pose2::identity();
 }
 
-LogFigures CarmenSurvey::figures(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const {
+LogFigures CarmenSurvey::figures(const Lasers& lasers, const LogPlan& plan,
+                                 double fallback_field_of_view_rad) const {
   LogFigures figures;
   figures.scans = lasers.scans;
   figures.odom_lines = odometry_lines_[0].count;
   figures.imu_lines = imu_lines_;
   figures.has_clock = plan.clock != LogClock::kNominal;
   if (lasers.scans == 0) return figures;
-  std::map<double, std::uint64_t> scans_by_beams(lasers.scans_by_beams.begin(), lasers.scans_by_beams.end());
+  std::map<double, std::uint64_t> scans_by_beams(lasers.scans_by_beams.begin(),
+                                                 lasers.scans_by_beams.end());
   figures.beams = static_cast<std::size_t>(most_frequent(scans_by_beams));
-  const BeamLayout layout = lasers.layout.value_or(layout_by_convention(figures.beams, fallback_field_of_view_rad));
-  figures.field_of_view_rad = std::min(std::abs(plan.evidence.correction.field_factor * layout.beam_step_rad) * static_cast<double>(figures.beams), 2.0 * std::numbers::pi);
+  const BeamLayout layout =
+      lasers.layout.value_or(layout_by_convention(figures.beams, fallback_field_of_view_rad));
+  figures.field_of_view_rad =
+      std::min(std::abs(plan.evidence.correction.field_factor * layout.beam_step_rad) *
+                   static_cast<double>(figures.beams),
+               2.0 * std::numbers::pi);
   figures.max_range_m = plan.max_range_m;
-  figures.median_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.5);
+  figures.median_range_m =
+      range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.5);
   figures.far_range_m = range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.9);
   std::vector<double> periods_s;
   std::vector<double> speeds_mps;
-  const std::vector<sensing::ScanMark> marks = scan_marks(lasers, plan.evidence.correction, plan.clock);
+  const std::vector<sensing::ScanMark> marks =
+      scan_marks(lasers, plan.evidence.correction, plan.clock);
   figures.scans_without_readings = lasers.scans_without_readings;
-  const auto echoes_end = lasers.readings_by_cm.begin() + static_cast<std::ptrdiff_t>(std::min(echo_bins(plan.max_range_m), lasers.readings_by_cm.size()));
-  figures.echo_share = static_cast<double>(std::accumulate(lasers.readings_by_cm.begin(), echoes_end, std::uint64_t{0})) / static_cast<double>(std::max<std::uint64_t>(1, lasers.readings));
+  const auto echoes_end = lasers.readings_by_cm.begin() +
+                          static_cast<std::ptrdiff_t>(
+                              std::min(echo_bins(plan.max_range_m), lasers.readings_by_cm.size()));
+  figures.echo_share = static_cast<double>(std::accumulate(lasers.readings_by_cm.begin(),
+                                                           echoes_end, std::uint64_t{0})) /
+                       static_cast<double>(std::max<std::uint64_t>(1, lasers.readings));
   figures.comes_by_time = !figures.has_clock && sensing::comes_by_time(marks);
-  const auto stamp_ns = [&](std::size_t i) { return plan.times.stamps_ns.empty() ? marks[i].stamp_ns : std::optional(plan.times.stamps_ns[i]); };
+  const auto stamp_ns = [&](std::size_t i) {
+    return plan.times.stamps_ns.empty() ? marks[i].stamp_ns
+                                        : std::optional(plan.times.stamps_ns[i]);
+  };
   for (std::size_t i = 1; i < marks.size(); ++i) {
     figures.distance_m += marks[i].way_m;
     if (!stamp_ns(i - 1) || !stamp_ns(i) || *stamp_ns(i) <= *stamp_ns(i - 1)) continue;
-    periods_s.push_back(static_cast<double>(*stamp_ns(i) - *stamp_ns(i - 1)) * kSecondsPerNanosecond);
+    periods_s.push_back(static_cast<double>(*stamp_ns(i) - *stamp_ns(i - 1)) *
+                        kSecondsPerNanosecond);
     speeds_mps.push_back(marks[i].way_m / periods_s.back());
   }
   figures.scan_period_s = percentile(periods_s, 0.5);
   figures.longest_gap_s = percentile(periods_s, 1.0);
   if (figures.scan_period_s > 0.0 && !periods_s.empty()) {
-    figures.scan_period_spread = (percentile(periods_s, 0.9) - percentile(periods_s, 0.1)) / figures.scan_period_s;
+    figures.scan_period_spread =
+        (percentile(periods_s, 0.9) - percentile(periods_s, 0.1)) / figures.scan_period_s;
   }
   figures.duration_s = std::accumulate(periods_s.begin(), periods_s.end(), 0.0);
   if (figures.has_clock) figures.cruising_speed_mps = percentile(speeds_mps, 0.9);

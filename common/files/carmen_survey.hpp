@@ -21,8 +21,10 @@ namespace slammot::files {
 /// Clock of the scan stamps.
 enum class LogClock : std::uint8_t {
   kIpc,      ///< ipc_timestamp, the usual one.
-  kLogger,   ///< logger_timestamp, if ipc_timestamp is constant, repeats, decreases or only counts scans.
-  kNominal,  ///< Neither is a clock: stamps from 0 on, at kNominalRateHz, or slower for long ways between scans.
+  kLogger,   ///< logger_timestamp, if ipc_timestamp is constant, repeats, decreases or only counts
+             ///< scans.
+  kNominal,  ///< Neither is a clock: stamps from 0 on, at kNominalRateHz, or slower for long ways
+             ///< between scans.
 };
 
 /// Source of odometry.
@@ -38,59 +40,69 @@ struct LogFigures {
   std::uint64_t scans = 0;
   std::uint64_t odom_lines = 0;
   std::uint64_t imu_lines = 0;
-  std::size_t beams = 0;               ///< Of most scans.
-  bool has_clock = false;              ///< Differences of the stamps, recorded or repaired, are times. Otherwise speeds are unknown.
-  bool comes_by_time = false;          ///< Without a clock: the scan rate is constant but unknown. See sensing::comes_by_time().
-  double field_of_view_rad = 0.0;      ///< beams * step: 2 pi for a full-circle scanner.
+  std::size_t beams = 0;           ///< Of most scans.
+  bool has_clock = false;          ///< Differences of the stamps, recorded or repaired, are times.
+                                   ///< Otherwise speeds are unknown.
+  bool comes_by_time = false;      ///< Without a clock: the scan rate is constant but unknown. See
+                                   ///< sensing::comes_by_time().
+  double field_of_view_rad = 0.0;  ///< beams * step: 2 pi for a full-circle scanner.
   double max_range_m = 0.0;
-  double median_range_m = 0.0;         ///< Of the echoes.
-  double far_range_m = 0.0;            ///< 90 % of the echoes are nearer.
-  double scan_period_s = 0.0;          ///< Median.
-  double longest_gap_s = 0.0;          ///< Between two scans.
-  double echo_share = 0.0;             ///< Of all readings.
+  double median_range_m = 0.0;               ///< Of the echoes.
+  double far_range_m = 0.0;                  ///< 90 % of the echoes are nearer.
+  double scan_period_s = 0.0;                ///< Median.
+  double longest_gap_s = 0.0;                ///< Between two scans.
+  double echo_share = 0.0;                   ///< Of all readings.
   std::uint64_t scans_without_readings = 0;  ///< Blank scans: only NaN, infinity or 0.
-  double scan_period_spread = 0.0;     ///< (90th - 10th percentile) / median of the period: 0 for a steady scanner.
+  double scan_period_spread = 0.0;  ///< (90th - 10th percentile) / median of the period: 0 for a
+                                    ///< steady scanner.
   double duration_s = 0.0;
-  double distance_m = 0.0;             ///< By odometry.
-  double cruising_speed_mps = 0.0;     ///< 90th percentile by odometry; 0 without a clock.
+  double distance_m = 0.0;          ///< By odometry.
+  double cruising_speed_mps = 0.0;  ///< 90th percentile by odometry; 0 without a clock.
 };
 
 /// A scanner of a log.
 struct ScannerPlan {
-  std::string name;                      ///< As in LaserRecord::scanner.
+  std::string name;  ///< As in LaserRecord::scanner.
   LaserRecordKind kind = LaserRecordKind::kFlaser;
   std::uint8_t slot = 1;
   std::uint64_t scans = 0;
   geometry::Pose2 base_from_laser;
-  double max_range_m = 0.0;              ///< As in LogPlan.
-  bool mounting_is_known = true;         ///< From the log; otherwise base_from_laser is a guess.
+  double max_range_m = 0.0;       ///< As in LogPlan.
+  bool mounting_is_known = true;  ///< From the log; otherwise base_from_laser is a guess.
 };
 
 /// Selection of a log's scanners.
 struct ScannerWish {
-  std::string main;                ///< Name of the main scanner; empty: chosen by content.
-  std::vector<std::string> used;   ///< Names of the scanners to use, from CarmenSurvey::scanners(); empty: all with known mounting.
+  std::string main;               ///< Name of the main scanner; empty: chosen by content.
+  std::vector<std::string> used;  ///< Names of the scanners to use, from CarmenSurvey::scanners();
+                                  ///< empty: all with known mounting.
 };
 
-/// Keeps the named scanners, in the order of `scanners`; all if no name is given. For an unknown name, one line with
-/// the known ones.
-std::optional<Error> select_scanners(const std::vector<std::string>& wanted, std::vector<ScannerPlan>& scanners);
+/// Keeps the named scanners, in the order of `scanners`; all if no name is given. For an unknown
+/// name, one line with the known ones.
+std::optional<Error> select_scanners(const std::vector<std::string>& wanted,
+                                     std::vector<ScannerPlan>& scanners);
 
 /// Interpretation of a log, needed before its first scan is read.
 struct LogPlan {
-  LaserRecordKind laser = LaserRecordKind::kFlaser;  ///< Of the main scanner, to which the statistics belong.
-  std::vector<ScannerPlan> scanners;                 ///< Scanners in use, the main one first. Empty: all records of kind `laser` are its.
-  std::vector<std::string> unplaced_scanners;         ///< Unused scanners with unknown mounting.
+  LaserRecordKind laser = LaserRecordKind::kFlaser;  ///< Of the main scanner, to which the
+                                                     ///< statistics belong.
+  std::vector<ScannerPlan> scanners;  ///< Scanners in use, the main one first. Empty: all records
+                                      ///< of kind `laser` are its.
+  std::vector<std::string> unplaced_scanners;  ///< Unused scanners with unknown mounting.
   LogClock clock = LogClock::kIpc;
-  matching::LogEvidence evidence;                     ///< Corrections of poses and beams.
-  sensing::ScanTimes times;                           ///< Defect of the clock, and stamps that replace the recorded ones.
-  std::vector<std::uint32_t> odom_lines_before_scan;  ///< One a scan, since the scan before: gives ODOM lines a time if stamps are replaced.
+  matching::LogEvidence evidence;  ///< Corrections of poses and beams.
+  sensing::ScanTimes times;  ///< Defect of the clock, and stamps that replace the recorded ones.
+  std::vector<std::uint32_t> odom_lines_before_scan;  ///< One a scan, since the scan before: gives
+                                                      ///< ODOM lines a time if stamps are replaced.
   OdometrySource odometry = OdometrySource::kNone;
   OdometryRecordKind odometry_lines = OdometryRecordKind::kOdom;  ///< Which lines count as ODOM.
-  double odometry_late_s = 0.0;     ///< Lateness of its stamps against the scans; removed on reading.
+  double odometry_late_s = 0.0;  ///< Lateness of its stamps against the scans; removed on reading.
   geometry::Pose2 base_from_laser;
-  double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may have a lower limit.
-  bool first_scan_is_ahead = false;  ///< The next two scans have consistent stamps far before the first one's.
+  double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may
+                             ///< have a lower limit.
+  bool first_scan_is_ahead = false;  ///< The next two scans have consistent stamps far before the
+                                     ///< first one's.
   LogFigures figures;
 };
 
@@ -124,11 +136,11 @@ class CarmenSurvey {
    private:
     void begin_anew_without_the_first();
 
-    std::vector<std::int64_t> first_ns_;   // three of them
+    std::vector<std::int64_t> first_ns_;  // three of them
     bool begins_ahead_ = false;
     std::uint64_t scans_ = 0;
-    std::uint64_t advancing_ = 0;  // newer than all before
-    bool counts_scans_ = true;     // whole numbers one second apart
+    std::uint64_t advancing_ = 0;       // newer than all before
+    bool counts_scans_ = true;          // whole numbers one second apart
     sensing::StampGuard guard_{600.0};  // localization handles single wrong stamps
     std::optional<std::int64_t> newest_ns_;
     std::vector<std::int64_t> steps_ns_;
@@ -152,7 +164,8 @@ class CarmenSurvey {
   class PairSample {
    public:
     /// A pair ends after this way or turn; it is dropped if the way exceeds the maximum.
-    PairSample(double moved_m, double turned_rad, double most_m) : moved_m_(moved_m), turned_rad_(turned_rad), most_m_(most_m) {}
+    PairSample(double moved_m, double turned_rad, double most_m)
+        : moved_m_(moved_m), turned_rad_(turned_rad), most_m_(most_m) {}
 
     /// scan: counted from 0.
     void add(const std::vector<float>& ranges, const geometry::Pose2& recorded, std::size_t scan);
@@ -180,15 +193,15 @@ class CarmenSurvey {
     std::map<std::size_t, std::uint64_t> scans_by_beams;
     std::map<double, std::uint64_t> scans_by_recorded_max_range;
     std::optional<BeamLayout> layout;
-    std::vector<std::uint32_t> readings_by_cm;       // up to 650 m
+    std::vector<std::uint32_t> readings_by_cm;  // up to 650 m
     std::vector<float> smallest_reading_by_cm;
-    std::vector<StampedPose> poses;                  // by ipc time, 0 where there is none
+    std::vector<StampedPose> poses;  // by ipc time, 0 where there is none
     std::vector<std::optional<std::int64_t>> ipc_ns;
     std::vector<std::optional<std::int64_t>> logger_ns;
     /// Lines of one OdometryRecordKind between scans.
     struct LinesBetween {
       std::uint32_t since_scan = 0;
-      std::vector<std::uint32_t> before_scan;        // how many, by scan
+      std::vector<std::uint32_t> before_scan;  // how many, by scan
       std::vector<geometry::Pose2> pose_before_scan;
     };
     std::array<LinesBetween, 2> lines_between;       // by OdometryRecordKind
@@ -201,11 +214,13 @@ class CarmenSurvey {
     bool pose_changes = false;
     std::uint64_t readings = 0;
     std::uint64_t scans_without_readings = 0;
-    std::vector<std::uint32_t> readings_by_unit;     // as written, whatever the unit
+    std::vector<std::uint32_t> readings_by_unit;  // as written, whatever the unit
     matching::OdometryCheck odometry_check;
-    PairSample moved_pairs{0.25, 0.12, std::numeric_limits<double>::infinity()};  // whatever the unit
-    PairSample pairs_in_small_units{250.0, 0.12, std::numeric_limits<double>::infinity()};  // of odometry in millimetres
-    PairSample turned_pairs{1.2, 0.05, 1.2};  // of a vehicle that seldom turns
+    PairSample moved_pairs{0.25, 0.12, std::numeric_limits<double>::infinity()};  // whatever the
+                                                                                  // unit
+    PairSample pairs_in_small_units{
+        250.0, 0.12, std::numeric_limits<double>::infinity()};  // of odometry in millimetres
+    PairSample turned_pairs{1.2, 0.05, 1.2};                    // of a vehicle that seldom turns
   };
 
   void add_laser(const LaserRecord& record);
@@ -238,24 +253,30 @@ class CarmenSurvey {
   double max_range_m(const Lasers& lasers) const;
   static void convert_readings(Lasers& lasers, double unit_m);
   double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const;
-  matching::LogEvidence weigh(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const;
-  std::vector<sensing::ScanMark> scan_marks(const Lasers& lasers, const matching::LogCorrection& correction, LogClock clock) const;
+  matching::LogEvidence weigh(const Lasers& lasers, const LogPlan& plan,
+                              double fallback_field_of_view_rad) const;
+  std::vector<sensing::ScanMark> scan_marks(const Lasers& lasers,
+                                            const matching::LogCorrection& correction,
+                                            LogClock clock) const;
   void choose_clock(const Lasers& lasers, LogPlan& plan) const;
   OdometrySource odometry_source(const Lasers& lasers, const LogPlan& plan) const;
   geometry::Pose2 base_from_laser(const Lasers& lasers) const;
-  LogFigures figures(const Lasers& lasers, const LogPlan& plan, double fallback_field_of_view_rad) const;
+  LogFigures figures(const Lasers& lasers, const LogPlan& plan,
+                     double fallback_field_of_view_rad) const;
 
   OdometryRecordKind odometry_lines() const;
-  const OdometryLines& chosen_odometry_lines() const { return odometry_lines_[static_cast<std::size_t>(odometry_lines())]; }
+  const OdometryLines& chosen_odometry_lines() const {
+    return odometry_lines_[static_cast<std::size_t>(odometry_lines())];
+  }
 
   std::deque<Lasers> lasers_;
-  std::array<OdometryLines, 2> odometry_lines_;   // by OdometryRecordKind
-  std::optional<StampedPose> newest_odom_;        // by ipc time
+  std::array<OdometryLines, 2> odometry_lines_;  // by OdometryRecordKind
+  std::optional<StampedPose> newest_odom_;       // by ipc time
   std::optional<StampedPose> newest_odom_by_order_;
   std::int64_t lines_ = 0;
   std::uint64_t imu_lines_ = 0;
-  std::array<LaserParams, 2> params_;             // of the front scanner and of the rear one
-  std::array<LaserParams, 9> numbered_params_;    // robot_laserN_*, by slot from 1 on
+  std::array<LaserParams, 2> params_;           // of the front scanner and of the rear one
+  std::array<LaserParams, 9> numbered_params_;  // robot_laserN_*, by slot from 1 on
 };
 
 }  // namespace slammot::files

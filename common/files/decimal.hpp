@@ -5,7 +5,8 @@
 
 namespace slammot::files {
 
-/// Seconds with six decimals, as logs and truth files write them; nine where the stamp is finer than a microsecond.
+/// Seconds with six decimals, as logs and truth files write them; nine where the stamp is finer
+/// than a microsecond.
 std::string stamp_text(std::int64_t stamp_ns);
 void append_stamp(std::string& text, std::int64_t stamp_ns);
 

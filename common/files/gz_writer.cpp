@@ -6,11 +6,15 @@ namespace slammot::files {
 
 void GzWriter::Close::operator()(gzFile_s* file) const { gzclose_w(file); }
 
-GzWriter::GzWriter(const std::filesystem::path& path) : path_(path), file_(gzopen(path.c_str(), "wb1")) { has_failed_ = !file_; }
+GzWriter::GzWriter(const std::filesystem::path& path)
+    : path_(path), file_(gzopen(path.c_str(), "wb1")) {
+  has_failed_ = !file_;
+}
 
 void GzWriter::write(std::string_view text) {
   if (!file_ || text.empty()) return;
-  has_failed_ = has_failed_ || gzwrite(file_.get(), text.data(), static_cast<unsigned>(text.size())) == 0;
+  has_failed_ =
+      has_failed_ || gzwrite(file_.get(), text.data(), static_cast<unsigned>(text.size())) == 0;
 }
 
 std::optional<Error> GzWriter::close() {

@@ -21,9 +21,11 @@ std::filesystem::path plain_or_gz(std::filesystem::path path) {
 /// Words of the line; the last one contains the rest.
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
   std::vector<std::string_view> words;
-  for (std::size_t begin = line.find_first_not_of(" \t"); begin != std::string_view::npos && words.size() < most;) {
+  for (std::size_t begin = line.find_first_not_of(" \t");
+       begin != std::string_view::npos && words.size() < most;) {
     const bool is_last = words.size() + 1 == most;
-    const std::size_t end = is_last ? line.size() : std::min(line.find_first_of(" \t", begin), line.size());
+    const std::size_t end =
+        is_last ? line.size() : std::min(line.find_first_of(" \t", begin), line.size());
     words.push_back(line.substr(begin, end - begin));
     begin = line.find_first_not_of(" \t", end);
   }
@@ -33,7 +35,8 @@ std::vector<std::string_view> words_of(std::string_view line, std::size_t most) 
 std::optional<double> number(std::string_view word) {
   double value = 0.0;
   const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return fault == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
+  return fault == std::errc() && end == word.data() + word.size() ? std::optional(value)
+                                                                  : std::nullopt;
 }
 
 std::string stamps(double stamp_s) {
@@ -66,8 +69,11 @@ bool LegTrackerLog::is_scan_file(const std::filesystem::path& path) {
     if (line->empty() || line->front() == '#') continue;
     const auto words = words_of(*line, kMaxBeams + kNumbersBeforeRanges + 1);
     if (words.size() <= kNumbersBeforeRanges) return false;
-    const bool begins_with_numbers = std::all_of(words.begin(), words.begin() + kNumbersBeforeRanges, [](std::string_view word) { return number(word).has_value(); });
-    return begins_with_numbers && number(words[4]) == static_cast<double>(words.size() - kNumbersBeforeRanges);
+    const bool begins_with_numbers =
+        std::all_of(words.begin(), words.begin() + kNumbersBeforeRanges,
+                    [](std::string_view word) { return number(word).has_value(); });
+    return begins_with_numbers &&
+           number(words[4]) == static_cast<double>(words.size() - kNumbersBeforeRanges);
   }
   return false;
 }
@@ -79,8 +85,11 @@ std::optional<LegTrackerLog::Line> LegTrackerLog::next_scan() {
     if (words.size() < 6) return Line{0.0, "ROBOTLASER1 malformed"};  // counted as malformed
     const auto bag_s = number(words[0]), step_rad = number(words[3]), beams = number(words[4]);
     if (!bag_s || !step_rad || !beams) return Line{0.0, "ROBOTLASER1 malformed"};
-    std::string text = "ROBOTLASER1 0 " + std::string(words[2]) + ' ' + fixed_text(*step_rad * (*beams - 1.0), 8) + ' ' + std::string(words[3]) + " 0 0.01 0 ";
-    text += std::string(words[4]) + ' ' + std::string(words[5]) + " 0 0 0 0 0 0 0 0 0 0 0 0" + stamps(*bag_s);
+    std::string text = "ROBOTLASER1 0 " + std::string(words[2]) + ' ' +
+                       fixed_text(*step_rad * (*beams - 1.0), 8) + ' ' + std::string(words[3]) +
+                       " 0 0.01 0 ";
+    text += std::string(words[4]) + ' ' + std::string(words[5]) + " 0 0 0 0 0 0 0 0 0 0 0 0" +
+            stamps(*bag_s);
     return Line{*bag_s, std::move(text)};
   }
   return std::nullopt;

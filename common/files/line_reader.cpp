@@ -30,9 +30,11 @@ LineReader::LineReader(std::unique_ptr<gzFile_s, Close> file, std::uintmax_t fil
 Result<LineReader> LineReader::open(const std::filesystem::path& path) {
   std::error_code fault;
   const std::filesystem::file_status status = std::filesystem::status(path, fault);
-  if (status.type() == std::filesystem::file_type::not_found) return Error{path.string() + ": no such file"};
+  if (status.type() == std::filesystem::file_type::not_found)
+    return Error{path.string() + ": no such file"};
   if (fault) return Error{path.string() + ": " + fault.message()};
-  if (status.type() != std::filesystem::file_type::regular) return Error{path.string() + ": not a regular file"};
+  if (status.type() != std::filesystem::file_type::regular)
+    return Error{path.string() + ": not a regular file"};
   const std::uintmax_t file_bytes = std::filesystem::file_size(path, fault);
   if (fault) return Error{path.string() + ": " + fault.message()};
   if (file_bytes == 0) return Error{path.string() + ": the file is empty"};
@@ -47,7 +49,8 @@ std::optional<std::string_view> LineReader::next() {
   while (begin_ < end_ || fill()) {
     const char* const start = chunk_.text.data() + begin_;
     const auto* const line_end = static_cast<const char*>(std::memchr(start, '\n', end_ - begin_));
-    const std::string_view piece(start, line_end ? static_cast<std::size_t>(line_end - start) : end_ - begin_);
+    const std::string_view piece(
+        start, line_end ? static_cast<std::size_t>(line_end - start) : end_ - begin_);
     begin_ += piece.size() + (line_end ? 1 : 0);
     if (!line_end) {
       keep(piece);
@@ -66,7 +69,8 @@ LineReader::Unpacked LineReader::unpack(gzFile_s* file, std::vector<char> into) 
   const int bytes = gzread(file, into.data(), static_cast<unsigned>(into.size()));
   int fault = Z_OK;
   gzerror(file, &fault);
-  // Z_BUF_ERROR: the compressed stream ends too early; Z_DATA_ERROR: it is damaged. zlib returns the data before that.
+  // Z_BUF_ERROR: the compressed stream ends too early; Z_DATA_ERROR: it is damaged. zlib returns
+  // the data before that.
   unpacked.is_cut = bytes < 0 || fault != Z_OK;
   unpacked.bytes = static_cast<std::size_t>(std::max(bytes, 0));
   unpacked.bytes_read = static_cast<std::uintmax_t>(std::max<z_off_t>(gzoffset(file), 0));
@@ -75,7 +79,10 @@ LineReader::Unpacked LineReader::unpack(gzFile_s* file, std::vector<char> into) 
 }
 
 void LineReader::unpack_ahead(std::vector<char> into) {
-  next_chunk_ = std::async(std::launch::async, [file = file_.get(), into = std::move(into)]() mutable { return unpack(file, std::move(into)); });
+  next_chunk_ =
+      std::async(std::launch::async, [file = file_.get(), into = std::move(into)]() mutable {
+        return unpack(file, std::move(into));
+      });
 }
 
 bool LineReader::fill() {
@@ -111,6 +118,8 @@ std::optional<std::string_view> LineReader::finish_line(std::string_view piece) 
   return without_carriage_return(partial_);
 }
 
-double LineReader::fraction_read() const { return std::min(1.0, static_cast<double>(chunk_.bytes_read) / static_cast<double>(file_bytes_)); }
+double LineReader::fraction_read() const {
+  return std::min(1.0, static_cast<double>(chunk_.bytes_read) / static_cast<double>(file_bytes_));
+}
 
 }  // namespace slammot::files

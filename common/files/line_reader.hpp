@@ -17,8 +17,8 @@ struct gzFile_s;
 
 namespace slammot::files {
 
-/// Reads a text file line by line, plain or gzip-compressed as its first bytes show. While the lines of one chunk are
-/// returned, another thread decompresses the next one.
+/// Reads a text file line by line, plain or gzip-compressed as its first bytes show. While the
+/// lines of one chunk are returned, another thread decompresses the next one.
 class LineReader : public LineSource {
  public:
   /// Longer lines are skipped and counted: no scanner's record is that long.
@@ -27,8 +27,8 @@ class LineReader : public LineSource {
   /// Fails if the file is missing, unreadable or not a regular file.
   static Result<LineReader> open(const std::filesystem::path& path);
 
-  /// The next line without its end ("\n" or "\r\n"), valid until the next call; nullopt at the end of the readable
-  /// part.
+  /// The next line without its end ("\n" or "\r\n"), valid until the next call; nullopt at the end
+  /// of the readable part.
   std::optional<std::string_view> next() override;
 
   /// Number of the last returned line, from 1.
@@ -38,7 +38,8 @@ class LineReader : public LineSource {
   /// True if the last returned line had no line end: the file may be truncated.
   bool last_line_is_unfinished() const override { return last_line_is_unfinished_; }
 
-  /// True if the compressed data ended too early or were damaged: the rest of the file is unreadable.
+  /// True if the compressed data ended too early or were damaged: the rest of the file is
+  /// unreadable.
   bool is_cut() const override { return is_cut_; }
 
   /// Share of the file's bytes taken in so far, [0, 1].
@@ -52,8 +53,8 @@ class LineReader : public LineSource {
   /// Result of one call of zlib.
   struct Unpacked {
     std::vector<char> text;
-    std::size_t bytes = 0;       ///< Of the text.
-    std::uintmax_t bytes_read = 0;   ///< Of the file so far.
+    std::size_t bytes = 0;          ///< Of the text.
+    std::uintmax_t bytes_read = 0;  ///< Of the file so far.
     bool is_cut = false;
   };
 
@@ -69,13 +70,13 @@ class LineReader : public LineSource {
   Unpacked chunk_;
   std::size_t begin_ = 0;  // start of the unreturned part of chunk_
   std::size_t end_ = 0;
-  std::string partial_;    // beginning of a line that continues in the next chunk
+  std::string partial_;  // beginning of a line that continues in the next chunk
   bool skips_line_ = false;
   std::uint64_t line_number_ = 0;
   std::uint64_t overlong_lines_ = 0;
   bool last_line_is_unfinished_ = false;
   bool is_cut_ = false;
-  std::future<Unpacked> next_chunk_;   // last: it must end before the file is closed
+  std::future<Unpacked> next_chunk_;  // last: it must end before the file is closed
 };
 
 }  // namespace slammot::files

@@ -11,7 +11,8 @@ class LineSource {
  public:
   virtual ~LineSource() = default;
 
-  /// The next line without its end, valid until the next call; nullopt at the end of what can be read.
+  /// The next line without its end, valid until the next call; nullopt at the end of what can be
+  /// read.
   virtual std::optional<std::string_view> next() = 0;
 
   /// Number of the last returned line, from 1.

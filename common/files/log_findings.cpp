@@ -17,11 +17,14 @@ std::string text(const char* format, Values... values) {
 }
 
 std::string made_from_way(const LogPlan& plan) {
-  if (plan.odometry == OdometrySource::kNone) return text("a scan is taken to come every %.2f s, no speed is known", 1.0 / kNominalRateHz);
+  if (plan.odometry == OdometrySource::kNone)
+    return text("a scan is taken to come every %.2f s, no speed is known", 1.0 / kNominalRateHz);
   return "time is made from the way between scans, no speed is known";
 }
 
-const char* name_of_unit(double unit_s) { return unit_s > 0.5e-3 ? "milliseconds" : unit_s > 0.5e-6 ? "microseconds" : "nanoseconds"; }
+const char* name_of_unit(double unit_s) {
+  return unit_s > 0.5e-3 ? "milliseconds" : unit_s > 0.5e-6 ? "microseconds" : "nanoseconds";
+}
 
 std::string describe_clock(const LogPlan& plan) {
   switch (plan.times.fault) {
@@ -29,45 +32,75 @@ std::string describe_clock(const LogPlan& plan) {
     case ClockFault::kAbsent: return "scans have no stamps: " + made_from_way(plan);
     case ClockFault::kConstant: return "all scans have the same stamp: " + made_from_way(plan);
     case ClockFault::kIndex: return "stamps only count scans: " + made_from_way(plan);
-    case ClockFault::kErratic: return "stamps do not advance as a clock does: " + made_from_way(plan);
-    case ClockFault::kUnit: return text("stamps are in %s: converted", name_of_unit(plan.times.unit_s));
-    case ClockFault::kCoarse: return text("stamps are rounded to %g s: scans are spread evenly within", plan.times.quantum_s);
+    case ClockFault::kErratic:
+      return "stamps do not advance as a clock does: " + made_from_way(plan);
+    case ClockFault::kUnit:
+      return text("stamps are in %s: converted", name_of_unit(plan.times.unit_s));
+    case ClockFault::kCoarse:
+      return text("stamps are rounded to %g s: scans are spread evenly within",
+                  plan.times.quantum_s);
     case ClockFault::kBackwards: return "stamps run backwards: mirrored";
-    case ClockFault::kJumps: return text("stamps jump %llu times: bridged by the usual time between scans", static_cast<unsigned long long>(plan.times.jumps));
+    case ClockFault::kJumps:
+      return text("stamps jump %llu times: bridged by the usual time between scans",
+                  static_cast<unsigned long long>(plan.times.jumps));
   }
   return {};
 }
 
 void describe_units(const matching::LogCorrection& correction, std::vector<std::string>& findings) {
-  const auto add = [&](const char* what, double unit, double thousandth, const char* small, const char* large) {
-    if (unit != 1.0) findings.push_back(text("%s are in %s: converted", what, unit < 3.0 * thousandth ? small : large));
+  const auto add = [&](const char* what, double unit, double thousandth, const char* small,
+                       const char* large) {
+    if (unit != 1.0)
+      findings.push_back(
+          text("%s are in %s: converted", what, unit < 3.0 * thousandth ? small : large));
   };
   add("ranges", correction.range_unit_m, 1e-3, "millimetres", "centimetres");
   add("positions of odometry", correction.way_unit_m, 1e-3, "millimetres", "centimetres");
-  if (correction.heading_unit_rad != 1.0) findings.emplace_back("headings of odometry are in degrees: converted");
+  if (correction.heading_unit_rad != 1.0)
+    findings.emplace_back("headings of odometry are in degrees: converted");
 }
 
 void describe_signs(const LogPlan& plan, std::vector<std::string>& findings) {
   const matching::LogCorrection& correction = plan.evidence.correction;
   constexpr double kDegrees = 180.0 / 3.14159265358979;
   const std::string pairs = text("%zu pairs of scans", plan.evidence.turning_pairs);
-  const std::string doubt = plan.evidence.handedness_is_told ? "" : " (or else beams go clockwise, which looks the same, and the map is mirrored)";
-  if (correction.mirrors_position && correction.mirrors_heading) findings.push_back("odometry turns with the wrong sign, by " + pairs + ": mirrored" + doubt);
-  else if (correction.mirrors_heading) findings.push_back("headings of odometry have the wrong sign, by " + pairs + ": mirrored");
-  else if (correction.mirrors_position) findings.emplace_back("positions of odometry are mirrored or have their axes swapped: mirrored back");
-  if (correction.reverses_beams) findings.push_back("beams go clockwise, by " + pairs + ": reversed, as odometry moves on the arcs of its turns (if it is mirrored as a whole, so is the map)");
-  if (correction.field_factor != 1.0) findings.push_back(text("field of view is %.0f degrees, by turns of ", plan.figures.field_of_view_rad * kDegrees) + pairs + ": beams laid out over it");
-  if (correction.laser_turn_rad != 0.0) findings.push_back(text("scanner is mounted turned by %.0f degrees more than the log says: corrected", correction.laser_turn_rad * kDegrees));
+  const std::string doubt =
+      plan.evidence.handedness_is_told
+          ? ""
+          : " (or else beams go clockwise, which looks the same, and the map is mirrored)";
+  if (correction.mirrors_position && correction.mirrors_heading)
+    findings.push_back("odometry turns with the wrong sign, by " + pairs + ": mirrored" + doubt);
+  else if (correction.mirrors_heading)
+    findings.push_back("headings of odometry have the wrong sign, by " + pairs + ": mirrored");
+  else if (correction.mirrors_position)
+    findings.emplace_back(
+        "positions of odometry are mirrored or have their axes swapped: mirrored back");
+  if (correction.reverses_beams)
+    findings.push_back("beams go clockwise, by " + pairs +
+                       ": reversed, as odometry moves on the arcs of its turns (if it is mirrored "
+                       "as a whole, so is the map)");
+  if (correction.field_factor != 1.0)
+    findings.push_back(text("field of view is %.0f degrees, by turns of ",
+                            plan.figures.field_of_view_rad * kDegrees) +
+                       pairs + ": beams laid out over it");
+  if (correction.laser_turn_rad != 0.0)
+    findings.push_back(
+        text("scanner is mounted turned by %.0f degrees more than the log says: corrected",
+             correction.laser_turn_rad * kDegrees));
 }
 
 void describe_gaps(const LogFigures& figures, std::vector<std::string>& findings) {
   constexpr double kLongGap = 10.0;  // periods
   if (figures.scans_without_readings > 0) {
-    findings.push_back(text("%llu of %llu scans hold no reading at all (NaN, infinity or 0)", static_cast<unsigned long long>(figures.scans_without_readings),
+    findings.push_back(text("%llu of %llu scans hold no reading at all (NaN, infinity or 0)",
+                            static_cast<unsigned long long>(figures.scans_without_readings),
                             static_cast<unsigned long long>(figures.scans)));
   }
-  if (figures.has_clock && figures.longest_gap_s > 2.0 && figures.longest_gap_s > kLongGap * figures.scan_period_s) findings.push_back(text("no scan for %.1f s", figures.longest_gap_s));
-  if (figures.echo_share > 0.0 && figures.echo_share < 0.2) findings.push_back(text("only %.0f %% of the beams have an echo", 100.0 * figures.echo_share));
+  if (figures.has_clock && figures.longest_gap_s > 2.0 &&
+      figures.longest_gap_s > kLongGap * figures.scan_period_s)
+    findings.push_back(text("no scan for %.1f s", figures.longest_gap_s));
+  if (figures.echo_share > 0.0 && figures.echo_share < 0.2)
+    findings.push_back(text("only %.0f %% of the beams have an echo", 100.0 * figures.echo_share));
 }
 
 constexpr double kTold = 0.15;  // least scale error that is reported
@@ -77,11 +110,24 @@ bool is_far_off(double scale) { return scale > 0.0 && std::abs(scale - 1.0) > kT
 void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
   constexpr double kMostlyMatched = 0.5;
   const matching::LogEvidence& evidence = plan.evidence;
-  if (plan.odometry_late_s != 0.0) findings.push_back(text("odometry is %.2f s %s, by the turns of pairs of scans: taken back", std::abs(plan.odometry_late_s), plan.odometry_late_s > 0.0 ? "late" : "early"));
-  if (plan.odometry == OdometrySource::kNone) findings.emplace_back("there is no odometry: scans alone say how the vehicle moves");
-  if (evidence.pairs > 0 && evidence.matched_share < kMostlyMatched) findings.push_back(text("only %.0f %% of the sampled pairs of scans match each other: range unit or field of view may be wrong", 100.0 * evidence.matched_share));
-  if (is_far_off(evidence.way_scale)) findings.push_back(text("the way by odometry is %.2f times that by scans: corrected by as much to begin with", 1.0 / evidence.way_scale));
-  if (is_far_off(evidence.turn_scale)) findings.push_back(text("turns by odometry are %.2f times those by scans", 1.0 / evidence.turn_scale));
+  if (plan.odometry_late_s != 0.0)
+    findings.push_back(text("odometry is %.2f s %s, by the turns of pairs of scans: taken back",
+                            std::abs(plan.odometry_late_s),
+                            plan.odometry_late_s > 0.0 ? "late" : "early"));
+  if (plan.odometry == OdometrySource::kNone)
+    findings.emplace_back("there is no odometry: scans alone say how the vehicle moves");
+  if (evidence.pairs > 0 && evidence.matched_share < kMostlyMatched)
+    findings.push_back(
+        text("only %.0f %% of the sampled pairs of scans match each other: range unit or field of "
+             "view may be wrong",
+             100.0 * evidence.matched_share));
+  if (is_far_off(evidence.way_scale))
+    findings.push_back(
+        text("the way by odometry is %.2f times that by scans: corrected by as much to begin with",
+             1.0 / evidence.way_scale));
+  if (is_far_off(evidence.turn_scale))
+    findings.push_back(
+        text("turns by odometry are %.2f times those by scans", 1.0 / evidence.turn_scale));
 }
 
 const char* name_of(OdometrySource source) {
@@ -98,7 +144,9 @@ std::string describe_time(const LogPlan& plan) {
   const char* const sources[] = {"ipc_timestamp", "logger_timestamp", "made up"};
   const char* const source = sources[static_cast<std::size_t>(plan.clock)];
   const LogFigures& figures = plan.figures;
-  return text("%s, a scan every %.3f s (9 of 10 within %.0f %% of that), longest gap %.1f s", source, figures.scan_period_s, 100.0 * figures.scan_period_spread, figures.longest_gap_s);
+  return text("%s, a scan every %.3f s (9 of 10 within %.0f %% of that), longest gap %.1f s",
+              source, figures.scan_period_s, 100.0 * figures.scan_period_spread,
+              figures.longest_gap_s);
 }
 
 }  // namespace
@@ -110,7 +158,8 @@ std::string describe_odometry(const LogPlan& plan) {
   line += text(", %.0f m", plan.figures.distance_m);
   if (evidence.pairs == 0) return line;
   line += text("; %zu of the sampled pairs of scans match", evidence.pairs);
-  if (evidence.way_scale > 0.0) line += text(", way by scans %.2f times as long", evidence.way_scale);
+  if (evidence.way_scale > 0.0)
+    line += text(", way by scans %.2f times as long", evidence.way_scale);
   if (evidence.turn_scale > 0.0) line += text(", turns %.2f times", evidence.turn_scale);
   return line;
 }
@@ -118,26 +167,39 @@ std::string describe_odometry(const LogPlan& plan) {
 std::string describe_log(const LogPlan& plan) {
   constexpr double kDegrees = 180.0 / 3.14159265358979;
   const LogFigures& figures = plan.figures;
-  std::string lines = text("scans      %llu of %zu beams over %.0f degrees, %.0f s\n", static_cast<unsigned long long>(figures.scans), figures.beams,
-                           std::floor(figures.field_of_view_rad * kDegrees + 0.25), figures.duration_s);
+  std::string lines =
+      text("scans      %llu of %zu beams over %.0f degrees, %.0f s\n",
+           static_cast<unsigned long long>(figures.scans), figures.beams,
+           std::floor(figures.field_of_view_rad * kDegrees + 0.25), figures.duration_s);
   lines += "clock      " + describe_time(plan) + "\n";
-  lines += text("ranges     half of the echoes within %.1f m, 9 of 10 within %.1f m; no echo from %.2f m on; %.0f %% of the beams have one\n", figures.median_range_m, figures.far_range_m,
-                figures.max_range_m, 100.0 * figures.echo_share);
+  lines += text(
+      "ranges     half of the echoes within %.1f m, 9 of 10 within %.1f m; no echo from %.2f m on; "
+      "%.0f %% of the beams have one\n",
+      figures.median_range_m, figures.far_range_m, figures.max_range_m, 100.0 * figures.echo_share);
   lines += "odometry   " + describe_odometry(plan) + "\n";
-  lines += text("mounting   %.2f m ahead, %.2f m to the left, turned by %.0f degrees\n", plan.base_from_laser.x_m, plan.base_from_laser.y_m, plan.base_from_laser.heading_rad * kDegrees);
+  lines += text("mounting   %.2f m ahead, %.2f m to the left, turned by %.0f degrees\n",
+                plan.base_from_laser.x_m, plan.base_from_laser.y_m,
+                plan.base_from_laser.heading_rad * kDegrees);
   return lines;
 }
 
 std::string likely_causes(const LogPlan& plan) {
   const matching::LogEvidence& evidence = plan.evidence;
-  if (plan.odometry == OdometrySource::kNone) return "no odometry, and scans too far apart or too much alike";
-  if (evidence.pairs > 0 && evidence.matched_share < 0.5) return "scans hardly match each other: range unit, field of view or beam order";
-  if (evidence.turning_pairs >= 8 && evidence.turn_sign_share > 0.2 && evidence.turn_sign_share < 0.8) return "odometry and scans disagree on turns: heading sign, beam order, field of view, unit";
+  if (plan.odometry == OdometrySource::kNone)
+    return "no odometry, and scans too far apart or too much alike";
+  if (evidence.pairs > 0 && evidence.matched_share < 0.5)
+    return "scans hardly match each other: range unit, field of view or beam order";
+  if (evidence.turning_pairs >= 8 && evidence.turn_sign_share > 0.2 &&
+      evidence.turn_sign_share < 0.8)
+    return "odometry and scans disagree on turns: heading sign, beam order, field of view, unit";
   if (evidence.pairs == 0) return "heading sign, beam order, field of view, unit";
-  return "a place without structure, wheels that slip, a jump of the log (heading sign, beam order, field of view and unit look right)";
+  return "a place without structure, wheels that slip, a jump of the log (heading sign, beam "
+         "order, field of view and unit look right)";
 }
 
-double way_factor_of(const LogPlan& plan) { return is_far_off(plan.evidence.way_scale) ? plan.evidence.way_scale : 1.0; }
+double way_factor_of(const LogPlan& plan) {
+  return is_far_off(plan.evidence.way_scale) ? plan.evidence.way_scale : 1.0;
+}
 
 std::vector<std::string> describe_findings(const LogPlan& plan) {
   std::vector<std::string> findings;
@@ -146,7 +208,10 @@ std::vector<std::string> describe_findings(const LogPlan& plan) {
   describe_signs(plan, findings);
   describe_gaps(plan.figures, findings);
   describe_doubts(plan, findings);
-  for (const std::string& name : plan.unplaced_scanners) findings.push_back("scanner " + name + " is not used: the log does not say where it is mounted (--scanners selects it)");
+  for (const std::string& name : plan.unplaced_scanners)
+    findings.push_back(
+        "scanner " + name +
+        " is not used: the log does not say where it is mounted (--scanners selects it)");
   return findings;
 }
 
@@ -155,8 +220,10 @@ std::string describe_scanners(const LogPlan& plan) {
   std::string lines;
   for (const ScannerPlan& scanner : plan.scanners) {
     const geometry::Pose2& mounting = scanner.base_from_laser;
-    lines += "scanner:  " + scanner.name + text(": %llu scans, %.2f m ahead, %.2f m left, looks %.0f degrees left\n", static_cast<unsigned long long>(scanner.scans),
-                                                mounting.x_m, mounting.y_m, mounting.heading_rad * 180.0 / std::numbers::pi);
+    lines += "scanner:  " + scanner.name +
+             text(": %llu scans, %.2f m ahead, %.2f m left, looks %.0f degrees left\n",
+                  static_cast<unsigned long long>(scanner.scans), mounting.x_m, mounting.y_m,
+                  mounting.heading_rad * 180.0 / std::numbers::pi);
   }
   return lines;
 }

@@ -7,10 +7,12 @@
 
 namespace slammot::files {
 
-/// Way by scans over way by odometry, if the sampled pairs of scans show that it is far from 1; else 1.
+/// Way by scans over way by odometry, if the sampled pairs of scans show that it is far from 1;
+/// else 1.
 double way_factor_of(const LogPlan& plan);
 
-/// Defects of a log and their treatment: one sentence each, without a full stop; empty for a log without defects.
+/// Defects of a log and their treatment: one sentence each, without a full stop; empty for a log
+/// without defects.
 std::vector<std::string> describe_findings(const LogPlan& plan);
 
 /// Source of odometry and its evaluation by matched pairs of scans, in one line.

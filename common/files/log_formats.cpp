@@ -24,7 +24,8 @@ Result<std::unique_ptr<LineSource>> open_text(const std::filesystem::path& path)
 
 }  // namespace
 
-Result<std::unique_ptr<RecordSource>> open_records(const std::filesystem::path& path, const RecordOptions& options) {
+Result<std::unique_ptr<RecordSource>> open_records(const std::filesystem::path& path,
+                                                   const RecordOptions& options) {
   std::error_code ignored;
   if (bags::is_bag(path)) return BagLog::open(path, options);
   if (std::filesystem::is_directory(path, ignored)) return records_of(LegTrackerLog::open(path));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFasterThanWalkingMps = 3.0;
 constexpr double kFartherThanHallsM = 25.0;
-constexpr double kRareScansS = 0.5;   // scans triggered by motion, as robots log them
+constexpr double kRareScansS = 0.5;  // scans triggered by motion, as robots log them
 
 std::string rounded(double value) {
   char text[32];
@@ -18,7 +18,9 @@ std::string rounded(double value) {
   return text;
 }
 
-bool sees_all_around(const LogFigures& figures) { return figures.field_of_view_rad > 350.0 / 180.0 * std::numbers::pi; }
+bool sees_all_around(const LogFigures& figures) {
+  return figures.field_of_view_rad > 350.0 / 180.0 * std::numbers::pi;
+}
 
 }  // namespace
 
@@ -28,10 +30,17 @@ ProfileChoice choose_profile(const LogFigures& figures) {
   const bool sees_far = figures.far_range_m > kFartherThanHallsM;
   const bool is_fast = figures.has_clock && figures.cruising_speed_mps > kFasterThanWalkingMps;
   if (is_fast) return {"urban", "the vehicle drives at " + speed + ", " + range};
-  const bool is_slow = figures.has_clock ? figures.cruising_speed_mps > 0.0 || figures.scan_period_s > kRareScansS : !figures.comes_by_time;
-  if (sees_far && is_slow) return {"outdoor_robot", "far echoes as in the open and " + (figures.has_clock ? "a speed of " + speed : std::string("a scan for each piece of way")) + ", " + range};
+  const bool is_slow = figures.has_clock
+                           ? figures.cruising_speed_mps > 0.0 || figures.scan_period_s > kRareScansS
+                           : !figures.comes_by_time;
+  if (sees_far && is_slow)
+    return {"outdoor_robot", "far echoes as in the open and " +
+                                 (figures.has_clock ? "a speed of " + speed
+                                                    : std::string("a scan for each piece of way")) +
+                                 ", " + range};
   if (sees_far) return {"urban", "far echoes as in the open, " + range};
-  if (figures.has_clock && figures.cruising_speed_mps > 0.0) return {"indoor", "the vehicle moves at " + speed + " only, " + range};
+  if (figures.has_clock && figures.cruising_speed_mps > 0.0)
+    return {"indoor", "the vehicle moves at " + speed + " only, " + range};
   return {"indoor", range};
 }
 
@@ -40,9 +49,11 @@ double sweep_s_for(const LogFigures& figures, double profile_sweep_s) {
   constexpr double kSlowestScannerS = 0.25;  // a longer period means that the log omits scans
   const double period_s = figures.scan_period_s;
   // A scanner's mirror turns once a scan: with a synthetic period the sweep keeps its share of it.
-  if (!figures.has_clock && figures.comes_by_time && profile_sweep_s > 0.0) return period_s * figures.field_of_view_rad / (2.0 * std::numbers::pi);
-  if (sees_all_around(figures) && figures.beams > 1 && period_s > 0.0 && period_s < kSlowestScannerS &&
-      figures.scan_period_spread < kSteadySpread && figures.has_clock) {
+  if (!figures.has_clock && figures.comes_by_time && profile_sweep_s > 0.0)
+    return period_s * figures.field_of_view_rad / (2.0 * std::numbers::pi);
+  if (sees_all_around(figures) && figures.beams > 1 && period_s > 0.0 &&
+      period_s < kSlowestScannerS && figures.scan_period_spread < kSteadySpread &&
+      figures.has_clock) {
     const double beams = static_cast<double>(figures.beams);
     return period_s * (beams - 1.0) / beams;
   }

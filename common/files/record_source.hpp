@@ -19,7 +19,8 @@ class RecordSource {
   /// The next record, valid until the next call; nullopt at the end of what can be read.
   virtual std::optional<CarmenRecord> next() = 0;
 
-  /// Number of the last returned record, from 1: its line, or its index among the used messages of a bag.
+  /// Number of the last returned record, from 1: its line, or its index among the used messages of
+  /// a bag.
   virtual std::uint64_t line_number() const = 0;
 
   /// Share taken in so far, [0, 1].

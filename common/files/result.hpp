@@ -16,7 +16,9 @@ struct Error {
 template <typename T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : content_(std::move(value)) {}      // NOLINT(google-explicit-constructor): `return value;` is the point
+  Result(T value)
+      : content_(std::move(value)) {}  // NOLINT(google-explicit-constructor): `return value;` is
+                                       // the point
   Result(Error error) : content_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
   bool has_value() const { return std::holds_alternative<T>(content_); }

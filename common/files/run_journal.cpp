@@ -10,9 +10,15 @@ namespace {
 constexpr const char* kBegin = "slammot-journal-2";
 constexpr char kEnd = ';';  // marks a completely written line
 
-std::ostream& operator<<(std::ostream& to, const geometry::Pose2& pose) { return to << pose.x_m << ' ' << pose.y_m << ' ' << pose.heading_rad; }
-std::istream& operator>>(std::istream& from, geometry::Pose2& pose) { return from >> pose.x_m >> pose.y_m >> pose.heading_rad; }
-std::istream& operator>>(std::istream& from, geometry::Vector2& vector) { return from >> vector.x() >> vector.y(); }
+std::ostream& operator<<(std::ostream& to, const geometry::Pose2& pose) {
+  return to << pose.x_m << ' ' << pose.y_m << ' ' << pose.heading_rad;
+}
+std::istream& operator>>(std::istream& from, geometry::Pose2& pose) {
+  return from >> pose.x_m >> pose.y_m >> pose.heading_rad;
+}
+std::istream& operator>>(std::istream& from, geometry::Vector2& vector) {
+  return from >> vector.x() >> vector.y();
+}
 
 template <typename Enum>
 std::istream& get_enumerator(std::istream& from, Enum& value) {
@@ -39,15 +45,16 @@ class Line {
 
 flow::LocalizedScan localized_scan_of(std::istream& line) {
   flow::LocalizedScan scan;
-  line >> scan.stamp_ns >> scan.map_id.value >> scan.submap_id.value >> scan.map_from_odom >> scan.odom_from_base.pose >> scan.submap_from_base;
+  line >> scan.stamp_ns >> scan.map_id.value >> scan.submap_id.value >> scan.map_from_odom >>
+      scan.odom_from_base.pose >> scan.submap_from_base;
   return scan;
 }
 
 flow::TrackedObject object_of(std::istream& line) {
   flow::TrackedObject object;
   object.confirmed = true;
-  line >> object.track_id.value >> object.position_in_odom_m >> object.velocity_in_odom_mps >> object.heading_in_odom_rad >> object.length_m >>
-      object.width_m >> object.existence;
+  line >> object.track_id.value >> object.position_in_odom_m >> object.velocity_in_odom_mps >>
+      object.heading_in_odom_rad >> object.length_m >> object.width_m >> object.existence;
   get_enumerator(line, object.motion);
   get_enumerator(line, object.object_class);
   return object;
@@ -86,12 +93,14 @@ void RunJournal::remove() {
 }
 
 void RunJournal::add(const JournalScan& scan) {
-  stream_ << (Line() << 's' << scan.drive_id << scan.sequence << scan.stamp_ns << scan.scanner_id).str() << std::flush;
+  stream_
+      << (Line() << 's' << scan.drive_id << scan.sequence << scan.stamp_ns << scan.scanner_id).str()
+      << std::flush;
 }
 
 void RunJournal::add(const flow::LocalizedScan& scan) {
-  stream_ << (Line() << 'l' << scan.stamp_ns << scan.map_id.value << scan.submap_id.value << scan.map_from_odom << scan.odom_from_base.pose
-                     << scan.submap_from_base)
+  stream_ << (Line() << 'l' << scan.stamp_ns << scan.map_id.value << scan.submap_id.value
+                     << scan.map_from_odom << scan.odom_from_base.pose << scan.submap_from_base)
                  .str()
           << std::flush;
 }
@@ -102,8 +111,9 @@ void RunJournal::add(const flow::TrackedObjects& tracked) {
   line << 't' << tracked.stamp_ns << tracked.map_id.value << tracked.map_from_odom << confirmed;
   for (const flow::TrackedObject& object : tracked.objects) {
     if (!object.confirmed) continue;
-    line << object.track_id.value << object.position_in_odom_m.x() << object.position_in_odom_m.y() << object.velocity_in_odom_mps.x()
-         << object.velocity_in_odom_mps.y() << object.heading_in_odom_rad << object.length_m << object.width_m << object.existence
+    line << object.track_id.value << object.position_in_odom_m.x() << object.position_in_odom_m.y()
+         << object.velocity_in_odom_mps.x() << object.velocity_in_odom_mps.y()
+         << object.heading_in_odom_rad << object.length_m << object.width_m << object.existence
          << static_cast<int>(object.motion) << static_cast<int>(object.object_class);
   }
   stream_ << line.str() << std::flush;
@@ -113,7 +123,8 @@ std::optional<RunJournal::Content> RunJournal::read(const std::filesystem::path&
   std::ifstream stream(file);
   std::string mark;
   Content content;
-  if (!(stream >> mark >> content.map_id.value >> content.odom_id.value) || mark != kBegin) return std::nullopt;
+  if (!(stream >> mark >> content.map_id.value >> content.odom_id.value) || mark != kBegin)
+    return std::nullopt;
   for (std::string text; std::getline(stream, text);) {
     if (!text.ends_with(kEnd)) continue;
     std::istringstream line(text);

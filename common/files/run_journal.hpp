@@ -19,8 +19,8 @@ struct JournalScan {
   std::int64_t stamp_ns = 0;
 };
 
-/// Journal of a drive while it is recorded, one line at a time: a restarted process continues from it. Submaps,
-/// constraints and corrections are kept by the services that create them.
+/// Journal of a drive while it is recorded, one line at a time: a restarted process continues from
+/// it. Submaps, constraints and corrections are kept by the services that create them.
 class RunJournal {
  public:
   /// Appends to the file; nothing is written before begin() or resume().
@@ -41,8 +41,8 @@ class RunJournal {
     flow::MapId map_id;
     flow::OdomId odom_id;
     std::vector<JournalScan> scans;
-    std::vector<flow::LocalizedScan> localized_scans;    ///< Without their beams.
-    std::vector<flow::TrackedObjects> tracked_objects;   ///< Fields of a track's row only.
+    std::vector<flow::LocalizedScan> localized_scans;   ///< Without their beams.
+    std::vector<flow::TrackedObjects> tracked_objects;  ///< Fields of a track's row only.
   };
   /// None if there is no journal. An incomplete last line is ignored.
   static std::optional<Content> read(const std::filesystem::path& file);

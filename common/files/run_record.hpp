@@ -44,9 +44,9 @@ struct TrackRow {
   double existence = 0.0;
   flow::ObjectClass object_class = flow::ObjectClass::kUnknown;
   Eigen::Matrix4d covariance_in_map = Eigen::Matrix4d::Zero();  ///< (x, y [m], vx, vy [m/s])
-  std::vector<double> mode_probability;                         ///< Of each motion model, as tracking orders them.
-  flow::ClassProbabilities class_probability = {};              ///< Of pedestrian, bicycle, car, truck or bus.
-  std::vector<PredictedPlace> predicted;                        ///< Those of its path that are whole seconds ahead.
+  std::vector<double> mode_probability;  ///< Of each motion model, as tracking orders them.
+  flow::ClassProbabilities class_probability = {};  ///< Of pedestrian, bicycle, car, truck or bus.
+  std::vector<PredictedPlace> predicted;  ///< Those of its path that are whole seconds ahead.
 };
 
 /// A pose as published live, with its covariance relative to the local map, and odom_from_base.
@@ -55,7 +55,8 @@ struct UncertainStampedPose {
   geometry::UncertainPose2 odom_from_base;
 };
 
-/// Labels of one scan's points, one letter a beam: '-' no echo, 's' stationary, 'm' moving, '?' unknown.
+/// Labels of one scan's points, one letter a beam: '-' no echo, 's' stationary, 'm' moving, '?'
+/// unknown.
 struct LabelRow {
   std::int64_t stamp_ns = 0;
   std::string by_detection;  ///< Empty if none was received.
@@ -63,9 +64,9 @@ struct LabelRow {
   std::string scanner_id;
 };
 
-/// Results of a drive, collected scan by scan from the stages of one process or from the services on the bus. Entries
-/// are keyed by stamp or id, and repeated ones replace earlier ones, so that neither order of arrival nor restarts
-/// matter.
+/// Results of a drive, collected scan by scan from the stages of one process or from the services
+/// on the bus. Entries are keyed by stamp or id, and repeated ones replace earlier ones, so that
+/// neither order of arrival nor restarts matter.
 class RunRecord {
  public:
   /// Adds every scan of the log in order, whether it is processed or not.
@@ -86,19 +87,22 @@ class RunRecord {
   std::uint64_t localized_scans() const { return poses_.size() + same_stamp_.size(); }
   const std::map<flow::SubmapId, flow::Submap>& submaps() const { return submaps_; }
   std::vector<flow::Constraint> constraints() const;
-  std::vector<const TrackRow*> track_rows() const;            ///< This and the next result are valid until the next add().
+  std::vector<const TrackRow*> track_rows() const;  ///< This and the next result are valid until
+                                                    ///< the next add().
   std::vector<UncertainStampedPose> uncertain_poses() const;  ///< Of the scans that were localized.
   std::vector<const LabelRow*> label_rows() const;
   std::uint64_t confirmed_tracks() const;  ///< Number of distinct confirmed tracks.
 
-  /// Submap pose after the last correction; by odometry if loop closing has not received the submap.
+  /// Submap pose after the last correction; by odometry if loop closing has not received the
+  /// submap.
   geometry::Pose2 map_from_submap(const flow::Submap& submap) const;
 
   /// True if the newest submap is tied to the first one after the last correction.
   bool knows_where_it_is() const { return !correction_.is_untied; }
 
-  /// One pose for every scan of the log, as published live; scans of several scanners that share a stamp share the pose. A scan that was dropped or lost is given the pose between
-  /// its neighbours in time.
+  /// One pose for every scan of the log, as published live; scans of several scanners that share a
+  /// stamp share the pose. A scan that was dropped or lost is given the pose between its neighbours
+  /// in time.
   std::vector<StampedPose> online_trajectory() const;
 
   /// The same after the last correction: pose in the submap, with the submap's corrected pose.
@@ -113,18 +117,21 @@ class RunRecord {
     geometry::Pose2 submap_from_base;
   };
 
-  using ScanName = std::pair<std::int64_t, std::string>;    ///< Stamp and scanner.
+  using ScanName = std::pair<std::int64_t, std::string>;  ///< Stamp and scanner.
 
   geometry::Pose2 corrected(const LocalizedPose& pose) const;
-  std::vector<StampedPose> one_pose_a_scan(const std::map<std::int64_t, geometry::Pose2>& poses_by_stamp) const;
+  std::vector<StampedPose> one_pose_a_scan(
+      const std::map<std::int64_t, geometry::Pose2>& poses_by_stamp) const;
 
   std::vector<std::int64_t> scan_stamps_ns_;
-  std::map<std::int64_t, LocalizedPose> poses_;             // by stamp; the last one of several scanners' scans
-  std::set<ScanName> same_stamp_;                           // by stamp; the last one if several scanners share a stamp
-  std::map<std::int64_t, std::vector<TrackRow>> tracks_;    // by stamp
+  std::map<std::int64_t, LocalizedPose> poses_;  // by stamp; the last one of several scanners'
+                                                 // scans
+  std::set<ScanName> same_stamp_;  // by stamp; the last one if several scanners share a stamp
+  std::map<std::int64_t, std::vector<TrackRow>> tracks_;  // by stamp
   std::map<ScanName, LabelRow> labels_;
   std::map<flow::SubmapId, flow::Submap> submaps_;
-  std::map<std::tuple<flow::SubmapId, flow::SubmapId, flow::ConstraintKind>, flow::Constraint> constraints_;
+  std::map<std::tuple<flow::SubmapId, flow::SubmapId, flow::ConstraintKind>, flow::Constraint>
+      constraints_;
   flow::GraphCorrection correction_;
   std::map<flow::SubmapId, geometry::Pose2> corrected_submaps_;
 };

@@ -34,7 +34,9 @@ const char* name_of(OdometrySource source) {
 }
 
 /// Four decimals are enough for a reader.
-double short_number(double value) { return std::isfinite(value) ? std::round(value * 1e4) / 1e4 : 0.0; }
+double short_number(double value) {
+  return std::isfinite(value) ? std::round(value * 1e4) / 1e4 : 0.0;
+}
 
 Json input_of(const RunReport& report) {
   const LogFigures& figures = report.plan.figures;
@@ -75,8 +77,15 @@ Json evidence_of(const matching::LogEvidence& evidence) {
 
 Json counts_of(const RunRecord& record) {
   const auto constraints = record.constraints();
-  const auto loops = std::count_if(constraints.begin(), constraints.end(), [](const flow::Constraint& constraint) { return constraint.kind == flow::ConstraintKind::kLoop && constraint.verdict.state == flow::ClosureState::kAccepted; });
-  const auto in_graph = std::count_if(constraints.begin(), constraints.end(), [](const flow::Constraint& constraint) { return constraint.verdict.state == flow::ClosureState::kAccepted; });
+  const auto loops =
+      std::count_if(constraints.begin(), constraints.end(), [](const flow::Constraint& constraint) {
+        return constraint.kind == flow::ConstraintKind::kLoop &&
+               constraint.verdict.state == flow::ClosureState::kAccepted;
+      });
+  const auto in_graph =
+      std::count_if(constraints.begin(), constraints.end(), [](const flow::Constraint& constraint) {
+        return constraint.verdict.state == flow::ClosureState::kAccepted;
+      });
   return {{"scans", record.scans()},
           {"localized_scans", record.localized_scans()},
           {"confirmed_tracks", record.confirmed_tracks()},
@@ -104,9 +113,11 @@ Json closures_of(const RunRecord& record) {
   return closures;
 }
 
-Json episode_of(const sensing::OdometryEpisode& episode, const sensing::OdometryConclusions& odometry) {
+Json episode_of(const sensing::OdometryEpisode& episode,
+                const sensing::OdometryConclusions& odometry) {
   return {{"fault", files::name_of(episode.fault)},
-          {"begin_s", short_number(static_cast<double>(episode.begin_ns - odometry.first_stamp_ns) * 1e-9)},
+          {"begin_s",
+           short_number(static_cast<double>(episode.begin_ns - odometry.first_stamp_ns) * 1e-9)},
           {"duration_s", short_number(episode.duration_s())},
           {"first_scan", episode.first_scan},
           {"scans", episode.scans},
@@ -117,18 +128,26 @@ Json episode_of(const sensing::OdometryEpisode& episode, const sensing::Odometry
 }
 
 Json factors_of(const sensing::WheelFactors& factors) {
-  return {{"way_factor", short_number(factors.way)}, {"turn_factor", short_number(factors.turn)}, {"yaw_bias_radps", short_number(factors.turn_bias_radps)}};
+  return {{"way_factor", short_number(factors.way)},
+          {"turn_factor", short_number(factors.turn)},
+          {"yaw_bias_radps", short_number(factors.turn_bias_radps)}};
 }
 
 Json odometry_of(const sensing::OdometryConclusions& odometry, bool time_is_known) {
   Json recalibrations = Json::array();
   for (const sensing::OdometryRecalibration& one : odometry.recalibrations) {
-    recalibrations.push_back({{"at_s", short_number(static_cast<double>(one.stamp_ns - odometry.first_stamp_ns) * 1e-9)}, {"scan", one.scan}});
+    recalibrations.push_back(
+        {{"at_s", short_number(static_cast<double>(one.stamp_ns - odometry.first_stamp_ns) * 1e-9)},
+         {"scan", one.scan}});
     recalibrations.back().update(factors_of(one.factors));
   }
   Json episodes = Json::array();
-  for (const sensing::OdometryEpisode& episode : odometry.episodes) episodes.push_back(episode_of(episode, odometry));
-  Json json = {{"conclusion", describe_odometry(odometry, time_is_known)}, {"steps", odometry.steps}, {"with_odometry", odometry.with_odometry}, {"disbelieved", odometry.disbelieved}};
+  for (const sensing::OdometryEpisode& episode : odometry.episodes)
+    episodes.push_back(episode_of(episode, odometry));
+  Json json = {{"conclusion", describe_odometry(odometry, time_is_known)},
+               {"steps", odometry.steps},
+               {"with_odometry", odometry.with_odometry},
+               {"disbelieved", odometry.disbelieved}};
   json.update(factors_of(odometry.total));
   json["stamp_offset_s"] = short_number(odometry.stamp_offset_s);
   json["recalibrations"] = recalibrations;
@@ -140,7 +159,10 @@ Json odometry_of(const sensing::OdometryConclusions& odometry, bool time_is_know
 Json measured_of(const MeasuredRun& measured) {
   Json latency = Json::object();
   for (const StageLatency& stage : measured.stages) {
-    latency[stage.stage] = {{"calls", stage.calls}, {"p50_ms", short_number(stage.p50_ms)}, {"p99_ms", short_number(stage.p99_ms)}, {"max_ms", short_number(stage.max_ms)}};
+    latency[stage.stage] = {{"calls", stage.calls},
+                            {"p50_ms", short_number(stage.p50_ms)},
+                            {"p99_ms", short_number(stage.p99_ms)},
+                            {"max_ms", short_number(stage.max_ms)}};
   }
   return {{"stage_latency", latency},
           {"wall_s", short_number(measured.wall_s)},
@@ -156,7 +178,10 @@ StageLatency summarize_latency(std::string stage, std::vector<double> durations_
   latency.calls = durations_ms.size();
   if (durations_ms.empty()) return latency;
   std::sort(durations_ms.begin(), durations_ms.end());
-  const auto at = [&](double share) { return durations_ms[static_cast<std::size_t>(share * static_cast<double>(durations_ms.size() - 1))]; };
+  const auto at = [&](double share) {
+    return durations_ms[static_cast<std::size_t>(share *
+                                                 static_cast<double>(durations_ms.size() - 1))];
+  };
   latency.p50_ms = at(0.5);
   latency.p99_ms = at(0.99);
   latency.max_ms = durations_ms.back();
@@ -176,7 +201,8 @@ std::string to_json_text(const RunRecord& record, const RunReport& report, doubl
                {"counters", report.counters},
                {"closures", closures_of(record)}};
   if (!report.replaced_stages.empty()) json["replaced_stages"] = report.replaced_stages;
-  if (report.odometry) json["odometry"] = odometry_of(*report.odometry, report.plan.figures.has_clock);
+  if (report.odometry)
+    json["odometry"] = odometry_of(*report.odometry, report.plan.figures.has_clock);
   json["measured"] = measured_of(report.measured);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -32,25 +32,27 @@ struct MeasuredRun {
 
 /// Properties of a run that are not in RunRecord.
 struct RunReport {
-  std::string command;         ///< "run" or "bench".
+  std::string command;  ///< "run" or "bench".
   std::string version;
-  std::string input;           ///< File name, without its folder.
+  std::string input;  ///< File name, without its folder.
   std::string profile;
   std::string profile_reason;
-  std::vector<std::string> replaced_stages;   ///< "tracking: greedy", of each whose implementation is not the default.
+  std::vector<std::string> replaced_stages;  ///< "tracking: greedy", of each whose implementation
+                                             ///< is not the default.
   LogPlan plan;
-  double sweep_s = 0.0;        ///< Assumed time from the first to the last beam.
+  double sweep_s = 0.0;  ///< Assumed time from the first to the last beam.
   LogFaults faults;
-  bool is_interrupted = false; ///< The user interrupted it before the end of the drive.
+  bool is_interrupted = false;  ///< The user interrupted it before the end of the drive.
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
-  std::optional<sensing::OdometryConclusions> odometry;   ///< None if not recorded.
+  std::optional<sensing::OdometryConclusions> odometry;                  ///< None if not recorded.
   MeasuredRun measured;
 };
 
 /// Order statistics of one stage's durations.
 StageLatency summarize_latency(std::string stage, std::vector<double> durations_ms);
 
-/// The report as JSON. All but its last member, "measured", depends only on input and configuration.
+/// The report as JSON. All but its last member, "measured", depends only on input and
+/// configuration.
 std::string to_json_text(const RunRecord& record, const RunReport& report, double travelled_m);
 
 }  // namespace slammot::files

@@ -10,13 +10,15 @@ namespace {
 
 std::string figures_of(const TopicCandidate& candidate) {
   char text[128];
-  std::string figures = " (" + candidate.type + ", " + std::to_string(candidate.messages) + " messages";
+  std::string figures =
+      " (" + candidate.type + ", " + std::to_string(candidate.messages) + " messages";
   if (candidate.rate_hz > 0.0) {
     std::snprintf(text, sizeof text, ", %.1f Hz", candidate.rate_hz);
     figures += text;
   }
   if (candidate.beams > 0) {
-    std::snprintf(text, sizeof text, ", %zu beams over %.0f degrees", candidate.beams, std::floor(candidate.field_of_view_rad * 180.0 / std::numbers::pi + 0.25));
+    std::snprintf(text, sizeof text, ", %zu beams over %.0f degrees", candidate.beams,
+                  std::floor(candidate.field_of_view_rad * 180.0 / std::numbers::pi + 0.25));
     figures += text;
   }
   if (!candidate.frame.empty()) figures += ", frame " + candidate.frame;
@@ -24,13 +26,16 @@ std::string figures_of(const TopicCandidate& candidate) {
   return figures + ")";
 }
 
-std::string lines_of(const char* title, const char* option, const std::vector<TopicCandidate>& candidates) {
+std::string lines_of(const char* title, const char* option,
+                     const std::vector<TopicCandidate>& candidates) {
   std::string lines;
   for (const TopicCandidate& candidate : candidates) {
     if (candidate.is_chosen) lines += title + candidate.topic + figures_of(candidate) + "\n";
   }
   for (const TopicCandidate& candidate : candidates) {
-    if (!candidate.is_chosen) lines += "          not used: " + candidate.topic + figures_of(candidate) + "; " + option + " " + candidate.topic + " selects it\n";
+    if (!candidate.is_chosen)
+      lines += "          not used: " + candidate.topic + figures_of(candidate) + "; " + option +
+               " " + candidate.topic + " selects it\n";
   }
   return lines;
 }
@@ -38,7 +43,8 @@ std::string lines_of(const char* title, const char* option, const std::vector<To
 }  // namespace
 
 std::string describe(const TopicChoice& choice) {
-  std::string lines = lines_of("scanner:  ", "--scan-topic", choice.scanners) + lines_of("odometry: ", "--odom-topic", choice.odometry);
+  std::string lines = lines_of("scanner:  ", "--scan-topic", choice.scanners) +
+                      lines_of("odometry: ", "--odom-topic", choice.odometry);
   for (const std::string& note : choice.notes) lines += "          " + note + "\n";
   return lines;
 }

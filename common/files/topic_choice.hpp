@@ -9,10 +9,14 @@ namespace slammot::files {
 
 /// What may be asked for where a log leaves a choice.
 struct TopicOptions {
-  std::vector<std::string> scanners;      ///< Names of those to be used, as they are said when the log is opened; empty: all whose mounting is known.
-  std::string scan_topic;                 ///< Of the main scanner, or its message's name in CARMEN; empty: by what they hold.
-  std::string odometry_topic;             ///< nav_msgs/Odometry, or the topic of the transforms; "none" for no odometry.
-  /// Heights above the base between which points of clouds count [m]; without them a slice around the height of the sensor.
+  std::vector<std::string> scanners;  ///< Names of those to be used, as they are said when the log
+                                      ///< is opened; empty: all whose mounting is known.
+  std::string scan_topic;  ///< Of the main scanner, or its message's name in CARMEN; empty: by what
+                           ///< they hold.
+  std::string odometry_topic;  ///< nav_msgs/Odometry, or the topic of the transforms; "none" for no
+                               ///< odometry.
+  /// Heights above the base between which points of clouds count [m]; without them a slice around
+  /// the height of the sensor.
   std::optional<double> cloud_from_m;
   std::optional<double> cloud_to_m;
 };
@@ -20,24 +24,26 @@ struct TopicOptions {
 /// A topic that could be the scanner, or the odometry.
 struct TopicCandidate {
   std::string topic;
-  std::string type;                       ///< "sensor_msgs/LaserScan"
-  std::string frame;                      ///< Of the scanner; of odometry the frame of the base.
+  std::string type;   ///< "sensor_msgs/LaserScan"
+  std::string frame;  ///< Of the scanner; of odometry the frame of the base.
   std::uint64_t messages = 0;
-  double rate_hz = 0.0;                   ///< By the time of recording; 0 where that does not say.
-  std::size_t beams = 0;                  ///< Of most scans.
+  double rate_hz = 0.0;   ///< By the time of recording; 0 where that does not say.
+  std::size_t beams = 0;  ///< Of most scans.
   double field_of_view_rad = 0.0;
   bool is_chosen = false;
-  std::string note;                       ///< Why it is doubtful, or what is special: "upside down", "never moves".
+  std::string note;  ///< Why it is doubtful, or what is special: "upside down", "never moves".
 };
 
 /// Which topics were chosen from which.
 struct TopicChoice {
-  std::vector<TopicCandidate> scanners;   ///< The best first. Several may be chosen, each another scanner.
+  std::vector<TopicCandidate> scanners;  ///< The best first. Several may be chosen, each another
+                                         ///< scanner.
   std::vector<TopicCandidate> odometry;
-  std::vector<std::string> notes;         ///< What else to know: frames that are not tied to each other.
+  std::vector<std::string> notes;  ///< What else to know: frames that are not tied to each other.
 };
 
-/// Lines for the terminal: what was chosen, the other candidates, and the option that selects. Empty without candidates.
+/// Lines for the terminal: what was chosen, the other candidates, and the option that selects.
+/// Empty without candidates.
 std::string describe(const TopicChoice& choice);
 
 }  // namespace slammot::files

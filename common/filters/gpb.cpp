@@ -11,7 +11,9 @@ double log_of(double probability) { return std::log(std::max(probability, 1e-300
 
 }  // namespace
 
-Gpb1State gpb1_start(const ModelSet& set, const MotionState& estimate) { return {estimate, equal_weights(set)}; }
+Gpb1State gpb1_start(const ModelSet& set, const MotionState& estimate) {
+  return {estimate, equal_weights(set)};
+}
 
 Gpb1State gpb1_step(const ModelSet& set, const Gpb1State& state, const PositionFix& fix) {
   assert(fix.after_s >= 0.0);
@@ -21,7 +23,8 @@ Gpb1State gpb1_step(const ModelSet& set, const Gpb1State& state, const PositionF
     double prior = 0.0;
     for (std::size_t from = 0; from < set.size; ++from)
       prior += switch_probability(set, from, to, fix.after_s) * state.probability[from];
-    const auto update = update_with_position(predict(set.models[to], state.estimate, fix.after_s), fix.position_m, fix.R);
+    const auto update = update_with_position(predict(set.models[to], state.estimate, fix.after_s),
+                                             fix.position_m, fix.R);
     modes[to] = update.posterior;
     next.probability[to] = update.innovation.log_likelihood + log_of(prior);
   }
@@ -37,10 +40,12 @@ ImmState gpb2_step(const ModelSet& set, const ImmState& state, const PositionFix
     std::array<MotionState, kMaxModels> histories;
     ModelWeights weight = {};
     for (std::size_t from = 0; from < set.size; ++from) {
-      const auto update = update_with_position(predict(set.models[to], state.modes[from], fix.after_s), fix.position_m, fix.R);
+      const auto update = update_with_position(
+          predict(set.models[to], state.modes[from], fix.after_s), fix.position_m, fix.R);
       histories[from] = update.posterior;
-      weight[from] = update.innovation.log_likelihood +
-                     log_of(switch_probability(set, from, to, fix.after_s) * state.probability[from]);
+      weight[from] =
+          update.innovation.log_likelihood +
+          log_of(switch_probability(set, from, to, fix.after_s) * state.probability[from]);
     }
     next.probability[to] = normalize_logs({weight.data(), set.size});
     next.modes[to] = moment_match({histories.data(), set.size}, {weight.data(), set.size});

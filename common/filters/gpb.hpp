@@ -7,9 +7,10 @@
 
 namespace slammot::filters {
 
-/// Generalized pseudo-Bayesian estimators (Wang 2004, Section 2.3; Tugnait 1982): baselines for the IMM in tests and
-/// benchmarks. First order (GPB1) costs as much as the IMM and follows manoeuvres worse. Second order (GPB2) follows
-/// them as well and runs a filter for each pair of models. Tracking uses neither.
+/// Generalized pseudo-Bayesian estimators (Wang 2004, Section 2.3; Tugnait 1982): baselines for the
+/// IMM in tests and benchmarks. First order (GPB1) costs as much as the IMM and follows manoeuvres
+/// worse. Second order (GPB2) follows them as well and runs a filter for each pair of models.
+/// Tracking uses neither.
 
 /// A measured position, time_s (>= 0) after the estimate that it corrects; R positive definite.
 struct PositionFix {
@@ -26,12 +27,13 @@ struct Gpb1State {
 
 Gpb1State gpb1_start(const ModelSet& set, const MotionState& estimate);
 
-/// One GPB1 cycle: every model starts from the one estimate, and all results are merged into one; Wang 2004, Eq.
-/// (2.41).
+/// One GPB1 cycle: every model starts from the one estimate, and all results are merged into one;
+/// Wang 2004, Eq. (2.41).
 Gpb1State gpb1_step(const ModelSet& set, const Gpb1State& state, const PositionFix& fix);
 
-/// One GPB2 cycle: every model starts from every model's estimate, and results that end in the same model are merged;
-/// Wang 2004, Eq. (2.42). State, initialization and combination are those of the IMM.
+/// One GPB2 cycle: every model starts from every model's estimate, and results that end in the same
+/// model are merged; Wang 2004, Eq. (2.42). State, initialization and combination are those of the
+/// IMM.
 ImmState gpb2_step(const ModelSet& set, const ImmState& state, const PositionFix& fix);
 
 }  // namespace slammot::filters

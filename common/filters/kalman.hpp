@@ -20,11 +20,12 @@ Gaussian<N> kalman_predict(const Gaussian<N>& prior, const Eigen::Matrix<double,
   return {F * prior.mean, F * prior.covariance * F.transpose() + Q};
 }
 
-/// Conditions the state on a linear measurement z = H x + noise(R). Joseph's form: stays symmetric and positive.
-/// H P H' + R must be positive definite.
+/// Conditions the state on a linear measurement z = H x + noise(R). Joseph's form: stays symmetric
+/// and positive. H P H' + R must be positive definite.
 template <int N, int M>
 KalmanUpdate<N, M> kalman_update(const Gaussian<N>& prior, const Eigen::Matrix<double, M, 1>& z,
-                                 const Eigen::Matrix<double, M, N>& H, const Eigen::Matrix<double, M, M>& R) {
+                                 const Eigen::Matrix<double, M, N>& H,
+                                 const Eigen::Matrix<double, M, M>& R) {
   const Eigen::Matrix<double, N, M> PHt = prior.covariance * H.transpose();
   const Eigen::Matrix<double, M, M> S = H * PHt + R;
   const Eigen::Matrix<double, N, M> K = S.llt().solve(PHt.transpose()).transpose();

@@ -11,11 +11,13 @@ namespace {
 template <int N>
 Gaussian<N> moment_match_first(std::span<const MotionState> modes, std::span<const double> weight) {
   assert(modes.size() == weight.size());
-  Gaussian<N> mixture{weight[0] * modes[0].mean.head<N>(), weight[0] * modes[0].covariance.topLeftCorner<N, N>()};
+  Gaussian<N> mixture{weight[0] * modes[0].mean.head<N>(),
+                      weight[0] * modes[0].covariance.topLeftCorner<N, N>()};
   for (std::size_t i = 1; i < modes.size(); ++i) {
     mixture.mean += weight[i] * modes[i].mean.head<N>();
     mixture.covariance += weight[i] * modes[i].covariance.topLeftCorner<N, N>();
-    // The spread about the common mean is computed from pairwise differences: half as many products.
+    // The spread about the common mean is computed from pairwise differences: half as many
+    // products.
     for (std::size_t j = 0; j < i; ++j) {
       const Eigen::Matrix<double, N, 1> apart = modes[i].mean.head<N>() - modes[j].mean.head<N>();
       mixture.covariance.noalias() += (weight[i] * weight[j] * apart) * apart.transpose();
@@ -39,9 +41,12 @@ double switch_probability(const ModelSet& set, std::size_t from, std::size_t to,
   return from == to ? stay : (1.0 - stay) / static_cast<double>(set.size - 1);
 }
 
-MotionState moment_match(std::span<const MotionState> modes, std::span<const double> weight) { return moment_match_first<6>(modes, weight); }
+MotionState moment_match(std::span<const MotionState> modes, std::span<const double> weight) {
+  return moment_match_first<6>(modes, weight);
+}
 
-MotionState moment_match_moving(std::span<const MotionState> modes, std::span<const double> weight) {
+MotionState moment_match_moving(std::span<const MotionState> modes,
+                                std::span<const double> weight) {
   const Gaussian<4> moving = moment_match_first<4>(modes, weight);
   MotionState mixture;
   mixture.mean.head<4>() = moving.mean;
@@ -49,7 +54,10 @@ MotionState moment_match_moving(std::span<const MotionState> modes, std::span<co
   return mixture;
 }
 
-Gaussian<2> moment_match_position(std::span<const MotionState> modes, std::span<const double> weight) { return moment_match_first<2>(modes, weight); }
+Gaussian<2> moment_match_position(std::span<const MotionState> modes,
+                                  std::span<const double> weight) {
+  return moment_match_first<2>(modes, weight);
+}
 
 double normalize_logs(std::span<double> log_weight) {
   const double largest = *std::max_element(log_weight.begin(), log_weight.end());
@@ -59,8 +67,11 @@ double normalize_logs(std::span<double> log_weight) {
   return largest + std::log(total);
 }
 
-/// kalman_update() with H = (I 0), without multiplications by ones and zeros (imm_cycle in multiple_models_bench.cpp).
-KalmanUpdate<6, 2> update_with_position(const MotionState& predicted, const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R) {
+/// kalman_update() with H = (I 0), without multiplications by ones and zeros (imm_cycle in
+/// multiple_models_bench.cpp).
+KalmanUpdate<6, 2> update_with_position(const MotionState& predicted,
+                                        const Eigen::Vector2d& position_m,
+                                        const Eigen::Matrix2d& R) {
   using Matrix62 = Eigen::Matrix<double, 6, 2>;
   const Matrix6& P = predicted.covariance;
   const Eigen::Matrix2d S = P.topLeftCorner<2, 2>() + R;
@@ -80,7 +91,10 @@ KalmanUpdate<6, 2> update_with_position(const MotionState& predicted, const Eige
   Matrix6& after = update.posterior.covariance;
   after = I_KH_P.leftCols<2>() * I_KH.transpose();
   after.rightCols<4>() += I_KH_P.rightCols<4>();
-  after.col(2) = I_KH_P.col(0) * I_KH(2, 0) + (I_KH_P.col(1) * I_KH(2, 1) + I_KH_P.col(2));  // Eigen sums six products in two halves
+  after.col(2) =
+      I_KH_P.col(0) * I_KH(2, 0) + (I_KH_P.col(1) * I_KH(2, 1) + I_KH_P.col(2));  // Eigen sums six
+                                                                                  // products in two
+                                                                                  // halves
   after += K * R * K.transpose();
   return update;
 }

@@ -16,8 +16,8 @@ inline constexpr std::size_t kMaxModels = 3;
 /// Set of motion models between which an object is assumed to switch.
 struct ModelSet {
   std::array<MotionModel, kMaxModels> models;
-  std::size_t size = 0;              ///< Number of models in use, from the front; at least 1.
-  double mean_stay_s = 1.0;          ///< Mean time in one model before a switch, > 0.
+  std::size_t size = 0;      ///< Number of models in use, from the front; at least 1.
+  double mean_stay_s = 1.0;  ///< Mean time in one model before a switch, > 0.
 };
 
 using ModelWeights = std::array<double, kMaxModels>;
@@ -25,22 +25,27 @@ using ModelWeights = std::array<double, kMaxModels>;
 /// All models equally probable.
 ModelWeights equal_weights(const ModelSet& set);
 
-/// Probability of model `to` after time_s, given `from` now; Wang 2004, Eq. (2.45), with time in place of scans.
+/// Probability of model `to` after time_s, given `from` now; Wang 2004, Eq. (2.45), with time in
+/// place of scans.
 double switch_probability(const ModelSet& set, std::size_t from, std::size_t to, double time_s);
 
-/// Mean and covariance of a Gaussian mixture; Wang 2004, Eqs. (2.52)-(2.53). One weight a mode; weights sum to 1.
+/// Mean and covariance of a Gaussian mixture; Wang 2004, Eqs. (2.52)-(2.53). One weight a mode;
+/// weights sum to 1.
 MotionState moment_match(std::span<const MotionState> modes, std::span<const double> weight);
 
 /// The same for position and velocity; the acceleration is zero.
 MotionState moment_match_moving(std::span<const MotionState> modes, std::span<const double> weight);
 
 /// The same for the position only.
-Gaussian<2> moment_match_position(std::span<const MotionState> modes, std::span<const double> weight);
+Gaussian<2> moment_match_position(std::span<const MotionState> modes,
+                                  std::span<const double> weight);
 
 /// Converts log-weights to probabilities of sum 1; returns the logarithm of the weights' sum.
 double normalize_logs(std::span<double> log_weight);
 
 /// Kalman update with a measured position (covariance R, positive definite).
-KalmanUpdate<6, 2> update_with_position(const MotionState& predicted, const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R);
+KalmanUpdate<6, 2> update_with_position(const MotionState& predicted,
+                                        const Eigen::Vector2d& position_m,
+                                        const Eigen::Matrix2d& R);
 
 }  // namespace slammot::filters

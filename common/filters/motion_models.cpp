@@ -9,12 +9,14 @@ namespace {
 using Vector2 = Eigen::Vector2d;
 using Matrix2 = Eigen::Matrix2d;
 
-constexpr double kSlowestTurnerMps = 0.5;  ///< Below it the direction of travel, and therefore the turn, is undefined.
+constexpr double kSlowestTurnerMps = 0.5;  ///< Below it the direction of travel, and therefore the
+                                           ///< turn, is undefined.
 constexpr double kFastestTurnRadps = 2.0;
 
 struct TurnRate {
   double radps = 0.0;
-  Vector2 by_velocity = Vector2::Zero();      ///< Its derivatives by the velocity; zero where the rate is clamped.
+  Vector2 by_velocity = Vector2::Zero();  ///< Its derivatives by the velocity; zero where the rate
+                                          ///< is clamped.
   Vector2 by_acceleration = Vector2::Zero();
 };
 
@@ -25,7 +27,8 @@ TurnRate turn_rate(const Vector6& state) {
   const double rate = (velocity.x() * acceleration.y() - velocity.y() * acceleration.x()) / speed2;
   if (std::abs(rate) > kFastestTurnRadps) return {std::copysign(kFastestTurnRadps, rate)};
   Vector2 by_velocity = Vector2(acceleration.y(), -acceleration.x()) / speed2;
-  if (velocity.squaredNorm() > kSlowestTurnerMps * kSlowestTurnerMps) by_velocity -= 2.0 * rate / speed2 * velocity;
+  if (velocity.squaredNorm() > kSlowestTurnerMps * kSlowestTurnerMps)
+    by_velocity -= 2.0 * rate / speed2 * velocity;
   return {rate, by_velocity, Vector2(-velocity.y(), velocity.x()) / speed2};
 }
 
@@ -37,8 +40,11 @@ Matrix2 rotation(double angle_rad) {
 
 Vector2 quarter_turned(const Vector2& vector) { return {-vector.y(), vector.x()}; }
 
-/// Mean direction during a turn by twice `half`, relative to the direction in the middle: chord over arc.
-double chord_over_arc(double half) { return std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half; }
+/// Mean direction during a turn by twice `half`, relative to the direction in the middle: chord
+/// over arc.
+double chord_over_arc(double half) {
+  return std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
+}
 
 double chord_over_arc_derivative(double half) {
   return std::abs(half) < 1e-3 ? -half / 3.0 : (std::cos(half) - chord_over_arc(half)) / half;
@@ -47,8 +53,8 @@ double chord_over_arc_derivative(double half) {
 /// Terms of a turn over a time step: for its end state and its derivatives.
 struct Turn {
   TurnRate rate;
-  Matrix2 half;          ///< Rotation by half of the turn
-  Matrix2 whole;         ///< and by the whole turn.
+  Matrix2 half;   ///< Rotation by half of the turn
+  Matrix2 whole;  ///< and by the whole turn.
   double chord = 1.0;
   double chord_derivative = 0.0;
 };
@@ -69,11 +75,13 @@ Vector6 end_of(const Turn& turn, const Vector6& state, double time_s) {
   return after;
 }
 
-/// Derivative of the end state by the start state: that of a fixed turn rate plus the effect of a change of the rate.
+/// Derivative of the end state by the start state: that of a fixed turn rate plus the effect of a
+/// change of the rate.
 Matrix6 jacobian_of(const Turn& turn, const Vector6& state, double time_s) {
   const Vector2 half_way = turn.half * state.segment<2>(2);
   Vector6 by_rate;
-  by_rate.head<2>() = 0.5 * time_s * time_s * (turn.chord_derivative * half_way + turn.chord * quarter_turned(half_way));
+  by_rate.head<2>() = 0.5 * time_s * time_s *
+                      (turn.chord_derivative * half_way + turn.chord * quarter_turned(half_way));
   by_rate.segment<2>(2) = time_s * quarter_turned(turn.whole * state.segment<2>(2));
   by_rate.segment<2>(4) = time_s * quarter_turned(turn.whole * state.segment<2>(4));
   Matrix6 jacobian = Matrix6::Identity();
@@ -85,7 +93,8 @@ Matrix6 jacobian_of(const Turn& turn, const Vector6& state, double time_s) {
 }
 
 /// Process noise of one axis: (position, velocity, acceleration).
-Eigen::Matrix3d axis_noise_of_constant_velocity(double t, double noise_density, double idle_acceleration_mps2) {
+Eigen::Matrix3d axis_noise_of_constant_velocity(double t, double noise_density,
+                                                double idle_acceleration_mps2) {
   Eigen::Matrix3d q;
   q << noise_density * t * t * t / 3.0, noise_density * t * t / 2.0, 0.0,  //
       noise_density * t * t / 2.0, noise_density * t, 0.0,                 //
@@ -105,7 +114,8 @@ Eigen::Matrix3d axis_noise_of_constant_acceleration(double t, double noise_densi
 Matrix6 with_noise(const Matrix6& P, const Eigen::Matrix3d& of_axis) {
   Matrix6 noisy = P;
   for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) noisy.block<2, 2>(2 * row, 2 * column).diagonal().array() += of_axis(row, column);
+    for (int column = 0; column < 3; ++column)
+      noisy.block<2, 2>(2 * row, 2 * column).diagonal().array() += of_axis(row, column);
   return noisy;
 }
 
@@ -155,8 +165,10 @@ Matrix6 constant_velocity_transition(double time_s) {
   return F;
 }
 
-Matrix6 constant_velocity_noise(double time_s, double noise_density, double idle_acceleration_mps2) {
-  return with_noise(Matrix6::Zero(), axis_noise_of_constant_velocity(time_s, noise_density, idle_acceleration_mps2));
+Matrix6 constant_velocity_noise(double time_s, double noise_density,
+                                double idle_acceleration_mps2) {
+  return with_noise(Matrix6::Zero(),
+                    axis_noise_of_constant_velocity(time_s, noise_density, idle_acceleration_mps2));
 }
 
 Matrix6 constant_acceleration_transition(double time_s) {
@@ -170,23 +182,28 @@ Matrix6 constant_acceleration_noise(double time_s, double noise_density) {
   return with_noise(Matrix6::Zero(), axis_noise_of_constant_acceleration(time_s, noise_density));
 }
 
-Vector6 turned(const Vector6& state, double time_s) { return end_of(turn_of(state, time_s), state, time_s); }
+Vector6 turned(const Vector6& state, double time_s) {
+  return end_of(turn_of(state, time_s), state, time_s);
+}
 
 MotionState predict(const MotionModel& model, const MotionState& state, double time_s) {
   switch (model.kind) {
     case MotionKind::kConstantVelocity:
       return {coasted(state.mean, time_s),
               with_noise(spread_by_constant_velocity(state.covariance, time_s),
-                         axis_noise_of_constant_velocity(time_s, model.noise_density, model.idle_acceleration_mps2))};
+                         axis_noise_of_constant_velocity(time_s, model.noise_density,
+                                                         model.idle_acceleration_mps2))};
     case MotionKind::kConstantAcceleration:
-      return {accelerated(state.mean, time_s), with_noise(spread_by_constant_acceleration(state.covariance, time_s),
-                                                          axis_noise_of_constant_acceleration(time_s, model.noise_density))};
+      return {accelerated(state.mean, time_s),
+              with_noise(spread_by_constant_acceleration(state.covariance, time_s),
+                         axis_noise_of_constant_acceleration(time_s, model.noise_density))};
     case MotionKind::kCoordinatedTurn: break;
   }
   const Turn turn = turn_of(state.mean, time_s);
   const Matrix6 F = jacobian_of(turn, state.mean, time_s);
   return {end_of(turn, state.mean, time_s),
-          with_noise(F * state.covariance * F.transpose(), axis_noise_of_constant_acceleration(time_s, model.noise_density))};
+          with_noise(F * state.covariance * F.transpose(),
+                     axis_noise_of_constant_acceleration(time_s, model.noise_density))};
 }
 
 }  // namespace slammot::filters

@@ -31,9 +31,11 @@ Matrix2d StationaryProcess::mean_covariance_m2() const {
   return white_m2 / count + std::max(0.0, lasting_m2.trace()) * Matrix2d::Identity();
 }
 
-StationaryProcess observed(const StationaryProcess& series, const Vector2d& position_m, double after_s, double memory_s) {
+StationaryProcess observed(const StationaryProcess& series, const Vector2d& position_m,
+                           double after_s, double memory_s) {
   assert(after_s >= 0.0 && memory_s > 0.0);
-  if (series.weight == 0.0) return {.weight = 1.0, .squared_weight = 1.0, .mean_m = position_m, .last_m = position_m};
+  if (series.weight == 0.0)
+    return {.weight = 1.0, .squared_weight = 1.0, .mean_m = position_m, .last_m = position_m};
   const double fade = std::exp(-after_s / memory_s);
   StationaryProcess next;
   next.age_s = series.age_s + after_s;
@@ -42,7 +44,8 @@ StationaryProcess observed(const StationaryProcess& series, const Vector2d& posi
   next.step_weight = fade * series.step_weight + 1.0;
   const Vector2d off_m = position_m - series.mean_m;
   next.mean_m = series.mean_m + off_m / next.weight;
-  next.scatter_m2 = fade * series.scatter_m2 + (fade * series.weight / next.weight) * off_m * off_m.transpose();
+  next.scatter_m2 =
+      fade * series.scatter_m2 + (fade * series.weight / next.weight) * off_m * off_m.transpose();
   const Vector2d step_m = position_m - series.last_m;
   next.differences_m2 = fade * series.differences_m2 + 0.5 * step_m * step_m.transpose();
   next.last_m = position_m;
@@ -58,11 +61,13 @@ MoveStop weigh(const MoveStop& before, const MoveStopScan& scan, const MoveStopC
   if (speed_mps > minimum_detection_speed_mps(scan.moving, config.detection_sigmas)) return {};
   MoveStop after;
   after.series = observed(before.series, scan.position_m, scan.after_s, config.memory_s);
-  // The stop hypothesis is kept until the move hypothesis is twice as certain: the simpler model is preferred where
-  // both explain the data, Wang 2004, Section 4.5.
+  // The stop hypothesis is kept until the move hypothesis is twice as certain: the simpler model is
+  // preferred where both explain the data, Wang 2004, Section 4.5.
   constexpr double kAsCertain = 4.0;
-  const double most_m2 = (before.stands ? kAsCertain : 1.0) * scan.moving.covariance.topLeftCorner<2, 2>().trace();
-  after.stands = after.series.age_s >= config.memory_s && after.series.mean_covariance_m2().trace() < most_m2;
+  const double most_m2 =
+      (before.stands ? kAsCertain : 1.0) * scan.moving.covariance.topLeftCorner<2, 2>().trace();
+  after.stands =
+      after.series.age_s >= config.memory_s && after.series.mean_covariance_m2().trace() < most_m2;
   return after;
 }
 

@@ -11,15 +11,15 @@ struct SubmapId {
   auto operator<=>(const SubmapId&) const = default;
 };
 
-/// Identity of a map of a vehicle. It changes if localization restarts without continuing the previous map. 0 if there
-/// is only one, as in one process.
+/// Identity of a map of a vehicle. It changes if localization restarts without continuing the
+/// previous map. 0 if there is only one, as in one process.
 struct MapId {
   std::uint64_t value = 0;
   auto operator<=>(const MapId&) const = default;
 };
 
-/// Identity of the odom frame of a drive. It changes if localization restarts, even in the same map: earlier
-/// coordinates in odom are invalid then. 0 if there is only one, as in one process.
+/// Identity of the odom frame of a drive. It changes if localization restarts, even in the same
+/// map: earlier coordinates in odom are invalid then. 0 if there is only one, as in one process.
 struct OdomId {
   std::uint64_t value = 0;
   auto operator<=>(const OdomId&) const = default;

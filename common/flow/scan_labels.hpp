@@ -14,10 +14,11 @@ struct RestoredPoints {
   std::vector<std::uint16_t> beams;
 };
 
-/// Labels of a scan's points by tracking: they decide which points go to the SO-map and which to the MO-map.
+/// Labels of a scan's points by tracking: they decide which points go to the SO-map and which to
+/// the MO-map.
 struct ScanLabels {
   std::int64_t stamp_ns = 0;
-  std::uint32_t sequence = 0;            ///< Of the scan, counted by its scanner.
+  std::uint32_t sequence = 0;  ///< Of the scan, counted by its scanner.
   std::string scanner_id;
   std::vector<PointLabel> labels;        ///< One a beam.
   std::vector<RestoredPoints> restored;  ///< At most 64 earlier scans of the same scanner.

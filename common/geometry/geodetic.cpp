@@ -23,12 +23,14 @@ Vector2 metres_per_degree(double latitude_deg) {
 
 Geodetic geodetic_at(const Geodetic& origin, const Vector2& east_north_m) {
   const Vector2 scale = metres_per_degree(origin.latitude_deg);
-  return {origin.latitude_deg + east_north_m.y() / scale.y(), origin.longitude_deg + east_north_m.x() / scale.x()};
+  return {origin.latitude_deg + east_north_m.y() / scale.y(),
+          origin.longitude_deg + east_north_m.x() / scale.x()};
 }
 
 Vector2 east_north_m(const Geodetic& origin, const Geodetic& place) {
   const Vector2 scale = metres_per_degree(origin.latitude_deg);
-  return {(place.longitude_deg - origin.longitude_deg) * scale.x(), (place.latitude_deg - origin.latitude_deg) * scale.y()};
+  return {(place.longitude_deg - origin.longitude_deg) * scale.x(),
+          (place.latitude_deg - origin.latitude_deg) * scale.y()};
 }
 
 }  // namespace slammot::geometry

@@ -6,7 +6,8 @@
 namespace slammot::geometry {
 
 double wrap_angle(double angle_rad) {
-  if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi) return angle_rad;  // the usual case; a remainder costs 10 ns
+  if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi)
+    return angle_rad;  // the usual case; a remainder costs 10 ns
   const double wrapped = std::remainder(angle_rad, 2.0 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
 }
@@ -18,7 +19,8 @@ bool operator==(const Pose2& a, const Pose2& b) {
 Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c) {
   const double c = std::cos(a_from_b.heading_rad);
   const double s = std::sin(a_from_b.heading_rad);
-  return {a_from_b.x_m + c * b_from_c.x_m - s * b_from_c.y_m, a_from_b.y_m + s * b_from_c.x_m + c * b_from_c.y_m,
+  return {a_from_b.x_m + c * b_from_c.x_m - s * b_from_c.y_m,
+          a_from_b.y_m + s * b_from_c.x_m + c * b_from_c.y_m,
           wrap_angle(a_from_b.heading_rad + b_from_c.heading_rad)};
 }
 

@@ -11,7 +11,8 @@ using Matrix3 = Eigen::Matrix3d;
 /// Angle wrapped to (-pi, pi].
 double wrap_angle(double angle_rad);
 
-/// Rigid motion in the plane. A variable is named target_from_source and maps points of source to target.
+/// Rigid motion in the plane. A variable is named target_from_source and maps points of source to
+/// target.
 struct Pose2 {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -38,8 +39,8 @@ Matrix2 rotation(double angle_rad);
 /// Difference a - b: (x [m], y [m], heading [rad], wrapped), in the axes of the common frame.
 Eigen::Vector3d difference(const Pose2& a, const Pose2& b);
 
-/// Linear interpolation of x, y and heading (the short way round). fraction 0 gives from, 1 gives to; other values
-/// extrapolate.
+/// Linear interpolation of x, y and heading (the short way round). fraction 0 gives from, 1 gives
+/// to; other values extrapolate.
 Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction);
 
 }  // namespace slammot::geometry

@@ -5,9 +5,11 @@
 namespace slammot::geometry::unscented {
 namespace {
 
-constexpr double kFourthMoment = 3.0;  // of a Gaussian: spreads the points so that this much is right too; Julier 1999
+constexpr double kFourthMoment = 3.0;  // of a Gaussian: spreads the points so that this much is
+                                       // right too; Julier 1999
 
-/// Lower Cholesky factor of a positive semidefinite matrix; what is known exactly gives a column of zeros.
+/// Lower Cholesky factor of a positive semidefinite matrix; what is known exactly gives a column of
+/// zeros.
 template <int N>
 Eigen::Matrix<double, N, N> square_root(const Eigen::Matrix<double, N, N>& covariance) {
   Eigen::Matrix<double, N, N> root = Eigen::Matrix<double, N, N>::Zero();
@@ -16,15 +18,18 @@ Eigen::Matrix<double, N, N> square_root(const Eigen::Matrix<double, N, N>& covar
     if (pivot <= 1e-12 * covariance(column, column)) continue;
     root(column, column) = std::sqrt(pivot);
     for (int row = column + 1; row < N; ++row) {
-      root(row, column) = (covariance(row, column) - root.row(row).head(column).dot(root.row(column).head(column))) / root(column, column);
+      root(row, column) = (covariance(row, column) -
+                           root.row(row).head(column).dot(root.row(column).head(column))) /
+                          root(column, column);
     }
   }
   return root;
 }
 
-/// Mean and covariance of pose_of(error), error a Gaussian about 0 in N dimensions. Only the first may be one in which
-/// pose_of bends: its error is then in one column of the root, and the weights, of which the middle one is negative for
-/// more than three dimensions, leave the covariance positive.
+/// Mean and covariance of pose_of(error), error a Gaussian about 0 in N dimensions. Only the first
+/// may be one in which pose_of bends: its error is then in one column of the root, and the weights,
+/// of which the middle one is negative for more than three dimensions, leave the covariance
+/// positive.
 template <int N, typename PoseOf>
 UncertainPose2 transform(const Eigen::Matrix<double, N, N>& covariance, PoseOf pose_of) {
   const Eigen::Matrix<double, N, N> root = std::sqrt(kFourthMoment) * square_root<N>(covariance);
@@ -39,7 +44,9 @@ UncertainPose2 transform(const Eigen::Matrix<double, N, N>& covariance, PoseOf p
       spread += kWeight * away * away.transpose();
     }
   }
-  return {{middle.x_m + shift.x(), middle.y_m + shift.y(), wrap_angle(middle.heading_rad + shift.z())}, spread - shift * shift.transpose()};
+  return {
+      {middle.x_m + shift.x(), middle.y_m + shift.y(), wrap_angle(middle.heading_rad + shift.z())},
+      spread - shift * shift.transpose()};
 }
 
 // Heading first: the dimension in which poses bend.
@@ -47,35 +54,43 @@ const Matrix3 kHeadingFirst{{0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 
 template <typename Error>
 Pose2 displaced(const Pose2& pose, const Error& heading_first) {
-  return {pose.x_m + heading_first[1], pose.y_m + heading_first[2], pose.heading_rad + heading_first[0]};
+  return {pose.x_m + heading_first[1], pose.y_m + heading_first[2],
+          pose.heading_rad + heading_first[0]};
 }
 
 template <typename Operation>
-UncertainPose2 of_two(const UncertainPose2& first, const UncertainPose2& second, const Matrix3& cross, Operation operation) {
+UncertainPose2 of_two(const UncertainPose2& first, const UncertainPose2& second,
+                      const Matrix3& cross, Operation operation) {
   Eigen::Matrix<double, 6, 6> joint;
   joint.topLeftCorner<3, 3>() = kHeadingFirst * first.covariance * kHeadingFirst.transpose();
   joint.topRightCorner<3, 3>() = kHeadingFirst * cross * kHeadingFirst.transpose();
   joint.bottomLeftCorner<3, 3>() = joint.topRightCorner<3, 3>().transpose();
   joint.bottomRightCorner<3, 3>() = kHeadingFirst * second.covariance * kHeadingFirst.transpose();
   return transform<6>(joint, [&](const Eigen::Matrix<double, 6, 1>& error) {
-    return operation(displaced(first.pose, error.head<3>()), displaced(second.pose, error.tail<3>()));
+    return operation(displaced(first.pose, error.head<3>()),
+                     displaced(second.pose, error.tail<3>()));
   });
 }
 
 }  // namespace
 
-UncertainPose2 compound(const UncertainPose2& a_from_b, const UncertainPose2& b_from_c, const Matrix3& cross) {
-  return of_two(a_from_b, b_from_c, cross, [](const Pose2& ab, const Pose2& bc) { return ab * bc; });
+UncertainPose2 compound(const UncertainPose2& a_from_b, const UncertainPose2& b_from_c,
+                        const Matrix3& cross) {
+  return of_two(a_from_b, b_from_c, cross,
+                [](const Pose2& ab, const Pose2& bc) { return ab * bc; });
 }
 
 UncertainPose2 inverse(const UncertainPose2& a_from_b) {
-  return transform<3>(kHeadingFirst * a_from_b.covariance * kHeadingFirst.transpose(), [&](const Eigen::Vector3d& error) {
-    return geometry::inverse(displaced(a_from_b.pose, error));
-  });
+  return transform<3>(kHeadingFirst * a_from_b.covariance * kHeadingFirst.transpose(),
+                      [&](const Eigen::Vector3d& error) {
+                        return geometry::inverse(displaced(a_from_b.pose, error));
+                      });
 }
 
-UncertainPose2 tail_to_tail(const UncertainPose2& a_from_b, const UncertainPose2& a_from_c, const Matrix3& cross) {
-  return of_two(a_from_b, a_from_c, cross, [](const Pose2& ab, const Pose2& ac) { return geometry::inverse(ab) * ac; });
+UncertainPose2 tail_to_tail(const UncertainPose2& a_from_b, const UncertainPose2& a_from_c,
+                            const Matrix3& cross) {
+  return of_two(a_from_b, a_from_c, cross,
+                [](const Pose2& ab, const Pose2& ac) { return geometry::inverse(ab) * ac; });
 }
 
 }  // namespace slammot::geometry::unscented

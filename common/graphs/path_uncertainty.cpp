@@ -18,9 +18,12 @@ struct Step {
   std::size_t constraint;
 };
 
-double position_sigma_m(const UncertainPose2& pose) { return std::sqrt(pose.covariance.topLeftCorner<2, 2>().trace()); }
+double position_sigma_m(const UncertainPose2& pose) {
+  return std::sqrt(pose.covariance.topLeftCorner<2, 2>().trace());
+}
 
-std::map<SubmapId, std::vector<Step>> steps_both_ways(std::span<const flow::Constraint> constraints) {
+std::map<SubmapId, std::vector<Step>> steps_both_ways(
+    std::span<const flow::Constraint> constraints) {
   std::map<SubmapId, std::vector<Step>> steps;
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const flow::Constraint& constraint = constraints[i];
@@ -36,7 +39,8 @@ struct Arrival {
   std::size_t constraint = 0;  ///< Index of the constraint from the previous node.
 };
 
-std::map<SubmapId, Arrival> arrivals_from(SubmapId root, std::span<const flow::Constraint> constraints) {
+std::map<SubmapId, Arrival> arrivals_from(SubmapId root,
+                                          std::span<const flow::Constraint> constraints) {
   const auto steps = steps_both_ways(constraints);
   std::map<SubmapId, Arrival> arrivals;
   struct Reached {
@@ -67,16 +71,21 @@ std::map<SubmapId, Arrival> arrivals_from(SubmapId root, std::span<const flow::C
 
 }  // namespace
 
-std::map<SubmapId, UncertainPose2> poses_along_best_paths(SubmapId root, std::span<const flow::Constraint> constraints) {
+std::map<SubmapId, UncertainPose2> poses_along_best_paths(
+    SubmapId root, std::span<const flow::Constraint> constraints) {
   std::map<SubmapId, UncertainPose2> root_from_node;
-  for (const auto& [node, arrival] : arrivals_from(root, constraints)) root_from_node.emplace(node, arrival.root_from_node);
+  for (const auto& [node, arrival] : arrivals_from(root, constraints))
+    root_from_node.emplace(node, arrival.root_from_node);
   return root_from_node;
 }
 
-std::vector<std::size_t> best_path(SubmapId root, SubmapId goal, std::span<const flow::Constraint> constraints) {
+std::vector<std::size_t> best_path(SubmapId root, SubmapId goal,
+                                   std::span<const flow::Constraint> constraints) {
   const auto arrivals = arrivals_from(root, constraints);
   std::vector<std::size_t> path;
-  for (auto at = arrivals.find(goal); at != arrivals.end() && at->first != root; at = arrivals.find(at->second.before)) path.push_back(at->second.constraint);
+  for (auto at = arrivals.find(goal); at != arrivals.end() && at->first != root;
+       at = arrivals.find(at->second.before))
+    path.push_back(at->second.constraint);
   return path;
 }
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <memory>
 
+#include <ceres/ceres.h>
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <ceres/ceres.h>
 
 namespace slammot::graphs {
 namespace {
@@ -22,7 +22,8 @@ Matrix3 whitening_of(const Matrix3& covariance) {
   return Matrix3(covariance.inverse()).llt().matrixU();
 }
 
-/// Whitened error of a relative pose in the frame of `from`; blocks are (x [m], y [m], heading [rad]) in map.
+/// Whitened error of a relative pose in the frame of `from`; blocks are (x [m], y [m], heading
+/// [rad]) in map.
 class RelativePoseCost final : public ceres::SizedCostFunction<3, 3, 3> {
  public:
   /// weight: factor on the squared error; read at each evaluation.
@@ -80,7 +81,9 @@ void PoseGraph::add_node(flow::SubmapId id, const Pose2& map_from_node) {
   map_from_node_.push_back(map_from_node);
 }
 
-void PoseGraph::move_node(flow::SubmapId id, const Pose2& map_from_node) { map_from_node_[index_of_.at(id)] = map_from_node; }
+void PoseGraph::move_node(flow::SubmapId id, const Pose2& map_from_node) {
+  map_from_node_[index_of_.at(id)] = map_from_node;
+}
 
 void PoseGraph::add_constraint(const flow::Constraint& constraint) {
   assert(contains(constraint.from) && contains(constraint.to));
@@ -94,19 +97,27 @@ void PoseGraph::set_enabled(std::size_t constraint, bool is_enabled) {
   weights_[constraint] = is_enabled ? 1.0 : 0.0;
 }
 
-/// One problem that is solved repeatedly with changing weights; it optimizes the graph's poses in place.
+/// One problem that is solved repeatedly with changing weights; it optimizes the graph's poses in
+/// place.
 struct PoseGraph::Solver {
   explicit Solver(PoseGraph& graph) : graph_(graph) {
-    for (const Pose2& pose : graph.map_from_node_) blocks_.push_back({pose.x_m, pose.y_m, pose.heading_rad});
+    for (const Pose2& pose : graph.map_from_node_)
+      blocks_.push_back({pose.x_m, pose.y_m, pose.heading_rad});
     for (std::size_t i = 0; i < graph.constraints_.size(); ++i) {
       if (!graph.is_enabled_[i]) continue;
       const flow::Constraint& constraint = graph.constraints_[i];
       // The problem takes ownership of its cost functions.
-      problem_.AddResidualBlock(new RelativePoseCost(constraint.from_to.pose, whitening_of(constraint.from_to.covariance), graph.weights_[i]), nullptr,
-                                blocks_[graph.index_of_.at(constraint.from)].data(), blocks_[graph.index_of_.at(constraint.to)].data());
+      problem_.AddResidualBlock(
+          new RelativePoseCost(constraint.from_to.pose, whitening_of(constraint.from_to.covariance),
+                               graph.weights_[i]),
+          nullptr, blocks_[graph.index_of_.at(constraint.from)].data(),
+          blocks_[graph.index_of_.at(constraint.to)].data());
     }
-    if (problem_.HasParameterBlock(blocks_.front().data())) problem_.SetParameterBlockConstant(blocks_.front().data());
-    iterations_left_ = std::max(4, static_cast<int>(graph.config_.most_work / static_cast<double>(graph.constraints_.size())));
+    if (problem_.HasParameterBlock(blocks_.front().data()))
+      problem_.SetParameterBlockConstant(blocks_.front().data());
+    iterations_left_ = std::max(
+        4,
+        static_cast<int>(graph.config_.most_work / static_cast<double>(graph.constraints_.size())));
   }
 
   bool has_iterations_left() const { return iterations_left_ > 0; }
@@ -124,7 +135,8 @@ struct PoseGraph::Solver {
     result_.has_converged = summary.termination_type == ceres::CONVERGENCE;
     if (!summary.IsSolutionUsable()) return false;
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
-      graph_.map_from_node_[i] = {blocks_[i][0], blocks_[i][1], geometry::wrap_angle(blocks_[i][2])};
+      graph_.map_from_node_[i] = {blocks_[i][0], blocks_[i][1],
+                                  geometry::wrap_angle(blocks_[i][2])};
     }
     return true;
   }
@@ -142,7 +154,9 @@ struct PoseGraph::Solver {
 
 std::vector<double> PoseGraph::squared_errors() const {
   std::vector<double> errors;
-  for (const flow::Constraint& constraint : constraints_) errors.push_back(squared_error(constraint, map_from_node(constraint.from), map_from_node(constraint.to)));
+  for (const flow::Constraint& constraint : constraints_)
+    errors.push_back(
+        squared_error(constraint, map_from_node(constraint.from), map_from_node(constraint.to)));
   return errors;
 }
 
@@ -160,12 +174,14 @@ double PoseGraph::truncated_cost(double odometric_sigma_scale) const {
 }
 
 OptimisationSummary PoseGraph::optimise() {
-  constexpr double kGrowth = 1.6;       // growth of the non-convexity per step
+  constexpr double kGrowth = 1.6;  // growth of the non-convexity per step
   constexpr int kIterationsPerStep = 3;
   constexpr int kMostSteps = 40;
   if (constraints_.empty()) return {.has_converged = true};
   const double limit = config_.loop_loss_scale * config_.loop_loss_scale;
-  const auto can_lose_weight = [&](std::size_t i) { return is_enabled_[i] && constraints_[i].kind == flow::ConstraintKind::kLoop && limit > 0.0; };
+  const auto can_lose_weight = [&](std::size_t i) {
+    return is_enabled_[i] && constraints_[i].kind == flow::ConstraintKind::kLoop && limit > 0.0;
+  };
   const double cost_before = truncated_cost();
   const std::vector<Pose2> poses_before = map_from_node_;
   const std::vector<double> weights_before = weights_;
@@ -179,7 +195,8 @@ OptimisationSummary PoseGraph::optimise() {
   if (!solver.solve(config_.max_iterations)) return go_back();
   const auto largest_error = [&](const std::vector<double>& errors) {
     double largest = 0.0;
-    for (std::size_t i = 0; i < errors.size(); ++i) largest = can_lose_weight(i) ? std::max(largest, errors[i]) : largest;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      largest = can_lose_weight(i) ? std::max(largest, errors[i]) : largest;
     return largest;
   };
   std::vector<double> errors = squared_errors();
@@ -191,7 +208,9 @@ OptimisationSummary PoseGraph::optimise() {
       if (!can_lose_weight(i)) continue;
       const bool is_inlier = errors[i] <= mu / (mu + 1.0) * limit;
       const bool is_outlier = errors[i] >= (mu + 1.0) / mu * limit;
-      weights_[i] = is_inlier ? 1.0 : is_outlier ? 0.0 : std::sqrt(limit * mu * (mu + 1.0) / errors[i]) - mu;
+      weights_[i] = is_inlier    ? 1.0
+                    : is_outlier ? 0.0
+                                 : std::sqrt(limit * mu * (mu + 1.0) / errors[i]) - mu;
       is_decided = is_decided && (is_inlier || is_outlier);
     }
     if (!solver.solve(kIterationsPerStep)) return go_back();
@@ -207,7 +226,9 @@ OptimisationSummary PoseGraph::optimise() {
   return solver.result();
 }
 
-const Pose2& PoseGraph::map_from_node(flow::SubmapId id) const { return map_from_node_[index_of_.at(id)]; }
+const Pose2& PoseGraph::map_from_node(flow::SubmapId id) const {
+  return map_from_node_[index_of_.at(id)];
+}
 
 std::vector<flow::CorrectedSubmap> PoseGraph::nodes() const {
   std::vector<flow::CorrectedSubmap> nodes;
@@ -215,8 +236,10 @@ std::vector<flow::CorrectedSubmap> PoseGraph::nodes() const {
   return nodes;
 }
 
-double squared_error(const flow::Constraint& constraint, const Pose2& map_from_from, const Pose2& map_from_to) {
-  const Eigen::Vector3d error = geometry::difference(geometry::inverse(map_from_from) * map_from_to, constraint.from_to.pose);
+double squared_error(const flow::Constraint& constraint, const Pose2& map_from_from,
+                     const Pose2& map_from_to) {
+  const Eigen::Vector3d error =
+      geometry::difference(geometry::inverse(map_from_from) * map_from_to, constraint.from_to.pose);
   return error.dot(constraint.from_to.covariance.ldlt().solve(error));
 }
 

@@ -11,20 +11,24 @@
 namespace slammot::graphs {
 
 struct PoseGraphConfig {
-  double loop_loss_scale = 3.0;   ///< Sigmas beyond which a loop constraint is ignored (truncated least squares); 0: none is ignored.
-  int max_iterations = 50;        ///< Of one linearized solve.
-  double most_work = 60e3;        ///< Constraints times iterations of one optimise(); at least four iterations are done.
+  double loop_loss_scale = 3.0;  ///< Sigmas beyond which a loop constraint is ignored (truncated
+                                 ///< least squares); 0: none is ignored.
+  int max_iterations = 50;       ///< Of one linearized solve.
+  double most_work = 60e3;       ///< Constraints times iterations of one optimise(); at least four
+                                 ///< iterations are done.
 };
 
 struct OptimisationSummary {
-  double initial_cost = 0.0;     ///< Half the sum of squared normalized errors; those of loops are robustified.
+  double initial_cost = 0.0;  ///< Half the sum of squared normalized errors; those of loops are
+                              ///< robustified.
   double final_cost = 0.0;
   int iterations = 0;
   bool has_converged = false;
 };
 
-/// Pose graph: submaps as nodes, relative poses as constraints (Wang 2004, section 6.1; Grisetti et al. 2010). The
-/// first node is fixed. Single-threaded: the same calls give bitwise the same result.
+/// Pose graph: submaps as nodes, relative poses as constraints (Wang 2004, section 6.1; Grisetti et
+/// al. 2010). The first node is fixed. Single-threaded: the same calls give bitwise the same
+/// result.
 class PoseGraph {
  public:
   explicit PoseGraph(const PoseGraphConfig& config);
@@ -35,19 +39,22 @@ class PoseGraph {
   /// Moves a node, for example when an untied one is located. Precondition: the node exists.
   void move_node(flow::SubmapId id, const geometry::Pose2& map_from_node);
 
-  /// Adds a measured relative pose. Preconditions: both nodes exist, the covariance is positive definite.
+  /// Adds a measured relative pose. Preconditions: both nodes exist, the covariance is positive
+  /// definite.
   void add_constraint(const flow::Constraint& constraint);
 
-  /// Optimizes the poses to the nearest minimum and recomputes the weights of all loop constraints, including those
-  /// with weight 0: truncated least squares by graduated non-convexity (Yang et al., RA-L 2020, Eqs. (12)-(14)).
-  /// Without outliers it equals least squares. A solution with a higher truncated cost than the previous one is
-  /// rejected.
+  /// Optimizes the poses to the nearest minimum and recomputes the weights of all loop constraints,
+  /// including those with weight 0: truncated least squares by graduated non-convexity (Yang et
+  /// al., RA-L 2020, Eqs. (12)-(14)). Without outliers it equals least squares. A solution with a
+  /// higher truncated cost than the previous one is rejected.
   OptimisationSummary optimise();
 
-  /// Sum of squared errors of the enabled constraints: odometric ones with scaled sigmas, loops truncated.
+  /// Sum of squared errors of the enabled constraints: odometric ones with scaled sigmas, loops
+  /// truncated.
   double truncated_cost(double odometric_sigma_scale = 1.0) const;
 
-  /// Weight in [0, 1] of a constraint after the last optimise(), by index in constraints(). Odometric ones: 1.
+  /// Weight in [0, 1] of a constraint after the last optimise(), by index in constraints().
+  /// Odometric ones: 1.
   double weight(std::size_t constraint) const { return weights_[constraint]; }
 
   /// A disabled constraint has weight 0.
@@ -68,12 +75,12 @@ class PoseGraph {
   std::map<flow::SubmapId, std::size_t> index_of_;
   std::vector<geometry::Pose2> map_from_node_;
   std::vector<flow::Constraint> constraints_;
-  std::vector<double> weights_;      // as constraints_
-  std::vector<bool> is_enabled_;     // as constraints_
+  std::vector<double> weights_;   // as constraints_
+  std::vector<bool> is_enabled_;  // as constraints_
 };
 
-/// Squared Mahalanobis distance between a constraint's measurement and the poses. Chi-square with 3 degrees of freedom
-/// if the poses have no error of their own.
+/// Squared Mahalanobis distance between a constraint's measurement and the poses. Chi-square with 3
+/// degrees of freedom if the poses have no error of their own.
 double squared_error(const flow::Constraint& constraint, const geometry::Pose2& map_from_from,
                      const geometry::Pose2& map_from_to);
 

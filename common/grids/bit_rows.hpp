@@ -14,7 +14,7 @@ constexpr std::int32_t kCellsPerWord = 64;
 struct BitRows {
   std::int32_t words_per_row = 0;
   std::vector<std::uint64_t> words;
-  std::vector<std::int32_t> first_word;   ///< Per row; first > last if the row is empty.
+  std::vector<std::int32_t> first_word;  ///< Per row; first > last if the row is empty.
   std::vector<std::int32_t> last_word;
 
   BitRows() = default;
@@ -24,8 +24,12 @@ struct BitRows {
         first_word(static_cast<std::size_t>(rows), words_per_row),
         last_word(static_cast<std::size_t>(rows), -1) {}
 
-  std::uint64_t* row(std::int32_t row) { return words.data() + static_cast<std::ptrdiff_t>(row) * words_per_row; }
-  const std::uint64_t* row(std::int32_t row) const { return words.data() + static_cast<std::ptrdiff_t>(row) * words_per_row; }
+  std::uint64_t* row(std::int32_t row) {
+    return words.data() + static_cast<std::ptrdiff_t>(row) * words_per_row;
+  }
+  const std::uint64_t* row(std::int32_t row) const {
+    return words.data() + static_cast<std::ptrdiff_t>(row) * words_per_row;
+  }
 
   void use(std::int32_t row, std::int32_t word) {
     const auto at = static_cast<std::size_t>(row);
@@ -59,8 +63,12 @@ struct BitRows {
     use(row, column >> 6);
     this->row(row)[column >> 6] |= std::uint64_t{1} << (column & 63);
   }
-  void clear(std::int32_t column, std::int32_t row) { this->row(row)[column >> 6] &= ~(std::uint64_t{1} << (column & 63)); }
-  bool is_set(std::int32_t column, std::int32_t row) const { return this->row(row)[column >> 6] >> (column & 63) & 1; }
+  void clear(std::int32_t column, std::int32_t row) {
+    this->row(row)[column >> 6] &= ~(std::uint64_t{1} << (column & 63));
+  }
+  bool is_set(std::int32_t column, std::int32_t row) const {
+    return this->row(row)[column >> 6] >> (column & 63) & 1;
+  }
 };
 
 }  // namespace slammot::grids

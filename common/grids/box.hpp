@@ -16,7 +16,8 @@ struct Box {
 
   bool covers(const Eigen::Vector2d& point_m) const {
     const Eigen::Vector2d way_m = point_m - centre_m;
-    return std::abs(along.dot(way_m)) <= half_m.x() && std::abs(along.x() * way_m.y() - along.y() * way_m.x()) <= half_m.y();
+    return std::abs(along.dot(way_m)) <= half_m.x() &&
+           std::abs(along.x() * way_m.y() - along.y() * way_m.x()) <= half_m.y();
   }
 };
 
@@ -31,11 +32,13 @@ struct CellRange {
 /// Range of cells of the window that contains all cells whose centres the box covers.
 inline CellRange cells_around(const Box& box, const GridWindow& window) {
   const Eigen::Vector2d along = box.along.cwiseAbs();
-  const Eigen::Vector2d reach_m(along.x() * box.half_m.x() + along.y() * box.half_m.y(), along.y() * box.half_m.x() + along.x() * box.half_m.y());
+  const Eigen::Vector2d reach_m(along.x() * box.half_m.x() + along.y() * box.half_m.y(),
+                                along.y() * box.half_m.x() + along.x() * box.half_m.y());
   const Cell end{window.first.column + window.columns - 1, window.first.row + window.rows - 1};
   const Eigen::Vector2d low_m = (box.centre_m - reach_m).cwiseMax(window.centre_of(window.first));
   const Eigen::Vector2d high_m = (box.centre_m + reach_m).cwiseMin(window.centre_of(end));
-  if ((low_m.array() > high_m.array()).any()) return {};  // before conversion: cells of far coordinates overflow
+  if ((low_m.array() > high_m.array()).any())
+    return {};  // before conversion: cells of far coordinates overflow
   return {window.cell_at(low_m.x(), low_m.y()), window.cell_at(high_m.x(), high_m.y())};
 }
 

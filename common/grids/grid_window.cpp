@@ -19,8 +19,10 @@ GridWindow intersection(const GridWindow& a, const GridWindow& b) {
   GridWindow shared;
   shared.cell_size_m = a.cell_size_m;
   shared.first = {std::max(a.first.column, b.first.column), std::max(a.first.row, b.first.row)};
-  shared.columns = std::max(0, std::min(a.first.column + a.columns, b.first.column + b.columns) - shared.first.column);
-  shared.rows = std::max(0, std::min(a.first.row + a.rows, b.first.row + b.rows) - shared.first.row);
+  shared.columns = std::max(
+      0, std::min(a.first.column + a.columns, b.first.column + b.columns) - shared.first.column);
+  shared.rows =
+      std::max(0, std::min(a.first.row + a.rows, b.first.row + b.rows) - shared.first.row);
   return shared;
 }
 

@@ -34,8 +34,11 @@ void LastingEvidence::pass(BitRows& surely_free) {
     const std::uint64_t to_lower = passed & ~lowest;
     if (to_lower == 0) return;
     const std::int32_t first_column = word * kCellsPerWord;
-    std::int8_t* const cells = cells_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) + static_cast<std::size_t>(first_column);
-    lowest |= lower_cells(cells, std::min(kCellsPerWord, window_.columns - first_column), to_lower, free_steps_, -limit_steps_);
+    std::int8_t* const cells =
+        cells_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) +
+        static_cast<std::size_t>(first_column);
+    lowest |= lower_cells(cells, std::min(kCellsPerWord, window_.columns - first_column), to_lower,
+                          free_steps_, -limit_steps_);
   });
 }
 
@@ -47,8 +50,10 @@ void LastingEvidence::drive_over(const Box& body) {
     for (std::int32_t column = cells.low.column; column <= cells.high.column; ++column) {
       std::int8_t& cell = cells_[window_.index({column, row})];
       const Eigen::Vector2d centre_m = window_.centre_of({column, row});
-      if (inside.covers(centre_m)) cell = static_cast<std::int8_t>(std::max<int>(kDrivenOver, cell - free_steps_));
-      else if (cell > 0 && body.covers(centre_m)) cell = static_cast<std::int8_t>(cell - free_steps_);
+      if (inside.covers(centre_m))
+        cell = static_cast<std::int8_t>(std::max<int>(kDrivenOver, cell - free_steps_));
+      else if (cell > 0 && body.covers(centre_m))
+        cell = static_cast<std::int8_t>(cell - free_steps_);
     }
   }
 }
@@ -58,7 +63,8 @@ void LastingEvidence::set_cells(std::vector<std::int8_t> cells) {
   lowest_.clear_all();
 }
 
-void LastingEvidence::copy_from(const LastingEvidence& other, std::size_t from, std::int32_t count, std::size_t to) {
+void LastingEvidence::copy_from(const LastingEvidence& other, std::size_t from, std::int32_t count,
+                                std::size_t to) {
   std::copy_n(other.cells_.data() + from, count, cells_.data() + to);
 }
 

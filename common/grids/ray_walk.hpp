@@ -14,10 +14,13 @@ class RayWalk {
  public:
   /// direction has unit length.
   RayWalk(const Eigen::Vector2d& origin_m, const Eigen::Vector2d& direction, double cell_size_m)
-      : columns_(origin_m.x(), direction.x(), cell_size_m), rows_(origin_m.y(), direction.y(), cell_size_m) {}
+      : columns_(origin_m.x(), direction.x(), cell_size_m),
+        rows_(origin_m.y(), direction.y(), cell_size_m) {}
 
   Cell cell() const { return {columns_.cell, rows_.cell}; }
-  double distance_m() const { return distance_m_; }  ///< Distance at which the ray entered the cell.
+  double distance_m() const {
+    return distance_m_;
+  }  ///< Distance at which the ray entered the cell.
 
   void advance() {
     Axis& nearer = columns_.next_border_m < rows_.next_border_m ? columns_ : rows_;
@@ -28,7 +31,8 @@ class RayWalk {
 
   struct Axis {
     Axis(double origin_m, double direction, double cell_size_m)
-        : cell(static_cast<std::int32_t>(std::floor(origin_m / cell_size_m))), step(direction > 0.0 ? 1 : -1) {
+        : cell(static_cast<std::int32_t>(std::floor(origin_m / cell_size_m))),
+          step(direction > 0.0 ? 1 : -1) {
       if (direction == 0.0) return;
       per_cell_m = cell_size_m / std::abs(direction);
       next_border_m = ((cell + (direction > 0.0 ? 1 : 0)) * cell_size_m - origin_m) / direction;

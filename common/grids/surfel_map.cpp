@@ -18,7 +18,12 @@ double seen_over_m(const CellMoments& moments) {
 }  // namespace
 
 SurfelMap::SurfelMap(const GridWindow& window, double weight_limit)
-    : window_(window), weight_limit_(static_cast<float>(weight_limit)), slots_(window.cell_count(), -1), means_m_{kNowhere}, shares_{Moments::Zero()}, is_stale_{true} {}
+    : window_(window),
+      weight_limit_(static_cast<float>(weight_limit)),
+      slots_(window.cell_count(), -1),
+      means_m_{kNowhere},
+      shares_{Moments::Zero()},
+      is_stale_{true} {}
 
 void SurfelMap::clear() {
   for (const Cell& cell : cells_) slots_[window_.index(cell)] = -1;
@@ -48,19 +53,23 @@ void SurfelMap::mark_stale_around(Cell cell) {
   const bool is_inside = has_all_around(cell);
   for (std::int32_t row = cell.row - 1; row <= cell.row + 1; ++row) {
     for (std::int32_t column = cell.column - 1; column <= cell.column + 1; ++column) {
-      const std::ptrdiff_t slot = is_inside ? slots_[window_.index({column, row})] : slot_of({column, row});
+      const std::ptrdiff_t slot =
+          is_inside ? slots_[window_.index({column, row})] : slot_of({column, row});
       is_stale_[static_cast<std::size_t>(slot + 1)] = true;
     }
   }
 }
 
-void SurfelMap::add_to_moments(std::size_t place, const Eigen::Vector2d& point_m, float odometer_m) {
+void SurfelMap::add_to_moments(std::size_t place, const Eigen::Vector2d& point_m,
+                               float odometer_m) {
   CellMoments& moments = moments_[place];
   if (moments.weight <= 0.0F) moments.first_seen_at_m = odometer_m;
   moments.last_seen_at_m = odometer_m;
   if (moments.weight >= weight_limit_) {
     const float keep = (weight_limit_ - 1.0F) / moments.weight;
-    for (float* sum : {&moments.weight, &moments.x, &moments.y, &moments.xx, &moments.xy, &moments.yy}) *sum *= keep;
+    for (float* sum :
+         {&moments.weight, &moments.x, &moments.y, &moments.xx, &moments.xy, &moments.yy})
+      *sum *= keep;
   }
   const Eigen::Vector2f offset = (point_m - window_.centre_of(cells_[place])).cast<float>();
   moments.weight += 1.0F;
@@ -73,7 +82,7 @@ void SurfelMap::add_to_moments(std::size_t place, const Eigen::Vector2d& point_m
 }
 
 void SurfelMap::add_all(std::span<const Eigen::Vector2d> points_m, double odometer_m) {
-  std::optional<std::size_t> changed;   // cell with pending moments
+  std::optional<std::size_t> changed;  // cell with pending moments
   const auto conclude = [&] {
     if (!changed) return;
     note_mean(*changed);
@@ -102,18 +111,23 @@ void SurfelMap::erase(Cell cell) {
 void SurfelMap::note_mean(std::size_t place) {
   const CellMoments& moments = moments_[place];
   const bool is_anywhere = moments.weight > 0.0F;
-  // The square root reduces the weight of frequently seen cells: position matters more to a surface's direction than
-  // counts do.
+  // The square root reduces the weight of frequently seen cells: position matters more to a
+  // surface's direction than counts do.
   const double share = is_anywhere ? 1.0 / std::sqrt(static_cast<double>(moments.weight)) : 0.0;
   const auto shared = [&](float sum) { return share * static_cast<double>(sum); };
-  shares_[place + 1] << shared(moments.weight), shared(moments.x), shared(moments.y), shared(moments.xx), shared(moments.xy), shared(moments.yy);
+  shares_[place + 1] << shared(moments.weight), shared(moments.x), shared(moments.y),
+      shared(moments.xx), shared(moments.xy), shared(moments.yy);
   const Eigen::Vector2d centre_m = window_.centre_of(cells_[place]);
-  const auto mean = [&](double centre, float sum) { return centre + static_cast<double>(sum) / static_cast<double>(moments.weight); };
-  means_m_[place + 1] = is_anywhere ? Eigen::Vector2d(mean(centre_m.x(), moments.x), mean(centre_m.y(), moments.y)) : kNowhere;
+  const auto mean = [&](double centre, float sum) {
+    return centre + static_cast<double>(sum) / static_cast<double>(moments.weight);
+  };
+  means_m_[place + 1] =
+      is_anywhere ? Eigen::Vector2d(mean(centre_m.x(), moments.x), mean(centre_m.y(), moments.y))
+                  : kNowhere;
 }
 
-/// Moments of the cell and its eight neighbours about the cell's centre. The shift of a neighbour's moments is linear
-/// in them, so that they are summed by column and row first and shifted together.
+/// Moments of the cell and its eight neighbours about the cell's centre. The shift of a neighbour's
+/// moments is linear in them, so that they are summed by column and row first and shifted together.
 SurfelMap::Moments SurfelMap::moments_around(Cell cell) const {
   const bool is_inside = has_all_around(cell);
   const auto share_at = [&](std::int32_t column, std::int32_t row) -> const Moments& {
@@ -160,10 +174,13 @@ void SurfelMap::renew_shape(std::size_t place) const {
   shape = {0.0F, 0.0F, static_cast<float>(small)};
   is_stale_[place + 1] = false;
   const double least_extent_m = 0.25 * size_m;
-  if (large < least_extent_m * least_extent_m || small > 0.25 * large) return;  // a point or an isotropic cluster: no direction
-  // Sine and cosine of half the angle with tangent 2 cxy / (cxx - cyy): direction of the major axis.
+  if (large < least_extent_m * least_extent_m || small > 0.25 * large)
+    return;  // a point or an isotropic cluster: no direction
+  // Sine and cosine of half the angle with tangent 2 cxy / (cxx - cyy): direction of the major
+  // axis.
   const double cosine_of_twice = root > 0.0 ? 0.5 * (cxx - cyy) / root : 1.0;
-  shape.normal_x = static_cast<float>(-std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine_of_twice))), cxy));
+  shape.normal_x = static_cast<float>(
+      -std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine_of_twice))), cxy));
   shape.normal_y = static_cast<float>(std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine_of_twice))));
 }
 
@@ -175,27 +192,41 @@ const SurfelMap::Shape& SurfelMap::fresh_shape(std::size_t place) const {
 SurfelView SurfelMap::view_of(std::int32_t slot) const {
   const auto place = static_cast<std::size_t>(slot);
   const Shape& shape = fresh_shape(place);
-  return {cells_[place], mean_m(slot), {shape.normal_x, shape.normal_y}, shape.spread_m2, moments_[place].weight,
-          moments_[place].own_echoes, seen_over_m(moments_[place])};
+  return {cells_[place],
+          mean_m(slot),
+          {shape.normal_x, shape.normal_y},
+          shape.spread_m2,
+          moments_[place].weight,
+          moments_[place].own_echoes,
+          seen_over_m(moments_[place])};
 }
 
 std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius) const {
   const Cell centre = window_.cell_at(point_m.x(), point_m.y());
-  const auto clamped = [](std::int64_t place, std::int32_t first, std::int32_t count) {  // 64 bits: points may be anywhere
+  const auto clamped = [](std::int64_t place, std::int32_t first, std::int32_t count) {  // 64 bits:
+                                                                                         // points
+                                                                                         // may be
+                                                                                         // anywhere
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(place - first, 0, count));
   };
-  const std::int32_t first_column = clamped(std::int64_t{centre.column} - radius, window_.first.column, window_.columns);
-  const std::int32_t end_column = clamped(std::int64_t{centre.column} + radius + 1, window_.first.column, window_.columns);
-  const std::int32_t first_row = clamped(std::int64_t{centre.row} - radius, window_.first.row, window_.rows);
-  const std::int32_t end_row = clamped(std::int64_t{centre.row} + radius + 1, window_.first.row, window_.rows);
+  const std::int32_t first_column =
+      clamped(std::int64_t{centre.column} - radius, window_.first.column, window_.columns);
+  const std::int32_t end_column =
+      clamped(std::int64_t{centre.column} + radius + 1, window_.first.column, window_.columns);
+  const std::int32_t first_row =
+      clamped(std::int64_t{centre.row} - radius, window_.first.row, window_.rows);
+  const std::int32_t end_row =
+      clamped(std::int64_t{centre.row} + radius + 1, window_.first.row, window_.rows);
   double best_m2 = std::numeric_limits<double>::infinity();
   std::int32_t best_slot = -1;
   for (std::int32_t row = first_row; row < end_row; ++row) {
-    const std::int32_t* const slots = slots_.data() + static_cast<std::ptrdiff_t>(row) * window_.columns;
+    const std::int32_t* const slots =
+        slots_.data() + static_cast<std::ptrdiff_t>(row) * window_.columns;
     for (std::int32_t column = first_column; column < end_column; ++column) {
       const std::int32_t slot = slots[column];
       const double distance_m2 = (mean_m(slot) - point_m).squaredNorm();
-      const bool is_nearer = distance_m2 < best_m2;  // branch-free, since branches are unpredictable here
+      const bool is_nearer = distance_m2 < best_m2;  // branch-free, since branches are
+                                                     // unpredictable here
       best_m2 = is_nearer ? distance_m2 : best_m2;
       best_slot = is_nearer ? slot : best_slot;
     }
@@ -221,10 +252,14 @@ std::size_t SurfelMap::nearest_place(const Eigen::Vector2d& point_m, int radius)
 
 SurfelMap::Surface SurfelMap::surface_at(std::size_t place) const {
   const Shape& shape = fresh_shape(place);
-  return {mean_m(static_cast<std::int32_t>(place)), {shape.normal_x, shape.normal_y}, shape.spread_m2, seen_over_m(moments_[place])};
+  return {mean_m(static_cast<std::int32_t>(place)),
+          {shape.normal_x, shape.normal_y},
+          shape.spread_m2,
+          seen_over_m(moments_[place])};
 }
 
-std::optional<SurfelMap::Surface> SurfelMap::nearest_surface(const Eigen::Vector2d& point_m, int radius) const {
+std::optional<SurfelMap::Surface> SurfelMap::nearest_surface(const Eigen::Vector2d& point_m,
+                                                             int radius) const {
   const std::size_t place = nearest_place(point_m, radius);
   return place == kNoPlace ? std::nullopt : std::optional(surface_at(place));
 }

@@ -16,25 +16,26 @@ namespace slammot::grids {
 struct SurfelView {
   Cell cell;
   Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();   ///< Unit length; zero if the neighbourhood has no direction.
-  double spread_m2 = 0.0;                             ///< Variance of the echoes along the normal.
-  double weight = 0.0;                                ///< Number of echoes in the mean, up to the limit.
-  double own_echoes = 0.0;                            ///< Number of echoes since the map was moved to this window.
-  double seen_over_m = 0.0;                           ///< Distance driven between the first and the last echo.
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< Unit length; zero if the neighbourhood has
+                                                     ///< no direction.
+  double spread_m2 = 0.0;                            ///< Variance of the echoes along the normal.
+  double weight = 0.0;       ///< Number of echoes in the mean, up to the limit.
+  double own_echoes = 0.0;   ///< Number of echoes since the map was moved to this window.
+  double seen_over_m = 0.0;  ///< Distance driven between the first and the last echo.
 };
 
 /// First and second moments of a cell's echoes about the cell's centre.
 struct CellMoments {
   float weight = 0.0F;
-  float x = 0.0F, y = 0.0F;                 ///< Sums [m].
-  float xx = 0.0F, xy = 0.0F, yy = 0.0F;    ///< Sums [m^2].
+  float x = 0.0F, y = 0.0F;               ///< Sums [m].
+  float xx = 0.0F, xy = 0.0F, yy = 0.0F;  ///< Sums [m^2].
   float own_echoes = 0.0F;
-  float first_seen_at_m = 0.0F, last_seen_at_m = 0.0F;   ///< Vehicle's odometer.
+  float first_seen_at_m = 0.0F, last_seen_at_m = 0.0F;  ///< Vehicle's odometer.
 };
 
-/// Moments of stationary echoes by cell: subcell accuracy for matching in constant memory. Normals come from the 3 x 3
-/// neighbourhood, as in the normal distributions transform (Biber and Strasser 2003), with shared moments so that they
-/// are continuous across cell borders.
+/// Moments of stationary echoes by cell: subcell accuracy for matching in constant memory. Normals
+/// come from the 3 x 3 neighbourhood, as in the normal distributions transform (Biber and Strasser
+/// 2003), with shared moments so that they are continuous across cell borders.
 class SurfelMap {
  public:
   SurfelMap() : SurfelMap({}, 40.0) {}
@@ -44,12 +45,15 @@ class SurfelMap {
   const GridWindow& window() const { return window_; }
   std::size_t capacity_in_use() const { return moments_.size(); }
 
-  /// Adds one echo at odometer reading odometer_m; ignored outside the window. An echo at odometer 0, the start of the
-  /// drive, counts as seen from everywhere: no older surface exists to compare with.
-  void add(const Eigen::Vector2d& point_m, double odometer_m = 0.0) { add_all(std::span(&point_m, 1), odometer_m); }
+  /// Adds one echo at odometer reading odometer_m; ignored outside the window. An echo at odometer
+  /// 0, the start of the drive, counts as seen from everywhere: no older surface exists to compare
+  /// with.
+  void add(const Eigen::Vector2d& point_m, double odometer_m = 0.0) {
+    add_all(std::span(&point_m, 1), odometer_m);
+  }
 
-  /// Adds echoes in sequence. Echoes of neighbouring beams are mostly in one cell, whose derived values are computed
-  /// once: add_a_scan_of_361_points of the benchmark.
+  /// Adds echoes in sequence. Echoes of neighbouring beams are mostly in one cell, whose derived
+  /// values are computed once: add_a_scan_of_361_points of the benchmark.
   void add_all(std::span<const Eigen::Vector2d> points_m, double odometer_m);
 
   /// Removes every surfel and keeps the memory.
@@ -69,7 +73,8 @@ class SurfelMap {
   /// Like nearest(), with only the fields that matching needs.
   std::optional<Surface> nearest_surface(const Eigen::Vector2d& point_m, int radius) const;
 
-  /// The same in two steps: the first may run in several threads at once; the second computes stale surfels.
+  /// The same in two steps: the first may run in several threads at once; the second computes stale
+  /// surfels.
   std::size_t nearest_place(const Eigen::Vector2d& point_m, int radius) const;
   static constexpr std::size_t kNoPlace = static_cast<std::size_t>(-1);
   Surface surface_at(std::size_t place) const;
@@ -80,14 +85,15 @@ class SurfelMap {
     constexpr std::size_t kRanges = 8;
     is_gone_.resize(cells_.size());
     work::share_in_ranges(help, cells_.size(), kRanges, [&](std::size_t first, std::size_t end) {
-      for (std::size_t place = first; place < end; ++place) is_gone_[place] = !is_empty(static_cast<std::int32_t>(place)) && is_gone(mean_m(place));
+      for (std::size_t place = first; place < end; ++place)
+        is_gone_[place] = !is_empty(static_cast<std::int32_t>(place)) && is_gone(mean_m(place));
     });
     for (std::size_t place = 0; place < cells_.size(); ++place)
       if (is_gone_[place]) erase(cells_[place]);
   }
 
-  /// Surfel with the nearest mean among the 3 x 3 cells around the point. If they are empty, among the cells within
-  /// radius. None if there is no echo.
+  /// Surfel with the nearest mean among the 3 x 3 cells around the point. If they are empty, among
+  /// the cells within radius. None if there is no echo.
   std::optional<SurfelView> nearest(const Eigen::Vector2d& point_m, int radius) const;
 
   /// Every surfel, ordered by first sighting.
@@ -108,13 +114,24 @@ class SurfelMap {
   /// Number of echoes, and their sums of x, y, xx, xy and yy about the cell's centre.
   using Moments = Eigen::Matrix<double, 6, 1>;
 
-  std::int32_t slot_of(Cell cell) const { return window_.contains(cell) ? slots_[window_.index(cell)] : -1; }
-  bool is_empty(std::int32_t slot) const { return slot < 0 || moments_[static_cast<std::size_t>(slot)].weight <= 0.0F; }
+  std::int32_t slot_of(Cell cell) const {
+    return window_.contains(cell) ? slots_[window_.index(cell)] : -1;
+  }
+  bool is_empty(std::int32_t slot) const {
+    return slot < 0 || moments_[static_cast<std::size_t>(slot)].weight <= 0.0F;
+  }
   /// True if the window contains all nine cells.
-  bool has_all_around(Cell cell) const { return window_.contains({cell.column - 1, cell.row - 1}) && window_.contains({cell.column + 1, cell.row + 1}); }
+  bool has_all_around(Cell cell) const {
+    return window_.contains({cell.column - 1, cell.row - 1}) &&
+           window_.contains({cell.column + 1, cell.row + 1});
+  }
   /// Returns infinity for no slot (-1).
-  const Eigen::Vector2d& mean_m(std::ptrdiff_t slot) const { return means_m_[static_cast<std::size_t>(slot + 1)]; }
-  const Moments& share_of(std::ptrdiff_t slot) const { return shares_[static_cast<std::size_t>(slot + 1)]; }
+  const Eigen::Vector2d& mean_m(std::ptrdiff_t slot) const {
+    return means_m_[static_cast<std::size_t>(slot + 1)];
+  }
+  const Moments& share_of(std::ptrdiff_t slot) const {
+    return shares_[static_cast<std::size_t>(slot + 1)];
+  }
   std::int32_t make_slot(Cell cell);
   void add_to_moments(std::size_t place, const Eigen::Vector2d& point_m, float odometer_m);
   std::int32_t nearest_slot(const Eigen::Vector2d& point_m, int radius) const;
@@ -128,14 +145,17 @@ class SurfelMap {
 
   GridWindow window_;
   float weight_limit_;
-  std::vector<std::int32_t> slots_;     ///< Per cell: index in moments_, -1 for none.
+  std::vector<std::int32_t> slots_;  ///< Per cell: index in moments_, -1 for none.
   std::vector<CellMoments> moments_;
-  std::vector<char> is_gone_;           ///< Working memory of erase_where().
-  std::vector<Cell> cells_;             ///< Cell of each entry of moments_.
-  std::vector<Eigen::Vector2d> means_m_;///< Mean of each entry, at index + 1; infinite if there are no echoes.
-  std::vector<Moments> shares_;         ///< Contribution of each entry to the normals around it, at index + 1; zero if there are no echoes.
+  std::vector<char> is_gone_;             ///< Working memory of erase_where().
+  std::vector<Cell> cells_;               ///< Cell of each entry of moments_.
+  std::vector<Eigen::Vector2d> means_m_;  ///< Mean of each entry, at index + 1; infinite if there
+                                          ///< are no echoes.
+  std::vector<Moments> shares_;  ///< Contribution of each entry to the normals around it, at index
+                                 ///< + 1; zero if there are no echoes.
   mutable std::vector<Shape> shapes_;   ///< Computed at the first access after a change.
-  mutable std::vector<char> is_stale_;  ///< Per entry, at index + 1: true if the shape must be recomputed.
+  mutable std::vector<char> is_stale_;  ///< Per entry, at index + 1: true if the shape must be
+                                        ///< recomputed.
 };
 
 }  // namespace slammot::grids

@@ -13,7 +13,7 @@ using geometry::Pose2;
 using geometry::Vector2;
 
 constexpr double kFull = SmearKernel::kFull;
-constexpr int kHighestLevel = 6;      // beyond 64 cells a maximum is too loose a bound
+constexpr int kHighestLevel = 6;  // beyond 64 cells a maximum is too loose a bound
 
 /// Level whose blocks cover the window in few pieces and whose bounds are still useful.
 int top_level_for(std::int32_t half_width_cells) {
@@ -26,15 +26,18 @@ std::int32_t cells_within(double half_width_m, double resolution_m) {
   return static_cast<std::int32_t>(std::ceil(half_width_m / resolution_m - 1e-9));
 }
 
-/// target(x, y) = max over {x, x + step} x {y, y + step} of source; values beyond the end count as 0.
-void widen_maximum(const std::vector<std::uint8_t>& source, std::int32_t columns, std::int32_t rows, std::int32_t step,
-                   std::vector<std::uint8_t>& target) {
+/// target(x, y) = max over {x, x + step} x {y, y + step} of source; values beyond the end count as
+/// 0.
+void widen_maximum(const std::vector<std::uint8_t>& source, std::int32_t columns, std::int32_t rows,
+                   std::int32_t step, std::vector<std::uint8_t>& target) {
   target.resize(source.size());
   for (std::int32_t row = 0; row < rows; ++row) {
     const std::uint8_t* here = source.data() + static_cast<std::ptrdiff_t>(row) * columns;
-    const std::uint8_t* above = row + step < rows ? here + static_cast<std::ptrdiff_t>(step) * columns : here;
+    const std::uint8_t* above =
+        row + step < rows ? here + static_cast<std::ptrdiff_t>(step) * columns : here;
     std::uint8_t* out = target.data() + static_cast<std::ptrdiff_t>(row) * columns;
-    for (std::int32_t column = 0; column < columns; ++column) out[column] = std::max(here[column], above[column]);
+    for (std::int32_t column = 0; column < columns; ++column)
+      out[column] = std::max(here[column], above[column]);
     for (std::int32_t column = 0; column + step < columns; ++column) {
       out[column] = std::max(out[column], out[column + step]);
     }
@@ -43,15 +46,21 @@ void widen_maximum(const std::vector<std::uint8_t>& source, std::int32_t columns
 
 }  // namespace
 
-CorrelativeMatcher::CorrelativeMatcher(const CorrelativeConfig& config) : config_(config), kernel_(config.resolution_m, config.smear_sigma_m), kernel_half_(kernel_.half()) {
+CorrelativeMatcher::CorrelativeMatcher(const CorrelativeConfig& config)
+    : config_(config),
+      kernel_(config.resolution_m, config.smear_sigma_m),
+      kernel_half_(kernel_.half()) {
   assert(config_.resolution_m > 0.0 && config_.smear_sigma_m > 0.0);
 }
 
-const std::uint8_t* CorrelativeMatcher::kernel_for(const Vector2& point_in_target_m, const Cell& cell) const {
-  return kernel_.around({(point_in_target_m.x() - min_x_m_) / config_.resolution_m - cell.column, (point_in_target_m.y() - min_y_m_) / config_.resolution_m - cell.row});
+const std::uint8_t* CorrelativeMatcher::kernel_for(const Vector2& point_in_target_m,
+                                                   const Cell& cell) const {
+  return kernel_.around({(point_in_target_m.x() - min_x_m_) / config_.resolution_m - cell.column,
+                         (point_in_target_m.y() - min_y_m_) / config_.resolution_m - cell.row});
 }
 
-void CorrelativeMatcher::set_target(std::span<const TargetPoint> points, const TargetRegion& region) {
+void CorrelativeMatcher::set_target(std::span<const TargetPoint> points,
+                                    const TargetRegion& region) {
   lay_out(region);
   stamp(points);
   build_pyramid();
@@ -61,7 +70,8 @@ void CorrelativeMatcher::lay_out(const TargetRegion& region) {
   const double cell_m = config_.resolution_m;
   largest_shift_ = cells_within(region.largest_shift_m, cell_m);
   top_level_ = top_level_for(largest_shift_);
-  // A point may lie one shift outside the region and be shifted once more, and a block extends one side further.
+  // A point may lie one shift outside the region and be shifted once more, and a block extends one
+  // side further.
   pad_ = 2 * largest_shift_ + (1 << top_level_);
   const std::int32_t half_columns = cells_within(region.half_width_m, cell_m);
   const std::int32_t half_rows = cells_within(region.half_height_m, cell_m);
@@ -78,11 +88,13 @@ void CorrelativeMatcher::stamp(std::span<const TargetPoint> points) {
   for (const TargetPoint& point : points) {
     const Vector2 point_in_target_m(point.x_m, point.y_m);
     const Cell cell = cell_of(point_in_target_m);
-    const bool smears_into_region = cell.column + kernel_half_ >= pad_ && cell.column - kernel_half_ < columns_ - pad_ &&
-                                    cell.row + kernel_half_ >= pad_ && cell.row - kernel_half_ < rows_ - pad_;
+    const bool smears_into_region =
+        cell.column + kernel_half_ >= pad_ && cell.column - kernel_half_ < columns_ - pad_ &&
+        cell.row + kernel_half_ >= pad_ && cell.row - kernel_half_ < rows_ - pad_;
     if (!smears_into_region) continue;
     const std::uint8_t* kernel = kernel_for(point_in_target_m, cell);
-    const std::uint32_t weight_256 = static_cast<std::uint32_t>(std::lround(256.0F * std::clamp(point.weight, 0.0F, 1.0F)));
+    const std::uint32_t weight_256 =
+        static_cast<std::uint32_t>(std::lround(256.0F * std::clamp(point.weight, 0.0F, 1.0F)));
     // Only the region is filled. The padding stays zero, so that any shift can be read safely.
     const std::int32_t first_column = std::max(cell.column - kernel_half_, pad_);
     const std::int32_t last_column = std::min(cell.column + kernel_half_, columns_ - pad_ - 1);
@@ -92,7 +104,8 @@ void CorrelativeMatcher::stamp(std::span<const TargetPoint> points) {
       const std::uint8_t* kernel_row = kernel + (row - cell.row + kernel_half_) * side;
       std::uint8_t* cells = pyramid_.front().data() + static_cast<std::ptrdiff_t>(row) * columns_;
       for (std::int32_t column = first_column; column <= last_column; ++column) {
-        const std::uint32_t value = (kernel_row[column - cell.column + kernel_half_] * weight_256) >> 8;
+        const std::uint32_t value =
+            (kernel_row[column - cell.column + kernel_half_] * weight_256) >> 8;
         cells[column] = std::max(cells[column], static_cast<std::uint8_t>(value));
       }
     }
@@ -107,13 +120,16 @@ void CorrelativeMatcher::build_pyramid() {
 
 CorrelativeMatcher::Cell CorrelativeMatcher::cell_of(const Vector2& point_in_target_m) const {
   // The clamp keeps the conversion to integers defined; cells far outside are equivalent.
-  const auto index = [](double cells) { return static_cast<std::int32_t>(std::floor(std::clamp(cells, -1e8, 1e8))); };
+  const auto index = [](double cells) {
+    return static_cast<std::int32_t>(std::floor(std::clamp(cells, -1e8, 1e8)));
+  };
   return {index((point_in_target_m.x() - min_x_m_) / config_.resolution_m),
           index((point_in_target_m.y() - min_y_m_) / config_.resolution_m)};
 }
 
 std::vector<Peak> CorrelativeMatcher::search(std::span<const Eigen::Vector2f> points_in_source_m,
-                                             const Pose2& target_from_source, const SearchWindow& window) {
+                                             const Pose2& target_from_source,
+                                             const SearchWindow& window) {
   std::vector<Peak> peaks;
   if (points_in_source_m.empty() || pyramid_.empty()) return peaks;
   initial_ = target_from_source;
@@ -162,8 +178,9 @@ void CorrelativeMatcher::turn_points(std::span<const Eigen::Vector2f> points, co
     for (const Eigen::Vector2f& point : points) {
       const Cell cell = cell_of(rotation * point.cast<double>() + pose.translation_m());
       // A point this far out cannot be shifted into the region and scores 0 in the whole window.
-      const bool reachable = cell.column >= pad_ - shifts.columns && cell.column < columns_ - pad_ + shifts.columns &&
-                             cell.row >= pad_ - shifts.rows && cell.row < rows_ - pad_ + shifts.rows;
+      const bool reachable =
+          cell.column >= pad_ - shifts.columns && cell.column < columns_ - pad_ + shifts.columns &&
+          cell.row >= pad_ - shifts.rows && cell.row < rows_ - pad_ + shifts.rows;
       if (reachable) offsets_.push_back(cell.row * columns_ + cell.column);
     }
     turned.count = static_cast<std::uint32_t>(offsets_.size()) - turned.first;
@@ -186,17 +203,19 @@ void CorrelativeMatcher::collect_top_blocks(const Shifts& shifts) {
                    [](const Block& a, const Block& b) { return a.bound > b.bound; });
 }
 
-std::uint32_t CorrelativeMatcher::bound_of(std::uint32_t heading, std::int32_t column, std::int32_t row,
-                                           int level) const {
+std::uint32_t CorrelativeMatcher::bound_of(std::uint32_t heading, std::int32_t column,
+                                           std::int32_t row, int level) const {
   const TurnedPoints& turned = headings_[heading];
-  const std::uint8_t* cells = pyramid_[static_cast<std::size_t>(level)].data() + (row * columns_ + column);
+  const std::uint8_t* cells =
+      pyramid_[static_cast<std::size_t>(level)].data() + (row * columns_ + column);
   const std::int32_t* offsets = offsets_.data() + turned.first;
   std::uint32_t sum = 0;
   for (std::uint32_t i = 0; i < turned.count; ++i) sum += cells[offsets[i]];
   return sum;
 }
 
-void CorrelativeMatcher::descend(const Block& block, int level, const Shifts& shifts, Block& best) const {
+void CorrelativeMatcher::descend(const Block& block, int level, const Shifts& shifts,
+                                 Block& best) const {
   if (!may_hold_a_new_peak(block, level)) return;
   if (level == 0) {
     if (found_.empty() || is_local_maximum(block, shifts)) best = block;
@@ -208,7 +227,8 @@ void CorrelativeMatcher::descend(const Block& block, int level, const Shifts& sh
   for (const std::int32_t row : {block.row, block.row + half}) {
     for (const std::int32_t column : {block.column, block.column + half}) {
       if (row > shifts.rows || column > shifts.columns) continue;
-      children[count++] = {bound_of(block.heading, column, row, level - 1), block.heading, column, row};
+      children[count++] = {bound_of(block.heading, column, row, level - 1), block.heading, column,
+                           row};
     }
   }
   std::stable_sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(count),
@@ -225,8 +245,10 @@ bool CorrelativeMatcher::may_hold_a_new_peak(const Block& block, int level) cons
     const auto furthest = [&](std::int32_t from, std::int32_t to) {
       return cell_m * std::max(std::abs(from - to), std::abs(from + far_side - to));
     };
-    const double turned_rad = heading_step_rad_ * std::abs(static_cast<double>(block.heading) - peak.heading);
-    return turned_rad <= config_.peak_separation_rad && furthest(block.column, peak.column) <= config_.peak_separation_m &&
+    const double turned_rad =
+        heading_step_rad_ * std::abs(static_cast<double>(block.heading) - peak.heading);
+    return turned_rad <= config_.peak_separation_rad &&
+           furthest(block.column, peak.column) <= config_.peak_separation_m &&
            furthest(block.row, peak.row) <= config_.peak_separation_m;
   });
 }
@@ -251,12 +273,13 @@ bool CorrelativeMatcher::is_local_maximum(const Block& leaf, const Shifts& shift
 }
 
 Pose2 CorrelativeMatcher::pose_of(const Block& leaf) const {
-  return {initial_.x_m + config_.resolution_m * leaf.column, initial_.y_m + config_.resolution_m * leaf.row,
+  return {initial_.x_m + config_.resolution_m * leaf.column,
+          initial_.y_m + config_.resolution_m * leaf.row,
           geometry::wrap_angle(initial_.heading_rad + headings_[leaf.heading].heading_offset_rad)};
 }
 
-std::vector<CorrelativeMatcher::Cell> CorrelativeMatcher::cells_of(std::span<const Eigen::Vector2f> points,
-                                                                   const Pose2& target_from_source) const {
+std::vector<CorrelativeMatcher::Cell> CorrelativeMatcher::cells_of(
+    std::span<const Eigen::Vector2f> points, const Pose2& target_from_source) const {
   std::vector<Cell> cells;
   cells.reserve(points.size());
   const Eigen::Matrix2d rotation = geometry::rotation(target_from_source.heading_rad);
@@ -274,7 +297,9 @@ std::uint32_t CorrelativeMatcher::sum_at(std::span<const Cell> cells, std::int32
     const std::int32_t row = cell.row + row_shift;
     const bool inside = static_cast<std::uint32_t>(column) < static_cast<std::uint32_t>(columns_) &&
                         static_cast<std::uint32_t>(row) < static_cast<std::uint32_t>(rows_);
-    if (inside) sum += pyramid_.front()[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)];
+    if (inside)
+      sum += pyramid_.front()[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                              static_cast<std::size_t>(column)];
   }
   return sum;
 }
@@ -286,10 +311,12 @@ double CorrelativeMatcher::score(std::span<const Eigen::Vector2f> points_in_sour
          (kFull * static_cast<double>(points_in_source_m.size()));
 }
 
-Matrix3 CorrelativeMatcher::covariance_around(std::span<const Eigen::Vector2f> points, const Pose2& peak) const {
-  constexpr std::int32_t kHalf = 3;           // 7 x 7 x 7 poses around the peak
-  constexpr double kRidge = 0.3;              // relative likelihood at the rim above which the search area is extended
-  constexpr std::int32_t kLongestStride = 64; // beyond it the direction counts as unobserved
+Matrix3 CorrelativeMatcher::covariance_around(std::span<const Eigen::Vector2f> points,
+                                              const Pose2& peak) const {
+  constexpr std::int32_t kHalf = 3;  // 7 x 7 x 7 poses around the peak
+  constexpr double kRidge = 0.3;  // relative likelihood at the rim above which the search area is
+                                  // extended
+  constexpr std::int32_t kLongestStride = 64;  // beyond it the direction counts as unobserved
   const double full_sum = kFull * static_cast<double>(points.size());
   std::array<std::vector<Cell>, 2 * kHalf + 1> turned;
   for (std::int32_t turn = -kHalf; turn <= kHalf; ++turn) {
@@ -297,7 +324,8 @@ Matrix3 CorrelativeMatcher::covariance_around(std::span<const Eigen::Vector2f> p
         cells_of(points, {peak.x_m, peak.y_m, peak.heading_rad + turn * heading_step_rad_});
   }
   const double peak_sum = sum_at(turned[kHalf], 0, 0);
-  // For small errors the score falls like the log-likelihood of that many independent points with the kernel's sigma.
+  // For small errors the score falls like the log-likelihood of that many independent points with
+  // the kernel's sigma.
   const auto likelihood = [&](std::int32_t column, std::int32_t row, std::int32_t turn) {
     const double sum = sum_at(turned[static_cast<std::size_t>(turn + kHalf)], column, row);
     return std::exp(std::min(0.0, config_.independent_points * (sum - peak_sum) / full_sum));
@@ -311,7 +339,8 @@ Matrix3 CorrelativeMatcher::covariance_around(std::span<const Eigen::Vector2f> p
       for (std::int32_t row = -kHalf; row <= kHalf; ++row) {
         for (std::int32_t column = -kHalf; column <= kHalf; ++column) {
           const double weight = likelihood(stride * column, stride * row, turn);
-          const Eigen::Vector3d offset(config_.resolution_m * stride * column, config_.resolution_m * stride * row,
+          const Eigen::Vector3d offset(config_.resolution_m * stride * column,
+                                       config_.resolution_m * stride * row,
                                        heading_step_rad_ * turn);
           moments += weight * offset * offset.transpose();
           total += weight;

@@ -22,9 +22,9 @@ struct TargetPoint {
 /// Part of the target frame that is rasterized.
 struct TargetRegion {
   geometry::Vector2 centre_m = geometry::Vector2::Zero();
-  double half_width_m = 20.0;     ///< Along x.
-  double half_height_m = 20.0;    ///< Along y.
-  double largest_shift_m = 0.5;   ///< Largest half width of later search windows.
+  double half_width_m = 20.0;    ///< Along x.
+  double half_height_m = 20.0;   ///< Along y.
+  double largest_shift_m = 0.5;  ///< Largest half width of later search windows.
 };
 
 /// Half widths of the search window around the initial pose, in the target frame.
@@ -35,15 +35,16 @@ struct SearchWindow {
 };
 
 struct CorrelativeConfig {
-  double resolution_m = 0.1;          ///< Cell of the finest grid, and search step.
-  double smear_sigma_m = 0.1;         ///< Sigma of the Gaussian around every target point.
-  double heading_step_rad = 0.0;      ///< 0: the step that moves the farthest points by one cell.
-  double min_score = 0.3;             ///< Peaks with lower scores are not searched.
+  double resolution_m = 0.1;      ///< Cell of the finest grid, and search step.
+  double smear_sigma_m = 0.1;     ///< Sigma of the Gaussian around every target point.
+  double heading_step_rad = 0.0;  ///< 0: the step that moves the farthest points by one cell.
+  double min_score = 0.3;         ///< Peaks with lower scores are not searched.
   std::size_t max_peaks = 1;
-  double min_peak_ratio = 0.7;        ///< Further peaks score at least this share of the best.
-  double peak_separation_m = 0.5;     ///< Further peaks differ by more than this in x or y
-  double peak_separation_rad = 0.1;   ///< or by more than this in heading.
-  double independent_points = 30.0;   ///< Effective number of independent points; neighbours share their error. Scales the covariance.
+  double min_peak_ratio = 0.7;       ///< Further peaks score at least this share of the best.
+  double peak_separation_m = 0.5;    ///< Further peaks differ by more than this in x or y
+  double peak_separation_rad = 0.1;  ///< or by more than this in heading.
+  double independent_points = 30.0;  ///< Effective number of independent points; neighbours share
+                                     ///< their error. Scales the covariance.
 };
 
 struct Peak {
@@ -51,25 +52,29 @@ struct Peak {
   double score = 0.0;  ///< In [0, 1]: mean likelihood of the points.
 };
 
-/// Exhaustive correlative search for the pose, exact on its grid, by branch and bound over a pyramid of sliding maxima
-/// (Olson, ICRA 2009; Hess et al., ICRA 2016, Algorithms 2 and 3). Sums are integers, so that the result does not
-/// depend on the order of evaluation. Reuses its buffers; use one instance a thread.
+/// Exhaustive correlative search for the pose, exact on its grid, by branch and bound over a
+/// pyramid of sliding maxima (Olson, ICRA 2009; Hess et al., ICRA 2016, Algorithms 2 and 3). Sums
+/// are integers, so that the result does not depend on the order of evaluation. Reuses its buffers;
+/// use one instance a thread.
 class CorrelativeMatcher {
  public:
   explicit CorrelativeMatcher(const CorrelativeConfig& config);
 
-  /// Sets the target and replaces the previous one. Points outside the region contribute only their smear.
+  /// Sets the target and replaces the previous one. Points outside the region contribute only their
+  /// smear.
   void set_target(std::span<const TargetPoint> points, const TargetRegion& region);
 
-  /// Returns the best peaks in the window around the initial pose, best first; at most max_peaks, none below min_score.
-  /// The first is the maximum over the window; the others are local maxima. The covariance comes from the score surface
-  /// around the peak (Olson 2009, Eqs. (14)-(17)) and covers a whole ridge, also beyond the window. Windows wider than
-  /// the region's largest_shift_m are cut to it. Empty if there are no points.
+  /// Returns the best peaks in the window around the initial pose, best first; at most max_peaks,
+  /// none below min_score. The first is the maximum over the window; the others are local maxima.
+  /// The covariance comes from the score surface around the peak (Olson 2009, Eqs. (14)-(17)) and
+  /// covers a whole ridge, also beyond the window. Windows wider than the region's largest_shift_m
+  /// are cut to it. Empty if there are no points.
   std::vector<Peak> search(std::span<const Eigen::Vector2f> points_in_source_m,
                            const geometry::Pose2& target_from_source, const SearchWindow& window);
 
   /// Score of one pose, in [0, 1].
-  double score(std::span<const Eigen::Vector2f> points_in_source_m, const geometry::Pose2& target_from_source) const;
+  double score(std::span<const Eigen::Vector2f> points_in_source_m,
+               const geometry::Pose2& target_from_source) const;
 
  private:
   struct Cell {
@@ -82,7 +87,8 @@ class CorrelativeMatcher {
     std::uint32_t first = 0;  ///< Index into offsets_.
     std::uint32_t count = 0;  ///< Points that reach the grid from anywhere in the window.
   };
-  /// Block of shifts [column, column + 2^level) x [row, row + 2^level) at one heading, in cells from the initial pose.
+  /// Block of shifts [column, column + 2^level) x [row, row + 2^level) at one heading, in cells
+  /// from the initial pose.
   struct Block {
     std::uint32_t bound = 0;
     std::uint32_t heading = 0;
@@ -96,21 +102,27 @@ class CorrelativeMatcher {
   };
 
   void lay_out(const TargetRegion& region);
-  const std::uint8_t* kernel_for(const geometry::Vector2& point_in_target_m, const Cell& cell) const;
+  const std::uint8_t* kernel_for(const geometry::Vector2& point_in_target_m,
+                                 const Cell& cell) const;
   void stamp(std::span<const TargetPoint> points);
   void build_pyramid();
   Cell cell_of(const geometry::Vector2& point_in_target_m) const;
   double heading_step_for(std::span<const Eigen::Vector2f> points) const;
-  void turn_points(std::span<const Eigen::Vector2f> points, const geometry::Pose2& initial, const Shifts& shifts);
+  void turn_points(std::span<const Eigen::Vector2f> points, const geometry::Pose2& initial,
+                   const Shifts& shifts);
   void collect_top_blocks(const Shifts& shifts);
-  std::uint32_t bound_of(std::uint32_t heading, std::int32_t column, std::int32_t row, int level) const;
+  std::uint32_t bound_of(std::uint32_t heading, std::int32_t column, std::int32_t row,
+                         int level) const;
   void descend(const Block& block, int level, const Shifts& shifts, Block& best) const;
   bool may_hold_a_new_peak(const Block& block, int level) const;
   bool is_local_maximum(const Block& leaf, const Shifts& shifts) const;
   geometry::Pose2 pose_of(const Block& leaf) const;
-  geometry::Matrix3 covariance_around(std::span<const Eigen::Vector2f> points, const geometry::Pose2& peak) const;
-  std::uint32_t sum_at(std::span<const Cell> cells, std::int32_t column_shift, std::int32_t row_shift) const;
-  std::vector<Cell> cells_of(std::span<const Eigen::Vector2f> points, const geometry::Pose2& target_from_source) const;
+  geometry::Matrix3 covariance_around(std::span<const Eigen::Vector2f> points,
+                                      const geometry::Pose2& peak) const;
+  std::uint32_t sum_at(std::span<const Cell> cells, std::int32_t column_shift,
+                       std::int32_t row_shift) const;
+  std::vector<Cell> cells_of(std::span<const Eigen::Vector2f> points,
+                             const geometry::Pose2& target_from_source) const;
 
   CorrelativeConfig config_;
   SmearKernel kernel_;
@@ -118,12 +130,14 @@ class CorrelativeMatcher {
 
   double min_x_m_ = 0.0;  ///< Coordinate of cell (0, 0) of the padded grid.
   double min_y_m_ = 0.0;
-  std::int32_t columns_ = 0;  ///< Padded by pad_ on each side, so that no shift in the window leaves the grid.
+  std::int32_t columns_ = 0;  ///< Padded by pad_ on each side, so that no shift in the window
+                              ///< leaves the grid.
   std::int32_t rows_ = 0;
   std::int32_t pad_ = 0;
   std::int32_t largest_shift_ = 0;
   int top_level_ = 0;
-  std::vector<std::vector<std::uint8_t>> pyramid_;  ///< Level k: maximum over the 2^k x 2^k cells that begin at this one.
+  std::vector<std::vector<std::uint8_t>> pyramid_;  ///< Level k: maximum over the 2^k x 2^k cells
+                                                    ///< that begin at this one.
 
   geometry::Pose2 initial_;
   double heading_step_rad_ = 0.0;

@@ -33,21 +33,23 @@ Pose2 align_pairs(std::span<const PointPair> pairs) {
   return {translation_m.x(), translation_m.y(), heading_rad};
 }
 
-IcpResult match_by_icp(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const Pose2& initial_map_from_base,
-                       const IcpConfig& config) {
+IcpResult match_by_icp(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
+                       const Pose2& initial_map_from_base, const IcpConfig& config) {
   IcpResult result{.map_from_base = initial_map_from_base};
   std::vector<PointPair> pairs;
   pairs.reserve(points.size());
   for (int step = 0; step < config.coarse_steps + config.fine_steps; ++step) {
     const bool is_coarse = step < config.coarse_steps;
     const double gate_m = is_coarse ? config.coarse_gate_m : config.fine_gate_m;
-    const int radius = std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
+    const int radius =
+        std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
     const geometry::Matrix2 turn = geometry::rotation(result.map_from_base.heading_rad);
     pairs.clear();
     for (const MatchPoint& point : points) {
       const Vector2 at_m = turn * point.in_base_m + result.map_from_base.translation_m();
       const auto surface = surfels.nearest_surface(at_m, radius);
-      if (surface && (surface->mean_m - at_m).squaredNorm() <= gate_m * gate_m) pairs.push_back({surface->mean_m, point.in_base_m});
+      if (surface && (surface->mean_m - at_m).squaredNorm() <= gate_m * gate_m)
+        pairs.push_back({surface->mean_m, point.in_base_m});
     }
     result.matched_points = static_cast<int>(pairs.size());
     if (pairs.empty()) return result;

@@ -13,8 +13,8 @@ using geometry::Pose2;
 using geometry::wrap_angle;
 using std::numbers::pi;
 
-constexpr double kConsistent = 0.75;        // least length of a mean direction vector
-constexpr double kClearly = 0.35;           // margin by which one explanation must beat another
+constexpr double kConsistent = 0.75;  // least length of a mean direction vector
+constexpr double kClearly = 0.35;     // margin by which one explanation must beat another
 constexpr std::size_t kFewestPairs = 8;
 constexpr double kTurningRad = 0.045;
 constexpr double kStraightRad = 0.12;
@@ -29,14 +29,16 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const AssumedBeams& beams, double unit_m, std::size_t most) {
+std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const AssumedBeams& beams,
+                                       double unit_m, std::size_t most) {
   constexpr float kFarthestM = 30.0F;  // limits the size of the grid
   std::vector<Eigen::Vector2f> points;
   const std::size_t stride = std::max<std::size_t>(1, ranges.size() / most);
   for (std::size_t i = 0; i < ranges.size(); i += stride) {
     const float range_m = ranges[i] * static_cast<float>(unit_m);
     if (!(range_m > 0.05F && range_m < kFarthestM)) continue;
-    const auto angle_rad = static_cast<float>(beams.first_beam_rad + static_cast<double>(i) * beams.beam_step_rad);
+    const auto angle_rad =
+        static_cast<float>(beams.first_beam_rad + static_cast<double>(i) * beams.beam_step_rad);
     points.emplace_back(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
   }
   return points;
@@ -44,19 +46,22 @@ std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const A
 
 /// A pair of scans with its motion by odometry and by scans.
 struct MatchedPair {
-  Pose2 by_odometry;   // of base, with the corrections so far
-  Pose2 by_scans;      // of the laser
+  Pose2 by_odometry;  // of base, with the corrections so far
+  Pose2 by_scans;     // of the laser
   double score = 0.0;
   std::size_t first_scan = 0;
   std::size_t second_scan = 0;
 };
 
 Pose2 motion_by_odometry(const ScanPair& pair, const LogCorrection& correction) {
-  return inverse(corrected(correction, pair.first_recorded)) * corrected(correction, pair.second_recorded);
+  return inverse(corrected(correction, pair.first_recorded)) *
+         corrected(correction, pair.second_recorded);
 }
 
-/// Sub-cell position of the peak: vertex of the parabola through the scores around it, along each axis.
-Pose2 refined(const CorrelativeMatcher& matcher, std::span<const Eigen::Vector2f> source, const Pose2& peak) {
+/// Sub-cell position of the peak: vertex of the parabola through the scores around it, along each
+/// axis.
+Pose2 refined(const CorrelativeMatcher& matcher, std::span<const Eigen::Vector2f> source,
+              const Pose2& peak) {
   constexpr double kStepM = 0.1;
   constexpr double kStepRad = 0.01;
   const double middle = matcher.score(source, peak);
@@ -69,11 +74,13 @@ Pose2 refined(const CorrelativeMatcher& matcher, std::span<const Eigen::Vector2f
   const auto& [x_m, y_m, heading_rad] = peak;
   return {x_m + kStepM * top({x_m - kStepM, y_m, heading_rad}, {x_m + kStepM, y_m, heading_rad}),
           y_m + kStepM * top({x_m, y_m - kStepM, heading_rad}, {x_m, y_m + kStepM, heading_rad}),
-          heading_rad + kStepRad * top({x_m, y_m, heading_rad - kStepRad}, {x_m, y_m, heading_rad + kStepRad})};
+          heading_rad + kStepRad * top({x_m, y_m, heading_rad - kStepRad},
+                                       {x_m, y_m, heading_rad + kStepRad})};
 }
 
 /// Search window for any turn up to 1.5 rad of either sign, and for the way in any direction.
-std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pair, const AssumedBeams& beams, const LogCorrection& correction) {
+std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pair,
+                                 const AssumedBeams& beams, const LogCorrection& correction) {
   constexpr std::size_t kTargetPoints = 360;
   constexpr std::size_t kSourcePoints = 90;
   constexpr std::size_t kFewestPoints = 20;
@@ -88,10 +95,12 @@ std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pa
     reach_m = std::max({reach_m, std::abs(point.x()), std::abs(point.y())});
   }
   const double half_m = static_cast<double>(reach_m) + 0.5;
-  matcher.set_target(stamped, {.half_width_m = half_m, .half_height_m = half_m, .largest_shift_m = kReachM});
+  matcher.set_target(stamped,
+                     {.half_width_m = half_m, .half_height_m = half_m, .largest_shift_m = kReachM});
   MatchedPair matched{.by_odometry = motion_by_odometry(pair, correction), .by_scans = {}};
   const double turn_rad = std::abs(matched.by_odometry.heading_rad);
-  const auto peaks = matcher.search(source, Pose2::identity(), {kReachM, kReachM, std::clamp(2.3 * turn_rad, 0.3, 1.6)});
+  const auto peaks = matcher.search(source, Pose2::identity(),
+                                    {kReachM, kReachM, std::clamp(2.3 * turn_rad, 0.3, 1.6)});
   if (peaks.empty()) return std::nullopt;
   matched.by_scans = refined(matcher, source, peaks.front().target_from_source.pose);
   matched.score = peaks.front().score;
@@ -100,8 +109,10 @@ std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pa
   return matched;
 }
 
-std::vector<MatchedPair> match_all(std::span<const ScanPair> pairs, const AssumedBeams& beams, const LogCorrection& correction) {
-  CorrelativeMatcher matcher({.resolution_m = 0.1, .smear_sigma_m = 0.1, .heading_step_rad = 0.01, .min_score = 0.45});
+std::vector<MatchedPair> match_all(std::span<const ScanPair> pairs, const AssumedBeams& beams,
+                                   const LogCorrection& correction) {
+  CorrelativeMatcher matcher(
+      {.resolution_m = 0.1, .smear_sigma_m = 0.1, .heading_step_rad = 0.01, .min_score = 0.45});
   std::vector<MatchedPair> matched;
   for (const ScanPair& pair : pairs) {
     if (auto found = match(matcher, pair, beams, correction)) matched.push_back(*found);
@@ -117,36 +128,47 @@ double mean_score(const std::vector<MatchedPair>& matched, std::size_t tried) {
 
 std::vector<MatchedPair> turning(const std::vector<MatchedPair>& matched) {
   std::vector<MatchedPair> some;
-  std::copy_if(matched.begin(), matched.end(), std::back_inserter(some), [](const MatchedPair& pair) {
-    return std::abs(pair.by_odometry.heading_rad) > kTurningRad && std::abs(pair.by_odometry.heading_rad) < 1.3;
-  });
+  std::copy_if(matched.begin(), matched.end(), std::back_inserter(some),
+               [](const MatchedPair& pair) {
+                 return std::abs(pair.by_odometry.heading_rad) > kTurningRad &&
+                        std::abs(pair.by_odometry.heading_rad) < 1.3;
+               });
   return some;
 }
 
 double same_sign_share(const std::vector<MatchedPair>& turning_pairs) {
   if (turning_pairs.empty()) return 0.0;
-  const auto same = std::count_if(turning_pairs.begin(), turning_pairs.end(), [](const MatchedPair& pair) { return pair.by_odometry.heading_rad * pair.by_scans.heading_rad > 0.0; });
+  const auto same =
+      std::count_if(turning_pairs.begin(), turning_pairs.end(), [](const MatchedPair& pair) {
+        return pair.by_odometry.heading_rad * pair.by_scans.heading_rad > 0.0;
+      });
   return static_cast<double>(same) / static_cast<double>(turning_pairs.size());
 }
 
 double turn_scale(const std::vector<MatchedPair>& turning_pairs) {
   std::vector<double> scales;
-  for (const MatchedPair& pair : turning_pairs) scales.push_back(pair.by_scans.heading_rad / pair.by_odometry.heading_rad);
+  for (const MatchedPair& pair : turning_pairs)
+    scales.push_back(pair.by_scans.heading_rad / pair.by_odometry.heading_rad);
   return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
 }
 
 /// Pairs with straight motion by scans: the laser's position on the vehicle does not affect them.
 std::vector<MatchedPair> straight(const std::vector<MatchedPair>& matched) {
   std::vector<MatchedPair> some;
-  std::copy_if(matched.begin(), matched.end(), std::back_inserter(some), [](const MatchedPair& pair) {
-    return std::abs(pair.by_scans.heading_rad) < kStraightRad && pair.by_scans.translation_m().norm() > kMovingM && pair.by_odometry.translation_m().norm() > 0.0;
-  });
+  std::copy_if(matched.begin(), matched.end(), std::back_inserter(some),
+               [](const MatchedPair& pair) {
+                 return std::abs(pair.by_scans.heading_rad) < kStraightRad &&
+                        pair.by_scans.translation_m().norm() > kMovingM &&
+                        pair.by_odometry.translation_m().norm() > 0.0;
+               });
   return some;
 }
 
 double way_scale(const std::vector<MatchedPair>& straight_pairs) {
   std::vector<double> scales;
-  for (const MatchedPair& pair : straight_pairs) scales.push_back(pair.by_scans.translation_m().norm() / pair.by_odometry.translation_m().norm());
+  for (const MatchedPair& pair : straight_pairs)
+    scales.push_back(pair.by_scans.translation_m().norm() /
+                     pair.by_odometry.translation_m().norm());
   return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
 }
 
@@ -161,22 +183,27 @@ std::complex<double> mounting(const std::vector<MatchedPair>& straight_pairs) {
   return straight_pairs.empty() ? 0.0 : sum / static_cast<double>(straight_pairs.size());
 }
 
-/// Assumes a scanner mounted straight, backwards or at right angles, unless the evidence clearly differs.
+/// Assumes a scanner mounted straight, backwards or at right angles, unless the evidence clearly
+/// differs.
 double at_right_angle(double turn_rad) {
   constexpr double kNearlyRad = 0.3;
   const double right_rad = std::round(turn_rad / (0.5 * pi)) * 0.5 * pi;
   return std::abs(turn_rad - right_rad) < kNearlyRad ? right_rad : turn_rad;
 }
 
-AssumedBeams with_field(const AssumedBeams& beams, double factor) { return {beams.first_beam_rad * factor, beams.beam_step_rad * factor, beams.laser_heading_rad}; }
+AssumedBeams with_field(const AssumedBeams& beams, double factor) {
+  return {beams.first_beam_rad * factor, beams.beam_step_rad * factor, beams.laser_heading_rad};
+}
 
-/// A wrong field of view scales the turns by scans. An accepted factor must give a field of view of existing scanners
-/// and must make scans fit each other better.
-double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams, const LogCorrection& correction, const std::vector<MatchedPair>& as_stated) {
+/// A wrong field of view scales the turns by scans. An accepted factor must give a field of view of
+/// existing scanners and must make scans fit each other better.
+double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams,
+                    const LogCorrection& correction, const std::vector<MatchedPair>& as_stated) {
   constexpr double kBetterScore = 0.02;
   const double scale = std::abs(turn_scale(turning(as_stated)));
   if (pairs.empty() || !(scale > 0.0) || (scale > 0.8 && scale < 1.25)) return 1.0;
-  const double stated_rad = std::abs(beams.beam_step_rad) * static_cast<double>(pairs.front().first.size());
+  const double stated_rad =
+      std::abs(beams.beam_step_rad) * static_cast<double>(pairs.front().first.size());
   double best = 1.0;
   double best_score = mean_score(as_stated, pairs.size()) + kBetterScore;
   for (const double degrees : {90.0, 120.0, 180.0, 240.0, 270.0, 360.0}) {
@@ -192,17 +219,19 @@ double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams, 
   return best;
 }
 
-/// Decides which is mirrored: odometry's headings, its positions, or the beams. Clockwise beams look like odometry that
-/// is mirrored as a whole. Correct odometry moves on the arcs of its turns; odometry integrated with the wrong turn
-/// sign moves against them. Only correct odometry implies mirrored beams. Without evidence of either, the recorded beam
-/// order is kept.
-void correct_signs(const OdometryCheck& odometry, double same_sign, double way_unit_m, LogEvidence& evidence) {
+/// Decides which is mirrored: odometry's headings, its positions, or the beams. Clockwise beams
+/// look like odometry that is mirrored as a whole. Correct odometry moves on the arcs of its turns;
+/// odometry integrated with the wrong turn sign moves against them. Only correct odometry implies
+/// mirrored beams. Without evidence of either, the recorded beam order is kept.
+void correct_signs(const OdometryCheck& odometry, double same_sign, double way_unit_m,
+                   LogEvidence& evidence) {
   LogCorrection& correction = evidence.correction;
   constexpr double kMostly = 0.8;
   const bool turns_agree = same_sign > kMostly;
   const bool turns_differ = same_sign < 1.0 - kMostly;
   if (odometry.positions_are_mirrored()) {
-    // direction + heading is constant: either positions or headings are mirrored, and rotated by that angle.
+    // direction + heading is constant: either positions or headings are mirrored, and rotated by
+    // that angle.
     correction.mirrors_position = turns_agree;
     correction.mirrors_heading = turns_differ;
     if (turns_agree) correction.position_turn_rad = odometry.mirrored_direction_rad();
@@ -232,16 +261,21 @@ void reverse(ScanPair& pair) {
 }  // namespace
 
 Pose2 corrected(const LogCorrection& correction, const Pose2& recorded) {
-  if (correction == LogCorrection{}) return {recorded.x_m, recorded.y_m, wrap_angle(recorded.heading_rad)};
+  if (correction == LogCorrection{})
+    return {recorded.x_m, recorded.y_m, wrap_angle(recorded.heading_rad)};
   const double y_m = correction.mirrors_position ? -recorded.y_m : recorded.y_m;
-  const double heading_rad = recorded.heading_rad * correction.heading_unit_rad * (correction.mirrors_heading ? -1.0 : 1.0);
-  const geometry::Vector2 position_m = geometry::rotation(correction.position_turn_rad) * geometry::Vector2{correction.way_unit_m * recorded.x_m, correction.way_unit_m * y_m};
+  const double heading_rad = recorded.heading_rad * correction.heading_unit_rad *
+                             (correction.mirrors_heading ? -1.0 : 1.0);
+  const geometry::Vector2 position_m =
+      geometry::rotation(correction.position_turn_rad) *
+      geometry::Vector2{correction.way_unit_m * recorded.x_m, correction.way_unit_m * y_m};
   return {position_m.x(), position_m.y(), wrap_angle(heading_rad)};
 }
 
 Pose2 PoseCorrection::next(const LogCorrection& correction, const Pose2& recorded) {
   if (!correction.integrates_turns_anew) return corrected(correction, recorded);
-  const Pose2 in_units{correction.way_unit_m * recorded.x_m, correction.way_unit_m * recorded.y_m, recorded.heading_rad * correction.heading_unit_rad};
+  const Pose2 in_units{correction.way_unit_m * recorded.x_m, correction.way_unit_m * recorded.y_m,
+                       recorded.heading_rad * correction.heading_unit_rad};
   if (last_recorded_) {
     Pose2 motion = inverse(*last_recorded_) * in_units;
     motion.heading_rad = -motion.heading_rad;
@@ -282,7 +316,9 @@ void OdometryCheck::add(const Pose2& recorded) {
 bool OdometryCheck::is_in_degrees() const {
   constexpr double kOneTurn = 6.5;
   if (largest_heading_ < kOneTurn || way_ <= 0.0) return false;
-  const auto fit = [&](const Unit& unit) { return std::max(std::abs(unit.along), std::abs(unit.mirrored)) / way_; };
+  const auto fit = [&](const Unit& unit) {
+    return std::max(std::abs(unit.along), std::abs(unit.mirrored)) / way_;
+  };
   return fit(units_[1]) > fit(units_[0]) + kClearly;
 }
 
@@ -293,28 +329,34 @@ bool OdometryCheck::positions_are_mirrored() const {
   constexpr double kLeastSpread = 1e-3;
   const double mirrored = std::abs(unit().mirrored) / way_;
   const double along = std::abs(unit().along) / way_;
-  return mirrored > kConsistent && 1.0 - along > kLeastSpread && 1.0 - mirrored < kSpreadShare * (1.0 - along);
+  return mirrored > kConsistent && 1.0 - along > kLeastSpread &&
+         1.0 - mirrored < kSpreadShare * (1.0 - along);
 }
 
-/// Mean offset of chords against the arc. 0: chords lie along the heading in their middle, as on arcs. -0.5: chords lie
-/// along the first heading. Lower if positions are later than headings, higher if they are earlier. With the wrong turn
-/// sign, a becomes -1 - a.
-double OdometryCheck::arcs_per_turn() const { return unit().arc_turn > 0.0 ? unit().arc / unit().arc_turn : kEitherWay; }
+/// Mean offset of chords against the arc. 0: chords lie along the heading in their middle, as on
+/// arcs. -0.5: chords lie along the first heading. Lower if positions are later than headings,
+/// higher if they are earlier. With the wrong turn sign, a becomes -1 - a.
+double OdometryCheck::arcs_per_turn() const {
+  return unit().arc_turn > 0.0 ? unit().arc / unit().arc_turn : kEitherWay;
+}
 
-/// Distance of the reference point ahead of the turning axle, if it is as large as on cars. A point c ahead moves
-/// sideways by c times the turn, into the turn. With the wrong turn sign it is -c, and no car steers from behind its
-/// axle.
+/// Distance of the reference point ahead of the turning axle, if it is as large as on cars. A point
+/// c ahead moves sideways by c times the turn, into the turn. With the wrong turn sign it is -c,
+/// and no car steers from behind its axle.
 std::optional<double> OdometryCheck::ahead_of_axle_m(double unit_m) const {
   constexpr double kOfCars_m = 0.3;
   constexpr double kSigmas = 5.0;
   constexpr double kLeastDistinct = 1e-6;  // at one speed an offset cannot be told from a delay
   const Eigen::Matrix2d& turning = unit().turning;
-  if (unit().steps < 3 || !(turning.determinant() > kLeastDistinct * turning(0, 0) * turning(1, 1))) return std::nullopt;
+  if (unit().steps < 3 || !(turning.determinant() > kLeastDistinct * turning(0, 0) * turning(1, 1)))
+    return std::nullopt;
   const Eigen::Matrix2d covariance = turning.inverse();
   const Eigen::Vector2d fit = covariance * unit().sideways;
-  const double variance = std::max(unit().squared_sideways - fit.dot(unit().sideways), 0.0) / (unit().steps - 2);
+  const double variance =
+      std::max(unit().squared_sideways - fit.dot(unit().sideways), 0.0) / (unit().steps - 2);
   const bool is_seen = std::abs(fit.x()) > kSigmas * std::sqrt(variance * covariance(0, 0));
-  return is_seen && std::abs(fit.x()) * unit_m > kOfCars_m ? std::optional(fit.x() * unit_m) : std::nullopt;
+  return is_seen && std::abs(fit.x()) * unit_m > kOfCars_m ? std::optional(fit.x() * unit_m)
+                                                           : std::nullopt;
 }
 
 bool OdometryCheck::turns_against_its_arcs(double unit_m) const {
@@ -338,40 +380,50 @@ double range_unit_of(double median_reading, double far_reading) {
 
 namespace {
 
-LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& beams, const OdometryCheck& odometry, double range_unit_m) {
+LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& beams,
+                          const OdometryCheck& odometry, double range_unit_m) {
   LogEvidence evidence;
   LogCorrection& correction = evidence.correction;
   correction.range_unit_m = range_unit_m;
   if (odometry.is_in_degrees()) correction.heading_unit_rad = pi / 180.0;
   std::vector<MatchedPair> matched = match_all(pairs, beams, correction);
   evidence.pairs = matched.size();
-  evidence.matched_share = pairs.empty() ? 0.0 : static_cast<double>(matched.size()) / static_cast<double>(pairs.size());
+  evidence.matched_share =
+      pairs.empty() ? 0.0 : static_cast<double>(matched.size()) / static_cast<double>(pairs.size());
   const std::vector<MatchedPair> turning_pairs = turning(matched);
   evidence.turning_pairs = turning_pairs.size();
   evidence.turn_sign_share = same_sign_share(turning_pairs);
   if (matched.size() < kFewestPairs) return evidence;
   if (turning_pairs.size() >= kFewestPairs) {
-    correct_signs(odometry, evidence.turn_sign_share, unit_by_scale(way_scale(straight(matched))), evidence);
+    correct_signs(odometry, evidence.turn_sign_share, unit_by_scale(way_scale(straight(matched))),
+                  evidence);
     correction.field_factor = field_factor(pairs, beams, correction, matched);
   }
   // A second pass if the beam layout changed, or a unit and with it the points within range.
   std::vector<ScanPair> looked_at(pairs.begin(), pairs.end());
   if (correction.reverses_beams) std::for_each(looked_at.begin(), looked_at.end(), reverse);
-  if (correction.reverses_beams || correction.field_factor != 1.0) matched = match_all(looked_at, with_field(beams, correction.field_factor), correction);
+  if (correction.reverses_beams || correction.field_factor != 1.0)
+    matched = match_all(looked_at, with_field(beams, correction.field_factor), correction);
   const double scale = way_scale(straight(matched));
   correction.way_unit_m = unit_by_scale(scale);
-  if (correction != LogCorrection{}) matched = match_all(looked_at, with_field(beams, correction.field_factor), correction);
+  if (correction != LogCorrection{})
+    matched = match_all(looked_at, with_field(beams, correction.field_factor), correction);
   const std::vector<MatchedPair> straight_pairs = straight(matched);
-  const std::complex<double> mounted = mounting(straight_pairs) * std::polar(1.0, -beams.laser_heading_rad);
+  const std::complex<double> mounted =
+      mounting(straight_pairs) * std::polar(1.0, -beams.laser_heading_rad);
   const double turn_rad = std::arg(mounted);
-  if (straight_pairs.size() >= kFewestPairs && std::abs(mounted) > kConsistent && std::abs(turn_rad) > 0.4) {
+  if (straight_pairs.size() >= kFewestPairs && std::abs(mounted) > kConsistent &&
+      std::abs(turn_rad) > 0.4) {
     if (correction.mirrors_position != correction.mirrors_heading) {
-      correction.position_turn_rad = wrap_angle(correction.position_turn_rad - at_right_angle(turn_rad));
+      correction.position_turn_rad =
+          wrap_angle(correction.position_turn_rad - at_right_angle(turn_rad));
     } else {
       correction.laser_turn_rad = at_right_angle(turn_rad);
     }
   }
-  for (const MatchedPair& pair : matched) evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad, pair.by_scans.translation_m().norm()});
+  for (const MatchedPair& pair : matched)
+    evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad,
+                                pair.by_scans.translation_m().norm()});
   evidence.way_scale = way_scale(straight_pairs);
   evidence.turn_scale = turn_scale(turning(matched));
   return evidence;
@@ -379,12 +431,16 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
 
 }  // namespace
 
-LogEvidence weigh_log(std::span<const ScanPair> pairs, const AssumedBeams& beams, const OdometryCheck& odometry, double range_unit_m) {
+LogEvidence weigh_log(std::span<const ScanPair> pairs, const AssumedBeams& beams,
+                      const OdometryCheck& odometry, double range_unit_m) {
   LogEvidence evidence = weigh_in_unit(pairs, beams, odometry, range_unit_m);
   if (range_unit_m == 1.0) return evidence;
-  const auto fits = [](const LogEvidence& one) { return one.correction.way_unit_m == 1.0 && one.way_scale > 0.5 && one.way_scale < 2.0; };
+  const auto fits = [](const LogEvidence& one) {
+    return one.correction.way_unit_m == 1.0 && one.way_scale > 0.5 && one.way_scale < 2.0;
+  };
   if (fits(evidence)) return evidence;
-  const LogEvidence other = weigh_in_unit(pairs, beams, odometry, range_unit_m == 1e-3 ? 1e-2 : 1e-3);
+  const LogEvidence other =
+      weigh_in_unit(pairs, beams, odometry, range_unit_m == 1e-3 ? 1e-2 : 1e-3);
   return fits(other) ? other : evidence;
 }
 

@@ -17,22 +17,23 @@ namespace slammot::matching {
 
 /// Corrections that bring recorded poses and beams to the conventions of the log format.
 struct LogCorrection {
-  double range_unit_m = 1.0;          ///< Metres per recorded unit of range.
-  double way_unit_m = 1.0;            ///< Metres per recorded unit of odometry's position.
-  double heading_unit_rad = 1.0;      ///< Radians per recorded unit of odometry's heading.
-  bool mirrors_position = false;      ///< y of odometry changes sign.
-  bool mirrors_heading = false;       ///< Heading of odometry changes sign.
-  bool integrates_turns_anew = false; ///< Positions were integrated with the wrong turn sign: PoseCorrection integrates the motions again.
-  double position_turn_rad = 0.0;     ///< Rotates positions about the origin, after mirroring.
-  bool reverses_beams = false;        ///< The last beam is the first of the layout.
-  double field_factor = 1.0;          ///< Factor on beam directions, in the laser's frame.
-  double laser_turn_rad = 0.0;        ///< Added to the laser's heading in base.
+  double range_unit_m = 1.0;           ///< Metres per recorded unit of range.
+  double way_unit_m = 1.0;             ///< Metres per recorded unit of odometry's position.
+  double heading_unit_rad = 1.0;       ///< Radians per recorded unit of odometry's heading.
+  bool mirrors_position = false;       ///< y of odometry changes sign.
+  bool mirrors_heading = false;        ///< Heading of odometry changes sign.
+  bool integrates_turns_anew = false;  ///< Positions were integrated with the wrong turn sign:
+                                       ///< PoseCorrection integrates the motions again.
+  double position_turn_rad = 0.0;      ///< Rotates positions about the origin, after mirroring.
+  bool reverses_beams = false;         ///< The last beam is the first of the layout.
+  double field_factor = 1.0;           ///< Factor on beam directions, in the laser's frame.
+  double laser_turn_rad = 0.0;         ///< Added to the laser's heading in base.
 
   bool operator==(const LogCorrection&) const = default;
 };
 
-/// Corrected pose, heading in (-pi, pi]. For turns with the wrong sign it returns the mirror image, which is right
-/// except for sideways motion.
+/// Corrected pose, heading in (-pi, pi]. For turns with the wrong sign it returns the mirror image,
+/// which is right except for sideways motion.
 geometry::Pose2 corrected(const LogCorrection& correction, const geometry::Pose2& recorded);
 
 /// The same for a sequence of poses, exact also if turns had the wrong sign.
@@ -45,21 +46,24 @@ class PoseCorrection {
   geometry::Pose2 last_;                          ///< Last corrected pose.
 };
 
-/// Tests whether odometry's positions move along its headings, step by step. A step lies along the heading in its
-/// middle, forward or backward, up to a constant angle. Mirrored positions do so with the heading's sign changed.
+/// Tests whether odometry's positions move along its headings, step by step. A step lies along the
+/// heading in its middle, forward or backward, up to a constant angle. Mirrored positions do so
+/// with the heading's sign changed.
 class OdometryCheck {
  public:
   void add(const geometry::Pose2& recorded);  ///< The heading is unwrapped, as recorded.
 
   bool is_in_degrees() const;
-  bool positions_are_mirrored() const;        ///< Relative to the headings; does not say which of the two is correct.
-  /// True if chords turn against the headings, or if a point far from the turning axle moves as if behind it: the
-  /// turns' sign is wrong. unit_m: metres per unit of the positions.
+  bool positions_are_mirrored() const;  ///< Relative to the headings; does not say which of the two
+                                        ///< is correct.
+  /// True if chords turn against the headings, or if a point far from the turning axle moves as if
+  /// behind it: the turns' sign is wrong. unit_m: metres per unit of the positions.
   bool turns_against_its_arcs(double unit_m = 1.0) const;
-  /// True if chords turn with the headings, or if a point far from the axle moves as if ahead of it. Neither is true if
-  /// arcs of single steps are not observable.
+  /// True if chords turn with the headings, or if a point far from the axle moves as if ahead of
+  /// it. Neither is true if arcs of single steps are not observable.
   bool turns_with_its_arcs(double unit_m = 1.0) const;
-  double mirrored_direction_rad() const;      ///< Direction of positions minus mirrored headings, modulo pi.
+  double mirrored_direction_rad() const;  ///< Direction of positions minus mirrored headings,
+                                          ///< modulo pi.
 
  private:
   double arcs_per_turn() const;
@@ -67,11 +71,12 @@ class OdometryCheck {
 
   struct Unit {
     double radians = 1.0;
-    std::complex<double> along = {};      ///< Sum of way * exp(2i (direction - heading)).
-    std::complex<double> mirrored = {};   ///< Sum of way * exp(2i (direction + heading)).
-    double arc = 0.0;                ///< Sum of way * sin(direction - heading) * turn.
-    double arc_turn = 0.0;           ///< Sum of way * turn^2.
-    Eigen::Matrix2d turning = Eigen::Matrix2d::Zero();           ///< Normal equations of sideways = ahead * turn + k * forward * turn.
+    std::complex<double> along = {};     ///< Sum of way * exp(2i (direction - heading)).
+    std::complex<double> mirrored = {};  ///< Sum of way * exp(2i (direction + heading)).
+    double arc = 0.0;                    ///< Sum of way * sin(direction - heading) * turn.
+    double arc_turn = 0.0;               ///< Sum of way * turn^2.
+    Eigen::Matrix2d turning = Eigen::Matrix2d::Zero();  ///< Normal equations of sideways = ahead *
+                                                        ///< turn + k * forward * turn.
     Eigen::Vector2d sideways = Eigen::Vector2d::Zero();
     double squared_sideways = 0.0;
     int steps = 0;
@@ -104,23 +109,27 @@ struct AssumedBeams {
 /// Result of matching pairs of scans of a log.
 struct LogEvidence {
   LogCorrection correction;
-  bool handedness_is_told = true;     ///< False if scans and odometry turn differently and nothing tells which is mirrored.
-  std::size_t pairs = 0;              ///< Number of well matched pairs.
-  std::size_t turning_pairs = 0;      ///< Of these, pairs with a turn by odometry.
-  double matched_share = 0.0;         ///< Share of the tried pairs.
-  double turn_sign_share = 0.0;       ///< Share of turning pairs whose turn by scans has the sign of the recorded odometry's.
-  double turn_scale = 0.0;            ///< Median of turn by scans over corrected turn by odometry; 0: unknown.
-  double way_scale = 0.0;             ///< Median of way by scans over corrected way by odometry; 0: unknown.
-  std::vector<ScanPairMotion> motions;   ///< Of the matched pairs, in metres.
+  bool handedness_is_told = true;  ///< False if scans and odometry turn differently and nothing
+                                   ///< tells which is mirrored.
+  std::size_t pairs = 0;           ///< Number of well matched pairs.
+  std::size_t turning_pairs = 0;   ///< Of these, pairs with a turn by odometry.
+  double matched_share = 0.0;      ///< Share of the tried pairs.
+  double turn_sign_share = 0.0;  ///< Share of turning pairs whose turn by scans has the sign of the
+                                 ///< recorded odometry's.
+  double turn_scale = 0.0;       ///< Median of turn by scans over corrected turn by odometry; 0:
+                                 ///< unknown.
+  double way_scale = 0.0;  ///< Median of way by scans over corrected way by odometry; 0: unknown.
+  std::vector<ScanPairMotion> motions;  ///< Of the matched pairs, in metres.
 };
 
-/// Matches the pairs by correlation under the stated layout, and infers units, signs, field of view and mounting where
-/// many pairs agree. range_unit_m: estimated from the readings alone. If it is not metres, odometry decides between
-/// millimetres and centimetres.
-LogEvidence weigh_log(std::span<const ScanPair> pairs, const AssumedBeams& beams, const OdometryCheck& odometry, double range_unit_m);
+/// Matches the pairs by correlation under the stated layout, and infers units, signs, field of view
+/// and mounting where many pairs agree. range_unit_m: estimated from the readings alone. If it is
+/// not metres, odometry decides between millimetres and centimetres.
+LogEvidence weigh_log(std::span<const ScanPair> pairs, const AssumedBeams& beams,
+                      const OdometryCheck& odometry, double range_unit_m);
 
-/// Metres per unit of readings with this median and 90th percentile. Assumes that no scanner sees 100 m at half of its
-/// beams, and that none has a range limit of 2.5 m.
+/// Metres per unit of readings with this median and 90th percentile. Assumes that no scanner sees
+/// 100 m at half of its beams, and that none has a range limit of 2.5 m.
 double range_unit_of(double median_reading, double far_reading);
 
 }  // namespace slammot::matching

@@ -15,8 +15,8 @@ using geometry::Vector2;
 
 namespace {
 
-constexpr double kSigmas = 3.0;        // farther cells are not affected by a measurement
-constexpr double kSurest = 0.9;        // upper limit of the evidence of a single echo
+constexpr double kSigmas = 3.0;  // farther cells are not affected by a measurement
+constexpr double kSurest = 0.9;  // upper limit of the evidence of a single echo
 
 Vector2 reach_m(const UncertainPoint& point, double cell_size_m) {
   return kSigmas * point.covariance_m2.diagonal().cwiseSqrt() + Vector2::Constant(cell_size_m);
@@ -45,17 +45,22 @@ OccupancyPatch::OccupancyPatch(std::span<const UncertainPoint> points, double ce
 
 void OccupancyPatch::add_log_odds(const UncertainPoint& point) {
   const double cell_m = window_.cell_size_m;
-  // Approximates the mean of the density over a cell by a Gaussian whose variance includes the cell's width.
+  // Approximates the mean of the density over a cell by a Gaussian whose variance includes the
+  // cell's width.
   const Matrix2 covariance_m2 = point.covariance_m2 + cell_m * cell_m / 12.0 * Matrix2::Identity();
   const Matrix2 information = covariance_m2.inverse();
-  const double highest = cell_m * cell_m / (2.0 * std::numbers::pi * std::sqrt(covariance_m2.determinant()));
+  const double highest =
+      cell_m * cell_m / (2.0 * std::numbers::pi * std::sqrt(covariance_m2.determinant()));
   const Vector2 reach = reach_m(point, cell_m);
-  const grids::Cell low = window_.cell_at(point.mean_m.x() - reach.x(), point.mean_m.y() - reach.y());
-  const grids::Cell high = window_.cell_at(point.mean_m.x() + reach.x(), point.mean_m.y() + reach.y());
+  const grids::Cell low =
+      window_.cell_at(point.mean_m.x() - reach.x(), point.mean_m.y() - reach.y());
+  const grids::Cell high =
+      window_.cell_at(point.mean_m.x() + reach.x(), point.mean_m.y() + reach.y());
   for (std::int32_t row = low.row; row <= high.row; ++row) {
     for (std::int32_t column = low.column; column <= high.column; ++column) {
       const Vector2 away_m = window_.centre_of({column, row}) - point.mean_m;
-      const double evidence = std::min(kSurest, highest * std::exp(-0.5 * away_m.dot(information * away_m)));
+      const double evidence =
+          std::min(kSurest, highest * std::exp(-0.5 * away_m.dot(information * away_m)));
       log_odds_[window_.index({column, row})] += static_cast<float>(2.0 * std::atanh(evidence));
     }
   }
@@ -72,8 +77,10 @@ double OccupancyPatch::evidence_at(const Vector2& point_m) const {
   const auto column = static_cast<std::int32_t>(low.x());
   const auto row = static_cast<std::int32_t>(low.y());
   const Vector2 share = in_cells - low;
-  return (1.0 - share.y()) * ((1.0 - share.x()) * evidence(column, row) + share.x() * evidence(column + 1, row)) +
-         share.y() * ((1.0 - share.x()) * evidence(column, row + 1) + share.x() * evidence(column + 1, row + 1));
+  return (1.0 - share.y()) *
+             ((1.0 - share.x()) * evidence(column, row) + share.x() * evidence(column + 1, row)) +
+         share.y() * ((1.0 - share.x()) * evidence(column, row + 1) +
+                      share.x() * evidence(column + 1, row + 1));
 }
 
 std::vector<OccupiedCell> OccupancyPatch::occupied(double least_evidence) const {
@@ -88,12 +95,14 @@ std::vector<OccupiedCell> OccupancyPatch::occupied(double least_evidence) const 
   return cells;
 }
 
-double correlation(const OccupancyPatch& target, std::span<const OccupiedCell> source, const geometry::Pose2& target_from_source) {
+double correlation(const OccupancyPatch& target, std::span<const OccupiedCell> source,
+                   const geometry::Pose2& target_from_source) {
   const Matrix2 turn = geometry::rotation(target_from_source.heading_rad);
   double products = 0.0;
   double sum = 0.0;
   for (const OccupiedCell& cell : source) {
-    products += cell.evidence * target.evidence_at(turn * cell.centre_m + target_from_source.translation_m());
+    products += cell.evidence *
+                target.evidence_at(turn * cell.centre_m + target_from_source.translation_m());
     sum += cell.evidence;
   }
   return sum > 0.0 ? products / sum : 0.0;

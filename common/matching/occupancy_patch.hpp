@@ -18,11 +18,12 @@ struct UncertainPoint {
 /// A cell of a patch that may be occupied.
 struct OccupiedCell {
   geometry::Vector2 centre_m;
-  double evidence = 0.0;        ///< In [0, 1): 2 p - 1, the evidence of occupancy beyond the prior.
+  double evidence = 0.0;  ///< In [0, 1): 2 p - 1, the evidence of occupancy beyond the prior.
 };
 
-/// Occupancy of a patch of the plane from noisy measurements. Each echo is spread over the cells that it may have come
-/// from; log-odds of several echoes are added; Wang 2004, Eq. (3.8), after Elfes 1990. Free space is not modelled.
+/// Occupancy of a patch of the plane from noisy measurements. Each echo is spread over the cells
+/// that it may have come from; log-odds of several echoes are added; Wang 2004, Eq. (3.8), after
+/// Elfes 1990. Free space is not modelled.
 class OccupancyPatch {
  public:
   OccupancyPatch() = default;
@@ -42,11 +43,12 @@ class OccupancyPatch {
 
   grids::GridWindow window_;
   std::vector<float> log_odds_;
-  std::vector<float> evidence_;   ///< Cached OccupiedCell::evidence.
+  std::vector<float> evidence_;  ///< Cached OccupiedCell::evidence.
 };
 
-/// Correlation of two patches: sum of the products of their cells, Wang 2004, Eq. (3.9), divided by the source's own
-/// sum; in [0, 1). 0 for a source without cells.
-double correlation(const OccupancyPatch& target, std::span<const OccupiedCell> source, const geometry::Pose2& target_from_source);
+/// Correlation of two patches: sum of the products of their cells, Wang 2004, Eq. (3.9), divided by
+/// the source's own sum; in [0, 1). 0 for a source without cells.
+double correlation(const OccupancyPatch& target, std::span<const OccupiedCell> source,
+                   const geometry::Pose2& target_from_source);
 
 }  // namespace slammot::matching

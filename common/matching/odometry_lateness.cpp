@@ -11,28 +11,31 @@ namespace {
 using geometry::Pose2;
 
 constexpr double kFarthest_s = 1.0;
-constexpr int kSteps = 50;               // in either direction
+constexpr int kSteps = 50;  // in either direction
 constexpr double kStep_s = kFarthest_s / kSteps;
-constexpr double kLeast_s = 0.08;        // a smaller lateness is estimated during the drive
+constexpr double kLeast_s = 0.08;  // a smaller lateness is estimated during the drive
 constexpr std::size_t kFewestPairs = 12;
 constexpr double kTurnSigma_rad = 0.012;
 constexpr double kTurnShare = 0.05;
 constexpr double kStraight_rad = 0.05;
 constexpr double kWaySigma_m = 0.05;
 constexpr double kWayShare = 0.06;
-constexpr double kMostSquaredError = 9.0;   // of one pair; limits the effect of wrong matches
+constexpr double kMostSquaredError = 9.0;  // of one pair; limits the effect of wrong matches
 constexpr double kLeastError = 0.2;
-constexpr double kClearly = 12.0;           // in mean squared errors: an F statistic of one parameter, with a dozen candidate delays
+constexpr double kClearly = 12.0;  // in mean squared errors: an F statistic of one parameter, with
+                                   // a dozen candidate delays
 
 std::optional<Pose2> pose_at(std::span<const TimedPose> odometry, double time_s) {
   const auto after = std::ranges::lower_bound(odometry, time_s, {}, &TimedPose::time_s);
   if (after == odometry.begin() || after == odometry.end()) return std::nullopt;
   const TimedPose& before = *(after - 1);
   const double span_s = after->time_s - before.time_s;
-  return geometry::interpolate(before.pose, after->pose, span_s > 0.0 ? (time_s - before.time_s) / span_s : 1.0);
+  return geometry::interpolate(before.pose, after->pose,
+                               span_s > 0.0 ? (time_s - before.time_s) / span_s : 1.0);
 }
 
-std::optional<Pose2> motion_at(const ScanPairMotion& pair, std::span<const TimedPose> odometry, double delay_s) {
+std::optional<Pose2> motion_at(const ScanPairMotion& pair, std::span<const TimedPose> odometry,
+                               double delay_s) {
   const auto first = pose_at(odometry, odometry[pair.first_scan].time_s + delay_s);
   const auto second = pose_at(odometry, odometry[pair.second_scan].time_s + delay_s);
   if (!first || !second) return std::nullopt;
@@ -40,39 +43,50 @@ std::optional<Pose2> motion_at(const ScanPairMotion& pair, std::span<const Timed
 }
 
 double squared_error(const ScanPairMotion& pair, const Pose2& by_odometry, double way_scale) {
-  const double turn = geometry::wrap_angle(by_odometry.heading_rad - pair.turn_rad) / (kTurnSigma_rad + kTurnShare * std::abs(pair.turn_rad));
-  const double way = (way_scale * by_odometry.translation_m().norm() - pair.way_m) / (kWaySigma_m + kWayShare * pair.way_m);
-  const bool is_straight = std::abs(pair.turn_rad) < kStraight_rad;  // otherwise the laser's way differs from that of the base
+  const double turn = geometry::wrap_angle(by_odometry.heading_rad - pair.turn_rad) /
+                      (kTurnSigma_rad + kTurnShare * std::abs(pair.turn_rad));
+  const double way = (way_scale * by_odometry.translation_m().norm() - pair.way_m) /
+                     (kWaySigma_m + kWayShare * pair.way_m);
+  const bool is_straight = std::abs(pair.turn_rad) < kStraight_rad;  // otherwise the laser's way
+                                                                     // differs from that of the
+                                                                     // base
   return std::min(turn * turn + (is_straight ? way * way : 0.0), kMostSquaredError);
 }
 
 /// Pairs that odometry covers at every delay.
-std::vector<ScanPairMotion> covered(std::span<const ScanPairMotion> pairs, std::span<const TimedPose> odometry) {
+std::vector<ScanPairMotion> covered(std::span<const ScanPairMotion> pairs,
+                                    std::span<const TimedPose> odometry) {
   std::vector<ScanPairMotion> some;
   for (const ScanPairMotion& pair : pairs) {
     if (pair.second_scan >= odometry.size()) continue;
-    if (motion_at(pair, odometry, -kFarthest_s) && motion_at(pair, odometry, kFarthest_s)) some.push_back(pair);
+    if (motion_at(pair, odometry, -kFarthest_s) && motion_at(pair, odometry, kFarthest_s))
+      some.push_back(pair);
   }
   return some;
 }
 
 }  // namespace
 
-double odometry_lateness_s(std::span<const ScanPairMotion> pairs, std::span<const TimedPose> odometry, double way_scale) {
+double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
+                           std::span<const TimedPose> odometry, double way_scale) {
   const std::vector<ScanPairMotion> compared = covered(pairs, odometry);
   if (compared.size() < kFewestPairs || !(way_scale > 0.0)) return 0.0;
   std::vector<double> errors;
   for (int step = -kSteps; step <= kSteps; ++step) {
     double sum = 0.0;
-    for (const ScanPairMotion& pair : compared) sum += squared_error(pair, *motion_at(pair, odometry, step * kStep_s), way_scale);
+    for (const ScanPairMotion& pair : compared)
+      sum += squared_error(pair, *motion_at(pair, odometry, step * kStep_s), way_scale);
     errors.push_back(sum);
   }
   const auto best = std::ranges::min_element(errors) - errors.begin();
   const auto at = [&](std::ptrdiff_t i) { return errors[static_cast<std::size_t>(i)]; };
-  const double usual_error = std::max(at(best) / static_cast<double>(compared.size()), kLeastError);  // a bad fit needs a larger improvement
+  const double usual_error =
+      std::max(at(best) / static_cast<double>(compared.size()), kLeastError);  // a bad fit needs a
+                                                                               // larger improvement
   if (best == 0 || best == 2 * kSteps || at(kSteps) - at(best) < kClearly * usual_error) return 0.0;
   const double bend = at(best - 1) - 2.0 * at(best) + at(best + 1);
-  const double within = bend > 0.0 ? std::clamp(0.5 * (at(best - 1) - at(best + 1)) / bend, -0.5, 0.5) : 0.0;
+  const double within =
+      bend > 0.0 ? std::clamp(0.5 * (at(best - 1) - at(best + 1)) / bend, -0.5, 0.5) : 0.0;
   const double delay_s = (static_cast<double>(best - kSteps) + within) * kStep_s;
   return std::abs(delay_s) < kLeast_s ? 0.0 : delay_s;
 }

@@ -9,10 +9,10 @@ namespace slammot::matching {
 
 /// Motion of the vehicle between two scans, by matching them.
 struct ScanPairMotion {
-  std::size_t first_scan = 0;   ///< Counted from 0.
+  std::size_t first_scan = 0;  ///< Counted from 0.
   std::size_t second_scan = 0;
   double turn_rad = 0.0;
-  double way_m = 0.0;           ///< Way of the laser.
+  double way_m = 0.0;  ///< Way of the laser.
 };
 
 struct TimedPose {
@@ -20,10 +20,12 @@ struct TimedPose {
   geometry::Pose2 pose;
 };
 
-/// Lateness of odometry's stamps against those of the scans [s]: the delay at which turns and ways by odometry best fit
-/// those by pairs of scans. 0 unless the fit is significantly better than without delay. odometry: in order of time,
-/// one pose a scan. way_scale: way by scans over way by odometry. The search covers delays up to 1 s. The delay is not
-/// observable at constant speed and turn rate.
-double odometry_lateness_s(std::span<const ScanPairMotion> pairs, std::span<const TimedPose> odometry, double way_scale);
+/// Lateness of odometry's stamps against those of the scans [s]: the delay at which turns and ways
+/// by odometry best fit those by pairs of scans. 0 unless the fit is significantly better than
+/// without delay. odometry: in order of time, one pose a scan. way_scale: way by scans over way by
+/// odometry. The search covers delays up to 1 s. The delay is not observable at constant speed and
+/// turn rate.
+double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
+                           std::span<const TimedPose> odometry, double way_scale);
 
 }  // namespace slammot::matching

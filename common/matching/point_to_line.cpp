@@ -16,21 +16,26 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 
-constexpr double kGapOfBodies_m = 0.3;         ///< Gap between neighbouring points that separates two bodies; it grows with the range
-constexpr double kGapOfBodies_perM = 0.03;     ///< by this: three beams of half a degree.
-constexpr double kSamePairsWithin = 0.01;     ///< As a share of a surfel's cell: a pose change below it keeps the correspondences.
+constexpr double kGapOfBodies_m = 0.3;      ///< Gap between neighbouring points that separates two
+                                            ///< bodies; it grows with the range
+constexpr double kGapOfBodies_perM = 0.03;  ///< by this: three beams of half a degree.
+constexpr double kSamePairsWithin = 0.01;   ///< As a share of a surfel's cell: a pose change below
+                                            ///< it keeps the correspondences.
 
 }  // namespace
 
-void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const Pose2& map_from_base,
+void PointToLineMatcher::pair(const std::vector<MatchPoint>& points,
+                              const grids::SurfelMap& surfels, const Pose2& map_from_base,
                               double gate_m, const PointToLineConfig& config) {
-  const int radius = std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
+  const int radius =
+      std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
   places_.resize(points.size());
   constexpr std::size_t kRanges = 4;
   work::share_in_ranges(help_, points.size(), kRanges, [&](std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i)
-      places_[i] = surfels.nearest_place(turn * points[i].in_base_m + map_from_base.translation_m(), radius);
+      places_[i] =
+          surfels.nearest_place(turn * points[i].in_base_m + map_from_base.translation_m(), radius);
   });
   pairs_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -39,10 +44,12 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
     const grids::SurfelMap::Surface surface = surfels.surface_at(places_[i]);
     const bool has_direction = !surface.normal.isZero();
     // Without a direction the surface may be anywhere in its cell.
-    const double variance_m2 = has_direction ? point.sigma_m * point.sigma_m + surface.spread_m2
-                                             : std::pow(point.sigma_m + 0.5 * surfels.window().cell_size_m, 2);
+    const double variance_m2 =
+        has_direction ? point.sigma_m * point.sigma_m + surface.spread_m2
+                      : std::pow(point.sigma_m + 0.5 * surfels.window().cell_size_m, 2);
     const double share = surface.seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
-    pairs_.push_back({point.in_base_m, surface.mean_m, surface.normal, share / variance_m2, variance_m2, share, has_direction, surface.seen_over_m < config.new_below_m});
+    pairs_.push_back({point.in_base_m, surface.mean_m, surface.normal, share / variance_m2,
+                      variance_m2, share, has_direction, surface.seen_over_m < config.new_below_m});
   }
   if (config.body_sigma_m > 0.0) share_errors_of_bodies(config);
 }
@@ -50,13 +57,15 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points, const grids
 void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config) {
   const double shared_m2 = config.body_sigma_m * config.body_sigma_m;
   const auto is_of_body = [&](const Pair& first, const Pair& last, const Pair& next) {
-    return (next.in_base_m - last.in_base_m).norm() < kGapOfBodies_m + kGapOfBodies_perM * next.in_base_m.norm() &&
+    return (next.in_base_m - last.in_base_m).norm() <
+               kGapOfBodies_m + kGapOfBodies_perM * next.in_base_m.norm() &&
            (next.in_base_m - first.in_base_m).norm() < config.body_length_m;
   };
   double each_for_itself = 0.0;
   double together = 0.0;
   for (std::size_t first = 0, end = 0; first < pairs_.size(); first = end) {
-    for (end = first + 1; end < pairs_.size() && is_of_body(pairs_[first], pairs_[end - 1], pairs_[end]); ++end) {}
+    for (end = first + 1;
+         end < pairs_.size() && is_of_body(pairs_[first], pairs_[end - 1], pairs_[end]); ++end) {}
     const auto points = static_cast<double>(end - first);
     for (std::size_t i = first; i < end; ++i) {
       const double shared = 1.0 / (pairs_[i].variance_m2 + points * shared_m2);
@@ -68,23 +77,30 @@ void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config)
   for (Pair& pair : pairs_) pair.information_per_m2 *= each_for_itself / together;
 }
 
-PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& map_from_base, double gate_m, const std::optional<Matrix3>& expected,
-                                                                         const PointToLineConfig& config) const {
+PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(
+    const Pose2& map_from_base, double gate_m, const std::optional<Matrix3>& expected,
+    const PointToLineConfig& config) const {
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
   NormalEquations equations;
-  double xx = 0.0, xy = 0.0, xh = 0.0, yy = 0.0, yh = 0.0, hh = 0.0, x = 0.0, y = 0.0, h = 0.0;  // entries of J'WJ and J'Wr
+  double xx = 0.0, xy = 0.0, xh = 0.0, yy = 0.0, yh = 0.0, hh = 0.0, x = 0.0, y = 0.0,
+         h = 0.0;  // entries of J'WJ and J'Wr
   const auto robust_scale_m = [&](const geometry::Vector2& direction, double by_heading_m) {
     if (!expected) return config.robust_scale_m;
     const Eigen::Vector3d by_pose(direction.x(), direction.y(), by_heading_m);
-    return std::sqrt(config.robust_scale_m * config.robust_scale_m + by_pose.dot(*expected * by_pose));
+    return std::sqrt(config.robust_scale_m * config.robust_scale_m +
+                     by_pose.dot(*expected * by_pose));
   };
-  const auto add = [&](const geometry::Vector2& direction, double by_heading_m, double residual_m, double information_per_m2) {
-    const double weight = robust_weight(residual_m, robust_scale_m(direction, by_heading_m)) * information_per_m2;
+  const auto add = [&](const geometry::Vector2& direction, double by_heading_m, double residual_m,
+                       double information_per_m2) {
+    const double weight =
+        robust_weight(residual_m, robust_scale_m(direction, by_heading_m)) * information_per_m2;
     const double weighted_x = weight * direction.x();
     const double weighted_y = weight * direction.y();
     const double weighted_h = weight * by_heading_m;
-    xx += weighted_x * direction.x(), xy += weighted_x * direction.y(), xh += weighted_x * by_heading_m;
-    yy += weighted_y * direction.y(), yh += weighted_y * by_heading_m, hh += weighted_h * by_heading_m;
+    xx += weighted_x * direction.x(), xy += weighted_x * direction.y(),
+        xh += weighted_x * by_heading_m;
+    yy += weighted_y * direction.y(), yh += weighted_y * by_heading_m,
+        hh += weighted_h * by_heading_m;
     x += weighted_x * residual_m, y += weighted_y * residual_m, h += weighted_h * residual_m;
   };
   for (const Pair& pair : pairs_) {
@@ -96,7 +112,8 @@ PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& m
     if (pair.has_direction) {
       const double residual_m = pair.normal.dot(offset_m);
       equations.squared_residuals_m2 += residual_m * residual_m;
-      add(pair.normal, pair.normal.y() * turned_m.x() - pair.normal.x() * turned_m.y(), residual_m, pair.information_per_m2);
+      add(pair.normal, pair.normal.y() * turned_m.x() - pair.normal.x() * turned_m.y(), residual_m,
+          pair.information_per_m2);
     } else {
       equations.squared_residuals_m2 += 0.5 * offset_m.squaredNorm();
       add({1.0, 0.0}, -turned_m.y(), offset_m.x(), pair.information_per_m2);
@@ -110,8 +127,10 @@ PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(const Pose2& m
   return equations;
 }
 
-PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
-                                            const geometry::UncertainPose2& prior_map_from_base, const Pose2& initial_map_from_base,
+PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& points,
+                                            const grids::SurfelMap& surfels,
+                                            const geometry::UncertainPose2& prior_map_from_base,
+                                            const Pose2& initial_map_from_base,
                                             const PointToLineConfig& config) {
   const Matrix3 prior_information = prior_map_from_base.covariance.inverse();
   const Pose2& prior = prior_map_from_base.pose;
@@ -120,7 +139,9 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
   Pose2& pose = result.map_from_base.pose;
   pose = initial_map_from_base;
   std::optional<Matrix3> expected;
-  if (config.coarse_prior_sigmas > 0.0) expected = config.coarse_prior_sigmas * config.coarse_prior_sigmas * prior_map_from_base.covariance;
+  if (config.coarse_prior_sigmas > 0.0)
+    expected =
+        config.coarse_prior_sigmas * config.coarse_prior_sigmas * prior_map_from_base.covariance;
   NormalEquations equations;
   double moved_since_paired_m = std::numeric_limits<double>::infinity();
   for (int step = 0; step < config.coarse_steps + config.fine_steps; ++step) {
@@ -132,7 +153,8 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
     }
     equations = linearize(pose, gate_m, is_coarse ? expected : std::nullopt, config);
     const Matrix3 H = equations.H + prior_information;
-    const Eigen::Vector3d change = -H.ldlt().solve(equations.g + prior_information * geometry::difference(pose, prior));
+    const Eigen::Vector3d change =
+        -H.ldlt().solve(equations.g + prior_information * geometry::difference(pose, prior));
     pose = geometry::displaced(pose, change);
     const double moved_m = geometry::as_seen_10_m_away(change);
     moved_since_paired_m += moved_m;
@@ -145,15 +167,20 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
   result.scan_information = equations.H;
   result.map_from_base.covariance = (equations.H + prior_information).inverse();
   result.matched_points = equations.matched;
-  if (!points.empty()) result.matched_share = static_cast<double>(equations.matched) / static_cast<double>(points.size());
-  if (equations.matched > 0) result.new_share = static_cast<double>(equations.matched_new) / equations.matched;
-  if (equations.matched > 0) result.rms_residual_m = std::sqrt(equations.squared_residuals_m2 / equations.matched);
+  if (!points.empty())
+    result.matched_share =
+        static_cast<double>(equations.matched) / static_cast<double>(points.size());
+  if (equations.matched > 0)
+    result.new_share = static_cast<double>(equations.matched_new) / equations.matched;
+  if (equations.matched > 0)
+    result.rms_residual_m = std::sqrt(equations.squared_residuals_m2 / equations.matched);
   return result;
 }
 
 double fit_of(const PointToLineResult& registered, double robust_scale_m) {
   const double scale_m2 = robust_scale_m * robust_scale_m;
-  return registered.matched_share * scale_m2 / (scale_m2 + registered.rms_residual_m * registered.rms_residual_m);
+  return registered.matched_share * scale_m2 /
+         (scale_m2 + registered.rms_residual_m * registered.rms_residual_m);
 }
 
 }  // namespace slammot::matching

@@ -15,11 +15,14 @@ struct SaliencyConfig {
   PointToLineConfig match;
 };
 
-/// Object saliency score: 1 / trace of the covariance [m^2, rad^2] with which the object is registered with itself; Wang
-/// 2004, Eqs. (3.10)-(3.11). The larger, the surer a pose from this shape; 1 / trace of the displacements' covariance for a
-/// shape that tells nothing, 0 for no points. Does not depend on where the points' frame is. The measure that the
-/// thesis orders objects by; whether a scan is to be sampled the product tells from the closed form's
-/// information, which it has without registering anything (services/localization/ambiguous_match.hpp).
-double saliency_score(const std::vector<MatchPoint>& points, const SaliencyConfig& config, std::mt19937_64& random);
+/// Object saliency score: 1 / trace of the covariance [m^2, rad^2] with which the object is
+/// registered with itself; Wang 2004, Eqs. (3.10)-(3.11). The larger, the surer a pose from this
+/// shape; 1 / trace of the displacements' covariance for a shape that tells nothing, 0 for no
+/// points. Does not depend on where the points' frame is. The measure that the thesis orders
+/// objects by; whether a scan is to be sampled the product tells from the closed form's
+/// information, which it has without registering anything
+/// (services/localization/ambiguous_match.hpp).
+double saliency_score(const std::vector<MatchPoint>& points, const SaliencyConfig& config,
+                      std::mt19937_64& random);
 
 }  // namespace slammot::matching

@@ -20,7 +20,9 @@ std::int32_t cells_by_heading(int level) { return ScorePyramid::headings_of(leve
 
 }  // namespace
 
-ScorePyramid::ScorePyramid(std::span<const TargetPoint> points, double cell_m, double smear_sigma_m, int top_level) : cell_m_(cell_m) {
+ScorePyramid::ScorePyramid(std::span<const TargetPoint> points, double cell_m, double smear_sigma_m,
+                           int top_level)
+    : cell_m_(cell_m) {
   assert(cell_m > 0.0 && smear_sigma_m > 0.0 && top_level >= 0);
   stamp(points, smear_sigma_m);
   Level blocks = levels_.front();
@@ -33,10 +35,12 @@ ScorePyramid::ScorePyramid(std::span<const TargetPoint> points, double cell_m, d
 /// Maxima over 2 x 2 entries.
 ScorePyramid::Level ScorePyramid::halved(const Level& fine) {
   Level coarse{.columns = (fine.columns + 1) / 2 + kPad, .rows = (fine.rows + 1) / 2 + kPad};
-  coarse.values.assign(static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows), 0);
+  coarse.values.assign(
+      static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows), 0);
   for (std::int32_t row = kPad; row < fine.rows; ++row) {
     const std::uint8_t* from = fine.values.data() + static_cast<std::ptrdiff_t>(row) * fine.columns;
-    std::uint8_t* to = coarse.values.data() + static_cast<std::ptrdiff_t>((row - kPad) / 2 + kPad) * coarse.columns;
+    std::uint8_t* to = coarse.values.data() +
+                       static_cast<std::ptrdiff_t>((row - kPad) / 2 + kPad) * coarse.columns;
     for (std::int32_t column = kPad; column < fine.columns; ++column) {
       std::uint8_t& value = to[(column - kPad) / 2 + kPad];
       value = std::max(value, from[column]);
@@ -56,17 +60,24 @@ void ScorePyramid::stamp(std::span<const TargetPoint> points, double smear_sigma
   const geometry::Vector2 size = in_cells(box.max());
   grid.columns = static_cast<std::int32_t>(size.x()) + kernel.half() + 1 + 2 * kPad;
   grid.rows = static_cast<std::int32_t>(size.y()) + kernel.half() + 1 + 2 * kPad;
-  grid.values.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), 0);
+  grid.values.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),
+                     0);
   const std::int32_t side = 2 * kernel.half() + 1;
   for (const TargetPoint& point : points) {
     const geometry::Vector2 at = in_cells({point.x_m, point.y_m});
     const auto column = static_cast<std::int32_t>(std::floor(at.x()));
     const auto row = static_cast<std::int32_t>(std::floor(at.y()));
     const std::uint8_t* values = kernel.around(at - geometry::Vector2(column, row));
-    const auto weight_256 = static_cast<std::uint32_t>(std::lround(256.0F * std::clamp(point.weight, 0.0F, 1.0F)));
+    const auto weight_256 =
+        static_cast<std::uint32_t>(std::lround(256.0F * std::clamp(point.weight, 0.0F, 1.0F)));
     for (std::int32_t y = 0; y < side; ++y) {
-      std::uint8_t* cells = grid.values.data() + static_cast<std::ptrdiff_t>(row + y - kernel.half() + kPad) * grid.columns + column - kernel.half() + kPad;
-      for (std::int32_t x = 0; x < side; ++x) cells[x] = std::max(cells[x], static_cast<std::uint8_t>((values[y * side + x] * weight_256) >> 8));
+      std::uint8_t* cells =
+          grid.values.data() +
+          static_cast<std::ptrdiff_t>(row + y - kernel.half() + kPad) * grid.columns + column -
+          kernel.half() + kPad;
+      for (std::int32_t x = 0; x < side; ++x)
+        cells[x] =
+            std::max(cells[x], static_cast<std::uint8_t>((values[y * side + x] * weight_256) >> 8));
     }
   }
   work_ += grid.values.size() / 8 + points.size() * static_cast<std::size_t>(side * side);
@@ -79,12 +90,14 @@ void ScorePyramid::append_level(const Level& blocks, int level) {
   const std::int32_t last = (stride - 1 + (1 << level) - 1 + cells_by_heading(level)) / stride;
   Level along = blocks;
   for (std::int32_t row = 0; row < blocks.rows; ++row) {
-    const std::uint8_t* from = blocks.values.data() + static_cast<std::ptrdiff_t>(row) * blocks.columns;
+    const std::uint8_t* from =
+        blocks.values.data() + static_cast<std::ptrdiff_t>(row) * blocks.columns;
     std::uint8_t* to = along.values.data() + static_cast<std::ptrdiff_t>(row) * blocks.columns;
     for (std::int32_t step = first; step <= last; ++step) {
       const std::int32_t begin = std::max(-step, 0);
       const std::int32_t end = blocks.columns - std::max(step, 0);
-      for (std::int32_t column = begin; column < end; ++column) to[column] = std::max(to[column], from[column + step]);
+      for (std::int32_t column = begin; column < end; ++column)
+        to[column] = std::max(to[column], from[column + step]);
     }
   }
   Level both = along;
@@ -92,15 +105,18 @@ void ScorePyramid::append_level(const Level& blocks, int level) {
     std::uint8_t* to = both.values.data() + static_cast<std::ptrdiff_t>(row) * blocks.columns;
     for (std::int32_t step = first; step <= last; ++step) {
       if (row + step < 0 || row + step >= blocks.rows) continue;
-      const std::uint8_t* from = along.values.data() + static_cast<std::ptrdiff_t>(row + step) * blocks.columns;
-      for (std::int32_t column = 0; column < blocks.columns; ++column) to[column] = std::max(to[column], from[column]);
+      const std::uint8_t* from =
+          along.values.data() + static_cast<std::ptrdiff_t>(row + step) * blocks.columns;
+      for (std::int32_t column = 0; column < blocks.columns; ++column)
+        to[column] = std::max(to[column], from[column]);
     }
   }
   work_ += blocks.values.size();
   levels_.push_back(std::move(both));
 }
 
-std::uint32_t ScorePyramid::sum(const CellPoints& points, std::int32_t column, std::int32_t row, int level) const {
+std::uint32_t ScorePyramid::sum(const CellPoints& points, std::int32_t column, std::int32_t row,
+                                int level) const {
   const Level& grid = levels_[static_cast<std::size_t>(level)];
   const int shift = stride_shift(level);
   const auto columns = static_cast<std::uint32_t>(grid.columns);
@@ -115,7 +131,9 @@ std::uint32_t ScorePyramid::sum(const CellPoints& points, std::int32_t column, s
   return sum;
 }
 
-std::array<std::uint32_t, 4> ScorePyramid::sums_of_four(const CellPoints& points, std::int32_t column, std::int32_t row, std::int32_t step, int level) const {
+std::array<std::uint32_t, 4> ScorePyramid::sums_of_four(const CellPoints& points,
+                                                        std::int32_t column, std::int32_t row,
+                                                        std::int32_t step, int level) const {
   const Level& grid = levels_[static_cast<std::size_t>(level)];
   const int shift = stride_shift(level);
   const auto columns = static_cast<std::uint32_t>(grid.columns);

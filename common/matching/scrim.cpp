@@ -21,11 +21,12 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
-constexpr double kLeastEvidence = 0.05;     // cells of the scan with less evidence are ignored
-constexpr double kSigmasAround = 3.0;       // of the prior: extent of the map region in use
+constexpr double kLeastEvidence = 0.05;  // cells of the scan with less evidence are ignored
+constexpr double kSigmasAround = 3.0;    // of the prior: extent of the map region in use
 
 /// Samples with zero mean and exactly this covariance, in antithetic pairs.
-std::vector<Eigen::Vector3d> paired_draws(int pairs, const Matrix3& covariance, std::mt19937_64& random) {
+std::vector<Eigen::Vector3d> paired_draws(int pairs, const Matrix3& covariance,
+                                          std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::vector<Eigen::Vector3d> draws;
   Matrix3 scatter = Matrix3::Zero();
@@ -47,18 +48,22 @@ std::vector<Eigen::Vector3d> paired_draws(int pairs, const Matrix3& covariance, 
 std::vector<UncertainPoint> uncertain_points(const std::vector<MatchPoint>& points) {
   std::vector<UncertainPoint> uncertain;
   uncertain.reserve(points.size());
-  for (const MatchPoint& point : points) uncertain.push_back({point.in_base_m, point.sigma_m * point.sigma_m * Matrix2::Identity()});
+  for (const MatchPoint& point : points)
+    uncertain.push_back({point.in_base_m, point.sigma_m * point.sigma_m * Matrix2::Identity()});
   return uncertain;
 }
 
 /// Gaussians of surfels near the scan: length is the cell, thickness is the spread of the echoes.
-std::vector<UncertainPoint> uncertain_points(const grids::SurfelMap& surfels, const Eigen::AlignedBox2d& near) {
+std::vector<UncertainPoint> uncertain_points(const grids::SurfelMap& surfels,
+                                             const Eigen::AlignedBox2d& near) {
   const double along_m2 = surfels.window().cell_size_m * surfels.window().cell_size_m / 12.0;
   std::vector<UncertainPoint> uncertain;
   for (const grids::SurfelView& surfel : surfels.all()) {
     if (!near.contains(surfel.mean_m)) continue;
-    const Matrix2 across = surfel.normal * surfel.normal.transpose();  // zero if the surfel has no direction
-    uncertain.push_back({surfel.mean_m, along_m2 * (Matrix2::Identity() - across) + surfel.spread_m2 * across});
+    const Matrix2 across = surfel.normal * surfel.normal.transpose();  // zero if the surfel has no
+                                                                       // direction
+    uncertain.push_back(
+        {surfel.mean_m, along_m2 * (Matrix2::Identity() - across) + surfel.spread_m2 * across});
   }
   return uncertain;
 }
@@ -71,7 +76,8 @@ Eigen::AlignedBox2d reach_of(const std::vector<MatchPoint>& points, const Uncert
     farthest_m = std::max(farthest_m, point.in_base_m.norm());
   }
   const Eigen::Vector3d sigmas = prior.covariance.diagonal().cwiseSqrt();
-  const Vector2 margin = kSigmasAround * (sigmas.head<2>() + Vector2::Constant(sigmas.z() * farthest_m));
+  const Vector2 margin =
+      kSigmasAround * (sigmas.head<2>() + Vector2::Constant(sigmas.z() * farthest_m));
   return {Vector2(box.min() - margin), Vector2(box.max() + margin)};
 }
 
@@ -96,7 +102,8 @@ class Scrim::Moments {
   UncertainPose2 gaussian(std::size_t guesses) const {
     const Eigen::Vector3d mean = sum_ / weight_;
     const double not_shown = 1.0 / static_cast<double>(count_) - 1.0 / static_cast<double>(guesses);
-    return {geometry::displaced(about_, mean), (squares_ + not_shown * by_guess_) / weight_ - mean * mean.transpose()};
+    return {geometry::displaced(about_, mean),
+            (squares_ + not_shown * by_guess_) / weight_ - mean * mean.transpose()};
   }
 
  private:
@@ -108,10 +115,13 @@ class Scrim::Moments {
   Matrix3 by_guess_ = Matrix3::Zero();
 };
 
-double Scrim::correlation_at(const Pose2& map_from_base) const { return correlation(map_patch_, scan_cells_, map_from_base); }
+double Scrim::correlation_at(const Pose2& map_from_base) const {
+  return correlation(map_patch_, scan_cells_, map_from_base);
+}
 
 int Scrim::gather(double valley_share) {
-  // Minimum spanning tree over all samples (Prim 1957); an edge across a valley starts a new cluster.
+  // Minimum spanning tree over all samples (Prim 1957); an edge across a valley starts a new
+  // cluster.
   struct Reach {
     double length_m = std::numeric_limits<double>::infinity();
     std::size_t from = 0;
@@ -123,37 +133,47 @@ int Scrim::gather(double valley_share) {
   for (std::size_t joined = 0; joined < samples_.size(); ++joined) {
     std::size_t next = samples_.size();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (!reach[i].is_joined && (next == samples_.size() || reach[i].length_m < reach[next].length_m)) next = i;
+      if (!reach[i].is_joined &&
+          (next == samples_.size() || reach[i].length_m < reach[next].length_m))
+        next = i;
     }
     Sample& sample = samples_[next];
     const Sample& neighbour = samples_[reach[next].from];
     const Pose2 between = geometry::interpolate(neighbour.map_from_base, sample.map_from_base, 0.5);
     const bool is_first = joined == 0;
-    const bool is_across_valley = !is_first && correlation_at(between) < valley_share * std::min(sample.correlation, neighbour.correlation);
+    const bool is_across_valley =
+        !is_first && correlation_at(between) <
+                         valley_share * std::min(sample.correlation, neighbour.correlation);
     sample.cluster = is_first || is_across_valley ? clusters++ : neighbour.cluster;
     reach[next].is_joined = true;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const double length_m = geometry::as_seen_10_m_away(geometry::difference(samples_[i].map_from_base, sample.map_from_base));
+      const double length_m = geometry::as_seen_10_m_away(
+          geometry::difference(samples_[i].map_from_base, sample.map_from_base));
       if (!reach[i].is_joined && length_m < reach[i].length_m) reach[i] = {length_m, next, false};
     }
   }
   return clusters;
 }
 
-ScrimResult Scrim::match(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const UncertainPose2& prior,
-                         const ScrimConfig& config, const PointToLineConfig& match_config, std::mt19937_64& random) {
+ScrimResult Scrim::match(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
+                         const UncertainPose2& prior, const ScrimConfig& config,
+                         const PointToLineConfig& match_config, std::mt19937_64& random) {
   assert(config.samples >= 8);
   ScrimResult result{.map_from_base = prior, .clusters = {{prior, 1.0}}};
   if (points.empty()) return result;
-  scan_cells_ = OccupancyPatch(uncertain_points(points), config.cell_size_m).occupied(kLeastEvidence);
-  map_patch_ = OccupancyPatch(uncertain_points(surfels, reach_of(points, prior)), config.cell_size_m);
+  scan_cells_ =
+      OccupancyPatch(uncertain_points(points), config.cell_size_m).occupied(kLeastEvidence);
+  map_patch_ =
+      OccupancyPatch(uncertain_points(surfels, reach_of(points, prior)), config.cell_size_m);
   const Matrix3 prior_information = prior.covariance.inverse();
   samples_.clear();
   double best = 0.0;
-  const std::vector<Eigen::Vector3d> draws = paired_draws(config.samples / 2, prior.covariance, random);
+  const std::vector<Eigen::Vector3d> draws =
+      paired_draws(config.samples / 2, prior.covariance, random);
   for (const Eigen::Vector3d& draw : draws) {
     const Pose2 guess = geometry::displaced(prior.pose, draw);
-    const PointToLineResult refined = matcher_.match(points, surfels, {guess, prior.covariance}, guess, match_config);
+    const PointToLineResult refined =
+        matcher_.match(points, surfels, {guess, prior.covariance}, guess, match_config);
     result.matched_share += refined.matched_share / static_cast<double>(draws.size());
     if (refined.matched_points == 0) continue;
     const Pose2& pose = refined.map_from_base.pose;
@@ -165,8 +185,11 @@ ScrimResult Scrim::match(const std::vector<MatchPoint>& points, const grids::Sur
     best = std::max(best, samples_.back().correlation);
   }
   if (best <= 0.0) return result;
-  std::erase_if(samples_, [&](const Sample& sample) { return sample.correlation < config.least_share * best; });
-  std::vector<Moments> clusters(static_cast<std::size_t>(gather(config.valley_share)), Moments(prior.pose));
+  std::erase_if(samples_, [&](const Sample& sample) {
+    return sample.correlation < config.least_share * best;
+  });
+  std::vector<Moments> clusters(static_cast<std::size_t>(gather(config.valley_share)),
+                                Moments(prior.pose));
   Moments all(prior.pose);
   for (const Sample& sample : samples_) {
     all.add(sample);
@@ -174,7 +197,8 @@ ScrimResult Scrim::match(const std::vector<MatchPoint>& points, const grids::Sur
   }
   result.map_from_base = all.gaussian(draws.size());
   result.clusters.clear();
-  for (const Moments& cluster : clusters) result.clusters.push_back({cluster.gaussian(draws.size()), cluster.weight() / all.weight()});
+  for (const Moments& cluster : clusters)
+    result.clusters.push_back({cluster.gaussian(draws.size()), cluster.weight() / all.weight()});
   std::ranges::stable_sort(result.clusters, std::ranges::greater{}, &PoseCluster::weight);
   return result;
 }

@@ -7,17 +7,20 @@
 
 namespace slammot::matching {
 
-/// Gaussian of a target point on a grid of bytes, tabulated for a few positions of the point within its cell.
+/// Gaussian of a target point on a grid of bytes, tabulated for a few positions of the point within
+/// its cell.
 class SmearKernel {
  public:
-  static constexpr double kFull = 255.0;  ///< Value of a cell with a point of weight 1 at its centre.
+  static constexpr double kFull = 255.0;  ///< Value of a cell with a point of weight 1 at its
+                                          ///< centre.
 
   SmearKernel(double cell_m, double sigma_m);
 
   /// Cells that the kernel reaches on each side of the point's own.
   std::int32_t half() const { return half_; }
 
-  /// Square of side 2 * half() + 1, row-major. fraction: position of the point within its cell, in cells from its lower left corner.
+  /// Square of side 2 * half() + 1, row-major. fraction: position of the point within its cell, in
+  /// cells from its lower left corner.
   const std::uint8_t* around(const geometry::Vector2& fraction) const;
 
  private:

@@ -15,18 +15,24 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr int kHighestLevel = 6;        // beyond 64 cells a bound is too loose
-constexpr std::uint64_t kTurnWork = 1;  // of rotating one point, in cells read
+constexpr int kHighestLevel = 6;              // beyond 64 cells a bound is too loose
+constexpr std::uint64_t kTurnWork = 1;        // of rotating one point, in cells read
 constexpr std::int32_t kMostCells = 1 << 20;  // on either side of a grid's origin
 
-/// Floor without a function call, by truncation of a non-negative number: search_a_wide_window of the benchmark.
-std::int32_t floored(double cells) { return static_cast<std::int32_t>(cells + kMostCells) - kMostCells; }
+/// Floor without a function call, by truncation of a non-negative number: search_a_wide_window of
+/// the benchmark.
+std::int32_t floored(double cells) {
+  return static_cast<std::int32_t>(cells + kMostCells) - kMostCells;
+}
 
-std::int32_t steps_within(double half_width, double step) { return static_cast<std::int32_t>(std::ceil(half_width / step - 1e-9)); }
+std::int32_t steps_within(double half_width, double step) {
+  return static_cast<std::int32_t>(std::ceil(half_width / step - 1e-9));
+}
 
 }  // namespace
 
-WideSearch::WideSearch(std::vector<Eigen::Vector2f> points_in_source_m, double cell_m, const WideSearchConfig& config)
+WideSearch::WideSearch(std::vector<Eigen::Vector2f> points_in_source_m, double cell_m,
+                       const WideSearchConfig& config)
     : points_m_(std::move(points_in_source_m)), cell_m_(cell_m), config_(config) {
   float reach_m = 0.0F;
   for (const Eigen::Vector2f& point : points_m_) reach_m = std::max(reach_m, point.norm());
@@ -47,23 +53,32 @@ std::uint64_t WideSearch::add_target(WideSearchTarget target) {
   const std::uint64_t work_before = work_;
   Grid grid{.half_columns = steps_within(target.window.half_x_m, cell_m_),
             .half_rows = steps_within(target.window.half_y_m, cell_m_),
-            .half_headings = steps_within(std::min(target.window.half_heading_rad, std::numbers::pi), heading_step_rad_)};
+            .half_headings = steps_within(
+                std::min(target.window.half_heading_rad, std::numbers::pi), heading_step_rad_)};
   int level = std::min(useful_level(target.window, cell_m_), target.pyramid->top_level());
   // Limits the level: a block must not cover more headings than the window.
   while (level > 0 && ScorePyramid::headings_of(level) > 2 * grid.half_headings + 1) --level;
   grid.target = std::move(target);
   grid.looked_at.push_back(0);
   for (std::int32_t step = -grid.half_headings; step <= grid.half_headings; ++step) {
-    const bool is_looked_at = !grid.target.may_be || grid.target.may_be(grid.target.target_from_source.heading_rad + step * heading_step_rad_);
+    const bool is_looked_at =
+        !grid.target.may_be ||
+        grid.target.may_be(grid.target.target_from_source.heading_rad + step * heading_step_rad_);
     grid.looked_at.push_back(grid.looked_at.back() + (is_looked_at ? 1 : 0));
   }
   grids_.push_back(std::move(grid));
   const Grid& added = grids_.back();
   const std::int32_t side = 1 << level;
-  for (std::int32_t heading = -added.half_headings; heading <= added.half_headings; heading += ScorePyramid::headings_of(level)) {
+  for (std::int32_t heading = -added.half_headings; heading <= added.half_headings;
+       heading += ScorePyramid::headings_of(level)) {
     for (std::int32_t row = -added.half_rows; row <= added.half_rows; row += side) {
-      for (std::int32_t column = -added.half_columns; column <= added.half_columns; column += side) {
-        offer({.target = static_cast<std::uint32_t>(grids_.size() - 1), .level = level, .heading = heading, .column = column, .row = row});
+      for (std::int32_t column = -added.half_columns; column <= added.half_columns;
+           column += side) {
+        offer({.target = static_cast<std::uint32_t>(grids_.size() - 1),
+               .level = level,
+               .heading = heading,
+               .column = column,
+               .row = row});
       }
     }
   }
@@ -73,7 +88,8 @@ std::uint64_t WideSearch::add_target(WideSearchTarget target) {
 std::uint64_t WideSearch::advance(std::uint64_t most_work) {
   const std::uint64_t work_before = work_;
   while (!is_done_ && work_ - work_before < most_work) {
-    if (queue_.empty() || queue_.front().bound < least_bound_ || peaks_.size() >= config_.max_peaks) {
+    if (queue_.empty() || queue_.front().bound < least_bound_ ||
+        peaks_.size() >= config_.max_peaks) {
       is_done_ = true;
       break;
     }
@@ -92,7 +108,8 @@ std::uint64_t WideSearch::advance(std::uint64_t most_work) {
 /// Total order, independent of the heap: among equal bounds the finest block, then the first.
 bool WideSearch::is_after(const Block& a, const Block& b) {
   if (a.bound != b.bound) return a.bound < b.bound;
-  return std::tie(a.level, a.target, a.heading, a.row, a.column) > std::tie(b.level, b.target, b.heading, b.row, b.column);
+  return std::tie(a.level, a.target, a.heading, a.row, a.column) >
+         std::tie(b.level, b.target, b.heading, b.row, b.column);
 }
 
 const CellPoints& WideSearch::turned(std::uint32_t target, double heading_steps) {
@@ -120,7 +137,9 @@ const CellPoints& WideSearch::turned(std::uint32_t target, double heading_steps)
 }
 
 /// Middle heading of the block, in steps.
-double WideSearch::middle_of(const Block& block) { return block.heading + 0.5 * (ScorePyramid::headings_of(block.level) - 1); }
+double WideSearch::middle_of(const Block& block) {
+  return block.heading + 0.5 * (ScorePyramid::headings_of(block.level) - 1);
+}
 
 std::uint32_t WideSearch::bound_of(const Block& block) {
   const CellPoints& points = turned(block.target, middle_of(block));
@@ -139,16 +158,20 @@ std::uint32_t WideSearch::least_cost_of(const Block& block) const {
   const std::int32_t side = 1 << block.level;
   const double column = nearest(block.column, side, grid.half_columns);
   const double row = nearest(block.row, side, grid.half_rows);
-  const double heading = nearest(block.heading, ScorePyramid::headings_of(block.level), grid.half_headings);
+  const double heading =
+      nearest(block.heading, ScorePyramid::headings_of(block.level), grid.half_headings);
   const double full = SmearKernel::kFull * static_cast<double>(points_m_.size());
-  return static_cast<std::uint32_t>(config_.border_cost * full * (column * column + row * row + heading * heading));
+  return static_cast<std::uint32_t>(config_.border_cost * full *
+                                    (column * column + row * row + heading * heading));
 }
 
 bool WideSearch::has_heading(const Block& block) const {
   const Grid& grid = grids_[block.target];
   const std::int32_t first = block.heading + grid.half_headings;
-  const std::int32_t end = std::min(first + ScorePyramid::headings_of(block.level), 2 * grid.half_headings + 1);
-  return grid.looked_at[static_cast<std::size_t>(end)] > grid.looked_at[static_cast<std::size_t>(first)];
+  const std::int32_t end =
+      std::min(first + ScorePyramid::headings_of(block.level), 2 * grid.half_headings + 1);
+  return grid.looked_at[static_cast<std::size_t>(end)] >
+         grid.looked_at[static_cast<std::size_t>(first)];
 }
 
 void WideSearch::offer(const Block& block) {
@@ -167,10 +190,16 @@ void WideSearch::expand(const Block& block) {
   const Grid& grid = grids_[block.target];
   const std::int32_t half = 1 << (block.level - 1);
   const std::int32_t headings = ScorePyramid::headings_of(block.level - 1);
-  for (std::int32_t heading = block.heading; heading < block.heading + ScorePyramid::headings_of(block.level); heading += headings) {
-    Block child{.target = block.target, .level = block.level - 1, .heading = heading, .column = block.column, .row = block.row};
+  for (std::int32_t heading = block.heading;
+       heading < block.heading + ScorePyramid::headings_of(block.level); heading += headings) {
+    Block child{.target = block.target,
+                .level = block.level - 1,
+                .heading = heading,
+                .column = block.column,
+                .row = block.row};
     if (heading > grid.half_headings || !has_heading(child)) continue;
-    const auto scores = grid.target.pyramid->sums_of_four(turned(child.target, middle_of(child)), block.column, block.row, half, child.level);
+    const auto scores = grid.target.pyramid->sums_of_four(
+        turned(child.target, middle_of(child)), block.column, block.row, half, child.level);
     for (std::size_t i = 0; i < scores.size(); ++i) {
       child.column = block.column + (i % 2 == 1 ? half : 0);
       child.row = block.row + (i >= 2 ? half : 0);
@@ -185,7 +214,8 @@ void WideSearch::take_leaf(const Block& leaf) {
   if (!is_local_maximum(leaf)) return;
   const Grid& grid = grids_[leaf.target];
   const double full = SmearKernel::kFull * static_cast<double>(points_m_.size());
-  peaks_.push_back({leaf.target, pose_at(grid, leaf.heading, leaf.column, leaf.row), bound_of(leaf) / full});
+  peaks_.push_back(
+      {leaf.target, pose_at(grid, leaf.heading, leaf.column, leaf.row), bound_of(leaf) / full});
   least_bound_ = std::max(least_bound_, config_.min_peak_ratio * leaf.bound);
 }
 
@@ -194,13 +224,17 @@ bool WideSearch::may_hold_a_new_peak(const Block& block) const {
   const Grid& grid = grids_[block.target];
   const double half_side = 0.5 * ((1 << block.level) - 1);
   const double half_headings = 0.5 * (ScorePyramid::headings_of(block.level) - 1);
-  const Pose2 middle = grid.target.common_from_target * pose_at(grid, block.heading + half_headings, block.column + half_side, block.row + half_side);
+  const Pose2 middle =
+      grid.target.common_from_target *
+      pose_at(grid, block.heading + half_headings, block.column + half_side, block.row + half_side);
   const double radius_m = std::numbers::sqrt2 * half_side * cell_m_;
   const double radius_rad = half_headings * heading_step_rad_;
   return std::none_of(peaks_.begin(), peaks_.end(), [&](const WidePeak& peak) {
     const Pose2 known = grids_[peak.target].target.common_from_target * peak.target_from_source;
-    const double turned_rad = std::abs(geometry::wrap_angle(known.heading_rad - middle.heading_rad));
-    return (known.translation_m() - middle.translation_m()).norm() + radius_m <= config_.peak_separation_m &&
+    const double turned_rad =
+        std::abs(geometry::wrap_angle(known.heading_rad - middle.heading_rad));
+    return (known.translation_m() - middle.translation_m()).norm() + radius_m <=
+               config_.peak_separation_m &&
            turned_rad + radius_rad <= config_.peak_separation_rad;
   });
 }
@@ -211,9 +245,13 @@ bool WideSearch::is_local_maximum(const Block& leaf) {
   for (const std::int32_t heading : {leaf.heading, leaf.heading - 1, leaf.heading + 1}) {
     for (std::int32_t row = leaf.row - 1; row <= leaf.row + 1; ++row) {
       for (std::int32_t column = leaf.column - 1; column <= leaf.column + 1; ++column) {
-        const bool is_within = std::abs(heading) <= grid.half_headings && std::abs(row) <= grid.half_rows && std::abs(column) <= grid.half_columns;
+        const bool is_within = std::abs(heading) <= grid.half_headings &&
+                               std::abs(row) <= grid.half_rows &&
+                               std::abs(column) <= grid.half_columns;
         if (!is_within) continue;
-        if (bound_of({.target = leaf.target, .heading = heading, .column = column, .row = row}) > score) return false;
+        if (bound_of({.target = leaf.target, .heading = heading, .column = column, .row = row}) >
+            score)
+          return false;
       }
     }
   }
@@ -222,7 +260,8 @@ bool WideSearch::is_local_maximum(const Block& leaf) {
 
 Pose2 WideSearch::pose_at(const Grid& grid, double heading, double column, double row) const {
   const Pose2& middle = grid.target.target_from_source;
-  return {middle.x_m + cell_m_ * column, middle.y_m + cell_m_ * row, geometry::wrap_angle(middle.heading_rad + heading * heading_step_rad_)};
+  return {middle.x_m + cell_m_ * column, middle.y_m + cell_m_ * row,
+          geometry::wrap_angle(middle.heading_rad + heading * heading_step_rad_)};
 }
 
 }  // namespace slammot::matching

@@ -8,8 +8,9 @@
 
 namespace slammot::memory {
 
-/// FIFO queue that recycles its elements. Removed elements stay in memory and are reused. It allocates only beyond its
-/// largest size so far, and where elements allocate themselves; write over an element to keep its memory.
+/// FIFO queue that recycles its elements. Removed elements stay in memory and are reused. It
+/// allocates only beyond its largest size so far, and where elements allocate themselves; write
+/// over an element to keep its memory.
 template <typename T>
 class RecyclingQueue {
  public:
@@ -28,8 +29,8 @@ class RecyclingQueue {
   T& back() { return (*this)[size_ - 1]; }
   const T& back() const { return (*this)[size_ - 1]; }
 
-  /// Appends a recycled element with its old content, which the caller must overwrite. Invalidates references to other
-  /// elements.
+  /// Appends a recycled element with its old content, which the caller must overwrite. Invalidates
+  /// references to other elements.
   T& push_back() {
     if (size_ == places_.size()) make_room();
     ++size_;
@@ -51,14 +52,18 @@ class RecyclingQueue {
 
   /// All elements, oldest first.
   auto all() {
-    return std::views::iota(std::size_t{0}, size_) | std::views::transform([this](std::size_t i) -> T& { return (*this)[i]; });
+    return std::views::iota(std::size_t{0}, size_) |
+           std::views::transform([this](std::size_t i) -> T& { return (*this)[i]; });
   }
   auto all() const {
-    return std::views::iota(std::size_t{0}, size_) | std::views::transform([this](std::size_t i) -> const T& { return (*this)[i]; });
+    return std::views::iota(std::size_t{0}, size_) |
+           std::views::transform([this](std::size_t i) -> const T& { return (*this)[i]; });
   }
 
  private:
-  std::size_t place_of(std::size_t i) const { return first_ + i < places_.size() ? first_ + i : first_ + i - places_.size(); }
+  std::size_t place_of(std::size_t i) const {
+    return first_ + i < places_.size() ? first_ + i : first_ + i - places_.size();
+  }
 
   void make_room() {
     std::vector<T> places;

@@ -6,8 +6,8 @@
 
 namespace slammot::memory {
 
-/// Pool of elements that own memory. Shrinking a vector frees its elements' memory; resizing it with spares keeps that
-/// memory.
+/// Pool of elements that own memory. Shrinking a vector frees its elements' memory; resizing it
+/// with spares keeps that memory.
 template <typename T>
 class Spares {
  public:

@@ -7,10 +7,13 @@
 namespace slammot::metrics {
 namespace {
 
-constexpr int kMaxTerms = 100000;  // a few times the square root of the degrees of freedom is enough
+constexpr int kMaxTerms = 100000;  // a few times the square root of the degrees of freedom is
+                                   // enough
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-double common_factor(double shape, double x) { return std::exp(-x + shape * std::log(x) - std::lgamma(shape)); }
+double common_factor(double shape, double x) {
+  return std::exp(-x + shape * std::log(x) - std::lgamma(shape));
+}
 
 /// Press et al. 2007, Eq. (6.2.5).
 double lower_by_series(double shape, double x) {

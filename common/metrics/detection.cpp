@@ -9,10 +9,12 @@
 namespace slammot::metrics {
 namespace {
 
-constexpr double kOnObjectM = 0.3;    // range noise, and motion of the object during the sweep
+constexpr double kOnObjectM = 0.3;  // range noise, and motion of the object during the sweep
 constexpr double kOffObjectM = 1.0;
 
-double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole); }
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
 
 struct Candidate {
   std::size_t beam = 0;
@@ -25,7 +27,8 @@ struct Judged {
 };
 
 Judged judge(const geometry::Vector2& point_m, const Scene& scene, const CountingRule& rule) {
-  if ((point_m - scene.world_from_base.translation_m()).norm() > rule.range_m) return {{BeamKind::kDontCare}};
+  if ((point_m - scene.world_from_base.translation_m()).norm() > rule.range_m)
+    return {{BeamKind::kDontCare}};
   double nearest_m = std::numeric_limits<double>::infinity();
   const TrueObject* nearest = nullptr;
   for (const TrueObject& object : scene.objects) {
@@ -44,34 +47,46 @@ BeamTruth judge(const BeamHit& hit, const Scene& scene, const CountingRule& rule
   if (hit.on == BeamHit::On::kNothing) return {};
   if (hit.on == BeamHit::On::kStationary) return {BeamKind::kStationary};
   const auto object = std::ranges::find(scene.objects, hit.object, &TrueObject::object);
-  if (hit.on == BeamHit::On::kSeveral || object == scene.objects.end()) return {BeamKind::kDontCare};
-  return {std::abs(object->speed_mps) < rule.least_speed_mps ? BeamKind::kStanding : BeamKind::kMoving, hit.object};
+  if (hit.on == BeamHit::On::kSeveral || object == scene.objects.end())
+    return {BeamKind::kDontCare};
+  return {
+      std::abs(object->speed_mps) < rule.least_speed_mps ? BeamKind::kStanding : BeamKind::kMoving,
+      hit.object};
 }
 
-/// The truth has the number of echoes of an object: of more echoes near its box, the farthest ones may be of the
-/// background.
-void doubt_surplus(const Scene& scene, std::map<std::size_t, std::vector<Candidate>> candidates, std::vector<BeamTruth>& truth) {
+/// The truth has the number of echoes of an object: of more echoes near its box, the farthest ones
+/// may be of the background.
+void doubt_surplus(const Scene& scene, std::map<std::size_t, std::vector<Candidate>> candidates,
+                   std::vector<BeamTruth>& truth) {
   for (const TrueObject& object : scene.objects) {
     std::vector<Candidate>& beams = candidates[object.object];
-    std::stable_sort(beams.begin(), beams.end(), [](const Candidate& a, const Candidate& b) { return a.distance_m < b.distance_m; });
-    for (std::size_t i = static_cast<std::size_t>(std::max(object.points, 0)); i < beams.size(); ++i) truth[beams[i].beam].kind = BeamKind::kDontCare;
+    std::stable_sort(beams.begin(), beams.end(), [](const Candidate& a, const Candidate& b) {
+      return a.distance_m < b.distance_m;
+    });
+    for (std::size_t i = static_cast<std::size_t>(std::max(object.points, 0)); i < beams.size();
+         ++i)
+      truth[beams[i].beam].kind = BeamKind::kDontCare;
   }
 }
 
-void count_points(const std::vector<BeamTruth>& truth, std::string_view labels, DetectionCounts& counts) {
+void count_points(const std::vector<BeamTruth>& truth, std::string_view labels,
+                  DetectionCounts& counts) {
   for (std::size_t beam = 0; beam < truth.size(); ++beam) {
     const bool is_moving = truth[beam].kind == BeamKind::kMoving;
     if (!is_moving && truth[beam].kind != BeamKind::kStationary) continue;
     switch (labels[beam]) {
       case 'm': ++(is_moving ? counts.moving_as_moving : counts.stationary_as_moving); break;
-      case 's': ++(is_moving ? counts.moving_as_stationary : counts.stationary_as_stationary); break;
+      case 's':
+        ++(is_moving ? counts.moving_as_stationary : counts.stationary_as_stationary);
+        break;
       case '?': ++(is_moving ? counts.moving_as_unknown : counts.stationary_as_unknown); break;
       default: break;
     }
   }
 }
 
-void count_objects(const std::vector<BeamTruth>& truth, std::string_view labels, std::size_t least_points, DetectionCounts& counts) {
+void count_objects(const std::vector<BeamTruth>& truth, std::string_view labels,
+                   std::size_t least_points, DetectionCounts& counts) {
   struct Points {
     std::size_t all = 0, moving = 0, stationary = 0;
   };
@@ -90,7 +105,8 @@ void count_objects(const std::vector<BeamTruth>& truth, std::string_view labels,
   }
 }
 
-void count_runs(const std::vector<BeamTruth>& truth, std::string_view labels, std::size_t least_points, DetectionCounts& counts) {
+void count_runs(const std::vector<BeamTruth>& truth, std::string_view labels,
+                std::size_t least_points, DetectionCounts& counts) {
   for (std::size_t begin = 0; begin < truth.size();) {
     if (labels[begin] != 'm') {
       ++begin;
@@ -103,7 +119,8 @@ void count_runs(const std::vector<BeamTruth>& truth, std::string_view labels, st
       moving += truth[end].kind == BeamKind::kMoving ? 1 : 0;
       stationary += truth[end].kind == BeamKind::kStationary ? 1 : 0;
     }
-    const bool counts_at_all = end - begin >= least_points && 2 * (moving + stationary) > end - begin;
+    const bool counts_at_all =
+        end - begin >= least_points && 2 * (moving + stationary) > end - begin;
     begin = end;
     if (!counts_at_all) continue;
     ++counts.moving_runs;
@@ -113,38 +130,54 @@ void count_runs(const std::vector<BeamTruth>& truth, std::string_view labels, st
 
 }  // namespace
 
-double DetectionCounts::moving_precision() const { return share(moving_as_moving, moving_as_moving + stationary_as_moving); }
-double DetectionCounts::moving_recall() const { return share(moving_as_moving, moving_as_moving + moving_as_stationary + moving_as_unknown); }
-double DetectionCounts::stationary_precision() const { return share(stationary_as_stationary, stationary_as_stationary + moving_as_stationary); }
-double DetectionCounts::stationary_recall() const { return share(stationary_as_stationary, stationary_as_stationary + stationary_as_moving + stationary_as_unknown); }
+double DetectionCounts::moving_precision() const {
+  return share(moving_as_moving, moving_as_moving + stationary_as_moving);
+}
+double DetectionCounts::moving_recall() const {
+  return share(moving_as_moving, moving_as_moving + moving_as_stationary + moving_as_unknown);
+}
+double DetectionCounts::stationary_precision() const {
+  return share(stationary_as_stationary, stationary_as_stationary + moving_as_stationary);
+}
+double DetectionCounts::stationary_recall() const {
+  return share(stationary_as_stationary,
+               stationary_as_stationary + stationary_as_moving + stationary_as_unknown);
+}
 double DetectionCounts::segment_precision() const { return share(right_runs, moving_runs); }
 double DetectionCounts::segment_recall() const { return share(detected_objects, objects); }
 
-std::vector<BeamTruth> beam_truth(const std::vector<std::optional<geometry::Vector2>>& points_in_world_m, const Scene& scene, const CountingRule& rule) {
+std::vector<BeamTruth> beam_truth(
+    const std::vector<std::optional<geometry::Vector2>>& points_in_world_m, const Scene& scene,
+    const CountingRule& rule) {
   std::vector<BeamTruth> truth;
   truth.reserve(points_in_world_m.size());
   std::map<std::size_t, std::vector<Candidate>> candidates;
   for (std::size_t beam = 0; beam < points_in_world_m.size(); ++beam) {
-    const Judged judged = points_in_world_m[beam] ? judge(*points_in_world_m[beam], scene, rule) : Judged{};
+    const Judged judged =
+        points_in_world_m[beam] ? judge(*points_in_world_m[beam], scene, rule) : Judged{};
     truth.push_back(judged.truth);
-    if (judged.truth.kind == BeamKind::kMoving) candidates[judged.truth.object].push_back({beam, judged.distance_m});
+    if (judged.truth.kind == BeamKind::kMoving)
+      candidates[judged.truth.object].push_back({beam, judged.distance_m});
   }
   doubt_surplus(scene, std::move(candidates), truth);
   return truth;
 }
 
-std::vector<BeamTruth> beam_truth(const std::vector<std::optional<geometry::Vector2>>& points_in_world_m, const std::vector<BeamHit>& hits, const Scene& scene,
-                                  const CountingRule& rule) {
+std::vector<BeamTruth> beam_truth(
+    const std::vector<std::optional<geometry::Vector2>>& points_in_world_m,
+    const std::vector<BeamHit>& hits, const Scene& scene, const CountingRule& rule) {
   std::vector<BeamTruth> truth(points_in_world_m.size());
   for (std::size_t beam = 0; beam < truth.size(); ++beam) {
     if (!points_in_world_m[beam]) continue;
-    const bool is_far = (*points_in_world_m[beam] - scene.world_from_base.translation_m()).norm() > rule.range_m;
+    const bool is_far =
+        (*points_in_world_m[beam] - scene.world_from_base.translation_m()).norm() > rule.range_m;
     truth[beam] = is_far ? BeamTruth{BeamKind::kDontCare} : judge(hits[beam], scene, rule);
   }
   return truth;
 }
 
-DetectionCounts add_scan(DetectionCounts counts, const std::vector<BeamTruth>& truth, std::string_view labels, std::size_t least_points) {
+DetectionCounts add_scan(DetectionCounts counts, const std::vector<BeamTruth>& truth,
+                         std::string_view labels, std::size_t least_points) {
   if (labels.size() != truth.size()) return counts;
   count_points(truth, labels, counts);
   count_objects(truth, labels, least_points, counts);

@@ -12,7 +12,8 @@ Gospa gospa(const Eigen::MatrixXd& distance_m, double cutoff_m) {
   const auto pairs = best_pairs((cutoff_m2 - distance_m.array().square()).matrix());
   Gospa result;
   for (const auto& [object, track] : pairs) {
-    const double d_m = distance_m(static_cast<Eigen::Index>(object), static_cast<Eigen::Index>(track));
+    const double d_m =
+        distance_m(static_cast<Eigen::Index>(object), static_cast<Eigen::Index>(track));
     result.localization_m2 += d_m * d_m;
   }
   const auto pair_count = static_cast<double>(pairs.size());

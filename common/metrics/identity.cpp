@@ -5,11 +5,14 @@ namespace {
 
 /// Number of scans in which the pair is similar enough; row an object, column a track.
 Eigen::MatrixXd common_rows(const MotSequence& sequence, double least_similarity) {
-  Eigen::MatrixXd common = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(sequence.object_count), static_cast<Eigen::Index>(sequence.track_count));
+  Eigen::MatrixXd common = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(sequence.object_count),
+                                                 static_cast<Eigen::Index>(sequence.track_count));
   for (const MotFrame& frame : sequence.frames) {
     for (Eigen::Index row = 0; row < frame.similarity.rows(); ++row) {
       for (Eigen::Index column = 0; column < frame.similarity.cols(); ++column) {
-        if (frame.similarity(row, column) >= least_similarity) common(static_cast<Eigen::Index>(frame.objects[row]), static_cast<Eigen::Index>(frame.tracks[column])) += 1.0;
+        if (frame.similarity(row, column) >= least_similarity)
+          common(static_cast<Eigen::Index>(frame.objects[row]),
+                 static_cast<Eigen::Index>(frame.tracks[column])) += 1.0;
       }
     }
   }
@@ -22,11 +25,12 @@ double ratio(double part, double whole) { return whole > 0.0 ? part / whole : 0.
 
 Identity identity(const MotSequence& sequence, double least_similarity) {
   const Eigen::MatrixXd common = common_rows(sequence, least_similarity);
-  // The assignment with the fewest false rows is that with the most common rows: each common row saves one false row on
-  // either side.
+  // The assignment with the fewest false rows is that with the most common rows: each common row
+  // saves one false row on either side.
   Identity result;
   for (const auto& [object, track] : best_pairs(common)) {
-    result.true_positives += static_cast<std::size_t>(common(static_cast<Eigen::Index>(object), static_cast<Eigen::Index>(track)));
+    result.true_positives += static_cast<std::size_t>(
+        common(static_cast<Eigen::Index>(object), static_cast<Eigen::Index>(track)));
   }
   const std::size_t objects = sequence.object_rows();
   const std::size_t tracks = sequence.track_rows();

@@ -6,8 +6,8 @@
 
 namespace slammot::metrics {
 
-/// Identity metrics: Ristani et al. 2016. One track represents one object over the whole sequence; other rows are
-/// errors.
+/// Identity metrics: Ristani et al. 2016. One track represents one object over the whole sequence;
+/// other rows are errors.
 struct Identity {
   std::size_t true_positives = 0;
   std::size_t false_positives = 0;

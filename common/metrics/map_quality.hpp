@@ -11,8 +11,8 @@ namespace slammot::metrics {
 
 enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
 
-/// Cell (column, row) covers [column, column + 1) * cell_size_m + min_x_m of x in map, and so for y; row-major, row 0
-/// lowest y.
+/// Cell (column, row) covers [column, column + 1) * cell_size_m + min_x_m of x in map, and so for
+/// y; row-major, row 0 lowest y.
 struct OccupancyCells {
   std::size_t columns = 0;
   std::size_t rows = 0;
@@ -37,20 +37,24 @@ struct MapQuality {
 
   double precision() const;
   double recall() const;
-  double residue() const;          ///< Share of the occupied cells.
+  double residue() const;  ///< Share of the occupied cells.
 };
 
 /// Ground truth in the world's frame.
 struct MapTruth {
   std::vector<WallSegment> walls;
   std::vector<TrueObject> moving;                  ///< Every pose of an object while it moved.
-  std::vector<geometry::Vector2> wall_echoes_m;    ///< Echoes of stationary surfaces, from true poses; empty if unknown.
-  std::vector<geometry::Vector2> object_echoes_m;  ///< Echoes of objects, moving or not; empty if unknown.
+  std::vector<geometry::Vector2> wall_echoes_m;    ///< Echoes of stationary surfaces, from true
+                                                   ///< poses; empty if unknown.
+  std::vector<geometry::Vector2> object_echoes_m;  ///< Echoes of objects, moving or not; empty if
+                                                   ///< unknown.
 };
 
-/// Compares occupied cells with the truth. A wall counts if it was seen: an echo is within half the tolerance or, if
-/// echoes are unknown, a known cell is within the tolerance. If echoes are known, an object leaves residue only within
-/// the tolerance of its echoes: ground hit by a pitching scanner is excluded.
-MapQuality map_quality(const OccupancyCells& map, const geometry::Pose2& world_from_map, const MapTruth& truth, double tolerance_m);
+/// Compares occupied cells with the truth. A wall counts if it was seen: an echo is within half the
+/// tolerance or, if echoes are unknown, a known cell is within the tolerance. If echoes are known,
+/// an object leaves residue only within the tolerance of its echoes: ground hit by a pitching
+/// scanner is excluded.
+MapQuality map_quality(const OccupancyCells& map, const geometry::Pose2& world_from_map,
+                       const MapTruth& truth, double tolerance_m);
 
 }  // namespace slammot::metrics

@@ -14,7 +14,8 @@ double entropy_bits(double probability) {
 }  // namespace
 
 EndCounts::Count& EndCounts::at(std::int32_t column, std::int32_t row) {
-  const auto upper = static_cast<std::uint64_t>(static_cast<std::uint32_t>(row >> kTileShift)) << 32;
+  const auto upper = static_cast<std::uint64_t>(static_cast<std::uint32_t>(row >> kTileShift))
+                     << 32;
   std::vector<Count>& tile = tiles_[upper | static_cast<std::uint32_t>(column >> kTileShift)];
   if (tile.empty()) tile.resize(std::size_t{1} << (2 * kTileShift));
   return tile[static_cast<std::size_t>((row & kInTile) << kTileShift | (column & kInTile))];
@@ -26,7 +27,8 @@ void EndCounts::add(const geometry::Vector2& origin_m, const geometry::Vector2& 
   const double length_m = (end_m - origin_m).norm();
   if (length_m > 0.0) {
     grids::RayWalk walk(origin_m, (end_m - origin_m) / length_m, cell_size_m_);
-    for (; walk.distance_m() < length_m && walk.cell() != last; walk.advance()) ++at(walk.cell().column, walk.cell().row).beams;
+    for (; walk.distance_m() < length_m && walk.cell() != last; walk.advance())
+      ++at(walk.cell().column, walk.cell().row).beams;
   }
   Count& end = at(last.column, last.row);
   ++end.ends;

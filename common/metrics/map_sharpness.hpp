@@ -11,15 +11,18 @@ namespace slammot::metrics {
 
 /// Certainty of an occupancy map. Two maps to compare need the same scans and cells.
 struct MapSharpness {
-  std::size_t touched_cells = 0;      ///< Cells that a beam crossed or ended in.
-  std::size_t occupied_cells = 0;     ///< Of these, cells in which more beams ended than crossed.
-  double entropy_bits = 0.0;          ///< Sum of the entropies of the touched cells.
+  std::size_t touched_cells = 0;   ///< Cells that a beam crossed or ended in.
+  std::size_t occupied_cells = 0;  ///< Of these, cells in which more beams ended than crossed.
+  double entropy_bits = 0.0;       ///< Sum of the entropies of the touched cells.
 
-  double mean_entropy_bits() const { return touched_cells == 0 ? 0.0 : entropy_bits / static_cast<double>(touched_cells); }
+  double mean_entropy_bits() const {
+    return touched_cells == 0 ? 0.0 : entropy_bits / static_cast<double>(touched_cells);
+  }
 };
 
-/// Occupancy map by counting. A cell with h ends among n beams is occupied with probability (h + 1/2) / (n + 1), the
-/// posterior mean under Jeffreys' prior. A blurred wall has more cells, with contradicting beams.
+/// Occupancy map by counting. A cell with h ends among n beams is occupied with probability (h +
+/// 1/2) / (n + 1), the posterior mean under Jeffreys' prior. A blurred wall has more cells, with
+/// contradicting beams.
 class EndCounts {
  public:
   /// Cells are squares of a lattice that has a corner at the origin.

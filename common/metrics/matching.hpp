@@ -31,7 +31,8 @@ struct Match {
   std::size_t track = 0;
 };
 
-/// Assignment with the largest sum of scores; pairs with a score of zero or less are excluded. Rows are ascending.
+/// Assignment with the largest sum of scores; pairs with a score of zero or less are excluded. Rows
+/// are ascending.
 std::vector<Match> best_pairs(const Eigen::MatrixXd& score);
 
 }  // namespace slammot::metrics

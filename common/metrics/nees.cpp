@@ -6,7 +6,8 @@
 
 namespace slammot::metrics {
 
-NeesSummary summarize_nees(const std::vector<double>& samples, int degrees_of_freedom, double probability) {
+NeesSummary summarize_nees(const std::vector<double>& samples, int degrees_of_freedom,
+                           double probability) {
   NeesSummary summary;
   summary.samples = samples.size();
   summary.degrees_of_freedom = degrees_of_freedom;

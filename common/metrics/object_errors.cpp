@@ -12,7 +12,8 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // errors of closer rows of one object are correlated
+constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // errors of closer rows of one object are
+                                                         // correlated
 
 struct Lists {
   std::size_t rows = 0;
@@ -21,23 +22,28 @@ struct Lists {
   std::vector<double> centre_m, velocity_mps, heading_rad, length_m, width_m, nees;
 };
 
-double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole); }
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
 
 Vector2 velocity_mps(const TrueObject& object) {
   return geometry::rotation(object.world_from_object.heading_rad) * Vector2(object.speed_mps, 0.0);
 }
 
 double position_nees(const TrueObject& object, const ReportedTrack& track) {
-  const Vector2 error_m = track.world_from_object.translation_m() - object.world_from_object.translation_m();
+  const Vector2 error_m =
+      track.world_from_object.translation_m() - object.world_from_object.translation_m();
   return error_m.dot(track.position_covariance_m2->ldlt().solve(error_m));
 }
 
 void add(const TrueObject& object, const ReportedTrack& track, Lists& lists) {
   lists.right_class += is_same_class(object.object_class, track.object_class) ? 1 : 0;
   ++lists.reported_as[track.object_class];
-  lists.centre_m.push_back((track.world_from_object.translation_m() - object.world_from_object.translation_m()).norm());
+  lists.centre_m.push_back(
+      (track.world_from_object.translation_m() - object.world_from_object.translation_m()).norm());
   lists.velocity_mps.push_back((track.velocity_in_world_mps - velocity_mps(object)).norm());
-  lists.heading_rad.push_back(std::abs(geometry::wrap_angle(track.world_from_object.heading_rad - object.world_from_object.heading_rad)));
+  lists.heading_rad.push_back(std::abs(geometry::wrap_angle(track.world_from_object.heading_rad -
+                                                            object.world_from_object.heading_rad)));
   lists.length_m.push_back(std::abs(track.length_m - object.length_m));
   lists.width_m.push_back(std::abs(track.width_m - object.width_m));
 }
@@ -67,17 +73,23 @@ struct ObjectHistory {
 
 class Collector {
  public:
-  Collector(const std::vector<double>& band_starts_m, double range_m) : starts_m_(band_starts_m), range_m_(range_m), bands_(band_starts_m.size()), false_rows_(band_starts_m.size()) {}
+  Collector(const std::vector<double>& band_starts_m, double range_m)
+      : starts_m_(band_starts_m),
+        range_m_(range_m),
+        bands_(band_starts_m.size()),
+        false_rows_(band_starts_m.size()) {}
 
   void take(const Scene& scene, const CountedScene& counted, const std::vector<Match>& matches) {
     std::vector<char> is_true(counted.tracks.size(), 0);
     for (const std::size_t row : counted.objects) note_counted(scene.objects[row], scene);
     for (const auto& [row, column] : matches) {
-      note_matched(scene.objects[counted.objects[row]], scene.tracks[counted.tracks[column]], scene);
+      note_matched(scene.objects[counted.objects[row]], scene.tracks[counted.tracks[column]],
+                   scene);
       is_true[column] = 1;
     }
     for (std::size_t column = 0; column < is_true.size(); ++column) {
-      if (!is_true[column]) ++false_rows_[band_of(scene.tracks[counted.tracks[column]].world_from_object, scene)];
+      if (!is_true[column])
+        ++false_rows_[band_of(scene.tracks[counted.tracks[column]].world_from_object, scene)];
     }
   }
 
@@ -87,32 +99,40 @@ class Collector {
     for (const auto& [name, lists] : classes_) tables.by_class[name] = summarize_lists(lists);
     for (std::size_t band = 0; band < bands_.size(); ++band) {
       const double to_m = band + 1 < bands_.size() ? starts_m_[band + 1] : range_m_;
-      tables.by_distance.push_back({starts_m_[band], to_m, false_rows_[band], summarize_lists(bands_[band])});
+      tables.by_distance.push_back(
+          {starts_m_[band], to_m, false_rows_[band], summarize_lists(bands_[band])});
     }
     tables.detection_delay_s = summarize(delays_s_);
-    for (const auto& [object, history] : objects_) tables.never_detected += history.is_detected ? 0 : 1;
+    for (const auto& [object, history] : objects_)
+      tables.never_detected += history.is_detected ? 0 : 1;
     return tables;
   }
 
  private:
   std::size_t band_of(const geometry::Pose2& world_from_object, const Scene& scene) const {
-    const double distance_m = (world_from_object.translation_m() - scene.world_from_base.translation_m()).norm();
+    const double distance_m =
+        (world_from_object.translation_m() - scene.world_from_base.translation_m()).norm();
     const auto after = std::upper_bound(starts_m_.begin(), starts_m_.end(), distance_m);
     return after == starts_m_.begin() ? 0 : static_cast<std::size_t>(after - starts_m_.begin()) - 1;
   }
 
   void note_counted(const TrueObject& object, const Scene& scene) {
     objects_.try_emplace(object.object, ObjectHistory{scene.stamp_ns});
-    for (Lists* lists : {&all_, &classes_[object.object_class], &bands_[band_of(object.world_from_object, scene)]}) ++lists->rows;
+    for (Lists* lists :
+         {&all_, &classes_[object.object_class], &bands_[band_of(object.world_from_object, scene)]})
+      ++lists->rows;
   }
 
   void note_matched(const TrueObject& object, const ReportedTrack& track, const Scene& scene) {
     ObjectHistory& history = objects_.at(object.object);
-    if (!history.is_detected) delays_s_.push_back(static_cast<double>(scene.stamp_ns - history.first_counted_ns) * 1e-9);
+    if (!history.is_detected)
+      delays_s_.push_back(static_cast<double>(scene.stamp_ns - history.first_counted_ns) * 1e-9);
     history.is_detected = true;
-    const bool is_sample = track.position_covariance_m2 && scene.stamp_ns - history.last_nees_ns >= kNeesIntervalNs;
+    const bool is_sample =
+        track.position_covariance_m2 && scene.stamp_ns - history.last_nees_ns >= kNeesIntervalNs;
     if (is_sample) history.last_nees_ns = scene.stamp_ns;
-    for (Lists* lists : {&all_, &classes_[object.object_class], &bands_[band_of(object.world_from_object, scene)]}) {
+    for (Lists* lists : {&all_, &classes_[object.object_class],
+                         &bands_[band_of(object.world_from_object, scene)]}) {
       add(object, track, *lists);
       if (is_sample) lists->nees.push_back(position_nees(object, track));
     }
@@ -135,10 +155,12 @@ bool is_same_class(const std::string& true_class, const std::string& reported_cl
   return true_class == reported_class;
 }
 
-ObjectErrorTables object_errors(const std::vector<Scene>& scenes, const std::vector<CountedScene>& counted, const ClearMot& matched,
+ObjectErrorTables object_errors(const std::vector<Scene>& scenes,
+                                const std::vector<CountedScene>& counted, const ClearMot& matched,
                                 const std::vector<double>& band_starts_m, double range_m) {
   Collector collector(band_starts_m, range_m);
-  for (std::size_t i = 0; i < scenes.size(); ++i) collector.take(scenes[i], counted[i], matched.matches[i]);
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    collector.take(scenes[i], counted[i], matched.matches[i]);
   return collector.tables();
 }
 

@@ -16,7 +16,8 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // errors of closer predictions of one object are correlated
+constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // errors of closer predictions of one
+                                                         // object are correlated
 constexpr std::int64_t kLongestGapNs = 200'000'000;      // between two true places
 
 struct Place {
@@ -29,19 +30,25 @@ using PlacesOfObject = std::unordered_map<std::size_t, std::vector<Place>>;
 PlacesOfObject places_of_objects(const std::vector<Scene>& scenes) {
   PlacesOfObject places;
   for (const Scene& scene : scenes) {
-    for (const TrueObject& object : scene.objects) places[object.object].push_back({scene.stamp_ns, object.world_from_object.translation_m()});
+    for (const TrueObject& object : scene.objects)
+      places[object.object].push_back({scene.stamp_ns, object.world_from_object.translation_m()});
   }
   return places;
 }
 
 std::optional<Vector2> place_at(const std::vector<Place>& places, std::int64_t stamp_ns) {
-  const auto after = std::lower_bound(places.begin(), places.end(), stamp_ns, [](const Place& place, std::int64_t stamp) { return place.stamp_ns < stamp; });
+  const auto after = std::lower_bound(
+      places.begin(), places.end(), stamp_ns,
+      [](const Place& place, std::int64_t stamp) { return place.stamp_ns < stamp; });
   if (after == places.end()) return std::nullopt;
   if (after->stamp_ns == stamp_ns) return after->position_in_world_m;
-  if (after == places.begin() || after->stamp_ns - std::prev(after)->stamp_ns > kLongestGapNs) return std::nullopt;
+  if (after == places.begin() || after->stamp_ns - std::prev(after)->stamp_ns > kLongestGapNs)
+    return std::nullopt;
   const Place& before = *std::prev(after);
-  const double share = static_cast<double>(stamp_ns - before.stamp_ns) / static_cast<double>(after->stamp_ns - before.stamp_ns);
-  return before.position_in_world_m + share * (after->position_in_world_m - before.position_in_world_m);
+  const double share = static_cast<double>(stamp_ns - before.stamp_ns) /
+                       static_cast<double>(after->stamp_ns - before.stamp_ns);
+  return before.position_in_world_m +
+         share * (after->position_in_world_m - before.position_in_world_m);
 }
 
 struct Lists {
@@ -49,7 +56,8 @@ struct Lists {
   std::unordered_map<std::size_t, std::int64_t> last_nees_ns;  // of each object
 };
 
-void add(const PredictedPlace& predicted, const Vector2& true_position_m, std::size_t object, std::int64_t stamp_ns, Lists& lists) {
+void add(const PredictedPlace& predicted, const Vector2& true_position_m, std::size_t object,
+         std::int64_t stamp_ns, Lists& lists) {
   const Vector2 error_m = predicted.position_m - true_position_m;
   lists.displacement_m.push_back(error_m.norm());
   const auto [last, is_first] = lists.last_nees_ns.try_emplace(object, stamp_ns);
@@ -61,24 +69,31 @@ void add(const PredictedPlace& predicted, const Vector2& true_position_m, std::s
 PredictionErrors summarize_lists(double after_s, const Lists& lists) {
   constexpr double kShare = 0.95;
   const double farthest = chi_square_quantile(kShare, 2.0);
-  const auto inside = std::count_if(lists.nees.begin(), lists.nees.end(), [&](double nees) { return nees <= farthest; });
-  const double share = lists.nees.empty() ? 0.0 : static_cast<double>(inside) / static_cast<double>(lists.nees.size());
+  const auto inside = std::count_if(lists.nees.begin(), lists.nees.end(),
+                                    [&](double nees) { return nees <= farthest; });
+  const double share = lists.nees.empty()
+                           ? 0.0
+                           : static_cast<double>(inside) / static_cast<double>(lists.nees.size());
   return {after_s, summarize(lists.displacement_m), summarize_nees(lists.nees, 2), share};
 }
 
 }  // namespace
 
-std::vector<PredictionErrors> prediction_errors(const std::vector<Scene>& scenes, const std::vector<CountedScene>& counted,
+std::vector<PredictionErrors> prediction_errors(const std::vector<Scene>& scenes,
+                                                const std::vector<CountedScene>& counted,
                                                 const std::vector<std::vector<Match>>& matches) {
   const PlacesOfObject places = places_of_objects(scenes);
   std::map<double, Lists> by_time;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     for (const auto& [row, column] : matches[i]) {
       const std::size_t object = scenes[i].objects[counted[i].objects[row]].object;
-      for (const PredictedPlace& predicted : scenes[i].tracks[counted[i].tracks[column]].predicted) {
-        const std::int64_t then_ns = scenes[i].stamp_ns + static_cast<std::int64_t>(predicted.after_s * 1e9);
+      for (const PredictedPlace& predicted :
+           scenes[i].tracks[counted[i].tracks[column]].predicted) {
+        const std::int64_t then_ns =
+            scenes[i].stamp_ns + static_cast<std::int64_t>(predicted.after_s * 1e9);
         const auto truth_m = place_at(places.at(object), then_ns);
-        if (truth_m) add(predicted, *truth_m, object, scenes[i].stamp_ns, by_time[predicted.after_s]);
+        if (truth_m)
+          add(predicted, *truth_m, object, scenes[i].stamp_ns, by_time[predicted.after_s]);
       }
     }
   }

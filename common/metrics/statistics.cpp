@@ -22,7 +22,8 @@ ErrorSummary summarize(std::vector<double> errors) {
   std::sort(errors.begin(), errors.end());
   const auto count = static_cast<double>(errors.size());
   summary.count = errors.size();
-  summary.rmse = std::sqrt(std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) / count);
+  summary.rmse =
+      std::sqrt(std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) / count);
   summary.mean = std::accumulate(errors.begin(), errors.end(), 0.0) / count;
   summary.median = quantile_of_sorted(errors, 0.5);
   summary.p95 = quantile_of_sorted(errors, 0.95);

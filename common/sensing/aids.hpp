@@ -14,11 +14,12 @@ struct GnssFix {
   std::int64_t stamp_ns = 0;
   std::string receiver_id = "main";
   GnssQuality quality = GnssQuality::no_fix;
-  geometry::Geodetic position;         ///< This and the next two only with a fix.
+  geometry::Geodetic position;  ///< This and the next two only with a fix.
   double altitude_m = 0.0;
-  geometry::Matrix2 covariance_m2 = geometry::Matrix2::Zero();  ///< (east, north), as the receiver believes.
-  double hdop = 0.0;                   ///< Horizontal dilution of precision.
-  int satellites = 0;                  ///< In use.
+  geometry::Matrix2 covariance_m2 = geometry::Matrix2::Zero();  ///< (east, north), as the receiver
+                                                                ///< believes.
+  double hdop = 0.0;   ///< Horizontal dilution of precision.
+  int satellites = 0;  ///< In use.
 };
 
 /// What a compass says of where the vehicle looks.

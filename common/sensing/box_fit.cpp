@@ -10,7 +10,8 @@ namespace slammot::sensing {
 namespace {
 
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
-constexpr std::size_t kMostPointsWeighed = 48; ///< Larger segments are subsampled: tests/bench/detector_bench.cpp.
+constexpr std::size_t kMostPointsWeighed = 48;  ///< Larger segments are subsampled:
+                                                ///< tests/bench/detector_bench.cpp.
 
 struct Extent {
   double least = std::numeric_limits<double>::max();
@@ -24,7 +25,8 @@ struct Echoes {
   double range_noise_m = 0.0;
 };
 
-/// Closeness score: sum over the points of the inverse distance to the nearest side of the tightest box.
+/// Closeness score: sum over the points of the inverse distance to the nearest side of the tightest
+/// box.
 double closeness(const Echoes& echoes, double heading_rad) {
   const auto& [points_m, stride, range_noise_m] = echoes;
   const double c = std::cos(heading_rad);
@@ -67,12 +69,15 @@ double wrap_axis(double heading_rad) {
 }  // namespace
 
 BoxSides::BoxSides(const OrientedBox& box)
-    : centre_m_(box.centre_m), along_(std::cos(box.heading_rad), std::sin(box.heading_rad)), half_size_m_(0.5 * box.length_m, 0.5 * box.width_m) {}
+    : centre_m_(box.centre_m),
+      along_(std::cos(box.heading_rad), std::sin(box.heading_rad)),
+      half_size_m_(0.5 * box.length_m, 0.5 * box.width_m) {}
 
 double BoxSides::distance_m(const Eigen::Vector2d& point_m) const {
   const Eigen::Vector2d across{-along_.y(), along_.x()};
   const Eigen::Vector2d off_m = point_m - centre_m_;
-  const Eigen::Vector2d inside_m = half_size_m_ - Eigen::Vector2d(std::abs(along_.dot(off_m)), std::abs(across.dot(off_m)));
+  const Eigen::Vector2d inside_m =
+      half_size_m_ - Eigen::Vector2d(std::abs(along_.dot(off_m)), std::abs(across.dot(off_m)));
   return inside_m.minCoeff() >= 0.0 ? inside_m.minCoeff() : inside_m.cwiseMin(0.0).norm();
 }
 
@@ -85,7 +90,8 @@ OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double hea
     width.include(across.dot(point));
   }
   OrientedBox box;
-  box.centre_m = 0.5 * (length.least + length.most) * along + 0.5 * (width.least + width.most) * across;
+  box.centre_m =
+      0.5 * (length.least + length.most) * along + 0.5 * (width.least + width.most) * across;
   box.length_m = length.most - length.least;
   box.width_m = width.most - width.least;
   if (box.width_m > box.length_m) {

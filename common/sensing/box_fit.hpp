@@ -30,9 +30,10 @@ class BoxSides {
 /// Tightest rectangle of the given heading around the points; at least one point.
 OrientedBox box_at_heading(std::span<const Eigen::Vector2d> points_m, double heading_rad);
 
-/// Rectangle whose sides are closest to the points: fits the visible L or I of a vehicle. Two-stage search over the
-/// heading with the closeness criterion of Zhang, Xu, Dong, Dolan (IV 2017), Algorithm 4. Needs at least one point.
-/// range_noise_m: one sigma, the lower limit of a point's distance to a side.
+/// Rectangle whose sides are closest to the points: fits the visible L or I of a vehicle. Two-stage
+/// search over the heading with the closeness criterion of Zhang, Xu, Dong, Dolan (IV 2017),
+/// Algorithm 4. Needs at least one point. range_noise_m: one sigma, the lower limit of a point's
+/// distance to a side.
 OrientedBox fit_box(std::span<const Eigen::Vector2d> points_m, double range_noise_m);
 
 }  // namespace slammot::sensing

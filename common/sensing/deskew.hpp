@@ -6,9 +6,9 @@
 
 namespace slammot::sensing {
 
-/// End point of every beam in the base frame at the scan's stamp [m], deskewed with constant velocity. One point a
-/// beam; a beam without echo gives the laser's origin.
-/// speed_mps is forward.
-void deskew(const LaserScan& scan, double speed_mps, double yaw_rate_radps, std::vector<geometry::Vector2>& points_in_base_m);
+/// End point of every beam in the base frame at the scan's stamp [m], deskewed with constant
+/// velocity. One point a beam; a beam without echo gives the laser's origin. speed_mps is forward.
+void deskew(const LaserScan& scan, double speed_mps, double yaw_rate_radps,
+            std::vector<geometry::Vector2>& points_in_base_m);
 
 }  // namespace slammot::sensing

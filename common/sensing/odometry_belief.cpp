@@ -13,21 +13,24 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 
-constexpr double kSwitchPerScan = 0.05;  // Probability that the explanation changes from one scan to the next.
+constexpr double kSwitchPerScan = 0.05;  // Probability that the explanation changes from one scan
+                                         // to the next.
 
-constexpr double kUnobserved_m = 0.5;     // a scan that knows a direction no better than this knows nothing of it,
+constexpr double kUnobserved_m = 0.5;  // a scan that knows a direction no better than this knows
+                                       // nothing of it,
 constexpr double kUnobserved_rad = 0.2;
-constexpr double kMatchSigma_m = 0.01;    // of a step between two matches
+constexpr double kMatchSigma_m = 0.01;  // of a step between two matches
 constexpr double kMatchSigma_rad = 0.005;
-constexpr double kStepSigma_m = 0.02;      // of the velocity between two matches, for the prediction
+constexpr double kStepSigma_m = 0.02;  // of the velocity between two matches, for the prediction
 constexpr double kStepSigma_rad = 0.01;
-constexpr double kStepShare = 0.05;       // noise of odometry, as a share of the step
-constexpr double kForgetWay = 1e-4;       // variance that a step adds
+constexpr double kStepShare = 0.05;  // noise of odometry, as a share of the step
+constexpr double kForgetWay = 1e-4;  // variance that a step adds
 constexpr double kForgetTurn = 1e-4;
-constexpr double kLeastTurn_rad = 0.01;   // least turn that updates the turn factor
+constexpr double kLeastTurn_rad = 0.01;  // least turn that updates the turn factor
 constexpr int kLeastSteps = 6;
 constexpr double kLeastTurnOnTheSpot_rad = 0.1;
-constexpr double kDriveShare = 0.5;       // of the usual drive: a step with less way counts as a turn on the spot
+constexpr double kDriveShare = 0.5;  // of the usual drive: a step with less way counts as a turn on
+                                     // the spot
 constexpr double kKnownSigma = 0.1;
 constexpr double kMisfitMemory = 0.1;
 constexpr double kMostMisfit = 3.0;
@@ -36,7 +39,8 @@ double squared(double value) { return value * value; }
 
 }  // namespace
 
-double log_marginal_likelihood(const geometry::UncertainPose2& prediction, const Pose2& optimum, const Matrix3& information) {
+double log_marginal_likelihood(const geometry::UncertainPose2& prediction, const Pose2& optimum,
+                               const Matrix3& information) {
   const Eigen::Vector3d apart = geometry::difference(optimum, prediction.pose);
   const Matrix3 widened = Matrix3::Identity() + information * prediction.covariance;
   const Eigen::PartialPivLU<Matrix3> factors(widened);
@@ -44,52 +48,69 @@ double log_marginal_likelihood(const geometry::UncertainPose2& prediction, const
   return -0.5 * (std::log(std::max(widened.determinant(), 1e-12)) + std::max(squared_error, 0.0));
 }
 
-Pose2 scan_optimum(const geometry::UncertainPose2& prediction, const Pose2& matched, const Matrix3& information) {
-  const Eigen::Vector3d pulled = prediction.covariance.ldlt().solve(geometry::difference(matched, prediction.pose));
+Pose2 scan_optimum(const geometry::UncertainPose2& prediction, const Pose2& matched,
+                   const Matrix3& information) {
+  const Eigen::Vector3d pulled =
+      prediction.covariance.ldlt().solve(geometry::difference(matched, prediction.pose));
   Matrix3 observed = information;
-  observed.diagonal() += Eigen::Vector3d(1.0 / squared(kUnobserved_m), 1.0 / squared(kUnobserved_m), 1.0 / squared(kUnobserved_rad));
+  observed.diagonal() += Eigen::Vector3d(1.0 / squared(kUnobserved_m), 1.0 / squared(kUnobserved_m),
+                                         1.0 / squared(kUnobserved_rad));
   const Eigen::Vector3d beyond = observed.ldlt().solve(pulled);
-  return {matched.x_m + beyond.x(), matched.y_m + beyond.y(), geometry::wrap_angle(matched.heading_rad + beyond.z())};
+  return {matched.x_m + beyond.x(), matched.y_m + beyond.y(),
+          geometry::wrap_angle(matched.heading_rad + beyond.z())};
 }
 
-ExplanationWeights predicted(const ExplanationWeights& weights, const OdometryBeliefConfig& config) {
+ExplanationWeights predicted(const ExplanationWeights& weights,
+                             const OdometryBeliefConfig& config) {
   const double share = kSwitchPerScan;
   const double faulty = config.rough_prior + config.recalibrated_prior + config.other_prior;
-  const ExplanationWeights fresh{1.0 - faulty, config.rough_prior, config.recalibrated_prior, config.other_prior};
+  const ExplanationWeights fresh{1.0 - faulty, config.rough_prior, config.recalibrated_prior,
+                                 config.other_prior};
   ExplanationWeights next{};
-  for (std::size_t i = 0; i < next.size(); ++i) next[i] = (1.0 - share) * weights[i] + share * fresh[i];
+  for (std::size_t i = 0; i < next.size(); ++i)
+    next[i] = (1.0 - share) * weights[i] + share * fresh[i];
   return next;
 }
 
-ExplanationWeights updated(const ExplanationWeights& weights, const std::array<double, kStepExplanations>& log_likelihoods) {
+ExplanationWeights updated(const ExplanationWeights& weights,
+                           const std::array<double, kStepExplanations>& log_likelihoods) {
   const double highest = *std::max_element(log_likelihoods.begin(), log_likelihoods.end());
   ExplanationWeights posterior{};
   double sum = 0.0;
-  for (std::size_t i = 0; i < posterior.size(); ++i) sum += posterior[i] = weights[i] * std::exp(log_likelihoods[i] - highest);
+  for (std::size_t i = 0; i < posterior.size(); ++i)
+    sum += posterior[i] = weights[i] * std::exp(log_likelihoods[i] - highest);
   for (double& weight : posterior) weight /= sum;
   return posterior;
 }
 
 StepExplanation most_likely(const ExplanationWeights& weights) {
-  return static_cast<StepExplanation>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+  return static_cast<StepExplanation>(std::max_element(weights.begin(), weights.end()) -
+                                      weights.begin());
 }
 
-void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_matches, double duration_s) {
+void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_matches,
+                                   double duration_s) {
   ++steps_;
   const double way_m = by_wheels.x_m;
   way_variance_ += kForgetWay;
-  const double way_innovation_m2 = way_variance_ * way_m * way_m + squared(kMatchSigma_m) + squared(kStepShare * way_m);
+  const double way_innovation_m2 =
+      way_variance_ * way_m * way_m + squared(kMatchSigma_m) + squared(kStepShare * way_m);
   const double way_gain = way_variance_ * way_m / way_innovation_m2;
   const double way_innovation_m = by_matches.x_m - factors_.way * way_m;
   misfit_ += kMisfitMemory * (squared(way_innovation_m) / way_innovation_m2 - misfit_);
   factors_.way += way_gain * way_innovation_m;
   way_variance_ *= 1.0 - way_gain * way_m;
 
-  const double turn_rad = std::max(std::abs(by_wheels.heading_rad), std::abs(by_matches.heading_rad));
-  const Eigen::Vector2d by(turn_rad > kLeastTurn_rad ? by_wheels.heading_rad : 0.0, duration_s);  // the rest is noise of both
+  const double turn_rad =
+      std::max(std::abs(by_wheels.heading_rad), std::abs(by_matches.heading_rad));
+  const Eigen::Vector2d by(turn_rad > kLeastTurn_rad ? by_wheels.heading_rad : 0.0,
+                           duration_s);  // the rest is noise of both
   if (turn_rad > kLeastTurn_rad) turn_covariance_(0, 0) += kForgetTurn;
-  const double innovation = geometry::wrap_angle(by_matches.heading_rad - factors_.turn * by_wheels.heading_rad - factors_.turn_bias_radps * duration_s);
-  const double variance = by.dot(turn_covariance_ * by) + squared(kMatchSigma_rad) + squared(kStepShare * by_wheels.heading_rad);
+  const double innovation =
+      geometry::wrap_angle(by_matches.heading_rad - factors_.turn * by_wheels.heading_rad -
+                           factors_.turn_bias_radps * duration_s);
+  const double variance = by.dot(turn_covariance_ * by) + squared(kMatchSigma_rad) +
+                          squared(kStepShare * by_wheels.heading_rad);
   const Eigen::Vector2d gain = turn_covariance_ * by / variance;
   factors_.turn += gain.x() * innovation;
   factors_.turn_bias_radps += gain.y() * innovation;
@@ -97,33 +118,48 @@ void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_match
 }
 
 /// The factors are not updated by steps with wheel slip.
-bool WheelFactorEstimator::is_known() const { return steps_ >= kLeastSteps && way_sigma() < kKnownSigma && misfit_ < kMostMisfit; }
+bool WheelFactorEstimator::is_known() const {
+  return steps_ >= kLeastSteps && way_sigma() < kKnownSigma && misfit_ < kMostMisfit;
+}
 double WheelFactorEstimator::way_sigma() const { return std::sqrt(std::max(way_variance_, 0.0)); }
-double WheelFactorEstimator::turn_sigma() const { return std::sqrt(std::max(turn_covariance_(0, 0), 0.0)); }
+double WheelFactorEstimator::turn_sigma() const {
+  return std::sqrt(std::max(turn_covariance_(0, 0), 0.0));
+}
 
 Pose2 corrected(const Pose2& by_wheels, double duration_s, const WheelFactors& factors) {
-  const double turn_rad = factors.turn * by_wheels.heading_rad + factors.turn_bias_radps * duration_s;
-  const geometry::Vector2 moved_m = factors.way * (geometry::rotation(0.5 * (turn_rad - by_wheels.heading_rad)) * by_wheels.translation_m());
+  const double turn_rad =
+      factors.turn * by_wheels.heading_rad + factors.turn_bias_radps * duration_s;
+  const geometry::Vector2 moved_m =
+      factors.way *
+      (geometry::rotation(0.5 * (turn_rad - by_wheels.heading_rad)) * by_wheels.translation_m());
   return {moved_m.x(), moved_m.y(), geometry::wrap_angle(turn_rad)};
 }
 
 double log_odds_of(const Pose2& by_wheels, const geometry::UncertainPose2& by_scans) {
-  constexpr double kRightShare = 0.02;     // of the way: tolerance of calibrated odometry
+  constexpr double kRightShare = 0.02;  // of the way: tolerance of calibrated odometry
   constexpr double kRight_m = 0.01;
-  constexpr double kRightTurnShare = 0.04; // of the turn: the same
+  constexpr double kRightTurnShare = 0.04;  // of the turn: the same
   constexpr double kRight_rad = 0.004;
   constexpr double kWrongShare = 0.4;
   constexpr double kWrong_m = 0.1;
   constexpr double kWrong_rad = 0.05;
   constexpr double kLeast = -2.0;
   constexpr double kMost = 1.5;
-  const double way_m = std::max(std::hypot(by_wheels.x_m, by_wheels.y_m), std::hypot(by_scans.pose.x_m, by_scans.pose.y_m));
-  const double turn_rad = std::max(std::abs(by_wheels.heading_rad), std::abs(by_scans.pose.heading_rad));
-  const Eigen::Vector3d right(squared(kRight_m + kRightShare * way_m), squared(kRight_m + kRightShare * way_m + 0.5 * way_m * kRight_rad), squared(kRight_rad + kRightTurnShare * turn_rad));
-  const Eigen::Vector3d wrong(squared(kWrong_m + kWrongShare * way_m), squared(kWrong_m + kWrongShare * way_m), squared(kWrong_rad + kWrongShare * turn_rad));
+  const double way_m = std::max(std::hypot(by_wheels.x_m, by_wheels.y_m),
+                                std::hypot(by_scans.pose.x_m, by_scans.pose.y_m));
+  const double turn_rad =
+      std::max(std::abs(by_wheels.heading_rad), std::abs(by_scans.pose.heading_rad));
+  const Eigen::Vector3d right(squared(kRight_m + kRightShare * way_m),
+                              squared(kRight_m + kRightShare * way_m + 0.5 * way_m * kRight_rad),
+                              squared(kRight_rad + kRightTurnShare * turn_rad));
+  const Eigen::Vector3d wrong(squared(kWrong_m + kWrongShare * way_m),
+                              squared(kWrong_m + kWrongShare * way_m),
+                              squared(kWrong_rad + kWrongShare * turn_rad));
   const Matrix3 information = by_scans.covariance.inverse();
-  const double for_right = log_marginal_likelihood({by_wheels, right.asDiagonal()}, by_scans.pose, information);
-  const double for_wrong = log_marginal_likelihood({by_wheels, wrong.asDiagonal()}, by_scans.pose, information);
+  const double for_right =
+      log_marginal_likelihood({by_wheels, right.asDiagonal()}, by_scans.pose, information);
+  const double for_wrong =
+      log_marginal_likelihood({by_wheels, wrong.asDiagonal()}, by_scans.pose, information);
   return std::clamp(for_right - for_wrong, kLeast, kMost);
 }
 
@@ -137,17 +173,23 @@ OdometryBelief compared(OdometryBelief belief, const OdometryComparison& compari
   constexpr double kWithoutMatch = 1.0;
   const auto& [by_wheels, as_believed, by_scans, duration_s, extra_odds] = comparison;
   const double odds = (by_scans ? log_odds_of(as_believed, *by_scans) : kWithoutMatch) + extra_odds;
-  belief.log_odds = std::clamp(belief.log_odds + odds, -kBound, by_scans ? bound : std::max(belief.log_odds, 1.5));
+  belief.log_odds = std::clamp(belief.log_odds + odds, -kBound,
+                               by_scans ? bound : std::max(belief.log_odds, 1.5));
   if (by_scans && belief.estimator.is_known()) {
-    const double odds_of_factors = log_odds_of(corrected(by_wheels, duration_s, belief.estimator.factors()), *by_scans);
-    belief.log_odds_of_factors = std::clamp(belief.log_odds_of_factors + odds_of_factors, -kBound, kBound);
+    const double odds_of_factors =
+        log_odds_of(corrected(by_wheels, duration_s, belief.estimator.factors()), *by_scans);
+    belief.log_odds_of_factors =
+        std::clamp(belief.log_odds_of_factors + odds_of_factors, -kBound, kBound);
   }
   if (by_scans) belief.estimator.observe(by_wheels, by_scans->pose, duration_s);
   if (by_scans && belief.log_odds < kWrongBelow && !belief.is_disbelieved) {
     belief.is_disbelieved = true;
     ++belief.disbeliefs;
-    belief.matched_velocity = {by_scans->pose.x_m / duration_s, by_scans->pose.heading_rad / duration_s};
-    belief.matched_velocity_variance = Eigen::Vector2d(squared(kStepSigma_m), squared(kStepSigma_rad)) / squared(duration_s) + Eigen::Vector2d(0.25, 0.01);
+    belief.matched_velocity = {by_scans->pose.x_m / duration_s,
+                               by_scans->pose.heading_rad / duration_s};
+    belief.matched_velocity_variance =
+        Eigen::Vector2d(squared(kStepSigma_m), squared(kStepSigma_rad)) / squared(duration_s) +
+        Eigen::Vector2d(0.25, 0.01);
   } else if (belief.log_odds > right_above) {
     belief.is_disbelieved = false;
   }
@@ -155,7 +197,7 @@ OdometryBelief compared(OdometryBelief belief, const OdometryComparison& compari
 }
 
 bool has_changed(const OdometryBelief& belief, const Pose2& by_wheels, double duration_s) {
-  constexpr double kJitter_m = 0.012;   // encoder resolution and read-out times
+  constexpr double kJitter_m = 0.012;  // encoder resolution and read-out times
   constexpr double kJitter_rad = 0.008;
   constexpr double kAcceleration_mps2 = 8.0;
   constexpr double kTurnAcceleration_radps2 = 6.0;
@@ -163,8 +205,10 @@ bool has_changed(const OdometryBelief& belief, const Pose2& by_wheels, double du
   const double ratio = duration_s / belief.last_duration_s;
   const double squared_s2 = duration_s * duration_s;
   const double apart_m = std::abs(by_wheels.x_m - ratio * belief.last_by_wheels.x_m);
-  const double apart_rad = std::abs(by_wheels.heading_rad - ratio * belief.last_by_wheels.heading_rad);
-  return apart_m > kJitter_m + kAcceleration_mps2 * squared_s2 || apart_rad > kJitter_rad + kTurnAcceleration_radps2 * squared_s2;
+  const double apart_rad =
+      std::abs(by_wheels.heading_rad - ratio * belief.last_by_wheels.heading_rad);
+  return apart_m > kJitter_m + kAcceleration_mps2 * squared_s2 ||
+         apart_rad > kJitter_rad + kTurnAcceleration_radps2 * squared_s2;
 }
 
 OdometryBelief with_wheels(OdometryBelief belief, const Pose2& by_wheels, double duration_s) {
@@ -173,34 +217,43 @@ OdometryBelief with_wheels(OdometryBelief belief, const Pose2& by_wheels, double
   return belief;
 }
 
-double log_likelihood_of_acceleration(const Pose2& step, const Pose2& at_velocity, double duration_s) {
+double log_likelihood_of_acceleration(const Pose2& step, const Pose2& at_velocity,
+                                      double duration_s) {
   constexpr double kAcceleration_mps2 = 5.0;
   constexpr double kTurnAcceleration_radps2 = 5.0;
-  constexpr double kJitter_m = 0.02;       // odometry and scans are not read simultaneously
+  constexpr double kJitter_m = 0.02;  // odometry and scans are not read simultaneously
   constexpr double kJitter_rad = 0.01;
   constexpr double kLeast = -8.0;
   const Pose2 apart = geometry::inverse(at_velocity) * step;
-  const double position = apart.translation_m().squaredNorm() / squared(kJitter_m + kAcceleration_mps2 * squared(duration_s));
-  const double heading = squared(apart.heading_rad / (kJitter_rad + kTurnAcceleration_radps2 * squared(duration_s)));
+  const double position = apart.translation_m().squaredNorm() /
+                          squared(kJitter_m + kAcceleration_mps2 * squared(duration_s));
+  const double heading =
+      squared(apart.heading_rad / (kJitter_rad + kTurnAcceleration_radps2 * squared(duration_s)));
   return std::max(kLeast, -0.5 * (position + heading));
 }
 
-OdometryBelief moved(OdometryBelief belief, StepExplanation explanation, double duration_s, const std::optional<Pose2>& before_from_base,
-                     const MotionModelConfig& motion, const OdometryBeliefConfig& config) {
+OdometryBelief moved(OdometryBelief belief, StepExplanation explanation, double duration_s,
+                     const std::optional<Pose2>& before_from_base, const MotionModelConfig& motion,
+                     const OdometryBeliefConfig& config) {
   belief.last = explanation;
   belief.usual_step_s += config.usual_step_memory * (duration_s - belief.usual_step_s);
   Eigen::Vector2d& variance = belief.matched_velocity_variance;
-  variance += duration_s * Eigen::Vector2d(squared(motion.speed_walk_mps), squared(motion.yaw_rate_walk_radps));
+  variance += duration_s *
+              Eigen::Vector2d(squared(motion.speed_walk_mps), squared(motion.yaw_rate_walk_radps));
   if (!before_from_base) return belief;
   belief.last_step = *before_from_base;
   belief.steps.add(*before_from_base);
   const double way_m = before_from_base->translation_m().norm();
   belief.usual_way_m += config.usual_step_memory * (way_m - belief.usual_way_m);
   const double turn_rad = std::abs(before_from_base->heading_rad);
-  if (way_m > kDriveShare * belief.usual_drive_m) belief.usual_drive_m += config.usual_step_memory * (way_m - belief.usual_drive_m);
-  else if (turn_rad > kLeastTurnOnTheSpot_rad) belief.usual_turn_rad += config.usual_step_memory * (turn_rad - belief.usual_turn_rad);
-  const Eigen::Vector2d measured(before_from_base->x_m / duration_s, before_from_base->heading_rad / duration_s);
-  const Eigen::Vector2d noise = (Eigen::Vector2d(kStepSigma_m, kStepSigma_rad) / duration_s).cwiseAbs2();
+  if (way_m > kDriveShare * belief.usual_drive_m)
+    belief.usual_drive_m += config.usual_step_memory * (way_m - belief.usual_drive_m);
+  else if (turn_rad > kLeastTurnOnTheSpot_rad)
+    belief.usual_turn_rad += config.usual_step_memory * (turn_rad - belief.usual_turn_rad);
+  const Eigen::Vector2d measured(before_from_base->x_m / duration_s,
+                                 before_from_base->heading_rad / duration_s);
+  const Eigen::Vector2d noise =
+      (Eigen::Vector2d(kStepSigma_m, kStepSigma_rad) / duration_s).cwiseAbs2();
   const Eigen::Vector2d gain = variance.cwiseQuotient(variance + noise);
   belief.matched_velocity += gain.cwiseProduct(measured - belief.matched_velocity);
   variance = (Eigen::Vector2d::Ones() - gain).cwiseProduct(variance);

@@ -11,53 +11,63 @@
 
 namespace slammot::sensing {
 
-/// Explanations of a step between two scans: the components of the mixture that predicts the pose of a scan.
+/// Explanations of a step between two scans: the components of the mixture that predicts the pose
+/// of a scan.
 enum class StepExplanation : std::uint8_t {
   kWheels,        ///< Odometry with the current calibration.
   kRoughWheels,   ///< The same mean with scaled noise: heavy tail of odometry.
   kRecalibrated,  ///< Odometry with the way and turn factors of recent matches.
-  kOther,         ///< No odometry: constant velocity, or any position within reach if no time is known.
+  kOther,  ///< No odometry: constant velocity, or any position within reach if no time is known.
 };
 inline constexpr std::size_t kStepExplanations = 4;
 using ExplanationWeights = std::array<double, kStepExplanations>;
 
-inline constexpr std::size_t index_of(StepExplanation explanation) { return static_cast<std::size_t>(explanation); }
+inline constexpr std::size_t index_of(StepExplanation explanation) {
+  return static_cast<std::size_t>(explanation);
+}
 
 struct OdometryBeliefConfig {
   bool enabled = true;
-  double rough_prior = 0.03;                ///< After a change: share of kRoughWheels,
-  double recalibrated_prior = 0.01;         ///< of kRecalibrated,
-  double other_prior = 0.003;               ///< and of kOther.
-  double rough_sigmas = 4.0;                ///< Noise of kRoughWheels, times that of kWheels.
-  double share_nats = 60.0;                 ///< Log-likelihood of all points matched against none, if points erred independently.
-  double usual_step_memory = 0.1;           ///< Weight of one step in the usual time between scans.
-  double reach_m = 0.3;                     ///< kOther without time: one sigma of the position.
-  double repeat_rad = 0.12;                 ///< One sigma of the turn of a step that is like one before.
-  double way_at_start = 1.0;                ///< Way by scans over way by odometry, as far as it is known before the first scan.
+  double rough_prior = 0.03;         ///< After a change: share of kRoughWheels,
+  double recalibrated_prior = 0.01;  ///< of kRecalibrated,
+  double other_prior = 0.003;        ///< and of kOther.
+  double rough_sigmas = 4.0;         ///< Noise of kRoughWheels, times that of kWheels.
+  double share_nats = 60.0;  ///< Log-likelihood of all points matched against none, if points erred
+                             ///< independently.
+  double usual_step_memory = 0.1;  ///< Weight of one step in the usual time between scans.
+  double reach_m = 0.3;            ///< kOther without time: one sigma of the position.
+  double repeat_rad = 0.12;        ///< One sigma of the turn of a step that is like one before.
+  double way_at_start = 1.0;  ///< Way by scans over way by odometry, as far as it is known before
+                              ///< the first scan.
 };
 
-/// Log marginal likelihood of a scan [nats], up to a constant of the scan: integral of the prediction times exp(-1/2 (x
-/// - optimum)' information (x - optimum)). information: 3x3 over (x [m], y [m], heading [rad]) in the prediction's
-/// frame, may be singular.
-double log_marginal_likelihood(const geometry::UncertainPose2& prediction, const geometry::Pose2& optimum, const geometry::Matrix3& information);
+/// Log marginal likelihood of a scan [nats], up to a constant of the scan: integral of the
+/// prediction times exp(-1/2 (x
+/// - optimum)' information (x - optimum)). information: 3x3 over (x [m], y [m], heading [rad]) in
+/// the prediction's frame, may be singular.
+double log_marginal_likelihood(const geometry::UncertainPose2& prediction,
+                               const geometry::Pose2& optimum,
+                               const geometry::Matrix3& information);
 
-/// Maximum of the scan's own likelihood, from a match (maximum a posteriori) with the prediction as prior. Directions
-/// without information from the scan keep the match's value.
-geometry::Pose2 scan_optimum(const geometry::UncertainPose2& prediction, const geometry::Pose2& matched, const geometry::Matrix3& information);
+/// Maximum of the scan's own likelihood, from a match (maximum a posteriori) with the prediction as
+/// prior. Directions without information from the scan keep the match's value.
+geometry::Pose2 scan_optimum(const geometry::UncertainPose2& prediction,
+                             const geometry::Pose2& matched, const geometry::Matrix3& information);
 
 /// Predicted weights for the next scan, from those after the last one.
 ExplanationWeights predicted(const ExplanationWeights& weights, const OdometryBeliefConfig& config);
 
 /// Bayes' rule. -infinity for an explanation that is not available; at least one must be available.
-ExplanationWeights updated(const ExplanationWeights& weights, const std::array<double, kStepExplanations>& log_likelihoods);
+ExplanationWeights updated(const ExplanationWeights& weights,
+                           const std::array<double, kStepExplanations>& log_likelihoods);
 
 StepExplanation most_likely(const ExplanationWeights& weights);
 
 /// Way factor, turn factor and turn bias of odometry by recursive least squares on matched steps.
 struct WheelFactors {
-  double way = 1.0;                 ///< Way by matches over way by odometry.
-  double turn = 1.0;                ///< Turn by matches over turn by odometry.
-  double turn_bias_radps = 0.0;     ///< Turn rate by matches that odometry does not measure.
+  double way = 1.0;              ///< Way by matches over way by odometry.
+  double turn = 1.0;             ///< Turn by matches over turn by odometry.
+  double turn_bias_radps = 0.0;  ///< Turn rate by matches that odometry does not measure.
 };
 
 class WheelFactorEstimator {
@@ -67,7 +77,8 @@ class WheelFactorEstimator {
   explicit WheelFactorEstimator(const WheelFactors& at_start) : factors_(at_start) {}
 
   /// One step by odometry (uncorrected) and by matches.
-  void observe(const geometry::Pose2& by_wheels, const geometry::Pose2& by_matches, double duration_s);
+  void observe(const geometry::Pose2& by_wheels, const geometry::Pose2& by_matches,
+               double duration_s);
 
   /// True if way and turn factors are certain enough for predictions.
   bool is_known() const;
@@ -79,73 +90,87 @@ class WheelFactorEstimator {
 
   /// Passes each value of the state to the visitor, in a fixed order: for a checkpoint.
   template <typename Visitor>
-  void visit(Visitor visit) const { visit(factors_), visit(way_variance_), visit(turn_covariance_), visit(steps_), visit(misfit_); }
+  void visit(Visitor visit) const {
+    visit(factors_), visit(way_variance_), visit(turn_covariance_), visit(steps_), visit(misfit_);
+  }
   template <typename Visitor>
-  void visit(Visitor visit) { visit(factors_), visit(way_variance_), visit(turn_covariance_), visit(steps_), visit(misfit_); }
+  void visit(Visitor visit) {
+    visit(factors_), visit(way_variance_), visit(turn_covariance_), visit(steps_), visit(misfit_);
+  }
 
  private:
   WheelFactors factors_;
   double way_variance_ = 0.25;
   Eigen::Matrix2d turn_covariance_ = Eigen::Vector2d(2.25, 0.01).asDiagonal();
   int steps_ = 0;
-  double misfit_ = 1.0;             ///< Mean squared innovation of the way over its expected value.
+  double misfit_ = 1.0;  ///< Mean squared innovation of the way over its expected value.
 };
 
 /// The step with the factors applied.
-geometry::Pose2 corrected(const geometry::Pose2& by_wheels, double duration_s, const WheelFactors& factors);
+geometry::Pose2 corrected(const geometry::Pose2& by_wheels, double duration_s,
+                          const WheelFactors& factors);
 
 /// State of odometry's validation, kept from scan to scan.
 struct OdometryBelief {
   ExplanationWeights weights{1.0, 0.0, 0.0, 0.0};
-  StepExplanation last = StepExplanation::kWheels;     ///< Most probable explanation of the last step.
-  double usual_step_s = 0.1;                           ///< Running mean of the time between scans.
-  geometry::Pose2 last_step;                           ///< Last step by matches.
-  StepHistory steps;                                   ///< Earlier steps by matches.
-  geometry::Pose2 last_by_wheels;                      ///< Last step by odometry, uncorrected.
-  double last_duration_s = 0.0;                        ///< Duration of the last step; 0: none yet.
-  double usual_way_m = 0.5;                            ///< Usual way of a step.
-  double usual_drive_m = 0.5;                          ///< Usual way of a step that is no turn on the spot.
-  double usual_turn_rad = 0.5;                         ///< Usual absolute turn of a turn on the spot.
-  double usual_share = 0.5;                            ///< Usual share of a scan's points that match.
-  Velocity matched_velocity = Velocity::Zero();        ///< Velocity from the last steps between matches.
+  StepExplanation last = StepExplanation::kWheels;  ///< Most probable explanation of the last step.
+  double usual_step_s = 0.1;                        ///< Running mean of the time between scans.
+  geometry::Pose2 last_step;                        ///< Last step by matches.
+  StepHistory steps;                                ///< Earlier steps by matches.
+  geometry::Pose2 last_by_wheels;                   ///< Last step by odometry, uncorrected.
+  double last_duration_s = 0.0;                     ///< Duration of the last step; 0: none yet.
+  double usual_way_m = 0.5;                         ///< Usual way of a step.
+  double usual_drive_m = 0.5;   ///< Usual way of a step that is no turn on the spot.
+  double usual_turn_rad = 0.5;  ///< Usual absolute turn of a turn on the spot.
+  double usual_share = 0.5;     ///< Usual share of a scan's points that match.
+  Velocity matched_velocity = Velocity::Zero();  ///< Velocity from the last steps between matches.
   Eigen::Vector2d matched_velocity_variance = Eigen::Vector2d::Constant(1e3);
-  WheelFactors factors;                                ///< Applied to odometry first.
+  WheelFactors factors;  ///< Applied to odometry first.
   WheelFactorEstimator estimator;
-  double log_odds = 1.0;                               ///< Of correct against wrong odometry, by comparisons of scans some way apart [nats].
-  double log_odds_of_factors = 0.0;                    ///< The same for odometry with the estimator's factors.
-  int disbeliefs = 0;                                  ///< Number of rejections; each raises the threshold for accepting odometry again.
-  double disbelieved_s = 0.0;                          ///< Duration of the current rejection.
-  bool is_disbelieved = false;                         ///< Odometry is not used for predictions until comparisons agree with it again.
-  int recalibrated_scans = 0;                          ///< Number of successive scans with kRecalibrated as by far the best explanation.
+  double log_odds = 1.0;  ///< Of correct against wrong odometry, by comparisons of scans some way
+                          ///< apart [nats].
+  double log_odds_of_factors = 0.0;  ///< The same for odometry with the estimator's factors.
+  int disbeliefs = 0;  ///< Number of rejections; each raises the threshold for accepting odometry
+                       ///< again.
+  double disbelieved_s = 0.0;   ///< Duration of the current rejection.
+  bool is_disbelieved = false;  ///< Odometry is not used for predictions until comparisons agree
+                                ///< with it again.
+  int recalibrated_scans = 0;  ///< Number of successive scans with kRecalibrated as by far the best
+                               ///< explanation.
   std::uint64_t recalibrations = 0;
 };
 
-/// Log-odds of odometry against a wide alternative for the motion between two scans [nats], bounded. by_wheels:
-/// corrected. by_scans: with the covariance of the match.
+/// Log-odds of odometry against a wide alternative for the motion between two scans [nats],
+/// bounded. by_wheels: corrected. by_scans: with the covariance of the match.
 double log_odds_of(const geometry::Pose2& by_wheels, const geometry::UncertainPose2& by_scans);
 
 /// Motion between two scans.
 struct OdometryComparison {
-  geometry::Pose2 by_wheels;                           ///< By odometry, uncorrected.
-  geometry::Pose2 as_believed;                         ///< By odometry, with all corrections.
-  std::optional<geometry::UncertainPose2> by_scans;    ///< By matching; none if the scans do not match.
+  geometry::Pose2 by_wheels;                         ///< By odometry, uncorrected.
+  geometry::Pose2 as_believed;                       ///< By odometry, with all corrections.
+  std::optional<geometry::UncertainPose2> by_scans;  ///< By matching; none if the scans do not
+                                                     ///< match.
   double duration_s = 0.0;
-  double extra_odds = 0.0;                             ///< Additional log-odds of correct odometry, besides the poses [nats].
+  double extra_odds = 0.0;  ///< Additional log-odds of correct odometry, besides the poses [nats].
 };
 
 OdometryBelief compared(OdometryBelief belief, const OdometryComparison& comparison);
 
-/// True if odometry's velocity (uncorrected) changed from the last step to this one more than a vehicle's can.
+/// True if odometry's velocity (uncorrected) changed from the last step to this one more than a
+/// vehicle's can.
 bool has_changed(const OdometryBelief& belief, const geometry::Pose2& by_wheels, double duration_s);
 
 /// State after a step with this odometry.
-OdometryBelief with_wheels(OdometryBelief belief, const geometry::Pose2& by_wheels, double duration_s);
+OdometryBelief with_wheels(OdometryBelief belief, const geometry::Pose2& by_wheels,
+                           double duration_s);
 
 /// Log-likelihood of a step given the velocity before it, up to a constant, bounded [nats].
-double log_likelihood_of_acceleration(const geometry::Pose2& step, const geometry::Pose2& at_velocity, double duration_s);
+double log_likelihood_of_acceleration(const geometry::Pose2& step,
+                                      const geometry::Pose2& at_velocity, double duration_s);
 
 /// State after one more step; before_from_base: by matches, if any.
-OdometryBelief moved(OdometryBelief belief, StepExplanation explanation, double duration_s, const std::optional<geometry::Pose2>& before_from_base,
+OdometryBelief moved(OdometryBelief belief, StepExplanation explanation, double duration_s,
+                     const std::optional<geometry::Pose2>& before_from_base,
                      const MotionModelConfig& motion, const OdometryBeliefConfig& config);
 
 }  // namespace slammot::sensing

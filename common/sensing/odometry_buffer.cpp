@@ -5,13 +5,16 @@
 namespace slammot::sensing {
 namespace {
 
-constexpr std::int64_t kVelocityOver_ns = 100'000'000;  // over a shorter time the noise of two samples dominates the velocity
+constexpr std::int64_t kVelocityOver_ns = 100'000'000;  // over a shorter time the noise of two
+                                                        // samples dominates the velocity
 
 bool is_before(const Odometry& sample, std::int64_t stamp_ns) { return sample.stamp_ns < stamp_ns; }
 
 }  // namespace
 
-OdometryBuffer::OdometryBuffer(std::size_t capacity) : capacity_(capacity) { samples_.reserve(2 * capacity); }
+OdometryBuffer::OdometryBuffer(std::size_t capacity) : capacity_(capacity) {
+  samples_.reserve(2 * capacity);
+}
 
 void OdometryBuffer::add(const Odometry& sample) {
   const auto place = std::lower_bound(samples_.begin(), samples_.end(), sample.stamp_ns, is_before);
@@ -28,16 +31,20 @@ std::optional<geometry::Pose2> OdometryBuffer::wheel_from_base_at(std::int64_t s
   if (after->stamp_ns == stamp_ns) return after->wheel_from_base;
   if (after == samples_.begin()) return std::nullopt;
   const Odometry& before = *(after - 1);
-  const double fraction = static_cast<double>(stamp_ns - before.stamp_ns) / static_cast<double>(after->stamp_ns - before.stamp_ns);
+  const double fraction = static_cast<double>(stamp_ns - before.stamp_ns) /
+                          static_cast<double>(after->stamp_ns - before.stamp_ns);
   return geometry::interpolate(before.wheel_from_base, after->wheel_from_base, fraction);
 }
 
-std::optional<geometry::Pose2> OdometryBuffer::wheel_from_base_after(std::int64_t stamp_ns, std::int64_t after_ns) const {
+std::optional<geometry::Pose2> OdometryBuffer::wheel_from_base_after(std::int64_t stamp_ns,
+                                                                     std::int64_t after_ns) const {
   if (after_ns <= 0) return wheel_from_base_at(stamp_ns + after_ns);
   const auto at_stamp = wheel_from_base_at(stamp_ns);
   const auto earlier = wheel_from_base_at(stamp_ns - kVelocityOver_ns);
   if (!at_stamp || !earlier) return std::nullopt;
-  return geometry::interpolate(*earlier, *at_stamp, 1.0 + static_cast<double>(after_ns) / static_cast<double>(kVelocityOver_ns));
+  return geometry::interpolate(
+      *earlier, *at_stamp,
+      1.0 + static_cast<double>(after_ns) / static_cast<double>(kVelocityOver_ns));
 }
 
 std::vector<Odometry> OdometryBuffer::since(std::int64_t stamp_ns) const {

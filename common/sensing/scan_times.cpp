@@ -30,7 +30,8 @@ Stamps filled_stamps(std::span<const ScanMark> scans) {
     last_ns = *scan.stamp_ns;
     break;
   }
-  for (std::size_t i = 0; i < scans.size(); ++i) stamps[i] = last_ns = scans[i].stamp_ns.value_or(last_ns);
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    stamps[i] = last_ns = scans[i].stamp_ns.value_or(last_ns);
   return stamps;
 }
 
@@ -43,7 +44,8 @@ Stamps steps_of(const Stamps& stamps) {
 template <typename Values, typename Predicate>
 double share_of(const Values& values, Predicate is_counted) {
   if (values.empty()) return 0.0;
-  return static_cast<double>(std::count_if(values.begin(), values.end(), is_counted)) / static_cast<double>(values.size());
+  return static_cast<double>(std::count_if(values.begin(), values.end(), is_counted)) /
+         static_cast<double>(values.size());
 }
 
 template <typename Value>
@@ -57,7 +59,8 @@ Value median_of(std::vector<Value> values) {
 /// Quantile of the values at this share; 0 for none.
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }
@@ -73,8 +76,10 @@ bool is_constant(const Stamps& stamps) {
   constexpr std::size_t kStampsPerScans = 500;
   Stamps distinct = stamps;
   std::sort(distinct.begin(), distinct.end());
-  const auto count = static_cast<std::size_t>(std::unique(distinct.begin(), distinct.end()) - distinct.begin());
-  return count <= 1 + std::min<std::size_t>(1, stamps.size() / kFewestJudged) + stamps.size() / kStampsPerScans;
+  const auto count =
+      static_cast<std::size_t>(std::unique(distinct.begin(), distinct.end()) - distinct.begin());
+  return count <= 1 + std::min<std::size_t>(1, stamps.size() / kFewestJudged) +
+                      stamps.size() / kStampsPerScans;
 }
 
 /// True for integers with a constant step below 5, such as 0, 1, 2.
@@ -82,19 +87,24 @@ bool counts_scans(const Stamps& stamps) {
   constexpr std::int64_t kLargestStep = 4;
   const std::int64_t step_ns = median_advance_ns(stamps);
   if (step_ns <= 0) return false;
-  for (const std::int64_t unit_ns : {kSecondNs, kSecondNs / 1'000, kSecondNs / 1'000'000, std::int64_t{1}}) {
+  for (const std::int64_t unit_ns :
+       {kSecondNs, kSecondNs / 1'000, kSecondNs / 1'000'000, std::int64_t{1}}) {
     if (step_ns % unit_ns != 0 || step_ns / unit_ns > kLargestStep) continue;
-    if (unit_ns != kSecondNs && stamps.front() / unit_ns > static_cast<std::int64_t>(stamps.size())) continue;  // a fast scanner's clock
-    return share_of(steps_of(stamps), [=](std::int64_t step) { return step == step_ns; }) >= kShareOfMost;
+    if (unit_ns != kSecondNs && stamps.front() / unit_ns > static_cast<std::int64_t>(stamps.size()))
+      continue;  // a fast scanner's clock
+    return share_of(steps_of(stamps), [=](std::int64_t step) { return step == step_ns; }) >=
+           kShareOfMost;
   }
   return false;
 }
 
 bool are_whole_seconds(const Stamps& stamps) {
-  return share_of(stamps, [](std::int64_t stamp_ns) { return stamp_ns % kSecondNs == 0; }) >= kShareOfMost;
+  return share_of(stamps, [](std::int64_t stamp_ns) { return stamp_ns % kSecondNs == 0; }) >=
+         kShareOfMost;
 }
 
-/// Mean speed by stamps taken as seconds, without pauses; also of stamps that repeat because they are coarse.
+/// Mean speed by stamps taken as seconds, without pauses; also of stamps that repeat because they
+/// are coarse.
 double mean_speed_mps(std::span<const ScanMark> scans, const Stamps& stamps, double usual_step_s) {
   constexpr double kPauseSteps = 100.0;
   double way_m = 0.0;
@@ -109,26 +119,32 @@ double mean_speed_mps(std::span<const ScanMark> scans, const Stamps& stamps, dou
 }
 
 /// Log-prior of a value that is spread over decades [nats].
-double log_of_decades(double value, double middle, double sigma_decades) { return -0.5 * std::pow(std::log10(value / middle) / sigma_decades, 2); }
+double log_of_decades(double value, double middle, double sigma_decades) {
+  return -0.5 * std::pow(std::log10(value / middle) / sigma_decades, 2);
+}
 
-/// Numbers per second; 1 for seconds. The unit with the likeliest time between scans and, where odometry moves, speed.
+/// Numbers per second; 1 for seconds. The unit with the likeliest time between scans and, where
+/// odometry moves, speed.
 std::int64_t units_per_second(std::span<const ScanMark> scans, const Stamps& stamps) {
-  constexpr double kUsualPeriod_s = 0.15;     // 75 Hz to a scan every 20 s are within two and a half sigma
+  constexpr double kUsualPeriod_s = 0.15;  // 75 Hz to a scan every 20 s are within two and a half
+                                           // sigma
   constexpr double kPeriodDecades = 0.8;
   constexpr double kUsualSpeed_mps = 1.6;
   constexpr double kSpeedDecades = 0.6;
-  constexpr double kForSeconds = 2.0;         // nats; most logs are in seconds,
-  constexpr double kForSecondsIfWhole = -1.0; // but seldom in whole ones
+  constexpr double kForSeconds = 2.0;          // nats; most logs are in seconds,
+  constexpr double kForSecondsIfWhole = -1.0;  // but seldom in whole ones
   const double step = 1e-9 * static_cast<double>(median_advance_ns(stamps));
   if (!(step > 0.0)) return 1;
   const double speed = mean_speed_mps(scans, stamps, step);
   std::int64_t best = 1;
   double most = -std::numeric_limits<double>::infinity();
-  for (const std::int64_t units : {std::int64_t{1}, std::int64_t{1'000}, std::int64_t{1'000'000}, kSecondNs}) {
+  for (const std::int64_t units :
+       {std::int64_t{1}, std::int64_t{1'000}, std::int64_t{1'000'000}, kSecondNs}) {
     const double numbers = static_cast<double>(units);
     double log_prior = log_of_decades(step / numbers, kUsualPeriod_s, kPeriodDecades);
     if (speed > 0.0) log_prior += log_of_decades(speed * numbers, kUsualSpeed_mps, kSpeedDecades);
-    if (units == 1) log_prior += are_whole_seconds(stamps) && step >= 5.0 ? kForSecondsIfWhole : kForSeconds;
+    if (units == 1)
+      log_prior += are_whole_seconds(stamps) && step >= 5.0 ? kForSecondsIfWhole : kForSeconds;
     if (log_prior <= most) continue;
     most = log_prior;
     best = units;
@@ -139,20 +155,25 @@ std::int64_t units_per_second(std::span<const ScanMark> scans, const Stamps& sta
 /// Largest of 10, 1, 0.1 and 0.01 s that divides all stamps; 1 ns if none does.
 std::int64_t quantum_ns(const Stamps& stamps) {
   for (const std::int64_t quantum : {10 * kSecondNs, kSecondNs, kSecondNs / 10, kSecondNs / 100}) {
-    if (share_of(stamps, [=](std::int64_t stamp_ns) { return stamp_ns % quantum == 0; }) >= 0.999) return quantum;
+    if (share_of(stamps, [=](std::int64_t stamp_ns) { return stamp_ns % quantum == 0; }) >= 0.999)
+      return quantum;
   }
   return 1;
 }
 
-/// True if stamps are rounded so coarsely that steps do not measure the time between scans. A round period of a steady
-/// scanner is not rounding.
+/// True if stamps are rounded so coarsely that steps do not measure the time between scans. A round
+/// period of a steady scanner is not rounding.
 bool is_coarse(const Stamps& stamps, std::int64_t quantum) {
   constexpr double kFineShareOfPeriod = 0.3;
-  constexpr double kSteadyShare = 0.8;  // a steady scanner sometimes repeats a stamp or misses a scan
-  const double period_ns = static_cast<double>(stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  constexpr double kSteadyShare = 0.8;  // a steady scanner sometimes repeats a stamp or misses a
+                                        // scan
+  const double period_ns =
+      static_cast<double>(stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
   const Stamps steps = steps_of(stamps);
   const std::int64_t median_ns = median_of(steps);
-  const bool is_steady = median_ns > 0 && share_of(steps, [=](std::int64_t step) { return step == median_ns; }) >= kSteadyShare;
+  const bool is_steady = median_ns > 0 && share_of(steps, [=](std::int64_t step) {
+                                            return step == median_ns;
+                                          }) >= kSteadyShare;
   return !is_steady && static_cast<double>(quantum) > kFineShareOfPeriod * period_ns;
 }
 
@@ -188,12 +209,14 @@ double unevenness(const Stamps& stamps, const std::vector<double>& weights, std:
   const double middle = median_of(seconds_per_weight);
   if (!(middle > 0.0)) return 0.0;
   std::vector<double> deviations;
-  for (const double each : seconds_per_weight) deviations.push_back(std::abs(each - middle) / middle);
+  for (const double each : seconds_per_weight)
+    deviations.push_back(std::abs(each - middle) / middle);
   return median_of(std::move(deviations));
 }
 
 /// Position within each run of equal stamps, by weight, as a first guess.
-std::vector<double> guess_within_quantum(const Stamps& stamps, const std::vector<double>& weights, double quantum_s) {
+std::vector<double> guess_within_quantum(const Stamps& stamps, const std::vector<double>& weights,
+                                         double quantum_s) {
   std::vector<double> times_s(stamps.size());
   for (std::size_t begin = 0; begin < stamps.size();) {
     std::size_t end = begin;
@@ -201,7 +224,8 @@ std::vector<double> guess_within_quantum(const Stamps& stamps, const std::vector
     for (; end < stamps.size() && stamps[end] == stamps[begin]; ++end) total += weights[end];
     double passed = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-      times_s[i] = 1e-9 * static_cast<double>(stamps[i] - stamps.front()) + quantum_s * (passed + 0.5 * weights[i]) / total;
+      times_s[i] = 1e-9 * static_cast<double>(stamps[i] - stamps.front()) +
+                   quantum_s * (passed + 0.5 * weights[i]) / total;
       passed += weights[i];
     }
     begin = end;
@@ -209,10 +233,11 @@ std::vector<double> guess_within_quantum(const Stamps& stamps, const std::vector
   return times_s;
 }
 
-/// Minimizes the sum of (step_i - rate * weight_i)^2 / weight_i, with every time within the quantum that begins at its
-/// stamp. The problem is convex and is solved by projected successive over-relaxation. The free ends advance at the
-/// usual rate.
-Stamps spread_within_quantum(const Stamps& stamps, const std::vector<double>& weights, std::int64_t quantum) {
+/// Minimizes the sum of (step_i - rate * weight_i)^2 / weight_i, with every time within the quantum
+/// that begins at its stamp. The problem is convex and is solved by projected successive
+/// over-relaxation. The free ends advance at the usual rate.
+Stamps spread_within_quantum(const Stamps& stamps, const std::vector<double>& weights,
+                             std::int64_t quantum) {
   constexpr int kSweeps = 300;
   constexpr double kRelaxation = 1.8;
   constexpr std::int64_t kLeastStepNs = 1'000;
@@ -237,7 +262,8 @@ Stamps spread_within_quantum(const Stamps& stamps, const std::vector<double>& we
   Stamps spread(n);
   for (std::size_t i = 0; i < n; ++i) {
     spread[i] = stamps.front() + std::llround(times_s[i] * 1e9);
-    if (i > 0 && stamps[i] >= stamps[i - 1]) spread[i] = std::max(spread[i], spread[i - 1] + kLeastStepNs);
+    if (i > 0 && stamps[i] >= stamps[i - 1])
+      spread[i] = std::max(spread[i], spread[i - 1] + kLeastStepNs);
   }
   return spread;
 }
@@ -246,17 +272,21 @@ Stamps spread_within_quantum(const Stamps& stamps, const std::vector<double>& we
 bool stays_behind(const Stamps& stamps, std::size_t at) {
   constexpr std::size_t kFollowing = 10;
   const std::size_t end = std::min(stamps.size(), at + kFollowing);
-  return end - at >= 3 && std::all_of(stamps.begin() + static_cast<std::ptrdiff_t>(at), stamps.begin() + static_cast<std::ptrdiff_t>(end),
-                                      [&](std::int64_t stamp_ns) { return stamp_ns < stamps[at - 1]; });
+  return end - at >= 3 &&
+         std::all_of(stamps.begin() + static_cast<std::ptrdiff_t>(at),
+                     stamps.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](std::int64_t stamp_ns) { return stamp_ns < stamps[at - 1]; });
 }
 
-/// True if the stamps after a forward step of more than ten minutes stay ahead. A single early stamp is not a step.
+/// True if the stamps after a forward step of more than ten minutes stay ahead. A single early
+/// stamp is not a step.
 bool stays_ahead(const Stamps& stamps, std::size_t at) {
   constexpr std::int64_t kFarAheadNs = 600 * kSecondNs;
   constexpr std::size_t kFollowing = 3;
   if (at + kFollowing > stamps.size()) return false;
   const std::int64_t before_ns = at > 1 ? std::max(stamps[at - 1], stamps[at - 2]) : stamps[at - 1];
-  return std::all_of(stamps.begin() + static_cast<std::ptrdiff_t>(at), stamps.begin() + static_cast<std::ptrdiff_t>(at + kFollowing),
+  return std::all_of(stamps.begin() + static_cast<std::ptrdiff_t>(at),
+                     stamps.begin() + static_cast<std::ptrdiff_t>(at + kFollowing),
                      [&](std::int64_t stamp_ns) { return stamp_ns - before_ns > kFarAheadNs; });
 }
 
@@ -268,7 +298,8 @@ std::uint64_t bridge_jumps(Stamps& stamps) {
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     // A backward step after a single early stamp returns to the clock and is not a jump.
     const bool returns = i > 1 && recorded[i] < recorded[i - 1] && recorded[i] >= recorded[i - 2];
-    if (!returns && ((recorded[i] < recorded[i - 1] && stays_behind(recorded, i)) || stays_ahead(recorded, i))) {
+    if (!returns && ((recorded[i] < recorded[i - 1] && stays_behind(recorded, i)) ||
+                     stays_ahead(recorded, i))) {
       ++jumps;
       shift_ns = stamps[i - 1] + period_ns - recorded[i];
     }
@@ -290,7 +321,8 @@ ScanTimes without_clock(ClockFault fault) {
   return times;
 }
 
-/// True if nine of ten scans are newer than the one before. The reader handles duplicates and a few late scans.
+/// True if nine of ten scans are newer than the one before. The reader handles duplicates and a few
+/// late scans.
 bool advances_mostly(const Stamps& stamps) {
   return share_of(steps_of(stamps), [](std::int64_t step) { return step > 0; }) >= 0.9;
 }
@@ -335,60 +367,73 @@ void spread_if_coarse(std::span<const ScanMark> scans, Repair& repair) {
   if (quantum == 1 || !is_coarse(repair.stamps, quantum)) return;
   const std::vector<double> by_way = weights_by_way(scans);
   const std::vector<double> by_count(scans.size(), 1.0);
-  const bool way_is_evener = unevenness(repair.stamps, by_way, quantum) < unevenness(repair.stamps, by_count, quantum);
+  const bool way_is_evener =
+      unevenness(repair.stamps, by_way, quantum) < unevenness(repair.stamps, by_count, quantum);
   repair.stamps = spread_within_quantum(repair.stamps, way_is_evener ? by_way : by_count, quantum);
   repair.times.quantum_s = 1e-9 * static_cast<double>(quantum);
   repair.note(ClockFault::kCoarse);
 }
 
 bool jumps_all_the_time(const Repair& repair) {
-  return static_cast<double>(repair.times.jumps) > 0.02 * static_cast<double>(repair.stamps.size()) + 1.0;
+  return static_cast<double>(repair.times.jumps) >
+         0.02 * static_cast<double>(repair.stamps.size()) + 1.0;
 }
 
 }  // namespace
 
 ScanTimes judge_scan_stamps(std::span<const ScanMark> scans) {
   const Stamps present = present_stamps(scans);
-  if (present.empty() || static_cast<double>(present.size()) < 0.9 * static_cast<double>(scans.size())) return without_clock(ClockFault::kAbsent);
+  if (present.empty() ||
+      static_cast<double>(present.size()) < 0.9 * static_cast<double>(scans.size()))
+    return without_clock(ClockFault::kAbsent);
   if (scans.size() == 1) return {};
   if (is_constant(present)) return without_clock(ClockFault::kConstant);
   Repair repair{{}, filled_stamps(scans)};
   if (!are_in_range(repair.stamps)) return without_clock(ClockFault::kErratic);
-  if (scans.size() == 2) return repair.stamps.front() < repair.stamps.back() ? ScanTimes{} : without_clock(ClockFault::kErratic);
+  if (scans.size() == 2)
+    return repair.stamps.front() < repair.stamps.back() ? ScanTimes{}
+                                                        : without_clock(ClockFault::kErratic);
   mirror_if_backwards(repair);
   if (counts_scans(repair.stamps)) return without_clock(ClockFault::kIndex);
   if (scans.size() >= kFewestJudged) {
     convert_unit(scans, repair);
     bridge(repair);
-    if (jumps_all_the_time(repair) || repair.stamps.back() <= repair.stamps.front()) return without_clock(ClockFault::kErratic);
+    if (jumps_all_the_time(repair) || repair.stamps.back() <= repair.stamps.front())
+      return without_clock(ClockFault::kErratic);
     spread_if_coarse(scans, repair);
   }
   return advances_mostly(repair.stamps) ? repair.times : without_clock(ClockFault::kErratic);
 }
 
 bool comes_by_time(std::span<const ScanMark> scans) {
-  constexpr double kShort = 0.1;       // share of the 90th percentile below which a way is short
+  constexpr double kShort = 0.1;  // share of the 90th percentile below which a way is short
   constexpr double kShortShare = 0.02;
   if (scans.size() < kFewestJudged) return false;
   std::vector<double> ways = ways_of(scans.subspan(1));
   const double long_way = percentile(ways, 0.9);
-  return long_way > 0.0 && share_of(ways, [&](double way) { return way < kShort * long_way; }) >= kShortShare;
+  return long_way > 0.0 &&
+         share_of(ways, [&](double way) { return way < kShort * long_way; }) >= kShortShare;
 }
 
 std::vector<std::int64_t> stamps_from_way(std::span<const ScanMark> scans, const WayPace& pace) {
   constexpr double kTopSpeedPerPace = 4.0;
   constexpr double kLongestSteadyPeriodS = 1.0;
   std::vector<double> periods_s;
-  for (const ScanMark& scan : scans) periods_s.push_back(std::max(scan.way_m / pace.speed_mps, scan.turn_rad / pace.turn_rate_radps));
+  for (const ScanMark& scan : scans)
+    periods_s.push_back(
+        std::max(scan.way_m / pace.speed_mps, scan.turn_rad / pace.turn_rate_radps));
   if (comes_by_time(scans)) {
     const double longest_s = std::max(pace.least_period_s, kLongestSteadyPeriodS);
-    const double period_s = std::clamp(percentile(periods_s, 0.9) / kTopSpeedPerPace, pace.least_period_s, longest_s);
+    const double period_s =
+        std::clamp(percentile(periods_s, 0.9) / kTopSpeedPerPace, pace.least_period_s, longest_s);
     std::fill(periods_s.begin(), periods_s.end(), period_s);
   }
   std::vector<std::int64_t> stamps_ns;
   double stamp_s = 0.0;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (i > 0) stamp_s += std::clamp(periods_s[i], pace.least_period_s, std::max(pace.least_period_s, pace.longest_period_s));
+    if (i > 0)
+      stamp_s += std::clamp(periods_s[i], pace.least_period_s,
+                            std::max(pace.least_period_s, pace.longest_period_s));
     stamps_ns.push_back(std::llround(stamp_s * 1e9));
   }
   return stamps_ns;

@@ -18,8 +18,9 @@ struct SegmentationConfig {
   double line_gap_m = 6.0;         ///< Allowed gap on a straight wall at grazing incidence,
   double line_gap_growth = 2.5;    ///< at most this multiple of the gap before,
   double line_tolerance_m = 0.25;  ///< if the next echo is within this distance of the wall's line.
-  double dark_gap_m = 1.5;         ///< Allowed gap between single echoes of a dark object on a line,
-  int dark_gap_beams = 12;         ///< with at most this many drop-outs in between; 0: such echoes are not joined.
+  double dark_gap_m = 1.5;  ///< Allowed gap between single echoes of a dark object on a line,
+  int dark_gap_beams = 12;  ///< with at most this many drop-outs in between; 0: such echoes are not
+                            ///< joined.
 };
 
 /// Beams [first, last] of one segment; beams without echo may lie between.
@@ -28,15 +29,19 @@ struct BeamSpan {
   std::uint16_t last = 0;
 };
 
-/// Segments a scan at gaps larger than the range explains (Wang 2004, Section 3.2, "Scan Segmentation"). Points in any
-/// common frame [m]; range_m is 0 for no echo; one of each a beam. beam_step_rad may have either sign. Gaps of a wall
-/// at grazing incidence grow; its echoes form one segment while they lie on its line. So do three or more single echoes
-/// of a dark object that returns less than half of the beams. Fills `spans` in ascending order and reuses its memory.
-void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
-                         const SegmentationConfig& config, std::vector<BeamSpan>& spans);
+/// Segments a scan at gaps larger than the range explains (Wang 2004, Section 3.2, "Scan
+/// Segmentation"). Points in any common frame [m]; range_m is 0 for no echo; one of each a beam.
+/// beam_step_rad may have either sign. Gaps of a wall at grazing incidence grow; its echoes form
+/// one segment while they lie on its line. So do three or more single echoes of a dark object that
+/// returns less than half of the beams. Fills `spans` in ascending order and reuses its memory.
+void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
+                         double beam_step_rad, const SegmentationConfig& config,
+                         std::vector<BeamSpan>& spans);
 
-/// True if the last span of a full-circle scan continues in its first span, without an object's edge in between.
-bool goes_on_across_seam(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m, double beam_step_rad,
-                         const SegmentationConfig& config, std::span<const BeamSpan> spans);
+/// True if the last span of a full-circle scan continues in its first span, without an object's
+/// edge in between.
+bool goes_on_across_seam(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
+                         double beam_step_rad, const SegmentationConfig& config,
+                         std::span<const BeamSpan> spans);
 
 }  // namespace slammot::sensing

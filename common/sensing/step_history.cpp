@@ -11,8 +11,8 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-constexpr double kKernel_m = 0.06;         // one sigma of a kernel at zero step,
-constexpr double kKernelShare = 0.12;      // growth with the way
+constexpr double kKernel_m = 0.06;     // one sigma of a kernel at zero step,
+constexpr double kKernelShare = 0.12;  // growth with the way
 constexpr double kKernel_rad = 0.06;
 constexpr double kKernelTurnShare = 0.12;  // and with the turn
 constexpr double kWideSteps = 3.0;
@@ -40,17 +40,23 @@ void StepHistory::add(const Pose2& before_from_base) {
   size_ = std::min(size_ + 1, kKept);
 }
 
-double StepHistory::log_marginal(const UncertainPose2& before, const UncertainPose2& wide, const Pose2& optimum, const geometry::Matrix3& information) const {
+double StepHistory::log_marginal(const UncertainPose2& before, const UncertainPose2& wide,
+                                 const Pose2& optimum, const geometry::Matrix3& information) const {
   double sum = std::log(kWideSteps) + log_marginal_likelihood(wide, optimum, information);
   const double half = std::log(0.5);
   for (std::size_t i = 0; i < size_; ++i) {
-    for (const Pose2& step : {steps_[i], mirrored(steps_[i])}) sum = log_sum(sum, half + log_marginal_likelihood(kernel_about(before, step), optimum, information));
+    for (const Pose2& step : {steps_[i], mirrored(steps_[i])})
+      sum = log_sum(
+          sum, half + log_marginal_likelihood(kernel_about(before, step), optimum, information));
   }
   return sum - std::log(kWideSteps + static_cast<double>(size_));
 }
 
 bool StepHistory::is_sound() const {
-  return size_ <= kKept && next_ < kKept && std::ranges::all_of(steps_, [](const Pose2& step) { return std::isfinite(step.x_m) && std::isfinite(step.y_m) && std::isfinite(step.heading_rad); });
+  return size_ <= kKept && next_ < kKept && std::ranges::all_of(steps_, [](const Pose2& step) {
+           return std::isfinite(step.x_m) && std::isfinite(step.y_m) &&
+                  std::isfinite(step.heading_rad);
+         });
 }
 
 }  // namespace slammot::sensing

@@ -6,12 +6,15 @@
 
 namespace slammot::sensing {
 
-/// Unit vectors at first_rad, first_rad + step_rad, ..., by repeated rotation: avoids two trigonometric calls a beam.
-/// After 10^5 steps the error is 10^-10.
+/// Unit vectors at first_rad, first_rad + step_rad, ..., by repeated rotation: avoids two
+/// trigonometric calls a beam. After 10^5 steps the error is 10^-10.
 class TurningDirection {
  public:
   TurningDirection(double first_rad, double step_rad)
-      : x_(std::cos(first_rad)), y_(std::sin(first_rad)), cosine_(std::cos(step_rad)), sine_(std::sin(step_rad)) {}
+      : x_(std::cos(first_rad)),
+        y_(std::sin(first_rad)),
+        cosine_(std::cos(step_rad)),
+        sine_(std::sin(step_rad)) {}
 
   geometry::Vector2 now() const { return {x_, y_}; }
 

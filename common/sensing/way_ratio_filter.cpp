@@ -7,10 +7,11 @@
 namespace slammot::sensing {
 namespace {
 
-constexpr double kRightShare = 0.04;     // tolerance of correct odometry around ratio 1
+constexpr double kRightShare = 0.04;  // tolerance of correct odometry around ratio 1
 constexpr double kRightPrior = 0.9;
-constexpr double kChanges = 0.03;        // probability per comparison that the ratio is redrawn from the prior,
-constexpr double kDrifts = 0.1;          // and that it moves to a neighbouring ratio
+constexpr double kChanges = 0.03;  // probability per comparison that the ratio is redrawn from the
+                                   // prior,
+constexpr double kDrifts = 0.1;    // and that it moves to a neighbouring ratio
 
 bool is_right(double ratio) { return std::abs(ratio - 1.0) < kRightShare; }
 
@@ -18,7 +19,9 @@ WayRatioFilter::Profile prior() {
   const auto right = static_cast<double>(std::ranges::count_if(WayRatioFilter::kRatios, is_right));
   const double wrong = static_cast<double>(WayRatioFilter::kRatios.size()) - right;
   WayRatioFilter::Profile weights;
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = is_right(WayRatioFilter::kRatios[i]) ? kRightPrior / right : (1.0 - kRightPrior) / wrong;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    weights[i] =
+        is_right(WayRatioFilter::kRatios[i]) ? kRightPrior / right : (1.0 - kRightPrior) / wrong;
   return weights;
 }
 
@@ -34,7 +37,8 @@ void WayRatioFilter::update(const Profile& log_likelihoods) {
     const double below = before[i > 0 ? i - 1 : i];
     const double above = before[i + 1 < before.size() ? i + 1 : i];
     const double drifted = (1.0 - kDrifts) * before[i] + 0.5 * kDrifts * (below + above);
-    weights_[i] = ((1.0 - kChanges) * drifted + kChanges * fresh[i]) * std::exp(log_likelihoods[i] - highest);
+    weights_[i] =
+        ((1.0 - kChanges) * drifted + kChanges * fresh[i]) * std::exp(log_likelihoods[i] - highest);
   }
   const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
   for (double& weight : weights_) weight /= sum;
@@ -50,7 +54,8 @@ WayRatioFilter::Profile WayRatioFilter::prominent(Profile profile, double least)
     covariance += (kRatios[i] - mean_ratio) * (profile[i] - mean);
     variance += (kRatios[i] - mean_ratio) * (kRatios[i] - mean_ratio);
   }
-  for (std::size_t i = 0; i < profile.size(); ++i) profile[i] -= mean + covariance / variance * (kRatios[i] - mean_ratio);
+  for (std::size_t i = 0; i < profile.size(); ++i)
+    profile[i] -= mean + covariance / variance * (kRatios[i] - mean_ratio);
   if (*std::ranges::max_element(profile) < least) profile.fill(0.0);
   return profile;
 }
@@ -66,6 +71,8 @@ bool WayRatioFilter::is_sound() const {
   return std::ranges::all_of(weights_, is_probability) && *std::ranges::max_element(weights_) > 0.0;
 }
 
-double WayRatioFilter::most_likely_ratio() const { return kRatios[static_cast<std::size_t>(std::ranges::max_element(weights_) - weights_.begin())]; }
+double WayRatioFilter::most_likely_ratio() const {
+  return kRatios[static_cast<std::size_t>(std::ranges::max_element(weights_) - weights_.begin())];
+}
 
 }  // namespace slammot::sensing

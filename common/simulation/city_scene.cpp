@@ -24,7 +24,8 @@ class CityScene final : public Scene {
 
   std::vector<MovingObject> others() const override {
     std::vector<MovingObject> objects(traffic_.objects().begin() + 1, traffic_.objects().end());
-    const std::vector<MovingObject> people = walkers_.objects(static_cast<int>(traffic_.objects().size()));
+    const std::vector<MovingObject> people =
+        walkers_.objects(static_cast<int>(traffic_.objects().size()));
     objects.insert(objects.end(), people.begin(), people.end());
     return objects;
   }
@@ -38,6 +39,8 @@ class CityScene final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> make_city_scene(const ScenarioConfig& scenario) { return std::make_unique<CityScene>(scenario); }
+std::unique_ptr<Scene> make_city_scene(const ScenarioConfig& scenario) {
+  return std::make_unique<CityScene>(scenario);
+}
 
 }  // namespace slammot::simulation

@@ -27,13 +27,15 @@ struct Rectangle {
 
 class CityBuilder {
  public:
-  CityBuilder(const StreetPlan& plan, std::uint64_t seed) : plan_(plan), random_(seed ^ 0x5eedULL, Purpose::world) {}
+  CityBuilder(const StreetPlan& plan, std::uint64_t seed)
+      : plan_(plan), random_(seed ^ 0x5eedULL, Purpose::world) {}
 
   Outline build() {
     for (int row = -1; row < plan_.rows(); ++row) {
       for (int column = -1; column < plan_.columns(); ++column) add_block(column, row);
     }
-    for (int junction = 0; junction < plan_.junction_count(); ++junction) add_street_furniture(junction);
+    for (int junction = 0; junction < plan_.junction_count(); ++junction)
+      add_street_furniture(junction);
     return std::move(outline_);
   }
 
@@ -43,7 +45,8 @@ class CityBuilder {
   void add_block(int column, int row) {
     const double front_m = config().front_m;
     const Rectangle block{plan_.block_west_m(column) + front_m, plan_.block_south_m(row) + front_m,
-                          plan_.block_west_m(column + 1) - front_m, plan_.block_south_m(row + 1) - front_m};
+                          plan_.block_west_m(column + 1) - front_m,
+                          plan_.block_south_m(row + 1) - front_m};
     if (random_.chance(config().park_share)) {
       add_park(block);
     } else {
@@ -52,9 +55,11 @@ class CityBuilder {
   }
 
   void add_park(const Rectangle& park) {
-    const auto trees = static_cast<int>((park.east_m - park.west_m) * (park.north_m - park.south_m) / 90.0);
+    const auto trees =
+        static_cast<int>((park.east_m - park.west_m) * (park.north_m - park.south_m) / 90.0);
     for (int i = 0; i < trees; ++i) {
-      const Vector2 place{random_.uniform(park.west_m, park.east_m), random_.uniform(park.south_m, park.north_m)};
+      const Vector2 place{random_.uniform(park.west_m, park.east_m),
+                          random_.uniform(park.south_m, park.north_m)};
       const bool bush = random_.chance(0.3);
       add_circle(place, bush ? random_.uniform(0.5, 1.3) : random_.uniform(0.12, 0.4),
                  bush ? Material::foliage : Material::post);
@@ -68,8 +73,10 @@ class CityBuilder {
     const double inner_m = height_m - 2.0 * depth_m - 4.0;
     add_row_of_houses({{block.west_m, block.south_m}, {1, 0}, {0, 1}, width_m}, depth_m);
     add_row_of_houses({{block.east_m, block.north_m}, {-1, 0}, {0, -1}, width_m}, depth_m);
-    add_row_of_houses({{block.west_m, block.north_m - depth_m - 2.0}, {0, -1}, {1, 0}, inner_m}, depth_m);
-    add_row_of_houses({{block.east_m, block.south_m + depth_m + 2.0}, {0, 1}, {-1, 0}, inner_m}, depth_m);
+    add_row_of_houses({{block.west_m, block.north_m - depth_m - 2.0}, {0, -1}, {1, 0}, inner_m},
+                      depth_m);
+    add_row_of_houses({{block.east_m, block.south_m + depth_m + 2.0}, {0, 1}, {-1, 0}, inner_m},
+                      depth_m);
   }
 
   void add_row_of_houses(const Side& side, double depth_m) {
@@ -89,14 +96,16 @@ class CityBuilder {
   }
 
   void add_house(const Side& side, double u_m, double width_m, double depth_m) {
-    const double setback_m = random_.chance(0.5) ? random_.uniform(0.0, 0.6) : random_.uniform(0.6, 3.5);
+    const double setback_m =
+        random_.chance(0.5) ? random_.uniform(0.0, 0.6) : random_.uniform(0.6, 3.5);
     std::vector<Vector2> corners{side.at(u_m, setback_m)};
     double position_m = random_.uniform(1.0, 3.0);
     while (position_m < width_m - 3.5) {
       // Bays stand out, entrances stand back; both stop the front from being one straight line.
       const bool bay = setback_m > 0.5 && random_.chance(0.5);
       const double feature_m = bay ? random_.uniform(1.5, 3.0) : random_.uniform(1.0, 2.2);
-      const double v_m = setback_m + (bay ? -random_.uniform(0.2, 0.5) : random_.uniform(0.15, 0.9));
+      const double v_m =
+          setback_m + (bay ? -random_.uniform(0.2, 0.5) : random_.uniform(0.15, 0.9));
       corners.push_back(side.at(u_m + position_m, setback_m));
       corners.push_back(side.at(u_m + position_m, v_m));
       corners.push_back(side.at(u_m + position_m + feature_m, v_m));
@@ -131,16 +140,19 @@ class CityBuilder {
     }
   }
 
-  /// Parked cars, trees and lamps on the right of one direction of a street; v is measured from its centre line.
+  /// Parked cars, trees and lamps on the right of one direction of a street; v is measured from its
+  /// centre line.
   void add_kerb(const Side& street) {
     constexpr double kClearOfJunction_m = 17.0;
     const double end_m = street.length_m - kClearOfJunction_m;
     double u_m = kClearOfJunction_m + random_.uniform(0.0, 6.0);
     bool run_of_cars = random_.chance(config().parked_share);
     while (u_m < end_m - 3.0) {
-      if (run_of_cars) add_parked_car(street.at(u_m + 2.3, config().parking_offset_m), street.along);
+      if (run_of_cars)
+        add_parked_car(street.at(u_m + 2.3, config().parking_offset_m), street.along);
       u_m += run_of_cars ? random_.uniform(5.1, 6.2) : random_.uniform(5.0, 9.0);
-      // A run of cars goes on for four on average; the share of runs is what the configuration says.
+      // A run of cars goes on for four on average; the share of runs is what the configuration
+      // says.
       if (random_.chance(0.25)) run_of_cars = random_.chance(config().parked_share);
     }
     add_posts(street, end_m, config().tree_spacing_m, 0.7, {0.1, 0.25});
@@ -151,10 +163,12 @@ class CityBuilder {
     double low_m, high_m;
   };
 
-  void add_posts(const Side& street, double end_m, double spacing_m, double behind_curb_m, RadiusRange radius) {
-    for (double u_m = 14.0 + random_.uniform(0.0, spacing_m); u_m < end_m; u_m += spacing_m * random_.uniform(0.7, 1.5)) {
-      add_circle(street.at(u_m, config().curb_m + behind_curb_m), random_.uniform(radius.low_m, radius.high_m),
-                 Material::post);
+  void add_posts(const Side& street, double end_m, double spacing_m, double behind_curb_m,
+                 RadiusRange radius) {
+    for (double u_m = 14.0 + random_.uniform(0.0, spacing_m); u_m < end_m;
+         u_m += spacing_m * random_.uniform(0.7, 1.5)) {
+      add_circle(street.at(u_m, config().curb_m + behind_curb_m),
+                 random_.uniform(radius.low_m, radius.high_m), Material::post);
     }
   }
 
@@ -166,8 +180,10 @@ class CityBuilder {
     const Vector2 centre = plan_.world_from_plan(centre_in_plan);
     const Vector2 nose = plan_.world_from_plan(Vector2(centre_in_plan + heading_in_plan)) - centre;
     const double heading_rad = std::atan2(nose.y(), nose.x()) + 0.02 * random_.normal();
-    std::vector<Vector2> corners = cut_rectangle(random_.uniform(3.9, 4.8), random_.uniform(1.68, 1.86), 0.3);
-    for (Vector2& corner : corners) corner = geometry::Pose2{centre.x(), centre.y(), heading_rad} * corner;
+    std::vector<Vector2> corners =
+        cut_rectangle(random_.uniform(3.9, 4.8), random_.uniform(1.68, 1.86), 0.3);
+    for (Vector2& corner : corners)
+      corner = geometry::Pose2{centre.x(), centre.y(), heading_rad} * corner;
     add_polygon(outline_, corners, Material::parked_car);
   }
 
@@ -178,7 +194,9 @@ class CityBuilder {
 
 }  // namespace
 
-Outline build_city(const StreetPlan& plan, std::uint64_t seed) { return CityBuilder(plan, seed).build(); }
+Outline build_city(const StreetPlan& plan, std::uint64_t seed) {
+  return CityBuilder(plan, seed).build();
+}
 
 std::vector<Segment> true_segments(const Outline& outline_in_world) {
   std::vector<Segment> segments = outline_in_world.segments;
@@ -187,7 +205,8 @@ std::vector<Segment> true_segments(const Outline& outline_in_world) {
     std::vector<Vector2> corners;
     for (int i = 0; i < 8; ++i) {
       const double angle_rad = 0.25 * std::numbers::pi * i;
-      corners.push_back(circle.centre + circle.radius_m * Vector2{std::cos(angle_rad), std::sin(angle_rad)});
+      corners.push_back(circle.centre +
+                        circle.radius_m * Vector2{std::cos(angle_rad), std::sin(angle_rad)});
     }
     add_polygon(octagons, corners, Material::post);
   }

@@ -24,8 +24,10 @@ std::unique_ptr<Scene> make_scene(const ScenarioConfig& scenario) {
 std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
 
 ObjectTruth truth_of(const MovingObject& object, const Pose2& world_from_base, int points) {
-  const double range_m = (object.world_from_object.translation_m() - world_from_base.translation_m()).norm();
-  return {object.id, object.kind, object.size, object.world_from_object, object.speed_mps, points, range_m};
+  const double range_m =
+      (object.world_from_object.translation_m() - world_from_base.translation_m()).norm();
+  return {object.id,        object.kind, object.size, object.world_from_object,
+          object.speed_mps, points,      range_m};
 }
 
 /// Fills in objects, unseen and hits.
@@ -33,15 +35,18 @@ void tell_truth(const ScannedWorld& scanned, const Moment& moment, SimulatedScan
   std::vector<int> points(moment.objects.size(), 0);
   for (const int source : scanned.source) {
     if (source >= 0) ++points[static_cast<std::size_t>(source)];
-    result.hits.push_back(source >= 0               ? moment.objects[static_cast<std::size_t>(source)].id
+    result.hits.push_back(source >= 0 ? moment.objects[static_cast<std::size_t>(source)].id
                           : source == kStationary ? kHitStationary
                           : source == kNothing    ? kHitNothing
                                                   : kHitSeveral);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const MovingObject& object = moment.objects[i];
-    const bool is_there = !object.outline_in_object.segments.empty() || !object.outline_in_object.circles.empty();
-    if (is_there) (points[i] > 0 ? result.objects : result.unseen).push_back(truth_of(object, moment.world_from_base, points[i]));
+    const bool is_there =
+        !object.outline_in_object.segments.empty() || !object.outline_in_object.circles.empty();
+    if (is_there)
+      (points[i] > 0 ? result.objects : result.unseen)
+          .push_back(truth_of(object, moment.world_from_base, points[i]));
   }
 }
 
@@ -53,7 +58,8 @@ Moment between(const Moment& before, const Moment& after, double fraction) {
   moment.nose_down_rad += fraction * (after.nose_down_rad - before.nose_down_rad);
   for (std::size_t i = 0; i < moment.objects.size(); ++i) {
     MovingObject& object = moment.objects[i];
-    object.world_from_object = interpolate(object.world_from_object, after.objects[i].world_from_object, fraction);
+    object.world_from_object =
+        interpolate(object.world_from_object, after.objects[i].world_from_object, fraction);
     object.speed_mps += fraction * (after.objects[i].speed_mps - object.speed_mps);
   }
   return moment;
@@ -64,7 +70,10 @@ class Beat {
  public:
   Beat(double rate_hz, double first_s) : rate_hz_(rate_hz), first_s_(first_s) {}
 
-  double due_s() const { return rate_hz_ > 0.0 ? first_s_ + static_cast<double>(count_) / rate_hz_ : std::numeric_limits<double>::infinity(); }
+  double due_s() const {
+    return rate_hz_ > 0.0 ? first_s_ + static_cast<double>(count_) / rate_hz_
+                          : std::numeric_limits<double>::infinity();
+  }
   std::uint32_t count() const { return count_; }
   void went() { ++count_; }
 
@@ -81,7 +90,9 @@ struct OneScanner {
 };
 
 /// The first scanner's noise must not depend on further scanners.
-std::uint64_t seed_of_scanner(std::uint64_t seed, std::size_t index) { return seed + 0x10001 * index; }
+std::uint64_t seed_of_scanner(std::uint64_t seed, std::size_t index) {
+  return seed + 0x10001 * index;
+}
 
 }  // namespace
 
@@ -102,7 +113,9 @@ struct Drive::World {
         last_speed_mps(scene->vehicle().speed_mps) {
     for (std::size_t i = 0; i < config.more_scanners.size(); ++i) {
       const ScannerConfig& scanner = config.more_scanners[i];
-      more_scanners.push_back({scanner, Random(seed_of_scanner(config.seed, i + 1), Purpose::scanner), Beat(scanner.rate_hz, scanner.delay_s)});
+      more_scanners.push_back({scanner,
+                               Random(seed_of_scanner(config.seed, i + 1), Purpose::scanner),
+                               Beat(scanner.rate_hz, scanner.delay_s)});
     }
     const auto unrecorded = static_cast<int>(config.warm_up_s / step_s);
     for (int i = 0; i < unrecorded; ++i) advance();
@@ -140,27 +153,33 @@ struct Drive::World {
     odometer.advance(inverse(before.world_from_base) * after.world_from_base, step_s);
     for (std::size_t i = 0; i < more_scanners.size(); ++i) record_others(i, now_s, after, first);
     ready.push_front(std::move(first));
-    std::stable_sort(ready.begin(), ready.end(), [](const auto& a, const auto& b) { return a.scan.stamp_ns < b.scan.stamp_ns; });
+    std::stable_sort(ready.begin(), ready.end(), [](const auto& a, const auto& b) {
+      return a.scan.stamp_ns < b.scan.stamp_ns;
+    });
     before = std::move(after);
     ++recorded;
   }
 
-  void record_others(std::size_t index, double now_s, const Moment& after, const SimulatedScan& first) {
+  void record_others(std::size_t index, double now_s, const Moment& after,
+                     const SimulatedScan& first) {
     OneScanner& scanner = more_scanners[index];
     for (; scanner.beat.due_s() < now_s + step_s; scanner.beat.went()) {
       const double due_s = std::max(now_s, scanner.beat.due_s());
       SimulatedScan result = scan(scanner.config, due_s - now_s, after, scanner.random);
       stamp(due_s, scanner.beat.count(), result);
       result.scanner = index + 1;
-      result.odometry.wheel_from_base = interpolate(first.odometry.wheel_from_base, odometer.wheel_from_base(), (due_s - now_s) / step_s);
+      result.odometry.wheel_from_base = interpolate(
+          first.odometry.wheel_from_base, odometer.wheel_from_base(), (due_s - now_s) / step_s);
       result.odometry_speed_mps = first.odometry_speed_mps;
       result.odometry_yaw_rate_radps = first.odometry_yaw_rate_radps;
       ready.push_back(std::move(result));
     }
   }
 
-  SimulatedScan scan(const ScannerConfig& config, double after_s, const Moment& after, Random& noise) const {
-    const ScannedWorld scanned = scan_world(config, ray_caster, {before, after, step_s, terrain, after_s}, noise);
+  SimulatedScan scan(const ScannerConfig& config, double after_s, const Moment& after,
+                     Random& noise) const {
+    const ScannedWorld scanned =
+        scan_world(config, ray_caster, {before, after, step_s, terrain, after_s}, noise);
     const Moment now = between(before, after, after_s / step_s);
     const Pose2 moved = inverse(before.world_from_base) * after.world_from_base;
     SimulatedScan result;
@@ -181,9 +200,12 @@ struct Drive::World {
 
   /// Receiver and compass report at the first scan at or after their time.
   void add_aids(double now_s, SimulatedScan& result) {
-    const auto moved_m = [&](const std::optional<Pose2>& last) { return last ? (before.world_from_base.translation_m() - last->translation_m()).norm() : 0.0; };
+    const auto moved_m = [&](const std::optional<Pose2>& last) {
+      return last ? (before.world_from_base.translation_m() - last->translation_m()).norm() : 0.0;
+    };
     if (gnss_beat.due_s() <= now_s) {
-      result.gnss.push_back(gnss.fix(before.world_from_base, 1.0 / scenario.gnss.rate_hz, moved_m(last_fix_at)));
+      result.gnss.push_back(
+          gnss.fix(before.world_from_base, 1.0 / scenario.gnss.rate_hz, moved_m(last_fix_at)));
       result.gnss.back().stamp_ns = result.scan.stamp_ns;
       result.gnss.back().altitude_m += terrain.height_m(before.world_from_base.x_m);
       last_fix_at = before.world_from_base;
@@ -210,11 +232,11 @@ struct Drive::World {
   Beat gnss_beat, compass_beat;
   std::optional<Pose2> last_fix_at, last_reading_at;
   double step_s;
-  double dive_rad = 0.0;              ///< Pitch by the springs alone, nose down.
+  double dive_rad = 0.0;  ///< Pitch by the springs alone, nose down.
   double last_speed_mps;
   Moment before;
   std::size_t scans = 0;
-  std::size_t recorded = 0;           ///< Steps.
+  std::size_t recorded = 0;  ///< Steps.
   std::deque<SimulatedScan> ready;
 };
 

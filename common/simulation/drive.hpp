@@ -12,23 +12,23 @@ namespace slammot::simulation {
 
 /// A moving object at a scan's stamp.
 struct ObjectTruth {
-  int id = 0;                          ///< Constant over the drive.
+  int id = 0;  ///< Constant over the drive.
   ObjectClass kind = ObjectClass::car;
   BoxSize size;
-  geometry::Pose2 world_from_object;   ///< Centre of its box.
+  geometry::Pose2 world_from_object;  ///< Centre of its box.
   double speed_mps = 0.0;
-  int points = 0;                      ///< Beams whose echo came from it.
-  double range_m = 0.0;                ///< From the vehicle's centre to its centre.
+  int points = 0;        ///< Beams whose echo came from it.
+  double range_m = 0.0;  ///< From the vehicle's centre to its centre.
 };
 
 /// Source of a beam's echo other than a moving object. Object ids begin at 1.
 constexpr int kHitStationary = 0;
-constexpr int kHitNothing = -1;        ///< No echo.
-constexpr int kHitSeveral = -2;        ///< Spot split over an edge: the range is of neither surface.
+constexpr int kHitNothing = -1;  ///< No echo.
+constexpr int kHitSeveral = -2;  ///< Spot split over an edge: the range is of neither surface.
 
 /// One scan with odometry and ground truth, all at the scan's stamp.
 struct SimulatedScan {
-  std::size_t scanner = 0;             ///< 0: the scenario's first one.
+  std::size_t scanner = 0;  ///< 0: the scenario's first one.
   sensing::LaserScan scan;
   sensing::Odometry odometry;
   double odometry_speed_mps = 0.0;
@@ -37,10 +37,12 @@ struct SimulatedScan {
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
   double nose_down_rad = 0.0;
-  std::vector<ObjectTruth> objects;    ///< Objects with echoes.
-  std::vector<ObjectTruth> unseen;     ///< Objects in the world without an echo.
-  std::vector<int> hits;               ///< Source of each beam's echo: an object's id, or one of the constants above.
-  std::vector<sensing::GnssFix> gnss;  ///< New fixes up to this scan; with the first scanner's scans only.
+  std::vector<ObjectTruth> objects;  ///< Objects with echoes.
+  std::vector<ObjectTruth> unseen;   ///< Objects in the world without an echo.
+  std::vector<int> hits;  ///< Source of each beam's echo: an object's id, or one of the constants
+                          ///< above.
+  std::vector<sensing::GnssFix> gnss;  ///< New fixes up to this scan; with the first scanner's
+                                       ///< scans only.
   std::vector<sensing::CompassReading> compass;
 };
 

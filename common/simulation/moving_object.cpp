@@ -7,7 +7,8 @@ namespace {
 
 using geometry::Vector2;
 
-void add_box(Outline& outline, double centre_x_m, double length_m, double width_m, double corner_m) {
+void add_box(Outline& outline, double centre_x_m, double length_m, double width_m,
+             double corner_m) {
   std::vector<Vector2> corners = cut_rectangle(length_m, width_m, corner_m);
   for (Vector2& corner : corners) corner.x() += centre_x_m;
   add_polygon(outline, corners, Material::body);
@@ -54,9 +55,10 @@ Outline vehicle_outline(ObjectClass kind, const BoxSize& size) {
   if (kind == ObjectClass::truck) {
     const double cab_m = 0.28 * size.length_m;
     add_box(outline, front_m - 0.5 * cab_m, cab_m, size.width_m, 0.2);
-    add_box(outline, -front_m + 0.22 * size.length_m, 0.16 * size.length_m, size.width_m, 0.1);  // rear axle
-    add_box(outline, -front_m + 0.1, 0.2, size.width_m, 0.05);                                   // tail bar
-    add_box(outline, 0.0, 0.8 * size.length_m, 0.9, 0.1);                                        // frame between
+    add_box(outline, -front_m + 0.22 * size.length_m, 0.16 * size.length_m, size.width_m,
+            0.1);                                               // rear axle
+    add_box(outline, -front_m + 0.1, 0.2, size.width_m, 0.05);  // tail bar
+    add_box(outline, 0.0, 0.8 * size.length_m, 0.9, 0.1);       // frame between
   } else if (kind == ObjectClass::bicycle) {
     add_box(outline, 0.0, size.length_m, 0.08, 0.03);
     outline.circles.push_back({{0.0, 0.13}, 0.08, Material::body});

@@ -32,12 +32,12 @@ struct MovingObject {
   Outline outline_in_object;  ///< Visible outline at bumper height.
 };
 
-/// What a scanner 0.6 m above the road sees: a car's whole side; of a truck cab, axles and tail, apart from each other;
-/// of a bicycle its frame and the rider's legs.
+/// What a scanner 0.6 m above the road sees: a car's whole side; of a truck cab, axles and tail,
+/// apart from each other; of a bicycle its frame and the rider's legs.
 Outline vehicle_outline(ObjectClass kind, const BoxSize& size);
 
-/// Two legs. phase_rad runs through one full stride (two steps) in 2 pi; step_m is the distance between the feet
-/// when furthest apart.
+/// Two legs. phase_rad runs through one full stride (two steps) in 2 pi; step_m is the distance
+/// between the feet when furthest apart.
 Outline pedestrian_outline(double phase_rad, double step_m);
 
 }  // namespace slammot::simulation

@@ -27,8 +27,9 @@ class OfficeScene final : public Scene {
 
   void advance(double dt_s) override {
     robot_.advance(dt_s, walkers_.objects(1));
-    walkers_.advance(dt_s, {[](const Crossing&) { return true; },
-                            [this](const Vector2& place_in_world) { return is_too_near(place_in_world); }});
+    walkers_.advance(
+        dt_s, {[](const Crossing&) { return true; },
+               [this](const Vector2& place_in_world) { return is_too_near(place_in_world); }});
   }
 
   MovingObject vehicle() const override {
@@ -55,6 +56,8 @@ class OfficeScene final : public Scene {
 
 }  // namespace
 
-std::unique_ptr<Scene> make_office_scene(const ScenarioConfig& scenario) { return std::make_unique<OfficeScene>(scenario); }
+std::unique_ptr<Scene> make_office_scene(const ScenarioConfig& scenario) {
+  return std::make_unique<OfficeScene>(scenario);
+}
 
 }  // namespace slammot::simulation

@@ -24,7 +24,8 @@ Path::Path(const std::vector<Vector2>& points_in_world) {
     const double arc_m = std::min(length_m_, spacing_m_ * static_cast<double>(i));
     while (piece + 1 < arcs_m.size() && arcs_m[piece] < arc_m) ++piece;
     const double fraction = (arc_m - arcs_m[piece - 1]) / (arcs_m[piece] - arcs_m[piece - 1]);
-    nodes_.push_back(points_in_world[piece - 1] + fraction * (points_in_world[piece] - points_in_world[piece - 1]));
+    nodes_.push_back(points_in_world[piece - 1] +
+                     fraction * (points_in_world[piece] - points_in_world[piece - 1]));
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Vector2 tangent = nodes_[std::min(i + 1, nodes_.size() - 1)] - nodes_[i == 0 ? 0 : i - 1];
@@ -43,8 +44,8 @@ Pose2 Path::pose_at(double arc_m) const {
   return {point.x(), point.y(), geometry::wrap_angle(heading_rad)};
 }
 
-std::vector<Vector2> bezier(const Vector2& from, const Vector2& control_from, const Vector2& control_to,
-                            const Vector2& to, double spacing_m) {
+std::vector<Vector2> bezier(const Vector2& from, const Vector2& control_from,
+                            const Vector2& control_to, const Vector2& to, double spacing_m) {
   const double upper_length_m =
       (control_from - from).norm() + (control_to - control_from).norm() + (to - control_to).norm();
   const int steps = std::max(1, static_cast<int>(std::ceil(upper_length_m / spacing_m)));
@@ -52,7 +53,8 @@ std::vector<Vector2> bezier(const Vector2& from, const Vector2& control_from, co
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
     const double u = 1.0 - t;
-    points.push_back(u * u * u * from + 3.0 * u * u * t * control_from + 3.0 * u * t * t * control_to + t * t * t * to);
+    points.push_back(u * u * u * from + 3.0 * u * u * t * control_from +
+                     3.0 * u * t * t * control_to + t * t * t * to);
   }
   return points;
 }
@@ -63,7 +65,9 @@ std::vector<Vector2> line(const Vector2& from, const Vector2& to, double spacing
 
 std::vector<Vector2> rounded_way(const std::vector<Vector2>& corners, double bend_m) {
   std::vector<Vector2> points{corners.front()};
-  const auto extend = [&points](const std::vector<Vector2>& more) { points.insert(points.end(), more.begin() + 1, more.end()); };
+  const auto extend = [&points](const std::vector<Vector2>& more) {
+    points.insert(points.end(), more.begin() + 1, more.end());
+  };
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
     const Vector2 in = (corners[i] - corners[i - 1]).normalized();
     const Vector2 out = (corners[i + 1] - corners[i]).normalized();

@@ -14,7 +14,8 @@ class Path {
   explicit Path(const std::vector<geometry::Vector2>& points_in_world);
 
   double length_m() const { return length_m_; }
-  /// Position and direction after arc_m from the start; straight on before the start and beyond the end.
+  /// Position and direction after arc_m from the start; straight on before the start and beyond the
+  /// end.
   geometry::Pose2 pose_at(double arc_m) const;
   const std::vector<geometry::Vector2>& nodes_in_world() const { return nodes_; }
 
@@ -26,14 +27,18 @@ class Path {
 };
 
 /// Points of a cubic Bezier curve (ends included), about spacing_m apart.
-std::vector<geometry::Vector2> bezier(const geometry::Vector2& from, const geometry::Vector2& control_from,
-                                      const geometry::Vector2& control_to, const geometry::Vector2& to,
-                                      double spacing_m);
+std::vector<geometry::Vector2> bezier(const geometry::Vector2& from,
+                                      const geometry::Vector2& control_from,
+                                      const geometry::Vector2& control_to,
+                                      const geometry::Vector2& to, double spacing_m);
 
 /// Straight line's points, ends included, at most spacing_m apart.
-std::vector<geometry::Vector2> line(const geometry::Vector2& from, const geometry::Vector2& to, double spacing_m);
+std::vector<geometry::Vector2> line(const geometry::Vector2& from, const geometry::Vector2& to,
+                                    double spacing_m);
 
-/// Points from corner to corner, straight but for the last bend_m before and the first behind each corner.
-std::vector<geometry::Vector2> rounded_way(const std::vector<geometry::Vector2>& corners, double bend_m);
+/// Points from corner to corner, straight but for the last bend_m before and the first behind each
+/// corner.
+std::vector<geometry::Vector2> rounded_way(const std::vector<geometry::Vector2>& corners,
+                                           double bend_m);
 
 }  // namespace slammot::simulation

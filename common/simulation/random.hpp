@@ -6,12 +6,23 @@
 
 namespace slammot::simulation {
 
-/// Purpose of a sequence of random numbers. Each purpose has its own sequence, so that, for instance, an additional car
-/// does not change the scanner's noise.
-enum class Purpose : std::uint64_t { world = 1, traffic, pedestrians, vehicle, odometry, scanner, route, gnss, compass };
+/// Purpose of a sequence of random numbers. Each purpose has its own sequence, so that, for
+/// instance, an additional car does not change the scanner's noise.
+enum class Purpose : std::uint64_t {
+  world = 1,
+  traffic,
+  pedestrians,
+  vehicle,
+  odometry,
+  scanner,
+  route,
+  gnss,
+  compass
+};
 
-/// Random numbers that are equal on every platform: std::mt19937_64, whose sequence the C++ standard fixes, with
-/// distributions implemented here, because those of the standard library differ between implementations.
+/// Random numbers that are equal on every platform: std::mt19937_64, whose sequence the C++
+/// standard fixes, with distributions implemented here, because those of the standard library
+/// differ between implementations.
 class Random {
  public:
   Random(std::uint64_t seed, Purpose purpose);

@@ -78,12 +78,15 @@ RayCaster::RayCaster(const Outline& outline_in_world, double cell_m) : cell_m_(c
 void RayCaster::fill_cells(const Outline& outline_in_world) {
   const auto visit_cells_of = [this](const auto& surface, auto&& visit) {
     const Box box = box_of(surface);
-    const Eigen::Vector2i low = ((box.low - corner_in_world_) / cell_m_).array().floor().cast<int>();
-    const Eigen::Vector2i high = ((box.high - corner_in_world_) / cell_m_).array().floor().cast<int>();
+    const Eigen::Vector2i low =
+        ((box.low - corner_in_world_) / cell_m_).array().floor().cast<int>();
+    const Eigen::Vector2i high =
+        ((box.high - corner_in_world_) / cell_m_).array().floor().cast<int>();
     for (int row = low.y(); row <= high.y(); ++row) {
       for (int column = low.x(); column <= high.x(); ++column) {
         const Vector2 centre = corner_in_world_ + cell_m_ * Vector2{column + 0.5, row + 0.5};
-        if (touches(surface, centre, cell_m_)) visit(static_cast<std::size_t>(row * columns_ + column));
+        if (touches(surface, centre, cell_m_))
+          visit(static_cast<std::size_t>(row * columns_ + column));
       }
     }
   };
@@ -97,24 +100,29 @@ void RayCaster::fill_cells(const Outline& outline_in_world) {
   }
   cells_.reserve(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    cells_.push_back({static_cast<std::uint32_t>(segments_by_cell_.size()), static_cast<std::uint32_t>(segments[i].size()),
-                      static_cast<std::uint32_t>(circles_by_cell_.size()), static_cast<std::uint32_t>(circles[i].size())});
+    cells_.push_back({static_cast<std::uint32_t>(segments_by_cell_.size()),
+                      static_cast<std::uint32_t>(segments[i].size()),
+                      static_cast<std::uint32_t>(circles_by_cell_.size()),
+                      static_cast<std::uint32_t>(circles[i].size())});
     segments_by_cell_.insert(segments_by_cell_.end(), segments[i].begin(), segments[i].end());
     circles_by_cell_.insert(circles_by_cell_.end(), circles[i].begin(), circles[i].end());
   }
 }
 
-void RayCaster::test_cell(const Cell& cell, const Vector2& origin_in_world, const Vector2& direction_in_world,
-                          Hit& nearest) const {
+void RayCaster::test_cell(const Cell& cell, const Vector2& origin_in_world,
+                          const Vector2& direction_in_world, Hit& nearest) const {
   const auto test = [&](const auto& surface) {
     const double range_m = distance_along_ray(surface, origin_in_world, direction_in_world);
     if (range_m < nearest.range_m) nearest = {range_m, surface.material};
   };
-  for (std::uint32_t i = 0; i < cell.segment_count; ++i) test(segments_by_cell_[cell.first_segment + i]);
-  for (std::uint32_t i = 0; i < cell.circle_count; ++i) test(circles_by_cell_[cell.first_circle + i]);
+  for (std::uint32_t i = 0; i < cell.segment_count; ++i)
+    test(segments_by_cell_[cell.first_segment + i]);
+  for (std::uint32_t i = 0; i < cell.circle_count; ++i)
+    test(circles_by_cell_[cell.first_circle + i]);
 }
 
-Hit RayCaster::cast(const Vector2& origin_in_world, const Vector2& direction_in_world, double max_range_m) const {
+Hit RayCaster::cast(const Vector2& origin_in_world, const Vector2& direction_in_world,
+                    double max_range_m) const {
   Hit nearest;
   if (columns_ == 0) return nearest;
   // A ray from outside enters where it meets the grid's box.
@@ -140,7 +148,8 @@ Hit RayCaster::cast(const Vector2& origin_in_world, const Vector2& direction_in_
   AxisWalk along_x{origin.x(), direction_in_world.x(), column, cell_m_};
   AxisWalk along_y{origin.y(), direction_in_world.y(), row, cell_m_};
   while (column >= 0 && column < columns_ && row >= 0 && row < rows_) {
-    test_cell(cells_[static_cast<std::size_t>(row * columns_ + column)], origin_in_world, direction_in_world, nearest);
+    test_cell(cells_[static_cast<std::size_t>(row * columns_ + column)], origin_in_world,
+              direction_in_world, nearest);
     const double border_m = std::min(along_x.to_border_m, along_y.to_border_m);
     if (nearest.range_m <= border_m || border_m > leave_m) break;  // a nearer surface cannot follow
     if (along_x.to_border_m < along_y.to_border_m) {

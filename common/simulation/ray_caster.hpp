@@ -14,12 +14,12 @@ struct Hit {
   Material material = Material::wall;
 };
 
-/// Finds the first stationary surface along a ray with a uniform grid over the surfaces, walked cell by cell
-/// (Amanatides and Woo 1987). Speed: tests/bench/ray_caster_bench.cpp.
+/// Finds the first stationary surface along a ray with a uniform grid over the surfaces, walked
+/// cell by cell (Amanatides and Woo 1987). Speed: tests/bench/ray_caster_bench.cpp.
 class RayCaster {
  public:
-  /// cell_m: short against a building's front, long against a beam's spacing; the best measured values are 4 m to 6 m
-  /// in a city.
+  /// cell_m: short against a building's front, long against a beam's spacing; the best measured
+  /// values are 4 m to 6 m in a city.
   explicit RayCaster(const Outline& outline_in_world, double cell_m = 5.0);
 
   /// First surface within max_range_m of origin_in_world along a unit direction.

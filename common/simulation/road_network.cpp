@@ -16,9 +16,12 @@ double offset_m(const CityConfig& config, RoadUser user) {
   return user == RoadUser::motor ? config.lane_offset_m : config.bicycle_offset_m;
 }
 
-/// Point in plan at `ahead_m` from a junction in a direction, `right_m` to the right of that direction.
-Vector2 beside(const Vector2& junction_in_plan, Direction direction, double ahead_m, double right_m) {
-  return junction_in_plan + ahead_m * unit_vector(direction) + right_m * unit_vector(turned_left(direction, -1));
+/// Point in plan at `ahead_m` from a junction in a direction, `right_m` to the right of that
+/// direction.
+Vector2 beside(const Vector2& junction_in_plan, Direction direction, double ahead_m,
+               double right_m) {
+  return junction_in_plan + ahead_m * unit_vector(direction) +
+         right_m * unit_vector(turned_left(direction, -1));
 }
 
 TurnKind turn_kind(Direction in, Direction out) {
@@ -35,7 +38,8 @@ double turn_speed_mps(TurnKind kind, double straight_mps) {
   return straight_mps;
 }
 
-/// Below this distance between centre lines two bodies could touch. A long vehicle's ends swing out in a turn.
+/// Below this distance between centre lines two bodies could touch. A long vehicle's ends swing out
+/// in a turn.
 double conflict_distance_m(const Lane& a, const Lane& b) {
   if (a.user == RoadUser::motor && b.user == RoadUser::motor) return 3.2;
   if (a.user == b.user) return 1.2;
@@ -53,7 +57,8 @@ bool come_close(const Path& a, const Path& b, double distance_m) {
 
 }  // namespace
 
-RoadNetwork::RoadNetwork(const StreetPlan& plan, double speed_limit_mps) : speed_limit_mps_(speed_limit_mps) {
+RoadNetwork::RoadNetwork(const StreetPlan& plan, double speed_limit_mps)
+    : speed_limit_mps_(speed_limit_mps) {
   street_lanes_.assign(static_cast<std::size_t>(2 * plan.junction_count() * kDirections), -1);
   for (const RoadUser user : {RoadUser::motor, RoadUser::bicycle}) add_street_lanes(plan, user);
   for (const RoadUser user : {RoadUser::motor, RoadUser::bicycle}) add_turn_lanes(plan, user);
@@ -62,7 +67,8 @@ RoadNetwork::RoadNetwork(const StreetPlan& plan, double speed_limit_mps) : speed
 
 int RoadNetwork::street_lane(RoadUser user, int junction, Direction direction) const {
   const int per_user = static_cast<int>(street_lanes_.size()) / 2;
-  const int index = static_cast<int>(user) * per_user + junction * kDirections + static_cast<int>(direction);
+  const int index =
+      static_cast<int>(user) * per_user + junction * kDirections + static_cast<int>(direction);
   return street_lanes_[static_cast<std::size_t>(index)];
 }
 
@@ -75,7 +81,8 @@ void RoadNetwork::add_street_lanes(const StreetPlan& plan, RoadUser user) {
       const auto direction = static_cast<Direction>(d);
       const auto to = plan.neighbour(plan.junction(from), direction);
       if (!to) continue;
-      const Vector2 start = beside(plan.junction_in_plan(plan.junction(from)), direction, stop_m, right_m);
+      const Vector2 start =
+          beside(plan.junction_in_plan(plan.junction(from)), direction, stop_m, right_m);
       const Vector2 end = beside(plan.junction_in_plan(*to), direction, -stop_m, right_m);
       Lane lane;
       lane.path_in_world = Path(plan.world_from_plan(line(start, end, 0.5)));
@@ -83,7 +90,8 @@ void RoadNetwork::add_street_lanes(const StreetPlan& plan, RoadUser user) {
       lane.junction = plan.index(*to);
       lane.travel = direction;
       lane.speed_limit_mps = user == RoadUser::motor ? speed_limit_mps_ : kBicycleSpeed_mps;
-      street_lanes_[static_cast<std::size_t>(static_cast<int>(user) * per_user + from * kDirections + d)] =
+      street_lanes_[static_cast<std::size_t>(static_cast<int>(user) * per_user +
+                                             from * kDirections + d)] =
           static_cast<int>(lanes_.size());
       lanes_.push_back(std::move(lane));
     }
@@ -105,23 +113,27 @@ void RoadNetwork::add_turn_lanes(const StreetPlan& plan, RoadUser user) {
       const Vector2 centre = plan.junction_in_plan(plan.junction(junction));
       const Vector2 start = beside(centre, in, -stop_m, right_m);
       const Vector2 end = beside(centre, out, stop_m, right_m);
-      // 0.55 of the way to the corner makes a Bezier curve run close to a quarter circle; straight on it makes a line.
-      const double reach_m = 0.55 * (quarter == 0 ? (end - start).norm() : std::abs((end - start).dot(unit_vector(in))));
+      // 0.55 of the way to the corner makes a Bezier curve run close to a quarter circle; straight
+      // on it makes a line.
+      const double reach_m = 0.55 * (quarter == 0 ? (end - start).norm()
+                                                  : std::abs((end - start).dot(unit_vector(in))));
       Lane lane;
-      lane.path_in_world = Path(plan.world_from_plan(
-          bezier(start, start + reach_m * unit_vector(in), end - reach_m * unit_vector(out), end, 0.25)));
+      lane.path_in_world = Path(plan.world_from_plan(bezier(
+          start, start + reach_m * unit_vector(in), end - reach_m * unit_vector(out), end, 0.25)));
       lane.kind = LaneKind::turn;
       lane.turn = turn_kind(in, out);
       lane.user = user;
       lane.junction = junction;
       lane.travel = in;
-      lane.speed_limit_mps = turn_speed_mps(lane.turn, user == RoadUser::motor ? speed_limit_mps_ : kBicycleSpeed_mps);
+      lane.speed_limit_mps =
+          turn_speed_mps(lane.turn, user == RoadUser::motor ? speed_limit_mps_ : kBicycleSpeed_mps);
       if (user == RoadUser::bicycle) lane.speed_limit_mps = std::min(lane.speed_limit_mps, 4.5);
       lane.next = {exit};
       lanes_[i].next.push_back(static_cast<int>(lanes_.size()));
       lanes_.push_back(std::move(lane));
     }
-    for (const int turn : lanes_[i].next) lanes_[static_cast<std::size_t>(turn)].siblings = lanes_[i].next;
+    for (const int turn : lanes_[i].next)
+      lanes_[static_cast<std::size_t>(turn)].siblings = lanes_[i].next;
   }
 }
 
@@ -130,9 +142,12 @@ void RoadNetwork::find_conflicts() {
     for (std::size_t b = a + 1; b < lanes_.size(); ++b) {
       if (lanes_[a].kind != LaneKind::turn || lanes_[b].kind != LaneKind::turn) continue;
       if (lanes_[a].junction != lanes_[b].junction) continue;
-      const bool follow_each_other = lanes_[a].user == lanes_[b].user && lanes_[a].travel == lanes_[b].travel;
+      const bool follow_each_other =
+          lanes_[a].user == lanes_[b].user && lanes_[a].travel == lanes_[b].travel;
       const double distance_m = conflict_distance_m(lanes_[a], lanes_[b]);
-      if (follow_each_other || !come_close(lanes_[a].path_in_world, lanes_[b].path_in_world, distance_m)) continue;
+      if (follow_each_other ||
+          !come_close(lanes_[a].path_in_world, lanes_[b].path_in_world, distance_m))
+        continue;
       lanes_[a].conflicts.push_back(static_cast<int>(b));
       lanes_[b].conflicts.push_back(static_cast<int>(a));
     }

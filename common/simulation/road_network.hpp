@@ -7,23 +7,25 @@
 
 namespace slammot::simulation {
 
-/// Who a lane is for: motor vehicles drive beside the centre line, bicycles between them and the parked cars.
+/// Who a lane is for: motor vehicles drive beside the centre line, bicycles between them and the
+/// parked cars.
 enum class RoadUser : int { motor = 0, bicycle = 1 };
 enum class LaneKind { street, turn };
 enum class TurnKind { straight, left, right };
 
-/// A stretch of way that one direction of traffic follows: along a street up to the stop line, or across a junction.
+/// A stretch of way that one direction of traffic follows: along a street up to the stop line, or
+/// across a junction.
 struct Lane {
   Path path_in_world;
   LaneKind kind = LaneKind::street;
-  TurnKind turn = TurnKind::straight;       ///< Of a turn lane.
+  TurnKind turn = TurnKind::straight;  ///< Of a turn lane.
   RoadUser user = RoadUser::motor;
-  int junction = -1;                        ///< Street: the one it leads to. Turn: the one it crosses.
-  Direction travel = Direction::east;       ///< Direction in which it starts.
+  int junction = -1;                   ///< Street: the one it leads to. Turn: the one it crosses.
+  Direction travel = Direction::east;  ///< Direction in which it starts.
   double speed_limit_mps = 0.0;
-  std::vector<int> next;                    ///< Lanes that start where this one ends.
-  std::vector<int> siblings;                ///< Of a turn lane: all that start where it does, itself too.
-  std::vector<int> conflicts;               ///< Turn lanes that must not be used at the same time.
+  std::vector<int> next;       ///< Lanes that start where this one ends.
+  std::vector<int> siblings;   ///< Of a turn lane: all that start where it does, itself too.
+  std::vector<int> conflicts;  ///< Turn lanes that must not be used at the same time.
 };
 
 /// All lanes of a city. Right-hand traffic.

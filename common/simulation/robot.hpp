@@ -9,11 +9,11 @@ namespace slammot::simulation {
 
 struct RobotConfig {
   double speed_mps = 0.6;
-  double turning_speed_mps = 0.3;      ///< In bends.
+  double turning_speed_mps = 0.3;  ///< In bends.
   double acceleration_mps2 = 0.5;
-  double bend_m = 0.8;                 ///< From where it leaves the straight to the corner.
+  double bend_m = 0.8;  ///< From where it leaves the straight to the corner.
   double diameter_m = 0.5;
-  double keep_clear_m = 1.2;           ///< Stops for pedestrians ahead within this distance.
+  double keep_clear_m = 1.2;  ///< Stops for pedestrians ahead within this distance.
 };
 
 /// A small robot that follows a way of straight pieces with rounded corners and stops for people.

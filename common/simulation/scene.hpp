@@ -19,7 +19,8 @@ class Scene {
   virtual void advance(double dt_s) = 0;
   /// The vehicle that carries the scanners.
   virtual MovingObject vehicle() const = 0;
-  /// All other objects that can move, ids from 1 on; the same objects in the same order after every advance.
+  /// All other objects that can move, ids from 1 on; the same objects in the same order after every
+  /// advance.
   virtual std::vector<MovingObject> others() const = 0;
 };
 

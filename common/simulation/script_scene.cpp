@@ -41,7 +41,8 @@ class Actor {
     if (script.length_m > 0.0) object_.size.length_m = script.length_m;
     if (script.width_m > 0.0) object_.size.width_m = script.width_m;
     outline_in_object_ = vehicle_outline(script.kind, object_.size);
-    if (path_in_world_.length_m() > 0.0) speed_mps_ = speed_factor_ * speed_at(script.speed, start_s);
+    if (path_in_world_.length_m() > 0.0)
+      speed_mps_ = speed_factor_ * speed_at(script.speed, start_s);
   }
 
   bool carries_scanner() const { return script_.carries_scanner; }
@@ -57,11 +58,13 @@ class Actor {
 
   MovingObject object(double time_s) const {
     MovingObject now = object_;
-    now.world_from_object = stays_at_ ? *stays_at_ : path_in_world_.pose_at(ahead_m_) * Pose2{0.0, sideways_m_, 0.0};
+    now.world_from_object =
+        stays_at_ ? *stays_at_ : path_in_world_.pose_at(ahead_m_) * Pose2{0.0, sideways_m_, 0.0};
     now.speed_mps = speed_mps_;
     const bool is_there = time_s >= script_.from_s && time_s < script_.until_s;
     if (is_there && now.kind == ObjectClass::pedestrian) {
-      now.outline_in_object = pedestrian_outline(phase_rad_, kStep_m * std::min(1.5, speed_mps_ / 1.35));
+      now.outline_in_object =
+          pedestrian_outline(phase_rad_, kStep_m * std::min(1.5, speed_mps_ / 1.35));
     } else if (is_there) {
       now.outline_in_object = outline_in_object_;
     }
@@ -84,7 +87,8 @@ class Actor {
 /// An object that moves uniformly between recorded places.
 MovingObject object_at(const RecordedObject& recorded, int id, double time_s) {
   const auto& places = recorded.places;
-  const auto after = std::find_if(places.begin(), places.end(), [&](const RecordedPlace& place) { return place.at_s > time_s; });
+  const auto after = std::find_if(places.begin(), places.end(),
+                                  [&](const RecordedPlace& place) { return place.at_s > time_s; });
   const RecordedPlace& last = after == places.begin() ? places.front() : *(after - 1);
   const bool is_there = after != places.begin() && (after != places.end() || last.at_s == time_s);
   MovingObject object;
@@ -96,11 +100,14 @@ MovingObject object_at(const RecordedObject& recorded, int id, double time_s) {
   if (!is_there) return object;
   if (after != places.end()) {
     const double fraction = (time_s - last.at_s) / (after->at_s - last.at_s);
-    object.world_from_object = interpolate(last.world_from_object, after->world_from_object, fraction);
+    object.world_from_object =
+        interpolate(last.world_from_object, after->world_from_object, fraction);
     object.speed_mps += fraction * (after->speed_mps - last.speed_mps);
   }
   const double phase_rad = 2.0 * std::numbers::pi * time_s * object.speed_mps / kStride_m;
-  object.outline_in_object = recorded.kind == ObjectClass::pedestrian ? pedestrian_outline(phase_rad, kStep_m) : vehicle_outline(recorded.kind, object.size);
+  object.outline_in_object = recorded.kind == ObjectClass::pedestrian
+                                 ? pedestrian_outline(phase_rad, kStep_m)
+                                 : vehicle_outline(recorded.kind, object.size);
   return object;
 }
 
@@ -114,14 +121,16 @@ class ScriptScene final : public Scene {
     Random random(config.seed, Purpose::traffic);
     std::vector<std::size_t> vehicles;
     const auto add = [&](const ScriptedObject& script) {
-      if (script.carries_scanner || &script == &config.script.vehicle) vehicles.push_back(actors_.size());
+      if (script.carries_scanner || &script == &config.script.vehicle)
+        vehicles.push_back(actors_.size());
       actors_.emplace_back(script, static_cast<int>(actors_.size()), time_s_, random);
     };
     if (!rides_recorded()) add(config.script.vehicle);
     for (const ScriptedObject& script : config.script.objects) {
       for (int i = 0; i < script.copies; ++i) add(script);
     }
-    if (!rides_recorded()) ridden_ = vehicles[std::min(vehicles.size() - 1, static_cast<std::size_t>(config.ride))];
+    if (!rides_recorded())
+      ridden_ = vehicles[std::min(vehicles.size() - 1, static_cast<std::size_t>(config.ride))];
   }
 
   const Outline& stationary_in_world() const override { return stationary_in_world_; }
@@ -131,14 +140,18 @@ class ScriptScene final : public Scene {
     time_s_ += dt_s;
   }
 
-  MovingObject vehicle() const override { return rides_recorded() ? recorded(recorded_vehicle_) : actors_[ridden_].object(time_s_); }
+  MovingObject vehicle() const override {
+    return rides_recorded() ? recorded(recorded_vehicle_) : actors_[ridden_].object(time_s_);
+  }
 
   std::vector<MovingObject> others() const override {
     std::vector<MovingObject> objects;
     for (std::size_t i = 0; i < actors_.size(); ++i) {
       if (i == ridden_ && !rides_recorded()) continue;
       objects.push_back(actors_[i].object(time_s_));
-      if (i == 0) objects.back().id = static_cast<int>(actors_.size());  // the first vehicle, as seen from another one
+      if (i == 0)
+        objects.back().id = static_cast<int>(actors_.size());  // the first vehicle, as seen from
+                                                               // another one
     }
     for (int i = 0; i < static_cast<int>(recorded_.size()); ++i) {
       if (i != recorded_vehicle_) objects.push_back(recorded(i));
@@ -149,19 +162,22 @@ class ScriptScene final : public Scene {
  private:
   bool rides_recorded() const { return recorded_vehicle_ >= 0; }
   MovingObject recorded(int index) const {
-    return object_at(recorded_[static_cast<std::size_t>(index)], static_cast<int>(actors_.size()) + 1 + index, time_s_);
+    return object_at(recorded_[static_cast<std::size_t>(index)],
+                     static_cast<int>(actors_.size()) + 1 + index, time_s_);
   }
 
   Outline stationary_in_world_;
   double time_s_;
   std::vector<RecordedObject> recorded_;
   int recorded_vehicle_;
-  std::vector<Actor> actors_;         ///< The first vehicle first.
+  std::vector<Actor> actors_;  ///< The first vehicle first.
   std::size_t ridden_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Scene> make_script_scene(const ScenarioConfig& scenario) { return std::make_unique<ScriptScene>(scenario); }
+std::unique_ptr<Scene> make_script_scene(const ScenarioConfig& scenario) {
+  return std::make_unique<ScriptScene>(scenario);
+}
 
 }  // namespace slammot::simulation

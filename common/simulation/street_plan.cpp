@@ -29,7 +29,8 @@ double edge_m(const std::vector<double>& streets_m, int block) {
 }  // namespace
 
 Direction turned_left(Direction direction, int quarter_turns) {
-  return static_cast<Direction>((static_cast<int>(direction) + quarter_turns + kDirections) % kDirections);
+  return static_cast<Direction>((static_cast<int>(direction) + quarter_turns + kDirections) %
+                                kDirections);
 }
 
 Vector2 unit_vector(Direction direction) {
@@ -49,7 +50,8 @@ std::vector<JunctionId> along_streets(const std::vector<JunctionId>& corners) {
     while (!(route.back() == corners[i])) {
       JunctionId next = route.back();
       next.column += (corners[i].column > next.column) - (corners[i].column < next.column);
-      if (next.column == route.back().column) next.row += (corners[i].row > next.row) - (corners[i].row < next.row);
+      if (next.column == route.back().column)
+        next.row += (corners[i].row > next.row) - (corners[i].row < next.row);
       route.push_back(next);
     }
   }
@@ -63,13 +65,16 @@ StreetPlan::StreetPlan(const CityConfig& config, std::uint64_t seed) : config_(c
 }
 
 Vector2 StreetPlan::junction_in_plan(const JunctionId& id) const {
-  return {columns_in_plan_m_[static_cast<std::size_t>(id.column)], rows_in_plan_m_[static_cast<std::size_t>(id.row)]};
+  return {columns_in_plan_m_[static_cast<std::size_t>(id.column)],
+          rows_in_plan_m_[static_cast<std::size_t>(id.row)]};
 }
 
 std::optional<JunctionId> StreetPlan::neighbour(const JunctionId& id, Direction direction) const {
   const Vector2 step = unit_vector(direction);
-  const JunctionId next{id.column + static_cast<int>(step.x()), id.row + static_cast<int>(step.y())};
-  if (next.column < 0 || next.column >= columns() || next.row < 0 || next.row >= rows()) return std::nullopt;
+  const JunctionId next{id.column + static_cast<int>(step.x()),
+                        id.row + static_cast<int>(step.y())};
+  if (next.column < 0 || next.column >= columns() || next.row < 0 || next.row >= rows())
+    return std::nullopt;
   return next;
 }
 

@@ -35,7 +35,8 @@ std::vector<Vector2> cut_rectangle(double length_m, double width_m, double corne
   const double x = 0.5 * length_m;
   const double y = 0.5 * width_m;
   const double c = corner_m;
-  return {{x, y - c}, {x - c, y}, {-x + c, y}, {-x, y - c}, {-x, -y + c}, {-x + c, -y}, {x - c, -y}, {x, -y + c}};
+  return {{x, y - c},   {x - c, y},   {-x + c, y}, {-x, y - c},
+          {-x, -y + c}, {-x + c, -y}, {x - c, -y}, {x, -y + c}};
 }
 
 double distance_along_ray(const Segment& segment, const Vector2& origin, const Vector2& direction) {
@@ -51,7 +52,8 @@ double distance_along_ray(const Segment& segment, const Vector2& origin, const V
 double distance_along_ray(const Circle& circle, const Vector2& origin, const Vector2& direction) {
   const Vector2 to_centre = circle.centre - origin;
   const double along_m = to_centre.dot(direction);
-  const double root = circle.radius_m * circle.radius_m - (to_centre.squaredNorm() - along_m * along_m);
+  const double root =
+      circle.radius_m * circle.radius_m - (to_centre.squaredNorm() - along_m * along_m);
   if (root < 0.0) return kMiss;
   const double range_m = along_m - std::sqrt(root);
   return range_m >= 0.0 ? range_m : kMiss;

@@ -34,13 +34,17 @@ struct Outline {
 };
 
 /// Adds a closed polygon's edges.
-void add_polygon(Outline& outline, const std::vector<geometry::Vector2>& corners, Material material);
+void add_polygon(Outline& outline, const std::vector<geometry::Vector2>& corners,
+                 Material material);
 
 /// Rectangle centred at the origin with its corners cut off by corner_m.
 std::vector<geometry::Vector2> cut_rectangle(double length_m, double width_m, double corner_m);
 
-/// Distance along a ray to a surface, unit direction; infinity where the ray misses it or starts beyond it.
-double distance_along_ray(const Segment& segment, const geometry::Vector2& origin, const geometry::Vector2& direction);
-double distance_along_ray(const Circle& circle, const geometry::Vector2& origin, const geometry::Vector2& direction);
+/// Distance along a ray to a surface, unit direction; infinity where the ray misses it or starts
+/// beyond it.
+double distance_along_ray(const Segment& segment, const geometry::Vector2& origin,
+                          const geometry::Vector2& direction);
+double distance_along_ray(const Circle& circle, const geometry::Vector2& origin,
+                          const geometry::Vector2& direction);
 
 }  // namespace slammot::simulation

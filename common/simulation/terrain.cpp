@@ -17,10 +17,14 @@ double Terrain::height_m(double x_m) const {
 double Terrain::nose_down_rad(const geometry::Pose2& world_from_body) const {
   constexpr double kAxle_m = 1.4;
   const double reach_m = kAxle_m * std::cos(world_from_body.heading_rad);
-  return std::atan2(height_m(world_from_body.x_m - reach_m) - height_m(world_from_body.x_m + reach_m), 2.0 * kAxle_m);
+  return std::atan2(
+      height_m(world_from_body.x_m - reach_m) - height_m(world_from_body.x_m + reach_m),
+      2.0 * kAxle_m);
 }
 
-double Terrain::distance_to_ground(const Vector2& origin_in_world, const Vector2& direction_in_world, double origin_z_m, double rise) const {
+double Terrain::distance_to_ground(const Vector2& origin_in_world,
+                                   const Vector2& direction_in_world, double origin_z_m,
+                                   double rise) const {
   // Between two changes of slope both the ray and the road are straight.
   std::vector<double> changes_m;
   for (const HeightAt& height : heights_) {
@@ -29,7 +33,8 @@ double Terrain::distance_to_ground(const Vector2& origin_in_world, const Vector2
   }
   std::sort(changes_m.begin(), changes_m.end());
   const auto clearance_m = [&](double ahead_m) {
-    return origin_z_m + rise * ahead_m - height_m(origin_in_world.x() + ahead_m * direction_in_world.x());
+    return origin_z_m + rise * ahead_m -
+           height_m(origin_in_world.x() + ahead_m * direction_in_world.x());
   };
   double from_m = 0.0;
   double above_m = clearance_m(0.0);

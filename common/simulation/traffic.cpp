@@ -19,7 +19,8 @@ constexpr double kStandstillGap_m = 2.0;
 constexpr double kSight_m = 60.0;
 constexpr double kFar_m = 1e6;
 constexpr std::size_t kPlannedLanes = 4;
-constexpr double kWaysPart_m = 8.5;  ///< Past the stop line a left turn is a car's width away from straight on.
+constexpr double kWaysPart_m = 8.5;  ///< Past the stop line a left turn is a car's width away from
+                                     ///< straight on.
 
 BoxSize size_of(ObjectClass kind, Random& random) {
   if (kind != ObjectClass::car) return usual_size(kind);
@@ -34,7 +35,11 @@ Direction direction_between(const JunctionId& from, const JunctionId& to) {
 }  // namespace
 
 Traffic::Traffic(const StreetPlan& plan, const Setup& setup)
-    : plan_(plan), network_(plan), config_(setup.traffic), route_(setup.route), random_(setup.seed, Purpose::traffic) {
+    : plan_(plan),
+      network_(plan),
+      config_(setup.traffic),
+      route_(setup.route),
+      random_(setup.seed, Purpose::traffic) {
   const double cycle_s = 2.0 * (config_.green_s + config_.clearance_s);
   for (int i = 0; i < plan_.junction_count(); ++i) {
     signalled_.push_back(random_.chance(plan_.config().signalled_share));
@@ -117,7 +122,8 @@ bool Traffic::place_at_random(Driver& driver) {
     driver.arc_m = random_.uniform(clear_m, candidate.path_in_world.length_m() - clear_m);
     const bool free = std::none_of(drivers_.begin(), drivers_.end(), [&](const Driver& other) {
       const double apart_m = 0.5 * (other.length_m + driver.length_m) + 4.0;
-      return other.lanes.front() == static_cast<int>(lane) && std::abs(other.arc_m - driver.arc_m) < apart_m;
+      return other.lanes.front() == static_cast<int>(lane) &&
+             std::abs(other.arc_m - driver.arc_m) < apart_m;
     });
     if (!free) continue;
     driver.lanes = {static_cast<int>(lane)};
@@ -160,8 +166,9 @@ void Traffic::sort_into_lanes() {
     drivers_in_lane_[static_cast<std::size_t>(drivers_[i].lanes.front())].push_back(i);
   }
   for (auto& lane : drivers_in_lane_) {
-    std::stable_sort(lane.begin(), lane.end(),
-                     [this](std::size_t a, std::size_t b) { return drivers_[a].arc_m < drivers_[b].arc_m; });
+    std::stable_sort(lane.begin(), lane.end(), [this](std::size_t a, std::size_t b) {
+      return drivers_[a].arc_m < drivers_[b].arc_m;
+    });
   }
 }
 
@@ -174,13 +181,17 @@ void Traffic::advance(double dt_s, const std::vector<PersonOnRoad>& people) {
     ask_for_turn(driver);
     const double free_mps2 = acceleration_mps2(driver, people);
     const double limit = limit_mps(driver, driver.lanes.front());
-    const double behind_mps2 = std::min(follow_mps2(driver, limit, leader(i)), follow_mps2(driver, limit, turning_off(i)));
-    accelerations_mps2.push_back(std::clamp(std::min(free_mps2, behind_mps2), -kHardestBraking_mps2, kAcceleration_mps2));
+    const double behind_mps2 =
+        std::min(follow_mps2(driver, limit, leader(i)), follow_mps2(driver, limit, turning_off(i)));
+    accelerations_mps2.push_back(
+        std::clamp(std::min(free_mps2, behind_mps2), -kHardestBraking_mps2, kAcceleration_mps2));
   }
-  if (frightened(dt_s)) accelerations_mps2.front() = std::min(accelerations_mps2.front(), -route_.hard_brake_mps2);
+  if (frightened(dt_s))
+    accelerations_mps2.front() = std::min(accelerations_mps2.front(), -route_.hard_brake_mps2);
   for (std::size_t i = 0; i < drivers_.size(); ++i) {
     move(drivers_[i], accelerations_mps2[i], dt_s);
-    if (drivers_[i].stop_left_s > 0.0 && drivers_[i].speed_mps < 0.05) drivers_[i].stop_left_s -= dt_s;
+    if (drivers_[i].stop_left_s > 0.0 && drivers_[i].speed_mps < 0.05)
+      drivers_[i].stop_left_s -= dt_s;
   }
   publish();
 }
@@ -196,8 +207,9 @@ double Traffic::follow_mps2(const Driver& driver, double limit, const Obstacle& 
   const double closing_mps = driver.speed_mps - obstacle.speed_mps;
   const double wanted_m =
       kStandstillGap_m +
-      std::max(0.0, driver.speed_mps * kHeadway_s + driver.speed_mps * closing_mps /
-                                                        (2.0 * std::sqrt(kAcceleration_mps2 * kComfortableBraking_mps2)));
+      std::max(0.0, driver.speed_mps * kHeadway_s +
+                        driver.speed_mps * closing_mps /
+                            (2.0 * std::sqrt(kAcceleration_mps2 * kComfortableBraking_mps2)));
   return kAcceleration_mps2 * (1.0 - free - (wanted_m / gap_m) * (wanted_m / gap_m));
 }
 
@@ -223,7 +235,8 @@ double Traffic::bend_braking_mps2(const Driver& driver) const {
   for (std::size_t i = 1; i < driver.lanes.size() && ahead_m < kSight_m; ++i) {
     const double limit = limit_mps(driver, driver.lanes[i]);
     if (driver.speed_mps > limit) {
-      const double needed = (driver.speed_mps * driver.speed_mps - limit * limit) / (2.0 * std::max(0.5, ahead_m));
+      const double needed =
+          (driver.speed_mps * driver.speed_mps - limit * limit) / (2.0 * std::max(0.5, ahead_m));
       if (needed > 0.7 * kComfortableBraking_mps2) acceleration = std::min(acceleration, -needed);
     }
     ahead_m += network_.lane(driver.lanes[i]).path_in_world.length_m();
@@ -240,7 +253,8 @@ Traffic::Obstacle Traffic::leader(std::size_t index) const {
       const double ahead_m = lane_start_m + drivers_[other].arc_m;
       const bool behind = i == 0 && (ahead_m < 0.0 || (ahead_m == 0.0 && other <= index));
       if (behind || other == index) continue;
-      return {ahead_m - 0.5 * (driver.length_m + drivers_[other].length_m), drivers_[other].speed_mps};
+      return {ahead_m - 0.5 * (driver.length_m + drivers_[other].length_m),
+              drivers_[other].speed_mps};
     }
     lane_start_m += lane.path_in_world.length_m();
   }
@@ -270,19 +284,24 @@ Traffic::Obstacle Traffic::turning_off(std::size_t index) const {
 
 void Traffic::ask_for_turn(Driver& driver) {
   const Lane& here = network_.lane(driver.lanes.front());
-  if (here.kind != LaneKind::street || driver.reserved_turn >= 0 || driver.stop_left_s > 0.0) return;
+  if (here.kind != LaneKind::street || driver.reserved_turn >= 0 || driver.stop_left_s > 0.0)
+    return;
   const double to_line_m = here.path_in_world.length_m() - driver.arc_m - 0.5 * driver.length_m;
   const double braking_m = driver.speed_mps * driver.speed_mps / (2.0 * kComfortableBraking_mps2);
-  if (to_line_m > braking_m + 10.0 || !is_next_to_go(driver) || !turn_is_free(driver, driver.lanes[1])) return;
+  if (to_line_m > braking_m + 10.0 || !is_next_to_go(driver) ||
+      !turn_is_free(driver, driver.lanes[1]))
+    return;
   driver.reserved_turn = driver.lanes[1];
   ++reservations_[static_cast<std::size_t>(driver.reserved_turn)];
 }
 
 bool Traffic::is_next_to_go(const Driver& driver) const {
-  // A driver behind a waiting one must not reserve the turn that it waits for: that would be a deadlock.
+  // A driver behind a waiting one must not reserve the turn that it waits for: that would be a
+  // deadlock.
   const auto& lane = drivers_in_lane_[static_cast<std::size_t>(driver.lanes.front())];
   return std::none_of(lane.begin(), lane.end(), [&](std::size_t other) {
-    return drivers_[other].arc_m > driver.arc_m && drivers_[other].reserved_turn != drivers_[other].lanes[1];
+    return drivers_[other].arc_m > driver.arc_m &&
+           drivers_[other].reserved_turn != drivers_[other].lanes[1];
   });
 }
 
@@ -302,7 +321,8 @@ bool Traffic::turn_is_free(const Driver& driver, int turn) const {
   }
   double needed_m = driver.length_m + 3.0;
   for (const Driver& other : drivers_) {
-    const bool will_be_there = other.reserved_turn >= 0 && network_.lane(other.reserved_turn).next.front() == exit &&
+    const bool will_be_there = other.reserved_turn >= 0 &&
+                               network_.lane(other.reserved_turn).next.front() == exit &&
                                other.lanes.front() != exit;
     if (will_be_there) needed_m += other.length_m + 3.0;
   }
@@ -315,25 +335,28 @@ bool Traffic::has_green(int junction, Direction travel) const {
   const double half_s = config_.green_s + config_.clearance_s;
   const double phase_s = std::fmod(time_s_ + signal_offset_s_[i], 2.0 * half_s);
   const bool east_west = travel == Direction::east || travel == Direction::west;
-  return east_west ? phase_s < config_.green_s : phase_s >= half_s && phase_s < half_s + config_.green_s;
+  return east_west ? phase_s < config_.green_s
+                   : phase_s >= half_s && phase_s < half_s + config_.green_s;
 }
 
 bool Traffic::may_cross(const Crossing& crossing) const {
   const auto i = static_cast<std::size_t>(crossing.junction);
   if (signalled_[i]) {
-    // Pedestrians cross with the traffic that does not use this arm, and start only early in its green phase.
+    // Pedestrians cross with the traffic that does not use this arm, and start only early in its
+    // green phase.
     const Direction across = turned_left(crossing.arm, 1);
     const double half_s = config_.green_s + config_.clearance_s;
     const double phase_s = std::fmod(time_s_ + signal_offset_s_[i], half_s);
     return has_green(crossing.junction, across) && phase_s < 0.4 * config_.green_s;
   }
-  const Vector2 middle = plan_.world_from_plan(
-      Vector2(plan_.junction_in_plan(plan_.junction(crossing.junction)) + 8.0 * unit_vector(crossing.arm)));
+  const Vector2 middle = plan_.world_from_plan(Vector2(
+      plan_.junction_in_plan(plan_.junction(crossing.junction)) + 8.0 * unit_vector(crossing.arm)));
   return std::none_of(drivers_.begin(), drivers_.end(), [&](const Driver& driver) {
     const Pose2 pose = pose_ahead(driver, 0.0);
     const Vector2 to_crossing = middle - pose.translation_m();
     const bool towards =
-        to_crossing.dot(Vector2{std::cos(pose.heading_rad), std::sin(pose.heading_rad)}) > -0.5 * driver.length_m;
+        to_crossing.dot(Vector2{std::cos(pose.heading_rad), std::sin(pose.heading_rad)}) >
+        -0.5 * driver.length_m;
     return towards && to_crossing.norm() < 9.0 + 5.0 * driver.speed_mps;
   });
 }
@@ -341,9 +364,12 @@ bool Traffic::may_cross(const Crossing& crossing) const {
 bool Traffic::is_occupied(const Vector2& place_in_world) const {
   return std::any_of(objects_.begin(), objects_.end(), [&](const MovingObject& object) {
     const double reach_m = object.size.length_m + object.size.width_m;
-    if ((place_in_world - object.world_from_object.translation_m()).squaredNorm() > reach_m * reach_m) return false;
+    if ((place_in_world - object.world_from_object.translation_m()).squaredNorm() >
+        reach_m * reach_m)
+      return false;
     const Vector2 in_object = inverse(object.world_from_object) * place_in_world;
-    return std::abs(in_object.x()) < 0.5 * object.size.length_m && std::abs(in_object.y()) < 0.5 * object.size.width_m;
+    return std::abs(in_object.x()) < 0.5 * object.size.length_m &&
+           std::abs(in_object.y()) < 0.5 * object.size.width_m;
   });
 }
 
@@ -362,17 +388,24 @@ double Traffic::person_gap_m(const Driver& driver, const std::vector<PersonOnRoa
     if ((person.position_in_world - now.translation_m()).norm() > look_m + 6.0) continue;
     // No vehicle starts while a pedestrian passes close by.
     const Vector2 beside = inverse(now) * person.position_in_world;
-    const bool touches = std::abs(beside.x()) < 0.5 * driver.length_m + 0.4 && std::abs(beside.y()) < driver.half_width_m + 0.3;
+    const bool touches = std::abs(beside.x()) < 0.5 * driver.length_m + 0.4 &&
+                         std::abs(beside.y()) < driver.half_width_m + 0.3;
     if (touches && driver.speed_mps < 1.0) return 0.0;
-    for (double ahead_m = 0.5 * driver.length_m; ahead_m < std::min(look_m, nearest_m); ahead_m += 1.0) {
+    for (double ahead_m = 0.5 * driver.length_m; ahead_m < std::min(look_m, nearest_m);
+         ahead_m += 1.0) {
       const Pose2 world_from_place = pose_ahead(driver, ahead_m);
-      const double far_m = driver.half_width_m + kClearance_m + 0.8 + 3.0 * person.velocity_in_world_mps.norm();
-      if ((person.position_in_world - world_from_place.translation_m()).squaredNorm() > far_m * far_m) continue;
+      const double far_m =
+          driver.half_width_m + kClearance_m + 0.8 + 3.0 * person.velocity_in_world_mps.norm();
+      if ((person.position_in_world - world_from_place.translation_m()).squaredNorm() >
+          far_m * far_m)
+        continue;
       const Vector2 in_place = inverse(world_from_place) * person.position_in_world;
       if (std::abs(in_place.x()) > 0.8) continue;
-      const Vector2 velocity = geometry::rotation(-world_from_place.heading_rad) * person.velocity_in_world_mps;
+      const Vector2 velocity =
+          geometry::rotation(-world_from_place.heading_rad) * person.velocity_in_world_mps;
       const bool comes = in_place.y() * velocity.y() < 0.0;
-      const double reach_m = driver.half_width_m + kClearance_m + (comes ? 3.0 * std::abs(velocity.y()) : 0.0);
+      const double reach_m =
+          driver.half_width_m + kClearance_m + (comes ? 3.0 * std::abs(velocity.y()) : 0.0);
       if (std::abs(in_place.y()) < reach_m) nearest_m = ahead_m;
     }
   }
@@ -383,7 +416,8 @@ double Traffic::own_stop_gap_m(Driver& driver) {
   if (driver.stop_every_m <= 0.0) return kFar_m;
   const Lane& here = network_.lane(driver.lanes.front());
   const double to_line_m = here.path_in_world.length_m() - driver.arc_m;
-  const bool middle_of_street = here.kind == LaneKind::street && driver.arc_m > 12.0 && to_line_m > 25.0;
+  const bool middle_of_street =
+      here.kind == LaneKind::street && driver.arc_m > 12.0 && to_line_m > 25.0;
   const bool due = driver.stop_left_s <= 0.0 && driver.travelled_m > driver.next_stop_m;
   if (due && middle_of_street && driver.reserved_turn < 0) {
     driver.stop_left_s = random_.uniform(3.0, driver.kind == ObjectClass::bus ? 14.0 : 8.0);
@@ -397,8 +431,10 @@ double Traffic::own_stop_gap_m(Driver& driver) {
 
 bool Traffic::frightened(double dt_s) {
   fright_left_s_ -= dt_s;
-  const bool may_start = fright_left_s_ <= 0.0 && route_.hard_brake_every_s > 0.0 && drivers_.front().speed_mps > 5.0;
-  if (may_start && random_.chance(dt_s / route_.hard_brake_every_s)) fright_left_s_ = random_.uniform(0.5, 1.3);
+  const bool may_start =
+      fright_left_s_ <= 0.0 && route_.hard_brake_every_s > 0.0 && drivers_.front().speed_mps > 5.0;
+  if (may_start && random_.chance(dt_s / route_.hard_brake_every_s))
+    fright_left_s_ = random_.uniform(0.5, 1.3);
   return fright_left_s_ > 0.0;
 }
 
@@ -415,8 +451,9 @@ void Traffic::move(Driver& driver, double acceleration, double dt_s) {
     driver.lanes.erase(driver.lanes.begin());
     extend_plan(driver);
   }
-  const bool left_junction = driver.reserved_turn >= 0 && driver.lanes.front() != driver.reserved_turn &&
-                             driver.lanes[1] != driver.reserved_turn && driver.arc_m > 0.5 * driver.length_m;
+  const bool left_junction =
+      driver.reserved_turn >= 0 && driver.lanes.front() != driver.reserved_turn &&
+      driver.lanes[1] != driver.reserved_turn && driver.arc_m > 0.5 * driver.length_m;
   if (left_junction) {
     --reservations_[static_cast<std::size_t>(driver.reserved_turn)];
     driver.reserved_turn = -1;
@@ -430,11 +467,13 @@ Pose2 Traffic::pose_ahead(const Driver& driver, double ahead_m) const {
     return last.pose_at(last.length_m() + arc_m) * Pose2{0.0, driver.sideways_m, 0.0};
   }
   std::size_t i = 0;
-  while (i + 1 < driver.lanes.size() && arc_m > network_.lane(driver.lanes[i]).path_in_world.length_m()) {
+  while (i + 1 < driver.lanes.size() &&
+         arc_m > network_.lane(driver.lanes[i]).path_in_world.length_m()) {
     arc_m -= network_.lane(driver.lanes[i]).path_in_world.length_m();
     ++i;
   }
-  return network_.lane(driver.lanes[i]).path_in_world.pose_at(arc_m) * Pose2{0.0, driver.sideways_m, 0.0};
+  return network_.lane(driver.lanes[i]).path_in_world.pose_at(arc_m) *
+         Pose2{0.0, driver.sideways_m, 0.0};
 }
 
 Pose2 Traffic::pose_on_axles(const Driver& driver) const {
@@ -458,7 +497,8 @@ void Traffic::publish() {
   }
   for (std::size_t i = 0; i < drivers_.size(); ++i) {
     // Odometry's reference point moves straight ahead, so that it stays on the way.
-    objects_[i].world_from_object = i == 0 ? pose_ahead(drivers_[i], 0.0) : pose_on_axles(drivers_[i]);
+    objects_[i].world_from_object =
+        i == 0 ? pose_ahead(drivers_[i], 0.0) : pose_on_axles(drivers_[i]);
     objects_[i].speed_mps = drivers_[i].speed_mps;
   }
 }

@@ -14,16 +14,19 @@ struct TrafficConfig {
   int trucks = 3;
   int buses = 3;
   int bicycles = 8;
-  double stopping_share = 0.15;       ///< Share of cars and trucks that stop in the lane now and then (delivery).
-  /// Route of a stop-and-go car directly ahead of the vehicle, from its first junction on; empty: none.
+  double stopping_share = 0.15;  ///< Share of cars and trucks that stop in the lane now and then
+                                 ///< (delivery).
+  /// Route of a stop-and-go car directly ahead of the vehicle, from its first junction on; empty:
+  /// none.
   std::vector<JunctionId> car_ahead;
-  double green_s = 13.0;              ///< Of each of the two axes at a signalled junction.
-  double clearance_s = 3.0;           ///< Red for all after each green.
+  double green_s = 13.0;     ///< Of each of the two axes at a signalled junction.
+  double clearance_s = 3.0;  ///< Red for all after each green.
 };
 
 /// Where the vehicle goes and how it is driven.
 struct RouteConfig {
-  std::vector<JunctionId> junctions;  ///< Corners in sequence with straight streets between; random after the last. Empty: a random route.
+  std::vector<JunctionId> junctions;  ///< Corners in sequence with straight streets between; random
+                                      ///< after the last. Empty: a random route.
   double start_m = 12.0;              ///< Behind the stop line of the first junction.
   double speed_factor = 0.95;         ///< Of the limit.
   double hard_brake_every_s = 45.0;   ///< Mean time between hard brakings.
@@ -32,9 +35,10 @@ struct RouteConfig {
   double width_m = 2.0;
 };
 
-/// Cars, trucks, buses and bicycles on a road network, and the vehicle that carries the scanners among them. Followers
-/// keep their distance by the intelligent driver model (Treiber et al. 2000); at junctions a turn is entered only when
-/// the signal allows it, no conflicting turn is taken and there is room behind; people on crossings are waited for.
+/// Cars, trucks, buses and bicycles on a road network, and the vehicle that carries the scanners
+/// among them. Followers keep their distance by the intelligent driver model (Treiber et al. 2000);
+/// at junctions a turn is entered only when the signal allows it, no conflicting turn is taken and
+/// there is room behind; people on crossings are waited for.
 class Traffic {
  public:
   struct Setup {
@@ -62,18 +66,18 @@ class Traffic {
     RoadUser user = RoadUser::motor;
     double length_m = 4.5;
     double half_width_m = 0.9;
-    double sideways_m = 0.0;            ///< Place to the left of the lane's middle.
+    double sideways_m = 0.0;  ///< Place to the left of the lane's middle.
     double speed_factor = 1.0;
-    int last_lane = -1;                 ///< The previous lane.
-    std::vector<int> lanes;             ///< Current lane, then the lanes ahead.
-    double arc_m = 0.0;                 ///< Of its centre along lanes.front().
+    int last_lane = -1;      ///< The previous lane.
+    std::vector<int> lanes;  ///< Current lane, then the lanes ahead.
+    double arc_m = 0.0;      ///< Of its centre along lanes.front().
     double speed_mps = 0.0;
     double travelled_m = 0.0;
     int reserved_turn = -1;
-    double stop_every_m = 0.0;          ///< Mean distance between its own stops; 0 never stops.
-    double next_stop_m = 0.0;           ///< Of travelled_m.
+    double stop_every_m = 0.0;  ///< Mean distance between its own stops; 0 never stops.
+    double next_stop_m = 0.0;   ///< Of travelled_m.
     double stop_left_s = 0.0;
-    std::vector<JunctionId> route;      ///< Junctions still to be passed, the next one first.
+    std::vector<JunctionId> route;  ///< Junctions still to be passed, the next one first.
   };
   /// An obstacle or line to stop behind.
   struct Obstacle {
@@ -98,7 +102,8 @@ class Traffic {
   double bend_braking_mps2(const Driver& driver) const;
   /// The next on the same way.
   Obstacle leader(std::size_t index) const;
-  /// Who has just taken another way through the junction and still stands in this one's way with its tail.
+  /// Who has just taken another way through the junction and still stands in this one's way with
+  /// its tail.
   Obstacle turning_off(std::size_t index) const;
   void ask_for_turn(Driver& driver);
   bool is_next_to_go(const Driver& driver) const;
@@ -109,7 +114,8 @@ class Traffic {
   void move(Driver& driver, double acceleration_mps2, double dt_s);
   bool frightened(double dt_s);
   geometry::Pose2 pose_ahead(const Driver& driver, double ahead_m) const;
-  /// Where the body is when both axles are on the way: a long one cuts corners instead of swinging out of its lane.
+  /// Where the body is when both axles are on the way: a long one cuts corners instead of swinging
+  /// out of its lane.
   geometry::Pose2 pose_on_axles(const Driver& driver) const;
   void publish();
 
@@ -120,11 +126,11 @@ class Traffic {
   Random random_;
   double time_s_ = 0.0;
   double fright_left_s_ = 0.0;
-  std::vector<bool> signalled_;             ///< By junction.
-  std::vector<double> signal_offset_s_;     ///< By junction.
-  std::vector<Driver> drivers_;             ///< The vehicle first.
+  std::vector<bool> signalled_;                            ///< By junction.
+  std::vector<double> signal_offset_s_;                    ///< By junction.
+  std::vector<Driver> drivers_;                            ///< The vehicle first.
   std::vector<std::vector<std::size_t>> drivers_in_lane_;  ///< Ascending arc_m.
-  std::vector<int> reservations_;           ///< By lane.
+  std::vector<int> reservations_;                          ///< By lane.
   std::vector<MovingObject> objects_;
 };
 

@@ -9,19 +9,20 @@ namespace slammot::simulation {
 
 /// How the body pitches when the vehicle speeds up or brakes.
 struct SuspensionConfig {
-  double pitch_per_mps2_rad = 0.005;     ///< At rest under constant acceleration; 3 degrees a g, a soft car.
+  double pitch_per_mps2_rad = 0.005;  ///< At rest under constant acceleration; 3 degrees a g, a
+                                      ///< soft car.
   double frequency_hz = 1.4;
   double damping_ratio = 0.35;
 };
 
 /// What is wrong with the wheels and the rate gyro.
 struct OdometryConfig {
-  double scale_error_low = 0.006;        ///< Wheel size: constant of a drive, of either sign.
+  double scale_error_low = 0.006;  ///< Wheel size: constant of a drive, of either sign.
   double scale_error_high = 0.014;
-  double distance_noise = 0.01;          ///< Of each step's length, one sigma.
-  double heading_noise_rad = 0.00034;    ///< Of each step while moving, one sigma (0.0195 degrees).
-  double rate_bias_sigma_radps = 0.0012; ///< Heading rate at rest; drawn once a drive.
-  double rate_bias_walk_radps = 0.00004; ///< Its drift in one second, one sigma.
+  double distance_noise = 0.01;        ///< Of each step's length, one sigma.
+  double heading_noise_rad = 0.00034;  ///< Of each step while moving, one sigma (0.0195 degrees).
+  double rate_bias_sigma_radps = 0.0012;  ///< Heading rate at rest; drawn once a drive.
+  double rate_bias_walk_radps = 0.00004;  ///< Its drift in one second, one sigma.
 };
 
 /// Damped spring that the body's pitch follows.

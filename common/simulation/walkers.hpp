@@ -12,15 +12,15 @@ namespace slammot::simulation {
 
 struct WalkersConfig {
   int pedestrians = 60;
-  double speed_mps = 1.35;            ///< Mean; people differ by `speed_sigma_mps`.
+  double speed_mps = 1.35;  ///< Mean; people differ by `speed_sigma_mps`.
   double speed_sigma_mps = 0.25;
   double runner_share = 0.03;
-  double pair_share = 0.3;            ///< Of the groups: two side by side.
+  double pair_share = 0.3;  ///< Of the groups: two side by side.
   double trio_share = 0.08;
-  double pause_every_s = 60.0;        ///< Mean time between pauses.
-  double pause_s = 6.0;               ///< Longest pause.
-  double sideways_m = 0.5;            ///< People keep up to this far from the middle of the way,
-  double step_aside_m = 0.75;         ///< and step this far to their right to let a vehicle pass.
+  double pause_every_s = 60.0;  ///< Mean time between pauses.
+  double pause_s = 6.0;         ///< Longest pause.
+  double sideways_m = 0.5;      ///< People keep up to this far from the middle of the way,
+  double step_aside_m = 0.75;   ///< and step this far to their right to let a vehicle pass.
 };
 
 /// Crossing of the street that leaves a junction in a direction.
@@ -53,11 +53,13 @@ struct PersonOnRoad {
 
 /// Traffic as pedestrians perceive it before and while they cross.
 struct StreetView {
-  std::function<bool(const Crossing&)> may_start;                          ///< Signal or gap allows crossing.
-  std::function<bool(const geometry::Vector2& place_in_world)> is_occupied;  ///< A vehicle is or will be here.
+  std::function<bool(const Crossing&)> may_start;  ///< Signal or gap allows crossing.
+  std::function<bool(const geometry::Vector2& place_in_world)> is_occupied;  ///< A vehicle is or
+                                                                             ///< will be here.
 };
 
-/// Pedestrians who walk at random over a graph, alone or in groups, pause, wait at crossings and cross.
+/// Pedestrians who walk at random over a graph, alone or in groups, pause, wait at crossings and
+/// cross.
 class Walkers {
  public:
   Walkers(WalkGraph graph, const WalkersConfig& config, std::uint64_t seed);
@@ -72,12 +74,13 @@ class Walkers {
  private:
   struct Group {
     geometry::Vector2 position_in_world;
-    geometry::Vector2 sideways_in_world;  ///< Lateral offset of this group from the middle of every way.
+    geometry::Vector2 sideways_in_world;  ///< Lateral offset of this group from the middle of every
+                                          ///< way.
     double heading_rad = 0.0;
-    double speed_mps = 0.0;               ///< Current speed.
+    double speed_mps = 0.0;  ///< Current speed.
     double walking_speed_mps = 0.0;
     double pause_left_s = 0.0;
-    double blocked_s = 0.0;               ///< Recent time for which vehicles blocked it.
+    double blocked_s = 0.0;  ///< Recent time for which vehicles blocked it.
     double phase_rad = 0.0;
     int from = 0;
     WalkGraph::Way way;

@@ -11,8 +11,8 @@ struct Fault {
   std::string_view reason;
 };
 
-/// A decoded value, or the reason of its rejection. Decoders check everything: consistent sizes, enumerators, finite
-/// numbers, valid variances. Algorithms need no such checks.
+/// A decoded value, or the reason of its rejection. Decoders check everything: consistent sizes,
+/// enumerators, finite numbers, valid variances. Algorithms need no such checks.
 template <typename Value>
 class Decoded {
  public:

@@ -13,14 +13,16 @@ namespace {
 // A correction overtaken by newer ones never becomes complete.
 constexpr std::size_t kMostIncomplete = 4;
 
-static_assert(static_cast<int>(flow::ConstraintKind::kOdometric) == slammot_CONSTRAINT_KIND_ODOMETRIC);
+static_assert(static_cast<int>(flow::ConstraintKind::kOdometric) ==
+              slammot_CONSTRAINT_KIND_ODOMETRIC);
 static_assert(static_cast<int>(flow::ConstraintKind::kLoop) == slammot_CONSTRAINT_KIND_LOOP);
 static_assert(static_cast<int>(flow::ClosureState::kAccepted) == slammot_CLOSURE_STATE_ACCEPTED);
 static_assert(static_cast<int>(flow::ClosureState::kRejected) == slammot_CLOSURE_STATE_REJECTED);
 static_assert(static_cast<int>(flow::ClosureState::kWithdrawn) == slammot_CLOSURE_STATE_WITHDRAWN);
 
 std::string_view fault_of(const slammot_GraphCorrection& part) {
-  if (part.part_count == 0 || part.part_count > kMostParts) return "part_count is not within 1 and 64";
+  if (part.part_count == 0 || part.part_count > kMostParts)
+    return "part_count is not within 1 and 64";
   if (part.part_index >= part.part_count) return "part_index is not below part_count";
   if (!is_sound(part.map_from_odom)) return "map_from_odom is not finite";
   for (const slammot_CorrectedSubmap& submap : elements(part.submaps)) {
@@ -55,23 +57,31 @@ slammot_Constraint encode(std::string_view vehicle_id, const flow::Constraint& c
 
 Decoded<flow::Constraint> decode(const slammot_Constraint& sample) {
   if (!is_enumerator(sample.kind, slammot_CONSTRAINT_KIND_LOOP)) return Fault{"kind is unknown"};
-  if (sample.from_submap_id == sample.to_submap_id) return Fault{"a submap is constrained to itself"};
+  if (sample.from_submap_id == sample.to_submap_id)
+    return Fault{"a submap is constrained to itself"};
   if (!is_sound(sample.from_from_to)) return Fault{"from_from_to or its covariance is unsound"};
-  if (!is_enumerator(sample.state, slammot_CLOSURE_STATE_WITHDRAWN)) return Fault{"state is unknown"};
-  if (!std::isfinite(sample.squared_error) || !std::isfinite(sample.agreed_share)) return Fault{"squared_error or agreed_share is not finite"};
-  return flow::Constraint{.from = {sample.from_submap_id},
-                          .to = {sample.to_submap_id},
-                          .kind = static_cast<flow::ConstraintKind>(sample.kind),
-                          .from_to = decode(sample.from_from_to),
-                          .map_id = {sample.map_id},
-                          .verdict = {static_cast<flow::ClosureState>(sample.state), sample.squared_error, sample.agreed_share, std::string(text(sample.reason))}};
+  if (!is_enumerator(sample.state, slammot_CLOSURE_STATE_WITHDRAWN))
+    return Fault{"state is unknown"};
+  if (!std::isfinite(sample.squared_error) || !std::isfinite(sample.agreed_share))
+    return Fault{"squared_error or agreed_share is not finite"};
+  return flow::Constraint{
+      .from = {sample.from_submap_id},
+      .to = {sample.to_submap_id},
+      .kind = static_cast<flow::ConstraintKind>(sample.kind),
+      .from_to = decode(sample.from_from_to),
+      .map_id = {sample.map_id},
+      .verdict = {static_cast<flow::ClosureState>(sample.state), sample.squared_error,
+                  sample.agreed_share, std::string(text(sample.reason))}};
 }
 
-void GraphCorrectionEncoder::encode(std::string_view vehicle_id, const flow::GraphCorrection& correction,
-                                    const std::function<void(const slammot_GraphCorrection&)>& write) {
+void GraphCorrectionEncoder::encode(
+    std::string_view vehicle_id, const flow::GraphCorrection& correction,
+    const std::function<void(const slammot_GraphCorrection&)>& write) {
   const std::size_t submaps = correction.submaps.size();
-  const std::size_t parts = std::max<std::size_t>(1, (submaps + kMostSubmapsOfPart - 1) / kMostSubmapsOfPart);
-  if (parts > kMostParts) throw std::length_error("a graph correction has more submaps than fit on the bus");
+  const std::size_t parts =
+      std::max<std::size_t>(1, (submaps + kMostSubmapsOfPart - 1) / kMostSubmapsOfPart);
+  if (parts > kMostParts)
+    throw std::length_error("a graph correction has more submaps than fit on the bus");
   set_text(sample_.vehicle_id, vehicle_id);
   sample_.sequence_number = correction.sequence;
   sample_.part_count = static_cast<std::uint32_t>(parts);
@@ -82,7 +92,8 @@ void GraphCorrectionEncoder::encode(std::string_view vehicle_id, const flow::Gra
     submaps_.clear();
     const std::size_t end = std::min(submaps, (part + 1) * kMostSubmapsOfPart);
     for (std::size_t i = part * kMostSubmapsOfPart; i < end; ++i) {
-      submaps_.push_back({correction.submaps[i].submap_id.value, wire::encode(correction.submaps[i].map_from_submap)});
+      submaps_.push_back({correction.submaps[i].submap_id.value,
+                          wire::encode(correction.submaps[i].map_from_submap)});
     }
     sample_.part_index = static_cast<std::uint32_t>(part);
     show(sample_.submaps, submaps_);
@@ -90,18 +101,25 @@ void GraphCorrectionEncoder::encode(std::string_view vehicle_id, const flow::Gra
   }
 }
 
-GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(const slammot_GraphCorrection& part) {
+GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(
+    const slammot_GraphCorrection& part) {
   const geometry::Pose2 map_from_odom = decode(part.map_from_odom);
   const auto known = partial_.find(part.sequence_number);
   if (known != partial_.end()) {
     Partial& partial = known->second;
-    if (partial.parts.size() == part.part_count && partial.map_from_odom == map_from_odom && partial.map_id.value == part.map_id) return partial;
-    // A restarted loop closing service counts from the beginning: its corrections replace the old ones.
+    if (partial.parts.size() == part.part_count && partial.map_from_odom == map_from_odom &&
+        partial.map_id.value == part.map_id)
+      return partial;
+    // A restarted loop closing service counts from the beginning: its corrections replace the old
+    // ones.
     partial_.erase(known);
   }
   if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());
-  return partial_[part.sequence_number] =
-             Partial{{part.map_id}, map_from_odom, part.is_untied, std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
+  return partial_[part.sequence_number] = Partial{
+             {part.map_id},
+             map_from_odom,
+             part.is_untied,
+             std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
 }
 
 GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_GraphCorrection& part) {
@@ -114,10 +132,13 @@ GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_Grap
   const auto has_come = [](const auto& one) { return one.has_value(); };
   if (!std::all_of(partial.parts.begin(), partial.parts.end(), has_come)) return {};
 
-  flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {}, partial.map_id, partial.is_untied};
-  for (const auto& one : partial.parts) correction.submaps.insert(correction.submaps.end(), one->begin(), one->end());
+  flow::GraphCorrection correction{
+      part.sequence_number, partial.map_from_odom, {}, partial.map_id, partial.is_untied};
+  for (const auto& one : partial.parts)
+    correction.submaps.insert(correction.submaps.end(), one->begin(), one->end());
   partial_.erase(part.sequence_number);
-  if (!is_ascending(correction.submaps)) return {std::nullopt, "submaps are not in ascending order"};
+  if (!is_ascending(correction.submaps))
+    return {std::nullopt, "submaps are not in ascending order"};
   return {std::move(correction), ""};
 }
 

@@ -24,8 +24,8 @@ Decoded<flow::Constraint> decode(const slammot_Constraint& sample);
 /// Splits corrections into parts that fit on the bus; reuses its buffers.
 class GraphCorrectionEncoder {
  public:
-  /// Calls `write` with each part, valid only during the call. Throws std::length_error for more than kMostParts *
-  /// kMostSubmapsOfPart submaps.
+  /// Calls `write` with each part, valid only during the call. Throws std::length_error for more
+  /// than kMostParts * kMostSubmapsOfPart submaps.
   void encode(std::string_view vehicle_id, const flow::GraphCorrection& correction,
               const std::function<void(const slammot_GraphCorrection&)>& write);
 

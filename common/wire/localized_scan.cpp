@@ -16,7 +16,8 @@ static_assert(static_cast<int>(flow::EndCell::kFree) == slammot_END_CELL_FREE);
 static_assert(static_cast<int>(flow::EndCell::kOccupied) == slammot_END_CELL_OCCUPIED);
 
 slammot_LocalizedBeam encode_beam(const flow::LocalizedBeam& beam) {
-  return {encode(beam.point_in_base_m), beam.range_m, beam.expected_range_m, beam.free_evidence, beam.moving_evidence};
+  return {encode(beam.point_in_base_m), beam.range_m, beam.expected_range_m, beam.free_evidence,
+          beam.moving_evidence};
 }
 
 flow::LocalizedBeam decode_beam(const slammot_LocalizedBeam& beam, slammot_EndCell end_cell) {
@@ -26,7 +27,8 @@ flow::LocalizedBeam decode_beam(const slammot_LocalizedBeam& beam, slammot_EndCe
 
 std::string_view fault_of(const slammot_LocalizedBeam& beam) {
   if (!is_sound(beam.point_in_base)) return "an end point is not finite";
-  if (!is_amount(beam.range_m) || !is_amount(beam.expected_range_m)) return "a range is negative or not finite";
+  if (!is_amount(beam.range_m) || !is_amount(beam.expected_range_m))
+    return "a range is negative or not finite";
   if (!is_sound(beam.free_evidence)) return "free_evidence is not finite";
   if (!is_probability(beam.moving_evidence)) return "moving_evidence is not within 0 and 1";
   return "";
@@ -34,10 +36,13 @@ std::string_view fault_of(const slammot_LocalizedBeam& beam) {
 
 std::string_view fault_of(const slammot_LocalizedScan& sample) {
   if (const std::string_view fault = fault_of_scan_header(sample); !fault.empty()) return fault;
-  if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps)) return "the velocity is not finite";
-  if (!is_probability(sample.local_variance_share) || sample.local_variance_share == 0.0) return "local_variance_share is not within 0 and 1";
+  if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps))
+    return "the velocity is not finite";
+  if (!is_probability(sample.local_variance_share) || sample.local_variance_share == 0.0)
+    return "local_variance_share is not within 0 and 1";
   if (!is_sound(sample.submap_from_base)) return "submap_from_base is not finite";
-  if (sample.end_cells._length != sample.beams._length) return "beams and end_cells are not equally many";
+  if (sample.end_cells._length != sample.beams._length)
+    return "beams and end_cells are not equally many";
   for (const slammot_EndCell& end_cell : elements(sample.end_cells)) {
     if (!is_enumerator(end_cell, slammot_END_CELL_OCCUPIED)) return "an end cell is unknown";
   }
@@ -51,7 +56,8 @@ std::string_view fault_of(const slammot_LocalizedScan& sample) {
 
 const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehicle_id,
                                                           const flow::LocalizedScan& scan) {
-  if (scan.beams.size() > kMostBeams) throw std::length_error("a localized scan has more beams than fit on the bus");
+  if (scan.beams.size() > kMostBeams)
+    throw std::length_error("a localized scan has more beams than fit on the bus");
   beams_.clear();
   end_cells_.clear();
   for (const flow::LocalizedBeam& beam : scan.beams) {
@@ -80,7 +86,8 @@ Decoded<flow::LocalizedScan> decode(const slammot_LocalizedScan& sample) {
   const auto beams = elements(sample.beams);
   const auto end_cells = elements(sample.end_cells);
   scan.beams.reserve(beams.size());
-  for (std::size_t i = 0; i < beams.size(); ++i) scan.beams.push_back(decode_beam(beams[i], end_cells[i]));
+  for (std::size_t i = 0; i < beams.size(); ++i)
+    scan.beams.push_back(decode_beam(beams[i], end_cells[i]));
   return scan;
 }
 

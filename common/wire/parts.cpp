@@ -28,9 +28,15 @@ bool is_sound(const slammot_Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad);
 }
 
-bool is_sound(const slammot_UncertainPose2& pose) { return is_sound(pose.mean) && is_covariance<3>(pose.covariance); }
-bool is_sound(const slammot_Vector2& vector) { return std::isfinite(vector.x) && std::isfinite(vector.y); }
-bool is_sound(const slammot_Point2f& point) { return std::isfinite(point.x_m) && std::isfinite(point.y_m); }
+bool is_sound(const slammot_UncertainPose2& pose) {
+  return is_sound(pose.mean) && is_covariance<3>(pose.covariance);
+}
+bool is_sound(const slammot_Vector2& vector) {
+  return std::isfinite(vector.x) && std::isfinite(vector.y);
+}
+bool is_sound(const slammot_Point2f& point) {
+  return std::isfinite(point.x_m) && std::isfinite(point.y_m);
+}
 bool is_amount(double number) { return std::isfinite(number) && number >= 0.0; }
 bool is_sweep(double sweep_s) {
   constexpr double kLongestS = 10.0;

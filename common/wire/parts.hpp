@@ -46,7 +46,8 @@ bool is_probability(double number);
 template <int kRows, typename Matrix>
 void encode_matrix(const Matrix& matrix, double (&field)[kRows * kRows]) {
   for (int row = 0; row < kRows; ++row) {
-    for (int column = 0; column < kRows; ++column) field[row * kRows + column] = matrix(row, column);
+    for (int column = 0; column < kRows; ++column)
+      field[row * kRows + column] = matrix(row, column);
   }
 }
 
@@ -73,20 +74,22 @@ auto elements(const Sequence& sequence) {
   return std::span<const Element>(sequence._buffer, sequence._length);
 }
 
-/// Lets a generated sequence show `buffer`, which keeps its ownership and must outlive the sequence's use.
+/// Lets a generated sequence show `buffer`, which keeps its ownership and must outlive the
+/// sequence's use.
 template <typename Sequence, typename Element>
 void show(Sequence& sequence, std::vector<Element>& buffer) {
   const auto size = static_cast<std::uint32_t>(buffer.size());
   sequence = {size, size, buffer.data(), false};
 }
 
-/// True if the enumerator is in [0, last]. Writers other than the library may send anything. It reads the bytes by
-/// reference, because loading an invalid enumerator is undefined behaviour.
+/// True if the enumerator is in [0, last]. Writers other than the library may send anything. It
+/// reads the bytes by reference, because loading an invalid enumerator is undefined behaviour.
 template <typename Enum>
 bool is_enumerator(const Enum& value, Enum last) {
   std::underlying_type_t<Enum> number{};
   std::memcpy(&number, &value, sizeof number);
-  return std::cmp_greater_equal(number, 0) && std::cmp_less_equal(number, static_cast<std::int64_t>(last));
+  return std::cmp_greater_equal(number, 0) &&
+         std::cmp_less_equal(number, static_cast<std::int64_t>(last));
 }
 
 }  // namespace slammot::wire

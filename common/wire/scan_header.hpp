@@ -6,7 +6,8 @@
 #include "common/wire/parts.hpp"
 #include "common/wire/text.hpp"
 
-/// What localized and segmented scans begin with, the same members in both; not for use outside this folder.
+/// What localized and segmented scans begin with, the same members in both; not for use outside
+/// this folder.
 namespace slammot::wire {
 
 template <typename Sample, typename Scan>

@@ -13,8 +13,10 @@ namespace {
 std::string_view fault_of(const slammot_ScanLabels& sample) {
   if (!are_labels(elements(sample.labels))) return "a label is unknown";
   std::size_t points = 0;
-  for (const slammot_RestoredPoints& scan : elements(sample.restored_scans)) points += scan.beam_count;
-  if (points != sample.restored_beams._length) return "restored_beams does not have what the restored scans count";
+  for (const slammot_RestoredPoints& scan : elements(sample.restored_scans))
+    points += scan.beam_count;
+  if (points != sample.restored_beams._length)
+    return "restored_beams does not have what the restored scans count";
   for (const std::uint16_t beam : elements(sample.restored_beams)) {
     if (beam >= kMostBeams) return "a restored beam is one that no scan has";
   }
@@ -34,7 +36,8 @@ void ScanLabelsEncoder::encode_restored(const std::vector<flow::RestoredPoints>&
   }
 }
 
-const slammot_ScanLabels& ScanLabelsEncoder::encode(std::string_view vehicle_id, const flow::ScanLabels& labels) {
+const slammot_ScanLabels& ScanLabelsEncoder::encode(std::string_view vehicle_id,
+                                                    const flow::ScanLabels& labels) {
   if (labels.labels.size() > kMostBeams) throw std::length_error("more labels than fit on the bus");
   encode_labels(labels.labels, labels_);
   encode_restored(labels.restored);

@@ -17,8 +17,9 @@ inline constexpr std::size_t kMostRestoredPoints = 32768;
 /// Puts scan labels on the wire; keeps its buffers.
 class ScanLabelsEncoder {
  public:
-  /// The result is valid until the next call. Restored scans beyond the limits are dropped, the last ones first: they
-  /// stay out of the SO-map like moving points. Throws std::length_error for more than kMostBeams.
+  /// The result is valid until the next call. Restored scans beyond the limits are dropped, the
+  /// last ones first: they stay out of the SO-map like moving points. Throws std::length_error for
+  /// more than kMostBeams.
   const slammot_ScanLabels& encode(std::string_view vehicle_id, const flow::ScanLabels& labels);
 
  private:

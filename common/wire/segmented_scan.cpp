@@ -56,18 +56,24 @@ std::vector<const flow::Segment*> segments_that_travel(const std::vector<flow::S
   for (const flow::Segment& segment : segments) chosen.push_back(&segment);
   if (chosen.size() <= kMostSegments) return chosen;
   std::stable_sort(chosen.begin(), chosen.end(),
-                   [](const flow::Segment* a, const flow::Segment* b) { return a->beams.size() > b->beams.size(); });
+                   [](const flow::Segment* a, const flow::Segment* b) {
+                     return a->beams.size() > b->beams.size();
+                   });
   chosen.resize(kMostSegments);
   std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
 
 std::string_view fault_of(const slammot_Segment& segment) {
-  if (!is_enumerator(segment.label, slammot_POINT_LABEL_UNKNOWN)) return "a segment's label is unknown";
+  if (!is_enumerator(segment.label, slammot_POINT_LABEL_UNKNOWN))
+    return "a segment's label is unknown";
   if (!is_sound(segment.centroid_in_odom_m)) return "a centroid is not finite";
-  if (!is_covariance<2>(segment.centroid_covariance_m2)) return "a centroid's covariance is unsound";
-  if (!is_sound(segment.box_centre_in_odom_m) || !is_sound(segment.box_heading_rad)) return "a box is not finite";
-  if (!is_amount(segment.box_length_m) || !is_amount(segment.box_width_m)) return "a box has no sound size";
+  if (!is_covariance<2>(segment.centroid_covariance_m2))
+    return "a centroid's covariance is unsound";
+  if (!is_sound(segment.box_centre_in_odom_m) || !is_sound(segment.box_heading_rad))
+    return "a box is not finite";
+  if (!is_amount(segment.box_length_m) || !is_amount(segment.box_width_m))
+    return "a box has no sound size";
   if (!is_probability(segment.moving_share)) return "moving_share is not within 0 and 1";
   return "";
 }
@@ -79,9 +85,11 @@ std::string_view fault_of_segments(const slammot_SegmentedScan& sample) {
     beams_of_segments += segment.beam_count;
   }
   const auto beams = elements(sample.segment_beams);
-  if (beams_of_segments != beams.size()) return "segment_beams does not have what the segments count";
+  if (beams_of_segments != beams.size())
+    return "segment_beams does not have what the segments count";
   const auto is_of_scan = [&](std::uint16_t beam) { return beam < sample.ranges_m._length; };
-  if (!std::all_of(beams.begin(), beams.end(), is_of_scan)) return "a segment has a beam that the scan does not have";
+  if (!std::all_of(beams.begin(), beams.end(), is_of_scan))
+    return "a segment has a beam that the scan does not have";
   return "";
 }
 
@@ -107,8 +115,9 @@ slammot_PointLabel encode(flow::PointLabel label) { return static_cast<slammot_P
 flow::PointLabel decode(slammot_PointLabel label) { return static_cast<flow::PointLabel>(label); }
 
 bool are_labels(std::span<const slammot_PointLabel> labels) {
-  return std::all_of(labels.begin(), labels.end(),
-                     [](const slammot_PointLabel& label) { return is_enumerator(label, slammot_POINT_LABEL_UNKNOWN); });
+  return std::all_of(labels.begin(), labels.end(), [](const slammot_PointLabel& label) {
+    return is_enumerator(label, slammot_POINT_LABEL_UNKNOWN);
+  });
 }
 
 void encode_labels(const std::vector<flow::PointLabel>& from, std::vector<slammot_PointLabel>& to) {
@@ -130,14 +139,17 @@ void SegmentedScanEncoder::encode_segments(const std::vector<flow::Segment>& seg
     segments_.push_back(encode_segment(*segment));
     segment_beams_.insert(segment_beams_.end(), segment->beams.begin(), segment->beams.end());
   }
-  if (segment_beams_.size() > kMostBeams) throw std::length_error("segments have more beams than fit on the bus");
+  if (segment_beams_.size() > kMostBeams)
+    throw std::length_error("segments have more beams than fit on the bus");
 }
 
 const slammot_SegmentedScan& SegmentedScanEncoder::encode(std::string_view vehicle_id,
                                                           const flow::SegmentedScan& scan) {
-  if (scan.range_m.size() > kMostBeams) throw std::length_error("a segmented scan has more beams than fit on the bus");
+  if (scan.range_m.size() > kMostBeams)
+    throw std::length_error("a segmented scan has more beams than fit on the bus");
   points_in_base_.clear();
-  for (const Eigen::Vector2f& point : scan.points_in_base_m) points_in_base_.push_back(wire::encode(point));
+  for (const Eigen::Vector2f& point : scan.points_in_base_m)
+    points_in_base_.push_back(wire::encode(point));
   ranges_m_ = scan.range_m;
   encode_labels(scan.labels, labels_);
   encode_segments(scan.segments);
@@ -157,7 +169,8 @@ Decoded<flow::SegmentedScan> decode(const slammot_SegmentedScan& sample) {
   scan.range_m.assign(ranges_m.begin(), ranges_m.end());
   scan.labels = decode_labels(elements(sample.labels));
   scan.points_in_base_m.reserve(ranges_m.size());
-  for (const slammot_Point2f& point : elements(sample.points_in_base)) scan.points_in_base_m.push_back(decode(point));
+  for (const slammot_Point2f& point : elements(sample.points_in_base))
+    scan.points_in_base_m.push_back(decode(point));
   auto beams = elements(sample.segment_beams);
   scan.segments.reserve(sample.segments._length);
   for (const slammot_Segment& segment : elements(sample.segments)) {

@@ -16,8 +16,9 @@ inline constexpr std::size_t kMostSegments = 448;
 /// Puts segmented scans on the wire; keeps its buffers.
 class SegmentedScanEncoder {
  public:
-  /// The result is good until the next call. Of more than kMostSegments the largest travel. Throws std::length_error
-  /// for more than kMostBeams, or where segments share beams so often that they do not fit.
+  /// The result is good until the next call. Of more than kMostSegments the largest travel. Throws
+  /// std::length_error for more than kMostBeams, or where segments share beams so often that they
+  /// do not fit.
   const slammot_SegmentedScan& encode(std::string_view vehicle_id, const flow::SegmentedScan& scan);
 
  private:

@@ -10,10 +10,11 @@
 
 namespace slammot::wire {
 
-const slammot_LaserScan& LaserScanEncoder::encode(std::string_view vehicle_id, const sensing::LaserScan& scan) {
+const slammot_LaserScan& LaserScanEncoder::encode(std::string_view vehicle_id,
+                                                  const sensing::LaserScan& scan) {
   if (scan.range_m.size() > kMostBeams) {
-    throw std::length_error("a scan of " + std::to_string(scan.range_m.size()) + " beams: at most " +
-                            std::to_string(kMostBeams) + " fit on the bus");
+    throw std::length_error("a scan of " + std::to_string(scan.range_m.size()) +
+                            " beams: at most " + std::to_string(kMostBeams) + " fit on the bus");
   }
   ranges_m_ = scan.range_m;
   set_text(sample_.vehicle_id, vehicle_id);
@@ -31,9 +32,12 @@ const slammot_LaserScan& LaserScanEncoder::encode(std::string_view vehicle_id, c
 
 Decoded<sensing::LaserScan> decode(const slammot_LaserScan& sample) {
   if (!is_sound(sample.base_from_laser)) return Fault{"base_from_laser is not finite"};
-  if (!is_sound(sample.first_beam_rad) || !is_sound(sample.beam_step_rad)) return Fault{"beam angles are not finite"};
-  if (!is_amount(sample.max_range_m) || sample.max_range_m == 0.0) return Fault{"max_range_m is not above zero"};
-  if (!is_amount(sample.sweep_s) || !is_sweep(sample.sweep_s)) return Fault{"sweep_s is negative, more than ten seconds or not finite"};
+  if (!is_sound(sample.first_beam_rad) || !is_sound(sample.beam_step_rad))
+    return Fault{"beam angles are not finite"};
+  if (!is_amount(sample.max_range_m) || sample.max_range_m == 0.0)
+    return Fault{"max_range_m is not above zero"};
+  if (!is_amount(sample.sweep_s) || !is_sweep(sample.sweep_s))
+    return Fault{"sweep_s is negative, more than ten seconds or not finite"};
   const auto ranges_m = elements(sample.ranges_m);
   if (ranges_m.empty()) return Fault{"no beams"};
   return sensing::LaserScan{.stamp_ns = sample.stamp_ns,
@@ -76,15 +80,18 @@ slammot_GnssFix encode(std::string_view vehicle_id, const sensing::GnssFix& fix)
 }
 
 Decoded<sensing::GnssFix> decode(const slammot_GnssFix& sample) {
-  if (!is_enumerator(sample.quality, slammot_GNSS_QUALITY_RTK)) return Fault{"quality is none of the enumerators"};
+  if (!is_enumerator(sample.quality, slammot_GNSS_QUALITY_RTK))
+    return Fault{"quality is none of the enumerators"};
   sensing::GnssFix fix;
   fix.stamp_ns = sample.stamp_ns;
   fix.receiver_id = text(sample.receiver_id);
   fix.quality = static_cast<sensing::GnssQuality>(sample.quality);
   fix.satellites = sample.satellite_count;
   if (fix.quality == sensing::GnssQuality::no_fix) return fix;
-  if (!(std::abs(sample.latitude_deg) <= 90.0) || !(std::abs(sample.longitude_deg) <= 360.0)) return Fault{"the position is not on the earth"};
-  if (!is_sound(sample.altitude_m) || !is_amount(sample.hdop)) return Fault{"altitude_m or hdop is unsound"};
+  if (!(std::abs(sample.latitude_deg) <= 90.0) || !(std::abs(sample.longitude_deg) <= 360.0))
+    return Fault{"the position is not on the earth"};
+  if (!is_sound(sample.altitude_m) || !is_amount(sample.hdop))
+    return Fault{"altitude_m or hdop is unsound"};
   if (!is_covariance<2>(sample.covariance_m2)) return Fault{"covariance_m2 is unsound"};
   fix.position = {sample.latitude_deg, sample.longitude_deg};
   fix.altitude_m = sample.altitude_m;
@@ -106,7 +113,8 @@ slammot_CompassReading encode(std::string_view vehicle_id, const sensing::Compas
 Decoded<sensing::CompassReading> decode(const slammot_CompassReading& sample) {
   if (!is_sound(sample.heading_from_east_rad)) return Fault{"heading_from_east_rad is not finite"};
   if (!is_amount(sample.sigma_rad)) return Fault{"sigma_rad is negative or not finite"};
-  return sensing::CompassReading{sample.stamp_ns, std::string(text(sample.compass_id)), sample.heading_from_east_rad, sample.sigma_rad};
+  return sensing::CompassReading{sample.stamp_ns, std::string(text(sample.compass_id)),
+                                 sample.heading_from_east_rad, sample.sigma_rad};
 }
 
 }  // namespace slammot::wire

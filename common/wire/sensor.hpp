@@ -15,7 +15,8 @@ namespace slammot::wire {
 /// Most beams of a scan that the bus carries.
 inline constexpr std::size_t kMostBeams = 4096;
 
-/// Puts scans on the wire. Keeps its buffers, so that encoding does not allocate once it has seen the largest scan.
+/// Puts scans on the wire. Keeps its buffers, so that encoding does not allocate once it has seen
+/// the largest scan.
 class LaserScanEncoder {
  public:
   /// For the scans of one drive.

@@ -33,11 +33,14 @@ ServiceName name_of(const Sample& sample) {
           std::string(text(sample.instance_name))};
 }
 
-bool is_state(const slammot_ServiceState& state) { return is_enumerator(state, slammot_SERVICE_STATE_STOPPING); }
+bool is_state(const slammot_ServiceState& state) {
+  return is_enumerator(state, slammot_SERVICE_STATE_STOPPING);
+}
 
 /// Encodes the first `most` of `from` into `to`, keeping its memory.
 template <typename From, typename To, typename Encode>
-void encode_some(const std::vector<From>& from, std::size_t most, std::vector<To>& to, Encode encode_one) {
+void encode_some(const std::vector<From>& from, std::size_t most, std::vector<To>& to,
+                 Encode encode_one) {
   to.clear();
   for (std::size_t i = 0; i < std::min(most, from.size()); ++i) {
     to.emplace_back();
@@ -51,7 +54,8 @@ std::string_view fault_of(const slammot_ServiceStatus& sample) {
     if (!is_sound(input.silent_s)) return "silent_s is not finite";
   }
   for (const slammot_StageLatency& latency : elements(sample.stage_latencies)) {
-    if (!is_amount(latency.p50_ms) || !is_amount(latency.p99_ms) || !is_amount(latency.highest_ms)) {
+    if (!is_amount(latency.p50_ms) || !is_amount(latency.p99_ms) ||
+        !is_amount(latency.highest_ms)) {
       return "a latency is negative or not finite";
     }
   }
@@ -62,14 +66,10 @@ std::string_view fault_of(const slammot_ServiceStatus& sample) {
 
 std::string_view to_string(ServiceState state) {
   switch (state) {
-    case ServiceState::kStarting:
-      return "starting";
-    case ServiceState::kRunning:
-      return "running";
-    case ServiceState::kDegraded:
-      return "degraded";
-    case ServiceState::kStopping:
-      return "stopping";
+    case ServiceState::kStarting: return "starting";
+    case ServiceState::kRunning: return "running";
+    case ServiceState::kDegraded: return "degraded";
+    case ServiceState::kStopping: return "stopping";
   }
   return "unknown";
 }
@@ -120,7 +120,8 @@ Decoded<Command> decode(const slammot_Command& sample) {
 }
 
 Decoded<Reply> decode(const slammot_Reply& sample) {
-  if (!is_enumerator(sample.result, slammot_OUTCOME_UNKNOWN_VERB)) return Fault{"result is unknown"};
+  if (!is_enumerator(sample.result, slammot_OUTCOME_UNKNOWN_VERB))
+    return Fault{"result is unknown"};
   return Reply{std::string(text(sample.vehicle_id)),
                std::string(text(sample.requester)),
                sample.request_number,
@@ -135,17 +136,19 @@ const slammot_ServiceStatus& StatusEncoder::encode(const ServiceStatus& status) 
                 set_text(to.topic_name, from.topic);
                 to.silent_s = from.silent_s;
               });
-  encode_some(status.counters, kMostCounters, counters_, [](const Counter& from, slammot_Counter& to) {
-    set_text(to.counter_name, from.name);
-    to.total = from.total;
-  });
-  encode_some(status.latencies, kMostLatencies, latencies_, [](const StageLatency& from, slammot_StageLatency& to) {
-    set_text(to.stage_name, from.stage);
-    to.call_count = from.calls;
-    to.p50_ms = from.p50_ms;
-    to.p99_ms = from.p99_ms;
-    to.highest_ms = from.highest_ms;
-  });
+  encode_some(status.counters, kMostCounters, counters_,
+              [](const Counter& from, slammot_Counter& to) {
+                set_text(to.counter_name, from.name);
+                to.total = from.total;
+              });
+  encode_some(status.latencies, kMostLatencies, latencies_,
+              [](const StageLatency& from, slammot_StageLatency& to) {
+                set_text(to.stage_name, from.stage);
+                to.call_count = from.calls;
+                to.p50_ms = from.p50_ms;
+                to.p99_ms = from.p99_ms;
+                to.highest_ms = from.highest_ms;
+              });
   set_name(sample_, status.name);
   sample_.stamp_ns = status.stamp_ns;
   sample_.started_ns = status.started_ns;
@@ -176,8 +179,8 @@ Decoded<ServiceStatus> decode(const slammot_ServiceStatus& sample) {
     status.counters.push_back({std::string(text(counter.counter_name)), counter.total});
   }
   for (const slammot_StageLatency& latency : elements(sample.stage_latencies)) {
-    status.latencies.push_back({std::string(text(latency.stage_name)), latency.call_count, latency.p50_ms,
-                                latency.p99_ms, latency.highest_ms});
+    status.latencies.push_back({std::string(text(latency.stage_name)), latency.call_count,
+                                latency.p50_ms, latency.p99_ms, latency.highest_ms});
   }
   return status;
 }

@@ -53,7 +53,7 @@ struct ServiceStatus {
   std::int64_t started_ns = 0;  ///< System clock.
   std::string version;
   ServiceState state = ServiceState::kStarting;
-  std::string explanation;                   ///< Of a state other than running; at most 256 bytes travel.
+  std::string explanation;  ///< Of a state other than running; at most 256 bytes travel.
   std::vector<MissingInput> missing_inputs;  ///< At most 32 travel,
   std::vector<Counter> counters;             ///< of these 128,
   std::vector<StageLatency> latencies;       ///< and of these 32.

@@ -19,8 +19,13 @@ slammot_StoredMap encode(std::string_view vehicle_id, const flow::StoredMap& map
 Decoded<flow::StoredMap> decode(const slammot_StoredMap& sample) {
   if (!is_amount(sample.cell_size_m)) return Fault{"cell_size_m is negative or not finite"};
   const std::uint64_t numbers = std::uint64_t{sample.last_submap_id} + 1;
-  if (std::uint64_t{sample.submap_count} + sample.unreadable_count > numbers) return Fault{"there are more submaps than numbers"};
-  return flow::StoredMap{{sample.map_id}, sample.submap_count, sample.unreadable_count, {sample.last_submap_id}, sample.cell_size_m};
+  if (std::uint64_t{sample.submap_count} + sample.unreadable_count > numbers)
+    return Fault{"there are more submaps than numbers"};
+  return flow::StoredMap{{sample.map_id},
+                         sample.submap_count,
+                         sample.unreadable_count,
+                         {sample.last_submap_id},
+                         sample.cell_size_m};
 }
 
 }  // namespace slammot::wire

@@ -16,7 +16,9 @@ constexpr std::uint32_t kMostSurfelsOfTile = 4608;
 // Limits the memory of incomplete submaps; several times the submaps of a day's drive.
 constexpr std::size_t kMostIncomplete = 4096;
 
-std::uint32_t divide_up(std::uint32_t dividend, std::uint32_t divisor) { return (dividend + divisor - 1) / divisor; }
+std::uint32_t divide_up(std::uint32_t dividend, std::uint32_t divisor) {
+  return (dividend + divisor - 1) / divisor;
+}
 
 std::uint32_t most_tiles(std::uint32_t columns, std::uint32_t rows, std::uint32_t surfels) {
   const std::uint32_t of_grids = divide_up(columns, kTileSide) * divide_up(rows, kTileSide);
@@ -95,13 +97,17 @@ flow::Submap empty_submap(flow::SubmapId submap_id, const slammot_SubmapHeader& 
 
 std::string_view fault_of(const slammot_SubmapHeader& header) {
   if (!is_sound(header.odom_from_submap)) return "odom_from_submap is not finite";
-  if (!is_sound(header.previous_from_submap)) return "previous_from_submap or its covariance is unsound";
+  if (!is_sound(header.previous_from_submap))
+    return "previous_from_submap or its covariance is unsound";
   if (!is_sound(header.submap_from_base_at_end)) return "submap_from_base_at_end is not finite";
   if (!is_amount(header.travelled_m)) return "travelled_m is negative or not finite";
-  if (!is_amount(header.cell_size_m) || header.cell_size_m == 0.0) return "cell_size_m is not above zero";
-  if (!is_sound(header.min_x_m) || !is_sound(header.min_y_m)) return "the grid's corner is not finite";
+  if (!is_amount(header.cell_size_m) || header.cell_size_m == 0.0)
+    return "cell_size_m is not above zero";
+  if (!is_sound(header.min_x_m) || !is_sound(header.min_y_m))
+    return "the grid's corner is not finite";
   if (!is_sound(header.saliency)) return "saliency is not finite";
-  if (std::uint64_t{header.column_count} * header.row_count > kMostCells) return "the grid is too large";
+  if (std::uint64_t{header.column_count} * header.row_count > kMostCells)
+    return "the grid is too large";
   if (header.surfel_count > kMostSurfels) return "there are too many surfels";
   if (header.tile_count == 0 ||
       header.tile_count > most_tiles(header.column_count, header.row_count, header.surfel_count)) {
@@ -126,10 +132,11 @@ std::string_view fault_of(const slammot_SubmapTile& tile) {
   const std::uint32_t cells = tile.column_count * tile.row_count;
   if (tile.so_log_odds_plus_128._length != cells || tile.mo_evidence._length != cells)
     return "the tile's grids have a wrong size";
-  if (!is_inside(tile.first_surfel, tile.surfels._length, header.surfel_count)) return "surfels are outside their list";
+  if (!is_inside(tile.first_surfel, tile.surfels._length, header.surfel_count))
+    return "surfels are outside their list";
   for (const slammot_Surfel& surfel : elements(tile.surfels)) {
-    if (!is_sound(surfel.x_m) || !is_sound(surfel.y_m) || !is_sound(surfel.normal_x) || !is_sound(surfel.normal_y) ||
-        !is_amount(surfel.weight)) {
+    if (!is_sound(surfel.x_m) || !is_sound(surfel.y_m) || !is_sound(surfel.normal_x) ||
+        !is_sound(surfel.normal_y) || !is_amount(surfel.weight)) {
       return "a surfel is not finite";
     }
   }
@@ -142,9 +149,11 @@ void copy_into(flow::Submap& submap, const slammot_SubmapTile& tile) {
     const std::size_t from = std::size_t{row} * tile.column_count;
     const std::size_t to = (std::size_t{tile.first_row} + row) * submap.columns + tile.first_column;
     std::transform(tile.so_log_odds_plus_128._buffer + from,
-                   tile.so_log_odds_plus_128._buffer + from + tile.column_count, submap.so_log_odds.begin() + to,
+                   tile.so_log_odds_plus_128._buffer + from + tile.column_count,
+                   submap.so_log_odds.begin() + to,
                    [](std::uint8_t plus_128) { return static_cast<std::int8_t>(plus_128 - 128); });
-    std::copy_n(tile.mo_evidence._buffer + from, tile.column_count, submap.mo_evidence.begin() + to);
+    std::copy_n(tile.mo_evidence._buffer + from, tile.column_count,
+                submap.mo_evidence.begin() + to);
   }
   auto next = submap.surfels.begin() + tile.first_surfel;
   for (const slammot_Surfel& surfel : elements(tile.surfels)) {
@@ -187,10 +196,12 @@ void SubmapEncoder::find_rectangles(const flow::Submap& submap) {
   const auto is_seen = [&](const Rectangle& rectangle) {
     const auto is_zero = [](auto cell) { return cell == 0; };
     for (std::uint32_t row = 0; row < rectangle.rows; ++row) {
-      const std::size_t first = std::size_t{rectangle.first_row + row} * submap.columns + rectangle.first_column;
+      const std::size_t first =
+          std::size_t{rectangle.first_row + row} * submap.columns + rectangle.first_column;
       const auto so = submap.so_log_odds.begin() + first;
       const auto mo = submap.mo_evidence.begin() + first;
-      if (!std::all_of(so, so + rectangle.columns, is_zero) || !std::all_of(mo, mo + rectangle.columns, is_zero))
+      if (!std::all_of(so, so + rectangle.columns, is_zero) ||
+          !std::all_of(mo, mo + rectangle.columns, is_zero))
         return true;
     }
     return false;
@@ -208,7 +219,8 @@ void SubmapEncoder::fill_rectangle(const flow::Submap& submap, const Rectangle& 
   so_log_odds_plus_128_.clear();
   mo_evidence_.clear();
   for (std::uint32_t row = 0; row < rectangle.rows; ++row) {
-    const std::size_t first = std::size_t{rectangle.first_row + row} * submap.columns + rectangle.first_column;
+    const std::size_t first =
+        std::size_t{rectangle.first_row + row} * submap.columns + rectangle.first_column;
     const auto so = submap.so_log_odds.begin() + first;
     const auto mo = submap.mo_evidence.begin() + first;
     std::transform(so, so + rectangle.columns, std::back_inserter(so_log_odds_plus_128_),
@@ -223,7 +235,8 @@ void SubmapEncoder::fill_rectangle(const flow::Submap& submap, const Rectangle& 
   show(sample_.mo_evidence, mo_evidence_);
 }
 
-void SubmapEncoder::fill_surfels(const flow::Submap& submap, std::uint32_t first, std::uint32_t end) {
+void SubmapEncoder::fill_surfels(const flow::Submap& submap, std::uint32_t first,
+                                 std::uint32_t end) {
   surfels_.clear();
   for (std::uint32_t i = first; i < end; ++i) {
     const flow::Surfel& surfel = submap.surfels[i];
@@ -237,15 +250,17 @@ void SubmapEncoder::encode(std::string_view vehicle_id, const flow::Submap& subm
                            const std::function<void(const slammot_SubmapTile&)>& write) {
   const std::uint64_t cells = std::uint64_t{submap.columns} * submap.rows;
   if (cells > kMostCells || submap.surfels.size() > kMostSurfels) {
-    throw std::length_error("submap " + std::to_string(submap.submap_id.value) + " is too large for the bus");
+    throw std::length_error("submap " + std::to_string(submap.submap_id.value) +
+                            " is too large for the bus");
   }
   if (submap.so_log_odds.size() != cells || submap.mo_evidence.size() != cells) {
-    throw std::invalid_argument("submap " + std::to_string(submap.submap_id.value) + ": grids are not columns x rows");
+    throw std::invalid_argument("submap " + std::to_string(submap.submap_id.value) +
+                                ": grids are not columns x rows");
   }
   find_rectangles(submap);
   const auto surfels = static_cast<std::uint32_t>(submap.surfels.size());
-  const std::uint32_t tiles =
-      std::max({static_cast<std::uint32_t>(rectangles_.size()), divide_up(surfels, kMostSurfelsOfTile), 1U});
+  const std::uint32_t tiles = std::max(
+      {static_cast<std::uint32_t>(rectangles_.size()), divide_up(surfels, kMostSurfelsOfTile), 1U});
   const std::uint32_t surfels_of_tile = divide_up(surfels, tiles);
   set_text(sample_.vehicle_id, vehicle_id);
   sample_.submap_id = submap.submap_id.value;
@@ -253,7 +268,8 @@ void SubmapEncoder::encode(std::string_view vehicle_id, const flow::Submap& subm
   for (std::uint32_t tile = 0; tile < tiles; ++tile) {
     sample_.tile_index = tile;
     fill_rectangle(submap, tile < rectangles_.size() ? rectangles_[tile] : Rectangle{});
-    fill_surfels(submap, std::min(surfels, tile * surfels_of_tile), std::min(surfels, (tile + 1) * surfels_of_tile));
+    fill_surfels(submap, std::min(surfels, tile * surfels_of_tile),
+                 std::min(surfels, (tile + 1) * surfels_of_tile));
     write(sample_);
   }
 }
@@ -268,7 +284,8 @@ SubmapAssembler::Partial& SubmapAssembler::partial_of(const slammot_SubmapTile& 
   }
   if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());
   const std::uint32_t tiles = tile.header.tile_count;
-  Partial partial{tile.header, std::vector<bool>(tiles, false), tiles, empty_submap(submap_id, tile.header)};
+  Partial partial{tile.header, std::vector<bool>(tiles, false), tiles,
+                  empty_submap(submap_id, tile.header)};
   return partial_.emplace(submap_id, std::move(partial)).first->second;
 }
 
@@ -291,14 +308,17 @@ SubmapAssembler::Added SubmapAssembler::add(const slammot_SubmapTile& tile) {
   }
   const flow::SubmapId submap_id{tile.submap_id};
   const auto complete_one = content_hash_of_complete_.find(submap_id);
-  if (complete_one != content_hash_of_complete_.end() && complete_one->second == tile.header.content_hash) {
+  if (complete_one != content_hash_of_complete_.end() &&
+      complete_one->second == tile.header.content_hash) {
     ++counters_.repeated_tiles;
     return {};
   }
   Partial& partial = partial_of(tile);
   // The hash identifies the version, but a sender may be wrong: the allocated size counts.
-  if (partial.has_tile.size() != tile.header.tile_count || partial.submap.columns != tile.header.column_count ||
-      partial.submap.rows != tile.header.row_count || partial.submap.surfels.size() != tile.header.surfel_count) {
+  if (partial.has_tile.size() != tile.header.tile_count ||
+      partial.submap.columns != tile.header.column_count ||
+      partial.submap.rows != tile.header.row_count ||
+      partial.submap.surfels.size() != tile.header.surfel_count) {
     ++counters_.faulty_tiles;
     return {std::nullopt, "the tile's header is not that of its submap's other tiles"};
   }

@@ -22,9 +22,10 @@ inline constexpr std::uint32_t kMostSurfels = 1U << 20;
 /// Splits submaps into tiles that fit on the bus; reuses its buffers.
 class SubmapEncoder {
  public:
-  /// Calls `write` with each tile, which is good only during the call. Tiles in which nothing was seen are left out,
-  /// but for an empty submap's only one. Throws std::length_error for a submap that is larger than the bus carries, and
-  /// std::invalid_argument where its grids are not columns x rows.
+  /// Calls `write` with each tile, which is good only during the call. Tiles in which nothing was
+  /// seen are left out, but for an empty submap's only one. Throws std::length_error for a submap
+  /// that is larger than the bus carries, and std::invalid_argument where its grids are not columns
+  /// x rows.
   void encode(std::string_view vehicle_id, const flow::Submap& submap,
               const std::function<void(const slammot_SubmapTile&)>& write);
 
@@ -44,19 +45,20 @@ class SubmapEncoder {
   std::vector<slammot_Surfel> surfels_;
 };
 
-/// Reassembles submaps from tiles in any order, repeated, and of several submaps at a time, as late joiners receive
-/// them. Use one a vehicle.
+/// Reassembles submaps from tiles in any order, repeated, and of several submaps at a time, as late
+/// joiners receive them. Use one a vehicle.
 class SubmapAssembler {
  public:
   struct Counters {
     std::uint64_t tiles = 0;
     std::uint64_t repeated_tiles = 0;
     std::uint64_t faulty_tiles = 0;
-    std::uint64_t replaced_submaps = 0;  ///< A new version of a submap came before the old one was complete.
+    std::uint64_t replaced_submaps = 0;  ///< A new version of a submap came before the old one was
+                                         ///< complete.
   };
 
-  /// The submap if this was its last missing tile. Nothing (and no fault) if tiles are missing, or if the submap was
-  /// complete before and has not changed. Submaps become complete in any order.
+  /// The submap if this was its last missing tile. Nothing (and no fault) if tiles are missing, or
+  /// if the submap was complete before and has not changed. Submaps become complete in any order.
   struct Added {
     std::optional<flow::Submap> submap;
     std::string_view fault;  ///< Reason of rejection; empty if accepted.

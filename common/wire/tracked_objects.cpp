@@ -18,8 +18,10 @@ static_assert(static_cast<int>(flow::ObjectClass::kUnknown) == slammot_OBJECT_CL
 static_assert(static_cast<int>(flow::ObjectClass::kPedestrian) == slammot_OBJECT_CLASS_PEDESTRIAN);
 static_assert(static_cast<int>(flow::ObjectClass::kBicycle) == slammot_OBJECT_CLASS_BICYCLE);
 static_assert(static_cast<int>(flow::ObjectClass::kCar) == slammot_OBJECT_CLASS_CAR);
-static_assert(static_cast<int>(flow::ObjectClass::kTruckOrBus) == slammot_OBJECT_CLASS_TRUCK_OR_BUS);
-static_assert(sizeof(slammot_TrackedObject::class_probability) / sizeof(double) == std::tuple_size_v<flow::ClassProbabilities>);
+static_assert(static_cast<int>(flow::ObjectClass::kTruckOrBus) ==
+              slammot_OBJECT_CLASS_TRUCK_OR_BUS);
+static_assert(sizeof(slammot_TrackedObject::class_probability) / sizeof(double) ==
+              std::tuple_size_v<flow::ClassProbabilities>);
 
 /// What one object may take of a list that all share.
 std::size_t share(std::size_t of_one, std::size_t of_all, std::size_t objects) {
@@ -40,8 +42,10 @@ slammot_TrackedObject encode_object(const flow::TrackedObject& object) {
   sample.width_m = object.width_m;
   sample.motion_state = static_cast<slammot_Motion>(object.motion);
   sample.object_class = static_cast<slammot_ObjectClass>(object.object_class);
-  std::copy(object.mode_probability.begin(), object.mode_probability.end(), sample.mode_probability);
-  std::copy(object.class_probability.begin(), object.class_probability.end(), sample.class_probability);
+  std::copy(object.mode_probability.begin(), object.mode_probability.end(),
+            sample.mode_probability);
+  std::copy(object.class_probability.begin(), object.class_probability.end(),
+            sample.class_probability);
   sample.first_seen_ns = object.first_seen_ns;
   sample.last_seen_ns = object.last_seen_ns;
   return sample;
@@ -66,8 +70,10 @@ flow::TrackedObject decode_object(const slammot_TrackedObject& sample) {
                              .contour_in_odom_m = {},
                              .predicted_path = {},
                              .class_probability = {}};
-  std::copy_n(sample.mode_probability, object.mode_probability.size(), object.mode_probability.begin());
-  std::copy_n(sample.class_probability, object.class_probability.size(), object.class_probability.begin());
+  std::copy_n(sample.mode_probability, object.mode_probability.size(),
+              object.mode_probability.begin());
+  std::copy_n(sample.class_probability, object.class_probability.size(),
+              object.class_probability.begin());
   return object;
 }
 
@@ -80,7 +86,8 @@ std::string_view fault_of(const slammot_TrackedObject& object) {
   if (!is_sound(object.heading_in_odom_rad)) return "a heading is not finite";
   if (!is_amount(object.length_m) || !is_amount(object.width_m)) return "a box has no sound size";
   if (!is_enumerator(object.motion_state, slammot_MOTION_STOPPED)) return "motion_state is unknown";
-  if (!is_enumerator(object.object_class, slammot_OBJECT_CLASS_TRUCK_OR_BUS)) return "object_class is unknown";
+  if (!is_enumerator(object.object_class, slammot_OBJECT_CLASS_TRUCK_OR_BUS))
+    return "object_class is unknown";
   for (const double probability : object.mode_probability) {
     if (!is_probability(probability)) return "a mode's probability is not within 0 and 1";
   }
@@ -100,13 +107,16 @@ std::string_view fault_of(const slammot_TrackedObjects& sample) {
     contour_points += object.contour_count;
     path_points += object.path_count;
   }
-  if (contour_points != sample.contour_points._length) return "contour_points does not have what the objects count";
-  if (path_points != sample.path_points._length) return "path_points does not have what the objects count";
+  if (contour_points != sample.contour_points._length)
+    return "contour_points does not have what the objects count";
+  if (path_points != sample.path_points._length)
+    return "path_points does not have what the objects count";
   for (const slammot_Point2f& point : elements(sample.contour_points)) {
     if (!is_sound(point)) return "a contour is not finite";
   }
   for (const slammot_PredictedPosition& position : elements(sample.path_points)) {
-    if (!is_amount(position.after_s) || !is_sound(position.position_in_odom_m)) return "a path is not finite";
+    if (!is_amount(position.after_s) || !is_sound(position.position_in_odom_m))
+      return "a path is not finite";
     if (!is_covariance<2>(position.covariance_m2)) return "a path's covariance is unsound";
   }
   return "";
@@ -118,13 +128,16 @@ void TrackedObjectsEncoder::choose(const std::vector<flow::TrackedObject>& objec
   chosen_.clear();
   for (const flow::TrackedObject& object : objects) chosen_.push_back(&object);
   if (chosen_.size() <= kMostObjects) return;
-  std::stable_sort(chosen_.begin(), chosen_.end(), [](const flow::TrackedObject* a, const flow::TrackedObject* b) {
-    return a->confirmed != b->confirmed ? a->confirmed : a->existence > b->existence;
-  });
+  std::stable_sort(chosen_.begin(), chosen_.end(),
+                   [](const flow::TrackedObject* a, const flow::TrackedObject* b) {
+                     return a->confirmed != b->confirmed ? a->confirmed
+                                                         : a->existence > b->existence;
+                   });
   chosen_.resize(kMostObjects);
 }
 
-void TrackedObjectsEncoder::encode_contour(const flow::TrackedObject& object, slammot_TrackedObject& sample) {
+void TrackedObjectsEncoder::encode_contour(const flow::TrackedObject& object,
+                                           slammot_TrackedObject& sample) {
   const std::size_t room = share(kMostContourPoints, kMostContourPointsOfAll, chosen_.size());
   const std::vector<Eigen::Vector2f>& contour = object.contour_in_odom_m;
   const std::size_t count = std::min(room, contour.size());
@@ -134,12 +147,15 @@ void TrackedObjectsEncoder::encode_contour(const flow::TrackedObject& object, sl
   sample.contour_count = static_cast<std::uint16_t>(count);
 }
 
-void TrackedObjectsEncoder::encode_path(const flow::TrackedObject& object, slammot_TrackedObject& sample) {
-  const std::size_t room = share(kMostPredictedPositions, kMostPredictedPositionsOfAll, chosen_.size());
+void TrackedObjectsEncoder::encode_path(const flow::TrackedObject& object,
+                                        slammot_TrackedObject& sample) {
+  const std::size_t room =
+      share(kMostPredictedPositions, kMostPredictedPositionsOfAll, chosen_.size());
   const std::size_t count = std::min(room, object.predicted_path.size());
   for (std::size_t i = 0; i < count; ++i) {
     const flow::PredictedPosition& position = object.predicted_path[i];
-    slammot_PredictedPosition point{position.after_s, wire::encode(position.position_in_odom_m), {}};
+    slammot_PredictedPosition point{
+        position.after_s, wire::encode(position.position_in_odom_m), {}};
     encode_matrix<2>(position.covariance_m2, point.covariance_m2);
     path_points_.push_back(point);
   }
@@ -188,8 +204,8 @@ Decoded<flow::TrackedObjects> decode(const slammot_TrackedObjects& sample) {
       object.contour_in_odom_m.push_back(decode(point));
     }
     for (const slammot_PredictedPosition& position : path.first(of_wire.path_count)) {
-      object.predicted_path.push_back(
-          {position.after_s, decode(position.position_in_odom_m), decode_matrix<2>(position.covariance_m2)});
+      object.predicted_path.push_back({position.after_s, decode(position.position_in_odom_m),
+                                       decode_matrix<2>(position.covariance_m2)});
     }
     contour = contour.subspan(of_wire.contour_count);
     path = path.subspan(of_wire.path_count);

@@ -17,9 +17,11 @@ inline constexpr std::size_t kMostPredictedPositions = 16;  ///< Of one object.
 /// Puts tracks on the wire; keeps its buffers.
 class TrackedObjectsEncoder {
  public:
-  /// The result is valid until the next call. If there are too many objects, contours are subsampled and paths
-  /// shortened for all alike. Of more than kMostObjects, confirmed and then more probable objects are kept.
-  const slammot_TrackedObjects& encode(std::string_view vehicle_id, const flow::TrackedObjects& objects);
+  /// The result is valid until the next call. If there are too many objects, contours are
+  /// subsampled and paths shortened for all alike. Of more than kMostObjects, confirmed and then
+  /// more probable objects are kept.
+  const slammot_TrackedObjects& encode(std::string_view vehicle_id,
+                                       const flow::TrackedObjects& objects);
 
  private:
   void choose(const std::vector<flow::TrackedObject>& objects);

@@ -24,9 +24,12 @@ slammot_TrueObject encode(const ObjectTruth& object) {
 }
 
 std::string_view fault_of(const slammot_TrueObject& object) {
-  if (!is_enumerator(object.object_class, slammot_TRUE_CLASS_PEDESTRIAN)) return "object_class is none of the enumerators";
-  if (!is_sound(object.world_from_object) || !is_sound(object.speed_mps)) return "world_from_object or speed_mps is not finite";
-  if (!is_amount(object.length_m) || !is_amount(object.width_m) || !is_amount(object.distance_m)) return "a size or a distance is unsound";
+  if (!is_enumerator(object.object_class, slammot_TRUE_CLASS_PEDESTRIAN))
+    return "object_class is none of the enumerators";
+  if (!is_sound(object.world_from_object) || !is_sound(object.speed_mps))
+    return "world_from_object or speed_mps is not finite";
+  if (!is_amount(object.length_m) || !is_amount(object.width_m) || !is_amount(object.distance_m))
+    return "a size or a distance is unsound";
   return "";
 }
 
@@ -50,9 +53,12 @@ void encode_header(std::string_view vehicle_id, const sensing::LaserScan& scan, 
 
 }  // namespace
 
-TruthEncoder::TruthEncoder(std::uint64_t drive_id) { pose_.drive_id = objects_.drive_id = hits_.drive_id = drive_id; }
+TruthEncoder::TruthEncoder(std::uint64_t drive_id) {
+  pose_.drive_id = objects_.drive_id = hits_.drive_id = drive_id;
+}
 
-const slammot_TruePose& TruthEncoder::encode_pose(std::string_view vehicle_id, const simulation::SimulatedScan& scan) {
+const slammot_TruePose& TruthEncoder::encode_pose(std::string_view vehicle_id,
+                                                  const simulation::SimulatedScan& scan) {
   set_text(pose_.vehicle_id, vehicle_id);
   pose_.stamp_ns = scan.scan.stamp_ns;
   pose_.world_from_base = wire::encode(scan.world_from_base);
@@ -62,14 +68,16 @@ const slammot_TruePose& TruthEncoder::encode_pose(std::string_view vehicle_id, c
   return pose_;
 }
 
-const slammot_TrueObjects& TruthEncoder::encode_objects(std::string_view vehicle_id, const simulation::SimulatedScan& scan) {
+const slammot_TrueObjects& TruthEncoder::encode_objects(std::string_view vehicle_id,
+                                                        const simulation::SimulatedScan& scan) {
   encode_header(vehicle_id, scan.scan, objects_);
   object_buffer_.clear();
   for (const auto* objects : {&scan.objects, &scan.unseen}) {
     for (const ObjectTruth& object : *objects) object_buffer_.push_back(encode(object));
   }
   if (object_buffer_.size() > kMostTrueObjects) {
-    std::ranges::nth_element(object_buffer_, object_buffer_.begin() + kMostTrueObjects, {}, &slammot_TrueObject::distance_m);
+    std::ranges::nth_element(object_buffer_, object_buffer_.begin() + kMostTrueObjects, {},
+                             &slammot_TrueObject::distance_m);
     object_buffer_.resize(kMostTrueObjects);
   }
   std::ranges::sort(object_buffer_, {}, &slammot_TrueObject::object_id);
@@ -77,7 +85,8 @@ const slammot_TrueObjects& TruthEncoder::encode_objects(std::string_view vehicle
   return objects_;
 }
 
-const slammot_TrueHits& TruthEncoder::encode_hits(std::string_view vehicle_id, const simulation::SimulatedScan& scan) {
+const slammot_TrueHits& TruthEncoder::encode_hits(std::string_view vehicle_id,
+                                                  const simulation::SimulatedScan& scan) {
   encode_header(vehicle_id, scan.scan, hits_);
   hit_buffer_.assign(scan.hits.begin(), scan.hits.end());
   show(hits_.hit_objects, hit_buffer_);
@@ -86,12 +95,16 @@ const slammot_TrueHits& TruthEncoder::encode_hits(std::string_view vehicle_id, c
 
 Decoded<TruePose> decode(const slammot_TruePose& sample) {
   if (!is_sound(sample.world_from_base)) return Fault{"world_from_base is not finite"};
-  if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps) || !is_sound(sample.nose_down_rad)) return Fault{"a rate or an angle is not finite"};
-  return TruePose{sample.stamp_ns, decode(sample.world_from_base), sample.speed_mps, sample.yaw_rate_radps, sample.nose_down_rad};
+  if (!is_sound(sample.speed_mps) || !is_sound(sample.yaw_rate_radps) ||
+      !is_sound(sample.nose_down_rad))
+    return Fault{"a rate or an angle is not finite"};
+  return TruePose{sample.stamp_ns, decode(sample.world_from_base), sample.speed_mps,
+                  sample.yaw_rate_radps, sample.nose_down_rad};
 }
 
 Decoded<TrueObjects> decode(const slammot_TrueObjects& sample) {
-  TrueObjects truth{sample.stamp_ns, sample.sequence_number, std::string(text(sample.scanner_id)), {}};
+  TrueObjects truth{
+      sample.stamp_ns, sample.sequence_number, std::string(text(sample.scanner_id)), {}};
   for (const slammot_TrueObject& object : elements(sample.objects)) {
     if (const std::string_view fault = fault_of(object); !fault.empty()) return Fault{fault};
     truth.objects.push_back(decode(object));

@@ -10,20 +10,25 @@
 #include "common/wire/decoded.hpp"
 #include "idl/truth.h"
 
-/// What a simulator knows of one scan; how to read it back is for tests and for whoever judges live.
+/// What a simulator knows of one scan; how to read it back is for tests and for whoever judges
+/// live.
 namespace slammot::wire {
 
 /// Most objects that one sample carries: of more the nearest.
 inline constexpr std::size_t kMostTrueObjects = 1500;
 
-/// Puts the truth of the scans of one drive on the wire. Keeps its buffers; each result is good until the next call.
+/// Puts the truth of the scans of one drive on the wire. Keeps its buffers; each result is good
+/// until the next call.
 class TruthEncoder {
  public:
   explicit TruthEncoder(std::uint64_t drive_id = 0);
 
-  const slammot_TruePose& encode_pose(std::string_view vehicle_id, const simulation::SimulatedScan& scan);
-  const slammot_TrueObjects& encode_objects(std::string_view vehicle_id, const simulation::SimulatedScan& scan);
-  const slammot_TrueHits& encode_hits(std::string_view vehicle_id, const simulation::SimulatedScan& scan);
+  const slammot_TruePose& encode_pose(std::string_view vehicle_id,
+                                      const simulation::SimulatedScan& scan);
+  const slammot_TrueObjects& encode_objects(std::string_view vehicle_id,
+                                            const simulation::SimulatedScan& scan);
+  const slammot_TrueHits& encode_hits(std::string_view vehicle_id,
+                                      const simulation::SimulatedScan& scan);
 
  private:
   slammot_TruePose pose_{};

@@ -12,27 +12,30 @@
 namespace slammot::greedy_tracker {
 namespace {
 
-using flow::PointLabel;
-using flow::Segment;
 using Eigen::Matrix2d;
 using Eigen::Matrix4d;
 using Eigen::Vector2d;
+using flow::PointLabel;
+using flow::Segment;
 using PositionOfState = Eigen::Matrix<double, 2, 4>;
 
 double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
 
-/// Constant velocity with white acceleration in continuous time: Bar-Shalom, Li, Kirubarajan 2001, Section 6.2.2.
+/// Constant velocity with white acceleration in continuous time: Bar-Shalom, Li, Kirubarajan 2001,
+/// Section 6.2.2.
 filters::Gaussian<4> predicted(const filters::Gaussian<4>& state, double time_s, double density) {
   Matrix4d F = Matrix4d::Identity();
   F.topRightCorner<2, 2>() = time_s * Matrix2d::Identity();
   Matrix4d Q;
-  Q << Matrix2d::Identity() * time_s * time_s * time_s / 3.0, Matrix2d::Identity() * time_s * time_s / 2.0,
-      Matrix2d::Identity() * time_s * time_s / 2.0, Matrix2d::Identity() * time_s;
+  Q << Matrix2d::Identity() * time_s * time_s * time_s / 3.0,
+      Matrix2d::Identity() * time_s * time_s / 2.0, Matrix2d::Identity() * time_s * time_s / 2.0,
+      Matrix2d::Identity() * time_s;
   return filters::kalman_predict<4>(state, F, density * Q);
 }
 
 Matrix2d measurement_covariance(const Segment& segment, const GreedyTrackerConfig& config) {
-  const double sigma_m = config.position_sigma_m + config.position_sigma_per_m * segment.box_length_m;
+  const double sigma_m =
+      config.position_sigma_m + config.position_sigma_per_m * segment.box_length_m;
   return segment.centroid_covariance_m2 + sigma_m * sigma_m * Matrix2d::Identity();
 }
 
@@ -46,7 +49,8 @@ void begin_labels(const flow::SegmentedScan& scan, flow::ScanLabels& labels) {
 }
 
 bool may_begin(const Segment& segment, const GreedyTrackerConfig& config) {
-  return segment.label == PointLabel::kMoving && segment.beams.size() >= config.least_points_at_birth;
+  return segment.label == PointLabel::kMoving &&
+         segment.beams.size() >= config.least_points_at_birth;
 }
 
 void label(const Segment& segment, PointLabel label, flow::ScanLabels& labels) {
@@ -69,16 +73,20 @@ const stages::TrackingResult& GreedyTracker::step(const flow::SegmentedScan& sca
   if (scans_ == 0 || scan.stamp_ns >= last_stamp_ns_) {
     predict(scan.stamp_ns);
     const std::vector<std::size_t> paired = segment_of_each_track(scan.segments);
-    // Only what a confirmed track has travelled with stays out of the map: the map so unlearns what it wrongly holds to be free.
+    // Only what a confirmed track has travelled with stays out of the map: the map so unlearns what
+    // it wrongly holds to be free.
     for (const Segment& segment : scan.segments)
-      if (segment.label != PointLabel::kUnknown) label(segment, PointLabel::kStationary, result_.labels);
+      if (segment.label != PointLabel::kUnknown)
+        label(segment, PointLabel::kStationary, result_.labels);
     for (std::size_t t = 0; t < paired.size(); ++t) {
       if (paired[t] == kNone) continue;
       correct(tracks_[t], scan.segments[paired[t]], scan.stamp_ns);
-      if (tracks_[t].object.confirmed) label(scan.segments[paired[t]], PointLabel::kMoving, result_.labels);
+      if (tracks_[t].object.confirmed)
+        label(scan.segments[paired[t]], PointLabel::kMoving, result_.labels);
     }
     for (std::size_t s = 0; s < scan.segments.size(); ++s)
-      if (std::ranges::count(paired, s) == 0 && may_begin(scan.segments[s], config_)) begin_track(scan.segments[s], scan.stamp_ns);
+      if (std::ranges::count(paired, s) == 0 && may_begin(scan.segments[s], config_))
+        begin_track(scan.segments[s], scan.stamp_ns);
     delete_unseen(scan.stamp_ns);
     ++scans_;
   } else {
@@ -91,19 +99,26 @@ const stages::TrackingResult& GreedyTracker::step(const flow::SegmentedScan& sca
 }
 
 void GreedyTracker::predict(std::int64_t stamp_ns) {
-  for (Track& track : tracks_) track.state = predicted(track.state, seconds(stamp_ns - last_stamp_ns_), config_.acceleration_density);
+  for (Track& track : tracks_)
+    track.state =
+        predicted(track.state, seconds(stamp_ns - last_stamp_ns_), config_.acceleration_density);
   last_stamp_ns_ = stamp_ns;
 }
 
-/// Greedy: of all pairs inside the gate the nearest one first. Index of the segment, kNone for a track without.
-std::vector<std::size_t> GreedyTracker::segment_of_each_track(const std::vector<Segment>& segments) const {
+/// Greedy: of all pairs inside the gate the nearest one first. Index of the segment, kNone for a
+/// track without.
+std::vector<std::size_t> GreedyTracker::segment_of_each_track(
+    const std::vector<Segment>& segments) const {
   const double gate = association::planar_gate(config_.gate_share);
-  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;  // squared distance, track, segment
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;  // squared distance, track,
+                                                                    // segment
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     for (std::size_t s = 0; s < segments.size(); ++s) {
       if (segments[s].label != PointLabel::kMoving) continue;
-      const Vector2d residual_m = segments[s].box_centre_in_odom_m - tracks_[t].state.mean.head<2>();
-      const Matrix2d S = tracks_[t].state.covariance.topLeftCorner<2, 2>() + measurement_covariance(segments[s], config_);
+      const Vector2d residual_m =
+          segments[s].box_centre_in_odom_m - tracks_[t].state.mean.head<2>();
+      const Matrix2d S = tracks_[t].state.covariance.topLeftCorner<2, 2>() +
+                         measurement_covariance(segments[s], config_);
       const double squared = association::mahalanobis_squared<2>(residual_m, S);
       if (squared <= gate) pairs.emplace_back(squared, t, s);
     }
@@ -118,12 +133,15 @@ std::vector<std::size_t> GreedyTracker::segment_of_each_track(const std::vector<
 void GreedyTracker::correct(Track& track, const Segment& segment, std::int64_t stamp_ns) {
   flow::TrackedObject& object = track.object;
   const PositionOfState H = PositionOfState::Identity();
-  track.state = filters::kalman_update<4, 2>(track.state, segment.box_centre_in_odom_m, H, measurement_covariance(segment, config_)).posterior;
+  track.state = filters::kalman_update<4, 2>(track.state, segment.box_centre_in_odom_m, H,
+                                             measurement_covariance(segment, config_))
+                    .posterior;
   if (segment.box_length_m > object.length_m) object.heading_in_odom_rad = segment.box_heading_rad;
   object.length_m = std::max(object.length_m, segment.box_length_m);
   object.width_m = std::max(object.width_m, segment.box_width_m);
   object.last_seen_ns = stamp_ns;
-  const bool has_travelled = (track.state.mean.head<2>() - track.first_m).norm() >= config_.least_travel_m;
+  const bool has_travelled =
+      (track.state.mean.head<2>() - track.first_m).norm() >= config_.least_travel_m;
   if (++track.hits < config_.least_hits || !has_travelled || object.confirmed) return;
   object.confirmed = true;
   ++tracks_confirmed_;
@@ -145,11 +163,13 @@ void GreedyTracker::begin_track(const Segment& segment, std::int64_t stamp_ns) {
 
 void GreedyTracker::delete_unseen(std::int64_t stamp_ns) {
   std::erase_if(tracks_, [&](const Track& track) {
-    return seconds(stamp_ns - track.object.last_seen_ns) > (track.object.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
+    return seconds(stamp_ns - track.object.last_seen_ns) >
+           (track.object.confirmed ? config_.longest_unseen_s : config_.longest_unseen_tentative_s);
   });
 }
 
-/// Heading is the velocity's where the object moves; a box seen across it is as long as it was wide.
+/// Heading is the velocity's where the object moves; a box seen across it is as long as it was
+/// wide.
 flow::TrackedObject GreedyTracker::described(const Track& track) const {
   constexpr double kStandsBelow_mps = 0.5;
   constexpr double kPathStep_s = 0.5;
@@ -159,20 +179,29 @@ flow::TrackedObject GreedyTracker::described(const Track& track) const {
   object.position_in_odom_m = track.state.mean.head<2>();
   object.velocity_in_odom_mps = track.state.mean.tail<2>();
   object.covariance = track.state.covariance;
-  object.motion = object.velocity_in_odom_mps.norm() < kStandsBelow_mps ? flow::Motion::kStopped : flow::Motion::kMoving;
+  object.motion = object.velocity_in_odom_mps.norm() < kStandsBelow_mps ? flow::Motion::kStopped
+                                                                        : flow::Motion::kMoving;
   if (object.motion == flow::Motion::kMoving) {
-    object.heading_in_odom_rad = std::atan2(object.velocity_in_odom_mps.y(), object.velocity_in_odom_mps.x());
-    if (std::abs(std::cos(object.heading_in_odom_rad - track.object.heading_in_odom_rad)) < std::numbers::sqrt2 / 2.0) std::swap(object.length_m, object.width_m);
+    object.heading_in_odom_rad =
+        std::atan2(object.velocity_in_odom_mps.y(), object.velocity_in_odom_mps.x());
+    if (std::abs(std::cos(object.heading_in_odom_rad - track.object.heading_in_odom_rad)) <
+        std::numbers::sqrt2 / 2.0)
+      std::swap(object.length_m, object.width_m);
   }
   for (int step = 1; object.confirmed && step <= kPathSteps; ++step) {
-    const filters::Gaussian<4> there = predicted(track.state, step * kPathStep_s, config_.acceleration_density);
-    object.predicted_path.push_back({step * kPathStep_s, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>()});
+    const filters::Gaussian<4> there =
+        predicted(track.state, step * kPathStep_s, config_.acceleration_density);
+    object.predicted_path.push_back(
+        {step * kPathStep_s, there.mean.head<2>(), there.covariance.topLeftCorner<2, 2>()});
   }
   return object;
 }
 
 std::map<std::string, std::uint64_t> GreedyTracker::named_counters() const {
-  return {{"scans", scans_}, {"late_scans", late_scans_}, {"tracks_begun", next_id_ - 1}, {"tracks_confirmed", tracks_confirmed_}};
+  return {{"scans", scans_},
+          {"late_scans", late_scans_},
+          {"tracks_begun", next_id_ - 1},
+          {"tracks_confirmed", tracks_confirmed_}};
 }
 
 }  // namespace slammot::greedy_tracker

@@ -11,20 +11,27 @@
 namespace slammot::greedy_tracker {
 
 struct GreedyTrackerConfig {
-  double fastest_mps = 20.0;             ///< One sigma of a new track's velocity is half of this, on each axis.
-  double acceleration_density = 4.0;     ///< Power spectral density of the white acceleration [m^2/s^3].
-  double position_sigma_m = 0.1;         ///< One sigma of the box centre as a measurement of the object's centre,
-  double position_sigma_per_m = 0.2;     ///< and what each metre of the box's length adds: mostly one side is visible.
-  double gate_share = 0.99;              ///< Share of true pairs inside the gate.
-  std::size_t least_points_at_birth = 3; ///< Beams of a moving segment that begins a track.
-  int least_hits = 10;                   ///< Measurements before a track is confirmed,
-  double least_travel_m = 1.0;           ///< and distance from its first position: errors of the map do not travel.
-  double longest_unseen_s = 0.6;         ///< A confirmed track without measurement is deleted after so long,
-  double longest_unseen_tentative_s = 0.1;   ///< and a tentative one.
+  double fastest_mps = 20.0;  ///< One sigma of a new track's velocity is half of this, on each
+                              ///< axis.
+  double acceleration_density = 4.0;  ///< Power spectral density of the white acceleration
+                                      ///< [m^2/s^3].
+  double position_sigma_m = 0.1;  ///< One sigma of the box centre as a measurement of the object's
+                                  ///< centre,
+  double position_sigma_per_m = 0.2;  ///< and what each metre of the box's length adds: mostly one
+                                      ///< side is visible.
+  double gate_share = 0.99;           ///< Share of true pairs inside the gate.
+  std::size_t least_points_at_birth = 3;  ///< Beams of a moving segment that begins a track.
+  int least_hits = 10;                    ///< Measurements before a track is confirmed,
+  double least_travel_m = 1.0;  ///< and distance from its first position: errors of the map do not
+                                ///< travel.
+  double longest_unseen_s = 0.6;  ///< A confirmed track without measurement is deleted after so
+                                  ///< long,
+  double longest_unseen_tentative_s = 0.1;  ///< and a tentative one.
 };
 
-/// Nearest-neighbour tracking: gates (Wang 2004, Eqs. 5.8-5.9), pairs greedily by Mahalanobis distance, and runs one
-/// constant-velocity Kalman filter a track. No occlusion, no shape beyond the largest box seen, no class, no second hypothesis.
+/// Nearest-neighbour tracking: gates (Wang 2004, Eqs. 5.8-5.9), pairs greedily by Mahalanobis
+/// distance, and runs one constant-velocity Kalman filter a track. No occlusion, no shape beyond
+/// the largest box seen, no class, no second hypothesis.
 class GreedyTracker final : public stages::TrackingStage {
  public:
   explicit GreedyTracker(const GreedyTrackerConfig& config) : config_(config) {}
@@ -34,9 +41,10 @@ class GreedyTracker final : public stages::TrackingStage {
 
  private:
   struct Track {
-    flow::TrackedObject object;          ///< Id, times, whether confirmed, and the largest box so far with its heading.
-    filters::Gaussian<4> state{};        ///< (x, y [m], vx, vy [m/s]) in odom.
-    Eigen::Vector2d first_m{};           ///< Position of the first measurement.
+    flow::TrackedObject object;  ///< Id, times, whether confirmed, and the largest box so far with
+                                 ///< its heading.
+    filters::Gaussian<4> state{};  ///< (x, y [m], vx, vy [m/s]) in odom.
+    Eigen::Vector2d first_m{};     ///< Position of the first measurement.
     int hits = 1;
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -50,7 +58,7 @@ class GreedyTracker final : public stages::TrackingStage {
 
   GreedyTrackerConfig config_;
   std::vector<Track> tracks_;
-  stages::TrackingResult result_;        ///< Of the last step().
+  stages::TrackingResult result_;  ///< Of the last step().
   std::int64_t last_stamp_ns_ = 0;
   std::uint32_t next_id_ = 1;
   std::uint64_t scans_ = 0;

@@ -9,7 +9,8 @@ namespace slammot::greedy_tracker {
 inline const config::FieldTable<GreedyTrackerConfig>& greedy_tracker_fields() {
   using C = GreedyTrackerConfig;
   static const config::FieldTable<C> table = {
-      {"fastest_mps", &C::fastest_mps, "One sigma of a new track's speed is half of this.", config::kPositive},
+      {"fastest_mps", &C::fastest_mps, "One sigma of a new track's speed is half of this.",
+       config::kPositive},
   };
   return table;
 }

@@ -15,17 +15,21 @@ GreedyTrackerService::GreedyTrackerService(app::ServiceContext& context, const S
       tracker_(settings.config),
       objects_(context.write(dds::topics::kTrackedObjects)),
       labels_(context.write(dds::topics::kScanLabels)) {
-  context.read(dds::topics::kSegmentedScan, app::Input::kSteady, [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kSegmentedScan, app::Input::kSteady,
+               [this](const auto& sample) { take(sample); });
   context.before_report([this] { context_.status().set_counters(tracker_.named_counters()); });
 }
 
 void GreedyTrackerService::take(const slammot_SegmentedScan& sample) {
   const auto scan = wire::decode(sample);
-  if (!scan) return context_.warn("faulty_segmented_scan", "dropped a segmented scan: " + std::string(scan.fault()));
+  if (!scan)
+    return context_.warn("faulty_segmented_scan",
+                         "dropped a segmented scan: " + std::string(scan.fault()));
   begin_drive_of(*scan);
   const auto last = last_results_.find(scan->scanner_id);
   // A scan that is sent again: its sender missed the answer.
-  if (last != last_results_.end() && scan->stamp_ns <= last->second.labels.stamp_ns) return publish(last->second);
+  if (last != last_results_.end() && scan->stamp_ns <= last->second.labels.stamp_ns)
+    return publish(last->second);
   const app::Stopwatch stopwatch(context_.status().latency("track"));
   publish(last_results_[scan->scanner_id] = tracker_.step(*scan));
 }

@@ -19,8 +19,10 @@ class GreedyTrackerService {
   struct Settings {
     GreedyTrackerConfig config;
   };
-  static constexpr const char* kName = "tracking";  ///< The part it takes on the bus: others wait for this heartbeat.
-  static constexpr const char* kPurpose = "Example of a service that replaces slammot-tracking: nearest neighbour, one Kalman filter.";
+  static constexpr const char* kName = "tracking";  ///< The part it takes on the bus: others wait
+                                                    ///< for this heartbeat.
+  static constexpr const char* kPurpose =
+      "Example of a service that replaces slammot-tracking: nearest neighbour, one Kalman filter.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
@@ -38,8 +40,8 @@ class GreedyTrackerService {
   dds::Writer<slammot_ScanLabels>& labels_;
   wire::TrackedObjectsEncoder objects_encoder_;
   wire::ScanLabelsEncoder labels_encoder_;
-  std::optional<std::pair<flow::MapId, flow::OdomId>> drive_;          ///< None before the first scan.
-  std::map<std::string, stages::TrackingResult> last_results_;         ///< By scanner.
+  std::optional<std::pair<flow::MapId, flow::OdomId>> drive_;   ///< None before the first scan.
+  std::map<std::string, stages::TrackingResult> last_results_;  ///< By scanner.
 };
 
 }  // namespace slammot::greedy_tracker

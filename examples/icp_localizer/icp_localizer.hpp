@@ -15,8 +15,9 @@
 
 namespace slammot::icp_localizer {
 
-/// Point-to-line ICP (Censi 2008) of each scan against a local map of the recent scans, from where odometry, or constant velocity,
-/// predicts it. No calibration of odometry, no search when lost, no honest covariance.
+/// Point-to-line ICP (Censi 2008) of each scan against a local map of the recent scans, from where
+/// odometry, or constant velocity, predicts it. No calibration of odometry, no search when lost, no
+/// honest covariance.
 class IcpLocalizer final : public stages::LocalizationStage {
  public:
   explicit IcpLocalizer(const IcpLocalizerConfig& config) : config_(config) {}
@@ -25,11 +26,14 @@ class IcpLocalizer final : public stages::LocalizationStage {
   /// Whether waiting for more odometry could still improve the prediction at the stamp.
   bool has_odometry_for(std::int64_t stamp_ns) const { return odometry_.reaches(stamp_ns); }
 
-  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan, flow::LocalizedScan workspace = {}) override;
+  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan,
+                                              flow::LocalizedScan workspace = {}) override;
   void integrate(const flow::ScanLabels& labels) override;
   std::optional<flow::Submap> take_finished_submap() override;
   void finish() override;
-  void correct(const flow::GraphCorrection& correction) override { map_from_odom_ = correction.map_from_odom; }
+  void correct(const flow::GraphCorrection& correction) override {
+    map_from_odom_ = correction.map_from_odom;
+  }
   std::map<std::string, std::uint64_t> named_counters() const override;
 
  private:
@@ -48,28 +52,30 @@ class IcpLocalizer final : public stages::LocalizationStage {
 
   bool is_late(const sensing::LaserScan& scan) const;
   Step predicted_step(std::int64_t stamp_ns) const;
-  std::optional<geometry::UncertainPose2> matched(const sensing::LaserScan& scan, const geometry::UncertainPose2& predicted);
+  std::optional<geometry::UncertainPose2> matched(const sensing::LaserScan& scan,
+                                                  const geometry::UncertainPose2& predicted);
   void move_to(const geometry::UncertainPose2& odom_from_base, double duration_s);
   void begin_local_map_if_due();
-  flow::LocalizedScan described(const sensing::LaserScan& scan, flow::LocalizedScan localized) const;
+  flow::LocalizedScan described(const sensing::LaserScan& scan,
+                                flow::LocalizedScan localized) const;
   void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
 
   IcpLocalizerConfig config_;
   sensing::OdometryBuffer odometry_;
   matching::PointToLineMatcher matcher_;
-  std::optional<RecentMap> map_;                        ///< None before the first scan.
-  bool is_map_finished_ = false;                        ///< The next scan begins the next one.
-  geometry::UncertainPose2 odom_from_base_;             ///< At the last scan; covariance within the local map.
+  std::optional<RecentMap> map_;             ///< None before the first scan.
+  bool is_map_finished_ = false;             ///< The next scan begins the next one.
+  geometry::UncertainPose2 odom_from_base_;  ///< At the last scan; covariance within the local map.
   geometry::Pose2 map_from_odom_;
-  geometry::UncertainPose2 previous_from_submap_;       ///< Of the local map.
+  geometry::UncertainPose2 previous_from_submap_;  ///< Of the local map.
   double speed_mps_ = 0.0;
   double yaw_rate_radps_ = 0.0;
   double travelled_m_ = 0.0;
-  double map_began_at_m_ = 0.0;                         ///< Of the way travelled.
+  double map_began_at_m_ = 0.0;  ///< Of the way travelled.
   std::int64_t last_stamp_ns_ = 0;
   std::string last_scanner_id_;
-  std::vector<geometry::Vector2> points_in_base_m_;     ///< Of the scan at hand, one a beam.
+  std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand, one a beam.
   std::deque<Pending> pending_;
   std::deque<flow::Submap> finished_;
   std::uint64_t scans_ = 0;

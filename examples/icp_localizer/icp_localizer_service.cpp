@@ -12,7 +12,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kTurn = 10ms;
-/// Turns that a scan waits for odometry of its time; the first one longer, until the bus has found the writer.
+/// Turns that a scan waits for odometry of its time; the first one longer, until the bus has found
+/// the writer.
 constexpr int kOdometryPatience = 5;
 constexpr int kFirstOdometryPatience = 50;
 /// After so many scans in a row without odometry none is expected any more.
@@ -21,7 +22,9 @@ constexpr std::size_t kRecentOdometry = 300;
 /// Times that a tile is written while a reader is slow.
 constexpr int kTileAttempts = 20;
 
-std::uint64_t new_id() { return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()); }
+std::uint64_t new_id() {
+  return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
+}
 
 }  // namespace
 
@@ -36,11 +39,16 @@ IcpLocalizerService::IcpLocalizerService(app::ServiceContext& context, const Set
       localized_scans_(context.write(dds::topics::kLocalizedScan)),
       tiles_(context.write(dds::topics::kSubmapTile)) {
   using app::Input;
-  // In this order where several wait: what is known of earlier scans goes into the map before the next one is matched.
-  context.read(dds::topics::kGraphCorrection, Input::kOccasional, [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kScanLabels, Input::kSteady, [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kOdometry, Input::kSteady, [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kLaserScan, Input::kSteady, [this](const auto& sample) { take(sample); });
+  // In this order where several wait: what is known of earlier scans goes into the map before the
+  // next one is matched.
+  context.read(dds::topics::kGraphCorrection, Input::kOccasional,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kScanLabels, Input::kSteady,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kOdometry, Input::kSteady,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kLaserScan, Input::kSteady,
+               [this](const auto& sample) { take(sample); });
   context.every(kTurn, [this] {
     for (Waiting& waiting : waiting_) ++waiting.turns;
     localize_waiting();
@@ -51,14 +59,16 @@ IcpLocalizerService::IcpLocalizerService(app::ServiceContext& context, const Set
 
 void IcpLocalizerService::take(const slammot_LaserScan& sample) {
   auto scan = wire::decode(sample);
-  if (!scan) return context_.warn("faulty_laser_scan", "dropped a laser scan: " + std::string(scan.fault()));
+  if (!scan)
+    return context_.warn("faulty_laser_scan", "dropped a laser scan: " + std::string(scan.fault()));
   waiting_.push_back({std::move(*scan), sample.drive_id});
   localize_waiting();
 }
 
 void IcpLocalizerService::take(const slammot_Odometry& sample) {
   const auto odometry = wire::decode(sample);
-  if (!odometry) return context_.warn("faulty_odometry", "dropped odometry: " + std::string(odometry.fault()));
+  if (!odometry)
+    return context_.warn("faulty_odometry", "dropped odometry: " + std::string(odometry.fault()));
   localizer_.add_odometry(*odometry);
   recent_odometry_.push_back(*odometry);
   if (recent_odometry_.size() > kRecentOdometry) recent_odometry_.pop_front();
@@ -68,19 +78,25 @@ void IcpLocalizerService::take(const slammot_Odometry& sample) {
 
 void IcpLocalizerService::take(const slammot_ScanLabels& sample) {
   const auto labels = wire::decode(sample);
-  if (!labels) return context_.warn("faulty_scan_labels", "dropped scan labels: " + std::string(labels.fault()));
+  if (!labels)
+    return context_.warn("faulty_scan_labels",
+                         "dropped scan labels: " + std::string(labels.fault()));
   localizer_.integrate(*labels);
   publish_finished_submaps();
 }
 
 void IcpLocalizerService::take(const slammot_GraphCorrection& sample) {
   const auto added = corrections_.add(sample);
-  if (!added.fault.empty()) context_.warn("faulty_graph_correction", "dropped a graph correction: " + std::string(added.fault));
-  if (added.correction && added.correction->map_id == map_id_) localizer_.correct(*added.correction);
+  if (!added.fault.empty())
+    context_.warn("faulty_graph_correction",
+                  "dropped a graph correction: " + std::string(added.fault));
+  if (added.correction && added.correction->map_id == map_id_)
+    localizer_.correct(*added.correction);
 }
 
 bool IcpLocalizerService::awaits_odometry(const Waiting& waiting) const {
-  return config_.use_odometry && !localizer_.has_odometry_for(waiting.scan.stamp_ns) && scans_without_odometry_ < kMostVainWaits &&
+  return config_.use_odometry && !localizer_.has_odometry_for(waiting.scan.stamp_ns) &&
+         scans_without_odometry_ < kMostVainWaits &&
          waiting.turns <= (last_published_.empty() ? kFirstOdometryPatience : kOdometryPatience);
 }
 
@@ -98,7 +114,8 @@ void IcpLocalizerService::localize_waiting() {
 void IcpLocalizerService::begin_drive_of(const Waiting& waiting) {
   const std::string& scanner_id = waiting.scan.scanner.scanner_id;
   const auto known = drive_by_scanner_.find(scanner_id);
-  const bool is_new = drive_by_scanner_.empty() || (known != drive_by_scanner_.end() && known->second != waiting.drive_id);
+  const bool is_new = drive_by_scanner_.empty() ||
+                      (known != drive_by_scanner_.end() && known->second != waiting.drive_id);
   if (is_new) {
     localizer_ = IcpLocalizer(config_);
     for (const sensing::Odometry& odometry : recent_odometry_) localizer_.add_odometry(odometry);
@@ -119,7 +136,8 @@ void IcpLocalizerService::localize(const sensing::LaserScan& scan) {
     last_published_[scanner_id] = std::move(*localized);
   }
   // Also for a scan that is sent again: its sender missed the answer.
-  if (const auto last = last_published_.find(scanner_id); last != last_published_.end()) localized_scans_.write(scan_encoder_.encode(context_.vehicle_id(), last->second));
+  if (const auto last = last_published_.find(scanner_id); last != last_published_.end())
+    localized_scans_.write(scan_encoder_.encode(context_.vehicle_id(), last->second));
   publish_finished_submaps();
 }
 

@@ -14,14 +14,18 @@
 
 namespace slammot::icp_localizer {
 
-/// The localizer in the place of the service localization: decodes, calls and encodes. Each process and each drive begins a map of its own.
+/// The localizer in the place of the service localization: decodes, calls and encodes. Each process
+/// and each drive begins a map of its own.
 class IcpLocalizerService {
  public:
   struct Settings {
     IcpLocalizerConfig config;
   };
-  static constexpr const char* kName = "localization";  ///< The part it takes on the bus: others wait for this heartbeat and send it commands.
-  static constexpr const char* kPurpose = "Example of a service that replaces slammot-localization: ICP against the recent scans.";
+  static constexpr const char* kName = "localization";  ///< The part it takes on the bus: others
+                                                        ///< wait for this heartbeat and send it
+                                                        ///< commands.
+  static constexpr const char* kPurpose =
+      "Example of a service that replaces slammot-localization: ICP against the recent scans.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
@@ -31,7 +35,7 @@ class IcpLocalizerService {
   struct Waiting {
     sensing::LaserScan scan;
     std::uint64_t drive_id = 0;
-    int turns = 0;                 ///< Of the service's loop, in which odometry had its chance.
+    int turns = 0;  ///< Of the service's loop, in which odometry had its chance.
   };
 
   void take(const slammot_LaserScan& sample);
@@ -54,11 +58,12 @@ class IcpLocalizerService {
   wire::SubmapEncoder submap_encoder_;
   wire::GraphCorrectionAssembler corrections_;
   std::deque<Waiting> waiting_;
-  std::deque<sensing::Odometry> recent_odometry_;                ///< For a drive whose odometry comes before its first scan.
-  int scans_without_odometry_ = 0;                               ///< One after the other.
+  std::deque<sensing::Odometry> recent_odometry_;  ///< For a drive whose odometry comes before its
+                                                   ///< first scan.
+  int scans_without_odometry_ = 0;                 ///< One after the other.
   std::map<std::string, std::uint64_t> drive_by_scanner_;
-  flow::MapId map_id_;                                           ///< And number of the frame odom.
-  std::map<std::string, flow::LocalizedScan> last_published_;    ///< By scanner.
+  flow::MapId map_id_;                                         ///< And number of the frame odom.
+  std::map<std::string, flow::LocalizedScan> last_published_;  ///< By scanner.
 };
 
 }  // namespace slammot::icp_localizer

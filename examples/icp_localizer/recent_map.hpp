@@ -18,14 +18,16 @@ struct MappedScan {
   geometry::Vector2 laser_in_odom_m = geometry::Vector2::Zero();
   std::vector<grids::Ray> rays;
   double beam_step_rad = 0.0;
-  double travelled_m = 0.0;     ///< Of the vehicle, since the drive's first scan.
+  double travelled_m = 0.0;  ///< Of the vehicle, since the drive's first scan.
 };
 
-/// Local map of the recent scans, in odom: surfels to match against, SO-map and MO-map to tell what moves. Each local map becomes one
-/// submap; the next one begins with the last few scans, so that matching and detection have something to compare with.
+/// Local map of the recent scans, in odom: surfels to match against, SO-map and MO-map to tell what
+/// moves. Each local map becomes one submap; the next one begins with the last few scans, so that
+/// matching and detection have something to compare with.
 class RecentMap {
  public:
-  RecentMap(const IcpLocalizerConfig& config, flow::SubmapId id, const geometry::Vector2& centre_in_odom_m);
+  RecentMap(const IcpLocalizerConfig& config, flow::SubmapId id,
+            const geometry::Vector2& centre_in_odom_m);
 
   void add(const MappedScan& scan);
 
@@ -36,7 +38,8 @@ class RecentMap {
   void look_up_end(const geometry::Vector2& end_in_odom_m, flow::LocalizedBeam& beam) const;
 
   /// From the laser to the first occupied cell in the direction (unit vector), or max_range_m.
-  double expected_range_m(const geometry::Vector2& laser_in_odom_m, const geometry::Vector2& direction, double max_range_m) const {
+  double expected_range_m(const geometry::Vector2& laser_in_odom_m,
+                          const geometry::Vector2& direction, double max_range_m) const {
     return evidence_.distance_to_occupied(laser_in_odom_m, direction, max_range_m);
   }
 
@@ -56,8 +59,8 @@ class RecentMap {
   geometry::Pose2 odom_from_submap_;
   grids::EvidenceGrid evidence_;
   grids::SurfelMap surfels_;
-  std::deque<MappedScan> last_scans_;    ///< Some distance apart.
-  std::uint64_t scans_ = 0;              ///< Without those that it began with.
+  std::deque<MappedScan> last_scans_;  ///< Some distance apart.
+  std::uint64_t scans_ = 0;            ///< Without those that it began with.
   std::int64_t first_stamp_ns_ = 0;
   std::int64_t last_stamp_ns_ = 0;
 };

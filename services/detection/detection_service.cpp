@@ -13,13 +13,18 @@ std::vector<config::BoundStage> DetectionService::stages(Settings& settings) {
 }
 
 DetectionService::DetectionService(app::ServiceContext& context, const Settings& settings)
-    : context_(context), detector_(settings.config), segmented_scans_(context.write(dds::topics::kSegmentedScan)) {
-  context.read(dds::topics::kLocalizedScan, app::Input::kSteady, [this](const auto& sample) { take(sample); });
+    : context_(context),
+      detector_(settings.config),
+      segmented_scans_(context.write(dds::topics::kSegmentedScan)) {
+  context.read(dds::topics::kLocalizedScan, app::Input::kSteady,
+               [this](const auto& sample) { take(sample); });
 }
 
 void DetectionService::take(const slammot_LocalizedScan& sample) {
   const auto scan = wire::decode(sample);
-  if (!scan) return context_.warn("faulty_localized_scan", "dropped a localized scan: " + std::string(scan.fault()));
+  if (!scan)
+    return context_.warn("faulty_localized_scan",
+                         "dropped a localized scan: " + std::string(scan.fault()));
   const app::Stopwatch stopwatch(context_.status().latency("detect"));
   done_with_ = detector_.detect(*scan, std::move(done_with_));
   segmented_scans_.write(encoder_.encode(context_.vehicle_id(), done_with_));

@@ -15,7 +15,8 @@ class DetectionService {
     DetectionConfig config;
   };
   static constexpr const char* kName = "detection";
-  static constexpr const char* kPurpose = "Cuts scans into segments and labels those that contradict the map as moving.";
+  static constexpr const char* kPurpose =
+      "Cuts scans into segments and labels those that contradict the map as moving.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
@@ -26,7 +27,7 @@ class DetectionService {
 
   app::ServiceContext& context_;
   Detector detector_;
-  flow::SegmentedScan done_with_;   ///< Memory for the next one.
+  flow::SegmentedScan done_with_;  ///< Memory for the next one.
   dds::Writer<slammot_SegmentedScan>& segmented_scans_;
   wire::SegmentedScanEncoder encoder_;
 };

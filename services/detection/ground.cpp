@@ -23,7 +23,8 @@ enum class Side { kInFront, kOn, kBeyond, kNoEcho, kNotCrossed };
 
 class Ground {
  public:
-  Ground(const flow::SegmentedScan& scan, const BeamDirections& directions, const DetectionConfig& config)
+  Ground(const flow::SegmentedScan& scan, const BeamDirections& directions,
+         const DetectionConfig& config)
       : scan_(scan), config_(config), directions_(directions) {}
 
   Vector2 from_laser_m(std::size_t beam) const {
@@ -31,10 +32,12 @@ class Ground {
   }
 
   bool is_candidate(std::size_t beam) const {
-    return scan_.labels[beam] == flow::PointLabel::kMoving && from_laser_m(beam).x() > config_.ground_nearest_m;
+    return scan_.labels[beam] == flow::PointLabel::kMoving &&
+           from_laser_m(beam).x() > config_.ground_nearest_m;
   }
 
-  /// Line through the run of moving echoes that begins here, where it is straight and square to the axis.
+  /// Line through the run of moving echoes that begins here, where it is straight and square to the
+  /// axis.
   std::optional<Line> line_from(std::size_t first, std::size_t last) const {
     double n = 0.0, sy = 0.0, sx = 0.0, syy = 0.0, sxy = 0.0;
     for (std::size_t i = first; i <= last; ++i) {
@@ -93,7 +96,8 @@ class Ground {
     return tally;
   }
 
-  /// The ground ends where something stands before it; a vehicle that crosses ends where one sees past it.
+  /// The ground ends where something stands before it; a vehicle that crosses ends where one sees
+  /// past it.
   bool ends_before_something(int beam, int step, const Line& line) const {
     constexpr int kBeamsLookedAt = 6;
     for (int i = 1; i <= kBeamsLookedAt; ++i) {
@@ -108,9 +112,12 @@ class Ground {
 
   bool is_ground(const Line& line) const {
     const Tally tally = tally_of(line);
-    if (tally.high_y_m - tally.low_y_m < config_.ground_least_width_m || tally.beyond > config_.ground_most_beyond * tally.on) return false;
+    if (tally.high_y_m - tally.low_y_m < config_.ground_least_width_m ||
+        tally.beyond > config_.ground_most_beyond * tally.on)
+      return false;
     if (tally.without_echo <= tally.on) return true;
-    return tally.without_echo_between <= tally.on && ends_before_something(tally.first, -1, line) && ends_before_something(tally.last, +1, line);
+    return tally.without_echo_between <= tally.on && ends_before_something(tally.first, -1, line) &&
+           ends_before_something(tally.last, +1, line);
   }
 
  private:
@@ -121,16 +128,20 @@ class Ground {
 
 }  // namespace
 
-void find_ground(const flow::SegmentedScan& scan, const BeamDirections& directions, const DetectionConfig& config, std::vector<char>& is_ground) {
+void find_ground(const flow::SegmentedScan& scan, const BeamDirections& directions,
+                 const DetectionConfig& config, std::vector<char>& is_ground) {
   is_ground.assign(scan.range_m.size(), 0);
   const Ground ground(scan, directions, config);
   constexpr std::size_t kFewestEchoes = 4;
-  constexpr std::size_t kMostEchoes = 12;   // enough for a line, short enough to follow one that bends
+  constexpr std::size_t kMostEchoes = 12;  // enough for a line, short enough to follow one that
+                                           // bends
   for (std::size_t first = 0; first + kFewestEchoes <= scan.range_m.size(); ++first) {
     if (is_ground[first] || !ground.is_candidate(first)) continue;
     std::size_t last = first;
-    while (last + 1 < scan.range_m.size() && last + 1 < first + kMostEchoes && ground.is_candidate(last + 1) &&
-           std::abs(ground.from_laser_m(last + 1).x() - ground.from_laser_m(last).x()) < config.ground_thickness_m)
+    while (last + 1 < scan.range_m.size() && last + 1 < first + kMostEchoes &&
+           ground.is_candidate(last + 1) &&
+           std::abs(ground.from_laser_m(last + 1).x() - ground.from_laser_m(last).x()) <
+               config.ground_thickness_m)
       ++last;
     if (last + 1 < first + kFewestEchoes) continue;
     const std::optional<Line> line = ground.line_from(first, last);

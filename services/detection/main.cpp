@@ -1,3 +1,5 @@
 #include "services/detection/detection_service.hpp"
 
-int main(int argc, char** argv) { return slammot::app::run_service<slammot::detection::DetectionService>(argc, argv); }
+int main(int argc, char** argv) {
+  return slammot::app::run_service<slammot::detection::DetectionService>(argc, argv);
+}

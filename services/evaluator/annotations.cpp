@@ -12,35 +12,43 @@ constexpr std::int64_t kLongestGapNs = 1'000'000'000;
 constexpr std::int64_t kLongestScanGapNs = 500'000'000;
 
 struct Sighting {
-  std::int64_t stamp_ns = 0;           ///< Of the scan that was looked at.
-  metrics::TrueObject person;          ///< In the map.
+  std::int64_t stamp_ns = 0;   ///< Of the scan that was looked at.
+  metrics::TrueObject person;  ///< In the map.
 };
 
-/// Each person's sightings, by time. What is marked after a scan and before the next was seen in that scan.
-std::map<std::size_t, std::vector<Sighting>> sightings_in_map(const std::vector<ObjectsAt>& annotated, const RunResult& result) {
+/// Each person's sightings, by time. What is marked after a scan and before the next was seen in
+/// that scan.
+std::map<std::size_t, std::vector<Sighting>> sightings_in_map(
+    const std::vector<ObjectsAt>& annotated, const RunResult& result) {
   std::map<std::size_t, std::vector<Sighting>> sightings;
   for (const ObjectsAt& at : annotated) {
-    const auto next = std::ranges::upper_bound(result.online, at.stamp_ns, {}, &metrics::StampedPose::stamp_ns);
+    const auto next =
+        std::ranges::upper_bound(result.online, at.stamp_ns, {}, &metrics::StampedPose::stamp_ns);
     if (next == result.online.begin()) continue;
     const metrics::StampedPose& scan = *std::prev(next);
     if (at.stamp_ns - scan.stamp_ns > kLongestScanGapNs) continue;
     for (metrics::TrueObject person : at.objects) {
       person.world_from_object = scan.pose * result.base_from_laser * person.world_from_object;
       std::vector<Sighting>& of_person = sightings[person.object];
-      if (of_person.empty() || of_person.back().stamp_ns < scan.stamp_ns) of_person.push_back({scan.stamp_ns, person});
+      if (of_person.empty() || of_person.back().stamp_ns < scan.stamp_ns)
+        of_person.push_back({scan.stamp_ns, person});
     }
   }
   return sightings;
 }
 
-/// Of the line that fits the sightings of a second before and after best: from click to click a hand's error of a
-/// decimetre would be a speed of its own.
+/// Of the line that fits the sightings of a second before and after best: from click to click a
+/// hand's error of a decimetre would be a speed of its own.
 geometry::Vector2 velocity_at(const std::vector<Sighting>& sightings, std::int64_t stamp_ns) {
   double count = 0.0;
   double mean_s = 0.0;
   geometry::Vector2 mean_m = geometry::Vector2::Zero();
-  const auto is_near = [&](const Sighting& sighting) { return std::abs(sighting.stamp_ns - stamp_ns) <= kLongestGapNs; };
-  const auto time_s = [&](const Sighting& sighting) { return 1e-9 * static_cast<double>(sighting.stamp_ns - stamp_ns); };
+  const auto is_near = [&](const Sighting& sighting) {
+    return std::abs(sighting.stamp_ns - stamp_ns) <= kLongestGapNs;
+  };
+  const auto time_s = [&](const Sighting& sighting) {
+    return 1e-9 * static_cast<double>(sighting.stamp_ns - stamp_ns);
+  };
   for (const Sighting& sighting : sightings | std::views::filter(is_near)) {
     count += 1.0;
     mean_s += (time_s(sighting) - mean_s) / count;
@@ -53,10 +61,12 @@ geometry::Vector2 velocity_at(const std::vector<Sighting>& sightings, std::int64
     variance_s2 += off_s * off_s;
     covariance_ms += off_s * (sighting.person.world_from_object.translation_m() - mean_m);
   }
-  return variance_s2 > 0.0 ? geometry::Vector2(covariance_ms / variance_s2) : geometry::Vector2::Zero();
+  return variance_s2 > 0.0 ? geometry::Vector2(covariance_ms / variance_s2)
+                           : geometry::Vector2::Zero();
 }
 
-std::optional<metrics::TrueObject> person_at(const std::vector<Sighting>& sightings, std::int64_t stamp_ns) {
+std::optional<metrics::TrueObject> person_at(const std::vector<Sighting>& sightings,
+                                             std::int64_t stamp_ns) {
   auto after = std::ranges::lower_bound(sightings, stamp_ns, {}, &Sighting::stamp_ns);
   if (after == sightings.end()) return std::nullopt;
   if (after == sightings.begin()) {
@@ -68,10 +78,12 @@ std::optional<metrics::TrueObject> person_at(const std::vector<Sighting>& sighti
   if (gap_ns > kLongestGapNs) return std::nullopt;
   const geometry::Vector2 from_m = before->person.world_from_object.translation_m();
   const geometry::Vector2 way_m = after->person.world_from_object.translation_m() - from_m;
-  const geometry::Vector2 place_m = from_m + static_cast<double>(stamp_ns - before->stamp_ns) / static_cast<double>(gap_ns) * way_m;
+  const geometry::Vector2 place_m = from_m + static_cast<double>(stamp_ns - before->stamp_ns) /
+                                                 static_cast<double>(gap_ns) * way_m;
   metrics::TrueObject person = before->person;
   const geometry::Vector2 velocity_mps = velocity_at(sightings, stamp_ns);
-  person.world_from_object = {place_m.x(), place_m.y(), std::atan2(velocity_mps.y(), velocity_mps.x())};
+  person.world_from_object = {place_m.x(), place_m.y(),
+                              std::atan2(velocity_mps.y(), velocity_mps.x())};
   person.speed_mps = velocity_mps.norm();
   return person;
 }

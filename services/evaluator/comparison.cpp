@@ -16,32 +16,69 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 void add_comparison_options(CLI::App& command, ComparisonOptions& options, TruthIs truth) {
   metrics::CountingRule& rule = options.evaluation.rule;
-  command.add_option("--result", options.result, "Folder with the outputs of run or bench")->required()->type_name("DIR");
-  command.add_option("--truth", options.truth, "Truth files without their endings: PREFIX.tum, PREFIX.objects.csv, ...")
+  command.add_option("--result", options.result, "Folder with the outputs of run or bench")
+      ->required()
+      ->type_name("DIR");
+  command
+      .add_option("--truth", options.truth,
+                  "Truth files without their endings: PREFIX.tum, PREFIX.objects.csv, ...")
       ->required(truth == TruthIs::kRequired)
       ->type_name("PREFIX");
-  command.add_option("--input", options.input, "Log of the drive, for what is judged echo by echo [PREFIX.log]")->type_name("FILE");
-  command.add_option("--range", rule.range_m, "Objects farther away do not count [m]")->capture_default_str()->check(CLI::PositiveNumber);
-  command.add_option_function<std::pair<double, double>>(
-             "--bearings", [&rule](const auto& deg) { rule.first_bearing_rad = deg.first * kDegree, rule.last_bearing_rad = deg.second * kDegree; },
-             "Objects seen from the vehicle in other directions than between these two do not count: FROM TO, left of its axis is positive [deg]")
+  command
+      .add_option("--input", options.input,
+                  "Log of the drive, for what is judged echo by echo [PREFIX.log]")
+      ->type_name("FILE");
+  command.add_option("--range", rule.range_m, "Objects farther away do not count [m]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option_function<std::pair<double, double>>(
+          "--bearings",
+          [&rule](const auto& deg) {
+            rule.first_bearing_rad = deg.first * kDegree,
+            rule.last_bearing_rad = deg.second * kDegree;
+          },
+          "Objects seen from the vehicle in other directions than between these two do not count: "
+          "FROM TO, left of its axis is positive [deg]")
       ->type_name("DEG DEG");
-  command.add_option("--min-speed", rule.least_speed_mps, "Slower objects do not count [m/s]")->capture_default_str()->check(CLI::NonNegativeNumber);
-  command.add_option("--min-points", rule.least_points, "Objects with fewer echoes do not count")->capture_default_str()->check(CLI::NonNegativeNumber);
-  command.add_option("--gate", rule.gate_m, "A match is at most this far from the true box [m]")->capture_default_str()->check(CLI::PositiveNumber);
-  command.add_option("--similarity-reach", rule.similarity_reach_m, "Similarity is 1 - distance / this [m]")->capture_default_str()->check(CLI::PositiveNumber);
-  command.add_option("--max-stamp-difference", options.evaluation.max_stamp_difference_s, "Between a pose and its true one [s]")->capture_default_str()->check(CLI::PositiveNumber);
-  command.add_option("--map-tolerance", options.evaluation.map_tolerance_m, "From an occupied cell to a true wall [m]")->capture_default_str()->check(CLI::PositiveNumber);
+  command.add_option("--min-speed", rule.least_speed_mps, "Slower objects do not count [m/s]")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--min-points", rule.least_points, "Objects with fewer echoes do not count")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--gate", rule.gate_m, "A match is at most this far from the true box [m]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--similarity-reach", rule.similarity_reach_m,
+                  "Similarity is 1 - distance / this [m]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--max-stamp-difference", options.evaluation.max_stamp_difference_s,
+                  "Between a pose and its true one [s]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--map-tolerance", options.evaluation.map_tolerance_m,
+                  "From an occupied cell to a true wall [m]")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
 }
 
 std::optional<std::filesystem::path> log_of(const ComparisonOptions& options) {
-  return options.input.empty() ? plain_or_gz(options.truth.string() + ".log") : std::optional(options.input);
+  return options.input.empty() ? plain_or_gz(options.truth.string() + ".log")
+                               : std::optional(options.input);
 }
 
-EchoSource echo_source(const ComparisonOptions& options, const RunResult& result, const Truth& truth) {
+EchoSource echo_source(const ComparisonOptions& options, const RunResult& result,
+                       const Truth& truth) {
   const auto log = log_of(options);
   if (!log) return {};
-  return [log = *log, &result, &truth](const auto& take) { return read_echoes(log, truth.trajectory, result.sweep_s, take); };
+  return [log = *log, &result, &truth](const auto& take) {
+    return read_echoes(log, truth.trajectory, result.sweep_s, take);
+  };
 }
 
 }  // namespace slammot::evaluator

@@ -19,7 +19,9 @@ std::string percent(double share) {
   return text;
 }
 
-std::string remark(const metrics::ObjectErrors& errors) { return percent(errors.recall) + " of " + std::to_string(errors.rows); }
+std::string remark(const metrics::ObjectErrors& errors) {
+  return percent(errors.recall) + " of " + std::to_string(errors.rows);
+}
 
 std::string recall_bars(const TrackingEvaluation& tracking) {
   std::vector<Bar> bars;
@@ -27,9 +29,12 @@ std::string recall_bars(const TrackingEvaluation& tracking) {
     if (errors.rows > 0) bars.push_back({name, errors.recall, remark(errors)});
   }
   for (const metrics::DistanceBand& band : tracking.errors.by_distance) {
-    bars.push_back({svg_number(band.from_m) + "-" + svg_number(band.to_m) + " m", band.errors.recall, remark(band.errors)});
+    bars.push_back({svg_number(band.from_m) + "-" + svg_number(band.to_m) + " m",
+                    band.errors.recall, remark(band.errors)});
   }
-  return "<figure>" + share_bars_svg(bars, "#1f5fa8") + "<figcaption>Recall: rows of objects that count, and how many of them were matched by a track.</figcaption></figure>";
+  return "<figure>" + share_bars_svg(bars, "#1f5fa8") +
+         "<figcaption>Recall: rows of objects that count, and how many of them were matched by a "
+         "track.</figcaption></figure>";
 }
 
 /// Means over buckets of time, of one count a scan.
@@ -44,7 +49,9 @@ class MeanOverTime {
   std::vector<PlotPoint> points() const {
     std::vector<PlotPoint> points;
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-      if (sums_[i].second > 0.0) points.push_back({(static_cast<double>(i) + 0.5) * kBucketS, sums_[i].first / sums_[i].second});
+      if (sums_[i].second > 0.0)
+        points.push_back(
+            {(static_cast<double>(i) + 0.5) * kBucketS, sums_[i].first / sums_[i].second});
     }
     return points;
   }
@@ -64,22 +71,32 @@ std::string counts_over_time(const Evaluation& evaluation) {
     matched.add(at_s, matches);
     false_tracks.add(at_s, static_cast<double>(scene.tracks.size()) - matches);
   }
-  const Plot plot{"time [s]", "a scan", {{"objects that count", "#111", objects.points(), 0.0, true}, {"of them tracked", "#1f5fa8", matched.points()},
-                                         {"false tracks", "#d9480f", false_tracks.points()}}, {}, {}};
+  const Plot plot{"time [s]",
+                  "a scan",
+                  {{"objects that count", "#111", objects.points(), 0.0, true},
+                   {"of them tracked", "#1f5fa8", matched.points()},
+                   {"false tracks", "#d9480f", false_tracks.points()}},
+                  {},
+                  {}};
   return "<figure>" + to_svg(plot) + "<figcaption>Means over two seconds.</figcaption></figure>";
 }
 
 std::string counts_row(const char* name, const metrics::DetectionCounts& counts) {
   std::string row = std::string("<tr><th>") + name + "</th>";
-  for (const double share : {counts.moving_precision(), counts.moving_recall(), counts.stationary_precision(), counts.stationary_recall(), counts.segment_precision(), counts.segment_recall()})
+  for (const double share :
+       {counts.moving_precision(), counts.moving_recall(), counts.stationary_precision(),
+        counts.stationary_recall(), counts.segment_precision(), counts.segment_recall()})
     row += "<td>" + percent(share) + "</td>";
   return row + "</tr>";
 }
 
 std::string label_table(const DetectionEvaluation& detection) {
-  return "<table><caption>Labels of echoes against what they came from</caption><tr><th></th><th>moving: precision</th><th>recall</th><th>stationary: precision</th><th>recall</th>"
+  return "<table><caption>Labels of echoes against what they came "
+         "from</caption><tr><th></th><th>moving: precision</th><th>recall</th><th>stationary: "
+         "precision</th><th>recall</th>"
          "<th>segments: precision</th><th>recall</th></tr>" +
-         counts_row("by detection", detection.by_detection) + counts_row("by tracking", detection.by_tracking) + "</table>";
+         counts_row("by detection", detection.by_detection) +
+         counts_row("by tracking", detection.by_tracking) + "</table>";
 }
 
 }  // namespace
@@ -95,16 +112,24 @@ std::string detection_figures(const ReportSource& source) {
 }
 
 std::string latency_figure(const ReportSource& source) {
-  const auto report = nlohmann::ordered_json::parse(source.report_json, nullptr, false);  // stages in the order of a scan
+  const auto report = nlohmann::ordered_json::parse(source.report_json, nullptr, false);  // stages
+                                                                                          // in the
+                                                                                          // order
+                                                                                          // of a
+                                                                                          // scan
   const nlohmann::ordered_json::json_pointer place("/measured/stage_latency");
   if (!report.is_object() || !report.contains(place) || !report[place].is_object()) return {};
   std::vector<LogBar> bars;
-  for (const auto& [stage, latency] : report[place].items()) bars.push_back({stage, latency.value("p50_ms", 0.0), latency.value("p99_ms", 0.0), latency.value("max_ms", 0.0)});
+  for (const auto& [stage, latency] : report[place].items())
+    bars.push_back({stage, latency.value("p50_ms", 0.0), latency.value("p99_ms", 0.0),
+                    latency.value("max_ms", 0.0)});
   const std::string svg = log_bars_svg(bars, "milliseconds a call");
   if (svg.empty()) return {};
   return "<section><h2>Latency of the stages</h2><figure>" + svg +
-         "<p class=\"legend\"><span><i style=\"background:#1f5fa8\"></i>median</span><span><i style=\"background:#e0a100\"></i>99 of 100 below</span>"
-         "<span><i style=\"background:#d9480f\"></i>longest</span></p><figcaption>On the machine and at the time of the run.</figcaption></figure></section>";
+         "<p class=\"legend\"><span><i style=\"background:#1f5fa8\"></i>median</span><span><i "
+         "style=\"background:#e0a100\"></i>99 of 100 below</span>"
+         "<span><i style=\"background:#d9480f\"></i>longest</span></p><figcaption>On the machine "
+         "and at the time of the run.</figcaption></figure></section>";
 }
 
 }  // namespace slammot::evaluator

@@ -10,14 +10,19 @@ namespace {
 
 constexpr const char* kCorrected = "#1f5fa8";
 constexpr const char* kOnline = "#e0a100";
-constexpr double kGapS = 3.0;  // a line breaks where there is nothing for longer, as while the vehicle stands
+constexpr double kGapS = 3.0;  // a line breaks where there is nothing for longer, as while the
+                               // vehicle stands
 
-double seconds_since(std::int64_t begin_ns, std::int64_t stamp_ns) { return static_cast<double>(stamp_ns - begin_ns) * 1e-9; }
+double seconds_since(std::int64_t begin_ns, std::int64_t stamp_ns) {
+  return static_cast<double>(stamp_ns - begin_ns) * 1e-9;
+}
 
-Series absolute(const char* name, const char* colour, const TrajectoryEvaluation& trajectory, std::int64_t begin_ns) {
+Series absolute(const char* name, const char* colour, const TrajectoryEvaluation& trajectory,
+                std::int64_t begin_ns) {
   Series series{name, colour, {}, kGapS};
   const auto errors_m = metrics::absolute_errors_m(trajectory.matched, trajectory.world_from_map);
-  for (std::size_t i = 0; i < errors_m.size(); ++i) series.points.push_back({seconds_since(begin_ns, trajectory.matched[i].stamp_ns), errors_m[i]});
+  for (std::size_t i = 0; i < errors_m.size(); ++i)
+    series.points.push_back({seconds_since(begin_ns, trajectory.matched[i].stamp_ns), errors_m[i]});
   return series;
 }
 
@@ -26,11 +31,14 @@ struct RelativeSeries {
   Series rotation_deg;
 };
 
-RelativeSeries relative(const char* name, const char* colour, const TrajectoryEvaluation& trajectory, std::int64_t begin_ns, double delta_m) {
+RelativeSeries relative(const char* name, const char* colour,
+                        const TrajectoryEvaluation& trajectory, std::int64_t begin_ns,
+                        double delta_m) {
   RelativeSeries series{{name, colour, {}, kGapS}, {name, colour, {}, kGapS}};
   std::vector<geometry::Pose2> poses;
   for (const metrics::PosePair& pair : trajectory.matched) poses.push_back(pair.truth);
-  for (const metrics::RelativeError& error : metrics::relative_errors(trajectory.matched, metrics::pairs_by_path(poses, delta_m, metrics::PathPairs::kAll))) {
+  for (const metrics::RelativeError& error : metrics::relative_errors(
+           trajectory.matched, metrics::pairs_by_path(poses, delta_m, metrics::PathPairs::kAll))) {
     const double at_s = seconds_since(begin_ns, error.stamp_ns);
     series.translation_m.points.push_back({at_s, error.translation_m});
     series.rotation_deg.points.push_back({at_s, error.rotation_rad * 180.0 / std::numbers::pi});
@@ -38,7 +46,9 @@ RelativeSeries relative(const char* name, const char* colour, const TrajectoryEv
   return series;
 }
 
-std::string figure(const Plot& plot, const char* caption) { return "<figure>" + to_svg(plot) + "<figcaption>" + caption + "</figcaption></figure>"; }
+std::string figure(const Plot& plot, const char* caption) {
+  return "<figure>" + to_svg(plot) + "<figcaption>" + caption + "</figcaption></figure>";
+}
 
 /// What the published covariance says of the pose against the local map.
 std::string sigma_figure(const RunResult& result, std::int64_t begin_ns) {
@@ -53,7 +63,8 @@ std::string sigma_figure(const RunResult& result, std::int64_t begin_ns) {
   }
   along.name = "position, worse of x and y [cm]";
   heading.name = "heading [deg]";
-  return figure({"time [s]", "one sigma", {along, heading}, {}, {}, 190.0}, "How sure the published pose says it is, against its local map.");
+  return figure({"time [s]", "one sigma", {along, heading}, {}, {}, 190.0},
+                "How sure the published pose says it is, against its local map.");
 }
 
 }  // namespace
@@ -64,14 +75,24 @@ std::string error_figures(const ReportSource& source) {
   if (source.evaluation) {
     const TrajectoryEvaluation& corrected = source.evaluation->corrected;
     const TrajectoryEvaluation& online = source.evaluation->online;
-    html += figure({"time [s]", "position error [m]", {absolute("as published live", kOnline, online, begin_ns), absolute("after the last correction", kCorrected, corrected, begin_ns)}, {}, {}},
+    html += figure({"time [s]",
+                    "position error [m]",
+                    {absolute("as published live", kOnline, online, begin_ns),
+                     absolute("after the last correction", kCorrected, corrected, begin_ns)},
+                    {},
+                    {}},
                    "Distance to the true position after rigid alignment.");
     constexpr double kDeltaM = 10.0;
     const RelativeSeries live = relative("as published live", kOnline, online, begin_ns, kDeltaM);
-    const RelativeSeries best = relative("after the last correction", kCorrected, corrected, begin_ns, kDeltaM);
+    const RelativeSeries best =
+        relative("after the last correction", kCorrected, corrected, begin_ns, kDeltaM);
     if (!best.translation_m.points.empty()) {
-      html += figure({"time [s]", "over 10 m [m]", {live.translation_m, best.translation_m}, {}, {}}, "Error of the motion over ten metres of the true path, at its end.");
-      html += figure({"time [s]", "over 10 m [deg]", {live.rotation_deg, best.rotation_deg}, {}, {}, 190.0}, "The same, of the heading.");
+      html +=
+          figure({"time [s]", "over 10 m [m]", {live.translation_m, best.translation_m}, {}, {}},
+                 "Error of the motion over ten metres of the true path, at its end.");
+      html += figure(
+          {"time [s]", "over 10 m [deg]", {live.rotation_deg, best.rotation_deg}, {}, {}, 190.0},
+          "The same, of the heading.");
     }
   }
   html += sigma_figure(*source.result, begin_ns);

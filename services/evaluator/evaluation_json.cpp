@@ -9,7 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Six decimals are more than any figure is worth; -0 and what is not finite would not be the same everywhere.
+/// Six decimals are more than any figure is worth; -0 and what is not finite would not be the same
+/// everywhere.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
   const double rounded = std::round(value * 1e6) / 1e6;
@@ -18,23 +19,33 @@ Json number(double value) {
 
 Json to_json(const metrics::ErrorSummary& errors) {
   if (errors.count == 0) return nullptr;
-  return {{"count", errors.count}, {"rmse", number(errors.rmse)},    {"mean", number(errors.mean)},
-          {"median", number(errors.median)}, {"p95", number(errors.p95)}, {"max", number(errors.max)}};
+  return {{"count", errors.count},       {"rmse", number(errors.rmse)},
+          {"mean", number(errors.mean)}, {"median", number(errors.median)},
+          {"p95", number(errors.p95)},   {"max", number(errors.max)}};
 }
 
 Json to_json(const metrics::NeesSummary& nees) {
   if (nees.samples == 0) return nullptr;
-  return {{"samples", nees.samples}, {"degrees_of_freedom", nees.degrees_of_freedom}, {"mean", number(nees.mean)}, {"band_low", number(nees.band_low)},
-          {"band_high", number(nees.band_high)}, {"is_inside", nees.is_inside()}};
+  return {{"samples", nees.samples},
+          {"degrees_of_freedom", nees.degrees_of_freedom},
+          {"mean", number(nees.mean)},
+          {"band_low", number(nees.band_low)},
+          {"band_high", number(nees.band_high)},
+          {"is_inside", nees.is_inside()}};
 }
 
 Json to_json(const TrajectoryEvaluation& trajectory) {
   Json relative = Json::object();
   for (const RelativeErrors& errors : trajectory.relative) {
     const std::string name = std::to_string(static_cast<int>(errors.delta_m)) + "_m";
-    relative[name] = {{"rpe_m", to_json(errors.consecutive_m)}, {"drift_m", to_json(errors.drift_m)}, {"drift_rad", to_json(errors.drift_rad)}};
+    relative[name] = {{"rpe_m", to_json(errors.consecutive_m)},
+                      {"drift_m", to_json(errors.drift_m)},
+                      {"drift_rad", to_json(errors.drift_rad)}};
   }
-  return {{"poses", trajectory.poses}, {"pairs", trajectory.pairs}, {"ate_m", to_json(trajectory.absolute_m)}, {"ate_first_pose_aligned_m", to_json(trajectory.absolute_from_start_m)},
+  return {{"poses", trajectory.poses},
+          {"pairs", trajectory.pairs},
+          {"ate_m", to_json(trajectory.absolute_m)},
+          {"ate_first_pose_aligned_m", to_json(trajectory.absolute_from_start_m)},
           {"over", relative}};
 }
 
@@ -78,7 +89,10 @@ Json to_json(const metrics::Hota& hota) {
 Json to_json(const std::vector<metrics::PredictionErrors>& predictions) {
   Json rows = Json::array();
   for (const metrics::PredictionErrors& errors : predictions)
-    rows.push_back({{"after_s", errors.after_s}, {"displacement_m", to_json(errors.displacement_m)}, {"nees", to_json(errors.nees)}, {"inside_share", number(errors.inside_share)}});
+    rows.push_back({{"after_s", errors.after_s},
+                    {"displacement_m", to_json(errors.displacement_m)},
+                    {"nees", to_json(errors.nees)},
+                    {"inside_share", number(errors.inside_share)}});
   return rows;
 }
 
@@ -96,7 +110,10 @@ Json to_json(const TrackingEvaluation& tracking) {
           {"tracks", tracking.tracks},
           {"hota", to_json(tracking.hota)},
           {"clear_mot", to_json(tracking.clear)},
-          {"identity", {{"f1", number(tracking.identity.f1)}, {"precision", number(tracking.identity.precision)}, {"recall", number(tracking.identity.recall)}}},
+          {"identity",
+           {{"f1", number(tracking.identity.f1)},
+            {"precision", number(tracking.identity.precision)},
+            {"recall", number(tracking.identity.recall)}}},
           {"gospa",
            {{"distance_m", number(tracking.gospa.distance_m)},
             {"localization_m2", number(tracking.gospa.localization_m2)},
@@ -126,23 +143,32 @@ Json to_json(const metrics::DetectionCounts& counts) {
           {"stationary_recall", number(counts.stationary_recall())},
           {"segment_precision", number(counts.segment_precision())},
           {"segment_recall", number(counts.segment_recall())},
-          {"moving_points", counts.moving_as_moving + counts.moving_as_stationary + counts.moving_as_unknown},
-          {"stationary_points", counts.stationary_as_moving + counts.stationary_as_stationary + counts.stationary_as_unknown},
+          {"moving_points",
+           counts.moving_as_moving + counts.moving_as_stationary + counts.moving_as_unknown},
+          {"stationary_points", counts.stationary_as_moving + counts.stationary_as_stationary +
+                                    counts.stationary_as_unknown},
           {"moving_points_unknown", counts.moving_as_unknown},
           {"stationary_points_unknown", counts.stationary_as_unknown}};
 }
 
 Json to_json(const metrics::MapQuality& map) {
-  return {{"precision", number(map.precision())}, {"recall", number(map.recall())}, {"residue", number(map.residue())}, {"occupied_cells", map.occupied_cells},
-          {"residue_cells", map.residue_cells}, {"wall_samples", map.wall_samples}};
+  return {{"precision", number(map.precision())}, {"recall", number(map.recall())},
+          {"residue", number(map.residue())},     {"occupied_cells", map.occupied_cells},
+          {"residue_cells", map.residue_cells},   {"wall_samples", map.wall_samples}};
 }
 
 Json to_json(const metrics::MapSharpness& map) {
-  return {{"mean_entropy_bits", number(map.mean_entropy_bits())}, {"entropy_bits", number(map.entropy_bits)}, {"touched_cells", map.touched_cells}, {"occupied_cells", map.occupied_cells}};
+  return {{"mean_entropy_bits", number(map.mean_entropy_bits())},
+          {"entropy_bits", number(map.entropy_bits)},
+          {"touched_cells", map.touched_cells},
+          {"occupied_cells", map.occupied_cells}};
 }
 
 Json to_json(const WallSharpness& walls, double cell_size_m) {
-  return {{"cell_size_m", cell_size_m}, {"scans", walls.scans}, {"by_result", to_json(walls.of_estimate)}, {"by_truth", to_json(walls.of_truth)}};
+  return {{"cell_size_m", cell_size_m},
+          {"scans", walls.scans},
+          {"by_result", to_json(walls.of_estimate)},
+          {"by_truth", to_json(walls.of_truth)}};
 }
 
 Json to_json(const EvaluationOptions& options) {
@@ -162,11 +188,17 @@ Json to_json(const EvaluationOptions& options) {
 }  // namespace
 
 std::string to_json_text(const Evaluation& evaluation, const EvaluationOptions& options) {
-  Json json = {{"rule", to_json(options)}, {"trajectory", to_json(evaluation.corrected)}, {"online_trajectory", to_json(evaluation.online)}};
-  if (evaluation.without_loops) json["trajectory_without_loops"] = to_json(*evaluation.without_loops);
-  if (evaluation.relative_pose_nees) json["relative_pose_nees"] = to_json(*evaluation.relative_pose_nees);
+  Json json = {{"rule", to_json(options)},
+               {"trajectory", to_json(evaluation.corrected)},
+               {"online_trajectory", to_json(evaluation.online)}};
+  if (evaluation.without_loops)
+    json["trajectory_without_loops"] = to_json(*evaluation.without_loops);
+  if (evaluation.relative_pose_nees)
+    json["relative_pose_nees"] = to_json(*evaluation.relative_pose_nees);
   if (evaluation.detection) {
-    json["detection"] = {{"scans", evaluation.detection->scans}, {"by_detection", to_json(evaluation.detection->by_detection)}, {"by_tracking", to_json(evaluation.detection->by_tracking)}};
+    json["detection"] = {{"scans", evaluation.detection->scans},
+                         {"by_detection", to_json(evaluation.detection->by_detection)},
+                         {"by_tracking", to_json(evaluation.detection->by_tracking)}};
   }
   if (evaluation.tracking) json["tracking"] = to_json(*evaluation.tracking);
   if (evaluation.other_car) json["other_car"] = to_json(*evaluation.other_car);

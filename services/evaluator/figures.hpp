@@ -17,7 +17,8 @@ std::string error_figures(const ReportSource& source);
 /// Time that each stage took for a scan.
 std::string latency_figure(const ReportSource& source);
 
-/// How many objects were there, found and imagined, over time; recall by class and distance; labels of echoes.
+/// How many objects were there, found and imagined, over time; recall by class and distance; labels
+/// of echoes.
 std::string detection_figures(const ReportSource& source);
 
 /// Path, speed and mode probabilities of single tracks.

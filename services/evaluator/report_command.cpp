@@ -55,7 +55,8 @@ int write_report(const ReportOptions& options) {
   if (!comparison.truth.empty()) {
     truth.emplace(read_truth(comparison.truth));
     if (!*truth) return fail(truth->error());
-    evaluation.emplace(evaluate(*result, **truth, echo_source(comparison, *result, **truth), comparison.evaluation));
+    evaluation.emplace(evaluate(*result, **truth, echo_source(comparison, *result, **truth),
+                                comparison.evaluation));
     if (!*evaluation) return fail(evaluation->error());
     source.truth = &**truth;
     source.evaluation = &**evaluation;
@@ -69,11 +70,17 @@ int write_report(const ReportOptions& options) {
 }  // namespace
 
 void add_report_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("report", "Write an HTML page about a run: map, tracks, errors, latencies");
+  CLI::App* const command = app.add_subcommand(
+      "report", "Write an HTML page about a run: map, tracks, errors, latencies");
   const auto options = std::make_shared<ReportOptions>();
   add_comparison_options(*command, options->comparison, TruthIs::kOptional);
-  command->add_option("--output", options->output, "Page to write [DIR/report.html]")->type_name("FILE");
-  command->add_option("--tracks", options->tracks, "Ids of tracks to show in detail; default: selected by the program")->delimiter(',')->type_name("ID,ID");
+  command->add_option("--output", options->output, "Page to write [DIR/report.html]")
+      ->type_name("FILE");
+  command
+      ->add_option("--tracks", options->tracks,
+                   "Ids of tracks to show in detail; default: selected by the program")
+      ->delimiter(',')
+      ->type_name("ID,ID");
   command->callback([options, &exit_code] { exit_code = write_report(*options); });
 }
 

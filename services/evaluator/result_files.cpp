@@ -26,23 +26,26 @@ constexpr double kFarthestAheadS = 60.0;
 using TracksByStamp = std::map<std::int64_t, std::vector<ResultTrack>>;
 
 std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
-  return read_csv(file, {"timestamp", "track_id", "x", "y", "heading", "vx", "vy", "length", "width", "motion", "class"}, [&](auto fields) -> RowFault {
-    const auto row = numbers(fields.first(9));
-    if (!row) return "a field is no number";
-    const auto& v = *row;
-    if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
-    ResultTrack track;
-    track.stamp_ns = to_ns(v[0]);
-    track.track_id = static_cast<std::uint32_t>(v[1]);
-    track.map_from_object = {v[2], v[3], v[4]};
-    track.velocity_in_map_mps = {v[5], v[6]};
-    track.length_m = v[7];
-    track.width_m = v[8];
-    track.is_moving = fields[9] == "moving";
-    track.object_class = fields[10];
-    tracks[track.stamp_ns].push_back(std::move(track));
-    return std::nullopt;
-  });
+  return read_csv(file,
+                  {"timestamp", "track_id", "x", "y", "heading", "vx", "vy", "length", "width",
+                   "motion", "class"},
+                  [&](auto fields) -> RowFault {
+                    const auto row = numbers(fields.first(9));
+                    if (!row) return "a field is no number";
+                    const auto& v = *row;
+                    if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
+                    ResultTrack track;
+                    track.stamp_ns = to_ns(v[0]);
+                    track.track_id = static_cast<std::uint32_t>(v[1]);
+                    track.map_from_object = {v[2], v[3], v[4]};
+                    track.velocity_in_map_mps = {v[5], v[6]};
+                    track.length_m = v[7];
+                    track.width_m = v[8];
+                    track.is_moving = fields[9] == "moving";
+                    track.object_class = fields[10];
+                    tracks[track.stamp_ns].push_back(std::move(track));
+                    return std::nullopt;
+                  });
 }
 
 std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks) {
@@ -67,32 +70,39 @@ std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks)
 }
 
 std::optional<Error> read_predictions(const path& file, TracksByStamp& tracks) {
-  return read_csv(file, {"timestamp", "track_id", "after", "x", "y", "var_x", "cov_xy", "var_y"}, [&](auto fields) -> RowFault {
-    const auto row = numbers(fields);
-    if (!row) return "a field is no number";
-    const auto& v = *row;
-    if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
-    if (v[2] < 0.0 || v[2] > kFarthestAheadS) return "no time ahead";
-    const auto at = tracks.find(to_ns(v[0]));
-    if (at == tracks.end()) return "no such scan in tracks.csv";
-    for (ResultTrack& track : at->second) {
-      if (track.track_id != static_cast<std::uint32_t>(v[1])) continue;
-      track.predicted_in_map.push_back({v[2], {v[3], v[4]}, (geometry::Matrix2() << v[5], v[6], v[6], v[7]).finished()});
-    }
-    return std::nullopt;
-  });
+  return read_csv(
+      file, {"timestamp", "track_id", "after", "x", "y", "var_x", "cov_xy", "var_y"},
+      [&](auto fields) -> RowFault {
+        const auto row = numbers(fields);
+        if (!row) return "a field is no number";
+        const auto& v = *row;
+        if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
+        if (v[2] < 0.0 || v[2] > kFarthestAheadS) return "no time ahead";
+        const auto at = tracks.find(to_ns(v[0]));
+        if (at == tracks.end()) return "no such scan in tracks.csv";
+        for (ResultTrack& track : at->second) {
+          if (track.track_id != static_cast<std::uint32_t>(v[1])) continue;
+          track.predicted_in_map.push_back(
+              {v[2], {v[3], v[4]}, (geometry::Matrix2() << v[5], v[6], v[6], v[7]).finished()});
+        }
+        return std::nullopt;
+      });
 }
 
-std::optional<Error> read_online_covariance(const path& file, std::vector<metrics::UncertainStampedPose>& poses) {
-  return read_csv(file, {"timestamp", "x", "y", "heading", "var_x", "cov_xy", "cov_xh", "var_y", "cov_yh", "var_h"}, [&](auto fields) -> RowFault {
-    const auto row = numbers(fields);
-    if (!row) return "a field is no number";
-    const auto& v = *row;
-    geometry::UncertainPose2 pose{{v[1], v[2], v[3]}, geometry::Matrix3::Zero()};
-    pose.covariance << v[4], v[5], v[6], v[5], v[7], v[8], v[6], v[8], v[9];
-    poses.push_back({to_ns(v[0]), pose});
-    return std::nullopt;
-  });
+std::optional<Error> read_online_covariance(const path& file,
+                                            std::vector<metrics::UncertainStampedPose>& poses) {
+  return read_csv(
+      file,
+      {"timestamp", "x", "y", "heading", "var_x", "cov_xy", "cov_xh", "var_y", "cov_yh", "var_h"},
+      [&](auto fields) -> RowFault {
+        const auto row = numbers(fields);
+        if (!row) return "a field is no number";
+        const auto& v = *row;
+        geometry::UncertainPose2 pose{{v[1], v[2], v[3]}, geometry::Matrix3::Zero()};
+        pose.covariance << v[4], v[5], v[6], v[5], v[7], v[8], v[6], v[8], v[9];
+        poses.push_back({to_ns(v[0]), pose});
+        return std::nullopt;
+      });
 }
 
 /// Of several scanners the first one's, as of the truth's hits.
@@ -114,7 +124,9 @@ std::optional<Error> read_labels(const path& file, std::vector<LabelsAt>& labels
 std::optional<double> yaml_number(const std::string& yaml, const std::string& key) {
   const std::size_t at = yaml.find(key + ":");
   double value = 0.0;
-  if (at == std::string::npos || std::sscanf(yaml.c_str() + at + key.size() + 1, " %lf", &value) != 1) return std::nullopt;
+  if (at == std::string::npos ||
+      std::sscanf(yaml.c_str() + at + key.size() + 1, " %lf", &value) != 1)
+    return std::nullopt;
   return value;
 }
 
@@ -126,7 +138,9 @@ std::string read_all(const path& file) {
 /// What report.json says of the input; 0 for what it does not.
 double number_of_input(const nlohmann::json& report, const std::string& name) {
   const auto place = nlohmann::json::json_pointer("/input/" + name);
-  return report.is_object() && report.contains(place) && report[place].is_number() ? report[place].get<double>() : 0.0;
+  return report.is_object() && report.contains(place) && report[place].is_number()
+             ? report[place].get<double>()
+             : 0.0;
 }
 
 }  // namespace
@@ -136,22 +150,27 @@ Result<files::MapImage> read_map(const path& yaml_file) {
   files::MapImage image;
   const auto resolution_m = yaml_number(yaml, "resolution");
   const std::size_t origin = yaml.find("origin:");
-  if (!resolution_m || origin == std::string::npos || std::sscanf(yaml.c_str() + origin, "origin: [%lf, %lf", &image.min_x_m, &image.min_y_m) != 2)
+  if (!resolution_m || origin == std::string::npos ||
+      std::sscanf(yaml.c_str() + origin, "origin: [%lf, %lf", &image.min_x_m, &image.min_y_m) != 2)
     return Error{yaml_file.string() + ": no resolution or no origin"};
   constexpr double kFarM = 1e7;
-  if (!(*resolution_m >= 1e-3 && *resolution_m <= 1e3) || !(std::abs(image.min_x_m) <= kFarM && std::abs(image.min_y_m) <= kFarM))
+  if (!(*resolution_m >= 1e-3 && *resolution_m <= 1e3) ||
+      !(std::abs(image.min_x_m) <= kFarM && std::abs(image.min_y_m) <= kFarM))
     return Error{yaml_file.string() + ": no resolution or origin of a map"};
   image.resolution_m = *resolution_m;
   const path pgm_file = path(yaml_file).replace_extension(".pgm");
   const std::string pgm = read_all(pgm_file);
   unsigned depth = 0;
   int header = 0;
-  if (std::sscanf(pgm.c_str(), "P5 %u %u %u%n", &image.width, &image.height, &depth, &header) != 3 || depth != 255)
+  if (std::sscanf(pgm.c_str(), "P5 %u %u %u%n", &image.width, &image.height, &depth, &header) !=
+          3 ||
+      depth != 255)
     return Error{pgm_file.string() + ": not a binary grey picture of 8 bits"};
   const auto begin = static_cast<std::size_t>(header) + 1;  // one blank ends the header
   const std::size_t pixels = std::size_t{image.width} * image.height;
   if (pgm.size() < begin + pixels) return Error{pgm_file.string() + ": cut off"};
-  image.pixels.assign(pgm.begin() + static_cast<std::ptrdiff_t>(begin), pgm.begin() + static_cast<std::ptrdiff_t>(begin + pixels));
+  image.pixels.assign(pgm.begin() + static_cast<std::ptrdiff_t>(begin),
+                      pgm.begin() + static_cast<std::ptrdiff_t>(begin + pixels));
   return image;
 }
 
@@ -182,7 +201,9 @@ Result<RunResult> read_result(const path& folder) {
   }
   const auto report = nlohmann::json::parse(read_all(folder / "report.json"), nullptr, false);
   result.sweep_s = number_of_input(report, "sweep_s");
-  result.base_from_laser = {number_of_input(report, "laser_ahead_m"), number_of_input(report, "laser_left_m"), number_of_input(report, "laser_heading_rad")};
+  result.base_from_laser = {number_of_input(report, "laser_ahead_m"),
+                            number_of_input(report, "laser_left_m"),
+                            number_of_input(report, "laser_heading_rad")};
   if (std::filesystem::exists(folder / "map.yaml")) {
     auto map = read_map(folder / "map.yaml");
     if (!map) return map.error();

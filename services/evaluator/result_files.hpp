@@ -26,8 +26,9 @@ struct ResultTrack {
   bool is_moving = true;
   std::string object_class;
   std::optional<geometry::Matrix2> position_covariance_m2;
-  std::vector<double> mode_probability;   ///< Of each motion model; empty where it was not written.
-  std::vector<metrics::PredictedPlace> predicted_in_map;  ///< From predictions.csv, where there is one.
+  std::vector<double> mode_probability;  ///< Of each motion model; empty where it was not written.
+  std::vector<metrics::PredictedPlace> predicted_in_map;  ///< From predictions.csv, where there is
+                                                          ///< one.
 };
 
 struct TracksAt {
@@ -47,11 +48,12 @@ struct RunResult {
   metrics::Trajectory online;     ///< map_from_base as published live; never empty.
   metrics::Trajectory corrected;  ///< After the last correction; never empty.
   std::vector<metrics::UncertainStampedPose> uncertain;  ///< Empty where it was not written.
-  std::vector<TracksAt> tracks;   ///< Ascending stamps; scans without tracks are not in it.
-  std::vector<LabelsAt> labels;   ///< Ascending stamps; empty where it was not written.
+  std::vector<TracksAt> tracks;  ///< Ascending stamps; scans without tracks are not in it.
+  std::vector<LabelsAt> labels;  ///< Ascending stamps; empty where it was not written.
   std::optional<files::MapImage> map;
   geometry::Pose2 base_from_laser;  ///< As the run took it.
-  double sweep_s = 0.0;           ///< From the first beam of a scan to its last, as the run took it; 0 where it does not say.
+  double sweep_s = 0.0;  ///< From the first beam of a scan to its last, as the run took it; 0 where
+                         ///< it does not say.
 };
 
 files::Result<RunResult> read_result(const std::filesystem::path& folder);

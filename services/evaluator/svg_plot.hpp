@@ -14,9 +14,9 @@ struct PlotPoint {
 
 struct Series {
   std::string name;
-  std::string colour;                ///< As CSS writes it.
-  std::vector<PlotPoint> points;     ///< Ascending x.
-  double longest_gap = 0.0;          ///< Of x: the line breaks where it is longer; 0 for never.
+  std::string colour;             ///< As CSS writes it.
+  std::vector<PlotPoint> points;  ///< Ascending x.
+  double longest_gap = 0.0;       ///< Of x: the line breaks where it is longer; 0 for never.
   bool is_dashed = false;
 };
 
@@ -31,24 +31,25 @@ struct Plot {
   std::string y_label;
   std::vector<Series> series;
   std::vector<Span> shaded;
-  std::optional<double> y_max;       ///< Else what the series need; y begins at 0 or below.
-  double height = 220.0;             ///< Of 760 units of width.
+  std::optional<double> y_max;  ///< Else what the series need; y begins at 0 or below.
+  double height = 220.0;        ///< Of 760 units of width.
 };
 
 struct Bar {
   std::string name;
-  double value = 0.0;                ///< [0, 1]
-  std::string remark;                ///< Behind the bar.
+  double value = 0.0;  ///< [0, 1]
+  std::string remark;  ///< Behind the bar.
 };
 
 struct LogBar {
   std::string name;
-  double low = 0.0;                  ///< Positive, ascending.
+  double low = 0.0;  ///< Positive, ascending.
   double middle = 0.0;
   double high = 0.0;
 };
 
-/// Curves over one x axis, with a legend where there are several. Long series are thinned to the extremes of each pixel.
+/// Curves over one x axis, with a legend where there are several. Long series are thinned to the
+/// extremes of each pixel.
 std::string to_svg(const Plot& plot);
 
 /// Horizontal bars of shares.

@@ -12,7 +12,8 @@ namespace {
 using files::Error;
 using files::LineReader;
 
-Error fault_at(const std::filesystem::path& path, const LineReader& reader, const std::string& what) {
+Error fault_at(const std::filesystem::path& path, const LineReader& reader,
+               const std::string& what) {
   return {path.string() + ":" + std::to_string(reader.line_number()) + ": " + what};
 }
 
@@ -44,7 +45,8 @@ std::optional<Error> cut_fault(const std::filesystem::path& path, const LineRead
 
 }  // namespace
 
-std::optional<Error> read_csv(const std::filesystem::path& path, const std::vector<std::string_view>& columns, const TakeRow& take) {
+std::optional<Error> read_csv(const std::filesystem::path& path,
+                              const std::vector<std::string_view>& columns, const TakeRow& take) {
   auto reader = LineReader::open(path);
   if (!reader) return reader.error();
   const auto header = reader->next();
@@ -62,14 +64,19 @@ std::optional<Error> read_csv(const std::filesystem::path& path, const std::vect
   while (const auto line = reader->next()) {
     if (line->empty()) continue;
     split_at_commas(*line, fields);
-    if (fields.size() != width) return fault_at(path, *reader, std::to_string(fields.size()) + " fields where the header has " + std::to_string(width));
-    std::transform(places.begin(), places.end(), chosen.begin(), [&](std::size_t place) { return fields[place]; });
+    if (fields.size() != width)
+      return fault_at(
+          path, *reader,
+          std::to_string(fields.size()) + " fields where the header has " + std::to_string(width));
+    std::transform(places.begin(), places.end(), chosen.begin(),
+                   [&](std::size_t place) { return fields[place]; });
     if (const RowFault fault = take(chosen)) return fault_at(path, *reader, *fault);
   }
   return cut_fault(path, *reader);
 }
 
-std::vector<std::string> columns_beginning_with(const std::filesystem::path& path, std::string_view beginning) {
+std::vector<std::string> columns_beginning_with(const std::filesystem::path& path,
+                                                std::string_view beginning) {
   auto reader = LineReader::open(path);
   const auto header = reader ? reader->next() : std::nullopt;
   std::vector<std::string_view> fields;
@@ -81,7 +88,8 @@ std::vector<std::string> columns_beginning_with(const std::filesystem::path& pat
   return names;
 }
 
-std::optional<Error> read_fields(const std::filesystem::path& path, std::size_t least_fields, const TakeRow& take) {
+std::optional<Error> read_fields(const std::filesystem::path& path, std::size_t least_fields,
+                                 const TakeRow& take) {
   auto reader = LineReader::open(path);
   if (!reader) return reader.error();
   std::vector<std::string_view> fields;
@@ -89,7 +97,10 @@ std::optional<Error> read_fields(const std::filesystem::path& path, std::size_t 
     if (line->empty() || line->front() == '#') continue;
     split_at_blanks(*line, fields);
     if (fields.empty()) continue;
-    if (fields.size() < least_fields) return fault_at(path, *reader, std::to_string(fields.size()) + " fields where " + std::to_string(least_fields) + " are needed");
+    if (fields.size() < least_fields)
+      return fault_at(path, *reader,
+                      std::to_string(fields.size()) + " fields where " +
+                          std::to_string(least_fields) + " are needed");
     if (const RowFault fault = take(fields)) return fault_at(path, *reader, *fault);
   }
   return cut_fault(path, *reader);
@@ -101,7 +112,9 @@ std::optional<std::vector<double>> numbers(std::span<const std::string_view> fie
   for (const std::string_view field : fields) {
     double value = 0.0;
     const auto [end, fault] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (fault != std::errc() || end != field.data() + field.size() || !(std::abs(value) <= kLargest)) return std::nullopt;
+    if (fault != std::errc() || end != field.data() + field.size() ||
+        !(std::abs(value) <= kLargest))
+      return std::nullopt;
     values.push_back(value);
   }
   return values;

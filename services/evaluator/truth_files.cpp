@@ -20,7 +20,8 @@ constexpr double kLongestWallM = 1e5;
 path with_ending(const path& prefix, const char* ending) { return prefix.string() + ending; }
 
 void sort_by_stamp(metrics::Trajectory& trajectory) {
-  std::stable_sort(trajectory.begin(), trajectory.end(), [](const auto& a, const auto& b) { return a.stamp_ns < b.stamp_ns; });
+  std::stable_sort(trajectory.begin(), trajectory.end(),
+                   [](const auto& a, const auto& b) { return a.stamp_ns < b.stamp_ns; });
 }
 
 Result<metrics::Trajectory> read_reference(const path& file) {
@@ -42,25 +43,29 @@ using IndexOfId = std::unordered_map<std::string, std::size_t>;
 /// Fills truth.objects, truth.object_count and the index of each object's id.
 std::optional<Error> read_objects(const path& file, Truth& truth, IndexOfId& index_of_id) {
   std::map<std::int64_t, std::vector<metrics::TrueObject>> by_stamp;
-  const auto fault = read_csv(file, {"timestamp", "x", "y", "yaw", "speed", "length", "width", "points", "id", "class"}, [&](auto fields) -> RowFault {
-    const auto row = numbers(fields.first(8));
-    if (!row) return "a field is no number";
-    const auto& v = *row;
-    metrics::TrueObject object;
-    object.object = index_of_id.try_emplace(std::string(fields[8]), index_of_id.size()).first->second;
-    object.object_class = fields[9];
-    object.world_from_object = {v[1], v[2], v[3]};
-    object.speed_mps = v[4];
-    object.length_m = v[5];
-    object.width_m = v[6];
-    object.points = static_cast<int>(std::clamp(v[7], 0.0, 1e6));
-    by_stamp[to_ns(v[0])].push_back(object);
-    return std::nullopt;
-  });
+  const auto fault = read_csv(
+      file, {"timestamp", "x", "y", "yaw", "speed", "length", "width", "points", "id", "class"},
+      [&](auto fields) -> RowFault {
+        const auto row = numbers(fields.first(8));
+        if (!row) return "a field is no number";
+        const auto& v = *row;
+        metrics::TrueObject object;
+        object.object =
+            index_of_id.try_emplace(std::string(fields[8]), index_of_id.size()).first->second;
+        object.object_class = fields[9];
+        object.world_from_object = {v[1], v[2], v[3]};
+        object.speed_mps = v[4];
+        object.length_m = v[5];
+        object.width_m = v[6];
+        object.points = static_cast<int>(std::clamp(v[7], 0.0, 1e6));
+        by_stamp[to_ns(v[0])].push_back(object);
+        return std::nullopt;
+      });
   if (fault) return fault;
   truth.object_count = index_of_id.size();
   truth.objects.emplace();
-  for (auto& [stamp_ns, objects] : by_stamp) truth.objects->push_back({stamp_ns, std::move(objects)});
+  for (auto& [stamp_ns, objects] : by_stamp)
+    truth.objects->push_back({stamp_ns, std::move(objects)});
   return std::nullopt;
 }
 
@@ -72,13 +77,17 @@ std::optional<HitsAt::Run> parse_run(std::string_view text, const IndexOfId& ind
   if (star == std::string_view::npos) return std::nullopt;
   const std::string_view hit = text.substr(0, star);
   HitsAt::Run run;
-  const auto [end, fault] = std::from_chars(text.data() + star + 1, text.data() + text.size(), run.beams);
-  if (fault != std::errc() || end != text.data() + text.size() || run.beams == 0 || run.beams > kMostBeams) return std::nullopt;
+  const auto [end, fault] =
+      std::from_chars(text.data() + star + 1, text.data() + text.size(), run.beams);
+  if (fault != std::errc() || end != text.data() + text.size() || run.beams == 0 ||
+      run.beams > kMostBeams)
+    return std::nullopt;
   using On = metrics::BeamHit::On;
   if (hit == "-1") run.hit.on = On::kNothing;
   else if (hit == "0") run.hit.on = On::kStationary;
   else if (hit == "-2") run.hit.on = On::kSeveral;
-  else if (const auto known = index_of_id.find(std::string(hit)); known != index_of_id.end()) run.hit = {On::kObject, known->second};
+  else if (const auto known = index_of_id.find(std::string(hit)); known != index_of_id.end())
+    run.hit = {On::kObject, known->second};
   else return std::nullopt;
   return run;
 }
@@ -97,7 +106,9 @@ std::optional<Error> read_hits(const path& file, const IndexOfId& index_of_id, T
     while (!rest.empty()) {
       const std::size_t end = std::min(rest.find(' '), rest.size());
       const auto run = parse_run(rest.substr(0, end), index_of_id);
-      if (!run) return "not a run of hits, or of an object that objects.csv does not have: " + std::string(rest.substr(0, end));
+      if (!run)
+        return "not a run of hits, or of an object that objects.csv does not have: " +
+               std::string(rest.substr(0, end));
       if ((beams += run->beams) > kMostBeams) return "more beams than any scanner has";
       at.runs.push_back(*run);
       rest.remove_prefix(std::min(end + 1, rest.size()));
@@ -115,7 +126,8 @@ std::optional<Error> read_walls(const path& file, Truth& truth) {
   return read_csv(file, {"ax", "ay", "bx", "by"}, [&](auto fields) -> RowFault {
     const auto row = numbers(fields);
     if (!row) return "a field is no number";
-    if (std::hypot((*row)[2] - (*row)[0], (*row)[3] - (*row)[1]) > kLongestWallM) return "a wall longer than a city";
+    if (std::hypot((*row)[2] - (*row)[0], (*row)[3] - (*row)[1]) > kLongestWallM)
+      return "a wall longer than a city";
     truth.walls->push_back({{(*row)[0], (*row)[1]}, {(*row)[2], (*row)[3]}});
     return std::nullopt;
   });
@@ -129,7 +141,8 @@ Result<Truth> read_people(const path& file) {
     const auto place = numbers(fields.subspan(2, 2));
     if (!stamp || !place) return "a field is no number";
     metrics::TrueObject person;
-    person.object = index_of_id.try_emplace(std::string(fields[1]), index_of_id.size()).first->second;
+    person.object =
+        index_of_id.try_emplace(std::string(fields[1]), index_of_id.size()).first->second;
     person.object_class = "pedestrian";
     person.world_from_object = {(*place)[0], (*place)[1], 0.0};
     by_stamp[to_ns(stamp->front())].push_back(person);
@@ -140,7 +153,8 @@ Result<Truth> read_people(const path& file) {
   Truth truth;
   truth.object_count = index_of_id.size();
   truth.annotated.emplace();
-  for (auto& [stamp_ns, people] : by_stamp) truth.annotated->push_back({stamp_ns, std::move(people)});
+  for (auto& [stamp_ns, people] : by_stamp)
+    truth.annotated->push_back({stamp_ns, std::move(people)});
   truth.read.push_back(file.filename().string());
   return truth;
 }
@@ -185,7 +199,8 @@ Result<metrics::Trajectory> read_tum(const path& file) {
     const auto row = numbers(fields.first(8));
     if (!row) return "a field is no number";
     const auto& v = *row;
-    const double heading_rad = std::atan2(2.0 * (v[7] * v[6] + v[4] * v[5]), 1.0 - 2.0 * (v[5] * v[5] + v[6] * v[6]));
+    const double heading_rad =
+        std::atan2(2.0 * (v[7] * v[6] + v[4] * v[5]), 1.0 - 2.0 * (v[5] * v[5] + v[6] * v[6]));
     trajectory.push_back({to_ns(v[0]), {v[1], v[2], heading_rad}});
     return std::nullopt;
   });
@@ -213,8 +228,10 @@ Result<Truth> read_truth(const path& prefix) {
     truth->read.push_back(other->filename().string());
     return truth;
   }
-  if (const auto file = plain_or_gz(with_ending(prefix, ".reference.txt"))) return with_trajectory(read_reference(*file), *file);
-  return Error{prefix.string() + ": no truth here: neither " + prefix.filename().string() + ".tum nor .ego.tum nor .reference.txt, plain or .gz"};
+  if (const auto file = plain_or_gz(with_ending(prefix, ".reference.txt")))
+    return with_trajectory(read_reference(*file), *file);
+  return Error{prefix.string() + ": no truth here: neither " + prefix.filename().string() +
+               ".tum nor .ego.tum nor .reference.txt, plain or .gz"};
 }
 
 }  // namespace slammot::evaluator

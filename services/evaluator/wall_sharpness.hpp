@@ -17,13 +17,14 @@ struct WallSharpness {
 };
 
 struct WallSharpnessOptions {
-  double cell_size_m = 0.0;     ///< 0: not evaluated.
+  double cell_size_m = 0.0;  ///< 0: not evaluated.
   double longest_range_m = 80.0;
 };
 
-/// Reads the log and maps each scan that has a pair at its very stamp, from both poses. Sweeps of sweep_s are straightened
-/// by the motion between the pairs.
-files::Result<WallSharpness> wall_sharpness(const std::filesystem::path& log, const std::vector<metrics::PosePair>& pairs, double sweep_s,
-                                            const WallSharpnessOptions& options);
+/// Reads the log and maps each scan that has a pair at its very stamp, from both poses. Sweeps of
+/// sweep_s are straightened by the motion between the pairs.
+files::Result<WallSharpness> wall_sharpness(const std::filesystem::path& log,
+                                            const std::vector<metrics::PosePair>& pairs,
+                                            double sweep_s, const WallSharpnessOptions& options);
 
 }  // namespace slammot::evaluator

@@ -6,11 +6,13 @@
 namespace slammot::ingest {
 namespace {
 
-std::optional<std::uint64_t> noted_drive(const std::filesystem::path& file, const std::string& log) {
+std::optional<std::uint64_t> noted_drive(const std::filesystem::path& file,
+                                         const std::string& log) {
   std::ifstream stream(file);
   std::string noted_log;
   std::uint64_t drive_id = 0;
-  if (!std::getline(stream, noted_log) || noted_log != log || !(stream >> drive_id)) return std::nullopt;
+  if (!std::getline(stream, noted_log) || noted_log != log || !(stream >> drive_id))
+    return std::nullopt;
   return drive_id;
 }
 
@@ -19,7 +21,8 @@ std::optional<std::uint64_t> noted_drive(const std::filesystem::path& file, cons
 DriveMark::DriveMark(std::filesystem::path file, const std::string& log, std::uint64_t new_id)
     : file_(std::move(file)), drive_id_(noted_drive(file_, log).value_or(new_id)) {
   std::error_code cannot_make;
-  if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), cannot_make);
+  if (file_.has_parent_path())
+    std::filesystem::create_directories(file_.parent_path(), cannot_make);
   std::ofstream(file_) << log << '\n' << drive_id_ << '\n';
 }
 

@@ -8,9 +8,10 @@
 
 namespace slammot::ingest {
 
-/// Whether the drive is ahead of loop closing: a submap is finished and its place in the graph not yet published. Played at
-/// the recorded speed that never lasts; played as fast as possible the drive waits, so that corrections come as early in
-/// it as they would on a vehicle. Time is a parameter.
+/// Whether the drive is ahead of loop closing: a submap is finished and its place in the graph not
+/// yet published. Played at the recorded speed that never lasts; played as fast as possible the
+/// drive waits, so that corrections come as early in it as they would on a vehicle. Time is a
+/// parameter.
 class GraphWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -30,10 +31,13 @@ class GraphWatch {
   }
 
   /// A correction that contains submaps up to this one.
-  void is_placed(flow::MapId map_id, std::uint32_t submap_id) { placed_ = Placed{map_id, submap_id}; }
+  void is_placed(flow::MapId map_id, std::uint32_t submap_id) {
+    placed_ = Placed{map_id, submap_id};
+  }
 
   bool is_behind(Time now) const {
-    const bool is_missing = in_use_ > 0 && (!placed_ || placed_->map_id != map_id_ || placed_->submap_id + 1 < in_use_);
+    const bool is_missing =
+        in_use_ > 0 && (!placed_ || placed_->map_id != map_id_ || placed_->submap_id + 1 < in_use_);
     // While it looks for a place everywhere in a map it is silent for seconds.
     const bool is_at_work = last_heard_ && now - *last_heard_ < patience_;
     return is_missing && is_at_work && now - waiting_since_ < patience_;

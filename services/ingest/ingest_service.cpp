@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include "common/wire/text.hpp"
 #include "services/ingest/ingest_fields.hpp"
@@ -22,7 +22,8 @@ std::chrono::nanoseconds nanoseconds_of(double seconds) {
 }
 
 LogSource open_source(const IngestService::Settings& settings) {
-  if (settings.input.empty()) throw app::StartupFailure("--input FILE is needed: the drive to play");
+  if (settings.input.empty())
+    throw app::StartupFailure("--input FILE is needed: the drive to play");
   auto source = LogSource::open(settings.input, settings.config, settings.topics);
   if (!source) throw app::StartupFailure(source.error().message);
   return std::move(*source);
@@ -30,7 +31,9 @@ LogSource open_source(const IngestService::Settings& settings) {
 
 app::Pace parse_pace(const std::string& speed) {
   const auto pace = app::Pace::parse(speed);
-  if (!pace) throw app::StartupFailure("--speed " + speed + ": neither 'max' nor a number from 0.01 to 1000");
+  if (!pace)
+    throw app::StartupFailure("--speed " + speed +
+                              ": neither 'max' nor a number from 0.01 to 1000");
   return *pace;
 }
 
@@ -40,11 +43,13 @@ std::filesystem::path mark_path(const app::ServiceOptions& options) {
 
 /// Tells one log from another, in one line.
 std::string describe(const std::filesystem::path& input, const files::LogFigures& figures) {
-  return input.filename().string() + " " + std::to_string(figures.scans) + " scans " + std::to_string(figures.duration_s) + " s " +
-         std::to_string(figures.distance_m) + " m";
+  return input.filename().string() + " " + std::to_string(figures.scans) + " scans " +
+         std::to_string(figures.duration_s) + " s " + std::to_string(figures.distance_m) + " m";
 }
 
-std::uint64_t new_drive_id() { return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()); }
+std::uint64_t new_drive_id() {
+  return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
+}
 
 bool is_at_work(slammot_ServiceState state) {
   return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
@@ -57,11 +62,16 @@ std::vector<config::BoundStage> IngestService::stages(Settings& settings) {
 }
 
 void IngestService::add_options(CLI::App& command_line, Settings& settings) {
-  command_line.add_option("--input", settings.input, "CARMEN or DP-SLAM log, plain or .gz, or a ROS bag");
+  command_line.add_option("--input", settings.input,
+                          "CARMEN or DP-SLAM log, plain or .gz, or a ROS bag");
   add_topic_options(command_line, settings.topics);
-  command_line.add_option("--speed", settings.speed, "Times the recorded speed, or 'max': as fast as the other services are done")
+  command_line
+      .add_option("--speed", settings.speed,
+                  "Times the recorded speed, or 'max': as fast as the other services are done")
       ->capture_default_str();
-  command_line.add_flag("--forgive-cut", settings.forgive_cut, "End with 0 also where the log is cut off, for those who would start it again");
+  command_line.add_flag(
+      "--forgive-cut", settings.forgive_cut,
+      "End with 0 also where the log is cut off, for those who would start it again");
   command_line.add_flag("--linger", settings.linger, "Stay after the end of the log until stopped");
 }
 
@@ -72,9 +82,11 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
       forgive_cut_(settings.forgive_cut),
       source_(open_source(settings)),
       scanner_ids_(source_.log().scanner_ids()),
-      drive_(mark_path(context.options()), describe(settings.input, source_.log().plan().figures), new_drive_id()),
+      drive_(mark_path(context.options()), describe(settings.input, source_.log().plan().figures),
+             new_drive_id()),
       pace_(parse_pace(settings.speed)),
-      window_({static_cast<std::size_t>(config_.window_scans), nanoseconds_of(config_.resend_after_s)}),
+      window_(
+          {static_cast<std::size_t>(config_.window_scans), nanoseconds_of(config_.resend_after_s)}),
       graph_(nanoseconds_of(config_.graph_patience_s)),
       scans_(context.write(dds::topics::kLaserScan)),
       odometry_(context.write(dds::topics::kOdometry)),
@@ -82,30 +94,40 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
       give_up_waiting_at_(steady_clock::now() + nanoseconds_of(config_.wait_for_services_s)) {
   context.status().counter("log_finished") = 0;
   context.status().counter("log_scans") = source_.log().plan().figures.scans;
-  context.read(dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
-    readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
-    // One that starts and says so will be there.
-    if (beat.state == slammot_SERVICE_STATE_STARTING) give_up_waiting_at_ = steady_clock::now() + nanoseconds_of(config_.wait_for_services_s);
-    if (wire::text(beat.service_name) == "loop_closing") graph_.heard(steady_clock::now());
-  });
-  context.read(dds::topics::kScanLabels, app::Input::kOccasional, [this](const auto& labels) { take_labels(labels); });
+  context.read(
+      dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
+        readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
+        // One that starts and says so will be there.
+        if (beat.state == slammot_SERVICE_STATE_STARTING)
+          give_up_waiting_at_ = steady_clock::now() + nanoseconds_of(config_.wait_for_services_s);
+        if (wire::text(beat.service_name) == "loop_closing") graph_.heard(steady_clock::now());
+      });
+  context.read(dds::topics::kScanLabels, app::Input::kOccasional,
+               [this](const auto& labels) { take_labels(labels); });
   if (pace_.is_unlimited()) watch_graph();
-  context.every(std::chrono::milliseconds(50), [this] { has_begun_ ? check_progress() : wait_for_services(); });
+  context.every(std::chrono::milliseconds(50),
+                [this] { has_begun_ ? check_progress() : wait_for_services(); });
 }
 
 void IngestService::watch_graph() {
   context_.read(dds::topics::kLocalizedScan, app::Input::kOccasional,
-                [this](const slammot_LocalizedScan& scan) { graph_.is_in_use({scan.map_id}, scan.submap_id, steady_clock::now()); });
-  context_.read(dds::topics::kGraphCorrection, app::Input::kOccasional, [this](const slammot_GraphCorrection& part) {
-    if (part.part_index + 1 != part.part_count || part.submaps._length == 0) return;
-    graph_.is_placed({part.map_id}, part.submaps._buffer[part.submaps._length - 1].submap_id);
-    if (has_begun_ && !has_finished_) proceed_with_room();
-  });
+                [this](const slammot_LocalizedScan& scan) {
+                  graph_.is_in_use({scan.map_id}, scan.submap_id, steady_clock::now());
+                });
+  context_.read(dds::topics::kGraphCorrection, app::Input::kOccasional,
+                [this](const slammot_GraphCorrection& part) {
+                  if (part.part_index + 1 != part.part_count || part.submaps._length == 0) return;
+                  graph_.is_placed({part.map_id},
+                                   part.submaps._buffer[part.submaps._length - 1].submap_id);
+                  if (has_begun_ && !has_finished_) proceed_with_room();
+                });
 }
 
 void IngestService::wait_for_services() {
   const bool is_patient = steady_clock::now() < give_up_waiting_at_;
-  if (app::may_begin(context_, readiness_, scans_.topic().name, scans_.matched_readers() != 0, is_patient)) begin();
+  if (app::may_begin(context_, readiness_, scans_.topic().name, scans_.matched_readers() != 0,
+                     is_patient))
+    begin();
 }
 
 void IngestService::begin() {
@@ -114,7 +136,9 @@ void IngestService::begin() {
   proceed();
 }
 
-void IngestService::proceed() { pace_.is_unlimited() ? proceed_with_room() : proceed_at_its_pace(); }
+void IngestService::proceed() {
+  pace_.is_unlimited() ? proceed_with_room() : proceed_at_its_pace();
+}
 
 void IngestService::proceed_at_its_pace() {
   while (fetch()) {
@@ -145,14 +169,19 @@ void IngestService::proceed_with_room() {
 /// Several scanners may share a stamp.
 bool IngestService::is_acknowledged(const sensing::LaserScan& scan) const {
   if (!acknowledged_ns_ || scan.stamp_ns > *acknowledged_ns_) return false;
-  return scan.stamp_ns < *acknowledged_ns_ || acknowledged_scanners_.contains(scan.scanner.scanner_id);
+  return scan.stamp_ns < *acknowledged_ns_ ||
+         acknowledged_scanners_.contains(scan.scanner.scanner_id);
 }
 
-/// Makes fetched_ the next step that nobody has done with; false at the end of the log. Started again in the middle of a
-/// drive, it so skips what localization had from the process before: the first answer tells how much that is.
+/// Makes fetched_ the next step that nobody has done with; false at the end of the log. Started
+/// again in the middle of a drive, it so skips what localization had from the process before: the
+/// first answer tells how much that is.
 bool IngestService::fetch() {
   // Localization would not answer.
-  const auto is_blank = [&] { return fetched_->scan && sensing::is_blank(*fetched_->scan, source_.log().plan().figures.scan_period_s); };
+  const auto is_blank = [&] {
+    return fetched_->scan &&
+           sensing::is_blank(*fetched_->scan, source_.log().plan().figures.scan_period_s);
+  };
   while (!fetched_ || is_blank() || (fetched_->scan && is_acknowledged(*fetched_->scan))) {
     if (fetched_) ++context_.status().counter(is_blank() ? "blank_scans" : "skipped_scans");
     fetched_ = source_.next();
@@ -169,9 +198,11 @@ void IngestService::send_fetched() {
 
 void IngestService::send(const Step& step) {
   const auto count_timeout = [this](dds::WriteResult result) {
-    if (result == dds::WriteResult::kTimedOut) context_.warn("slow_readers", "a reader is slow: a sample was not sent");
+    if (result == dds::WriteResult::kTimedOut)
+      context_.warn("slow_readers", "a reader is slow: a sample was not sent");
   };
-  for (const sensing::Odometry& odometry : step.odometry) count_timeout(odometry_.write(wire::encode(context_.vehicle_id(), odometry)));
+  for (const sensing::Odometry& odometry : step.odometry)
+    count_timeout(odometry_.write(wire::encode(context_.vehicle_id(), odometry)));
   if (step.scan) count_timeout(scans_.write(encoder_.encode(context_.vehicle_id(), *step.scan)));
 }
 
@@ -201,10 +232,12 @@ void IngestService::check_progress() {
   if (has_finished_ || !window_.is_overdue(now)) return;
   const std::size_t given_up = window_.resend(now);
   for (std::size_t i = 0; i < given_up; ++i) {
-    context_.warn("given_up_scans", "nobody answers for scan " + std::to_string(in_flight_.front().scan->sequence));
+    context_.warn("given_up_scans",
+                  "nobody answers for scan " + std::to_string(in_flight_.front().scan->sequence));
     in_flight_.pop_front();
   }
-  if (!in_flight_.empty()) context_.warn("resent_scans", "no labels for too long: sends what is in flight again");
+  if (!in_flight_.empty())
+    context_.warn("resent_scans", "no labels for too long: sends what is in flight again");
   for (const Step& step : in_flight_) send(step);
   proceed_with_room();
 }

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "common/app/pace.hpp"
+#include "common/app/readiness.hpp"
 #include "common/app/run_service.hpp"
 #include "common/wire/sensor.hpp"
 #include "services/ingest/drive_mark.hpp"
 #include "services/ingest/graph_watch.hpp"
 #include "services/ingest/ingest_config.hpp"
 #include "services/ingest/log_source.hpp"
-#include "common/app/pace.hpp"
-#include "common/app/readiness.hpp"
 #include "services/ingest/scan_window.hpp"
 
 namespace slammot::ingest {
@@ -32,7 +32,8 @@ class IngestService {
     bool forgive_cut = false;  ///< A log that ends early is no failure of this process.
   };
   static constexpr const char* kName = "ingest";
-  static constexpr const char* kPurpose = "Plays a recorded drive (a CARMEN log or a ROS bag) onto the bus.";
+  static constexpr const char* kPurpose =
+      "Plays a recorded drive (a CARMEN log or a ROS bag) onto the bus.";
   static constexpr int kExitCut = 3;  ///< The log ended early.
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);

@@ -9,11 +9,14 @@ files::CarmenLogOptions log_options(const IngestConfig& config) {
   options.scanner_id = config.scanner_id;
   options.uses_all_scanners = true;
   options.fallback_field_of_view_rad = config.fallback_field_of_view_rad;
-  options.fallback_base_from_laser = {config.fallback_laser_ahead_m, config.fallback_laser_left_m, config.fallback_laser_heading_rad};
+  options.fallback_base_from_laser = {config.fallback_laser_ahead_m, config.fallback_laser_left_m,
+                                      config.fallback_laser_heading_rad};
   return options;
 }
 
-files::Result<LogSource> LogSource::open(const std::filesystem::path& file, const IngestConfig& config, const files::TopicOptions& topics) {
+files::Result<LogSource> LogSource::open(const std::filesystem::path& file,
+                                         const IngestConfig& config,
+                                         const files::TopicOptions& topics) {
   files::CarmenLogOptions options = log_options(config);
   options.topics = topics;
   auto log = files::CarmenLog::open(file, options);

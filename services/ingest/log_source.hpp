@@ -22,7 +22,9 @@ struct Step {
 /// A recorded drive, scan by scan, as ingest sends it.
 class LogSource {
  public:
-  static files::Result<LogSource> open(const std::filesystem::path& file, const IngestConfig& config, const files::TopicOptions& topics = {});
+  static files::Result<LogSource> open(const std::filesystem::path& file,
+                                       const IngestConfig& config,
+                                       const files::TopicOptions& topics = {});
 
   /// None at the end of the log.
   std::optional<Step> next();

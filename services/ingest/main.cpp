@@ -1,3 +1,5 @@
 #include "services/ingest/ingest_service.hpp"
 
-int main(int argc, char** argv) { return slammot::app::run_service<slammot::ingest::IngestService>(argc, argv); }
+int main(int argc, char** argv) {
+  return slammot::app::run_service<slammot::ingest::IngestService>(argc, argv);
+}

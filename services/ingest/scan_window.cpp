@@ -8,14 +8,16 @@ void ScanWindow::sent(std::int64_t stamp_ns, Time now) {
 }
 
 std::size_t ScanWindow::acknowledge(std::int64_t stamp_ns, Time now) {
-  const std::size_t done = std::erase_if(in_flight_, [stamp_ns](const Scan& scan) { return scan.stamp_ns <= stamp_ns; });
+  const std::size_t done =
+      std::erase_if(in_flight_, [stamp_ns](const Scan& scan) { return scan.stamp_ns <= stamp_ns; });
   if (done > 0) last_progress_ = now;
   return done;
 }
 
 std::size_t ScanWindow::resend(Time now) {
   last_progress_ = now;
-  const std::size_t given_up = std::erase_if(in_flight_, [this](const Scan& scan) { return scan.sendings >= limits_.most_sendings; });
+  const std::size_t given_up = std::erase_if(
+      in_flight_, [this](const Scan& scan) { return scan.sendings >= limits_.most_sendings; });
   for (Scan& scan : in_flight_) ++scan.sendings;
   return given_up;
 }

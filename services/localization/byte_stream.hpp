@@ -22,7 +22,8 @@ inline void put_bytes(std::vector<std::byte>& bytes, const void* first, std::siz
   if (count > 0) std::memcpy(bytes.data() + end, first, count);
 }
 
-/// Appends plain values to a checkpoint. Not for structs with padding: its bytes would be others every time.
+/// Appends plain values to a checkpoint. Not for structs with padding: its bytes would be others
+/// every time.
 template <class T>
 void put(std::vector<std::byte>& bytes, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -47,10 +48,12 @@ void put_all(std::vector<std::byte>& bytes, const std::vector<T>& values) {
   put_bytes(bytes, values.data(), values.size() * sizeof(T));
 }
 
-/// Reads them back; once it has run past the end, every further value is left as it was and ok() is false.
+/// Reads them back; once it has run past the end, every further value is left as it was and ok() is
+/// false.
 class ByteReader {
  public:
-  explicit ByteReader(std::span<const std::byte> bytes) : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
+  explicit ByteReader(std::span<const std::byte> bytes)
+      : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
 
   bool ok() const { return ok_; }
   bool at_end() const { return at_ == end_; }
@@ -108,10 +111,12 @@ class ByteReader {
   bool ok_ = true;
 };
 
-/// Whether a pose that was read can be worked with: finite, and near enough that cells of any size can be counted.
+/// Whether a pose that was read can be worked with: finite, and near enough that cells of any size
+/// can be counted.
 inline bool is_believable(const geometry::Pose2& pose) {
   constexpr double kFarthest_m = 1e7;
-  return std::abs(pose.x_m) < kFarthest_m && std::abs(pose.y_m) < kFarthest_m && std::isfinite(pose.heading_rad);
+  return std::abs(pose.x_m) < kFarthest_m && std::abs(pose.y_m) < kFarthest_m &&
+         std::isfinite(pose.heading_rad);
 }
 
 /// Whether a matrix that was read can be a covariance of a pose, or of a pose and a calibration.
@@ -121,13 +126,15 @@ bool is_believable(const Eigen::Matrix<double, size, size>& covariance) {
   for (int i = 0; i < size; ++i) {
     if (!(covariance(i, i) >= 0.0 && covariance(i, i) < kLargest)) return false;
     for (int j = 0; j < size; ++j) {
-      if (!(covariance(i, j) * covariance(i, j) <= 1.001 * covariance(i, i) * covariance(j, j))) return false;
+      if (!(covariance(i, j) * covariance(i, j) <= 1.001 * covariance(i, i) * covariance(j, j)))
+        return false;
     }
   }
   return true;
 }
 
-/// Checksum of bytes, eight at a time: FNV-1a over 64-bit words, Fowler, Noll and Vo 1991. Against damage, not against malice.
+/// Checksum of bytes, eight at a time: FNV-1a over 64-bit words, Fowler, Noll and Vo 1991. Against
+/// damage, not against malice.
 inline std::uint64_t checksum(std::span<const std::byte> bytes) {
   std::uint64_t sum = 0xcbf29ce484222325U;
   for (std::size_t done = 0; done < bytes.size(); done += sizeof(std::uint64_t)) {

@@ -10,9 +10,11 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f7465;  // "slammote": the last letter counts the forms of a checkpoint
-constexpr double kFastestRestored = 1e3;    // m/s or rad/s: no vehicle was faster when the checkpoint was made
-constexpr double kLargestFactor = 1e4;      // of way or turn: millimetres taken for metres are 1e3
+constexpr std::uint64_t kMark = 0x736c616d6d6f7465;  // "slammote": the last letter counts the forms
+                                                     // of a checkpoint
+constexpr double kFastestRestored = 1e3;  // m/s or rad/s: no vehicle was faster when the checkpoint
+                                          // was made
+constexpr double kLargestFactor = 1e4;    // of way or turn: millimetres taken for metres are 1e3
 constexpr double kFarthestStamp_ns = 4e18;  // 126 years: differences of stamps do not overflow
 
 template <typename Estimate, typename Visitor>
@@ -86,7 +88,8 @@ void visit_submaps(State& submaps, Visitor visit) {
   visit(submaps.short_submaps_left);
 }
 
-/// The one list of what a checkpoint holds before odometry and map, in its order. prediction.last is there.
+/// The one list of what a checkpoint holds before odometry and map, in its order. prediction.last
+/// is there.
 template <typename AnyCheckpoint, typename Visitor>
 void visit_parts(AnyCheckpoint& checkpoint, Visitor visit) {
   visit_last(*checkpoint.prediction.last, visit);
@@ -111,17 +114,19 @@ bool is_not_negative(double value) { return value >= 0.0 && std::isfinite(value)
 // Whether they may have been ours.
 
 bool is_sound(const sensing::MotionEstimate& estimate) {
-  return is_believable(estimate.odom_from_base) && is_believable(estimate.covariance) && estimate.calibration.norm() < 1.0 &&
-         estimate.velocity.norm() < kFastestRestored;
+  return is_believable(estimate.odom_from_base) && is_believable(estimate.covariance) &&
+         estimate.calibration.norm() < 1.0 && estimate.velocity.norm() < kFastestRestored;
 }
 
 bool is_sound(const OdometryPrediction::LastScan& last) {
-  return last.trusted_s >= 0.0 && last.stood_s >= 0.0 && std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
+  return last.trusted_s >= 0.0 && last.stood_s >= 0.0 &&
+         std::hypot(last.speed_mps, last.yaw_rate_radps) < kFastestRestored &&
          std::abs(static_cast<double>(last.stamp_ns)) < kFarthestStamp_ns;
 }
 
 bool is_sound(const sensing::WheelFactors& factors) {
-  return std::abs(factors.way) < kLargestFactor && std::abs(factors.turn) < kLargestFactor && std::abs(factors.turn_bias_radps) < kFastestRestored;
+  return std::abs(factors.way) < kLargestFactor && std::abs(factors.turn) < kLargestFactor &&
+         std::abs(factors.turn_bias_radps) < kFastestRestored;
 }
 
 bool is_count(int value) { return value >= 0 && value < std::numeric_limits<int>::max() / 2; }
@@ -129,49 +134,74 @@ bool is_share(double value) { return value >= 0.0 && value <= 1.0; }
 
 bool is_sound(const std::optional<KeyframeOdometry::Keyframe>& keyframe) {
   if (!keyframe) return true;
-  return is_believable(keyframe->wheel_from_base) && is_believable(keyframe->odom_from_base) && std::abs(static_cast<double>(keyframe->stamp_ns)) < kFarthestStamp_ns &&
-         std::ranges::all_of(keyframe->points_in_base_m, [](const geometry::Vector2& point_m) { return point_m.allFinite(); });
+  return is_believable(keyframe->wheel_from_base) && is_believable(keyframe->odom_from_base) &&
+         std::abs(static_cast<double>(keyframe->stamp_ns)) < kFarthestStamp_ns &&
+         std::ranges::all_of(keyframe->points_in_base_m,
+                             [](const geometry::Vector2& point_m) { return point_m.allFinite(); });
 }
 
 bool is_sound(const KeyframeOdometry::State& keyframes) {
-  return is_sound(keyframes.keyframe) && std::abs(static_cast<double>(keyframes.compared_ns.value_or(0))) < kFarthestStamp_ns && keyframes.way_ratio.is_sound();
+  return is_sound(keyframes.keyframe) &&
+         std::abs(static_cast<double>(keyframes.compared_ns.value_or(0))) < kFarthestStamp_ns &&
+         keyframes.way_ratio.is_sound();
 }
 
 bool is_sound(const sensing::OdometryBelief& belief) {
-  const bool has_odds = std::isfinite(belief.log_odds) && std::isfinite(belief.log_odds_of_factors) && is_not_negative(belief.disbelieved_s) &&
-                        is_believable(belief.last_step) && belief.steps.is_sound() && is_believable(belief.last_by_wheels) && is_not_negative(belief.last_duration_s) && is_not_negative(belief.usual_way_m) && is_not_negative(belief.usual_drive_m) && is_not_negative(belief.usual_turn_rad);
+  const bool has_odds =
+      std::isfinite(belief.log_odds) && std::isfinite(belief.log_odds_of_factors) &&
+      is_not_negative(belief.disbelieved_s) && is_believable(belief.last_step) &&
+      belief.steps.is_sound() && is_believable(belief.last_by_wheels) &&
+      is_not_negative(belief.last_duration_s) && is_not_negative(belief.usual_way_m) &&
+      is_not_negative(belief.usual_drive_m) && is_not_negative(belief.usual_turn_rad);
   if (!has_odds) return false;
-  const bool has_weights = std::ranges::all_of(belief.weights, is_share) && std::ranges::max(belief.weights) > 0.0;
-  return has_weights && sensing::index_of(belief.last) < sensing::kStepExplanations && is_not_negative(belief.usual_step_s) && is_share(belief.usual_share) &&
-         belief.matched_velocity.norm() < kFastestRestored && belief.matched_velocity_variance.minCoeff() >= 0.0 && belief.matched_velocity_variance.allFinite() &&
-         is_sound(belief.factors) && is_sound(belief.estimator.factors()) && is_believable(belief.estimator.turn_covariance()) && is_not_negative(belief.estimator.way_sigma()) &&
-         is_count(belief.estimator.steps()) && is_count(belief.recalibrated_scans);
+  const bool has_weights =
+      std::ranges::all_of(belief.weights, is_share) && std::ranges::max(belief.weights) > 0.0;
+  return has_weights && sensing::index_of(belief.last) < sensing::kStepExplanations &&
+         is_not_negative(belief.usual_step_s) && is_share(belief.usual_share) &&
+         belief.matched_velocity.norm() < kFastestRestored &&
+         belief.matched_velocity_variance.minCoeff() >= 0.0 &&
+         belief.matched_velocity_variance.allFinite() && is_sound(belief.factors) &&
+         is_sound(belief.estimator.factors()) &&
+         is_believable(belief.estimator.turn_covariance()) &&
+         is_not_negative(belief.estimator.way_sigma()) && is_count(belief.estimator.steps()) &&
+         is_count(belief.recalibrated_scans);
 }
 
 bool is_sound(const LocalizationMonitor::State& monitor) {
-  return std::abs(static_cast<double>(monitor.lost_since_ns.value_or(0))) < kFarthestStamp_ns && is_count(monitor.unmatched_scans) && is_count(monitor.lost_scans) &&
-         (monitor.lost_scans == 0 || monitor.lost_since_ns) && is_count(monitor.scans_to_prove) && is_share(monitor.explained_before.value_or(0.0));
+  return std::abs(static_cast<double>(monitor.lost_since_ns.value_or(0))) < kFarthestStamp_ns &&
+         is_count(monitor.unmatched_scans) && is_count(monitor.lost_scans) &&
+         (monitor.lost_scans == 0 || monitor.lost_since_ns) && is_count(monitor.scans_to_prove) &&
+         is_share(monitor.explained_before.value_or(0.0));
 }
 
 bool is_sound(const PublishedCovariance::State& covariance) {
   const sensing::VarianceFactors& factors = covariance.factors;
-  return is_share(covariance.by_scans_alone) && factors.of_axis.minCoeff() >= 0.0 && factors.of_axis.allFinite() && factors.dead_reckoned.minCoeff() >= 0.0 && factors.dead_reckoned.maxCoeff() <= 1.0 &&
-         is_not_negative(covariance.map_change.way_m) && is_not_negative(covariance.map_change.squared_residuals);
+  return is_share(covariance.by_scans_alone) && factors.of_axis.minCoeff() >= 0.0 &&
+         factors.of_axis.allFinite() && factors.dead_reckoned.minCoeff() >= 0.0 &&
+         factors.dead_reckoned.maxCoeff() <= 1.0 && is_not_negative(covariance.map_change.way_m) &&
+         is_not_negative(covariance.map_change.squared_residuals);
 }
 
 bool is_sound(const SubmapSequence::State& submaps) {
-  return is_believable(submaps.map_from_odom) && is_believable(submaps.previous_from_submap.pose) && is_believable(submaps.previous_from_submap.covariance) &&
+  return is_believable(submaps.map_from_odom) && is_believable(submaps.previous_from_submap.pose) &&
+         is_believable(submaps.previous_from_submap.covariance) &&
          is_believable(submaps.travel.drift) && std::isfinite(submaps.travel.travelled_m);
 }
 
 bool is_sound(const Checkpoint& checkpoint) {
-  return is_sound(checkpoint.prediction.estimate) && is_sound(checkpoint.prediction.with_stamp_offset) && is_sound(*checkpoint.prediction.last) &&
-         is_sound(checkpoint.prediction.belief) && is_sound(checkpoint.keyframes) && is_sound(checkpoint.monitor) &&
-         is_sound(checkpoint.covariance) && is_sound(checkpoint.submaps) && std::isfinite(checkpoint.sweep_factor.value) && checkpoint.sweep_factor.variance >= 0.0 &&
-         std::ranges::all_of(checkpoint.odometry, [](const sensing::Odometry& sample) { return is_believable(sample.wheel_from_base); });
+  return is_sound(checkpoint.prediction.estimate) &&
+         is_sound(checkpoint.prediction.with_stamp_offset) &&
+         is_sound(*checkpoint.prediction.last) && is_sound(checkpoint.prediction.belief) &&
+         is_sound(checkpoint.keyframes) && is_sound(checkpoint.monitor) &&
+         is_sound(checkpoint.covariance) && is_sound(checkpoint.submaps) &&
+         std::isfinite(checkpoint.sweep_factor.value) && checkpoint.sweep_factor.variance >= 0.0 &&
+         std::ranges::all_of(checkpoint.odometry, [](const sensing::Odometry& sample) {
+           return is_believable(sample.wheel_from_base);
+         });
 }
 
-void put_keyframe(std::vector<std::byte>& bytes, const std::optional<KeyframeOdometry::Keyframe>& keyframe) {
+void put_keyframe(std::vector<std::byte>& bytes,
+                  const std::optional<KeyframeOdometry::Keyframe>& keyframe) {
   put(bytes, keyframe.has_value());
   if (!keyframe) return;
   put(bytes, keyframe->stamp_ns);
@@ -179,7 +209,8 @@ void put_keyframe(std::vector<std::byte>& bytes, const std::optional<KeyframeOdo
   put(bytes, keyframe->odom_from_base);
   put_all(bytes, std::vector<char>(keyframe->scanner_id.begin(), keyframe->scanner_id.end()));
   std::vector<double> coordinates;
-  for (const geometry::Vector2& point_m : keyframe->points_in_base_m) coordinates.insert(coordinates.end(), {point_m.x(), point_m.y()});
+  for (const geometry::Vector2& point_m : keyframe->points_in_base_m)
+    coordinates.insert(coordinates.end(), {point_m.x(), point_m.y()});
   put_all(bytes, coordinates);
 }
 
@@ -195,7 +226,8 @@ std::optional<KeyframeOdometry::Keyframe> keyframe_of(ByteReader& from) {
   from.get_all(scanner_id);
   std::vector<double> coordinates;
   from.get_all(coordinates);
-  for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2) keyframe.points_in_base_m.emplace_back(coordinates[i], coordinates[i + 1]);
+  for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2)
+    keyframe.points_in_base_m.emplace_back(coordinates[i], coordinates[i + 1]);
   keyframe.scanner_id.assign(scanner_id.begin(), scanner_id.end());
   return keyframe;
 }
@@ -217,7 +249,10 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint, const LocalMap& ma
   return bytes;
 }
 
-std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes, const Checkpoint& before, const LocalMapConfig& config, work::SideWork* help) {
+std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes,
+                                                const Checkpoint& before,
+                                                const LocalMapConfig& config,
+                                                work::SideWork* help) {
   const auto content = unsealed(bytes);
   if (!content) return std::nullopt;
   ByteReader from(*content);

@@ -7,11 +7,11 @@
 
 #include "common/sensing/scan.hpp"
 #include "common/work/side_work.hpp"
+#include "services/localization/keyframe_odometry.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/localization_monitor.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/localizer_counters.hpp"
-#include "services/localization/keyframe_odometry.hpp"
 #include "services/localization/odometry_prediction.hpp"
 #include "services/localization/published_covariance.hpp"
 #include "services/localization/submap_sequence.hpp"
@@ -21,7 +21,7 @@ namespace slammot::localization {
 
 /// What a localizer goes on from after a crash, beside the local map.
 struct Checkpoint {
-  OdometryPrediction::State prediction;   ///< Of a drive that has begun: it has a last scan.
+  OdometryPrediction::State prediction;  ///< Of a drive that has begun: it has a last scan.
   LocalizationMonitor::State monitor;
   PublishedCovariance::State covariance;
   SweepFactor sweep_factor;
@@ -39,8 +39,11 @@ struct RestoredCheckpoint {
   LocalMap map;
 };
 
-/// before: of a new localizer; what the bytes do not hold is as in it. None when they are damaged or the map in them has another
-/// shape than the configuration's. help, if any, becomes the map's.
-std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes, const Checkpoint& before, const LocalMapConfig& config, work::SideWork* help = nullptr);
+/// before: of a new localizer; what the bytes do not hold is as in it. None when they are damaged
+/// or the map in them has another shape than the configuration's. help, if any, becomes the map's.
+std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes,
+                                                const Checkpoint& before,
+                                                const LocalMapConfig& config,
+                                                work::SideWork* help = nullptr);
 
 }  // namespace slammot::localization

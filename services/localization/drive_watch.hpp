@@ -8,8 +8,9 @@
 
 namespace slammot::localization {
 
-/// Which scans belong together: every source of scans names its drive. Several scanners of one vehicle name their drives
-/// independently of each other, so a new one begins when a scanner that is known names another.
+/// Which scans belong together: every source of scans names its drive. Several scanners of one
+/// vehicle name their drives independently of each other, so a new one begins when a scanner that
+/// is known names another.
 class DriveWatch {
  public:
   enum class Scan {

@@ -12,19 +12,20 @@
 
 namespace slammot::localization {
 
-/// Objects that tracking published last: where the next scan is expected to see them, and what of the map they drive over.
+/// Objects that tracking published last: where the next scan is expected to see them, and what of
+/// the map they drive over.
 class ExpectedObjects {
  public:
   explicit ExpectedObjects(const LocalizerConfig& config) : config_(config) {}
 
   void expect(const flow::TrackedObjects& objects);
 
-  /// Boxes of confirmed objects at the stamp, with mask_margin_m around them, in odom; none from objects that are too old.
-  /// Valid until the next call.
+  /// Boxes of confirmed objects at the stamp, with mask_margin_m around them, in odom; none from
+  /// objects that are too old. Valid until the next call.
   const std::vector<grids::Box>& masks_at(std::int64_t stamp_ns);
 
-  /// Where a vehicle that is surely moving is seen in the scan of the labels, nothing stands. Nothing changes where the
-  /// objects are not those of that scan.
+  /// Where a vehicle that is surely moving is seen in the scan of the labels, nothing stands.
+  /// Nothing changes where the objects are not those of that scan.
   void drive_over(const flow::ScanLabels& labels, LocalMap& map) const;
 
  private:

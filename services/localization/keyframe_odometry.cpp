@@ -13,49 +13,58 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-constexpr double kFar_m = 1.0;               // from the keyframe,
+constexpr double kFar_m = 1.0;  // from the keyframe,
 constexpr double kFar_rad = 0.25;
-constexpr double kLong_s = 1.0;              // after which what stands still is forgotten
-constexpr double kReach_m = 50.0;            // half side of what is kept of the keyframe
-constexpr double kLeastShare = 0.35;        // of the points
-constexpr double kInformationShare = 0.4;    // neighbouring points share the errors of a surface
-constexpr std::array kStarts{1.0, 0.75, 0.5, 0.0, 1.3};  // of the expected way: registration converges from half a metre only
-constexpr double kMovesAlong = 0.35;         // of the way by odometry, and less
+constexpr double kLong_s = 1.0;            // after which what stands still is forgotten
+constexpr double kReach_m = 50.0;          // half side of what is kept of the keyframe
+constexpr double kLeastShare = 0.35;       // of the points
+constexpr double kInformationShare = 0.4;  // neighbouring points share the errors of a surface
+constexpr std::array kStarts{1.0, 0.75, 0.5, 0.0, 1.3};  // of the expected way: registration
+                                                         // converges from half a metre only
+constexpr double kMovesAlong = 0.35;                     // of the way by odometry, and less
 constexpr double kLeastWay_m = 0.1;
-constexpr double kSame_m = 0.05;             // two registrations that end nearer to each other
-constexpr double kRivalShare = 0.9;          // another place that fits as well as this share of the best: nothing is told
-constexpr double kBestFit = 0.9;             // of any place
-constexpr double kClearly = 2.2;             // times the fit of what is expected: the way was another; echoes from the ground move along
-constexpr double kExactly = 1e-3;            // m, rad
-constexpr double kStands_m = 0.3;            // by odometry between two keyframes
+constexpr double kSame_m = 0.05;     // two registrations that end nearer to each other
+constexpr double kRivalShare = 0.9;  // another place that fits as well as this share of the best:
+                                     // nothing is told
+constexpr double kBestFit = 0.9;     // of any place
+constexpr double kClearly = 2.2;   // times the fit of what is expected: the way was another; echoes
+                                   // from the ground move along
+constexpr double kExactly = 1e-3;  // m, rad
+constexpr double kStands_m = 0.3;  // by odometry between two keyframes
 constexpr std::int64_t kRest_ns = 200'000'000;
 constexpr double kSoundAbove = 0.9;
-constexpr double kDoubtBelow = 0.05;         // probability that the way by odometry is right
-constexpr double kProminent = 0.06;          // of a fit
+constexpr double kDoubtBelow = 0.05;  // probability that the way by odometry is right
+constexpr double kProminent = 0.06;   // of a fit
 constexpr double kDoubtOdds = 2.0;
 constexpr std::array kWaysOfStanding_m{0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.2, 1.5};
-constexpr double kClearlyDrives = 5.0;       // nats
-constexpr double kAsWell = 0.97;             // of the fit
-constexpr double kSure_m = 0.01;             // one sigma of what is expected, if it is right,
-constexpr double kSureShare = 0.02;          // and what the way adds
+constexpr double kClearlyDrives = 5.0;  // nats
+constexpr double kAsWell = 0.97;        // of the fit
+constexpr double kSure_m = 0.01;        // one sigma of what is expected, if it is right,
+constexpr double kSureShare = 0.02;     // and what the way adds
 constexpr double kSure_rad = 0.005;
-constexpr double kExpected_m = 0.1;          // one sigma of what is expected,
-constexpr double kExpectedShare = 0.5;       // and of the way and the turn
+constexpr double kExpected_m = 0.1;     // one sigma of what is expected,
+constexpr double kExpectedShare = 0.5;  // and of the way and the turn
 constexpr double kExpected_rad = 0.02;
-constexpr double kFloor_m = 0.01;            // of what two scans tell
+constexpr double kFloor_m = 0.01;  // of what two scans tell
 constexpr double kFloor_rad = 0.002;
-constexpr double kMostEchoes = 1000.0;     // weight limit: more than a scan has
+constexpr double kMostEchoes = 1000.0;  // weight limit: more than a scan has
 
 double squared(double value) { return value * value; }
 
 UncertainPose2 with_floor(UncertainPose2 pose) {
-  pose.covariance.diagonal() += Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
+  pose.covariance.diagonal() +=
+      Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
   return pose;
 }
 
 }  // namespace
 
-KeyframeOdometry::KeyframeOdometry(const LocalizerConfig& config) : match_(config.match), surfels_(grids::window_around(geometry::Vector2::Zero(), 2.0 * kReach_m, config.map.surfel_size_m), kMostEchoes), nats_(kInformationShare * config.belief.share_nats) {
+KeyframeOdometry::KeyframeOdometry(const LocalizerConfig& config)
+    : match_(config.match),
+      surfels_(
+          grids::window_around(geometry::Vector2::Zero(), 2.0 * kReach_m, config.map.surfel_size_m),
+          kMostEchoes),
+      nats_(kInformationShare * config.belief.share_nats) {
   match_.unproven_share = 1.0;
   match_.proven_after_m = 0.0;
   match_.new_below_m = 0.0;
@@ -83,21 +92,28 @@ void KeyframeOdometry::begin(const Seen& seen) {
   state_.keyframe->odom_from_base = seen.odom_from_base;
   state_.keyframe->scanner_id = seen.scanner_id;
   state_.keyframe->points_in_base_m.clear();
-  for (const matching::MatchPoint& point : seen.points.matched()) state_.keyframe->points_in_base_m.push_back(point.in_base_m);
+  for (const matching::MatchPoint& point : seen.points.matched())
+    state_.keyframe->points_in_base_m.push_back(point.in_base_m);
   map_keyframe();
 }
 
-matching::PointToLineResult KeyframeOdometry::registered_about(const UncertainPose2& expected, const ScanPoints& points) {
+matching::PointToLineResult KeyframeOdometry::registered_about(const UncertainPose2& expected,
+                                                               const ScanPoints& points) {
   return matcher_.match(points.matched(), surfels_, expected, expected.pose, match_);
 }
 
-KeyframeOdometry::BestPlace KeyframeOdometry::best_place(const UncertainPose2& prior, const ScanPoints& points) {
+KeyframeOdometry::BestPlace KeyframeOdometry::best_place(const UncertainPose2& prior,
+                                                         const ScanPoints& points) {
   BestPlace best;
   for (const double share : kStarts) {
     const Pose2 start{share * prior.pose.x_m, share * prior.pose.y_m, prior.pose.heading_rad};
-    const matching::PointToLineResult one = matcher_.match(points.matched(), surfels_, prior, start, match_);
+    const matching::PointToLineResult one =
+        matcher_.match(points.matched(), surfels_, prior, start, match_);
     const double fit = matching::fit_of(one, match_.robust_scale_m);
-    const bool is_same = geometry::difference(one.map_from_base.pose, best.registered.map_from_base.pose).head<2>().norm() < kSame_m;
+    const bool is_same =
+        geometry::difference(one.map_from_base.pose, best.registered.map_from_base.pose)
+            .head<2>()
+            .norm() < kSame_m;
     if (!is_same) best.rival_fit = std::max(best.rival_fit, std::min(fit, best.fit));
     if (fit <= best.fit) continue;
     best.fit = fit;
@@ -107,19 +123,28 @@ KeyframeOdometry::BestPlace KeyframeOdometry::best_place(const UncertainPose2& p
 }
 
 /// expected: by the estimate; by_wheels: with all that is known of odometry applied.
-std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected, const Pose2& by_wheels, const ScanPoints& points) {
+std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected,
+                                                           const Pose2& by_wheels,
+                                                           const ScanPoints& points) {
   const double way_m = std::hypot(expected.x_m, expected.y_m);
   const double ahead_m = kExpected_m + kExpectedShare * way_m;
   const double turn_rad = kExpected_rad + kExpectedShare * std::abs(expected.heading_rad);
-  const UncertainPose2 prior{expected, Eigen::Vector3d(squared(ahead_m), squared(kExpected_m), squared(turn_rad)).asDiagonal()};
+  const UncertainPose2 prior{
+      expected,
+      Eigen::Vector3d(squared(ahead_m), squared(kExpected_m), squared(turn_rad)).asDiagonal()};
   // What is expected has the first say: along a street many places fit a little better by chance.
-  const geometry::Matrix3 sure_covariance = Eigen::Vector3d(squared(kSure_m + kSureShare * way_m), squared(kSure_m + kSureShare * way_m), squared(kSure_rad)).asDiagonal();
+  const geometry::Matrix3 sure_covariance =
+      Eigen::Vector3d(squared(kSure_m + kSureShare * way_m), squared(kSure_m + kSureShare * way_m),
+                      squared(kSure_rad))
+          .asDiagonal();
   UncertainPose2 sure{expected, sure_covariance};
   matching::PointToLineResult as_expected = registered_about(sure, points);
-  // An estimate that has gone astray confirms itself where places look alike: odometry that fits as well is right.
+  // An estimate that has gone astray confirms itself where places look alike: odometry that fits as
+  // well is right.
   const UncertainPose2 by_odometry{by_wheels, sure_covariance};
   const matching::PointToLineResult as_by_wheels = registered_about(by_odometry, points);
-  if (matching::fit_of(as_by_wheels, match_.robust_scale_m) > kAsWell * matching::fit_of(as_expected, match_.robust_scale_m)) {
+  if (matching::fit_of(as_by_wheels, match_.robust_scale_m) >
+      kAsWell * matching::fit_of(as_expected, match_.robust_scale_m)) {
     as_expected = as_by_wheels;
     sure = by_odometry;
   }
@@ -128,8 +153,11 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
   const BestPlace best = may_be_elsewhere ? best_place(prior, points) : BestPlace{};
   const bool is_clearly_elsewhere = best.fit > kClearly * expected_fit;
   const matching::PointToLineResult& result = is_clearly_elsewhere ? best.registered : as_expected;
-  if (result.matched_share < kLeastShare || (is_clearly_elsewhere && best.rival_fit > kRivalShare * best.fit)) return std::nullopt;
-  const Pose2 optimum = sensing::scan_optimum(is_clearly_elsewhere ? prior : sure, result.map_from_base.pose, result.scan_information);
+  if (result.matched_share < kLeastShare ||
+      (is_clearly_elsewhere && best.rival_fit > kRivalShare * best.fit))
+    return std::nullopt;
+  const Pose2 optimum = sensing::scan_optimum(is_clearly_elsewhere ? prior : sure,
+                                              result.map_from_base.pose, result.scan_information);
   geometry::Matrix3 information = result.scan_information;
   information.diagonal() += Eigen::Vector3d(1e-2, 1e-2, 1e-2);
   return with_floor({optimum, information.inverse()});
@@ -140,25 +168,38 @@ double KeyframeOdometry::fit_at(const Pose2& pose, const ScanPoints& points) {
   matching::PointToLineConfig once = match_;
   once.coarse_steps = 0;
   once.fine_steps = 1;
-  const UncertainPose2 exactly{pose, Eigen::Vector3d(squared(kExactly), squared(kExactly), squared(kExactly)).asDiagonal()};
-  return matching::fit_of(matcher_.match(points.matched(), surfels_, exactly, pose, once), match_.robust_scale_m);
+  const UncertainPose2 exactly{
+      pose, Eigen::Vector3d(squared(kExactly), squared(kExactly), squared(kExactly)).asDiagonal()};
+  return matching::fit_of(matcher_.match(points.matched(), surfels_, exactly, pose, once),
+                          match_.robust_scale_m);
 }
 
-std::optional<UncertainPose2> KeyframeOdometry::registered_near(const Pose2& pose, const ScanPoints& points) {
-  const UncertainPose2 prior{pose, Eigen::Vector3d(squared(kExpected_m), squared(kExpected_m), squared(kExpected_rad)).asDiagonal()};
+std::optional<UncertainPose2> KeyframeOdometry::registered_near(const Pose2& pose,
+                                                                const ScanPoints& points) {
+  const UncertainPose2 prior{
+      pose, Eigen::Vector3d(squared(kExpected_m), squared(kExpected_m), squared(kExpected_rad))
+                .asDiagonal()};
   const matching::PointToLineResult result = registered_about(prior, points);
   if (result.matched_share < kLeastShare) return std::nullopt;
   return with_floor(result.map_from_base);
 }
 
-/// Compares shares of the way by odometry with each other: registration from what is expected hardly leaves it.
-void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& points, sensing::OdometryComparison& comparison) {
+/// Compares shares of the way by odometry with each other: registration from what is expected
+/// hardly leaves it.
+void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& points,
+                                 sensing::OdometryComparison& comparison) {
   const double way_m = by_wheels.translation_m().norm();
-  const double heading_rad = comparison.by_scans ? comparison.by_scans->pose.heading_rad : by_wheels.heading_rad;
-  const double direction_rad = std::atan2(by_wheels.y_m, by_wheels.x_m) + 0.5 * (heading_rad - by_wheels.heading_rad);
-  const auto pose_at = [&](double ratio) { return Pose2{ratio * way_m * std::cos(direction_rad), ratio * way_m * std::sin(direction_rad), heading_rad}; };
+  const double heading_rad =
+      comparison.by_scans ? comparison.by_scans->pose.heading_rad : by_wheels.heading_rad;
+  const double direction_rad =
+      std::atan2(by_wheels.y_m, by_wheels.x_m) + 0.5 * (heading_rad - by_wheels.heading_rad);
+  const auto pose_at = [&](double ratio) {
+    return Pose2{ratio * way_m * std::cos(direction_rad), ratio * way_m * std::sin(direction_rad),
+                 heading_rad};
+  };
   sensing::WayRatioFilter::Profile fits;
-  for (std::size_t i = 0; i < fits.size(); ++i) fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]), points);
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]), points);
   fits = sensing::WayRatioFilter::prominent(fits, kProminent);
   for (double& fit : fits) fit *= nats_;
   state_.way_ratio.update(fits);
@@ -168,18 +209,21 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
 }
 
 /// Wheels that stand while the vehicle begins to drive.
-void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& points, sensing::OdometryComparison& comparison) {
+void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& points,
+                                      sensing::OdometryComparison& comparison) {
   const double standing = fit_at(by_wheels, points);
   double best_m = 0.0;
   double best = standing;
   for (const double way_m : kWaysOfStanding_m) {
-    const double fit = fit_at({by_wheels.x_m + way_m, by_wheels.y_m, by_wheels.heading_rad}, points);
+    const double fit =
+        fit_at({by_wheels.x_m + way_m, by_wheels.y_m, by_wheels.heading_rad}, points);
     if (fit <= best) continue;
     best = fit;
     best_m = way_m;
   }
   if (nats_ * (best - standing) < kClearlyDrives) return;
-  comparison.by_scans = registered_near({by_wheels.x_m + best_m, by_wheels.y_m, by_wheels.heading_rad}, points);
+  comparison.by_scans =
+      registered_near({by_wheels.x_m + best_m, by_wheels.y_m, by_wheels.heading_rad}, points);
   if (comparison.by_scans) comparison.extra_odds = -kClearlyDrives;
 }
 
@@ -192,29 +236,38 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
   }
   if (state_.compared_ns == step.stamp_ns) return last_;
   if (!state_.keyframe || state_.rests) {
-    if (!state_.compared_ns || state_.is_in_doubt || step.stamp_ns - *state_.compared_ns >= kRest_ns) begin(seen);
+    if (!state_.compared_ns || state_.is_in_doubt ||
+        step.stamp_ns - *state_.compared_ns >= kRest_ns)
+      begin(seen);
     return std::nullopt;
   }
   if (state_.keyframe->scanner_id != seen.scanner_id) return std::nullopt;
-  const Pose2 by_wheels = geometry::inverse(state_.keyframe->wheel_from_base) * *step.wheel_from_base;
+  const Pose2 by_wheels =
+      geometry::inverse(state_.keyframe->wheel_from_base) * *step.wheel_from_base;
   const Pose2 expected = geometry::inverse(state_.keyframe->odom_from_base) * seen.odom_from_base;
-  const double way_m = std::max(std::hypot(by_wheels.x_m, by_wheels.y_m), std::hypot(expected.x_m, expected.y_m));
+  const double way_m =
+      std::max(std::hypot(by_wheels.x_m, by_wheels.y_m), std::hypot(expected.x_m, expected.y_m));
   const double turn_rad = std::max(std::abs(by_wheels.heading_rad), std::abs(expected.heading_rad));
   const double duration_s = static_cast<double>(step.stamp_ns - state_.keyframe->stamp_ns) * 1e-9;
   if (way_m < kFar_m && turn_rad < kFar_rad && duration_s < kLong_s) return std::nullopt;
   const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
-  last_ = sensing::OdometryComparison{by_wheels, as_believed, registered(expected, as_believed, seen.points), duration_s};
+  last_ = sensing::OdometryComparison{by_wheels, as_believed,
+                                      registered(expected, as_believed, seen.points), duration_s};
   if (as_believed.translation_m().norm() > kStands_m) judge_way(as_believed, seen.points, *last_);
   else judge_standing(as_believed, seen.points, *last_);
   state_.compared_ns = step.stamp_ns;
   // Sound odometry is looked at a few times a second only.
-  state_.is_in_doubt = !last_->by_scans || last_->extra_odds != 0.0 || state_.way_ratio.sound_probability() < kSoundAbove;
+  state_.is_in_doubt = !last_->by_scans || last_->extra_odds != 0.0 ||
+                       state_.way_ratio.sound_probability() < kSoundAbove;
   if (state_.is_in_doubt) begin(seen);
   else state_.rests = true;
   auto& by_scans = last_->by_scans;
-  // Traffic on all sides, and the ground that a braking scanner sees, move along: that the vehicle stands is not told by a pair of scans.
+  // Traffic on all sides, and the ground that a braking scanner sees, move along: that the vehicle
+  // stands is not told by a pair of scans.
   const double way_by_wheels_m = by_wheels.translation_m().norm();
-  if (by_scans && way_by_wheels_m > kLeastWay_m && by_scans->pose.translation_m().norm() < kMovesAlong * way_by_wheels_m) by_scans.reset();
+  if (by_scans && way_by_wheels_m > kLeastWay_m &&
+      by_scans->pose.translation_m().norm() < kMovesAlong * way_by_wheels_m)
+    by_scans.reset();
   return last_;
 }
 

@@ -15,8 +15,9 @@
 
 namespace slammot::localization {
 
-/// The way between two scans about a metre apart, by odometry and by one scan registered to the other. The local map cannot tell odometry
-/// that is off by a constant factor: it was made by it. Two scans can.
+/// The way between two scans about a metre apart, by odometry and by one scan registered to the
+/// other. The local map cannot tell odometry that is off by a constant factor: it was made by it.
+/// Two scans can.
 class KeyframeOdometry {
  public:
   /// A scan that was matched.
@@ -25,7 +26,7 @@ class KeyframeOdometry {
     const geometry::Pose2& odom_from_base;
     const ScanPoints& points;
     const std::string& scanner_id;
-    const OdometryPrediction& prediction;    ///< Knows what to believe of odometry.
+    const OdometryPrediction& prediction;  ///< Knows what to believe of odometry.
   };
 
   /// The scan that the next ones are compared with.
@@ -42,41 +43,49 @@ class KeyframeOdometry {
   /// For checkpoints.
   struct State {
     std::optional<Keyframe> keyframe;
-    std::optional<std::int64_t> compared_ns;   ///< Stamp of the scan of the last comparison,
-    bool is_in_doubt = true;                   ///< and whether odometry was in doubt then.
-    bool rests = false;                        ///< The keyframe was compared; its memory is kept for the next one.
+    std::optional<std::int64_t> compared_ns;  ///< Stamp of the scan of the last comparison,
+    bool is_in_doubt = true;                  ///< and whether odometry was in doubt then.
+    bool rests = false;  ///< The keyframe was compared; its memory is kept for the next one.
     sensing::WayRatioFilter way_ratio;
   };
   const State& state() const { return state_; }
   void resume(State state);
 
-  /// After each scan that was matched: where the vehicle has gone far enough since the keyframe, the comparison; this scan is then the next
-  /// keyframe. None without odometry, for another scanner than the keyframe's, and where scans are rare: each is compared with the map by itself.
-  /// The same scan again: the same answer.
+  /// After each scan that was matched: where the vehicle has gone far enough since the keyframe,
+  /// the comparison; this scan is then the next keyframe. None without odometry, for another
+  /// scanner than the keyframe's, and where scans are rare: each is compared with the map by
+  /// itself. The same scan again: the same answer.
   std::optional<sensing::OdometryComparison> observe(const Seen& seen);
 
  private:
   void begin(const Seen& seen);
   void map_keyframe();
-  matching::PointToLineResult registered_about(const geometry::UncertainPose2& expected, const ScanPoints& points);
+  matching::PointToLineResult registered_about(const geometry::UncertainPose2& expected,
+                                               const ScanPoints& points);
   double fit_at(const geometry::Pose2& pose, const ScanPoints& points);
-  /// The best of registrations from several shares of the expected way, and how well the best other place fits.
+  /// The best of registrations from several shares of the expected way, and how well the best other
+  /// place fits.
   struct BestPlace {
     matching::PointToLineResult registered;
     double fit = 0.0;
     double rival_fit = 0.0;
   };
   BestPlace best_place(const geometry::UncertainPose2& prior, const ScanPoints& points);
-  std::optional<geometry::UncertainPose2> registered(const geometry::Pose2& expected, const geometry::Pose2& by_wheels, const ScanPoints& points);
-  std::optional<geometry::UncertainPose2> registered_near(const geometry::Pose2& pose, const ScanPoints& points);
-  void judge_way(const geometry::Pose2& by_wheels, const ScanPoints& points, sensing::OdometryComparison& comparison);
-  void judge_standing(const geometry::Pose2& by_wheels, const ScanPoints& points, sensing::OdometryComparison& comparison);
+  std::optional<geometry::UncertainPose2> registered(const geometry::Pose2& expected,
+                                                     const geometry::Pose2& by_wheels,
+                                                     const ScanPoints& points);
+  std::optional<geometry::UncertainPose2> registered_near(const geometry::Pose2& pose,
+                                                          const ScanPoints& points);
+  void judge_way(const geometry::Pose2& by_wheels, const ScanPoints& points,
+                 sensing::OdometryComparison& comparison);
+  void judge_standing(const geometry::Pose2& by_wheels, const ScanPoints& points,
+                      sensing::OdometryComparison& comparison);
 
   matching::PointToLineConfig match_;
-  grids::SurfelMap surfels_;                 ///< Of the keyframe, in its base.
-  double nats_;                              ///< Log-likelihood of a fit of 1 against one of 0.
+  grids::SurfelMap surfels_;  ///< Of the keyframe, in its base.
+  double nats_;               ///< Log-likelihood of a fit of 1 against one of 0.
   State state_;
-  std::optional<sensing::OdometryComparison> last_;   ///< What the scan of state_.compared_ns said.
+  std::optional<sensing::OdometryComparison> last_;  ///< What the scan of state_.compared_ns said.
   matching::PointToLineMatcher matcher_;
 };
 

@@ -15,27 +15,29 @@
 namespace slammot::localization {
 
 struct LocalMapConfig {
-  double side_m = 240.0;                ///< Of the square held around the vehicle.
-  double cell_size_m = 0.2;             ///< Of SO-map and MO-map.
-  double surfel_size_m = 0.5;           ///< Of the cells whose echoes are averaged for matching: docs/decisions/scan-matching.md.
-  double new_map_after_m = 60.0;        ///< Distance from the map's centre at which a new one begins, or
-  double new_map_after_travel_m = 100.0;///< distance travelled in it.
-  double no_echo_free_m = 40.0;         ///< A beam without echo tells that this much is free.
-  double free_log_odds = 0.8;           ///< With this much against it a cell counts as free.
-  double end_cell_tolerance_m = 0.25;   ///< An occupied cell this near explains an echo.
+  double side_m = 240.0;          ///< Of the square held around the vehicle.
+  double cell_size_m = 0.2;       ///< Of SO-map and MO-map.
+  double surfel_size_m = 0.5;     ///< Of the cells whose echoes are averaged for matching:
+                                  ///< docs/decisions/scan-matching.md.
+  double new_map_after_m = 60.0;  ///< Distance from the map's centre at which a new one begins, or
+  double new_map_after_travel_m = 100.0;  ///< distance travelled in it.
+  double no_echo_free_m = 40.0;           ///< A beam without echo tells that this much is free.
+  double free_log_odds = 0.8;             ///< With this much against it a cell counts as free.
+  double end_cell_tolerance_m = 0.25;     ///< An occupied cell this near explains an echo.
   grids::EvidenceModel evidence;
-  grids::LastingModel lasting;           ///< Of what becomes the submap.
+  grids::LastingModel lasting;  ///< Of what becomes the submap.
 };
 
-
-/// The map around the vehicle in odom: SO-map, MO-map and surfels in one window that moves on when the vehicle nears
-/// its edge. What has been seen since it last moved makes the submap in progress, by the evidence that lasts in place of the SO-map's:
-/// docs/decisions/maps-and-submaps.md. Wang 2004, sections 3.4 and 6.3.
+/// The map around the vehicle in odom: SO-map, MO-map and surfels in one window that moves on when
+/// the vehicle nears its edge. What has been seen since it last moved makes the submap in progress,
+/// by the evidence that lasts in place of the SO-map's: docs/decisions/maps-and-submaps.md. Wang
+/// 2004, sections 3.4 and 6.3.
 class LocalMap {
  public:
   LocalMap() = default;
   /// help, if any, takes over part of integrate(); it must outlive the map.
-  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m, work::SideWork* help = nullptr, flow::SubmapId first = {});
+  LocalMap(const LocalMapConfig& config, const geometry::Vector2& centre_in_odom_m,
+           work::SideWork* help = nullptr, flow::SubmapId first = {});
 
   /// Waits for what help is still doing.
   const grids::EvidenceGrid& evidence() const { return evidence_.grid(); }
@@ -43,15 +45,20 @@ class LocalMap {
   flow::SubmapId submap_id() const { return submap_id_; }
   const geometry::Pose2& odom_from_submap() const { return odom_from_submap_; }
 
-  /// Lets help do what it can of integrate() ahead of it, of the same scan: what of its echoes moves need not be known yet.
-  void prepare(const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad);
+  /// Lets help do what it can of integrate() ahead of it, of the same scan: what of its echoes
+  /// moves need not be known yet.
+  void prepare(const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays,
+               double beam_step_rad);
 
-  /// Adds one scan whose laser stood at origin_m; rays in odom, in the order of the beams. Its surfels are there on return,
-  /// its evidence when anybody asks for it.
-  void integrate(std::int64_t stamp_ns, const geometry::Vector2& origin_m, const std::vector<grids::Ray>& rays, double beam_step_rad);
+  /// Adds one scan whose laser stood at origin_m; rays in odom, in the order of the beams. Its
+  /// surfels are there on return, its evidence when anybody asks for it.
+  void integrate(std::int64_t stamp_ns, const geometry::Vector2& origin_m,
+                 const std::vector<grids::Ray>& rays, double beam_step_rad);
 
-  /// Gives back a point that was held to be moving; some of those that tracking gives back never were.
-  void restore_stationary(const geometry::Vector2& point_in_odom_m, grids::Echo integrated_as = grids::Echo::kMoving);
+  /// Gives back a point that was held to be moving; some of those that tracking gives back never
+  /// were.
+  void restore_stationary(const geometry::Vector2& point_in_odom_m,
+                          grids::Echo integrated_as = grids::Echo::kMoving);
 
   /// Where a body is that moves nothing stands.
   void drive_over(const grids::Box& body) { evidence_.drive_over(body); }
@@ -59,8 +66,10 @@ class LocalMap {
   /// What the map says about the cell in which a beam ended.
   void look_up_end(const geometry::Vector2& end_in_odom_m, flow::LocalizedBeam& beam) const;
 
-  /// From the laser to the first occupied cell on the way to a place; max_range_m where there is none before it.
-  float expected_range_m(const geometry::Vector2& origin_in_odom_m, const geometry::Vector2& towards_in_odom_m, double max_range_m) const;
+  /// From the laser to the first occupied cell on the way to a place; max_range_m where there is
+  /// none before it.
+  float expected_range_m(const geometry::Vector2& origin_in_odom_m,
+                         const geometry::Vector2& towards_in_odom_m, double max_range_m) const;
 
   /// Whether the vehicle has gone far enough for a new map.
   bool is_outgrown(const geometry::Vector2& position_in_odom_m, double travelled_m) const;
@@ -70,18 +79,20 @@ class LocalMap {
   /// The submap in progress. Pose constraints and travel are the caller's to fill in.
   flow::Submap submap() const;
 
-  /// Moves the window to the vehicle and begins the next submap with what the last one has seen itself. What is older
-  /// has drifted by now: matching against it would bend the new submap towards it, which is for loop closing to judge.
+  /// Moves the window to the vehicle and begins the next submap with what the last one has seen
+  /// itself. What is older has drifted by now: matching against it would bend the new submap
+  /// towards it, which is for loop closing to judge.
   void begin_next(const geometry::Vector2& centre_in_odom_m);
 
-  /// Begins the next submap with nothing: where it lies to what was seen before is not known. One that has seen nothing
-  /// itself becomes it.
+  /// Begins the next submap with nothing: where it lies to what was seen before is not known. One
+  /// that has seen nothing itself becomes it.
   void begin_astray(const geometry::Vector2& centre_in_odom_m);
 
   /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.
   void write(std::vector<std::byte>& bytes) const;
   /// None when the bytes are not a map of this configuration.
-  static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from, work::SideWork* help = nullptr);
+  static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from,
+                                          work::SideWork* help = nullptr);
 
  private:
   void count_way(const geometry::Vector2& origin_m);
@@ -91,22 +102,22 @@ class LocalMap {
   geometry::Vector2 window_centre_m() const;
 
   LocalMapConfig config_;
-  int free_steps_ = 0;                      ///< Of the configuration's free_log_odds,
-  int end_cell_tolerance_ = 0;              ///< and of its end_cell_tolerance_m, in cells.
+  int free_steps_ = 0;          ///< Of the configuration's free_log_odds,
+  int end_cell_tolerance_ = 0;  ///< and of its end_cell_tolerance_m, in cells.
   DeferredEvidence evidence_;
   grids::SurfelMap surfels_;
-  std::vector<std::int8_t> inherited_so_;   ///< What the window held when the submap began,
+  std::vector<std::int8_t> inherited_so_;  ///< What the window held when the submap began,
   std::vector<std::uint8_t> inherited_mo_;
   std::vector<std::int8_t> inherited_lasting_;
-  grids::SurfelMap inherited_surfels_;      ///< so that a submap tells only what was seen in it.
+  grids::SurfelMap inherited_surfels_;  ///< so that a submap tells only what was seen in it.
   flow::SubmapId submap_id_;
   geometry::Pose2 odom_from_submap_;
   std::int64_t first_stamp_ns_ = 0;
   std::int64_t last_stamp_ns_ = 0;
   std::uint32_t scans_ = 0;
-  double odometer_m_ = 0.0;                 ///< Way of the laser, in steps that are more than jitter.
+  double odometer_m_ = 0.0;  ///< Way of the laser, in steps that are more than jitter.
   std::optional<geometry::Vector2> counted_to_m_;
-  std::vector<geometry::Vector2> stationary_m_;   ///< Of the scan at hand; kept to reuse the memory.
+  std::vector<geometry::Vector2> stationary_m_;  ///< Of the scan at hand; kept to reuse the memory.
 };
 
 }  // namespace slammot::localization

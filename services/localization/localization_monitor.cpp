@@ -8,17 +8,21 @@
 namespace slammot::localization {
 namespace {
 
-constexpr double kMostContradictedWhenSure = 0.8;  // Lost, too, where the prediction is sure and so many of the points lie in what the map knows to be free: traffic alone does not put so many there.
+constexpr double kMostContradictedWhenSure = 0.8;  // Lost, too, where the prediction is sure and so
+                                                   // many of the points lie in what the map knows
+                                                   // to be free: traffic alone does not put so many
+                                                   // there.
 
-constexpr int kPatientScans = 6;               // that need not fit, however long they take;
-constexpr int kAstrayScans = 16;               // so many in vain before a new map begins
+constexpr int kPatientScans = 6;  // that need not fit, however long they take;
+constexpr int kAstrayScans = 16;  // so many in vain before a new map begins
 constexpr double kSeenThroughWalls_share = 0.1;
-constexpr double kChanged_share = 0.5;         // of what was explained one scan before
+constexpr double kChanged_share = 0.5;  // of what was explained one scan before
 
 bool is_same_view(const geometry::Pose2& before_from_now) {
   constexpr double kSameView_m = 1.0;
   constexpr double kSameView_rad = 0.2;
-  return before_from_now.translation_m().norm() < kSameView_m && std::abs(before_from_now.heading_rad) < kSameView_rad;
+  return before_from_now.translation_m().norm() < kSameView_m &&
+         std::abs(before_from_now.heading_rad) < kSameView_rad;
 }
 
 }  // namespace
@@ -40,10 +44,12 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
   return Verdict::kLost;
 }
 
-/// Traffic on all sides hides the map for as long as it likes: what drives and was not seen to be moved trusts its wheels.
+/// Traffic on all sides hides the map for as long as it likes: what drives and was not seen to be
+/// moved trusts its wheels.
 bool LocalizationMonitor::trusts_prediction(const Step& step) const {
   if (!step.has_wheels()) return false;
-  return (!state_.everything_changed && !config_.may_be_picked_up) || lost_s(step.stamp_ns) < config_.lost_after_s || state_.unmatched_scans < kPatientScans;
+  return (!state_.everything_changed && !config_.may_be_picked_up) ||
+         lost_s(step.stamp_ns) < config_.lost_after_s || state_.unmatched_scans < kPatientScans;
 }
 
 bool LocalizationMonitor::confirm() {
@@ -53,28 +59,38 @@ bool LocalizationMonitor::confirm() {
   return true;
 }
 
-/// Where the prediction is sure, much that contradicts the map is traffic; where it is not, the match may be anywhere. But
-/// traffic stands before walls, and does not come from one scan to the next. Where the vehicle has hardly moved, nothing does
-/// but the ground that a braking scanner sees, and another place.
+/// Where the prediction is sure, much that contradicts the map is traffic; where it is not, the
+/// match may be anywhere. But traffic stands before walls, and does not come from one scan to the
+/// next. Where the vehicle has hardly moved, nothing does but the ground that a braking scanner
+/// sees, and another place.
 bool LocalizationMonitor::is_contradicted(const MatchToJudge& judged) {
   if (!judged.match.is_believed && !judged.match.is_lost) {
-    state_.explained_before = 0.0;  // beams without echo have cleared the map meanwhile: nothing is to be concluded from that
+    state_.explained_before = 0.0;  // beams without echo have cleared the map meanwhile: nothing is
+                                    // to be concluded from that
     return false;
   }
   if (!may_be_elsewhere(judged.step) && !state_.everything_changed) {
-    state_.explained_before.reset();  // the map is not asked as long as nobody wants to know: it may still be taking in the last scan
+    state_.explained_before.reset();  // the map is not asked as long as nobody wants to know: it
+                                      // may still be taking in the last scan
     return false;
   }
-  const double explained = explained_share(judged.points.matched(), judged.match.odom_from_base.pose, judged.map.evidence(), config_.map);
+  const double explained =
+      explained_share(judged.points.matched(), judged.match.odom_from_base.pose,
+                      judged.map.evidence(), config_.map);
   compare_with_scan_before(judged, explained);
   return contradicts_too_much(judged, explained);
 }
 
 void LocalizationMonitor::compare_with_scan_before(const MatchToJudge& judged, double explained) {
   const geometry::Pose2& pose_before = judged.step.odom_from_base_before.pose;
-  const double before = state_.explained_before ? *state_.explained_before
-                                                : explained_share(judged.points.matched_before(), pose_before, judged.map.evidence(), config_.map);
-  if (!state_.lost_since_ns) state_.everything_changed = may_be_elsewhere(judged.step) && before - explained > kChanged_share && is_same_view(judged.step.before_from_base);
+  const double before = state_.explained_before
+                            ? *state_.explained_before
+                            : explained_share(judged.points.matched_before(), pose_before,
+                                              judged.map.evidence(), config_.map);
+  if (!state_.lost_since_ns)
+    state_.everything_changed = may_be_elsewhere(judged.step) &&
+                                before - explained > kChanged_share &&
+                                is_same_view(judged.step.before_from_base);
   state_.explained_before = explained;
 }
 
@@ -84,17 +100,25 @@ bool LocalizationMonitor::contradicts_too_much(const MatchToJudge& judged, doubl
   const bool does_not_match = judged.match.is_lost;
   if (!may_be_elsewhere(judged.step) && !changed) return false;
   if (does_not_match && changed) return true;
-  const auto there = [&] { return agreement(judged.points, judged.match.odom_from_base.pose, judged.map.evidence(), config_.map); };
-  if (is_vague(judged.step.prior(), config_)) return there().contradicting_share() > config_.most_contradicted_share;
-  if (was_lost && changed) return there().contradicting_share() > kFoundByHalf * config_.most_contradicted_share;
+  const auto there = [&] {
+    return agreement(judged.points, judged.match.odom_from_base.pose, judged.map.evidence(),
+                     config_.map);
+  };
+  if (is_vague(judged.step.prior(), config_))
+    return there().contradicting_share() > config_.most_contradicted_share;
+  if (was_lost && changed)
+    return there().contradicting_share() > kFoundByHalf * config_.most_contradicted_share;
   if (!does_not_match && !was_lost && explained >= 1.0 - kMostContradictedWhenSure) return false;
-  const double most = does_not_match || was_lost ? config_.most_contradicted_share : kMostContradictedWhenSure;
+  const double most =
+      does_not_match || was_lost ? config_.most_contradicted_share : kMostContradictedWhenSure;
   const MapAgreement found = there();
-  return found.contradicting_share() > most && (changed || found.share_behind_walls() > kSeenThroughWalls_share);
+  return found.contradicting_share() > most &&
+         (changed || found.share_behind_walls() > kSeenThroughWalls_share);
 }
 
 bool LocalizationMonitor::has_gone_astray(std::int64_t stamp_ns) const {
-  return state_.lost_since_ns && state_.lost_scans > 0 && state_.unmatched_scans > kAstrayScans && lost_s(stamp_ns) > config_.lost_after_s + config_.astray_after_s;
+  return state_.lost_since_ns && state_.lost_scans > 0 && state_.unmatched_scans > kAstrayScans &&
+         lost_s(stamp_ns) > config_.lost_after_s + config_.astray_after_s;
 }
 
 void LocalizationMonitor::begin_map() {

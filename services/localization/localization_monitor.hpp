@@ -15,36 +15,39 @@ namespace slammot::localization {
 /// A match with all that it is judged by.
 struct MatchToJudge {
   const ScanMatch& match;
-  const Step& step;             ///< Its prediction was the prior.
+  const Step& step;  ///< Its prediction was the prior.
   const ScanPoints& points;
   const LocalMap& map;
 };
 
-/// Judges from scan to scan whether the vehicle is where the estimate has it: whether scans match, and whether the map is
-/// contradicted by them. For each scan after the first: judge(), and confirm() where the match is believed in the end.
+/// Judges from scan to scan whether the vehicle is where the estimate has it: whether scans match,
+/// and whether the map is contradicted by them. For each scan after the first: judge(), and
+/// confirm() where the match is believed in the end.
 class LocalizationMonitor {
  public:
   enum class Verdict {
-    kFits,           ///< Nothing speaks against the match, or there was too little to match.
-    kDoesNotFit,     ///< The prediction is trusted for now, or for good.
-    kLost,           ///< The pose is to be searched for.
+    kFits,        ///< Nothing speaks against the match, or there was too little to match.
+    kDoesNotFit,  ///< The prediction is trusted for now, or for good.
+    kLost,        ///< The pose is to be searched for.
   };
 
   struct State {
-    std::optional<std::int64_t> lost_since_ns;      ///< Stamp of the first scan that did not fit.
-    int unmatched_scans = 0;                        ///< Since then.
-    int lost_scans = 0;                             ///< Since the prediction is no longer trusted.
-    int scans_to_prove = 0;                         ///< Until it is believed that the pose was found again.
-    bool contradicts_map = false;                   ///< The scan at hand, where it was matched.
-    std::optional<double> explained_before = 0.0;   ///< Share of the last scan's points that the map explained; none: not asked.
-    bool everything_changed = false;                ///< From one scan to the next, when it was lost.
+    std::optional<std::int64_t> lost_since_ns;  ///< Stamp of the first scan that did not fit.
+    int unmatched_scans = 0;                    ///< Since then.
+    int lost_scans = 0;                         ///< Since the prediction is no longer trusted.
+    int scans_to_prove = 0;        ///< Until it is believed that the pose was found again.
+    bool contradicts_map = false;  ///< The scan at hand, where it was matched.
+    std::optional<double> explained_before = 0.0;  ///< Share of the last scan's points that the map
+                                                   ///< explained; none: not asked.
+    bool everything_changed = false;               ///< From one scan to the next, when it was lost.
   };
 
   explicit LocalizationMonitor(const LocalizerConfig& config) : config_(config) {}
 
   Verdict judge(const MatchToJudge& judged);
 
-  /// A match is believed and fits, perhaps after a search. Whether the vehicle is where it says: in a wrong place a scan or two may fit.
+  /// A match is believed and fits, perhaps after a search. Whether the vehicle is where it says: in
+  /// a wrong place a scan or two may fit.
   bool confirm();
 
   /// Whether the pose was searched for in vain for so long that a new map is to begin.
@@ -55,7 +58,9 @@ class LocalizationMonitor {
 
   bool is_lost() const { return state_.lost_scans > 0; }
   int lost_scans() const { return state_.lost_scans; }
-  PoseTrust trust() const { return state_.lost_since_ns ? PoseTrust::kDoubted : PoseTrust::kConfirmed; }
+  PoseTrust trust() const {
+    return state_.lost_since_ns ? PoseTrust::kDoubted : PoseTrust::kConfirmed;
+  }
   /// What may become of the scan at hand.
   MapAdmission admission() const;
 
@@ -67,8 +72,12 @@ class LocalizationMonitor {
   void compare_with_scan_before(const MatchToJudge& judged, double explained);
   bool contradicts_too_much(const MatchToJudge& judged, double explained) const;
   bool trusts_prediction(const Step& step) const;
-  bool may_be_elsewhere(const Step& step) const { return !step.has_wheels() || config_.may_be_picked_up; }
-  double lost_s(std::int64_t stamp_ns) const { return static_cast<double>(stamp_ns - *state_.lost_since_ns) * 1e-9; }
+  bool may_be_elsewhere(const Step& step) const {
+    return !step.has_wheels() || config_.may_be_picked_up;
+  }
+  double lost_s(std::int64_t stamp_ns) const {
+    return static_cast<double>(stamp_ns - *state_.lost_since_ns) * 1e-9;
+  }
 
   LocalizerConfig config_;
   State state_;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include "common/wire/scan_labels.hpp"
 #include "common/wire/segmented_scan.hpp"
@@ -19,11 +19,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How many turns of the loop, of at least this length, a scan waits for odometry of its time. Not a time: where the machine
-/// is slow, odometry that is there is read before a scan gives it up.
+/// How many turns of the loop, of at least this length, a scan waits for odometry of its time. Not
+/// a time: where the machine is slow, odometry that is there is read before a scan gives it up.
 constexpr auto kTurn = 10ms;
 constexpr int kOdometryPatience = 5;
-/// The first one waits longer: the bus finds the odometry's writer when it does, and after a crash nothing else bridges the gap.
+/// The first one waits longer: the bus finds the odometry's writer when it does, and after a crash
+/// nothing else bridges the gap.
 constexpr int kFirstOdometryPatience = 50;
 /// How many turns it waits for what tracking says about the scan before it.
 constexpr int kTrackingPatience = 3;
@@ -35,16 +36,24 @@ constexpr std::int64_t kCheckpointPeriodNs = 1'000'000'000;
 constexpr int kTileAttempts = 20;
 /// Of what came before the first scan of a drive, no more than this is of use.
 constexpr std::size_t kRecentOdometry = 300;
-/// A live sensor's scans do not pile up until the stored map is known: a vehicle wants to know where it is now.
+/// A live sensor's scans do not pile up until the stored map is known: a vehicle wants to know
+/// where it is now.
 constexpr std::size_t kScansBeforeMap = 100;
 
 /// Unlike any before, unless the clock was set back to the very nanosecond.
-std::uint64_t new_id() { return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()); }
+std::uint64_t new_id() {
+  return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
+}
 
-std::int64_t monotonic_ns() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+std::int64_t monotonic_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
 
 std::filesystem::path checkpoint_path(const app::ServiceOptions& options) {
-  return options.state_dir / ("localization-" + options.vehicle_id + "-" + options.instance + ".checkpoint");
+  return options.state_dir /
+         ("localization-" + options.vehicle_id + "-" + options.instance + ".checkpoint");
 }
 
 }  // namespace
@@ -54,8 +63,12 @@ std::vector<config::BoundStage> LocalizationService::stages(Settings& settings) 
 }
 
 void LocalizationService::add_options(CLI::App& command_line, Settings& settings) {
-  command_line.add_flag("--continue-map", settings.continues_map, "Go on in the map that map_store has, beginning anywhere in it");
-  command_line.add_option("--map-patience", settings.map_patience_s, "With --continue-map: without news of that map for so long [s], a drive begins its own")
+  command_line.add_flag("--continue-map", settings.continues_map,
+                        "Go on in the map that map_store has, beginning anywhere in it");
+  command_line
+      .add_option(
+          "--map-patience", settings.map_patience_s,
+          "With --continue-map: without news of that map for so long [s], a drive begins its own")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
 }
@@ -69,17 +82,26 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
       tiles_(context.write(dds::topics::kSubmapTile)) {
   using app::Input;
   if (settings.continues_map) {
-    stored_map_.emplace(std::llround(settings.map_patience_s * 1e9), config_.map.cell_size_m, monotonic_ns());
-    context.read(dds::topics::kStoredMap, Input::kOccasional, [this](const auto& sample) { take(sample); });
+    stored_map_.emplace(std::llround(settings.map_patience_s * 1e9), config_.map.cell_size_m,
+                        monotonic_ns());
+    context.read(dds::topics::kStoredMap, Input::kOccasional,
+                 [this](const auto& sample) { take(sample); });
     is_stored_map_known();  // so that nobody takes it for ready before the first turn
   }
-  // In this order also when several wait: what is known about earlier scans goes into the map before the next is matched.
-  context.read(dds::topics::kGraphCorrection, Input::kOccasional, [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kSegmentedScan, Input::kSteady, [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kTrackedObjects, Input::kSteady, [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kScanLabels, Input::kSteady, [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kOdometry, Input::kSteady, [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kLaserScan, Input::kSteady, [this](const auto& sample) { take(sample); });
+  // In this order also when several wait: what is known about earlier scans goes into the map
+  // before the next is matched.
+  context.read(dds::topics::kGraphCorrection, Input::kOccasional,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kSegmentedScan, Input::kSteady,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kTrackedObjects, Input::kSteady,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kScanLabels, Input::kSteady,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kOdometry, Input::kSteady,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kLaserScan, Input::kSteady,
+               [this](const auto& sample) { take(sample); });
   context.every(kTurn, [this] {
     for (WaitingScan& waiting : waiting_) ++waiting.turns;
     if (stored_map_ && !map_id_) is_stored_map_known();
@@ -91,7 +113,9 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
 
 template <typename Value>
 bool LocalizationService::is_good(const wire::Decoded<Value>& decoded, std::string_view topic) {
-  if (!decoded) context_.warn("faulty_" + std::string(topic), "dropped a " + std::string(topic) + ": " + std::string(decoded.fault()));
+  if (!decoded)
+    context_.warn("faulty_" + std::string(topic),
+                  "dropped a " + std::string(topic) + ": " + std::string(decoded.fault()));
   return static_cast<bool>(decoded);
 }
 
@@ -140,7 +164,9 @@ void LocalizationService::take(const slammot_ScanLabels& sample) {
 
 void LocalizationService::take(const slammot_GraphCorrection& sample) {
   auto added = corrections_.add(sample);
-  if (!added.fault.empty()) context_.warn("faulty_graph_correction", "dropped a graph correction: " + std::string(added.fault));
+  if (!added.fault.empty())
+    context_.warn("faulty_graph_correction",
+                  "dropped a graph correction: " + std::string(added.fault));
   if (!added.correction) return;
   if (stored_map_) stored_map_->is_placed(*added.correction, monotonic_ns());
   if (!map_id_) early_corrections_[added.correction->map_id] = std::move(*added.correction);
@@ -156,7 +182,8 @@ void LocalizationService::correct(const flow::GraphCorrection& correction) {
 
 void LocalizationService::tell_whether_it_is_tied(bool is_tied) {
   if (is_tied) context_.status().clear_trouble("place");
-  else context_.status().set_trouble("place", "not found in the map yet: poses in map mean nothing");
+  else
+    context_.status().set_trouble("place", "not found in the map yet: poses in map mean nothing");
 }
 
 void LocalizationService::take(const slammot_StoredMap& sample) {
@@ -172,16 +199,20 @@ bool LocalizationService::awaits_odometry(const WaitingScan& waiting) const {
 }
 
 /// Labels come by a way of their own, and so do the objects that tracking publishes before them.
-bool LocalizationService::is_tracking_awaited() const { return localizer_.awaits_labels() || newest_objects_ns_ < newest_labels_ns_; }
+bool LocalizationService::is_tracking_awaited() const {
+  return localizer_.awaits_labels() || newest_objects_ns_ < newest_labels_ns_;
+}
 
-/// What tracking says about a scan is better known before the next is matched. It is given a few turns, and nothing where
-/// scans queue up or it has been late.
+/// What tracking says about a scan is better known before the next is matched. It is given a few
+/// turns, and nothing where scans queue up or it has been late.
 bool LocalizationService::awaits_tracking(const WaitingScan& waiting) const {
-  return is_tracking_awaited() && waiting_.size() == 1 && waiting.turns < kTrackingPatience && waited_for_tracking_in_vain_ < kVainWaits;
+  return is_tracking_awaited() && waiting_.size() == 1 && waiting.turns < kTrackingPatience &&
+         waited_for_tracking_in_vain_ < kVainWaits;
 }
 
 void LocalizationService::localize_waiting() {
-  while (!waiting_.empty() && !awaits_odometry(waiting_.front()) && !awaits_tracking(waiting_.front()) && knows_map_of(waiting_.front())) {
+  while (!waiting_.empty() && !awaits_odometry(waiting_.front()) &&
+         !awaits_tracking(waiting_.front()) && knows_map_of(waiting_.front())) {
     const WaitingScan waiting = std::move(waiting_.front());
     waiting_.pop_front();
     if (!localizer_.has_odometry_for(waiting.scan.stamp_ns)) ++waited_in_vain_;
@@ -193,7 +224,9 @@ void LocalizationService::localize_waiting() {
 /// Where drives go on in the stored map, the first scan of one waits until that is known.
 bool LocalizationService::knows_map_of(const WaitingScan& waiting) {
   if (!map_id_ && come_back(waiting)) return true;
-  const bool is_new = !map_id_ || drives_.look_at(waiting.scan.scanner.scanner_id, waiting.drive_id) == DriveWatch::Scan::kOfNewDrive;
+  const bool is_new =
+      !map_id_ || drives_.look_at(waiting.scan.scanner.scanner_id, waiting.drive_id) ==
+                      DriveWatch::Scan::kOfNewDrive;
   if (!stored_map_ || !is_new) return true;
   if (map_id_) end_drive();
   else hand_over_earlier_drive();
@@ -210,8 +243,10 @@ bool LocalizationService::is_stored_map_known() {
   const StoredMapWatch::Answer answer = stored_map_->answer(monotonic_ns());
   const bool waits = answer.verdict == StoredMapWatch::Verdict::kWait;
   context_.status().set_starting(waits);
-  if (waits) context_.status().set_trouble("stored_map", "waits for the stored map: " + answer.reason);
-  else if (answer.verdict == StoredMapWatch::Verdict::kCannot) context_.status().set_trouble("stored_map", "cannot go on in the stored map: " + answer.reason);
+  if (waits)
+    context_.status().set_trouble("stored_map", "waits for the stored map: " + answer.reason);
+  else if (answer.verdict == StoredMapWatch::Verdict::kCannot)
+    context_.status().set_trouble("stored_map", "cannot go on in the stored map: " + answer.reason);
   else context_.status().clear_trouble("stored_map");
   return !waits;
 }
@@ -242,7 +277,8 @@ void LocalizationService::localize(const sensing::LaserScan& scan) {
     localized_scans_.write(scan_encoder_.encode(context_.vehicle_id(), *localized));
     last_published_[scanner_id] = std::move(*localized);
   } else if (const auto last = last_published_.find(scanner_id); last != last_published_.end()) {
-    // The sender has no answer to a scan that is done, or begins its drive again: the newest one tells both how far it is.
+    // The sender has no answer to a scan that is done, or begins its drive again: the newest one
+    // tells both how far it is.
     localized_scans_.write(scan_encoder_.encode(context_.vehicle_id(), last->second));
   }
   publish_finished_submaps();
@@ -250,13 +286,18 @@ void LocalizationService::localize(const sensing::LaserScan& scan) {
 
 void LocalizationService::tell_whereabouts(bool was_lost, std::uint64_t astray_before) {
   if (localizer_.counters().astray > astray_before) {
-    spdlog::warn("did not find itself: submap {} is tied to nothing until loop closing finds its place", localizer_.local_map().submap_id().value);
+    spdlog::warn(
+        "did not find itself: submap {} is tied to nothing until loop closing finds its place",
+        localizer_.local_map().submap_id().value);
   } else if (localizer_.is_lost() && !was_lost) {
-    spdlog::warn("lost: scans do not fit the map where the vehicle should be; looks for it in the local map");
+    spdlog::warn(
+        "lost: scans do not fit the map where the vehicle should be; looks for it in the local "
+        "map");
   } else if (was_lost && !localizer_.is_lost()) {
     spdlog::info("found itself again in the local map");
   }
-  if (localizer_.is_lost()) context_.status().set_trouble("lost", "looks for itself in the local map");
+  if (localizer_.is_lost())
+    context_.status().set_trouble("lost", "looks for itself in the local map");
   else context_.status().clear_trouble("lost");
 }
 
@@ -284,17 +325,22 @@ bool LocalizationService::come_back(const WaitingScan& first) {
   odom_id_ = session->odom_id;
   first_submap_ = session->first_submap_id;
   drives_.take_up(session->drive_by_scanner);
-  for (const flow::LocalizedScan& answer : session->last_answers) last_published_[answer.scanner_id] = answer;
+  for (const flow::LocalizedScan& answer : session->last_answers)
+    last_published_[answer.scanner_id] = answer;
   tell_whether_it_is_tied(first_submap_.value == 0);
-  if (const auto correction = early_corrections_.find(*map_id_); correction != early_corrections_.end()) correct(correction->second);
+  if (const auto correction = early_corrections_.find(*map_id_);
+      correction != early_corrections_.end())
+    correct(correction->second);
   context_.status().set_starting(false);
   context_.status().clear_trouble("stored_map");
   ++context_.status().counter("restored_checkpoints");
-  spdlog::info("goes on from a checkpoint {:.1f} s before this scan", static_cast<double>(first.scan.stamp_ns - saved->stamp_ns) * 1e-9);
+  spdlog::info("goes on from a checkpoint {:.1f} s before this scan",
+               static_cast<double>(first.scan.stamp_ns - saved->stamp_ns) * 1e-9);
   return true;
 }
 
-/// The vehicle was switched off in the middle of a submap of the stored map: what the checkpoint has of it is its next one.
+/// The vehicle was switched off in the middle of a submap of the stored map: what the checkpoint
+/// has of it is its next one.
 void LocalizationService::hand_over_earlier_drive() {
   if (!earlier_drive_ || !stored_map_->map()) return;
   const SavedSession session = *std::exchange(earlier_drive_, std::nullopt);
@@ -313,7 +359,8 @@ void LocalizationService::hand_over_earlier_drive() {
 void LocalizationService::end_drive() {
   localizer_.finish();
   publish_finished_submaps();
-  if (!published_tiles_.empty()) stored_map_->is_on_its_way(*map_id_, published_tiles_.rbegin()->first, monotonic_ns());
+  if (!published_tiles_.empty())
+    stored_map_->is_on_its_way(*map_id_, published_tiles_.rbegin()->first, monotonic_ns());
 }
 
 void LocalizationService::begin_drive() {
@@ -323,9 +370,11 @@ void LocalizationService::begin_drive() {
   last_done_ns_.reset();
   saved_ns_.reset();
   odom_id_ = {new_id()};
-  const auto verdict = stored_map_ ? stored_map_->answer(monotonic_ns()).verdict : StoredMapWatch::Verdict::kNothingStored;
+  const auto verdict = stored_map_ ? stored_map_->answer(monotonic_ns()).verdict
+                                   : StoredMapWatch::Verdict::kNothingStored;
   if (verdict == StoredMapWatch::Verdict::kGoOn) return go_on_in_stored_map();
-  if (verdict == StoredMapWatch::Verdict::kCannot) ++context_.status().counter("begun_without_stored_map");
+  if (verdict == StoredMapWatch::Verdict::kCannot)
+    ++context_.status().counter("begun_without_stored_map");
   begin_map();
 }
 
@@ -353,10 +402,15 @@ void LocalizationService::go_on_in_stored_map() {
 
 /// It came before the first scan: what came since stamps last went back.
 void LocalizationService::add_odometry_of_new_drive() {
-  const auto goes_back = [](const sensing::Odometry& after, const sensing::Odometry& before) { return after.stamp_ns < before.stamp_ns; };
-  const auto earliest = std::adjacent_find(recent_odometry_.rbegin(), recent_odometry_.rend(), goes_back);
-  const auto first = earliest == recent_odometry_.rend() ? recent_odometry_.begin() : std::prev(earliest.base());
-  std::for_each(first, recent_odometry_.end(), [this](const sensing::Odometry& odometry) { localizer_.add_odometry(odometry); });
+  const auto goes_back = [](const sensing::Odometry& after, const sensing::Odometry& before) {
+    return after.stamp_ns < before.stamp_ns;
+  };
+  const auto earliest =
+      std::adjacent_find(recent_odometry_.rbegin(), recent_odometry_.rend(), goes_back);
+  const auto first =
+      earliest == recent_odometry_.rend() ? recent_odometry_.begin() : std::prev(earliest.base());
+  std::for_each(first, recent_odometry_.end(),
+                [this](const sensing::Odometry& odometry) { localizer_.add_odometry(odometry); });
 }
 
 /// A map_store that starts later must not take them for the new map's.
@@ -376,7 +430,8 @@ void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
   const app::Stopwatch stopwatch(context_.status().latency("checkpoint"));
   const std::string fault = checkpoint_.fault();
   if (!fault.empty()) context_.warn("failed_checkpoints", fault);
-  SavedSession session{*map_id_, odom_id_, first_submap_, drives_.drives(), {}, localizer_.checkpoint()};
+  SavedSession session{*map_id_,         odom_id_, first_submap_,
+                       drives_.drives(), {},       localizer_.checkpoint()};
   for (const auto& [scanner_id, answer] : last_published_) {
     session.last_answers.push_back(answer);
     session.last_answers.back().beams.clear();
@@ -396,9 +451,9 @@ void LocalizationService::publish(const flow::Submap& submap) {
   std::uint32_t& tiles = published_tiles_[submap.submap_id] = 0;
   submap_encoder_.encode(context_.vehicle_id(), submap, [&](const slammot_SubmapTile& tile) {
     int attempts = 0;
-    while (tiles_.write(tile) == dds::WriteResult::kTimedOut && ++attempts < kTileAttempts) {
-    }
-    if (attempts == kTileAttempts) context_.warn("lost_tiles", "a reader is slow: a submap tile was not sent");
+    while (tiles_.write(tile) == dds::WriteResult::kTimedOut && ++attempts < kTileAttempts) {}
+    if (attempts == kTileAttempts)
+      context_.warn("lost_tiles", "a reader is slow: a submap tile was not sent");
     ++tiles;
   });
   ++context_.status().counter("published_submaps");

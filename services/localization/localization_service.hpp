@@ -26,11 +26,14 @@ class LocalizationService {
  public:
   struct Settings {
     LocalizerConfig config;
-    bool continues_map = false;     ///< Drives go on in the map that map_store has; otherwise each begins its own.
-    double map_patience_s = 30.0;   ///< Without news of that map, before a drive begins its own all the same.
+    bool continues_map = false;    ///< Drives go on in the map that map_store has; otherwise each
+                                   ///< begins its own.
+    double map_patience_s = 30.0;  ///< Without news of that map, before a drive begins its own all
+                                   ///< the same.
   };
   static constexpr const char* kName = "localization";
-  static constexpr const char* kPurpose = "Estimates the pose of the vehicle and the map around it, scan by scan.";
+  static constexpr const char* kPurpose =
+      "Estimates the pose of the vehicle and the map around it, scan by scan.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 
@@ -87,22 +90,24 @@ class LocalizationService {
   wire::SubmapEncoder submap_encoder_;
   wire::GraphCorrectionAssembler corrections_;
   std::deque<WaitingScan> waiting_;
-  std::deque<sensing::Odometry> recent_odometry_;               ///< In the order of arrival.
-  int waited_in_vain_ = 0;                                      ///< Scans for which no odometry came, one after the other.
+  std::deque<sensing::Odometry> recent_odometry_;  ///< In the order of arrival.
+  int waited_in_vain_ = 0;  ///< Scans for which no odometry came, one after the other.
   std::int64_t newest_objects_ns_ = 0;
   std::int64_t newest_labels_ns_ = 0;
-  int waited_for_tracking_in_vain_ = 0;                           ///< Scans one after the other, too.
+  int waited_for_tracking_in_vain_ = 0;  ///< Scans one after the other, too.
   DriveWatch drives_;
-  std::optional<StoredMapWatch> stored_map_;                    ///< Where drives go on in it.
-  std::optional<SavedSession> earlier_drive_;                   ///< From the checkpoint; its last submap may not be stored.
-  bool has_looked_back_ = false;                                ///< For a checkpoint.
-  std::optional<flow::MapId> map_id_;                           ///< None before the first scan.
+  std::optional<StoredMapWatch> stored_map_;   ///< Where drives go on in it.
+  std::optional<SavedSession> earlier_drive_;  ///< From the checkpoint; its last submap may not be
+                                               ///< stored.
+  bool has_looked_back_ = false;               ///< For a checkpoint.
+  std::optional<flow::MapId> map_id_;          ///< None before the first scan.
   flow::OdomId odom_id_;
-  flow::SubmapId first_submap_;                                 ///< Of this drive.
-  std::map<flow::MapId, flow::GraphCorrection> early_corrections_;  ///< Kept by the bus from before this process.
-  std::map<std::string, flow::LocalizedScan> last_published_;   ///< By scanner.
-  std::map<flow::SubmapId, std::uint32_t> published_tiles_;     ///< How many.
-  std::optional<std::int64_t> last_done_ns_;                    ///< Newest scan that was published.
+  flow::SubmapId first_submap_;                                     ///< Of this drive.
+  std::map<flow::MapId, flow::GraphCorrection> early_corrections_;  ///< Kept by the bus from before
+                                                                    ///< this process.
+  std::map<std::string, flow::LocalizedScan> last_published_;       ///< By scanner.
+  std::map<flow::SubmapId, std::uint32_t> published_tiles_;         ///< How many.
+  std::optional<std::int64_t> last_done_ns_;  ///< Newest scan that was published.
   std::optional<std::int64_t> saved_ns_;
 };
 

@@ -12,9 +12,14 @@ void count(const Step& step, LocalizerCounters& counters) {
 }
 
 /// With what was concluded of it.
-sensing::OdometryStep odometry_step(const Step& step, const ScanMatch& match, const sensing::WheelFactors& factors) {
-  sensing::OdometryStep record{.stamp_ns = step.stamp_ns, .duration_s = step.duration_s, .explanation = step.explanation, .is_jump = step.has_doubted_wheels};
-  if (step.has_wheels() || step.has_doubted_wheels) record.by_wheels = sensing::corrected(step.uncorrected_by_wheels, step.duration_s, factors);
+sensing::OdometryStep odometry_step(const Step& step, const ScanMatch& match,
+                                    const sensing::WheelFactors& factors) {
+  sensing::OdometryStep record{.stamp_ns = step.stamp_ns,
+                               .duration_s = step.duration_s,
+                               .explanation = step.explanation,
+                               .is_jump = step.has_doubted_wheels};
+  if (step.has_wheels() || step.has_doubted_wheels)
+    record.by_wheels = sensing::corrected(step.uncorrected_by_wheels, step.duration_s, factors);
   if (match.is_believed && !match.is_lost) record.by_matches = matched_step(step, match);
   return record;
 }
@@ -69,7 +74,8 @@ bool Localizer::is_usable(const sensing::LaserScan& scan) {
   return false;
 }
 
-std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan, flow::LocalizedScan workspace) {
+std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan,
+                                                       flow::LocalizedScan workspace) {
   if (!is_usable(scan)) return std::nullopt;
   ++counters_.scans;
   count(integration_.integrate_overdue(scan.stamp_ns, monitor_.trust(), submaps_.map()), counters_);
@@ -92,7 +98,8 @@ void Localizer::begin(const sensing::LaserScan& scan) {
 void Localizer::place_next(const sensing::LaserScan& scan) {
   const bool was_lost = monitor_.trust() == PoseTrust::kDoubted;
   before_scan_ = progress();
-  if (!place(scan) || was_lost) before_scan_.reset();  // labels by a map in which it may be elsewhere are worth nothing
+  if (!place(scan) || was_lost)
+    before_scan_.reset();  // labels by a map in which it may be elsewhere are worth nothing
 }
 
 /// Takes the estimate to a scan after the first. False where its match is not believed.
@@ -102,8 +109,10 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   take_points(scan, step);
   const std::optional<ExplainedStep> explained = explain(scan, step);
   if (explained) step = explained->step;
-  const ScanMatch found = match_or_relocalize(scan, step, explained ? &explained->registered : nullptr);
-  const sensing::OdometryStep concluded = odometry_step(step, found, prediction_.state().belief.factors);
+  const ScanMatch found =
+      match_or_relocalize(scan, step, explained ? &explained->registered : nullptr);
+  const sensing::OdometryStep concluded =
+      odometry_step(step, found, prediction_.state().belief.factors);
   prediction_.observe(step, found);
   episodes_.observe(concluded, prediction_.state().belief.factors);
   counters_.recalibrations = prediction_.state().belief.recalibrations;
@@ -115,9 +124,11 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   return found.is_believed && !found.is_lost && monitor_.trust() == PoseTrust::kConfirmed;
 }
 
-void Localizer::compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found) {
+void Localizer::compare_odometry(const sensing::LaserScan& scan, const Step& step,
+                                 const ScanMatch& found) {
   if (!config_.belief.enabled) return;
-  const auto comparison = keyframes_.observe({step, found.odom_from_base.pose, points_, scan.scanner.scanner_id, prediction_});
+  const auto comparison = keyframes_.observe(
+      {step, found.odom_from_base.pose, points_, scan.scanner.scanner_id, prediction_});
   if (comparison) prediction_.compare(*comparison);
 }
 
@@ -128,37 +139,51 @@ void Localizer::take_points(const sensing::LaserScan& scan, const Step& step) {
 }
 
 /// How the step came about, where odometry predicts it and may be wrong.
-std::optional<ExplainedStep> Localizer::explain(const sensing::LaserScan& scan, const Step& by_wheels) {
-  const bool may_be_judged = config_.belief.enabled && (by_wheels.is_by_wheels() || by_wheels.source == StepSource::kReach) && by_wheels.duration_s > 0.0 && matcher_.can_match(points_.matched());
+std::optional<ExplainedStep> Localizer::explain(const sensing::LaserScan& scan,
+                                                const Step& by_wheels) {
+  const bool may_be_judged = config_.belief.enabled &&
+                             (by_wheels.is_by_wheels() || by_wheels.source == StepSource::kReach) &&
+                             by_wheels.duration_s > 0.0 && matcher_.can_match(points_.matched());
   if (!may_be_judged) return std::nullopt;
   const auto take = [&](const Step& step) { take_points(scan, step); };
-  ExplainedStep explained = mixture_.explain({prediction_.explanations(by_wheels), prediction_.weights(), prediction_.state().belief.usual_share, prediction_.state().belief.steps, points_, submaps_.map(), take}, matcher_);
+  ExplainedStep explained =
+      mixture_.explain({prediction_.explanations(by_wheels), prediction_.weights(),
+                        prediction_.state().belief.usual_share, prediction_.state().belief.steps,
+                        points_, submaps_.map(), take},
+                       matcher_);
   prediction_.weigh(explained.weights);
   counters_.searches += explained.searches;
-  if (explained.step.explanation == sensing::StepExplanation::kRoughWheels) ++counters_.rough_odometry;
-  if (by_wheels.is_by_wheels() && explained.step.explanation == sensing::StepExplanation::kOther) ++counters_.disbelieved_odometry;
+  if (explained.step.explanation == sensing::StepExplanation::kRoughWheels)
+    ++counters_.rough_odometry;
+  if (by_wheels.is_by_wheels() && explained.step.explanation == sensing::StepExplanation::kOther)
+    ++counters_.disbelieved_odometry;
   return explained;
 }
 
-ScanMatch Localizer::match_or_relocalize(const sensing::LaserScan& scan, const Step& step, const matching::PointToLineResult* registered) {
-  ScanMatch found = matcher_.match({points_.matched(), submaps_.map().surfels(), step, scan.sequence, registered});
+ScanMatch Localizer::match_or_relocalize(const sensing::LaserScan& scan, const Step& step,
+                                         const matching::PointToLineResult* registered) {
+  ScanMatch found = matcher_.match(
+      {points_.matched(), submaps_.map().surfels(), step, scan.sequence, registered});
   count(found, counters_);
   const auto verdict = monitor_.judge({found, step, points_, submaps_.map()});
   found.is_lost = verdict != LocalizationMonitor::Verdict::kFits;
   if (verdict == LocalizationMonitor::Verdict::kLost) found = relocalize(step).value_or(found);
-  if (found.is_believed && !found.is_lost && monitor_.confirm()) integration_.integrate_doubted(submaps_.map());
+  if (found.is_believed && !found.is_lost && monitor_.confirm())
+    integration_.integrate_doubted(submaps_.map());
   return found;
 }
 
 std::optional<ScanMatch> Localizer::relocalize(const Step& step) {
   count(integration_.drop_doubted(), counters_);
-  const RelocalizationResult result = relocalization_.find(monitor_.lost_scans(), step, points_, submaps_.map(), matcher_);
+  const RelocalizationResult result =
+      relocalization_.find(monitor_.lost_scans(), step, points_, submaps_.map(), matcher_);
   counters_.searches += result.has_searched;
   counters_.found_again += result.found.has_value();
   return result.found;
 }
 
-/// Nothing that was seen before is of use here: the map begins with this scan, and the pose against it is exact.
+/// Nothing that was seen before is of use here: the map begins with this scan, and the pose against
+/// it is exact.
 void Localizer::begin_astray_map() {
   ++counters_.astray;
   counters_.submaps += submaps_.begin_astray(odom_from_base());
@@ -167,10 +192,12 @@ void Localizer::begin_astray_map() {
   count(integration_.drop_doubted(), counters_);
 }
 
-flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& scan, flow::LocalizedScan workspace) {
+flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& scan,
+                                                     flow::LocalizedScan workspace) {
   const OdometryPrediction::LastScan& now = *prediction_.last();
   const geometry::UncertainPose2 published = covariance_.published(prediction_.estimate());
-  const geometry::UncertainPose2 within_local_map{published.pose, covariance_.local_variance_share() * published.covariance};
+  const geometry::UncertainPose2 within_local_map{
+      published.pose, covariance_.local_variance_share() * published.covariance};
   flow::LocalizedScan localized = description_.describe({.scan = scan,
                                                          .points = points_,
                                                          .map = submaps_.map(),
@@ -180,14 +207,21 @@ flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& s
                                                          .yaw_rate_radps = now.yaw_rate_radps,
                                                          .sweep_s = sweep_.sweep_s(scan)},
                                                         std::move(workspace));
-  integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom()}, monitor_.admission(), submaps_.map());
+  integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom()},
+                        monitor_.admission(), submaps_.map());
   localized.odom_from_base = published;
   localized.local_variance_share = covariance_.local_variance_share();
   return localized;
 }
 
 Localizer::Progress Localizer::progress() const {
-  return {prediction_.state(), covariance_.state(), sweep_.factor(), submaps_.travelled(), monitor_.state(), counters_, integration_.integrated_scans()};
+  return {prediction_.state(),
+          covariance_.state(),
+          sweep_.factor(),
+          submaps_.travelled(),
+          monitor_.state(),
+          counters_,
+          integration_.integrated_scans()};
 }
 
 void Localizer::return_to(const Progress& progress) {
@@ -199,12 +233,16 @@ void Localizer::return_to(const Progress& progress) {
   counters_ = progress.counters;
 }
 
-bool Localizer::can_be_placed_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) const {
-  if (!before_scan_ || !config_.leave_out_moving || before_scan_->integrated_scans != integration_.integrated_scans()) return false;
+bool Localizer::can_be_placed_again(const sensing::LaserScan& scan,
+                                    const std::vector<flow::PointLabel>& labels) const {
+  if (!before_scan_ || !config_.leave_out_moving ||
+      before_scan_->integrated_scans != integration_.integrated_scans())
+    return false;
   return integration_.awaits_last(scan) && labels.size() == scan.range_m.size();
 }
 
-std::optional<flow::LocalizedScan> Localizer::localize_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) {
+std::optional<flow::LocalizedScan> Localizer::localize_again(
+    const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) {
   if (!can_be_placed_again(scan, labels)) return std::nullopt;
   if (!points_.leave_out(labels)) return std::nullopt;  // the same points give the same pose
   const Progress with_more_points = progress();
@@ -233,7 +271,8 @@ void Localizer::go_on_after(const flow::CorrectedSubmap& last) {
 }
 
 Checkpoint Localizer::checkpoint_now() const {
-  return {prediction_.state(), monitor_.state(), covariance_.state(), sweep_.factor(), submaps_.state(), counters_, prediction_.recent_odometry(), keyframes_.state()};
+  return {prediction_.state(), monitor_.state(), covariance_.state(),           sweep_.factor(),
+          submaps_.state(),    counters_,        prediction_.recent_odometry(), keyframes_.state()};
 }
 
 sensing::OdometryConclusions Localizer::odometry_conclusions() const {

@@ -37,12 +37,12 @@
 
 namespace slammot::localization {
 
-/// Estimates the pose of the vehicle and the map around it, scan by scan: passes each scan through the parts below, in their
-/// order, and counts what they say. Not thread-safe; reads no clock.
+/// Estimates the pose of the vehicle and the map around it, scan by scan: passes each scan through
+/// the parts below, in their order, and counts what they say. Not thread-safe; reads no clock.
 class Localizer final : public stages::LocalizationStage {
  public:
-  /// help, if any, does what the next match does not need, which is most of mapping, and half of the polar view. The results are the same with it and without.
-  /// It must outlive this.
+  /// help, if any, does what the next match does not need, which is most of mapping, and half of
+  /// the polar view. The results are the same with it and without. It must outlive this.
   explicit Localizer(const LocalizerConfig& config, work::SideWork* help = nullptr);
 
   void add_odometry(const sensing::Odometry& sample) override { prediction_.add(sample); }
@@ -50,19 +50,24 @@ class Localizer final : public stages::LocalizationStage {
   /// Whether waiting for more odometry could still improve the prediction at the stamp.
   bool has_odometry_for(std::int64_t stamp_ns) const { return prediction_.reaches(stamp_ns); }
 
-  /// Pose of the scan, its points without the sweep's motion, and what the map expected of each beam.
-  /// None for a scan that is a duplicate (of the same scanner and stamp), out of order, or far ahead of all before it. Remembers the scan until its labels come.
-  /// workspace is memory for the result: any earlier one that nobody needs any more.
-  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan, flow::LocalizedScan workspace = {}) override;
+  /// Pose of the scan, its points without the sweep's motion, and what the map expected of each
+  /// beam. None for a scan that is a duplicate (of the same scanner and stamp), out of order, or
+  /// far ahead of all before it. Remembers the scan until its labels come. workspace is memory for
+  /// the result: any earlier one that nobody needs any more.
+  std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan,
+                                              flow::LocalizedScan workspace = {}) override;
 
-  /// The scan that was localized last, matched once more from the same prediction and against the same map, without the
-  /// points that its labels keep out of the SO-map; in place of what was remembered of it. Iterated SLAM with DATMO of Wang 2004, Section 6.2.
-  /// None, and nothing changed, where that cannot be or cannot be better: the labels leave out the same points as before or
-  /// too many for a match that is believed, it is the first scan, the vehicle is or was lost, it has been integrated, or another came since.
-  std::optional<flow::LocalizedScan> localize_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) override;
+  /// The scan that was localized last, matched once more from the same prediction and against the
+  /// same map, without the points that its labels keep out of the SO-map; in place of what was
+  /// remembered of it. Iterated SLAM with DATMO of Wang 2004, Section 6.2. None, and nothing
+  /// changed, where that cannot be or cannot be better: the labels leave out the same points as
+  /// before or too many for a match that is believed, it is the first scan, the vehicle is or was
+  /// lost, it has been integrated, or another came since.
+  std::optional<flow::LocalizedScan> localize_again(
+      const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) override;
 
-  /// What tracking says to be there: left out of the next matches. Where one that surely moves is in the scan of which the labels
-  /// come next nothing stands.
+  /// What tracking says to be there: left out of the next matches. Where one that surely moves is
+  /// in the scan of which the labels come next nothing stands.
   void expect(const flow::TrackedObjects& objects) override { expected_.expect(objects); }
 
   /// Labels by detection, used when tracking's do not come.
@@ -77,39 +82,46 @@ class Localizer final : public stages::LocalizationStage {
   /// Submap that was finished since the last call.
   std::optional<flow::Submap> take_finished_submap() override { return submaps_.take_finished(); }
 
-  /// Integrates what still waits and ends the submap in progress, as at the end of a drive. Should the drive go on, the
-  /// next scan begins the next submap.
+  /// Integrates what still waits and ends the submap in progress, as at the end of a drive. Should
+  /// the drive go on, the next scan begins the next submap.
   void finish() override;
 
   void correct(const flow::GraphCorrection& correction) override { submaps_.correct(correction); }
 
-  /// Goes on in a stored map: the drive's first submap follows the map's last one and is tied to it by next to nothing.
-  /// Loop closing looks for where it lies; until then poses in map begin where that last one is. To be told again, as the
-  /// map comes to be known, until the first scan; later it changes nothing.
+  /// Goes on in a stored map: the drive's first submap follows the map's last one and is tied to it
+  /// by next to nothing. Loop closing looks for where it lies; until then poses in map begin where
+  /// that last one is. To be told again, as the map comes to be known, until the first scan; later
+  /// it changes nothing.
   void go_on_after(const flow::CorrectedSubmap& last) override;
 
   /// Whether scans fit the local map, or its place in it is looked for.
   bool is_lost() const override { return monitor_.is_lost(); }
 
   const geometry::Pose2& map_from_odom() const { return submaps_.map_from_odom(); }
-  const sensing::MotionCalibration& calibration() const { return prediction_.estimate().calibration; }
-  /// By how much later than the scans odometry is stamped, as believed, and whether that is certain enough to be used.
+  const sensing::MotionCalibration& calibration() const {
+    return prediction_.estimate().calibration;
+  }
+  /// By how much later than the scans odometry is stamped, as believed, and whether that is certain
+  /// enough to be used.
   double stamp_offset_s() const { return prediction_.stamp_offset_s(); }
   double stamp_offset_sigma_s() const { return prediction_.stamp_offset_sigma_s(); }
   bool applies_stamp_offset() const { return prediction_.state().applies_stamp_offset; }
   /// What was concluded of odometry so far; since the last restore().
   sensing::OdometryConclusions odometry_conclusions() const;
-  std::optional<sensing::OdometryConclusions> verdict_on_odometry() const override { return odometry_conclusions(); }
+  std::optional<sensing::OdometryConclusions> verdict_on_odometry() const override {
+    return odometry_conclusions();
+  }
   const SweepFactor& sweep_factor() const { return sweep_.factor(); }
   const LocalizerCounters& counters() const { return counters_; }
   std::map<std::string, std::uint64_t> named_counters() const override { return named(counters_); }
   std::uint64_t maps_begun_astray() const override { return counters_.astray; }
   const LocalMap& local_map() const { return submaps_.map(); }
 
-  /// Everything that is needed to go on after a crash, in a form of this build; empty before the first scan. Scans that
-  /// wait for their labels, and what tracking expects, are not in it.
+  /// Everything that is needed to go on after a crash, in a form of this build; empty before the
+  /// first scan. Scans that wait for their labels, and what tracking expects, are not in it.
   std::vector<std::byte> checkpoint() const;
-  /// Odometry that came before the first scan is kept. False, and nothing changed, when the bytes are damaged or the map in them has another shape than this configuration's.
+  /// Odometry that came before the first scan is kept. False, and nothing changed, when the bytes
+  /// are damaged or the map in them has another shape than this configuration's.
   bool restore(std::span<const std::byte> bytes);
 
  private:
@@ -121,7 +133,7 @@ class Localizer final : public stages::LocalizationStage {
     SubmapSequence::Travel travelled;
     LocalizationMonitor::State monitor;
     LocalizerCounters counters;
-    std::uint64_t integrated_scans = 0;   ///< With more in the map, it is another one.
+    std::uint64_t integrated_scans = 0;  ///< With more in the map, it is another one.
   };
 
   Progress progress() const;
@@ -135,11 +147,14 @@ class Localizer final : public stages::LocalizationStage {
   void compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found);
   void take_points(const sensing::LaserScan& scan, const Step& step);
   std::optional<ExplainedStep> explain(const sensing::LaserScan& scan, const Step& by_wheels);
-  ScanMatch match_or_relocalize(const sensing::LaserScan& scan, const Step& step, const matching::PointToLineResult* registered);
+  ScanMatch match_or_relocalize(const sensing::LaserScan& scan, const Step& step,
+                                const matching::PointToLineResult* registered);
   std::optional<ScanMatch> relocalize(const Step& step);
   void begin_astray_map();
-  bool can_be_placed_again(const sensing::LaserScan& scan, const std::vector<flow::PointLabel>& labels) const;
-  flow::LocalizedScan describe_and_remember(const sensing::LaserScan& scan, flow::LocalizedScan workspace);
+  bool can_be_placed_again(const sensing::LaserScan& scan,
+                           const std::vector<flow::PointLabel>& labels) const;
+  flow::LocalizedScan describe_and_remember(const sensing::LaserScan& scan,
+                                            flow::LocalizedScan workspace);
   Checkpoint checkpoint_now() const;
   void resume(RestoredCheckpoint restored, OdometryPrediction&& before);
 
@@ -148,7 +163,7 @@ class Localizer final : public stages::LocalizationStage {
   OdometryPrediction prediction_;
   SweepCorrection sweep_;
   ExpectedObjects expected_;
-  ScanPoints points_;                       ///< Of the scan at hand.
+  ScanPoints points_;  ///< Of the scan at hand.
   ScanMatcher matcher_;
   MixtureMatch mixture_;
   KeyframeOdometry keyframes_;
@@ -160,7 +175,7 @@ class Localizer final : public stages::LocalizationStage {
   ScanIntegration integration_;
   LocalizerCounters counters_;
   sensing::OdometryEpisodes episodes_;
-  std::optional<Progress> before_scan_;     ///< Before the last one, while it may be localized again.
+  std::optional<Progress> before_scan_;  ///< Before the last one, while it may be localized again.
 };
 
 }  // namespace slammot::localization

@@ -1,3 +1,5 @@
 #include "services/localization/localization_service.hpp"
 
-int main(int argc, char** argv) { return slammot::app::run_service<slammot::localization::LocalizationService>(argc, argv); }
+int main(int argc, char** argv) {
+  return slammot::app::run_service<slammot::localization::LocalizationService>(argc, argv);
+}

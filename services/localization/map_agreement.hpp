@@ -10,13 +10,14 @@
 
 namespace slammot::localization {
 
-constexpr double kFoundByHalf = 0.5;  ///< What the vehicle was lost by must have fallen to this share where it is found.
+constexpr double kFoundByHalf = 0.5;  ///< What the vehicle was lost by must have fallen to this
+                                      ///< share where it is found.
 
 /// Of some of a scan's points, how many lie where in the map.
 struct MapAgreement {
   int behind_walls = 0;
-  int in_free_space = 0;      ///< Where the map has seen through.
-  int explained = 0;          ///< On something stationary.
+  int in_free_space = 0;  ///< Where the map has seen through.
+  int explained = 0;      ///< On something stationary.
 
   /// Of the points of which the map knows anything; 0 where it knows too little of them.
   double contradicting_share() const { return share_of_known(behind_walls + in_free_space); }
@@ -27,10 +28,13 @@ struct MapAgreement {
 };
 
 /// How the matched points of a scan, seen from the pose, agree with the map.
-MapAgreement agreement(const ScanPoints& points, const geometry::Pose2& odom_from_base, const grids::EvidenceGrid& evidence, const LocalMapConfig& config);
+MapAgreement agreement(const ScanPoints& points, const geometry::Pose2& odom_from_base,
+                       const grids::EvidenceGrid& evidence, const LocalMapConfig& config);
 
-/// Share of the points that lie on what the map knows: cheap, and enough to see that all is well. Of none, none.
-double explained_share(const std::vector<matching::MatchPoint>& points, const geometry::Pose2& odom_from_base, const grids::EvidenceGrid& evidence,
+/// Share of the points that lie on what the map knows: cheap, and enough to see that all is well.
+/// Of none, none.
+double explained_share(const std::vector<matching::MatchPoint>& points,
+                       const geometry::Pose2& odom_from_base, const grids::EvidenceGrid& evidence,
                        const LocalMapConfig& config);
 
 }  // namespace slammot::localization

@@ -11,77 +11,110 @@ namespace {
 
 using sensing::StepExplanation;
 
-constexpr double kSuspiciousBelow = 0.9;  // Below this probability of odometry being right every explanation is matched for itself.
-constexpr double kSuspiciousShareDrop = 0.15;  // Every explanation is matched for itself, too, where the matched share falls below its usual value by more than this.
+constexpr double kSuspiciousBelow = 0.9;  // Below this probability of odometry being right every
+                                          // explanation is matched for itself.
+constexpr double kSuspiciousShareDrop = 0.15;  // Every explanation is matched for itself, too,
+                                               // where the matched share falls below its usual
+                                               // value by more than this.
 
-constexpr std::size_t kWheels = 0;              // places of the explanations that set the window of a search
+constexpr std::size_t kWheels = 0;  // places of the explanations that set the window of a search
 constexpr std::size_t kRough = 1;
 constexpr std::size_t kOther = 2;
-constexpr double kStands_s = 1.0;               // without motion by odometry: what walks around it moves the scan, not the vehicle
-constexpr double kIndependentShare = 0.4;       // of the points: neighbours share the errors of a surface
+constexpr double kStands_s = 1.0;  // without motion by odometry: what walks around it moves the
+                                   // scan, not the vehicle
+constexpr double kIndependentShare = 0.4;  // of the points: neighbours share the errors of a
+                                           // surface
 
 /// Place of a wide explanation; without odometry there is only one.
-std::size_t widest(const StepToExplain& scan, std::size_t wanted) { return std::min(wanted, scan.steps.size() - 1); }
+std::size_t widest(const StepToExplain& scan, std::size_t wanted) {
+  return std::min(wanted, scan.steps.size() - 1);
+}
 
-constexpr double kUsualDrop = 0.07;             // of the matched share, from scan to scan
-constexpr std::size_t kLikelySteps = 2;         // the last ones of a mixture without odometry: like the last step, and straight on
-constexpr std::size_t kPoses = 4;               // that a search tells apart
+constexpr double kUsualDrop = 0.07;      // of the matched share, from scan to scan
+constexpr std::size_t kLikelySteps = 2;  // the last ones of a mixture without odometry: like the
+                                         // last step, and straight on
+constexpr std::size_t kPoses = 4;        // that a search tells apart
 
-/// Share of a scan's points that say on their own whether they match: those of scans shortly after each other meet the same moving things.
+/// Share of a scan's points that say on their own whether they match: those of scans shortly after
+/// each other meet the same moving things.
 double independent_share(const Step& step) {
   constexpr double kFrequent_s = 0.2;
   constexpr double kRare_s = 0.5;
-  return kIndependentShare * (1.0 + std::clamp((step.usual_duration_s - kFrequent_s) / (kRare_s - kFrequent_s), 0.0, 1.0));
+  return kIndependentShare *
+         (1.0 +
+          std::clamp((step.usual_duration_s - kFrequent_s) / (kRare_s - kFrequent_s), 0.0, 1.0));
 }
 
-double log_likelihood_of(const Step& step, const geometry::Pose2& optimum, const matching::PointToLineResult& registered) {
+double log_likelihood_of(const Step& step, const geometry::Pose2& optimum,
+                         const matching::PointToLineResult& registered) {
   return sensing::log_marginal_likelihood(step.prior(), optimum, registered.scan_information);
 }
 
 }  // namespace
 
-/// What one scan says against explanations that differ now does not share the errors of the scans before: all of the map counts, as it
-/// does where scans are rare.
+/// What one scan says against explanations that differ now does not share the errors of the scans
+/// before: all of the map counts, as it does where scans are rare.
 Step by_scan_alone(Step step) {
   if (step.usual_duration_s < sensing::kRareScans_s) step.source = StepSource::kVelocityThisOnce;
   return step;
 }
 
-/// Odometry that reports a change of velocity which no vehicle makes is wrong, whatever the scan says.
+/// Odometry that reports a change of velocity which no vehicle makes is wrong, whatever the scan
+/// says.
 double dynamics(const Step& step, const Step& by_velocity) {
-  if (by_velocity.source != StepSource::kVelocityAlone || step.explanation == StepExplanation::kOther) return 0.0;
-  return sensing::log_likelihood_of_acceleration(step.before_from_base, by_velocity.before_from_base, step.duration_s);
+  if (by_velocity.source != StepSource::kVelocityAlone ||
+      step.explanation == StepExplanation::kOther)
+    return 0.0;
+  return sensing::log_likelihood_of_acceleration(step.before_from_base,
+                                                 by_velocity.before_from_base, step.duration_s);
 }
 
-MixtureMatch::MixtureMatch(const LocalizerConfig& config) : config_(config), search_(config, kPoses) {}
+MixtureMatch::MixtureMatch(const LocalizerConfig& config)
+    : config_(config), search_(config, kPoses) {}
 
-/// Every explanation at the pose that odometry leads to: what a pose close by would say of them differs little.
-MixtureMatch::Best MixtureMatch::at_prediction(const StepToExplain& scan, ScanMatcher& matcher) const {
+/// Every explanation at the pose that odometry leads to: what a pose close by would say of them
+/// differs little.
+MixtureMatch::Best MixtureMatch::at_prediction(const StepToExplain& scan,
+                                               ScanMatcher& matcher) const {
   const Step& by_wheels = scan.steps.front();
   const geometry::UncertainPose2 prior = by_wheels.prior();
-  Best best{.step = 0, .registered = matcher.register_from(prior.pose, prior, {scan.points.matched(), scan.map.surfels(), by_wheels})};
+  Best best{.step = 0,
+            .registered = matcher.register_from(
+                prior.pose, prior, {scan.points.matched(), scan.map.surfels(), by_wheels})};
   best.log_likelihoods.fill(-std::numeric_limits<double>::infinity());
-  const geometry::Pose2 optimum = sensing::scan_optimum(prior, best.registered.map_from_base.pose, best.registered.scan_information);
-  for (const Step& step : scan.steps) best.log_likelihoods[sensing::index_of(step.explanation)] = log_likelihood_of(step, optimum, best.registered);
+  const geometry::Pose2 optimum = sensing::scan_optimum(prior, best.registered.map_from_base.pose,
+                                                        best.registered.scan_information);
+  for (const Step& step : scan.steps)
+    best.log_likelihoods[sensing::index_of(step.explanation)] =
+        log_likelihood_of(step, optimum, best.registered);
   return best;
 }
 
-/// What is known of a pose before the scan is said of it: without odometry that steps repeat, with it what each explanation predicts.
-MixtureMatch::LogLikelihoods MixtureMatch::log_priors(const StepToExplain& scan, const geometry::Pose2& optimum, const matching::PointToLineResult& registered) {
+/// What is known of a pose before the scan is said of it: without odometry that steps repeat, with
+/// it what each explanation predicts.
+MixtureMatch::LogLikelihoods MixtureMatch::log_priors(
+    const StepToExplain& scan, const geometry::Pose2& optimum,
+    const matching::PointToLineResult& registered) {
   LogLikelihoods logs;
   logs.fill(-std::numeric_limits<double>::infinity());
   const Step& first = scan.steps.front();
   if (first.source == StepSource::kReach) {
-    logs[sensing::index_of(StepExplanation::kOther)] = scan.history.log_marginal(first.odom_from_base_before, first.prior(), optimum, registered.scan_information);
+    logs[sensing::index_of(StepExplanation::kOther)] = scan.history.log_marginal(
+        first.odom_from_base_before, first.prior(), optimum, registered.scan_information);
     return logs;
   }
   const Step& by_velocity = scan.steps[widest(scan, kOther)];
-  for (const Step& step : scan.steps) logs[sensing::index_of(step.explanation)] = log_likelihood_of(step, optimum, registered) + dynamics(step, by_velocity);
+  for (const Step& step : scan.steps)
+    logs[sensing::index_of(step.explanation)] =
+        log_likelihood_of(step, optimum, registered) + dynamics(step, by_velocity);
   return logs;
 }
 
-/// Of the explanations that are one and the same to sensing, the one whose prediction is nearest to the pose.
-std::size_t MixtureMatch::likeliest_step(const StepToExplain& scan, std::size_t explanation, const geometry::Pose2& optimum, const matching::PointToLineResult& registered) {
+/// Of the explanations that are one and the same to sensing, the one whose prediction is nearest to
+/// the pose.
+std::size_t MixtureMatch::likeliest_step(const StepToExplain& scan, std::size_t explanation,
+                                         const geometry::Pose2& optimum,
+                                         const matching::PointToLineResult& registered) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scan.steps.size(); ++i) {
@@ -94,15 +127,21 @@ std::size_t MixtureMatch::likeliest_step(const StepToExplain& scan, std::size_t 
   return best;
 }
 
-/// Registers from one pose under a wide prediction, and compares every explanation there with the best so far.
-void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start, ScanMatcher& matcher, Best& best) const {
+/// Registers from one pose under a wide prediction, and compares every explanation there with the
+/// best so far.
+void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
+                           const geometry::Pose2& start, ScanMatcher& matcher, Best& best) const {
   const Step& prediction = scan.steps[wide];
   const Step evidence = by_scan_alone(scan.steps.front());
-  matching::PointToLineResult registered = matcher.register_from(start, prediction.prior(), {scan.points.matched(), scan.map.surfels(), evidence});
+  matching::PointToLineResult registered = matcher.register_from(
+      start, prediction.prior(), {scan.points.matched(), scan.map.surfels(), evidence});
   registered.scan_information *= kIndependentShare;
   const geometry::Pose2& pose = registered.map_from_base.pose;
-  const geometry::Pose2 optimum = sensing::scan_optimum(prediction.prior(), pose, registered.scan_information);
-  const double fits_share = matching::fit_of(registered, config_.match.robust_scale_m) - agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
+  const geometry::Pose2 optimum =
+      sensing::scan_optimum(prediction.prior(), pose, registered.scan_information);
+  const double fits_share =
+      matching::fit_of(registered, config_.match.robust_scale_m) -
+      agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
   const double fit = config_.belief.share_nats * independent_share(scan.steps.front()) * fits_share;
   const LogLikelihoods priors = log_priors(scan, optimum, registered);
   for (std::size_t explanation = 0; explanation < priors.size(); ++explanation) {
@@ -123,14 +162,17 @@ MixtureMatch::Best MixtureMatch::nothing_yet() {
   return best;
 }
 
-void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher, Best& best) {
+void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher,
+                          Best& best) {
   const Step& prediction = scan.steps[explanation];
   scan.take_points(prediction);
   const geometry::UncertainPose2 prior = prediction.prior();
   compare(scan, explanation, prior.pose, matcher, best);
   if (!is_vague(prior, config_)) return;
   ++searches_;
-  for (const geometry::Pose2& pose : search_.poses_around(prior, scan.points.matched(), scan.map.surfels())) compare(scan, explanation, pose, matcher, best);
+  for (const geometry::Pose2& pose :
+       search_.poses_around(prior, scan.points.matched(), scan.map.surfels()))
+    compare(scan, explanation, pose, matcher, best);
 }
 
 /// Wheels that change their velocity as no vehicle does are as likely wrong as right.
@@ -154,19 +196,27 @@ ExplainedStep MixtureMatch::explain_as_weighed(const StepToExplain& scan, ScanMa
   searches_ = 0;
   const Step& by_wheels = scan.steps.front();
   if (by_wheels.source == StepSource::kReach) return explain_without_odometry(scan, matcher);
-  const bool is_unsure = is_vague(by_wheels.prior(), config_) && !by_wheels.last_was_sampled;  // along a bare wall a search finds any place as good as any other
+  const bool is_unsure =
+      is_vague(by_wheels.prior(), config_) && !by_wheels.last_was_sampled;  // along a bare wall a
+                                                                            // search finds any
+                                                                            // place as good as any
+                                                                            // other
   Best best = is_unsure ? nothing_yet() : at_prediction(scan, matcher);
   if (is_unsure) around(scan, widest(scan, kRough), matcher, best);
   sensing::ExplanationWeights weights = sensing::updated(scan.weights, best.log_likelihoods);
   const bool stands = by_wheels.stood_s > kStands_s && !by_wheels.wheels_changed;
   const bool has_changed = !is_unsure && by_wheels.wheels_changed;
-  const bool is_suspicious = has_changed || (!is_unsure && weights[sensing::index_of(StepExplanation::kWheels)] < kSuspiciousBelow);
+  const bool is_suspicious =
+      has_changed ||
+      (!is_unsure && weights[sensing::index_of(StepExplanation::kWheels)] < kSuspiciousBelow);
   const bool fits_less = best.registered.matched_share < scan.usual_share - kSuspiciousShareDrop;
-  if (!is_unsure && (stands || (!is_suspicious && !fits_less))) return {scan.steps.front(), best.registered, weights, 0};
+  if (!is_unsure && (stands || (!is_suspicious && !fits_less)))
+    return {scan.steps.front(), best.registered, weights, 0};
   if (scan.steps.size() > 1 && (is_suspicious || fits_less)) {
     if (!is_unsure) {
       best = nothing_yet();
-      around(scan, kWheels, matcher, best);  // which may fit as well as any other: the surest is not to be missed
+      around(scan, kWheels, matcher, best);  // which may fit as well as any other: the surest is
+                                             // not to be missed
       around(scan, widest(scan, kRough), matcher, best);
     }
     around(scan, widest(scan, kOther), matcher, best);
@@ -175,8 +225,10 @@ ExplainedStep MixtureMatch::explain_as_weighed(const StepToExplain& scan, ScanMa
   return concluded(scan, best, weights, matcher);
 }
 
-/// Steps that are like the ones before are likely; where the scan does not fit under them as it usually does, any step is looked for.
-ExplainedStep MixtureMatch::explain_without_odometry(const StepToExplain& scan, ScanMatcher& matcher) {
+/// Steps that are like the ones before are likely; where the scan does not fit under them as it
+/// usually does, any step is looked for.
+ExplainedStep MixtureMatch::explain_without_odometry(const StepToExplain& scan,
+                                                     ScanMatcher& matcher) {
   Best best = nothing_yet();
   const std::size_t likely = scan.steps.size() - kLikelySteps;
   for (std::size_t i = scan.steps.size(); i-- > 0;) {
@@ -187,12 +239,16 @@ ExplainedStep MixtureMatch::explain_without_odometry(const StepToExplain& scan, 
 }
 
 /// A scan that matches nowhere tells nothing of odometry.
-ExplainedStep MixtureMatch::concluded(const StepToExplain& scan, const Best& best, const sensing::ExplanationWeights& weights, ScanMatcher& matcher) const {
+ExplainedStep MixtureMatch::concluded(const StepToExplain& scan, const Best& best,
+                                      const sensing::ExplanationWeights& weights,
+                                      ScanMatcher& matcher) const {
   const bool is_lost = best.registered.matched_share < config_.least_matched_share;
   const Step& step = scan.steps[is_lost ? kWheels : best.step];
   scan.take_points(step);
-  const geometry::Pose2& start = is_lost ? step.after.odom_from_base : best.registered.map_from_base.pose;
-  const auto registered = matcher.register_from(start, step.prior(), {scan.points.matched(), scan.map.surfels(), step});
+  const geometry::Pose2& start =
+      is_lost ? step.after.odom_from_base : best.registered.map_from_base.pose;
+  const auto registered =
+      matcher.register_from(start, step.prior(), {scan.points.matched(), scan.map.surfels(), step});
   return {step, registered, is_lost ? scan.weights : weights, searches_};
 }
 

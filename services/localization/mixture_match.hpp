@@ -16,24 +16,26 @@ namespace slammot::localization {
 
 /// A scan, and the mixture of predictions of its pose.
 struct StepToExplain {
-  StepMixture steps;                                   ///< One an explanation; odometry as calibrated first, then its heavy tail, then the rest.
-  sensing::ExplanationWeights weights;                 ///< Before the scan.
-  double usual_share = 0.5;                            ///< Of points that match.
-  const sensing::StepHistory& history;                 ///< Of the drive: the prior without odometry.
-  const ScanPoints& points;                            ///< Under the prediction taken last.
+  StepMixture steps;  ///< One an explanation; odometry as calibrated first, then its heavy tail,
+                      ///< then the rest.
+  sensing::ExplanationWeights weights;  ///< Before the scan.
+  double usual_share = 0.5;             ///< Of points that match.
+  const sensing::StepHistory& history;  ///< Of the drive: the prior without odometry.
+  const ScanPoints& points;             ///< Under the prediction taken last.
   const LocalMap& map;
-  std::function<void(const Step&)> take_points;        ///< Takes the points under another prediction.
+  std::function<void(const Step&)> take_points;  ///< Takes the points under another prediction.
 };
 
 struct ExplainedStep {
-  Step step;                                           ///< The most likely explanation,
-  matching::PointToLineResult registered;              ///< and the registration under it.
-  sensing::ExplanationWeights weights;                 ///< After the scan.
+  Step step;                               ///< The most likely explanation,
+  matching::PointToLineResult registered;  ///< and the registration under it.
+  sensing::ExplanationWeights weights;     ///< After the scan.
   std::uint64_t searches = 0;
 };
 
-/// Finds the pose of a scan under a mixture of predictions: maximises likelihood of the scan times prior over explanations and poses. Where odometry
-/// is sure and the scan does not contradict it, that is one registration; else the map is searched as far as the explanations reach.
+/// Finds the pose of a scan under a mixture of predictions: maximises likelihood of the scan times
+/// prior over explanations and poses. Where odometry is sure and the scan does not contradict it,
+/// that is one registration; else the map is searched as far as the explanations reach.
 class MixtureMatch {
  public:
   explicit MixtureMatch(const LocalizerConfig& config);
@@ -47,19 +49,24 @@ class MixtureMatch {
 
   /// The best of what was found so far.
   struct Best {
-    std::size_t step = 0;                              ///< Index into StepToExplain::steps.
+    std::size_t step = 0;  ///< Index into StepToExplain::steps.
     matching::PointToLineResult registered;
     double log_posterior = 0.0;
-    LogLikelihoods log_likelihoods{};                  ///< Of each explanation at its best pose.
+    LogLikelihoods log_likelihoods{};  ///< Of each explanation at its best pose.
   };
 
-  static LogLikelihoods log_priors(const StepToExplain& scan, const geometry::Pose2& optimum, const matching::PointToLineResult& registered);
-  static std::size_t likeliest_step(const StepToExplain& scan, std::size_t explanation, const geometry::Pose2& optimum, const matching::PointToLineResult& registered);
+  static LogLikelihoods log_priors(const StepToExplain& scan, const geometry::Pose2& optimum,
+                                   const matching::PointToLineResult& registered);
+  static std::size_t likeliest_step(const StepToExplain& scan, std::size_t explanation,
+                                    const geometry::Pose2& optimum,
+                                    const matching::PointToLineResult& registered);
   Best at_prediction(const StepToExplain& scan, ScanMatcher& matcher) const;
   static Best nothing_yet();
   void around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher, Best& best);
-  ExplainedStep concluded(const StepToExplain& scan, const Best& best, const sensing::ExplanationWeights& weights, ScanMatcher& matcher) const;
-  void compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start, ScanMatcher& matcher, Best& best) const;
+  ExplainedStep concluded(const StepToExplain& scan, const Best& best,
+                          const sensing::ExplanationWeights& weights, ScanMatcher& matcher) const;
+  void compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start,
+               ScanMatcher& matcher, Best& best) const;
 
   LocalizerConfig config_;
   PoseSearch search_;

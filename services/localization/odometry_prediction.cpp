@@ -14,29 +14,37 @@ using geometry::Pose2;
 constexpr double kUsualShareMemory = 0.05;  // Weight of one scan in the usual matched share.
 
 constexpr double kNanosecond_s = 1e-9;
-constexpr double kStandsWithin_m = 1e-4;    // a step: wheels that stand count nothing,
+constexpr double kStandsWithin_m = 1e-4;      // a step: wheels that stand count nothing,
 constexpr double kStandsWithin_radps = 0.01;  // and what a gyro says then is its bias
-constexpr double kStandsAfter_s = 0.5;      // odometry may come less often than scans
-constexpr double kFarStep_m = 5.0;          // without a clock, a step by odometry longer than this
-constexpr double kFarStepShare = 8.0;       // and so many usual ones is a jump
+constexpr double kStandsAfter_s = 0.5;        // odometry may come less often than scans
+constexpr double kFarStep_m = 5.0;       // without a clock, a step by odometry longer than this
+constexpr double kFarStepShare = 8.0;    // and so many usual ones is a jump
 constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
-constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps are compared with
-constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off: docs/decisions/time-and-stamps.md
-constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelerates does so for longer
+constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps
+                                                          // are compared with
+constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off:
+                                        // docs/decisions/time-and-stamps.md
+constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelerates does so for
+                                                      // longer
 
-std::int64_t to_ns(double duration_s) { return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s)); }
+std::int64_t to_ns(double duration_s) {
+  return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s));
+}
 
 /// With the velocity of the step: another scanner's at the same time says nothing about it.
 Step with_velocity(Step step, const OdometryPrediction::LastScan& last) {
-  step.before_from_base = geometry::inverse(step.odom_from_base_before.pose) * step.after.odom_from_base;
+  step.before_from_base =
+      geometry::inverse(step.odom_from_base_before.pose) * step.after.odom_from_base;
   const bool is_later = step.duration_s > 0.0;
   step.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last.speed_mps;
-  step.yaw_rate_radps = is_later ? step.before_from_base.heading_rad / step.duration_s : last.yaw_rate_radps;
+  step.yaw_rate_radps =
+      is_later ? step.before_from_base.heading_rad / step.duration_s : last.yaw_rate_radps;
   return step;
 }
 
 bool is_still(const Pose2& by_wheels, double duration_s) {
-  return std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m && std::abs(by_wheels.heading_rad) <= kStandsWithin_radps * duration_s;
+  return std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m &&
+         std::abs(by_wheels.heading_rad) <= kStandsWithin_radps * duration_s;
 }
 
 bool is_sure_of_velocity(const sensing::MotionEstimate& estimate) {
@@ -61,16 +69,21 @@ void OdometryPrediction::add(const sensing::Odometry& sample) {
 
 void OdometryPrediction::begin(std::int64_t stamp_ns) {
   const std::optional<Pose2> wheel_from_base = odometry_.wheel_from_base_at(stamp_ns);
-  state_.last = LastScan{.stamp_ns = stamp_ns, .has_wheels = wheel_from_base.has_value(), .wheel_from_base = wheel_from_base.value_or(Pose2{})};
+  state_.last = LastScan{.stamp_ns = stamp_ns,
+                         .has_wheels = wheel_from_base.has_value(),
+                         .wheel_from_base = wheel_from_base.value_or(Pose2{})};
 }
 
 /// Where time is not known, by the way of a usual step.
 bool OdometryPrediction::is_impossible(const Pose2& by_wheels, double duration_s) const {
-  const double farthest_m = config_.time_is_known ? config_.fastest_mps * duration_s : kFarStep_m + kFarStepShare * state_.belief.usual_drive_m;
+  const double farthest_m = config_.time_is_known
+                                ? config_.fastest_mps * duration_s
+                                : kFarStep_m + kFarStepShare * state_.belief.usual_drive_m;
   return std::hypot(by_wheels.x_m, by_wheels.y_m) > farthest_m;
 }
 
-/// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step is doubted for that.
+/// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step
+/// is doubted for that.
 bool OdometryPrediction::is_doubtful(const Pose2& by_wheels, double duration_s) const {
   return state_.last->knows_velocity && !state_.last->doubted_wheels &&
          is_wheel_jump(by_wheels, state_.last->speed_mps, state_.last->yaw_rate_radps, duration_s);
@@ -80,11 +93,13 @@ bool OdometryPrediction::is_doubtful(const Pose2& by_wheels, double duration_s) 
 std::optional<Pose2> OdometryPrediction::wheel_from_base_at(std::int64_t stamp_ns) const {
   const std::optional<Pose2> at_stamp = odometry_.wheel_from_base_at(stamp_ns);
   if (!at_stamp || !state_.applies_stamp_offset) return at_stamp;
-  const std::optional<Pose2> at_offset = odometry_.wheel_from_base_after(stamp_ns, to_ns(sensing::stamp_offset_s(state_.estimate)));
+  const std::optional<Pose2> at_offset =
+      odometry_.wheel_from_base_after(stamp_ns, to_ns(sensing::stamp_offset_s(state_.estimate)));
   return at_offset ? at_offset : at_stamp;
 }
 
-/// None where wheels spoke at one end of the step only. Of the last scan they may have spoken since.
+/// None where wheels spoke at one end of the step only. Of the last scan they may have spoken
+/// since.
 std::optional<Pose2> OdometryPrediction::step_by_wheels(const Step& step) const {
   std::optional<Pose2> before = wheel_from_base_at(state_.last->stamp_ns);
   if (!before && state_.last->has_wheels) before = state_.last->wheel_from_base;
@@ -93,16 +108,21 @@ std::optional<Pose2> OdometryPrediction::step_by_wheels(const Step& step) const 
 }
 
 /// What the wheels say of the step from the last scan to the stamp, or of one so much later.
-std::optional<Pose2> OdometryPrediction::wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const {
+std::optional<Pose2> OdometryPrediction::wheel_step(std::int64_t stamp_ns,
+                                                    std::int64_t after_ns) const {
   const auto before = odometry_.wheel_from_base_after(state_.last->stamp_ns, after_ns);
   const auto after = odometry_.wheel_from_base_after(stamp_ns, after_ns);
   if (!before || !after) return std::nullopt;
-  return sensing::corrected(geometry::inverse(*before) * *after, static_cast<double>(stamp_ns - state_.last->stamp_ns) * kNanosecond_s, state_.belief.factors);
+  return sensing::corrected(geometry::inverse(*before) * *after,
+                            static_cast<double>(stamp_ns - state_.last->stamp_ns) * kNanosecond_s,
+                            state_.belief.factors);
 }
 
-/// How the step changes with the offset, told from how it changed just before: with the step itself, its noise would be
-/// taken for a change of the velocity, and both together for an offset. Where steps are long, changes are large beside it.
-Eigen::Vector3d OdometryPrediction::step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const {
+/// How the step changes with the offset, told from how it changed just before: with the step
+/// itself, its noise would be taken for a change of the velocity, and both together for an offset.
+/// Where steps are long, changes are large beside it.
+Eigen::Vector3d OdometryPrediction::step_by_stamp_offset(std::int64_t stamp_ns,
+                                                         double offset_s) const {
   if (have_jumped_lately()) return Eigen::Vector3d::Zero();
   const std::int64_t duration_ns = stamp_ns - state_.last->stamp_ns;
   const std::int64_t known_ns = std::min<std::int64_t>(0, to_ns(offset_s));
@@ -113,52 +133,71 @@ Eigen::Vector3d OdometryPrediction::step_by_stamp_offset(std::int64_t stamp_ns, 
   return geometry::difference(*after, *before) / kVelocityOver_s;
 }
 
-/// Whether the steps by which a change of the velocity is told may hold a jump of the wheels, which is none.
+/// Whether the steps by which a change of the velocity is told may hold a jump of the wheels, which
+/// is none.
 bool OdometryPrediction::have_jumped_lately() const {
-  return state_.last->trusted_s < kVelocityOver_s + kNanosecond_s * static_cast<double>(2 * kLongestLag_ns);
+  return state_.last->trusted_s <
+         kVelocityOver_s + kNanosecond_s * static_cast<double>(2 * kLongestLag_ns);
 }
 
-/// Over long steps, and where samples come late and many at once, nobody knows how fast it was at either end; nor where wheels
-/// have jumped on the way.
+/// Over long steps, and where samples come late and many at once, nobody knows how fast it was at
+/// either end; nor where wheels have jumped on the way.
 bool OdometryPrediction::tells_of_stamps(std::int64_t stamp_ns) const {
   const std::int64_t from_ns = state_.last->stamp_ns;
-  return !have_jumped_lately() && stamp_ns - from_ns <= kLongestLag_ns && odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
+  return !have_jumped_lately() && stamp_ns - from_ns <= kLongestLag_ns &&
+         odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
 }
 
-sensing::MotionEstimate OdometryPrediction::moved_by_wheels(const Pose2& by_wheels, std::int64_t stamp_ns, double duration_s) const {
+sensing::MotionEstimate OdometryPrediction::moved_by_wheels(const Pose2& by_wheels,
+                                                            std::int64_t stamp_ns,
+                                                            double duration_s) const {
   const sensing::MotionEstimate& before = state_.estimate;
-  if (!state_.applies_stamp_offset) return sensing::moved_by_wheels(before, {by_wheels, duration_s}, motion_of_one_clock_);
-  return sensing::moved_by_wheels(before, {by_wheels, duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(before))}, config_.motion);
+  if (!state_.applies_stamp_offset)
+    return sensing::moved_by_wheels(before, {by_wheels, duration_s}, motion_of_one_clock_);
+  return sensing::moved_by_wheels(
+      before,
+      {by_wheels, duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(before))},
+      config_.motion);
 }
 
 /// Either the wheels have jumped or the vehicle was stopped or pushed: the match decides.
-sensing::MotionEstimate OdometryPrediction::doubted_velocity(const Pose2& by_wheels, double duration_s) const {
-  const sensing::Velocity by_wheels_mps{by_wheels.x_m / duration_s, by_wheels.heading_rad / duration_s};
+sensing::MotionEstimate OdometryPrediction::doubted_velocity(const Pose2& by_wheels,
+                                                             double duration_s) const {
+  const sensing::Velocity by_wheels_mps{by_wheels.x_m / duration_s,
+                                        by_wheels.heading_rad / duration_s};
   return sensing::with_doubted_velocity(state_.estimate, by_wheels_mps - state_.estimate.velocity);
 }
 
 void OdometryPrediction::follow_wheels(const Pose2& by_wheels, Step& step) const {
   step.source = StepSource::kOdometry;
-  step.stood_s = is_still(by_wheels, step.duration_s) ? state_.last->stood_s + step.duration_s : 0.0;
+  step.stood_s =
+      is_still(by_wheels, step.duration_s) ? state_.last->stood_s + step.duration_s : 0.0;
   step.is_standing = step.stood_s > kStandsAfter_s;
-  if (step.is_standing) step.after = sensing::stood_still(state_.estimate, step.duration_s, config_.motion);
+  if (step.is_standing)
+    step.after = sensing::stood_still(state_.estimate, step.duration_s, config_.motion);
   else step.after = moved_by_wheels(by_wheels, step.stamp_ns, step.duration_s);
 }
 
-void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const {
+void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before,
+                                           Step& step) const {
   step.explanation = sensing::StepExplanation::kOther;
-  step.source = step.wheel_from_base || state_.last->has_wheels ? StepSource::kVelocityThisOnce : StepSource::kVelocityAlone;
+  step.source = step.wheel_from_base || state_.last->has_wheels ? StepSource::kVelocityThisOnce
+                                                                : StepSource::kVelocityAlone;
   if (has_velocity(step, config_)) {
-    step.after = sensing::moved_at_velocity(before, std::min(step.duration_s, config_.longest_step_s), config_.motion);
+    step.after = sensing::moved_at_velocity(
+        before, std::min(step.duration_s, config_.longest_step_s), config_.motion);
     return;
   }
   step.source = StepSource::kReach;
-  step = StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).without_odometry(std::move(step));
+  step = StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_)
+             .without_odometry(std::move(step));
 }
 
 /// Odometry speaks, and is wrong for longer than a step.
 void OdometryPrediction::go_on_without_wheels(Step& step) const {
-  if (has_velocity(step, config_)) step = StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).other(step);
+  if (has_velocity(step, config_))
+    step =
+        StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).other(step);
   else go_on_at_velocity(state_.estimate, step);
   step.explanation_was_chosen = true;
 }
@@ -177,21 +216,30 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
     step.uncorrected_by_wheels = *by_wheels;
     by_wheels = sensing::corrected(*by_wheels, step.duration_s, state_.belief.factors);
   }
-  const bool was_disbelieved = state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;
-  step.wheels_changed = config_.time_is_known && by_wheels && (was_disbelieved || sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s));
+  const bool was_disbelieved =
+      state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;
+  step.wheels_changed =
+      config_.time_is_known && by_wheels &&
+      (was_disbelieved ||
+       sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s));
   const bool cannot_be = by_wheels && is_impossible(*by_wheels, step.duration_s);
-  const bool is_jump = config_.time_is_known && by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
+  const bool is_jump =
+      config_.time_is_known && by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
   step.has_doubted_wheels = cannot_be || is_jump;
   if (state_.belief.is_disbelieved && by_wheels) go_on_without_wheels(step);
   else if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
-  else go_on_at_velocity(is_jump ? doubted_velocity(*by_wheels, step.duration_s) : state_.estimate, step);
+  else
+    go_on_at_velocity(is_jump ? doubted_velocity(*by_wheels, step.duration_s) : state_.estimate,
+                      step);
   return with_velocity(step, *state_.last);
 }
 
 StepMixture OdometryPrediction::explanations(const Step& by_wheels) const {
-  const StepExplanations alternatives{state_.estimate, state_.belief, config_, motion_of_one_clock_};
+  const StepExplanations alternatives{state_.estimate, state_.belief, config_,
+                                      motion_of_one_clock_};
   if (by_wheels.source == StepSource::kReach) {
-    StepMixture steps{by_wheels, alternatives.to_the_left(by_wheels), alternatives.to_the_right(by_wheels), alternatives.like_the_last(by_wheels),
+    StepMixture steps{by_wheels, alternatives.to_the_left(by_wheels),
+                      alternatives.to_the_right(by_wheels), alternatives.like_the_last(by_wheels),
                       alternatives.straight_on(by_wheels)};
     for (Step& step : steps) step = with_velocity(step, *state_.last);
     return steps;
@@ -204,7 +252,8 @@ StepMixture OdometryPrediction::explanations(const Step& by_wheels) const {
 }
 
 void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
-  state_.estimate = match.is_believed ? sensing::matched(step.after, match.odom_from_base) : step.after;
+  state_.estimate =
+      match.is_believed ? sensing::matched(step.after, match.odom_from_base) : step.after;
   if (step.duration_s > 0.0) learn_wheels(step, match);
   learn_stamp_offset(step, match);
   renew_map(matched_step(step, match), match);
@@ -212,12 +261,14 @@ void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
 }
 
 Pose2 OdometryPrediction::as_believed(const Pose2& by_wheels, double duration_s) const {
-  return sensing::predict_step(sensing::corrected(by_wheels, duration_s, state_.belief.factors), duration_s, state_.estimate.calibration, motion_of_one_clock_).pose;
+  return sensing::predict_step(sensing::corrected(by_wheels, duration_s, state_.belief.factors),
+                               duration_s, state_.estimate.calibration, motion_of_one_clock_)
+      .pose;
 }
 
 void OdometryPrediction::compare(const sensing::OdometryComparison& comparison) {
   constexpr double kAdoptAbove = 2.0;
-  constexpr double kAdoptAfter_s = 8.0;   // wheels slip for seconds
+  constexpr double kAdoptAfter_s = 8.0;  // wheels slip for seconds
   sensing::OdometryBelief& belief = state_.belief;
   belief = sensing::compared(belief, comparison);
   belief.disbelieved_s = belief.is_disbelieved ? belief.disbelieved_s + comparison.duration_s : 0.0;
@@ -232,12 +283,21 @@ void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) 
   constexpr int kAdoptAfterScans = 3;
   sensing::OdometryBelief& belief = state_.belief;
   const bool is_matched = match.is_believed && !match.is_lost;
-  belief = sensing::moved(belief, step.explanation, step.duration_s, is_matched ? std::optional(matched_step(step, match)) : std::nullopt, config_.motion, config_.belief);
-  if (is_matched) belief.usual_share += kUsualShareMemory * (match.matched_share - belief.usual_share);
-  if (step.has_wheels() || step.has_doubted_wheels) belief = sensing::with_wheels(belief, step.uncorrected_by_wheels, step.duration_s);
-  const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels && step.wheel_from_base && state_.last->has_wheels && !step.has_doubted_wheels;
-  if (is_matched && tells_of_wheels && !match.was_sampled) belief.estimator.observe(step.uncorrected_by_wheels, matched_step(step, match), step.duration_s);
-  const bool is_better = belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)] > kAdoptAbove;
+  belief = sensing::moved(belief, step.explanation, step.duration_s,
+                          is_matched ? std::optional(matched_step(step, match)) : std::nullopt,
+                          config_.motion, config_.belief);
+  if (is_matched)
+    belief.usual_share += kUsualShareMemory * (match.matched_share - belief.usual_share);
+  if (step.has_wheels() || step.has_doubted_wheels)
+    belief = sensing::with_wheels(belief, step.uncorrected_by_wheels, step.duration_s);
+  const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels &&
+                               step.wheel_from_base && state_.last->has_wheels &&
+                               !step.has_doubted_wheels;
+  if (is_matched && tells_of_wheels && !match.was_sampled)
+    belief.estimator.observe(step.uncorrected_by_wheels, matched_step(step, match),
+                             step.duration_s);
+  const bool is_better =
+      belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)] > kAdoptAbove;
   belief.recalibrated_scans = is_better ? belief.recalibrated_scans + 1 : 0;
   if (belief.recalibrated_scans >= kAdoptAfterScans) adopt_wheel_factors();
 }
@@ -248,7 +308,8 @@ void OdometryPrediction::adopt_wheel_factors() {
   belief.recalibrated_scans = 0;
   ++belief.recalibrations;
   belief.factors = belief.estimator.factors();
-  std::swap(belief.weights[sensing::index_of(sensing::StepExplanation::kWheels)], belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)]);
+  std::swap(belief.weights[sensing::index_of(sensing::StepExplanation::kWheels)],
+            belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)]);
   const sensing::MotionEstimate fresh = sensing::at_start(motion_of_one_clock_);
   for (sensing::MotionEstimate* estimate : {&state_.estimate, &state_.with_stamp_offset}) {
     estimate->calibration.head<3>().setZero();
@@ -263,14 +324,19 @@ void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& m
   if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;
   sensing::MotionEstimate& watched = state_.with_stamp_offset;
   const double offset_s = sensing::stamp_offset_s(watched);
-  const bool tells = step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() && !step.is_standing && match.is_believed && !match.was_sampled && !match.is_lost && tells_of_stamps(step.stamp_ns);
+  const bool tells = step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
+                     !step.is_standing && match.is_believed && !match.was_sampled &&
+                     !match.is_lost && tells_of_stamps(step.stamp_ns);
   const auto by_wheels = tells ? wheel_step(step.stamp_ns, to_ns(offset_s)) : std::nullopt;
   if (!by_wheels) {
     watched = sensing::put_at(watched, state_.estimate.uncertain_pose());
     return;
   }
-  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(watched, {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s)}, config_.motion);
-  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(), step.prior(), match.odom_from_base));
+  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(
+      watched, {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s)},
+      config_.motion);
+  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(),
+                                                              step.prior(), match.odom_from_base));
   if (std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
   state_.estimate = watched;
   state_.applies_stamp_offset = true;
@@ -279,24 +345,28 @@ void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& m
 /// The map grows by what is matched to it, with the errors of those matches in it.
 void OdometryPrediction::renew_map(const Pose2& before_from_base, const ScanMatch& match) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
-  const double renewed_share = 1.0 - std::exp(-moved_m * match.new_share / config_.match.new_below_m);
+  const double renewed_share =
+      1.0 - std::exp(-moved_m * match.new_share / config_.match.new_below_m);
   state_.estimate = sensing::against_renewed_map(state_.estimate, renewed_share);
   state_.with_stamp_offset = sensing::against_renewed_map(state_.with_stamp_offset, renewed_share);
 }
 
-OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step, const ScanMatch& match) const {
+OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,
+                                                            const ScanMatch& match) const {
   const bool is_later = step.duration_s > 0.0;
   const bool is_by_velocity = is_later && !step.is_by_wheels();
-  return {.stamp_ns = step.stamp_ns,
-          .has_wheels = step.wheel_from_base.has_value(),
-          .wheel_from_base = step.wheel_from_base.value_or(Pose2{}),
-          .knows_velocity = state_.last->knows_velocity || (is_later && (step.is_by_wheels() || is_sure_of_velocity(state_.estimate))),
-          .was_sampled = match.was_sampled,
-          .speed_mps = is_by_velocity ? state_.estimate.velocity.x() : step.speed_mps,
-          .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,
-          .doubted_wheels = step.has_doubted_wheels,
-          .trusted_s = step.has_doubted_wheels ? 0.0 : state_.last->trusted_s + step.duration_s,
-          .stood_s = step.stood_s};
+  return {
+      .stamp_ns = step.stamp_ns,
+      .has_wheels = step.wheel_from_base.has_value(),
+      .wheel_from_base = step.wheel_from_base.value_or(Pose2{}),
+      .knows_velocity = state_.last->knows_velocity ||
+                        (is_later && (step.is_by_wheels() || is_sure_of_velocity(state_.estimate))),
+      .was_sampled = match.was_sampled,
+      .speed_mps = is_by_velocity ? state_.estimate.velocity.x() : step.speed_mps,
+      .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,
+      .doubted_wheels = step.has_doubted_wheels,
+      .trusted_s = step.has_doubted_wheels ? 0.0 : state_.last->trusted_s + step.duration_s,
+      .stood_s = step.stood_s};
 }
 
 void OdometryPrediction::begin_map_here() {
@@ -305,10 +375,12 @@ void OdometryPrediction::begin_map_here() {
 }
 
 std::vector<sensing::Odometry> OdometryPrediction::recent_odometry() const {
-  return state_.last ? odometry_.since(state_.last->stamp_ns - kOdometryKept_ns) : std::vector<sensing::Odometry>{};
+  return state_.last ? odometry_.since(state_.last->stamp_ns - kOdometryKept_ns)
+                     : std::vector<sensing::Odometry>{};
 }
 
-void OdometryPrediction::resume(const State& state, const std::vector<sensing::Odometry>& samples, OdometryPrediction&& before) {
+void OdometryPrediction::resume(const State& state, const std::vector<sensing::Odometry>& samples,
+                                OdometryPrediction&& before) {
   state_ = state;
   if (!before.state_.last) odometry_ = std::move(before.odometry_);  // it bridges what was missed
   for (const sensing::Odometry& sample : samples) odometry_.add(sample);

@@ -19,33 +19,40 @@ namespace slammot::localization {
 
 /// What a step was predicted by.
 enum class StepSource {
-  kOdometry,           ///< Wheels, corrected by their calibration, or known to stand.
-  kReach,              ///< Anywhere within reach: no odometry, and scans too rare for a velocity.
-  kVelocityThisOnce,   ///< Constant velocity: wheels were not believed, or spoke at one end of the step only.
-  kVelocityAlone,      ///< Constant velocity: there are no wheels.
+  kOdometry,          ///< Wheels, corrected by their calibration, or known to stand.
+  kReach,             ///< Anywhere within reach: no odometry, and scans too rare for a velocity.
+  kVelocityThisOnce,  ///< Constant velocity: wheels were not believed, or spoke at one end of the
+                      ///< step only.
+  kVelocityAlone,     ///< Constant velocity: there are no wheels.
 };
 
-/// Motion from the last scan to the one at hand, as predicted before that is matched. Poses in odom.
+/// Motion from the last scan to the one at hand, as predicted before that is matched. Poses in
+/// odom.
 struct Step {
-  std::int64_t stamp_ns = 0;                        ///< Of the scan at hand.
-  double duration_s = 0.0;                          ///< Since the last one; 0 for another scanner's at the same time.
+  std::int64_t stamp_ns = 0;  ///< Of the scan at hand.
+  double duration_s = 0.0;    ///< Since the last one; 0 for another scanner's at the same time.
   StepSource source = StepSource::kVelocityAlone;
-  std::optional<geometry::Pose2> wheel_from_base;   ///< At the stamp.
-  geometry::UncertainPose2 odom_from_base_before;   ///< Estimate at the last scan.
-  sensing::MotionEstimate after;                    ///< Prediction at the stamp; the prior of the match.
-  geometry::Pose2 before_from_base;                 ///< The step as predicted.
-  double speed_mps = 0.0;                           ///< Forward, during the step.
+  std::optional<geometry::Pose2> wheel_from_base;  ///< At the stamp.
+  geometry::UncertainPose2 odom_from_base_before;  ///< Estimate at the last scan.
+  sensing::MotionEstimate after;     ///< Prediction at the stamp; the prior of the match.
+  geometry::Pose2 before_from_base;  ///< The step as predicted.
+  double speed_mps = 0.0;            ///< Forward, during the step.
   double yaw_rate_radps = 0.0;
-  double stood_s = 0.0;                             ///< How long wheels have reported no motion;
-  bool is_standing = false;                         ///< long enough for the vehicle to stand.
-  bool has_doubted_wheels = false;                  ///< They reported a motion that the vehicle cannot have made.
-  bool is_gap = false;                              ///< Longer than longest_step_s.
-  bool last_was_sampled = false;                    ///< The last match left some direction to the prediction.
-  double usual_duration_s = 0.1;                    ///< Of the steps before.
-  sensing::StepExplanation explanation = sensing::StepExplanation::kWheels;   ///< Which component of the mixture of predictions this is.
-  bool wheels_changed = false;                      ///< Odometry changed its velocity as no vehicle does, or was not believed at the last scan.
-  bool explanation_was_chosen = false;              ///< Odometry predicted the step, and another explanation won.
-  geometry::Pose2 uncorrected_by_wheels;            ///< As odometry has the step.
+  double stood_s = 0.0;             ///< How long wheels have reported no motion;
+  bool is_standing = false;         ///< long enough for the vehicle to stand.
+  bool has_doubted_wheels = false;  ///< They reported a motion that the vehicle cannot have made.
+  bool is_gap = false;              ///< Longer than longest_step_s.
+  bool last_was_sampled = false;    ///< The last match left some direction to the prediction.
+  double usual_duration_s = 0.1;    ///< Of the steps before.
+  sensing::StepExplanation explanation = sensing::StepExplanation::kWheels;  ///< Which component of
+                                                                             ///< the mixture of
+                                                                             ///< predictions this
+                                                                             ///< is.
+  bool wheels_changed = false;  ///< Odometry changed its velocity as no vehicle does, or was not
+                                ///< believed at the last scan.
+  bool explanation_was_chosen = false;    ///< Odometry predicted the step, and another explanation
+                                          ///< won.
+  geometry::Pose2 uncorrected_by_wheels;  ///< As odometry has the step.
 
   /// Whether odometry spoke of the step and was no jump, believed or not.
   bool has_wheels() const { return is_by_wheels() || explanation_was_chosen; }
@@ -83,9 +90,10 @@ inline geometry::Pose2 matched_step(const Step& step, const ScanMatch& match) {
   return geometry::inverse(step.odom_from_base_before.pose) * match.odom_from_base.pose;
 }
 
-/// Predicts the pose of the next scan by odometry, decides how far it is believed, and learns its calibration and the
-/// offset of its stamps from the matches. For each scan after the first: predict(), match, observe(). Without odometry, or
-/// where it is not believed, the velocity of the estimate predicts.
+/// Predicts the pose of the next scan by odometry, decides how far it is believed, and learns its
+/// calibration and the offset of its stamps from the matches. For each scan after the first:
+/// predict(), match, observe(). Without odometry, or where it is not believed, the velocity of the
+/// estimate predicts.
 class OdometryPrediction {
  public:
   /// The scan before the one at hand.
@@ -93,27 +101,30 @@ class OdometryPrediction {
     std::int64_t stamp_ns = 0;
     bool has_wheels = false;
     geometry::Pose2 wheel_from_base;
-    bool knows_velocity = false;    ///< Not at the first scan.
-    bool was_sampled = false;       ///< Its match left some direction to the prediction.
+    bool knows_velocity = false;  ///< Not at the first scan.
+    bool was_sampled = false;     ///< Its match left some direction to the prediction.
     double speed_mps = 0.0;
     double yaw_rate_radps = 0.0;
-    bool doubted_wheels = false;    ///< What they said last was a jump.
-    double trusted_s = 0.0;         ///< Time since then.
-    double stood_s = 0.0;           ///< How long wheels have reported no motion.
+    bool doubted_wheels = false;  ///< What they said last was a jump.
+    double trusted_s = 0.0;       ///< Time since then.
+    double stood_s = 0.0;         ///< How long wheels have reported no motion.
   };
 
   /// All that predict() and observe() change; what is kept of odometry samples is not in it.
   struct State {
-    sensing::MotionEstimate estimate;               ///< Of one clock for scans and odometry, until applies_stamp_offset.
-    sensing::MotionEstimate with_stamp_offset;      ///< Of the same motion, until then: what it would be with the offset learned.
+    sensing::MotionEstimate estimate;           ///< Of one clock for scans and odometry, until
+                                                ///< applies_stamp_offset.
+    sensing::MotionEstimate with_stamp_offset;  ///< Of the same motion, until then: what it would
+                                                ///< be with the offset learned.
     bool applies_stamp_offset = false;
-    std::optional<LastScan> last;                   ///< None before the first scan.
+    std::optional<LastScan> last;  ///< None before the first scan.
     sensing::OdometryBelief belief;
   };
 
   explicit OdometryPrediction(const LocalizerConfig& config);
 
-  /// Samples may come late or twice; stamps far ahead of all before wait for a second one that agrees.
+  /// Samples may come late or twice; stamps far ahead of all before wait for a second one that
+  /// agrees.
   void add(const sensing::Odometry& sample);
 
   /// Whether waiting for more odometry could still improve the prediction at the stamp.
@@ -125,8 +136,9 @@ class OdometryPrediction {
   /// The step from the last scan to the stamp, not before it. Changes nothing.
   Step predict(std::int64_t stamp_ns) const;
 
-  /// All explanations of a step that odometry predicts, that one first: see sensing::StepExplanation. Of one that may lead anywhere within
-  /// reach, that and the steps that are like those before. Of any other step only it.
+  /// All explanations of a step that odometry predicts, that one first: see
+  /// sensing::StepExplanation. Of one that may lead anywhere within reach, that and the steps that
+  /// are like those before. Of any other step only it.
   StepMixture explanations(const Step& by_wheels) const;
 
   /// Motion by odometry, not corrected, with all that is known of it applied.
@@ -138,9 +150,12 @@ class OdometryPrediction {
   /// Feedback: how likely the scan is under each explanation, before observe().
   void weigh(const sensing::ExplanationWeights& weights) { state_.belief.weights = weights; }
   /// Weights of the explanations before the scan at hand.
-  sensing::ExplanationWeights weights() const { return sensing::predicted(state_.belief.weights, config_.belief); }
+  sensing::ExplanationWeights weights() const {
+    return sensing::predicted(state_.belief.weights, config_.belief);
+  }
 
-  /// Feedback: what the match of the step's scan said. The estimate is then that at the scan, which becomes the last one.
+  /// Feedback: what the match of the step's scan said. The estimate is then that at the scan, which
+  /// becomes the last one.
   void observe(const Step& step, const ScanMatch& match);
 
   /// A new map begins at the pose: against it the pose is exact.
@@ -155,15 +170,21 @@ class OdometryPrediction {
 
   /// By how much later than the scans odometry is stamped, as believed.
   double stamp_offset_s() const { return sensing::stamp_offset_s(of_stamps()); }
-  double stamp_offset_sigma_s() const { return std::sqrt(of_stamps().covariance(sensing::kStampOffset, sensing::kStampOffset)); }
+  double stamp_offset_sigma_s() const {
+    return std::sqrt(of_stamps().covariance(sensing::kStampOffset, sensing::kStampOffset));
+  }
 
   /// Samples that the next steps are compared with, for a checkpoint.
   std::vector<sensing::Odometry> recent_odometry() const;
-  /// After a restart: goes on from the state of a checkpoint, with its samples beside those of `before` that came for no scan yet.
-  void resume(const State& state, const std::vector<sensing::Odometry>& samples, OdometryPrediction&& before);
+  /// After a restart: goes on from the state of a checkpoint, with its samples beside those of
+  /// `before` that came for no scan yet.
+  void resume(const State& state, const std::vector<sensing::Odometry>& samples,
+              OdometryPrediction&& before);
 
  private:
-  const sensing::MotionEstimate& of_stamps() const { return state_.applies_stamp_offset ? state_.estimate : state_.with_stamp_offset; }
+  const sensing::MotionEstimate& of_stamps() const {
+    return state_.applies_stamp_offset ? state_.estimate : state_.with_stamp_offset;
+  }
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
   std::optional<geometry::Pose2> step_by_wheels(const Step& step) const;
   std::optional<geometry::Pose2> wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const;
@@ -172,8 +193,10 @@ class OdometryPrediction {
   bool tells_of_stamps(std::int64_t stamp_ns) const;
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
   bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;
-  sensing::MotionEstimate doubted_velocity(const geometry::Pose2& by_wheels, double duration_s) const;
-  sensing::MotionEstimate moved_by_wheels(const geometry::Pose2& by_wheels, std::int64_t stamp_ns, double duration_s) const;
+  sensing::MotionEstimate doubted_velocity(const geometry::Pose2& by_wheels,
+                                           double duration_s) const;
+  sensing::MotionEstimate moved_by_wheels(const geometry::Pose2& by_wheels, std::int64_t stamp_ns,
+                                          double duration_s) const;
   void follow_wheels(const geometry::Pose2& by_wheels, Step& step) const;
   void go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const;
   void go_on_without_wheels(Step& step) const;
@@ -184,7 +207,8 @@ class OdometryPrediction {
   LastScan last_after(const Step& step, const ScanMatch& match) const;
 
   LocalizerConfig config_;
-  sensing::MotionModelConfig motion_of_one_clock_;  ///< That of the estimate until the stamps' offset is used.
+  sensing::MotionModelConfig motion_of_one_clock_;  ///< That of the estimate until the stamps'
+                                                    ///< offset is used.
   sensing::StampGuard stamps_;
   sensing::OdometryBuffer odometry_;
   State state_;

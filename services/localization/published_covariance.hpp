@@ -7,13 +7,15 @@
 
 namespace slammot::localization {
 
-/// Fits the covariance that is published to the surprises that matches show. It changes no estimate.
+/// Fits the covariance that is published to the surprises that matches show. It changes no
+/// estimate.
 class PublishedCovariance {
  public:
   struct State {
     sensing::VarianceFactors factors;
     sensing::MapChange map_change;
-    double by_scans_alone = 0.0;      ///< Share of the time over which poses are compared that had no wheels.
+    double by_scans_alone = 0.0;  ///< Share of the time over which poses are compared that had no
+                                  ///< wheels.
   };
 
   explicit PublishedCovariance(const LocalizerConfig& config) : config_(config) {}
@@ -21,10 +23,12 @@ class PublishedCovariance {
   /// One more scan with its prediction and its match.
   void observe(const Step& step, const ScanMatch& match);
 
-  /// The pose of an estimate with the covariance to publish; 3x3 over (x [m], y [m], heading [rad]) in odom.
+  /// The pose of an estimate with the covariance to publish; 3x3 over (x [m], y [m], heading [rad])
+  /// in odom.
   geometry::UncertainPose2 published(const sensing::MotionEstimate& estimate) const;
 
-  /// Of what is published, what the pose may be off within the local map. Where scans alone tell, map and pose drift together.
+  /// Of what is published, what the pose may be off within the local map. Where scans alone tell,
+  /// map and pose drift together.
   double local_variance_share() const;
 
   const State& state() const { return state_; }

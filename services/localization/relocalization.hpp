@@ -17,23 +17,28 @@ struct RelocalizationResult {
   std::optional<ScanMatch> found;
 };
 
-/// Searches the local map for a vehicle that is lost: all headings, and the wider the longer it is lost. An answer counts where
-/// found_share of the points match, little contradicts the map and no other place is about as good.
+/// Searches the local map for a vehicle that is lost: all headings, and the wider the longer it is
+/// lost. An answer counts where found_share of the points match, little contradicts the map and no
+/// other place is about as good.
 class Relocalization {
  public:
   explicit Relocalization(const LocalizerConfig& config);
 
-  /// lost_scans: since when it is lost; most scans are not worth a search. The matcher registers what the search finds.
-  RelocalizationResult find(int lost_scans, const Step& step, const ScanPoints& points, const LocalMap& map, ScanMatcher& matcher);
+  /// lost_scans: since when it is lost; most scans are not worth a search. The matcher registers
+  /// what the search finds.
+  RelocalizationResult find(int lost_scans, const Step& step, const ScanPoints& points,
+                            const LocalMap& map, ScanMatcher& matcher);
 
  private:
   struct Candidate {
     ScanMatch match;
-    double quality = 0.0;   ///< In [0, 1]; 0 where it does not count.
+    double quality = 0.0;  ///< In [0, 1]; 0 where it does not count.
   };
 
-  geometry::UncertainPose2 anywhere_about(const geometry::UncertainPose2& prior, int lost_scans) const;
-  Candidate registered(const geometry::Pose2& about, const geometry::Matrix3& covariance, const ScanPoints& points, const LocalMap& map, const ScanToMatch& scan,
+  geometry::UncertainPose2 anywhere_about(const geometry::UncertainPose2& prior,
+                                          int lost_scans) const;
+  Candidate registered(const geometry::Pose2& about, const geometry::Matrix3& covariance,
+                       const ScanPoints& points, const LocalMap& map, const ScanToMatch& scan,
                        ScanMatcher& matcher) const;
 
   LocalizerConfig config_;

@@ -5,10 +5,13 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x7365'7373'696f'6e33;  // "session3": the digit counts the forms of a session
+constexpr std::uint64_t kMark = 0x7365'7373'696f'6e33;  // "session3": the digit counts the forms of
+                                                        // a session
 constexpr std::uint64_t kMostScanners = 64;
 
-void put_text(std::vector<std::byte>& bytes, const std::string& text) { put_all(bytes, std::vector<char>(text.begin(), text.end())); }
+void put_text(std::vector<std::byte>& bytes, const std::string& text) {
+  put_all(bytes, std::vector<char>(text.begin(), text.end()));
+}
 
 std::string get_text(ByteReader& from) {
   std::vector<char> text;
@@ -45,8 +48,8 @@ flow::LocalizedScan get_answer(ByteReader& from) {
 
 bool is_believable(const flow::LocalizedScan& answer) {
   using localization::is_believable;
-  return is_believable(answer.base_from_laser) && is_believable(answer.odom_from_base.pose) && is_believable(answer.map_from_odom) &&
-         is_believable(answer.submap_from_base);
+  return is_believable(answer.base_from_laser) && is_believable(answer.odom_from_base.pose) &&
+         is_believable(answer.map_from_odom) && is_believable(answer.submap_from_base);
 }
 
 }  // namespace

@@ -16,15 +16,17 @@ namespace slammot::localization {
 struct SavedSession {
   flow::MapId map_id;
   flow::OdomId odom_id;
-  flow::SubmapId first_submap_id;                 ///< Of this drive.
+  flow::SubmapId first_submap_id;  ///< Of this drive.
   std::map<std::string, std::uint64_t> drive_by_scanner;
-  std::vector<flow::LocalizedScan> last_answers;  ///< The newest scan of each scanner, without its beams.
+  std::vector<flow::LocalizedScan> last_answers;  ///< The newest scan of each scanner, without its
+                                                  ///< beams.
   std::vector<std::byte> localizer;               ///< Localizer::checkpoint().
 };
 
 std::vector<std::byte> to_bytes(const SavedSession& session);
 
-/// None for bytes that are no session's. The localizer's are taken as they are: it checks them itself.
+/// None for bytes that are no session's. The localizer's are taken as they are: it checks them
+/// itself.
 std::optional<SavedSession> session_of(std::span<const std::byte> bytes);
 
 }  // namespace slammot::localization

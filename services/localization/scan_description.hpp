@@ -28,7 +28,8 @@ struct ScanToDescribe {
 class ScanDescription {
  public:
   /// help, if any, does half of it; the results are the same with it and without.
-  explicit ScanDescription(const LocalizerConfig& config, work::SideWork* help = nullptr) : config_(config), help_(help) {}
+  explicit ScanDescription(const LocalizerConfig& config, work::SideWork* help = nullptr)
+      : config_(config), help_(help) {}
 
   /// workspace: any earlier result that nobody needs any more.
   flow::LocalizedScan describe(const ScanToDescribe& described, flow::LocalizedScan workspace);
@@ -45,7 +46,8 @@ class ScanDescription {
   LocalizerConfig config_;
   work::SideWork* help_;
   std::vector<geometry::Vector2> beams_in_odom_;
-  std::vector<std::size_t> asked_beams_;   ///< Of which it is asked how far the map would have let them go.
+  std::vector<std::size_t> asked_beams_;  ///< Of which it is asked how far the map would have let
+                                          ///< them go.
 };
 
 }  // namespace slammot::localization

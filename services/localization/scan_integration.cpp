@@ -13,27 +13,34 @@ using flow::PointLabel;
 using geometry::Vector2;
 
 constexpr int kMaxPending = 4;  // Scans that wait for labels before the map goes on without.
-constexpr double kLongestLabelWait_s = 0.15;  // The map does not wait longer for labels than this, by the scans' stamps.
+constexpr double kLongestLabelWait_s = 0.15;  // The map does not wait longer for labels than this,
+                                              // by the scans' stamps.
 
 constexpr double kNanosecond_s = 1e-9;
 
 /// Without anybody's labels: what the map does not explain stays out of it.
 grids::Echo unexplained_out(EndCell end_cell) {
-  return end_cell == EndCell::kNoEcho || end_cell == EndCell::kFree ? grids::Echo::kNone : grids::Echo::kStationary;
+  return end_cell == EndCell::kNoEcho || end_cell == EndCell::kFree ? grids::Echo::kNone
+                                                                    : grids::Echo::kStationary;
 }
 
 }  // namespace
 
-grids::Ray ScanIntegration::ray_of(const ScanToMap& to_map, std::size_t beam, const geometry::Matrix2& turn, const Vector2& origin_in_odom_m) const {
+grids::Ray ScanIntegration::ray_of(const ScanToMap& to_map, std::size_t beam,
+                                   const geometry::Matrix2& turn,
+                                   const Vector2& origin_in_odom_m) const {
   const sensing::LaserScan& scan = to_map.scan;
   if (to_map.localized.beams[beam].end_cell != EndCell::kNoEcho) {
-    const Vector2 end_m = to_map.localized.odom_from_base.pose.translation_m() + turn * to_map.points_in_base_m[beam];
-    const bool is_far = (end_m - origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
+    const Vector2 end_m =
+        to_map.localized.odom_from_base.pose.translation_m() + turn * to_map.points_in_base_m[beam];
+    const bool is_far =
+        (end_m - origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
     return {end_m, is_far ? grids::Echo::kTooFar : grids::Echo::kStationary};
   }
   // Nearer echoes than the least range tell nothing, not even that there is free space.
   const bool is_too_near = sensing::is_echo(scan.range_m[beam], scan.scanner.max_range_m);
-  const double free_m = is_too_near ? 0.0 : std::min(config_.map.no_echo_free_m, scan.scanner.max_range_m);
+  const double free_m =
+      is_too_near ? 0.0 : std::min(config_.map.no_echo_free_m, scan.scanner.max_range_m);
   return {origin_in_odom_m + free_m * to_map.beams_in_odom[beam], grids::Echo::kNone};
 }
 
@@ -47,7 +54,8 @@ void ScanIntegration::remember(const ScanToMap& to_map, MapAdmission admission, 
   pending.sequence = scan.sequence;
   pending.scanner_id = scan.scanner.scanner_id;
   pending.beam_step_rad = scan.scanner.beam_step_rad;
-  pending.origin_in_odom_m = (localized.odom_from_base.pose * scan.scanner.base_from_laser).translation_m();
+  pending.origin_in_odom_m =
+      (localized.odom_from_base.pose * scan.scanner.base_from_laser).translation_m();
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());
   const geometry::Matrix2 turn = geometry::rotation(localized.odom_from_base.pose.heading_rad);
@@ -55,12 +63,14 @@ void ScanIntegration::remember(const ScanToMap& to_map, MapAdmission admission, 
     pending.end_cells[i] = localized.beams[i].end_cell;
     pending.rays[i] = ray_of(to_map, i, turn, pending.origin_in_odom_m);
   }
-  if (pending_.size() == 1 && admission != MapAdmission::kWithheld) map.prepare(pending.origin_in_odom_m, pending.rays, pending.beam_step_rad);
+  if (pending_.size() == 1 && admission != MapAdmission::kWithheld)
+    map.prepare(pending.origin_in_odom_m, pending.rays, pending.beam_step_rad);
 }
 
 void ScanIntegration::note(const flow::SegmentedScan& segmented) {
   for (PendingScan& scan : pending_.all()) {
-    const bool is_it = scan.sequence == segmented.sequence && scan.scanner_id == segmented.scanner_id;
+    const bool is_it =
+        scan.sequence == segmented.sequence && scan.scanner_id == segmented.scanner_id;
     if (is_it && segmented.labels.size() == scan.rays.size()) scan.fallback = segmented.labels;
   }
 }
@@ -68,18 +78,22 @@ void ScanIntegration::note(const flow::SegmentedScan& segmented) {
 bool ScanIntegration::awaits_last(const sensing::LaserScan& scan) const {
   if (pending_.empty()) return false;
   const PendingScan& pending = pending_.back();
-  return pending.sequence == scan.sequence && pending.scanner_id == scan.scanner.scanner_id && pending.stamp_ns == scan.stamp_ns;
+  return pending.sequence == scan.sequence && pending.scanner_id == scan.scanner.scanner_id &&
+         pending.stamp_ns == scan.stamp_ns;
 }
 
 bool ScanIntegration::is_of(const PendingScan& scan, const flow::ScanLabels& labels) {
-  return scan.sequence == labels.sequence && scan.scanner_id == labels.scanner_id && scan.rays.size() == labels.labels.size();
+  return scan.sequence == labels.sequence && scan.scanner_id == labels.scanner_id &&
+         scan.rays.size() == labels.labels.size();
 }
 
 bool ScanIntegration::awaits(const flow::ScanLabels& labels) const {
-  return std::ranges::any_of(pending_.all(), [&](const PendingScan& scan) { return is_of(scan, labels); });
+  return std::ranges::any_of(pending_.all(),
+                             [&](const PendingScan& scan) { return is_of(scan, labels); });
 }
 
-void ScanIntegration::integrate_first(const std::vector<PointLabel>* labels, PoseTrust trust, LocalMap& map, IntegrationCounts& counts) {
+void ScanIntegration::integrate_first(const std::vector<PointLabel>* labels, PoseTrust trust,
+                                      LocalMap& map, IntegrationCounts& counts) {
   PendingScan& scan = pending_.front();
   if (scan.admission == MapAdmission::kWithheld) {
     ++counts.withheld_scans;
@@ -90,7 +104,8 @@ void ScanIntegration::integrate_first(const std::vector<PointLabel>* labels, Pos
     if (scan.rays[i].echo != grids::Echo::kStationary || !config_.leave_out_moving) continue;
     scan.rays[i].echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
   }
-  if (scan.admission == MapAdmission::kDoubted && trust == PoseTrust::kDoubted) doubted_.push_back(std::move(scan));
+  if (scan.admission == MapAdmission::kDoubted && trust == PoseTrust::kDoubted)
+    doubted_.push_back(std::move(scan));
   else integrate(scan, map);
   pending_.pop_front();
 }
@@ -103,12 +118,15 @@ void ScanIntegration::integrate(PendingScan& scan, LocalMap& map) {
   std::swap(integrated_.push_back(), scan);
 }
 
-void ScanIntegration::integrate_first_without_tracking(PoseTrust trust, LocalMap& map, IntegrationCounts& counts) {
+void ScanIntegration::integrate_first_without_tracking(PoseTrust trust, LocalMap& map,
+                                                       IntegrationCounts& counts) {
   ++counts.fallback_integrations;
-  integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback, trust, map, counts);
+  integrate_first(pending_.front().fallback.empty() ? nullptr : &pending_.front().fallback, trust,
+                  map, counts);
 }
 
-IntegrationCounts ScanIntegration::integrate_overdue(std::int64_t now_ns, PoseTrust trust, LocalMap& map) {
+IntegrationCounts ScanIntegration::integrate_overdue(std::int64_t now_ns, PoseTrust trust,
+                                                     LocalMap& map) {
   const auto is_overdue = [&] {
     const double waited_s = static_cast<double>(now_ns - pending_.front().stamp_ns) * kNanosecond_s;
     return static_cast<int>(pending_.size()) >= kMaxPending || waited_s > kLongestLabelWait_s;
@@ -124,7 +142,8 @@ IntegrationCounts ScanIntegration::integrate_all(PoseTrust trust, LocalMap& map)
   return counts;
 }
 
-IntegrationCounts ScanIntegration::integrate(const flow::ScanLabels& labels, PoseTrust trust, LocalMap& map) {
+IntegrationCounts ScanIntegration::integrate(const flow::ScanLabels& labels, PoseTrust trust,
+                                             LocalMap& map) {
   IntegrationCounts counts;
   if (awaits(labels)) {
     while (!is_of(pending_.front(), labels)) integrate_first_without_tracking(trust, map, counts);
@@ -138,13 +157,18 @@ std::uint64_t ScanIntegration::restore_points(const flow::ScanLabels& labels, Lo
   std::uint64_t count = 0;
   for (const flow::RestoredPoints& restored : labels.restored) {
     auto integrated = integrated_.all();
-    const auto is_it = [&](const PendingScan& one) { return one.sequence == restored.sequence && one.scanner_id == labels.scanner_id; };
+    const auto is_it = [&](const PendingScan& one) {
+      return one.sequence == restored.sequence && one.scanner_id == labels.scanner_id;
+    };
     const auto found = std::ranges::find_if(integrated, is_it);
     if (found == integrated.end()) continue;
     PendingScan& scan = *found;
     for (const std::uint16_t beam : restored.beams) {
-      if (beam >= scan.rays.size() || scan.end_cells[beam] == EndCell::kNoEcho || scan.rays[beam].echo == grids::Echo::kTooFar) continue;
-      map.restore_stationary(scan.rays[beam].end_m, std::exchange(scan.rays[beam].echo, grids::Echo::kStationary));
+      if (beam >= scan.rays.size() || scan.end_cells[beam] == EndCell::kNoEcho ||
+          scan.rays[beam].echo == grids::Echo::kTooFar)
+        continue;
+      map.restore_stationary(scan.rays[beam].end_m,
+                             std::exchange(scan.rays[beam].echo, grids::Echo::kStationary));
       ++count;
     }
   }

@@ -19,7 +19,8 @@ namespace slammot::localization {
 struct ScanToMap {
   const sensing::LaserScan& scan;
   const flow::LocalizedScan& localized;
-  const std::vector<geometry::Vector2>& points_in_base_m;  ///< One a beam, without the sweep's motion.
+  const std::vector<geometry::Vector2>& points_in_base_m;  ///< One a beam, without the sweep's
+                                                           ///< motion.
   const std::vector<geometry::Vector2>& beams_in_odom;     ///< Unit vectors, one a beam.
 };
 
@@ -30,8 +31,9 @@ struct IntegrationCounts {
   std::uint64_t restored_points = 0;
 };
 
-/// Decides what of which scan goes into the map, and when: scans wait for labels by tracking, take those of detection where
-/// these are overdue, and leave out what is unexplained where there are none. Scans go into the map in their order.
+/// Decides what of which scan goes into the map, and when: scans wait for labels by tracking, take
+/// those of detection where these are overdue, and leave out what is unexplained where there are
+/// none. Scans go into the map in their order.
 class ScanIntegration {
  public:
   explicit ScanIntegration(const LocalizerConfig& config) : config_(config) {}
@@ -51,7 +53,8 @@ class ScanIntegration {
   /// Whether the scan that the labels are of waits.
   bool awaits(const flow::ScanLabels& labels) const;
 
-  /// Adds the scan, and any that still wait before it, and gives back the points that labels restore. Unknown scans are ignored.
+  /// Adds the scan, and any that still wait before it, and gives back the points that labels
+  /// restore. Unknown scans are ignored.
   IntegrationCounts integrate(const flow::ScanLabels& labels, PoseTrust trust, LocalMap& map);
 
   /// Adds scans whose labels are overdue at the stamp.
@@ -60,7 +63,8 @@ class ScanIntegration {
   /// Adds all that waits for labels.
   IntegrationCounts integrate_all(PoseTrust trust, LocalMap& map);
 
-  /// Adds the doubted scans: the vehicle was there all the time, and the scanner saw the ground, or traffic on all sides.
+  /// Adds the doubted scans: the vehicle was there all the time, and the scanner saw the ground, or
+  /// traffic on all sides.
   void integrate_doubted(LocalMap& map);
 
   /// The vehicle was not there.
@@ -78,14 +82,17 @@ class ScanIntegration {
     std::string scanner_id;
     double beam_step_rad = 0.0;
     geometry::Vector2 origin_in_odom_m;
-    std::vector<grids::Ray> rays;               ///< Ends in odom; as if all stood of which an echo may go into the map.
+    std::vector<grids::Ray> rays;  ///< Ends in odom; as if all stood of which an echo may go into
+                                   ///< the map.
     std::vector<flow::EndCell> end_cells;
-    std::vector<flow::PointLabel> fallback;     ///< By detection; empty when it has said nothing.
+    std::vector<flow::PointLabel> fallback;  ///< By detection; empty when it has said nothing.
   };
 
-  grids::Ray ray_of(const ScanToMap& scan, std::size_t beam, const geometry::Matrix2& turn, const geometry::Vector2& origin_in_odom_m) const;
+  grids::Ray ray_of(const ScanToMap& scan, std::size_t beam, const geometry::Matrix2& turn,
+                    const geometry::Vector2& origin_in_odom_m) const;
   static bool is_of(const PendingScan& scan, const flow::ScanLabels& labels);
-  void integrate_first(const std::vector<flow::PointLabel>* labels, PoseTrust trust, LocalMap& map, IntegrationCounts& counts);
+  void integrate_first(const std::vector<flow::PointLabel>* labels, PoseTrust trust, LocalMap& map,
+                       IntegrationCounts& counts);
   void integrate_first_without_tracking(PoseTrust trust, LocalMap& map, IntegrationCounts& counts);
   void integrate(PendingScan& scan, LocalMap& map);
   std::uint64_t restore_points(const flow::ScanLabels& labels, LocalMap& map);
@@ -93,7 +100,10 @@ class ScanIntegration {
   LocalizerConfig config_;
   memory::RecyclingQueue<PendingScan> pending_;
   std::vector<PendingScan> doubted_;
-  memory::RecyclingQueue<PendingScan> integrated_{kScansKeptForRestoring};   ///< The last ones, for points that tracking gives back.
+  memory::RecyclingQueue<PendingScan> integrated_{kScansKeptForRestoring};  ///< The last ones, for
+                                                                            ///< points that
+                                                                            ///< tracking gives
+                                                                            ///< back.
   std::uint64_t integrated_scans_ = 0;
 };
 

@@ -7,13 +7,14 @@ namespace slammot::localization {
 /// Result of matching one scan against the local map.
 struct ScanMatch {
   geometry::UncertainPose2 odom_from_base;
-  bool is_believed = false;       ///< Otherwise odom_from_base is the prediction.
-  bool was_sampled = false;       ///< Some direction was left to the prediction.
-  bool is_lost = false;           ///< There were enough points, and they did not match.
-  bool was_searched = false;      ///< By correlation, before it was refined.
-  double rms_residual_m = 0.0;    ///< Of a believed match.
-  double matched_share = 0.0;     ///< Of the points.
-  double new_share = 0.0;         ///< Share of the matched map that is new; 0 where was_sampled: the map says nothing of that direction.
+  bool is_believed = false;     ///< Otherwise odom_from_base is the prediction.
+  bool was_sampled = false;     ///< Some direction was left to the prediction.
+  bool is_lost = false;         ///< There were enough points, and they did not match.
+  bool was_searched = false;    ///< By correlation, before it was refined.
+  double rms_residual_m = 0.0;  ///< Of a believed match.
+  double matched_share = 0.0;   ///< Of the points.
+  double new_share = 0.0;  ///< Share of the matched map that is new; 0 where was_sampled: the map
+                           ///< says nothing of that direction.
 };
 
 }  // namespace slammot::localization

@@ -8,23 +8,30 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-/// Scans that are far apart in time err nearly independently, and see a place once or twice: nothing is proven there, and all counts.
+/// Scans that are far apart in time err nearly independently, and see a place once or twice:
+/// nothing is proven there, and all counts.
 matching::PointToLineConfig spaced(matching::PointToLineConfig config, double step_s) {
   constexpr double kDependent_s = 0.1;
   constexpr double kIndependent_s = 0.5;
   constexpr double kIndependentShare = 0.8;
-  const double apart = std::clamp((step_s - kDependent_s) / (kIndependent_s - kDependent_s), 0.0, 1.0);
+  const double apart =
+      std::clamp((step_s - kDependent_s) / (kIndependent_s - kDependent_s), 0.0, 1.0);
   config.information_share = std::max(config.information_share, kIndependentShare * apart);
   config.proven_after_m *= 1.0 - apart;
   return config;
 }
 
-constexpr double kCoarsePriorSigmas = 2.0;  // without wheels: so far off is a prediction while the vehicle begins to turn
+constexpr double kCoarsePriorSigmas = 2.0;  // without wheels: so far off is a prediction while the
+                                            // vehicle begins to turn
 
 }  // namespace
 
 ScanMatcher::ScanMatcher(const LocalizerConfig& config, work::SideWork* help)
-    : config_(config), without_wheels_(config.match), by_scans_alone_(config.match), search_(config.search), matcher_(help) {
+    : config_(config),
+      without_wheels_(config.match),
+      by_scans_alone_(config.match),
+      search_(config.search),
+      matcher_(help) {
   without_wheels_.unproven_share = 1.0;
   without_wheels_.information_share = 1.0;
   by_scans_alone_.information_share = 1.0;
@@ -32,8 +39,9 @@ ScanMatcher::ScanMatcher(const LocalizerConfig& config, work::SideWork* help)
   by_scans_alone_.coarse_prior_sigmas = kCoarsePriorSigmas;
 }
 
-/// A single step that wheels are silent or wrong about may be one into what nobody has seen before: what is new counts in full. Without
-/// any wheels it would make the map of its own lag: where each scan is matched against the last one, nothing tells how slow it has become.
+/// A single step that wheels are silent or wrong about may be one into what nobody has seen before:
+/// what is new counts in full. Without any wheels it would make the map of its own lag: where each
+/// scan is matched against the last one, nothing tells how slow it has become.
 matching::PointToLineConfig ScanMatcher::config_for(const Step& step) const {
   switch (step.source) {
     case StepSource::kOdometry:
@@ -44,7 +52,9 @@ matching::PointToLineConfig ScanMatcher::config_for(const Step& step) const {
   return by_scans_alone_;
 }
 
-matching::PointToLineResult ScanMatcher::register_from(const Pose2& odom_from_base, const UncertainPose2& prior, const ScanToMatch& scan) {
+matching::PointToLineResult ScanMatcher::register_from(const Pose2& odom_from_base,
+                                                       const UncertainPose2& prior,
+                                                       const ScanToMatch& scan) {
   matching::PointToLineConfig where_it_is = config_for(scan.step);
   if (!(odom_from_base == prior.pose)) where_it_is.coarse_prior_sigmas = 0.0;
   return matcher_.match(scan.points, scan.surfels, prior, odom_from_base, where_it_is);
@@ -54,10 +64,14 @@ matching::PointToLineResult ScanMatcher::register_from(const Pose2& odom_from_ba
 Pose2 ScanMatcher::found_around(const UncertainPose2& prior, const ScanToMatch& scan) {
   const matching::SearchWindow window = search_window(prior, config_);
   std::vector<matching::TargetPoint> targets;
-  for (const grids::SurfelView& surfel : scan.surfels.all()) targets.push_back({static_cast<float>(surfel.mean_m.x()), static_cast<float>(surfel.mean_m.y()), 1.0F});
-  search_.set_target(targets, {prior.pose.translation_m(), config_.search_reach_m, config_.search_reach_m, std::max(window.half_x_m, window.half_y_m)});
+  for (const grids::SurfelView& surfel : scan.surfels.all())
+    targets.push_back(
+        {static_cast<float>(surfel.mean_m.x()), static_cast<float>(surfel.mean_m.y()), 1.0F});
+  search_.set_target(targets, {prior.pose.translation_m(), config_.search_reach_m,
+                               config_.search_reach_m, std::max(window.half_x_m, window.half_y_m)});
   std::vector<Eigen::Vector2f> sources;
-  for (const matching::MatchPoint& point : scan.points) sources.push_back(point.in_base_m.cast<float>());
+  for (const matching::MatchPoint& point : scan.points)
+    sources.push_back(point.in_base_m.cast<float>());
   const std::vector<matching::Peak> peaks = search_.search(sources, prior.pose, window);
   return peaks.empty() ? prior.pose : peaks.front().target_from_source.pose;
 }
@@ -84,11 +98,18 @@ ScanMatch ScanMatcher::match(const ScanToMatch& scan) {
     searches = is_unsure && !says_little(result.scan_information, config_.ambiguous);
   }
   if (searches) result = match_from_search(scan);
-  if (result.matched_share < config_.least_matched_share) return {.odom_from_base = prior, .is_lost = true, .was_searched = searches};
-  ScanMatch found{.odom_from_base = result.map_from_base, .is_believed = true, .was_searched = searches, .rms_residual_m = result.rms_residual_m, .matched_share = result.matched_share};
+  if (result.matched_share < config_.least_matched_share)
+    return {.odom_from_base = prior, .is_lost = true, .was_searched = searches};
+  ScanMatch found{.odom_from_base = result.map_from_base,
+                  .is_believed = true,
+                  .was_searched = searches,
+                  .rms_residual_m = result.rms_residual_m,
+                  .matched_share = result.matched_share};
   found.was_sampled = says_little(result.scan_information, config_.ambiguous);
   if (found.was_sampled) {
-    found.odom_from_base = ambiguous_matcher_.match({scan.points, scan.surfels, prior, result}, config_.ambiguous, config_for(scan.step), scan.sequence);
+    found.odom_from_base =
+        ambiguous_matcher_.match({scan.points, scan.surfels, prior, result}, config_.ambiguous,
+                                 config_for(scan.step), scan.sequence);
   } else {
     found.new_share = result.new_share;
   }

@@ -4,16 +4,20 @@
 
 namespace slammot::localization {
 
-ScanOrder::Verdict ScanOrder::judge(const sensing::LaserScan& scan, const std::optional<std::int64_t>& last_stamp_ns) {
+ScanOrder::Verdict ScanOrder::judge(const sensing::LaserScan& scan,
+                                    const std::optional<std::int64_t>& last_stamp_ns) {
   if (!stamps_.believes(scan.stamp_ns)) return Verdict::kFarAhead;
   if (!last_stamp_ns || scan.stamp_ns > *last_stamp_ns) return Verdict::kUsable;
   if (scan.stamp_ns < *last_stamp_ns) return Verdict::kOutOfOrder;
   // After a crash nobody knows whose scan it was.
-  const bool is_new = !scanners_at_last_.empty() && std::ranges::find(scanners_at_last_, scan.scanner.scanner_id) == scanners_at_last_.end();
+  const bool is_new =
+      !scanners_at_last_.empty() &&
+      std::ranges::find(scanners_at_last_, scan.scanner.scanner_id) == scanners_at_last_.end();
   return is_new ? Verdict::kUsable : Verdict::kDuplicate;
 }
 
-void ScanOrder::accept(const sensing::LaserScan& scan, const std::optional<std::int64_t>& last_stamp_ns) {
+void ScanOrder::accept(const sensing::LaserScan& scan,
+                       const std::optional<std::int64_t>& last_stamp_ns) {
   if (!last_stamp_ns || *last_stamp_ns != scan.stamp_ns) scanners_at_last_.clear();
   scanners_at_last_.push_back(scan.scanner.scanner_id);
 }

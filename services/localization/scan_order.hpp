@@ -15,20 +15,22 @@ class ScanOrder {
  public:
   enum class Verdict {
     kUsable,
-    kDuplicate,    ///< Same scanner and stamp as one before.
-    kOutOfOrder,   ///< Older than one before.
-    kFarAhead,     ///< Stamped far ahead of those before, and no second one agreed yet.
+    kDuplicate,   ///< Same scanner and stamp as one before.
+    kOutOfOrder,  ///< Older than one before.
+    kFarAhead,    ///< Stamped far ahead of those before, and no second one agreed yet.
   };
 
   explicit ScanOrder(double far_ahead_s) : stamps_(far_ahead_s) {}
 
-  /// last_stamp_ns: of the last scan that was accepted; none before the first one. A scan that is usable is accepted by accept().
+  /// last_stamp_ns: of the last scan that was accepted; none before the first one. A scan that is
+  /// usable is accepted by accept().
   Verdict judge(const sensing::LaserScan& scan, const std::optional<std::int64_t>& last_stamp_ns);
   void accept(const sensing::LaserScan& scan, const std::optional<std::int64_t>& last_stamp_ns);
 
  private:
   sensing::StampGuard stamps_;
-  std::vector<std::string> scanners_at_last_;   ///< Whose scans have the last stamp; empty after a restart.
+  std::vector<std::string> scanners_at_last_;  ///< Whose scans have the last stamp; empty after a
+                                               ///< restart.
 };
 
 }  // namespace slammot::localization

@@ -20,10 +20,12 @@ void ScanPoints::deskew(const sensing::LaserScan& scan, double speed_mps, double
 
 bool ScanPoints::is_candidate(const sensing::LaserScan& scan, std::size_t beam) const {
   const float range_m = scan.range_m[beam];
-  return sensing::is_echo(range_m, std::min(config_.match_range_m, scan.scanner.max_range_m)) && range_m >= config_.min_range_m;
+  return sensing::is_echo(range_m, std::min(config_.match_range_m, scan.scanner.max_range_m)) &&
+         range_m >= config_.min_range_m;
 }
 
-void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base, const std::vector<grids::Box>& masks) {
+void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base,
+                        const std::vector<grids::Box>& masks) {
   matched_.clear();
   matched_beams_.clear();
   candidate_beams_.clear();
@@ -31,18 +33,24 @@ void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& o
   const geometry::Matrix2 turn = geometry::rotation(odom_from_base.heading_rad);
   for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
     if (!is_candidate(scan, beam)) continue;
-    const geometry::Vector2 in_odom_m = odom_from_base.translation_m() + turn * points_in_base_m_[beam];
-    if (std::ranges::any_of(masks, [&](const grids::Box& mask) { return mask.covers(in_odom_m); })) continue;
+    const geometry::Vector2 in_odom_m =
+        odom_from_base.translation_m() + turn * points_in_base_m_[beam];
+    if (std::ranges::any_of(masks, [&](const grids::Box& mask) { return mask.covers(in_odom_m); }))
+      continue;
     candidate_beams_.push_back(beam);
     if (std::ranges::binary_search(left_out_beams_, beam)) continue;
-    matched_.push_back({points_in_base_m_[beam], config_.range_noise_m + config_.range_noise_per_m * static_cast<double>(scan.range_m[beam])});
+    matched_.push_back({points_in_base_m_[beam],
+                        config_.range_noise_m +
+                            config_.range_noise_per_m * static_cast<double>(scan.range_m[beam])});
     matched_beams_.push_back(beam);
   }
 }
 
 bool ScanPoints::leave_out(const std::vector<flow::PointLabel>& labels) {
   std::vector<std::size_t> left_out;
-  std::ranges::copy_if(candidate_beams_, std::back_inserter(left_out), [&](std::size_t beam) { return echo_of(labels[beam]) != grids::Echo::kStationary; });
+  std::ranges::copy_if(candidate_beams_, std::back_inserter(left_out), [&](std::size_t beam) {
+    return echo_of(labels[beam]) != grids::Echo::kStationary;
+  });
   if (left_out == left_out_beams_) return false;
   left_out_beams_ = std::move(left_out);
   return true;

@@ -17,17 +17,20 @@ class ScanPoints {
  public:
   explicit ScanPoints(const LocalizerConfig& config) : config_(config) {}
 
-  /// Another scan follows: the matched points become those of the scan before, and no beam is left out.
+  /// Another scan follows: the matched points become those of the scan before, and no beam is left
+  /// out.
   void begin_scan();
 
   /// Takes the sweep's motion out of the points, at a constant velocity.
   void deskew(const sensing::LaserScan& scan, double speed_mps, double yaw_rate_radps);
 
-  /// Selects what is matched: echoes in range outside of the masks, the scan seen from the pose. Masks in odom.
-  void select(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base, const std::vector<grids::Box>& masks);
+  /// Selects what is matched: echoes in range outside of the masks, the scan seen from the pose.
+  /// Masks in odom.
+  void select(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base,
+              const std::vector<grids::Box>& masks);
 
-  /// From the next selection on leaves out the selected echoes that the labels, one a beam, keep out of the SO-map. False, and
-  /// nothing changed, where these are left out already.
+  /// From the next selection on leaves out the selected echoes that the labels, one a beam, keep
+  /// out of the SO-map. False, and nothing changed, where these are left out already.
   bool leave_out(const std::vector<flow::PointLabel>& labels);
 
   /// One a beam.
@@ -46,9 +49,11 @@ class ScanPoints {
   geometry::Vector2 laser_in_base_m_ = geometry::Vector2::Zero();
   std::vector<matching::MatchPoint> matched_;
   std::vector<std::size_t> matched_beams_;
-  std::vector<matching::MatchPoint> matched_before_;   ///< Of the scan before.
-  std::vector<std::size_t> candidate_beams_;           ///< Whose echoes would be matched if labels left out none,
-  std::vector<std::size_t> left_out_beams_;            ///< and those of them that labels leave out; ascending, as they are.
+  std::vector<matching::MatchPoint> matched_before_;  ///< Of the scan before.
+  std::vector<std::size_t> candidate_beams_;  ///< Whose echoes would be matched if labels left out
+                                              ///< none,
+  std::vector<std::size_t> left_out_beams_;   ///< and those of them that labels leave out;
+                                              ///< ascending, as they are.
 };
 
 }  // namespace slammot::localization

@@ -14,9 +14,13 @@ std::string metres(double length_m) {
   return text.str();
 }
 
-std::string out_of(std::uint64_t some, std::uint64_t all) { return std::to_string(some) + " of " + std::to_string(all); }
+std::string out_of(std::uint64_t some, std::uint64_t all) {
+  return std::to_string(some) + " of " + std::to_string(all);
+}
 
-std::uint64_t numbers_in_use(const flow::StoredMap& map) { return std::uint64_t{map.last_submap_id.value} + 1; }
+std::uint64_t numbers_in_use(const flow::StoredMap& map) {
+  return std::uint64_t{map.last_submap_id.value} + 1;
+}
 
 }  // namespace
 
@@ -30,7 +34,8 @@ void StoredMapWatch::is_placed(const flow::GraphCorrection& correction, std::int
   last_progress_ns_ = now_ns;
 }
 
-void StoredMapWatch::is_on_its_way(flow::MapId map_id, flow::SubmapId submap_id, std::int64_t now_ns) {
+void StoredMapWatch::is_on_its_way(flow::MapId map_id, flow::SubmapId submap_id,
+                                   std::int64_t now_ns) {
   const Submap submap{map_id, submap_id};
   if (on_its_way_ == submap) return;
   on_its_way_ = submap;
@@ -43,7 +48,8 @@ std::string StoredMapWatch::fault() const {
   if (stored_->unreadable > 0) return out_of(stored_->unreadable, all) + " submaps are damaged";
   if (stored_->submaps < all) return out_of(all - stored_->submaps, all) + " submaps are missing";
   if (std::abs(stored_->cell_size_m - cell_size_m_) > kSameSize * cell_size_m_) {
-    return "it is of another profile, with cells of " + metres(stored_->cell_size_m) + " for " + metres(cell_size_m_) + " here";
+    return "it is of another profile, with cells of " + metres(stored_->cell_size_m) + " for " +
+           metres(cell_size_m_) + " here";
   }
   return {};
 }
@@ -51,7 +57,8 @@ std::string StoredMapWatch::fault() const {
 /// What may still come; empty where nothing is missing.
 std::string StoredMapWatch::missing() const {
   if (!stored_) return "map_store has not said what it has";
-  const bool has_it = !on_its_way_ || (on_its_way_->map_id == stored_->map_id && on_its_way_->submap_id <= stored_->last_submap_id);
+  const bool has_it = !on_its_way_ || (on_its_way_->map_id == stored_->map_id &&
+                                       on_its_way_->submap_id <= stored_->last_submap_id);
   if (!has_it) return "the end of the drive before is not stored yet";
   const bool is_of_it = placed_ && placed_->map_id == stored_->map_id && !placed_->submaps.empty();
   const std::uint64_t placed = is_of_it ? placed_->submaps.size() : 0;

@@ -9,14 +9,15 @@
 
 namespace slammot::localization {
 
-/// Whether a drive can go on in the stored map: map_store has told what there is of it, and loop closing has placed all that
-/// in its graph. Time is a parameter: nanoseconds of any clock that does not go back.
+/// Whether a drive can go on in the stored map: map_store has told what there is of it, and loop
+/// closing has placed all that in its graph. Time is a parameter: nanoseconds of any clock that
+/// does not go back.
 class StoredMapWatch {
  public:
   enum class Verdict {
-    kWait,          ///< Not yet known.
+    kWait,  ///< Not yet known.
     kGoOn,
-    kNothingStored, ///< As before the first drive of all.
+    kNothingStored,  ///< As before the first drive of all.
     kCannot,
   };
   struct Answer {
@@ -24,8 +25,10 @@ class StoredMapWatch {
     std::string reason;  ///< Of waiting, and why it cannot.
   };
 
-  /// patience_ns: how long nothing may come before it is given up. cell_size_m: of this process' maps.
-  StoredMapWatch(std::int64_t patience_ns, double cell_size_m, std::int64_t now_ns) : patience_ns_(patience_ns), cell_size_m_(cell_size_m), last_progress_ns_(now_ns) {}
+  /// patience_ns: how long nothing may come before it is given up. cell_size_m: of this process'
+  /// maps.
+  StoredMapWatch(std::int64_t patience_ns, double cell_size_m, std::int64_t now_ns)
+      : patience_ns_(patience_ns), cell_size_m_(cell_size_m), last_progress_ns_(now_ns) {}
 
   void is_stored(const flow::StoredMap& map, std::int64_t now_ns);
   void is_placed(const flow::GraphCorrection& correction, std::int64_t now_ns);

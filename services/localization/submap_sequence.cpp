@@ -10,14 +10,16 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to be searched for
-constexpr std::int32_t kShortSubmaps = 4;      // loop closing needs two or three that agree
+constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to
+                                    // be searched for
+constexpr std::int32_t kShortSubmaps = 4;  // loop closing needs two or three that agree
 
 }  // namespace
 
 UncertainPose2 SubmapSequence::anywhere_about(const Pose2& pose) const {
   const double sigma_m2 = config_.astray_sigma_m * config_.astray_sigma_m;
-  return {pose, Eigen::Vector3d(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi).asDiagonal()};
+  return {pose,
+          Eigen::Vector3d(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi).asDiagonal()};
 }
 
 void SubmapSequence::go_on_after(const flow::CorrectedSubmap& last) {
@@ -27,7 +29,9 @@ void SubmapSequence::go_on_after(const flow::CorrectedSubmap& last) {
   state_.short_submaps_left = kShortSubmaps;
 }
 
-void SubmapSequence::begin() { map_ = LocalMap(config_.map, geometry::Vector2::Zero(), help_, first_submap_); }
+void SubmapSequence::begin() {
+  map_ = LocalMap(config_.map, geometry::Vector2::Zero(), help_, first_submap_);
+}
 
 void SubmapSequence::travel(const Pose2& before_from_base) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
@@ -38,13 +42,16 @@ void SubmapSequence::travel(const Pose2& before_from_base) {
 }
 
 bool SubmapSequence::begin_next_if_due(const Pose2& odom_from_base) {
-  const double counted_m = state_.short_submaps_left > 0 ? kShorterBy * state_.travel.travelled_m : state_.travel.travelled_m;
-  if (!state_.is_ended && !map_.is_outgrown(odom_from_base.translation_m(), counted_m)) return false;
+  const double counted_m = state_.short_submaps_left > 0 ? kShorterBy * state_.travel.travelled_m
+                                                         : state_.travel.travelled_m;
+  if (!state_.is_ended && !map_.is_outgrown(odom_from_base.translation_m(), counted_m))
+    return false;
   const bool ends_one = !state_.is_ended;
   if (ends_one) end(odom_from_base);
   const Pose2 odom_from_previous = map_.odom_from_submap();
   map_.begin_next(odom_from_base.translation_m());
-  begin_with({geometry::inverse(odom_from_previous) * map_.odom_from_submap(), state_.travel.drift});
+  begin_with(
+      {geometry::inverse(odom_from_previous) * map_.odom_from_submap(), state_.travel.drift});
   if (state_.short_submaps_left > 0) --state_.short_submaps_left;
   return ends_one;
 }

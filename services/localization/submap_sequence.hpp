@@ -13,13 +13,14 @@
 
 namespace slammot::localization {
 
-/// The local map, the submaps that it becomes one after the other with the constraint that ties each to the one before,
-/// and where loop closing says that they lie in the map.
+/// The local map, the submaps that it becomes one after the other with the constraint that ties
+/// each to the one before, and where loop closing says that they lie in the map.
 class SubmapSequence {
  public:
   /// Motion within the submap in progress.
   struct Travel {
-    geometry::Matrix3 drift = geometry::Matrix3::Zero();  ///< Covariance of it, for the constraint to the next submap.
+    geometry::Matrix3 drift = geometry::Matrix3::Zero();  ///< Covariance of it, for the constraint
+                                                          ///< to the next submap.
     double travelled_m = 0.0;
   };
 
@@ -27,16 +28,18 @@ class SubmapSequence {
   struct State {
     Travel travel;
     geometry::Pose2 map_from_odom;
-    std::uint32_t correction_sequence = 0;             ///< Of the newest correction.
-    geometry::UncertainPose2 previous_from_submap;     ///< Of the submap in progress.
-    bool is_ended = false;                             ///< The submap in progress is, and the next one has not begun.
-    std::int32_t short_submaps_left = 0;               ///< After the vehicle went astray.
+    std::uint32_t correction_sequence = 0;          ///< Of the newest correction.
+    geometry::UncertainPose2 previous_from_submap;  ///< Of the submap in progress.
+    bool is_ended = false;  ///< The submap in progress is, and the next one has not begun.
+    std::int32_t short_submaps_left = 0;  ///< After the vehicle went astray.
   };
 
   /// help, if any, takes over part of mapping; it must outlive this.
-  explicit SubmapSequence(const LocalizerConfig& config, work::SideWork* help = nullptr) : config_(config), help_(help) {}
+  explicit SubmapSequence(const LocalizerConfig& config, work::SideWork* help = nullptr)
+      : config_(config), help_(help) {}
 
-  /// Before begin(): the first submap follows the last one of a stored map, tied to it by next to nothing.
+  /// Before begin(): the first submap follows the last one of a stored map, tied to it by next to
+  /// nothing.
   void go_on_after(const flow::CorrectedSubmap& last);
 
   /// The first scan, at the origin of odom.
@@ -44,10 +47,12 @@ class SubmapSequence {
 
   void travel(const geometry::Pose2& before_from_base);
 
-  /// Ends the submap in progress where the vehicle has outgrown it, and begins the next one. Whether one was ended.
+  /// Ends the submap in progress where the vehicle has outgrown it, and begins the next one.
+  /// Whether one was ended.
   bool begin_next_if_due(const geometry::Pose2& odom_from_base);
 
-  /// Begins an empty submap at the pose, tied to the one before by next to nothing. Whether one was ended.
+  /// Begins an empty submap at the pose, tied to the one before by next to nothing. Whether one was
+  /// ended.
   bool begin_astray(const geometry::Pose2& odom_from_base);
 
   /// Ends the submap in progress if it holds anything, as at the end of a drive. Whether it did.

@@ -13,8 +13,8 @@
 
 namespace slammot::localization {
 
-/// Applies to scans how long their sweep is estimated to take, and learns that from matches; where sweep_factor_sigma is 0
-/// scanners are right.
+/// Applies to scans how long their sweep is estimated to take, and learns that from matches; where
+/// sweep_factor_sigma is 0 scanners are right.
 class SweepCorrection {
  public:
   explicit SweepCorrection(const LocalizerConfig& config);
@@ -26,19 +26,22 @@ class SweepCorrection {
   const sensing::LaserScan& corrected(const sensing::LaserScan& scan);
 
   /// Feedback: the step, points and match of a scan.
-  void observe(const sensing::LaserScan& scan, const Step& step, const ScanPoints& points, const ScanMatch& match, const grids::SurfelMap& surfels);
+  void observe(const sensing::LaserScan& scan, const Step& step, const ScanPoints& points,
+               const ScanMatch& match, const grids::SurfelMap& surfels);
 
   const SweepFactor& factor() const { return factor_; }
   void set_factor(const SweepFactor& factor) { factor_ = factor; }
 
  private:
-  bool learns(const sensing::LaserScan& scan) const { return factor_.variance > 0.0 && scan.scanner.sweep_s > 0.0; }
+  bool learns(const sensing::LaserScan& scan) const {
+    return factor_.variance > 0.0 && scan.scanner.sweep_s > 0.0;
+  }
 
   double variance_at_start_;
   matching::PointToLineConfig match_;
   SweepFactor factor_;
-  sensing::LaserScan corrected_;      ///< Kept to reuse the memory,
-  std::vector<double> share_of_sweep_;   ///< as is this.
+  sensing::LaserScan corrected_;        ///< Kept to reuse the memory,
+  std::vector<double> share_of_sweep_;  ///< as is this.
 };
 
 }  // namespace slammot::localization

@@ -14,7 +14,8 @@ SubmapId earliest_of(const std::map<SubmapId, SubmapId>& tied_to, SubmapId id) {
 
 }  // namespace
 
-std::map<SubmapId, SubmapId> islands(const std::vector<flow::CorrectedSubmap>& submaps, std::span<const flow::Constraint> constraints) {
+std::map<SubmapId, SubmapId> islands(const std::vector<flow::CorrectedSubmap>& submaps,
+                                     std::span<const flow::Constraint> constraints) {
   std::map<SubmapId, SubmapId> tied_to;
   for (const flow::CorrectedSubmap& submap : submaps) tied_to[submap.submap_id] = submap.submap_id;
   for (const flow::Constraint& constraint : constraints) {

@@ -17,12 +17,14 @@ namespace slammot::loop_closing {
 
 /// Defaults are for road vehicles.
 struct LoopClosingConfig {
-  double min_travel_between_m = 200.0;   ///< Driven since the earlier submap; less is no revisit.
-  double max_distance_m = 60.0;          ///< Between the middles of two submaps that may show the same place.
-  int max_candidates = 3;                ///< Searches for one new submap.
-  double sure_within_m = 5.0;            ///< Expected no less surely than this (one sigma), one match is enough,
-  int needed_support = 2;                ///< otherwise so many submaps must agree,
-  int needed_when_ambiguous = 3;         ///< or so many.
+  double min_travel_between_m = 200.0;  ///< Driven since the earlier submap; less is no revisit.
+  double max_distance_m = 60.0;   ///< Between the middles of two submaps that may show the same
+                                  ///< place.
+  int max_candidates = 3;         ///< Searches for one new submap.
+  double sure_within_m = 5.0;     ///< Expected no less surely than this (one sigma), one match is
+                                  ///< enough,
+  int needed_support = 2;         ///< otherwise so many submaps must agree,
+  int needed_when_ambiguous = 3;  ///< or so many.
   PlaceConfig place;
   RevisitConfig revisit;
   SearchBudget search;
@@ -32,19 +34,20 @@ struct LoopClosingConfig {
 /// What happened so far; all grow only.
 struct LoopClosingCounters {
   std::uint64_t submaps = 0;
-  std::uint64_t repeated_submaps = 0;    ///< Known already: ignored.
-  std::uint64_t faulty_submaps = 0;      ///< With numbers that are none: ignored.
+  std::uint64_t repeated_submaps = 0;  ///< Known already: ignored.
+  std::uint64_t faulty_submaps = 0;    ///< With numbers that are none: ignored.
   std::uint64_t searches = 0;
-  std::uint64_t searches_given_up = 0;   ///< Too long, or crowded out by newer ones.
-  std::uint64_t search_work = 0;         ///< Cells that they read.
-  std::uint64_t hypotheses = 0;          ///< Searches that found something.
-  std::uint64_t ambiguous = 0;           ///< Of these, with rivals.
-  std::uint64_t inconsistent = 0;        ///< Firm, but against what the graph says: dropped.
-  std::uint64_t closures = 0;            ///< Accepted, whatever became of them.
-  std::uint64_t withdrawn = 0;           ///< Of these, such as were taken back,
-  std::uint64_t came_back = 0;           ///< and of these or of the dropped ones, such as count again.
-  std::uint64_t contradictions = 0;      ///< Submaps that do not fit what the graph puts them on.
-  std::uint64_t found_elsewhere = 0;     ///< Of these, such as told where a map lies that was tied to nothing.
+  std::uint64_t searches_given_up = 0;  ///< Too long, or crowded out by newer ones.
+  std::uint64_t search_work = 0;        ///< Cells that they read.
+  std::uint64_t hypotheses = 0;         ///< Searches that found something.
+  std::uint64_t ambiguous = 0;          ///< Of these, with rivals.
+  std::uint64_t inconsistent = 0;       ///< Firm, but against what the graph says: dropped.
+  std::uint64_t closures = 0;           ///< Accepted, whatever became of them.
+  std::uint64_t withdrawn = 0;          ///< Of these, such as were taken back,
+  std::uint64_t came_back = 0;        ///< and of these or of the dropped ones, such as count again.
+  std::uint64_t contradictions = 0;   ///< Submaps that do not fit what the graph puts them on.
+  std::uint64_t found_elsewhere = 0;  ///< Of these, such as told where a map lies that was tied to
+                                      ///< nothing.
   std::uint64_t optimisations = 0;
 };
 
@@ -67,19 +70,22 @@ inline std::map<std::string, std::uint64_t> named(const LoopClosingCounters& cou
           {"optimisations", counters.optimisations}};
 }
 
-/// Keeps the graph of submaps and looks for revisits. Wang 2004, section 6.4: gate by covariance, match at several
-/// scales, wait where it is ambiguous, and close over submaps as features of three degrees of freedom. Deterministic.
+/// Keeps the graph of submaps and looks for revisits. Wang 2004, section 6.4: gate by covariance,
+/// match at several scales, wait where it is ambiguous, and close over submaps as features of three
+/// degrees of freedom. Deterministic.
 class LoopCloser {
  public:
   explicit LoopCloser(const LoopClosingConfig& config);
 
-  /// Takes a finished submap, looks for earlier ones that show the same place, and says where all submaps now are.
-  /// Submaps come once each, in ascending order; one that is known is ignored, and so is one whose numbers are not finite.
-  /// One whose tie to the submap before says next to nothing begins an island of its own: it is searched for everywhere,
-  /// and lies where that tie says until it is found.
+  /// Takes a finished submap, looks for earlier ones that show the same place, and says where all
+  /// submaps now are. Submaps come once each, in ascending order; one that is known is ignored, and
+  /// so is one whose numbers are not finite. One whose tie to the submap before says next to
+  /// nothing begins an island of its own: it is searched for everywhere, and lies where that tie
+  /// says until it is found.
   flow::GraphCorrection add(const flow::Submap& submap);
 
-  /// At the end of a drive: goes on with searches that wait, gives up what takes too long, and says where all submaps are.
+  /// At the end of a drive: goes on with searches that wait, gives up what takes too long, and says
+  /// where all submaps are.
   flow::GraphCorrection finish();
 
   /// Whether finish() has anything to do.
@@ -88,7 +94,8 @@ class LoopCloser {
   /// Whether revisits or odometry tie the newest submap to the first one.
   bool knows_where_it_is() const;
 
-  /// Odometric ones in the order of the drive, then every pair of submaps between which a loop was proposed, with what became of it.
+  /// Odometric ones in the order of the drive, then every pair of submaps between which a loop was
+  /// proposed, with what became of it.
   std::vector<flow::Constraint> constraints() const;
   const LoopClosingCounters& counters() const { return counters_; }
 
@@ -102,14 +109,15 @@ class LoopCloser {
   /// A revisit that was proposed to the graph.
   struct Closure {
     flow::Constraint constraint;
-    std::size_t edge = 0;              ///< In the graph.
+    std::size_t edge = 0;  ///< In the graph.
     int group = 0;
   };
 
-  /// Closures between the same stretches of the way stand or fall together (Latif et al., IJRR 2013).
+  /// Closures between the same stretches of the way stand or fall together (Latif et al., IJRR
+  /// 2013).
   struct ClosureGroup {
-    int doubts = 0;                    ///< Submaps that contradict the map where these put them.
-    int confirmations = 0;             ///< Closures of other groups that agree.
+    int doubts = 0;         ///< Submaps that contradict the map where these put them.
+    int confirmations = 0;  ///< Closures of other groups that agree.
   };
 
   using Islands = std::map<flow::SubmapId, flow::SubmapId>;
@@ -144,7 +152,10 @@ class LoopCloser {
   bool contradicts(flow::SubmapId target, const Place& source) const;
   bool contradicts_around(const Hypothesis& hypothesis) const;
   std::vector<int> groups_between(flow::SubmapId a, flow::SubmapId b) const;
-  double error_of(const flow::Constraint& constraint) const { return graphs::squared_error(constraint, graph_.map_from_node(constraint.from), graph_.map_from_node(constraint.to)); }
+  double error_of(const flow::Constraint& constraint) const {
+    return graphs::squared_error(constraint, graph_.map_from_node(constraint.from),
+                                 graph_.map_from_node(constraint.to));
+  }
   std::vector<flow::Constraint> active_constraints() const;
   void join_islands(const Hypothesis& hypothesis);
   flow::GraphCorrection correction();
@@ -158,9 +169,9 @@ class LoopCloser {
   SearchQueue searches_;
   std::vector<Hypothesis> waiting_;
   std::vector<Closure> closures_;
-  std::vector<flow::Constraint> rejected_;      ///< Never proposed to the graph.
+  std::vector<flow::Constraint> rejected_;  ///< Never proposed to the graph.
   std::map<int, ClosureGroup> groups_;
-  int unsolved_ = 0;                            ///< Closures since the last solve.
+  int unsolved_ = 0;  ///< Closures since the last solve.
   std::uint32_t sequence_ = 0;
 };
 

@@ -18,7 +18,8 @@ LoopClosingService::LoopClosingService(app::ServiceContext& context, const Setti
       closer_(settings.config),
       constraints_(context.write(dds::topics::kConstraint)),
       corrections_(context.write(dds::topics::kGraphCorrection)) {
-  context.read(dds::topics::kStoredSubmapTile, app::Input::kOccasional, [this](const auto& tile) { take(tile); });
+  context.read(dds::topics::kStoredSubmapTile, app::Input::kOccasional,
+               [this](const auto& tile) { take(tile); });
   context.before_report([this] {
     finish_when_idle();
     context_.status().set_counters(named(closer_.counters()));
@@ -27,7 +28,8 @@ LoopClosingService::LoopClosingService(app::ServiceContext& context, const Setti
 
 void LoopClosingService::take(const slammot_SubmapTile& tile) {
   auto assembled = assembler_.add(tile);
-  if (!assembled.fault.empty()) context_.warn("faulty_tiles", "dropped a submap tile: " + std::string(assembled.fault));
+  if (!assembled.fault.empty())
+    context_.warn("faulty_tiles", "dropped a submap tile: " + std::string(assembled.fault));
   if (!assembled.submap) return;
   if (map_id_ != assembled.submap->map_id) begin_map(assembled.submap->map_id);
   waiting_[assembled.submap->submap_id] = std::move(*assembled.submap);
@@ -36,7 +38,8 @@ void LoopClosingService::take(const slammot_SubmapTile& tile) {
 
 void LoopClosingService::begin_map(flow::MapId map_id) {
   if (map_id_) spdlog::info("a new map: forgets {} submaps", added_);
-  for (const flow::Constraint& constraint : closer_.constraints()) constraints_.end(wire::encode(context_.vehicle_id(), constraint));
+  for (const flow::Constraint& constraint : closer_.constraints())
+    constraints_.end(wire::encode(context_.vehicle_id(), constraint));
   closer_ = LoopCloser(config_);
   waiting_.clear();
   added_ = 0;
@@ -47,7 +50,8 @@ void LoopClosingService::begin_map(flow::MapId map_id) {
 /// In ascending order, without gaps: each is bound to the one before it.
 void LoopClosingService::add_waiting() {
   std::erase_if(waiting_, [this](const auto& waiting) { return waiting.first.value < added_; });
-  for (auto next = waiting_.begin(); next != waiting_.end() && next->first.value == added_; next = waiting_.erase(next)) {
+  for (auto next = waiting_.begin(); next != waiting_.end() && next->first.value == added_;
+       next = waiting_.erase(next)) {
     add(next->second);
   }
   if (waiting_.empty()) {
@@ -70,10 +74,12 @@ void LoopClosingService::add(const flow::Submap& submap) {
 void LoopClosingService::publish(flow::GraphCorrection correction) {
   correction.map_id = *map_id_;
   publish_new_constraints();
-  correction_encoder_.encode(context_.vehicle_id(), correction, [this](const auto& part) { corrections_.write(part); });
+  correction_encoder_.encode(context_.vehicle_id(), correction,
+                             [this](const auto& part) { corrections_.write(part); });
 }
 
-/// Where no submap comes for a while the drive may be over: what its searches would find is said now.
+/// Where no submap comes for a while the drive may be over: what its searches would find is said
+/// now.
 void LoopClosingService::finish_when_idle() {
   constexpr int kIdleReports = 3;
   if (++reports_since_submap_ != kIdleReports || !closer_.has_unfinished_work()) return;
@@ -82,16 +88,21 @@ void LoopClosingService::finish_when_idle() {
 
 void LoopClosingService::tell_whereabouts(flow::SubmapId newest, bool knew_before) {
   const bool knows = closer_.knows_where_it_is();
-  if (!knows && knew_before) spdlog::warn("nothing ties submap {} to the first one yet: looks for it everywhere", newest.value);
+  if (!knows && knew_before)
+    spdlog::warn("nothing ties submap {} to the first one yet: looks for it everywhere",
+                 newest.value);
   if (knows && !knew_before) spdlog::info("found where submap {} lies", newest.value);
   if (knows) context_.status().clear_trouble("astray");
-  else context_.status().set_trouble("astray", "nothing ties submap " + std::to_string(newest.value) + " to the first one yet");
+  else
+    context_.status().set_trouble(
+        "astray", "nothing ties submap " + std::to_string(newest.value) + " to the first one yet");
 }
 
 /// Those that are new, and closures about which something else is held now.
 void LoopClosingService::publish_new_constraints() {
   for (flow::Constraint& constraint : closer_.constraints()) {
-    const auto [published, is_new] = published_states_.try_emplace({constraint.from, constraint.to, constraint.kind}, constraint.verdict.state);
+    const auto [published, is_new] = published_states_.try_emplace(
+        {constraint.from, constraint.to, constraint.kind}, constraint.verdict.state);
     if (!is_new && published->second == constraint.verdict.state) continue;
     published->second = constraint.verdict.state;
     constraint.map_id = *map_id_;

@@ -13,14 +13,16 @@
 
 namespace slammot::loop_closing {
 
-/// Looks for revisits among the stored submaps of one vehicle. Its graph is rebuilt from them when it starts.
+/// Looks for revisits among the stored submaps of one vehicle. Its graph is rebuilt from them when
+/// it starts.
 class LoopClosingService {
  public:
   struct Settings {
     LoopClosingConfig config;
   };
   static constexpr const char* kName = "loop_closing";
-  static constexpr const char* kPurpose = "Recognizes revisited places and corrects the poses of all submaps.";
+  static constexpr const char* kPurpose =
+      "Recognizes revisited places and corrects the poses of all submaps.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
@@ -45,9 +47,10 @@ class LoopClosingService {
   dds::Writer<slammot_GraphCorrection>& corrections_;
   std::map<flow::SubmapId, flow::Submap> waiting_;  ///< For those before them.
   std::optional<flow::MapId> map_id_;               ///< None before the first submap.
-  std::size_t added_ = 0;                           ///< Submaps in the graph: those with numbers below.
+  std::size_t added_ = 0;  ///< Submaps in the graph: those with numbers below.
   int reports_since_submap_ = 0;
-  std::map<std::tuple<flow::SubmapId, flow::SubmapId, flow::ConstraintKind>, flow::ClosureState> published_states_;
+  std::map<std::tuple<flow::SubmapId, flow::SubmapId, flow::ConstraintKind>, flow::ClosureState>
+      published_states_;
 };
 
 }  // namespace slammot::loop_closing

@@ -11,16 +11,21 @@ using geometry::Vector2;
 
 constexpr double kLeastEchoes = 2.0;  // A surfel with fewer echoes may be anything and is left out.
 constexpr double kOccupiedLogOdds = 0.8;  // From here on a cell of a submap counts as occupied.
-constexpr double kFreeLogOdds = 0.8;  // With this much against it a cell counts as free.
+constexpr double kFreeLogOdds = 0.8;      // With this much against it a cell counts as free.
 
 constexpr double kStepsPerLogOdds = 16.0;  // of flow::Submap::so_log_odds
 
-std::int8_t steps_of(double log_odds) { return static_cast<std::int8_t>(std::clamp(std::lround(kStepsPerLogOdds * log_odds), 1L, 127L)); }
+std::int8_t steps_of(double log_odds) {
+  return static_cast<std::int8_t>(std::clamp(std::lround(kStepsPerLogOdds * log_odds), 1L, 127L));
+}
 
 void mark_around(Place& place, std::int32_t column, std::int32_t row, std::int32_t radius) {
-  for (std::int32_t y = std::max(row - radius, 0); y <= std::min(row + radius, place.rows - 1); ++y) {
-    for (std::int32_t x = std::max(column - radius, 0); x <= std::min(column + radius, place.columns - 1); ++x) {
-      place.spots[static_cast<std::size_t>(y) * static_cast<std::size_t>(place.columns) + static_cast<std::size_t>(x)] = Spot::kOccupied;
+  for (std::int32_t y = std::max(row - radius, 0); y <= std::min(row + radius, place.rows - 1);
+       ++y) {
+    for (std::int32_t x = std::max(column - radius, 0);
+         x <= std::min(column + radius, place.columns - 1); ++x) {
+      place.spots[static_cast<std::size_t>(y) * static_cast<std::size_t>(place.columns) +
+                  static_cast<std::size_t>(x)] = Spot::kOccupied;
     }
   }
 }
@@ -28,14 +33,17 @@ void mark_around(Place& place, std::int32_t column, std::int32_t row, std::int32
 void take_spots(const flow::Submap& submap, const PlaceConfig& config, Place& place) {
   const std::int8_t occupied = steps_of(kOccupiedLogOdds);
   const std::int8_t free = steps_of(kFreeLogOdds);
-  const auto radius = static_cast<std::int32_t>(std::lround(config.tolerance_m / submap.cell_size_m));
+  const auto radius =
+      static_cast<std::int32_t>(std::lround(config.tolerance_m / submap.cell_size_m));
   place.spots.assign(submap.so_log_odds.size(), Spot::kUnknown);
   for (std::size_t i = 0; i < place.spots.size(); ++i) {
     if (submap.so_log_odds[i] <= -free) place.spots[i] = Spot::kFree;
   }
   for (std::int32_t row = 0; row < place.rows; ++row) {
     for (std::int32_t column = 0; column < place.columns; ++column) {
-      const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(place.columns) + static_cast<std::size_t>(column);
+      const std::size_t i =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(place.columns) +
+          static_cast<std::size_t>(column);
       if (submap.so_log_odds[i] >= occupied) mark_around(place, column, row, radius);
     }
   }
@@ -45,7 +53,8 @@ void take_spots(const flow::Submap& submap, const PlaceConfig& config, Place& pl
 Spot spot_in(const Target& target, const Vector2& point_in_target_m) {
   Spot spot = Spot::kUnknown;
   for (const Target::Member& member : target.members) {
-    spot = std::max(spot, member.place->spot_at(geometry::inverse(member.target_from_member) * point_in_target_m));
+    spot = std::max(spot, member.place->spot_at(geometry::inverse(member.target_from_member) *
+                                                point_in_target_m));
   }
   return spot;
 }
@@ -61,7 +70,8 @@ Spot Place::spot_at(const Vector2& point_in_submap_m) const {
   const double column = std::floor((point_in_submap_m.x() - min_x_m) / cell_size_m);
   const double row = std::floor((point_in_submap_m.y() - min_y_m) / cell_size_m);
   if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows)) return Spot::kUnknown;
-  return spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+  return spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(column)];
 }
 
 Place make_place(const flow::Submap& submap, double travelled_before_m, const PlaceConfig& config) {
@@ -80,7 +90,8 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
   take_spots(submap, config, place);
   for (const flow::Surfel& surfel : submap.surfels) {
     // What was seen a few times and then seen through is no wall.
-    if (surfel.weight < kLeastEchoes || place.spot_at({surfel.x_m, surfel.y_m}) == Spot::kFree) continue;
+    if (surfel.weight < kLeastEchoes || place.spot_at({surfel.x_m, surfel.y_m}) == Spot::kFree)
+      continue;
     place.surfels.push_back(surfel);
   }
   return place;
@@ -94,7 +105,8 @@ Agreement compare(const Target& target, const Place& source, const Pose2& target
   agreement.source_in_target = agreement.occupied_in_both;
   agreement.source_walls = static_cast<int>(source.surfels.size());
   for (const Target::Member& member : target.members) {
-    const Pose2 source_from_member = geometry::inverse(target_from_source) * member.target_from_member;
+    const Pose2 source_from_member =
+        geometry::inverse(target_from_source) * member.target_from_member;
     for (const flow::Surfel& surfel : member.place->surfels) {
       count(source.spot_at(source_from_member * Vector2(surfel.x_m, surfel.y_m)), agreement);
     }

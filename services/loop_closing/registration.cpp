@@ -15,9 +15,10 @@ using geometry::Matrix3;
 using geometry::Pose2;
 
 constexpr int kCoarseSteps = 6;  // Gauss-Newton steps with the wide gate.
-constexpr int kFineSteps = 10;  // Gauss-Newton steps with the narrow gate.
+constexpr int kFineSteps = 10;   // Gauss-Newton steps with the narrow gate.
 
-// What keeps a direction without information where it is: too weak to pull at anything the walls do say.
+// What keeps a direction without information where it is: too weak to pull at anything the walls do
+// say.
 constexpr double kUnobservedSigmaM = 5.0;
 constexpr double kUnobservedSigmaRad = 0.5;
 
@@ -27,7 +28,8 @@ struct NormalEquations {
   int matched = 0;
   double squared_m2 = 0.0;
 
-  void add(const Eigen::Vector2d& direction, const Eigen::Vector2d& offset_m, const Eigen::Vector2d& by_heading_m, double weight) {
+  void add(const Eigen::Vector2d& direction, const Eigen::Vector2d& offset_m,
+           const Eigen::Vector2d& by_heading_m, double weight) {
     const double residual_m = direction.dot(offset_m);
     const Eigen::Vector3d J(direction.x(), direction.y(), direction.dot(by_heading_m));
     H += weight * J * J.transpose();
@@ -42,26 +44,29 @@ double robust_weight(double residual_m, double scale_m) {
   return root * root;
 }
 
-NormalEquations linearize(std::span<const flow::Surfel> source, const SurfelIndex& target, const Pose2& target_from_source,
-                          double gate_m, double sigma_m) {
+NormalEquations linearize(std::span<const flow::Surfel> source, const SurfelIndex& target,
+                          const Pose2& target_from_source, double gate_m, double sigma_m) {
   const Eigen::Matrix2d turn = geometry::rotation(target_from_source.heading_rad);
   NormalEquations equations;
   for (const flow::Surfel& surfel : source) {
     const Eigen::Vector2d turned_m = turn * Eigen::Vector2d(surfel.x_m, surfel.y_m);
     const Eigen::Vector2d at_m = turned_m + target_from_source.translation_m();
     const Eigen::Vector2d normal = turn * Eigen::Vector2d(surfel.normal_x, surfel.normal_y);
-    const flow::Surfel* pair = target.nearest(at_m.cast<float>(), normal.cast<float>(), static_cast<float>(gate_m));
+    const flow::Surfel* pair =
+        target.nearest(at_m.cast<float>(), normal.cast<float>(), static_cast<float>(gate_m));
     if (pair == nullptr) continue;
     const Eigen::Vector2d offset_m = at_m - Eigen::Vector2d(pair->x_m, pair->y_m);
     const Eigen::Vector2d by_heading_m(-turned_m.y(), turned_m.x());
     const Eigen::Vector2d pair_normal(pair->normal_x, pair->normal_y);
     ++equations.matched;
     if (!pair_normal.isZero()) {
-      const double weight = robust_weight(pair_normal.dot(offset_m), 0.5 * gate_m) / (sigma_m * sigma_m);
+      const double weight =
+          robust_weight(pair_normal.dot(offset_m), 0.5 * gate_m) / (sigma_m * sigma_m);
       equations.add(pair_normal, offset_m, by_heading_m, weight);
     } else {
       // A dot or a blob: its mean is as wide as its cell, and says as much in either direction.
-      const double weight = 0.25 * robust_weight(offset_m.norm(), 0.5 * gate_m) / (sigma_m * sigma_m);
+      const double weight =
+          0.25 * robust_weight(offset_m.norm(), 0.5 * gate_m) / (sigma_m * sigma_m);
       equations.add(Eigen::Vector2d::UnitX(), offset_m, by_heading_m, weight);
       equations.add(Eigen::Vector2d::UnitY(), offset_m, by_heading_m, weight);
     }
@@ -70,23 +75,29 @@ NormalEquations linearize(std::span<const flow::Surfel> source, const SurfelInde
 }
 
 Matrix3 weak_hold() {
-  return Eigen::Vector3d(1.0 / (kUnobservedSigmaM * kUnobservedSigmaM), 1.0 / (kUnobservedSigmaM * kUnobservedSigmaM),
+  return Eigen::Vector3d(1.0 / (kUnobservedSigmaM * kUnobservedSigmaM),
+                         1.0 / (kUnobservedSigmaM * kUnobservedSigmaM),
                          1.0 / (kUnobservedSigmaRad * kUnobservedSigmaRad))
       .asDiagonal();
 }
 
 }  // namespace
 
-Registration register_surfels(std::span<const flow::Surfel> source, double source_spacing_m, const SurfelIndex& target,
-                              const Pose2& initial_target_from_source, const RegistrationConfig& config) {
+Registration register_surfels(std::span<const flow::Surfel> source, double source_spacing_m,
+                              const SurfelIndex& target, const Pose2& initial_target_from_source,
+                              const RegistrationConfig& config) {
   constexpr double kConvergedM = 1e-4;
   const double independent_share = std::min(1.0, source_spacing_m / config.independent_spacing_m);
   Pose2 pose = initial_target_from_source;
   NormalEquations equations;
   for (int step = 0; step < kCoarseSteps + kFineSteps; ++step) {
     const bool is_coarse = step < kCoarseSteps;
-    equations = linearize(source, target, pose, is_coarse ? config.coarse_gate_m : config.fine_gate_m, config.surfel_sigma_m);
-    const Eigen::Vector3d change = -(independent_share * equations.H + weak_hold()).ldlt().solve(independent_share * equations.g);
+    equations =
+        linearize(source, target, pose, is_coarse ? config.coarse_gate_m : config.fine_gate_m,
+                  config.surfel_sigma_m);
+    const Eigen::Vector3d change = -(independent_share * equations.H + weak_hold())
+                                        .ldlt()
+                                        .solve(independent_share * equations.g);
     pose = geometry::displaced(pose, change);
     const bool has_converged = geometry::as_seen_10_m_away(change) < kConvergedM;
     if (has_converged && !is_coarse) break;
@@ -94,12 +105,15 @@ Registration register_surfels(std::span<const flow::Surfel> source, double sourc
   }
   Registration registration;
   registration.target_from_source.pose = pose;
-  registration.matched_share = source.empty() ? 0.0 : static_cast<double>(equations.matched) / static_cast<double>(source.size());
+  registration.matched_share =
+      source.empty() ? 0.0
+                     : static_cast<double>(equations.matched) / static_cast<double>(source.size());
   registration.rms_m = std::sqrt(equations.squared_m2 / std::max(equations.matched, 1));
   const double inflation = std::max(1.0, std::pow(registration.rms_m / config.surfel_sigma_m, 2));
   Matrix3& covariance = registration.target_from_source.covariance;
   covariance = Matrix3((independent_share / inflation * equations.H + weak_hold()).inverse());
-  covariance.diagonal() += Eigen::Vector3d(config.position_floor_m * config.position_floor_m, config.position_floor_m * config.position_floor_m,
+  covariance.diagonal() += Eigen::Vector3d(config.position_floor_m * config.position_floor_m,
+                                           config.position_floor_m * config.position_floor_m,
                                            config.heading_floor_rad * config.heading_floor_rad);
   return registration;
 }

@@ -17,32 +17,42 @@ using geometry::UncertainPose2;
 using geometry::Vector2;
 
 constexpr double kMinScore = 0.35;  // Least score of the search before refinement.
-constexpr int kMaxPeaks = 4;  // Poses of one search that are looked at; twice as many where several targets are searched.
-constexpr int kMaxPoints = 300;  // Surfels of the new submap that take part in the search.
-constexpr double kWindowSigmas = 3.0;  // How far around the expected pose is searched.
+constexpr int kMaxPeaks = 4;  // Poses of one search that are looked at; twice as many where several
+                              // targets are searched.
+constexpr int kMaxPoints = 300;          // Surfels of the new submap that take part in the search.
+constexpr double kWindowSigmas = 3.0;    // How far around the expected pose is searched.
 constexpr double kMinWindow_rad = 0.06;  // Half width of the smallest window of the heading.
-constexpr double kMaxWindow_rad = 0.6;  // Half width of the largest window of the heading.
-constexpr double kAnyHeadingSigma_rad = 1.0;  // Less sure of the heading than this, all of the circle is searched.
-constexpr double kMinOverlapShare = 0.3;  // Of the new submap's walls, those that the earlier one has too.
-constexpr double kMinAgreedInSupport = 0.8;  // Searched for everywhere, so much still supports another that agrees.
+constexpr double kMaxWindow_rad = 0.6;   // Half width of the largest window of the heading.
+constexpr double kAnyHeadingSigma_rad = 1.0;  // Less sure of the heading than this, all of the
+                                              // circle is searched.
+constexpr double kMinOverlapShare = 0.3;  // Of the new submap's walls, those that the earlier one
+                                          // has too.
+constexpr double kMinAgreedInSupport = 0.8;  // Searched for everywhere, so much still supports
+                                             // another that agrees.
 
 constexpr double kSameWithinSquaredSigmas = 11.3;  // chi-square, 3 degrees of freedom, 99 %
 
 constexpr std::size_t kMostPyramids = 64;
-constexpr double kSameShapeCells = 0.25;         // members that moved less against each other draw the same grid
+constexpr double kSameShapeCells = 0.25;  // members that moved less against each other draw the
+                                          // same grid
 // Work of the other steps in cells that a search could read in the same time.
 constexpr std::uint64_t kWorkOfRegisteringSurfel = 400;
 constexpr std::uint64_t kWorkOfComparingSurfel = 20;
 
-constexpr double kNearShare = 0.25;   // of the window: a sixtieth of the poses, and most revisits
-constexpr double kBorderCost = 0.1;   // score; the border is three sigmas away
+constexpr double kNearShare = 0.25;  // of the window: a sixtieth of the poses, and most revisits
+constexpr double kBorderCost = 0.1;  // score; the border is three sigmas away
 
-// Searched for everywhere, a place is found by coarser steps and fewer points: refinement bridges the step.
+// Searched for everywhere, a place is found by coarser steps and fewer points: refinement bridges
+// the step.
 constexpr double kCoarserOnSeveralTargets = 2.0;
 constexpr int kFewerPointsOnSeveralTargets = 2;
 
-double search_cell_m(const RevisitConfig& config, std::size_t targets) { return targets > 1 ? kCoarserOnSeveralTargets * config.search_cell_m : config.search_cell_m; }
-int most_points(std::size_t targets) { return targets > 1 ? kMaxPoints / kFewerPointsOnSeveralTargets : kMaxPoints; }
+double search_cell_m(const RevisitConfig& config, std::size_t targets) {
+  return targets > 1 ? kCoarserOnSeveralTargets * config.search_cell_m : config.search_cell_m;
+}
+int most_points(std::size_t targets) {
+  return targets > 1 ? kMaxPoints / kFewerPointsOnSeveralTargets : kMaxPoints;
+}
 
 matching::WideSearchConfig search_config(const RevisitConfig& config, std::size_t targets) {
   return {.min_score = kMinScore,
@@ -58,10 +68,12 @@ std::vector<flow::Surfel> surfels_in_target(const Target& target) {
   for (const Target::Member& member : target.members) {
     const Eigen::Matrix2d turn = geometry::rotation(member.target_from_member.heading_rad);
     for (const flow::Surfel& surfel : member.place->surfels) {
-      const Vector2 at = turn * Vector2(surfel.x_m, surfel.y_m) + member.target_from_member.translation_m();
+      const Vector2 at =
+          turn * Vector2(surfel.x_m, surfel.y_m) + member.target_from_member.translation_m();
       const Vector2 normal = turn * Vector2(surfel.normal_x, surfel.normal_y);
-      surfels.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(normal.x()),
-                         static_cast<float>(normal.y()), surfel.weight});
+      surfels.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()),
+                         static_cast<float>(normal.x()), static_cast<float>(normal.y()),
+                         surfel.weight});
     }
   }
   return surfels;
@@ -81,11 +93,14 @@ Vector2 centroid_of(const std::vector<flow::Surfel>& surfels) {
 }
 
 /// Evenly thinned surfels about their centroid: a turn about it hardly shifts them.
-std::vector<Eigen::Vector2f> points_about(const Vector2& centre_m, const std::vector<flow::Surfel>& surfels, int max_points) {
+std::vector<Eigen::Vector2f> points_about(const Vector2& centre_m,
+                                          const std::vector<flow::Surfel>& surfels,
+                                          int max_points) {
   std::vector<Eigen::Vector2f> points;
   const std::size_t step = surfels.size() / static_cast<std::size_t>(max_points) + 1;
   for (std::size_t i = 0; i < surfels.size(); i += step) {
-    points.emplace_back(surfels[i].x_m - static_cast<float>(centre_m.x()), surfels[i].y_m - static_cast<float>(centre_m.y()));
+    points.emplace_back(surfels[i].x_m - static_cast<float>(centre_m.x()),
+                        surfels[i].y_m - static_cast<float>(centre_m.y()));
   }
   return points;
 }
@@ -96,29 +111,39 @@ bool is_astray(const UncertainPose2& expected) {
 
 bool are_same(const UncertainPose2& a, const UncertainPose2& b) {
   const Eigen::Vector3d difference = geometry::difference(a.pose, b.pose);
-  return difference.dot(Matrix3(a.covariance + b.covariance).ldlt().solve(difference)) < kSameWithinSquaredSigmas;
+  return difference.dot(Matrix3(a.covariance + b.covariance).ldlt().solve(difference)) <
+         kSameWithinSquaredSigmas;
 }
 
 void keep_best_of_the_same(std::vector<Hypothesis>& hypotheses) {
-  std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const Hypothesis& a, const Hypothesis& b) { return a.quality() > b.quality(); });
+  std::stable_sort(
+      hypotheses.begin(), hypotheses.end(),
+      [](const Hypothesis& a, const Hypothesis& b) { return a.quality() > b.quality(); });
   std::vector<Hypothesis> kept;
   for (const Hypothesis& hypothesis : hypotheses) {
-    const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& one) { return are_same(one.from_to, hypothesis.from_to); });
+    const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& one) {
+      return are_same(one.from_to, hypothesis.from_to);
+    });
     if (!is_known) kept.push_back(hypothesis);
   }
   hypotheses = std::move(kept);
 }
 
-/// In corridors all of which look alike most of the walls agree anywhere: what contradicts tells poses apart.
+/// In corridors all of which look alike most of the walls agree anywhere: what contradicts tells
+/// poses apart.
 void drop_contradicted(std::vector<Hypothesis>& hypotheses) {
-  constexpr double kClearlyWorse = 2.0;      // times the contradictions of another pose,
-  constexpr double kNoise_share = 0.01;      // and this much more,
-  constexpr double kComparableShare = 0.5;   // if that explains at least this share of what this one does
-  const auto contradicted_share = [](const Hypothesis& one) { return 1.0 - one.agreement.agreed_share(); };
+  constexpr double kClearlyWorse = 2.0;     // times the contradictions of another pose,
+  constexpr double kNoise_share = 0.01;     // and this much more,
+  constexpr double kComparableShare = 0.5;  // if that explains at least this share of what this one
+                                            // does
+  const auto contradicted_share = [](const Hypothesis& one) {
+    return 1.0 - one.agreement.agreed_share();
+  };
   const std::vector<Hypothesis> all = hypotheses;
   std::erase_if(hypotheses, [&](const Hypothesis& one) {
     return std::ranges::any_of(all, [&](const Hypothesis& other) {
-      return contradicted_share(one) > kClearlyWorse * contradicted_share(other) + kNoise_share && other.quality() > kComparableShare * one.quality();
+      return contradicted_share(one) > kClearlyWorse * contradicted_share(other) + kNoise_share &&
+             other.quality() > kComparableShare * one.quality();
     });
   });
 }
@@ -130,45 +155,60 @@ void drop_poor_rivals(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
   for (Hypothesis& hypothesis : hypotheses) hypothesis.has_rivals = hypotheses.size() > 1;
 }
 
-double sigma_m(const UncertainPose2& expected) { return std::sqrt(expected.covariance.topLeftCorner<2, 2>().trace()); }
+double sigma_m(const UncertainPose2& expected) {
+  return std::sqrt(expected.covariance.topLeftCorner<2, 2>().trace());
+}
 
 /// share: of the window that holds all of the uncertainty.
-matching::SearchWindow window_around(const UncertainPose2& expected, const UncertainPose2& target_from_centre, const RevisitConfig& config, double share) {
+matching::SearchWindow window_around(const UncertainPose2& expected,
+                                     const UncertainPose2& target_from_centre,
+                                     const RevisitConfig& config, double share) {
   const bool astray = is_astray(expected);
   const auto window = [&](double variance, double least, double most) {
     return std::max(share * std::clamp(kWindowSigmas * std::sqrt(variance), least, most), least);
   };
   const double most_m = astray ? config.astray_window_m : config.max_window_m;
-  return {window(target_from_centre.covariance(0, 0), config.min_window_m, most_m), window(target_from_centre.covariance(1, 1), config.min_window_m, most_m),
-          window(expected.covariance(2, 2), kMinWindow_rad, astray ? std::numbers::pi : kMaxWindow_rad)};
+  return {window(target_from_centre.covariance(0, 0), config.min_window_m, most_m),
+          window(target_from_centre.covariance(1, 1), config.min_window_m, most_m),
+          window(expected.covariance(2, 2), kMinWindow_rad,
+                 astray ? std::numbers::pi : kMaxWindow_rad)};
 }
 
 }  // namespace
 
 bool PyramidCache::is_of(const Entry& entry, const Target& target, double cell_m) {
-  return entry.pyramid->cell_m() == cell_m && std::ranges::equal(entry.members, target.members, [&](const auto& known, const Target::Member& member) {
-    const Eigen::Vector3d moved = geometry::difference(known.second, member.target_from_member);
-    return known.first == member.place->id && geometry::as_seen_10_m_away(moved) < kSameShapeCells * cell_m;
-  });
+  return entry.pyramid->cell_m() == cell_m &&
+         std::ranges::equal(entry.members, target.members,
+                            [&](const auto& known, const Target::Member& member) {
+                              const Eigen::Vector3d moved =
+                                  geometry::difference(known.second, member.target_from_member);
+                              return known.first == member.place->id &&
+                                     geometry::as_seen_10_m_away(moved) < kSameShapeCells * cell_m;
+                            });
 }
 
 PyramidCache::Drawn PyramidCache::pyramid_of(const Target& target, double cell_m) {
   ++uses_;
-  const auto known = std::ranges::find_if(entries_, [&](const Entry& entry) { return is_of(entry, target, cell_m); });
+  const auto known = std::ranges::find_if(
+      entries_, [&](const Entry& entry) { return is_of(entry, target, cell_m); });
   if (known != entries_.end()) {
     known->used = uses_;
     return {known->pyramid};
   }
-  if (entries_.size() >= kMostPyramids) entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
+  if (entries_.size() >= kMostPyramids)
+    entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
   Entry entry{.used = uses_};
-  for (const Target::Member& member : target.members) entry.members.emplace_back(member.place->id, member.target_from_member);
+  for (const Target::Member& member : target.members)
+    entry.members.emplace_back(member.place->id, member.target_from_member);
   constexpr int kLevels = 6;
-  entry.pyramid = std::make_shared<const matching::ScorePyramid>(as_target_points(surfels_in_target(target)), cell_m, cell_m, kLevels);
+  entry.pyramid = std::make_shared<const matching::ScorePyramid>(
+      as_target_points(surfels_in_target(target)), cell_m, cell_m, kLevels);
   entries_.push_back(entry);
   return {entry.pyramid, entry.pyramid->work()};
 }
 
-RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source, std::vector<RevisitCandidate> candidates)
+RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source,
+                             std::vector<RevisitCandidate> candidates)
     : config_(config),
       source_(&source),
       candidates_(std::move(candidates)),
@@ -176,7 +216,10 @@ RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source, s
       walls_(source.surfels),
       is_done_(candidates_.empty() || source.surfels.empty()) {
   if (is_done_) return;
-  const bool begins_near = is_somewhere_expected() && kNearShare * std::min(kWindowSigmas * searched_sigma_m(), config.max_window_m) > config.min_window_m;
+  const bool begins_near =
+      is_somewhere_expected() &&
+      kNearShare * std::min(kWindowSigmas * searched_sigma_m(), config.max_window_m) >
+          config.min_window_m;
   begin_search(begins_near ? kNearShare : 1.0);
 }
 
@@ -184,7 +227,10 @@ void RevisitSearch::begin_search(double window_share) {
   window_share_ = window_share;
   targets_added_ = 0;
   peaks_judged_ = 0;
-  search_.emplace(points_about(source_from_centre_.translation_m(), source_->surfels, most_points(candidates_.size())), search_cell_m(config_, candidates_.size()), search_config(config_, candidates_.size()));
+  search_.emplace(points_about(source_from_centre_.translation_m(), source_->surfels,
+                               most_points(candidates_.size())),
+                  search_cell_m(config_, candidates_.size()),
+                  search_config(config_, candidates_.size()));
 }
 
 std::uint64_t RevisitSearch::advance(std::uint64_t most_work, PyramidCache& pyramids) {
@@ -199,7 +245,10 @@ std::uint64_t RevisitSearch::advance(std::uint64_t most_work, PyramidCache& pyra
       work_ += judge(search_->peaks()[peaks_judged_++]);
     } else if (!is_expectation_judged_) {
       is_expectation_judged_ = true;
-      if (is_somewhere_expected()) work_ += judge({.target = 0, .target_from_source = candidates_.front().target_from_source.pose * source_from_centre_});
+      if (is_somewhere_expected())
+        work_ += judge({.target = 0,
+                        .target_from_source =
+                            candidates_.front().target_from_source.pose * source_from_centre_});
     } else if (window_share_ < 1.0) {
       begin_search(1.0);
     } else {
@@ -209,35 +258,52 @@ std::uint64_t RevisitSearch::advance(std::uint64_t most_work, PyramidCache& pyra
   return work_ - work_before;
 }
 
-/// The pose that is expected is judged though its walls may overlap less than elsewhere along a corridor.
-bool RevisitSearch::is_somewhere_expected() const { return candidates_.size() == 1 && !is_astray(candidates_.front().target_from_source); }
+/// The pose that is expected is judged though its walls may overlap less than elsewhere along a
+/// corridor.
+bool RevisitSearch::is_somewhere_expected() const {
+  return candidates_.size() == 1 && !is_astray(candidates_.front().target_from_source);
+}
 
-double RevisitSearch::searched_sigma_m() const { return sigma_m(candidates_.front().target_from_source); }
+double RevisitSearch::searched_sigma_m() const {
+  return sigma_m(candidates_.front().target_from_source);
+}
 
 std::uint64_t RevisitSearch::add_next_target(PyramidCache& pyramids) {
   const RevisitCandidate& candidate = candidates_[targets_added_++];
-  const auto [pyramid, work] = pyramids.pyramid_of(candidate.target, search_cell_m(config_, candidates_.size()));
-  const UncertainPose2 target_from_centre = geometry::compound(candidate.target_from_source, {source_from_centre_, Matrix3::Zero()});
-  return work + search_->add_target({pyramid, target_from_centre.pose, window_around(candidate.target_from_source, target_from_centre, config_, window_share_), candidate.map_from_target,
-                                     [headings = PlausibleHeadings(WallDirections(surfels_in_target(candidate.target)), walls_)](double heading_rad) { return headings.contains(heading_rad); }});
+  const auto [pyramid, work] =
+      pyramids.pyramid_of(candidate.target, search_cell_m(config_, candidates_.size()));
+  const UncertainPose2 target_from_centre =
+      geometry::compound(candidate.target_from_source, {source_from_centre_, Matrix3::Zero()});
+  return work +
+         search_->add_target({pyramid, target_from_centre.pose,
+                              window_around(candidate.target_from_source, target_from_centre,
+                                            config_, window_share_),
+                              candidate.map_from_target,
+                              [headings = PlausibleHeadings(
+                                   WallDirections(surfels_in_target(candidate.target)), walls_)](
+                                  double heading_rad) { return headings.contains(heading_rad); }});
 }
 
 std::uint64_t RevisitSearch::judge(const matching::WidePeak& peak) {
   const auto& [target, expected, map_from_target] = candidates_[peak.target];
   const SurfelIndex index(surfels_in_target(target), config_.registration.coarse_gate_m);
   const Pose2 target_from_source = peak.target_from_source * geometry::inverse(source_from_centre_);
-  const Registration registration = register_surfels(source_->surfels, source_->spacing_m, index, target_from_source, config_.registration);
-  const Hypothesis hypothesis{.from = target.members.front().place->id,
-                              .to = source_->id,
-                              .from_to = registration.target_from_source,
-                              .agreement = compare(target, *source_, registration.target_from_source.pose),
-                              .score = peak.score,
-                              .searched_sigma_m = sigma_m(expected)};
-  const double least_agreed_share = is_astray(expected) ? kMinAgreedInSupport : config_.min_agreed_share;
+  const Registration registration = register_surfels(source_->surfels, source_->spacing_m, index,
+                                                     target_from_source, config_.registration);
+  const Hypothesis hypothesis{
+      .from = target.members.front().place->id,
+      .to = source_->id,
+      .from_to = registration.target_from_source,
+      .agreement = compare(target, *source_, registration.target_from_source.pose),
+      .score = peak.score,
+      .searched_sigma_m = sigma_m(expected)};
+  const double least_agreed_share =
+      is_astray(expected) ? kMinAgreedInSupport : config_.min_agreed_share;
   const bool holds = hypothesis.agreement.agreed_share() >= least_agreed_share &&
                      hypothesis.agreement.overlap_share() >= kMinOverlapShare;
   if (holds) hypotheses_.push_back(hypothesis);
-  return kWorkOfRegisteringSurfel * source_->surfels.size() + kWorkOfComparingSurfel * index.surfels().size();
+  return kWorkOfRegisteringSurfel * source_->surfels.size() +
+         kWorkOfComparingSurfel * index.surfels().size();
 }
 
 std::vector<Hypothesis> RevisitSearch::found() const {
@@ -253,13 +319,17 @@ std::vector<Hypothesis> RevisitSearch::found() const {
   return all;
 }
 
-Agreement agreement_after_refining(const RevisitConfig& config, const Target& target, const Place& source, const Pose2& target_from_source) {
+Agreement agreement_after_refining(const RevisitConfig& config, const Target& target,
+                                   const Place& source, const Pose2& target_from_source) {
   const SurfelIndex index(surfels_in_target(target), config.registration.coarse_gate_m);
-  const Registration registration = register_surfels(source.surfels, source.spacing_m, index, target_from_source, config.registration);
+  const Registration registration = register_surfels(source.surfels, source.spacing_m, index,
+                                                     target_from_source, config.registration);
   return compare(target, source, registration.target_from_source.pose);
 }
 
-std::vector<Hypothesis> find_revisits(const RevisitConfig& config, const Target& target, const Place& source, const UncertainPose2& expected_target_from_source) {
+std::vector<Hypothesis> find_revisits(const RevisitConfig& config, const Target& target,
+                                      const Place& source,
+                                      const UncertainPose2& expected_target_from_source) {
   PyramidCache pyramids;
   RevisitSearch search(config, source, {{target, expected_target_from_source, Pose2::identity()}});
   while (!search.is_done()) search.advance(1'000'000, pyramids);

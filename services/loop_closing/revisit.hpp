@@ -16,24 +16,27 @@
 namespace slammot::loop_closing {
 
 struct RevisitConfig {
-  double search_cell_m = 0.4;            ///< Step of the search.
-  double min_window_m = 2.0;             ///< Half width of the window around the expected pose that is searched, at least
-  double max_window_m = 30.0;            ///< and at most.
-  double astray_window_m = 60.0;         ///< Half width where the heading is not known.
-  double min_agreed_share = 0.9;         ///< Of the walls about which the other knows anything.
-  double rival_ratio = 0.75;             ///< Another pose that is as good as this share of the best makes it ambiguous.
+  double search_cell_m = 0.4;     ///< Step of the search.
+  double min_window_m = 2.0;      ///< Half width of the window around the expected pose that is
+                                  ///< searched, at least
+  double max_window_m = 30.0;     ///< and at most.
+  double astray_window_m = 60.0;  ///< Half width where the heading is not known.
+  double min_agreed_share = 0.9;  ///< Of the walls about which the other knows anything.
+  double rival_ratio = 0.75;  ///< Another pose that is as good as this share of the best makes it
+                              ///< ambiguous.
   RegistrationConfig registration;
 };
 
 /// One way in which a new submap may lie on an earlier one.
 struct Hypothesis {
-  flow::SubmapId from;                   ///< The earlier submap.
-  flow::SubmapId to;                     ///< The new one.
+  flow::SubmapId from;  ///< The earlier submap.
+  flow::SubmapId to;    ///< The new one.
   geometry::UncertainPose2 from_to;
   Agreement agreement;
-  double score = 0.0;                    ///< Of the search.
-  bool has_rivals = false;               ///< Other poses fit about as well, and are not the same within the covariance.
-  double searched_sigma_m = 0.0;         ///< How unsure the expected pose was.
+  double score = 0.0;       ///< Of the search.
+  bool has_rivals = false;  ///< Other poses fit about as well, and are not the same within the
+                            ///< covariance.
+  double searched_sigma_m = 0.0;  ///< How unsure the expected pose was.
 
   double quality() const { return agreement.agreed_share() * agreement.overlap_share(); }
 };
@@ -42,7 +45,7 @@ struct Hypothesis {
 struct RevisitCandidate {
   Target target;
   geometry::UncertainPose2 target_from_source;  ///< As expected.
-  geometry::Pose2 map_from_target;              ///< Tells whether poses on several targets are the same place.
+  geometry::Pose2 map_from_target;  ///< Tells whether poses on several targets are the same place.
 };
 
 /// Grids of the targets used last: those that are searched again and again are drawn once.
@@ -66,11 +69,13 @@ class PyramidCache {
   std::uint64_t uses_ = 0;
 };
 
-/// Search of one place on one target or on several at once, in pieces of counted work: near the expected pose first, then in all
-/// of its uncertainty. All poses on one target that hold, best first. The places that it was given must outlive it.
+/// Search of one place on one target or on several at once, in pieces of counted work: near the
+/// expected pose first, then in all of its uncertainty. All poses on one target that hold, best
+/// first. The places that it was given must outlive it.
 class RevisitSearch {
  public:
-  RevisitSearch(const RevisitConfig& config, const Place& source, std::vector<RevisitCandidate> candidates);
+  RevisitSearch(const RevisitConfig& config, const Place& source,
+                std::vector<RevisitCandidate> candidates);
 
   /// Goes on until done or until at least so much work was done (cells read). Returns how much was.
   std::uint64_t advance(std::uint64_t most_work, PyramidCache& pyramids);
@@ -85,8 +90,8 @@ class RevisitSearch {
   flow::SubmapId target() const { return candidates_.front().target.members.front().place->id; }
   double searched_sigma_m() const;
 
-  /// Hypotheses between the first member of a candidate's target and the source; those of one target are each other's rivals.
-  /// Final once the search is done.
+  /// Hypotheses between the first member of a candidate's target and the source; those of one
+  /// target are each other's rivals. Final once the search is done.
   std::vector<Hypothesis> found() const;
 
  private:
@@ -99,9 +104,9 @@ class RevisitSearch {
   const Place* source_;
   std::vector<RevisitCandidate> candidates_;
   geometry::Pose2 source_from_centre_;
-  WallDirections walls_;             ///< Of the source.
+  WallDirections walls_;  ///< Of the source.
   std::optional<matching::WideSearch> search_;
-  double window_share_ = 1.0;        ///< Of the full window, that is searched now.
+  double window_share_ = 1.0;  ///< Of the full window, that is searched now.
   std::size_t targets_added_ = 0;
   std::size_t peaks_judged_ = 0;
   bool is_expectation_judged_ = false;
@@ -111,11 +116,13 @@ class RevisitSearch {
 };
 
 /// How well the source agrees with the target once refined from this pose, without a search.
-Agreement agreement_after_refining(const RevisitConfig& config, const Target& target, const Place& source, const geometry::Pose2& target_from_source);
+Agreement agreement_after_refining(const RevisitConfig& config, const Target& target,
+                                   const Place& source, const geometry::Pose2& target_from_source);
 
-/// Looks for the source in the target within the uncertainty of the expected pose, to the end. All poses that hold, best
-/// first; empty when it is not there.
-std::vector<Hypothesis> find_revisits(const RevisitConfig& config, const Target& target, const Place& source,
+/// Looks for the source in the target within the uncertainty of the expected pose, to the end. All
+/// poses that hold, best first; empty when it is not there.
+std::vector<Hypothesis> find_revisits(const RevisitConfig& config, const Target& target,
+                                      const Place& source,
                                       const geometry::UncertainPose2& expected_target_from_source);
 
 }  // namespace slammot::loop_closing

@@ -9,24 +9,30 @@ namespace {
 constexpr float kLeastCosine = 0.7F;  // of the angle between normals of one wall seen twice
 
 bool normals_agree(const flow::Surfel& surfel, const Eigen::Vector2f& normal) {
-  const bool either_has_none = (surfel.normal_x == 0.0F && surfel.normal_y == 0.0F) || normal.isZero();
+  const bool either_has_none =
+      (surfel.normal_x == 0.0F && surfel.normal_y == 0.0F) || normal.isZero();
   // The sign of a normal is arbitrary.
-  return either_has_none || std::abs(surfel.normal_x * normal.x() + surfel.normal_y * normal.y()) >= kLeastCosine;
+  return either_has_none ||
+         std::abs(surfel.normal_x * normal.x() + surfel.normal_y * normal.y()) >= kLeastCosine;
 }
 
 }  // namespace
 
-SurfelIndex::SurfelIndex(std::vector<flow::Surfel> surfels, double bucket_m) : bucket_m_(static_cast<float>(bucket_m)) {
+SurfelIndex::SurfelIndex(std::vector<flow::Surfel> surfels, double bucket_m)
+    : bucket_m_(static_cast<float>(bucket_m)) {
   first_.assign(1, 0);
   if (surfels.empty()) return;
-  const auto [low_x, high_x] = std::minmax_element(surfels.begin(), surfels.end(), [](auto& a, auto& b) { return a.x_m < b.x_m; });
-  const auto [low_y, high_y] = std::minmax_element(surfels.begin(), surfels.end(), [](auto& a, auto& b) { return a.y_m < b.y_m; });
+  const auto [low_x, high_x] = std::minmax_element(surfels.begin(), surfels.end(),
+                                                   [](auto& a, auto& b) { return a.x_m < b.x_m; });
+  const auto [low_y, high_y] = std::minmax_element(surfels.begin(), surfels.end(),
+                                                   [](auto& a, auto& b) { return a.y_m < b.y_m; });
   min_x_m_ = low_x->x_m;
   min_y_m_ = low_y->y_m;
   columns_ = static_cast<std::int32_t>((high_x->x_m - min_x_m_) / bucket_m_) + 1;
   rows_ = static_cast<std::int32_t>((high_y->y_m - min_y_m_) / bucket_m_) + 1;
   const auto bucket_of = [&](const flow::Surfel& surfel) {
-    return static_cast<std::size_t>(row_of(surfel.y_m)) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column_of(surfel.x_m));
+    return static_cast<std::size_t>(row_of(surfel.y_m)) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column_of(surfel.x_m));
   };
   first_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   for (const flow::Surfel& surfel : surfels) ++first_[bucket_of(surfel) + 1];
@@ -36,10 +42,15 @@ SurfelIndex::SurfelIndex(std::vector<flow::Surfel> surfels, double bucket_m) : b
   for (const flow::Surfel& surfel : surfels) surfels_[next[bucket_of(surfel)]++] = surfel;
 }
 
-std::int32_t SurfelIndex::column_of(float x_m) const { return static_cast<std::int32_t>(std::floor((x_m - min_x_m_) / bucket_m_)); }
-std::int32_t SurfelIndex::row_of(float y_m) const { return static_cast<std::int32_t>(std::floor((y_m - min_y_m_) / bucket_m_)); }
+std::int32_t SurfelIndex::column_of(float x_m) const {
+  return static_cast<std::int32_t>(std::floor((x_m - min_x_m_) / bucket_m_));
+}
+std::int32_t SurfelIndex::row_of(float y_m) const {
+  return static_cast<std::int32_t>(std::floor((y_m - min_y_m_) / bucket_m_));
+}
 
-const flow::Surfel* SurfelIndex::nearest(const Eigen::Vector2f& point_m, const Eigen::Vector2f& normal, float reach_m) const {
+const flow::Surfel* SurfelIndex::nearest(const Eigen::Vector2f& point_m,
+                                         const Eigen::Vector2f& normal, float reach_m) const {
   const std::int32_t low_row = std::max(row_of(point_m.y() - reach_m), 0);
   const std::int32_t high_row = std::min(row_of(point_m.y() + reach_m), rows_ - 1);
   const std::int32_t low_column = std::max(column_of(point_m.x() - reach_m), 0);

@@ -8,8 +8,9 @@
 
 namespace slammot::loop_closing {
 
-/// Histogram of the directions of walls: places that are the same have the same, turned by the heading between them
-/// (Weiss, Wetzler, von Puttkamer, IROS 1994: angle histograms). Normals count without their sign.
+/// Histogram of the directions of walls: places that are the same have the same, turned by the
+/// heading between them (Weiss, Wetzler, von Puttkamer, IROS 1994: angle histograms). Normals count
+/// without their sign.
 class WallDirections {
  public:
   explicit WallDirections(std::span<const flow::Surfel> surfels);
@@ -17,7 +18,8 @@ class WallDirections {
   /// Whether most of the surfels have a direction.
   bool has_walls() const { return has_walls_; }
 
-  /// Correlation with another place that is turned by this angle, in [0, 1] of the product of the norms.
+  /// Correlation with another place that is turned by this angle, in [0, 1] of the product of the
+  /// norms.
   double correlation(const WallDirections& turned, double by_rad) const;
 
  private:

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include "common/wire/text.hpp"
 #include "services/map_store/map_store_fields.hpp"
@@ -13,18 +13,24 @@ namespace {
 
 std::string names_of(const std::vector<Store::StoredMap>& maps) {
   std::string names;
-  for (const Store::StoredMap& map : maps) names += (names.empty() ? "; there are " : ", ") + std::to_string(map.map_id.value) + " (" + std::to_string(map.submaps) + " submaps)";
+  for (const Store::StoredMap& map : maps)
+    names += (names.empty() ? "; there are " : ", ") + std::to_string(map.map_id.value) + " (" +
+             std::to_string(map.submaps) + " submaps)";
   return names;
 }
 
 Store open_store(const app::ServiceContext& context, const MapStoreService::Settings& settings) {
-  const auto file = settings.database.empty() ? context.options().state_dir / "map.sqlite" : settings.database;
+  const auto file =
+      settings.database.empty() ? context.options().state_dir / "map.sqlite" : settings.database;
   auto opened = Store::open(file, settings.config);
   if (const auto* fault = std::get_if<std::string>(&opened)) throw app::StartupFailure(*fault);
   Store store = std::move(std::get<Store>(opened));
   if (settings.map_id && !store.make_latest(context.vehicle_id(), {*settings.map_id})) {
-    const std::string why = store.last_fault().empty() ? "there is no such map of vehicle " + context.vehicle_id() : store.last_fault();
-    throw app::StartupFailure("--map " + std::to_string(*settings.map_id) + ": " + why + names_of(store.maps(context.vehicle_id())));
+    const std::string why = store.last_fault().empty()
+                                ? "there is no such map of vehicle " + context.vehicle_id()
+                                : store.last_fault();
+    throw app::StartupFailure("--map " + std::to_string(*settings.map_id) + ": " + why +
+                              names_of(store.maps(context.vehicle_id())));
   }
   return store;
 }
@@ -36,8 +42,12 @@ std::vector<config::BoundStage> MapStoreService::stages(Settings& settings) {
 }
 
 void MapStoreService::add_options(CLI::App& command_line, Settings& settings) {
-  command_line.add_option("--database", settings.database, "SQLite file; map.sqlite in the state folder when not given");
-  command_line.add_option("--map", settings.map_id, "Put this map of the vehicle in use again, in place of its latest")->type_name("ID");
+  command_line.add_option("--database", settings.database,
+                          "SQLite file; map.sqlite in the state folder when not given");
+  command_line
+      .add_option("--map", settings.map_id,
+                  "Put this map of the vehicle in use again, in place of its latest")
+      ->type_name("ID");
 }
 
 MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& settings)
@@ -48,16 +58,20 @@ MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& s
       stored_objects_(context.write(dds::topics::kStoredTrackedObjects)),
       stored_map_(context.write(dds::topics::kStoredMap)) {
   publish_stored();
-  context.read(dds::topics::kSubmapTile, app::Input::kOccasional, [this](const auto& tile) { take(tile); });
-  // The last tracks only pass through: this service outlives a crash of tracking, which takes them up again from here.
+  context.read(dds::topics::kSubmapTile, app::Input::kOccasional,
+               [this](const auto& tile) { take(tile); });
+  // The last tracks only pass through: this service outlives a crash of tracking, which takes them
+  // up again from here.
   context.read(dds::topics::kTrackedObjects, app::Input::kOccasional,
                [this](const slammot_TrackedObjects& objects) { stored_objects_.write(objects); });
-  context.every(std::chrono::nanoseconds(static_cast<std::int64_t>(config_.retry_after_s * 1e9)), [this] { retry(); });
+  context.every(std::chrono::nanoseconds(static_cast<std::int64_t>(config_.retry_after_s * 1e9)),
+                [this] { retry(); });
 }
 
 void MapStoreService::take(const slammot_SubmapTile& tile) {
   wire::SubmapAssembler::Added added = assembler_.add(tile);
-  if (!added.fault.empty()) context_.warn("faulty_tiles", "dropped a submap tile: " + std::string(added.fault));
+  if (!added.fault.empty())
+    context_.warn("faulty_tiles", "dropped a submap tile: " + std::string(added.fault));
   context_.status().counter("tiles") = assembler_.counters().tiles;
   context_.status().counter("incomplete_submaps") = assembler_.incomplete();
   if (added.submap && !keep(*added.submap)) put_off(std::move(*added.submap));
@@ -68,7 +82,8 @@ bool MapStoreService::keep(const flow::Submap& submap) {
   const app::Stopwatch stopwatch(context_.status().latency("put"));
   const PutResult result = store_.put(context_.vehicle_id(), submap);
   if (result == PutResult::kFailed) {
-    context_.warn("failed_writes", "cannot store submap " + std::to_string(submap.submap_id.value) + ": " + store_.last_fault());
+    context_.warn("failed_writes", "cannot store submap " + std::to_string(submap.submap_id.value) +
+                                       ": " + store_.last_fault());
     context_.status().set_trouble("database", "cannot store submaps: " + store_.last_fault());
     return false;
   }
@@ -87,7 +102,9 @@ bool MapStoreService::keep(const flow::Submap& submap) {
 void MapStoreService::put_off(flow::Submap submap) {
   unwritten_.push_back(std::move(submap));
   if (unwritten_.size() > static_cast<std::size_t>(config_.max_unwritten_submaps)) {
-    context_.warn("lost_submaps", "gave up submap " + std::to_string(unwritten_.front().submap_id.value) + ": never written");
+    context_.warn(
+        "lost_submaps",
+        "gave up submap " + std::to_string(unwritten_.front().submap_id.value) + ": never written");
     unwritten_.pop_front();
   }
   context_.status().counter("unwritten_submaps") = unwritten_.size();
@@ -113,7 +130,9 @@ void MapStoreService::publish_stored() {
     else count_unreadable(id);
   }
   const std::vector<Store::StoredMap> maps = store_.maps(context_.vehicle_id());
-  if (!published_.empty()) spdlog::info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value, maps.size() > 1 ? names_of(maps) : "");
+  if (!published_.empty())
+    spdlog::info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value,
+                 maps.size() > 1 ? names_of(maps) : "");
   else tell_of_other_vehicles();
   publish_stored_map();
 }
@@ -124,14 +143,18 @@ void MapStoreService::tell_of_other_vehicles() {
   const std::vector<std::string> vehicles = store_.vehicles();
   for (const std::string& vehicle : vehicles) names += (names.empty() ? "" : ", ") + vehicle;
   context_.status().counter("other_vehicles") = vehicles.size();
-  if (!vehicles.empty()) spdlog::warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(), names);
+  if (!vehicles.empty())
+    spdlog::warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(), names);
 }
 
 /// What there is to go on in, after each change.
 void MapStoreService::publish_stored_map() {
   const std::vector<flow::SubmapId> stored = store_.list(context_.vehicle_id());
   const flow::SubmapId last = stored.empty() ? flow::SubmapId{} : stored.back();
-  stored_map_.write(wire::encode(context_.vehicle_id(), flow::StoredMap{map_id_, static_cast<std::uint32_t>(published_.size()), static_cast<std::uint32_t>(unreadable_.size()), last, cell_size_m_}));
+  stored_map_.write(wire::encode(
+      context_.vehicle_id(),
+      flow::StoredMap{map_id_, static_cast<std::uint32_t>(published_.size()),
+                      static_cast<std::uint32_t>(unreadable_.size()), last, cell_size_m_}));
 }
 
 void MapStoreService::publish(const flow::Submap& submap) {
@@ -160,7 +183,8 @@ void MapStoreService::withdraw_what_is_no_more() {
   std::erase_if(published_, [&](const auto& published) {
     if (std::ranges::binary_search(stored, published.first)) return false;
     key.submap_id = published.first.value;
-    for (key.tile_index = 0; key.tile_index < published.second; ++key.tile_index) stored_tiles_.end(key);
+    for (key.tile_index = 0; key.tile_index < published.second; ++key.tile_index)
+      stored_tiles_.end(key);
     return true;
   });
 }

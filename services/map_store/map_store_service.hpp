@@ -21,11 +21,13 @@ class MapStoreService {
  public:
   struct Settings {
     MapStoreConfig config;
-    std::filesystem::path database;  ///< Empty: map.sqlite in the state folder.
-    std::optional<std::uint64_t> map_id;  ///< To be the latest again; none: it is the one to which a submap was added last.
+    std::filesystem::path database;       ///< Empty: map.sqlite in the state folder.
+    std::optional<std::uint64_t> map_id;  ///< To be the latest again; none: it is the one to which
+                                          ///< a submap was added last.
   };
   static constexpr const char* kName = "map_store";
-  static constexpr const char* kPurpose = "Stores the finished submaps of a vehicle, so that no crash loses one.";
+  static constexpr const char* kPurpose =
+      "Stores the finished submaps of a vehicle, so that no crash loses one.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 
@@ -52,11 +54,11 @@ class MapStoreService {
   dds::Writer<slammot_TrackedObjects>& stored_objects_;
   dds::Writer<slammot_StoredMap>& stored_map_;
   std::deque<flow::Submap> unwritten_;
-  std::set<flow::SubmapId> unpublished_;                ///< In the database, but not all tiles got onto the bus.
-  std::map<flow::SubmapId, std::uint32_t> published_;   ///< Number of tiles.
-  std::set<flow::SubmapId> unreadable_;                 ///< Damaged, and not come again since.
-  flow::MapId map_id_;                                  ///< Of what was published last,
-  double cell_size_m_ = 0.0;                            ///< and of its cells.
+  std::set<flow::SubmapId> unpublished_;  ///< In the database, but not all tiles got onto the bus.
+  std::map<flow::SubmapId, std::uint32_t> published_;  ///< Number of tiles.
+  std::set<flow::SubmapId> unreadable_;                ///< Damaged, and not come again since.
+  flow::MapId map_id_;                                 ///< Of what was published last,
+  double cell_size_m_ = 0.0;                           ///< and of its cells.
 };
 
 }  // namespace slammot::map_store

@@ -20,7 +20,8 @@ class Statement {
  public:
   Statement(sqlite3* database, std::string_view sql) : database_(database) {
     sqlite3_stmt* statement = nullptr;
-    check(sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &statement, nullptr));
+    check(sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &statement,
+                             nullptr));
     statement_.reset(statement);
   }
 
@@ -30,12 +31,14 @@ class Statement {
   }
   /// The text must live until the last step.
   Statement& operator<<(std::string_view text) {
-    check(sqlite3_bind_text(statement_.get(), ++bound_, text.data(), static_cast<int>(text.size()), SQLITE_STATIC));
+    check(sqlite3_bind_text(statement_.get(), ++bound_, text.data(), static_cast<int>(text.size()),
+                            SQLITE_STATIC));
     return *this;
   }
   /// The bytes must live until the last step.
   Statement& bind_blob(std::string_view bytes) {
-    check(sqlite3_bind_blob64(statement_.get(), ++bound_, bytes.data(), bytes.size(), SQLITE_STATIC));
+    check(
+        sqlite3_bind_blob64(statement_.get(), ++bound_, bytes.data(), bytes.size(), SQLITE_STATIC));
     return *this;
   }
 
@@ -47,11 +50,14 @@ class Statement {
   }
 
   std::int64_t integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
-  bool is_null(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
+  bool is_null(int column) const {
+    return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
+  }
   /// Text or blob; valid until the next step.
   std::string_view bytes(int column) const {
     const void* data = sqlite3_column_blob(statement_.get(), column);
-    return {static_cast<const char*>(data), static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+    return {static_cast<const char*>(data),
+            static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
   }
 
  private:

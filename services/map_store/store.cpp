@@ -19,7 +19,8 @@ constexpr std::string_view kSchema =
 
 /// The map to which a submap was added last.
 std::int64_t latest_map(sqlite3* database, std::string_view vehicle_id) {
-  Statement query(database, "SELECT map_id FROM submap WHERE vehicle_id = ? ORDER BY rowid DESC LIMIT 1");
+  Statement query(database,
+                  "SELECT map_id FROM submap WHERE vehicle_id = ? ORDER BY rowid DESC LIMIT 1");
   query << vehicle_id;
   return query.step() ? query.integer(0) : 0;
 }
@@ -27,7 +28,9 @@ std::int64_t latest_map(sqlite3* database, std::string_view vehicle_id) {
 /// Rolls back unless committed.
 class Transaction {
  public:
-  explicit Transaction(sqlite3* database) : database_(database) { Statement(database, "BEGIN IMMEDIATE").step(); }
+  explicit Transaction(sqlite3* database) : database_(database) {
+    Statement(database, "BEGIN IMMEDIATE").step();
+  }
   ~Transaction() {
     if (open_) sqlite3_exec(database_, "ROLLBACK", nullptr, nullptr, nullptr);
   }
@@ -47,11 +50,13 @@ class Transaction {
 
 void Store::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
-std::variant<Store, std::string> Store::open(const std::filesystem::path& file, const MapStoreConfig& config) {
+std::variant<Store, std::string> Store::open(const std::filesystem::path& file,
+                                             const MapStoreConfig& config) {
   std::error_code cannot_make;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), cannot_make);
   sqlite3* handle = nullptr;
-  const int result = sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  const int result =
+      sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   Store store{std::unique_ptr<sqlite3, Close>(handle)};
   if (result != SQLITE_OK) return file.string() + ": " + sqlite3_errstr(result);
   if (const auto fault = store.prepare(config)) return file.string() + ": " + *fault;
@@ -63,7 +68,8 @@ std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
   try {
     sqlite3_busy_timeout(database, static_cast<int>(std::lround(config.busy_timeout_s * 1e3)));
     Statement(database, "PRAGMA journal_mode = WAL").step();
-    // FULL: a commit is on the disk, also when the power fails next. Submaps come every few seconds, so it costs nothing.
+    // FULL: a commit is on the disk, also when the power fails next. Submaps come every few
+    // seconds, so it costs nothing.
     Statement(database, "PRAGMA synchronous = FULL").step();
     if (config.max_database_mb > 0) {
       const std::int64_t pages = std::int64_t{config.max_database_mb} * 1024 * 1024 / kPageBytes;
@@ -72,12 +78,11 @@ std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
     Statement version(database, "PRAGMA user_version");
     version.step();
     if (version.integer(0) > kSchemaVersion) return "made by a later version of slammot";
-    if (version.integer(0) == 1) Statement(database, "ALTER TABLE submap RENAME COLUMN drive TO map_id").step();
+    if (version.integer(0) == 1)
+      Statement(database, "ALTER TABLE submap RENAME COLUMN drive TO map_id").step();
     Statement(database, kSchema).step();
     Statement(database, "PRAGMA user_version = " + std::to_string(kSchemaVersion)).step();
-  } catch (const SqliteError& error) {
-    return error.what();
-  }
+  } catch (const SqliteError& error) { return error.what(); }
   return std::nullopt;
 }
 
@@ -87,7 +92,8 @@ PutResult Store::put_in_transaction(std::string_view vehicle_id, const flow::Sub
   const auto map_id = static_cast<std::int64_t>(submap.map_id.value);
   {
     Statement known(database_.get(),
-                    "SELECT last_stamp_ns, record FROM submap WHERE vehicle_id = ? AND map_id = ? AND submap_id = ?");
+                    "SELECT last_stamp_ns, record FROM submap WHERE vehicle_id = ? AND map_id = ? "
+                    "AND submap_id = ?");
     known << vehicle_id << map_id << std::int64_t{submap.submap_id.value};
     if (known.step()) {
       if (known.bytes(1) == blob) return PutResult::kKnown;
@@ -95,7 +101,8 @@ PutResult Store::put_in_transaction(std::string_view vehicle_id, const flow::Sub
     }
   }
   Statement insert(database_.get(), "INSERT OR REPLACE INTO submap VALUES (?, ?, ?, ?, ?, ?)");
-  insert << vehicle_id << map_id << std::int64_t{submap.submap_id.value} << submap.first_stamp_ns << submap.last_stamp_ns;
+  insert << vehicle_id << map_id << std::int64_t{submap.submap_id.value} << submap.first_stamp_ns
+         << submap.last_stamp_ns;
   insert.bind_blob(blob).step();
   transaction.commit();
   return PutResult::kStored;
@@ -114,7 +121,9 @@ PutResult Store::put(std::string_view vehicle_id, const flow::Submap& submap) {
 std::optional<flow::Submap> Store::get(std::string_view vehicle_id, flow::SubmapId submap_id) {
   last_fault_.clear();
   try {
-    Statement query(database_.get(), "SELECT record FROM submap WHERE vehicle_id = ? AND submap_id = ? AND map_id = ?");
+    Statement query(
+        database_.get(),
+        "SELECT record FROM submap WHERE vehicle_id = ? AND submap_id = ? AND map_id = ?");
     const std::int64_t map_id = latest_map(database_.get(), vehicle_id);
     query << vehicle_id << std::int64_t{submap_id.value} << map_id;
     if (!query.step()) return std::nullopt;
@@ -132,12 +141,12 @@ std::vector<flow::SubmapId> Store::list(std::string_view vehicle_id) {
   last_fault_.clear();
   std::vector<flow::SubmapId> submaps;
   try {
-    Statement query(database_.get(), "SELECT submap_id FROM submap WHERE vehicle_id = ? AND map_id = ? ORDER BY submap_id");
+    Statement query(
+        database_.get(),
+        "SELECT submap_id FROM submap WHERE vehicle_id = ? AND map_id = ? ORDER BY submap_id");
     query << vehicle_id << latest_map(database_.get(), vehicle_id);
     while (query.step()) submaps.push_back({static_cast<std::uint32_t>(query.integer(0))});
-  } catch (const SqliteError& error) {
-    last_fault_ = error.what();
-  }
+  } catch (const SqliteError& error) { last_fault_ = error.what(); }
   return submaps;
 }
 
@@ -145,12 +154,13 @@ std::vector<Store::StoredMap> Store::maps(std::string_view vehicle_id) {
   last_fault_.clear();
   std::vector<StoredMap> maps;
   try {
-    Statement query(database_.get(), "SELECT map_id, COUNT(*) FROM submap WHERE vehicle_id = ? GROUP BY map_id ORDER BY MAX(rowid)");
+    Statement query(database_.get(),
+                    "SELECT map_id, COUNT(*) FROM submap WHERE vehicle_id = ? GROUP BY map_id "
+                    "ORDER BY MAX(rowid)");
     query << vehicle_id;
-    while (query.step()) maps.push_back({{static_cast<std::uint64_t>(query.integer(0))}, query.integer(1)});
-  } catch (const SqliteError& error) {
-    last_fault_ = error.what();
-  }
+    while (query.step())
+      maps.push_back({{static_cast<std::uint64_t>(query.integer(0))}, query.integer(1)});
+  } catch (const SqliteError& error) { last_fault_ = error.what(); }
   return maps;
 }
 
@@ -159,7 +169,8 @@ bool Store::make_latest(std::string_view vehicle_id, flow::MapId map_id) {
   last_fault_.clear();
   try {
     Statement insert(database_.get(),
-                     "INSERT OR REPLACE INTO submap SELECT * FROM submap WHERE vehicle_id = ? AND map_id = ? ORDER BY submap_id DESC LIMIT 1");
+                     "INSERT OR REPLACE INTO submap SELECT * FROM submap WHERE vehicle_id = ? AND "
+                     "map_id = ? ORDER BY submap_id DESC LIMIT 1");
     insert << vehicle_id << static_cast<std::int64_t>(map_id.value);
     insert.step();
     return sqlite3_changes(database_.get()) > 0;
@@ -175,9 +186,7 @@ std::vector<std::string> Store::vehicles() {
   try {
     Statement query(database_.get(), "SELECT DISTINCT vehicle_id FROM submap ORDER BY vehicle_id");
     while (query.step()) vehicles.emplace_back(query.bytes(0));
-  } catch (const SqliteError& error) {
-    last_fault_ = error.what();
-  }
+  } catch (const SqliteError& error) { last_fault_ = error.what(); }
   return vehicles;
 }
 

@@ -24,14 +24,17 @@ enum class PutResult {
 
 /// Finished submaps of all vehicles in one SQLite file.
 ///
-/// get() and list() speak of the vehicle's latest map, the one to which a submap was added last; earlier ones stay in the file.
-/// One thread at a time. Several processes may have the same file open.
+/// get() and list() speak of the vehicle's latest map, the one to which a submap was added last;
+/// earlier ones stay in the file. One thread at a time. Several processes may have the same file
+/// open.
 class Store {
  public:
   /// Opens the database or makes it, folders too. Otherwise why that is not possible, in one line.
-  static std::variant<Store, std::string> open(const std::filesystem::path& file, const MapStoreConfig& config);
+  static std::variant<Store, std::string> open(const std::filesystem::path& file,
+                                               const MapStoreConfig& config);
 
-  /// Repeating it changes nothing. Of two versions of a submap of one map the one with the later last stamp stays.
+  /// Repeating it changes nothing. Of two versions of a submap of one map the one with the later
+  /// last stamp stays.
   PutResult put(std::string_view vehicle_id, const flow::Submap& submap);
 
   /// Nothing when there is none or it is damaged (then last_fault() is not empty).
@@ -47,8 +50,8 @@ class Store {
   /// Of the vehicle, the latest one last.
   std::vector<StoredMap> maps(std::string_view vehicle_id);
 
-  /// From now on it is the vehicle's latest map. False where there is no such map, or it could not be done (then last_fault()
-  /// is not empty).
+  /// From now on it is the vehicle's latest map. False where there is no such map, or it could not
+  /// be done (then last_fault() is not empty).
   bool make_latest(std::string_view vehicle_id, flow::MapId map_id);
 
   /// All that have a submap, sorted.

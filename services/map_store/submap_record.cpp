@@ -20,7 +20,9 @@ void set_pose(const geometry::Pose2& pose, PoseRecord& record) {
   record.set_heading_rad(pose.heading_rad);
 }
 
-geometry::Pose2 pose_of(const PoseRecord& record) { return {record.x_m(), record.y_m(), record.heading_rad()}; }
+geometry::Pose2 pose_of(const PoseRecord& record) {
+  return {record.x_m(), record.y_m(), record.heading_rad()};
+}
 
 SubmapRecord to_record(const flow::Submap& submap) {
   SubmapRecord record;
@@ -30,7 +32,9 @@ SubmapRecord to_record(const flow::Submap& submap) {
   record.set_last_stamp_ns(submap.last_stamp_ns);
   set_pose(submap.odom_from_submap, *record.mutable_odom_from_submap());
   set_pose(submap.previous_from_submap.pose, *record.mutable_previous_from_submap());
-  for (int i = 0; i < 9; ++i) record.add_previous_from_submap_covariance(submap.previous_from_submap.covariance(i / 3, i % 3));
+  for (int i = 0; i < 9; ++i)
+    record.add_previous_from_submap_covariance(
+        submap.previous_from_submap.covariance(i / 3, i % 3));
   set_pose(submap.submap_from_base_at_end, *record.mutable_submap_from_base_at_end());
   record.set_travelled_m(submap.travelled_m);
   record.set_cell_size_m(submap.cell_size_m);
@@ -55,9 +59,9 @@ bool agrees_with_itself(const SubmapRecord& record) {
   const std::size_t cells = std::size_t{record.columns()} * record.rows();
   const int surfels = record.surfel_x_m_size();
   return record.so_log_odds().size() == cells && record.mo_evidence().size() == cells &&
-         record.previous_from_submap_covariance_size() == 9 && record.surfel_y_m_size() == surfels &&
-         record.surfel_normal_x_size() == surfels && record.surfel_normal_y_size() == surfels &&
-         record.surfel_weight_size() == surfels;
+         record.previous_from_submap_covariance_size() == 9 &&
+         record.surfel_y_m_size() == surfels && record.surfel_normal_x_size() == surfels &&
+         record.surfel_normal_y_size() == surfels && record.surfel_weight_size() == surfels;
 }
 
 flow::Submap from_record(const SubmapRecord& record) {
@@ -68,7 +72,9 @@ flow::Submap from_record(const SubmapRecord& record) {
   submap.last_stamp_ns = record.last_stamp_ns();
   submap.odom_from_submap = pose_of(record.odom_from_submap());
   submap.previous_from_submap.pose = pose_of(record.previous_from_submap());
-  for (int i = 0; i < 9; ++i) submap.previous_from_submap.covariance(i / 3, i % 3) = record.previous_from_submap_covariance(i);
+  for (int i = 0; i < 9; ++i)
+    submap.previous_from_submap.covariance(i / 3, i % 3) =
+        record.previous_from_submap_covariance(i);
   submap.submap_from_base_at_end = pose_of(record.submap_from_base_at_end());
   submap.travelled_m = record.travelled_m();
   submap.cell_size_m = record.cell_size_m();
@@ -79,11 +85,13 @@ flow::Submap from_record(const SubmapRecord& record) {
   submap.so_log_odds.resize(record.so_log_odds().size());
   std::ranges::copy(record.so_log_odds(), submap.so_log_odds.begin());
   submap.mo_evidence.resize(record.mo_evidence().size());
-  std::ranges::transform(record.mo_evidence(), submap.mo_evidence.begin(), [](char c) { return static_cast<std::uint8_t>(c); });
+  std::ranges::transform(record.mo_evidence(), submap.mo_evidence.begin(),
+                         [](char c) { return static_cast<std::uint8_t>(c); });
   submap.surfels.resize(static_cast<std::size_t>(record.surfel_x_m_size()));
   for (int i = 0; i < record.surfel_x_m_size(); ++i) {
-    submap.surfels[static_cast<std::size_t>(i)] = {record.surfel_x_m(i), record.surfel_y_m(i), record.surfel_normal_x(i),
-                                                   record.surfel_normal_y(i), record.surfel_weight(i)};
+    submap.surfels[static_cast<std::size_t>(i)] = {
+        record.surfel_x_m(i), record.surfel_y_m(i), record.surfel_normal_x(i),
+        record.surfel_normal_y(i), record.surfel_weight(i)};
   }
   submap.saliency = record.saliency();
   return submap;
@@ -93,7 +101,8 @@ flow::Submap from_record(const SubmapRecord& record) {
 std::optional<std::string> inflated(std::string_view blob) {
   if (blob.size() < 4) return std::nullopt;
   std::size_t length = 0;
-  for (int i = 3; i >= 0; --i) length = length << 8 | static_cast<std::uint8_t>(blob[static_cast<std::size_t>(i)]);
+  for (int i = 3; i >= 0; --i)
+    length = length << 8 | static_cast<std::uint8_t>(blob[static_cast<std::size_t>(i)]);
   if (length > kMaxRecordBytes) return std::nullopt;
   std::string bytes(length, '\0');
   uLongf written = length;
@@ -110,7 +119,8 @@ std::string to_blob(const flow::Submap& submap) {
   uLongf written = compressBound(bytes.size());
   std::string blob(4 + written, '\0');
   for (std::size_t i = 0; i < 4; ++i) blob[i] = static_cast<char>(bytes.size() >> (8 * i) & 0xFF);
-  compress2(reinterpret_cast<Bytef*>(blob.data() + 4), &written, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
+  compress2(reinterpret_cast<Bytef*>(blob.data() + 4), &written,
+            reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
             kDeflateLevel);  // cannot fail: the buffer is as large as compressBound() asks
   blob.resize(4 + written);
   return blob;

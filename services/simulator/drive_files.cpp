@@ -5,10 +5,13 @@
 
 namespace slammot::simulator {
 
-DriveFilesOrFault write_drive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& folder, const DriveFileNames& names, HitsFile hits) {
+DriveFilesOrFault write_drive(const simulation::ScenarioConfig& scenario,
+                              const std::filesystem::path& folder, const DriveFileNames& names,
+                              HitsFile hits) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return {std::nullopt, "cannot make the folder " + folder.string() + ": " + error.message()};
+  if (error)
+    return {std::nullopt, "cannot make the folder " + folder.string() + ": " + error.message()};
   simulation::Drive drive(scenario);
   SensorFiles sensors(folder / names.log, scenario);
   TruthFiles truth(folder / names.truth, drive.stationary_in_world(), hits);
@@ -19,10 +22,18 @@ DriveFilesOrFault write_drive(const simulation::ScenarioConfig& scenario, const 
   if (const auto fault = sensors.close()) return {std::nullopt, *fault};
   if (const auto fault = truth.close()) return {std::nullopt, *fault};
   const auto& paths = sensors.paths();
-  return {DriveFiles{paths.front(), {paths.begin() + 1, paths.end()}, truth.tum(), truth.objects(), truth.walls(), drive.scan_count(), truth.distance_m()}, ""};
+  return {DriveFiles{paths.front(),
+                     {paths.begin() + 1, paths.end()},
+                     truth.tum(),
+                     truth.objects(),
+                     truth.walls(),
+                     drive.scan_count(),
+                     truth.distance_m()},
+          ""};
 }
 
-DriveFilesOrFault write_drive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& folder, HitsFile hits) {
+DriveFilesOrFault write_drive(const simulation::ScenarioConfig& scenario,
+                              const std::filesystem::path& folder, HitsFile hits) {
   return write_drive(scenario, folder, {scenario.name, scenario.name}, hits);
 }
 

@@ -17,11 +17,13 @@ namespace {
 /// Decimal text with a fixed number of places, the same on every platform and in every locale.
 void append(std::string& text, double value, int places) {
   std::array<char, 64> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, places);
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::fixed, places);
   text.append(digits.data(), end.ptr);
 }
 
-void append_all(std::string& text, std::initializer_list<double> values, int places, char separator) {
+void append_all(std::string& text, std::initializer_list<double> values, int places,
+                char separator) {
   for (const double value : values) {
     append(text, value, places);
     text += separator;
@@ -50,18 +52,23 @@ void append_clocks(std::string& text, const SimulatedScan& drive) {
   text += '\n';
 }
 
-/// ROBOTLASERn type start field_of_view step max_range accuracy remission_mode n ranges... m laser_pose robot_pose tv rv
-/// forward_safety side_safety turn_axis ipc_timestamp host logger_timestamp.
-std::string robotlaser_line(const SimulatedScan& drive, const simulation::ScannerConfig& config, std::size_t number) {
+/// ROBOTLASERn type start field_of_view step max_range accuracy remission_mode n ranges... m
+/// laser_pose robot_pose tv rv forward_safety side_safety turn_axis ipc_timestamp host
+/// logger_timestamp.
+std::string robotlaser_line(const SimulatedScan& drive, const simulation::ScannerConfig& config,
+                            std::size_t number) {
   std::string text = "ROBOTLASER" + std::to_string(number) + " 0 ";
-  append_all(text, {config.first_beam_rad, config.field_of_view_rad, drive.scan.scanner.beam_step_rad}, 6, ' ');
+  append_all(text,
+             {config.first_beam_rad, config.field_of_view_rad, drive.scan.scanner.beam_step_rad}, 6,
+             ' ');
   append_all(text, {config.max_range_m, config.resolution_m}, 2, ' ');
   text += "0 ";
   append_ranges(text, drive);
   text += "0 ";
   const Pose2& base = drive.odometry.wheel_from_base;
   const Pose2 laser = base * drive.scan.scanner.base_from_laser;
-  append_all(text, {laser.x_m, laser.y_m, laser.heading_rad, base.x_m, base.y_m, base.heading_rad}, 6, ' ');
+  append_all(text, {laser.x_m, laser.y_m, laser.heading_rad, base.x_m, base.y_m, base.heading_rad},
+             6, ' ');
   append_all(text, {drive.odometry_speed_mps}, 3, ' ');
   append_all(text, {drive.odometry_yaw_rate_radps}, 4, ' ');
   text += "1.0 0.5 0.0 ";
@@ -69,14 +76,15 @@ std::string robotlaser_line(const SimulatedScan& drive, const simulation::Scanne
   return text;
 }
 
-/// FLASER n ranges... x y theta odom_x odom_y odom_theta ipc_timestamp host logger_timestamp; no beam directions: by
-/// convention the first of 180 looks 90 degrees to the right, one degree apart.
+/// FLASER n ranges... x y theta odom_x odom_y odom_theta ipc_timestamp host logger_timestamp; no
+/// beam directions: by convention the first of 180 looks 90 degrees to the right, one degree apart.
 std::string flaser_line(const SimulatedScan& drive) {
   std::string text = "FLASER ";
   append_ranges(text, drive);
   const Pose2& base = drive.odometry.wheel_from_base;
   const Pose2 laser = base * drive.scan.scanner.base_from_laser;
-  append_all(text, {laser.x_m, laser.y_m, laser.heading_rad, base.x_m, base.y_m, base.heading_rad}, 6, ' ');
+  append_all(text, {laser.x_m, laser.y_m, laser.heading_rad, base.x_m, base.y_m, base.heading_rad},
+             6, ' ');
   append_clocks(text, drive);
   return text;
 }
@@ -99,25 +107,33 @@ std::string header_of_log_of(const simulation::ScenarioConfig& scenario, std::si
   const simulation::ScannerConfig& mounted = scenario.scanner_at(scanner);
   std::string text = "# CARMEN Logfile\n";
   append_parameter(text, "robot_frontlaser_offset", mounted.ahead_m, 3);
-  if (mounted.left_m != 0.0) append_parameter(text, "robot_frontlaser_side_offset", mounted.left_m, 3);
-  if (mounted.heading_rad != 0.0) append_parameter(text, "robot_frontlaser_angular_offset", mounted.heading_rad, 6);
+  if (mounted.left_m != 0.0)
+    append_parameter(text, "robot_frontlaser_side_offset", mounted.left_m, 3);
+  if (mounted.heading_rad != 0.0)
+    append_parameter(text, "robot_frontlaser_angular_offset", mounted.heading_rad, 6);
   append_parameter(text, "robot_width", scenario.route.width_m, 1);
   append_parameter(text, "robot_length", scenario.route.length_m, 1);
   return text;
 }
 
 std::string log_line(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
-  return scenario.more_scanners.empty() ? line_of_log_of_its_scanner(drive, scenario) : robotlaser_line(drive, scenario.scanner_at(drive.scanner), drive.scanner + 1);
+  return scenario.more_scanners.empty()
+             ? line_of_log_of_its_scanner(drive, scenario)
+             : robotlaser_line(drive, scenario.scanner_at(drive.scanner), drive.scanner + 1);
 }
 
-std::string line_of_log_of_its_scanner(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
+std::string line_of_log_of_its_scanner(const SimulatedScan& drive,
+                                       const simulation::ScenarioConfig& scenario) {
   const bool flaser = scenario.log_record == simulation::LogRecord::flaser;
-  return flaser ? flaser_line(drive) : robotlaser_line(drive, scenario.scanner_at(drive.scanner), 1);
+  return flaser ? flaser_line(drive)
+                : robotlaser_line(drive, scenario.scanner_at(drive.scanner), 1);
 }
 
 std::string tum_line(const SimulatedScan& drive) {
   std::string text;
-  append_all(text, {seconds(drive.scan.stamp_ns), drive.world_from_base.x_m, drive.world_from_base.y_m}, 6, ' ');
+  append_all(text,
+             {seconds(drive.scan.stamp_ns), drive.world_from_base.x_m, drive.world_from_base.y_m},
+             6, ' ');
   text += "0 0 0 ";
   append_all(text, {std::sin(0.5 * drive.world_from_base.heading_rad)}, 9, ' ');
   append(text, std::cos(0.5 * drive.world_from_base.heading_rad), 9);
@@ -167,14 +183,20 @@ std::string hits_line(const SimulatedScan& drive) {
   return text + '\n';
 }
 
-std::string gnss_header() { return "timestamp,receiver,quality,latitude_deg,longitude_deg,altitude_m,east_variance_m2,north_variance_m2,covariance_m2,hdop,satellites\n"; }
+std::string gnss_header() {
+  return "timestamp,receiver,quality,latitude_deg,longitude_deg,altitude_m,east_variance_m2,north_"
+         "variance_m2,covariance_m2,hdop,satellites\n";
+}
 
 std::string gnss_line(const sensing::GnssFix& fix) {
   std::string text;
   append_all(text, {seconds(fix.stamp_ns)}, 6, ',');
   text += fix.receiver_id + ',' + std::to_string(static_cast<int>(fix.quality)) + ',';
   append_all(text, {fix.position.latitude_deg, fix.position.longitude_deg}, 9, ',');
-  append_all(text, {fix.altitude_m, fix.covariance_m2(0, 0), fix.covariance_m2(1, 1), fix.covariance_m2(0, 1)}, 3, ',');
+  append_all(
+      text,
+      {fix.altitude_m, fix.covariance_m2(0, 0), fix.covariance_m2(1, 1), fix.covariance_m2(0, 1)},
+      3, ',');
   append_all(text, {fix.hdop}, 2, ',');
   return text + std::to_string(fix.satellites) + '\n';
 }
@@ -190,6 +212,8 @@ std::string compass_line(const sensing::CompassReading& reading) {
   return text + '\n';
 }
 
-std::string objects_header() { return "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n"; }
+std::string objects_header() {
+  return "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n";
+}
 
 }  // namespace slammot::simulator

@@ -28,12 +28,14 @@ std::uint64_t scans_of(const simulation::ScenarioConfig& scenario, std::size_t s
 
 files::ScannerPlan scanner_plan(const simulation::ScenarioConfig& scenario, std::size_t index) {
   const simulation::ScannerConfig& scanner = scenario.scanner_at(index);
-  const bool is_flaser = scenario.more_scanners.empty() && scenario.log_record == simulation::LogRecord::flaser;
+  const bool is_flaser =
+      scenario.more_scanners.empty() && scenario.log_record == simulation::LogRecord::flaser;
   files::ScannerPlan plan;
   plan.kind = is_flaser ? files::LaserRecordKind::kFlaser : files::LaserRecordKind::kRobotLaser1;
   plan.name = is_flaser ? "FLASER" : "ROBOTLASER" + std::to_string(index + 1);
   plan.slot = static_cast<std::uint8_t>(index + 1);
-  plan.base_from_laser = {with_places(scanner.ahead_m, 3), with_places(scanner.left_m, 3), with_places(scanner.heading_rad, 6)};
+  plan.base_from_laser = {with_places(scanner.ahead_m, 3), with_places(scanner.left_m, 3),
+                          with_places(scanner.heading_rad, 6)};
   plan.max_range_m = static_cast<double>(static_cast<float>(scanner.max_range_m));
   plan.scans = scans_of(scenario, index);
   return plan;
@@ -55,7 +57,8 @@ files::LogFigures figures_of(const simulation::ScenarioConfig& scenario, std::si
 
 }  // namespace
 
-LiveDrive::LiveDrive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& truth_prefix)
+LiveDrive::LiveDrive(const simulation::ScenarioConfig& scenario,
+                     const std::filesystem::path& truth_prefix)
     : scenario_(scenario),
       drive_(scenario),
       truth_(truth_prefix, drive_.stationary_in_world(), HitsFile::written),
@@ -106,7 +109,9 @@ std::optional<std::string_view> LiveDrive::next() {
 }
 
 double LiveDrive::fraction_read() const {
-  return scans_ == 0 ? 1.0 : std::min(1.0, static_cast<double>(line_number_) / static_cast<double>(scans_));
+  return scans_ == 0
+             ? 1.0
+             : std::min(1.0, static_cast<double>(line_number_) / static_cast<double>(scans_));
 }
 
 std::uint64_t count_of_scans(const simulation::ScenarioConfig& scenario) {
@@ -115,11 +120,13 @@ std::uint64_t count_of_scans(const simulation::ScenarioConfig& scenario) {
   return scans;
 }
 
-files::Result<files::LogPlan> plan_of(const simulation::ScenarioConfig& scenario, const std::vector<std::string>& wanted) {
+files::Result<files::LogPlan> plan_of(const simulation::ScenarioConfig& scenario,
+                                      const std::vector<std::string>& wanted) {
   files::LogPlan plan;
   plan.clock = files::LogClock::kIpc;
   plan.odometry = files::OdometrySource::kLaserRecords;
-  for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i) plan.scanners.push_back(scanner_plan(scenario, i));
+  for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i)
+    plan.scanners.push_back(scanner_plan(scenario, i));
   if (auto fault = files::select_scanners(wanted, plan.scanners)) return *fault;
   plan.laser = plan.scanners.front().kind;
   plan.base_from_laser = plan.scanners.front().base_from_laser;

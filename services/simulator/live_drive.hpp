@@ -17,9 +17,10 @@
 
 namespace slammot::simulator {
 
-/// A drive that is simulated while it is read: the lines that write_drive() would put into its log. A thread of its own
-/// works ahead of the reader by a few scans and writes the truth and, as PREFIX.log.gz, the lines; who reads fast waits, so that
-/// the lines are the same whatever the speed.
+/// A drive that is simulated while it is read: the lines that write_drive() would put into its log.
+/// A thread of its own works ahead of the reader by a few scans and writes the truth and, as
+/// PREFIX.log.gz, the lines; who reads fast waits, so that the lines are the same whatever the
+/// speed.
 class LiveDrive : public files::LineSource {
  public:
   LiveDrive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& truth_prefix);
@@ -39,16 +40,18 @@ class LiveDrive : public files::LineSource {
   std::uint64_t scans_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::string> ahead_;   // guarded by mutex_
-  bool has_ended_ = false;          // guarded by mutex_
+  std::deque<std::string> ahead_;  // guarded by mutex_
+  bool has_ended_ = false;         // guarded by mutex_
   std::string line_;
   std::uint64_t line_number_ = 0;
-  std::jthread thread_;             // last: it uses all of the above
+  std::jthread thread_;  // last: it uses all of the above
 };
 
-/// What a survey of the log would say of how to read it, and of its figures what is known before the drive. wanted: as
-/// CarmenLogOptions::scanners; fails for the name of a scanner that the drive does not have.
-files::Result<files::LogPlan> plan_of(const simulation::ScenarioConfig& scenario, const std::vector<std::string>& wanted = {});
+/// What a survey of the log would say of how to read it, and of its figures what is known before
+/// the drive. wanted: as CarmenLogOptions::scanners; fails for the name of a scanner that the drive
+/// does not have.
+files::Result<files::LogPlan> plan_of(const simulation::ScenarioConfig& scenario,
+                                      const std::vector<std::string>& wanted = {});
 
 /// Scans of all scanners.
 std::uint64_t count_of_scans(const simulation::ScenarioConfig& scenario);

@@ -17,21 +17,29 @@ using simulation::JunctionId;
 using simulation::ScenarioConfig;
 using simulation::ScriptedObject;
 
-std::optional<std::string> find_fault_of_way(const std::vector<JunctionId>& corners, const simulation::CityConfig& city, const std::string& name) {
+std::optional<std::string> find_fault_of_way(const std::vector<JunctionId>& corners,
+                                             const simulation::CityConfig& city,
+                                             const std::string& name) {
   const std::vector<JunctionId> way = along_streets(corners);
   for (std::size_t i = 0; i < way.size(); ++i) {
-    if (way[i].column > city.blocks_east || way[i].row > city.blocks_north) return name + " leaves the city";
+    if (way[i].column > city.blocks_east || way[i].row > city.blocks_north)
+      return name + " leaves the city";
     if (i > 1 && way[i] == way[i - 2]) return name + " turns back in a street";
   }
   return std::nullopt;
 }
 
-std::optional<std::string> find_fault_of_object(const ScriptedObject& object, const std::string& name) {
+std::optional<std::string> find_fault_of_object(const ScriptedObject& object,
+                                                const std::string& name) {
   if (object.way.empty()) return name + " has no way";
-  const auto same_place = [](const auto& a, const auto& b) { return a.x_m == b.x_m && a.y_m == b.y_m; };
-  if (std::adjacent_find(object.way.begin(), object.way.end(), same_place) != object.way.end()) return name + " has the same place twice in a row";
+  const auto same_place = [](const auto& a, const auto& b) {
+    return a.x_m == b.x_m && a.y_m == b.y_m;
+  };
+  if (std::adjacent_find(object.way.begin(), object.way.end(), same_place) != object.way.end())
+    return name + " has the same place twice in a row";
   const auto not_later = [](const auto& a, const auto& b) { return a.at_s >= b.at_s; };
-  if (std::adjacent_find(object.speed.begin(), object.speed.end(), not_later) != object.speed.end()) return name + " has times of its speed out of order";
+  if (std::adjacent_find(object.speed.begin(), object.speed.end(), not_later) != object.speed.end())
+    return name + " has times of its speed out of order";
   return std::nullopt;
 }
 
@@ -39,25 +47,32 @@ std::optional<std::string> find_fault_of_scanners(const ScenarioConfig& scenario
   std::set<std::string> ids;
   for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i) {
     const simulation::ScannerConfig& scanner = scenario.scanner_at(i);
-    const bool can_be_named = !scanner.scanner_id.empty() && scanner.scanner_id.size() < kLongestId &&
+    const bool can_be_named = !scanner.scanner_id.empty() &&
+                              scanner.scanner_id.size() < kLongestId &&
                               scanner.scanner_id.find_first_of("/ ,") == std::string::npos;
-    if (!can_be_named) return "scanner " + std::to_string(i + 1) + " needs a scanner_id of at most 31 characters without blank, comma and slash";
-    if (!ids.insert(scanner.scanner_id).second) return "two scanners are named '" + scanner.scanner_id + "'";
+    if (!can_be_named)
+      return "scanner " + std::to_string(i + 1) +
+             " needs a scanner_id of at most 31 characters without blank, comma and slash";
+    if (!ids.insert(scanner.scanner_id).second)
+      return "two scanners are named '" + scanner.scanner_id + "'";
     if (scanner.sweep_s * scanner.rate_hz > 1.0) return "a sweep of the scanner outlasts its scan";
   }
   return std::nullopt;
 }
 
 /// Reads the traffic that the scenario names; the fault, if there is one.
-std::optional<files::Error> add_recorded_traffic(ScenarioConfig& scenario, const std::filesystem::path& folder) {
+std::optional<files::Error> add_recorded_traffic(ScenarioConfig& scenario,
+                                                 const std::filesystem::path& folder) {
   if (scenario.sumo_fcd.empty()) return std::nullopt;
   auto recorded = read_sumo_traffic(folder / scenario.sumo_fcd);
   if (!recorded) return recorded.error();
   simulation::ScriptConfig& script = scenario.script;
   script.recorded = std::move(*recorded);
   if (scenario.sumo_vehicle.empty()) return std::nullopt;
-  const auto vehicle = std::ranges::find(script.recorded, scenario.sumo_vehicle, &simulation::RecordedObject::name);
-  if (vehicle == script.recorded.end()) return files::Error{scenario.sumo_fcd + ": nobody is named '" + scenario.sumo_vehicle + "'"};
+  const auto vehicle =
+      std::ranges::find(script.recorded, scenario.sumo_vehicle, &simulation::RecordedObject::name);
+  if (vehicle == script.recorded.end())
+    return files::Error{scenario.sumo_fcd + ": nobody is named '" + scenario.sumo_vehicle + "'"};
   script.recorded_vehicle = static_cast<int>(vehicle - script.recorded.begin());
   return std::nullopt;
 }
@@ -68,7 +83,8 @@ std::optional<std::string> find_fault_of_script(const simulation::ScriptConfig& 
   }
   if (script.vehicle.copies != 1) return "the vehicle cannot have copies";
   for (std::size_t i = 0; i < script.objects.size(); ++i) {
-    if (auto fault = find_fault_of_object(script.objects[i], "object " + std::to_string(i + 1))) return fault;
+    if (auto fault = find_fault_of_object(script.objects[i], "object " + std::to_string(i + 1)))
+      return fault;
   }
   return std::nullopt;
 }
@@ -77,27 +93,39 @@ std::optional<std::string> find_fault_of_script(const simulation::ScriptConfig& 
 
 std::optional<std::string> find_fault(const ScenarioConfig& scenario) {
   const auto not_further = [](const auto& a, const auto& b) { return a.x_m >= b.x_m; };
-  if (std::ranges::adjacent_find(scenario.terrain, not_further) != scenario.terrain.end()) return "the terrain's places do not go from west to east";
+  if (std::ranges::adjacent_find(scenario.terrain, not_further) != scenario.terrain.end())
+    return "the terrain's places do not go from west to east";
   if (auto fault = find_fault_of_scanners(scenario)) return fault;
   switch (scenario.place) {
     case simulation::Place::city: {
       auto fault = find_fault_of_way(scenario.route.junctions, scenario.city, "the vehicle's way");
-      return fault ? fault : find_fault_of_way(scenario.traffic.car_ahead, scenario.city, "the way of the car ahead");
+      return fault ? fault
+                   : find_fault_of_way(scenario.traffic.car_ahead, scenario.city,
+                                       "the way of the car ahead");
     }
     case simulation::Place::office: {
-      const bool is_inside = std::ranges::all_of(scenario.robot_way, [&](const auto& corner) { return corner.column <= scenario.office.cross_corridors + 1; });
-      return scenario.robot_way.size() < 2 || !is_inside ? std::optional<std::string>("the robot's way has under two corners, or leaves the office") : std::nullopt;
+      const bool is_inside = std::ranges::all_of(scenario.robot_way, [&](const auto& corner) {
+        return corner.column <= scenario.office.cross_corridors + 1;
+      });
+      return scenario.robot_way.size() < 2 || !is_inside
+                 ? std::optional<std::string>(
+                       "the robot's way has under two corners, or leaves the office")
+                 : std::nullopt;
     }
     case simulation::Place::script: break;
   }
   return find_fault_of_script(scenario.script);
 }
 
-files::Result<ScenarioConfig> load_scenario(const std::string& name_or_path, std::optional<std::uint64_t> seed) {
+files::Result<ScenarioConfig> load_scenario(const std::string& name_or_path,
+                                            std::optional<std::uint64_t> seed) {
   const auto file = config::find_file(config::kScenarios, name_or_path);
-  if (!file) return files::Error{"no scenario is named '" + name_or_path + "'; slammot simulate --list names them"};
+  if (!file)
+    return files::Error{"no scenario is named '" + name_or_path +
+                        "'; slammot simulate --list names them"};
   ScenarioConfig scenario;
-  if (const auto fault = config::overlay_message_file(*file, config::bind_stage("Scenario", scenario_fields(), scenario))) {
+  if (const auto fault = config::overlay_message_file(
+          *file, config::bind_stage("Scenario", scenario_fields(), scenario))) {
     return files::Error{fault->text()};
   }
   if (const auto fault = add_recorded_traffic(scenario, file->parent_path())) return *fault;

@@ -10,8 +10,9 @@
 
 namespace slammot::simulator {
 
-/// What the sensors of a drive said: PREFIX.log of all scanners, PREFIX.SCANNER.log of each further one alone, and
-/// PREFIX.gnss.csv and PREFIX.compass.csv where the vehicle has such. Files of these names are replaced.
+/// What the sensors of a drive said: PREFIX.log of all scanners, PREFIX.SCANNER.log of each further
+/// one alone, and PREFIX.gnss.csv and PREFIX.compass.csv where the vehicle has such. Files of these
+/// names are replaced.
 class SensorFiles {
  public:
   SensorFiles(const std::filesystem::path& prefix, const simulation::ScenarioConfig& scenario);
@@ -28,7 +29,7 @@ class SensorFiles {
   simulation::ScenarioConfig scenario_;
   std::vector<std::filesystem::path> paths_;
   std::vector<std::ofstream> files_;
-  std::optional<std::size_t> gnss_;     ///< Index of its file.
+  std::optional<std::size_t> gnss_;  ///< Index of its file.
   std::optional<std::size_t> compass_;
 };
 

@@ -17,7 +17,8 @@ namespace {
 void list_scenarios(std::ostream& out) {
   for (const std::string& name : scenario_names()) {
     const auto scenario = load_scenario(name);
-    out << std::left << std::setw(24) << name << (scenario ? scenario->description : scenario.error().message) << '\n';
+    out << std::left << std::setw(24) << name
+        << (scenario ? scenario->description : scenario.error().message) << '\n';
   }
 }
 
@@ -38,9 +39,10 @@ std::string describe(const simulation::ScenarioConfig& scenario, const DriveFile
   std::ostringstream text;
   std::string more;
   for (const auto& path : files.more_sensors) more += ", " + path.filename().string();
-  text << "simulated " << scenario.name << " (seed " << scenario.seed << "): " << files.scans << " scans, " << std::fixed
-       << std::setprecision(0) << files.distance_m << " m\n  log    " << files.log.string() << more << "\n  truth  " << files.tum.string()
-       << ", " << files.objects.filename().string() << ", " << files.walls.filename().string() << '\n';
+  text << "simulated " << scenario.name << " (seed " << scenario.seed << "): " << files.scans
+       << " scans, " << std::fixed << std::setprecision(0) << files.distance_m << " m\n  log    "
+       << files.log.string() << more << "\n  truth  " << files.tum.string() << ", "
+       << files.objects.filename().string() << ", " << files.walls.filename().string() << '\n';
   return text.str();
 }
 
@@ -61,7 +63,8 @@ int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& er
     return 1;
   }
   for (const simulation::ScenarioConfig& drive : drives_of(*scenario)) {
-    const DriveFilesOrFault written = write_drive(drive, options.output, options.hits ? HitsFile::written : HitsFile::left_out);
+    const DriveFilesOrFault written =
+        write_drive(drive, options.output, options.hits ? HitsFile::written : HitsFile::left_out);
     if (!written.files) {
       err << "slammot simulate: " << written.fault << '\n';
       return 1;
@@ -73,13 +76,18 @@ int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& er
 
 void add_simulate_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = app.add_subcommand("simulate", "Simulate a drive and write its log and ground truth");
+  CLI::App* command =
+      app.add_subcommand("simulate", "Simulate a drive and write its log and ground truth");
   command->add_flag("--list", options->list, "List the scenarios");
   command->add_option("scenario", options->scenario, "Name of the scenario, or a file");
-  command->add_option("--seed", options->seed, "Seed of world, traffic and noise; default: the scenario's own");
-  command->add_option("--output", options->output, "Folder for NAME.log, .tum, .objects.csv and .walls.csv");
-  command->add_flag("--hits", options->hits, "Write NAME.hits.csv, too: the object that each beam hit");
-  command->callback([options, &exit_code] { exit_code = simulate(*options, std::cout, std::cerr); });
+  command->add_option("--seed", options->seed,
+                      "Seed of world, traffic and noise; default: the scenario's own");
+  command->add_option("--output", options->output,
+                      "Folder for NAME.log, .tum, .objects.csv and .walls.csv");
+  command->add_flag("--hits", options->hits,
+                    "Write NAME.hits.csv, too: the object that each beam hit");
+  command->callback(
+      [options, &exit_code] { exit_code = simulate(*options, std::cout, std::cerr); });
 }
 
 }  // namespace slammot::simulator

@@ -19,7 +19,8 @@ struct SimulateOptions {
   bool hits = false;
 };
 
-/// `slammot simulate`: names the scenarios or drives one and writes its files. Returns the process's exit code.
+/// `slammot simulate`: names the scenarios or drives one and writes its files. Returns the
+/// process's exit code.
 int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& err);
 
 /// Adds the subcommand to a command line; when it was given, exit_code is set while parsing.

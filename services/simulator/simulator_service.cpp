@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include "common/wire/text.hpp"
 #include "services/simulator/scenario_files.hpp"
@@ -14,27 +14,34 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kLastWords{1};     ///< How long the end waits for readers that do not have all yet.
+constexpr std::chrono::seconds kLastWords{1};  ///< How long the end waits for readers that do not
+                                               ///< have all yet.
 constexpr std::chrono::seconds kAnswerWithin{1};  ///< At speed max.
 
 simulation::ScenarioConfig scenario_of(const SimulatorService::Settings& settings) {
-  if (settings.scenario.empty()) throw app::StartupFailure("--scenario NAME is needed: the drive to simulate");
+  if (settings.scenario.empty())
+    throw app::StartupFailure("--scenario NAME is needed: the drive to simulate");
   auto scenario = load_scenario(settings.scenario, settings.seed);
   if (!scenario) throw app::StartupFailure(scenario.error().message);
   if (settings.ride > 0) scenario->ride = settings.ride;
   for (std::size_t i = 0; i <= scenario->more_scanners.size(); ++i) {
-    if (scenario->scanner_at(i).beams > static_cast<int>(wire::kMostBeams)) throw app::StartupFailure("a scanner has more beams than the bus carries");
+    if (scenario->scanner_at(i).beams > static_cast<int>(wire::kMostBeams))
+      throw app::StartupFailure("a scanner has more beams than the bus carries");
   }
   return std::move(*scenario);
 }
 
 app::Pace parse_pace(const std::string& speed) {
   const auto pace = app::Pace::parse(speed);
-  if (!pace) throw app::StartupFailure("--speed " + speed + ": neither 'max' nor a number from 0.01 to 1000");
+  if (!pace)
+    throw app::StartupFailure("--speed " + speed +
+                              ": neither 'max' nor a number from 0.01 to 1000");
   return *pace;
 }
 
-std::uint64_t new_drive_id() { return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()); }
+std::uint64_t new_drive_id() {
+  return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
+}
 
 bool is_at_work(slammot_ServiceState state) {
   return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
@@ -43,12 +50,24 @@ bool is_at_work(slammot_ServiceState state) {
 }  // namespace
 
 void SimulatorService::add_options(CLI::App& command_line, Settings& settings) {
-  command_line.add_option("--scenario", settings.scenario, "Name (slammot simulate --list) or file");
-  command_line.add_option("--seed", settings.seed, "Other world, traffic and noise than the scenario's own");
-  command_line.add_option("--ride", settings.ride, "Which of the scenario's vehicles with scanners; 0 is the first")->check(CLI::Range(0, 100));
-  command_line.add_option("--speed", settings.speed, "Times the simulated clock, or 'max': as fast as the other services are done")->capture_default_str();
-  command_line.add_option("--wait-for-services", settings.wait_for_services_s, "Before the first scan [s]")->capture_default_str()->check(CLI::Range(0.0, 3600.0));
-  command_line.add_flag("--linger", settings.linger, "Stay after the end of the drive until stopped");
+  command_line.add_option("--scenario", settings.scenario,
+                          "Name (slammot simulate --list) or file");
+  command_line.add_option("--seed", settings.seed,
+                          "Other world, traffic and noise than the scenario's own");
+  command_line
+      .add_option("--ride", settings.ride,
+                  "Which of the scenario's vehicles with scanners; 0 is the first")
+      ->check(CLI::Range(0, 100));
+  command_line
+      .add_option("--speed", settings.speed,
+                  "Times the simulated clock, or 'max': as fast as the other services are done")
+      ->capture_default_str();
+  command_line
+      .add_option("--wait-for-services", settings.wait_for_services_s, "Before the first scan [s]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 3600.0));
+  command_line.add_flag("--linger", settings.linger,
+                        "Stay after the end of the drive until stopped");
 }
 
 SimulatorService::SimulatorService(app::ServiceContext& context, const Settings& settings)
@@ -70,18 +89,24 @@ SimulatorService::SimulatorService(app::ServiceContext& context, const Settings&
   truth_ = wire::TruthEncoder(drive_id);
   context.status().counter("log_finished") = 0;
   context.status().counter("log_scans") = drive_.scan_count();
-  context.read(dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
-    readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
-    // One that starts and says so will be there.
-    if (beat.state == slammot_SERVICE_STATE_STARTING) give_up_waiting_at_ = steady_clock::now() + patience_;
-  });
-  context.read(dds::topics::kScanLabels, app::Input::kOccasional, [this](const auto& labels) { take_labels(labels); });
-  context.every(std::chrono::milliseconds(50), [this] { has_begun_ ? check_progress() : wait_for_services(); });
+  context.read(
+      dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
+        readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
+        // One that starts and says so will be there.
+        if (beat.state == slammot_SERVICE_STATE_STARTING)
+          give_up_waiting_at_ = steady_clock::now() + patience_;
+      });
+  context.read(dds::topics::kScanLabels, app::Input::kOccasional,
+               [this](const auto& labels) { take_labels(labels); });
+  context.every(std::chrono::milliseconds(50),
+                [this] { has_begun_ ? check_progress() : wait_for_services(); });
 }
 
 void SimulatorService::wait_for_services() {
   const bool is_patient = steady_clock::now() < give_up_waiting_at_;
-  if (app::may_begin(context_, readiness_, scans_.topic().name, scans_.matched_readers() != 0, is_patient)) begin();
+  if (app::may_begin(context_, readiness_, scans_.topic().name, scans_.matched_readers() != 0,
+                     is_patient))
+    begin();
 }
 
 void SimulatorService::begin() {
@@ -112,11 +137,14 @@ void SimulatorService::send_next() {
 
 void SimulatorService::send(const simulation::SimulatedScan& drive) {
   const auto count_timeout = [this](dds::WriteResult result) {
-    if (result == dds::WriteResult::kTimedOut) context_.warn("slow_readers", "a reader is slow: a sample was not sent");
+    if (result == dds::WriteResult::kTimedOut)
+      context_.warn("slow_readers", "a reader is slow: a sample was not sent");
   };
   const std::string& vehicle = context_.vehicle_id();
-  for (const sensing::GnssFix& fix : drive.gnss) count_timeout(fixes_.write(wire::encode(vehicle, fix)));
-  for (const sensing::CompassReading& reading : drive.compass) count_timeout(compass_readings_.write(wire::encode(vehicle, reading)));
+  for (const sensing::GnssFix& fix : drive.gnss)
+    count_timeout(fixes_.write(wire::encode(vehicle, fix)));
+  for (const sensing::CompassReading& reading : drive.compass)
+    count_timeout(compass_readings_.write(wire::encode(vehicle, reading)));
   count_timeout(odometry_.write(wire::encode(vehicle, drive.odometry)));
   count_timeout(scans_.write(encoder_.encode(vehicle, drive.scan)));
   if (drive.scanner == 0) count_timeout(true_poses_.write(truth_.encode_pose(vehicle, drive)));

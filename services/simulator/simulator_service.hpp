@@ -23,11 +23,14 @@ class SimulatorService {
     int ride = 0;                       ///< Which of the scenario's vehicles with scanners.
     std::string speed = "1";
     double wait_for_services_s = 20.0;
-    bool linger = false;                ///< Stay after the end of the drive.
+    bool linger = false;  ///< Stay after the end of the drive.
   };
   static constexpr const char* kName = "simulator";
-  static constexpr const char* kPurpose = "Simulates a drive onto the bus: sensor data and ground truth.";
-  static std::vector<config::BoundStage> stages(Settings&) { return {}; }  ///< The scenario's file is all there is to set.
+  static constexpr const char* kPurpose =
+      "Simulates a drive onto the bus: sensor data and ground truth.";
+  static std::vector<config::BoundStage> stages(Settings&) {
+    return {};
+  }  ///< The scenario's file is all there is to set.
   static void add_options(CLI::App& command_line, Settings& settings);
 
   /// Throws app::StartupFailure for a scenario that cannot be driven.
@@ -64,7 +67,8 @@ class SimulatorService {
   bool has_begun_ = false;
   bool has_finished_ = false;
   std::optional<simulation::SimulatedScan> next_;
-  std::optional<std::int64_t> unanswered_ns_;  ///< At speed max: the scan whose labels are waited for, since
+  std::optional<std::int64_t> unanswered_ns_;  ///< At speed max: the scan whose labels are waited
+                                               ///< for, since
   Time unanswered_since_{};
 };
 

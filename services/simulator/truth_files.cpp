@@ -7,13 +7,18 @@
 namespace slammot::simulator {
 namespace {
 
-std::filesystem::path with_ending(std::filesystem::path prefix, const char* ending) { return prefix += ending; }
+std::filesystem::path with_ending(std::filesystem::path prefix, const char* ending) {
+  return prefix += ending;
+}
 
-std::ofstream open(const std::filesystem::path& path) { return std::ofstream(path, std::ios::binary | std::ios::trunc); }
+std::ofstream open(const std::filesystem::path& path) {
+  return std::ofstream(path, std::ios::binary | std::ios::trunc);
+}
 
 }  // namespace
 
-TruthFiles::TruthFiles(const std::filesystem::path& prefix, const simulation::Outline& stationary_in_world, HitsFile hits)
+TruthFiles::TruthFiles(const std::filesystem::path& prefix,
+                       const simulation::Outline& stationary_in_world, HitsFile hits)
     : tum_path_(with_ending(prefix, ".tum")),
       objects_path_(with_ending(prefix, ".objects.csv")),
       walls_path_(with_ending(prefix, ".walls.csv")),
@@ -33,7 +38,8 @@ void TruthFiles::add(const simulation::SimulatedScan& drive) {
   newest_ = seen_by_any(drive);
 }
 
-/// The scan with the objects that it or the newest scan of another scanner hit, and the beams of both together.
+/// The scan with the objects that it or the newest scan of another scanner hit, and the beams of
+/// both together.
 simulation::SimulatedScan TruthFiles::seen_by_any(const simulation::SimulatedScan& drive) {
   std::map<int, int>& own = points_by_scanner_[drive.scanner];
   own.clear();
@@ -43,7 +49,8 @@ simulation::SimulatedScan TruthFiles::seen_by_any(const simulation::SimulatedSca
   seen.world_from_base = drive.world_from_base;
   const auto add = [&](simulation::ObjectTruth object) {
     object.points = 0;
-    for (const auto& [scanner, points] : points_by_scanner_) object.points += points.contains(object.id) ? points.at(object.id) : 0;
+    for (const auto& [scanner, points] : points_by_scanner_)
+      object.points += points.contains(object.id) ? points.at(object.id) : 0;
     if (object.points > 0) seen.objects.push_back(object);
   };
   std::ranges::for_each(drive.objects, add);
@@ -54,7 +61,8 @@ simulation::SimulatedScan TruthFiles::seen_by_any(const simulation::SimulatedSca
 void TruthFiles::write_newest() {
   tum_ << tum_line(*newest_);
   objects_ << object_lines(*newest_);
-  if (last_) distance_m_ += (newest_->world_from_base.translation_m() - last_->translation_m()).norm();
+  if (last_)
+    distance_m_ += (newest_->world_from_base.translation_m() - last_->translation_m()).norm();
   last_ = newest_->world_from_base;
   newest_.reset();
 }
@@ -63,7 +71,8 @@ std::optional<std::string> TruthFiles::close() {
   if (newest_) write_newest();
   for (std::ofstream* file : {&tum_, &objects_, &walls_, hits_ ? &*hits_ : nullptr}) {
     if (file) file->close();
-    if (file && !*file) return "cannot write all of the truth into " + tum_path_.parent_path().string();
+    if (file && !*file)
+      return "cannot write all of the truth into " + tum_path_.parent_path().string();
   }
   return std::nullopt;
 }

@@ -13,12 +13,14 @@ namespace slammot::simulator {
 /// Whether the files say which beam hit what.
 enum class HitsFile { left_out, written };
 
-/// PREFIX.tum, PREFIX.objects.csv, PREFIX.walls.csv and, if wanted, PREFIX.hits.csv, written while the drive goes on. Files of
-/// these names are replaced. Poses and objects are those of each stamp of a scan, hits those of each scan; an object is in view if
-/// the scan or the newest one of another scanner hit it, and its points are the beams of all of these.
+/// PREFIX.tum, PREFIX.objects.csv, PREFIX.walls.csv and, if wanted, PREFIX.hits.csv, written while
+/// the drive goes on. Files of these names are replaced. Poses and objects are those of each stamp
+/// of a scan, hits those of each scan; an object is in view if the scan or the newest one of
+/// another scanner hit it, and its points are the beams of all of these.
 class TruthFiles {
  public:
-  TruthFiles(const std::filesystem::path& prefix, const simulation::Outline& stationary_in_world, HitsFile hits);
+  TruthFiles(const std::filesystem::path& prefix, const simulation::Outline& stationary_in_world,
+             HitsFile hits);
 
   void add(const simulation::SimulatedScan& drive);
 
@@ -42,7 +44,8 @@ class TruthFiles {
   std::ofstream walls_;
   std::optional<std::ofstream> hits_;
   std::map<std::size_t, std::map<int, int>> points_by_scanner_;  // and object, of the newest scan
-  std::optional<simulation::SimulatedScan> newest_;              // not written yet: another scanner may share its stamp
+  std::optional<simulation::SimulatedScan> newest_;  // not written yet: another scanner may share
+                                                     // its stamp
   std::optional<geometry::Pose2> last_;
   double distance_m_ = 0.0;
 };

@@ -39,7 +39,8 @@ constexpr auto kPatienceIfInterrupted = 5s;
 constexpr auto kLastWords = 50ms;
 constexpr const char* kVehicle = "bench";
 constexpr const char* kFound = "map:      found itself in the map\n";
-constexpr const char* kNotFound = "warning:  did not find itself in the map: its poses begin anywhere in it\n";
+constexpr const char* kNotFound =
+    "warning:  did not find itself in the map: its poses begin anywhere in it\n";
 
 struct BenchOptions : JobOptions {
   std::uint32_t domain_id = 0;
@@ -50,9 +51,13 @@ int fail(const std::string& line) {
   return kExitFault;
 }
 
-/// The settings' file for the services: as asked for, or all of the job's where the log itself changed some of them.
-files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOptions& options, const std::filesystem::path& folder) {
-  const bool is_changed = !job.profile.localization.time_is_known || job.log.plan().evidence.correction.reverses_beams || job.profile.localization.belief.way_at_start != 1.0;
+/// The settings' file for the services: as asked for, or all of the job's where the log itself
+/// changed some of them.
+files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOptions& options,
+                                                   const std::filesystem::path& folder) {
+  const bool is_changed = !job.profile.localization.time_is_known ||
+                          job.log.plan().evidence.correction.reverses_beams ||
+                          job.profile.localization.belief.way_at_start != 1.0;
   if (!is_changed) return options.config;
   if (const auto fault = write_settings(job.profile, folder)) return *fault;
   return folder / kSettingsFile;
@@ -65,12 +70,22 @@ std::string program_of(const std::string& service, const ImplementationChoice& c
   return "slammot-" + service;
 }
 
-std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& options, const std::filesystem::path& settings, const std::filesystem::path& state_folder) {
+std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& options,
+                                         const std::filesystem::path& settings,
+                                         const std::filesystem::path& state_folder) {
   std::vector<ServiceProcess> services;
-  for (const std::string name : {"map-store", "loop-closing", "localization", "detection", "tracking", "ingest"}) {
-    std::vector<std::string> arguments = {folder_of_this_program() / program_of(name, job.profile.implementations), "--vehicle", kVehicle,
-                                          "--domain", std::to_string(options.domain_id), "--state-dir", state_folder,
-                                          "--profile", job.profile_name};
+  for (const std::string name :
+       {"map-store", "loop-closing", "localization", "detection", "tracking", "ingest"}) {
+    std::vector<std::string> arguments = {
+        folder_of_this_program() / program_of(name, job.profile.implementations),
+        "--vehicle",
+        kVehicle,
+        "--domain",
+        std::to_string(options.domain_id),
+        "--state-dir",
+        state_folder,
+        "--profile",
+        job.profile_name};
     if (!settings.empty()) arguments.insert(arguments.end(), {"--config", settings});
     if (name == "localization" && !options.map.empty()) arguments.push_back("--continue-map");
     const bool is_ingest = name == "ingest";
@@ -84,7 +99,8 @@ std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& opt
 }
 
 /// Where map_store looks for it, if a map was asked for.
-std::optional<files::Error> lay_out_map(const Job& job, const BenchOptions& options, const std::filesystem::path& state_folder) {
+std::optional<files::Error> lay_out_map(const Job& job, const BenchOptions& options,
+                                        const std::filesystem::path& state_folder) {
   if (options.map.empty()) return std::nullopt;
   const auto stored = read_stored_map(options.map, job.profile.localization.map.cell_size_m);
   if (!stored) return stored.error();
@@ -94,14 +110,18 @@ std::optional<files::Error> lay_out_map(const Job& job, const BenchOptions& opti
 }
 
 /// Until the drive has ended or is interrupted; otherwise the line that says why it has not.
-std::optional<std::string> attend(Collector& collector, ServiceProcesses& services, const std::vector<std::int64_t>& stamps_ns,
+std::optional<std::string> attend(Collector& collector, ServiceProcesses& services,
+                                  const std::vector<std::int64_t>& stamps_ns,
                                   const std::atomic<bool>& is_interrupted) {
   ProgressBar progress("slammot bench");
-  const double duration_ns = static_cast<double>(std::max<std::int64_t>(1, stamps_ns.back() - stamps_ns.front()));
+  const double duration_ns =
+      static_cast<double>(std::max<std::int64_t>(1, stamps_ns.back() - stamps_ns.front()));
   auto look_after_services_at = Clock::now();
   while (!collector.has_drive_ended() && !is_interrupted) {
     collector.wait(100ms);
-    if (collector.last_localized_ns()) progress.show(static_cast<double>(*collector.last_localized_ns() - stamps_ns.front()) / duration_ns);
+    if (collector.last_localized_ns())
+      progress.show(static_cast<double>(*collector.last_localized_ns() - stamps_ns.front()) /
+                    duration_ns);
     if (Clock::now() < look_after_services_at) continue;
     if (auto fault = services.restart_dead()) return fault;
     look_after_services_at = Clock::now() + 20ms;
@@ -115,18 +135,24 @@ double peak_memory_of_services_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-files::RunReport make_report(const Job& job, const BenchOptions& options, const Collector& collector, const std::map<std::string, std::uint64_t>& restarts) {
+files::RunReport make_report(const Job& job, const BenchOptions& options,
+                             const Collector& collector,
+                             const std::map<std::string, std::uint64_t>& restarts) {
   files::RunReport report = report_of(job, options, "bench");
   report.counters = collector.counters();
-  for (const auto& [name, count] : restarts) report.counters["bench"]["restarts_of_" + name] = count;
+  for (const auto& [name, count] : restarts)
+    report.counters["bench"]["restarts_of_" + name] = count;
   return report;
 }
 
-int write(const Job& job, const BenchOptions& options, const files::RunRecord& record, const files::RunReport& report, double duration_s) {
-  if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
+int write(const Job& job, const BenchOptions& options, const files::RunRecord& record,
+          const files::RunReport& report, double duration_s) {
+  if (const auto fault = files::write_outputs(options.output, record, report))
+    return fail(fault->message);
   if (const auto fault = write_settings(job.profile, options.output)) return fail(fault->message);
   if (options.stores_map) {
-    if (const auto fault = write_stored_map(options.output, record.submaps())) return fail(fault->message);
+    if (const auto fault = write_stored_map(options.output, record.submaps()))
+      return fail(fault->message);
   }
   if (!options.map.empty()) std::fputs(record.knows_where_it_is() ? kFound : kNotFound, stdout);
   std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
@@ -135,20 +161,26 @@ int write(const Job& job, const BenchOptions& options, const files::RunRecord& r
   }
   std::fflush(stdout);
   if (report.is_interrupted) {
-    std::fprintf(stderr, "slammot: interrupted: only the first %.1f s of the drive were processed\n", duration_s);
+    std::fprintf(stderr,
+                 "slammot: interrupted: only the first %.1f s of the drive were processed\n",
+                 duration_s);
     return kExitInterrupted;
   }
   if (!report.faults.is_cut) return kExitDone;
-  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed%s\n", options.input.c_str(), where_damaged(report.faults).c_str());
+  std::fprintf(stderr,
+               "slammot: %s is cut off or damaged: only what could be read of it was processed%s\n",
+               options.input.c_str(), where_damaged(report.faults).c_str());
   return kExitLogIsCut;
 }
 
-/// Services of their own read a log, so a simulated drive is recorded first: truth.log and its truth in the output folder.
+/// Services of their own read a log, so a simulated drive is recorded first: truth.log and its
+/// truth in the output folder.
 files::Result<BenchOptions> with_recorded_drive(BenchOptions options) {
   if (options.scenario.empty() || !options.input.empty()) return options;
   const auto scenario = simulator::load_scenario(options.scenario, options.seed);
   if (!scenario) return scenario.error();
-  const auto written = simulator::write_drive(*scenario, options.output, {"truth", "truth"}, simulator::HitsFile::written);
+  const auto written = simulator::write_drive(*scenario, options.output, {"truth", "truth"},
+                                              simulator::HitsFile::written);
   if (!written.files) return files::Error{written.fault};
   options.input = written.files->log;
   if (options.profile.empty()) options.profile = scenario->profile;
@@ -177,8 +209,10 @@ int bench(const BenchOptions& asked_for) {
   const std::string dds_config = dds::loopback_config("slammot-bench-" + std::to_string(getpid()));
   Collector collector({kVehicle, options.domain_id, dds_config});
   std::optional<ServiceProcesses> services;
-  services.emplace(services_for(*job, options, *settings, folder.path()), folder.path(), std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
-  if (const auto fault = attend(collector, *services, stamps_ns, is_interrupted)) return fail(*fault);
+  services.emplace(services_for(*job, options, *settings, folder.path()), folder.path(),
+                   std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
+  if (const auto fault = attend(collector, *services, stamps_ns, is_interrupted))
+    return fail(*fault);
   const bool is_cut_short = is_interrupted && !collector.has_drive_ended();
   if (is_cut_short) {
     services->end("ingest");
@@ -187,36 +221,45 @@ int bench(const BenchOptions& asked_for) {
       return kExitInterrupted;
     }
   }
-  const bool is_complete = collector.finish(is_cut_short ? kPatienceIfInterrupted : kPatienceAtTheEnd);
+  const bool is_complete =
+      collector.finish(is_cut_short ? kPatienceIfInterrupted : kPatienceAtTheEnd);
   const auto restarts = services->restarts();
   services.reset();
   collector.wait(kLastWords);  // the services' last counters
   files::RunReport report = make_report(*job, options, collector, restarts);
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
-  if (is_cut_short) std::erase_if(stamps_ns, [&](std::int64_t stamp_ns) { return stamp_ns > *collector.last_localized_ns(); });
-  const double duration_s = static_cast<double>(*std::ranges::max_element(stamps_ns) - stamps_ns.front()) * 1e-9;
+  if (is_cut_short)
+    std::erase_if(stamps_ns,
+                  [&](std::int64_t stamp_ns) { return stamp_ns > *collector.last_localized_ns(); });
+  const double duration_s =
+      static_cast<double>(*std::ranges::max_element(stamps_ns) - stamps_ns.front()) * 1e-9;
   report.is_interrupted = is_cut_short;
-  report.measured = {collector.latencies(), wall_s, duration_s / wall_s, std::max(peak_memory_mb(), peak_memory_of_services_mb())};
+  report.measured = {collector.latencies(), wall_s, duration_s / wall_s,
+                     std::max(peak_memory_mb(), peak_memory_of_services_mb())};
   const int exit_code = write(*job, options, collector.record(stamps_ns), report, duration_s);
-  if (!is_complete && !is_cut_short) return fail("the last submap did not come: the map lacks the end of the drive");
+  if (!is_complete && !is_cut_short)
+    return fail("the last submap did not come: the map lacks the end of the drive");
   return exit_code;
 }
 
 int bench_or_say_why_not(const BenchOptions& options) {
   try {
     return bench(options);
-  } catch (const std::runtime_error& fault) {
-    return fail(fault.what());
-  }
+  } catch (const std::runtime_error& fault) { return fail(fault.what()); }
 }
 
 }  // namespace
 
 void add_bench_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("bench", "Process a recorded or simulated drive by the real services, over DDS on this machine");
+  CLI::App* const command = app.add_subcommand(
+      "bench",
+      "Process a recorded or simulated drive by the real services, over DDS on this machine");
   const auto options = std::make_shared<BenchOptions>();
   add_job_options(*command, *options);
-  command->add_option("--domain", options->domain_id, "DDS domain, on loopback and closed to others")->check(CLI::Range(0, 230))->capture_default_str();
+  command
+      ->add_option("--domain", options->domain_id, "DDS domain, on loopback and closed to others")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = bench_or_say_why_not(*options); });
 }
 

@@ -24,8 +24,10 @@ struct CheckOptions {
 std::string command_to_run(const CheckOptions& options) {
   std::filesystem::path name = options.log.filename();
   while (name.has_extension()) name = name.stem();
-  std::string command = "slammot run --input " + options.log.string() + " --output out/" + name.string();
-  for (const std::string& argument : ingest::arguments_of(options.topics)) command += " " + argument;
+  std::string command =
+      "slammot run --input " + options.log.string() + " --output out/" + name.string();
+  for (const std::string& argument : ingest::arguments_of(options.topics))
+    command += " " + argument;
   return command;
 }
 
@@ -43,9 +45,10 @@ int check(const CheckOptions& options) {
   std::fputs(files::describe(log->topics()).c_str(), stdout);
   std::printf("profile    %s (%s)\n", profile.profile.c_str(), profile.reason.c_str());
   std::vector<std::string> findings = files::describe_findings(plan);
-  while (log->next()) {
-  }
-  if (log->faults().is_cut) findings.push_back("the file is cut off or damaged: this is of what could be read of it" + where_damaged(log->faults()));
+  while (log->next()) {}
+  if (log->faults().is_cut)
+    findings.push_back("the file is cut off or damaged: this is of what could be read of it" +
+                       where_damaged(log->faults()));
   for (const std::string& finding : findings) std::printf("doubtful   %s\n", finding.c_str());
   std::printf("run it     %s\n", command_to_run(options).c_str());
   return findings.empty() ? kExitDone : kExitDoubtful;
@@ -54,9 +57,14 @@ int check(const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("check", "Report the content of a log, what will be assumed and what is doubtful");
+  CLI::App* const command = app.add_subcommand(
+      "check", "Report the content of a log, what will be assumed and what is doubtful");
   const auto options = std::make_shared<CheckOptions>();
-  command->add_option("log", options->log, "Recorded drive: a CARMEN or DP-SLAM log, plain or .gz, or a ROS bag")->required()->type_name("FILE");
+  command
+      ->add_option("log", options->log,
+                   "Recorded drive: a CARMEN or DP-SLAM log, plain or .gz, or a ROS bag")
+      ->required()
+      ->type_name("FILE");
   ingest::add_topic_options(*command, options->topics);
   command->callback([options, &exit_code] { exit_code = check(*options); });
 }

@@ -33,7 +33,9 @@ int fail(const std::string& line) {
 }
 
 /// What the log says about the drive, where it is at hand: all its scans, heard of or not.
-files::Result<std::vector<std::int64_t>> scans_of_drive(const CollectOptions& options, const Collector& collector, files::RunReport& report) {
+files::Result<std::vector<std::int64_t>> scans_of_drive(const CollectOptions& options,
+                                                        const Collector& collector,
+                                                        files::RunReport& report) {
   if (options.input.empty()) return collector.scan_stamps_ns();
   files::CarmenLogOptions log_options;
   log_options.topics = options.topics;
@@ -58,10 +60,15 @@ int write(const CollectOptions& options, Collector& collector, double wall_s) {
   const auto stamps_ns = scans_of_drive(options, collector, report);
   if (!stamps_ns) return fail(stamps_ns.error().message);
   const files::RunRecord record = collector.record(*stamps_ns);
-  if (const auto fault = files::write_outputs(options.output, record, report)) return fail(fault->message);
+  if (const auto fault = files::write_outputs(options.output, record, report))
+    return fail(fault->message);
   collector.forget_journal();
   std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
-  if (report.faults.is_cut) std::fprintf(stderr, "slammot: the log is cut off or damaged: only what could be read of it was processed%s\n", where_damaged(report.faults).c_str());
+  if (report.faults.is_cut)
+    std::fprintf(
+        stderr,
+        "slammot: the log is cut off or damaged: only what could be read of it was processed%s\n",
+        where_damaged(report.faults).c_str());
   return kExitDone;
 }
 
@@ -78,32 +85,42 @@ int collect(const CollectOptions& options) {
   to_stop = &collector;
   std::printf("waits for the drive of vehicle %s\n", options.vehicle_id.c_str());
   std::fflush(stdout);
-  while (!collector.has_drive_ended() && collector.wait(100ms)) {
-  }
+  while (!collector.has_drive_ended() && collector.wait(100ms)) {}
   // Interrupted, what has come so far is written all the same.
   const bool is_complete = collector.finish(60s);
   to_stop = nullptr;
-  const int exit_code = write(options, collector, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const int exit_code =
+      write(options, collector,
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (exit_code != kExitDone) return exit_code;
-  return is_complete ? kExitDone : fail("the last submap did not come: the map lacks the end of the drive");
+  return is_complete ? kExitDone
+                     : fail("the last submap did not come: the map lacks the end of the drive");
 }
 
 }  // namespace
 
 void add_collect_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("collect", "Collect the outputs of services on the bus and write them when the drive has ended");
+  CLI::App* const command = app.add_subcommand(
+      "collect",
+      "Collect the outputs of services on the bus and write them when the drive has ended");
   const auto options = std::make_shared<CollectOptions>();
-  command->add_option("--output", options->output, "Folder for the results; created if missing")->required()->type_name("DIR");
-  command->add_option("--input", options->input, "The log that is played: scans that were not received get rows, too")->type_name("FILE");
+  command->add_option("--output", options->output, "Folder for the results; created if missing")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--input", options->input,
+                   "The log that is played: scans that were not received get rows, too")
+      ->type_name("FILE");
   ingest::add_topic_options(*command, options->topics);
-  command->add_option("--vehicle", options->vehicle_id, "Vehicle whose drive is collected")->capture_default_str();
-  command->add_option("--domain", options->domain_id, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
+  command->add_option("--vehicle", options->vehicle_id, "Vehicle whose drive is collected")
+      ->capture_default_str();
+  command->add_option("--domain", options->domain_id, "DDS domain")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
   command->callback([options, &exit_code] {
     try {
       exit_code = collect(*options);
-    } catch (const std::runtime_error& fault) {
-      exit_code = fail(fault.what());
-    }
+    } catch (const std::runtime_error& fault) { exit_code = fail(fault.what()); }
   });
 }
 

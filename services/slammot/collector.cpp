@@ -15,13 +15,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kSilenceAtTheEnd = 2s;    ///< After the log's end: no more answers are under way.
+constexpr auto kSilenceAtTheEnd = 2s;  ///< After the log's end: no more answers are under way.
 constexpr auto kRepeatCommand = 500ms;
-constexpr auto kIngestIsGone = 30s;      ///< Without a heartbeat, in a drive taken up from a journal.
+constexpr auto kIngestIsGone = 30s;  ///< Without a heartbeat, in a drive taken up from a journal.
 
 /// Also where each process runs in a container of its own, with the same number every time.
 std::string unique_name() {
-  return "collector-" + std::to_string(getpid()) + "-" + std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
+  return "collector-" + std::to_string(getpid()) + "-" +
+         std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
 /// Where scans come from: a log or a simulation.
@@ -77,7 +78,8 @@ Collector::Collector(const CollectorOptions& options)
     if (is_source(wire::text(beat.service_name))) last_ingest_ = Clock::now();
   });
   read(replies_, [this](const auto& sample) {
-    if (wire::text(sample.requester) == requester_ && sample.result == slammot_OUTCOME_DONE) is_submap_finished_ = true;
+    if (wire::text(sample.requester) == requester_ && sample.result == slammot_OUTCOME_DONE)
+      is_submap_finished_ = true;
   });
 }
 
@@ -90,7 +92,9 @@ void Collector::read(dds::Reader<Sample>& reader, Handle handle) {
   });
 }
 
-bool Collector::wait(std::chrono::milliseconds longest) { return wait_set_.wait(longest) != dds::WaitSet::Wake::kStopped; }
+bool Collector::wait(std::chrono::milliseconds longest) {
+  return wait_set_.wait(longest) != dds::WaitSet::Wake::kStopped;
+}
 
 void Collector::take_up(const files::RunJournal::Content& content) {
   is_taken_up_ = true;
@@ -121,7 +125,8 @@ void Collector::remember(const files::JournalScan& scan) {
 }
 
 void Collector::take(const slammot_LaserScan& sample) {
-  const files::JournalScan scan{std::string(wire::text(sample.scanner_id)), sample.drive_id, sample.sequence_number, sample.stamp_ns};
+  const files::JournalScan scan{std::string(wire::text(sample.scanner_id)), sample.drive_id,
+                                sample.sequence_number, sample.stamp_ns};
   last_progress_ = Clock::now();
   remember(scan);
   seen_at_.emplace(scan.stamp_ns, Clock::now());
@@ -140,14 +145,17 @@ void Collector::begin_drive(flow::MapId map_id, flow::OdomId odom_id) {
   if (!journal_) return;
   journal_->begin(map_id, odom_id);
   for (const auto& [scanner_id, stamps] : stamps_by_sequence_) {
-    for (const auto& [sequence, stamp_ns] : stamps) journal_->add(files::JournalScan{scanner_id, drives_.drives().at(scanner_id), sequence, stamp_ns});
+    for (const auto& [sequence, stamp_ns] : stamps)
+      journal_->add(
+          files::JournalScan{scanner_id, drives_.drives().at(scanner_id), sequence, stamp_ns});
   }
 }
 
 void Collector::take(const slammot_LocalizedScan& sample) {
   const auto scan = wire::decode(sample);
   if (!scan) return;
-  if (map_id_ != scan->map_id || odom_id_ != scan->odom_id) begin_drive(scan->map_id, scan->odom_id);
+  if (map_id_ != scan->map_id || odom_id_ != scan->odom_id)
+    begin_drive(scan->map_id, scan->odom_id);
   records_[scan->map_id].add(*scan);
   if (journal_) journal_->add(*scan);
   last_localized_ns_ = std::max(scan->stamp_ns, last_localized_ns_.value_or(scan->stamp_ns));
@@ -179,23 +187,27 @@ void Collector::take(const slammot_GraphCorrection& part) {
   if (!added.correction) return;
   const flow::MapId map_id = added.correction->map_id;
   records_[map_id].add(*added.correction);
-  for (const flow::CorrectedSubmap& submap : added.correction->submaps) placed_submaps_.emplace(map_id, submap.submap_id);
+  for (const flow::CorrectedSubmap& submap : added.correction->submaps)
+    placed_submaps_.emplace(map_id, submap.submap_id);
   last_progress_ = Clock::now();
 }
 
 void Collector::take(const slammot_ServiceStatus& sample) {
   auto status = wire::decode(sample);
   if (!status) return;
-  if (is_source(status->name.service)) is_log_finished_[status->name.instance] = is_set(*status, "log_finished");
+  if (is_source(status->name.service))
+    is_log_finished_[status->name.instance] = is_set(*status, "log_finished");
   status_by_service_[status->name.service] = std::move(*status);
 }
 
 bool Collector::is_log_finished() const {
-  return !is_log_finished_.empty() && std::ranges::all_of(is_log_finished_, [](const auto& one) { return one.second; });
+  return !is_log_finished_.empty() &&
+         std::ranges::all_of(is_log_finished_, [](const auto& one) { return one.second; });
 }
 
 bool Collector::is_last_scan_tracked() const {
-  return last_tracked_ns_ && std::ranges::all_of(stamps_by_sequence_, [this](const auto& of_scanner) {
+  return last_tracked_ns_ &&
+         std::ranges::all_of(stamps_by_sequence_, [this](const auto& of_scanner) {
            return of_scanner.second.rbegin()->second <= *last_tracked_ns_;
          });
 }
@@ -225,7 +237,8 @@ bool Collector::is_complete() const {
   if (!is_submap_finished_) return false;
   if (!map_id_ || !submap_in_use_) return true;
   const auto record = records_.find(*map_id_);
-  return record->second.submaps().contains(*submap_in_use_) && placed_submaps_.contains({*map_id_, *submap_in_use_});
+  return record->second.submaps().contains(*submap_in_use_) &&
+         placed_submaps_.contains({*map_id_, *submap_in_use_});
 }
 
 bool Collector::finish(std::chrono::seconds patience) {
@@ -263,7 +276,8 @@ files::RunRecord Collector::record(const std::vector<std::int64_t>& scan_stamps_
 std::map<std::string, std::map<std::string, std::uint64_t>> Collector::counters() const {
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;
   for (const auto& [service, status] : status_by_service_) {
-    for (const wire::Counter& counter : status.counters) counters[service][counter.name] = counter.total;
+    for (const wire::Counter& counter : status.counters)
+      counters[service][counter.name] = counter.total;
   }
   return counters;
 }
@@ -272,11 +286,12 @@ std::vector<files::StageLatency> Collector::latencies() const {
   std::vector<files::StageLatency> stages;
   for (const auto& [service, status] : status_by_service_) {
     for (const wire::StageLatency& stage : status.latencies) {
-      stages.push_back({service + "." + stage.stage, stage.calls, stage.p50_ms, stage.p99_ms, stage.highest_ms});
+      stages.push_back(
+          {service + "." + stage.stage, stage.calls, stage.p50_ms, stage.p99_ms, stage.highest_ms});
     }
   }
-  stages.push_back({"scan_to_tracks", scan_to_tracks_.count(), scan_to_tracks_.percentile_ms(0.5), scan_to_tracks_.percentile_ms(0.99),
-                    scan_to_tracks_.highest_ms()});
+  stages.push_back({"scan_to_tracks", scan_to_tracks_.count(), scan_to_tracks_.percentile_ms(0.5),
+                    scan_to_tracks_.percentile_ms(0.99), scan_to_tracks_.highest_ms()});
   return stages;
 }
 

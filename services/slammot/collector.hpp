@@ -28,11 +28,12 @@ struct CollectorOptions {
   std::string vehicle_id = "vehicle";
   std::uint32_t domain_id = 0;
   std::optional<std::string> dds_config;  ///< Cyclone XML; the environment's when not set.
-  std::filesystem::path journal{};        ///< Where to write what comes, to go on from after a crash; empty: nowhere.
+  std::filesystem::path journal{};  ///< Where to write what comes, to go on from after a crash;
+                                    ///< empty: nowhere.
 };
 
-/// Takes from the bus what the services make of a drive: the one that is being driven, so that a new one forgets the one
-/// before. Everything happens in the thread that calls wait().
+/// Takes from the bus what the services make of a drive: the one that is being driven, so that a
+/// new one forgets the one before. Everything happens in the thread that calls wait().
 class Collector {
  public:
   explicit Collector(const CollectorOptions& options);
@@ -43,12 +44,14 @@ class Collector {
   /// Makes wait() return false, from any thread.
   void stop() { wait_set_.stop(); }
 
-  /// Whether there was a drive, ingest has said that its log is finished, and tracking has answered the last scan or will not
-  /// any more. Taken up from a journal a drive has also ended when ingest has been gone for long.
+  /// Whether there was a drive, ingest has said that its log is finished, and tracking has answered
+  /// the last scan or will not any more. Taken up from a journal a drive has also ended when ingest
+  /// has been gone for long.
   bool has_drive_ended() const;
 
-  /// Ends the submap in progress and waits for what follows from it: the submap stored, and its place in the graph. False when
-  /// nothing more comes for the given time before that; what is there then is what there is.
+  /// Ends the submap in progress and waits for what follows from it: the submap stored, and its
+  /// place in the graph. False when nothing more comes for the given time before that; what is
+  /// there then is what there is.
   bool finish(std::chrono::seconds patience);
 
   /// Newest stamp that was localized.
@@ -57,7 +60,8 @@ class Collector {
   /// Its results are written: nothing to go on from any more.
   void forget_journal();
 
-  /// What came of the drive. scan_stamps_ns: every scan of it; those that were on the bus where the log is not at hand.
+  /// What came of the drive. scan_stamps_ns: every scan of it; those that were on the bus where the
+  /// log is not at hand.
   files::RunRecord record(const std::vector<std::int64_t>& scan_stamps_ns) const;
   std::vector<std::int64_t> scan_stamps_ns() const;
 
@@ -102,21 +106,25 @@ class Collector {
   wire::GraphCorrectionAssembler correction_assembler_;
 
   std::optional<files::RunJournal> journal_;
-  bool is_taken_up_ = false;                                   ///< From a journal.
+  bool is_taken_up_ = false;  ///< From a journal.
   localization::DriveWatch drives_;
-  std::map<std::string, std::map<std::uint32_t, std::int64_t>> stamps_by_sequence_;  ///< By scanner; of its drive.
-  std::optional<flow::MapId> map_id_;                          ///< Of the newest localized scan,
-  flow::OdomId odom_id_;                                       ///< and its drive in that map.
-  std::map<flow::MapId, files::RunRecord> records_;            ///< What the bus keeps of earlier maps comes, too.
-  std::map<std::int64_t, Clock::time_point> seen_at_;          ///< Scans without tracks so far, by stamp.
+  std::map<std::string, std::map<std::uint32_t, std::int64_t>> stamps_by_sequence_;  ///< By
+                                                                                     ///< scanner;
+                                                                                     ///< of its
+                                                                                     ///< drive.
+  std::optional<flow::MapId> map_id_;                ///< Of the newest localized scan,
+  flow::OdomId odom_id_;                             ///< and its drive in that map.
+  std::map<flow::MapId, files::RunRecord> records_;  ///< What the bus keeps of earlier maps comes,
+                                                     ///< too.
+  std::map<std::int64_t, Clock::time_point> seen_at_;  ///< Scans without tracks so far, by stamp.
   app::LatencyHistogram scan_to_tracks_;
   std::optional<std::int64_t> last_localized_ns_;
   std::optional<std::int64_t> last_tracked_ns_;
   std::optional<flow::SubmapId> submap_in_use_;
   std::set<std::pair<flow::MapId, flow::SubmapId>> placed_submaps_;  ///< In the graph.
   std::map<std::string, wire::ServiceStatus> status_by_service_;
-  std::map<std::string, bool> is_log_finished_;                ///< By instance of ingest.
-  Clock::time_point last_ingest_;                              ///< Heartbeat.
+  std::map<std::string, bool> is_log_finished_;  ///< By instance of ingest.
+  Clock::time_point last_ingest_;                ///< Heartbeat.
   bool is_submap_finished_ = false;
   std::string requester_;
   Clock::time_point last_progress_;

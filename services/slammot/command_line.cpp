@@ -42,13 +42,16 @@ std::optional<std::string> unknown_word(CLI::App& app, const std::vector<std::st
   if (words.empty() || words.front().starts_with("-")) return std::nullopt;
   const std::vector<std::string> commands = commands_of(app);
   if (std::find(commands.begin(), commands.end(), words.front()) == commands.end()) {
-    return "unknown command '" + words.front() + "'; the nearest one is '" + config::nearest(words.front(), commands) + "', slammot --help lists all";
+    return "unknown command '" + words.front() + "'; the nearest one is '" +
+           config::nearest(words.front(), commands) + "', slammot --help lists all";
   }
   const std::vector<std::string> options = options_of(*app.get_subcommand(words.front()));
   for (auto word = words.begin() + 1; word != words.end() && *word != "--"; ++word) {
     const std::string name = word->substr(0, word->find('='));
-    if (!name.starts_with("--") || std::find(options.begin(), options.end(), name) != options.end()) continue;
-    return "unknown option '" + name + "' of " + words.front() + "; the nearest one is '" + config::nearest(name, options) + "', slammot " + words.front() + " --help lists all";
+    if (!name.starts_with("--") || std::find(options.begin(), options.end(), name) != options.end())
+      continue;
+    return "unknown option '" + name + "' of " + words.front() + "; the nearest one is '" +
+           config::nearest(name, options) + "', slammot " + words.front() + " --help lists all";
   }
   return std::nullopt;
 }
@@ -56,7 +59,8 @@ std::optional<std::string> unknown_word(CLI::App& app, const std::vector<std::st
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  CLI::App app{"Localization, mapping and moving object tracking from a vehicle's laser scanners", "slammot"};
+  CLI::App app{"Localization, mapping and moving object tracking from a vehicle's laser scanners",
+               "slammot"};
   app.set_version_flag("--version", "slammot " SLAMMOT_VERSION);
   app.require_subcommand(1);
   int exit_code = kExitDone;
@@ -79,9 +83,7 @@ int run_command_line(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& fault) {
-    return app.exit(fault) == 0 ? kExitDone : kExitFault;
-  }
+  } catch (const CLI::ParseError& fault) { return app.exit(fault) == 0 ? kExitDone : kExitFault; }
   return exit_code;
 }
 

@@ -19,14 +19,17 @@ namespace {
 
 constexpr const char* kPageTitle =
     "# Settings\n\n"
-    "Written by `slammot config --page`: change the field tables (`services/*/*_fields.cpp`) and write it again. A file for `--config`\n"
-    "sets them in protobuf's text format, `localization { map { cell_size_m: 0.1 } }`. Defaults are for road vehicles;\n"
-    "`slammot config --effective --profile indoor` prints those of another. Every folder of results holds the settings of its run,\n"
+    "Written by `slammot config --page`: change the field tables (`services/*/*_fields.cpp`) and "
+    "write it again. A file for `--config`\n"
+    "sets them in protobuf's text format, `localization { map { cell_size_m: 0.1 } }`. Defaults "
+    "are for road vehicles;\n"
+    "`slammot config --effective --profile indoor` prints those of another. Every folder of "
+    "results holds the settings of its run,\n"
     "`settings.textproto`, which `--config` reads back.\n\n";
 
 struct ConfigOptions {
   bool explains = false;
-  std::string word;   ///< Which settings to explain; empty: all.
+  std::string word;  ///< Which settings to explain; empty: all.
   bool is_effective = false;
   bool is_page = false;
   std::string profile;
@@ -44,24 +47,29 @@ std::vector<config::Explanation> default_settings() {
 }
 
 /// The name as a user wrote it: whole, or its last part.
-std::string nearest_setting(const std::string& word, const std::vector<config::Explanation>& settings) {
+std::string nearest_setting(const std::string& word,
+                            const std::vector<config::Explanation>& settings) {
   std::vector<std::string> names;
   const bool is_path = word.find('.') != std::string::npos;
-  for (const config::Explanation& setting : settings) names.push_back(is_path ? setting.name : setting.name.substr(setting.name.rfind('.') + 1));
+  for (const config::Explanation& setting : settings)
+    names.push_back(is_path ? setting.name : setting.name.substr(setting.name.rfind('.') + 1));
   return config::nearest(word, names);
 }
 
 int explain(const std::string& word) {
   const std::vector<config::Explanation> all = default_settings();
   const std::vector<config::Explanation> asked_for = word.empty() ? all : config::named(word, all);
-  if (asked_for.empty()) return fail("no setting or group is called '" + word + "'; the nearest one is '" + nearest_setting(word, all) + "'");
+  if (asked_for.empty())
+    return fail("no setting or group is called '" + word + "'; the nearest one is '" +
+                nearest_setting(word, all) + "'");
   std::fputs(config::explanation_text(asked_for).c_str(), stdout);
   return kExitDone;
 }
 
 int print_effective(const ConfigOptions& options) {
   Profile profile;
-  if (const auto fault = load_settings(options.profile, options.config, profile)) return fail(*fault);
+  if (const auto fault = load_settings(options.profile, options.config, profile))
+    return fail(*fault);
   std::fputs(config::print(bind_stages(profile)).c_str(), stdout);
   return kExitDone;
 }
@@ -72,8 +80,10 @@ int print_page() {
 }
 
 int show(const ConfigOptions& options) {
-  if (int(options.explains) + int(options.is_effective) + int(options.is_page) != 1) return fail("config needs one of --explain, --effective and --page");
-  if (!options.is_effective && (!options.profile.empty() || !options.config.empty())) return fail("--profile and --config belong to --effective");
+  if (int(options.explains) + int(options.is_effective) + int(options.is_page) != 1)
+    return fail("config needs one of --explain, --effective and --page");
+  if (!options.is_effective && (!options.profile.empty() || !options.config.empty()))
+    return fail("--profile and --config belong to --effective");
   if (options.is_effective) return print_effective(options);
   return options.is_page ? print_page() : explain(options.word);
 }
@@ -81,13 +91,25 @@ int show(const ConfigOptions& options) {
 }  // namespace
 
 void add_config_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("config", "Explain the settings, or print those that a run would use");
+  CLI::App* const command =
+      app.add_subcommand("config", "Explain the settings, or print those that a run would use");
   const auto options = std::make_shared<ConfigOptions>();
-  const CLI::Option* const explains = command->add_option("--explain", options->word, "Meaning, unit, range and default of all settings, of one, or of a group")->type_name("NAME")->expected(0, 1);
-  command->add_flag("--effective", options->is_effective, "Print all settings as a file for --config");
-  command->add_option("--profile", options->profile, "Whose settings --effective prints; the defaults when not given")->type_name("NAME");
-  command->add_option("--config", options->config, "Settings that replace some of the profile's")->type_name("FILE");
-  command->add_flag("--page", options->is_page, "Print the page of the documentation, docs/settings.md");
+  const CLI::Option* const explains =
+      command
+          ->add_option("--explain", options->word,
+                       "Meaning, unit, range and default of all settings, of one, or of a group")
+          ->type_name("NAME")
+          ->expected(0, 1);
+  command->add_flag("--effective", options->is_effective,
+                    "Print all settings as a file for --config");
+  command
+      ->add_option("--profile", options->profile,
+                   "Whose settings --effective prints; the defaults when not given")
+      ->type_name("NAME");
+  command->add_option("--config", options->config, "Settings that replace some of the profile's")
+      ->type_name("FILE");
+  command->add_flag("--page", options->is_page,
+                    "Print the page of the documentation, docs/settings.md");
   command->footer([] { return "Settings:\n" + config::explanation_lines(default_settings()); });
   command->callback([options, explains, &exit_code] {
     options->explains = explains->count() > 0;

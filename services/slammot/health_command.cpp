@@ -28,12 +28,21 @@ int ask(const app::HealthQuestion& question) {
 }  // namespace
 
 void add_health_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("health", "Report whether a service is alive and ready");
+  CLI::App* const command =
+      app.add_subcommand("health", "Report whether a service is alive and ready");
   const auto question = std::make_shared<app::HealthQuestion>();
-  command->add_option("service", question->service, "Name of the service, such as localization or map_store")->required();
-  command->add_option("--vehicle", question->vehicle_id, "Vehicle of the service")->envname("SLAMMOT_VEHICLE")->capture_default_str();
+  command
+      ->add_option("service", question->service,
+                   "Name of the service, such as localization or map_store")
+      ->required();
+  command->add_option("--vehicle", question->vehicle_id, "Vehicle of the service")
+      ->envname("SLAMMOT_VEHICLE")
+      ->capture_default_str();
   command->add_option("--instance", question->instance, "Instance, if several run; default: any");
-  command->add_option("--domain", question->domain_id, "DDS domain")->envname("SLAMMOT_DOMAIN")->check(CLI::Range(0, 230))->capture_default_str();
+  command->add_option("--domain", question->domain_id, "DDS domain")
+      ->envname("SLAMMOT_DOMAIN")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
   command->callback([question, &exit_code] { exit_code = ask(*question); });
 }
 

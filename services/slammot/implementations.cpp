@@ -15,46 +15,61 @@
 namespace slammot {
 namespace {
 
-/// Settings of an implementation that reads some fields of its stage by name: as its own process gets them from the same profile.
+/// Settings of an implementation that reads some fields of its stage by name: as its own process
+/// gets them from the same profile.
 template <class Config>
-Config settings_from(Profile profile, std::string_view stage, const config::FieldTable<Config>& fields) {
+Config settings_from(Profile profile, std::string_view stage,
+                     const config::FieldTable<Config>& fields) {
   Config config;
   const std::vector<config::BoundStage> bound = {config::bind_stage(stage, fields, config)};
-  [[maybe_unused]] const auto fault = config::overlay_text(config::print(bind_stages(profile)), "profile", bound);
+  [[maybe_unused]] const auto fault =
+      config::overlay_text(config::print(bind_stages(profile)), "profile", bound);
   assert(!fault);
   return config;
 }
 
 constexpr LocalizationImplementation kLocalization[] = {
     {"standard", "localization", true,
-     [](const Profile& profile, work::SideWork* help) -> std::unique_ptr<stages::LocalizationStage> { return std::make_unique<localization::Localizer>(profile.localization, help); }},
+     [](const Profile& profile,
+        work::SideWork* help) -> std::unique_ptr<stages::LocalizationStage> {
+       return std::make_unique<localization::Localizer>(profile.localization, help);
+     }},
     {"icp", "icp-localizer", false,
      [](const Profile& profile, work::SideWork*) -> std::unique_ptr<stages::LocalizationStage> {
-       return std::make_unique<icp_localizer::IcpLocalizer>(settings_from(profile, "localization", icp_localizer::icp_localizer_fields()));
+       return std::make_unique<icp_localizer::IcpLocalizer>(
+           settings_from(profile, "localization", icp_localizer::icp_localizer_fields()));
      }},
 };
 
 constexpr TrackingImplementation kTracking[] = {
     {"standard", "tracking", true,
-     [](const Profile& profile, work::SideWork* help) -> std::unique_ptr<stages::TrackingStage> { return std::make_unique<tracking::Tracker>(profile.tracking, help); }},
+     [](const Profile& profile, work::SideWork* help) -> std::unique_ptr<stages::TrackingStage> {
+       return std::make_unique<tracking::Tracker>(profile.tracking, help);
+     }},
     {"greedy", "greedy-tracker", true,
      [](const Profile& profile, work::SideWork*) -> std::unique_ptr<stages::TrackingStage> {
-       return std::make_unique<greedy_tracker::GreedyTracker>(settings_from(profile, "tracking", greedy_tracker::greedy_tracker_fields()));
+       return std::make_unique<greedy_tracker::GreedyTracker>(
+           settings_from(profile, "tracking", greedy_tracker::greedy_tracker_fields()));
      }},
 };
 
 template <class Stage>
-const Implementation<Stage>* find(std::span<const Implementation<Stage>> all, std::string_view name) {
+const Implementation<Stage>* find(std::span<const Implementation<Stage>> all,
+                                  std::string_view name) {
   const auto found = std::ranges::find(all, name, &Implementation<Stage>::name);
   return found == all.end() ? nullptr : &*found;
 }
 
 template <class Stage>
-std::optional<std::string> find_fault_of(std::string_view stage, std::span<const Implementation<Stage>> all, std::string_view name) {
+std::optional<std::string> find_fault_of(std::string_view stage,
+                                         std::span<const Implementation<Stage>> all,
+                                         std::string_view name) {
   if (find(all, name)) return std::nullopt;
   std::string names;
-  for (const Implementation<Stage>& one : all) names += (names.empty() ? "" : ", ") + std::string(one.name);
-  return "implementations { " + std::string(stage) + ": \"" + std::string(name) + "\" }: no such implementation; there are: " + names;
+  for (const Implementation<Stage>& one : all)
+    names += (names.empty() ? "" : ", ") + std::string(one.name);
+  return "implementations { " + std::string(stage) + ": \"" + std::string(name) +
+         "\" }: no such implementation; there are: " + names;
 }
 
 }  // namespace
@@ -63,7 +78,8 @@ std::span<const LocalizationImplementation> localization_implementations() { ret
 std::span<const TrackingImplementation> tracking_implementations() { return kTracking; }
 
 const LocalizationImplementation& localization_of(const ImplementationChoice& choice) {
-  const LocalizationImplementation* const found = find(localization_implementations(), choice.localization);
+  const LocalizationImplementation* const found =
+      find(localization_implementations(), choice.localization);
   assert(found != nullptr);
   return *found;
 }
@@ -75,14 +91,17 @@ const TrackingImplementation& tracking_of(const ImplementationChoice& choice) {
 }
 
 std::optional<std::string> find_fault(const ImplementationChoice& choice) {
-  if (auto fault = find_fault_of("localization", localization_implementations(), choice.localization)) return fault;
+  if (auto fault =
+          find_fault_of("localization", localization_implementations(), choice.localization))
+    return fault;
   return find_fault_of("tracking", tracking_implementations(), choice.tracking);
 }
 
 std::vector<std::string> replaced_stages(const ImplementationChoice& choice) {
   const ImplementationChoice defaults;
   std::vector<std::string> replaced;
-  if (choice.localization != defaults.localization) replaced.push_back("localization: " + choice.localization);
+  if (choice.localization != defaults.localization)
+    replaced.push_back("localization: " + choice.localization);
   if (choice.tracking != defaults.tracking) replaced.push_back("tracking: " + choice.tracking);
   return replaced;
 }

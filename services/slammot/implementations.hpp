@@ -16,9 +16,9 @@ namespace slammot {
 /// One implementation of a stage. A new one is a new row of its table in implementations.cpp.
 template <class Stage>
 struct Implementation {
-  std::string_view name;       ///< In the settings: implementations { tracking: "NAME" }.
-  std::string_view program;    ///< That runs it as a service: slammot-PROGRAM, beside slammot.
-  bool takes_up_stored_maps;   ///< Implements go_on_after() and, as a program, --continue-map.
+  std::string_view name;      ///< In the settings: implementations { tracking: "NAME" }.
+  std::string_view program;   ///< That runs it as a service: slammot-PROGRAM, beside slammot.
+  bool takes_up_stored_maps;  ///< Implements go_on_after() and, as a program, --continue-map.
   /// help, where not null, outlives the stage.
   std::unique_ptr<Stage> (*make)(const Profile& profile, work::SideWork* help);
 };
@@ -37,7 +37,8 @@ const TrackingImplementation& tracking_of(const ImplementationChoice& choice);
 /// One line on the first name that no table has.
 std::optional<std::string> find_fault(const ImplementationChoice& choice);
 
-/// Names of the stages whose implementation is not the default, with the implementation: "tracking: greedy".
+/// Names of the stages whose implementation is not the default, with the implementation: "tracking:
+/// greedy".
 std::vector<std::string> replaced_stages(const ImplementationChoice& choice);
 
 }  // namespace slammot

@@ -1,25 +1,25 @@
 #include "services/slammot/job.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 
-#include <CLI/CLI.hpp>
 #include <sys/resource.h>
+#include <CLI/CLI.hpp>
 
 #include "common/config/print.hpp"
 #include "common/config/profiles.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/log_findings.hpp"
-#include "common/files/odometry_findings.hpp"
 #include "common/files/log_profile.hpp"
+#include "common/files/odometry_findings.hpp"
 #include "services/ingest/log_source.hpp"
 #include "services/ingest/topic_arguments.hpp"
-#include "services/slammot/implementations.hpp"
 #include "services/simulator/live_drive.hpp"
 #include "services/simulator/scenario_files.hpp"
+#include "services/slammot/implementations.hpp"
 
 namespace slammot {
 namespace {
@@ -39,27 +39,34 @@ files::Result<std::optional<double>> parse_speed(const std::string& speed) {
   double times = 0.0;
   const auto [end, fault] = std::from_chars(speed.data(), speed.data() + speed.size(), times);
   const bool is_number = fault == std::errc() && end == speed.data() + speed.size();
-  if (!is_number || !std::isfinite(times) || times <= 0.0) return Error{"--speed " + speed + ": neither a number above 0 nor max"};
+  if (!is_number || !std::isfinite(times) || times <= 0.0)
+    return Error{"--speed " + speed + ": neither a number above 0 nor max"};
   return std::optional<double>(times);
 }
 
-std::optional<Error> find_fault_of_implementations(const JobOptions& options, const ImplementationChoice& choice) {
+std::optional<Error> find_fault_of_implementations(const JobOptions& options,
+                                                   const ImplementationChoice& choice) {
   if (const auto fault = find_fault(choice)) return Error{*fault};
-  if (!options.map.empty() && !localization_of(choice).takes_up_stored_maps) return Error{"--map: the localization '" + choice.localization + "' does not go on in a stored map"};
+  if (!options.map.empty() && !localization_of(choice).takes_up_stored_maps)
+    return Error{"--map: the localization '" + choice.localization +
+                 "' does not go on in a stored map"};
   return std::nullopt;
 }
 
 std::optional<Error> find_fault_of_source(const JobOptions& options) {
-  if (options.input.empty() && options.scenario.empty()) return Error{"say what to drive, with --input FILE or with --scenario NAME"};
-  if (!options.input.empty() && !options.scenario.empty()) return Error{"--input and --scenario exclude each other: a drive is recorded or simulated"};
-  if (options.seed && options.scenario.empty()) return Error{"--seed belongs to --scenario: a recorded drive has none"};
+  if (options.input.empty() && options.scenario.empty())
+    return Error{"say what to drive, with --input FILE or with --scenario NAME"};
+  if (!options.input.empty() && !options.scenario.empty())
+    return Error{"--input and --scenario exclude each other: a drive is recorded or simulated"};
+  if (options.seed && options.scenario.empty())
+    return Error{"--seed belongs to --scenario: a recorded drive has none"};
   return std::nullopt;
 }
 
 /// What is to be driven, before the settings are known.
 struct OpenedDrive {
-  std::optional<files::CarmenLog> log;                  ///< Either this
-  std::optional<simulation::ScenarioConfig> scenario;   ///< or that.
+  std::optional<files::CarmenLog> log;                 ///< Either this
+  std::optional<simulation::ScenarioConfig> scenario;  ///< or that.
   files::LogPlan plan;
   files::ProfileChoice profile;
 };
@@ -87,7 +94,8 @@ files::Result<OpenedDrive> open_drive(const JobOptions& options) {
   return drive;
 }
 
-files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options, const files::CarmenLogOptions& log_options) {
+files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options,
+                       const files::CarmenLogOptions& log_options) {
   if (drive.scenario) {
     auto lines = std::make_unique<simulator::LiveDrive>(*drive.scenario, options.output / "truth");
     return files::CarmenLog::follow(std::move(lines), drive.plan, log_options);
@@ -99,7 +107,9 @@ files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options, const file
 /// Why scans were not localized, and which were so without a match; "" where none.
 std::string describe_left_out(const files::RunRecord& record, const files::RunReport& report) {
   constexpr std::pair<const char*, const char*> kReasons[] = {
-      {"duplicate_scans", "have the stamp of another"}, {"out_of_order_scans", "are older than one before"}, {"far_ahead_scans", "have a stamp far ahead of all others"},
+      {"duplicate_scans", "have the stamp of another"},
+      {"out_of_order_scans", "are older than one before"},
+      {"far_ahead_scans", "have a stamp far ahead of all others"},
       {"blank_scans", "hold no reading"}};
   const auto stage = report.counters.find("localization");
   if (stage == report.counters.end()) return {};
@@ -107,23 +117,31 @@ std::string describe_left_out(const files::RunRecord& record, const files::RunRe
   for (const auto& [counter, reason] : kReasons) {
     const auto count = stage->second.find(counter);
     if (count == stage->second.end() || count->second == 0) continue;
-    reasons += text("%s%llu %s", reasons.empty() ? "" : ", ", static_cast<unsigned long long>(count->second), reason);
+    reasons += text("%s%llu %s", reasons.empty() ? "" : ", ",
+                    static_cast<unsigned long long>(count->second), reason);
   }
   std::string lines;
-  if (record.localized_scans() < record.scans() && !reasons.empty()) lines += "not localized: " + reasons + "\n";
+  if (record.localized_scans() < record.scans() && !reasons.empty())
+    lines += "not localized: " + reasons + "\n";
   const auto few = stage->second.find("too_few_echoes");
-  if (few != stage->second.end() && few->second > 0) lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n", static_cast<unsigned long long>(few->second));
+  if (few != stage->second.end() && few->second > 0)
+    lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n",
+                  static_cast<unsigned long long>(few->second));
   return lines;
 }
 
 std::string describe_faults(const files::LogFaults& faults) {
   std::string lines;
   if (faults.malformed_lines > 0) {
-    lines += text("warning:  malformed lines of the log, skipped: %llu; the first:", static_cast<unsigned long long>(faults.malformed_lines));
-    for (const std::uint64_t line : faults.first_malformed_lines) lines += text(" %llu", static_cast<unsigned long long>(line));
+    lines += text("warning:  malformed lines of the log, skipped: %llu; the first:",
+                  static_cast<unsigned long long>(faults.malformed_lines));
+    for (const std::uint64_t line : faults.first_malformed_lines)
+      lines += text(" %llu", static_cast<unsigned long long>(line));
     lines += "\n";
   }
-  if (faults.overlong_lines > 0) lines += text("warning:  overlong lines of the log, skipped: %llu\n", static_cast<unsigned long long>(faults.overlong_lines));
+  if (faults.overlong_lines > 0)
+    lines += text("warning:  overlong lines of the log, skipped: %llu\n",
+                  static_cast<unsigned long long>(faults.overlong_lines));
   return lines;
 }
 
@@ -138,35 +156,70 @@ void begin_with_way_factor(double factor, localization::LocalizerConfig& config)
 }  // namespace
 
 void add_job_options(CLI::App& command, JobOptions& options) {
-  command.add_option("--input", options.input, "Recorded drive: a CARMEN or DP-SLAM log, plain or .gz, or a ROS bag (.bag, .mcap, .db3, or the folder)")->type_name("FILE");
+  command
+      .add_option("--input", options.input,
+                  "Recorded drive: a CARMEN or DP-SLAM log, plain or .gz, or a ROS bag (.bag, "
+                  ".mcap, .db3, or the folder)")
+      ->type_name("FILE");
   ingest::add_topic_options(command, options.topics);
-  command.add_option("--scenario", options.scenario, "Simulated drive instead of a recorded one; slammot simulate --list names them")->type_name("NAME");
-  command.add_option("--seed", options.seed, "Seed of world, traffic and noise; default: the scenario's own")->type_name("N");
-  command.add_option("--output", options.output, "Folder for the results; created if missing")->required()->type_name("DIR");
-  command.add_option("--profile", options.profile, "urban, indoor, another profile's name, or a file; default: by the drive's own figures")->type_name("NAME");
-  command.add_option("--config", options.config, "Settings that override the profile's")->type_name("FILE");
-  command.add_option("--speed", options.speed, "Multiple of the recorded rate, or max")->type_name("X|max")->capture_default_str();
-  command.add_option("--map", options.map, "Stored map in which to continue: a folder written with --store-map, map_store's folder or its file")->type_name("DIR|FILE");
-  command.add_flag("--store-map", options.stores_map, "Write the submaps to map.sqlite in the results, for --map");
+  command
+      .add_option("--scenario", options.scenario,
+                  "Simulated drive instead of a recorded one; slammot simulate --list names them")
+      ->type_name("NAME");
+  command
+      .add_option("--seed", options.seed,
+                  "Seed of world, traffic and noise; default: the scenario's own")
+      ->type_name("N");
+  command.add_option("--output", options.output, "Folder for the results; created if missing")
+      ->required()
+      ->type_name("DIR");
+  command
+      .add_option(
+          "--profile", options.profile,
+          "urban, indoor, another profile's name, or a file; default: by the drive's own figures")
+      ->type_name("NAME");
+  command.add_option("--config", options.config, "Settings that override the profile's")
+      ->type_name("FILE");
+  command.add_option("--speed", options.speed, "Multiple of the recorded rate, or max")
+      ->type_name("X|max")
+      ->capture_default_str();
+  command
+      .add_option("--map", options.map,
+                  "Stored map in which to continue: a folder written with --store-map, map_store's "
+                  "folder or its file")
+      ->type_name("DIR|FILE");
+  command.add_flag("--store-map", options.stores_map,
+                   "Write the submaps to map.sqlite in the results, for --map");
 }
 
 files::Result<Job> prepare_job(const JobOptions& options) {
   const auto speed = parse_speed(options.speed);
   if (!speed) return speed.error();
-  if (!options.profile.empty() && !config::find_profile(options.profile)) return Error{config::unknown_profile(options.profile)};
+  if (!options.profile.empty() && !config::find_profile(options.profile))
+    return Error{config::unknown_profile(options.profile)};
   if (auto fault = find_fault_of_source(options)) return *fault;
   auto drive = open_drive(options);
   if (!drive) return drive.error();
   Profile profile;
-  if (auto fault = load_settings(drive->profile.profile, options.config, profile)) return Error{std::move(*fault)};
+  if (auto fault = load_settings(drive->profile.profile, options.config, profile))
+    return Error{std::move(*fault)};
   if (auto fault = find_fault_of_implementations(options, profile.implementations)) return *fault;
-  profile.localization.time_is_known = profile.localization.time_is_known && drive->plan.figures.has_clock;
-  // Whether the beam that is now the first was measured first, too, is not known: sweeps may run the other way.
-  if (drive->plan.evidence.correction.reverses_beams) profile.localization.sweep_factor_sigma = std::max(profile.localization.sweep_factor_sigma, 1.0);
+  profile.localization.time_is_known =
+      profile.localization.time_is_known && drive->plan.figures.has_clock;
+  // Whether the beam that is now the first was measured first, too, is not known: sweeps may run
+  // the other way.
+  if (drive->plan.evidence.correction.reverses_beams)
+    profile.localization.sweep_factor_sigma =
+        std::max(profile.localization.sweep_factor_sigma, 1.0);
   begin_with_way_factor(files::way_factor_of(drive->plan), profile.localization);
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
-  return Job{begin(*drive, options, ingest::log_options(profile.ingest)), std::move(profile), drive->profile.profile, drive->profile.reason, sweep_s, *speed};
+  return Job{begin(*drive, options, ingest::log_options(profile.ingest)),
+             std::move(profile),
+             drive->profile.profile,
+             drive->profile.reason,
+             sweep_s,
+             *speed};
 }
 
 std::optional<Error> write_settings(const Profile& profile, const std::filesystem::path& folder) {
@@ -177,22 +230,28 @@ std::optional<Error> write_settings(const Profile& profile, const std::filesyste
 std::vector<std::int64_t> stamps_of(files::CarmenLog& log) {
   std::vector<std::int64_t> stamps_ns;
   while (const auto event = log.next()) {
-    if (const auto* scan = std::get_if<sensing::LaserScan>(&*event)) stamps_ns.push_back(scan->stamp_ns);
+    if (const auto* scan = std::get_if<sensing::LaserScan>(&*event))
+      stamps_ns.push_back(scan->stamp_ns);
   }
   return stamps_ns;
 }
 
 std::string describe_job(const Job& job, const JobOptions& options) {
   const files::LogFigures& figures = job.log.plan().figures;
-  std::string lines = text("%s %s: %llu scans of %zu beams over %.0f degrees, %.0f s", options.scenario.empty() ? "log:     " : "scenario:",
-                           name_of_drive(options).c_str(), static_cast<unsigned long long>(figures.scans), figures.beams,
-                           std::floor(figures.field_of_view_rad * 180.0 / std::numbers::pi + 0.25), figures.duration_s);
+  std::string lines = text(
+      "%s %s: %llu scans of %zu beams over %.0f degrees, %.0f s",
+      options.scenario.empty() ? "log:     " : "scenario:", name_of_drive(options).c_str(),
+      static_cast<unsigned long long>(figures.scans), figures.beams,
+      std::floor(figures.field_of_view_rad * 180.0 / std::numbers::pi + 0.25), figures.duration_s);
   lines += "\n";
   lines += files::describe(job.log.topics());
   lines += files::describe_scanners(job.log.plan());
-  if (options.scenario.empty()) lines += "odometry: " + files::describe_odometry(job.log.plan()) + "\n";
-  for (const std::string& finding : files::describe_findings(job.log.plan())) lines += "warning:  " + finding + "\n";
-  for (const std::string& stage : replaced_stages(job.profile.implementations)) lines += "replaced: " + stage + "\n";
+  if (options.scenario.empty())
+    lines += "odometry: " + files::describe_odometry(job.log.plan()) + "\n";
+  for (const std::string& finding : files::describe_findings(job.log.plan()))
+    lines += "warning:  " + finding + "\n";
+  for (const std::string& stage : replaced_stages(job.profile.implementations))
+    lines += "replaced: " + stage + "\n";
   return lines + text("profile:  %s (%s)\n", job.profile_name.c_str(), job.profile_reason.c_str());
 }
 
@@ -215,19 +274,32 @@ files::RunReport report_of(const Job& job, const JobOptions& options, const std:
   return report;
 }
 
-std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report, const std::filesystem::path& output) {
-  std::string lines = report.odometry ? "odometry: " + files::describe_odometry(*report.odometry, report.plan.figures.has_clock) + "\n" : std::string();
+std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report,
+                             const std::filesystem::path& output) {
+  std::string lines =
+      report.odometry
+          ? "odometry: " +
+                files::describe_odometry(*report.odometry, report.plan.figures.has_clock) + "\n"
+          : std::string();
   lines += text("%-14s %10s %10s %10s\n", "stage", "p50 [ms]", "p99 [ms]", "max [ms]");
   for (const files::StageLatency& stage : report.measured.stages) {
-    lines += text("%-14s %10.3f %10.3f %10.3f\n", stage.stage.c_str(), stage.p50_ms, stage.p99_ms, stage.max_ms);
+    lines += text("%-14s %10.3f %10.3f %10.3f\n", stage.stage.c_str(), stage.p50_ms, stage.p99_ms,
+                  stage.max_ms);
   }
-  lines += text("%llu scans, %llu of them localized; %llu confirmed tracks; %zu submaps\n", static_cast<unsigned long long>(record.scans()),
-                static_cast<unsigned long long>(record.localized_scans()), static_cast<unsigned long long>(record.confirmed_tracks()), record.submaps().size());
-  lines += text("%.1f s of work, %.1f times real time, %.0f MB at most\n", report.measured.wall_s, report.measured.real_time_factor, report.measured.peak_memory_mb);
-  return lines + describe_left_out(record, report) + describe_faults(report.faults) + "results are in " + output.string() + "\n";
+  lines +=
+      text("%llu scans, %llu of them localized; %llu confirmed tracks; %zu submaps\n",
+           static_cast<unsigned long long>(record.scans()),
+           static_cast<unsigned long long>(record.localized_scans()),
+           static_cast<unsigned long long>(record.confirmed_tracks()), record.submaps().size());
+  lines += text("%.1f s of work, %.1f times real time, %.0f MB at most\n", report.measured.wall_s,
+                report.measured.real_time_factor, report.measured.peak_memory_mb);
+  return lines + describe_left_out(record, report) + describe_faults(report.faults) +
+         "results are in " + output.string() + "\n";
 }
 
-std::string where_damaged(const files::LogFaults& faults) { return faults.damage.empty() ? std::string() : " (" + faults.damage + ")"; }
+std::string where_damaged(const files::LogFaults& faults) {
+  return faults.damage.empty() ? std::string() : " (" + faults.damage + ")";
+}
 
 double peak_memory_mb() {
   rusage usage{};

@@ -5,7 +5,8 @@
 
 namespace slammot {
 
-std::optional<std::string> LostWatch::see(double time_s, std::uint32_t scan, bool is_lost, std::uint64_t maps_begun) {
+std::optional<std::string> LostWatch::see(double time_s, std::uint32_t scan, bool is_lost,
+                                          std::uint64_t maps_begun) {
   if (maps_begun > maps_begun_) {
     maps_begun_ = maps_begun;
     scans_otherwise_ = 0;
@@ -26,15 +27,18 @@ std::optional<std::string> LostWatch::see(double time_s, std::uint32_t scan, boo
   if (is_lost) return tell_lost(since_s_, since_scan_, "scans do not match the map");
   if (told_ > kMostTold) return std::nullopt;
   char line[96];
-  std::snprintf(line, sizeof line, "          found again at %.1f s (scan %u)", since_s_, since_scan_);
+  std::snprintf(line, sizeof line, "          found again at %.1f s (scan %u)", since_s_,
+                since_scan_);
   return line;
 }
 
-std::optional<std::string> LostWatch::tell_lost(double time_s, std::uint32_t scan, const char* what) {
+std::optional<std::string> LostWatch::tell_lost(double time_s, std::uint32_t scan,
+                                                const char* what) {
   if (told_ > kMostTold) return std::nullopt;
   if (++told_ > kMostTold) return "warning:  lost again; further losses are only counted";
   char line[128];
-  std::snprintf(line, sizeof line, "warning:  lost at %.1f s (scan %u), %s; likely causes: ", time_s, scan, what);
+  std::snprintf(line, sizeof line,
+                "warning:  lost at %.1f s (scan %u), %s; likely causes: ", time_s, scan, what);
   return line + likely_causes_;
 }
 

@@ -29,9 +29,11 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add_scan(scan.stamp_ns);
   auto detected = localize_and_detect(scan);
   if (!detected) return;
-  if (iterations_ > 1) detected = times_.measure("iteration", [&] { return iterate(scan, *std::move(detected)); });
+  if (iterations_ > 1)
+    detected = times_.measure("iteration", [&] { return iterate(scan, *std::move(detected)); });
   auto& [localized, segmented] = *detected;
-  const stages::TrackingResult& tracked = times_.measure("tracking", [&]() -> decltype(auto) { return tracker_->step(segmented); });
+  const stages::TrackingResult& tracked =
+      times_.measure("tracking", [&]() -> decltype(auto) { return tracker_->step(segmented); });
   localizer_->expect(tracked.objects);
   times_.measure("mapping", [&] { localizer_->integrate(tracked.labels); });
   record_.add(localized);
@@ -44,13 +46,16 @@ void Pipeline::take(const sensing::LaserScan& scan) {
 }
 
 std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::LaserScan& scan) {
-  auto localized = times_.measure("localization", [&] { return localizer_->localize(scan, std::move(localized_done_with_)); });
+  auto localized = times_.measure(
+      "localization", [&] { return localizer_->localize(scan, std::move(localized_done_with_)); });
   if (!localized) return std::nullopt;
-  auto segmented = times_.measure("detection", [&] { return detector_.detect(*localized, std::move(segmented_done_with_)); });
+  auto segmented = times_.measure(
+      "detection", [&] { return detector_.detect(*localized, std::move(segmented_done_with_)); });
   return Detected{*std::move(localized), std::move(segmented)};
 }
 
-/// Tracks have a state and see the scan once, when this is over: until then what moves is said by detection alone.
+/// Tracks have a state and see the scan once, when this is over: until then what moves is said by
+/// detection alone.
 Pipeline::Detected Pipeline::iterate(const sensing::LaserScan& scan, Detected detected) {
   for (int iteration = 1; iteration < iterations_; ++iteration) {
     auto localized = localizer_->localize_again(scan, detected.segmented.labels);
@@ -76,7 +81,8 @@ void Pipeline::finish() {
 
 void Pipeline::close_loops() {
   while (auto submap = localizer_->take_finished_submap()) {
-    const auto correction = times_.measure("loop_closing", [&] { return loop_closer_.add(*submap); });
+    const auto correction =
+        times_.measure("loop_closing", [&] { return loop_closer_.add(*submap); });
     localizer_->correct(correction);
     record_.add(correction);
     record_.add(std::move(*submap));
@@ -85,8 +91,12 @@ void Pipeline::close_loops() {
 
 std::map<std::string, std::map<std::string, std::uint64_t>> Pipeline::counters() const {
   std::map<std::string, std::map<std::string, std::uint64_t>> counters{
-      {"localization", localizer_->named_counters()}, {"tracking", tracker_->named_counters()}, {"loop_closing", named(loop_closer_.counters())}};
-  if (iterations_ > 1) counters["iteration"] = {{"scans_iterated", scans_iterated_}, {"matches_again", matches_again_}};
+      {"localization", localizer_->named_counters()},
+      {"tracking", tracker_->named_counters()},
+      {"loop_closing", named(loop_closer_.counters())}};
+  if (iterations_ > 1)
+    counters["iteration"] = {{"scans_iterated", scans_iterated_},
+                             {"matches_again", matches_again_}};
   return counters;
 }
 

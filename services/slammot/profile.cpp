@@ -14,8 +14,10 @@ namespace {
 const config::FieldTable<ImplementationChoice>& implementation_fields() {
   using C = ImplementationChoice;
   static const config::FieldTable<C> table = {
-      {"localization", &C::localization, "Implementation of localization that run and bench use: standard or icp."},
-      {"tracking", &C::tracking, "Implementation of tracking that run and bench use: standard or greedy."},
+      {"localization", &C::localization,
+       "Implementation of localization that run and bench use: standard or icp."},
+      {"tracking", &C::tracking,
+       "Implementation of tracking that run and bench use: standard or greedy."},
   };
   return table;
 }
@@ -34,7 +36,9 @@ std::vector<config::BoundStage> bind_stages(Profile& profile) {
   };
 }
 
-std::optional<std::string> load_settings(const std::string& profile_name, const std::filesystem::path& config_file, Profile& profile) {
+std::optional<std::string> load_settings(const std::string& profile_name,
+                                         const std::filesystem::path& config_file,
+                                         Profile& profile) {
   const std::vector<config::BoundStage> stages = bind_stages(profile);
   if (!profile_name.empty()) {
     const auto profile_file = config::find_profile(profile_name);

@@ -32,11 +32,14 @@ struct Profile {
   ImplementationChoice implementations;
 };
 
-/// Every stage of the profile, for config::overlay_file(), config::print() and config::find_fault(). Points into it.
+/// Every stage of the profile, for config::overlay_file(), config::print() and
+/// config::find_fault(). Points into it.
 std::vector<config::BoundStage> bind_stages(Profile& profile);
 
-/// Overlays a profile, by name or file, and then a file with settings; either may be empty. Otherwise why that is not possible, in
-/// one line.
-std::optional<std::string> load_settings(const std::string& profile_name, const std::filesystem::path& config_file, Profile& profile);
+/// Overlays a profile, by name or file, and then a file with settings; either may be empty.
+/// Otherwise why that is not possible, in one line.
+std::optional<std::string> load_settings(const std::string& profile_name,
+                                         const std::filesystem::path& config_file,
+                                         Profile& profile);
 
 }  // namespace slammot

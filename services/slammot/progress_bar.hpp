@@ -5,7 +5,8 @@
 
 namespace slammot {
 
-/// One line on stderr that tells how far the work is. Silent where stderr is no terminal. Leaves the line clean.
+/// One line on stderr that tells how far the work is. Silent where stderr is no terminal. Leaves
+/// the line clean.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string what);

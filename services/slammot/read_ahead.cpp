@@ -10,7 +10,8 @@ constexpr std::size_t kMostBatches = 8;
 
 }  // namespace
 
-ReadAhead::ReadAhead(files::CarmenLog& log) : log_(log), thread_([this](const std::stop_token& stop) { read(stop); }) {}
+ReadAhead::ReadAhead(files::CarmenLog& log)
+    : log_(log), thread_([this](const std::stop_token& stop) { read(stop); }) {}
 
 ReadAhead::~ReadAhead() = default;
 

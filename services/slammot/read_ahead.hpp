@@ -17,8 +17,9 @@ struct ReadEvent {
   double fraction_read = 0.0;  ///< [0, 1]
 };
 
-/// Reads a log on a thread of its own, some events ahead of whoever takes them: unpacking, parsing and simulating cost the
-/// stages no time. The order is the log's. Nobody else may touch the log until this is gone.
+/// Reads a log on a thread of its own, some events ahead of whoever takes them: unpacking, parsing
+/// and simulating cost the stages no time. The order is the log's. Nobody else may touch the log
+/// until this is gone.
 class ReadAhead {
  public:
   explicit ReadAhead(files::CarmenLog& log);
@@ -38,11 +39,11 @@ class ReadAhead {
   files::CarmenLog& log_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<Batch> ready_;     ///< The last one is empty when the log has ended.
-  Batch taken_;                 ///< By next(), from taken_count_ on.
+  std::deque<Batch> ready_;  ///< The last one is empty when the log has ended.
+  Batch taken_;              ///< By next(), from taken_count_ on.
   std::size_t taken_count_ = 0;
   bool is_ended_ = false;
-  std::jthread thread_;         ///< Last: it must end before the rest goes.
+  std::jthread thread_;  ///< Last: it must end before the rest goes.
 };
 
 }  // namespace slammot

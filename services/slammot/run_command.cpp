@@ -33,20 +33,26 @@ int fail(const files::Error& fault) {
   return kExitFault;
 }
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Holds the drive back to a multiple of the recorded rate, if one was asked for.
 class Pace {
  public:
-  Pace(std::optional<double> speed, std::int64_t first_stamp_ns) : speed_(speed), first_stamp_ns_(first_stamp_ns) {}
+  Pace(std::optional<double> speed, std::int64_t first_stamp_ns)
+      : speed_(speed), first_stamp_ns_(first_stamp_ns) {}
 
   /// Until the scan is due, or no longer than until a stop is requested.
   void wait_for(std::int64_t stamp_ns, const std::stop_token& stop) const {
     if (!speed_) return;
-    const std::chrono::duration<double> due_after(static_cast<double>(stamp_ns - first_stamp_ns_) * 1e-9 / *speed_);
+    const std::chrono::duration<double> due_after(static_cast<double>(stamp_ns - first_stamp_ns_) *
+                                                  1e-9 / *speed_);
     std::mutex mutex;
     std::unique_lock lock(mutex);
-    std::condition_variable_any().wait_until(lock, stop, start_ + std::chrono::duration_cast<Clock::duration>(due_after), [] { return false; });
+    std::condition_variable_any().wait_until(
+        lock, stop, start_ + std::chrono::duration_cast<Clock::duration>(due_after),
+        [] { return false; });
   }
 
  private:
@@ -58,7 +64,7 @@ class Pace {
 /// What `run` is asked for beyond what any job is.
 struct RunOptions {
   JobOptions job;
-  int iterations = 1;          ///< Of localization and detection a scan, at most.
+  int iterations = 1;  ///< Of localization and detection a scan, at most.
 };
 
 /// How much of a drive was processed.
@@ -77,7 +83,8 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
   ReadAhead log(job.log);
   auto read = log.next();
   for (; read && !stop.stop_requested(); read = log.next()) {
-    if (const auto* odometry = std::get_if<sensing::Odometry>(&read->event)) pipeline.take(*odometry);
+    if (const auto* odometry = std::get_if<sensing::Odometry>(&read->event))
+      pipeline.take(*odometry);
     if (auto* scan = std::get_if<sensing::LaserScan>(&read->event)) {
       scan->scanner.sweep_s = job.sweep_s;
       if (!pace) {
@@ -87,7 +94,9 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
       pace->wait_for(scan->stamp_ns, stop);
       pipeline.take(*scan);
       last_stamp_ns = std::max(last_stamp_ns, scan->stamp_ns);
-      if (const auto line = lost.see(static_cast<double>(scan->stamp_ns - first_stamp_ns) * 1e-9, scan->sequence, pipeline.is_lost(), pipeline.maps_begun())) progress.say(*line);
+      if (const auto line = lost.see(static_cast<double>(scan->stamp_ns - first_stamp_ns) * 1e-9,
+                                     scan->sequence, pipeline.is_lost(), pipeline.maps_begun()))
+        progress.say(*line);
       progress.show(read->fraction_read);
     }
   }
@@ -99,16 +108,21 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
 int end_of(const JobOptions& options, const files::RunReport& report, const Driven& driven) {
   std::fflush(stdout);
   if (driven.is_interrupted) {
-    std::fprintf(stderr, "slammot: interrupted: only the first %.1f s of the drive were processed\n", driven.duration_s);
+    std::fprintf(stderr,
+                 "slammot: interrupted: only the first %.1f s of the drive were processed\n",
+                 driven.duration_s);
     return kExitInterrupted;
   }
   if (!report.faults.is_cut) return kExitDone;
-  std::fprintf(stderr, "slammot: %s is cut off or damaged: only what could be read of it was processed%s\n", options.input.c_str(), where_damaged(report.faults).c_str());
+  std::fprintf(stderr,
+               "slammot: %s is cut off or damaged: only what could be read of it was processed%s\n",
+               options.input.c_str(), where_damaged(report.faults).c_str());
   return kExitLogIsCut;
 }
 
 /// Takes up the stored map, if one was asked for.
-std::optional<files::Error> take_up_map(const std::filesystem::path& map, const Profile& profile, Pipeline& pipeline) {
+std::optional<files::Error> take_up_map(const std::filesystem::path& map, const Profile& profile,
+                                        Pipeline& pipeline) {
   if (map.empty()) return std::nullopt;
   const auto stored = read_stored_map(map, profile.localization.map.cell_size_m);
   if (!stored) return stored.error();
@@ -123,9 +137,14 @@ std::string describe_whereabouts(const Pipeline& pipeline, const RunOptions& opt
   const auto astray = pipeline.maps_begun();
   if (options.job.map.empty() && astray == 0) return {};
   const auto found = pipeline.counters().at("loop_closing").at("found_elsewhere");
-  const std::string lost = astray == 0 ? std::string() : "warning:  lost its way and began a new part of the map, " + std::to_string(astray) + " times\n";
-  const std::string place = pipeline.knows_where_it_is() ? "found itself in the map (parts joined: " + std::to_string(found) + ")\n"
-                                                         : "did not find itself in the map: its poses begin anywhere in it\n";
+  const std::string lost = astray == 0
+                               ? std::string()
+                               : "warning:  lost its way and began a new part of the map, " +
+                                     std::to_string(astray) + " times\n";
+  const std::string place =
+      pipeline.knows_where_it_is()
+          ? "found itself in the map (parts joined: " + std::to_string(found) + ")\n"
+          : "did not find itself in the map: its poses begin anywhere in it\n";
   return lost + (pipeline.knows_where_it_is() ? "map:      " : "warning:  ") + place;
 }
 
@@ -150,11 +169,14 @@ int run(const RunOptions& run_options) {
   report.odometry = pipeline.verdict_on_odometry();
   report.is_interrupted = driven.is_interrupted;
   const double wall_s = seconds_since(start);
-  report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s, peak_memory_mb()};
-  if (const auto fault = files::write_outputs(options.output, pipeline.record(), report)) return fail(*fault);
+  report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s,
+                     peak_memory_mb()};
+  if (const auto fault = files::write_outputs(options.output, pipeline.record(), report))
+    return fail(*fault);
   if (const auto fault = write_settings(job->profile, options.output)) return fail(*fault);
   if (options.stores_map) {
-    if (const auto fault = write_stored_map(options.output, pipeline.record().submaps())) return fail(*fault);
+    if (const auto fault = write_stored_map(options.output, pipeline.record().submaps()))
+      return fail(*fault);
   }
   std::fputs(describe_whereabouts(pipeline, run_options).c_str(), stdout);
   std::fputs(describe_outcome(pipeline.record(), report, options.output).c_str(), stdout);
@@ -164,10 +186,14 @@ int run(const RunOptions& run_options) {
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command = app.add_subcommand("run", "Process a recorded or simulated drive in this one process");
+  CLI::App* const command =
+      app.add_subcommand("run", "Process a recorded or simulated drive in this one process");
   const auto options = std::make_shared<RunOptions>();
   add_job_options(*command, options->job);
-  command->add_option("--iterations", options->iterations, "Maximum number of matches of a scan, each without what detection then labelled as moving")
+  command
+      ->add_option("--iterations", options->iterations,
+                   "Maximum number of matches of a scan, each without what detection then labelled "
+                   "as moving")
       ->type_name("N")
       ->check(CLI::Range(1, kMostIterations))
       ->capture_default_str();

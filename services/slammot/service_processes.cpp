@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kAtOnce = 2s;       ///< A service that dies sooner has not worked.
+constexpr auto kAtOnce = 2s;  ///< A service that dies sooner has not worked.
 constexpr int kMostFailedStarts = 3;
 constexpr auto kPatience = 2s;
 
@@ -36,7 +36,7 @@ std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
 [[noreturn]] void become(char* const* arguments, char* const* environment, int log, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);  // it died before the line above
-  setpgid(0, 0);                        // Ctrl-C is for the parent, which then ends its children in order
+  setpgid(0, 0);  // Ctrl-C is for the parent, which then ends its children in order
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -48,7 +48,8 @@ std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
 
 }  // namespace
 
-ServiceProcesses::ServiceProcesses(std::vector<ServiceProcess> services, std::filesystem::path log_folder,
+ServiceProcesses::ServiceProcesses(std::vector<ServiceProcess> services,
+                                   std::filesystem::path log_folder,
                                    std::map<std::string, std::string> environment)
     : log_folder_(std::move(log_folder)) {
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -58,7 +59,8 @@ ServiceProcesses::ServiceProcesses(std::vector<ServiceProcess> services, std::fi
   for (const auto& [name, value] : environment) environment_.push_back(name + "=" + value);
   for (ServiceProcess& service : services) {
     if (access(service.arguments.front().c_str(), X_OK) != 0) {
-      throw std::runtime_error("cannot start " + service.arguments.front() + ": " + std::strerror(errno));
+      throw std::runtime_error("cannot start " + service.arguments.front() + ": " +
+                               std::strerror(errno));
     }
     restarts_[service.name] = 0;
     all_.push_back({std::move(service), 0, std::nullopt, {}, 0});
@@ -85,17 +87,21 @@ void ServiceProcesses::start(Running& running) {
 std::optional<std::string> ServiceProcesses::restart_dead() {
   for (Running& running : all_) {
     int status = 0;
-    if (running.process == 0 || waitpid(running.process, &status, WNOHANG) != running.process) continue;
+    if (running.process == 0 || waitpid(running.process, &status, WNOHANG) != running.process)
+      continue;
     running.process = 0;
     const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     if (running.service.may_end && (exit_code == 0 || exit_code == 3)) {
       running.exit_code = exit_code;
       continue;
     }
-    const bool has_failed_at_once = exit_code > 0 && std::chrono::steady_clock::now() - running.started < kAtOnce;
+    const bool has_failed_at_once =
+        exit_code > 0 && std::chrono::steady_clock::now() - running.started < kAtOnce;
     running.failed_at_once = has_failed_at_once ? running.failed_at_once + 1 : 0;
-    if (running.failed_at_once >= kMostFailedStarts || ++restarts_[running.service.name] > kMostRestarts) {
-      return running.service.name + " does not keep running (" + last_words(running.service.name) + ")";
+    if (running.failed_at_once >= kMostFailedStarts ||
+        ++restarts_[running.service.name] > kMostRestarts) {
+      return running.service.name + " does not keep running (" + last_words(running.service.name) +
+             ")";
     }
     start(running);
   }
@@ -121,14 +127,16 @@ std::string ServiceProcesses::last_words(const std::string& name) const {
 void ServiceProcesses::end(const std::function<bool(const Running&)>& is_meant) {
   const auto has_ended = [&](Running& running) {
     if (!is_meant(running)) return true;
-    if (running.process != 0 && waitpid(running.process, nullptr, WNOHANG) == running.process) running.process = 0;
+    if (running.process != 0 && waitpid(running.process, nullptr, WNOHANG) == running.process)
+      running.process = 0;
     return running.process == 0;
   };
   for (const Running& running : all_) {
     if (is_meant(running) && running.process != 0) kill(running.process, SIGTERM);
   }
   const auto give_up_at = std::chrono::steady_clock::now() + kPatience;
-  while (!std::ranges::all_of(all_, has_ended) && std::chrono::steady_clock::now() < give_up_at) std::this_thread::sleep_for(10ms);
+  while (!std::ranges::all_of(all_, has_ended) && std::chrono::steady_clock::now() < give_up_at)
+    std::this_thread::sleep_for(10ms);
   for (Running& running : all_) {
     if (has_ended(running)) continue;
     kill(running.process, SIGKILL);
@@ -147,7 +155,8 @@ ServiceProcesses::~ServiceProcesses() {
 
 TemporaryFolder::TemporaryFolder(const std::string& prefix) {
   std::string name = (std::filesystem::temp_directory_path() / (prefix + "XXXXXX")).string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder like " + name + ": " + std::strerror(errno));
+  if (mkdtemp(name.data()) == nullptr)
+    throw std::runtime_error("cannot make a folder like " + name + ": " + std::strerror(errno));
   path_ = name;
 }
 
@@ -156,6 +165,8 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-std::filesystem::path folder_of_this_program() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
+std::filesystem::path folder_of_this_program() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
 
 }  // namespace slammot

@@ -17,11 +17,12 @@ namespace slammot {
 struct ServiceProcess {
   std::string name;                    ///< For messages.
   std::vector<std::string> arguments;  ///< The program's path first.
-  bool may_end = false;                ///< Its end with exit code 0 or 3 (the log is cut) is no accident.
+  bool may_end = false;  ///< Its end with exit code 0 or 3 (the log is cut) is no accident.
 };
 
-/// Child processes that are started again when they die, and that never outlive this process: they end with the object,
-/// and the kernel kills them when this process is killed. Their output goes to NAME.log in the log folder.
+/// Child processes that are started again when they die, and that never outlive this process: they
+/// end with the object, and the kernel kills them when this process is killed. Their output goes to
+/// NAME.log in the log folder.
 class ServiceProcesses {
  public:
   static constexpr int kMostRestarts = 20;  ///< Of one service in a row; then it is broken.
@@ -33,7 +34,8 @@ class ServiceProcesses {
   ServiceProcesses(const ServiceProcesses&) = delete;
   ServiceProcesses& operator=(const ServiceProcesses&) = delete;
 
-  /// Starts again what has died. Otherwise why there is no point in it, with the service's last words.
+  /// Starts again what has died. Otherwise why there is no point in it, with the service's last
+  /// words.
   std::optional<std::string> restart_dead();
 
   /// Ends one for good: SIGTERM, SIGKILL after 2 s.

@@ -8,7 +8,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Waking a thread costs both sides more than what is often handed over, and work comes scan by scan: longer than the pauses within one.
+/// Waking a thread costs both sides more than what is often handed over, and work comes scan by
+/// scan: longer than the pauses within one.
 constexpr std::chrono::microseconds kLooksFor(250);
 constexpr int kLooksBetweenTimes = 64;
 
@@ -82,7 +83,9 @@ void SideThread::end_first() {
 void SideThread::share(std::size_t parts, const std::function<void(std::size_t)>& part) {
   std::atomic<std::size_t> next{0};
   const auto take_parts = [&] {
-    for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < parts; i = next.fetch_add(1, std::memory_order_relaxed)) part(i);
+    for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < parts;
+         i = next.fetch_add(1, std::memory_order_relaxed))
+      part(i);
     return false;
   };
   if (has_core_of_its_own()) {
@@ -97,10 +100,13 @@ void SideThread::share(std::size_t parts, const std::function<void(std::size_t)>
   }
 }
 
-/// False if somebody else has taken the work, or had. Whoever joins in does what is shared between two steps.
+/// False if somebody else has taken the work, or had. Whoever joins in does what is shared between
+/// two steps.
 bool SideThread::take_and_do(Place& place, Number number, bool joins_in) {
   std::uint32_t begun = state_of(number, kBegun);
-  if (!place.state.compare_exchange_strong(begun, state_of(number, kTaken), std::memory_order_acquire)) return false;
+  if (!place.state.compare_exchange_strong(begun, state_of(number, kTaken),
+                                           std::memory_order_acquire))
+    return false;
   while (place.step())
     if (joins_in) join_in();
   place.state.store(state_of(number, kDone), std::memory_order_release);
@@ -111,12 +117,14 @@ bool SideThread::take_and_do(Place& place, Number number, bool joins_in) {
 /// Whether nobody has taken the work, and now nobody will.
 bool SideThread::withdraw(Place& place, Number number) {
   std::uint32_t begun = state_of(number, kBegun);
-  return place.state.compare_exchange_strong(begun, state_of(number, kDone), std::memory_order_relaxed);
+  return place.state.compare_exchange_strong(begun, state_of(number, kDone),
+                                             std::memory_order_relaxed);
 }
 
 /// The place may have gone to another work meanwhile, with another number.
 void SideThread::await_end_of(Place& place, Number number) {
-  while (place.state.load(std::memory_order_acquire) == state_of(number, kTaken)) await_other(place.state, state_of(number, kTaken));
+  while (place.state.load(std::memory_order_acquire) == state_of(number, kTaken))
+    await_other(place.state, state_of(number, kTaken));
 }
 
 /// Does what it can of what is shared just now, if anything.
@@ -125,7 +133,8 @@ void SideThread::join_in() {
   take_and_do(shared_, shares - 1, false);
 }
 
-/// One thing that was begun after the other: what the caller has taken, too, must have ended before the next begins.
+/// One thing that was begun after the other: what the caller has taken, too, must have ended before
+/// the next begins.
 void SideThread::work_until_stopped() {
   for (Number number = 0; !is_stopping_;) {
     const std::uint32_t calls = calls_.load(std::memory_order_acquire);

@@ -22,7 +22,8 @@ class StageTimes {
 
   std::vector<files::StageLatency> summary() const {
     std::vector<files::StageLatency> stages;
-    for (const auto& [name, durations_ms] : durations_ms_) stages.push_back(files::summarize_latency(name, durations_ms));
+    for (const auto& [name, durations_ms] : durations_ms_)
+      stages.push_back(files::summarize_latency(name, durations_ms));
     return stages;
   }
 
@@ -30,7 +31,11 @@ class StageTimes {
   class Stopwatch {
    public:
     explicit Stopwatch(std::vector<double>& durations_ms) : durations_ms_(durations_ms) {}
-    ~Stopwatch() { durations_ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count()); }
+    ~Stopwatch() {
+      durations_ms_.push_back(
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
+              .count());
+    }
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
@@ -46,7 +51,9 @@ class StageTimes {
     return durations_ms_.emplace_back(name, std::vector<double>()).second;
   }
 
-  std::deque<std::pair<std::string, std::vector<double>>> durations_ms_;  // in the order of first use; references stay valid
+  std::deque<std::pair<std::string, std::vector<double>>> durations_ms_;  // in the order of first
+                                                                          // use; references stay
+                                                                          // valid
 };
 
 }  // namespace slammot

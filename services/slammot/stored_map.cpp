@@ -19,15 +19,22 @@ using map_store::Store;
 
 constexpr const char* kFileName = "map.sqlite";
 
-std::filesystem::path file_of(const std::filesystem::path& path) { return std::filesystem::is_directory(path) ? path / kFileName : path; }
+std::filesystem::path file_of(const std::filesystem::path& path) {
+  return std::filesystem::is_directory(path) ? path / kFileName : path;
+}
 
 /// Loop closing does not tell places by points of another density.
-std::optional<Error> find_fault(const std::vector<flow::Submap>& submaps, double cell_size_m, const std::string& name) {
+std::optional<Error> find_fault(const std::vector<flow::Submap>& submaps, double cell_size_m,
+                                const std::string& name) {
   constexpr double kSame = 1e-6;
-  const auto other = std::ranges::find_if(submaps, [&](const flow::Submap& submap) { return std::abs(submap.cell_size_m - cell_size_m) > kSame * cell_size_m; });
+  const auto other = std::ranges::find_if(submaps, [&](const flow::Submap& submap) {
+    return std::abs(submap.cell_size_m - cell_size_m) > kSame * cell_size_m;
+  });
   if (other == submaps.end()) return std::nullopt;
   char text[128];
-  std::snprintf(text, sizeof text, ": the map is of another profile, with cells of %g m for %g m here", other->cell_size_m, cell_size_m);
+  std::snprintf(text, sizeof text,
+                ": the map is of another profile, with cells of %g m for %g m here",
+                other->cell_size_m, cell_size_m);
   return Error{name + text};
 }
 
@@ -35,7 +42,9 @@ Result<std::vector<flow::Submap>> read(Store& store, const std::string& name) {
   const std::vector<std::string> vehicles = store.vehicles();
   if (!store.last_fault().empty()) return Error{name + ": " + store.last_fault()};
   if (vehicles.empty()) return Error{name + ": no map is stored there"};
-  if (vehicles.size() > 1) return Error{name + ": maps of " + std::to_string(vehicles.size()) + " vehicles are stored there, one is expected"};
+  if (vehicles.size() > 1)
+    return Error{name + ": maps of " + std::to_string(vehicles.size()) +
+                 " vehicles are stored there, one is expected"};
   std::vector<flow::Submap> submaps;
   for (const flow::SubmapId id : store.list(vehicles.front())) {
     auto submap = store.get(vehicles.front(), id);
@@ -48,10 +57,12 @@ Result<std::vector<flow::Submap>> read(Store& store, const std::string& name) {
 
 }  // namespace
 
-Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path, double cell_size_m) {
+Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path,
+                                                  double cell_size_m) {
   const std::filesystem::path file = file_of(path);
   std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(file, unreadable)) return Error{file.string() + ": no such file; run --store-map makes one"};
+  if (!std::filesystem::is_regular_file(file, unreadable))
+    return Error{file.string() + ": no such file; run --store-map makes one"};
   auto store = Store::open(file, {});
   if (const auto* fault = std::get_if<std::string>(&store)) return Error{*fault};
   auto submaps = read(std::get<Store>(store), file.string());
@@ -60,13 +71,16 @@ Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& p
   return submaps;
 }
 
-std::optional<Error> write_stored_map(const std::filesystem::path& folder, const std::map<flow::SubmapId, flow::Submap>& submaps) {
+std::optional<Error> write_stored_map(const std::filesystem::path& folder,
+                                      const std::map<flow::SubmapId, flow::Submap>& submaps) {
   std::vector<flow::Submap> ascending;
   for (const auto& [id, submap] : submaps) ascending.push_back(submap);
   return write_stored_map(folder, ascending, app::ServiceOptions().vehicle_id);
 }
 
-std::optional<Error> write_stored_map(const std::filesystem::path& folder, const std::vector<flow::Submap>& submaps, const std::string& vehicle_id) {
+std::optional<Error> write_stored_map(const std::filesystem::path& folder,
+                                      const std::vector<flow::Submap>& submaps,
+                                      const std::string& vehicle_id) {
   const std::filesystem::path unfinished = folder / (std::string(kFileName) + ".part");
   std::error_code fault;
   std::filesystem::remove(unfinished, fault);
@@ -74,11 +88,14 @@ std::optional<Error> write_stored_map(const std::filesystem::path& folder, const
     auto store = Store::open(unfinished, {});
     if (const auto* why = std::get_if<std::string>(&store)) return Error{*why};
     for (const flow::Submap& submap : submaps) {
-      if (std::get<Store>(store).put(vehicle_id, submap) == map_store::PutResult::kFailed) return Error{unfinished.string() + ": " + std::get<Store>(store).last_fault()};
+      if (std::get<Store>(store).put(vehicle_id, submap) == map_store::PutResult::kFailed)
+        return Error{unfinished.string() + ": " + std::get<Store>(store).last_fault()};
     }
   }
-  // Closed, it is one file: the write-ahead log is in it. That of the one before must not be taken for this one's.
-  for (const char* ending : {"-wal", "-shm"}) std::filesystem::remove(folder / (std::string(kFileName) + ending), fault);
+  // Closed, it is one file: the write-ahead log is in it. That of the one before must not be taken
+  // for this one's.
+  for (const char* ending : {"-wal", "-shm"})
+    std::filesystem::remove(folder / (std::string(kFileName) + ending), fault);
   std::filesystem::rename(unfinished, folder / kFileName, fault);
   if (fault) return Error{(folder / kFileName).string() + ": " + fault.message()};
   return std::nullopt;

@@ -39,9 +39,11 @@ void collect_beams(const ScanContext& context, Associations& associations) {
 
 }  // namespace
 
-bool has_other_past(const Segment& segment, const SegmentComparison& comparison, const Track& track, const ScanContext& context) {
+bool has_other_past(const Segment& segment, const SegmentComparison& comparison, const Track& track,
+                    const ScanContext& context) {
   constexpr std::size_t kMostAsked = 7;
-  // Much of a creeping vehicle slides along itself and seems to stand; a known pedestrian has no such flank.
+  // Much of a creeping vehicle slides along itself and seems to stand; a known pedestrian has no
+  // such flank.
   const bool may_slide = track.extent.box() != nullptr || !track.existence.confirmed;
   if (!comparison.stands || (may_slide && is_slow(track))) return false;
   const EarlierScan* then = context.history.older_than(context.scan().stamp_ns, 0.0);
@@ -59,12 +61,16 @@ bool has_other_past(const Segment& segment, const SegmentComparison& comparison,
   return 2 * own < asked;
 }
 
-/// Gives the tracks that compete the segments of their likeliest hypothesis, and forbids these to all others.
-void Associator::assign_competing_tracks(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
+/// Gives the tracks that compete the segments of their likeliest hypothesis, and forbids these to
+/// all others.
+void Associator::assign_competing_tracks(std::vector<Track>& tracks, const ComparedScan& context,
+                                         Associations& associations) {
   const auto is_allowed = [&](std::size_t track, std::size_t segment) {
-    return !has_other_past(context.scan().segments[segment], context.comparison.segment(segment), tracks[track], context);
+    return !has_other_past(context.scan().segments[segment], context.comparison.segment(segment),
+                           tracks[track], context);
   };
-  const std::vector<std::size_t> segment_of_track = competing_tracks_.decide(tracks, context.view, is_allowed);
+  const std::vector<std::size_t> segment_of_track =
+      competing_tracks_.decide(tracks, context.view, is_allowed);
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     if (!competing_tracks_.has(tracks[t])) continue;
     forbid_row(costs_, t);
@@ -74,13 +80,17 @@ void Associator::assign_competing_tracks(std::vector<Track>& tracks, const Compa
   }
 }
 
-void Associator::assign_whole_segments(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
+void Associator::assign_whole_segments(std::vector<Track>& tracks, const ComparedScan& context,
+                                       Associations& associations) {
   const std::vector<Segment>& segments = context.scan().segments;
   costs_.assign(tracks.size(), segments.size(), kForbidden);
   for (std::size_t t = 0; t < tracks.size(); ++t)
     for (std::size_t s = 0; s < segments.size(); ++s) {
-      const double cost = association_cost(tracks[t].extent.outline, tracks[t].kinematics.estimate, segments[s], context.config);
-      if (cost != kForbidden && !has_other_past(segments[s], context.comparison.segment(s), tracks[t], context)) costs_(t, s) = cost;
+      const double cost = association_cost(tracks[t].extent.outline, tracks[t].kinematics.estimate,
+                                           segments[s], context.config);
+      if (cost != kForbidden &&
+          !has_other_past(segments[s], context.comparison.segment(s), tracks[t], context))
+        costs_(t, s) = cost;
     }
   if (context.config.most_hypotheses > 1) assign_competing_tracks(tracks, context, associations);
   const std::vector<std::size_t>& segment_of_track = assigner_.assign(costs_, kCostOfMiss);
@@ -88,7 +98,8 @@ void Associator::assign_whole_segments(std::vector<Track>& tracks, const Compare
     if (segment_of_track[t] != kUnassigned) associations.track_of_segment[segment_of_track[t]] = t;
 }
 
-void Associator::associate(std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
+void Associator::associate(std::vector<Track>& tracks, const ComparedScan& context,
+                           Associations& associations) {
   clear(associations, context.scan().segments.size());
   assign_whole_segments(tracks, context, associations);
   assign_parts(tracks, context, associations);

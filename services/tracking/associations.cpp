@@ -21,7 +21,8 @@ void add_beams(std::vector<std::uint16_t>& beams, std::span<const std::uint16_t>
 
 void release(Associations& associations, std::size_t track) {
   associations.shares[track].beams.clear();
-  std::replace(associations.track_of_segment.begin(), associations.track_of_segment.end(), track, association::kUnassigned);
+  std::replace(associations.track_of_segment.begin(), associations.track_of_segment.end(), track,
+               association::kUnassigned);
 }
 
 void move_beams(Associations& associations, std::size_t from, std::size_t to) {

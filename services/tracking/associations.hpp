@@ -15,15 +15,18 @@ namespace slammot::tracking {
 /// What an update makes of a track.
 enum class UpdateOutcome : std::uint8_t {
   kContinues,
-  kRejected,      ///< The echoes are of another object: the share is to be released.
+  kRejected,  ///< The echoes are of another object: the share is to be released.
   kConfirmable,
 };
 
 /// What one scan assigns to one track.
 struct TrackShare {
-  std::vector<std::uint16_t> beams;             ///< Ascending, but for one step across the seam of a scan that goes all round.
-  std::vector<Eigen::Vector2d> points_m;        ///< Of the beams, at the time of the track's estimate; written by the update.
-  flow::PointLabel label = flow::PointLabel::kUnknown;  ///< Moving if any of its segments is, else stationary if any is.
+  std::vector<std::uint16_t> beams;  ///< Ascending, but for one step across the seam of a scan that
+                                     ///< goes all round.
+  std::vector<Eigen::Vector2d> points_m;  ///< Of the beams, at the time of the track's estimate;
+                                          ///< written by the update.
+  flow::PointLabel label = flow::PointLabel::kUnknown;  ///< Moving if any of its segments is, else
+                                                        ///< stationary if any is.
   UpdateOutcome outcome = UpdateOutcome::kContinues;    ///< Written by the update.
 };
 
@@ -31,9 +34,11 @@ struct TrackShare {
 /// Invariant: shares are in the order of the tracks; a segment belongs to at most one of them.
 struct Associations {
   std::vector<TrackShare> shares;
-  std::vector<std::size_t> track_of_segment;    ///< association::kUnassigned where none.
+  std::vector<std::size_t> track_of_segment;  ///< association::kUnassigned where none.
 
-  bool is_unassigned(std::size_t segment) const { return track_of_segment[segment] == association::kUnassigned; }
+  bool is_unassigned(std::size_t segment) const {
+    return track_of_segment[segment] == association::kUnassigned;
+  }
   bool has_echoes(std::size_t track) const { return !shares[track].beams.empty(); }
 };
 

@@ -20,25 +20,32 @@ int gaps_between(const std::vector<std::uint16_t>& beams, const PolarView& view)
   const BeamRun run = run_of(beams, view);
   const std::size_t steps = view.steps_between(run.first, run.last);
   int gaps = 0;
-  for (std::size_t i = 1; i < steps; ++i) gaps += view.range_m(*view.neighbour_of(run.first, static_cast<long>(i))) <= 0.0 ? 1 : 0;
+  for (std::size_t i = 1; i < steps; ++i)
+    gaps += view.range_m(*view.neighbour_of(run.first, static_cast<long>(i))) <= 0.0 ? 1 : 0;
   return gaps;
 }
 
-bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b, const PolarView& view) {
+bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b,
+                     const PolarView& view) {
   constexpr double kBeyondM = 0.7;
   constexpr int kMost = 1;
   BeamRun before = run_of(a, view);
   BeamRun after = run_of(b, view);
   const auto begins_within = [&](const BeamRun& one, const BeamRun& other) {
-    return view.steps_between(other.first, one.first) <= view.steps_between(other.first, other.last);
+    return view.steps_between(other.first, one.first) <=
+           view.steps_between(other.first, other.last);
   };
   if (begins_within(before, after) || begins_within(after, before)) return false;
-  if (view.steps_between(before.last, after.first) > view.steps_between(after.last, before.first)) std::swap(before, after);
+  if (view.steps_between(before.last, after.first) > view.steps_between(after.last, before.first))
+    std::swap(before, after);
   const std::size_t steps = view.steps_between(before.last, after.first);
   const double farther_m = std::max(view.range_m(before.last), view.range_m(after.first));
   int beyond = 0;
   for (std::size_t i = 1; i < steps; ++i)
-    beyond += view.range_m(*view.neighbour_of(before.last, static_cast<long>(i))) > farther_m + kBeyondM ? 1 : 0;
+    beyond +=
+        view.range_m(*view.neighbour_of(before.last, static_cast<long>(i))) > farther_m + kBeyondM
+            ? 1
+            : 0;
   return beyond > kMost;
 }
 

@@ -8,10 +8,10 @@
 
 namespace slammot::tracking {
 
-/// Beams of one object in angular order. They are stored ascending, but across the seam of a scan that goes all round the run begins
-/// after the widest gap.
+/// Beams of one object in angular order. They are stored ascending, but across the seam of a scan
+/// that goes all round the run begins after the widest gap.
 struct BeamRun {
-  std::size_t start = 0;      ///< Index of the first beam.
+  std::size_t start = 0;  ///< Index of the first beam.
   std::uint16_t first = 0;
   std::uint16_t last = 0;
 };
@@ -23,6 +23,7 @@ BeamRun run_of(const std::vector<std::uint16_t>& beams, const PolarView& view);
 int gaps_between(const std::vector<std::uint16_t>& beams, const PolarView& view);
 
 /// True if beams between two objects pass beyond both.
-bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b, const PolarView& view);
+bool is_seen_between(const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b,
+                     const PolarView& view);
 
 }  // namespace slammot::tracking

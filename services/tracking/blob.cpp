@@ -12,13 +12,17 @@ using Eigen::Vector2d;
 double gap_noise_m(const Observation& observation, double range_m, double size_scale) {
   constexpr double kBetweenLegsM = 0.25;
   constexpr double kMostM = 1.3;
-  return std::clamp(mean_gap(observation) * range_m * observation.beam_step_rad - kBetweenLegsM * size_scale, 0.0, kMostM * size_scale);
+  return std::clamp(
+      mean_gap(observation) * range_m * observation.beam_step_rad - kBetweenLegsM * size_scale, 0.0,
+      kMostM * size_scale);
 }
 
 }  // namespace
 
-BlobMeasurement measure_blob(const Blob& blob, const Observation& observation, const TrackingConfig& config) {
-  constexpr double kSurfaceToMiddleM = 0.08;  // pi/4 of half the depth: 0.1 for a coat, 0.06 for legs
+BlobMeasurement measure_blob(const Blob& blob, const Observation& observation,
+                             const TrackingConfig& config) {
+  constexpr double kSurfaceToMiddleM = 0.08;  // pi/4 of half the depth: 0.1 for a coat, 0.06 for
+                                              // legs
   BlobMeasurement measurement;
   Vector2d mean_m = Vector2d::Zero();
   for (const Vector2d& point : observation.points_m) mean_m += point;
@@ -28,7 +32,8 @@ BlobMeasurement measure_blob(const Blob& blob, const Observation& observation, c
   const Vector2d along = sight_m / range_m;
   const Vector2d across{-along.y(), along.x()};
   const double span_m = largest_span_m(observation.points_m);
-  const double shape_m = std::hypot(config.blob_noise_share * span_m, config.shape_noise_m, gap_noise_m(observation, range_m, config.size_scale));
+  const double shape_m = std::hypot(config.blob_noise_share * span_m, config.shape_noise_m,
+                                    gap_noise_m(observation, range_m, config.size_scale));
   const double sigma_along_m = std::hypot(echo_sigma_m(range_m, config), shape_m);
   const double sigma_across_m = std::hypot(range_m * observation.beam_step_rad / 3.5, shape_m);
   measurement.centre_m = mean_m + kSurfaceToMiddleM * config.size_scale * along;
@@ -39,7 +44,8 @@ BlobMeasurement measure_blob(const Blob& blob, const Observation& observation, c
   const double grown_m = std::max(span_m, blob.length.value_m);
   after.length.value_m = blob.length.value_m + 0.2 * (grown_m - blob.length.value_m);
   after.width.value_m = after.length.value_m;
-  after.was_seen_whole = blob.was_seen_whole || (observation.start == Edge::kOpen && observation.end == Edge::kOpen);
+  after.was_seen_whole =
+      blob.was_seen_whole || (observation.start == Edge::kOpen && observation.end == Edge::kOpen);
   return measurement;
 }
 

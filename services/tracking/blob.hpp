@@ -16,7 +16,9 @@ struct BlobMeasurement : CentreMeasurement {
   Blob blob;  ///< After the measurement.
 };
 
-/// Mean of the echoes, moved behind the surface by half the depth of a pedestrian. Does not depend on the prediction.
-BlobMeasurement measure_blob(const Blob& blob, const Observation& observation, const TrackingConfig& config);
+/// Mean of the echoes, moved behind the surface by half the depth of a pedestrian. Does not depend
+/// on the prediction.
+BlobMeasurement measure_blob(const Blob& blob, const Observation& observation,
+                             const TrackingConfig& config);
 
 }  // namespace slammot::tracking

@@ -24,13 +24,17 @@ using KindFits = std::array<KindFit, std::tuple_size_v<decltype(RoadUsers::kinds
 KindFits kind_fits(const Box& box, const TrackingConfig& config) {
   constexpr double kLongestPieceM = 16.0;
   const double scale = config.size_scale;
-  const double log_piece_density = std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // log_likelihood_of_size() omits the root
+  const double log_piece_density =
+      std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // log_likelihood_of_size()
+                                                                               // omits the root
   const EvidenceByKind evidence = evidence_by_kind(box, config);
   const auto fit_of = [&](const KindOfBody& kind) {
     KindFit fit;
     if (kind.share <= 0.0) return KindFit{-std::numeric_limits<double>::max(), {}, {}};
-    fit.length = size_fit(scale * kind.length_m, scale * kind.length_sigma_m, evidence.of(kind.kind).length, scale, log_piece_density);
-    fit.width = size_fit(scale * kind.width_m, scale * kind.width_sigma_m, evidence.of(kind.kind).width, scale, log_piece_density);
+    fit.length = size_fit(scale * kind.length_m, scale * kind.length_sigma_m,
+                          evidence.of(kind.kind).length, scale, log_piece_density);
+    fit.width = size_fit(scale * kind.width_m, scale * kind.width_sigma_m,
+                         evidence.of(kind.kind).width, scale, log_piece_density);
     fit.log_fit = kind.log_share + fit.length.log_fit + fit.width.log_fit;
     return fit;
   };
@@ -54,7 +58,8 @@ Size corner_of(const Box& box, Kind kind, const TrackingConfig& config) {
 }
 
 EvidenceByKind evidence_by_kind(const Box& box, const TrackingConfig& config) {
-  return {with_corners(box, corner_of(box, Kind::kBicycle, config)), with_corners(box, corner_of(box, Kind::kCar, config))};
+  return {with_corners(box, corner_of(box, Kind::kBicycle, config)),
+          with_corners(box, corner_of(box, Kind::kCar, config))};
 }
 
 Box with_likely_sizes(Box box, const TrackingConfig& config) {
@@ -67,8 +72,10 @@ Box with_likely_sizes(Box box, const TrackingConfig& config) {
   for (const KindFit& fit : fits) {  // second moments about the likeliest kind's sizes
     const double weight = std::exp(fit.log_fit - best->log_fit);
     total += weight;
-    box.length.variance_m2 += weight * (fit.length.size.variance_m2 + squared(fit.length.size.value_m - box.length.value_m));
-    box.width.variance_m2 += weight * (fit.width.size.variance_m2 + squared(fit.width.size.value_m - box.width.value_m));
+    box.length.variance_m2 += weight * (fit.length.size.variance_m2 +
+                                        squared(fit.length.size.value_m - box.length.value_m));
+    box.width.variance_m2 +=
+        weight * (fit.width.size.variance_m2 + squared(fit.width.size.value_m - box.width.value_m));
   }
   box.length.variance_m2 /= total;
   box.width.variance_m2 /= total;

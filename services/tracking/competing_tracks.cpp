@@ -16,7 +16,9 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 /// Blobs only: the sides of a vehicle tell where it is.
-bool may_compete(const Track& track) { return track.existence.confirmed && track.extent.box() == nullptr; }
+bool may_compete(const Track& track) {
+  return track.existence.confirmed && track.extent.box() == nullptr;
+}
 
 association::MhtConfig mht_config(const TrackingConfig& config) {
   association::MhtConfig mht;
@@ -28,21 +30,27 @@ association::MhtConfig mht_config(const TrackingConfig& config) {
 /// A segment as a measurement of a pedestrian.
 struct PedestrianMeasurement {
   Vector2d centre_m = Vector2d::Zero();
-  Matrix2d R = Matrix2d::Identity();         ///< Of a single pedestrian, without the gait.
+  Matrix2d R = Matrix2d::Identity();  ///< Of a single pedestrian, without the gait.
   double extent_m = 0.0;
 };
 
 /// One scan, in the form that association::MultipleHypotheses asks for.
 class CompetingTracksScan {
  public:
-  CompetingTracksScan(const std::vector<Track>& tracks, const ScanView& view, const TrackingConfig& config,
-               const std::function<bool(std::size_t, std::size_t)>& is_allowed)
-      : tracks_(tracks), view_(view), config_(config), is_allowed_(is_allowed), models_(motion_models(config)) {
+  CompetingTracksScan(const std::vector<Track>& tracks, const ScanView& view,
+                      const TrackingConfig& config,
+                      const std::function<bool(std::size_t, std::size_t)>& is_allowed)
+      : tracks_(tracks),
+        view_(view),
+        config_(config),
+        is_allowed_(is_allowed),
+        models_(motion_models(config)) {
     for (std::size_t s = 0; s < view.scan().segments.size(); ++s) {
       const flow::Segment& segment = view.scan().segments[s];
       if (is_backdrop(segment, config) || segment.box_length_m > kWidestGroupM) continue;
       const bool is_near = std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
-        return may_compete(track) && (track.position_m() - segment.centroid_in_odom_m).norm() < config.widest_gate_m;
+        return may_compete(track) &&
+               (track.position_m() - segment.centroid_in_odom_m).norm() < config.widest_gate_m;
       });
       if (!is_near) continue;
       segments_.push_back(s);
@@ -52,41 +60,59 @@ class CompetingTracksScan {
 
   std::size_t segment_of(std::size_t measurement) const { return segments_[measurement]; }
   std::size_t track_of(TrackKey key) const {
-    return static_cast<std::size_t>(std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& track) { return track.track_id.value == key; }) - tracks_.begin());
+    return static_cast<std::size_t>(
+        std::find_if(tracks_.begin(), tracks_.end(),
+                     [&](const Track& track) { return track.track_id.value == key; }) -
+        tracks_.begin());
   }
 
   std::size_t measurement_count() const { return segments_.size(); }
-  std::size_t capacity(std::size_t measurement) const { return measurements_[measurement].extent_m > kWidestOfOneM ? 2 : 1; }
+  std::size_t capacity(std::size_t measurement) const {
+    return measurements_[measurement].extent_m > kWidestOfOneM ? 2 : 1;
+  }
 
-  double pair_cost(TrackKey key, const HypothesisMotion& hypothesis, std::size_t measurement, std::size_t sharers) const {
+  double pair_cost(TrackKey key, const HypothesisMotion& hypothesis, std::size_t measurement,
+                   std::size_t sharers) const {
     constexpr double kSharingCost = 4.0;
     const std::size_t track = track_of(key);
     const std::size_t segment = segments_[measurement];
-    const double cost = association_cost(tracks_[track].extent.outline, hypothesis.estimate, view_.scan().segments[segment], config_);
+    const double cost = association_cost(tracks_[track].extent.outline, hypothesis.estimate,
+                                         view_.scan().segments[segment], config_);
     if (cost >= kCostOfMiss || !is_allowed_(track, segment)) return kForbidden;
     return cost + (sharers > 0 ? kSharingCost : 0.0);
   }
 
   double miss_cost(TrackKey key, const HypothesisMotion& hypothesis) const {
     constexpr double kHiddenCost = 8.0;
-    const Visibility visibility = view_.visibility_of(tracks_[track_of(key)].footprint(), hypothesis.estimate.mean.head<2>());
+    const Visibility visibility =
+        view_.visibility_of(tracks_[track_of(key)].footprint(), hypothesis.estimate.mean.head<2>());
     return 2 * visibility.blocked > visibility.beams ? kHiddenCost : kCostOfMiss;
   }
 
-  HypothesisMotion updated(TrackKey key, const HypothesisMotion& hypothesis, std::size_t measurement, std::size_t sharers) const {
+  HypothesisMotion updated(TrackKey key, const HypothesisMotion& hypothesis,
+                           std::size_t measurement, std::size_t sharers) const {
     const PedestrianMeasurement& pedestrian = measurements_[measurement];
-    const double unseen_s = static_cast<double>(view_.scan().stamp_ns - tracks_[track_of(key)].history.last_seen_ns) * 1e-9;
-    const Matrix2d R = noise_m2(pedestrian, sharers) + gait_variance_m2(unseen_s, config_) * Matrix2d::Identity();
-    HypothesisMotion next{hypothesis.motion, filters::imm_update(models_, hypothesis.motion, pedestrian.centre_m, R).posterior, {}};
+    const double unseen_s =
+        static_cast<double>(view_.scan().stamp_ns - tracks_[track_of(key)].history.last_seen_ns) *
+        1e-9;
+    const Matrix2d R =
+        noise_m2(pedestrian, sharers) + gait_variance_m2(unseen_s, config_) * Matrix2d::Identity();
+    HypothesisMotion next{
+        hypothesis.motion,
+        filters::imm_update(models_, hypothesis.motion, pedestrian.centre_m, R).posterior,
+        {}};
     next.estimate = filters::imm_combine(models_, next.motion);
     return next;
   }
 
-  HypothesisMotion missed(TrackKey, const HypothesisMotion& hypothesis) const { return {hypothesis.motion, hypothesis.motion, hypothesis.estimate}; }
+  HypothesisMotion missed(TrackKey, const HypothesisMotion& hypothesis) const {
+    return {hypothesis.motion, hypothesis.motion, hypothesis.estimate};
+  }
 
   bool are_same(const HypothesisMotion& a, const HypothesisMotion& b) const {
     constexpr double kSame = 0.3;
-    return association::mahalanobis_squared<4>((a.estimate.mean - b.estimate.mean).head<4>(), a.estimate.covariance.topLeftCorner<4, 4>()) < kSame;
+    return association::mahalanobis_squared<4>((a.estimate.mean - b.estimate.mean).head<4>(),
+                                               a.estimate.covariance.topLeftCorner<4, 4>()) < kSame;
   }
 
  private:
@@ -96,16 +122,21 @@ class CompetingTracksScan {
   PedestrianMeasurement pedestrian_measurement_of(const flow::Segment& segment) {
     points_m_.clear();
     for (const std::uint16_t beam : segment.beams) points_m_.push_back(view_.point_in_odom_m(beam));
-    const Observation observation{points_m_, view_.laser_in_odom_m(), view_.beam_step_rad(), Edge::kOpen, Edge::kOpen, std::nullopt};
+    const Observation observation{
+        points_m_,   view_.laser_in_odom_m(), view_.beam_step_rad(), Edge::kOpen, Edge::kOpen,
+        std::nullopt};
     const BlobMeasurement measurement = measure_blob({}, observation, config_);
-    return {measurement.centre_m,
-            measurement.covariance_m2 + pose_covariance_at(segment.centroid_in_odom_m, view_.scan()),
-            largest_span_m(points_m_)};
+    return {
+        measurement.centre_m,
+        measurement.covariance_m2 + pose_covariance_at(segment.centroid_in_odom_m, view_.scan()),
+        largest_span_m(points_m_)};
   }
 
   /// If several share a segment, each is somewhere in it.
   static Matrix2d noise_m2(const PedestrianMeasurement& pedestrian, std::size_t sharers) {
-    return sharers == 0 ? pedestrian.R : Matrix2d(pedestrian.R + 0.25 * pedestrian.extent_m * pedestrian.extent_m * Matrix2d::Identity());
+    return sharers == 0 ? pedestrian.R
+                        : Matrix2d(pedestrian.R + 0.25 * pedestrian.extent_m * pedestrian.extent_m *
+                                                      Matrix2d::Identity());
   }
 
   const std::vector<Track>& tracks_;
@@ -120,7 +151,8 @@ class CompetingTracksScan {
 
 }  // namespace
 
-CompetingTracks::CompetingTracks(const TrackingConfig& config) : config_(config), hypotheses_(mht_config(config)) {}
+CompetingTracks::CompetingTracks(const TrackingConfig& config)
+    : config_(config), hypotheses_(mht_config(config)) {}
 
 void CompetingTracks::predict(double time_s) {
   const filters::ModelSet models = motion_models(config_);
@@ -130,21 +162,26 @@ void CompetingTracks::predict(double time_s) {
   });
 }
 
-/// Removes tracks that no longer compete, adds new ones, and sets the likeliest hypothesis to the track's own motion.
+/// Removes tracks that no longer compete, adds new ones, and sets the likeliest hypothesis to the
+/// track's own motion.
 void CompetingTracks::synchronise(const std::vector<Track>& tracks) {
   for (const TrackKey key : hypotheses_.keys())
-    if (std::none_of(tracks.begin(), tracks.end(), [&](const Track& track) { return track.track_id.value == key && may_compete(track); }))
+    if (std::none_of(tracks.begin(), tracks.end(), [&](const Track& track) {
+          return track.track_id.value == key && may_compete(track);
+        }))
       hypotheses_.remove(key);
   for (const Track& track : tracks) {
     if (!may_compete(track)) continue;
-    const HypothesisMotion own{track.kinematics.mixture, track.kinematics.mixture, track.kinematics.estimate};
+    const HypothesisMotion own{track.kinematics.mixture, track.kinematics.mixture,
+                               track.kinematics.estimate};
     if (has(track)) hypotheses_.set_best(track.track_id.value, own);
     else hypotheses_.add(track.track_id.value, own);
   }
 }
 
-std::vector<std::size_t> CompetingTracks::decide(std::vector<Track>& tracks, const ScanView& view,
-                                        const std::function<bool(std::size_t, std::size_t)>& is_allowed) {
+std::vector<std::size_t> CompetingTracks::decide(
+    std::vector<Track>& tracks, const ScanView& view,
+    const std::function<bool(std::size_t, std::size_t)>& is_allowed) {
   synchronise(tracks);
   const CompetingTracksScan scan(tracks, view, config_, is_allowed);
   hypotheses_.step(scan);
@@ -157,7 +194,8 @@ std::vector<std::size_t> CompetingTracks::decide(std::vector<Track>& tracks, con
     if (!hypotheses_.is_revised(track.track_id.value)) continue;
     track.kinematics.mixture = hypotheses_.best(track.track_id.value).predicted;
     track.kinematics.cruises_only = false;  // hypotheses have all modes
-    track.kinematics.estimate = filters::imm_combine(motion_models(config_), track.kinematics.mixture);
+    track.kinematics.estimate =
+        filters::imm_combine(motion_models(config_), track.kinematics.mixture);
   }
   return segment_of_track;
 }

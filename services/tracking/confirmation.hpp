@@ -8,12 +8,14 @@ namespace slammot::tracking {
 /// True if the evidence suffices to publish the track as an object that moves.
 bool is_confirmable(const Track& track, const TrackingConfig& config);
 
-/// True if only the distance of its echoes from its sides keeps the track from being confirmable; docs/decisions/existence-and-publication.md.
+/// True if only the distance of its echoes from its sides keeps the track from being confirmable;
+/// docs/decisions/existence-and-publication.md.
 bool misfits_only(const Track& track, const TrackingConfig& config);
 
-/// True if the object has been in space that the map knows to be free ever since its first observation, and hardly any echo comes from
-/// where an earlier scan had one: it has come there, even if the earlier scans did not see the place. Needs three echoes; false where
-/// only people move.
+/// True if the object has been in space that the map knows to be free ever since its first
+/// observation, and hardly any echo comes from where an earlier scan had one: it has come there,
+/// even if the earlier scans did not see the place. Needs three echoes; false where only people
+/// move.
 bool appeared_in_free_space(const Track& track, const TrackingConfig& config);
 
 /// True for a box whose echoes neither lie on its sides nor come from where it was predicted.

@@ -28,7 +28,8 @@ bool is_plausible(const Outline& outline, const TrackingConfig& config) {
   return box == nullptr || is_plausible(*box, config);
 }
 
-OutlineMeasurement measure(const Outline& outline, const Vector2d& predicted_centre_m, const Observation& observation, const TrackingConfig& config) {
+OutlineMeasurement measure(const Outline& outline, const Vector2d& predicted_centre_m,
+                           const Observation& observation, const TrackingConfig& config) {
   if (const Box* box = std::get_if<Box>(&outline)) {
     const BoxMeasurement of_box = measure_box(*box, predicted_centre_m, observation, config);
     return {of_box, of_box.box};
@@ -37,8 +38,10 @@ OutlineMeasurement measure(const Outline& outline, const Vector2d& predicted_cen
   return {of_blob, of_blob.blob};
 }
 
-Vector2d seen_centre_m(const Outline& outline, const Vector2d& predicted_centre_m, const Observation& observation, const TrackingConfig& config) {
-  if (const Box* box = std::get_if<Box>(&outline)) return box_centre_m(*box, predicted_centre_m, observation, config);
+Vector2d seen_centre_m(const Outline& outline, const Vector2d& predicted_centre_m,
+                       const Observation& observation, const TrackingConfig& config) {
+  if (const Box* box = std::get_if<Box>(&outline))
+    return box_centre_m(*box, predicted_centre_m, observation, config);
   return measure_blob(std::get<Blob>(outline), observation, config).centre_m;
 }
 
@@ -51,8 +54,10 @@ void store_contour(Extent& extent, const Observation& observation) {
     extent.contour_in_odom_m.push_back(observation.points_m[i].cast<float>());
 }
 
-double distance_from_sides_m(const Footprint& footprint, const Vector2d& centre_m, std::span<const Vector2d> points_m) {
-  const sensing::BoxSides sides(sensing::OrientedBox{centre_m, footprint.heading_rad, footprint.length.value_m, footprint.width.value_m});
+double distance_from_sides_m(const Footprint& footprint, const Vector2d& centre_m,
+                             std::span<const Vector2d> points_m) {
+  const sensing::BoxSides sides(sensing::OrientedBox{
+      centre_m, footprint.heading_rad, footprint.length.value_m, footprint.width.value_m});
   double sum_m = 0.0;
   for (const Vector2d& point_m : points_m) sum_m += sides.distance_m(point_m);
   return sum_m / static_cast<double>(points_m.size());

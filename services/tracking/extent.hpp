@@ -32,20 +32,23 @@ struct OutlineMeasurement : CentreMeasurement {
 };
 
 /// Centre and sizes from one observation.
-OutlineMeasurement measure(const Outline& outline, const Eigen::Vector2d& predicted_centre_m, const Observation& observation, const TrackingConfig& config);
+OutlineMeasurement measure(const Outline& outline, const Eigen::Vector2d& predicted_centre_m,
+                           const Observation& observation, const TrackingConfig& config);
 
 /// Centre of an outline of exactly this size.
-Eigen::Vector2d seen_centre_m(const Outline& outline, const Eigen::Vector2d& predicted_centre_m, const Observation& observation, const TrackingConfig& config);
+Eigen::Vector2d seen_centre_m(const Outline& outline, const Eigen::Vector2d& predicted_centre_m,
+                              const Observation& observation, const TrackingConfig& config);
 
 /// Size and shape of an object, and how well they fit its echoes.
 struct Extent {
   Outline outline;
-  std::vector<Eigen::Vector2f> contour_in_odom_m;  ///< Echoes of the last observation, at most 64, at its time.
+  std::vector<Eigen::Vector2f> contour_in_odom_m;  ///< Echoes of the last observation, at most 64,
+                                                   ///< at its time.
   double largest_span_m = 0.0;                     ///< Largest span of one observation.
   double range_m = 0.0;                            ///< From the laser at the last observation.
   ResponseRate responses;
-  HeadingNoise heading_noise;                      ///< Of a box.
-  OutlineError outline_error;                      ///< Of a confirmed box.
+  HeadingNoise heading_noise;  ///< Of a box.
+  OutlineError outline_error;  ///< Of a confirmed box.
   MisfitTimes misfit;
 
   const Box* box() const { return std::get_if<Box>(&outline); }
@@ -60,6 +63,7 @@ struct Extent {
 void store_contour(Extent& extent, const Observation& observation);
 
 /// Mean distance of the points from the sides of the rectangle.
-double distance_from_sides_m(const Footprint& footprint, const Eigen::Vector2d& centre_m, std::span<const Eigen::Vector2d> points_m);
+double distance_from_sides_m(const Footprint& footprint, const Eigen::Vector2d& centre_m,
+                             std::span<const Eigen::Vector2d> points_m);
 
 }  // namespace slammot::tracking

@@ -10,13 +10,15 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kFewestEchoes = 4;
-constexpr double kStraightM = 0.06;        ///< One sigma of echoes of one side about a line, beside their noise.
-constexpr double kNarrowestM = 0.8;        ///< Of a vehicle's front, which may be partly hidden.
+constexpr double kStraightM = 0.06;  ///< One sigma of echoes of one side about a line, beside their
+                                     ///< noise.
+constexpr double kNarrowestM = 0.8;  ///< Of a vehicle's front, which may be partly hidden.
 constexpr double kWidestM = 2.8;
-constexpr double kMiddleShare = 0.8;       ///< Of the side: at its ends the flanks begin.
-constexpr double kFarthestM = 1.2;         ///< Largest displacement of a slow object.
+constexpr double kMiddleShare = 0.8;  ///< Of the side: at its ends the flanks begin.
+constexpr double kFarthestM = 1.2;    ///< Largest displacement of a slow object.
 constexpr double kLeastShiftM = 0.08;
-constexpr double kLeastShiftPerM = 0.004;  ///< Of range: errors of the heading, and the change of view of a distant side.
+constexpr double kLeastShiftPerM = 0.004;  ///< Of range: errors of the heading, and the change of
+                                           ///< view of a distant side.
 constexpr double kSigmas = 4.0;
 
 /// A straight line through echoes.
@@ -25,13 +27,14 @@ struct Face {
   Vector2d along = Vector2d::UnitX();
   Vector2d normal = Vector2d::UnitY();
   double half_width_m = 0.0;
-  double off_m = 0.0;                      ///< RMS distance of the echoes from the line.
-  double gap_from_m = 0.0;                 ///< Along it, from the middle: the gap between two pieces.
+  double off_m = 0.0;       ///< RMS distance of the echoes from the line.
+  double gap_from_m = 0.0;  ///< Along it, from the middle: the gap between two pieces.
   double gap_to_m = 0.0;
 };
 
 /// Line through one run of beams, or through two, the later last.
-Face face_through(std::span<const std::uint16_t> first, std::span<const std::uint16_t> last, const PolarView& view) {
+Face face_through(std::span<const std::uint16_t> first, std::span<const std::uint16_t> last,
+                  const PolarView& view) {
   const auto count = static_cast<double>(first.size() + last.size());
   Face face;
   for (const auto run : {first, last})
@@ -49,7 +52,8 @@ Face face_through(std::span<const std::uint16_t> first, std::span<const std::uin
   face.normal = {-face.along.y(), face.along.x()};
   face.off_m = std::sqrt(std::max(0.0, face.normal.dot(spread * face.normal)) / count);
   const double first_m = face.along.dot(view.point_in_odom_m(first.front()) - face.middle_m);
-  const double last_m = face.along.dot(view.point_in_odom_m(last.empty() ? first.back() : last.back()) - face.middle_m);
+  const double last_m = face.along.dot(
+      view.point_in_odom_m(last.empty() ? first.back() : last.back()) - face.middle_m);
   face.half_width_m = 0.5 * std::abs(last_m - first_m);
   return face;
 }
@@ -81,15 +85,19 @@ struct Sum {
 };
 
 /// One side, or two sides that meet in a corner.
-std::array<std::span<const std::uint16_t>, 2> sides_of(std::span<const std::uint16_t> beams, const PolarView& view, const TrackingConfig& config) {
+std::array<std::span<const std::uint16_t>, 2> sides_of(std::span<const std::uint16_t> beams,
+                                                       const PolarView& view,
+                                                       const TrackingConfig& config) {
   constexpr double kCornerM = 0.25;
   const Corner corner = corner_of(beams, view);
   if (corner.off_m <= kCornerM * config.size_scale) return {beams, {}};
   return {beams.first(corner.index + 1), beams.subspan(corner.index)};
 }
 
-/// Distance of the face along its normal from here, in an earlier scan. None where it was not fully in view, hidden or bent.
-std::optional<double> off_then_m(const Face& face, const PolarView& now, const EarlierScan& then, double echo_sigma_m, double size_scale) {
+/// Distance of the face along its normal from here, in an earlier scan. None where it was not fully
+/// in view, hidden or bent.
+std::optional<double> off_then_m(const Face& face, const PolarView& now, const EarlierScan& then,
+                                 double echo_sigma_m, double size_scale) {
   const double farthest_m = kFarthestM * size_scale;
   const PolarView& view = then.view;
   const auto last_beam = static_cast<long>(view.beam_count()) - 1;
@@ -97,7 +105,8 @@ std::optional<double> off_then_m(const Face& face, const PolarView& now, const E
   long last = 0;
   for (const double along_m : {-face.half_width_m, face.half_width_m})
     for (const double off_m : {-farthest_m, farthest_m}) {
-      const long beam = view.beam_towards(face.middle_m + along_m * face.along + off_m * face.normal - view.laser_in_odom_m());
+      const long beam = view.beam_towards(face.middle_m + along_m * face.along +
+                                          off_m * face.normal - view.laser_in_odom_m());
       first = std::min(first, beam), last = std::max(last, beam);
     }
   if (first < 1 || last >= last_beam) return std::nullopt;  // not all of it was in view
@@ -119,7 +128,8 @@ std::optional<double> off_then_m(const Face& face, const PolarView& now, const E
     if (then.owners[beam].is_confirmed) return std::nullopt;
     off.add(off_m);
   }
-  if (off.count < static_cast<double>(kFewestEchoes) || off.count < static_cast<double>(through)) return std::nullopt;
+  if (off.count < static_cast<double>(kFewestEchoes) || off.count < static_cast<double>(through))
+    return std::nullopt;
   if (off.sigma() > std::hypot(kStraightM * size_scale, echo_sigma_m)) return std::nullopt;
   return off.mean();
 }
@@ -131,13 +141,15 @@ struct Sought {
   double size_scale = 1.0;
 };
 
-/// Distance of the face from here in the first of the earlier scans in which it was elsewhere, if another agrees on the side and no
-/// older one has it here; else zero.
-double agreed_off_m(const Face& face, const PolarView& now, std::span<const EarlierScan* const> earlier, const Sought& sought) {
+/// Distance of the face from here in the first of the earlier scans in which it was elsewhere, if
+/// another agrees on the side and no older one has it here; else zero.
+double agreed_off_m(const Face& face, const PolarView& now,
+                    std::span<const EarlierScan* const> earlier, const Sought& sought) {
   double first_off_m = 0.0;
   int agreeing = 0;
   for (const EarlierScan* then : earlier) {
-    const std::optional<double> off_m = off_then_m(face, now, *then, sought.echo_sigma_m, sought.size_scale);
+    const std::optional<double> off_m =
+        off_then_m(face, now, *then, sought.echo_sigma_m, sought.size_scale);
     if (!off_m) continue;
     if (std::abs(*off_m) < sought.least_m) {
       if (agreeing > 0) return 0.0;
@@ -158,53 +170,71 @@ struct Asked {
 };
 
 /// A side is at most as wide as its ends are apart: needs no line. Up to rounding.
-bool is_surely_too_narrow(std::span<const std::uint16_t> side, const PolarView& view, const TrackingConfig& config) {
+bool is_surely_too_narrow(std::span<const std::uint16_t> side, const PolarView& view,
+                          const TrackingConfig& config) {
   constexpr double kSurely = 1.0 - 1e-9;
   const double most_m = kSurely * kNarrowestM * config.size_scale;
-  return (view.point_in_odom_m(side.back()) - view.point_in_odom_m(side.front())).squaredNorm() < most_m * most_m;
+  return (view.point_in_odom_m(side.back()) - view.point_in_odom_m(side.front())).squaredNorm() <
+         most_m * most_m;
 }
 
-/// Displacement of a face with this number of echoes; zero if it has not moved, or is too narrow, too wide or bent.
+/// Displacement of a face with this number of echoes; zero if it has not moved, or is too narrow,
+/// too wide or bent.
 Vector2d shift_of(const Face& face, std::size_t echoes, const PolarView& now, const Asked& asked) {
   const TrackingConfig& config = asked.config;
-  if (2.0 * face.half_width_m < kNarrowestM * config.size_scale || 2.0 * face.half_width_m > kWidestM * config.size_scale) return Vector2d::Zero();
+  if (2.0 * face.half_width_m < kNarrowestM * config.size_scale ||
+      2.0 * face.half_width_m > kWidestM * config.size_scale)
+    return Vector2d::Zero();
   const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
   const double echo_m = echo_sigma_m(range_m, config);
   if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_m)) return Vector2d::Zero();
-  const double sigma_m = std::hypot(asked.pose_sigma_m(), echo_m * std::sqrt(2.0 / static_cast<double>(echoes)));
-  const double least_m = std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
-  return -agreed_off_m(face, now, asked.earlier, {echo_m, least_m, config.size_scale}) * face.normal;
+  const double sigma_m =
+      std::hypot(asked.pose_sigma_m(), echo_m * std::sqrt(2.0 / static_cast<double>(echoes)));
+  const double least_m =
+      std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
+  return -agreed_off_m(face, now, asked.earlier, {echo_m, least_m, config.size_scale}) *
+         face.normal;
 }
 
 }  // namespace
 
-std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams, const PolarView& now,
-                                    std::span<const EarlierScan* const> earlier, const std::function<double()>& pose_sigma_m, const TrackingConfig& config) {
+std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams,
+                                    const PolarView& now,
+                                    std::span<const EarlierScan* const> earlier,
+                                    const std::function<double()>& pose_sigma_m,
+                                    const TrackingConfig& config) {
   if (segment_beams.size() < kFewestEchoes) return std::nullopt;
   std::optional<FaceShift> best;
   for (const auto side : sides_of(segment_beams, now, config)) {
     if (side.size() < kFewestEchoes || is_surely_too_narrow(side, now, config)) continue;
-    const Vector2d shift_m = shift_of(face_through(side, {}, now), side.size(), now, {earlier, pose_sigma_m, config});
+    const Vector2d shift_m =
+        shift_of(face_through(side, {}, now), side.size(), now, {earlier, pose_sigma_m, config});
     if (shift_m.isZero() || (best && best->shift_m.norm() > shift_m.norm())) continue;
     best = FaceShift{side, shift_m};
   }
   return best;
 }
 
-std::optional<FaceShift> face_shift_with(std::span<const std::uint16_t> other_beams, std::span<const std::uint16_t> segment_beams, const PolarView& now,
-                                         std::span<const EarlierScan* const> earlier, const std::function<double()>& pose_sigma_m, const TrackingConfig& config) {
+std::optional<FaceShift> face_shift_with(std::span<const std::uint16_t> other_beams,
+                                         std::span<const std::uint16_t> segment_beams,
+                                         const PolarView& now,
+                                         std::span<const EarlierScan* const> earlier,
+                                         const std::function<double()>& pose_sigma_m,
+                                         const TrackingConfig& config) {
   if (std::min(segment_beams.size(), other_beams.size()) < kFewestEchoes) return std::nullopt;
   const auto first = segment_beams.front() < other_beams.front() ? segment_beams : other_beams;
   const auto last = segment_beams.front() < other_beams.front() ? other_beams : segment_beams;
   if (first.back() >= last.front()) return std::nullopt;
-  const double width_m = (now.point_in_odom_m(last.back()) - now.point_in_odom_m(first.front())).norm();
+  const double width_m =
+      (now.point_in_odom_m(last.back()) - now.point_in_odom_m(first.front())).norm();
   if (width_m > kWidestM * config.size_scale) return std::nullopt;
   Face face = face_through(first, last, now);
   const double from_m = face.along.dot(now.point_in_odom_m(first.back()) - face.middle_m);
   const double to_m = face.along.dot(now.point_in_odom_m(last.front()) - face.middle_m);
   face.gap_from_m = std::min(from_m, to_m);
   face.gap_to_m = std::max(from_m, to_m);
-  const Vector2d shift_m = shift_of(face, first.size() + last.size(), now, {earlier, pose_sigma_m, config});
+  const Vector2d shift_m =
+      shift_of(face, first.size() + last.size(), now, {earlier, pose_sigma_m, config});
   if (shift_m.isZero()) return std::nullopt;
   return FaceShift{segment_beams, shift_m};
 }

@@ -8,30 +8,36 @@ namespace {
 using Eigen::Matrix2d;
 using flow::TrackId;
 
-constexpr double kAlikeForS = 1.0;         ///< Before two tracks belong together.
-constexpr double kReachM = 18.0;           ///< Between neighbours in a queue.
-constexpr double kMostApartMps = 1.0;      ///< Largest difference of their velocities,
-constexpr double kMostApartShare = 0.15;   ///< plus this share of them.
-constexpr double kSlowestMps = 1.0;        ///< Of a member.
-constexpr double kSharedShare = 0.9;       ///< Of the process noise, common to the members: they brake for the same light.
+constexpr double kAlikeForS = 1.0;        ///< Before two tracks belong together.
+constexpr double kReachM = 18.0;          ///< Between neighbours in a queue.
+constexpr double kMostApartMps = 1.0;     ///< Largest difference of their velocities,
+constexpr double kMostApartShare = 0.15;  ///< plus this share of them.
+constexpr double kSlowestMps = 1.0;       ///< Of a member.
+constexpr double kSharedShare = 0.9;  ///< Of the process noise, common to the members: they brake
+                                      ///< for the same light.
 constexpr std::size_t kMostMembers = 6;
 
 bool may_be_member(const Track& track, const TrackingConfig& config) {
-  return track.existence.confirmed && track.extent.box() != nullptr && track.velocity_mps().norm() > kSlowestMps * config.size_scale;
+  return track.existence.confirmed && track.extent.box() != nullptr &&
+         track.velocity_mps().norm() > kSlowestMps * config.size_scale;
 }
 
 bool go_alike(const Track& a, const Track& b, const TrackingConfig& config) {
-  const double most_mps = kMostApartMps * config.size_scale + kMostApartShare * a.velocity_mps().norm();
-  return may_be_member(a, config) && may_be_member(b, config) && (a.position_m() - b.position_m()).norm() < kReachM * config.size_scale &&
+  const double most_mps =
+      kMostApartMps * config.size_scale + kMostApartShare * a.velocity_mps().norm();
+  return may_be_member(a, config) && may_be_member(b, config) &&
+         (a.position_m() - b.position_m()).norm() < kReachM * config.size_scale &&
          (a.velocity_mps() - b.velocity_mps()).norm() < most_mps;
 }
 
 Track& track_of(TrackId id, std::vector<Track>& tracks) {
-  return *std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) { return track.track_id == id; });
+  return *std::find_if(tracks.begin(), tracks.end(),
+                       [id](const Track& track) { return track.track_id == id; });
 }
 
 filters::FormationMotion queue_motion(const TrackingConfig& config) {
-  return {{filters::MotionKind::kConstantAcceleration, config.jerk_noise_density, 0.0}, kSharedShare};
+  return {{filters::MotionKind::kConstantAcceleration, config.jerk_noise_density, 0.0},
+          kSharedShare};
 }
 
 }  // namespace
@@ -56,14 +62,17 @@ void Formations::note_pairs(const std::vector<Track>& tracks, double time_s) {
 std::vector<std::vector<TrackId>> Formations::groups(const std::vector<Track>& tracks) const {
   std::vector<std::vector<TrackId>> all;
   std::vector<TrackId> taken;
-  const auto is_taken = [&](TrackId id) { return std::find(taken.begin(), taken.end(), id) != taken.end(); };
+  const auto is_taken = [&](TrackId id) {
+    return std::find(taken.begin(), taken.end(), id) != taken.end();
+  };
   for (const Track& first : tracks) {
     if (is_taken(first.track_id)) continue;
     std::vector<TrackId> group = {first.track_id};
     taken.push_back(first.track_id);
     for (std::size_t next = 0; next < group.size(); ++next) {
       for (const auto& [pair, time_s] : alike_s_) {
-        if (time_s < kAlikeForS || (pair.first != group[next] && pair.second != group[next])) continue;
+        if (time_s < kAlikeForS || (pair.first != group[next] && pair.second != group[next]))
+          continue;
         const TrackId other = pair.first == group[next] ? pair.second : pair.first;
         if (is_taken(other) || group.size() == kMostMembers) continue;
         group.push_back(other);
@@ -76,10 +85,13 @@ std::vector<std::vector<TrackId>> Formations::groups(const std::vector<Track>& t
   return all;
 }
 
-Formations::Formation Formations::initiated(const std::vector<TrackId>& members, const std::vector<Track>& tracks) const {
+Formations::Formation Formations::initiated(const std::vector<TrackId>& members,
+                                            const std::vector<Track>& tracks) const {
   std::vector<filters::MotionState> states;
   for (const TrackId id : members)
-    states.push_back(std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) { return track.track_id == id; })->kinematics.estimate);
+    states.push_back(std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) {
+                       return track.track_id == id;
+                     })->kinematics.estimate);
   return {members, filters::formation_of(states)};
 }
 
@@ -89,12 +101,14 @@ void Formations::step(Formation& formation, std::vector<Track>& tracks, double t
   for (std::size_t i = 0; i < formation.members.size(); ++i) {
     const Track& track = track_of(formation.members[i], tracks);
     filters::formation_shift(formation.state, i, track.kinematics.recentred_m);
-    if (track.kinematics.measured) fixes.push_back({i, track.kinematics.measured->centre_m, track.kinematics.measured->R});
+    if (track.kinematics.measured)
+      fixes.push_back({i, track.kinematics.measured->centre_m, track.kinematics.measured->R});
   }
   formation.state = filters::update(formation.state, fixes, Matrix2d::Zero());
   for (std::size_t i = 0; i < formation.members.size(); ++i) {
     Track& track = track_of(formation.members[i], tracks);
-    if (!track.kinematics.measured && !fixes.empty()) restart_from(track.kinematics, filters::member_of(formation.state, i), config_);
+    if (!track.kinematics.measured && !fixes.empty())
+      restart_from(track.kinematics, filters::member_of(formation.state, i), config_);
   }
 }
 
@@ -102,7 +116,9 @@ void Formations::follow(std::vector<Track>& tracks, double time_s) {
   note_pairs(tracks, time_s);
   std::vector<Formation> now;
   for (const std::vector<TrackId>& members : groups(tracks)) {
-    const auto known = std::find_if(formations_.begin(), formations_.end(), [&](const Formation& formation) { return formation.members == members; });
+    const auto known =
+        std::find_if(formations_.begin(), formations_.end(),
+                     [&](const Formation& formation) { return formation.members == members; });
     if (known == formations_.end()) {
       now.push_back(initiated(members, tracks));
       continue;

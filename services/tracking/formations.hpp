@@ -10,13 +10,14 @@
 
 namespace slammot::tracking {
 
-/// Vehicles in a queue, tracked as one system beside their own filters (Wang 2004, Section 4.7). An observed member keeps the estimate of
-/// its own filter; a hidden one follows the others.
+/// Vehicles in a queue, tracked as one system beside their own filters (Wang 2004, Section 4.7). An
+/// observed member keeps the estimate of its own filter; a hidden one follows the others.
 class Formations {
  public:
   explicit Formations(const TrackingConfig& config) : config_(config) {}
 
-  /// Updates the formations by the tracks after a scan, time_s (>= 0) after the one before, and moves the members not observed in it.
+  /// Updates the formations by the tracks after a scan, time_s (>= 0) after the one before, and
+  /// moves the members not observed in it.
   void follow(std::vector<Track>& tracks, double time_s);
 
  private:
@@ -28,11 +29,12 @@ class Formations {
 
   void note_pairs(const std::vector<Track>& tracks, double time_s);
   std::vector<std::vector<flow::TrackId>> groups(const std::vector<Track>& tracks) const;
-  Formation initiated(const std::vector<flow::TrackId>& members, const std::vector<Track>& tracks) const;
+  Formation initiated(const std::vector<flow::TrackId>& members,
+                      const std::vector<Track>& tracks) const;
   void step(Formation& formation, std::vector<Track>& tracks, double time_s) const;
 
   TrackingConfig config_;
-  std::map<Pair, double> alike_s_;       ///< How long two tracks have moved alike.
+  std::map<Pair, double> alike_s_;  ///< How long two tracks have moved alike.
   std::vector<Formation> formations_;
 };
 

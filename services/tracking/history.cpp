@@ -10,7 +10,8 @@ Observation StoredObservation::with_points() const {
   return seen;
 }
 
-void ObservationHistory::add(std::int64_t stamp_ns, const Observation& observation, const Eigen::Matrix2d& pose_covariance_m2) {
+void ObservationHistory::add(std::int64_t stamp_ns, const Observation& observation,
+                             const Eigen::Matrix2d& pose_covariance_m2) {
   if (stored_.size() == kMost) stored_.pop_front();
   StoredObservation& stored = stored_.push_back();
   stored.stamp_ns = stamp_ns;

@@ -15,9 +15,9 @@ namespace slammot::tracking {
 
 /// An observation with its points, kept for refiltering.
 struct StoredObservation {
-  std::int64_t stamp_ns = 0;                 ///< Of its beams, not of the scan.
-  std::vector<Eigen::Vector2d> points_m;     ///< Copied.
-  Observation observation;                   ///< Its own points may be gone: use with_points().
+  std::int64_t stamp_ns = 0;              ///< Of its beams, not of the scan.
+  std::vector<Eigen::Vector2d> points_m;  ///< Copied.
+  Observation observation;                ///< Its own points may be gone: use with_points().
   Eigen::Matrix2d pose_covariance_m2 = Eigen::Matrix2d::Zero();
 
   /// The observation of the stored points; valid while this is.
@@ -29,7 +29,8 @@ class ObservationHistory {
  public:
   static constexpr std::size_t kMost = 40;  ///< The oldest ones beyond this are dropped.
 
-  void add(std::int64_t stamp_ns, const Observation& observation, const Eigen::Matrix2d& pose_covariance_m2);
+  void add(std::int64_t stamp_ns, const Observation& observation,
+           const Eigen::Matrix2d& pose_covariance_m2);
   void clear() { stored_.clear(); }
   std::size_t size() const { return stored_.size(); }
   /// 0: the oldest.
@@ -41,20 +42,21 @@ class ObservationHistory {
 
 /// Points of a track in an earlier scan.
 struct PastPoints {
-  std::size_t scanner = 0;                   ///< Index of the scanner, in the order of their first scans.
+  std::size_t scanner = 0;  ///< Index of the scanner, in the order of their first scans.
   flow::RestoredPoints points;
 };
 
 /// When, where and by which scanner an object was observed.
-/// Invariant: observations and past points are those of a tentative track; confirmation clears them.
+/// Invariant: observations and past points are those of a tentative track; confirmation clears
+/// them.
 struct History {
   std::int64_t first_seen_ns = 0;
   std::int64_t last_seen_ns = 0;
-  MeasuredCentre birth;                             ///< Where it was first seen, by its present extent.
+  MeasuredCentre birth;  ///< Where it was first seen, by its present extent.
   ObservationHistory observations;
-  memory::RecyclingQueue<PastPoints> past_points;   ///< Newest last.
-  std::size_t scanner = 0;                          ///< The last scanner that had it in its field of view.
-  double since_in_view_s = 0.0;                     ///< Since the last scan that had it in its field of view.
+  memory::RecyclingQueue<PastPoints> past_points;  ///< Newest last.
+  std::size_t scanner = 0;       ///< The last scanner that had it in its field of view.
+  double since_in_view_s = 0.0;  ///< Since the last scan that had it in its field of view.
 };
 
 /// An empty history in the memory of one that is no longer needed.

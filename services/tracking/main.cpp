@@ -1,3 +1,5 @@
 #include "services/tracking/tracking_service.hpp"
 
-int main(int argc, char** argv) { return slammot::app::run_service<slammot::tracking::TrackingService>(argc, argv); }
+int main(int argc, char** argv) {
+  return slammot::app::run_service<slammot::tracking::TrackingService>(argc, argv);
+}

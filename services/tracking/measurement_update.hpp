@@ -10,10 +10,11 @@
 
 namespace slammot::tracking {
 
-/// Updates kinematics, extent, consistency and class by an observation at stamp_ns; pose_covariance_m2: of the vehicle's pose at the
-/// track. False, and only the heading changed, if a confirmed track rejects the observation as too far from its prediction.
-bool update(Track& track, std::int64_t stamp_ns, const Observation& observation, const Eigen::Matrix2d& pose_covariance_m2,
-            const TrackingConfig& config);
+/// Updates kinematics, extent, consistency and class by an observation at stamp_ns;
+/// pose_covariance_m2: of the vehicle's pose at the track. False, and only the heading changed, if
+/// a confirmed track rejects the observation as too far from its prediction.
+bool update(Track& track, std::int64_t stamp_ns, const Observation& observation,
+            const Eigen::Matrix2d& pose_covariance_m2, const TrackingConfig& config);
 
 /// Counts the observation: hits, stamp, contour.
 void note_observation(Track& track, std::int64_t stamp_ns, const Observation& observation);

@@ -12,7 +12,9 @@ struct Spread {
   double least_m = std::numeric_limits<double>::max();
   double most_m = std::numeric_limits<double>::lowest();
 
-  void include(double value_m) { least_m = std::min(least_m, value_m), most_m = std::max(most_m, value_m); }
+  void include(double value_m) {
+    least_m = std::min(least_m, value_m), most_m = std::max(most_m, value_m);
+  }
   double width_m() const { return most_m - least_m; }
   bool has_in_middle(double value_m) const {
     constexpr double kEndShare = 0.2;
@@ -23,7 +25,10 @@ struct Spread {
 /// Mean of the points on a side. Its round ends are left out if enough points remain.
 class SideMean {
  public:
-  void include(double at_m, bool is_in_middle) { sum_m_ += at_m, ++count_; if (is_in_middle) middle_sum_m_ += at_m, ++middle_count_; }
+  void include(double at_m, bool is_in_middle) {
+    sum_m_ += at_m, ++count_;
+    if (is_in_middle) middle_sum_m_ += at_m, ++middle_count_;
+  }
   double mean_m() const {
     constexpr int kFewestInMiddle = 3;
     return middle_count_ >= kFewestInMiddle ? middle_sum_m_ / middle_count_ : sum_m_ / count_;
@@ -61,11 +66,15 @@ Projection span_of(const Observation& observation, const Vector2d& origin_m, con
   return projection;
 }
 
-Projection projection_of(const Observation& observation, const Vector2d& origin_m, const Vector2d& axis, double face_depth_m) {
+Projection projection_of(const Observation& observation, const Vector2d& origin_m,
+                         const Vector2d& axis, double face_depth_m) {
   Projection projection = span_of(observation, origin_m, axis);
   const double inwards = axis.dot(observation.laser_m - origin_m) < 0.0 ? 1.0 : -1.0;
-  const double behind_face_m = (inwards > 0.0 ? projection.low_m : -projection.high_m) + face_depth_m;
-  const auto across_of = [&](const Vector2d& point) { return axis.x() * point.y() - axis.y() * point.x(); };
+  const double behind_face_m =
+      (inwards > 0.0 ? projection.low_m : -projection.high_m) + face_depth_m;
+  const auto across_of = [&](const Vector2d& point) {
+    return axis.x() * point.y() - axis.y() * point.x();
+  };
   Spread across;
   for (const Vector2d& point : observation.points_m)
     if (inwards * axis.dot(point - origin_m) < behind_face_m) across.include(across_of(point));
@@ -81,8 +90,8 @@ Projection projection_of(const Observation& observation, const Vector2d& origin_
 }
 
 Projection mirrored(const Projection& projection) {
-  return {-projection.high_m, -projection.low_m, projection.high_edge, projection.low_edge,
-          projection.count, -projection.face_m, projection.face_across_m, projection.face_count};
+  return {-projection.high_m, -projection.low_m,  projection.high_edge,     projection.low_edge,
+          projection.count,   -projection.face_m, projection.face_across_m, projection.face_count};
 }
 
 }  // namespace slammot::tracking

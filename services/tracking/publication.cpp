@@ -11,35 +11,41 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// True for a vehicle whose velocity was unknown a moment ago and that is elsewhere than predicted: it may be another one.
+/// True for a vehicle whose velocity was unknown a moment ago and that is elsewhere than predicted:
+/// it may be another one.
 bool may_be_another(const Track& track) {
   constexpr double kMostNis = 4.0;  // twice the mean of a consistent filter
   constexpr std::int64_t kLongestNs = 1'000'000'000;
   const std::int64_t known_since_ns = track.existence.velocity_check.known_since_ns;
-  const bool is_known_again = known_since_ns != 0 && track.history.last_seen_ns - known_since_ns < kLongestNs;
+  const bool is_known_again =
+      known_since_ns != 0 && track.history.last_seen_ns - known_since_ns < kLongestNs;
   return is_vehicle(track) && is_known_again && track.existence.consistency.nis > kMostNis;
 }
 
-/// True if the object has not travelled and seems to stand already: it may never have moved. Where only people move it is the
-/// standing foot of a pedestrian.
+/// True if the object has not travelled and seems to stand already: it may never have moved. Where
+/// only people move it is the standing foot of a pedestrian.
 bool may_always_have_stood(const Track& track, const TrackingConfig& config) {
-  const bool seems_to_stand = track.kinematics.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps;
+  const bool seems_to_stand =
+      track.kinematics.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps;
   return !only_people_move(config) && track.existence.travel.travelled_m == 0.0 && seems_to_stand;
 }
 
 double unseen_s(const Track& track, std::int64_t stamp_ns) {
-  constexpr double kLongestBetweenScansS = 0.25;  // between two scans of its scanner an object is not unseen
+  constexpr double kLongestBetweenScansS = 0.25;  // between two scans of its scanner an object is
+                                                  // not unseen
   const double since_in_view_s = std::min(track.history.since_in_view_s, kLongestBetweenScansS);
   return static_cast<double>(stamp_ns - track.history.last_seen_ns) * 1e-9 - since_in_view_s;
 }
 
 /// Prediction of the mixture for three seconds. An object held to stand may start in any mode.
-void predict_path(const Track& track, const Matrix2d& common_error_m2, const TrackingConfig& config, std::vector<flow::PredictedPosition>& path) {
+void predict_path(const Track& track, const Matrix2d& common_error_m2, const TrackingConfig& config,
+                  std::vector<flow::PredictedPosition>& path) {
   constexpr std::size_t kSteps = 6;
   constexpr double kStepS = 0.5;
   const Kinematics& kinematics = track.kinematics;
   filters::ImmState now = kinematics.mixture;
-  if (kinematics.move_stop.stands) now.modes.fill(filters::estimate_of(kinematics.move_stop, kinematics.estimate));
+  if (kinematics.move_stop.stands)
+    now.modes.fill(filters::estimate_of(kinematics.move_stop, kinematics.estimate));
   std::array<filters::Gaussian<2>, kSteps> predicted;
   filters::imm_foretell(models_of(kinematics, config), now, kStepS, predicted);
   for (const filters::Gaussian<2>& there : predicted) {
@@ -50,11 +56,16 @@ void predict_path(const Track& track, const Matrix2d& common_error_m2, const Tra
 
 void publish_motion(const Track& track, const TrackingConfig& config, flow::TrackedObject& object) {
   const Kinematics& kinematics = track.kinematics;
-  const filters::MotionState estimate = filters::estimate_of(kinematics.move_stop, kinematics.estimate);
+  const filters::MotionState estimate =
+      filters::estimate_of(kinematics.move_stop, kinematics.estimate);
   object.velocity_in_odom_mps = estimate.mean.segment<2>(2);
-  object.position_in_odom_m = track.position_m() - kinematics.time_offset_s * object.velocity_in_odom_mps;
+  object.position_in_odom_m =
+      track.position_m() - kinematics.time_offset_s * object.velocity_in_odom_mps;
   const Eigen::DiagonalMatrix<double, 4> factors = noise_factors(track, config);
-  object.covariance = factors * covariance_after(kinematics.estimate.covariance.topLeftCorner<4, 4>(), -kinematics.time_offset_s) * factors;
+  object.covariance = factors *
+                      covariance_after(kinematics.estimate.covariance.topLeftCorner<4, 4>(),
+                                       -kinematics.time_offset_s) *
+                      factors;
   object.acceleration_in_odom_mps2 = estimate.mean.segment<2>(4);
   object.motion = kinematics.move_stop.stands ? flow::Motion::kStopped : kinematics.state;
   object.mode_probability = kinematics.mixture.probability;
@@ -62,7 +73,9 @@ void publish_motion(const Track& track, const TrackingConfig& config, flow::Trac
 
 void publish_extent(const Track& track, flow::TrackedObject& object) {
   const Footprint& footprint = track.footprint();
-  object.heading_in_odom_rad = track.extent.box() != nullptr ? footprint.heading_rad : course_of(track.kinematics).heading_rad;
+  object.heading_in_odom_rad = track.extent.box() != nullptr
+                                   ? footprint.heading_rad
+                                   : course_of(track.kinematics).heading_rad;
   object.length_m = footprint.length.value_m;
   object.width_m = footprint.width.value_m;
   object.contour_in_odom_m = track.extent.contour_in_odom_m;
@@ -72,12 +85,14 @@ void publish_extent(const Track& track, flow::TrackedObject& object) {
 
 bool is_published(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
   const Existence& existence = track.existence;
-  return existence.confirmed && !existence.velocity_check.is_refuted && !may_always_have_stood(track, config) && existence.score >= config.publish_score &&
+  return existence.confirmed && !existence.velocity_check.is_refuted &&
+         !may_always_have_stood(track, config) && existence.score >= config.publish_score &&
          has_published_velocity(track, config) && !may_be_another(track) &&
          unseen_s(track, stamp_ns) <= config.longest_unseen_published_s;
 }
 
-void publish(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config, flow::TrackedObject& object) {
+void publish(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config,
+             flow::TrackedObject& object) {
   object.track_id = track.track_id;
   object.confirmed = is_published(track, stamp_ns, config);
   object.existence = existence_of(track.existence.score);
@@ -87,17 +102,21 @@ void publish(const Track& track, std::int64_t stamp_ns, const TrackingConfig& co
   object.last_seen_ns = track.history.last_seen_ns;
   publish_motion(track, config, object);
   publish_extent(track, object);
-  const Matrix2d common_error_m2 = common_error_covariance(track, object.heading_in_odom_rad, config);
+  const Matrix2d common_error_m2 =
+      common_error_covariance(track, object.heading_in_odom_rad, config);
   object.covariance.topLeftCorner<2, 2>() += common_error_m2;
   object.predicted_path.clear();
-  if (track.existence.confirmed) predict_path(track, common_error_m2, config, object.predicted_path);
+  if (track.existence.confirmed)
+    predict_path(track, common_error_m2, config, object.predicted_path);
   // Everything is published at the stamp, and estimated when its beam is fired.
   const Vector2d since_stamp_m = track.kinematics.time_offset_s * object.velocity_in_odom_mps;
   for (Eigen::Vector2f& point_m : object.contour_in_odom_m) point_m -= since_stamp_m.cast<float>();
-  for (flow::PredictedPosition& there : object.predicted_path) there.position_in_odom_m -= since_stamp_m;
+  for (flow::PredictedPosition& there : object.predicted_path)
+    there.position_in_odom_m -= since_stamp_m;
 }
 
-flow::TrackedObject published(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
+flow::TrackedObject published(const Track& track, std::int64_t stamp_ns,
+                              const TrackingConfig& config) {
   flow::TrackedObject object;
   publish(track, stamp_ns, config, object);
   return object;

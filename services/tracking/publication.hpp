@@ -8,13 +8,16 @@
 
 namespace slammot::tracking {
 
-/// True if the track is published as confirmed at this stamp: confirmed, recently seen, with a known velocity that nothing contradicts.
+/// True if the track is published as confirmed at this stamp: confirmed, recently seen, with a
+/// known velocity that nothing contradicts.
 bool is_published(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
 
 /// Writes the track as it is published at this stamp. All members of the object are overwritten.
-void publish(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config, flow::TrackedObject& object);
+void publish(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config,
+             flow::TrackedObject& object);
 
 /// The same as a value.
-flow::TrackedObject published(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
+flow::TrackedObject published(const Track& track, std::int64_t stamp_ns,
+                              const TrackingConfig& config);
 
 }  // namespace slammot::tracking

@@ -24,12 +24,14 @@ Observation observation_of(const StoredObservation& stored, const Track& track) 
 filters::MotionState first_state(const Track& track, const Box& box, const TrackingConfig& config) {
   const StoredObservation& stored = track.history.observations[0];
   const Observation observation = observation_of(stored, track);
-  const BoxMeasurement measured = measure_box(box, supposed_centre_m(box, observation), observation, config);
+  const BoxMeasurement measured =
+      measure_box(box, supposed_centre_m(box, observation), observation, config);
   filters::MotionState start;
   start.mean.head<2>() = measured.centre_m - measured.recentring_m;
   start.covariance.topLeftCorner<2, 2>() = measured.covariance_m2 + stored.pose_covariance_m2;
   start.covariance.block<2, 2>(2, 2) = std::pow(0.5 * config.fastest_mps, 2) * Matrix2d::Identity();
-  start.covariance.block<2, 2>(4, 4) = std::pow(config.idle_acceleration_mps2, 2) * Matrix2d::Identity();
+  start.covariance.block<2, 2>(4, 4) =
+      std::pow(config.idle_acceleration_mps2, 2) * Matrix2d::Identity();
   return start;
 }
 
@@ -47,12 +49,17 @@ FilteredBox filtered(const Track& track, Box box, const TrackingConfig& config) 
   box.anchors = {};
   for (std::size_t i = 1; i < observations.size(); ++i) {
     const StoredObservation& stored = observations[i];
-    mixture = filters::imm_predict(models, mixture, static_cast<double>(stored.stamp_ns - observations[i - 1].stamp_ns) * 1e-9);
+    mixture = filters::imm_predict(
+        models, mixture,
+        static_cast<double>(stored.stamp_ns - observations[i - 1].stamp_ns) * 1e-9);
     const Vector2d predicted_m = filters::imm_combine(models, mixture).mean.head<2>();
-    const BoxMeasurement measured = measure_box(box, predicted_m, observation_of(stored, track), config);
+    const BoxMeasurement measured =
+        measure_box(box, predicted_m, observation_of(stored, track), config);
     filters::imm_loosen(models, mixture, measured.step_covariance_m2);
     box.anchors = measured.box.anchors;
-    mixture = filters::imm_update(models, mixture, measured.centre_m - measured.recentring_m, measured.covariance_m2 + stored.pose_covariance_m2).posterior;
+    mixture = filters::imm_update(models, mixture, measured.centre_m - measured.recentring_m,
+                                  measured.covariance_m2 + stored.pose_covariance_m2)
+                  .posterior;
   }
   return {box, mixture, filters::imm_combine(models, mixture)};
 }
@@ -68,7 +75,8 @@ double log_likelihood_of_course(const FilteredBox& filtered, const TrackingConfi
     return -0.5 * std::pow(axis.dot(velocity_mps), 2) / S - 0.5 * std::log(S);
   };
   return log_density(along, std::pow(0.5 * config.fastest_mps, 2)) +
-         log_density(across, std::pow(kSlipMps * config.size_scale, 2) + kSlip * kSlip * velocity_mps.squaredNorm());
+         log_density(across, std::pow(kSlipMps * config.size_scale, 2) +
+                                 kSlip * kSlip * velocity_mps.squaredNorm());
 }
 
 double log_likelihood(const FilteredBox& filtered, const TrackingConfig& config) {
@@ -77,7 +85,8 @@ double log_likelihood(const FilteredBox& filtered, const TrackingConfig& config)
 
 /// The box with its heading along its measured axis.
 Box along_its_sides(Box box) {
-  if (box.axis_variance_rad2 < kKnownAxisRad2) box.heading_rad += std::remainder(box.axis_rad - box.heading_rad, 0.5 * std::numbers::pi);
+  if (box.axis_variance_rad2 < kKnownAxisRad2)
+    box.heading_rad += std::remainder(box.axis_rad - box.heading_rad, 0.5 * std::numbers::pi);
   box.heading_rad = geometry::wrap_angle(box.heading_rad);
   return box;
 }
@@ -85,7 +94,8 @@ Box along_its_sides(Box box) {
 }  // namespace
 
 Belief belief_of(const Track& track) {
-  return {track.extent.outline, track.kinematics.mixture, track.kinematics.estimate, track.existence.consistency};
+  return {track.extent.outline, track.kinematics.mixture, track.kinematics.estimate,
+          track.existence.consistency};
 }
 
 Belief refiltered(const Track& track, const TrackingConfig& config) {

@@ -8,15 +8,17 @@
 
 namespace slammot::tracking {
 
-/// Adds what an ended track tells of the road users of this place: sizes of an oriented box where they are well known, the distance of the
-/// echoes from the sides of a vehicle, and the gait of a pedestrian, each if it was followed for long enough.
+/// Adds what an ended track tells of the road users of this place: sizes of an oriented box where
+/// they are well known, the distance of the echoes from the sides of a vehicle, and the gait of a
+/// pedestrian, each if it was followed for long enough.
 void learn_from(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 
 void learn_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 void learn_outline_error(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 void learn_gait(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config);
 
-/// What the ended tracks of this drive tell of the road users here. Tracks refer to it: it stays where it is when this is moved.
+/// What the ended tracks of this drive tell of the road users here. Tracks refer to it: it stays
+/// where it is when this is moved.
 class LocalRoadUsers {
  public:
   const RoadUsers& known() const { return *known_; }

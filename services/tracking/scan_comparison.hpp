@@ -12,10 +12,10 @@ namespace slammot::tracking {
 
 /// The earlier scans with which a scan is compared; null where the history is too short.
 struct EarlierScans {
-  const EarlierScan* usual = nullptr;                 ///< compare_after_s ago.
-  const EarlierScan* recent = nullptr;                ///< compare_fast_after_s ago; where only people move.
-  const EarlierScan* distant = nullptr;               ///< compare_slow_after_s ago.
-  std::array<const EarlierScan*, 5> for_faces{};      ///< Newest first.
+  const EarlierScan* usual = nullptr;    ///< compare_after_s ago.
+  const EarlierScan* recent = nullptr;   ///< compare_fast_after_s ago; where only people move.
+  const EarlierScan* distant = nullptr;  ///< compare_slow_after_s ago.
+  std::array<const EarlierScan*, 5> for_faces{};  ///< Newest first.
   std::size_t count_for_faces = 0;
 };
 
@@ -26,18 +26,24 @@ struct SegmentComparison {
   int stood = 0;
   int arrived = 0;
   int receded = 0;
-  int came = 0;               ///< Arrived or appeared, since the usual or, where that does not tell, the recent scan.
-  int longest_arrival = 0;    ///< Neighbouring echoes that arrived: a moving face, while its flank slides along itself.
-  Eigen::Vector2d face_shift_m = Eigen::Vector2d::Zero();  ///< Displacement of its front or rear; zero where none is measured.
-  bool stood_before = false;  ///< By the earlier scan.
-  bool stands = false;        ///< By the earlier scan or the map.
-  bool has_come = false;      ///< It is where a vehicle was that has moved there: the same vehicle, standing.
+  int came = 0;  ///< Arrived or appeared, since the usual or, where that does not tell, the recent
+                 ///< scan.
+  int longest_arrival = 0;  ///< Neighbouring echoes that arrived: a moving face, while its flank
+                            ///< slides along itself.
+  Eigen::Vector2d face_shift_m = Eigen::Vector2d::Zero();  ///< Displacement of its front or rear;
+                                                           ///< zero where none is measured.
+  bool stood_before = false;                               ///< By the earlier scan.
+  bool stands = false;                                     ///< By the earlier scan or the map.
+  bool has_come = false;  ///< It is where a vehicle was that has moved there: the same vehicle,
+                          ///< standing.
 };
 
-/// Comparison of one scan with earlier ones (Wang 2004, Section 6.2, between scans instead of with the map).
+/// Comparison of one scan with earlier ones (Wang 2004, Section 6.2, between scans instead of with
+/// the map).
 class ScanComparison {
  public:
-  /// Prepares for this scan. Afterwards compare() must be called once for each segment; calls for different segments are independent.
+  /// Prepares for this scan. Afterwards compare() must be called once for each segment; calls for
+  /// different segments are independent.
   void begin(const ScanContext& context);
   void compare(std::size_t segment, const ScanContext& context);
 

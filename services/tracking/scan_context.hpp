@@ -6,7 +6,8 @@
 
 namespace slammot::tracking {
 
-/// What every step of one scan reads: the scan, earlier scans of the same scanner, and the settings.
+/// What every step of one scan reads: the scan, earlier scans of the same scanner, and the
+/// settings.
 struct ScanContext {
   const ScanView& view;
   const ScanHistory& history;

@@ -13,13 +13,17 @@ constexpr std::int64_t kGoesAlongSinceNs = 700'000'000;
 constexpr std::int64_t kLongestNs = 2'000'000'000;
 
 /// True if the scan had an echo within this distance, not of an object known to move.
-bool had_something_near(const EarlierScan& scan, const Eigen::Vector2d& point_in_odom_m, double within_m) {
-  return scan.view.any_echo_near(point_in_odom_m, within_m, [&](std::size_t beam) { return !scan.owners[beam].is_confirmed; });
+bool had_something_near(const EarlierScan& scan, const Eigen::Vector2d& point_in_odom_m,
+                        double within_m) {
+  return scan.view.any_echo_near(point_in_odom_m, within_m,
+                                 [&](std::size_t beam) { return !scan.owners[beam].is_confirmed; });
 }
 
 }  // namespace
 
-bool ScanHistory::is_due(std::int64_t stamp_ns) const { return scans_.empty() || stamp_ns - scans_.back().stamp_ns >= kIntervalNs; }
+bool ScanHistory::is_due(std::int64_t stamp_ns) const {
+  return scans_.empty() || stamp_ns - scans_.back().stamp_ns >= kIntervalNs;
+}
 
 void ScanHistory::add(std::int64_t stamp_ns, const PolarView& view, std::span<const Owner> owners) {
   if (!is_due(stamp_ns)) return;
@@ -33,7 +37,8 @@ void ScanHistory::add(std::int64_t stamp_ns, const PolarView& view, std::span<co
 
 void ScanHistory::confirm(flow::TrackId track_id) {
   for (EarlierScan& scan : scans_.all())
-    for (Owner& owner : scan.owners) owner.is_confirmed = owner.is_confirmed || (owner.is_owned && owner.track_id == track_id);
+    for (Owner& owner : scan.owners)
+      owner.is_confirmed = owner.is_confirmed || (owner.is_owned && owner.track_id == track_id);
 }
 
 const EarlierScan* ScanHistory::older_than(std::int64_t stamp_ns, double age_s) const {
@@ -43,22 +48,26 @@ const EarlierScan* ScanHistory::older_than(std::int64_t stamp_ns, double age_s) 
   return nullptr;
 }
 
-Past ScanHistory::past_of(std::size_t beam, const PolarView& now, const EarlierScan& then, bool may_appear) const {
+Past ScanHistory::past_of(std::size_t beam, const PolarView& now, const EarlierScan& then,
+                          bool may_appear) const {
   return past_of(beam, then.view.sight_of(now.point_in_odom_m(beam)), now, then, may_appear);
 }
 
-Past ScanHistory::past_of(std::size_t beam, const SightOfPlace& before, const PolarView& now, const EarlierScan& then, bool may_appear) const {
+Past ScanHistory::past_of(std::size_t beam, const SightOfPlace& before, const PolarView& now,
+                          const EarlierScan& then, bool may_appear) const {
   const Eigen::Vector2d& point_m = now.point_in_odom_m(beam);
   switch (before.sight) {
     case Sight::kThrough: return Past::kArrived;
     case Sight::kNothing: return Past::kUnknown;
-    case Sight::kThere: return then.owners[before.beam].is_confirmed ? Past::kUnknown : Past::kStood;
+    case Sight::kThere:
+      return then.owners[before.beam].is_confirmed ? Past::kUnknown : Past::kStood;
     case Sight::kHidden: break;
     case Sight::kEmpty: {
       if (!may_appear) return Past::kUnknown;
       const Eigen::Vector2d from_laser_m = point_m - now.laser_in_odom_m();
       const std::int64_t a_while_ago_ns = scans_.back().stamp_ns - kGoesAlongForNs;
-      const std::int64_t since_ns = std::min(then.stamp_ns, scans_.back().stamp_ns - kGoesAlongSinceNs);
+      const std::int64_t since_ns =
+          std::min(then.stamp_ns, scans_.back().stamp_ns - kGoesAlongSinceNs);
       const bool was_near = std::ranges::any_of(scans_.all(), [&](const EarlierScan& scan) {
         return (scan.stamp_ns <= then.stamp_ns && had_something_near(scan, point_m, kNearM)) ||
                (scan.stamp_ns >= since_ns && scan.stamp_ns <= a_while_ago_ns &&

@@ -15,7 +15,8 @@ namespace slammot::tracking {
 struct Scanner {
   std::string scanner_id;
   ScanHistory history;
-  std::vector<flow::RestoredPoints> restored;   ///< To be published with the labels of its next scan.
+  std::vector<flow::RestoredPoints> restored;  ///< To be published with the labels of its next
+                                               ///< scan.
 };
 
 /// The scanners of the vehicle, in the order of their first scans, and the time of the last scan.
@@ -24,7 +25,8 @@ class Scanners {
   /// True for a scan older than the last one, or a second one of the same scanner and stamp.
   bool is_late(const flow::SegmentedScan& scan) const;
 
-  /// Makes the scan's scanner the current one. Returns the time since the last scan of any scanner [s]; 0 for the first.
+  /// Makes the scan's scanner the current one. Returns the time since the last scan of any scanner
+  /// [s]; 0 for the first.
   double begin(const flow::SegmentedScan& scan);
 
   /// Forgets all scanners; the last scan was at this stamp.
@@ -39,7 +41,7 @@ class Scanners {
  private:
   std::vector<Scanner> scanners_;
   std::size_t current_ = 0;
-  std::vector<std::size_t> scanners_at_last_stamp_;   ///< Empty after reset().
+  std::vector<std::size_t> scanners_at_last_stamp_;  ///< Empty after reset().
   std::int64_t last_stamp_ns_ = 0;
   bool has_scan_ = false;
 };

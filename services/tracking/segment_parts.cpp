@@ -21,21 +21,27 @@ double margin_of(const Track& track, const TrackingConfig& config) {
 
 /// True if the ends and the middle of the segment lie in the box.
 bool lies_in_box(const Segment& segment, const Track& track, const ScanContext& context) {
-  if (segment.box_length_m > track.footprint().length.value_m + context.config.gate_margin_m) return false;
+  if (segment.box_length_m > track.footprint().length.value_m + context.config.gate_margin_m)
+    return false;
   const double margin_m = margin_of(track, context.config);
-  const auto contains = [&](const Vector2d& point_m) { return is_inside(track.footprint(), track.position_m(), margin_m, point_m); };
-  return contains(segment.centroid_in_odom_m) && contains(context.view.point_in_odom_m(segment.beams.front())) &&
+  const auto contains = [&](const Vector2d& point_m) {
+    return is_inside(track.footprint(), track.position_m(), margin_m, point_m);
+  };
+  return contains(segment.centroid_in_odom_m) &&
+         contains(context.view.point_in_odom_m(segment.beams.front())) &&
          contains(context.view.point_in_odom_m(segment.beams.back()));
 }
 
 /// True if the segment may be another leg of a pedestrian.
 bool is_leg(const Segment& segment, const Track& track, const TrackingConfig& config) {
-  return track.extent.box() == nullptr && segment.box_length_m < config.stride_m && track.extent.largest_span_m < 2.0 * config.stride_m &&
+  return track.extent.box() == nullptr && segment.box_length_m < config.stride_m &&
+         track.extent.largest_span_m < 2.0 * config.stride_m &&
          (segment.centroid_in_odom_m - track.position_m()).norm() < config.stride_m;
 }
 
 bool is_part(const Segment& segment, const Track& track, const ScanContext& context) {
-  return track.extent.box() != nullptr ? lies_in_box(segment, track, context) : is_leg(segment, track, context.config);
+  return track.extent.box() != nullptr ? lies_in_box(segment, track, context)
+                                       : is_leg(segment, track, context.config);
 }
 
 /// Distance from the track's centre in widths.
@@ -48,37 +54,50 @@ void remove_from_others(Associations& associations, std::size_t owner) {
   const std::vector<std::uint16_t>& beams = associations.shares[owner].beams;
   for (std::size_t other = 0; other < associations.shares.size(); ++other) {
     std::vector<std::uint16_t>& theirs = associations.shares[other].beams;
-    if (other != owner) std::erase_if(theirs, [&](std::uint16_t beam) { return std::binary_search(beams.begin(), beams.end(), beam); });
+    if (other != owner)
+      std::erase_if(theirs, [&](std::uint16_t beam) {
+        return std::binary_search(beams.begin(), beams.end(), beam);
+      });
   }
 }
 
 /// True if the track may take the echo of a segment from its owner, if it has one.
-bool may_take(std::size_t segment, const Vector2d& point_m, const Track& track, const std::vector<Track>& tracks, const ComparedScan& context, const Associations& associations) {
-  if (associations.is_unassigned(segment)) return !has_other_past(context.scan().segments[segment], context.comparison.segment(segment), track, context);
-  return relative_distance(point_m, tracks[associations.track_of_segment[segment]]) > relative_distance(point_m, track);
+bool may_take(std::size_t segment, const Vector2d& point_m, const Track& track,
+              const std::vector<Track>& tracks, const ComparedScan& context,
+              const Associations& associations) {
+  if (associations.is_unassigned(segment))
+    return !has_other_past(context.scan().segments[segment], context.comparison.segment(segment),
+                           track, context);
+  return relative_distance(point_m, tracks[associations.track_of_segment[segment]]) >
+         relative_distance(point_m, track);
 }
 
 }  // namespace
 
-void assign_parts(const std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
+void assign_parts(const std::vector<Track>& tracks, const ComparedScan& context,
+                  Associations& associations) {
   const std::vector<Segment>& segments = context.scan().segments;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     if (!associations.is_unassigned(s) || is_backdrop(segments[s], context.config)) continue;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
-      if (!is_part(segments[s], tracks[t], context) || has_other_past(segments[s], context.comparison.segment(s), tracks[t], context)) continue;
+      if (!is_part(segments[s], tracks[t], context) ||
+          has_other_past(segments[s], context.comparison.segment(s), tracks[t], context))
+        continue;
       associations.track_of_segment[s] = t;
       break;
     }
   }
 }
 
-void divide_shared_segments(const std::vector<Track>& tracks, const ComparedScan& context, Associations& associations) {
+void divide_shared_segments(const std::vector<Track>& tracks, const ComparedScan& context,
+                            Associations& associations) {
   const ScanView& view = context.view;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];
     if (associations.has_echoes(t) || !track.existence.confirmed) continue;
     const double margin_m = margin_of(track, context.config);
-    const ScanView::Directions directions = view.directions_of(track.footprint(), track.position_m(), margin_m);
+    const ScanView::Directions directions =
+        view.directions_of(track.footprint(), track.position_m(), margin_m);
     TrackShare& share = associations.shares[t];
     PointLabel label = PointLabel::kUnknown;
     for (std::size_t i = 0; i < directions.count; ++i) {

@@ -35,14 +35,18 @@ bool is_vehicle(const Track& track);
 /// Largest speed of a pedestrian [m/s].
 inline constexpr double kFastestWalkMps = 2.7;
 
-/// True for a confirmed track that is certainly a pedestrian by the sizes and speeds observed so far. Stays true while the filter
-/// overestimates the speed (docs/decisions/motion-models.md). Such a track never becomes a box: larger echoes around it are companions or a wall (docs/decisions/existence-and-publication.md).
+/// True for a confirmed track that is certainly a pedestrian by the sizes and speeds observed so
+/// far. Stays true while the filter overestimates the speed (docs/decisions/motion-models.md). Such
+/// a track never becomes a box: larger echoes around it are companions or a wall
+/// (docs/decisions/existence-and-publication.md).
 bool is_known_pedestrian(const Track& track);
 
-/// True for a known pedestrian, and for any small and slow blob: its measured centre moves with the gait.
+/// True for a known pedestrian, and for any small and slow blob: its measured centre moves with the
+/// gait.
 bool may_be_pedestrian(const Track& track);
 
-/// Moves the reference point of the position in all parts of the track; the velocity stays. The estimate is the caller's to combine.
+/// Moves the reference point of the position in all parts of the track; the velocity stays. The
+/// estimate is the caller's to combine.
 void shift(Track& track, const Eigen::Vector2d& by_m, const TrackingConfig& config);
 
 /// Predicts kinematics and heading over time_s >= 0, and selects the motion modes.

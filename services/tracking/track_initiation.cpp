@@ -20,7 +20,8 @@ void clear(Track& track) {
   track = std::move(empty);
 }
 
-OutlineMeasurement first_outline(const FirstObservation& first, const TrackingConfig& config, const RoadUsers& road_users) {
+OutlineMeasurement first_outline(const FirstObservation& first, const TrackingConfig& config,
+                                 const RoadUsers& road_users) {
   const double span_m = std::max(0.4, largest_span_m(first.observation.points_m));
   if (span_m > config.box_from_extent_m) {
     const Box box = likely_box(first.box_heading_rad, first.observation, config, road_users);
@@ -33,13 +34,16 @@ OutlineMeasurement first_outline(const FirstObservation& first, const TrackingCo
   return measure(blob, {}, first.observation, config);
 }
 
-filters::MotionState state_at_rest(const OutlineMeasurement& measurement, const Matrix2d& pose_covariance_m2, const TrackingConfig& config) {
+filters::MotionState state_at_rest(const OutlineMeasurement& measurement,
+                                   const Matrix2d& pose_covariance_m2,
+                                   const TrackingConfig& config) {
   filters::MotionState state;
   state.mean.head<2>() = measurement.centre_m;
   state.covariance.topLeftCorner<2, 2>() = measurement.covariance_m2 + pose_covariance_m2;
   const double sigma_mps = (is_box(measurement.outline) ? 0.5 : 0.2) * config.fastest_mps;
   state.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
-  state.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
+  state.covariance.block<2, 2>(4, 4) =
+      config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
   return state;
 }
 
@@ -67,20 +71,23 @@ double score_from(double existence, const TrackingConfig& config) {
 
 }  // namespace
 
-void initiate(Track& track, const FirstObservation& first, const TrackingConfig& config, const RoadUsers& road_users) {
+void initiate(Track& track, const FirstObservation& first, const TrackingConfig& config,
+              const RoadUsers& road_users) {
   clear(track);
   track.track_id = first.track_id;
   track.history.first_seen_ns = first.stamp_ns;
   track.existence.score = config.birth_score;
   const OutlineMeasurement measurement = first_outline(first, config, road_users);
   track.extent.outline = measurement.outline;
-  restart_from(track.kinematics, state_at_rest(measurement, first.pose_covariance_m2, config), config);
+  restart_from(track.kinematics, state_at_rest(measurement, first.pose_covariance_m2, config),
+               config);
   track.history.birth = {measurement.centre_m, measurement.covariance_m2};
   track.existence.travel.anchor_m = measurement.centre_m;
   note_observation(track, first.stamp_ns, first.observation);
 }
 
-Track initiated(const FirstObservation& first, const TrackingConfig& config, const RoadUsers& road_users) {
+Track initiated(const FirstObservation& first, const TrackingConfig& config,
+                const RoadUsers& road_users) {
   Track track;
   initiate(track, first, config, road_users);
   return track;
@@ -103,9 +110,11 @@ Track track_from_message(const flow::TrackedObject& object, const TrackingConfig
   track.history.last_seen_ns = object.last_seen_ns;
   track.history.birth.centre_m = object.position_in_odom_m;
   filters::MotionState start;
-  start.mean << object.position_in_odom_m, object.velocity_in_odom_mps, object.acceleration_in_odom_mps2;
+  start.mean << object.position_in_odom_m, object.velocity_in_odom_mps,
+      object.acceleration_in_odom_mps2;
   start.covariance.topLeftCorner<4, 4>() = object.covariance;
-  start.covariance.block<2, 2>(4, 4) = config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
+  start.covariance.block<2, 2>(4, 4) =
+      config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
   restart_from(track.kinematics, start, config);
   track.kinematics.state = object.motion;
   return track;

@@ -16,8 +16,9 @@ struct CurrentScanner {
   bool is_only_one = true;
 };
 
-/// Updates a track by its share of the scan: motion, extent and existence. Writes the track and its share only, so that tracks may be
-/// updated side by side.
-UpdateOutcome update_track(Track& track, TrackShare& share, const ComparedScan& context, const CurrentScanner& scanner);
+/// Updates a track by its share of the scan: motion, extent and existence. Writes the track and its
+/// share only, so that tracks may be updated side by side.
+UpdateOutcome update_track(Track& track, TrackShare& share, const ComparedScan& context,
+                           const CurrentScanner& scanner);
 
 }  // namespace slammot::tracking

@@ -27,7 +27,8 @@ const TrackingResult& Tracker::step(const flow::SegmentedScan& scan) {
   const double time_s = scanners_.begin(scan);
   result_.labels.restored.swap(scanners_.current().restored);
   current_.view.look_at(scan);
-  const ComparedScan context{{current_.view, scanners_.current().history, config_}, current_.comparison};
+  const ComparedScan context{{current_.view, scanners_.current().history, config_},
+                             current_.comparison};
   for (Track& track : tracks_) predict_to_beam(track, time_s, current_.view.polar(), config_);
   estimation_.associator.predict(time_s);
   compare(context);
@@ -53,7 +54,9 @@ void Tracker::begin_result(const flow::SegmentedScan& scan) {
 
 void Tracker::compare(const ScanContext& context) {
   current_.comparison.begin(context);
-  workspace_.for_each_in_ranges(context.scan().segments.size(), [&](std::size_t segment) { current_.comparison.compare(segment, context); });
+  workspace_.for_each_in_ranges(context.scan().segments.size(), [&](std::size_t segment) {
+    current_.comparison.compare(segment, context);
+  });
 }
 
 void Tracker::associate(const ComparedScan& context) {
@@ -65,7 +68,9 @@ void Tracker::associate(const ComparedScan& context) {
 void Tracker::update(const ComparedScan& context) {
   const CurrentScanner scanner{scanners_.current_index(), scanners_.count() == 1};
   std::vector<TrackShare>& shares = current_.associations.shares;
-  workspace_.for_each(tracks_.size(), [&](std::size_t t) { shares[t].outcome = update_track(tracks_[t], shares[t], context, scanner); });
+  workspace_.for_each(tracks_.size(), [&](std::size_t t) {
+    shares[t].outcome = update_track(tracks_[t], shares[t], context, scanner);
+  });
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (shares[t].outcome == UpdateOutcome::kRejected) {
       tracks_[t].existence.score += config_.surprise_score;
@@ -90,7 +95,8 @@ void Tracker::initiate(const ComparedScan& context) {
     if (!may_initiate(s, tracks_, associations, context)) continue;
     workspace_.resize(tracks_, tracks_.size() + 1);
     workspace_.resize(associations.shares, tracks_.size());
-    const Initiation initiation{{next_id_++}, s, scanners_.current_index(), estimation_.road_users.known()};
+    const Initiation initiation{
+        {next_id_++}, s, scanners_.current_index(), estimation_.road_users.known()};
     initiate_from_segment(tracks_.back(), associations.shares.back(), initiation, context);
     associations.track_of_segment[s] = tracks_.size() - 1;
     ++counters_.tracks_begun;
@@ -110,7 +116,9 @@ void Tracker::remember(const ComparedScan& context) {
     history.add(context.scan().stamp_ns, context.view.polar(), current_.owners);
   }
   label_beams(tracks_, current_.associations, context, result_.labels.labels);
-  for (std::size_t t = 0; t < tracks_.size(); ++t) keep_points(tracks_[t], current_.associations.shares[t].beams, scanners_.current_index(), context);
+  for (std::size_t t = 0; t < tracks_.size(); ++t)
+    keep_points(tracks_[t], current_.associations.shares[t].beams, scanners_.current_index(),
+                context);
 }
 
 void Tracker::terminate() {
@@ -122,18 +130,23 @@ void Tracker::terminate() {
     return true;
   });
   constexpr std::size_t kMostRestored = 64;
-  if (result_.labels.restored.size() > kMostRestored) workspace_.resize(result_.labels.restored, kMostRestored);
+  if (result_.labels.restored.size() > kMostRestored)
+    workspace_.resize(result_.labels.restored, kMostRestored);
   for (Scanner& scanner : scanners_.all()) {
     if (scanner.restored.size() > kMostRestored) workspace_.resize(scanner.restored, kMostRestored);
   }
 }
 
-/// The points of a rejected track, which were kept out of the map, are published with the next labels of their scanner.
+/// The points of a rejected track, which were kept out of the map, are published with the next
+/// labels of their scanner.
 void Tracker::give_back_points(const Track& track) {
   ++counters_.tracks_rejected;
   for (const PastPoints& past : track.history.past_points.all()) {
-    std::vector<flow::RestoredPoints>& restored = past.scanner == scanners_.current_index() ? result_.labels.restored : scanners_.all()[past.scanner].restored;
-    const auto same = std::ranges::find_if(restored, [&](const auto& one) { return one.sequence == past.points.sequence; });
+    std::vector<flow::RestoredPoints>& restored = past.scanner == scanners_.current_index()
+                                                      ? result_.labels.restored
+                                                      : scanners_.all()[past.scanner].restored;
+    const auto same = std::ranges::find_if(
+        restored, [&](const auto& one) { return one.sequence == past.points.sequence; });
     counters_.points_restored += past.points.beams.size();
     if (same != restored.end()) {
       add_beams(same->beams, past.points.beams);
@@ -153,7 +166,9 @@ void Tracker::publish(const flow::SegmentedScan& scan) {
   objects.map_id = scan.map_id;
   objects.odom_id = scan.odom_id;
   workspace_.resize(objects.objects, tracks_.size());
-  workspace_.for_each(tracks_.size(), [&](std::size_t t) { tracking::publish(tracks_[t], scan.stamp_ns, config_, objects.objects[t]); });
+  workspace_.for_each(tracks_.size(), [&](std::size_t t) {
+    tracking::publish(tracks_[t], scan.stamp_ns, config_, objects.objects[t]);
+  });
 }
 
 void Tracker::resume(const flow::TrackedObjects& objects) {
@@ -164,7 +179,8 @@ void Tracker::resume(const flow::TrackedObjects& objects) {
     next_id_ = std::max(next_id_, object.track_id.value + 1);
     if (object.confirmed) tracks_.push_back(track_from_message(object, config_));
   }
-  for (Track& track : tracks_) track.extent.footprint().road_users = &estimation_.road_users.known();
+  for (Track& track : tracks_)
+    track.extent.footprint().road_users = &estimation_.road_users.known();
 }
 
 }  // namespace slammot::tracking

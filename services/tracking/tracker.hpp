@@ -24,18 +24,21 @@
 namespace slammot::tracking {
 
 /// Tracks moving objects from scan to scan of one vehicle. Deterministic; reads no clock.
-/// Association by gating and global nearest neighbour (Wang 2004, Section 5.1) or by several hypotheses (Section 5.2), motion by
-/// IMM (Section 2.3) and move-stop hypotheses (Section 4.6), existence by log-odds (Eqs. 5.1-5.5). The extent grows with what is seen,
-/// so that the position is the object's centre.
+/// Association by gating and global nearest neighbour (Wang 2004, Section 5.1) or by several
+/// hypotheses (Section 5.2), motion by IMM (Section 2.3) and move-stop hypotheses (Section 4.6),
+/// existence by log-odds (Eqs. 5.1-5.5). The extent grows with what is seen, so that the position
+/// is the object's centre.
 class Tracker final : public stages::TrackingStage {
  public:
   /// help (null: none) must outlive this; the results do not depend on it.
   explicit Tracker(const TrackingConfig& config, work::SideWork* help = nullptr);
 
-  /// Takes one scan; returns the tracks after it and the label of each of its points. Valid until the next call.
+  /// Takes one scan; returns the tracks after it and the label of each of its points. Valid until
+  /// the next call.
   const TrackingResult& step(const flow::SegmentedScan& scan) override;
 
-  /// Restores tracks from the last published message. Ids are kept and never reused; all other state is lost.
+  /// Restores tracks from the last published message. Ids are kept and never reused; all other
+  /// state is lost.
   void resume(const flow::TrackedObjects& objects);
 
   const TrackerCounters& counters() const { return counters_; }

@@ -13,7 +13,7 @@ using stages::TrackingResult;
 /// Totals since the start.
 struct TrackerCounters {
   std::uint64_t scans = 0;
-  std::uint64_t late_scans = 0;       ///< Older than one before: labelled as detection did, not tracked.
+  std::uint64_t late_scans = 0;  ///< Older than one before: labelled as detection did, not tracked.
   std::uint64_t tracks_begun = 0;
   std::uint64_t tracks_confirmed = 0;
   std::uint64_t tracks_merged = 0;

@@ -34,8 +34,10 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
       tracker_(settings.config),
       objects_(context.write(dds::topics::kTrackedObjects)),
       labels_(context.write(dds::topics::kScanLabels)) {
-  context.read(dds::topics::kStoredTrackedObjects, app::Input::kOccasional, [this](const auto& sample) { take_stored(sample); });
-  context.read(dds::topics::kSegmentedScan, app::Input::kSteady, [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kStoredTrackedObjects, app::Input::kOccasional,
+               [this](const auto& sample) { take_stored(sample); });
+  context.read(dds::topics::kSegmentedScan, app::Input::kSteady,
+               [this](const auto& sample) { take(sample); });
   context.after(kStoredTracksPatience, [this] { begin(); });
   context.before_report([this] { context_.status().set_counters(named(tracker_.counters())); });
 }
@@ -44,14 +46,17 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
 void TrackingService::take_stored(const slammot_TrackedObjects& sample) {
   if (!waits_for_stored_tracks_) return;
   auto objects = wire::decode(sample);
-  if (!objects) return context_.warn("faulty_tracks", "dropped stored tracks: " + std::string(objects.fault()));
+  if (!objects)
+    return context_.warn("faulty_tracks", "dropped stored tracks: " + std::string(objects.fault()));
   if (!stored_ || objects->stamp_ns > stored_->stamp_ns) stored_ = std::move(*objects);
   context_.after(0s, [this] { begin(); });  // after all that were kept have been taken
 }
 
 void TrackingService::take(const slammot_SegmentedScan& sample) {
   auto scan = wire::decode(sample);
-  if (!scan) return context_.warn("faulty_segmented_scan", "dropped a segmented scan: " + std::string(scan.fault()));
+  if (!scan)
+    return context_.warn("faulty_segmented_scan",
+                         "dropped a segmented scan: " + std::string(scan.fault()));
   if (!waits_for_stored_tracks_) return track(*scan);
   early_.push_back(std::move(*scan));
   if (early_.size() > kMostEarlyScans) early_.pop_front();
@@ -64,7 +69,8 @@ void TrackingService::begin() {
   early_.clear();
 }
 
-/// Nothing of another drive is known here, if its numbers, its stamps and its map are the same or not.
+/// Nothing of another drive is known here, if its numbers, its stamps and its map are the same or
+/// not.
 void TrackingService::begin_drive(const flow::SegmentedScan& first) {
   tracker_ = Tracker(config_);
   last_results_.clear();

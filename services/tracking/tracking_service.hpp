@@ -15,14 +15,16 @@
 
 namespace slammot::tracking {
 
-/// Follows moving objects from segmented scan to segmented scan, and takes up its last tracks when it starts again.
+/// Follows moving objects from segmented scan to segmented scan, and takes up its last tracks when
+/// it starts again.
 class TrackingService {
  public:
   struct Settings {
     TrackingConfig config;
   };
   static constexpr const char* kName = "tracking";
-  static constexpr const char* kPurpose = "Follows moving objects, and tells what each point of a scan is.";
+  static constexpr const char* kPurpose =
+      "Follows moving objects, and tells what each point of a scan is.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

@@ -15,16 +15,20 @@
 
 namespace slammot::tracking {
 
-/// Memory that the tracker reuses from scan to scan, and a helper thread if there is one. Neither changes a result: a tracker allocates
-/// nothing while no more is in view than ever was. Known to Tracker only.
+/// Memory that the tracker reuses from scan to scan, and a helper thread if there is one. Neither
+/// changes a result: a tracker allocates nothing while no more is in view than ever was. Known to
+/// Tracker only.
 class Workspace {
  public:
   /// help (null: none) must outlive this.
   explicit Workspace(work::SideWork* help) : help_(help) {}
 
-  /// Calls part(i) for each i < count, perhaps side by side: each must write what no other reads or writes.
+  /// Calls part(i) for each i < count, perhaps side by side: each must write what no other reads or
+  /// writes.
   template <typename Part>
-  void for_each(std::size_t count, const Part& part) const { work::share(help_, count, part); }
+  void for_each(std::size_t count, const Part& part) const {
+    work::share(help_, count, part);
+  }
 
   /// The same in a few ranges, for small parts.
   template <typename Part>
@@ -35,11 +39,15 @@ class Workspace {
     });
   }
 
-  /// Resizes with elements that keep their memory; new elements hold what they held when they were removed.
+  /// Resizes with elements that keep their memory; new elements hold what they held when they were
+  /// removed.
   template <typename T>
-  void resize(std::vector<T>& things, std::size_t count) { std::get<memory::Spares<T>>(spares_).resize(things, count); }
+  void resize(std::vector<T>& things, std::size_t count) {
+    std::get<memory::Spares<T>>(spares_).resize(things, count);
+  }
 
-  /// Removes the elements of which `is_over` is true, keeps the order of the others, and keeps the memory of the removed.
+  /// Removes the elements of which `is_over` is true, keeps the order of the others, and keeps the
+  /// memory of the removed.
   template <typename T, typename Predicate>
   void remove_if(std::vector<T>& things, const Predicate& is_over) {
     std::size_t kept = 0;
@@ -56,7 +64,9 @@ class Workspace {
 
  private:
   work::SideWork* help_;
-  std::tuple<memory::Spares<Track>, memory::Spares<TrackShare>, memory::Spares<flow::TrackedObject>, memory::Spares<flow::RestoredPoints>> spares_;
+  std::tuple<memory::Spares<Track>, memory::Spares<TrackShare>, memory::Spares<flow::TrackedObject>,
+             memory::Spares<flow::RestoredPoints>>
+      spares_;
 };
 
 }  // namespace slammot::tracking

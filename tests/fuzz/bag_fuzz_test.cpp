@@ -23,9 +23,35 @@ using slammot::testing::Wire;
 
 /// Numbers and names at which readers of bags are apt to stumble.
 const std::vector<std::string_view> kWords = {
-    std::string_view("\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 8), std::string_view("\xFF\xFF\xFF\x7F", 4), std::string_view("\0\0\0\0", 4), std::string_view("\0\0\0\x80", 4),
-    std::string_view("\x00\x00\xC0\x7F", 4), std::string_view("\x00\x00\x80\x7F", 4), "\x01", "\x02", "\x03", "\x04", "\x05", "\x06", "\x0F", "op=", "conn=", "size=", "none", "lz4", "bz2", "zstd", "cdr",
-    "/scan", "/odom", "base_link", "laser", "sensor_msgs/LaserScan", "sensor_msgs/PointCloud2", "nav_msgs/Odometry", "tf2_msgs/TFMessage"};
+    std::string_view("\xFF\xFF\xFF\xFF\xFF\xFF\xFF\xFF", 8),
+    std::string_view("\xFF\xFF\xFF\x7F", 4),
+    std::string_view("\0\0\0\0", 4),
+    std::string_view("\0\0\0\x80", 4),
+    std::string_view("\x00\x00\xC0\x7F", 4),
+    std::string_view("\x00\x00\x80\x7F", 4),
+    "\x01",
+    "\x02",
+    "\x03",
+    "\x04",
+    "\x05",
+    "\x06",
+    "\x0F",
+    "op=",
+    "conn=",
+    "size=",
+    "none",
+    "lz4",
+    "bz2",
+    "zstd",
+    "cdr",
+    "/scan",
+    "/odom",
+    "base_link",
+    "laser",
+    "sensor_msgs/LaserScan",
+    "sensor_msgs/PointCloud2",
+    "nav_msgs/Odometry",
+    "tf2_msgs/TFMessage"};
 
 class BagFuzz : public ::testing::Test {
  protected:
@@ -48,7 +74,8 @@ class BagFuzz : public ::testing::Test {
       if (const auto* odometry = std::get_if<sensing::Odometry>(&*event)) {
         if (odometry_ns) EXPECT_GT(odometry->stamp_ns, *odometry_ns);
         odometry_ns = odometry->stamp_ns;
-        EXPECT_TRUE(std::isfinite(odometry->wheel_from_base.x_m + odometry->wheel_from_base.y_m + odometry->wheel_from_base.heading_rad));
+        EXPECT_TRUE(std::isfinite(odometry->wheel_from_base.x_m + odometry->wheel_from_base.y_m +
+                                  odometry->wheel_from_base.heading_rad));
         continue;
       }
       ASSERT_LT(++scans, 1000U);
@@ -57,7 +84,8 @@ class BagFuzz : public ::testing::Test {
       EXPECT_LE(scan.range_m.size(), kMaxBeams);
       EXPECT_TRUE(std::isfinite(scan.scanner.max_range_m));
       EXPECT_TRUE(std::isfinite(scan.scanner.first_beam_rad + scan.scanner.beam_step_rad));
-      EXPECT_TRUE(std::isfinite(scan.scanner.base_from_laser.x_m + scan.scanner.base_from_laser.heading_rad));
+      EXPECT_TRUE(std::isfinite(scan.scanner.base_from_laser.x_m +
+                                scan.scanner.base_from_laser.heading_rad));
       EXPECT_LE(scan.scanner.scanner_id.size(), 31U);
     }
     EXPECT_LE(log->fraction_read(), 1.0);
@@ -68,7 +96,13 @@ class BagFuzz : public ::testing::Test {
     opened_ = refused_ = 0;
     for (int i = 0; i < times; ++i) {
       std::string damaged = i % 3 == 0 ? mutated(whole, kWords, random) : whole;
-      if (i % 3 != 0) damaged[below(damaged.size(), random)] ^= static_cast<char>(1 << below(8, random));  // most others are refused at once
+      if (i % 3 != 0)
+        damaged[below(damaged.size(), random)] ^= static_cast<char>(1 << below(8, random));  // most
+                                                                                             // others
+                                                                                             // are
+                                                                                             // refused
+                                                                                             // at
+                                                                                             // once
       if (i % 4 == 0) damaged.resize(below(damaged.size() + 1, random));
       slammot::testing::write_file(folder_ / name, damaged);
       read_all(name, i % 2 == 0 ? 0 : std::size_t{1} << 20);
@@ -84,16 +118,25 @@ class BagFuzz : public ::testing::Test {
 
 TEST_F(BagFuzz, ReadsDamagedMcapFilesToTheirEnd) {
   unsigned seed = 1;
-  for (const char* compression : {"no chunks", "", "lz4", "zstd"}) read_damaged("drive.mcap", slammot::testing::mcap_file(slammot::testing::straight_bag(Wire::kCdrLittle, 6), compression), 400, seed++);
+  for (const char* compression : {"no chunks", "", "lz4", "zstd"})
+    read_damaged("drive.mcap",
+                 slammot::testing::mcap_file(slammot::testing::straight_bag(Wire::kCdrLittle, 6),
+                                             compression),
+                 400, seed++);
 }
 
 TEST_F(BagFuzz, ReadsDamagedBagsOfRos1ToTheirEnd) {
   unsigned seed = 11;
-  for (const char* compression : {"none", "lz4", "bz2"}) read_damaged("drive.bag", slammot::testing::ros1_file(slammot::testing::straight_bag(Wire::kRos1, 6), compression), 400, seed++);
+  for (const char* compression : {"none", "lz4", "bz2"})
+    read_damaged(
+        "drive.bag",
+        slammot::testing::ros1_file(slammot::testing::straight_bag(Wire::kRos1, 6), compression),
+        400, seed++);
 }
 
 TEST_F(BagFuzz, ReadsDamagedDatabasesToTheirEnd) {
-  slammot::testing::write_db3(folder_ / "whole.db3", slammot::testing::straight_bag(Wire::kCdrBig, 6));
+  slammot::testing::write_db3(folder_ / "whole.db3",
+                              slammot::testing::straight_bag(Wire::kCdrBig, 6));
   const std::string whole = slammot::testing::read_file(folder_ / "whole.db3");
   read_damaged("drive.db3", whole, 400, 21);
   read_damaged("drive.db3.zstd", slammot::testing::packed("zstd", whole), 200, 22);
@@ -102,7 +145,9 @@ TEST_F(BagFuzz, ReadsDamagedDatabasesToTheirEnd) {
 TEST_F(BagFuzz, ReadsFilesThatOnlyBeginAsBagsDo) {
   std::mt19937 random(31);
   for (int i = 0; i < 600; ++i) {
-    const std::string begin = i % 3 == 0 ? std::string("\x89MCAP0\r\n", 8) : i % 3 == 1 ? "#ROSBAG V2.0\n" : std::string("SQLite format 3\0", 16);
+    const std::string begin = i % 3 == 0   ? std::string("\x89MCAP0\r\n", 8)
+                              : i % 3 == 1 ? "#ROSBAG V2.0\n"
+                                           : std::string("SQLite format 3\0", 16);
     slammot::testing::write_file(folder_ / "drive", begin + random_bytes(2000, random));
     read_all("drive", 0);
   }
@@ -112,27 +157,37 @@ TEST_F(BagFuzz, ReadsFilesThatOnlyBeginAsBagsDo) {
 void parse_all(const std::string& bytes, bags::Serialization serialization) {
   for (const char* type : {"sensor_msgs/LaserScan", "sensor_msgs/MultiEchoLaserScan"}) {
     const bags::Channel channel{"/t", type, "", serialization};
-    const bags::RawMessage message{&channel, 0, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}};
+    const bags::RawMessage message{
+        &channel, 0, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}};
     if (const auto scan = bags::parse_laser_scan(message)) {
       EXPECT_LE(scan->range_m.size(), bytes.size());
-      if (const auto record = record_of(*scan)) EXPECT_TRUE(std::isfinite(record->layout->first_beam_rad + record->layout->beam_step_rad));
+      if (const auto record = record_of(*scan))
+        EXPECT_TRUE(std::isfinite(record->layout->first_beam_rad + record->layout->beam_step_rad));
     }
-    if (const auto odometry = bags::parse_odometry(message)) EXPECT_TRUE(odometry->pose.translation_m.allFinite());
-    if (const auto transforms = bags::parse_transforms(message)) EXPECT_LE(transforms->size(), bytes.size());
+    if (const auto odometry = bags::parse_odometry(message))
+      EXPECT_TRUE(odometry->pose.translation_m.allFinite());
+    if (const auto transforms = bags::parse_transforms(message))
+      EXPECT_LE(transforms->size(), bytes.size());
     if (const auto imu = bags::parse_imu(message)) EXPECT_TRUE(std::isfinite(imu->yaw_rate_radps));
-    if (const auto cloud = bags::parse_point_cloud(message)) EXPECT_LE(cloud->points_m.size(), bytes.size());
+    if (const auto cloud = bags::parse_point_cloud(message))
+      EXPECT_LE(cloud->points_m.size(), bytes.size());
   }
 }
 
 TEST(MessageFuzz, SurvivesAnyBytesAndDamagedMessages) {
   std::mt19937 random(41);
   for (const Wire wire : {Wire::kRos1, Wire::kCdrLittle, Wire::kCdrBig}) {
-    const auto serialization = wire == Wire::kRos1 ? bags::Serialization::kRos1 : bags::Serialization::kCdr;
+    const auto serialization =
+        wire == Wire::kRos1 ? bags::Serialization::kRos1 : bags::Serialization::kCdr;
     for (int i = 0; i < 3000; ++i) {
       parse_all(random_bytes(300, random), serialization);
       parse_all(mutated(slammot::testing::scan_message(wire, {}), kWords, random), serialization);
-      parse_all(mutated(slammot::testing::odometry_message(wire, 1.0, 2.0, 0.5), kWords, random), serialization);
-      parse_all(mutated(slammot::testing::transform_message(wire, 1.0, "a", "b", {1, 2, 3, 0, 0, 0, 1}), kWords, random), serialization);
+      parse_all(mutated(slammot::testing::odometry_message(wire, 1.0, 2.0, 0.5), kWords, random),
+                serialization);
+      parse_all(
+          mutated(slammot::testing::transform_message(wire, 1.0, "a", "b", {1, 2, 3, 0, 0, 0, 1}),
+                  kWords, random),
+          serialization);
     }
   }
 }

@@ -17,26 +17,67 @@ using slammot::testing::mutated;
 using slammot::testing::random_bytes;
 using slammot::testing::random_words;
 
-const std::vector<std::string_view> kWords = {
-    "FLASER", "ROBOTLASER1", "ODOM", "PARAM", "RAWLASER1", "ROBOTLASER2", "RLASER", "LASER3", "TRUEPOS", "IMU", "Laser", "Odometry", "#", "0", "1", "2", "4", "-1", "181", "8192", "8193", "99999999999",
-    "1.0", "1e308", "1e-320", "1e999", "nan", "-inf", "0x10", "3.14159", "host", "1575810072.324471", "9223372036.9", "robot_frontlaser_offset",
-    "laser_front_laser_resolution", "\t", "\r", "\0", "1.2.3", "--5", "+7", ","};
+const std::vector<std::string_view> kWords = {"FLASER",
+                                              "ROBOTLASER1",
+                                              "ODOM",
+                                              "PARAM",
+                                              "RAWLASER1",
+                                              "ROBOTLASER2",
+                                              "RLASER",
+                                              "LASER3",
+                                              "TRUEPOS",
+                                              "IMU",
+                                              "Laser",
+                                              "Odometry",
+                                              "#",
+                                              "0",
+                                              "1",
+                                              "2",
+                                              "4",
+                                              "-1",
+                                              "181",
+                                              "8192",
+                                              "8193",
+                                              "99999999999",
+                                              "1.0",
+                                              "1e308",
+                                              "1e-320",
+                                              "1e999",
+                                              "nan",
+                                              "-inf",
+                                              "0x10",
+                                              "3.14159",
+                                              "host",
+                                              "1575810072.324471",
+                                              "9223372036.9",
+                                              "robot_frontlaser_offset",
+                                              "laser_front_laser_resolution",
+                                              "\t",
+                                              "\r",
+                                              "\0",
+                                              "1.2.3",
+                                              "--5",
+                                              "+7",
+                                              ","};
 
 const std::string kRobotLaser =
     "ROBOTLASER1 0 -1.570796 3.141593 1.047198 81.9 0.01 0 4 1.0 2.0 3.0 81.9 2 0.5 0.25 "
     "1.5 0.5 0.1 1.4 0.5 0.1 0 0 0.3 0.2 1000000 1.5 host 1.5\n";
 
 std::string example_log() {
-  return "# a log\nPARAM robot_frontlaser_offset 0.3 0 host 0\nODOM 0 0 0 0 0 0 100.0 host 0.0\n" + slammot::testing::straight_drive(12) +
-         kRobotLaser + "ODOM 1 0 0 0 0 0 101.1 host 1.1\n";
+  return "# a log\nPARAM robot_frontlaser_offset 0.3 0 host 0\nODOM 0 0 0 0 0 0 100.0 host 0.0\n" +
+         slammot::testing::straight_drive(12) + kRobotLaser + "ODOM 1 0 0 0 0 0 101.1 host 1.1\n";
 }
 
 void expect_sound(const LaserRecord& record) {
   EXPECT_GE(record.range_m.size(), 1U);
   EXPECT_LE(record.range_m.size(), kMaxBeams);
   EXPECT_TRUE(std::isfinite(record.max_range_m));
-  EXPECT_TRUE(std::isfinite(record.wheel_from_base.x_m + record.wheel_from_base.y_m + record.wheel_from_base.heading_rad));
-  if (record.layout) EXPECT_TRUE(std::isfinite(record.layout->first_beam_rad) && std::isfinite(record.layout->beam_step_rad));
+  EXPECT_TRUE(std::isfinite(record.wheel_from_base.x_m + record.wheel_from_base.y_m +
+                            record.wheel_from_base.heading_rad));
+  if (record.layout)
+    EXPECT_TRUE(std::isfinite(record.layout->first_beam_rad) &&
+                std::isfinite(record.layout->beam_step_rad));
 }
 
 /// How many of the text's lines are laser records.
@@ -45,7 +86,8 @@ int parse(const std::string& text) {
   std::size_t begin = 0;
   while (begin <= text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const CarmenRecord record = parse_carmen_line(std::string_view(text).substr(begin, end - begin));
+    const CarmenRecord record =
+        parse_carmen_line(std::string_view(text).substr(begin, end - begin));
     if (const auto* laser = std::get_if<LaserRecord>(&record)) {
       expect_sound(*laser);
       ++lasers;

@@ -22,7 +22,10 @@ LocalizerConfig config() {
   return config;
 }
 
-SimulatedDrive room_drive() { return SimulatedDrive({.world = slammot::testing::room(), .world_from_base_at = arc({0.0, -3.0, 0.0}, 0.5, 0.2)}); }
+SimulatedDrive room_drive() {
+  return SimulatedDrive(
+      {.world = slammot::testing::room(), .world_from_base_at = arc({0.0, -3.0, 0.0}, 0.5, 0.2)});
+}
 
 std::vector<std::byte> example() {
   SimulatedDrive drive = room_drive();
@@ -31,7 +34,8 @@ std::vector<std::byte> example() {
   return localizer.checkpoint();
 }
 
-/// With the checksum that fits, as a checkpoint would have that was written by a fault rather than damaged on disk.
+/// With the checksum that fits, as a checkpoint would have that was written by a fault rather than
+/// damaged on disk.
 std::vector<std::byte> sealed_again(std::vector<std::byte> bytes) {
   bytes.resize(bytes.size() - sizeof(std::uint64_t));
   put(bytes, checksum(bytes));
@@ -40,7 +44,13 @@ std::vector<std::byte> sealed_again(std::vector<std::byte> bytes) {
 
 /// A number that stands out, of eight bytes, at any place: most of the state are such numbers.
 void put_strange_number(std::vector<std::byte>& bytes, std::size_t place, std::mt19937& random) {
-  const double strange[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e300, 1e300, 0.0, 1e-320, -1.0};
+  const double strange[] = {std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity(),
+                            -1e300,
+                            1e300,
+                            0.0,
+                            1e-320,
+                            -1.0};
   std::uint64_t number = (std::uint64_t{random()} << 32) | random();
   if (random() % 2 == 0) std::memcpy(&number, &strange[random() % 7], sizeof number);
   std::memcpy(bytes.data() + place, &number, std::min(sizeof number, bytes.size() - place));
@@ -84,7 +94,8 @@ TEST(CheckpointFuzz, GoesOnWithWhateverItAccepts) {
     if (!localizer.restore(sealed_again(strange))) continue;
     ++accepted;
     localizer.add_odometry(drive.odometry(10));
-    if (const auto localized = localizer.localize(scan)) localizer.integrate(slammot::testing::all_stationary(*localized));
+    if (const auto localized = localizer.localize(scan))
+      localizer.integrate(slammot::testing::all_stationary(*localized));
     localizer.finish();
     while (localizer.take_finished_submap()) {}
     localizer.checkpoint();

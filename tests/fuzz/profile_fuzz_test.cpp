@@ -12,12 +12,47 @@ using slammot::testing::mutated;
 using slammot::testing::random_bytes;
 using slammot::testing::random_words;
 
-const std::vector<std::string_view> kWords = {
-    "localization", "ingest", "map_store", "map", "evidence", "{", "}", ":", "[", "]", "<", ">", ";", ",", "#", "\"", "'", "\\x",
-    "side_m", "cell_size_m", "match_range_m", "max_pending", "0", "-1", "1", "1e400", "nan", "-inf", "0x7fffffff",
-    "99999999999999999999", "0.2", "true", "false", "\n", "\0", "\xff", "[google.protobuf.Any]", "type.googleapis.com/x"};
+const std::vector<std::string_view> kWords = {"localization",
+                                              "ingest",
+                                              "map_store",
+                                              "map",
+                                              "evidence",
+                                              "{",
+                                              "}",
+                                              ":",
+                                              "[",
+                                              "]",
+                                              "<",
+                                              ">",
+                                              ";",
+                                              ",",
+                                              "#",
+                                              "\"",
+                                              "'",
+                                              "\\x",
+                                              "side_m",
+                                              "cell_size_m",
+                                              "match_range_m",
+                                              "max_pending",
+                                              "0",
+                                              "-1",
+                                              "1",
+                                              "1e400",
+                                              "nan",
+                                              "-inf",
+                                              "0x7fffffff",
+                                              "99999999999999999999",
+                                              "0.2",
+                                              "true",
+                                              "false",
+                                              "\n",
+                                              "\0",
+                                              "\xff",
+                                              "[google.protobuf.Any]",
+                                              "type.googleapis.com/x"};
 
-/// Whatever is accepted is within its ranges; whatever is not is explained in one line. True if it is accepted.
+/// Whatever is accepted is within its ranges; whatever is not is explained in one line. True if it
+/// is accepted.
 bool is_accepted(const std::string& text) {
   Profile profile;
   const auto stages = bind_stages(profile);

@@ -1,7 +1,8 @@
-/// For tests with tools that know nothing of this project: a participant that writes samples to every topic there is.
+/// For tests with tools that know nothing of this project: a participant that writes samples to
+/// every topic there is.
 ///     publish_every_topic DOMAIN TAG
-/// Prints the DDS configuration that a tool needs to see it, then "topic TOPIC TYPE" for each, then "ready"; goes on
-/// writing until its standard input ends.
+/// Prints the DDS configuration that a tool needs to see it, then "topic TOPIC TYPE" for each, then
+/// "ready"; goes on writing until its standard input ends.
 
 #include <chrono>
 #include <functional>
@@ -68,8 +69,12 @@ class EveryTopic {
     add(topics::kOdometry, [](auto& writer) {
       writer.write(wire::encode(kVehicle, sensing::Odometry{1, {1.0, 2.0, 3.0}}));
     });
-    add(topics::kGnssFix, [](auto& writer) { writer.write(wire::encode(kVehicle, sensing::GnssFix{.stamp_ns = 1})); });
-    add(topics::kCompassReading, [](auto& writer) { writer.write(wire::encode(kVehicle, sensing::CompassReading{.stamp_ns = 1})); });
+    add(topics::kGnssFix, [](auto& writer) {
+      writer.write(wire::encode(kVehicle, sensing::GnssFix{.stamp_ns = 1}));
+    });
+    add(topics::kCompassReading, [](auto& writer) {
+      writer.write(wire::encode(kVehicle, sensing::CompassReading{.stamp_ns = 1}));
+    });
   }
 
   void add_truth() {
@@ -78,50 +83,65 @@ class EveryTopic {
     scan.objects.resize(1);
     scan.hits = {0, 1, -1};
     const auto encoder = std::make_shared<wire::TruthEncoder>();
-    add(topics::kTruePose, [encoder, scan](auto& writer) { writer.write(encoder->encode_pose(kVehicle, scan)); });
-    add(topics::kTrueObjects, [encoder, scan](auto& writer) { writer.write(encoder->encode_objects(kVehicle, scan)); });
-    add(topics::kTrueHits, [encoder, scan](auto& writer) { writer.write(encoder->encode_hits(kVehicle, scan)); });
+    add(topics::kTruePose,
+        [encoder, scan](auto& writer) { writer.write(encoder->encode_pose(kVehicle, scan)); });
+    add(topics::kTrueObjects,
+        [encoder, scan](auto& writer) { writer.write(encoder->encode_objects(kVehicle, scan)); });
+    add(topics::kTrueHits,
+        [encoder, scan](auto& writer) { writer.write(encoder->encode_hits(kVehicle, scan)); });
   }
 
   void add_estimates() {
-    add_encoded<wire::LocalizedScanEncoder>(topics::kLocalizedScan, testing::localized_scan(random_, 5));
-    add_encoded<wire::SegmentedScanEncoder>(topics::kSegmentedScan, testing::segmented_scan(random_, 5));
-    add_encoded<wire::TrackedObjectsEncoder>(topics::kTrackedObjects, testing::tracked_objects(random_, 2));
-    add_encoded<wire::TrackedObjectsEncoder>(topics::kStoredTrackedObjects, testing::tracked_objects(random_, 2));
-    add_encoded<wire::ScanLabelsEncoder>(topics::kScanLabels,
-                                         flow::ScanLabels{1, 2, "front", {flow::PointLabel::kMoving}, {{1, {2, 3}}}});
+    add_encoded<wire::LocalizedScanEncoder>(topics::kLocalizedScan,
+                                            testing::localized_scan(random_, 5));
+    add_encoded<wire::SegmentedScanEncoder>(topics::kSegmentedScan,
+                                            testing::segmented_scan(random_, 5));
+    add_encoded<wire::TrackedObjectsEncoder>(topics::kTrackedObjects,
+                                             testing::tracked_objects(random_, 2));
+    add_encoded<wire::TrackedObjectsEncoder>(topics::kStoredTrackedObjects,
+                                             testing::tracked_objects(random_, 2));
+    add_encoded<wire::ScanLabelsEncoder>(
+        topics::kScanLabels,
+        flow::ScanLabels{1, 2, "front", {flow::PointLabel::kMoving}, {{1, {2, 3}}}});
   }
 
   void add_maps() {
     const auto write_tiles = [submap = testing::submap(random_, 1, 3, 2, 4)](auto& writer) {
-      wire::SubmapEncoder().encode(kVehicle, submap, [&](const slammot_SubmapTile& tile) { writer.write(tile); });
+      wire::SubmapEncoder().encode(kVehicle, submap,
+                                   [&](const slammot_SubmapTile& tile) { writer.write(tile); });
     };
     add(topics::kSubmapTile, write_tiles);
     add(topics::kStoredSubmapTile, write_tiles);
-    add(topics::kStoredMap, [](auto& writer) { writer.write(wire::encode(kVehicle, flow::StoredMap{{7}, 3, 0, {2}, 0.2})); });
+    add(topics::kStoredMap, [](auto& writer) {
+      writer.write(wire::encode(kVehicle, flow::StoredMap{{7}, 3, 0, {2}, 0.2}));
+    });
     add(topics::kConstraint, [pose = testing::uncertain_pose(random_)](auto& writer) {
-      writer.write(wire::encode(kVehicle, flow::Constraint{{0}, {1}, flow::ConstraintKind::kLoop, pose}));
+      writer.write(
+          wire::encode(kVehicle, flow::Constraint{{0}, {1}, flow::ConstraintKind::kLoop, pose}));
     });
     add(topics::kGraphCorrection, [](auto& writer) {
       const flow::GraphCorrection correction{1, {1.0, 2.0, 3.0}, {{{0}, {}}, {{1}, {}}}};
-      wire::GraphCorrectionEncoder().encode(kVehicle, correction,
-                                            [&](const slammot_GraphCorrection& part) { writer.write(part); });
+      wire::GraphCorrectionEncoder().encode(
+          kVehicle, correction, [&](const slammot_GraphCorrection& part) { writer.write(part); });
     });
   }
 
   void add_services() {
     const wire::ServiceName name{kVehicle, "detection", "front"};
-    add(topics::kHeartbeat, [name](auto& writer) { writer.write(wire::encode(wire::Heartbeat{.name = name})); });
+    add(topics::kHeartbeat,
+        [name](auto& writer) { writer.write(wire::encode(wire::Heartbeat{.name = name})); });
     add(topics::kStatus, [name](auto& writer) {
       wire::StatusEncoder encoder;
-      writer.write(
-          encoder.encode({.name = name, .counters = {{"scans", 7}}, .latencies = {{"detect", 7, 0.1, 0.2, 0.3}}}));
+      writer.write(encoder.encode(
+          {.name = name, .counters = {{"scans", 7}}, .latencies = {{"detect", 7, 0.1, 0.2, 0.3}}}));
     });
     add(topics::kCommand, [](auto& writer) {
-      writer.write(wire::encode(wire::Command{kVehicle, "localization", "test-1", 1, "finish_submap", ""}));
+      writer.write(
+          wire::encode(wire::Command{kVehicle, "localization", "test-1", 1, "finish_submap", ""}));
     });
     add(topics::kReply, [](auto& writer) {
-      writer.write(wire::encode(wire::Reply{kVehicle, "test-1", 1, "localization", wire::Outcome::kDone, ""}));
+      writer.write(wire::encode(
+          wire::Reply{kVehicle, "test-1", 1, "localization", wire::Outcome::kDone, ""}));
     });
   }
 
@@ -132,7 +152,8 @@ class EveryTopic {
 
 int publish(std::uint32_t domain_id, const std::string& tag) {
   const std::string config = dds::loopback_config(tag);
-  const dds::Participant participant({.domain_id = domain_id, .name = "publish-every-topic", .config = config});
+  const dds::Participant participant(
+      {.domain_id = domain_id, .name = "publish-every-topic", .config = config});
   const EveryTopic every_topic(participant);
   std::cout << config << '\n';
   for (const dds::TopicInfo* topic : dds::topic_table()) {

@@ -17,7 +17,8 @@ namespace slammot::testing {
 /// Longer than anything on a busy machine takes: a test that waits so long has failed.
 inline constexpr std::chrono::seconds kForever{20};
 
-/// A bus of its own on loopback, also where several tests run at once: own domain and own discovery tag.
+/// A bus of its own on loopback, also where several tests run at once: own domain and own discovery
+/// tag.
 struct PrivateBus {
   std::uint32_t domain_id;
   std::string config;
@@ -26,7 +27,8 @@ struct PrivateBus {
     static std::atomic<std::uint32_t> made{0};
     const std::uint32_t number = made++;
     domain_id = 1 + (static_cast<std::uint32_t>(getpid()) + 31 * number) % 200;
-    config = dds::loopback_config("test-" + std::to_string(getpid()) + "-" + std::to_string(number));
+    config =
+        dds::loopback_config("test-" + std::to_string(getpid()) + "-" + std::to_string(number));
   }
 
   dds::Participant join(const std::string& name = "test") const {

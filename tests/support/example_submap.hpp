@@ -8,9 +8,10 @@
 
 namespace slammot::testing {
 
-/// A submap whose every member differs from its default, the same for the same arguments. Submap n covers the time from
-/// 10 n s to 10 (n + 1) s after the drive's start.
-inline flow::Submap example_submap(std::uint32_t id, std::int64_t drive_start_ns = 0, std::uint32_t columns = 70) {
+/// A submap whose every member differs from its default, the same for the same arguments. Submap n
+/// covers the time from 10 n s to 10 (n + 1) s after the drive's start.
+inline flow::Submap example_submap(std::uint32_t id, std::int64_t drive_start_ns = 0,
+                                   std::uint32_t columns = 70) {
   std::mt19937 random(id + 1);
   flow::Submap submap;
   submap.map_id = {5};
@@ -19,7 +20,8 @@ inline flow::Submap example_submap(std::uint32_t id, std::int64_t drive_start_ns
   submap.last_stamp_ns = submap.first_stamp_ns + 10'000'000'000;
   submap.odom_from_submap = {10.0 * id, 1.5, 0.1};
   submap.previous_from_submap.pose = {10.0, 0.25, -0.01};
-  submap.previous_from_submap.covariance << 0.04, 0.01, 0.001, 0.01, 0.09, -0.002, 0.001, -0.002, 0.0016;
+  submap.previous_from_submap.covariance << 0.04, 0.01, 0.001, 0.01, 0.09, -0.002, 0.001, -0.002,
+      0.0016;
   submap.submap_from_base_at_end = {9.5, 0.2, -0.02};
   submap.travelled_m = 9.75;
   submap.cell_size_m = 0.2;
@@ -40,18 +42,23 @@ inline flow::Submap example_submap(std::uint32_t id, std::int64_t drive_start_ns
 }
 
 inline bool same_surfel(const flow::Surfel& a, const flow::Surfel& b) {
-  return a.x_m == b.x_m && a.y_m == b.y_m && a.normal_x == b.normal_x && a.normal_y == b.normal_y && a.weight == b.weight;
+  return a.x_m == b.x_m && a.y_m == b.y_m && a.normal_x == b.normal_x && a.normal_y == b.normal_y &&
+         a.weight == b.weight;
 }
 
 /// Bit for bit.
 inline bool same_submap(const flow::Submap& a, const flow::Submap& b) {
-  return a.map_id == b.map_id && a.submap_id == b.submap_id && a.first_stamp_ns == b.first_stamp_ns && a.last_stamp_ns == b.last_stamp_ns &&
-         a.odom_from_submap == b.odom_from_submap && a.previous_from_submap.pose == b.previous_from_submap.pose &&
+  return a.map_id == b.map_id && a.submap_id == b.submap_id &&
+         a.first_stamp_ns == b.first_stamp_ns && a.last_stamp_ns == b.last_stamp_ns &&
+         a.odom_from_submap == b.odom_from_submap &&
+         a.previous_from_submap.pose == b.previous_from_submap.pose &&
          a.previous_from_submap.covariance == b.previous_from_submap.covariance &&
          a.submap_from_base_at_end == b.submap_from_base_at_end && a.travelled_m == b.travelled_m &&
-         a.cell_size_m == b.cell_size_m && a.min_x_m == b.min_x_m && a.min_y_m == b.min_y_m && a.columns == b.columns &&
-         a.rows == b.rows && a.so_log_odds == b.so_log_odds && a.mo_evidence == b.mo_evidence &&
-         std::equal(a.surfels.begin(), a.surfels.end(), b.surfels.begin(), b.surfels.end(), same_surfel) &&
+         a.cell_size_m == b.cell_size_m && a.min_x_m == b.min_x_m && a.min_y_m == b.min_y_m &&
+         a.columns == b.columns && a.rows == b.rows && a.so_log_odds == b.so_log_odds &&
+         a.mo_evidence == b.mo_evidence &&
+         std::equal(a.surfels.begin(), a.surfels.end(), b.surfels.begin(), b.surfels.end(),
+                    same_surfel) &&
          a.saliency == b.saliency;
 }
 

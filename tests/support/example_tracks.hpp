@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include "services/tracking/measurement_update.hpp"
 #include "services/tracking/track.hpp"
@@ -49,7 +49,8 @@ inline Track known_car() {
   track.extent.box()->heading_variance_rad2 = 0.0016;
   track.extent.box()->axis_variance_rad2 = 0.0016;
   *track.extent.box() = with_likely_sizes(*track.extent.box(), {});
-  track.kinematics.mixture = filters::imm_start(tracking::motion_models({}), track.kinematics.estimate);
+  track.kinematics.mixture =
+      filters::imm_start(tracking::motion_models({}), track.kinematics.estimate);
   return track;
 }
 
@@ -64,8 +65,11 @@ inline Track known_walker(double x_m, const TrackingConfig& config) {
   track.extent.footprint().width = {0.5, 0.01};
   track.extent.blob()->was_seen_whole = true;
   track.extent.largest_span_m = 0.5;
-  for (int i = 0; i < 150; ++i) track.classification.speeds = with_speed(track.classification.speeds, {1.3, 0.2, kPeriodS}, config);
-  track.classification.probability = class_probabilities(track.extent.outline, track.classification.speeds, config);
+  for (int i = 0; i < 150; ++i)
+    track.classification.speeds =
+        with_speed(track.classification.speeds, {1.3, 0.2, kPeriodS}, config);
+  track.classification.probability =
+      class_probabilities(track.extent.outline, track.classification.speeds, config);
   filters::MotionState motion;
   motion.mean << x_m, 8.0, 1.3, 0.0, 0.0, 0.0;
   motion.covariance = 0.02 * motion.covariance.Identity();
@@ -74,14 +78,17 @@ inline Track known_walker(double x_m, const TrackingConfig& config) {
 }
 
 /// One scan later there are echoes of somebody, or of something this wide, about this place.
-inline void see(Track& track, const Eigen::Vector2d& middle_m, double width_m, const TrackingConfig& config) {
+inline void see(Track& track, const Eigen::Vector2d& middle_m, double width_m,
+                const TrackingConfig& config) {
   std::vector<Eigen::Vector2d> points_m;
-  for (int i = 0; i < 7; ++i) points_m.emplace_back(middle_m.x() + width_m * (i / 6.0 - 0.5), middle_m.y() - 0.1);
+  for (int i = 0; i < 7; ++i)
+    points_m.emplace_back(middle_m.x() + width_m * (i / 6.0 - 0.5), middle_m.y() - 0.1);
   Observation observation;
   observation.points_m = points_m;
   observation.beam_step_rad = 0.009;
   predict(track, kPeriodS, config);
-  ASSERT_TRUE(update(track, track.history.last_seen_ns + 27'000'000, observation, Eigen::Matrix2d::Zero(), config));
+  ASSERT_TRUE(update(track, track.history.last_seen_ns + 27'000'000, observation,
+                     Eigen::Matrix2d::Zero(), config));
 }
 
 /// As the profile of a slow robot in a building says.
@@ -99,7 +106,8 @@ inline TrackingConfig among_people() {
   return config;
 }
 
-/// Something fast that has come far, of which earlier scans could hardly see the places where it was.
+/// Something fast that has come far, of which earlier scans could hardly see the places where it
+/// was.
 inline Track out_from_behind_others(const TrackingConfig& config) {
   Track track;
   track.existence.score = config.confirm_score;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/LU>
 #include <zlib.h>
+#include <Eigen/LU>
 
 #include "common/flow/graph_correction.hpp"
 
@@ -14,7 +14,8 @@ namespace slammot::testing {
 
 struct G2oGraph {
   std::vector<flow::CorrectedSubmap> nodes;   ///< VERTEX_SE2, in the file's order.
-  std::vector<flow::Constraint> constraints;  ///< EDGE_SE2, all odometric; the covariance is the information inverted.
+  std::vector<flow::Constraint> constraints;  ///< EDGE_SE2, all odometric; the covariance is the
+                                              ///< information inverted.
 };
 
 /// Text of a file, plain or gzip; empty when it cannot be read.
@@ -23,7 +24,8 @@ inline std::string read_text(const std::filesystem::path& path) {
   gzFile file = gzopen(path.c_str(), "rb");
   if (file == nullptr) return text;
   char buffer[1 << 16];
-  for (int count = gzread(file, buffer, sizeof buffer); count > 0; count = gzread(file, buffer, sizeof buffer)) {
+  for (int count = gzread(file, buffer, sizeof buffer); count > 0;
+       count = gzread(file, buffer, sizeof buffer)) {
     text.append(buffer, static_cast<std::size_t>(count));
   }
   gzclose(file);
@@ -46,7 +48,8 @@ inline G2oGraph parse_g2o(const std::string& text) {
     } else if (kind == "EDGE_SE2") {
       flow::Constraint constraint;
       geometry::Pose2& pose = constraint.from_to.pose;
-      fields >> constraint.from.value >> constraint.to.value >> pose.x_m >> pose.y_m >> pose.heading_rad;
+      fields >> constraint.from.value >> constraint.to.value >> pose.x_m >> pose.y_m >>
+          pose.heading_rad;
       double i11, i12, i13, i22, i23, i33;
       fields >> i11 >> i12 >> i13 >> i22 >> i23 >> i33;
       const geometry::Matrix3 information{{i11, i12, i13}, {i12, i22, i23}, {i13, i23, i33}};

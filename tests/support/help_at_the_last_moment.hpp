@@ -8,8 +8,8 @@
 
 namespace slammot::testing {
 
-/// The slowest help that may be: whatever is read without waiting is read too early. It shares backwards: whatever needs the part
-/// before finds that it is not there.
+/// The slowest help that may be: whatever is read without waiting is read too early. It shares
+/// backwards: whatever needs the part before finds that it is not there.
 class HelpAtTheLastMoment : public work::SideWork {
  public:
   void begin(std::function<bool()> step) override {

@@ -34,13 +34,15 @@ class SimulatedDrive {
 
   /// Truth in the frame that localization calls odom: the base where it was at the first scan.
   geometry::Pose2 odom_from_base(std::uint32_t scan) const {
-    return geometry::inverse(setup_.world_from_base_at(0.0)) * setup_.world_from_base_at(time_s(scan));
+    return geometry::inverse(setup_.world_from_base_at(0.0)) *
+           setup_.world_from_base_at(time_s(scan));
   }
 
   sensing::LaserScan scan(std::uint32_t number) const {
     std::mt19937 random(number + 1);
     const double start_s = time_s(number);
-    sensing::LaserScan scan = scan_along(setup_.world, setup_.world_from_base_at, start_s, setup_.scanner, setup_.beams, setup_.noise_m, random);
+    sensing::LaserScan scan = scan_along(setup_.world, setup_.world_from_base_at, start_s,
+                                         setup_.scanner, setup_.beams, setup_.noise_m, random);
     scan.sequence = number;
     return scan;
   }
@@ -48,8 +50,10 @@ class SimulatedDrive {
   /// At the stamp of the scan; ask for them in ascending order.
   sensing::Odometry odometry(std::uint32_t number) {
     for (; wheel_scan_ < number; ++wheel_scan_) {
-      const geometry::Pose2 step = geometry::inverse(odom_from_base(wheel_scan_)) * odom_from_base(wheel_scan_ + 1);
-      wheel_from_base_ = wheel_from_base_ * step_by_wheels(step, setup_.scan_period_s, setup_.wheels);
+      const geometry::Pose2 step =
+          geometry::inverse(odom_from_base(wheel_scan_)) * odom_from_base(wheel_scan_ + 1);
+      wheel_from_base_ =
+          wheel_from_base_ * step_by_wheels(step, setup_.scan_period_s, setup_.wheels);
     }
     return {stamp_ns_of(time_s(number)), wheel_from_base_};
   }
@@ -79,14 +83,17 @@ inline localization::LocalizerConfig small_map_config() {
   return config;
 }
 
-inline double distance_m(const geometry::Pose2& a, const geometry::Pose2& b) { return (a.translation_m() - b.translation_m()).norm(); }
+inline double distance_m(const geometry::Pose2& a, const geometry::Pose2& b) {
+  return (a.translation_m() - b.translation_m()).norm();
+}
 
 inline double turn_rad(const geometry::Pose2& a, const geometry::Pose2& b) {
   return std::abs(geometry::wrap_angle(a.heading_rad - b.heading_rad));
 }
 
 /// Odometry, scan and labels of one scan, the way a whole system delivers them.
-inline std::optional<flow::LocalizedScan> drive_one(stages::LocalizationStage& localizer, SimulatedDrive& drive, std::uint32_t scan,
+inline std::optional<flow::LocalizedScan> drive_one(stages::LocalizationStage& localizer,
+                                                    SimulatedDrive& drive, std::uint32_t scan,
                                                     bool with_odometry = true) {
   if (with_odometry) localizer.add_odometry(drive.odometry(scan));
   auto localized = localizer.localize(drive.scan(scan), {});
@@ -100,14 +107,17 @@ struct DriveErrors {
 };
 
 /// Drives through scans [first, last) and compares each pose with the truth.
-inline DriveErrors drive_through(stages::LocalizationStage& localizer, SimulatedDrive& drive, std::uint32_t first, std::uint32_t last,
+inline DriveErrors drive_through(stages::LocalizationStage& localizer, SimulatedDrive& drive,
+                                 std::uint32_t first, std::uint32_t last,
                                  bool with_odometry = true) {
   DriveErrors errors;
   for (std::uint32_t scan = first; scan < last; ++scan) {
     const auto localized = drive_one(localizer, drive, scan, with_odometry);
     if (!localized) continue;
-    errors.worst_m = std::max(errors.worst_m, distance_m(localized->odom_from_base.pose, drive.odom_from_base(scan)));
-    errors.worst_rad = std::max(errors.worst_rad, turn_rad(localized->odom_from_base.pose, drive.odom_from_base(scan)));
+    errors.worst_m = std::max(
+        errors.worst_m, distance_m(localized->odom_from_base.pose, drive.odom_from_base(scan)));
+    errors.worst_rad = std::max(
+        errors.worst_rad, turn_rad(localized->odom_from_base.pose, drive.odom_from_base(scan)));
   }
   return errors;
 }

@@ -11,8 +11,9 @@
 #include "common/filters/model_set.hpp"
 #include "common/filters/motion_models.hpp"
 
-/// The simulations of Wang 2004, Section 4.3: a point, seen from a scanner at rest with a noise of 0.1 m. What the text does
-/// not say (the sampling period, the phases of the move-stop-move maneuver) is chosen here.
+/// The simulations of Wang 2004, Section 4.3: a point, seen from a scanner at rest with a noise of
+/// 0.1 m. What the text does not say (the sampling period, the phases of the move-stop-move
+/// maneuver) is chosen here.
 namespace slammot::testing {
 
 using filters::Vector6;
@@ -38,7 +39,9 @@ inline Vector6 along_x(double x_m, double speed_mps, double acceleration_mps2) {
 }
 
 /// Case 1, Figures 4.2 and 4.3.
-inline Vector6 accelerating(double t) { return along_x(5.0 * t + 5.0 * t * t, 5.0 + 10.0 * t, 10.0); }
+inline Vector6 accelerating(double t) {
+  return along_x(5.0 * t + 5.0 * t * t, 5.0 + 10.0 * t, 10.0);
+}
 
 /// Case 2, Figures 4.4 and 4.5.
 inline Vector6 cruising(double t) { return along_x(15.0 * t, 15.0, 0.0); }
@@ -48,8 +51,9 @@ inline Vector6 turning(double t) {
   const double rate_radps = 18.0 * M_PI / 180.0;
   const double angle = rate_radps * t;
   Vector6 state;
-  state << 15.0 / rate_radps * std::sin(angle), 15.0 / rate_radps * (1.0 - std::cos(angle)), 15.0 * std::cos(angle),
-      15.0 * std::sin(angle), -15.0 * rate_radps * std::sin(angle), 15.0 * rate_radps * std::cos(angle);
+  state << 15.0 / rate_radps * std::sin(angle), 15.0 / rate_radps * (1.0 - std::cos(angle)),
+      15.0 * std::cos(angle), 15.0 * std::sin(angle), -15.0 * rate_radps * std::sin(angle),
+      15.0 * rate_radps * std::cos(angle);
   return state;
 }
 
@@ -65,9 +69,13 @@ inline constexpr double kStopXM = 30.0;
 /// Case 4, Figures 4.8 and 4.9: 10 m/s, 5 m/s^2 down to a stop of 5 s, and the same back.
 inline Vector6 moving_stopping_moving(double t) {
   if (t < kBrakesAtS) return along_x(10.0 * t, 10.0, 0.0);
-  if (t < kStandsAtS) return along_x(kStopXM - 2.5 * (kStandsAtS - t) * (kStandsAtS - t), 5.0 * (kStandsAtS - t), -5.0);
+  if (t < kStandsAtS)
+    return along_x(kStopXM - 2.5 * (kStandsAtS - t) * (kStandsAtS - t), 5.0 * (kStandsAtS - t),
+                   -5.0);
   if (t < kStartsAtS) return along_x(kStopXM, 0.0, 0.0);
-  if (t < kCruisesAtS) return along_x(kStopXM + 2.5 * (t - kStartsAtS) * (t - kStartsAtS), 5.0 * (t - kStartsAtS), 5.0);
+  if (t < kCruisesAtS)
+    return along_x(kStopXM + 2.5 * (t - kStartsAtS) * (t - kStartsAtS), 5.0 * (t - kStartsAtS),
+                   5.0);
   return along_x(kStopXM + 10.0 + 10.0 * (t - kCruisesAtS), 10.0, 0.0);
 }
 
@@ -84,7 +92,9 @@ inline std::vector<Eigen::Vector2d> measured(const Maneuver& truth_at, int scans
   return positions_m;
 }
 
-inline Eigen::Matrix2d maneuver_noise_m2() { return kManeuverSigmaM * kManeuverSigmaM * Eigen::Matrix2d::Identity(); }
+inline Eigen::Matrix2d maneuver_noise_m2() {
+  return kManeuverSigmaM * kManeuverSigmaM * Eigen::Matrix2d::Identity();
+}
 
 /// A start that knows the place as well as one measurement, and little of the speed.
 inline filters::MotionState start_of(const Maneuver& truth_at) {

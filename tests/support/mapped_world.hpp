@@ -18,7 +18,8 @@ class MappedWorld {
   static constexpr std::size_t kBeams = 360;
 
   /// The map is of what is seen from its middle and from 2 m to each side.
-  explicit MappedWorld(World world, const localization::LocalizerConfig& config = config_of_small_map())
+  explicit MappedWorld(World world,
+                       const localization::LocalizerConfig& config = config_of_small_map())
       : world_(std::move(world)), config_(config), map_(config.map, geometry::Vector2::Zero()) {
     for (int i = 0; i < 30; ++i) {
       const geometry::Vector2 origin_m(2.0 * (i % 3 - 1) + 0.03, 0.02);
@@ -38,7 +39,9 @@ class MappedWorld {
     scan.scanner.beam_step_rad = beam_step_rad();
     scan.scanner.max_range_m = 80.0;
     for (std::size_t beam = 0; beam < kBeams; ++beam) {
-      const double range = range_m(world_, odom_from_base.translation_m(), odom_from_base.heading_rad + sensing::beam_angle_rad(scan.scanner, beam));
+      const double range =
+          range_m(world_, odom_from_base.translation_m(),
+                  odom_from_base.heading_rad + sensing::beam_angle_rad(scan.scanner, beam));
       scan.range_m.push_back(static_cast<float>(range));
     }
     return scan;
@@ -64,7 +67,10 @@ class MappedWorld {
     std::vector<grids::Ray> rays;
     for (std::size_t i = 0; i < kBeams; ++i) {
       const double direction_rad = beam_step_rad() * static_cast<double>(i);
-      rays.push_back({origin_m + range_m(world_, origin_m, direction_rad) * geometry::Vector2(std::cos(direction_rad), std::sin(direction_rad)), grids::Echo::kStationary});
+      rays.push_back(
+          {origin_m + range_m(world_, origin_m, direction_rad) *
+                          geometry::Vector2(std::cos(direction_rad), std::sin(direction_rad)),
+           grids::Echo::kStationary});
     }
     return rays;
   }

@@ -17,12 +17,16 @@ inline void PrintTo(const Pose2& pose, std::ostream* out) {
 
 namespace slammot::testing {
 
-MATCHER_P2(PoseNear, expected, tolerance, "is within " + ::testing::PrintToString(tolerance) + " of " + ::testing::PrintToString(expected)) {
+MATCHER_P2(PoseNear, expected, tolerance,
+           "is within " + ::testing::PrintToString(tolerance) + " of " +
+               ::testing::PrintToString(expected)) {
   return std::hypot(arg.x_m - expected.x_m, arg.y_m - expected.y_m) <= tolerance &&
          std::abs(geometry::wrap_angle(arg.heading_rad - expected.heading_rad)) <= tolerance;
 }
 
-MATCHER_P2(MatrixNear, expected, tolerance, "is within " + ::testing::PrintToString(tolerance) + " of\n" + ::testing::PrintToString(expected)) {
+MATCHER_P2(MatrixNear, expected, tolerance,
+           "is within " + ::testing::PrintToString(tolerance) + " of\n" +
+               ::testing::PrintToString(expected)) {
   return (arg - expected).cwiseAbs().maxCoeff() <= tolerance;
 }
 

@@ -18,11 +18,15 @@ inline loop_closing::LoopClosingConfig indoor_loop_closing() {
   config.revisit.search_cell_m = 0.1;
   config.revisit.min_window_m = 0.5;
   config.revisit.astray_window_m = 12.0;
-  config.revisit.registration = {.coarse_gate_m = 0.5, .fine_gate_m = 0.2, .surfel_sigma_m = 0.04, .independent_spacing_m = 0.5};
+  config.revisit.registration = {.coarse_gate_m = 0.5,
+                                 .fine_gate_m = 0.2,
+                                 .surfel_sigma_m = 0.04,
+                                 .independent_spacing_m = 0.5};
   return config;
 }
 
-/// Ring of corridors, 2 m wide, around a block of 20 x 20 m; niches and pillars make every place its own.
+/// Ring of corridors, 2 m wide, around a block of 20 x 20 m; niches and pillars make every place
+/// its own.
 inline FloorPlan ring() {
   FloorPlan plan;
   plan.add_box({0, 0}, {20, 20});
@@ -52,19 +56,28 @@ inline std::vector<geometry::Pose2> way_around_the_ring(double rounds) {
   return way;
 }
 
-/// The drive cut into submaps of six metres, as a front end saw it whose heading bends by bend_rad_per_m.
-inline std::vector<flow::Submap> drive(const FloorPlan& plan, const std::vector<geometry::Pose2>& map_from_base, double bend_rad_per_m, double sigma_scale = 1.0) {
+/// The drive cut into submaps of six metres, as a front end saw it whose heading bends by
+/// bend_rad_per_m.
+inline std::vector<flow::Submap> drive(const FloorPlan& plan,
+                                       const std::vector<geometry::Pose2>& map_from_base,
+                                       double bend_rad_per_m, double sigma_scale = 1.0) {
   constexpr std::size_t kPoses = 12;
   std::vector<flow::Submap> submaps;
   geometry::Pose2 odom_from_submap;
   for (std::size_t first = 0; first + kPoses < map_from_base.size(); first += kPoses) {
     const auto begin = map_from_base.begin() + static_cast<std::ptrdiff_t>(first);
-    flow::Submap submap = submap_seen_from(plan, static_cast<std::uint32_t>(submaps.size()), {begin, begin + kPoses + 1});
+    flow::Submap submap = submap_seen_from(plan, static_cast<std::uint32_t>(submaps.size()),
+                                           {begin, begin + kPoses + 1});
     if (!submaps.empty()) {
-      const geometry::Pose2 step = submaps.back().submap_from_base_at_end * geometry::Pose2{0.0, 0.0, bend_rad_per_m * submaps.back().travelled_m};
+      const geometry::Pose2 step =
+          submaps.back().submap_from_base_at_end *
+          geometry::Pose2{0.0, 0.0, bend_rad_per_m * submaps.back().travelled_m};
       const double position_sigma_m = sigma_scale * 0.05;
       const double heading_sigma_rad = sigma_scale * 0.015;
-      submap.previous_from_submap = {step, Eigen::Vector3d(position_sigma_m * position_sigma_m, position_sigma_m * position_sigma_m, heading_sigma_rad * heading_sigma_rad).asDiagonal()};
+      submap.previous_from_submap = {step, Eigen::Vector3d(position_sigma_m * position_sigma_m,
+                                                           position_sigma_m * position_sigma_m,
+                                                           heading_sigma_rad * heading_sigma_rad)
+                                               .asDiagonal()};
       odom_from_submap = odom_from_submap * step;
     }
     submap.odom_from_submap = odom_from_submap;

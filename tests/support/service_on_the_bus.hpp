@@ -32,7 +32,8 @@ class ServiceOnTheBus : public ::testing::Test {
     context_.reset();
   }
 
-  /// Lets the service work until the condition holds. The condition is asked every few milliseconds.
+  /// Lets the service work until the condition holds. The condition is asked every few
+  /// milliseconds.
   ::testing::AssertionResult comes_to(const std::function<bool()>& condition) {
     bool held = false;
     const auto end = std::chrono::steady_clock::now() + kForever;

@@ -19,9 +19,11 @@ struct StreetBox {
 };
 
 /// Range along the ray to the box so long after the scan's stamp; none where it misses.
-inline std::optional<double> range_to(const StreetBox& box, const geometry::Vector2& origin_m, double direction_rad, double delay_s = 0.0) {
+inline std::optional<double> range_to(const StreetBox& box, const geometry::Vector2& origin_m,
+                                      double direction_rad, double delay_s = 0.0) {
   const geometry::Vector2 centre_m = box.odom_from_box.translation_m() + delay_s * box.velocity_mps;
-  const geometry::Pose2 box_from_odom = geometry::inverse(geometry::Pose2{centre_m.x(), centre_m.y(), box.odom_from_box.heading_rad});
+  const geometry::Pose2 box_from_odom =
+      geometry::inverse(geometry::Pose2{centre_m.x(), centre_m.y(), box.odom_from_box.heading_rad});
   const geometry::Vector2 o = box_from_odom * origin_m;
   const double angle = direction_rad + box_from_odom.heading_rad;
   const geometry::Vector2 d{std::cos(angle), std::sin(angle)};
@@ -40,27 +42,30 @@ inline std::optional<double> range_to(const StreetBox& box, const geometry::Vect
   return near < far && near > 0.0 ? std::optional(near) : std::nullopt;
 }
 
-/// A scanner, of half a circle unless told, at the origin of base, among boxes of which the map knows some. Everything in front of what it
-/// expects is known to be free.
+/// A scanner, of half a circle unless told, at the origin of base, among boxes of which the map
+/// knows some. Everything in front of what it expects is known to be free.
 struct Street {
-  std::vector<StreetBox> known;   ///< Standing, in the map.
-  std::vector<StreetBox> unknown; ///< Not in the map: whatever moves.
-  std::vector<StreetBox> gone;    ///< In the map, but no longer there.
-  bool knows_the_open = true;     ///< Whether the map knows what is free where it expects nothing.
+  std::vector<StreetBox> known;    ///< Standing, in the map.
+  std::vector<StreetBox> unknown;  ///< Not in the map: whatever moves.
+  std::vector<StreetBox> gone;     ///< In the map, but no longer there.
+  bool knows_the_open = true;      ///< Whether the map knows what is free where it expects nothing.
   int beams = 361;
   double first_beam_rad = -0.5 * M_PI;
   double field_of_view_rad = M_PI;
   double max_range_m = 80.0;
   double sweep_s = 0.0;
 
-  static double nearest(const std::vector<StreetBox>& boxes, const geometry::Vector2& origin_m, double direction_rad, double max_range_m, double delay_s) {
+  static double nearest(const std::vector<StreetBox>& boxes, const geometry::Vector2& origin_m,
+                        double direction_rad, double max_range_m, double delay_s) {
     double range_m = max_range_m;
     for (const StreetBox& box : boxes)
-      if (const auto hit = range_to(box, origin_m, direction_rad, delay_s)) range_m = std::min(range_m, *hit);
+      if (const auto hit = range_to(box, origin_m, direction_rad, delay_s))
+        range_m = std::min(range_m, *hit);
     return range_m;
   }
 
-  flow::LocalizedScan scan(std::int64_t stamp_ns, std::uint32_t sequence, const geometry::Pose2& odom_from_base = {}) const {
+  flow::LocalizedScan scan(std::int64_t stamp_ns, std::uint32_t sequence,
+                           const geometry::Pose2& odom_from_base = {}) const {
     flow::LocalizedScan scan;
     scan.stamp_ns = stamp_ns;
     scan.sequence = sequence;
@@ -77,17 +82,21 @@ struct Street {
       const double delay_s = sweep_s * i / (beams - 1);
       const double known_m = nearest(known, origin_m, in_odom_rad, max_range_m, delay_s);
       const double unknown_m = nearest(unknown, origin_m, in_odom_rad, max_range_m, delay_s);
-      const double expected_m = std::min(known_m, nearest(gone, origin_m, in_odom_rad, max_range_m, delay_s));
+      const double expected_m =
+          std::min(known_m, nearest(gone, origin_m, in_odom_rad, max_range_m, delay_s));
       flow::LocalizedBeam beam;
       const double range_m = std::min(known_m, unknown_m);
       beam.expected_range_m = static_cast<float>(expected_m);
-      beam.point_in_base_m = (range_m * Eigen::Vector2d(std::cos(in_base_rad), std::sin(in_base_rad))).cast<float>();
+      beam.point_in_base_m =
+          (range_m * Eigen::Vector2d(std::cos(in_base_rad), std::sin(in_base_rad))).cast<float>();
       if (range_m < max_range_m) {
         beam.range_m = static_cast<float>(range_m);
         const bool is_known = knows_the_open || expected_m < max_range_m;
         const bool is_free = is_known && range_m < expected_m - 0.3;
         const bool is_behind = !is_known || range_m > expected_m + 0.3;
-        beam.end_cell = is_free ? flow::EndCell::kFree : is_behind ? flow::EndCell::kUnseen : flow::EndCell::kOccupied;
+        beam.end_cell = is_free     ? flow::EndCell::kFree
+                        : is_behind ? flow::EndCell::kUnseen
+                                    : flow::EndCell::kOccupied;
         beam.free_evidence = is_free ? 4.0F : is_behind ? 0.0F : -4.0F;
       }
       scan.beams.push_back(beam);

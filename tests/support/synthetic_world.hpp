@@ -19,7 +19,8 @@ struct Wall {
   geometry::Vector2 to_m;
 };
 
-/// Everything that stands in the plane. Rays are cast at every wall in turn: slow, and so simple that it can be believed.
+/// Everything that stands in the plane. Rays are cast at every wall in turn: slow, and so simple
+/// that it can be believed.
 using World = std::vector<Wall>;
 
 /// Where the base is, in the world, at a time in seconds.
@@ -28,7 +29,8 @@ using Path = std::function<geometry::Pose2(double)>;
 /// A closed line of walls through the corners.
 inline World polygon(const std::vector<geometry::Vector2>& corners_m) {
   World world;
-  for (std::size_t i = 0; i < corners_m.size(); ++i) world.push_back({corners_m[i], corners_m[(i + 1) % corners_m.size()]});
+  for (std::size_t i = 0; i < corners_m.size(); ++i)
+    world.push_back({corners_m[i], corners_m[(i + 1) % corners_m.size()]});
   return world;
 }
 
@@ -56,7 +58,8 @@ inline World room(double length_m = 16.0, double width_m = 10.0) {
   return joined(box({}, length_m, width_m), box({3.0, 2.0, 0.4}, 1.0, 0.6));
 }
 
-/// A street along x, closed at both ends: house fronts 9 m to each side, every one set back a little more or less.
+/// A street along x, closed at both ends: house fronts 9 m to each side, every one set back a
+/// little more or less.
 inline World street(double length_m) {
   std::mt19937 random(11);
   World world = box({0.5 * length_m, 0.0, 0.0}, length_m + 60.0, 40.0);
@@ -65,7 +68,8 @@ inline World street(double length_m) {
     while (x_m < length_m + 20.0) {
       const double front_m = 6.0 + static_cast<double>(random() % 50) / 10.0;
       const double set_back_m = static_cast<double>(random() % 30) / 10.0;
-      world = joined(world, box({x_m + 0.5 * front_m, side * (11.0 + set_back_m), 0.0}, front_m, 4.0));
+      world =
+          joined(world, box({x_m + 0.5 * front_m, side * (11.0 + set_back_m), 0.0}, front_m, 4.0));
       x_m += front_m + 0.5 + static_cast<double>(random() % 20) / 10.0;
     }
   }
@@ -83,7 +87,8 @@ inline double range_m(const World& world, const geometry::Vector2& origin_m, dou
     if (cross == 0.0) continue;
     const double distance_m = (offset_m.x() * along_m.y() - offset_m.y() * along_m.x()) / cross;
     const double share = (offset_m.x() * direction.y() - offset_m.y() * direction.x()) / cross;
-    if (distance_m > 0.0 && share >= 0.0 && share <= 1.0) nearest_m = std::min(nearest_m, distance_m);
+    if (distance_m > 0.0 && share >= 0.0 && share <= 1.0)
+      nearest_m = std::min(nearest_m, distance_m);
   }
   return nearest_m;
 }
@@ -99,11 +104,11 @@ inline sensing::Scanner half_circle_scanner(double max_range_m = 50.0) {
 
 inline std::int64_t stamp_ns_of(double time_s) { return std::llround(time_s * 1e9); }
 
-/// What the scanner measures while the base moves along the path: each beam from where the laser is when it fires.
-/// Echoes beyond the scanner's range read max_range_m.
-inline sensing::LaserScan scan_along(const World& world, const Path& world_from_base_at, double time_s,
-                                     const sensing::Scanner& scanner, std::size_t beam_count, double noise_m,
-                                     std::mt19937& random) {
+/// What the scanner measures while the base moves along the path: each beam from where the laser is
+/// when it fires. Echoes beyond the scanner's range read max_range_m.
+inline sensing::LaserScan scan_along(const World& world, const Path& world_from_base_at,
+                                     double time_s, const sensing::Scanner& scanner,
+                                     std::size_t beam_count, double noise_m, std::mt19937& random) {
   std::normal_distribution<double> noise(0.0, 1.0);
   sensing::LaserScan scan;
   scan.stamp_ns = stamp_ns_of(time_s);
@@ -111,9 +116,11 @@ inline sensing::LaserScan scan_along(const World& world, const Path& world_from_
   for (std::size_t beam = 0; beam < beam_count; ++beam) {
     const double fired_s = time_s + sensing::beam_delay_s(scanner, beam, beam_count);
     const geometry::Pose2 world_from_laser = world_from_base_at(fired_s) * scanner.base_from_laser;
-    const double direction_rad = world_from_laser.heading_rad + sensing::beam_angle_rad(scanner, beam);
+    const double direction_rad =
+        world_from_laser.heading_rad + sensing::beam_angle_rad(scanner, beam);
     const double exact_m = range_m(world, world_from_laser.translation_m(), direction_rad);
-    scan.range_m.push_back(static_cast<float>(std::min(exact_m + noise_m * noise(random), scanner.max_range_m)));
+    scan.range_m.push_back(
+        static_cast<float>(std::min(exact_m + noise_m * noise(random), scanner.max_range_m)));
   }
   return scan;
 }
@@ -124,7 +131,8 @@ inline Path arc(const geometry::Pose2& start, double speed_mps, double yaw_rate_
     const double turned_rad = yaw_rate_radps * time_s;
     if (yaw_rate_radps == 0.0) return start * geometry::Pose2{speed_mps * time_s, 0.0, 0.0};
     const double radius_m = speed_mps / yaw_rate_radps;
-    return start * geometry::Pose2{radius_m * std::sin(turned_rad), radius_m * (1.0 - std::cos(turned_rad)), turned_rad};
+    return start * geometry::Pose2{radius_m * std::sin(turned_rad),
+                                   radius_m * (1.0 - std::cos(turned_rad)), turned_rad};
   };
 }
 
@@ -135,10 +143,13 @@ struct WheelErrors {
   double askew_rad = 0.0;                ///< True direction of the way, left of the one by wheels.
 };
 
-inline geometry::Pose2 step_by_wheels(const geometry::Pose2& before_from_base, double duration_s, const WheelErrors& errors) {
+inline geometry::Pose2 step_by_wheels(const geometry::Pose2& before_from_base, double duration_s,
+                                      const WheelErrors& errors) {
   const double missed_rad = errors.heading_rate_bias_radps * duration_s;
-  const geometry::Vector2 moved_m = geometry::rotation(-errors.askew_rad - 0.5 * missed_rad) * before_from_base.translation_m() / errors.scale;
-  return {moved_m.x(), moved_m.y(), geometry::wrap_angle(before_from_base.heading_rad - missed_rad)};
+  const geometry::Vector2 moved_m = geometry::rotation(-errors.askew_rad - 0.5 * missed_rad) *
+                                    before_from_base.translation_m() / errors.scale;
+  return {moved_m.x(), moved_m.y(),
+          geometry::wrap_angle(before_from_base.heading_rad - missed_rad)};
 }
 
 }  // namespace slammot::testing

@@ -17,7 +17,9 @@ inline flow::SegmentedScan turned_scan(std::size_t beams, double beam_step_rad) 
   for (std::size_t beam = 0; beam < beams; ++beam) {
     const double angle_rad = -1.3 + static_cast<double>(beam) * beam_step_rad;
     scan.range_m.push_back(10.0F);
-    scan.points_in_base_m.push_back(10.0F * Eigen::Vector2f(static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))));
+    scan.points_in_base_m.push_back(10.0F *
+                                    Eigen::Vector2f(static_cast<float>(std::cos(angle_rad)),
+                                                    static_cast<float>(std::sin(angle_rad))));
   }
   return scan;
 }

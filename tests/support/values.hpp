@@ -11,7 +11,8 @@
 #include "common/flow/tracked_objects.hpp"
 #include "common/sensing/scan.hpp"
 
-/// Values in which every member differs from its default and from the others, so that a member left behind shows.
+/// Values in which every member differs from its default and from the others, so that a member left
+/// behind shows.
 namespace slammot::testing {
 
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -19,9 +20,13 @@ inline constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 
 using Random = std::mt19937;
 
-inline double number(Random& random) { return std::uniform_real_distribution<double>(0.1, 0.9)(random); }
+inline double number(Random& random) {
+  return std::uniform_real_distribution<double>(0.1, 0.9)(random);
+}
 inline float number_f(Random& random) { return static_cast<float>(number(random)); }
-inline geometry::Pose2 pose(Random& random) { return {number(random), number(random), number(random)}; }
+inline geometry::Pose2 pose(Random& random) {
+  return {number(random), number(random), number(random)};
+}
 inline Eigen::Vector2d vector(Random& random) { return {number(random), number(random)}; }
 inline Eigen::Vector2f point(Random& random) { return {number_f(random), number_f(random)}; }
 
@@ -32,7 +37,9 @@ Eigen::Matrix<double, kRows, kRows> matrix(Random& random) {
   return result;
 }
 
-inline geometry::UncertainPose2 uncertain_pose(Random& random) { return {pose(random), matrix<3>(random)}; }
+inline geometry::UncertainPose2 uncertain_pose(Random& random) {
+  return {pose(random), matrix<3>(random)};
+}
 
 inline sensing::LaserScan laser_scan(Random& random, std::size_t beams) {
   sensing::LaserScan scan{.stamp_ns = 1'700'000'000'123'456'789,
@@ -66,13 +73,14 @@ inline flow::LocalizedScan localized_scan(Random& random, std::size_t beams) {
                            .beams = {},
                            .odom_id = {1'700'000'000'000'000'002}};
   for (std::size_t i = 0; i < beams; ++i) {
-    scan.beams.push_back({point(random), number_f(random), number_f(random), -number_f(random), number_f(random),
-                          static_cast<flow::EndCell>(i % 4)});
+    scan.beams.push_back({point(random), number_f(random), number_f(random), -number_f(random),
+                          number_f(random), static_cast<flow::EndCell>(i % 4)});
   }
   return scan;
 }
 
-inline flow::Segment segment(Random& random, std::uint32_t segment_id, std::vector<std::uint16_t> beams) {
+inline flow::Segment segment(Random& random, std::uint32_t segment_id,
+                             std::vector<std::uint16_t> beams) {
   return {.segment_id = segment_id,
           .label = static_cast<flow::PointLabel>(segment_id % 4),
           .beams = std::move(beams),
@@ -87,7 +95,8 @@ inline flow::Segment segment(Random& random, std::uint32_t segment_id, std::vect
           .occluded_at_end = segment_id % 3 == 0};
 }
 
-/// Segments of two beams each, as many as fit into the beams but for the last two, which are in none.
+/// Segments of two beams each, as many as fit into the beams but for the last two, which are in
+/// none.
 inline flow::SegmentedScan segmented_scan(Random& random, std::size_t beams) {
   flow::SegmentedScan scan{.stamp_ns = 1'700'000'000'123'456'789,
                            .sequence = 42,
@@ -111,14 +120,14 @@ inline flow::SegmentedScan segmented_scan(Random& random, std::size_t beams) {
   }
   for (std::size_t i = 0; i + 3 < beams; i += 2) {
     const auto first = static_cast<std::uint16_t>(i);
-    scan.segments.push_back(
-        segment(random, static_cast<std::uint32_t>(i / 2), {first, static_cast<std::uint16_t>(first + 1)}));
+    scan.segments.push_back(segment(random, static_cast<std::uint32_t>(i / 2),
+                                    {first, static_cast<std::uint16_t>(first + 1)}));
   }
   return scan;
 }
 
-inline flow::TrackedObject tracked_object(Random& random, std::uint32_t track_id, std::size_t contour_points,
-                                          std::size_t path_points) {
+inline flow::TrackedObject tracked_object(Random& random, std::uint32_t track_id,
+                                          std::size_t contour_points, std::size_t path_points) {
   flow::TrackedObject object{.track_id = {track_id},
                              .confirmed = track_id % 2 == 0,
                              .existence = number(random),
@@ -137,14 +146,17 @@ inline flow::TrackedObject tracked_object(Random& random, std::uint32_t track_id
                              .contour_in_odom_m = {},
                              .predicted_path = {},
                              .class_probability = {0.1, 0.2, 0.3, 0.4}};
-  for (std::size_t i = 0; i < contour_points; ++i) object.contour_in_odom_m.push_back(point(random));
+  for (std::size_t i = 0; i < contour_points; ++i)
+    object.contour_in_odom_m.push_back(point(random));
   for (std::size_t i = 0; i < path_points; ++i) {
-    object.predicted_path.push_back({0.1 * static_cast<double>(i), vector(random), matrix<2>(random)});
+    object.predicted_path.push_back(
+        {0.1 * static_cast<double>(i), vector(random), matrix<2>(random)});
   }
   return object;
 }
 
-inline flow::TrackedObjects tracked_objects(Random& random, std::uint32_t objects, std::size_t contour_points = 5,
+inline flow::TrackedObjects tracked_objects(Random& random, std::uint32_t objects,
+                                            std::size_t contour_points = 5,
                                             std::size_t path_points = 3) {
   flow::TrackedObjects tracks{.stamp_ns = 1'700'000'000'123'456'789,
                               .sequence = 42,
@@ -159,8 +171,8 @@ inline flow::TrackedObjects tracked_objects(Random& random, std::uint32_t object
   return tracks;
 }
 
-inline flow::Submap submap(Random& random, std::uint32_t submap_id, std::uint32_t columns, std::uint32_t rows,
-                           std::size_t surfels) {
+inline flow::Submap submap(Random& random, std::uint32_t submap_id, std::uint32_t columns,
+                           std::uint32_t rows, std::size_t surfels) {
   flow::Submap map{.submap_id = {submap_id},
                    .first_stamp_ns = 11,
                    .last_stamp_ns = 22,
@@ -182,7 +194,8 @@ inline flow::Submap submap(Random& random, std::uint32_t submap_id, std::uint32_
     map.mo_evidence.push_back(static_cast<std::uint8_t>(random()));
   }
   for (std::size_t i = 0; i < surfels; ++i) {
-    map.surfels.push_back({number_f(random), number_f(random), number_f(random), number_f(random), number_f(random)});
+    map.surfels.push_back(
+        {number_f(random), number_f(random), number_f(random), number_f(random), number_f(random)});
   }
   return map;
 }

@@ -1,4 +1,5 @@
-/// slammot-simulator as a process of its own: what it says on the bus is what slammot simulate writes into files.
+/// slammot-simulator as a process of its own: what it says on the bus is what slammot simulate
+/// writes into files.
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -88,7 +89,8 @@ class Simulator : public ::testing::Test {
 
   template <typename Sample, typename Take>
   void read(const dds::Topic<Sample>& topic, Take take) {
-    const auto reader = std::make_shared<dds::Reader<Sample>>(participant_, topic, dds::History::kRecorder);
+    const auto reader =
+        std::make_shared<dds::Reader<Sample>>(participant_, topic, dds::History::kRecorder);
     wait_set_.on_data(*reader, [reader, take] { reader->take_each(take); });
     readers_.push_back(reader);
   }
@@ -100,9 +102,14 @@ class Simulator : public ::testing::Test {
       drive_ids_.insert(sample.drive_id);
       scans_[scan->scanner.scanner_id].push_back(*scan);
     });
-    read(dds::topics::kOdometry, [this](const auto& sample) { odometry_[sample.stamp_ns] = *wire::decode(sample); });
-    read(dds::topics::kGnssFix, [this](const auto& sample) { gnss_.push_back(trimmed(gnss_line(*wire::decode(sample)))); });
-    read(dds::topics::kCompassReading, [this](const auto& sample) { compass_.push_back(trimmed(compass_line(*wire::decode(sample)))); });
+    read(dds::topics::kOdometry,
+         [this](const auto& sample) { odometry_[sample.stamp_ns] = *wire::decode(sample); });
+    read(dds::topics::kGnssFix, [this](const auto& sample) {
+      gnss_.push_back(trimmed(gnss_line(*wire::decode(sample))));
+    });
+    read(dds::topics::kCompassReading, [this](const auto& sample) {
+      compass_.push_back(trimmed(compass_line(*wire::decode(sample))));
+    });
     read(dds::topics::kTruePose, [this](const auto& sample) {
       const auto pose = wire::decode(sample);
       simulation::SimulatedScan scan;
@@ -135,7 +142,8 @@ class Simulator : public ::testing::Test {
 
   /// Runs the process to its end; its exit code.
   int run(const std::vector<std::string>& arguments) {
-    std::vector<std::string> all = {SLAMMOT_SIMULATOR, "--domain", std::to_string(bus_.domain_id), "--state-dir", folder_ / "state"};
+    std::vector<std::string> all = {SLAMMOT_SIMULATOR, "--domain", std::to_string(bus_.domain_id),
+                                    "--state-dir", folder_ / "state"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& argument : all) pointers.push_back(argument.data());
@@ -172,32 +180,41 @@ class Simulator : public ::testing::Test {
 
 TEST_F(Simulator, SaysOnTheBusWhatIsInTheFiles) {
   listen();
-  ASSERT_EQ(run({"--scenario", folder_ / "mine.textproto", "--seed", "7", "--speed", "2", "--wait-for-services", "1"}), 0);
-  const auto files = write_drive(*load_scenario(folder_ / "mine.textproto", 7), folder_ / "files", HitsFile::written).files;
+  ASSERT_EQ(run({"--scenario", folder_ / "mine.textproto", "--seed", "7", "--speed", "2",
+                 "--wait-for-services", "1"}),
+            0);
+  const auto files = write_drive(*load_scenario(folder_ / "mine.textproto", 7), folder_ / "files",
+                                 HitsFile::written)
+                         .files;
   ASSERT_TRUE(files);
 
   EXPECT_EQ(drive_ids_.size(), 1U);
-  const std::map<std::string, std::filesystem::path> logs = {{"front", files->log}, {"rear", files->more_sensors.at(0)}};
+  const std::map<std::string, std::filesystem::path> logs = {{"front", files->log},
+                                                             {"rear", files->more_sensors.at(0)}};
   for (const auto& [scanner_id, log] : logs) {
     const auto expected = scans_of(log);
     const auto& received = scans_[scanner_id];
     ASSERT_EQ(received.size(), expected.size()) << scanner_id;
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_EQ(received[i].sequence, i);
-      EXPECT_NEAR(static_cast<double>(received[i].stamp_ns - expected[i].stamp_ns), 0.0, 1000.0);  // the log has microseconds
+      EXPECT_NEAR(static_cast<double>(received[i].stamp_ns - expected[i].stamp_ns), 0.0,
+                  1000.0);  // the log has microseconds
       EXPECT_EQ(received[i].range_m, expected[i].range_m);
-      EXPECT_NEAR(received[i].scanner.base_from_laser.x_m, expected[i].scanner.base_from_laser.x_m, 1e-3);
+      EXPECT_NEAR(received[i].scanner.base_from_laser.x_m, expected[i].scanner.base_from_laser.x_m,
+                  1e-3);
       EXPECT_NEAR(received[i].scanner.beam_step_rad, expected[i].scanner.beam_step_rad, 1e-6);
       EXPECT_TRUE(odometry_.contains(received[i].stamp_ns));
     }
   }
   EXPECT_EQ(gnss_, rows_of(folder_ / "files/mine.gnss.csv"));
   EXPECT_EQ(compass_, rows_of(folder_ / "files/mine.compass.csv"));
-  // On the bus the truth is of the first scanner's scans; the files have it for each stamp, and count the beams of all scanners.
+  // On the bus the truth is of the first scanner's scans; the files have it for each stamp, and
+  // count the beams of all scanners.
   const std::vector<std::string> true_poses = lines_of(files->tum);
   EXPECT_EQ(true_poses.size(), 150U + 50U);
   EXPECT_EQ(tum_.size(), 150U);
-  for (const std::string& pose : tum_) EXPECT_TRUE(std::ranges::count(true_poses, pose) == 1) << pose;
+  for (const std::string& pose : tum_)
+    EXPECT_TRUE(std::ranges::count(true_poses, pose) == 1) << pose;
   const std::string true_objects = text_of(files->objects);
   EXPECT_GT(std::ranges::count(objects_, '\n'), 150);
   std::istringstream objects(objects_);
@@ -207,7 +224,8 @@ TEST_F(Simulator, SaysOnTheBusWhatIsInTheFiles) {
   }
   EXPECT_EQ(objects_a_scan_, std::set<std::size_t>{5});  // the hidden and the far, too
   std::map<std::string, std::vector<std::string>> expected_hits;
-  for (const std::string& row : rows_of(folder_ / "files/mine.hits.csv")) expected_hits[row.find(",rear,") == std::string::npos ? "front" : "rear"].push_back(row);
+  for (const std::string& row : rows_of(folder_ / "files/mine.hits.csv"))
+    expected_hits[row.find(",rear,") == std::string::npos ? "front" : "rear"].push_back(row);
   EXPECT_EQ(hits_, expected_hits);
 }
 

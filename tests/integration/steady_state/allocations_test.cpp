@@ -1,4 +1,5 @@
-// Once as much has been in view as ever will be, a scan goes through localization, detection, tracking and mapping without memory being asked for.
+// Once as much has been in view as ever will be, a scan goes through localization, detection,
+// tracking and mapping without memory being asked for.
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -54,7 +55,8 @@ TEST(Allocations, AreCounted) {
 TEST(Allocations, AreNotMadeByLocalizationAndMapping) {
   constexpr std::uint32_t kScans = 150;
   constexpr std::uint32_t kUntilSteady = 110;
-  testing::DriveSetup setup{.world = testing::street(120.0), .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
+  testing::DriveSetup setup{.world = testing::street(120.0),
+                            .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
   setup.scan_period_s = 1.0 / 37.5;
   testing::SimulatedDrive drive(setup);
   localization::Localizer localizer{localization::LocalizerConfig{}};
@@ -89,8 +91,10 @@ TEST(Allocations, AreNotMadeByDetectionAndTracking) {
   std::size_t of_all = 0;
   for (int number = 0; number < kScans; ++number) {
     testing::Street street{{{{60.0, 0.0, 0.0}, 1.0, 120.0}}, {}, {}};
-    for (int i = 0; i < 6; ++i) street.unknown.push_back({{10.0 + 5.0 * i + 0.05 * number, -20.0 + 7.0 * i, 0.0}, 4.5, 1.8});
-    const flow::LocalizedScan scan = street.scan(number * 26'666'667LL, static_cast<std::uint32_t>(number));
+    for (int i = 0; i < 6; ++i)
+      street.unknown.push_back({{10.0 + 5.0 * i + 0.05 * number, -20.0 + 7.0 * i, 0.0}, 4.5, 1.8});
+    const flow::LocalizedScan scan =
+        street.scan(number * 26'666'667LL, static_cast<std::uint32_t>(number));
     const std::size_t of_this = allocations_of([&] {
       segmented = detector.detect(scan, std::move(segmented));
       tracker.step(segmented);
@@ -117,7 +121,8 @@ TEST(Allocations, AreFewOnADriveThroughTraffic) {
     ASSERT_TRUE(now);
     const std::size_t of_this = allocations_of([&] {
       localizer.add_odometry(now->odometry);
-      std::optional<flow::LocalizedScan> localized = localizer.localize(now->scan, std::move(localized_done_with));
+      std::optional<flow::LocalizedScan> localized =
+          localizer.localize(now->scan, std::move(localized_done_with));
       segmented = detector.detect(*localized, std::move(segmented));
       const tracking::TrackingResult& tracked = tracker.step(segmented);
       localizer.expect(tracked.objects);
@@ -127,7 +132,8 @@ TEST(Allocations, AreFewOnADriveThroughTraffic) {
     if (number >= kScansBefore) of_all += of_this;
   }
   RecordProperty("allocations_a_scan", std::to_string(static_cast<double>(of_all) / kScans));
-  EXPECT_LT(static_cast<double>(of_all) / kScans, 5.0);  // 96 were made before anything was used again
+  EXPECT_LT(static_cast<double>(of_all) / kScans, 5.0);  // 96 were made before anything was used
+                                                         // again
 }
 
 }  // namespace

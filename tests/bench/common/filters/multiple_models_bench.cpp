@@ -1,5 +1,6 @@
-// One scan of one object: predict and update by two models. What the IMM costs beside the estimators that the thesis holds
-// it against (their errors are in tests/unit/common/filters/gpb_test.cpp), and what the stop hypothesis adds.
+// One scan of one object: predict and update by two models. What the IMM costs beside the
+// estimators that the thesis holds it against (their errors are in
+// tests/unit/common/filters/gpb_test.cpp), and what the stop hypothesis adds.
 #include <array>
 
 #include <benchmark/benchmark.h>
@@ -20,7 +21,8 @@ void imm_cycle(benchmark::State& state) {
   const ModelSet set = velocity_and_acceleration();
   const ImmState before = imm_start(set, testing::start_of(testing::standing));
   for (auto _ : state)
-    benchmark::DoNotOptimize(imm_update(set, imm_predict(set, before, kFix.after_s), kFix.position_m, kFix.R));
+    benchmark::DoNotOptimize(
+        imm_update(set, imm_predict(set, before, kFix.after_s), kFix.position_m, kFix.R));
 }
 BENCHMARK(imm_cycle)->Unit(benchmark::kMicrosecond);
 
@@ -53,7 +55,8 @@ void move_stop_scan(benchmark::State& state) {
   const MotionState moving = testing::start_of(testing::standing);
   MoveStop hypotheses;
   for (auto _ : state)
-    benchmark::DoNotOptimize(hypotheses = weigh(hypotheses, {moving, kFix.position_m, kFix.after_s}, {0.5, 2.0}));
+    benchmark::DoNotOptimize(
+        hypotheses = weigh(hypotheses, {moving, kFix.position_m, kFix.after_s}, {0.5, 2.0}));
 }
 BENCHMARK(move_stop_scan)->Unit(benchmark::kMicrosecond);
 

@@ -14,7 +14,8 @@ using Eigen::Vector2d;
 
 constexpr double kNoEchoFree_m = 40.0;
 
-/// One scan over half a circle in a street, as rays; the beams that meet nothing within 80 m tell of free space.
+/// One scan over half a circle in a street, as rays; the beams that meet nothing within 80 m tell
+/// of free space.
 std::vector<Ray> rays_in_a_street(const Vector2d& origin_m, int beams) {
   const auto world = slammot::testing::street(120.0);
   std::vector<Ray> rays;
@@ -22,7 +23,8 @@ std::vector<Ray> rays_in_a_street(const Vector2d& origin_m, int beams) {
     const double angle_rad = std::numbers::pi * (static_cast<double>(i) / (beams - 1) - 0.5);
     const double range_m = slammot::testing::range_m(world, origin_m, angle_rad);
     const bool has_echo = range_m < 80.0;
-    rays.push_back({origin_m + (has_echo ? range_m : kNoEchoFree_m) * Vector2d(std::cos(angle_rad), std::sin(angle_rad)),
+    rays.push_back({origin_m + (has_echo ? range_m : kNoEchoFree_m) *
+                                   Vector2d(std::cos(angle_rad), std::sin(angle_rad)),
                     has_echo ? Echo::kStationary : Echo::kNone});
   }
   return rays;
@@ -38,7 +40,8 @@ void integrate_a_scan(benchmark::State& state) {
   const auto rays = rays_in_a_street(origin_m, beams);
   EvidenceGrid grid = grid_of_a_vehicle();
   for (auto _ : state) grid.integrate(origin_m, rays, beam_step_rad(beams));
-  state.counters["beams/s"] = benchmark::Counter(beams, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["beams/s"] =
+      benchmark::Counter(beams, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(integrate_a_scan)->Arg(181)->Arg(361)->Arg(1081)->Unit(benchmark::kMicrosecond);
 
@@ -64,7 +67,8 @@ void integrate_a_scan_beam_by_beam(benchmark::State& state) {
   const auto rays = rays_in_a_street(origin_m, beams);
   EvidenceGrid grid = grid_of_a_vehicle();
   for (auto _ : state) grid.integrate(origin_m, rays, 0.0);
-  state.counters["beams/s"] = benchmark::Counter(beams, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["beams/s"] =
+      benchmark::Counter(beams, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(integrate_a_scan_beam_by_beam)->Arg(361)->Unit(benchmark::kMicrosecond);
 
@@ -76,10 +80,12 @@ void cast_a_scan(benchmark::State& state) {
   for (int i = 0; i < 5; ++i) grid.integrate(origin_m, rays, beam_step_rad(beams));
   for (auto _ : state) {
     for (const Ray& ray : rays) {
-      benchmark::DoNotOptimize(grid.distance_to_occupied(origin_m, (ray.end_m - origin_m).normalized(), 80.0));
+      benchmark::DoNotOptimize(
+          grid.distance_to_occupied(origin_m, (ray.end_m - origin_m).normalized(), 80.0));
     }
   }
-  state.counters["beams/s"] = benchmark::Counter(beams, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["beams/s"] =
+      benchmark::Counter(beams, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(cast_a_scan)->Arg(181)->Arg(361)->Unit(benchmark::kMicrosecond);
 

@@ -20,7 +20,8 @@ std::vector<Vector2d> points_in_a_street(int count) {
   std::vector<Vector2d> points;
   for (int i = 0; i < count; ++i) {
     const auto& wall = world[random() % world.size()];
-    points.push_back(wall.from_m + share(random) * (wall.to_m - wall.from_m) + Vector2d(noise(random), noise(random)));
+    points.push_back(wall.from_m + share(random) * (wall.to_m - wall.from_m) +
+                     Vector2d(noise(random), noise(random)));
   }
   return points;
 }

@@ -7,7 +7,8 @@
 namespace slammot::matching {
 namespace {
 
-/// As match_a_scan, by the closed-form ICP of the thesis: the baseline, with what it is off by beside its time.
+/// As match_a_scan, by the closed-form ICP of the thesis: the baseline, with what it is off by
+/// beside its time.
 void match_a_scan_by_icp(benchmark::State& state) {
   const StreetScan scan = scan_in_a_street(static_cast<int>(state.range(0)));
   IcpResult found;

@@ -13,7 +13,8 @@ void match_a_scan(benchmark::State& state) {
   PointToLineMatcher matcher;
   geometry::Pose2 found;
   for (auto _ : state) {
-    found = matcher.match(scan.points, scan.surfels, scan.prior, scan.prior.pose, {}).map_from_base.pose;
+    found = matcher.match(scan.points, scan.surfels, scan.prior, scan.prior.pose, {})
+                .map_from_base.pose;
     benchmark::DoNotOptimize(found);
   }
   state.counters["error_mm"] = error_mm(found, scan.truth);

@@ -10,7 +10,8 @@
 
 namespace slammot::matching {
 
-/// Half a turn of beams in a street whose surfels are known, and a prediction that is 10 cm and 0.6 degrees off.
+/// Half a turn of beams in a street whose surfels are known, and a prediction that is 10 cm and 0.6
+/// degrees off.
 struct StreetScan {
   grids::SurfelMap surfels;
   std::vector<MatchPoint> points;
@@ -35,11 +36,14 @@ inline StreetScan scan_in_a_street(int beams, double noise_m = 0.02) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < beams; ++i) {
     const double angle_rad = std::numbers::pi * (static_cast<double>(i) / (beams - 1) - 0.5);
-    const double exact_m = testing::range_m(world, scan.truth.translation_m(), scan.truth.heading_rad + angle_rad);
+    const double exact_m =
+        testing::range_m(world, scan.truth.translation_m(), scan.truth.heading_rad + angle_rad);
     const double range_m = exact_m + noise_m * normal(random);
-    if (exact_m < 80.0) scan.points.push_back({{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)}, 0.03});
+    if (exact_m < 80.0)
+      scan.points.push_back({{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)}, 0.03});
   }
-  scan.prior = {scan.truth * geometry::Pose2{0.1, 0.0, 0.01}, Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal()};
+  scan.prior = {scan.truth * geometry::Pose2{0.1, 0.0, 0.01},
+                Eigen::Vector3d(0.01, 0.01, 0.0001).asDiagonal()};
   return scan;
 }
 

@@ -11,8 +11,8 @@
 namespace slammot::simulation {
 namespace {
 
-/// Beams of whole scans along a street of the demo city, stationary surfaces only. The yardstick is 2 million beams a
-/// second on one core.
+/// Beams of whole scans along a street of the demo city, stationary surfaces only. The yardstick is
+/// 2 million beams a second on one core.
 void cast_in_demo_city(benchmark::State& state) {
   const ScenarioConfig scenario = *simulator::load_scenario("block");
   const StreetPlan plan(scenario.city, scenario.seed);
@@ -23,8 +23,8 @@ void cast_in_demo_city(benchmark::State& state) {
   int place = 0;
   double sum_m = 0.0;
   for (auto _ : state) {
-    const geometry::Vector2 origin =
-        plan.world_from_plan(geometry::Vector2(from + (to - from) * (static_cast<double>(place) / kPlaces)));
+    const geometry::Vector2 origin = plan.world_from_plan(
+        geometry::Vector2(from + (to - from) * (static_cast<double>(place) / kPlaces)));
     for (int beam = 0; beam < 361; ++beam) {
       const double heading_rad = -1.5707963 + 0.0087266 * beam;
       const Hit hit = caster.cast(origin, {std::cos(heading_rad), std::sin(heading_rad)}, 81.83);
@@ -33,9 +33,17 @@ void cast_in_demo_city(benchmark::State& state) {
     place = (place + 1) % kPlaces;
   }
   benchmark::DoNotOptimize(sum_m);
-  state.counters["beams"] = benchmark::Counter(361.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["beams"] = benchmark::Counter(361.0 * static_cast<double>(state.iterations()),
+                                               benchmark::Counter::kIsRate);
 }
-BENCHMARK(cast_in_demo_city)->ArgName("cell_m")->Arg(1)->Arg(2)->Arg(3)->Arg(4)->Arg(6)->Unit(benchmark::kMicrosecond);
+BENCHMARK(cast_in_demo_city)
+    ->ArgName("cell_m")
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(3)
+    ->Arg(4)
+    ->Arg(6)
+    ->Unit(benchmark::kMicrosecond);
 
 /// Whole simulated scans: three rays a beam, moving objects, noise, traffic and people.
 void simulate_demo_scans(benchmark::State& state) {

@@ -33,8 +33,9 @@ struct Recording {
 /// 64 m of a street at 8 m/s with a scanner like an LMS291: 361 beams, 37.5 scans a second.
 const Recording& recording() {
   static const Recording one = [] {
-    slammot::testing::DriveSetup setup{.world = slammot::testing::street(120.0),
-                                       .world_from_base_at = slammot::testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
+    slammot::testing::DriveSetup setup{
+        .world = slammot::testing::street(120.0),
+        .world_from_base_at = slammot::testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
     setup.scan_period_s = kScanPeriod_s;
     setup.beams = 361;
     setup.scanner = slammot::testing::half_circle_scanner(80.0);
@@ -69,12 +70,14 @@ void localize_and_integrate_a_scan(benchmark::State& state) {
     localizer.integrate(all_stationary(*localized));
     ++next;
   }
-  state.counters["times_real_time"] = benchmark::Counter(kScanPeriod_s, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["times_real_time"] =
+      benchmark::Counter(kScanPeriod_s, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(localize_and_integrate_a_scan)->Unit(benchmark::kMicrosecond);
 
-/// Scans, maps and predictions as they are on a drive through a city in traffic: half a minute of the scenario "block" goes through localization,
-/// detection and tracking; of each scan of what follows the match against the map as it then is is timed, from where the wheels say that it is.
+/// Scans, maps and predictions as they are on a drive through a city in traffic: half a minute of
+/// the scenario "block" goes through localization, detection and tracking; of each scan of what
+/// follows the match against the map as it then is is timed, from where the wheels say that it is.
 /// Wanted: p50 of 60 us, as for 361 beams on one core.
 void deskew_and_match_in_a_city(benchmark::State& state) {
   constexpr int kScansBefore = 30 * 75 / 2;
@@ -89,18 +92,27 @@ void deskew_and_match_in_a_city(benchmark::State& state) {
   flow::LocalizedScan last;
   geometry::Pose2 last_wheel_from_base;
   const auto match = [&](const simulation::SimulatedScan& now) {
-    const geometry::Pose2 step = geometry::inverse(last_wheel_from_base) * now.odometry.wheel_from_base;
-    const geometry::UncertainPose2 prior{last.odom_from_base.pose * step, last.odom_from_base.covariance + geometry::Matrix3(Eigen::Vector3d(1e-5, 1e-5, 1e-6).asDiagonal())};
+    const geometry::Pose2 step =
+        geometry::inverse(last_wheel_from_base) * now.odometry.wheel_from_base;
+    const geometry::UncertainPose2 prior{
+        last.odom_from_base.pose * step,
+        last.odom_from_base.covariance +
+            geometry::Matrix3(Eigen::Vector3d(1e-5, 1e-5, 1e-6).asDiagonal())};
     const auto start = std::chrono::steady_clock::now();
     sensing::deskew(now.scan, last.speed_mps, last.yaw_rate_radps, points_in_base_m);
     points.clear();
     for (std::size_t beam = 0; beam < now.scan.range_m.size(); ++beam) {
       const float range_m = now.scan.range_m[beam];
       if (sensing::is_echo(range_m, std::min(config.match_range_m, now.scan.scanner.max_range_m)))
-        points.push_back({points_in_base_m[beam], config.range_noise_m + config.range_noise_per_m * static_cast<double>(range_m)});
+        points.push_back(
+            {points_in_base_m[beam],
+             config.range_noise_m + config.range_noise_per_m * static_cast<double>(range_m)});
     }
-    benchmark::DoNotOptimize(matcher.match(points, localizer.local_map().surfels(), prior, prior.pose, config.match));
-    times_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+    benchmark::DoNotOptimize(
+        matcher.match(points, localizer.local_map().surfels(), prior, prior.pose, config.match));
+    times_us.push_back(
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+            .count());
   };
   int scans = 0;
   const auto go_on = [&](bool is_timed) {
@@ -128,7 +140,10 @@ void deskew_and_match_in_a_city(benchmark::State& state) {
   state.counters["p50_us"] = testing::percentile(times_us, 0.5);
   state.counters["p99_us"] = testing::percentile(times_us, 0.99);
 }
-BENCHMARK(deskew_and_match_in_a_city)->UseManualTime()->Iterations(2000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(deskew_and_match_in_a_city)
+    ->UseManualTime()
+    ->Iterations(2000)
+    ->Unit(benchmark::kMicrosecond);
 
 /// What the service does once a second beside its scans.
 void make_a_checkpoint(benchmark::State& state) {

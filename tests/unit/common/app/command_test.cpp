@@ -7,7 +7,9 @@ namespace {
 
 TEST(CommandDesk, DoesWhatIsAskedWithItsArgument) {
   CommandDesk desk;
-  desk.on("say", [](std::string_view argument) { return CommandResult{CommandOutcome::kRefused, "not " + std::string(argument)}; });
+  desk.on("say", [](std::string_view argument) {
+    return CommandResult{CommandOutcome::kRefused, "not " + std::string(argument)};
+  });
   const CommandResult result = desk.answer({"me", 1, "say", "hello"});
   EXPECT_EQ(result.outcome, CommandOutcome::kRefused);
   EXPECT_EQ(result.explanation, "not hello");
@@ -23,7 +25,9 @@ TEST(CommandDesk, DoesNotKnowWhatItWasNotTaught) {
 TEST(CommandDesk, AnswersARepeatedRequestWithoutDoingItAgain) {
   CommandDesk desk;
   int done = 0;
-  desk.on("count", [&](std::string_view) { return CommandResult{CommandOutcome::kDone, std::to_string(++done)}; });
+  desk.on("count", [&](std::string_view) {
+    return CommandResult{CommandOutcome::kDone, std::to_string(++done)};
+  });
   EXPECT_EQ(desk.answer({"me", 1, "count", ""}).explanation, "1");
   EXPECT_EQ(desk.answer({"me", 1, "count", ""}).explanation, "1");
   EXPECT_EQ(desk.answer({"you", 1, "count", ""}).explanation, "2");

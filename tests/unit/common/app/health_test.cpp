@@ -15,7 +15,8 @@ using namespace std::chrono_literals;
 
 struct HealthOnTheBus : ::testing::Test {
   slammot::testing::PrivateBus bus;
-  HealthQuestion question{"map-store", "car", "", bus.domain_id, slammot::testing::kForever, bus.config};
+  HealthQuestion question{"map-store", "car", "", bus.domain_id, slammot::testing::kForever,
+                          bus.config};
 
   std::unique_ptr<ServiceContext> start() const {
     ServiceOptions options;

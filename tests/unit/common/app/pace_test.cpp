@@ -13,7 +13,8 @@ constexpr std::int64_t kSecondNs = 1'000'000'000;
 TEST(Pace, UnderstandsMaxAndNumbers) {
   EXPECT_TRUE(Pace::parse("max")->is_unlimited());
   EXPECT_FALSE(Pace::parse("0.5")->is_unlimited());
-  for (const char* nonsense : {"", "fast", "0", "-1", "1x", "nan", "inf", "1e9"}) EXPECT_FALSE(Pace::parse(nonsense)) << nonsense;
+  for (const char* nonsense : {"", "fast", "0", "-1", "1x", "nan", "inf", "1e9"})
+    EXPECT_FALSE(Pace::parse(nonsense)) << nonsense;
 }
 
 TEST(Pace, PlaysAtItsMultipleOfTheRecordedSpeed) {

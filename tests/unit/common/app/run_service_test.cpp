@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
 
 #include "tests/support/dds.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -43,8 +43,10 @@ Ran run(std::vector<std::string> arguments) {
   argv.push_back(nullptr);
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
-  const int exit_code = run_service<ExampleService>(static_cast<int>(arguments.size()), argv.data());
-  return {exit_code, ::testing::internal::GetCapturedStdout(), ::testing::internal::GetCapturedStderr()};
+  const int exit_code =
+      run_service<ExampleService>(static_cast<int>(arguments.size()), argv.data());
+  return {exit_code, ::testing::internal::GetCapturedStdout(),
+          ::testing::internal::GetCapturedStderr()};
 }
 
 class RunService : public ::testing::Test {
@@ -59,7 +61,8 @@ class RunService : public ::testing::Test {
 
 TEST_F(RunService, ShowsHelpAndVersion) {
   EXPECT_EQ(run({"--help"}).exit_code, 0);
-  EXPECT_THAT(run({"--help"}).out, ::testing::AllOf(HasSubstr("Stands for a service."), HasSubstr("--print-config")));
+  EXPECT_THAT(run({"--help"}).out,
+              ::testing::AllOf(HasSubstr("Stands for a service."), HasSubstr("--print-config")));
   EXPECT_THAT(run({"--version"}).out, ::testing::StartsWith("slammot-map-store "));
 }
 
@@ -68,7 +71,8 @@ TEST_F(RunService, IsCalledAsItsProgramAlsoInThePlaceOfAnother) {
   std::vector<char*> argv = {program.data(), option.data(), nullptr};
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(run_service<ExampleService>(2, argv.data()), 0);
-  EXPECT_THAT(::testing::internal::GetCapturedStdout(), ::testing::StartsWith("slammot-other-store "));
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(),
+              ::testing::StartsWith("slammot-other-store "));
 }
 
 TEST_F(RunService, PrintsTheSettingsInEffect) {
@@ -77,7 +81,8 @@ TEST_F(RunService, PrintsTheSettingsInEffect) {
 }
 
 TEST_F(RunService, ChecksSettingsAndLeaves) {
-  const Ran ran = run({"--profile", "urban", "--config", file("map_store { retry_after_s: 2.5 }"), "--check-config"});
+  const Ran ran = run({"--profile", "urban", "--config", file("map_store { retry_after_s: 2.5 }"),
+                       "--check-config"});
   EXPECT_EQ(ran.exit_code, 0);
   EXPECT_EQ(ran.out + ran.err, "");
 }
@@ -107,11 +112,13 @@ TEST_F(RunService, SaysInOneLineWhyAServiceCannotStart) {
   const auto start = [] {
     const slammot::testing::PrivateBus bus;
     ::setenv("CYCLONEDDS_URI", bus.config.c_str(), 1);
-    std::string program = "slammot-map-store", option = "--domain", domain = std::to_string(bus.domain_id);
+    std::string program = "slammot-map-store", option = "--domain",
+                domain = std::to_string(bus.domain_id);
     std::vector<char*> argv = {program.data(), option.data(), domain.data(), nullptr};
     std::exit(run_service<ExampleService>(3, argv.data()));
   };
-  EXPECT_EXIT(start(), ::testing::ExitedWithCode(kExitUsage), "^slammot-map-store: the disk is on fire\n$");
+  EXPECT_EXIT(start(), ::testing::ExitedWithCode(kExitUsage),
+              "^slammot-map-store: the disk is on fire\n$");
 }
 
 }  // namespace

@@ -9,13 +9,17 @@
 namespace slammot::app {
 namespace {
 
-SavedState state_of(std::int64_t stamp_ns, std::size_t size) { return {stamp_ns, std::vector<std::byte>(size, std::byte{7})}; }
+SavedState state_of(std::int64_t stamp_ns, std::size_t size) {
+  return {stamp_ns, std::vector<std::byte>(size, std::byte{7})};
+}
 
 struct StateFileTest : ::testing::Test {
   slammot::testing::TemporaryFolder folder;
   std::filesystem::path path = folder / "new folder/service.state";
 
-  void save(const SavedState& state) const { StateFile(path).save(state); }  // the destructor finishes writing
+  void save(const SavedState& state) const {
+    StateFile(path).save(state);
+  }  // the destructor finishes writing
 };
 
 TEST_F(StateFileTest, HasNothingAtFirst) { EXPECT_FALSE(StateFile(path).read()); }
@@ -32,7 +36,8 @@ TEST_F(StateFileTest, GivesBackTheLastStateSaved) {
 TEST_F(StateFileTest, KeepsTheLastOfManySavedAtOnce) {
   {
     StateFile file(path);
-    for (std::int64_t stamp_ns = 0; stamp_ns < 100; ++stamp_ns) file.save(state_of(stamp_ns, 10'000));
+    for (std::int64_t stamp_ns = 0; stamp_ns < 100; ++stamp_ns)
+      file.save(state_of(stamp_ns, 10'000));
   }
   EXPECT_EQ(StateFile(path).read()->stamp_ns, 99);
 }

@@ -34,7 +34,9 @@ TEST(StopSignal, EndsTheProcessAtTheSecondOne) {
       ::testing::ExitedWithCode(128 + SIGTERM), "");
 }
 
-TEST(StopSignal, IsGoneWithoutASignal) { const StopSignal stop_signal([] { FAIL(); }); }
+TEST(StopSignal, IsGoneWithoutASignal) {
+  const StopSignal stop_signal([] { FAIL(); });
+}
 
 }  // namespace
 }  // namespace slammot::app

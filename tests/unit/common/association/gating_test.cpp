@@ -23,7 +23,8 @@ TEST(PlanarGate, LetsThroughTheShareOfTruePairsThatItPromises) {
 
 TEST(MahalanobisSquared, PrefersTheFartherPointAlongTheUncertainDirection) {
   const Eigen::Matrix2d covariance{{4.0, 0.0}, {0.0, 0.01}};  // Wang 2004, Figure 5.1
-  EXPECT_LT(mahalanobis_squared<2>({2.0, 0.0}, covariance), mahalanobis_squared<2>({0.0, 0.5}, covariance));
+  EXPECT_LT(mahalanobis_squared<2>({2.0, 0.0}, covariance),
+            mahalanobis_squared<2>({0.0, 0.5}, covariance));
 }
 
 }  // namespace

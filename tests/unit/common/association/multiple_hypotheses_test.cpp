@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "common/association/gating.hpp"
 #include "common/filters/kalman.hpp"
@@ -49,14 +49,19 @@ struct PointScan {
   }
   std::size_t measurement_count() const { return positions_m.size(); }
   std::size_t capacity(std::size_t) const { return most_sharers; }
-  double pair_cost(TrackKey, const State& state, std::size_t measurement, std::size_t sharers) const {
+  double pair_cost(TrackKey, const State& state, std::size_t measurement,
+                   std::size_t sharers) const {
     const Matrix2d S = state.covariance.topLeftCorner<2, 2>() + noise_m2(sharers);
-    const double distance2 = mahalanobis_squared<2>(positions_m[measurement] - state.mean.head<2>(), S);
-    return distance2 > planar_gate(0.999) ? kForbidden : distance2 + std::log(S.determinant() / 1e-6);
+    const double distance2 =
+        mahalanobis_squared<2>(positions_m[measurement] - state.mean.head<2>(), S);
+    return distance2 > planar_gate(0.999) ? kForbidden
+                                          : distance2 + std::log(S.determinant() / 1e-6);
   }
   double miss_cost(TrackKey, const State&) const { return kMissCost; }
   State updated(TrackKey, const State& state, std::size_t measurement, std::size_t sharers) const {
-    return filters::kalman_update<4, 2>(state, positions_m[measurement], position_of_state(), noise_m2(sharers)).posterior;
+    return filters::kalman_update<4, 2>(state, positions_m[measurement], position_of_state(),
+                                        noise_m2(sharers))
+        .posterior;
   }
   State missed(TrackKey, const State& state) const { return state; }
   bool are_same(const State& a, const State& b) const {
@@ -64,9 +69,12 @@ struct PointScan {
   }
 };
 
-State start_at(const Vector4d& mean) { return {mean, Vector4d(0.01, 0.01, 0.02, 0.02).asDiagonal()}; }
+State start_at(const Vector4d& mean) {
+  return {mean, Vector4d(0.01, 0.01, 0.02, 0.02).asDiagonal()};
+}
 
-/// With one hypothesis and one child what is ambiguous is decided at once: global nearest neighbour.
+/// With one hypothesis and one child what is ambiguous is decided at once: global nearest
+/// neighbour.
 constexpr MhtConfig kNearestNeighbour{1, 1, 1, 8, 12.0};
 constexpr MhtConfig kManyHypotheses{12, 4, 15, 8, 12.0};
 
@@ -104,17 +112,18 @@ class World {
 };
 
 struct Seen {
-  double merged_below_m = 0.0;    ///< Nearer than this they are one measurement,
-  std::size_t most_sharers = 1;   ///< which may be held for so many.
+  double merged_below_m = 0.0;   ///< Nearer than this they are one measurement,
+  std::size_t most_sharers = 1;  ///< which may be held for so many.
   double missed_share = 0.0;
-  int clutter = 0;                ///< False measurements a scan, within a few metres.
+  int clutter = 0;  ///< False measurements a scan, within a few metres.
 };
 
 /// Whether two who cross have changed their names afterwards, or one is lost.
 bool swaps(const MhtConfig& config, unsigned seed, const Seen& seen) {
   World world(config, seed);
   const double begin_s = -3.0;
-  for (int who : {0, 1}) world.tracks.add(static_cast<TrackKey>(who), start_at(crossing_state(who, begin_s)));
+  for (int who : {0, 1})
+    world.tracks.add(static_cast<TrackKey>(who), start_at(crossing_state(who, begin_s)));
   constexpr int kScans = 60;
   for (int scan = 1; scan <= kScans; ++scan) {
     const double t = begin_s + scan * kPeriodS;
@@ -123,13 +132,17 @@ bool swaps(const MhtConfig& config, unsigned seed, const Seen& seen) {
       points.positions_m = {world.noisy(0.5 * (crossing(0, t) + crossing(1, t)))};
     } else {
       for (const int who : {scan % 2, 1 - scan % 2})
-        if (world.uniform() >= seen.missed_share) points.positions_m.push_back(world.noisy(crossing(who, t)));
+        if (world.uniform() >= seen.missed_share)
+          points.positions_m.push_back(world.noisy(crossing(who, t)));
     }
     for (int i = 0; i < seen.clutter; ++i)
-      points.positions_m.emplace_back(crossing(0, t) + Vector2d(4.0 * world.uniform() - 2.0, 4.0 * world.uniform() - 2.0));
+      points.positions_m.emplace_back(
+          crossing(0, t) + Vector2d(4.0 * world.uniform() - 2.0, 4.0 * world.uniform() - 2.0));
     world.step(points);
   }
-  const auto off_m = [&](TrackKey key, int who) { return (world.tracks.best(key).mean.head<2>() - crossing(who, 3.0)).norm(); };
+  const auto off_m = [&](TrackKey key, int who) {
+    return (world.tracks.best(key).mean.head<2>() - crossing(who, 3.0)).norm();
+  };
   constexpr double kNearM = 0.5;
   return off_m(0, 0) > kNearM || off_m(1, 1) > kNearM;
 }
@@ -167,7 +180,8 @@ TEST(MultipleHypotheses, AreTheBestAssignmentWhereOnlyOneIsKept) {
     MultipleHypotheses<State> tracks(kNearestNeighbour);
     CostMatrix costs(5, 4, 0.0);
     PointScan scan;
-    for (std::size_t j = 0; j < costs.columns; ++j) scan.positions_m.emplace_back(uniform(random), uniform(random));
+    for (std::size_t j = 0; j < costs.columns; ++j)
+      scan.positions_m.emplace_back(uniform(random), uniform(random));
     for (std::size_t i = 0; i < costs.rows; ++i) {
       const State state = start_at({uniform(random), uniform(random), 0.0, 0.0});
       tracks.add(static_cast<TrackKey>(i), state);
@@ -175,14 +189,16 @@ TEST(MultipleHypotheses, AreTheBestAssignmentWhereOnlyOneIsKept) {
     }
     tracks.step(scan);
     std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < costs.rows; ++i) chosen.push_back(tracks.measurement_of(static_cast<TrackKey>(i)));
+    for (std::size_t i = 0; i < costs.rows; ++i)
+      chosen.push_back(tracks.measurement_of(static_cast<TrackKey>(i)));
     EXPECT_EQ(chosen, assign(costs, kMissCost));
   }
 }
 
 TEST(MultipleHypotheses, AreOneWhereNothingIsAmbiguous) {
   World world(kManyHypotheses, 1);
-  for (int who : {0, 1, 2}) world.tracks.add(static_cast<TrackKey>(who), start_at({0.0, 10.0 * who, 0.0, 0.0}));
+  for (int who : {0, 1, 2})
+    world.tracks.add(static_cast<TrackKey>(who), start_at({0.0, 10.0 * who, 0.0, 0.0}));
   for (int scan = 0; scan < 30; ++scan) {
     world.step({{world.noisy({0.0, 20.0}), world.noisy({0.0, 0.0})}, 1});
     EXPECT_EQ(world.tracks.measurement_of(0), 1U);
@@ -194,7 +210,8 @@ TEST(MultipleHypotheses, AreOneWhereNothingIsAmbiguous) {
 
 TEST(MultipleHypotheses, AreDecidedSoonAfterTheAmbiguityIsOver) {
   World world(kManyHypotheses, 2);
-  for (int who : {0, 1}) world.tracks.add(static_cast<TrackKey>(who), start_at(crossing_state(who, -0.3)));
+  for (int who : {0, 1})
+    world.tracks.add(static_cast<TrackKey>(who), start_at(crossing_state(who, -0.3)));
   std::size_t most = 1;
   double ambiguous_until_s = 0.0;
   for (int scan = 1; scan <= 60; ++scan) {
@@ -211,19 +228,23 @@ TEST(MultipleHypotheses, AreDecidedSoonAfterTheAmbiguityIsOver) {
 TEST(MultipleHypotheses, AreBoundedWhateverTheClutter) {
   World world(kManyHypotheses, 3);
   constexpr TrackKey kTracks = 40;
-  for (TrackKey key = 0; key < kTracks; ++key) world.tracks.add(key, start_at({2.0 * world.uniform(), 8.0 * world.uniform(), 0.0, 0.0}));
+  for (TrackKey key = 0; key < kTracks; ++key)
+    world.tracks.add(key, start_at({2.0 * world.uniform(), 8.0 * world.uniform(), 0.0, 0.0}));
   for (int scan = 0; scan < 8; ++scan) {
     PointScan points{{}, 2};
-    for (int i = 0; i < 50; ++i) points.positions_m.emplace_back(2.0 * world.uniform(), 8.0 * world.uniform());
+    for (int i = 0; i < 50; ++i)
+      points.positions_m.emplace_back(2.0 * world.uniform(), 8.0 * world.uniform());
     world.step(points);
-    for (TrackKey key = 0; key < kTracks; ++key) EXPECT_LE(world.tracks.hypothesis_count(key), kManyHypotheses.most_hypotheses);
+    for (TrackKey key = 0; key < kTracks; ++key)
+      EXPECT_LE(world.tracks.hypothesis_count(key), kManyHypotheses.most_hypotheses);
   }
   EXPECT_EQ(world.tracks.keys().size(), kTracks);
 }
 
 TEST(MultipleHypotheses, ForgetWhoIsRemovedAndGoOnWithTheOthers) {
   World world(kManyHypotheses, 4);
-  for (int who : {0, 1}) world.tracks.add(static_cast<TrackKey>(who), start_at(crossing_state(who, -0.3)));
+  for (int who : {0, 1})
+    world.tracks.add(static_cast<TrackKey>(who), start_at(crossing_state(who, -0.3)));
   for (int scan = 1; scan <= 4; ++scan) {
     const double t = -0.3 + scan * kPeriodS;
     world.step({{world.noisy(crossing(0, t)), world.noisy(crossing(1, t))}, 1});

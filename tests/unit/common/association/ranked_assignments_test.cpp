@@ -10,7 +10,8 @@ namespace slammot::association {
 namespace {
 
 /// Costs of all assignments, ascending.
-void all_costs(const CostMatrix& costs, double cost_of_leaving_out, std::size_t row, std::set<std::size_t>& used, double sum, std::vector<double>& found) {
+void all_costs(const CostMatrix& costs, double cost_of_leaving_out, std::size_t row,
+               std::set<std::size_t>& used, double sum, std::vector<double>& found) {
   if (row == costs.rows) return found.push_back(sum);
   all_costs(costs, cost_of_leaving_out, row + 1, used, sum + cost_of_leaving_out, found);
   for (std::size_t column = 0; column < costs.columns; ++column) {
@@ -29,10 +30,12 @@ std::vector<double> all_costs(const CostMatrix& costs, double cost_of_leaving_ou
   return found;
 }
 
-CostMatrix random_costs(std::mt19937_64& random, std::size_t rows, std::size_t columns, double forbidden_share) {
+CostMatrix random_costs(std::mt19937_64& random, std::size_t rows, std::size_t columns,
+                        double forbidden_share) {
   std::uniform_real_distribution<double> uniform;
   CostMatrix costs(rows, columns, 0.0);
-  for (double& cost : costs.cost) cost = uniform(random) < forbidden_share ? kForbidden : 20.0 * uniform(random) - 5.0;
+  for (double& cost : costs.cost)
+    cost = uniform(random) < forbidden_share ? kForbidden : 20.0 * uniform(random) - 5.0;
   return costs;
 }
 
@@ -40,7 +43,8 @@ TEST(AssignmentRanking, FindsTheSameAsTryingAllAndSorting) {
   std::mt19937_64 random(3);
   AssignmentRanking ranking;
   for (int trial = 0; trial < 300; ++trial) {
-    const CostMatrix costs = random_costs(random, random() % 5, random() % 5, 0.1 * static_cast<double>(trial % 10));
+    const CostMatrix costs =
+        random_costs(random, random() % 5, random() % 5, 0.1 * static_cast<double>(trial % 10));
     const std::vector<double> expected = all_costs(costs, 9.0);
     const std::size_t wanted = 1 + random() % 40;
     const auto& ranked = ranking.rank(costs, 9.0, wanted);
@@ -59,7 +63,8 @@ TEST(AssignmentRanking, BeginsWithTheBestAssignment) {
   AssignmentRanking ranking;
   for (int trial = 0; trial < 50; ++trial) {
     const CostMatrix costs = random_costs(random, 8, 7, 0.4);
-    EXPECT_NEAR(ranking.rank(costs, 9.0, 1).front().cost, assignment_cost(costs, 9.0, assign(costs, 9.0)), 1e-9);
+    EXPECT_NEAR(ranking.rank(costs, 9.0, 1).front().cost,
+                assignment_cost(costs, 9.0, assign(costs, 9.0)), 1e-9);
   }
 }
 
@@ -87,7 +92,8 @@ TEST(AssignmentRanking, KeepsItsMemoryForTheNextProblem) {
   const std::size_t* const before = ranking.rank(costs, 9.0, 10).back().column_of_row.data();
   std::set<const std::size_t*> places;
   for (int i = 0; i < 20; ++i)
-    for (const RankedAssignment& one : ranking.rank(costs, 9.0, 10)) places.insert(one.column_of_row.data());
+    for (const RankedAssignment& one : ranking.rank(costs, 9.0, 10))
+      places.insert(one.column_of_row.data());
   EXPECT_EQ(places.size(), 10U);
   EXPECT_TRUE(places.contains(before));
 }

@@ -26,7 +26,9 @@ struct Heard {
 
 class BagTest : public ::testing::Test {
  protected:
-  void write(const std::string& name, const std::string& content) { std::ofstream(folder_ / name, std::ios::binary) << content; }
+  void write(const std::string& name, const std::string& content) {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
 
   Heard hear(const std::filesystem::path& path) {
     Heard heard;
@@ -104,7 +106,8 @@ TEST_F(BagTest, GivesWhatComesBeforeACutAndNamesThePlace) {
       write("cut.mcap", whole.substr(0, size));
       const Heard heard = hear(folder_ / "cut.mcap");
       EXPECT_NE(heard.damage, "") << size;
-      for (std::size_t i = 0; i < heard.bytes.size(); ++i) ASSERT_EQ(heard.bytes[i], kMessages[i].bytes) << size;
+      for (std::size_t i = 0; i < heard.bytes.size(); ++i)
+        ASSERT_EQ(heard.bytes[i], kMessages[i].bytes) << size;
       EXPECT_GE(heard.bytes.size(), most);
       most = heard.bytes.size();
     }
@@ -132,9 +135,11 @@ TEST_F(BagTest, LeavesOutAChunkThatFailsItsChecksum) {
 
 TEST_F(BagTest, MakesNoRoomForSizesThatAreNotTrue) {
   const std::string magic("\x89MCAP0\r\n", 8);
-  write("huge.mcap", magic + testing::raw(std::uint8_t{6}) + testing::raw(std::uint64_t{1} << 27) + "short");
+  write("huge.mcap",
+        magic + testing::raw(std::uint8_t{6}) + testing::raw(std::uint64_t{1} << 27) + "short");
   EXPECT_THAT(hear(folder_ / "huge.mcap").damage, HasSubstr("ends in the record at byte 8"));
-  write("huger.mcap", magic + testing::raw(std::uint8_t{6}) + testing::raw(~std::uint64_t{0}) + "short");
+  write("huger.mcap",
+        magic + testing::raw(std::uint8_t{6}) + testing::raw(~std::uint64_t{0}) + "short");
   EXPECT_NE(hear(folder_ / "huger.mcap").damage, "");
 }
 
@@ -158,7 +163,11 @@ TEST_F(BagTest, ReadsNoDatabaseOfSomethingElse) {
   testing::write_db3(folder_ / "drive.db3", {});
   sqlite3* database = nullptr;
   sqlite3_open((folder_ / "drive.db3").c_str(), &database);
-  sqlite3_exec(database, "DROP TABLE messages; CREATE VIEW messages AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i FROM n) SELECT 1 AS topic_id, i AS timestamp, x'00' AS data, i AS id FROM n", nullptr, nullptr, nullptr);
+  sqlite3_exec(
+      database,
+      "DROP TABLE messages; CREATE VIEW messages AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL "
+      "SELECT i FROM n) SELECT 1 AS topic_id, i AS timestamp, x'00' AS data, i AS id FROM n",
+      nullptr, nullptr, nullptr);
   sqlite3_close(database);
   EXPECT_THAT(hear(folder_ / "drive.db3").damage, HasSubstr("no tables"));
 }

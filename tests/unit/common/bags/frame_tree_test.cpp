@@ -7,8 +7,12 @@
 namespace slammot::bags {
 namespace {
 
-TransformMessage transform(const std::string& parent, const std::string& child, double x_m, double heading_rad = 0.0) {
-  return {{0, parent}, child, {Eigen::Vector3d(x_m, 0.0, 0.0), Eigen::Quaterniond(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()))}};
+TransformMessage transform(const std::string& parent, const std::string& child, double x_m,
+                           double heading_rad = 0.0) {
+  return {{0, parent},
+          child,
+          {Eigen::Vector3d(x_m, 0.0, 0.0),
+           Eigen::Quaterniond(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()))}};
 }
 
 TEST(FrameTree, ChainsFramesThatAreFixedToEachOther) {

@@ -25,7 +25,9 @@ class RosMessages : public ::testing::TestWithParam<Wire> {
 };
 
 TEST_P(RosMessages, HoldScans) {
-  const auto scan = parse_laser_scan(message("sensor_msgs/LaserScan", testing::scan_message(GetParam(), {.stamp_s = 12.5, .frame = "/front"})));
+  const auto scan = parse_laser_scan(
+      message("sensor_msgs/LaserScan",
+              testing::scan_message(GetParam(), {.stamp_s = 12.5, .frame = "/front"})));
   ASSERT_TRUE(scan);
   EXPECT_EQ(scan->header.stamp_ns, 12'500'000'000);
   EXPECT_EQ(scan->header.frame, "front");
@@ -35,15 +37,30 @@ TEST_P(RosMessages, HoldScans) {
 
 TEST_P(RosMessages, HoldTheFirstEchoOfEachBeam) {
   MessageBytes bytes(GetParam());
-  bytes.header(1.0, "laser").add(0.0F).add(1.0F).add(0.5F).add(0.0F).add(0.0F).add(0.1F).add(30.0F).add(std::uint32_t{3});
-  bytes.add(std::uint32_t{2}).add(1.5F).add(2.5F).add(std::uint32_t{0}).add(std::uint32_t{1}).add(4.5F).add(std::uint32_t{0});
+  bytes.header(1.0, "laser")
+      .add(0.0F)
+      .add(1.0F)
+      .add(0.5F)
+      .add(0.0F)
+      .add(0.0F)
+      .add(0.1F)
+      .add(30.0F)
+      .add(std::uint32_t{3});
+  bytes.add(std::uint32_t{2})
+      .add(1.5F)
+      .add(2.5F)
+      .add(std::uint32_t{0})
+      .add(std::uint32_t{1})
+      .add(4.5F)
+      .add(std::uint32_t{0});
   const auto scan = parse_laser_scan(message("sensor_msgs/MultiEchoLaserScan", bytes.bytes()));
   ASSERT_TRUE(scan);
   EXPECT_THAT(scan->range_m, ElementsAre(1.5F, 0.0F, 4.5F));
 }
 
 TEST_P(RosMessages, HoldOdometry) {
-  const auto odometry = parse_odometry(message("nav_msgs/Odometry", testing::odometry_message(GetParam(), 3.0, 1.25, 0.5)));
+  const auto odometry = parse_odometry(
+      message("nav_msgs/Odometry", testing::odometry_message(GetParam(), 3.0, 1.25, 0.5)));
   ASSERT_TRUE(odometry);
   EXPECT_EQ(odometry->child_frame, "base_link");
   EXPECT_EQ(odometry->pose.translation_m.x(), 1.25);
@@ -51,7 +68,9 @@ TEST_P(RosMessages, HoldOdometry) {
 }
 
 TEST_P(RosMessages, HoldTransforms) {
-  const auto transforms = parse_transforms(message("tf2_msgs/TFMessage", testing::transform_message(GetParam(), 3.0, "base", "laser", {1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0})));
+  const auto transforms = parse_transforms(message(
+      "tf2_msgs/TFMessage", testing::transform_message(GetParam(), 3.0, "base", "laser",
+                                                       {1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0})));
   ASSERT_TRUE(transforms);
   ASSERT_EQ(transforms->size(), 1U);
   EXPECT_EQ(transforms->front().header.frame, "base");
@@ -59,7 +78,9 @@ TEST_P(RosMessages, HoldTransforms) {
 }
 
 TEST_P(RosMessages, LeaveOutTransformsThatAreNoRotation) {
-  const auto transforms = parse_transforms(message("tf2_msgs/TFMessage", testing::transform_message(GetParam(), 3.0, "base", "laser", {1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0})));
+  const auto transforms = parse_transforms(message(
+      "tf2_msgs/TFMessage", testing::transform_message(GetParam(), 3.0, "base", "laser",
+                                                       {1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0})));
   ASSERT_TRUE(transforms);
   EXPECT_TRUE(transforms->empty());
 }
@@ -68,7 +89,8 @@ TEST_P(RosMessages, HoldTheYawRateOfAnImu) {
   MessageBytes bytes(GetParam());
   std::vector<double> numbers(4 + 9 + 3 + 9 + 3 + 9);
   numbers[4 + 9 + 2] = 0.75;
-  const auto imu = parse_imu(message("sensor_msgs/Imu", bytes.header(1.0, "imu").numbers(numbers).bytes()));
+  const auto imu =
+      parse_imu(message("sensor_msgs/Imu", bytes.header(1.0, "imu").numbers(numbers).bytes()));
   ASSERT_TRUE(imu);
   EXPECT_EQ(imu->yaw_rate_radps, 0.75);
 }
@@ -76,7 +98,11 @@ TEST_P(RosMessages, HoldTheYawRateOfAnImu) {
 TEST_P(RosMessages, HoldTheFinitePointsOfACloud) {
   MessageBytes bytes(GetParam());
   bytes.header(1.0, "velodyne").add(std::uint32_t{1}).add(std::uint32_t{2}).add(std::uint32_t{3});
-  for (std::uint32_t i = 0; i < 3; ++i) bytes.text(std::string(1, static_cast<char>('x' + i))).add(4 * i).add(std::uint8_t{7}).add(std::uint32_t{1});
+  for (std::uint32_t i = 0; i < 3; ++i)
+    bytes.text(std::string(1, static_cast<char>('x' + i)))
+        .add(4 * i)
+        .add(std::uint8_t{7})
+        .add(std::uint32_t{1});
   bytes.add(std::uint8_t{0}).add(std::uint32_t{12}).add(std::uint32_t{24}).add(std::uint32_t{24});
   std::string content = bytes.bytes();
   for (const float value : {1.0F, 2.0F, 3.0F, NAN, 0.0F, 0.0F}) content += testing::raw(value);
@@ -88,19 +114,30 @@ TEST_P(RosMessages, HoldTheFinitePointsOfACloud) {
 
 TEST_P(RosMessages, AreRefusedWhereAnyEndIsMissing) {
   const std::string whole = testing::scan_message(GetParam(), {});
-  for (std::size_t size = 0; size + 4 < whole.size(); ++size) EXPECT_FALSE(parse_laser_scan(message("sensor_msgs/LaserScan", whole.substr(0, size)))) << size;
+  for (std::size_t size = 0; size + 4 < whole.size(); ++size)
+    EXPECT_FALSE(parse_laser_scan(message("sensor_msgs/LaserScan", whole.substr(0, size)))) << size;
 }
 
 TEST_P(RosMessages, DoNotMakeRoomForWhatIsNotThere) {
   MessageBytes bytes(GetParam());
-  bytes.header(1.0, "laser").add(0.0F).add(1.0F).add(0.5F).add(0.0F).add(0.0F).add(0.1F).add(30.0F).add(std::uint32_t{0xFFFFFFFF});
+  bytes.header(1.0, "laser")
+      .add(0.0F)
+      .add(1.0F)
+      .add(0.5F)
+      .add(0.0F)
+      .add(0.0F)
+      .add(0.1F)
+      .add(30.0F)
+      .add(std::uint32_t{0xFFFFFFFF});
   EXPECT_FALSE(parse_laser_scan(message("sensor_msgs/LaserScan", bytes.bytes())));
 }
 
-INSTANTIATE_TEST_SUITE_P(Wires, RosMessages, ::testing::Values(Wire::kRos1, Wire::kCdrLittle, Wire::kCdrBig));
+INSTANTIATE_TEST_SUITE_P(Wires, RosMessages,
+                         ::testing::Values(Wire::kRos1, Wire::kCdrLittle, Wire::kCdrBig));
 
 TEST(KindOf, RefusesATypeOfAnotherDefinition) {
-  Channel channel{"/scan", "sensor_msgs/LaserScan", "90c7ef2dc6895d81024acba2ac42f369", Serialization::kRos1};
+  Channel channel{"/scan", "sensor_msgs/LaserScan", "90c7ef2dc6895d81024acba2ac42f369",
+                  Serialization::kRos1};
   EXPECT_EQ(kind_of(channel), MessageKind::kLaserScan);
   channel.md5 = "00000000000000000000000000000000";
   EXPECT_EQ(kind_of(channel), MessageKind::kOther);

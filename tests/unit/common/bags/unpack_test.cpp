@@ -7,7 +7,9 @@
 namespace slammot::bags {
 namespace {
 
-Bytes bytes_of(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
+Bytes bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
 
 class UnpackOf : public ::testing::TestWithParam<const char*> {
  protected:
@@ -37,7 +39,9 @@ TEST_P(UnpackOf, StopsWhereItBecomesTooMuch) {
   EXPECT_EQ(unpacked.bytes.size(), 1000U);
 }
 
-TEST_P(UnpackOf, RefusesOtherBytes) { EXPECT_FALSE(unpack(GetParam(), bytes_of("these are no packed bytes at all")).is_whole); }
+TEST_P(UnpackOf, RefusesOtherBytes) {
+  EXPECT_FALSE(unpack(GetParam(), bytes_of("these are no packed bytes at all")).is_whole);
+}
 
 INSTANTIATE_TEST_SUITE_P(Compressions, UnpackOf, ::testing::Values("bz2", "lz4", "zstd"));
 

@@ -19,15 +19,19 @@ struct ExampleConfig {
 
 inline FieldTable<ExampleConfig> example_fields() {
   using C = ExampleConfig;
-  const FieldTable<ExampleInnerConfig> inner = in_group<ExampleInnerConfig>(Group::sensor, {{"x_m", &ExampleInnerConfig::x_m, "Ahead.", kNotNegative}});
-  FieldTable<C> own = {{"window_scans", &C::window_scans, "Scans in flight.", Range{1, 100}},
-                       {"resend_after_s", &C::resend_after_s, "Silence.", kPositive, {"Sent twice.", "Late."}},
-                       {"loops", &C::loops, "Again and again."},
-                       {"name", &C::name, "Of the scanner."}};
+  const FieldTable<ExampleInnerConfig> inner = in_group<ExampleInnerConfig>(
+      Group::sensor, {{"x_m", &ExampleInnerConfig::x_m, "Ahead.", kNotNegative}});
+  FieldTable<C> own = {
+      {"window_scans", &C::window_scans, "Scans in flight.", Range{1, 100}},
+      {"resend_after_s", &C::resend_after_s, "Silence.", kPositive, {"Sent twice.", "Late."}},
+      {"loops", &C::loops, "Again and again."},
+      {"name", &C::name, "Of the scanner."}};
   own[1].group = Group::operation;
   return with_nested<C>(std::move(own), "offset", &C::offset, inner);
 }
 
-inline BoundStage bind_example(ExampleConfig& config) { return bind_stage("example", example_fields(), config); }
+inline BoundStage bind_example(ExampleConfig& config) {
+  return bind_stage("example", example_fields(), config);
+}
 
 }  // namespace slammot::config

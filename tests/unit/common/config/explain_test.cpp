@@ -31,7 +31,9 @@ std::string unit_of(std::string name, std::string_view meaning = "") {
 }
 
 TEST(Explain, ListsSettingsByGroupAndThoseWithoutOneLast) {
-  EXPECT_THAT(names_of(explain_example()), ElementsAre("example.offset.x_m", "example.resend_after_s", "example.window_scans", "example.loops", "example.name"));
+  EXPECT_THAT(names_of(explain_example()),
+              ElementsAre("example.offset.x_m", "example.resend_after_s", "example.window_scans",
+                          "example.loops", "example.name"));
 }
 
 TEST(Explain, TellsUnitRangeDefaultAndWhatGoesWrong) {
@@ -82,11 +84,15 @@ TEST(ExplanationText, HasATitleAGroupAndLinesASetting) {
 TEST(ExplanationTables, HaveARowASetting) {
   const std::string page = explanation_tables(explain_example());
   EXPECT_THAT(page, HasSubstr("## sensor: "));
-  EXPECT_THAT(page, HasSubstr("| `example.resend_after_s` | s | above 0 | `1` | Silence. | Sent twice. | Late. |\n"));
+  EXPECT_THAT(
+      page,
+      HasSubstr(
+          "| `example.resend_after_s` | s | above 0 | `1` | Silence. | Sent twice. | Late. |\n"));
 }
 
 TEST(ExplanationLines, HaveALineASetting) {
-  EXPECT_THAT(explanation_lines(explain_example()), HasSubstr("\n  example.window_scans = 1  Scans in flight.\n"));
+  EXPECT_THAT(explanation_lines(explain_example()),
+              HasSubstr("\n  example.window_scans = 1  Scans in flight.\n"));
 }
 
 }  // namespace

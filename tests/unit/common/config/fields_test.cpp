@@ -18,7 +18,8 @@ TEST(FindFault, AcceptsTheDefaults) {
 TEST(FindFault, NamesTheStageTheFieldItsValueItsRangeAndItsMeaning) {
   ExampleConfig config;
   config.window_scans = 101;
-  EXPECT_EQ(find_fault(bind_example(config)), "example.window_scans = 101 is outside [1, 100]: Scans in flight.");
+  EXPECT_EQ(find_fault(bind_example(config)),
+            "example.window_scans = 101 is outside [1, 100]: Scans in flight.");
 }
 
 TEST(FindFault, AcceptsBothEndsOfARange) {
@@ -42,7 +43,8 @@ TEST(FindFault, TakesZeroForNotPositiveButForNotNegative) {
   config.offset.x_m = 0.0;
   EXPECT_EQ(find_fault(bind_example(config)), std::nullopt);
   config.resend_after_s = 0.0;
-  EXPECT_EQ(find_fault(bind_example(config)), "example.resend_after_s = 0 is not above 0: Silence.");
+  EXPECT_EQ(find_fault(bind_example(config)),
+            "example.resend_after_s = 0 is not above 0: Silence.");
 }
 
 TEST(BindStage, PointsIntoTheStructItWasGiven) {

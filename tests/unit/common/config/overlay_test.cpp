@@ -50,11 +50,14 @@ TEST(Overlay, LetsTheLaterFileWin) {
 
 TEST(Overlay, SaysWhereAnUnknownFieldStands) {
   EXPECT_THAT(fault_of("# first line\nexample {\n  windw_scans: 3\n}"),
-              ::testing::AllOf(::testing::StartsWith("drive.textproto:3:"), ::testing::HasSubstr("windw_scans")));
+              ::testing::AllOf(::testing::StartsWith("drive.textproto:3:"),
+                               ::testing::HasSubstr("windw_scans")));
 }
 
 TEST(Overlay, NamesTheNearestSettingThatThereIs) {
-  EXPECT_EQ(fault_of("example {\n  windw_scans: 3\n}"), "drive.textproto:2:14: no setting is called \"windw_scans\" here; the nearest one is \"window_scans\"");
+  EXPECT_EQ(fault_of("example {\n  windw_scans: 3\n}"),
+            "drive.textproto:2:14: no setting is called \"windw_scans\" here; the nearest one is "
+            "\"window_scans\"");
 }
 
 TEST(Overlay, TakesUpTheBaseThatAFileNamesFirst) {
@@ -73,26 +76,34 @@ TEST(Overlay, SaysWhatIsWrongWithABase) {
   ::setenv("SLAMMOT_PROFILES", folder.path().c_str(), 1);
   std::ofstream(folder / "faulty.textproto") << "example { window_scans: 0 }";
   std::ofstream(folder / "circle.textproto") << "base: \"circle\"";
-  EXPECT_THAT(fault_of("example {}\nbase: \"moon\""), ::testing::StartsWith("drive.textproto:2:1: base: unknown profile 'moon'"));
-  EXPECT_THAT(fault_of("base: \"faulty\""), ::testing::HasSubstr("faulty.textproto:1:11: example.window_scans = 0"));
-  EXPECT_THAT(fault_of("base: \"circle\""), ::testing::HasSubstr("circle.textproto:1:1: base: profiles that are each other's base"));
+  EXPECT_THAT(fault_of("example {}\nbase: \"moon\""),
+              ::testing::StartsWith("drive.textproto:2:1: base: unknown profile 'moon'"));
+  EXPECT_THAT(fault_of("base: \"faulty\""),
+              ::testing::HasSubstr("faulty.textproto:1:11: example.window_scans = 0"));
+  EXPECT_THAT(
+      fault_of("base: \"circle\""),
+      ::testing::HasSubstr("circle.textproto:1:1: base: profiles that are each other's base"));
 }
 
 TEST(Overlay, SaysWhereAnUnknownStageStands) {
   EXPECT_THAT(fault_of("ingest {}\nlocalisation {}"),
-              ::testing::AllOf(::testing::StartsWith("drive.textproto:2:"), ::testing::HasSubstr("localisation")));
+              ::testing::AllOf(::testing::StartsWith("drive.textproto:2:"),
+                               ::testing::HasSubstr("localisation")));
 }
 
 TEST(Overlay, SaysWhereTheSyntaxBreaks) {
-  EXPECT_THAT(fault_of("example {\n  window_scans 3\n}"), ::testing::StartsWith("drive.textproto:2:16: "));
-  EXPECT_THAT(fault_of("example {\n  window_scans: three\n}"), ::testing::StartsWith("drive.textproto:2:17: "));
+  EXPECT_THAT(fault_of("example {\n  window_scans 3\n}"),
+              ::testing::StartsWith("drive.textproto:2:16: "));
+  EXPECT_THAT(fault_of("example {\n  window_scans: three\n}"),
+              ::testing::StartsWith("drive.textproto:2:17: "));
   EXPECT_THAT(fault_of("example {"), ::testing::StartsWith("drive.textproto:1:"));
 }
 
 TEST(Overlay, SaysWhereAValueOutOfRangeStands) {
   EXPECT_EQ(fault_of("example {\n  resend_after_s: 1\n  window_scans: 0\n}"),
             "drive.textproto:3:3: example.window_scans = 0 is outside [1, 100]: Scans in flight.");
-  EXPECT_THAT(fault_of("example { resend_after_s: nan }"), ::testing::StartsWith("drive.textproto:1:11: "));
+  EXPECT_THAT(fault_of("example { resend_after_s: nan }"),
+              ::testing::StartsWith("drive.textproto:1:11: "));
 }
 
 TEST(Overlay, SaysWhereAValueOutOfRangeStandsInANestedMessage) {
@@ -101,7 +112,8 @@ TEST(Overlay, SaysWhereAValueOutOfRangeStandsInANestedMessage) {
 }
 
 TEST(Overlay, RefusesAFieldThatIsSetTwice) {
-  EXPECT_THAT(fault_of("example { window_scans: 3\nwindow_scans: 4 }"), ::testing::StartsWith("drive.textproto:2:"));
+  EXPECT_THAT(fault_of("example { window_scans: 3\nwindow_scans: 4 }"),
+              ::testing::StartsWith("drive.textproto:2:"));
 }
 
 TEST(Overlay, ChecksTheNamesInStagesThatAreNotBound) {
@@ -110,7 +122,8 @@ TEST(Overlay, ChecksTheNamesInStagesThatAreNotBound) {
 }
 
 TEST(Overlay, SaysSoWhenTheFileCannotBeRead) {
-  EXPECT_EQ(overlay_file("/nowhere/at.textproto", {})->text(), "/nowhere/at.textproto: cannot be read");
+  EXPECT_EQ(overlay_file("/nowhere/at.textproto", {})->text(),
+            "/nowhere/at.textproto: cannot be read");
   EXPECT_EQ(overlay_file("/", {})->text(), "/: cannot be read");
 }
 
@@ -122,7 +135,8 @@ TEST(DifferencesFromProto, FindsNoneWhereTheyAgree) {
 TEST(DifferencesFromProto, FindsWhatIsOnlyInTheTable) {
   double strange = 0.0;
   BoundStage stage{"map_store", {{"no_such_field", &strange, "", {}}}};
-  EXPECT_THAT(differences_from_proto(stage), ::testing::Contains("map_store.no_such_field: only in the table"));
+  EXPECT_THAT(differences_from_proto(stage),
+              ::testing::Contains("map_store.no_such_field: only in the table"));
 }
 
 TEST(DifferencesFromProto, FindsWhatIsOnlyInTheProto) {
@@ -133,7 +147,8 @@ TEST(DifferencesFromProto, FindsWhatIsOnlyInTheProto) {
 TEST(DifferencesFromProto, FindsTypesThatDiffer) {
   bool not_a_number = false;
   BoundStage stage{"map_store", {{"busy_timeout_s", &not_a_number, "", {}}}};
-  EXPECT_THAT(differences_from_proto(stage), ::testing::Contains("map_store.busy_timeout_s: types differ, or not optional"));
+  EXPECT_THAT(differences_from_proto(stage),
+              ::testing::Contains("map_store.busy_timeout_s: types differ, or not optional"));
 }
 
 }  // namespace

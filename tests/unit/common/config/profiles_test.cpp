@@ -19,7 +19,9 @@ TEST(FindProfile, TakesAPathAsItIs) {
 
 TEST(UnknownProfile, SaysWhichThereAre) {
   EXPECT_EQ(find_profile("moon"), std::nullopt);
-  EXPECT_THAT(unknown_profile("moon"), ::testing::AllOf(::testing::HasSubstr("'moon'"), ::testing::HasSubstr("indoor, model_cars, outdoor_robot, urban")));
+  EXPECT_THAT(unknown_profile("moon"),
+              ::testing::AllOf(::testing::HasSubstr("'moon'"),
+                               ::testing::HasSubstr("indoor, model_cars, outdoor_robot, urban")));
 }
 
 }  // namespace

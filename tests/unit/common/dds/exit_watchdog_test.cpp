@@ -20,7 +20,8 @@ TEST(ExitWatchdogDeathTest, EndsAProcessThatHangsOnItsWayOut) {
         std::condition_variable never_notified;
         never_notified.wait(lock, [] { return false; });
       },
-      ::testing::ExitedWithCode(ExitWatchdog::kExitCode), "leaving the DDS bus took longer than 10 ms");
+      ::testing::ExitedWithCode(ExitWatchdog::kExitCode),
+      "leaving the DDS bus took longer than 10 ms");
 }
 
 TEST(ExitWatchdogDeathTest, LetsAProcessGoThatLeavesInTime) {

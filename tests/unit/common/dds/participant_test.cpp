@@ -19,9 +19,7 @@ using ::testing::Not;
 std::string reason_of_failure(const ParticipantOptions& options) {
   try {
     const Participant participant(options);
-  } catch (const StartupError& error) {
-    return error.what();
-  }
+  } catch (const StartupError& error) { return error.what(); }
   return "";
 }
 
@@ -30,10 +28,12 @@ std::string config_with(const std::string& general) {
 }
 
 TEST(Participant, SaysWhichInterfaceIsMissing) {
-  const std::string config = config_with("<Interfaces><NetworkInterface name=\"nope0\"/></Interfaces>");
-  EXPECT_THAT(reason_of_failure({.domain_id = 3, .name = "", .config = config}),
-              AllOf(HasSubstr("DDS domain 3"), HasSubstr("nope0: does not match an available interface"),
-                    Not(HasSubstr("\n"))));
+  const std::string config =
+      config_with("<Interfaces><NetworkInterface name=\"nope0\"/></Interfaces>");
+  EXPECT_THAT(
+      reason_of_failure({.domain_id = 3, .name = "", .config = config}),
+      AllOf(HasSubstr("DDS domain 3"), HasSubstr("nope0: does not match an available interface"),
+            Not(HasSubstr("\n"))));
 }
 
 TEST(Participant, SaysWhatIsWrongInItsConfiguration) {
@@ -47,23 +47,28 @@ TEST(Participant, SaysWhichConfigurationFileIsMissing) {
 }
 
 TEST(Participant, SaysThatADomainIsOutOfRange) {
-  EXPECT_THAT(reason_of_failure({.domain_id = 300, .name = "", .config = ""}), HasSubstr("out of range"));
+  EXPECT_THAT(reason_of_failure({.domain_id = 300, .name = "", .config = ""}),
+              HasSubstr("out of range"));
 }
 
 TEST(Participant, SaysThatItsPortIsInUse) {
   const auto config = [](const std::string& tag) {
     return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-           "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>5</ParticipantIndex>"
+           "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>5</"
+           "ParticipantIndex>"
            "<Ports><Base>51000</Base><DomainGain>0</DomainGain></Ports><Tag>" +
            tag + "</Tag></Discovery></Domain></CycloneDDS>";
   };
   const Participant first({.domain_id = 211, .name = "", .config = config("a")});
-  EXPECT_THAT(reason_of_failure({.domain_id = 212, .name = "", .config = config("b")}), HasSubstr("port"));
+  EXPECT_THAT(reason_of_failure({.domain_id = 212, .name = "", .config = config("b")}),
+              HasSubstr("port"));
 }
 
 TEST(Participant, CanJoinAgainAfterAFailure) {
   const PrivateBus bus;
-  ASSERT_NE(reason_of_failure({.domain_id = bus.domain_id, .name = "", .config = config_with("<Nonsense/>")}), "");
+  ASSERT_NE(reason_of_failure(
+                {.domain_id = bus.domain_id, .name = "", .config = config_with("<Nonsense/>")}),
+            "");
   EXPECT_EQ(bus.join().domain_id(), bus.domain_id);
 }
 

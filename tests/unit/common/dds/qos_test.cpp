@@ -15,7 +15,8 @@ TEST(QosProfile, KeepsForLateJoinersWhatIsAState) {
 }
 
 TEST(QosProfile, LetsWritersRepairALossyLink) {
-  for (const Flow flow : {Flow::kSensor, Flow::kEstimate, Flow::kCommand}) EXPECT_GE(qos_profile(flow).writer_depth, 8);
+  for (const Flow flow : {Flow::kSensor, Flow::kEstimate, Flow::kCommand})
+    EXPECT_GE(qos_profile(flow).writer_depth, 8);
 }
 
 TEST(QosProfile, KeepsEstimatesFresh) { EXPECT_LE(qos_profile(Flow::kEstimate).reader_depth, 4); }

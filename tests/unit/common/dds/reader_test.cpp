@@ -126,10 +126,10 @@ struct ConstraintsOverTheBus : ::testing::Test {
     std::vector<std::uint32_t> targets;
     WaitSet wait_set(reading);
     wait_set.on_data(reader, [&] {
-      reader.take_each([&](const slammot_Constraint& sample) { targets.push_back(sample.to_submap_id); });
+      reader.take_each(
+          [&](const slammot_Constraint& sample) { targets.push_back(sample.to_submap_id); });
     });
-    while (targets.size() < count && wait_set.wait(kForever) == WaitSet::Wake::kHandled) {
-    }
+    while (targets.size() < count && wait_set.wait(kForever) == WaitSet::Wake::kHandled) {}
     return targets;
   }
 };
@@ -176,9 +176,9 @@ TEST(Reader, NamesThePolicyThatKeepsItFromAWriter) {
   ASSERT_TRUE(writer.wait_for_mismatch(kForever));
   ASSERT_TRUE(reader.mismatch().has_value());
   EXPECT_EQ(reader.mismatch()->policy, "durability");
-  EXPECT_EQ(
-      reader.mismatch()->text(),
-      "slammot/constraint: cannot be connected with another participant's endpoint because of durability (1 so far)");
+  EXPECT_EQ(reader.mismatch()->text(),
+            "slammot/constraint: cannot be connected with another participant's endpoint because "
+            "of durability (1 so far)");
   EXPECT_EQ(writer.mismatch()->policy, "durability");
   EXPECT_EQ(reader.matched_writers(), 0U);
 }

@@ -12,7 +12,8 @@ using ::testing::StartsWith;
 
 TEST(TopicTable, HasEachNameOnce) {
   std::set<std::string_view> names;
-  for (const TopicInfo* topic : topic_table()) EXPECT_TRUE(names.insert(topic->name).second) << topic->name;
+  for (const TopicInfo* topic : topic_table())
+    EXPECT_TRUE(names.insert(topic->name).second) << topic->name;
 }
 
 TEST(TopicTable, NamesTopicsAndTypesAfterTheProject) {
@@ -30,7 +31,8 @@ TEST(TopicTable, KeysEverySampleByItsVehicleFirst) {
 }
 
 TEST(TopicTable, CarriesTypeInformationForTheStockTools) {
-  for (const TopicInfo* topic : topic_table()) EXPECT_GT(topic->type->type_information.sz, 0U) << topic->name;
+  for (const TopicInfo* topic : topic_table())
+    EXPECT_GT(topic->type->type_information.sz, 0U) << topic->name;
 }
 
 TEST(TopicTable, FindsItsRowsByName) {

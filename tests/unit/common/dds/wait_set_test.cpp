@@ -58,7 +58,8 @@ TEST_F(WaitSetOnTheBus, SaysThatNothingCame) {
 
 TEST_F(WaitSetOnTheBus, WakesAgainForWhatAHandlerLeftBehind) {
   wait_set.on_data(reader, [&] {
-    // Two readers' worth: one take gives at most LoanBase::kMost samples, and this topic keeps 20 a key.
+    // Two readers' worth: one take gives at most LoanBase::kMost samples, and this topic keeps 20 a
+    // key.
     handle_one_take();
   });
   slammot_Odometry sample{};
@@ -66,8 +67,7 @@ TEST_F(WaitSetOnTheBus, WakesAgainForWhatAHandlerLeftBehind) {
     assign(sample.vehicle_id, vehicle);
     for (sample.stamp_ns = 0; sample.stamp_ns < 20; ++sample.stamp_ns) writer.write(sample);
   }
-  while (stamps.size() < 60 && wait_set.wait(kForever) == WaitSet::Wake::kHandled) {
-  }
+  while (stamps.size() < 60 && wait_set.wait(kForever) == WaitSet::Wake::kHandled) {}
   EXPECT_EQ(stamps.size(), 60U);
 }
 

@@ -16,7 +16,8 @@ namespace {
 using ::testing::HasSubstr;
 
 std::size_t files_in(const std::filesystem::path& folder) {
-  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder),
+                                                std::filesystem::directory_iterator()));
 }
 
 TEST(WriteFileAtomically, ReplacesTheOldFileAndLeavesNothingElse) {

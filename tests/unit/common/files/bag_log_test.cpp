@@ -15,9 +15,9 @@
 namespace slammot::files {
 namespace {
 
-using ::testing::HasSubstr;
 using geometry::Pose2;
 using std::numbers::pi;
+using ::testing::HasSubstr;
 using testing::MessageSpec;
 using testing::PoseNear;
 using testing::ScanSpec;
@@ -27,9 +27,12 @@ using testing::write_file;
 constexpr Wire kWire = Wire::kCdrLittle;
 const std::string kScan = "sensor_msgs/LaserScan";
 
-MessageSpec scan(const std::string& topic, const ScanSpec& spec) { return {topic, kScan, spec.stamp_s, testing::scan_message(kWire, spec)}; }
+MessageSpec scan(const std::string& topic, const ScanSpec& spec) {
+  return {topic, kScan, spec.stamp_s, testing::scan_message(kWire, spec)};
+}
 MessageSpec fixed(const std::string& child, const std::vector<double>& seven) {
-  return {"/tf_static", "tf2_msgs/TFMessage", 100.0, testing::transform_message(kWire, 100.0, "base_link", child, seven)};
+  return {"/tf_static", "tf2_msgs/TFMessage", 100.0,
+          testing::transform_message(kWire, 100.0, "base_link", child, seven)};
 }
 
 struct Reading {
@@ -53,7 +56,8 @@ class BagLogTest : public ::testing::Test {
     EXPECT_TRUE(log) << (log ? "" : log.error().message);
     if (!log) return reading;
     while (const auto event = log->next()) {
-      if (const auto* odometry = std::get_if<sensing::Odometry>(&*event)) reading.odometry.push_back(*odometry);
+      if (const auto* odometry = std::get_if<sensing::Odometry>(&*event))
+        reading.odometry.push_back(*odometry);
       else reading.scans.push_back(std::get<sensing::LaserScan>(*event));
     }
     reading.plan = log->plan();
@@ -62,7 +66,8 @@ class BagLogTest : public ::testing::Test {
     return reading;
   }
 
-  std::string refusal(const std::vector<MessageSpec>& messages, const CarmenLogOptions& options = {}) {
+  std::string refusal(const std::vector<MessageSpec>& messages,
+                      const CarmenLogOptions& options = {}) {
     write_file(file_, testing::mcap_file(messages, ""));
     const auto log = CarmenLog::open(file_, options);
     EXPECT_FALSE(log);
@@ -103,10 +108,13 @@ TEST_F(BagLogTest, IsTheSameWhereScansAreTooManyToBeKept) {
 TEST_F(BagLogTest, InterpolatesOdometryOfOtherStampsAlsoWhereItWasWrittenAfterAllScans) {
   std::vector<MessageSpec> messages;
   for (int i = 0; i < 10; ++i) messages.push_back(scan("/scan", {.stamp_s = 100.05 + i * 0.1}));
-  for (int i = 0; i < 11; ++i) messages.push_back({"/odom", "nav_msgs/Odometry", 100.0 + i * 0.1, testing::odometry_message(kWire, 100.0 + i * 0.1, i, 0.0)});
+  for (int i = 0; i < 11; ++i)
+    messages.push_back({"/odom", "nav_msgs/Odometry", 100.0 + i * 0.1,
+                        testing::odometry_message(kWire, 100.0 + i * 0.1, i, 0.0)});
   const Reading reading = read(messages);
   ASSERT_EQ(reading.scans.size(), 10U);
-  const auto at_scan = std::ranges::find(reading.odometry, reading.scans[4].stamp_ns, &sensing::Odometry::stamp_ns);
+  const auto at_scan =
+      std::ranges::find(reading.odometry, reading.scans[4].stamp_ns, &sensing::Odometry::stamp_ns);
   ASSERT_NE(at_scan, reading.odometry.end());
   EXPECT_NEAR(at_scan->wheel_from_base.x_m, 4.5, 1e-6);
 }
@@ -115,7 +123,9 @@ TEST_F(BagLogTest, TakesTheTransformsWhereThereIsNoOdometry) {
   std::vector<MessageSpec> messages = {fixed("laser", {0.3, 0.0, 0.2, 0.0, 0.0, 0.0, 1.0})};
   for (int i = 0; i < 10; ++i) {
     const double stamp_s = 100.0 + i * 0.1;
-    messages.push_back({"/tf", "tf2_msgs/TFMessage", stamp_s, testing::transform_message(kWire, stamp_s, "odom", "base_link", {i * 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0})});
+    messages.push_back({"/tf", "tf2_msgs/TFMessage", stamp_s,
+                        testing::transform_message(kWire, stamp_s, "odom", "base_link",
+                                                   {i * 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0})});
     messages.push_back(scan("/scan", {.stamp_s = stamp_s}));
   }
   const Reading reading = read(messages);
@@ -125,7 +135,9 @@ TEST_F(BagLogTest, TakesTheTransformsWhereThereIsNoOdometry) {
 }
 
 TEST_F(BagLogTest, TurnsTheBeamsOfAScannerThatHangsUpsideDown) {
-  const Reading reading = read({fixed("laser", {0.3, 0.0, 0.2, 1.0, 0.0, 0.0, 0.0}), scan("/scan", {.first_rad = 0.0F}), scan("/scan", {.stamp_s = 1.1, .first_rad = 0.0F})});
+  const Reading reading =
+      read({fixed("laser", {0.3, 0.0, 0.2, 1.0, 0.0, 0.0, 0.0}), scan("/scan", {.first_rad = 0.0F}),
+            scan("/scan", {.stamp_s = 1.1, .first_rad = 0.0F})});
   ASSERT_EQ(reading.scans.size(), 2U);
   EXPECT_EQ(reading.scans[0].scanner.beam_step_rad, -pi / 2.0);
   EXPECT_NEAR(reading.scans[0].scanner.base_from_laser.heading_rad, 0.0, 1e-12);
@@ -133,9 +145,12 @@ TEST_F(BagLogTest, TurnsTheBeamsOfAScannerThatHangsUpsideDown) {
 }
 
 std::vector<MessageSpec> two_scanners() {
-  std::vector<MessageSpec> messages = {fixed("front", {1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}), fixed("rear", {-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0})};
+  std::vector<MessageSpec> messages = {fixed("front", {1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}),
+                                       fixed("rear", {-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0})};
   for (int i = 0; i < 6; ++i) {
-    messages.push_back(scan("/front/scan", {.stamp_s = 100.0 + i * 0.1, .frame = "front", .range_m = {1.0F, 2.0F, 3.0F, 4.0F}}));
+    messages.push_back(
+        scan("/front/scan",
+             {.stamp_s = 100.0 + i * 0.1, .frame = "front", .range_m = {1.0F, 2.0F, 3.0F, 4.0F}}));
     MessageSpec late = scan("/rear/scan", {.stamp_s = 99.96 + i * 0.1, .frame = "rear"});
     late.log_time_s += 0.05;
     messages.push_back(late);
@@ -157,7 +172,8 @@ TEST_F(BagLogTest, HandsOutAllScannersInTheOrderOfTheirStampsEachWithItsMounting
   options.uses_all_scanners = true;
   const Reading reading = read(two_scanners(), options);
   ASSERT_EQ(reading.scans.size(), 12U);
-  for (std::size_t i = 1; i < reading.scans.size(); ++i) EXPECT_GT(reading.scans[i].stamp_ns, reading.scans[i - 1].stamp_ns);
+  for (std::size_t i = 1; i < reading.scans.size(); ++i)
+    EXPECT_GT(reading.scans[i].stamp_ns, reading.scans[i - 1].stamp_ns);
   EXPECT_EQ(reading.scans[0].scanner.scanner_id, "rear_scan");
   EXPECT_NEAR(std::abs(reading.scans[0].scanner.base_from_laser.heading_rad), pi, 1e-12);
   EXPECT_EQ(reading.scans[1].scanner.scanner_id, "front_scan");
@@ -185,7 +201,9 @@ TEST_F(BagLogTest, TakesTopicsOfOneFrameForOneScanner) {
 
 TEST_F(BagLogTest, PrefersOdometryThatIsNotTheTruth) {
   std::vector<MessageSpec> messages = testing::straight_bag(kWire, 10);
-  for (int i = 0; i < 20; ++i) messages.push_back({"/ground_truth/odom", "nav_msgs/Odometry", 100.0 + i * 0.05, testing::odometry_message(kWire, 100.0 + i * 0.05, 7.0 + i, 0.0)});
+  for (int i = 0; i < 20; ++i)
+    messages.push_back({"/ground_truth/odom", "nav_msgs/Odometry", 100.0 + i * 0.05,
+                        testing::odometry_message(kWire, 100.0 + i * 0.05, 7.0 + i, 0.0)});
   const Reading reading = read(messages);
   EXPECT_NEAR(reading.odometry.front().wheel_from_base.x_m, 0.0, 1e-9);
   CarmenLogOptions options;
@@ -193,26 +211,36 @@ TEST_F(BagLogTest, PrefersOdometryThatIsNotTheTruth) {
   EXPECT_TRUE(read(messages, options).odometry.empty());
 }
 
-/// A ring of points around a sensor that is 1 m above the base, at the sensor's own height; and one of the ground.
+/// A ring of points around a sensor that is 1 m above the base, at the sensor's own height; and one
+/// of the ground.
 std::string ring_and_ground(double stamp_s, float ring_m) {
   constexpr std::uint32_t kPoints = 2000;
   testing::MessageBytes bytes(kWire);
   bytes.header(stamp_s, "velodyne").add(std::uint32_t{1}).add(kPoints).add(std::uint32_t{3});
-  for (std::uint32_t i = 0; i < 3; ++i) bytes.text(std::string(1, static_cast<char>('x' + i))).add(4 * i).add(std::uint8_t{7}).add(std::uint32_t{1});
+  for (std::uint32_t i = 0; i < 3; ++i)
+    bytes.text(std::string(1, static_cast<char>('x' + i)))
+        .add(4 * i)
+        .add(std::uint8_t{7})
+        .add(std::uint32_t{1});
   bytes.add(std::uint8_t{0}).add(std::uint32_t{12}).add(12 * kPoints).add(12 * kPoints);
   std::string content = bytes.bytes();
   for (std::uint32_t i = 0; i < kPoints; ++i) {
-    const float angle_rad = static_cast<float>(i / 2) * 2.0F * static_cast<float>(pi) / (kPoints / 2);
+    const float angle_rad =
+        static_cast<float>(i / 2) * 2.0F * static_cast<float>(pi) / (kPoints / 2);
     const bool is_ground = i % 2 == 1;
     const float range_m = is_ground ? 0.5F * ring_m : ring_m;
-    for (const float value : {range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), is_ground ? -1.0F : 0.0F}) content += testing::raw(value);
+    for (const float value :
+         {range_m * std::cos(angle_rad), range_m * std::sin(angle_rad), is_ground ? -1.0F : 0.0F})
+      content += testing::raw(value);
   }
   return content + '\1';
 }
 
 TEST_F(BagLogTest, CutsCloudsAtTheHeightOfTheSensorOrAtThatWhichIsAskedFor) {
   std::vector<MessageSpec> messages = {fixed("velodyne", {0.4, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0})};
-  for (int i = 0; i < 5; ++i) messages.push_back({"/points", "sensor_msgs/PointCloud2", 100.0 + i * 0.1, ring_and_ground(100.0 + i * 0.1, 8.0F)});
+  for (int i = 0; i < 5; ++i)
+    messages.push_back({"/points", "sensor_msgs/PointCloud2", 100.0 + i * 0.1,
+                        ring_and_ground(100.0 + i * 0.1, 8.0F)});
   const Reading reading = read(messages);
   ASSERT_EQ(reading.scans.size(), 5U);
   EXPECT_EQ(reading.scans[2].stamp_ns, 100'200'000'000);
@@ -229,30 +257,38 @@ TEST_F(BagLogTest, CutsCloudsAtTheHeightOfTheSensorOrAtThatWhichIsAskedFor) {
 TEST_F(BagLogTest, TakesTheOdometryBeforeAScanWhereNoClockRuns) {
   std::vector<MessageSpec> messages;
   for (int i = 0; i < 10; ++i) {
-    messages.push_back({"/odom", "nav_msgs/Odometry", 0.0, testing::odometry_message(kWire, 0.0, i, 0.0)});
+    messages.push_back(
+        {"/odom", "nav_msgs/Odometry", 0.0, testing::odometry_message(kWire, 0.0, i, 0.0)});
     messages.push_back({"/scan", kScan, 0.0, testing::scan_message(kWire, {.stamp_s = 0.0})});
   }
   const Reading reading = read(messages);
   EXPECT_EQ(reading.plan.clock, LogClock::kNominal);
   ASSERT_EQ(reading.odometry.size(), 10U);
-  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(reading.odometry[i].wheel_from_base.x_m, static_cast<double>(i));
+  for (std::size_t i = 0; i < 10; ++i)
+    EXPECT_EQ(reading.odometry[i].wheel_from_base.x_m, static_cast<double>(i));
 }
 
 TEST_F(BagLogTest, LeavesScansThatComeLateByTheirStampWhereTheBagHasThem) {
   std::vector<MessageSpec> messages;
-  for (const double stamp_s : {100.001, 100.102, 100.304, 100.203, 100.401, 100.503, 100.602, 100.704, 100.801, 100.902, 101.003}) messages.push_back(scan("/scan", {.stamp_s = stamp_s}));
+  for (const double stamp_s : {100.001, 100.102, 100.304, 100.203, 100.401, 100.503, 100.602,
+                               100.704, 100.801, 100.902, 101.003})
+    messages.push_back(scan("/scan", {.stamp_s = stamp_s}));
   const Reading reading = read(messages);
   ASSERT_EQ(reading.scans.size(), 11U);
   EXPECT_EQ(reading.scans[3].stamp_ns, 100'203'000'000);
 }
 
 TEST_F(BagLogTest, SaysWhichTopicsThereAreWhereNoneHoldsScans) {
-  EXPECT_THAT(refusal({{"/odom", "nav_msgs/Odometry", 1.0, testing::odometry_message(kWire, 1.0, 0.0, 0.0)}}), HasSubstr("/odom (nav_msgs/Odometry)"));
+  EXPECT_THAT(refusal({{"/odom", "nav_msgs/Odometry", 1.0,
+                        testing::odometry_message(kWire, 1.0, 0.0, 0.0)}}),
+              HasSubstr("/odom (nav_msgs/Odometry)"));
   CarmenLogOptions options;
   options.topics.scan_topic = "/other";
-  EXPECT_THAT(refusal(testing::straight_bag(kWire, 3), options), HasSubstr("no laser scan of the topic /other"));
+  EXPECT_THAT(refusal(testing::straight_bag(kWire, 3), options),
+              HasSubstr("no laser scan of the topic /other"));
   options.topics = {.odometry_topic = "/other"};
-  EXPECT_THAT(refusal(testing::straight_bag(kWire, 3), options), HasSubstr("no odometry of the topic /other"));
+  EXPECT_THAT(refusal(testing::straight_bag(kWire, 3), options),
+              HasSubstr("no odometry of the topic /other"));
 }
 
 TEST_F(BagLogTest, UsesWhatComesBeforeACut) {
@@ -268,7 +304,8 @@ TEST_F(BagLogTest, TakesTheTimeOfRecordingWhereHeadersHaveNone) {
   std::vector<MessageSpec> messages;
   for (int i = 0; i < 10; ++i) {
     const double time_s = 100.0 + i * 0.1;
-    messages.push_back({"/odom", "nav_msgs/Odometry", time_s, testing::odometry_message(kWire, 0.0, i, 0.0)});
+    messages.push_back(
+        {"/odom", "nav_msgs/Odometry", time_s, testing::odometry_message(kWire, 0.0, i, 0.0)});
     messages.push_back({"/scan", kScan, time_s, testing::scan_message(kWire, {.stamp_s = 0.0})});
   }
   const Reading reading = read(messages);

@@ -17,12 +17,12 @@
 namespace slammot::files {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using geometry::Pose2;
 using sensing::LaserScan;
 using sensing::Odometry;
+using ::testing::ElementsAre;
 using testing::FlaserLine;
+using ::testing::HasSubstr;
 using testing::PoseNear;
 using testing::straight_drive;
 using testing::write_file;
@@ -76,7 +76,8 @@ class CarmenLogTest : public ::testing::Test {
     double fraction_read = 0.0;
     while (const auto event = log->next()) {
       if (const auto* scan = std::get_if<LaserScan>(&*event)) reading.scans.push_back(*scan);
-      if (const auto* odometry = std::get_if<Odometry>(&*event)) reading.odometry.push_back(*odometry);
+      if (const auto* odometry = std::get_if<Odometry>(&*event))
+        reading.odometry.push_back(*odometry);
       reading.order += std::holds_alternative<LaserScan>(*event) ? 's' : 'o';
       EXPECT_GE(log->fraction_read(), fraction_read);
       fraction_read = log->fraction_read();
@@ -114,7 +115,8 @@ TEST_F(CarmenLogTest, ReadsCompressedLogsAlike) {
 }
 
 TEST_F(CarmenLogTest, GivesBackTheLogsOwnDigitsOfAStamp) {
-  const Reading reading = read(FlaserLine{.ipc = "1575810072.324471"}.text() + FlaserLine{.ipc = "1575810072.404310"}.text());
+  const Reading reading = read(FlaserLine{.ipc = "1575810072.324471"}.text() +
+                               FlaserLine{.ipc = "1575810072.404310"}.text());
   ASSERT_EQ(reading.scans.size(), 2u);
   char text[64];
   std::snprintf(text, sizeof text, "%.6f", static_cast<double>(reading.scans[1].stamp_ns) * 1e-9);
@@ -130,27 +132,32 @@ TEST_F(CarmenLogTest, PutsOdomLinesThatAgreeBetweenTheScansInOrderOfTime) {
   const Reading reading = read(
       "ODOM 0.0 0 0 0 0 0 0.9 h 0.9\n" + FlaserLine{.pose = "0.1 0 0", .ipc = "1.0"}.text() +  //
       "ODOM 0.2 0 0 0 0 0 1.1 h 1.1\nODOM 0.1 0 0 0 0 0 1.0 h 1.0\nODOM 0.4 0 0 0 0 0 1.3 h 1.3\n" +
-      FlaserLine{.pose = "0.3 0 0", .ipc = "1.2"}.text() + FlaserLine{.pose = "0.5 0 0", .ipc = "1.4"}.text());
+      FlaserLine{.pose = "0.3 0 0", .ipc = "1.2"}.text() +
+      FlaserLine{.pose = "0.5 0 0", .ipc = "1.4"}.text());
   EXPECT_EQ(reading.plan.odometry, OdometrySource::kBoth);
   EXPECT_EQ(reading.order, "oosoosoos");
-  for (std::size_t i = 1; i < reading.odometry.size(); ++i) EXPECT_GT(reading.odometry[i].stamp_ns, reading.odometry[i - 1].stamp_ns);
+  for (std::size_t i = 1; i < reading.odometry.size(); ++i)
+    EXPECT_GT(reading.odometry[i].stamp_ns, reading.odometry[i - 1].stamp_ns);
   EXPECT_EQ(reading.faults.stale_odometry, 1u);
 }
 
 TEST_F(CarmenLogTest, LeavesOutOdomLinesThatContradictTheLaserRecords) {
-  const Reading reading = read(FlaserLine{.pose = "0.1 0 0", .ipc = "1.0"}.text() + "ODOM 7 0 0 0 0 0 1.05 h 1\n" +
-                               FlaserLine{.pose = "0.2 0 0", .ipc = "1.1"}.text() + "ODOM 8 0 0 0 0 0 1.15 h 1\n");
+  const Reading reading =
+      read(FlaserLine{.pose = "0.1 0 0", .ipc = "1.0"}.text() + "ODOM 7 0 0 0 0 0 1.05 h 1\n" +
+           FlaserLine{.pose = "0.2 0 0", .ipc = "1.1"}.text() + "ODOM 8 0 0 0 0 0 1.15 h 1\n");
   EXPECT_EQ(reading.order, "osos");
 }
 
 TEST_F(CarmenLogTest, InterpolatesOdomLinesForScansWhoseOwnPoseStandsStill) {
-  const Reading reading = read("ODOM 0 0 0 0 0 0 1.0 h 0\n" + FlaserLine{.ipc = "1.25"}.text() + "ODOM 1 0 0 0 0 0 2.0 h 0\n" +
-                               FlaserLine{.ipc = "2.5"}.text());
+  const Reading reading = read("ODOM 0 0 0 0 0 0 1.0 h 0\n" + FlaserLine{.ipc = "1.25"}.text() +
+                               "ODOM 1 0 0 0 0 0 2.0 h 0\n" + FlaserLine{.ipc = "2.5"}.text());
   EXPECT_EQ(reading.plan.odometry, OdometrySource::kOdomLines);
   EXPECT_EQ(reading.order, "oosoos");
   EXPECT_EQ(reading.odometry[1].stamp_ns, reading.scans[0].stamp_ns);
   EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.25, 0.0, 0.0}, 1e-12));
-  EXPECT_THAT(reading.odometry[3].wheel_from_base, PoseNear(Pose2{1.0, 0.0, 0.0}, 1e-12));  // held: nothing newer
+  EXPECT_THAT(reading.odometry[3].wheel_from_base, PoseNear(Pose2{1.0, 0.0, 0.0}, 1e-12));  // held:
+                                                                                            // nothing
+                                                                                            // newer
 }
 
 TEST_F(CarmenLogTest, GivesScansOfALogThatNeverMovesWithoutOdometry) {
@@ -159,7 +166,11 @@ TEST_F(CarmenLogTest, GivesScansOfALogThatNeverMovesWithoutOdometry) {
 
 TEST_F(CarmenLogTest, GivesNumberedScansTheTimeThatTheirWayTakes) {
   std::string content;
-  for (int i = 0; i < 5; ++i) content += FlaserLine{.pose = std::to_string(i) + " 0 0", .ipc = std::to_string(i), .logger = std::to_string(i)}.text();
+  for (int i = 0; i < 5; ++i)
+    content += FlaserLine{.pose = std::to_string(i) + " 0 0",
+                          .ipc = std::to_string(i),
+                          .logger = std::to_string(i)}
+                   .text();
   const Reading reading = read(content);
   EXPECT_EQ(reading.plan.clock, LogClock::kNominal);
   EXPECT_EQ(reading.scans[0].stamp_ns, 0);
@@ -182,7 +193,9 @@ TEST_F(CarmenLogTest, PlacesOdomLinesByTheirOrderWhereNoClockRuns) {
 
 TEST_F(CarmenLogTest, TakesTheOdomLineBeforeAScanWithoutPoseWhereNoClockRuns) {
   std::string content;
-  for (int i = 0; i < 4; ++i) content += "ODOM " + std::to_string(i) + " 0 0 0 0 0 0 h 0\n" + FlaserLine{.ipc = "0", .logger = "0"}.text();
+  for (int i = 0; i < 4; ++i)
+    content += "ODOM " + std::to_string(i) + " 0 0 0 0 0 0 h 0\n" +
+               FlaserLine{.ipc = "0", .logger = "0"}.text();
   const Reading reading = read(content);
   EXPECT_EQ(reading.plan.odometry, OdometrySource::kOdomLines);
   EXPECT_EQ(reading.order, "osososos");
@@ -193,7 +206,8 @@ TEST_F(CarmenLogTest, TakesTheOdomLineBeforeAScanWithoutPoseWhereNoClockRuns) {
 
 TEST_F(CarmenLogTest, KeepsDuplicateAndLateScansWithTheirOwnStampButWithoutOdometry) {
   std::string content = straight_drive(20);
-  content += FlaserLine{.pose = "1.9 0 0", .ipc = "1001.9"}.text() + FlaserLine{.pose = "1.7 0 0", .ipc = "1001.7"}.text();
+  content += FlaserLine{.pose = "1.9 0 0", .ipc = "1001.9"}.text() +
+             FlaserLine{.pose = "1.7 0 0", .ipc = "1001.7"}.text();
   const Reading reading = read(content);
   ASSERT_EQ(reading.scans.size(), 22u);
   EXPECT_EQ(reading.odometry.size(), 20u);
@@ -203,7 +217,8 @@ TEST_F(CarmenLogTest, KeepsDuplicateAndLateScansWithTheirOwnStampButWithoutOdome
 TEST_F(CarmenLogTest, GivesAFirstScanFromTheFutureAfterTheSecondOne) {
   const std::string drive = straight_drive(20);
   const std::string rest = drive.substr(drive.find('\n') + 1);
-  const Reading reading = read(FlaserLine{.pose = "0 0 0", .ipc = "5000.0", .logger = "4000.0"}.text() + rest);
+  const Reading reading =
+      read(FlaserLine{.pose = "0 0 0", .ipc = "5000.0", .logger = "4000.0"}.text() + rest);
   EXPECT_EQ(reading.plan.clock, LogClock::kIpc);  // all others advance
   ASSERT_EQ(reading.scans.size(), 20u);
   EXPECT_EQ(reading.scans[0].stamp_ns, 1'000'100'000'000);
@@ -217,7 +232,9 @@ TEST_F(CarmenLogTest, GivesAFirstScanFromTheFutureAfterTheSecondOne) {
 TEST_F(CarmenLogTest, TakesTheFirstScanForGoodWhereItIsTheSecondThatIsFarBehind) {
   const std::string drive = straight_drive(20);
   const std::size_t second = drive.find('\n') + 1;
-  const Reading reading = read(drive.substr(0, second) + FlaserLine{.ipc = "100.0", .logger = "1.0"}.text() + drive.substr(second));
+  const Reading reading =
+      read(drive.substr(0, second) + FlaserLine{.ipc = "100.0", .logger = "1.0"}.text() +
+           drive.substr(second));
   ASSERT_EQ(reading.scans.size(), 21u);
   EXPECT_EQ(reading.scans[0].stamp_ns, 1'000'000'000'000);
 }
@@ -253,14 +270,16 @@ TEST_F(CarmenLogTest, RefusesFilesWithoutAScanInOneLine) {
   EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
   EXPECT_THAT(refusal("# CARMEN Logfile\nODOM 0 0 0 0 0 0 1 h 1\n"), HasSubstr("no laser scan"));
   EXPECT_THAT(refusal("FLASER 3 1 2\n"), HasSubstr("1 of them malformed"));
-  EXPECT_THAT(refusal(std::string("\x00\x01\xff\xfe garbage\n\x00", 13)), HasSubstr("no laser scan"));
+  EXPECT_THAT(refusal(std::string("\x00\x01\xff\xfe garbage\n\x00", 13)),
+              HasSubstr("no laser scan"));
   write_gz(file_, straight_drive(50));
   std::filesystem::resize_file(file_, 30);
   EXPECT_THAT(CarmenLog::open(file_).error().message, HasSubstr("cut off or damaged"));
 }
 
 TEST_F(CarmenLogTest, ReadsALogOfDpSlamByTheNominalClock) {
-  const Reading reading = read("Odometry 0 0 0\nLaser 3 1 2 3\nOdometry 0.5 0 0.1\nLaser 3 1 2 3\n");
+  const Reading reading =
+      read("Odometry 0 0 0\nLaser 3 1 2 3\nOdometry 0.5 0 0.1\nLaser 3 1 2 3\n");
   EXPECT_EQ(reading.order, "osos");
   EXPECT_EQ(reading.plan.clock, LogClock::kNominal);
   EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.5, 0.0, 0.1}, 1e-12));
@@ -269,7 +288,9 @@ TEST_F(CarmenLogTest, ReadsALogOfDpSlamByTheNominalClock) {
 
 TEST_F(CarmenLogTest, ReadsRawScansWithOdomLines) {
   const std::string raw = "RAWLASER1 0 -1.570796 3.141593 1.570796 81.83 0.01 0 3 1 2 3 0 ";
-  const Reading reading = read("ODOM 0 0 0 0 0 0 1.0 h 1.0\n" + raw + "1.05 h 1.05\nODOM 0.1 0 0 0 0 0 1.1 h 1.1\n" + raw + "1.15 h 1.15\nODOM 0.2 0 0 0 0 0 1.2 h 1.2\n");
+  const Reading reading =
+      read("ODOM 0 0 0 0 0 0 1.0 h 1.0\n" + raw + "1.05 h 1.05\nODOM 0.1 0 0 0 0 0 1.1 h 1.1\n" +
+           raw + "1.15 h 1.15\nODOM 0.2 0 0 0 0 0 1.2 h 1.2\n");
   EXPECT_EQ(reading.plan.odometry, OdometrySource::kOdomLines);
   ASSERT_EQ(reading.scans.size(), 2u);
   EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.05, 0.0, 0.0}, 1e-9));
@@ -279,7 +300,8 @@ TEST_F(CarmenLogTest, PrefersTheRecordsWithPosesWhereTheSameScansAreThereTwice) 
   std::string log;
   for (int i = 0; i < 5; ++i) {
     const std::string stamp = "10" + std::to_string(i) + ".0";
-    log += "RAWLASER1 0 -1.570796 3.141593 1.570796 81.83 0.01 0 3 1 2 3 0 " + stamp + " h " + stamp + "\n";
+    log += "RAWLASER1 0 -1.570796 3.141593 1.570796 81.83 0.01 0 3 1 2 3 0 " + stamp + " h " +
+           stamp + "\n";
     log += FlaserLine{.pose = std::to_string(i) + " 0 0", .ipc = stamp, .logger = stamp}.text();
   }
   const Reading reading = read(log);
@@ -290,7 +312,8 @@ TEST_F(CarmenLogTest, PrefersTheRecordsWithPosesWhereTheSameScansAreThereTwice) 
 
 TEST_F(CarmenLogTest, TakesOdometryOfTruePosWhereThereIsNoOther) {
   const std::string raw = "RAWLASER1 0 -1.570796 3.141593 1.570796 81.83 0.01 0 3 1 2 3 0 ";
-  const Reading reading = read("TRUEPOS 9 9 0 0 0 0 1.0 h 1.0\n" + raw + "1.1 h 1.1\nTRUEPOS 9 9 0 0.2 0 0 1.2 h 1.2\n");
+  const Reading reading = read("TRUEPOS 9 9 0 0 0 0 1.0 h 1.0\n" + raw +
+                               "1.1 h 1.1\nTRUEPOS 9 9 0 0.2 0 0 1.2 h 1.2\n");
   EXPECT_EQ(reading.plan.odometry, OdometrySource::kOdomLines);
   ASSERT_EQ(reading.scans.size(), 1u);
   EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.1, 0.0, 0.0}, 1e-9));
@@ -302,7 +325,10 @@ std::string front_and_rear(int scans) {
   for (int i = 0; i < scans; ++i) {
     const std::string s = std::to_string(i / 10) + "." + std::to_string(i % 10);
     log += FlaserLine{.pose = s + "5 0 0", .ipc = "100" + s + "5", .logger = s + "5"}.text();
-    log += "R" + FlaserLine{.ranges = "3 5.0 6.0 7.0", .pose = s + " 0 0", .ipc = "100" + s, .logger = s}.text().substr(1);
+    log += "R" +
+           FlaserLine{.ranges = "3 5.0 6.0 7.0", .pose = s + " 0 0", .ipc = "100" + s, .logger = s}
+               .text()
+               .substr(1);
   }
   return log;
 }
@@ -311,7 +337,8 @@ TEST_F(CarmenLogTest, KnowsTheRearLaserAndHandsOutTheFrontOne) {
   const Reading reading = read(front_and_rear(5));
   ASSERT_EQ(reading.plan.scanners.size(), 2u);
   EXPECT_EQ(reading.plan.scanners[1].name, "RLASER");
-  EXPECT_THAT(reading.plan.scanners[1].base_from_laser, PoseNear(Pose2{-0.4, 0.0, std::numbers::pi}, 1e-12));
+  EXPECT_THAT(reading.plan.scanners[1].base_from_laser,
+              PoseNear(Pose2{-0.4, 0.0, std::numbers::pi}, 1e-12));
   EXPECT_EQ(reading.scans.size(), 5u);
   EXPECT_EQ(reading.scans[4].scanner.scanner_id, "front");
 }
@@ -323,7 +350,8 @@ TEST_F(CarmenLogTest, HandsOutTheRearLaserWhereAskedFor) {
   const Reading reading = read_with(options);
   ASSERT_EQ(reading.scans.size(), 5u);
   EXPECT_EQ(reading.scans[0].range_m.size(), 3u);
-  EXPECT_THAT(reading.scans[0].scanner.base_from_laser, PoseNear(Pose2{-0.4, 0.0, std::numbers::pi}, 1e-12));
+  EXPECT_THAT(reading.scans[0].scanner.base_from_laser,
+              PoseNear(Pose2{-0.4, 0.0, std::numbers::pi}, 1e-12));
   options.topics.scan_topic = "ROBOTLASER7";
   EXPECT_THAT(CarmenLog::open(file_, options).error().message, HasSubstr("no scanner ROBOTLASER7"));
 }
@@ -385,8 +413,12 @@ TEST_F(CarmenLogTest, UsesTheLasersThatWereAskedForOnly) {
 }
 
 TEST_F(CarmenLogTest, KnowsWhereNumberedLasersAre) {
-  std::string log = "PARAM robot_laser2_offset 0.4\nPARAM robot_laser2_side_offset -0.2\nPARAM robot_laser2_angular_offset 1.5\n" + front_and_rear(5);
-  EXPECT_THAT(read(log).plan.scanners.at(1).base_from_laser, PoseNear(Pose2{0.4, -0.2, 1.5}, 1e-12));
+  std::string log =
+      "PARAM robot_laser2_offset 0.4\nPARAM robot_laser2_side_offset -0.2\nPARAM "
+      "robot_laser2_angular_offset 1.5\n" +
+      front_and_rear(5);
+  EXPECT_THAT(read(log).plan.scanners.at(1).base_from_laser,
+              PoseNear(Pose2{0.4, -0.2, 1.5}, 1e-12));
 }
 
 }  // namespace

@@ -15,16 +15,20 @@
 namespace slammot::files {
 namespace {
 
-using ::testing::ElementsAre;
 using geometry::Pose2;
 using std::numbers::pi;
+using ::testing::ElementsAre;
 using testing::PoseNear;
 
 const std::string kHead = "ROBOTLASER1 0 -1.570796 3.141593 0.785398 81.83 0.01 0 5 1 2 3 4 81.83 ";
 const std::string kTail = "3 4 1.570796 3 2 1.570796 0.5 0.1 1 1 0 12.345678 host 7.5";
 
-bool is_malformed(const std::string& line) { return std::holds_alternative<MalformedLine>(parse_carmen_line(line)); }
-LaserRecord laser(const std::string& line) { return std::get<LaserRecord>(parse_carmen_line(line)); }
+bool is_malformed(const std::string& line) {
+  return std::holds_alternative<MalformedLine>(parse_carmen_line(line));
+}
+LaserRecord laser(const std::string& line) {
+  return std::get<LaserRecord>(parse_carmen_line(line));
+}
 
 /// What std::from_chars makes of it, which rounds correctly.
 float correctly_rounded(const std::string& text) {
@@ -40,15 +44,22 @@ TEST(ParseReading, RoundsEveryReadingCorrectlyHoweverItIsWritten) {
     std::string reading(1 + i % 5, '0');
     if (i % 7 != 0) reading += "." + std::string(static_cast<std::size_t>(i / 5 % 7), '0');
     for (char& c : reading) c = c == '.' ? c : static_cast<char>(digit(random));
-    ASSERT_EQ(laser("FLASER 2 " + reading + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5").range_m.front(), correctly_rounded(reading)) << reading;
+    ASSERT_EQ(laser("FLASER 2 " + reading + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5").range_m.front(),
+              correctly_rounded(reading))
+        << reading;
   }
-  for (const std::string reading : {"16777216", "16777217", "99999999", "9999999", "0.0000001", "1.", "007.50", "81.83", "8.183e1", "-1.5", "0"}) {
-    EXPECT_EQ(laser("FLASER 2 " + reading + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5").range_m.front(), correctly_rounded(reading)) << reading;
+  for (const std::string reading : {"16777216", "16777217", "99999999", "9999999", "0.0000001",
+                                    "1.", "007.50", "81.83", "8.183e1", "-1.5", "0"}) {
+    EXPECT_EQ(laser("FLASER 2 " + reading + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5").range_m.front(),
+              correctly_rounded(reading))
+        << reading;
   }
 }
 
 TEST(ParseReading, RefusesWhatIsNoNumber) {
-  for (const char* text : {".", "1.2.3", "12x", "1..", "--1", "1,5"}) EXPECT_TRUE(is_malformed(std::string("FLASER 2 ") + text + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5")) << text;
+  for (const char* text : {".", "1.2.3", "12x", "1..", "--1", "1,5"})
+    EXPECT_TRUE(is_malformed(std::string("FLASER 2 ") + text + " 5 3 4 1.5 3 4 1.5 12.5 host 7.5"))
+        << text;
 }
 
 TEST(ParseStamp, KeepsEveryDigitThatADoubleWouldLose) {
@@ -60,11 +71,13 @@ TEST(ParseStamp, KeepsEveryDigitThatADoubleWouldLose) {
   EXPECT_EQ(parse_stamp_ns("-1.25"), -1'250'000'000);
   EXPECT_EQ(parse_stamp_ns("1.1234567899"), 1'123'456'789);
   EXPECT_EQ(parse_stamp_ns("1.5e3"), 1'500'000'000'000);
-  for (const char* text : {"1575810072324", "1575810072324000", "1575810072324000000"}) EXPECT_EQ(parse_stamp_ns(text), 1'575'810'072'324'000'000) << text;
+  for (const char* text : {"1575810072324", "1575810072324000", "1575810072324000000"})
+    EXPECT_EQ(parse_stamp_ns(text), 1'575'810'072'324'000'000) << text;
 }
 
 TEST(ParseStamp, RefusesWhatIsNoTime) {
-  for (const char* text : {"", "-", "nan", "inf", "abc", "12x", "1e40", "99999999999999999999", "1.2.3", "0x10"}) {
+  for (const char* text :
+       {"", "-", "nan", "inf", "abc", "12x", "1e40", "99999999999999999999", "1.2.3", "0x10"}) {
     EXPECT_EQ(parse_stamp_ns(text), std::nullopt) << text;
   }
 }
@@ -108,12 +121,14 @@ TEST(ParseCarmenLine, ComparesAReadingOfTheMaximumRangeAsNoEcho) {
 TEST(ParseCarmenLine, TakesTheStepThatFieldAndBeamCountAgreeOn) {
   const std::string tail = " 1 2 3 4 " + kTail;
   const auto step = [&](const std::string& field, const std::string& recorded_step) {
-    return laser("ROBOTLASER1 0 -3.1 " + field + " " + recorded_step + " 30 0 0 4" + tail).layout->beam_step_rad;
+    return laser("ROBOTLASER1 0 -3.1 " + field + " " + recorded_step + " 30 0 0 4" + tail)
+        .layout->beam_step_rad;
   };
-  EXPECT_NEAR(step("3.0", "1.0"), 1.0, 1e-12);          // both ends are in
-  EXPECT_NEAR(step("6.283185", "1.5708"), pi / 2.0, 1e-6);  // full circle, the first beam is not repeated
-  EXPECT_NEAR(step("3.0", "0"), 1.0, 1e-12);            // not said
-  EXPECT_NEAR(step("3.0", "0.1"), 0.1, 1e-12);          // part of the field
+  EXPECT_NEAR(step("3.0", "1.0"), 1.0, 1e-12);              // both ends are in
+  EXPECT_NEAR(step("6.283185", "1.5708"), pi / 2.0, 1e-6);  // full circle, the first beam is not
+                                                            // repeated
+  EXPECT_NEAR(step("3.0", "0"), 1.0, 1e-12);                // not said
+  EXPECT_NEAR(step("3.0", "0.1"), 0.1, 1e-12);              // part of the field
 }
 
 TEST(ParseCarmenLine, LeavesTheLayoutToConventionWhereTheRecordMakesNoSense) {
@@ -123,7 +138,8 @@ TEST(ParseCarmenLine, LeavesTheLayoutToConventionWhereTheRecordMakesNoSense) {
 }
 
 TEST(ParseCarmenLine, ReadsOdomAndParam) {
-  const auto odom = std::get<OdometryRecord>(parse_carmen_line("ODOM 1 2 0.5 0.3 0 0 12.5 host 3.5"));
+  const auto odom =
+      std::get<OdometryRecord>(parse_carmen_line("ODOM 1 2 0.5 0.3 0 0 12.5 host 3.5"));
   EXPECT_THAT(odom.wheel_from_base, PoseNear(Pose2{1.0, 2.0, 0.5}, 1e-12));
   EXPECT_EQ(odom.stamps.ipc_ns, 12'500'000'000);
   const auto line = std::string("PARAM robot_frontlaser_offset 2.15  12.0 host 0.1");
@@ -133,7 +149,8 @@ TEST(ParseCarmenLine, ReadsOdomAndParam) {
 }
 
 TEST(ParseCarmenLine, IgnoresCommentsAndOtherMessages) {
-  for (const char* line : {"", "   ", "# CARMEN Logfile", "SYNC begin 1 h 1", "NMEAGGA 1 2 3", "ROBOTLASER 2 1 1", "ROBOTLASER0 2 1 1", "\x01\x02\xff"}) {
+  for (const char* line : {"", "   ", "# CARMEN Logfile", "SYNC begin 1 h 1", "NMEAGGA 1 2 3",
+                           "ROBOTLASER 2 1 1", "ROBOTLASER0 2 1 1", "\x01\x02\xff"}) {
     EXPECT_TRUE(std::holds_alternative<IgnoredLine>(parse_carmen_line(line))) << line;
   }
 }
@@ -147,10 +164,12 @@ TEST(ParseCarmenLine, KnowsTheRearLaserByItsSlot) {
 }
 
 TEST(ParseCarmenLine, NumbersRobotAndRawLasers) {
-  const LaserRecord robot = laser("ROBOTLASER2" + kHead.substr(std::string("ROBOTLASER1").size()) + kTail);
+  const LaserRecord robot =
+      laser("ROBOTLASER2" + kHead.substr(std::string("ROBOTLASER1").size()) + kTail);
   EXPECT_EQ(robot.slot, 2);
   EXPECT_EQ(robot.scanner, "ROBOTLASER2");
-  const LaserRecord raw = laser("RAWLASER3 0 -1.570796 3.141593 0.785398 81.83 0.01 0 5 1 2 3 4 5 2 0.5 0.6 12.5 host 7.5");
+  const LaserRecord raw = laser(
+      "RAWLASER3 0 -1.570796 3.141593 0.785398 81.83 0.01 0 5 1 2 3 4 5 2 0.5 0.6 12.5 host 7.5");
   EXPECT_EQ(raw.kind, LaserRecordKind::kRawLaser);
   EXPECT_EQ(raw.slot, 3);
   EXPECT_THAT(raw.range_m, ElementsAre(1.0F, 2.0F, 3.0F, 4.0F, 5.0F));
@@ -163,14 +182,16 @@ TEST(ParseCarmenLine, NumbersRobotAndRawLasers) {
 }
 
 TEST(ParseCarmenLine, TakesOdometryFromTheSecondPoseOfTruePos) {
-  const auto record = std::get<OdometryRecord>(parse_carmen_line("TRUEPOS 1 2 0.1 3 4 0.2 12.5 host 7.5"));
+  const auto record =
+      std::get<OdometryRecord>(parse_carmen_line("TRUEPOS 1 2 0.1 3 4 0.2 12.5 host 7.5"));
   EXPECT_EQ(record.kind, OdometryRecordKind::kTruePos);
   EXPECT_THAT(record.wheel_from_base, PoseNear(Pose2{3.0, 4.0, 0.2}, 1e-12));
   EXPECT_EQ(record.stamps.ipc_ns, 12'500'000'000);
 }
 
 TEST(ParseCarmenLine, TakesTheYawRateOfAnImu) {
-  const auto record = std::get<ImuRecord>(parse_carmen_line("IMU 0 0 9.81 1 0 0 0 1 2 3 0.1 0.2 0.3 12.5 host 7.5"));
+  const auto record = std::get<ImuRecord>(
+      parse_carmen_line("IMU 0 0 9.81 1 0 0 0 1 2 3 0.1 0.2 0.3 12.5 host 7.5"));
   EXPECT_EQ(record.yaw_rate_radps, 0.3);
   EXPECT_EQ(record.stamps.ipc_ns, 12'500'000'000);
 }
@@ -180,7 +201,8 @@ TEST(ParseCarmenLine, ReadsLinesOfDpSlamWithoutStamps) {
   EXPECT_EQ(record.kind, LaserRecordKind::kDpSlam);
   EXPECT_THAT(record.range_m, ElementsAre(1.5F, 2.5F, 3.5F));
   EXPECT_FALSE(record.stamps.ipc_ns);
-  EXPECT_THAT(std::get<OdometryRecord>(parse_carmen_line("Odometry 1 2 0.5")).wheel_from_base, PoseNear(Pose2{1.0, 2.0, 0.5}, 1e-12));
+  EXPECT_THAT(std::get<OdometryRecord>(parse_carmen_line("Odometry 1 2 0.5")).wheel_from_base,
+              PoseNear(Pose2{1.0, 2.0, 0.5}, 1e-12));
   EXPECT_TRUE(is_malformed("Laser 3 1.5 2.5"));
   EXPECT_TRUE(is_malformed("Odometry 1 2"));
 }
@@ -221,16 +243,20 @@ TEST(ParseCarmenLine, SurvivesEveryCutAndManyChangesOfARecord) {
   ASSERT_TRUE(laser_of(whole));
   EXPECT_FALSE(laser_of(whole.substr(0, kHead.size())));
   for (std::size_t length = 0; length <= whole.size(); ++length)
-    if (const auto laser = laser_of(whole.substr(0, length))) EXPECT_EQ(laser->range_m, laser_of(whole)->range_m) << length;
+    if (const auto laser = laser_of(whole.substr(0, length)))
+      EXPECT_EQ(laser->range_m, laser_of(whole)->range_m) << length;
   std::mt19937 random(1);
   int lasers = 0;
   for (int i = 0; i < 20'000; ++i) {
     std::string changed = whole;
-    for (int k = 0; k < 3; ++k) changed[random() % changed.size()] = static_cast<char>(random() % 256);
+    for (int k = 0; k < 3; ++k)
+      changed[random() % changed.size()] = static_cast<char>(random() % 256);
     if (const auto laser = laser_of(changed)) {
       ++lasers;
       EXPECT_LE(laser->range_m.size(), changed.size());
-      EXPECT_TRUE(std::isfinite(laser->wheel_from_base.x_m + laser->wheel_from_base.y_m + laser->wheel_from_base.heading_rad)) << changed;
+      EXPECT_TRUE(std::isfinite(laser->wheel_from_base.x_m + laser->wheel_from_base.y_m +
+                                laser->wheel_from_base.heading_rad))
+          << changed;
     }
   }
   EXPECT_GT(lasers, 0);

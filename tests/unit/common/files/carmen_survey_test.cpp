@@ -27,7 +27,8 @@ struct Drive {
 
 LaserRecord scan_of_drive(const Drive& drive, int i) {
   LaserRecord record;
-  record.range_m = {1.0F + 0.01F * static_cast<float>(i), 2.0F + 0.03F * static_cast<float>(i), 81.83F, 81.83F};
+  record.range_m = {1.0F + 0.01F * static_cast<float>(i), 2.0F + 0.03F * static_cast<float>(i),
+                    81.83F, 81.83F};
   record.wheel_from_base = {drive.step_m * i, 0.0, 0.0};
   record.stamps = {drive.first_ipc_ns + i * drive.period_ns, i * drive.period_ns};
   return record;
@@ -67,12 +68,15 @@ TEST(CarmenSurvey, TellsTheFiguresOfADrive) {
 TEST(CarmenSurvey, TakesTheIpcClockWhenItRuns) { EXPECT_EQ(plan_of({}).clock, LogClock::kIpc); }
 
 TEST(CarmenSurvey, TakesTheLoggersClockWhenIpcStandsStillOrIsMissing) {
-  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.stamps.ipc_ns = 0; }).clock, LogClock::kLogger);
-  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.stamps.ipc_ns.reset(); }).clock, LogClock::kLogger);
+  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.stamps.ipc_ns = 0; }).clock,
+            LogClock::kLogger);
+  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.stamps.ipc_ns.reset(); }).clock,
+            LogClock::kLogger);
 }
 
 TEST(CarmenSurvey, MakesTimeOfTheWayWhereScansAreOnlyNumbered) {
-  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i * kSecond; });
+  const auto plan = plan_of_changed_scans(
+      [](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i * kSecond; });
   EXPECT_EQ(plan.clock, LogClock::kNominal);
   EXPECT_EQ(plan.times.fault, ClockFault::kIndex);
   EXPECT_NEAR(plan.figures.scan_period_s, 0.1 / 0.5, 1e-9);  // 0.1 m a scan among walls 2 m away
@@ -89,7 +93,8 @@ TEST(CarmenSurvey, KeepsTheNominalRateWhereNothingMovesAndNoClockRuns) {
 }
 
 TEST(CarmenSurvey, SpreadsWholeSecondsWithinThem) {
-  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i / 10 * kSecond; });
+  const auto plan = plan_of_changed_scans(
+      [](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i / 10 * kSecond; });
   EXPECT_EQ(plan.clock, LogClock::kIpc);
   EXPECT_EQ(plan.times.fault, ClockFault::kCoarse);
   EXPECT_TRUE(plan.figures.has_clock);
@@ -97,11 +102,13 @@ TEST(CarmenSurvey, SpreadsWholeSecondsWithinThem) {
 }
 
 TEST(CarmenSurvey, BridgesStampsThatStartAnew) {
-  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i % 25 * kSecond / 10; });
+  const auto plan = plan_of_changed_scans(
+      [](LaserRecord& r, int i) { r.stamps.ipc_ns = r.stamps.logger_ns = i % 25 * kSecond / 10; });
   EXPECT_EQ(plan.times.fault, ClockFault::kJumps);
   EXPECT_EQ(plan.times.jumps, 1u);
   ASSERT_EQ(plan.times.stamps_ns.size(), 50u);
-  for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(plan.times.stamps_ns[i], static_cast<std::int64_t>(i) * kSecond / 10);
+  for (std::size_t i = 0; i < 50; ++i)
+    EXPECT_EQ(plan.times.stamps_ns[i], static_cast<std::int64_t>(i) * kSecond / 10);
 }
 
 TEST(CarmenSurvey, KeepsAClockThatRepeatsNowAndThen) {
@@ -113,24 +120,33 @@ TEST(CarmenSurvey, KeepsAClockThatRepeatsNowAndThen) {
 
 TEST(CarmenSurvey, FindsTheReadingThatMeansNoEcho) {
   EXPECT_EQ(plan_of({}).max_range_m, static_cast<double>(81.83F));
-  const auto several = plan_of_changed_scans([](LaserRecord& r, int i) { r.range_m[3] = i % 2 ? 81.91F : 81.83F; });
+  const auto several =
+      plan_of_changed_scans([](LaserRecord& r, int i) { r.range_m[3] = i % 2 ? 81.91F : 81.83F; });
   EXPECT_EQ(several.max_range_m, static_cast<double>(81.83F));
 }
 
 TEST(CarmenSurvey, TakesEveryReadingForAnEchoWhereTheFarEndDoesNotRepeat) {
-  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) { r.range_m[2] = r.range_m[3] = 5.0F + 0.07F * static_cast<float>(i); });
+  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) {
+    r.range_m[2] = r.range_m[3] = 5.0F + 0.07F * static_cast<float>(i);
+  });
   EXPECT_GT(plan.max_range_m, static_cast<double>(5.0F + 0.07F * 49.0F));
 }
 
 TEST(CarmenSurvey, BelievesTheRecordsMaximumUnlessTheDataKnowASmallerOne) {
-  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.max_range_m = 50.0; }).max_range_m, 50.0);
-  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.max_range_m = 100.0; }).max_range_m, static_cast<double>(81.83F));
+  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.max_range_m = 50.0; }).max_range_m,
+            50.0);
+  EXPECT_EQ(plan_of_changed_scans([](LaserRecord& r, int) { r.max_range_m = 100.0; }).max_range_m,
+            static_cast<double>(81.83F));
 }
 
 TEST(CarmenSurvey, PlacesTheLaserByParamElseByTheRecordsTwoPoses) {
-  const auto by_record = plan_of_changed_scans([](LaserRecord& r, int) { r.base_from_laser = Pose2{0.3, 0.1, 0.2}; });
+  const auto by_record = plan_of_changed_scans([](LaserRecord& r, int) {
+    r.base_from_laser = Pose2{0.3, 0.1, 0.2};
+  });
   EXPECT_THAT(by_record.base_from_laser, PoseNear(Pose2{0.3, 0.1, 0.2}, 1e-12));
-  const auto corrected = plan_of_changed_scans([](LaserRecord& r, int i) { r.base_from_laser = Pose2{0.3 * i, 0.1, 0.2}; });
+  const auto corrected = plan_of_changed_scans([](LaserRecord& r, int i) {
+    r.base_from_laser = Pose2{0.3 * i, 0.1, 0.2};
+  });
   EXPECT_THAT(corrected.base_from_laser, PoseNear(Pose2{}, 1e-12));
   CarmenSurvey survey;
   survey.add(ParamRecord{"robot_frontlaser_offset", "2.15"});
@@ -157,7 +173,8 @@ OdometrySource odometry_source(double laser_step_m, double odom_step_m) {
   for (int i = 0; i < 50; ++i) {
     const LaserRecord record = scan_of_drive({.step_m = laser_step_m}, i);
     survey.add(record);
-    survey.add(OdometryRecord{{odom_step_m * i, 0.0, 0.0}, {*record.stamps.ipc_ns + 5'000'000, std::nullopt}});
+    survey.add(OdometryRecord{{odom_step_m * i, 0.0, 0.0},
+                              {*record.stamps.ipc_ns + 5'000'000, std::nullopt}});
   }
   return survey.conclude(pi).odometry;
 }
@@ -176,7 +193,8 @@ float range_in_room_m(const Pose2& laser, double beam_rad) {
   for (double range_m = 0.0; range_m < 20.0; range_m += 0.01) {
     const double x_m = laser.x_m + range_m * std::cos(direction_rad);
     const double y_m = laser.y_m + range_m * std::sin(direction_rad);
-    const bool is_inside = x_m > -1.0 && x_m < 11.0 && y_m > -2.0 && y_m < (x_m > 4.0 && x_m < 6.0 ? 2.0 : 3.0);
+    const bool is_inside =
+        x_m > -1.0 && x_m < 11.0 && y_m > -2.0 && y_m < (x_m > 4.0 && x_m < 6.0 ? 2.0 : 3.0);
     if (!is_inside) return static_cast<float>(range_m);
   }
   return 20.0F;
@@ -189,7 +207,8 @@ TEST(CarmenSurvey, TellsOdometryInMillimetresWhereScansFollowEachOtherClosely) {
     const Pose2 pose{0.1 * i, 0.0, 0.25 * std::sin(0.15 * i)};
     LaserRecord record = scan_of_drive({}, i);
     record.range_m.clear();
-    for (int beam = 0; beam < 181; ++beam) record.range_m.push_back(range_in_room_m(pose, pi * (beam / 180.0 - 0.5)));
+    for (int beam = 0; beam < 181; ++beam)
+      record.range_m.push_back(range_in_room_m(pose, pi * (beam / 180.0 - 0.5)));
     record.wheel_from_base = {1e3 * pose.x_m, 1e3 * pose.y_m, pose.heading_rad};
     survey.add(record);
   }

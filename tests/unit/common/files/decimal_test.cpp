@@ -17,7 +17,8 @@ std::string printed(const char* format, int precision, double value) {
   return text;
 }
 
-/// Of all sizes, and among them many of few digits, which lie in the middle between two shorter ones.
+/// Of all sizes, and among them many of few digits, which lie in the middle between two shorter
+/// ones.
 template <typename Check>
 void for_many_numbers(Check check) {
   std::mt19937_64 random(11);
@@ -29,9 +30,14 @@ void for_many_numbers(Check check) {
     check(static_cast<double>(whole(random)) / std::exp2(shift(random)));
     check(static_cast<double>(whole(random)) / std::pow(10.0, shift(random)));
     const double power = std::pow(10.0, shift(random) - 8);
-    for (const double near : {power, std::nextafter(power, 0.0), std::nextafter(power, 1e30), 0.5 * power, 0.999995 * power}) check(near);
+    for (const double near : {power, std::nextafter(power, 0.0), std::nextafter(power, 1e30),
+                              0.5 * power, 0.999995 * power})
+      check(near);
   }
-  for (const double special : {0.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min()}) check(special);
+  for (const double special :
+       {0.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max(),
+        std::numeric_limits<double>::denorm_min()})
+    check(special);
 }
 
 TEST(StampText, WritesTheLogsSixDecimals) {
@@ -41,7 +47,9 @@ TEST(StampText, WritesTheLogsSixDecimals) {
   EXPECT_EQ(stamp_text(-500'000'000), "-0.500000");
 }
 
-TEST(StampText, WritesNineDecimalsWhereSixWouldLoseSome) { EXPECT_EQ(stamp_text(1'123'456'789), "1.123456789"); }
+TEST(StampText, WritesNineDecimalsWhereSixWouldLoseSome) {
+  EXPECT_EQ(stamp_text(1'123'456'789), "1.123456789");
+}
 
 TEST(FixedText, NeverWritesANegativeZero) {
   EXPECT_EQ(fixed_text(-0.0001, 3), "0.000");
@@ -54,7 +62,8 @@ TEST(FixedText, WritesWhatPrintfWrites) {
   for_many_numbers([](double value) {
     for (const int decimals : {0, 1, 3, 6, 9}) {
       std::string expected = printed("%.*f", decimals, value);
-      if (expected.front() == '-' && expected.find_first_not_of("-0.") == std::string::npos) expected.erase(0, 1);
+      if (expected.front() == '-' && expected.find_first_not_of("-0.") == std::string::npos)
+        expected.erase(0, 1);
       ASSERT_EQ(fixed_text(value, decimals), expected) << decimals;
     }
   });

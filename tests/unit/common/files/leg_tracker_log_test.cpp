@@ -20,7 +20,8 @@ struct LegTrackerFolder : ::testing::Test {
                "100.7 100.6 -1.0 0.5 5 0 1.6 nan 2.6 11\n");
     write_file(folder_ / "odom.txt",
                "# stamp x y yaw vx wz\n"
-               "100.39 1.0 2.0 0.5 1.0 0.0\n100.45 1.1 2.0 0.5 1.0 0.0\n100.55 1.2 2.0 0.5 1.0 0.0\n100.65 1.4 2.0 0.5 1.0 0.0\n");
+               "100.39 1.0 2.0 0.5 1.0 0.0\n100.45 1.1 2.0 0.5 1.0 0.0\n100.55 1.2 2.0 0.5 1.0 "
+               "0.0\n100.65 1.4 2.0 0.5 1.0 0.0\n");
   }
   testing::TemporaryFolder folder_;
 };
@@ -48,7 +49,8 @@ TEST_F(LegTrackerFolder, IsReadAsALogOfScansWithOdometryAtTheirStamps) {
   EXPECT_FALSE(sensing::is_echo(scans[0].range_m[2], 11.0));
   EXPECT_FALSE(sensing::is_echo(scans[0].range_m[4], 11.0));
   // Between the lines of 100.45 and 100.55.
-  const auto at_first_scan = std::ranges::find(odometry, 100'500'000'000, &sensing::Odometry::stamp_ns);
+  const auto at_first_scan =
+      std::ranges::find(odometry, 100'500'000'000, &sensing::Odometry::stamp_ns);
   ASSERT_NE(at_first_scan, odometry.end());
   EXPECT_NEAR(at_first_scan->wheel_from_base.x_m, 1.1 + 0.1 * 0.5, 1e-6);
 }
@@ -56,18 +58,22 @@ TEST_F(LegTrackerFolder, IsReadAsALogOfScansWithOdometryAtTheirStamps) {
 TEST_F(LegTrackerFolder, TakesTheLaserToBeWhereTheOptionsSay) {
   CarmenLogOptions options;
   options.fallback_base_from_laser = {0.3, 0.1, 0.7};
-  EXPECT_EQ(CarmenLog::open(folder_.path(), options)->plan().base_from_laser, options.fallback_base_from_laser);
+  EXPECT_EQ(CarmenLog::open(folder_.path(), options)->plan().base_from_laser,
+            options.fallback_base_from_laser);
   auto log = CarmenLog::open(folder_.path());
   log->set_options(options);
   EXPECT_EQ(log->plan().base_from_laser, options.fallback_base_from_laser);
 }
 
 TEST_F(LegTrackerFolder, CountsWhatIsMalformed) {
-  write_file(folder_ / "scan.txt", "100.5 100.4 -1.0 0.5 5 0 1.5 nan 2.5 3\n100.6 100.5 -1.0\n100.7 100.6 x 0.5 5 0 1.5 nan 2.5 3\n100.8 100.7 -1.0 0.5 5 0 1.5 nan 2.5 3\n");
+  write_file(folder_ / "scan.txt",
+             "100.5 100.4 -1.0 0.5 5 0 1.5 nan 2.5 3\n100.6 100.5 -1.0\n100.7 100.6 x 0.5 5 0 1.5 "
+             "nan 2.5 3\n100.8 100.7 -1.0 0.5 5 0 1.5 nan 2.5 3\n");
   auto log = CarmenLog::open(folder_.path());
   ASSERT_TRUE(log);
   std::size_t scans = 0;
-  while (const auto event = log->next()) scans += std::holds_alternative<sensing::LaserScan>(*event) ? 1 : 0;
+  while (const auto event = log->next())
+    scans += std::holds_alternative<sensing::LaserScan>(*event) ? 1 : 0;
   EXPECT_EQ(log->faults().malformed_lines, 2U);
   EXPECT_EQ(scans, 2U);
 }

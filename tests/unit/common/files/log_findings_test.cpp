@@ -13,11 +13,18 @@ using ::testing::IsEmpty;
 LogPlan sound_plan() {
   LogPlan plan;
   plan.odometry = OdometrySource::kLaserRecords;
-  plan.figures = {.scans = 100, .beams = 181, .has_clock = true, .scan_period_s = 0.1, .longest_gap_s = 0.1, .echo_share = 0.9};
+  plan.figures = {.scans = 100,
+                  .beams = 181,
+                  .has_clock = true,
+                  .scan_period_s = 0.1,
+                  .longest_gap_s = 0.1,
+                  .echo_share = 0.9};
   return plan;
 }
 
-TEST(DescribeFindings, IsSilentAboutASoundLog) { EXPECT_THAT(describe_findings(sound_plan()), IsEmpty()); }
+TEST(DescribeFindings, IsSilentAboutASoundLog) {
+  EXPECT_THAT(describe_findings(sound_plan()), IsEmpty());
+}
 
 TEST(DescribeFindings, SaysWhatWasDoneToTheClock) {
   LogPlan plan = sound_plan();
@@ -30,7 +37,8 @@ TEST(DescribeFindings, SaysEachCorrectionInALine) {
   LogPlan plan = sound_plan();
   plan.evidence.correction.range_unit_m = 1e-3;
   plan.evidence.correction.reverses_beams = true;
-  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("millimetres"), HasSubstr("clockwise")));
+  EXPECT_THAT(describe_findings(plan),
+              ElementsAre(HasSubstr("millimetres"), HasSubstr("clockwise")));
 }
 
 TEST(DescribeFindings, CountsScansWithoutAReading) {

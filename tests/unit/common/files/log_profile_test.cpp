@@ -8,21 +8,25 @@
 namespace slammot::files {
 namespace {
 
-using ::testing::HasSubstr;
 using std::numbers::pi;
+using ::testing::HasSubstr;
 
 TEST(ChooseProfile, SendsFastVehiclesToTheStreet) {
-  const auto choice = choose_profile({.has_clock = true, .far_range_m = 10.0, .cruising_speed_mps = 12.0});
+  const auto choice =
+      choose_profile({.has_clock = true, .far_range_m = 10.0, .cruising_speed_mps = 12.0});
   EXPECT_EQ(choice.profile, "urban");
   EXPECT_THAT(choice.reason, HasSubstr("12.0 m/s"));
 }
 
 TEST(ChooseProfile, TakesSlowVehiclesAmongFarEchoesForRobotsInTheOpen) {
-  EXPECT_EQ(choose_profile({.has_clock = true, .far_range_m = 52.0, .cruising_speed_mps = 1.0}).profile, "outdoor_robot");
+  EXPECT_EQ(
+      choose_profile({.has_clock = true, .far_range_m = 52.0, .cruising_speed_mps = 1.0}).profile,
+      "outdoor_robot");
 }
 
 TEST(ChooseProfile, KeepsSlowRobotsAmongNearWallsInsideEvenWithALongRangeScanner) {
-  const auto choice = choose_profile({.has_clock = true, .max_range_m = 81.83, .far_range_m = 5.8, .cruising_speed_mps = 0.3});
+  const auto choice = choose_profile(
+      {.has_clock = true, .max_range_m = 81.83, .far_range_m = 5.8, .cruising_speed_mps = 0.3});
   EXPECT_EQ(choice.profile, "indoor");
   EXPECT_THAT(choice.reason, HasSubstr("5.8 m"));
 }
@@ -36,10 +40,15 @@ TEST(ChooseProfile, TakesScansForEachPieceOfWayForThoseOfARobot) {
   EXPECT_EQ(choose_profile({.comes_by_time = false, .far_range_m = 45.0}).profile, "outdoor_robot");
 }
 
-constexpr LogFigures kSpinning{
-    .beams = 360, .has_clock = true, .field_of_view_rad = 2.0 * pi, .scan_period_s = 0.08, .scan_period_spread = 0.1};
+constexpr LogFigures kSpinning{.beams = 360,
+                               .has_clock = true,
+                               .field_of_view_rad = 2.0 * pi,
+                               .scan_period_s = 0.08,
+                               .scan_period_spread = 0.1};
 
-TEST(SweepTime, IsTheScanPeriodOfAScannerThatSpinsSteadily) { EXPECT_NEAR(sweep_s_for(kSpinning, 0.013), 0.08 * 359.0 / 360.0, 1e-12); }
+TEST(SweepTime, IsTheScanPeriodOfAScannerThatSpinsSteadily) {
+  EXPECT_NEAR(sweep_s_for(kSpinning, 0.013), 0.08 * 359.0 / 360.0, 1e-12);
+}
 
 TEST(SweepTime, IsTheProfilesForOthers) {
   LogFigures half = kSpinning;
@@ -61,7 +70,11 @@ TEST(SweepTime, NeverOutlastsThePeriod) {
 }
 
 TEST(SweepTime, KeepsItsShareOfAPeriodThatIsMadeUp) {
-  const LogFigures half_circle{.beams = 361, .has_clock = false, .comes_by_time = true, .field_of_view_rad = pi, .scan_period_s = 0.1};
+  const LogFigures half_circle{.beams = 361,
+                               .has_clock = false,
+                               .comes_by_time = true,
+                               .field_of_view_rad = pi,
+                               .scan_period_s = 0.1};
   EXPECT_NEAR(sweep_s_for(half_circle, 0.0133), 0.05, 1e-12);
   EXPECT_EQ(sweep_s_for(half_circle, 0.0), 0.0);
 }

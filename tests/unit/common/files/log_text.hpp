@@ -30,7 +30,9 @@ struct FlaserLine {
   std::string ipc = "1.5";
   std::string logger = "1.5";
 
-  std::string text() const { return "FLASER " + ranges + " " + pose + " " + pose + " " + ipc + " host " + logger + "\n"; }
+  std::string text() const {
+    return "FLASER " + ranges + " " + pose + " " + pose + " " + ipc + " host " + logger + "\n";
+  }
 };
 
 /// A drive along x at 1 m/s with a scan every tenth of a second; poses as the wheels say.

@@ -10,10 +10,10 @@
 namespace slammot::files {
 namespace {
 
+using geometry::Pose2;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-using geometry::Pose2;
 
 /// All free but for one occupied cell, and one cell of the MO-map.
 flow::Submap room(std::uint32_t columns, std::uint32_t rows) {
@@ -28,7 +28,8 @@ flow::Submap room(std::uint32_t columns, std::uint32_t rows) {
 
 std::uint8_t pixel_at(const MapImage& image, double x_m, double y_m) {
   const auto column = static_cast<std::uint32_t>((x_m - image.min_x_m) / image.resolution_m);
-  const auto row_from_below = static_cast<std::uint32_t>((y_m - image.min_y_m) / image.resolution_m);
+  const auto row_from_below =
+      static_cast<std::uint32_t>((y_m - image.min_y_m) / image.resolution_m);
   return image.pixels.at((image.height - 1 - row_from_below) * image.width + column);
 }
 
@@ -41,7 +42,8 @@ TEST(DrawMap, PutsACellWhereItIsWithYUp) {
   ASSERT_EQ(images.stationary.height, 3u);
   EXPECT_EQ(pixel_at(images.stationary, 1.75, 0.25), kOccupiedPixel);
   EXPECT_EQ(pixel_at(images.stationary, 0.25, 0.25), kFreePixel);
-  EXPECT_EQ(images.stationary.pixels[2 * 4 + 3], kOccupiedPixel);  // lowest row of cells is the last of pixels
+  EXPECT_EQ(images.stationary.pixels[2 * 4 + 3], kOccupiedPixel);  // lowest row of cells is the
+                                                                   // last of pixels
   EXPECT_EQ(pixel_at(images.moving, 0.75, 1.25), kOccupiedPixel);
   EXPECT_EQ(pixel_at(images.moving, 0.25, 0.25), kFreePixel);
 }
@@ -83,7 +85,8 @@ TEST(DrawMap, DrawsLargeMapsCoarserWithoutLosingThinWalls) {
   const MapImage image = draw_map({{&submap, {}}}, 1'500).stationary;
   EXPECT_LE(image.width * image.height, 1'500u);
   EXPECT_GT(image.resolution_m, 0.5);
-  for (double y_m = 0.25; y_m < 50.0; y_m += 0.5) EXPECT_EQ(pixel_at(image, 18.75, y_m), kOccupiedPixel);
+  for (double y_m = 0.25; y_m < 50.0; y_m += 0.5)
+    EXPECT_EQ(pixel_at(image, 18.75, y_m), kOccupiedPixel);
 }
 
 TEST(DrawMap, DrawsNothingAsOneUnknownPixel) {
@@ -94,7 +97,9 @@ TEST(DrawMap, DrawsNothingAsOneUnknownPixel) {
 
 const MapImage kImage{3, 2, 0.05, -1.5, 2.25, {0, 205, 254, 254, 205, 0}};
 
-TEST(MapFiles, ArePortableGreyMaps) { EXPECT_EQ(to_pgm(kImage), std::string("P5\n3 2\n255\n\x00\xcd\xfe\xfe\xcd\x00", 17)); }
+TEST(MapFiles, ArePortableGreyMaps) {
+  EXPECT_EQ(to_pgm(kImage), std::string("P5\n3 2\n255\n\x00\xcd\xfe\xfe\xcd\x00", 17));
+}
 
 TEST(MapFiles, ArePicturesThatLibpngReadsBack) {
   const auto png = to_png(kImage);
@@ -111,7 +116,8 @@ TEST(MapFiles, ArePicturesThatLibpngReadsBack) {
 
 TEST(MapFiles, TellMapServerWhereThePictureLies) {
   EXPECT_EQ(to_map_server_yaml(kImage, "map.pgm"),
-            "image: map.pgm\nresolution: 0.050000\norigin: [-1.500000, 2.250000, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+            "image: map.pgm\nresolution: 0.050000\norigin: [-1.500000, 2.250000, 0.0]\nnegate: "
+            "0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
 }
 
 }  // namespace

@@ -33,7 +33,9 @@ OdometryEpisode episode(OdometryFault fault, int at_s, int duration_s) {
 
 TEST(DescribeOdometry, SaysThatThereIsNone) { EXPECT_EQ(describe_odometry({}, true), "none"); }
 
-TEST(DescribeOdometry, SaysThatItIsBelieved) { EXPECT_EQ(describe_odometry(believed(), true), "believed"); }
+TEST(DescribeOdometry, SaysThatItIsBelieved) {
+  EXPECT_EQ(describe_odometry(believed(), true), "believed");
+}
 
 TEST(DescribeOdometry, SaysHowFarItIsOffAndThatThisIsBelieved) {
   OdometryConclusions odometry = believed();
@@ -46,21 +48,25 @@ TEST(DescribeOdometry, SaysSinceWhenItIsCorrectedAndWhenItWasNotBelieved) {
   odometry.total.way = 1.0 / 0.7;
   odometry.recalibrations.push_back({141 * kSecond_ns, 410, odometry.total});
   odometry.episodes.push_back(episode(OdometryFault::kSlipped, 213, 12));
-  EXPECT_EQ(describe_odometry(odometry, true), "way 30 % short, corrected since 41 s; slipped for 12 s at 213 s");
+  EXPECT_EQ(describe_odometry(odometry, true),
+            "way 30 % short, corrected since 41 s; slipped for 12 s at 213 s");
 }
 
 TEST(DescribeOdometry, CountsScansWhereNoTimeIsKnown) {
   OdometryConclusions odometry = believed();
   odometry.recalibrations.push_back({141 * kSecond_ns, 410, odometry.total});
   odometry.episodes.push_back(episode(OdometryFault::kFrozen, 213, 12));
-  EXPECT_EQ(describe_odometry(odometry, false), "corrected since scan 410; frozen for 120 scans at scan 2130");
+  EXPECT_EQ(describe_odometry(odometry, false),
+            "corrected since scan 410; frozen for 120 scans at scan 2130");
 }
 
 TEST(DescribeOdometry, NamesSignsUnitsBiasAndLateness) {
   OdometryConclusions odometry = believed();
   odometry.total = {.way = 0.001, .turn = -1.0, .turn_bias_radps = -0.02};
   odometry.stamp_offset_s = 0.3;
-  EXPECT_EQ(describe_odometry(odometry, true), "way 1e+03 times too long, turn rate with the wrong sign, turns by 1.1 deg/s of its own, 0.30 s late, believed");
+  EXPECT_EQ(describe_odometry(odometry, true),
+            "way 1e+03 times too long, turn rate with the wrong sign, turns by 1.1 deg/s of its "
+            "own, 0.30 s late, believed");
 }
 
 TEST(DescribeOdometry, SaysHowMuchOfItWasNotBelieved) {
@@ -71,10 +77,13 @@ TEST(DescribeOdometry, SaysHowMuchOfItWasNotBelieved) {
 
 TEST(DescribeOdometry, TellsTheLongestEpisodesInTheirOrderAndCountsTheRest) {
   OdometryConclusions odometry = believed();
-  for (const int duration_s : {3, 9, 4, 20, 5}) odometry.episodes.push_back(episode(OdometryFault::kShort, 10 * static_cast<int>(odometry.episodes.size()), duration_s));
+  for (const int duration_s : {3, 9, 4, 20, 5})
+    odometry.episodes.push_back(episode(
+        OdometryFault::kShort, 10 * static_cast<int>(odometry.episodes.size()), duration_s));
   odometry.more_episodes = 2;
   EXPECT_EQ(describe_odometry(odometry, true),
-            "believed; counted too little for 9 s at 10 s; counted too little for 20 s at 30 s; counted too little for 5 s at 40 s; 4 more times not believed");
+            "believed; counted too little for 9 s at 10 s; counted too little for 20 s at 30 s; "
+            "counted too little for 5 s at 40 s; 4 more times not believed");
 }
 
 TEST(DescribeOdometry, SaysHowFarItJumped) {
@@ -87,7 +96,8 @@ TEST(DescribeOdometry, SaysHowFarItJumped) {
 
 TEST(NameOfOdometryFault, IsAnotherOneForEach) {
   std::set<std::string> names;
-  for (int fault = 0; fault <= static_cast<int>(OdometryFault::kRough); ++fault) names.insert(name_of(static_cast<OdometryFault>(fault)));
+  for (int fault = 0; fault <= static_cast<int>(OdometryFault::kRough); ++fault)
+    names.insert(name_of(static_cast<OdometryFault>(fault)));
   EXPECT_EQ(names.size(), static_cast<std::size_t>(OdometryFault::kRough) + 1);
   EXPECT_EQ(names.count(""), 0U);
 }

@@ -40,7 +40,8 @@ TEST_F(RunJournalTest, GivesBackTheRowsThatWereWritten) {
   after.add_scan(localized.stamp_ns);
   after.add(content->localized_scans.at(0));
   after.add(content->tracked_objects.at(0));
-  EXPECT_EQ(before.online_trajectory().front().map_from_base, after.online_trajectory().front().map_from_base);
+  EXPECT_EQ(before.online_trajectory().front().map_from_base,
+            after.online_trajectory().front().map_from_base);
   ASSERT_EQ(before.track_rows().size(), after.track_rows().size());
   for (std::size_t i = 0; i < before.track_rows().size(); ++i) {
     const TrackRow a = *before.track_rows()[i], b = *after.track_rows()[i];

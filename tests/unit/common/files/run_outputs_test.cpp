@@ -17,17 +17,18 @@
 namespace slammot::files {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 using geometry::Matrix2;
 using geometry::Matrix3;
 using geometry::Pose2;
+using ::testing::HasSubstr;
 using testing::read_file;
+using ::testing::StartsWith;
 
 TEST(ToTum, WritesStampPositionAndQuaternion) {
-  EXPECT_EQ(to_tum({{21'019'900'000, {1.5, -2.0, 0.0}}, {22'000'000'000, {0.0, 0.0, std::acos(-1.0)}}}),
-            "21.019900 1.500000 -2.000000 0 0 0 0.000000000 1.000000000\n"
-            "22.000000 0.000000 0.000000 0 0 0 1.000000000 0.000000000\n");
+  EXPECT_EQ(
+      to_tum({{21'019'900'000, {1.5, -2.0, 0.0}}, {22'000'000'000, {0.0, 0.0, std::acos(-1.0)}}}),
+      "21.019900 1.500000 -2.000000 0 0 0 0.000000000 1.000000000\n"
+      "22.000000 0.000000 0.000000 0 0 0 1.000000000 0.000000000\n");
 }
 
 TEST(ToTracksCsv, WritesOneRowATrackUnderTheAgreedHeader) {
@@ -55,7 +56,8 @@ TEST(ToTrackDetailsCsv, WritesCovariancesAndTheProbabilityOfEachMode) {
   row.mode_probability = {0.75, 0.25};
   row.class_probability = {0.125, 0.5, 0.25, 0.125};
   EXPECT_EQ(to_track_details_csv({&row}),
-            "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_car,p_truck_or_bus,mode_0,mode_1\n"
+            "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy,p_pedestrian,p_bicycle,p_"
+            "car,p_truck_or_bus,mode_0,mode_1\n"
             "1.500000,42,0.04,-0.0012346,0.01,1,0,0.25,0.1250,0.5000,0.2500,0.1250,0.75,0.25\n");
 }
 
@@ -63,7 +65,8 @@ TEST(ToPredictionsCsv, WritesOneRowATimeAhead) {
   TrackRow row;
   row.stamp_ns = 1'500'000'000;
   row.track_id = {42};
-  row.predicted = {{1.0, {3.0, -1.5}, Matrix2{{0.25, 0.125}, {0.125, 0.5}}}, {2.0, {6.0, -3.0}, Matrix2::Identity()}};
+  row.predicted = {{1.0, {3.0, -1.5}, Matrix2{{0.25, 0.125}, {0.125, 0.5}}},
+                   {2.0, {6.0, -3.0}, Matrix2::Identity()}};
   EXPECT_EQ(to_predictions_csv({&row}),
             "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n"
             "1.500000,42,1.0,3.000,-1.500,0.25,0.125,0.5\n"
@@ -75,15 +78,18 @@ TEST(RunRecord, KeepsOfAPathWhatIsWholeSecondsAheadInTheFrameOfTheMap) {
   tracked.map_from_odom = {10.0, 0.0, 0.5 * std::acos(-1.0)};
   flow::TrackedObject object;
   object.confirmed = true;
-  for (const double after_s : {0.5, 1.0, 1.5, 2.0}) object.predicted_path.push_back({after_s, {after_s, 0.0}, Matrix2{{4.0, 0.0}, {0.0, 1.0}}});
+  for (const double after_s : {0.5, 1.0, 1.5, 2.0})
+    object.predicted_path.push_back({after_s, {after_s, 0.0}, Matrix2{{4.0, 0.0}, {0.0, 1.0}}});
   tracked.objects.push_back(object);
   RunRecord record;
   record.add(tracked);
   ASSERT_EQ(record.track_rows().size(), 1U);
   const std::vector<PredictedPlace> predicted = record.track_rows()[0]->predicted;
   ASSERT_EQ(predicted.size(), 2U);
-  EXPECT_THAT(predicted[1].position_in_map_m, testing::MatrixNear(geometry::Vector2(10.0, 2.0), 1e-12));
-  EXPECT_THAT(predicted[1].covariance_m2, testing::MatrixNear(Matrix2{{1.0, 0.0}, {0.0, 4.0}}, 1e-12));
+  EXPECT_THAT(predicted[1].position_in_map_m,
+              testing::MatrixNear(geometry::Vector2(10.0, 2.0), 1e-12));
+  EXPECT_THAT(predicted[1].covariance_m2,
+              testing::MatrixNear(Matrix2{{1.0, 0.0}, {0.0, 4.0}}, 1e-12));
 }
 
 TEST(ToOnlineCovarianceCsv, WritesTheUpperTriangle) {
@@ -103,7 +109,8 @@ TEST(ToLabelsCsv, NamesTheScannersWhereThereAreSeveral) {
   const LabelRow front{1'000'000'000, "s", "s", "front"};
   const LabelRow rear{1'000'000'000, "?", "m", "rear"};
   EXPECT_EQ(to_labels_csv({&front}), "timestamp,detection,tracking\n1.000000,s,s\n");
-  EXPECT_EQ(to_labels_csv({&front, &rear}), "timestamp,detection,tracking,scanner\n1.000000,s,s,front\n1.000000,?,m,rear\n");
+  EXPECT_EQ(to_labels_csv({&front, &rear}),
+            "timestamp,detection,tracking,scanner\n1.000000,s,s,front\n1.000000,?,m,rear\n");
 }
 
 /// The record of two submaps and a loop between them.
@@ -112,7 +119,8 @@ RunRecord small_record() {
   record.add_scan(1'000'000'000);
   record.add(testing::example_submap(0));
   record.add(testing::example_submap(1));
-  flow::Constraint loop{{0}, {1}, flow::ConstraintKind::kLoop, {{1.0, 2.0, std::acos(0.0)}, Matrix3::Zero()}};
+  flow::Constraint loop{
+      {0}, {1}, flow::ConstraintKind::kLoop, {{1.0, 2.0, std::acos(0.0)}, Matrix3::Zero()}};
   loop.from_to.covariance.diagonal() << 0.04, 0.01, 0.0025;
   record.add(loop);
   return record;
@@ -122,14 +130,14 @@ TEST(ToG2o, TurnsCovarianceIntoInformationInTheFrameOfTheEdgesEnd) {
   std::istringstream lines(to_g2o(small_record()));
   std::string line;
   std::vector<double> numbers;
-  while (std::getline(lines, line) && !line.starts_with("EDGE_SE2")) {
-  }
+  while (std::getline(lines, line) && !line.starts_with("EDGE_SE2")) {}
   std::istringstream words(line.substr(8));
   for (double number; words >> number;) numbers.push_back(number);
   ASSERT_EQ(numbers.size(), 11u);
   EXPECT_EQ(numbers[0], 0.0);
   EXPECT_EQ(numbers[1], 1.0);
-  EXPECT_NEAR(numbers[5], 1.0 / 0.01, 1e-3);  // the end's x is the beginning's y: the edge turns a quarter
+  EXPECT_NEAR(numbers[5], 1.0 / 0.01, 1e-3);  // the end's x is the beginning's y: the edge turns a
+                                              // quarter
   EXPECT_NEAR(numbers[8], 1.0 / 0.04, 1e-3);
   EXPECT_NEAR(numbers[10], 1.0 / 0.0025, 1e-3);
 }
@@ -143,7 +151,8 @@ TEST(ToG2o, HasAVertexForEachSubmapAndHoldsTheFirst) {
 
 TEST(Travelled, DoesNotCountTrembling) {
   std::vector<StampedPose> trajectory;
-  for (int i = 0; i <= 1000; ++i) trajectory.push_back({i, {i < 500 ? 0.0 : 0.01 * (i - 500), i % 2 ? 0.003 : 0.0, 0.0}});
+  for (int i = 0; i <= 1000; ++i)
+    trajectory.push_back({i, {i < 500 ? 0.0 : 0.01 * (i - 500), i % 2 ? 0.003 : 0.0, 0.0}});
   EXPECT_NEAR(travelled_m(trajectory), 5.0, 0.1);
 }
 
@@ -162,7 +171,9 @@ TEST(WriteOutputs, WritesEveryFileTheSameTwiceButForWhatWasMeasured) {
     std::filesystem::create_directory(folder / run);
     EXPECT_FALSE(write_outputs(folder / run, small_record(), example_report(run[0])));
   }
-  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "predictions.csv", "graph.g2o", "map.pgm", "map.png", "map.yaml", "moving.pgm", "moving.png", "moving.yaml"}) {
+  for (const char* file :
+       {"online.tum", "trajectory.tum", "tracks.csv", "predictions.csv", "graph.g2o", "map.pgm",
+        "map.png", "map.yaml", "moving.pgm", "moving.png", "moving.yaml"}) {
     EXPECT_FALSE(read_file(folder / "a" / file).empty()) << file;
     EXPECT_EQ(read_file(folder / "a" / file), read_file(folder / "b" / file)) << file;
   }

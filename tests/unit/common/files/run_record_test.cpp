@@ -23,7 +23,8 @@ flow::LocalizedScan localized(std::int64_t stamp_ns, double odom_x_m, std::uint3
   return scan;
 }
 
-flow::TrackedObjects tracked(std::int64_t stamp_ns, std::vector<std::pair<std::uint32_t, bool>> ids) {
+flow::TrackedObjects tracked(std::int64_t stamp_ns,
+                             std::vector<std::pair<std::uint32_t, bool>> ids) {
   flow::TrackedObjects message;
   message.stamp_ns = stamp_ns;
   for (const auto& [id, confirmed] : ids) {
@@ -39,16 +40,20 @@ flow::TrackedObjects tracked(std::int64_t stamp_ns, std::vector<std::pair<std::u
 
 TEST(RunRecord, HasARowForEveryScanOfTheLogInItsOrder) {
   RunRecord record;
-  for (const std::int64_t stamp_ns : {100, 200, 150, 200, 300}) record.add_scan(stamp_ns);  // one late, one twice
+  for (const std::int64_t stamp_ns : {100, 200, 150, 200, 300})
+    record.add_scan(stamp_ns);  // one late, one twice
   record.add(localized(100, 1.0));
   record.add(localized(200, 3.0));
   const auto trajectory = record.online_trajectory();
   ASSERT_EQ(trajectory.size(), 5u);
   EXPECT_EQ(trajectory[2].stamp_ns, 150);
   EXPECT_THAT(trajectory[0].map_from_base, PoseNear(Pose2{1.0, 0.0, 0.0}, 1e-12));
-  EXPECT_THAT(trajectory[2].map_from_base, PoseNear(Pose2{2.0, 0.0, 0.0}, 1e-12));  // between its neighbours in time
+  EXPECT_THAT(trajectory[2].map_from_base, PoseNear(Pose2{2.0, 0.0, 0.0}, 1e-12));  // between its
+                                                                                    // neighbours in
+                                                                                    // time
   EXPECT_THAT(trajectory[3].map_from_base, PoseNear(Pose2{3.0, 0.0, 0.0}, 1e-12));
-  EXPECT_THAT(trajectory[4].map_from_base, PoseNear(Pose2{3.0, 0.0, 0.0}, 1e-12));  // the nearest there is
+  EXPECT_THAT(trajectory[4].map_from_base, PoseNear(Pose2{3.0, 0.0, 0.0}, 1e-12));  // the nearest
+                                                                                    // there is
 }
 
 TEST(RunRecord, HasRowsEvenWhenNothingWasLocalized) {
@@ -64,10 +69,13 @@ TEST(RunRecord, KeepsWhatWasPublishedLiveAndMovesTheRestWithItsSubmap) {
   record.add_scan(200);
   record.add(localized(100, 1.0, 0));
   record.add(localized(200, 12.0, 1));
-  record.add(flow::GraphCorrection{1, {5.0, 0.0, 0.0}, {{{0}, {0.0, 1.0, 0.0}}, {{1}, {0.0, 7.0, 0.0}}}});
+  record.add(
+      flow::GraphCorrection{1, {5.0, 0.0, 0.0}, {{{0}, {0.0, 1.0, 0.0}}, {{1}, {0.0, 7.0, 0.0}}}});
   EXPECT_THAT(record.online_trajectory()[1].map_from_base, PoseNear(Pose2{12.0, 0.0, 0.0}, 1e-12));
-  EXPECT_THAT(record.corrected_trajectory()[0].map_from_base, PoseNear(Pose2{1.0, 1.0, 0.0}, 1e-12));
-  EXPECT_THAT(record.corrected_trajectory()[1].map_from_base, PoseNear(Pose2{2.0, 7.0, 0.0}, 1e-12));
+  EXPECT_THAT(record.corrected_trajectory()[0].map_from_base,
+              PoseNear(Pose2{1.0, 1.0, 0.0}, 1e-12));
+  EXPECT_THAT(record.corrected_trajectory()[1].map_from_base,
+              PoseNear(Pose2{2.0, 7.0, 0.0}, 1e-12));
 }
 
 TEST(RunRecord, PlacesWhatLoopClosingNeverHeardOfByOdometry) {
@@ -75,16 +83,19 @@ TEST(RunRecord, PlacesWhatLoopClosingNeverHeardOfByOdometry) {
   record.add_scan(100);
   record.add(localized(100, 12.0, 1));
   record.add(flow::GraphCorrection{1, {5.0, 0.0, 0.0}, {{{0}, {0.0, 1.0, 0.0}}}});
-  EXPECT_THAT(record.corrected_trajectory()[0].map_from_base, PoseNear(Pose2{17.0, 0.0, 0.0}, 1e-12));
+  EXPECT_THAT(record.corrected_trajectory()[0].map_from_base,
+              PoseNear(Pose2{17.0, 0.0, 0.0}, 1e-12));
   flow::Submap submap = testing::example_submap(1);
-  EXPECT_THAT(record.map_from_submap(submap), PoseNear(Pose2{5.0, 0.0, 0.0} * submap.odom_from_submap, 1e-12));
+  EXPECT_THAT(record.map_from_submap(submap),
+              PoseNear(Pose2{5.0, 0.0, 0.0} * submap.odom_from_submap, 1e-12));
 }
 
 TEST(RunRecord, IgnoresACorrectionOlderThanTheLast) {
   RunRecord record;
   record.add(flow::GraphCorrection{2, {}, {{{1}, {2.0, 0.0, 0.0}}}});
   record.add(flow::GraphCorrection{1, {}, {{{1}, {9.0, 0.0, 0.0}}}});
-  EXPECT_THAT(record.map_from_submap(testing::example_submap(1)), PoseNear(Pose2{2.0, 0.0, 0.0}, 1e-12));
+  EXPECT_THAT(record.map_from_submap(testing::example_submap(1)),
+              PoseNear(Pose2{2.0, 0.0, 0.0}, 1e-12));
 }
 
 TEST(RunRecord, TakesWhatComesAgainForTheSameThing) {
@@ -134,10 +145,12 @@ TEST(RunRecord, JoinsTheLabelsOfDetectionAndTracking) {
   RunRecord record;
   flow::SegmentedScan segmented;
   segmented.stamp_ns = 100;
-  segmented.labels = {flow::PointLabel::kNoEcho, flow::PointLabel::kStationary, flow::PointLabel::kUnknown};
+  segmented.labels = {flow::PointLabel::kNoEcho, flow::PointLabel::kStationary,
+                      flow::PointLabel::kUnknown};
   flow::ScanLabels labels;
   labels.stamp_ns = 100;
-  labels.labels = {flow::PointLabel::kNoEcho, flow::PointLabel::kStationary, flow::PointLabel::kMoving};
+  labels.labels = {flow::PointLabel::kNoEcho, flow::PointLabel::kStationary,
+                   flow::PointLabel::kMoving};
   record.add(segmented);
   record.add(labels);
   ASSERT_EQ(record.label_rows().size(), 1u);

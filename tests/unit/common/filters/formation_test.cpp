@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "common/filters/model_set.hpp"
 #include "tests/support/matchers.hpp"
@@ -42,7 +42,8 @@ class Dice {
   explicit Dice(unsigned seed) : random_(seed) {}
   Eigen::VectorXd draw(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance) {
     constexpr double kLeast = 1e-12;
-    const Eigen::LLT<Eigen::MatrixXd> root(covariance + kLeast * Eigen::MatrixXd::Identity(mean.size(), mean.size()));
+    const Eigen::LLT<Eigen::MatrixXd> root(
+        covariance + kLeast * Eigen::MatrixXd::Identity(mean.size(), mean.size()));
     Eigen::VectorXd white(mean.size());
     for (double& value : white) value = normal_(random_);
     return mean + root.matrixL() * white;
@@ -58,7 +59,8 @@ struct HiddenError {
   double nees = 0.0;        ///< and mean NEES of its position.
 };
 
-/// A queue that moves as `truth` says, tracked as `belief` says; its middle is seen for 3 s and then hidden for 3 s.
+/// A queue that moves as `truth` says, tracked as `belief` says; its middle is seen for 3 s and
+/// then hidden for 3 s.
 HiddenError hidden_error(const FormationMotion& truth, const FormationMotion& belief, int runs) {
   HiddenError error;
   Dice dice(11);
@@ -66,11 +68,13 @@ HiddenError hidden_error(const FormationMotion& truth, const FormationMotion& be
     FormationState estimate = queue();
     Eigen::VectorXd x = dice.draw(estimate.mean, estimate.covariance);
     for (int scan = 0; scan < 60; ++scan) {
-      const FormationState next = predict(truth, {x, Eigen::MatrixXd::Zero(x.size(), x.size())}, kPeriodS);
+      const FormationState next =
+          predict(truth, {x, Eigen::MatrixXd::Zero(x.size(), x.size())}, kPeriodS);
       x = dice.draw(next.mean, next.covariance);
       std::vector<MemberFix> fixes;
       for (std::size_t i = 0; i < kMembers; ++i)
-        if (i != kHidden || scan < 30) fixes.push_back({i, dice.draw(x.segment<2>(6 * static_cast<Eigen::Index>(i)), kR), kR});
+        if (i != kHidden || scan < 30)
+          fixes.push_back({i, dice.draw(x.segment<2>(6 * static_cast<Eigen::Index>(i)), kR), kR});
       estimate = update(predict(belief, estimate, kPeriodS), fixes, Matrix2d::Zero());
     }
     const MotionState hidden = member_of(estimate, kHidden);
@@ -85,9 +89,13 @@ HiddenError hidden_error(const FormationMotion& truth, const FormationMotion& be
 TEST(Formation, OfStrangersIsAFilterForEach) {
   const FormationMotion strangers{kAccelerates, 0.0};
   const std::vector<MemberFix> fixes = {{0, {0.9, 0.1}, kR}, {2, {-15.0, -0.2}, 2.0 * kR}};
-  const FormationState joint = update(predict(strangers, queue(), kPeriodS), fixes, Matrix2d::Zero());
+  const FormationState joint =
+      update(predict(strangers, queue(), kPeriodS), fixes, Matrix2d::Zero());
   for (const MemberFix& fix : fixes) {
-    const MotionState alone = update_with_position(predict(kAccelerates, place_in_queue(fix.member), kPeriodS), fix.position_m, fix.R).posterior;
+    const MotionState alone =
+        update_with_position(predict(kAccelerates, place_in_queue(fix.member), kPeriodS),
+                             fix.position_m, fix.R)
+            .posterior;
     EXPECT_THAT(member_of(joint, fix.member).mean, MatrixNear(alone.mean, 1e-10));
     EXPECT_THAT(member_of(joint, fix.member).covariance, MatrixNear(alone.covariance, 1e-10));
   }
@@ -104,7 +112,8 @@ TEST(Formation, TellsWhereAHiddenMemberOfAQueueIs) {  // where tracking each by 
 
 TEST(Formation, IsAsSureOfAHiddenMemberAsItMayBe) {
   const FormationMotion together{kAccelerates, 0.95};
-  const double nees = hidden_error(together, together, 500).nees;  // 95 % of means of 500 lie within 1.75 and 2.25
+  const double nees = hidden_error(together, together, 500).nees;  // 95 % of means of 500 lie
+                                                                   // within 1.75 and 2.25
   EXPECT_GT(nees, 1.75);
   EXPECT_LT(nees, 2.25);
 }
@@ -113,14 +122,17 @@ TEST(Formation, HeldToBeCloserThanItIsPromisesTooMuch) {  // why it is not alway
   EXPECT_GT(hidden_error({kAccelerates, 0.0}, {kAccelerates, 0.95}, 200).nees, 5.0);
 }
 
-TEST(Formation, KnowsDistancesBetterThanPlacesWhenTheErrorIsShared) {  // Rogers 1988: the sensor's error is that of all
+TEST(Formation, KnowsDistancesBetterThanPlacesWhenTheErrorIsShared) {  // Rogers 1988: the sensor's
+                                                                       // error is that of all
   const Matrix2d shared = 0.25 * Matrix2d::Identity();
-  const std::vector<MemberFix> fixes = {{0, {0.8, 0.0}, kR}, {1, {-7.2, 0.0}, kR}, {2, {-15.2, 0.0}, kR}};
+  const std::vector<MemberFix> fixes = {
+      {0, {0.8, 0.0}, kR}, {1, {-7.2, 0.0}, kR}, {2, {-15.2, 0.0}, kR}};
   FormationState vague = queue();
   vague.covariance *= 100.0;
   const FormationState state = update(vague, fixes, shared);
   const double of_place_m2 = state.covariance(0, 0);
-  const double of_distance_m2 = state.covariance(0, 0) + state.covariance(6, 6) - 2.0 * state.covariance(0, 6);
+  const double of_distance_m2 =
+      state.covariance(0, 0) + state.covariance(6, 6) - 2.0 * state.covariance(0, 6);
   EXPECT_GT(of_place_m2, 0.1);
   EXPECT_LT(of_distance_m2, 0.03);
 }

@@ -17,7 +17,9 @@ using slammot::testing::measured;
 using slammot::testing::start_of;
 using slammot::testing::velocity_and_acceleration;
 
-PositionFix fix_at(const Eigen::Vector2d& position_m) { return {kManeuverPeriodS, position_m, maneuver_noise_m2()}; }
+PositionFix fix_at(const Eigen::Vector2d& position_m) {
+  return {kManeuverPeriodS, position_m, maneuver_noise_m2()};
+}
 
 /// RMS errors over many runs.
 struct Errors {
@@ -26,7 +28,8 @@ struct Errors {
 };
 
 template <class State, class Step, class Combine>
-Errors errors_of(const testing::Maneuver& truth_at, const State& start, const Step& step, const Combine& combine) {
+Errors errors_of(const testing::Maneuver& truth_at, const State& start, const Step& step,
+                 const Combine& combine) {
   constexpr unsigned kRuns = 40;
   constexpr int kScans = 130;
   constexpr int kSettled = 10;
@@ -49,14 +52,16 @@ Errors errors_of(const testing::Maneuver& truth_at, const State& start, const St
 Errors errors_of_gpb1(const testing::Maneuver& truth_at) {
   const ModelSet set = velocity_and_acceleration();
   return errors_of(
-      truth_at, gpb1_start(set, start_of(truth_at)), [&](const Gpb1State& state, const PositionFix& fix) { return gpb1_step(set, state, fix); },
+      truth_at, gpb1_start(set, start_of(truth_at)),
+      [&](const Gpb1State& state, const PositionFix& fix) { return gpb1_step(set, state, fix); },
       [](const Gpb1State& state) { return state.estimate; });
 }
 
 Errors errors_of_gpb2(const testing::Maneuver& truth_at) {
   const ModelSet set = velocity_and_acceleration();
   return errors_of(
-      truth_at, imm_start(set, start_of(truth_at)), [&](const ImmState& state, const PositionFix& fix) { return gpb2_step(set, state, fix); },
+      truth_at, imm_start(set, start_of(truth_at)),
+      [&](const ImmState& state, const PositionFix& fix) { return gpb2_step(set, state, fix); },
       [&](const ImmState& state) { return imm_combine(set, state); });
 }
 
@@ -65,15 +70,17 @@ Errors errors_of_imm(const testing::Maneuver& truth_at) {
   return errors_of(
       truth_at, imm_start(set, start_of(truth_at)),
       [&](const ImmState& state, const PositionFix& fix) {
-        return imm_update(set, imm_predict(set, state, fix.after_s), fix.position_m, fix.R).posterior;
+        return imm_update(set, imm_predict(set, state, fix.after_s), fix.position_m, fix.R)
+            .posterior;
       },
       [&](const ImmState& state) { return imm_combine(set, state); });
 }
 
 TEST(Gpb, OfSecondOrderFollowsManeuversAsTheImmAndBothBetterThanOfFirst) {
   using testing::Maneuver;
-  for (const Maneuver& maneuver : {Maneuver(testing::accelerating), Maneuver(testing::cruising), Maneuver(testing::turning),
-                                   Maneuver(testing::moving_stopping_moving)}) {
+  for (const Maneuver& maneuver :
+       {Maneuver(testing::accelerating), Maneuver(testing::cruising), Maneuver(testing::turning),
+        Maneuver(testing::moving_stopping_moving)}) {
     const Errors gpb1 = errors_of_gpb1(maneuver);
     const Errors gpb2 = errors_of_gpb2(maneuver);
     const Errors imm = errors_of_imm(maneuver);
@@ -90,7 +97,9 @@ TEST(Gpb, OfEitherOrderIsAKalmanFilterWhenThereIsOneModel) {
   set.size = 1;
   const MotionState start = start_of(testing::accelerating);
   const PositionFix fix = fix_at({0.4, -0.2});
-  const MotionState expected = update_with_position(predict(set.models[0], start, fix.after_s), fix.position_m, fix.R).posterior;
+  const MotionState expected =
+      update_with_position(predict(set.models[0], start, fix.after_s), fix.position_m, fix.R)
+          .posterior;
   const Gpb1State first = gpb1_step(set, gpb1_start(set, start), fix);
   const MotionState second = imm_combine(set, gpb2_step(set, imm_start(set, start), fix));
   EXPECT_THAT(first.estimate.mean, MatrixNear(expected.mean, 1e-12));

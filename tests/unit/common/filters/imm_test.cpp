@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "common/filters/kalman.hpp"
 #include "tests/support/maneuvers.hpp"
@@ -40,12 +40,14 @@ std::vector<Sample> simulate(const testing::Maneuver& truth_at, int scans, unsig
     const Vector6 truth = truth_at(static_cast<double>(samples.size() + 1) * kManeuverPeriodS);
     const ImmState predicted = imm_predict(set, state, kManeuverPeriodS);
     state = imm_update(set, predicted, z, testing::maneuver_noise_m2()).posterior;
-    samples.push_back({truth, imm_combine(set, state), state.probability, imm_innovation(set, predicted, z, testing::maneuver_noise_m2()).nis});
+    samples.push_back({truth, imm_combine(set, state), state.probability,
+                       imm_innovation(set, predicted, z, testing::maneuver_noise_m2()).nis});
   }
   return samples;
 }
 
-double mean_over(const std::vector<Sample>& samples, std::size_t from, const std::function<double(const Sample&)>& value) {
+double mean_over(const std::vector<Sample>& samples, std::size_t from,
+                 const std::function<double(const Sample&)>& value) {
   double sum = 0.0;
   for (std::size_t i = from; i < samples.size(); ++i) sum += value(samples[i]);
   return sum / static_cast<double>(samples.size() - from);
@@ -88,7 +90,8 @@ TEST(Imm, TakesAMeasuredComponentOfTheVelocityAsAKalmanFilterDoes) {
   Vector6 h = Vector6::Zero();
   h.segment<2>(2) = direction;
   const Matrix6 information = start.covariance.inverse() + h * h.transpose() / kVariance;
-  const Vector6 mean = information.inverse() * (start.covariance.inverse() * start.mean + h * 0.2 / kVariance);
+  const Vector6 mean =
+      information.inverse() * (start.covariance.inverse() * start.mean + h * 0.2 / kVariance);
   for (std::size_t mode = 0; mode < set.size; ++mode) {
     EXPECT_THAT(posterior.modes[mode].covariance, MatrixNear(Matrix6(information.inverse()), 1e-9));
     EXPECT_THAT(posterior.modes[mode].mean, MatrixNear(mean, 1e-9));
@@ -110,7 +113,9 @@ TEST(Imm, HoldsACruisingObjectToCruise) {  // Figures 4.4 and 4.5
 
 TEST(Imm, FollowsATurnThatNeitherModelDescribes) {  // Figures 4.6 and 4.7
   const auto samples = simulate(turning, 100, 3);
-  EXPECT_LT(mean_over(samples, 20, [](const Sample& s) { return (s.truth - s.estimate.mean).head<2>().norm(); }), 0.13);
+  EXPECT_LT(mean_over(samples, 20,
+                      [](const Sample& s) { return (s.truth - s.estimate.mean).head<2>().norm(); }),
+            0.13);
   EXPECT_LT(mean_over(samples, 20, velocity_error_mps), 0.7);
 }
 
@@ -118,9 +123,10 @@ TEST(Imm, HasInnovationsAsLargeAsItSays) {
   double nis = 0.0;
   constexpr int kRuns = 40;
   for (unsigned run = 0; run < kRuns; ++run)
-    nis += mean_over(simulate(cruising, 60, 100 + run), 10, [](const Sample& s) { return s.nis; }) / kRuns;
-  EXPECT_GT(nis, 1.3);  // conservative while the models are mixed,
-  EXPECT_LT(nis, 2.06); // but never over-confident: upper end of the 95 % band of 2000 scans
+    nis += mean_over(simulate(cruising, 60, 100 + run), 10, [](const Sample& s) { return s.nis; }) /
+           kRuns;
+  EXPECT_GT(nis, 1.3);   // conservative while the models are mixed,
+  EXPECT_LT(nis, 2.06);  // but never over-confident: upper end of the 95 % band of 2000 scans
 }
 
 TEST(Imm, IsAKalmanFilterWhenThereIsOneModel) {
@@ -152,10 +158,11 @@ TEST(Imm, MovesWithTheWorld) {
   moved_start.mean.head<2>() += shift;
   const Eigen::Matrix2d R = 0.04 * Eigen::Matrix2d::Identity();
   ImmUpdate here = imm_update(set, imm_predict(set, imm_start(set, start), 0.2), {0.5, 0.1}, R);
-  const ImmUpdate there =
-      imm_update(set, imm_predict(set, imm_start(set, moved_start), 0.2), Eigen::Vector2d(0.5, 0.1) + shift, R);
+  const ImmUpdate there = imm_update(set, imm_predict(set, imm_start(set, moved_start), 0.2),
+                                     Eigen::Vector2d(0.5, 0.1) + shift, R);
   imm_shift(set, here.posterior, shift);
-  EXPECT_THAT(imm_combine(set, here.posterior).mean, MatrixNear(imm_combine(set, there.posterior).mean, 1e-9));
+  EXPECT_THAT(imm_combine(set, here.posterior).mean,
+              MatrixNear(imm_combine(set, there.posterior).mean, 1e-9));
   EXPECT_NEAR(here.posterior.probability[0], there.posterior.probability[0], 1e-12);
 }
 
@@ -167,7 +174,9 @@ TEST(Imm, TakesUpAModelThatBecomesPossibleAndLetsGoOfOneThatDoesNot) {
   const auto follow = [&](const ModelSet& set, int from, int until) {
     const auto positions_m = testing::measured(turning, until, 4);
     for (int scan = from; scan < until; ++scan)
-      state = imm_update(set, imm_predict(set, state, kManeuverPeriodS), positions_m[static_cast<std::size_t>(scan)], testing::maneuver_noise_m2()).posterior;
+      state = imm_update(set, imm_predict(set, state, kManeuverPeriodS),
+                         positions_m[static_cast<std::size_t>(scan)], testing::maneuver_noise_m2())
+                  .posterior;
   };
   follow(two, 0, 20);
   EXPECT_EQ(state.probability[2], 0.0);
@@ -177,7 +186,8 @@ TEST(Imm, TakesUpAModelThatBecomesPossibleAndLetsGoOfOneThatDoesNot) {
   state = imm_predict(two, state, 0.0);
   EXPECT_EQ(state.probability[2], 0.0);
   EXPECT_NEAR(state.probability[0] + state.probability[1], 1.0, 1e-12);
-  EXPECT_THAT(imm_combine(two, state).mean.head<4>(), MatrixNear(with_turn.mean.head<4>(), 1e-9));  // nothing is lost
+  EXPECT_THAT(imm_combine(two, state).mean.head<4>(),
+              MatrixNear(with_turn.mean.head<4>(), 1e-9));  // nothing is lost
 }
 
 TEST(Imm, SwitchesAsMuchInOneLongStepAsInManyShortOnes) {

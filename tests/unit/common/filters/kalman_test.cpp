@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "common/filters/model_set.hpp"
 #include "common/filters/motion_models.hpp"
@@ -31,7 +31,8 @@ TEST(KalmanUpdate, IsTheInformationFormOfBayes) {
   const Eigen::Matrix<double, 1, 1> z{0.7};
   const auto update = kalman_update<2, 1>(prior, z, H, R);
   const Eigen::Matrix2d information = prior.covariance.inverse() + H.transpose() * R.inverse() * H;
-  const Eigen::Vector2d mean = information.inverse() * (prior.covariance.inverse() * prior.mean + H.transpose() * R.inverse() * z);
+  const Eigen::Vector2d mean = information.inverse() * (prior.covariance.inverse() * prior.mean +
+                                                        H.transpose() * R.inverse() * z);
   EXPECT_THAT(update.posterior.covariance, MatrixNear(information.inverse(), 1e-12));
   EXPECT_THAT(update.posterior.mean, MatrixNear(mean, 1e-12));
 }
@@ -53,7 +54,8 @@ TEST(KalmanUpdate, ByAPositionIsTheSameToTheLastBitWithoutTheProductsWithOnesAnd
 }
 
 TEST(Innovation, GivesTheLogarithmOfTheNormalDensity) {
-  const auto standard = innovation<1>(Eigen::Matrix<double, 1, 1>{2.0}, Eigen::Matrix<double, 1, 1>{4.0});
+  const auto standard =
+      innovation<1>(Eigen::Matrix<double, 1, 1>{2.0}, Eigen::Matrix<double, 1, 1>{4.0});
   EXPECT_NEAR(standard.nis, 1.0, 1e-12);
   EXPECT_NEAR(standard.log_likelihood, -0.5 - std::log(2.0) - 0.5 * std::log(2.0 * M_PI), 1e-12);
 }
@@ -78,9 +80,12 @@ TEST(Kalman, IsHonestAboutAnObjectThatMovesAsItsModelSays) {
     Vector6 truth = draw(estimate.covariance);
     for (int step = 0; step < kSteps; ++step) {
       const double time_s = step % 3 == 0 ? 0.1 : 0.04;  // the rate may change
-      truth = constant_acceleration_transition(time_s) * truth + draw(constant_acceleration_noise(time_s, 0.5));
-      const Eigen::Vector2d z = truth.head<2>() + 0.1 * Eigen::Vector2d(normal(random), normal(random));
-      const auto update = kalman_update<6, 2>(predict(model, estimate, time_s), z, position_of_state(), R);
+      truth = constant_acceleration_transition(time_s) * truth +
+              draw(constant_acceleration_noise(time_s, 0.5));
+      const Eigen::Vector2d z =
+          truth.head<2>() + 0.1 * Eigen::Vector2d(normal(random), normal(random));
+      const auto update =
+          kalman_update<6, 2>(predict(model, estimate, time_s), z, position_of_state(), R);
       estimate = update.posterior;
       nis += update.innovation.nis / (kRuns * kSteps);
     }

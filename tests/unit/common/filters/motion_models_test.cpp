@@ -36,22 +36,28 @@ TEST(ConstantVelocity, GivesTheSameInOneStepAsInTwo) {
 }
 
 TEST(ConstantVelocity, ForgetsTheAccelerationButNotThatItMayBeThere) {
-  const MotionState after = predict({MotionKind::kConstantVelocity, 1.0, 2.0}, example_state(), 0.1);
+  const MotionState after =
+      predict({MotionKind::kConstantVelocity, 1.0, 2.0}, example_state(), 0.1);
   EXPECT_EQ(after.mean(4), 0.0);
   EXPECT_NEAR(after.covariance(4, 4), 4.0, 1e-12);
 }
 
-TEST(MotionModels, SpreadErrorsAsTheirTransitionsSay) {  // F P F' + Q, which predict does not write down
+TEST(MotionModels, SpreadErrorsAsTheirTransitionsSay) {  // F P F' + Q, which predict does not write
+                                                         // down
   constexpr double kTimeS = 0.4;
   MotionState state = example_state();
   const Vector6 skew = Vector6::LinSpaced(-0.5, 0.7);
   state.covariance += skew * skew.transpose();
   const Matrix6 F_cv = constant_velocity_transition(kTimeS);
   EXPECT_THAT(predict({MotionKind::kConstantVelocity, 1.3, 0.8}, state, kTimeS).covariance,
-              MatrixNear(F_cv * state.covariance * F_cv.transpose() + constant_velocity_noise(kTimeS, 1.3, 0.8), 1e-12));
+              MatrixNear(F_cv * state.covariance * F_cv.transpose() +
+                             constant_velocity_noise(kTimeS, 1.3, 0.8),
+                         1e-12));
   const Matrix6 F_ca = constant_acceleration_transition(kTimeS);
   EXPECT_THAT(predict({MotionKind::kConstantAcceleration, 0.7, 0.0}, state, kTimeS).covariance,
-              MatrixNear(F_ca * state.covariance * F_ca.transpose() + constant_acceleration_noise(kTimeS, 0.7), 1e-12));
+              MatrixNear(F_ca * state.covariance * F_ca.transpose() +
+                             constant_acceleration_noise(kTimeS, 0.7),
+                         1e-12));
 }
 
 TEST(CoordinatedTurn, KeepsSpeedAndClosesTheCircle) {
@@ -77,7 +83,8 @@ TEST(CoordinatedTurn, GoesStraightWithoutAcceleration) {
 }
 
 TEST(CoordinatedTurn, SpreadsSmallErrorsAsItsLinearizationSays) {
-  // Without noise the predicted covariance is J P J'. With P = u u' it is (J u)(J u)', which a finite step along u gives, too.
+  // Without noise the predicted covariance is J P J'. With P = u u' it is (J u)(J u)', which a
+  // finite step along u gives, too.
   const MotionModel noiseless{MotionKind::kCoordinatedTurn, 0.0, 0.0};
   Vector6 straight = Vector6::Zero();
   straight(2) = 12.0;
@@ -89,7 +96,9 @@ TEST(CoordinatedTurn, SpreadsSmallErrorsAsItsLinearizationSays) {
       const Vector6 step = kStep * Vector6::Unit(axis);
       const Vector6 spread = (turned(mean + step, 0.4) - turned(mean - step, 0.4)) / 2.0;
       const MotionState after = predict(noiseless, {mean, step * step.transpose()}, 0.4);
-      EXPECT_THAT(after.covariance / (kStep * kStep), MatrixNear(spread * spread.transpose() / (kStep * kStep), 1e-5)) << axis;
+      EXPECT_THAT(after.covariance / (kStep * kStep),
+                  MatrixNear(spread * spread.transpose() / (kStep * kStep), 1e-5))
+          << axis;
     }
   }
 }

@@ -25,7 +25,8 @@ StationaryProcess series_at(const Vector2d& velocity_mps, int count, unsigned se
   StationaryProcess series;
   for (int i = 0; i < count; ++i) {
     const double x_m = normal(random);
-    series = observed(series, i * kPeriodS * velocity_mps + Vector2d(x_m, normal(random)), i == 0 ? 0.0 : kPeriodS, kMemoryS);
+    series = observed(series, i * kPeriodS * velocity_mps + Vector2d(x_m, normal(random)),
+                      i == 0 ? 0.0 : kPeriodS, kMemoryS);
   }
   return series;
 }
@@ -33,7 +34,8 @@ StationaryProcess series_at(const Vector2d& velocity_mps, int count, unsigned se
 MotionState moving_at(double speed_mps, double sigma_mps, double position_sigma_m) {
   MotionState state;
   state.mean(2) = speed_mps;
-  state.covariance.topLeftCorner<2, 2>() = position_sigma_m * position_sigma_m * Matrix2d::Identity();
+  state.covariance.topLeftCorner<2, 2>() =
+      position_sigma_m * position_sigma_m * Matrix2d::Identity();
   state.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
   state.covariance.block<2, 2>(4, 4) = Matrix2d::Identity();
   return state;
@@ -52,13 +54,19 @@ TEST(StationaryProcess, IsTheFadedMeanAndCovarianceOfAllMeasurements) {
   double weight = 0.0;
   double squares = 0.0;
   Vector2d mean_m = Vector2d::Zero();
-  const auto weight_of = [](std::size_t i) { return std::exp(-kPeriodS * (24.0 - static_cast<double>(i)) / kMemoryS); };
-  for (std::size_t i = 0; i < positions_m.size(); ++i) weight += weight_of(i), squares += weight_of(i) * weight_of(i), mean_m += weight_of(i) * positions_m[i];
+  const auto weight_of = [](std::size_t i) {
+    return std::exp(-kPeriodS * (24.0 - static_cast<double>(i)) / kMemoryS);
+  };
+  for (std::size_t i = 0; i < positions_m.size(); ++i)
+    weight += weight_of(i), squares += weight_of(i) * weight_of(i),
+        mean_m += weight_of(i) * positions_m[i];
   mean_m /= weight;
   Matrix2d scatter_m2 = Matrix2d::Zero();
-  for (std::size_t i = 0; i < positions_m.size(); ++i) scatter_m2 += weight_of(i) * (positions_m[i] - mean_m) * (positions_m[i] - mean_m).transpose();
+  for (std::size_t i = 0; i < positions_m.size(); ++i)
+    scatter_m2 += weight_of(i) * (positions_m[i] - mean_m) * (positions_m[i] - mean_m).transpose();
   EXPECT_THAT(series.mean_m, MatrixNear(mean_m, 1e-12));
-  EXPECT_THAT(series.covariance_m2(), MatrixNear(Matrix2d(scatter_m2 / (weight - squares / weight)), 1e-12));
+  EXPECT_THAT(series.covariance_m2(),
+              MatrixNear(Matrix2d(scatter_m2 / (weight - squares / weight)), 1e-12));
   EXPECT_NEAR(series.age_s, 2.4, 1e-12);
 }
 
@@ -71,8 +79,9 @@ TEST(StationaryProcess, SaysHowFarItsMeanIsOffFromWhereSomethingStands) {
     off_m2 += series.mean_m.squaredNorm() / kRuns;
     said_m2 += series.mean_covariance_m2().trace() / kRuns;
   }
-  EXPECT_NEAR(off_m2, 2.0 * kSigmaM * kSigmaM / 20.0, 0.0002);  // as of twice the memory's measurements, white
-  EXPECT_GT(said_m2, off_m2);  // what looks like a drift by chance counts as one:
+  EXPECT_NEAR(off_m2, 2.0 * kSigmaM * kSigmaM / 20.0, 0.0002);  // as of twice the memory's
+                                                                // measurements, white
+  EXPECT_GT(said_m2, off_m2);        // what looks like a drift by chance counts as one:
   EXPECT_LT(said_m2, 6.0 * off_m2);  // never too sure, and still surer than any single measurement
 }
 
@@ -91,7 +100,9 @@ TEST(MinimumDetectionSpeed, IsSoManySigmasOfTheLeastKnownDirection) {
 TEST(MoveStop, HoldsWhatIsFasterThanTheMinimumToMoveAtOnce) {
   MoveStop hypotheses;
   const MoveStopConfig config{kMemoryS, 3.0};
-  for (int i = 0; i < 30; ++i) hypotheses = weigh(hypotheses, {moving_at(0.05, 0.2, 0.08), {0.02 * (i % 2), 0.0}, kPeriodS}, config);
+  for (int i = 0; i < 30; ++i)
+    hypotheses =
+        weigh(hypotheses, {moving_at(0.05, 0.2, 0.08), {0.02 * (i % 2), 0.0}, kPeriodS}, config);
   ASSERT_TRUE(hypotheses.stands);
   hypotheses = weigh(hypotheses, {moving_at(0.7, 0.2, 0.08), {0.1, 0.0}, kPeriodS}, config);
   EXPECT_FALSE(hypotheses.stands);
@@ -100,14 +111,17 @@ TEST(MoveStop, HoldsWhatIsFasterThanTheMinimumToMoveAtOnce) {
 
 TEST(MoveStop, HoldsNothingToStandBeforeTheMemoryIsFull) {
   MoveStop hypotheses;
-  for (int i = 0; i < 9; ++i) hypotheses = weigh(hypotheses, {moving_at(0.0, 0.2, 10.0), {0.02 * (i % 2), 0.0}, kPeriodS}, {kMemoryS, 3.0});
+  for (int i = 0; i < 9; ++i)
+    hypotheses = weigh(hypotheses, {moving_at(0.0, 0.2, 10.0), {0.02 * (i % 2), 0.0}, kPeriodS},
+                       {kMemoryS, 3.0});
   EXPECT_FALSE(hypotheses.stands);
 }
 
 TEST(MoveStop, BelievesTheMoversEstimateUnlessItsOwnIsMoreCertain) {
   MoveStop hypotheses;
   for (int i = 0; i < 60; ++i)  // creeps below the minimum, and the mover knows well where it is
-    hypotheses = weigh(hypotheses, {moving_at(0.4, 0.2, 0.05), {0.4 * kPeriodS * i, 0.0}, kPeriodS}, {kMemoryS, 3.0});
+    hypotheses = weigh(hypotheses, {moving_at(0.4, 0.2, 0.05), {0.4 * kPeriodS * i, 0.0}, kPeriodS},
+                       {kMemoryS, 3.0});
   EXPECT_FALSE(hypotheses.stands);
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/filters/imm.hpp"
-#include "tests/support/matchers.hpp"
 #include "tests/support/maneuvers.hpp"
+#include "tests/support/matchers.hpp"
 
 namespace slammot::filters {
 namespace {
@@ -40,12 +40,15 @@ Vector6 drawn(const MotionState& state, std::mt19937_64& random) {
 /// Something that moves as the set says: by one model at a time, among which it switches.
 class Wanderer {
  public:
-  Wanderer(const ModelSet& set, const MotionState& start, std::mt19937_64& random) : set_(set), random_(random), state_(drawn(start, random)) {
+  Wanderer(const ModelSet& set, const MotionState& start, std::mt19937_64& random)
+      : set_(set), random_(random), state_(drawn(start, random)) {
     model_ = std::uniform_int_distribution<std::size_t>(0, set.size - 1)(random);
   }
 
   void go(double time_s) {
-    if (std::bernoulli_distribution(1.0 - switch_probability(set_, model_, model_, time_s))(random_)) model_ = (model_ + 1) % set_.size;
+    if (std::bernoulli_distribution(1.0 -
+                                    switch_probability(set_, model_, model_, time_s))(random_))
+      model_ = (model_ + 1) % set_.size;
     state_ = drawn(predict(set_.models[model_], {state_, Matrix6::Zero()}, time_s), random_);
   }
   Vector2d position_m() const { return state_.head<2>(); }
@@ -78,7 +81,9 @@ std::vector<double> mean_nees(int runs, const Foretell& foretell) {
       truth.go(kManeuverPeriodS);
       const double x_m = normal(random);
       const Vector2d z = truth.position_m() + Vector2d(x_m, normal(random));
-      state = imm_update(set, imm_predict(set, state, kManeuverPeriodS), z, testing::maneuver_noise_m2()).posterior;
+      state = imm_update(set, imm_predict(set, state, kManeuverPeriodS), z,
+                         testing::maneuver_noise_m2())
+                  .posterior;
     }
     const std::vector<Gaussian<2>> path = foretell(set, state);
     for (std::size_t step = 0; step < path.size(); ++step) {
@@ -97,8 +102,9 @@ std::vector<Gaussian<2>> foretold(const ModelSet& set, const ImmState& state) {
 }
 
 TEST(Foretelling, IsAsSureAsItMayBeOfWhatMovesAsTheModelsSay) {
-  // The mean of 1000 independent samples of two degrees of freedom lies within 1.83 and 2.18 in 95 of 100 cases; errors of a
-  // mixture have longer tails, and one Gaussian for each mode is an approximation.
+  // The mean of 1000 independent samples of two degrees of freedom lies within 1.83 and 2.18 in 95
+  // of 100 cases; errors of a mixture have longer tails, and one Gaussian for each mode is an
+  // approximation.
   for (const double nees : mean_nees(1000, foretold)) {
     EXPECT_GT(nees, 1.75);
     EXPECT_LT(nees, 2.25);
@@ -126,7 +132,8 @@ TEST(Foretelling, FollowsAnAccelerationThatLasts) {
   state.probability = {0.0, 1.0, 0.0};
   const std::vector<Gaussian<2>> path = foretold(set, state);
   for (std::size_t step = 0; step < path.size(); ++step) {
-    const Vector2d truth_m = testing::accelerating(1.0 + kStepS * static_cast<double>(step + 1)).head<2>();
+    const Vector2d truth_m =
+        testing::accelerating(1.0 + kStepS * static_cast<double>(step + 1)).head<2>();
     const double sigma_m = std::sqrt(path[step].covariance(0, 0));
     EXPECT_LT(std::abs(path[step].mean(0) - truth_m.x()), 2.0 * sigma_m) << step;
   }
@@ -140,7 +147,8 @@ TEST(Foretelling, IsPredictionWhereThereIsOneModel) {
   const MotionState expected = predict(set.models[0], somewhere(), kSteps * kStepS);
   const Gaussian<2> last = foretold(set, imm_start(set, somewhere())).back();
   EXPECT_THAT(last.mean, MatrixNear(Vector2d(expected.mean.head<2>()), 1e-12));
-  EXPECT_THAT(last.covariance, MatrixNear(Eigen::Matrix2d(expected.covariance.topLeftCorner<2, 2>()), 1e-12));
+  EXPECT_THAT(last.covariance,
+              MatrixNear(Eigen::Matrix2d(expected.covariance.topLeftCorner<2, 2>()), 1e-12));
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ const Pose2 kB{-4.0, 0.5, -3.0};
 
 TEST(Displacement, IsTheOppositeOfADifference) {
   EXPECT_THAT(displaced(kB, difference(kA, kB)), PoseNear(kA, 1e-12));
-  EXPECT_NEAR(displaced({0.0, 0.0, 3.1}, {0.0, 0.0, 0.1}).heading_rad, 3.2 - 2.0 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(displaced({0.0, 0.0, 3.1}, {0.0, 0.0, 0.1}).heading_rad, 3.2 - 2.0 * std::numbers::pi,
+              1e-12);
 }
 
 TEST(Displacement, MovesNothingTenMetresAwayByMoreThanItsLength) {

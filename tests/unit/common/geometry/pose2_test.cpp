@@ -15,7 +15,9 @@ const Pose2 kA{1.0, -2.0, 0.7};
 const Pose2 kB{-4.0, 0.5, -3.0};
 const Pose2 kC{0.3, 7.0, 2.5};
 
-TEST(Pose2, CompoundsAssociatively) { EXPECT_THAT((kA * kB) * kC, PoseNear(kA * (kB * kC), 1e-12)); }
+TEST(Pose2, CompoundsAssociatively) {
+  EXPECT_THAT((kA * kB) * kC, PoseNear(kA * (kB * kC), 1e-12));
+}
 
 TEST(Pose2, HasIdentityOnBothSides) {
   EXPECT_THAT(kA * Pose2::identity(), PoseNear(kA, 1e-15));
@@ -35,7 +37,8 @@ TEST(Pose2, MovesPointsAsItCompounds) {
 
 TEST(Pose2, DiffersTheShortWayRound) {
   const Eigen::Vector3d ahead = difference({1.0, -2.0, 3.1}, {0.5, 1.0, -3.1});
-  EXPECT_NEAR((ahead - Eigen::Vector3d(0.5, -3.0, 6.2 - 2.0 * std::numbers::pi)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((ahead - Eigen::Vector3d(0.5, -3.0, 6.2 - 2.0 * std::numbers::pi)).norm(), 0.0,
+              1e-12);
   EXPECT_EQ(difference(kA, kA), Eigen::Vector3d::Zero());
   EXPECT_EQ(difference(kA, kB), -difference(kB, kA));
 }

@@ -16,13 +16,16 @@ using geometry::Pose2;
 using slammot::testing::PoseNear;
 
 Constraint step_forward(std::uint32_t from, std::uint32_t to, double length_m, double sigma_m) {
-  Constraint constraint{SubmapId{from}, SubmapId{to}, ConstraintKind::kOdometric, {{length_m, 0.0, 0.0}, {}}};
-  constraint.from_to.covariance = Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-6).asDiagonal();
+  Constraint constraint{
+      SubmapId{from}, SubmapId{to}, ConstraintKind::kOdometric, {{length_m, 0.0, 0.0}, {}}};
+  constraint.from_to.covariance =
+      Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-6).asDiagonal();
   return constraint;
 }
 
 TEST(PosesAlongBestPaths, GrowsMoreUncertainWithEveryStep) {
-  const std::vector<Constraint> chain{step_forward(0, 1, 5.0, 0.1), step_forward(1, 2, 5.0, 0.1), step_forward(2, 3, 5.0, 0.1)};
+  const std::vector<Constraint> chain{step_forward(0, 1, 5.0, 0.1), step_forward(1, 2, 5.0, 0.1),
+                                      step_forward(2, 3, 5.0, 0.1)};
   const auto poses = poses_along_best_paths(SubmapId{0}, chain);
   ASSERT_EQ(poses.size(), 4U);
   EXPECT_THAT(poses.at(SubmapId{3}).pose, PoseNear(Pose2{15.0, 0.0, 0.0}, 1e-12));
@@ -31,7 +34,8 @@ TEST(PosesAlongBestPaths, GrowsMoreUncertainWithEveryStep) {
 
 TEST(PosesAlongBestPaths, WalksBackwardsAlongAConstraint) {
   const std::vector<Constraint> chain{step_forward(0, 1, 5.0, 0.1), step_forward(1, 2, 5.0, 0.1)};
-  EXPECT_THAT(poses_along_best_paths(SubmapId{2}, chain).at(SubmapId{0}).pose, PoseNear(Pose2{-10.0, 0.0, 0.0}, 1e-12));
+  EXPECT_THAT(poses_along_best_paths(SubmapId{2}, chain).at(SubmapId{0}).pose,
+              PoseNear(Pose2{-10.0, 0.0, 0.0}, 1e-12));
 }
 
 TEST(PosesAlongBestPaths, TakesTheShortcutThatALoopGives) {
@@ -45,7 +49,8 @@ TEST(PosesAlongBestPaths, TakesTheShortcutThatALoopGives) {
 }
 
 TEST(PosesAlongBestPaths, LeavesOutWhatNoPathReaches) {
-  const auto poses = poses_along_best_paths(SubmapId{0}, std::vector<Constraint>{step_forward(1, 2, 1.0, 0.1)});
+  const auto poses =
+      poses_along_best_paths(SubmapId{0}, std::vector<Constraint>{step_forward(1, 2, 1.0, 0.1)});
   ASSERT_EQ(poses.size(), 1U);
   EXPECT_THAT(poses.at(SubmapId{0}).pose, PoseNear(Pose2::identity(), 0.0));
 }

@@ -26,7 +26,8 @@ Matrix3 covariance_of(double position_sigma_m, double heading_sigma_rad) {
       .asDiagonal();
 }
 
-Constraint constraint_between(std::uint32_t from, std::uint32_t to, ConstraintKind kind, const Pose2& from_to) {
+Constraint constraint_between(std::uint32_t from, std::uint32_t to, ConstraintKind kind,
+                              const Pose2& from_to) {
   return {SubmapId{from}, SubmapId{to}, kind, {from_to, covariance_of(0.1, 0.02)}};
 }
 
@@ -37,7 +38,8 @@ std::vector<Pose2> square_drive(int nodes_per_side) {
   for (int side = 0; side < 4; ++side) {
     for (int i = 0; i < nodes_per_side; ++i) {
       poses.push_back(pose);
-      pose = pose * Pose2{10.0 / nodes_per_side, 0.0, i + 1 == nodes_per_side ? std::numbers::pi / 2 : 0.0};
+      pose = pose * Pose2{10.0 / nodes_per_side, 0.0,
+                          i + 1 == nodes_per_side ? std::numbers::pi / 2 : 0.0};
     }
   }
   poses.push_back(pose);
@@ -61,7 +63,9 @@ PoseGraph bent_chain(const std::vector<Pose2>& truth, double bend_rad) {
 double largest_position_error_m(const PoseGraph& graph, const std::vector<Pose2>& truth) {
   double largest = 0.0;
   for (std::uint32_t i = 0; i < truth.size(); ++i) {
-    largest = std::max(largest, (graph.map_from_node(SubmapId{i}).translation_m() - truth[i].translation_m()).norm());
+    largest = std::max(
+        largest,
+        (graph.map_from_node(SubmapId{i}).translation_m() - truth[i].translation_m()).norm());
   }
   return largest;
 }
@@ -70,7 +74,8 @@ TEST(PoseGraph, LeavesAChainWithoutLoopsWhereItIs) {
   PoseGraph graph = bent_chain(square_drive(5), 0.02);
   const auto before = graph.nodes();
   EXPECT_NEAR(graph.optimise().final_cost, 0.0, 1e-12);
-  for (const auto& node : before) EXPECT_THAT(graph.map_from_node(node.submap_id), PoseNear(node.map_from_submap, 1e-9));
+  for (const auto& node : before)
+    EXPECT_THAT(graph.map_from_node(node.submap_id), PoseNear(node.map_from_submap, 1e-9));
 }
 
 TEST(PoseGraph, ClosesASquareAndKeepsItsFirstNode) {
@@ -87,17 +92,20 @@ TEST(PoseGraph, SpreadsTheErrorOfALoopEvenlyOverEqualSteps) {
   PoseGraph graph({});
   const Pose2 step{1.0, 0.0, 0.0};
   for (std::uint32_t i = 0; i < 5; ++i) graph.add_node(SubmapId{i}, {1.0 * i, 0.0, 0.0});
-  for (std::uint32_t i = 1; i < 5; ++i) graph.add_constraint(constraint_between(i - 1, i, ConstraintKind::kOdometric, step));
+  for (std::uint32_t i = 1; i < 5; ++i)
+    graph.add_constraint(constraint_between(i - 1, i, ConstraintKind::kOdometric, step));
   graph.add_constraint(constraint_between(0, 4, ConstraintKind::kOdometric, {4.5, 0.0, 0.0}));
   graph.optimise();
-  for (std::uint32_t i = 0; i < 5; ++i) EXPECT_NEAR(graph.map_from_node(SubmapId{i}).x_m, 1.1 * i, 1e-6);
+  for (std::uint32_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(graph.map_from_node(SubmapId{i}).x_m, 1.1 * i, 1e-6);
 }
 
 TEST(PoseGraph, HoldsOutAgainstOneFalseLoopAmongRightOnes) {
   const auto truth = square_drive(5);
   PoseGraph graph = bent_chain(truth, 0.01);
   for (const std::uint32_t back : {0U, 1U, 2U}) {
-    graph.add_constraint(constraint_between(back, 20, ConstraintKind::kLoop, inverse(truth[back]) * truth[20]));
+    graph.add_constraint(
+        constraint_between(back, 20, ConstraintKind::kLoop, inverse(truth[back]) * truth[20]));
   }
   graph.add_constraint(constraint_between(5, 15, ConstraintKind::kLoop, Pose2::identity()));
   graph.optimise();
@@ -108,12 +116,15 @@ TEST(PoseGraph, TakesTheWeightOfAFalseLoopOnceRightOnesContradictIt) {
   const auto truth = square_drive(5);
   PoseGraph graph = bent_chain(truth, 0.01);
   const std::size_t odometric = graph.constraints().size();
-  graph.add_constraint(constraint_between(2, 20, ConstraintKind::kLoop, Pose2::identity()));  // 4 m off, in reach of the odometry
+  graph.add_constraint(
+      constraint_between(2, 20, ConstraintKind::kLoop, Pose2::identity()));  // 4 m off, in reach of
+                                                                             // the odometry
   graph.optimise();
   EXPECT_GT(graph.weight(odometric), 0.5);
   EXPECT_GT(largest_position_error_m(graph, truth), 2.0);
   for (const std::uint32_t back : {0U, 1U}) {
-    graph.add_constraint(constraint_between(back, 20, ConstraintKind::kLoop, inverse(truth[back]) * truth[20]));
+    graph.add_constraint(
+        constraint_between(back, 20, ConstraintKind::kLoop, inverse(truth[back]) * truth[20]));
   }
   graph.optimise();
   EXPECT_LT(graph.weight(odometric), 0.5);
@@ -139,7 +150,8 @@ TEST(BestPath, TakesALoopThatIsSurerThanTheChain) {
   std::vector<Constraint> constraints = graph.constraints();
   const std::size_t loop = constraints.size();
   constraints.push_back(constraint_between(0, 20, ConstraintKind::kLoop, Pose2::identity()));
-  EXPECT_EQ(best_path(SubmapId{19}, SubmapId{1}, constraints), (std::vector<std::size_t>{0, loop, loop - 1}));
+  EXPECT_EQ(best_path(SubmapId{19}, SubmapId{1}, constraints),
+            (std::vector<std::size_t>{0, loop, loop - 1}));
   EXPECT_TRUE(best_path(SubmapId{0}, SubmapId{99}, constraints).empty());
 }
 
@@ -162,7 +174,8 @@ TEST(PoseGraph, MovesItsAnswerWithItsFirstNode) {
   graph.optimise();
   moved.optimise();
   for (const auto& node : graph.nodes()) {
-    EXPECT_THAT(moved.map_from_node(node.submap_id), PoseNear(moved_from_map * node.map_from_submap, 1e-4));
+    EXPECT_THAT(moved.map_from_node(node.submap_id),
+                PoseNear(moved_from_map * node.map_from_submap, 1e-4));
   }
 }
 
@@ -175,7 +188,8 @@ TEST(PoseGraph, GivesTheSameBitsTwice) {
   };
   const auto first = run();
   const auto second = run();
-  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].map_from_submap, second[i].map_from_submap);
+  for (std::size_t i = 0; i < first.size(); ++i)
+    EXPECT_EQ(first[i].map_from_submap, second[i].map_from_submap);
 }
 
 TEST(SquaredError, CountsSigmas) {
@@ -183,8 +197,8 @@ TEST(SquaredError, CountsSigmas) {
   EXPECT_NEAR(squared_error(constraint, {5.0, 5.0, 0.0}, {7.3, 5.0, 0.04}), 9.0 + 4.0, 1e-9);
 }
 
-/// Weights of the isotropic chordal cost (Rosen et al., SE-Sync, IJRR 2019, Eqs. (10)-(11)): sum over the constraints of
-/// tau |dt|^2 + kappa |dR|_F^2.
+/// Weights of the isotropic chordal cost (Rosen et al., SE-Sync, IJRR 2019, Eqs. (10)-(11)): sum
+/// over the constraints of tau |dt|^2 + kappa |dR|_F^2.
 struct IsotropicWeights {
   double tau = 0.0;
   double kappa = 0.0;
@@ -199,7 +213,8 @@ double chordal_cost(const PoseGraph& graph, const std::vector<Constraint>& const
   double cost = 0.0;
   for (const Constraint& constraint : constraints) {
     const IsotropicWeights weights = isotropic_weights(constraint.from_to.covariance);
-    const Pose2 from_to = inverse(graph.map_from_node(constraint.from)) * graph.map_from_node(constraint.to);
+    const Pose2 from_to =
+        inverse(graph.map_from_node(constraint.from)) * graph.map_from_node(constraint.to);
     const Pose2& measured = constraint.from_to.pose;
     cost += weights.tau * (from_to.translation_m() - measured.translation_m()).squaredNorm() +
             weights.kappa * 4.0 * (1.0 - std::cos(from_to.heading_rad - measured.heading_rad));
@@ -207,7 +222,8 @@ double chordal_cost(const PoseGraph& graph, const std::vector<Constraint>& const
   return cost;
 }
 
-/// Optimises a published graph from poses chained along its constraints; the weights are those of the chordal cost.
+/// Optimises a published graph from poses chained along its constraints; the weights are those of
+/// the chordal cost.
 double optimised_chordal_cost(const slammot::testing::G2oGraph& published) {
   PoseGraph graph({.max_iterations = 200});
   std::vector<Constraint> isotropic = published.constraints;
@@ -235,13 +251,15 @@ class PublishedGraph : public ::testing::TestWithParam<KnownOptimum> {};
 
 TEST_P(PublishedGraph, ReachesTheCertifiedOptimum) {
   const auto [file, optimum] = GetParam();
-  const std::string text = slammot::testing::read_text(std::filesystem::path(SLAMMOT_SHARED_DATA) / "pose_graphs" / file);
+  const std::string text = slammot::testing::read_text(std::filesystem::path(SLAMMOT_SHARED_DATA) /
+                                                       "pose_graphs" / file);
   if (text.empty()) GTEST_SKIP() << "../shared/data/pose_graphs/" << file << " is not here";
   EXPECT_NEAR(optimised_chordal_cost(slammot::testing::parse_g2o(text)), optimum, 0.01 * optimum);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PublishedGraph,
-                         ::testing::Values(KnownOptimum{"manhattan.g2o.gz", 6.432e3}, KnownOptimum{"intel.g2o.gz", 5.235e1}));
+                         ::testing::Values(KnownOptimum{"manhattan.g2o.gz", 6.432e3},
+                                           KnownOptimum{"intel.g2o.gz", 5.235e1}));
 
 }  // namespace
 }  // namespace slammot::graphs

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <random>
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "tests/support/synthetic_world.hpp"
 #include "tests/unit/common/grids/slow_ray.hpp"
@@ -23,17 +23,22 @@ const int kHit = steps_of_log_odds(kModel.hit_log_odds);
 const int kFree = steps_of_log_odds(kModel.free_log_odds);
 const int kLimit = steps_of_log_odds(kModel.limit_log_odds);
 
-EvidenceGrid empty_grid(double side_m = 20.0) { return {window_around({0.0, 0.0}, side_m, kCell_m), kModel}; }
+EvidenceGrid empty_grid(double side_m = 20.0) {
+  return {window_around({0.0, 0.0}, side_m, kCell_m), kModel};
+}
 
 template <class Visit>
 void for_each_cell(const GridWindow& window, const Visit& visit) {
   for (std::int32_t row = window.first.row; row < window.first.row + window.rows; ++row) {
-    for (std::int32_t column = window.first.column; column < window.first.column + window.columns; ++column) visit(Cell{column, row});
+    for (std::int32_t column = window.first.column; column < window.first.column + window.columns;
+         ++column)
+      visit(Cell{column, row});
   }
 }
 
 /// A full turn of beams in a room, some without echo.
-std::vector<Ray> rays_in_a_room(const Vector2d& origin_m, int beams, const slammot::testing::World& world) {
+std::vector<Ray> rays_in_a_room(const Vector2d& origin_m, int beams,
+                                const slammot::testing::World& world) {
   std::vector<Ray> rays;
   for (int i = 0; i < beams; ++i) {
     const double angle_rad = 2.0 * std::numbers::pi * i / beams;
@@ -42,14 +47,16 @@ std::vector<Ray> rays_in_a_room(const Vector2d& origin_m, int beams, const slamm
     if (i % 7 == 0) {
       rays.push_back({origin_m + 3.0 * direction, Echo::kNone});
     } else {
-      rays.push_back({origin_m + range_m * direction, i % 11 == 0 ? Echo::kMoving : Echo::kStationary});
+      rays.push_back(
+          {origin_m + range_m * direction, i % 11 == 0 ? Echo::kMoving : Echo::kStationary});
     }
   }
   return rays;
 }
 
 std::vector<Ray> rays_in_a_room(const Vector2d& origin_m, int beams) {
-  return rays_in_a_room(origin_m, beams, slammot::testing::room(15.7, 10.3));  // walls inside cells, not between
+  return rays_in_a_room(origin_m, beams, slammot::testing::room(15.7, 10.3));  // walls inside
+                                                                               // cells, not between
 }
 
 std::vector<Ray> shifted(std::vector<Ray> rays, const Vector2d& by_m) {
@@ -57,7 +64,8 @@ std::vector<Ray> shifted(std::vector<Ray> rays, const Vector2d& by_m) {
   return rays;
 }
 
-/// What a single scan does to an empty grid, cell by cell and ray by ray. Cells that a ray only touches are undecided.
+/// What a single scan does to an empty grid, cell by cell and ray by ray. Cells that a ray only
+/// touches are undecided.
 enum class Expected { kUntouched, kFree, kOccupied, kMoved, kUndecided };
 
 Expected expected_of(Cell cell, const Vector2d& origin_m, const std::vector<Ray>& rays) {
@@ -71,7 +79,8 @@ Expected expected_of(Cell cell, const Vector2d& origin_m, const std::vector<Ray>
   for (const Ray& ray : rays) {
     const double length_m = (ray.end_m - origin_m).norm();
     const double free_m = ray.echo == Echo::kNone ? length_m : length_m - 1.5 * kCell_m;
-    const auto passage = passage_through(cell, kCell_m, origin_m, (ray.end_m - origin_m) / length_m);
+    const auto passage =
+        passage_through(cell, kCell_m, origin_m, (ray.end_m - origin_m) / length_m);
     if (!passage || passage->in_m > free_m + kGraze_m) continue;
     if (passage->in_m < free_m - kGraze_m && passage->length_m() > kGraze_m) return Expected::kFree;
     expected = Expected::kUndecided;
@@ -99,12 +108,14 @@ TEST(EvidenceGrid, MarksWhatASlowRayCasterMarks) {
 TEST(EvidenceGrid, FillsBetweenBeamsWhatEachBeamByItselfWouldMark) {
   const Vector2d origin_m(0.1, 0.2);
   constexpr int kBeams = 720;
-  const auto world = slammot::testing::box({}, 15.7, 10.3);  // nothing in it: beams beside a pillar tell less of its shadow
+  const auto world = slammot::testing::box({}, 15.7, 10.3);  // nothing in it: beams beside a pillar
+                                                             // tell less of its shadow
   std::vector<Ray> rays;
   for (int i = 0; i < kBeams; ++i) {
     const double angle_rad = 2.0 * std::numbers::pi * i / kBeams;
     const double range_m = slammot::testing::range_m(world, origin_m, angle_rad);
-    rays.push_back({origin_m + range_m * Vector2d(std::cos(angle_rad), std::sin(angle_rad)), Echo::kStationary});
+    rays.push_back({origin_m + range_m * Vector2d(std::cos(angle_rad), std::sin(angle_rad)),
+                    Echo::kStationary});
   }
   EvidenceGrid all_of_each_beam = empty_grid();
   all_of_each_beam.integrate(origin_m, rays, 0.0);
@@ -121,7 +132,9 @@ TEST(EvidenceGrid, FillsBetweenBeamsWhatEachBeamByItselfWouldMark) {
     if (grid.so_steps(cell) != 0) return;
     ++lost_cells;  // at the rim: here a cell counts by its centre, there when it is touched
     const Vector2d way_m = grid.window().centre_of(cell) - origin_m;
-    EXPECT_GT(way_m.norm(), slammot::testing::range_m(world, origin_m, std::atan2(way_m.y(), way_m.x())) - 2.2 * kCell_m);
+    EXPECT_GT(way_m.norm(),
+              slammot::testing::range_m(world, origin_m, std::atan2(way_m.y(), way_m.x())) -
+                  2.2 * kCell_m);
   });
   EXPECT_GT(free_cells, 1000);
   EXPECT_LT(lost_cells, free_cells / 10);
@@ -133,17 +146,24 @@ EvidenceGrid grid_after_two_beams(double first_m, double second_m, double beam_s
   std::vector<Ray> rays;
   for (const double angle_rad : {-0.5 * beam_step_rad, 0.5 * beam_step_rad}) {
     const double range_m = rays.empty() ? first_m : second_m;
-    rays.push_back({Vector2d(0.1, 0.1) + range_m * Vector2d(std::cos(angle_rad), std::sin(angle_rad)), Echo::kStationary});
+    rays.push_back(
+        {Vector2d(0.1, 0.1) + range_m * Vector2d(std::cos(angle_rad), std::sin(angle_rad)),
+         Echo::kStationary});
   }
   grid.integrate({0.1, 0.1}, rays, beam_step_rad);
   return grid;
 }
 
-int free_at(const EvidenceGrid& grid, double range_m) { return grid.so_steps(grid.window().cell_at(0.1 + range_m, 0.1)); }
+int free_at(const EvidenceGrid& grid, double range_m) {
+  return grid.so_steps(grid.window().cell_at(0.1 + range_m, 0.1));
+}
 
 TEST(EvidenceGrid, HoldsWhatLiesBeforeASurfaceForFreeAsFarAsTheShorterBeamGoes) {
   const EvidenceGrid grid = grid_after_two_beams(10.0, 13.0, 0.045);  // a wall at a flat angle
-  const auto beside = [&](double range_m) { return grid.so_steps(grid.window().cell_at(0.1 + range_m * std::cos(0.012), 0.1 + range_m * std::sin(0.012))); };
+  const auto beside = [&](double range_m) {
+    return grid.so_steps(
+        grid.window().cell_at(0.1 + range_m * std::cos(0.012), 0.1 + range_m * std::sin(0.012)));
+  };
   EXPECT_EQ(free_at(grid, 9.0), -kFree);
   EXPECT_EQ(beside(9.0), -kFree);
   EXPECT_EQ(beside(11.5), 0);  // nearer to the longer beam
@@ -159,9 +179,11 @@ TEST(EvidenceGrid, TellsOfTheSpaceBeforeWhatIsTooFarToBeMapped) {
 }
 
 TEST(EvidenceGrid, LetsTheBeamsOfTwoThingsStandForHalfOfWhatLiesBetween) {
-  const EvidenceGrid grid = grid_after_two_beams(10.0, 17.0, 0.045);  // 0.45 m apart where the first one ends
+  const EvidenceGrid grid = grid_after_two_beams(10.0, 17.0, 0.045);  // 0.45 m apart where the
+                                                                      // first one ends
   const auto beside = [&](double range_m, double angle_rad) {
-    return grid.so_steps(grid.window().cell_at(0.1 + range_m * std::cos(angle_rad), 0.1 + range_m * std::sin(angle_rad)));
+    return grid.so_steps(grid.window().cell_at(0.1 + range_m * std::cos(angle_rad),
+                                               0.1 + range_m * std::sin(angle_rad)));
   };
   EXPECT_EQ(beside(8.0, -0.012), -kFree);
   EXPECT_EQ(beside(14.0, -0.012), 0);
@@ -172,7 +194,9 @@ TEST(EvidenceGrid, SaysNothingBetweenBeamsThatAreFarApart) {
   const EvidenceGrid grid = grid_after_two_beams(18.0, 18.0, 0.09);
   EXPECT_EQ(free_at(grid, 5.0), -kFree);
   EXPECT_EQ(free_at(grid, 15.0), 0);  // 1.35 m between them: room for a post
-  EXPECT_EQ(grid.so_steps(grid.window().cell_at(0.1 + 15.0 * std::cos(0.045), 0.1 + 15.0 * std::sin(0.045))), -kFree);  // on the beam itself
+  EXPECT_EQ(grid.so_steps(
+                grid.window().cell_at(0.1 + 15.0 * std::cos(0.045), 0.1 + 15.0 * std::sin(0.045))),
+            -kFree);  // on the beam itself
 }
 
 TEST(EvidenceGrid, ChangesACellOnceAScanHoweverManyBeamsMeetThere) {
@@ -221,7 +245,8 @@ TEST(EvidenceGrid, GathersMovingEvidenceWithoutOccupyingTheCell) {
 }
 
 TEST(EvidenceGrid, SeesNoDifferenceBetweenTheFirstScanAndTheThreeHundredth) {
-  // The mark of a scan is one byte: cells last seen 255 scans ago must not look as if they had been seen in this one.
+  // The mark of a scan is one byte: cells last seen 255 scans ago must not look as if they had been
+  // seen in this one.
   for (const int scans_between : {253, 254, 255, 256, 510}) {
     EvidenceGrid grid = empty_grid();
     const std::vector<Ray> east = {{{5.1, 0.1}, Echo::kStationary}};
@@ -250,7 +275,8 @@ TEST(EvidenceGrid, HoldsTheSameWhetherAScanWasPreparedOrNotAndWhateverMoved) {
     std::vector<Ray> rays = rays_in_a_room(origin_m, kBeams);
     prepared.prepare(origin_m, rays, step_rad);
     for (std::size_t i = 0; i < rays.size(); i += 5) {
-      if (rays[i].echo != Echo::kNone) rays[i].echo = rays[i].echo == Echo::kMoving ? Echo::kStationary : Echo::kMoving;
+      if (rays[i].echo != Echo::kNone)
+        rays[i].echo = rays[i].echo == Echo::kMoving ? Echo::kStationary : Echo::kMoving;
     }
     prepared.integrate(origin_m, rays, step_rad);
     at_once.integrate(origin_m, rays, step_rad);
@@ -327,14 +353,20 @@ TEST(EvidenceGrid, TakesFromWhatIsOccupiedUnderABoxAsMuchAsABeamThatPasses) {
   grid.drive_over(box);
   int changed = 0;
   for_each_cell(grid.window(), [&](Cell cell) {
-    const Vector2d from_centre_m = Eigen::Rotation2Dd(-kHeadingRad) * (grid.window().centre_of(cell) - box.centre_m);
-    const bool is_inside = std::abs(from_centre_m.x()) <= box.half_m.x() && std::abs(from_centre_m.y()) <= box.half_m.y();
+    const Vector2d from_centre_m =
+        Eigen::Rotation2Dd(-kHeadingRad) * (grid.window().centre_of(cell) - box.centre_m);
+    const bool is_inside = std::abs(from_centre_m.x()) <= box.half_m.x() &&
+                           std::abs(from_centre_m.y()) <= box.half_m.y();
     const bool is_taken_from = is_inside && before.so_steps(cell) > 0;
-    ASSERT_EQ(grid.so_steps(cell), before.so_steps(cell) - (is_taken_from ? kFree : 0)) << cell.column << " " << cell.row;
+    ASSERT_EQ(grid.so_steps(cell), before.so_steps(cell) - (is_taken_from ? kFree : 0))
+        << cell.column << " " << cell.row;
     changed += is_taken_from ? 1 : 0;
   });
   EXPECT_GT(changed, 20);
-  for (const Box& elsewhere : {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}}, Box{{1e300, -1e300}, {1.0, 0.0}, {2.0, 1.0}}}) grid.drive_over(elsewhere);
+  for (const Box& elsewhere :
+       {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}},
+        Box{{1e300, -1e300}, {1.0, 0.0}, {2.0, 1.0}}})
+    grid.drive_over(elsewhere);
   grid.drive_over({{9.9, 9.9}, {0.6, 0.8}, {30.0, 0.1}});  // partly outside
   const int before_all = grid.so_steps({0, 0});
   grid.drive_over({{0.0, 0.0}, {1.0, 0.0}, {1e300, 1e300}});
@@ -342,21 +374,29 @@ TEST(EvidenceGrid, TakesFromWhatIsOccupiedUnderABoxAsMuchAsABeamThatPasses) {
 }
 
 /// Beams to the east, side by side, that end at these ranges.
-EvidenceGrid grid_after_a_fan(const std::vector<double>& ranges_m, double beam_step_rad, Echo outer_echo = Echo::kStationary) {
+EvidenceGrid grid_after_a_fan(const std::vector<double>& ranges_m, double beam_step_rad,
+                              Echo outer_echo = Echo::kStationary) {
   EvidenceGrid grid = empty_grid(160.0);
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    const double angle_rad = beam_step_rad * (static_cast<double>(i) - 0.5 * static_cast<double>(ranges_m.size() - 1));
+    const double angle_rad =
+        beam_step_rad * (static_cast<double>(i) - 0.5 * static_cast<double>(ranges_m.size() - 1));
     const bool is_outer = i == 0 || i + 1 == ranges_m.size();
-    rays.push_back({Vector2d(0.1, 0.1) + ranges_m[i] * Vector2d(std::cos(angle_rad), std::sin(angle_rad)), is_outer ? outer_echo : Echo::kStationary});
+    rays.push_back(
+        {Vector2d(0.1, 0.1) + ranges_m[i] * Vector2d(std::cos(angle_rad), std::sin(angle_rad)),
+         is_outer ? outer_echo : Echo::kStationary});
   }
   grid.integrate({0.1, 0.1}, rays, beam_step_rad);
   return grid;
 }
 
-int lasting_steps(const EvidenceGrid& grid, const Vector2d& at_m) { return grid.lasting_cells()[grid.window().index(grid.window().cell_at(at_m.x(), at_m.y()))]; }
+int lasting_steps(const EvidenceGrid& grid, const Vector2d& at_m) {
+  return grid.lasting_cells()[grid.window().index(grid.window().cell_at(at_m.x(), at_m.y()))];
+}
 
-int so_steps(const EvidenceGrid& grid, const Vector2d& at_m) { return grid.so_steps(grid.window().cell_at(at_m.x(), at_m.y())); }
+int so_steps(const EvidenceGrid& grid, const Vector2d& at_m) {
+  return grid.so_steps(grid.window().cell_at(at_m.x(), at_m.y()));
+}
 
 TEST(EvidenceGridThatLasts, IsFreeAsFarAsTheBeamsBesideGo) {
   const EvidenceGrid grid = grid_after_a_fan({12.0, 30.0, 30.0}, 0.01);
@@ -368,7 +408,8 @@ TEST(EvidenceGridThatLasts, IsFreeAsFarAsTheBeamsBesideGo) {
 
 TEST(EvidenceGridThatLasts, IsFreeBesideABeamThatNothingEnded) {
   EXPECT_LT(lasting_steps(grid_after_a_fan({12.0, 30.0, 12.0}, 0.01, Echo::kNone), {15.1, 0.1}), 0);
-  EXPECT_EQ(lasting_steps(grid_after_a_fan({12.0, 30.0, 12.0}, 0.01, Echo::kTooFar), {15.1, 0.1}), 0);
+  EXPECT_EQ(lasting_steps(grid_after_a_fan({12.0, 30.0, 12.0}, 0.01, Echo::kTooFar), {15.1, 0.1}),
+            0);
 }
 
 TEST(EvidenceGridThatLasts, IsFreeBetweenBeamsThatAreFarApart) {
@@ -379,7 +420,8 @@ TEST(EvidenceGridThatLasts, IsFreeBetweenBeamsThatAreFarApart) {
 
 TEST(EvidenceGridThatLasts, SaysNothingOfTheLastBeamsToEitherSide) {
   const EvidenceGrid grid = grid_after_a_fan({30.0, 30.0}, 0.01);
-  EXPECT_TRUE(std::ranges::none_of(grid.lasting_cells(), [](std::int8_t steps) { return steps < 0; }));
+  EXPECT_TRUE(
+      std::ranges::none_of(grid.lasting_cells(), [](std::int8_t steps) { return steps < 0; }));
 }
 
 TEST(EvidenceGridThatLasts, TakesBackOnlyWhatWasKeptOutOfIt) {
@@ -419,7 +461,8 @@ TEST(EvidenceGrid, MovedToAnotherWindowGoesOnAsIfItHadAlwaysBeenThere) {
   const GridWindow next_window = window_around({3.0, -2.0}, 24.0, kCell_m);
   for (const int scans_before : {1, 2, 7, 254, 255, 256}) {
     EvidenceGrid moved_last = empty_grid(40.0);
-    for (int i = 0; i < scans_before; ++i) moved_last.integrate({0.1, 0.1}, rays_in_a_room({0.1, 0.1}, 31 + i % 3), 0.0);
+    for (int i = 0; i < scans_before; ++i)
+      moved_last.integrate({0.1, 0.1}, rays_in_a_room({0.1, 0.1}, 31 + i % 3), 0.0);
     EvidenceGrid moved_first = moved_last.moved_to(next_window);
     for (int i = 0; i < 5; ++i) {
       const Vector2d origin_m(0.4 + 0.1 * i, -0.3);
@@ -428,7 +471,8 @@ TEST(EvidenceGrid, MovedToAnotherWindowGoesOnAsIfItHadAlwaysBeenThere) {
     }
     EXPECT_EQ(moved_first.so_cells(), moved_last.moved_to(next_window).so_cells()) << scans_before;
     EXPECT_EQ(moved_first.mo_cells(), moved_last.moved_to(next_window).mo_cells()) << scans_before;
-    EXPECT_EQ(moved_first.lasting_cells(), moved_last.moved_to(next_window).lasting_cells()) << scans_before;
+    EXPECT_EQ(moved_first.lasting_cells(), moved_last.moved_to(next_window).lasting_cells())
+        << scans_before;
   }
 }
 
@@ -441,7 +485,8 @@ TEST(EvidenceGrid, IsWhatItsCellsAre) {
   EXPECT_EQ(copy.lasting_cells(), grid.lasting_cells());
   for (int i = 0; i < 360; ++i) {
     const Vector2d direction(std::cos(i), std::sin(i));
-    EXPECT_EQ(copy.distance_to_occupied({0.4, 0.3}, direction, 30.0), grid.distance_to_occupied({0.4, 0.3}, direction, 30.0));
+    EXPECT_EQ(copy.distance_to_occupied({0.4, 0.3}, direction, 30.0),
+              grid.distance_to_occupied({0.4, 0.3}, direction, 30.0));
   }
 }
 
@@ -456,7 +501,8 @@ TEST(HighestSoSteps, LooksAtTheWholeSquare) {
 }
 
 /// The nearest occupied cell on the ray, found by cutting the ray with every occupied cell.
-double slow_distance_m(const EvidenceGrid& grid, const Vector2d& origin_m, const Vector2d& direction, double max_range_m) {
+double slow_distance_m(const EvidenceGrid& grid, const Vector2d& origin_m,
+                       const Vector2d& direction, double max_range_m) {
   double nearest_m = max_range_m;
   for_each_cell(grid.window(), [&](Cell cell) {
     if (!grid.is_occupied_near(cell, 0)) return;
@@ -472,13 +518,15 @@ TEST(DistanceToOccupied, IsWhatASlowRayCasterMeasures) {
   std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi);
   EvidenceGrid grid = empty_grid();
   for (int i = 0; i < 150; ++i) grid.restore_stationary({place(random), place(random)});
-  grid.integrate({0.0, 0.0}, rays_in_a_room({0.0, 0.0}, 60), 0.0);  // and some of it seen to be free again
+  grid.integrate({0.0, 0.0}, rays_in_a_room({0.0, 0.0}, 60), 0.0);  // and some of it seen to be
+                                                                    // free again
   for (int i = 0; i < 2000; ++i) {
     const Vector2d origin_m(place(random), place(random));
     const double angle_rad = angle(random);
     const Vector2d direction(std::cos(angle_rad), std::sin(angle_rad));
     const double max_range_m = 2.0 + std::abs(place(random));
-    ASSERT_NEAR(grid.distance_to_occupied(origin_m, direction, max_range_m), slow_distance_m(grid, origin_m, direction, max_range_m), 2e-5);
+    ASSERT_NEAR(grid.distance_to_occupied(origin_m, direction, max_range_m),
+                slow_distance_m(grid, origin_m, direction, max_range_m), 2e-5);
   }
 }
 
@@ -495,14 +543,17 @@ TEST(DistanceToOccupied, FindsTheFewThingsOfAWideMapFromEverywhere) {
   }
   for (int i = 0; i < 5000; ++i) {
     const Vector2d origin_m(place(random), place(random));
-    const double angle_rad = i % 4 == 0 ? 0.5 * std::numbers::pi * (i % 16 / 4) + 1e-3 * angle(random) : angle(random);  // also nearly along an axis
+    const double angle_rad = i % 4 == 0
+                                 ? 0.5 * std::numbers::pi * (i % 16 / 4) + 1e-3 * angle(random)
+                                 : angle(random);  // also nearly along an axis
     const Vector2d direction(std::cos(angle_rad), std::sin(angle_rad));
     double nearest_m = 300.0;
     for (const Cell cell : occupied) {
       const auto passage = passage_through(cell, kCell_m, origin_m, direction);
       if (passage && passage->length_m() > 1e-5) nearest_m = std::min(nearest_m, passage->in_m);
     }
-    ASSERT_NEAR(grid.distance_to_occupied(origin_m, direction, 300.0), nearest_m, 2e-5) << origin_m.transpose() << " " << angle_rad;
+    ASSERT_NEAR(grid.distance_to_occupied(origin_m, direction, 300.0), nearest_m, 2e-5)
+        << origin_m.transpose() << " " << angle_rad;
   }
 }
 
@@ -520,7 +571,8 @@ TEST(DistanceToOccupied, IsNothingInsideAnOccupiedCell) {
 
 TEST(DistanceToOccupied, WorksOnAxisParallelRays) {
   EvidenceGrid grid = empty_grid();
-  for (const Vector2d& wall_m : {Vector2d(5.1, 0.1), {-5.1, 0.1}, {0.1, 5.1}, {0.1, -5.1}}) grid.restore_stationary(wall_m);
+  for (const Vector2d& wall_m : {Vector2d(5.1, 0.1), {-5.1, 0.1}, {0.1, 5.1}, {0.1, -5.1}})
+    grid.restore_stationary(wall_m);
   EXPECT_NEAR(grid.distance_to_occupied({0.1, 0.1}, {1.0, 0.0}, 10.0), 4.9, 1e-5);
   EXPECT_NEAR(grid.distance_to_occupied({0.1, 0.1}, {-1.0, 0.0}, 10.0), 5.1, 1e-5);
   EXPECT_NEAR(grid.distance_to_occupied({0.1, 0.1}, {0.0, 1.0}, 10.0), 4.9, 1e-5);

@@ -16,7 +16,9 @@ TEST(GridWindow, PutsEachPointIntoTheCellWhoseLowerCornerIsNotAboveIt) {
 }
 
 TEST(WholeBelow, RoundsDownAsFloorDoes) {
-  for (const double place : {0.0, -0.0, 0.5, 1.0, -0.5, -1.0, -1.0000000000000002, 41.999999999999993, -7e8, 2147483646.5, -2147483647.5, -2147483648.0}) {
+  for (const double place :
+       {0.0, -0.0, 0.5, 1.0, -0.5, -1.0, -1.0000000000000002, 41.999999999999993, -7e8,
+        2147483646.5, -2147483647.5, -2147483648.0}) {
     EXPECT_EQ(whole_below(place), static_cast<std::int32_t>(std::floor(place))) << place;
   }
 }
@@ -43,7 +45,8 @@ TEST(GridWindow, GivesEachOfItsCellsAPlaceOfItsOwnRowByRow) {
 
 TEST(GridWindow, DoesNotContainItsNeighbours) {
   const GridWindow window{.cell_size_m = 0.2, .first = {-3, 5}, .columns = 4, .rows = 3};
-  for (const Cell& cell : {Cell{-4, 5}, Cell{1, 5}, Cell{-3, 4}, Cell{-3, 8}}) EXPECT_FALSE(window.contains(cell));
+  for (const Cell& cell : {Cell{-4, 5}, Cell{1, 5}, Cell{-3, 4}, Cell{-3, 8}})
+    EXPECT_FALSE(window.contains(cell));
 }
 
 TEST(GridWindow, ContainsNothingAtTheEndsOfTheLattice) {
@@ -81,7 +84,8 @@ TEST(Intersection, HoldsExactlyTheCellsOfBoth) {
 }
 
 TEST(Intersection, OfWindowsFarApartHasNoCells) {
-  const GridWindow shared = intersection(window_around({0.0, 0.0}, 10.0, 0.25), window_around({100.0, 0.0}, 10.0, 0.25));
+  const GridWindow shared =
+      intersection(window_around({0.0, 0.0}, 10.0, 0.25), window_around({100.0, 0.0}, 10.0, 0.25));
   EXPECT_EQ(shared.cell_count(), 0U);
 }
 

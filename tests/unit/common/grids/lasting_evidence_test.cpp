@@ -16,7 +16,9 @@ const Box kBody{{0.0, 0.0}, {1.0, 0.0}, {2.1, 0.9}};
 
 class Lasting : public ::testing::Test {
  protected:
-  int steps_at(const Eigen::Vector2d& at_m) const { return evidence_.cells()[window_.index(cell_at(at_m))]; }
+  int steps_at(const Eigen::Vector2d& at_m) const {
+    return evidence_.cells()[window_.index(cell_at(at_m))];
+  }
   Cell cell_at(const Eigen::Vector2d& at_m) const { return window_.cell_at(at_m.x(), at_m.y()); }
   void hit(const Eigen::Vector2d& at_m, int scans) {
     for (int i = 0; i < scans; ++i) evidence_.hit(cell_at(at_m));
@@ -82,14 +84,16 @@ TEST_F(Lasting, BelievesNoFewScansOfABody) {
 TEST_F(Lasting, TakesFromTheSidesOfABodyWhatIsOccupiedThereAndNoMore) {
   hit({2.05, 0.1}, 3);
   drive_over(30);
-  EXPECT_EQ(steps_at({2.05, 0.1}), 0);   // of its front
-  EXPECT_EQ(steps_at({0.1, 0.85}), 0);   // beside which something may stand
+  EXPECT_EQ(steps_at({2.05, 0.1}), 0);  // of its front
+  EXPECT_EQ(steps_at({0.1, 0.85}), 0);  // beside which something may stand
   EXPECT_EQ(steps_at({2.5, 0.1}), 0);
   EXPECT_LT(steps_at({1.5, 0.1}), -kLimit);
 }
 
 TEST_F(Lasting, KnowsNoBodiesElsewhere) {
-  for (const Box& elsewhere : {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}}}) evidence_.drive_over(elsewhere);
+  for (const Box& elsewhere :
+       {Box{{1e6, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, Box{{0.0, -1e6}, {0.0, 1.0}, {2.0, 1.0}}})
+    evidence_.drive_over(elsewhere);
   EXPECT_TRUE(std::ranges::all_of(evidence_.cells(), [](std::int8_t steps) { return steps == 0; }));
   evidence_.drive_over({{9.9, 9.9}, {0.6, 0.8}, {3.0, 1.0}});  // partly outside
   EXPECT_EQ(steps_at({9.9, 9.9}), -kFree);

@@ -28,7 +28,8 @@ std::vector<Ray2> random_rays() {
     const double angle_rad = angle(random);
     rays.push_back({{place(random), place(random)}, {std::cos(angle_rad), std::sin(angle_rad)}});
   }
-  for (const Eigen::Vector2d& along : {Eigen::Vector2d(1, 0), {-1, 0}, {0, 1}, {0, -1}}) rays.push_back({{0.33, -0.71}, along});
+  for (const Eigen::Vector2d& along : {Eigen::Vector2d(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+    rays.push_back({{0.33, -0.71}, along});
   return rays;
 }
 
@@ -39,7 +40,8 @@ struct Step {
 
 std::vector<Step> walked(const Ray2& ray, double length_m) {
   std::vector<Step> steps;
-  for (RayWalk walk(ray.origin_m, ray.direction, kCell_m); walk.distance_m() < length_m; walk.advance()) {
+  for (RayWalk walk(ray.origin_m, ray.direction, kCell_m); walk.distance_m() < length_m;
+       walk.advance()) {
     steps.push_back({walk.cell(), walk.distance_m()});
   }
   return steps;
@@ -48,7 +50,8 @@ std::vector<Step> walked(const Ray2& ray, double length_m) {
 TEST(RayWalk, BeginsWhereTheRayBegins) {
   for (const Ray2& ray : random_rays()) {
     const RayWalk walk(ray.origin_m, ray.direction, kCell_m);
-    EXPECT_EQ(walk.cell(), (GridWindow{.cell_size_m = kCell_m}.cell_at(ray.origin_m.x(), ray.origin_m.y())));
+    EXPECT_EQ(walk.cell(),
+              (GridWindow{.cell_size_m = kCell_m}.cell_at(ray.origin_m.x(), ray.origin_m.y())));
     EXPECT_EQ(walk.distance_m(), 0.0);
   }
 }
@@ -57,7 +60,9 @@ TEST(RayWalk, MovesToANeighbourByOneSideAtEveryStep) {
   for (const Ray2& ray : random_rays()) {
     const auto steps = walked(ray, 10.0);
     for (std::size_t i = 1; i < steps.size(); ++i) {
-      ASSERT_EQ(std::abs(steps[i].cell.column - steps[i - 1].cell.column) + std::abs(steps[i].cell.row - steps[i - 1].cell.row), 1);
+      ASSERT_EQ(std::abs(steps[i].cell.column - steps[i - 1].cell.column) +
+                    std::abs(steps[i].cell.row - steps[i - 1].cell.row),
+                1);
       ASSERT_GE(steps[i].entered_m, steps[i - 1].entered_m);
     }
   }
@@ -84,9 +89,11 @@ TEST(RayWalk, MissesNoCellThatTheRayPasses) {
       for (std::int32_t column = 0; column < around.columns; ++column) {
         const Cell cell{around.first.column + column, around.first.row + row};
         const auto passage = passage_through(cell, kCell_m, ray.origin_m, ray.direction);
-        if (!passage || passage->in_m > kLength_m - kGraze_m || passage->length_m() < kGraze_m) continue;
+        if (!passage || passage->in_m > kLength_m - kGraze_m || passage->length_m() < kGraze_m)
+          continue;
         ++passed;
-        found += std::count_if(steps.begin(), steps.end(), [&](const Step& step) { return step.cell == cell; });
+        found += std::count_if(steps.begin(), steps.end(),
+                               [&](const Step& step) { return step.cell == cell; });
       }
     }
     ASSERT_GT(passed, 10U);

@@ -17,8 +17,10 @@ struct Passage {
   double length_m() const { return out_m - in_m; }
 };
 
-/// Cuts a ray with one cell's square, side by side; the oracle for everything that walks along rays.
-inline std::optional<Passage> passage_through(Cell cell, double cell_size_m, const Eigen::Vector2d& origin_m,
+/// Cuts a ray with one cell's square, side by side; the oracle for everything that walks along
+/// rays.
+inline std::optional<Passage> passage_through(Cell cell, double cell_size_m,
+                                              const Eigen::Vector2d& origin_m,
                                               const Eigen::Vector2d& direction) {
   Passage passage{0.0, std::numeric_limits<double>::infinity()};
   const Eigen::Vector2d low_m(cell.column * cell_size_m, cell.row * cell_size_m);

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 namespace slammot::grids {
 namespace {
@@ -23,7 +23,8 @@ SurfelMap empty_map(double side_m = 20.0, double weight_limit = kManyEchoes) {
 Vector2d unit(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
 /// A wall through a point, seen every 5 cm, with noise across it.
-SurfelMap map_of_wall(const Vector2d& through_m, double angle_rad, double noise_m, int passes = 10) {
+SurfelMap map_of_wall(const Vector2d& through_m, double angle_rad, double noise_m,
+                      int passes = 10) {
   SurfelMap map = empty_map();
   std::mt19937 random(4);
   std::normal_distribution<double> noise(0.0, noise_m);
@@ -47,7 +48,8 @@ std::vector<Vector2d> scattered_points(int count, unsigned seed) {
 TEST(SurfelMap, HoldsTheSameOfEchoesAddedTogetherAsOfEachByItself) {
   constexpr double kOdometer_m = 3.0;
   std::vector<Vector2d> points_m = scattered_points(200, 5);
-  for (double along_m = -12.0; along_m < 12.0; along_m += 0.04) points_m.push_back({along_m, 0.3 * along_m});  // beyond the window, too
+  for (double along_m = -12.0; along_m < 12.0; along_m += 0.04)
+    points_m.push_back({along_m, 0.3 * along_m});  // beyond the window, too
   SurfelMap together = empty_map(20.0, 4.0);
   SurfelMap one_by_one = empty_map(20.0, 4.0);
   together.add_all(points_m, kOdometer_m);
@@ -93,8 +95,11 @@ TEST(SurfelMap, FindsTheNearestLikeASearchThroughAll) {
     const auto nearest_within = [&](int radius) -> const SurfelView* {
       const SurfelView* nearest = nullptr;
       for (const SurfelView& one : all) {
-        if (std::max(std::abs(one.cell.column - centre.column), std::abs(one.cell.row - centre.row)) > radius) continue;
-        if (!nearest || (one.mean_m - point_m).norm() < (nearest->mean_m - point_m).norm()) nearest = &one;
+        if (std::max(std::abs(one.cell.column - centre.column),
+                     std::abs(one.cell.row - centre.row)) > radius)
+          continue;
+        if (!nearest || (one.mean_m - point_m).norm() < (nearest->mean_m - point_m).norm())
+          nearest = &one;
       }
       return nearest;
     };
@@ -116,25 +121,30 @@ TEST(SurfelMap, KnowsTheDirectionOfAWall) {
       const auto surfel = map.nearest(Vector2d(0.13, 0.07) + along_m * unit(angle_rad), 1);
       ASSERT_TRUE(surfel);
       EXPECT_NEAR(surfel->normal.norm(), 1.0, 1e-6);
-      EXPECT_LT(std::abs(surfel->normal.dot(unit(angle_rad))), std::sin(5.0 * std::numbers::pi / 180.0)) << degrees;
+      EXPECT_LT(std::abs(surfel->normal.dot(unit(angle_rad))),
+                std::sin(5.0 * std::numbers::pi / 180.0))
+          << degrees;
     }
   }
 }
 
 TEST(SurfelMap, KnowsTheDirectionAndTheSpreadOfAllEchoesAround) {
-  // One echo a cell, so that each counts the same: held against their covariance, computed from the echoes themselves.
+  // One echo a cell, so that each counts the same: held against their covariance, computed from the
+  // echoes themselves.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> anywhere(0.3, 0.7);
   SurfelMap map = empty_map();
   std::vector<Vector2d> echoes_m;
   for (const Cell cell : {Cell{-1, -1}, Cell{0, -1}, Cell{0, 0}, Cell{1, 0}, Cell{1, 1}}) {
-    echoes_m.push_back(kCell_m * Vector2d(cell.column + anywhere(random), cell.row + anywhere(random)));
+    echoes_m.push_back(kCell_m *
+                       Vector2d(cell.column + anywhere(random), cell.row + anywhere(random)));
   }
   map.add_all(echoes_m, 0.0);
   Vector2d mean_m = Vector2d::Zero();
   for (const Vector2d& echo_m : echoes_m) mean_m += echo_m / 5.0;
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
-  for (const Vector2d& echo_m : echoes_m) covariance_m2 += (echo_m - mean_m) * (echo_m - mean_m).transpose() / 5.0;
+  for (const Vector2d& echo_m : echoes_m)
+    covariance_m2 += (echo_m - mean_m) * (echo_m - mean_m).transpose() / 5.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_m2);
   const auto surfel = map.nearest(echoes_m[2], 1);
   ASSERT_TRUE(surfel);
@@ -148,7 +158,8 @@ TEST(SurfelMap, KnowsHowThickAWallLooks) {
   const SurfelMap map = map_of_wall({0.0, 0.125}, 0.0, noise_m, 100);
   double sum_m2 = 0.0;
   int count = 0;
-  for (double along_m = -4.0; along_m < 4.0; along_m += 0.25, ++count) sum_m2 += map.nearest({along_m, 0.125}, 1)->spread_m2;
+  for (double along_m = -4.0; along_m < 4.0; along_m += 0.25, ++count)
+    sum_m2 += map.nearest({along_m, 0.125}, 1)->spread_m2;
   // Seldom seen cells beside the wall count for more than their echoes, so a little thicker.
   EXPECT_NEAR(std::sqrt(sum_m2 / count), 1.1 * noise_m, 0.1 * noise_m);
 }
@@ -252,7 +263,8 @@ TEST(SurfelMap, MovedToAnotherWindowKeepsWhatLiesInBoth) {
 TEST(SurfelMap, IsWhatItsMomentsAre) {
   SurfelMap map = map_of_wall({0.1, 0.2}, 0.5, 0.03);
   SurfelMap copy = empty_map();
-  for (const SurfelView& surfel : map.all()) copy.set_moments(surfel.cell, *map.moments_at(surfel.cell));
+  for (const SurfelView& surfel : map.all())
+    copy.set_moments(surfel.cell, *map.moments_at(surfel.cell));
   const auto expected = map.all();
   const auto copied = copy.all();
   ASSERT_EQ(copied.size(), expected.size());

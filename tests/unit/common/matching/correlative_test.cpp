@@ -30,26 +30,33 @@ std::vector<Vector2> joined(const std::vector<std::vector<Vector2>>& parts) {
 
 /// A room of 12 x 8 m with a recess and a pillar: looks like itself from one pose only.
 std::vector<Vector2> room() {
-  return joined({wall({-6, -4}, {6, -4}), wall({6, -4}, {6, 4}), wall({6, 4}, {2, 4}), wall({2, 4}, {2, 5.5}),
-                 wall({2, 5.5}, {-1, 5.5}), wall({-1, 5.5}, {-1, 4}), wall({-1, 4}, {-6, 4}), wall({-6, 4}, {-6, -4}),
-                 wall({3, -1}, {3.6, -1}), wall({3.6, -1}, {3.6, -1.6})});
+  return joined({wall({-6, -4}, {6, -4}), wall({6, -4}, {6, 4}), wall({6, 4}, {2, 4}),
+                 wall({2, 4}, {2, 5.5}), wall({2, 5.5}, {-1, 5.5}), wall({-1, 5.5}, {-1, 4}),
+                 wall({-1, 4}, {-6, 4}), wall({-6, 4}, {-6, -4}), wall({3, -1}, {3.6, -1}),
+                 wall({3.6, -1}, {3.6, -1.6})});
 }
 
 std::vector<TargetPoint> as_target(const std::vector<Vector2>& points) {
   std::vector<TargetPoint> target;
-  for (const Vector2& p : points) target.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), 1.0F});
+  for (const Vector2& p : points)
+    target.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), 1.0F});
   return target;
 }
 
-std::vector<Eigen::Vector2f> seen_from(const std::vector<Vector2>& points_in_target, const Pose2& target_from_source) {
+std::vector<Eigen::Vector2f> seen_from(const std::vector<Vector2>& points_in_target,
+                                       const Pose2& target_from_source) {
   std::vector<Eigen::Vector2f> points;
   const Pose2 source_from_target = inverse(target_from_source);
-  for (const Vector2& point : points_in_target) points.push_back((source_from_target * point).cast<float>());
+  for (const Vector2& point : points_in_target)
+    points.push_back((source_from_target * point).cast<float>());
   return points;
 }
 
 TargetRegion region_of(double half_m, double largest_shift_m) {
-  return {.centre_m = Vector2::Zero(), .half_width_m = half_m, .half_height_m = half_m, .largest_shift_m = largest_shift_m};
+  return {.centre_m = Vector2::Zero(),
+          .half_width_m = half_m,
+          .half_height_m = half_m,
+          .largest_shift_m = largest_shift_m};
 }
 
 /// Every pose of the window one after the other: the oracle of the branch and bound.
@@ -58,14 +65,16 @@ double best_score_by_brute_force(const CorrelativeMatcher& matcher, const Correl
                                  const SearchWindow& window) {
   const int columns = static_cast<int>(std::ceil(window.half_x_m / config.resolution_m - 1e-9));
   const int rows = static_cast<int>(std::ceil(window.half_y_m / config.resolution_m - 1e-9));
-  const int turns = static_cast<int>(std::ceil(window.half_heading_rad / config.heading_step_rad - 1e-9));
+  const int turns =
+      static_cast<int>(std::ceil(window.half_heading_rad / config.heading_step_rad - 1e-9));
   double best = 0.0;
   for (int turn = -turns; turn <= turns; ++turn) {
     for (int row = -rows; row <= rows; ++row) {
       for (int column = -columns; column <= columns; ++column) {
-        best = std::max(best, matcher.score(points, {initial.x_m + config.resolution_m * column,
-                                                     initial.y_m + config.resolution_m * row,
-                                                     initial.heading_rad + config.heading_step_rad * turn}));
+        best = std::max(
+            best, matcher.score(points, {initial.x_m + config.resolution_m * column,
+                                         initial.y_m + config.resolution_m * row,
+                                         initial.heading_rad + config.heading_step_rad * turn}));
       }
     }
   }
@@ -76,7 +85,8 @@ TEST(CorrelativeMatcher, FindsAPoseFarFromTheInitialOne) {
   CorrelativeMatcher matcher({});
   matcher.set_target(as_target(room()), region_of(12.0, 4.0));
   const Pose2 truth{1.3, -0.7, 0.9};
-  const auto peaks = matcher.search(seen_from(room(), truth), {-1.0, 1.0, 0.0}, {4.0, 4.0, std::numbers::pi});
+  const auto peaks =
+      matcher.search(seen_from(room(), truth), {-1.0, 1.0, 0.0}, {4.0, 4.0, std::numbers::pi});
   ASSERT_EQ(peaks.size(), 1U);
   EXPECT_THAT(peaks.front().target_from_source.pose, PoseNear(truth, 0.1));
   EXPECT_GT(peaks.front().score, 0.8);
@@ -93,15 +103,19 @@ TEST(CorrelativeMatcher, AgreesWithBruteForceOnRandomScenes) {
   for (int scene = 0; scene < 20; ++scene) {
     std::vector<Vector2> points;
     for (int i = 0; i < 60; ++i) points.emplace_back(place(random), place(random));
-    matcher.set_target(as_target(points), region_of(4.0, 1.3));  // smaller than the scene: its border is crossed
+    matcher.set_target(as_target(points), region_of(4.0, 1.3));  // smaller than the scene: its
+                                                                 // border is crossed
     const Pose2 truth{unit(random), unit(random), 0.3 * unit(random)};
-    const Pose2 initial{truth.x_m + 0.8 * unit(random), truth.y_m + 0.8 * unit(random), truth.heading_rad + 0.1 * unit(random)};
+    const Pose2 initial{truth.x_m + 0.8 * unit(random), truth.y_m + 0.8 * unit(random),
+                        truth.heading_rad + 0.1 * unit(random)};
     const SearchWindow window{1.3, 0.9, 0.2};
     const auto source = seen_from(points, truth);
     const auto peaks = matcher.search(source, initial, window);
     ASSERT_EQ(peaks.size(), 1U);
-    EXPECT_DOUBLE_EQ(peaks.front().score, best_score_by_brute_force(matcher, config, source, initial, window));
-    EXPECT_DOUBLE_EQ(peaks.front().score, matcher.score(source, peaks.front().target_from_source.pose));
+    EXPECT_DOUBLE_EQ(peaks.front().score,
+                     best_score_by_brute_force(matcher, config, source, initial, window));
+    EXPECT_DOUBLE_EQ(peaks.front().score,
+                     matcher.score(source, peaks.front().target_from_source.pose));
   }
 }
 
@@ -132,11 +146,13 @@ TEST(CorrelativeMatcher, GivesTheSameAnswerEveryTimeItIsAsked) {
   ASSERT_EQ(from_used.size(), from_fresh.size());
   EXPECT_EQ(from_used.front().target_from_source.pose, from_fresh.front().target_from_source.pose);
   EXPECT_EQ(from_used.front().score, from_fresh.front().score);
-  EXPECT_EQ(from_used.front().target_from_source.covariance, from_fresh.front().target_from_source.covariance);
+  EXPECT_EQ(from_used.front().target_from_source.covariance,
+            from_fresh.front().target_from_source.covariance);
 }
 
 TEST(CorrelativeMatcher, ReportsBothPosesOfAPlaceThatLooksTheSameTurnedRound) {
-  const auto rectangle = joined({wall({-6, -4}, {6, -4}), wall({6, -4}, {6, 4}), wall({6, 4}, {-6, 4}), wall({-6, 4}, {-6, -4})});
+  const auto rectangle = joined({wall({-6, -4}, {6, -4}), wall({6, -4}, {6, 4}),
+                                 wall({6, 4}, {-6, 4}), wall({-6, 4}, {-6, -4})});
   CorrelativeConfig config;
   config.max_peaks = 5;
   config.min_peak_ratio = 0.9;
@@ -144,7 +160,8 @@ TEST(CorrelativeMatcher, ReportsBothPosesOfAPlaceThatLooksTheSameTurnedRound) {
   matcher.set_target(as_target(rectangle), region_of(10.0, 1.0));
   const auto peaks = matcher.search(seen_from(rectangle, {}), {}, {1.0, 1.0, std::numbers::pi});
   ASSERT_GE(peaks.size(), 2U);
-  const double turned = geometry::wrap_angle(peaks[0].target_from_source.pose.heading_rad - peaks[1].target_from_source.pose.heading_rad);
+  const double turned = geometry::wrap_angle(peaks[0].target_from_source.pose.heading_rad -
+                                             peaks[1].target_from_source.pose.heading_rad);
   EXPECT_NEAR(std::abs(turned), std::numbers::pi, 0.03);
   EXPECT_NEAR(peaks[0].score, peaks[1].score, 0.05);
 }

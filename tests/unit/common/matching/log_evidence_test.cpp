@@ -21,7 +21,8 @@ using testing::PoseNear;
 
 constexpr std::size_t kBeams = 181;
 
-/// Range from (x, y) along a direction to the walls of a room with a niche, so that no two corners look alike.
+/// Range from (x, y) along a direction to the walls of a room with a niche, so that no two corners
+/// look alike.
 double range_m(double x_m, double y_m, double direction_rad) {
   const double dx = std::cos(direction_rad);
   const double dy = std::sin(direction_rad);
@@ -29,7 +30,9 @@ double range_m(double x_m, double y_m, double direction_rad) {
     const double px = x_m + range * dx;
     const double py = y_m + range * dy;
     const bool is_in_niche = px > 6.0 && px < 8.5 && py < 7.0;
-    if (px < -4.0 || px > 12.0 || py < -5.0 || (py > 4.0 && !is_in_niche) || py > 7.0 || std::hypot(px - 9.0, py + 2.0) < 0.6) return range;
+    if (px < -4.0 || px > 12.0 || py < -5.0 || (py > 4.0 && !is_in_niche) || py > 7.0 ||
+        std::hypot(px - 9.0, py + 2.0) < 0.6)
+      return range;
   }
   return 40.0;
 }
@@ -37,7 +40,8 @@ double range_m(double x_m, double y_m, double direction_rad) {
 std::vector<float> scan_at(const Pose2& pose, double field_rad) {
   std::vector<float> ranges;
   for (std::size_t i = 0; i < kBeams; ++i) {
-    const double angle = -0.5 * field_rad + field_rad * static_cast<double>(i) / static_cast<double>(kBeams - 1);
+    const double angle =
+        -0.5 * field_rad + field_rad * static_cast<double>(i) / static_cast<double>(kBeams - 1);
     ranges.push_back(static_cast<float>(range_m(pose.x_m, pose.y_m, pose.heading_rad + angle)));
   }
   return ranges;
@@ -73,10 +77,12 @@ LogEvidence evidence_of(const Recording& recording) {
     recording.scan(now.first);
     now.first_recorded = recording.pose(pose);
     check.add(now.first_recorded);
-    if (before) pairs.push_back({before->first, now.first, before->first_recorded, now.first_recorded});
+    if (before)
+      pairs.push_back({before->first, now.first, before->first_recorded, now.first_recorded});
     before = now;
   }
-  return weigh_log(pairs, {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0}, check, recording.range_unit_m);
+  return weigh_log(pairs, {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0}, check,
+                   recording.range_unit_m);
 }
 
 TEST(WeighLog, CorrectsNothingOfASoundLog) {
@@ -90,7 +96,8 @@ TEST(WeighLog, CorrectsNothingOfASoundLog) {
 TEST(WeighLog, FindsBeamsThatGoClockwise) {
   LogCorrection expected;
   expected.reverses_beams = true;
-  const LogEvidence evidence = evidence_of({.scan = [](std::vector<float>& ranges) { std::reverse(ranges.begin(), ranges.end()); }});
+  const LogEvidence evidence = evidence_of(
+      {.scan = [](std::vector<float>& ranges) { std::reverse(ranges.begin(), ranges.end()); }});
   EXPECT_EQ(evidence.correction, expected);
   EXPECT_TRUE(evidence.handedness_is_told);
 }
@@ -105,18 +112,21 @@ std::function<Pose2(const Pose2&)> redriven(const std::function<Pose2(const Pose
 }
 
 TEST(WeighLog, DoesNotTurnTheLaserWhereWaysGoInAllDirections) {
-  const auto evidence = evidence_of({.pose = redriven([count = 0](const Pose2& step) mutable {
-    const double aside_rad = 2.4 * count++;
-    const double way_m = step.translation_m().norm();
-    return Pose2{way_m * std::cos(aside_rad), way_m * std::sin(aside_rad), step.heading_rad};
-  })});
+  const auto evidence = evidence_of(
+      {.pose = redriven([count = 0](const Pose2& step) mutable {
+         const double aside_rad = 2.4 * count++;
+         const double way_m = step.translation_m().norm();
+         return Pose2{way_m * std::cos(aside_rad), way_m * std::sin(aside_rad), step.heading_rad};
+       })});
   EXPECT_GT(evidence.pairs, 20U);
   EXPECT_EQ(evidence.correction.laser_turn_rad, 0.0);
   EXPECT_EQ(evidence.correction.position_turn_rad, 0.0);
 }
 
 TEST(WeighLog, MirrorsOdometryThatTurnsAgainstItsOwnArcs) {
-  const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) { return Pose2{step.x_m, step.y_m, -step.heading_rad}; })});
+  const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) {
+                                              return Pose2{step.x_m, step.y_m, -step.heading_rad};
+                                            })});
   EXPECT_TRUE(evidence.correction.mirrors_position);
   EXPECT_TRUE(evidence.correction.mirrors_heading);
   EXPECT_FALSE(evidence.correction.reverses_beams);
@@ -124,7 +134,9 @@ TEST(WeighLog, MirrorsOdometryThatTurnsAgainstItsOwnArcs) {
 }
 
 TEST(WeighLog, LeavesBeamsWhereOdometryHidesTheArcsOfItsTurns) {
-  const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) { return Pose2{step.x_m, 0.0, -step.heading_rad}; })});
+  const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) {
+                                              return Pose2{step.x_m, 0.0, -step.heading_rad};
+                                            })});
   EXPECT_TRUE(evidence.correction.mirrors_position);
   EXPECT_TRUE(evidence.correction.mirrors_heading);
   EXPECT_FALSE(evidence.correction.reverses_beams);
@@ -132,26 +144,42 @@ TEST(WeighLog, LeavesBeamsWhereOdometryHidesTheArcsOfItsTurns) {
 }
 
 TEST(WeighLog, FindsHeadingsOfTheWrongSign) {
-  const LogCorrection correction = evidence_of({.pose = [](const Pose2& pose) { return Pose2{pose.x_m, pose.y_m, -pose.heading_rad}; }}).correction;
+  const LogCorrection correction = evidence_of({.pose = [](const Pose2& pose) {
+                                     return Pose2{pose.x_m, pose.y_m, -pose.heading_rad};
+                                   }}).correction;
   EXPECT_TRUE(correction.mirrors_heading);
   EXPECT_FALSE(correction.mirrors_position);
   EXPECT_FALSE(correction.reverses_beams);
 }
 
 TEST(WeighLog, FindsSwappedAxes) {
-  const LogCorrection correction = evidence_of({.pose = [](const Pose2& pose) { return Pose2{pose.y_m, pose.x_m, pose.heading_rad}; }}).correction;
+  const LogCorrection correction = evidence_of({.pose = [](const Pose2& pose) {
+                                     return Pose2{pose.y_m, pose.x_m, pose.heading_rad};
+                                   }}).correction;
   EXPECT_TRUE(correction.mirrors_position);
   EXPECT_FALSE(correction.mirrors_heading);
   const auto poses = drive();
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    const auto recorded = [&](std::size_t at) { return corrected(correction, {poses[at].y_m, poses[at].x_m, poses[at].heading_rad}); };
-    EXPECT_THAT(inverse(recorded(i - 1)) * recorded(i), PoseNear(inverse(poses[i - 1]) * poses[i], 0.02));
+    const auto recorded = [&](std::size_t at) {
+      return corrected(correction, {poses[at].y_m, poses[at].x_m, poses[at].heading_rad});
+    };
+    EXPECT_THAT(inverse(recorded(i - 1)) * recorded(i),
+                PoseNear(inverse(poses[i - 1]) * poses[i], 0.02));
   }
 }
 
 TEST(WeighLog, FindsUnits) {
-  EXPECT_EQ(evidence_of({.pose = [](const Pose2& pose) { return Pose2{1e3 * pose.x_m, 1e3 * pose.y_m, pose.heading_rad}; }}).correction.way_unit_m, 1e-3);
-  const auto in = [](float units) { return [=](std::vector<float>& ranges) { for (float& range : ranges) range *= units; }; };
+  EXPECT_EQ(evidence_of({.pose =
+                             [](const Pose2& pose) {
+                               return Pose2{1e3 * pose.x_m, 1e3 * pose.y_m, pose.heading_rad};
+                             }})
+                .correction.way_unit_m,
+            1e-3);
+  const auto in = [](float units) {
+    return [=](std::vector<float>& ranges) {
+      for (float& range : ranges) range *= units;
+    };
+  };
   EXPECT_EQ(evidence_of({.scan = in(1000.0F), .range_unit_m = 1e-3}).correction.range_unit_m, 1e-3);
   EXPECT_EQ(evidence_of({.scan = in(100.0F), .range_unit_m = 1e-3}).correction.range_unit_m, 1e-2);
   EXPECT_EQ(evidence_of({.scan = in(1000.0F), .range_unit_m = 1e-2}).correction.range_unit_m, 1e-3);
@@ -163,11 +191,14 @@ TEST(WeighLog, FindsTheFieldOfView) {
   EXPECT_FALSE(correction.reverses_beams);
 }
 
-TEST(WeighLog, FindsAScannerThatLooksBackwards) { EXPECT_NEAR(std::abs(evidence_of({.looks_rad = pi}).correction.laser_turn_rad), pi, 1e-9); }
+TEST(WeighLog, FindsAScannerThatLooksBackwards) {
+  EXPECT_NEAR(std::abs(evidence_of({.looks_rad = pi}).correction.laser_turn_rad), pi, 1e-9);
+}
 
 TEST(WeighLog, ConcludesNothingFromFewPairs) {
   const ScanPair pair{scan_at({}, pi), scan_at({0.2, 0.0, 0.1}, pi), {}, {0.2, 0.0, -0.1}};
-  EXPECT_EQ(weigh_log(std::vector<ScanPair>(3, pair), {-0.5 * pi, pi / 180.0}, {}, 1.0).correction, LogCorrection{});
+  EXPECT_EQ(weigh_log(std::vector<ScanPair>(3, pair), {-0.5 * pi, pi / 180.0}, {}, 1.0).correction,
+            LogCorrection{});
   EXPECT_EQ(weigh_log({}, {-0.5 * pi, pi / 180.0}, {}, 1.0).pairs, 0u);
 }
 
@@ -209,14 +240,17 @@ TEST(OdometryCheck, SeesHeadingsThatTurnAgainstTheirArcs) {
 }
 
 TEST(OdometryCheck, SeesArcsAlsoWherePositionsAreLate) {
-  const auto [sound, mirrored] = turning_by_steps({0.2, -0.2 * 0.1, 0.1});  // along the heading of one and a half steps ago
+  const auto [sound, mirrored] = turning_by_steps({0.2, -0.2 * 0.1, 0.1});  // along the heading of
+                                                                            // one and a half steps
+                                                                            // ago
   EXPECT_TRUE(sound.turns_with_its_arcs());
   EXPECT_FALSE(sound.turns_against_its_arcs());
   EXPECT_TRUE(mirrored.turns_against_its_arcs());
   EXPECT_FALSE(mirrored.turns_with_its_arcs());
 }
 
-/// Poses of a point of a car ahead of its rear axle, at changing speed, once with sound turns and once with the wrong sign.
+/// Poses of a point of a car ahead of its rear axle, at changing speed, once with sound turns and
+/// once with the wrong sign.
 struct CentresOfACar {
   explicit CentresOfACar(double unit = 1.0) {
     Pose2 pose;

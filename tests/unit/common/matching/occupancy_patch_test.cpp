@@ -13,30 +13,41 @@ using geometry::Vector2;
 
 constexpr double kCell_m = 0.1;
 
-UncertainPoint point_at(double x_m, double y_m, double sigma_m = 0.1) { return {{x_m, y_m}, sigma_m * sigma_m * Matrix2::Identity()}; }
+UncertainPoint point_at(double x_m, double y_m, double sigma_m = 0.1) {
+  return {{x_m, y_m}, sigma_m * sigma_m * Matrix2::Identity()};
+}
 
 TEST(OccupancyPatch, SpreadsAnEchoAsItsNoiseDoes) {
-  const std::vector<UncertainPoint> points = {{{0.05, 0.05}, Eigen::Vector2d(0.09, 0.01).asDiagonal()}};
+  const std::vector<UncertainPoint> points = {
+      {{0.05, 0.05}, Eigen::Vector2d(0.09, 0.01).asDiagonal()}};
   const OccupancyPatch patch(points, kCell_m);
   const double middle = patch.evidence_at({0.05, 0.05});
-  const double variance_x_m2 = 0.09 + kCell_m * kCell_m / 12.0, variance_y_m2 = 0.01 + kCell_m * kCell_m / 12.0;
-  EXPECT_NEAR(patch.evidence_at({0.35, 0.05}), middle * std::exp(-0.5 * 0.09 / variance_x_m2), 1e-5);
-  EXPECT_NEAR(patch.evidence_at({0.05, 0.25}), middle * std::exp(-0.5 * 0.04 / variance_y_m2), 1e-5);
+  const double variance_x_m2 = 0.09 + kCell_m * kCell_m / 12.0,
+               variance_y_m2 = 0.01 + kCell_m * kCell_m / 12.0;
+  EXPECT_NEAR(patch.evidence_at({0.35, 0.05}), middle * std::exp(-0.5 * 0.09 / variance_x_m2),
+              1e-5);
+  EXPECT_NEAR(patch.evidence_at({0.05, 0.25}), middle * std::exp(-0.5 * 0.04 / variance_y_m2),
+              1e-5);
   EXPECT_EQ(patch.evidence_at({5.0, 0.0}), 0.0);
 }
 
 TEST(OccupancyPatch, AddsTheLogOddsOfWhatSeveralEchoesSayOfOneCell) {
-  const auto log_odds = [](const OccupancyPatch& patch) { return 2.0 * std::atanh(patch.evidence_at({0.05, 0.05})); };
+  const auto log_odds = [](const OccupancyPatch& patch) {
+    return 2.0 * std::atanh(patch.evidence_at({0.05, 0.05}));
+  };
   const std::vector<UncertainPoint> one = {point_at(0.05, 0.05)};
   const std::vector<UncertainPoint> three(3, one.front());
-  EXPECT_NEAR(log_odds(OccupancyPatch(three, kCell_m)), 3.0 * log_odds(OccupancyPatch(one, kCell_m)), 1e-4);
+  EXPECT_NEAR(log_odds(OccupancyPatch(three, kCell_m)),
+              3.0 * log_odds(OccupancyPatch(one, kCell_m)), 1e-4);
 }
 
 TEST(OccupancyPatch, SaysMoreWhereTheMeasurementIsSurer) {
   const std::vector<UncertainPoint> sure = {point_at(0.05, 0.05, 0.05)};
   const std::vector<UncertainPoint> unsure = {point_at(0.05, 0.05, 0.3)};
-  EXPECT_GT(OccupancyPatch(sure, kCell_m).evidence_at({0.05, 0.05}), 4.0 * OccupancyPatch(unsure, kCell_m).evidence_at({0.05, 0.05}));
-  EXPECT_LT(OccupancyPatch(sure, kCell_m).evidence_at({0.45, 0.05}), OccupancyPatch(unsure, kCell_m).evidence_at({0.45, 0.05}));
+  EXPECT_GT(OccupancyPatch(sure, kCell_m).evidence_at({0.05, 0.05}),
+            4.0 * OccupancyPatch(unsure, kCell_m).evidence_at({0.05, 0.05}));
+  EXPECT_LT(OccupancyPatch(sure, kCell_m).evidence_at({0.45, 0.05}),
+            OccupancyPatch(unsure, kCell_m).evidence_at({0.45, 0.05}));
 }
 
 TEST(OccupancyPatch, ListsItsOccupiedCellsAndNoOthers) {

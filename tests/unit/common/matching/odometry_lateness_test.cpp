@@ -27,13 +27,16 @@ Drive drive_with(double late_s, std::size_t pair_count = 40) {
   for (std::size_t i = 0; i < pair_count; ++i) {
     const std::size_t first = 20 + i * 13;
     const std::size_t second = first + 4;
-    const Pose2 motion = geometry::inverse(pose_at(0.1 * static_cast<double>(first))) * pose_at(0.1 * static_cast<double>(second));
+    const Pose2 motion = geometry::inverse(pose_at(0.1 * static_cast<double>(first))) *
+                         pose_at(0.1 * static_cast<double>(second));
     drive.pairs.push_back({first, second, motion.heading_rad, motion.translation_m().norm()});
   }
   return drive;
 }
 
-double found_in(const Drive& drive) { return odometry_lateness_s(drive.pairs, drive.odometry, 1.0); }
+double found_in(const Drive& drive) {
+  return odometry_lateness_s(drive.pairs, drive.odometry, 1.0);
+}
 
 TEST(OdometryLateness, IsFoundByTheTurnsOfPairsOfScans) {
   EXPECT_NEAR(found_in(drive_with(0.3)), 0.3, 0.01);
@@ -42,9 +45,13 @@ TEST(OdometryLateness, IsFoundByTheTurnsOfPairsOfScans) {
 
 TEST(OdometryLateness, IsNoneForOdometryInTime) { EXPECT_EQ(found_in(drive_with(0.0)), 0.0); }
 
-TEST(OdometryLateness, IsLeftToLocalizationWhereItIsSmall) { EXPECT_EQ(found_in(drive_with(0.04)), 0.0); }
+TEST(OdometryLateness, IsLeftToLocalizationWhereItIsSmall) {
+  EXPECT_EQ(found_in(drive_with(0.04)), 0.0);
+}
 
-TEST(OdometryLateness, IsNotConcludedFromAFewPairs) { EXPECT_EQ(found_in(drive_with(0.3, 8)), 0.0); }
+TEST(OdometryLateness, IsNotConcludedFromAFewPairs) {
+  EXPECT_EQ(found_in(drive_with(0.3, 8)), 0.0);
+}
 
 TEST(OdometryLateness, IsNotConcludedFromPairsThatMatchWrongly) {
   Drive drive = drive_with(0.0);
@@ -54,7 +61,9 @@ TEST(OdometryLateness, IsNotConcludedFromPairsThatMatchWrongly) {
 
 TEST(OdometryLateness, IsNotSeenWhereTheVehicleTurnsAndDrivesEvenly) {
   Drive drive = drive_with(0.3);
-  for (std::size_t i = 0; i < drive.odometry.size(); ++i) drive.odometry[i].pose = {0.2 * static_cast<double>(i), 0.0, geometry::wrap_angle(0.02 * static_cast<double>(i))};
+  for (std::size_t i = 0; i < drive.odometry.size(); ++i)
+    drive.odometry[i].pose = {0.2 * static_cast<double>(i), 0.0,
+                              geometry::wrap_angle(0.02 * static_cast<double>(i))};
   for (ScanPairMotion& pair : drive.pairs) pair = {pair.first_scan, pair.second_scan, 0.08, 0.8};
   EXPECT_EQ(found_in(drive), 0.0);
 }

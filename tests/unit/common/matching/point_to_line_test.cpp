@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/LU>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "tests/support/help_at_the_last_moment.hpp"
 #include "tests/support/matchers.hpp"
@@ -29,13 +29,14 @@ using slammot::testing::World;
 constexpr double kCell_m = 0.2;
 const Matrix3 kVague = Eigen::Vector3d(1.0, 1.0, 0.1).asDiagonal();
 
-std::vector<MatchPoint> exact_scan_of(const World& world, const Pose2& world_from_base, int beams = 360) {
+std::vector<MatchPoint> exact_scan_of(const World& world, const Pose2& world_from_base,
+                                      int beams = 360) {
   std::mt19937 unused;
   return points_seen(world, world_from_base, beams, 0.0, unused);
 }
 
-PointToLineResult match_from(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const Pose2& prior,
-                             const PointToLineConfig& config = {}) {
+PointToLineResult match_from(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
+                             const Pose2& prior, const PointToLineConfig& config = {}) {
   return PointToLineMatcher().match(points, surfels, {prior, kVague}, prior, config);
 }
 
@@ -44,7 +45,11 @@ TEST(PointToLine, FindsThePoseFromAllAround) {
   const auto surfels = surfels_of(room);
   const Pose2 truth{-2.0, 1.0, 0.6};
   const auto points = exact_scan_of(room, truth);
-  for (const Pose2& error : {Pose2{0.3, 0.0, 0.0}, {-0.3, 0.2, 0.0}, {0.0, -0.3, 0.03}, {0.1, 0.1, -0.05}, {0.0, 0.0, 0.05}}) {
+  for (const Pose2& error : {Pose2{0.3, 0.0, 0.0},
+                             {-0.3, 0.2, 0.0},
+                             {0.0, -0.3, 0.03},
+                             {0.1, 0.1, -0.05},
+                             {0.0, 0.0, 0.05}}) {
     const auto result = match_from(points, surfels, truth * error);
     EXPECT_THAT(result.map_from_base.pose, PoseNear(truth, 0.005));
     EXPECT_GT(result.matched_share, 0.95);
@@ -58,7 +63,8 @@ TEST(PointToLine, FindsTheSameToTheLastBitWithHelp) {
   const Pose2 truth{-2.0, 1.0, 0.6};
   const Pose2 prior = truth * Pose2{0.1, 0.1, -0.05};
   slammot::testing::HelpAtTheLastMoment help;
-  const auto helped = PointToLineMatcher(&help).match(exact_scan_of(room, truth), surfels, {prior, kVague}, prior, {});
+  const auto helped = PointToLineMatcher(&help).match(exact_scan_of(room, truth), surfels,
+                                                      {prior, kVague}, prior, {});
   const auto alone = match_from(exact_scan_of(room, truth), surfels, prior);
   EXPECT_GT(help.shared(), 0);
   EXPECT_EQ(helped.map_from_base.pose, alone.map_from_base.pose);
@@ -87,8 +93,10 @@ TEST(PointToLine, MovesAndTurnsWithTheWorld) {
   const Pose2 truth{-2.0, 1.0, 0.6};
   const auto points = exact_scan_of(room, truth);
   const Pose2 error{0.15, -0.1, 0.02};
-  for (const Pose2& there_from_here : {Pose2{13.37, -4.2, 0.0}, {0.0, 0.0, 1.1}, {500.1, -300.7, -2.6}}) {
-    const auto surfels = surfels_of(slammot::testing::moved(room, there_from_here), there_from_here.translation_m());
+  for (const Pose2& there_from_here :
+       {Pose2{13.37, -4.2, 0.0}, {0.0, 0.0, 1.1}, {500.1, -300.7, -2.6}}) {
+    const auto surfels =
+        surfels_of(slammot::testing::moved(room, there_from_here), there_from_here.translation_m());
     const auto result = match_from(points, surfels, there_from_here * truth * error);
     EXPECT_THAT(result.map_from_base.pose, PoseNear(there_from_here * truth, 0.005));
   }
@@ -100,12 +108,14 @@ TEST(PointToLine, DoesNotCareAboutTheOrderOfThePoints) {
   auto points = exact_scan_of(room, {-2.0, 1.0, 0.6});
   const auto in_order = match_from(points, surfels, {-2.1, 1.1, 0.62});
   std::shuffle(points.begin(), points.end(), std::mt19937(1));
-  EXPECT_THAT(match_from(points, surfels, {-2.1, 1.1, 0.62}).map_from_base.pose, PoseNear(in_order.map_from_base.pose, 1e-6));
+  EXPECT_THAT(match_from(points, surfels, {-2.1, 1.1, 0.62}).map_from_base.pose,
+              PoseNear(in_order.map_from_base.pose, 1e-6));
 }
 
-/// The cost whose minimum is looked for, written down anew: Geman-McClure of the distances across the surfaces.
-double cost(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels, const UncertainPose2& prior, const Pose2& pose,
-            const PointToLineConfig& config) {
+/// The cost whose minimum is looked for, written down anew: Geman-McClure of the distances across
+/// the surfaces.
+double cost(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
+            const UncertainPose2& prior, const Pose2& pose, const PointToLineConfig& config) {
   double sum = 0.0;
   for (const MatchPoint& point : points) {
     const Vector2 at_m = pose * point.in_base_m;
@@ -117,22 +127,28 @@ double cost(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfe
     };
     if (surfel->normal.isZero()) {
       const double variance_m2 = std::pow(point.sigma_m + 0.5 * kCell_m, 2);
-      sum += robust(at_m.x() - surfel->mean_m.x(), variance_m2) + robust(at_m.y() - surfel->mean_m.y(), variance_m2);
+      sum += robust(at_m.x() - surfel->mean_m.x(), variance_m2) +
+             robust(at_m.y() - surfel->mean_m.y(), variance_m2);
     } else {
-      sum += robust(surfel->normal.dot(at_m - surfel->mean_m), point.sigma_m * point.sigma_m + surfel->spread_m2);
+      sum += robust(surfel->normal.dot(at_m - surfel->mean_m),
+                    point.sigma_m * point.sigma_m + surfel->spread_m2);
     }
   }
-  const Eigen::Vector3d off(pose.x_m - prior.pose.x_m, pose.y_m - prior.pose.y_m, geometry::wrap_angle(pose.heading_rad - prior.pose.heading_rad));
+  const Eigen::Vector3d off(pose.x_m - prior.pose.x_m, pose.y_m - prior.pose.y_m,
+                            geometry::wrap_angle(pose.heading_rad - prior.pose.heading_rad));
   return config.information_share * sum + 0.5 * off.dot(prior.covariance.inverse() * off);
 }
 
 /// In a room, with a car 4 m ahead that has most of the beams that tell how far it is.
-World with_car_at(double x_m) { return slammot::testing::joined(slammot::testing::room(30.0, 16.0), {{{x_m, -1.0}, {x_m, 1.0}}}); }
+World with_car_at(double x_m) {
+  return slammot::testing::joined(slammot::testing::room(30.0, 16.0), {{{x_m, -1.0}, {x_m, 1.0}}});
+}
 
 TEST(PointToLine, IsNotMovedByOneBodyThatHasMostOfTheBeams) {
   const auto surfels = surfels_of(with_car_at(4.0));
   auto points = exact_scan_of(with_car_at(4.03), {}, 720);
-  std::erase_if(points, [beam = 0](const MatchPoint& point) mutable {  // it looks ahead, and the walls are dark
+  std::erase_if(points, [beam = 0](const MatchPoint& point) mutable {  // it looks ahead, and the
+                                                                       // walls are dark
     const bool is_of_car = point.in_base_m.x() < 4.1;
     return point.in_base_m.x() < 0.0 || (!is_of_car && beam++ % 4 != 0);
   });
@@ -149,7 +165,9 @@ TEST(PointToLine, BelievesAScanAsMuchWithBodiesAsWithout) {
   const auto points = exact_scan_of(with_car_at(4.0), {}, 720);
   PointToLineConfig config;
   config.unproven_share = 0.0;
-  const auto position_information = [&] { return match_from(points, surfels, {}, config).scan_information.topLeftCorner<2, 2>().trace(); };
+  const auto position_information = [&] {
+    return match_from(points, surfels, {}, config).scan_information.topLeftCorner<2, 2>().trace();
+  };
   const double by_points = position_information();
   config.body_sigma_m = 0.15;
   EXPECT_NEAR(position_information() / by_points, 1.0, 0.1);
@@ -163,7 +181,8 @@ TEST(PointToLine, WeighsAllPointsOfASingleBodyAlike) {
   const auto by_points = match_from(points, surfels, guess, config);
   config.body_sigma_m = 0.15;
   config.body_length_m = 0.001;  // each point is a body: none has more points than another
-  EXPECT_THAT(match_from(points, surfels, guess, config).map_from_base.pose, PoseNear(by_points.map_from_base.pose, 0.002));
+  EXPECT_THAT(match_from(points, surfels, guess, config).map_from_base.pose,
+              PoseNear(by_points.map_from_base.pose, 0.002));
 }
 
 TEST(PointToLine, StopsWhereTheCostIsLeast) {
@@ -171,13 +190,17 @@ TEST(PointToLine, StopsWhereTheCostIsLeast) {
   const World room = slammot::testing::room();
   const auto surfels = surfels_of(room);
   const PointToLineConfig config;
-  const UncertainPose2 prior{{-2.02, 1.03, 0.61}, Eigen::Vector3d(0.0004, 0.0004, 0.0001).asDiagonal()};
+  const UncertainPose2 prior{{-2.02, 1.03, 0.61},
+                             Eigen::Vector3d(0.0004, 0.0004, 0.0001).asDiagonal()};
   const auto points = points_seen(room, {-2.0, 1.0, 0.6}, 360, 0.02, random);
-  const Pose2 found = PointToLineMatcher().match(points, surfels, prior, prior.pose, config).map_from_base.pose;
+  const Pose2 found =
+      PointToLineMatcher().match(points, surfels, prior, prior.pose, config).map_from_base.pose;
   const double least = cost(points, surfels, prior, found, config);
   for (const double sign : {-1.0, 1.0}) {
-    for (const Eigen::Vector3d& step : {Eigen::Vector3d(0.004, 0, 0), {0, 0.004, 0}, {0, 0, 0.001}, {0.003, 0.003, 0.0005}}) {
-      const Pose2 beside{found.x_m + sign * step.x(), found.y_m + sign * step.y(), found.heading_rad + sign * step.z()};
+    for (const Eigen::Vector3d& step :
+         {Eigen::Vector3d(0.004, 0, 0), {0, 0.004, 0}, {0, 0, 0.001}, {0.003, 0.003, 0.0005}}) {
+      const Pose2 beside{found.x_m + sign * step.x(), found.y_m + sign * step.y(),
+                         found.heading_rad + sign * step.z()};
       EXPECT_LT(least, cost(points, surfels, prior, beside, config));
     }
   }
@@ -195,13 +218,20 @@ TEST(PointToLine, TellsTheInformationOfTheNumericalJacobian) {
   Matrix3 H = Matrix3::Zero();
   for (const MatchPoint& point : points) {
     const auto surfel = surfels.nearest(pose * point.in_base_m, 1);
-    if (!surfel || surfel->normal.isZero() || (pose * point.in_base_m - surfel->mean_m).norm() > config.fine_gate_m) continue;
-    const auto residual_m = [&](const Pose2& at) { return surfel->normal.dot(at * point.in_base_m - surfel->mean_m); };
+    if (!surfel || surfel->normal.isZero() ||
+        (pose * point.in_base_m - surfel->mean_m).norm() > config.fine_gate_m)
+      continue;
+    const auto residual_m = [&](const Pose2& at) {
+      return surfel->normal.dot(at * point.in_base_m - surfel->mean_m);
+    };
     constexpr double kStep = 1e-6;
     Eigen::Vector3d J;
-    J << residual_m({pose.x_m + kStep, pose.y_m, pose.heading_rad}) - residual_m({pose.x_m - kStep, pose.y_m, pose.heading_rad}),
-        residual_m({pose.x_m, pose.y_m + kStep, pose.heading_rad}) - residual_m({pose.x_m, pose.y_m - kStep, pose.heading_rad}),
-        residual_m({pose.x_m, pose.y_m, pose.heading_rad + kStep}) - residual_m({pose.x_m, pose.y_m, pose.heading_rad - kStep});
+    J << residual_m({pose.x_m + kStep, pose.y_m, pose.heading_rad}) -
+             residual_m({pose.x_m - kStep, pose.y_m, pose.heading_rad}),
+        residual_m({pose.x_m, pose.y_m + kStep, pose.heading_rad}) -
+            residual_m({pose.x_m, pose.y_m - kStep, pose.heading_rad}),
+        residual_m({pose.x_m, pose.y_m, pose.heading_rad + kStep}) -
+            residual_m({pose.x_m, pose.y_m, pose.heading_rad - kStep});
     J /= 2.0 * kStep;
     H += J * J.transpose() / (point.sigma_m * point.sigma_m + surfel->spread_m2);
   }
@@ -216,18 +246,22 @@ TEST(PointToLine, IsAsUncertainAsItIsWrong) {
   const auto surfels = surfels_of(room);
   const Pose2 truth{-2.0, 1.0, 0.6};
   PointToLineConfig config;
-  config.information_share = 1.0;  // the map is exact here, so the points of a scan err independently
+  config.information_share = 1.0;  // the map is exact here, so the points of a scan err
+                                   // independently
   config.robust_scale_m = 1.0;
   double nees_sum = 0.0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    const auto result = match_from(points_seen(room, truth, 180, 0.03, random), surfels, truth, config);
+    const auto result =
+        match_from(points_seen(room, truth, 180, 0.03, random), surfels, truth, config);
     const Pose2& pose = result.map_from_base.pose;
-    const Eigen::Vector3d error(pose.x_m - truth.x_m, pose.y_m - truth.y_m, pose.heading_rad - truth.heading_rad);
+    const Eigen::Vector3d error(pose.x_m - truth.x_m, pose.y_m - truth.y_m,
+                                pose.heading_rad - truth.heading_rad);
     nees_sum += error.dot(result.map_from_base.covariance.inverse() * error);
   }
-  // 99 % band of the mean of chi-square with 3 degrees of freedom over 200 runs is 3 +- 0.45. Noise along a slanting beam
-  // moves its point across the wall by less than sigma, so the truth may be a little better than claimed.
+  // 99 % band of the mean of chi-square with 3 degrees of freedom over 200 runs is 3 +- 0.45. Noise
+  // along a slanting beam moves its point across the wall by less than sigma, so the truth may be a
+  // little better than claimed.
   EXPECT_LT(nees_sum / kRuns, 3.45);
   EXPECT_GT(nees_sum / kRuns, 1.2);
 }
@@ -249,10 +283,12 @@ TEST(PointToLine, LeavesThePriorAloneAlongAFeaturelessCorridor) {
 
 TEST(PointToLine, IsNotPulledBackByPointsBeyondTheKnownEndOfAWall) {
   // The map knows the left wall up to x = 5; from farther on the scan sees it up to x = 8.
-  const World known = {{{-5.0, 2.0}, {5.0, 2.0}}, {{-5.0, -2.0}, {8.0, -2.0}}, {{8.0, -2.0}, {8.0, 2.0}}};
+  const World known = {
+      {{-5.0, 2.0}, {5.0, 2.0}}, {{-5.0, -2.0}, {8.0, -2.0}}, {{8.0, -2.0}, {8.0, 2.0}}};
   const World real = joined(known, {{{5.0, 2.0}, {8.0, 2.0}}});
   const Pose2 truth{1.0, 0.0, 0.0};
-  const auto result = match_from(exact_scan_of(real, truth), surfels_of(known), truth * Pose2{0.1, 0.05, 0.01});
+  const auto result =
+      match_from(exact_scan_of(real, truth), surfels_of(known), truth * Pose2{0.1, 0.05, 0.01});
   EXPECT_THAT(result.map_from_base.pose, PoseNear(truth, 0.01));
 }
 
@@ -263,20 +299,25 @@ TEST(PointToLine, IsNotPulledAwayByAFifthOfThePointsOnSomethingElse) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i % 5 == 0) points[i].in_base_m *= 0.8 + 0.1 * std::sin(static_cast<double>(i));
   }
-  EXPECT_THAT(match_from(points, surfels_of(room), truth * Pose2{0.1, 0.1, 0.02}).map_from_base.pose, PoseNear(truth, 0.01));
+  EXPECT_THAT(
+      match_from(points, surfels_of(room), truth * Pose2{0.1, 0.1, 0.02}).map_from_base.pose,
+      PoseNear(truth, 0.01));
 }
 
-/// The vehicle has begun to turn, and far walls are off by decimetres though the prior is off by less than three sigmas.
+/// The vehicle has begun to turn, and far walls are off by decimetres though the prior is off by
+/// less than three sigmas.
 TEST(PointToLine, FollowsATurnThatThePriorAllowsForThoughFarWallsAreFarOff) {
   const World hall = slammot::testing::box({0.0, 0.0, 0.0}, 56.0, 50.0);
   const auto surfels = surfels_of(hall);
   const Pose2 truth{1.0, -2.0, 0.3};
   auto points = exact_scan_of(hall, truth, 60);
   for (MatchPoint& point : points) point.sigma_m = 0.05;
-  const UncertainPose2 prior{truth * Pose2{0.0, 0.0, 0.0125}, Eigen::Vector3d(1e-4, 1e-4, 2.5e-5).asDiagonal()};
+  const UncertainPose2 prior{truth * Pose2{0.0, 0.0, 0.0125},
+                             Eigen::Vector3d(1e-4, 1e-4, 2.5e-5).asDiagonal()};
   const auto heading_error_rad = [&](double coarse_prior_sigmas) {
     const PointToLineConfig config{.coarse_prior_sigmas = coarse_prior_sigmas};
-    const Pose2 found = PointToLineMatcher().match(points, surfels, prior, prior.pose, config).map_from_base.pose;
+    const Pose2 found =
+        PointToLineMatcher().match(points, surfels, prior, prior.pose, config).map_from_base.pose;
     return std::abs(geometry::wrap_angle(found.heading_rad - truth.heading_rad));
   };
   EXPECT_LT(heading_error_rad(2.0), 0.004);
@@ -287,7 +328,8 @@ TEST(PointToLine, GivesThePriorWhenNothingMatches) {
   const UncertainPose2 prior{{1.0, 2.0, 0.3}, kVague};
   const auto points = exact_scan_of(slammot::testing::room(), {});
   const grids::SurfelMap empty(grids::window_around({0.0, 0.0}, 20.0, kCell_m), 1000.0);
-  const auto far_away = surfels_of(slammot::testing::moved(slammot::testing::room(), {25.0, 25.0, 0.0}), {30.0, 30.0});
+  const auto far_away = surfels_of(
+      slammot::testing::moved(slammot::testing::room(), {25.0, 25.0, 0.0}), {30.0, 30.0});
   for (const auto* surfels : {&empty, &far_away}) {
     const auto result = PointToLineMatcher().match(points, *surfels, prior, {1.1, 2.1, 0.4}, {});
     EXPECT_EQ(result.map_from_base.pose, prior.pose);
@@ -300,7 +342,10 @@ TEST(PointToLine, GivesThePriorWhenNothingMatches) {
 
 TEST(PointToLine, GivesThePriorForAScanWithoutPoints) {
   const UncertainPose2 prior{{1.0, 2.0, 0.3}, kVague};
-  EXPECT_EQ(PointToLineMatcher().match({}, surfels_of(slammot::testing::room()), prior, prior.pose, {}).map_from_base.pose, prior.pose);
+  EXPECT_EQ(PointToLineMatcher()
+                .match({}, surfels_of(slammot::testing::room()), prior, prior.pose, {})
+                .map_from_base.pose,
+            prior.pose);
 }
 
 TEST(PointToLine, WeighsPriorAndScanByTheirInformation) {
@@ -310,7 +355,8 @@ TEST(PointToLine, WeighsPriorAndScanByTheirInformation) {
   const Pose2 prior = truth * Pose2{0.02, 0.0, 0.0};
   const auto points = exact_scan_of(room, truth);
   const auto error_m = [&](double prior_sigma_m) {
-    const Matrix3 covariance = (Eigen::Vector3d(1.0, 1.0, 0.01) * prior_sigma_m * prior_sigma_m).asDiagonal();
+    const Matrix3 covariance =
+        (Eigen::Vector3d(1.0, 1.0, 0.01) * prior_sigma_m * prior_sigma_m).asDiagonal();
     const auto result = PointToLineMatcher().match(points, surfels, {prior, covariance}, prior, {});
     return (result.map_from_base.pose.translation_m() - truth.translation_m()).norm();
   };
@@ -320,8 +366,9 @@ TEST(PointToLine, WeighsPriorAndScanByTheirInformation) {
 }
 
 TEST(MatchPointToLine, IsNotHeldBackByWhatHasOnlyBeenSeenFromHere) {
-  // A wall across the street that came along for the last half metre, as echoes of the ground do when a vehicle brakes;
-  // the fronts of houses beside the street, seen for longer, say that the vehicle has moved on by 4 cm.
+  // A wall across the street that came along for the last half metre, as echoes of the ground do
+  // when a vehicle brakes; the fronts of houses beside the street, seen for longer, say that the
+  // vehicle has moved on by 4 cm.
   grids::SurfelMap surfels(grids::window_around({0.0, 0.0}, 60.0, kCell_m), 1000.0);
   std::vector<MatchPoint> points;
   for (const double x_m : {6.1, 12.1}) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "tests/support/matchers.hpp"
 #include "tests/support/surfels.hpp"
@@ -30,8 +30,10 @@ const World kCorner = {{{-8.0, 3.0}, {5.0, 3.0}}, {{5.0, 3.0}, {5.0, -8.0}}};
 World comb() {
   World world = {{{-28.0, -1.5}, {28.0, -1.5}}};
   for (double x_m = -28.0; x_m < 28.0; x_m += 1.0) {
-    for (const World& recess : {World{{{x_m, 1.5}, {x_m + 0.5, 1.5}}}, {{{x_m + 0.5, 1.5}, {x_m + 0.5, 1.9}}},
-                                {{{x_m + 0.5, 1.9}, {x_m + 1.0, 1.9}}}, {{{x_m + 1.0, 1.9}, {x_m + 1.0, 1.5}}}}) {
+    for (const World& recess : {World{{{x_m, 1.5}, {x_m + 0.5, 1.5}}},
+                                {{{x_m + 0.5, 1.5}, {x_m + 0.5, 1.9}}},
+                                {{{x_m + 0.5, 1.9}, {x_m + 1.0, 1.9}}},
+                                {{{x_m + 1.0, 1.9}, {x_m + 1.0, 1.5}}}}) {
       world = slammot::testing::joined(world, recess);
     }
   }
@@ -39,7 +41,9 @@ World comb() {
 }
 
 UncertainPose2 prior_at(const Pose2& pose, double sigma_m, double sigma_rad) {
-  return {pose, Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal()};
+  return {
+      pose,
+      Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal()};
 }
 
 struct Case {
@@ -58,7 +62,9 @@ ScrimResult registered(const Case& one, std::uint64_t seed = 1, const ScrimConfi
   return Scrim().match(points, surfels_of(one.world), one.prior, config, one.match, guesses);
 }
 
-double sigma_m(const UncertainPose2& pose, int axis) { return std::sqrt(pose.covariance(axis, axis)); }
+double sigma_m(const UncertainPose2& pose, int axis) {
+  return std::sqrt(pose.covariance(axis, axis));
+}
 
 TEST(Scrim, HasTheClosedFormsAnswerWhereNothingIsAmbiguous) {
   const World room = slammot::testing::room();
@@ -67,10 +73,13 @@ TEST(Scrim, HasTheClosedFormsAnswerWhereNothingIsAmbiguous) {
   std::mt19937_64 guesses(1);
   const auto points = points_seen(room, {-2.0, 1.0, 0.6}, 360, 0.02, noise);
   const auto surfels = surfels_of(room);
-  const PointToLineResult closed_form = PointToLineMatcher().match(points, surfels, prior, prior.pose, {});
+  const PointToLineResult closed_form =
+      PointToLineMatcher().match(points, surfels, prior, prior.pose, {});
   const ScrimResult sampled = Scrim().match(points, surfels, prior, {}, {}, guesses);
   EXPECT_THAT(sampled.map_from_base.pose, PoseNear(closed_form.map_from_base.pose, 0.002));
-  EXPECT_THAT(sampled.map_from_base.covariance, MatrixNear(closed_form.map_from_base.covariance, 0.2 * closed_form.map_from_base.covariance(0, 0)));
+  EXPECT_THAT(sampled.map_from_base.covariance,
+              MatrixNear(closed_form.map_from_base.covariance,
+                         0.2 * closed_form.map_from_base.covariance(0, 0)));
   ASSERT_EQ(sampled.clusters.size(), 1U);
   EXPECT_GT(sampled.matched_share, 0.95);
 }
@@ -122,9 +131,12 @@ TEST(Scrim, CoversTheTruthWhereTheClosedFormIsSureOfTheWrongPlace) {
   ScrimConfig config;
   config.cell_size_m = 0.1;
   std::mt19937 noise(1);
-  const auto points = points_seen(corridor.world, corridor.truth, 360, corridor.noise_m, noise, corridor.reach_m);
-  const UncertainPose2 closed_form =
-      PointToLineMatcher().match(points, surfels_of(corridor.world), corridor.prior, corridor.prior.pose, corridor.match).map_from_base;
+  const auto points =
+      points_seen(corridor.world, corridor.truth, 360, corridor.noise_m, noise, corridor.reach_m);
+  const UncertainPose2 closed_form = PointToLineMatcher()
+                                         .match(points, surfels_of(corridor.world), corridor.prior,
+                                                corridor.prior.pose, corridor.match)
+                                         .map_from_base;
   EXPECT_GT(std::abs(closed_form.pose.x_m), 5.0 * sigma_m(closed_form, 0));
   const UncertainPose2 sampled = registered(corridor, 1, config).map_from_base;
   EXPECT_LT(std::abs(sampled.pose.x_m), 2.0 * sigma_m(sampled, 0));
@@ -139,14 +151,16 @@ TEST(Scrim, IsAsUncertainAsItIsWrong) {
     for (std::uint64_t run = 0; run < kRuns; ++run) {
       Case one{world, prior_at({}, 0.15, 0.03), {}};
       one.truth = {0.15 * normal(random), 0.15 * normal(random), 0.03 * normal(random)};
-      one.match.information_share = 1.0;  // the map is exact here, so the points of a scan err independently
+      one.match.information_share = 1.0;  // the map is exact here, so the points of a scan err
+                                          // independently
       one.match.robust_scale_m = 0.3;
       const UncertainPose2 found = registered(one, run).map_from_base;
       const Eigen::Vector3d error = geometry::difference(found.pose, one.truth);
       nees += error.dot(found.covariance.inverse() * error) / kRuns;
     }
-    // The 99 % band of the mean of chi-square with 3 degrees of freedom over so many runs is 3 +- 0.52. Noise along a slanting
-    // beam moves its point across the wall by less than sigma, so the truth may be better than claimed.
+    // The 99 % band of the mean of chi-square with 3 degrees of freedom over so many runs is 3 +-
+    // 0.52. Noise along a slanting beam moves its point across the wall by less than sigma, so the
+    // truth may be better than claimed.
     EXPECT_LT(nees, 3.5);
     EXPECT_GT(nees, 1.6);
   }
@@ -160,7 +174,8 @@ TEST(Scrim, IsNotSureBecauseFewGuessesFoundAnything) {
     const UncertainPose2 found = registered(one, seed).map_from_base;
     ASSERT_TRUE(found.covariance.allFinite());
     const Eigen::Vector3d error = geometry::difference(found.pose, one.truth);
-    EXPECT_LT(error.dot(found.covariance.inverse() * error), 16.3);  // chi-square, 3 degrees of freedom, 99.9 %
+    EXPECT_LT(error.dot(found.covariance.inverse() * error), 16.3);  // chi-square, 3 degrees of
+                                                                     // freedom, 99.9 %
   }
 }
 
@@ -171,13 +186,15 @@ TEST(Scrim, MovesAndTurnsWithTheWorld) {
   there.world = slammot::testing::moved(here.world, there_from_here);
   there.prior.pose = there_from_here * here.prior.pose;
   there.truth = there_from_here * here.truth;
-  EXPECT_THAT(registered(there).map_from_base.pose, PoseNear(there_from_here * registered(here).map_from_base.pose, 0.003));
+  EXPECT_THAT(registered(there).map_from_base.pose,
+              PoseNear(there_from_here * registered(here).map_from_base.pose, 0.003));
 }
 
 TEST(Scrim, GivesTheSameForTheSameSeed) {
   const Case corner{kCorner, prior_at({0.1, 0.1, 0.02}, 0.2, 0.03), {}};
   EXPECT_EQ(registered(corner, 5).map_from_base.pose, registered(corner, 5).map_from_base.pose);
-  EXPECT_EQ(registered(corner, 5).map_from_base.covariance, registered(corner, 5).map_from_base.covariance);
+  EXPECT_EQ(registered(corner, 5).map_from_base.covariance,
+            registered(corner, 5).map_from_base.covariance);
 }
 
 TEST(Scrim, GivesThePriorWhereThereIsNothing) {
@@ -186,7 +203,8 @@ TEST(Scrim, GivesThePriorWhereThereIsNothing) {
   std::mt19937 noise(1);
   const auto points = points_seen(kCorner, {}, 360, 0.02, noise, 15.0);
   const grids::SurfelMap empty(grids::window_around({0.0, 0.0}, 20.0, 0.2), 1000.0);
-  for (const auto& [some, surfels] : {std::pair{points, empty}, {std::vector<MatchPoint>{}, surfels_of(kCorner)}}) {
+  for (const auto& [some, surfels] :
+       {std::pair{points, empty}, {std::vector<MatchPoint>{}, surfels_of(kCorner)}}) {
     const ScrimResult result = Scrim().match(some, surfels, prior, {}, {}, random);
     EXPECT_EQ(result.map_from_base.pose, prior.pose);
     EXPECT_EQ(result.map_from_base.covariance, prior.covariance);

@@ -24,7 +24,8 @@ void append_wall(std::vector<Vector2>& points, const Vector2& from, const Vector
 /// A room of 12 x 8 m with a recess and a pillar: looks like itself from one pose only.
 std::vector<Vector2> room() {
   std::vector<Vector2> points;
-  const std::vector<Vector2> corners{{-6, -4}, {6, -4}, {6, 4}, {2, 4}, {2, 5.5}, {-1, 5.5}, {-1, 4}, {-6, 4}, {-6, -4}};
+  const std::vector<Vector2> corners{{-6, -4},  {6, -4}, {6, 4},  {2, 4},  {2, 5.5},
+                                     {-1, 5.5}, {-1, 4}, {-6, 4}, {-6, -4}};
   for (std::size_t i = 1; i < corners.size(); ++i) append_wall(points, corners[i - 1], corners[i]);
   append_wall(points, {3, -1}, {3.6, -1});
   append_wall(points, {3.6, -1}, {3.6, -1.6});
@@ -33,13 +34,16 @@ std::vector<Vector2> room() {
 
 std::shared_ptr<const ScorePyramid> pyramid_of(const std::vector<Vector2>& points, int levels = 6) {
   std::vector<TargetPoint> target;
-  for (const Vector2& point : points) target.push_back({static_cast<float>(point.x()), static_cast<float>(point.y()), 1.0F});
+  for (const Vector2& point : points)
+    target.push_back({static_cast<float>(point.x()), static_cast<float>(point.y()), 1.0F});
   return std::make_shared<const ScorePyramid>(target, kCellM, kCellM, levels);
 }
 
-std::vector<Eigen::Vector2f> seen_from(const std::vector<Vector2>& points, const Pose2& target_from_source) {
+std::vector<Eigen::Vector2f> seen_from(const std::vector<Vector2>& points,
+                                       const Pose2& target_from_source) {
   std::vector<Eigen::Vector2f> seen;
-  for (const Vector2& point : points) seen.push_back((inverse(target_from_source) * point).cast<float>());
+  for (const Vector2& point : points)
+    seen.push_back((inverse(target_from_source) * point).cast<float>());
   return seen;
 }
 
@@ -56,7 +60,8 @@ TEST(ScorePyramid, BoundsEveryPoseOfABlockFromAbove) {
   const auto at_heading = [&](double steps) {
     CellPoints cells;
     for (const Eigen::Vector2f& point : points) {
-      const Vector2 at = pyramid->in_cells(geometry::rotation(0.7 + steps * step_rad) * point.cast<double>());
+      const Vector2 at =
+          pyramid->in_cells(geometry::rotation(0.7 + steps * step_rad) * point.cast<double>());
       cells.columns.push_back(static_cast<std::int32_t>(std::floor(at.x())));
       cells.rows.push_back(static_cast<std::int32_t>(std::floor(at.y())));
     }
@@ -71,7 +76,9 @@ TEST(ScorePyramid, BoundsEveryPoseOfABlockFromAbove) {
       for (std::int32_t heading = 0; heading < headings; ++heading) {
         const CellPoints turned = at_heading(heading);
         for (const std::int32_t column : {0, side / 2, side - 1}) {
-          for (const std::int32_t row : {0, side / 3, side - 1}) ASSERT_LE(pyramid->sum(turned, corner + column, -corner / 2 + row, 0), bound) << "level " << level;
+          for (const std::int32_t row : {0, side / 3, side - 1})
+            ASSERT_LE(pyramid->sum(turned, corner + column, -corner / 2 + row, 0), bound)
+                << "level " << level;
         }
       }
     }
@@ -92,12 +99,15 @@ TEST(WideSearch, FindsTheBestPoseThatComparingAllFinds) {
   const auto points = seen_from(room(), truth);
   const SearchWindow window{1.0, 1.0, 0.1};
   WideSearch exhaustive(points, kCellM, {.min_score = 0.0});
-  exhaustive.add_target({pyramid_of(room(), 0), {0.2, 0.1, 0.15}, window, {}});  // no level but the finest: no bounds
+  exhaustive.add_target({pyramid_of(room(), 0), {0.2, 0.1, 0.15}, window, {}});  // no level but the
+                                                                                 // finest: no
+                                                                                 // bounds
   WideSearch bounded(points, kCellM, {.min_score = 0.0});
   bounded.add_target({pyramid_of(room()), {0.2, 0.1, 0.15}, window, {}});
   run_to_its_end(exhaustive);
   run_to_its_end(bounded);
-  EXPECT_EQ(bounded.peaks().front().target_from_source, exhaustive.peaks().front().target_from_source);
+  EXPECT_EQ(bounded.peaks().front().target_from_source,
+            exhaustive.peaks().front().target_from_source);
   EXPECT_EQ(bounded.peaks().front().score, exhaustive.peaks().front().score);
 }
 
@@ -111,7 +121,8 @@ TEST(WideSearch, GivesTheSameAnswerHoweverItIsCut) {
   const auto whole = run_in_pieces_of(1'000'000'000);
   const auto cut = run_in_pieces_of(1);
   ASSERT_EQ(whole.size(), cut.size());
-  for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(whole[i].target_from_source, cut[i].target_from_source);
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    EXPECT_EQ(whole[i].target_from_source, cut[i].target_from_source);
 }
 
 TEST(WideSearch, StopsSoonAfterTheWorkThatItWasGiven) {
@@ -142,7 +153,8 @@ TEST(WideSearch, ChoosesAmongSeveralTargetsAndTakesOnePlaceOnce) {
 TEST(WideSearch, FindsNothingThatFitsWorseThanItMay) {
   const Pose2 truth{0.7, -0.4, 0.2};
   auto half_of_it_elsewhere = seen_from(room(), truth);
-  for (std::size_t i = half_of_it_elsewhere.size(); i > 0; --i) half_of_it_elsewhere.emplace_back(100.0F, 0.2F * static_cast<float>(i));
+  for (std::size_t i = half_of_it_elsewhere.size(); i > 0; --i)
+    half_of_it_elsewhere.emplace_back(100.0F, 0.2F * static_cast<float>(i));
   const auto peaks_from = [&](double min_score) {
     WideSearch search(half_of_it_elsewhere, kCellM, {.min_score = min_score});
     search.add_target({pyramid_of(room()), {}, {1.0, 1.0, 0.3}, {}});

@@ -21,7 +21,8 @@ TEST(RecyclingQueue, IsFirstInFirstOut) {
   for (int i = 0; i < 5; ++i) queue.push_back() = i;
   queue.pop_front();
   queue.pop_front();
-  for (int i = 5; i < 11; ++i) queue.push_back() = i;  // grows while it begins in the middle of its places
+  for (int i = 5; i < 11; ++i)
+    queue.push_back() = i;  // grows while it begins in the middle of its places
   queue.pop_back();
   EXPECT_EQ(values(queue), (std::vector<int>{2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_EQ(queue.front(), 2);
@@ -55,7 +56,8 @@ TEST(RecyclingQueue, KeepsWhatItsElementsOwnWhenItGrows) {
     if (i % 3 == 0) queue.pop_front();
   }
   ASSERT_EQ(queue.size(), 66U);
-  for (std::size_t i = 0; i < queue.size(); ++i) EXPECT_EQ(queue[i], std::string(50, static_cast<char>('a' + (i + 34) % 26)));
+  for (std::size_t i = 0; i < queue.size(); ++i)
+    EXPECT_EQ(queue[i], std::string(50, static_cast<char>('a' + (i + 34) % 26)));
 }
 
 }  // namespace

@@ -8,7 +8,11 @@ namespace slammot::metrics {
 namespace {
 
 TEST(ClearMot, OfPerfectTracksIsOne) {
-  const ClearMot clear = clear_mot({2, 2, {scan({{0, 0.0}, {1, 5.0}}, {{1, 0.0}, {0, 5.0}}), scan({{0, 0.1}, {1, 5.1}}, {{1, 0.1}, {0, 5.1}})}}, 0.5);
+  const ClearMot clear = clear_mot({2,
+                                    2,
+                                    {scan({{0, 0.0}, {1, 5.0}}, {{1, 0.0}, {0, 5.0}}),
+                                     scan({{0, 0.1}, {1, 5.1}}, {{1, 0.1}, {0, 5.1}})}},
+                                   0.5);
   EXPECT_EQ(clear.true_positives, 4U);
   EXPECT_DOUBLE_EQ(clear.mota, 1.0);
   EXPECT_DOUBLE_EQ(clear.motp, 1.0);
@@ -16,10 +20,13 @@ TEST(ClearMot, OfPerfectTracksIsOne) {
 }
 
 TEST(ClearMot, CountsMissesFalseRowsAndSwitchesAgainstTheObjects) {
-  const ClearMot clear = clear_mot({1, 3,
-                                    {scan({{0, 0.0}}, {{0, 0.0}}),               // right
-                                     scan({{0, 0.0}}, {}),                       // missed
-                                     scan({{0, 0.0}}, {{1, 0.0}, {2, 9.0}}),     // right by another track: a switch; one false
+  const ClearMot clear = clear_mot({1,
+                                    3,
+                                    {scan({{0, 0.0}}, {{0, 0.0}}),            // right
+                                     scan({{0, 0.0}}, {}),                    // missed
+                                     scan({{0, 0.0}}, {{1, 0.0}, {2, 9.0}}),  // right by another
+                                                                              // track: a switch;
+                                                                              // one false
                                      scan({{0, 0.0}}, {{1, 0.0}})}},
                                    0.5);
   EXPECT_EQ(clear.true_positives, 3U);
@@ -32,7 +39,8 @@ TEST(ClearMot, CountsMissesFalseRowsAndSwitchesAgainstTheObjects) {
 }
 
 TEST(ClearMot, KeepsAPairThatStillMayBeThoughAnotherIsNearer) {
-  const ClearMot clear = clear_mot({1, 2, {scan({{0, 0.0}}, {{0, 0.0}}), scan({{0, 0.0}}, {{0, 0.4}, {1, 0.0}})}}, 0.5);
+  const ClearMot clear = clear_mot(
+      {1, 2, {scan({{0, 0.0}}, {{0, 0.0}}), scan({{0, 0.0}}, {{0, 0.4}, {1, 0.0}})}}, 0.5);
   EXPECT_EQ(clear.switches, 0U);
   EXPECT_EQ(clear.matches[1].front().track, 0U);
 }

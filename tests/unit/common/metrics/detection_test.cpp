@@ -23,7 +23,8 @@ constexpr BeamKind X = BeamKind::kDontCare;
 
 TEST(BeamTruth, IsMovingOnAMovingBoxAndUndecidedBesideIt) {
   const Scene scene{0, {}, {car_at(10.0, 0.0, 4)}, {}};  // its rear end is at 8 m
-  const auto truth = beam_truth({{{7.8, 0.0}}, {{7.3, 0.0}}, {{6.0, 0.0}}, std::nullopt, {{60.0, 0.0}}}, scene, kRule);
+  const auto truth = beam_truth(
+      {{{7.8, 0.0}}, {{7.3, 0.0}}, {{6.0, 0.0}}, std::nullopt, {{60.0, 0.0}}}, scene, kRule);
   EXPECT_EQ(truth[0].kind, M);
   EXPECT_EQ(truth[0].object, 4U);
   EXPECT_EQ(truth[1].kind, X);
@@ -37,8 +38,17 @@ TEST(BeamTruth, IsWhatTheBeamsAreKnownToHaveHit) {
   standing.speed_mps = 0.0;
   const Scene scene{0, {}, {car_at(10.0, 0.0, 4), standing}, {}};
   using On = BeamHit::On;
-  const std::vector<BeamHit> hits = {{On::kStationary}, {On::kObject, 4}, {On::kObject, 5}, {On::kSeveral}, {On::kNothing}, {On::kStationary}, {On::kObject, 9}};
-  const auto truth = beam_truth({{{8.0, 0.0}}, {{5.0, 0.0}}, {{20.0, 0.0}}, {{9.0, 0.0}}, std::nullopt, {{60.0, 0.0}}, {{7.0, 0.0}}}, hits, scene, kRule);
+  const std::vector<BeamHit> hits = {{On::kStationary}, {On::kObject, 4}, {On::kObject, 5},
+                                     {On::kSeveral},    {On::kNothing},   {On::kStationary},
+                                     {On::kObject, 9}};
+  const auto truth = beam_truth({{{8.0, 0.0}},
+                                 {{5.0, 0.0}},
+                                 {{20.0, 0.0}},
+                                 {{9.0, 0.0}},
+                                 std::nullopt,
+                                 {{60.0, 0.0}},
+                                 {{7.0, 0.0}}},
+                                hits, scene, kRule);
   EXPECT_EQ(truth[0].kind, S);  // though on the car
   EXPECT_EQ(truth[1].kind, M);  // though away from it
   EXPECT_EQ(truth[1].object, 4U);
@@ -53,7 +63,8 @@ TEST(BeamTruth, TakesNoMoreEchoesThanTheObjectSent) {
   TrueObject walker = car_at(10.0, 0.0);
   walker.length_m = walker.width_m = 0.5;
   walker.points = 2;
-  const auto truth = beam_truth({{{9.75, -0.1}}, {{9.75, 0.1}}, {{10.3, 0.3}}}, {0, {}, {walker}, {}}, kRule);  // the third is of a wall behind
+  const auto truth = beam_truth({{{9.75, -0.1}}, {{9.75, 0.1}}, {{10.3, 0.3}}},
+                                {0, {}, {walker}, {}}, kRule);  // the third is of a wall behind
   EXPECT_EQ(truth[0].kind, M);
   EXPECT_EQ(truth[1].kind, M);
   EXPECT_EQ(truth[2].kind, X);
@@ -84,13 +95,16 @@ TEST(Detection, FindsAnObjectWhenMostOfItsDecidedPointsMove) {
 }
 
 TEST(Detection, JudgesRunsOfMovingLabelsByWhatMostOfThemHit) {
-  const DetectionCounts counts = add_scan({}, beams({M, M, S, S, S, S, S, X, X, X}), "mmmsmmmsmm", 3);
+  const DetectionCounts counts =
+      add_scan({}, beams({M, M, S, S, S, S, S, X, X, X}), "mmmsmmmsmm", 3);
   EXPECT_EQ(counts.moving_runs, 2U);  // the last run is of don't-care points
   EXPECT_EQ(counts.right_runs, 1U);
   EXPECT_DOUBLE_EQ(counts.segment_precision(), 0.5);
 }
 
-TEST(Detection, IgnoresLabelsOfAnotherScanner) { EXPECT_EQ(add_scan({}, beams({M, M, M}), "mm", 3).objects, 0U); }
+TEST(Detection, IgnoresLabelsOfAnotherScanner) {
+  EXPECT_EQ(add_scan({}, beams({M, M, M}), "mm", 3).objects, 0U);
+}
 
 }  // namespace
 }  // namespace slammot::metrics

@@ -8,7 +8,8 @@ namespace slammot::metrics {
 namespace {
 
 TEST(Gospa, SplitsIntoLocalizationMissedAndFalse) {
-  Eigen::MatrixXd distance_m(2, 2);  // the second object and the second track are far from everything
+  Eigen::MatrixXd distance_m(2, 2);  // the second object and the second track are far from
+                                     // everything
   distance_m << 1.0, 50.0, 50.0, 50.0;
   const Gospa result = gospa(distance_m, 4.0);
   EXPECT_DOUBLE_EQ(result.localization_m2, 1.0);

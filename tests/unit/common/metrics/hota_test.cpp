@@ -17,7 +17,8 @@ TEST(Hota, OfPerfectTracksIsOne) {
 }
 
 TEST(Hota, OfAnObjectFollowedByTwoTracksInTurnIsTheRootOfAHalf) {
-  // Detection is perfect. Each of four rows belongs to a track that has two of the object's four rows: Jaccard 1/2.
+  // Detection is perfect. Each of four rows belongs to a track that has two of the object's four
+  // rows: Jaccard 1/2.
   const auto first = scan({{0, 0.0}}, {{0, 0.0}});
   const auto second = scan({{0, 0.0}}, {{1, 0.0}});
   const Hota result = hota({1, 2, {first, first, second, second}});

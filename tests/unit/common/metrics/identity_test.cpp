@@ -18,10 +18,13 @@ TEST(Identity, OfAnObjectFollowedByTwoTracksCountsTheLongerOneOnly) {
 }
 
 TEST(Identity, GivesEachTrackOneObject) {
-  // Track 0 follows object 0 in two scans and object 1 in three; object 0 is otherwise followed by nobody.
+  // Track 0 follows object 0 in two scans and object 1 in three; object 0 is otherwise followed by
+  // nobody.
   const auto on_first = scan({{0, 0.0}, {1, 9.0}}, {{0, 0.0}});
   const auto on_second = scan({{0, 0.0}, {1, 9.0}}, {{0, 9.0}});
-  EXPECT_EQ(identity({2, 1, {on_first, on_first, on_second, on_second, on_second}}, 0.5).true_positives, 3U);
+  EXPECT_EQ(
+      identity({2, 1, {on_first, on_first, on_second, on_second, on_second}}, 0.5).true_positives,
+      3U);
 }
 
 TEST(Identity, OfNothingIsZero) { EXPECT_EQ(identity({}, 0.5).f1, 0.0); }

@@ -10,9 +10,13 @@ namespace {
 constexpr double kToleranceM = 0.3;
 
 /// 10 m x 10 m, all free, cells of 0.2 m from the origin on.
-OccupancyCells free_map() { return {50, 50, 0.2, 0.0, 0.0, std::vector<CellState>(2500, CellState::kFree)}; }
+OccupancyCells free_map() {
+  return {50, 50, 0.2, 0.0, 0.0, std::vector<CellState>(2500, CellState::kFree)};
+}
 
-void occupy(OccupancyCells& map, std::size_t column, std::size_t row) { map.state[row * map.columns + column] = CellState::kOccupied; }
+void occupy(OccupancyCells& map, std::size_t column, std::size_t row) {
+  map.state[row * map.columns + column] = CellState::kOccupied;
+}
 
 /// Along the row whose cells' centres are at y = 5.1 m.
 const std::vector<WallSegment> kWall = {{{1.0, 5.1}, {9.0, 5.1}}};
@@ -53,7 +57,8 @@ TEST(MapQuality, CallsItResidueWhereOnlyAMoverWas) {
   TrueObject walker = car_at(2.0, 2.0);
   walker.length_m = walker.width_m = 0.5;
   TrueObject along_the_wall = car_at(5.0, 5.1);
-  const MapQuality quality = map_quality(map, {}, {kWall, {walker, along_the_wall}, {}, {}}, kToleranceM);
+  const MapQuality quality =
+      map_quality(map, {}, {kWall, {walker, along_the_wall}, {}, {}}, kToleranceM);
   EXPECT_EQ(quality.residue_cells, 1U);
   EXPECT_EQ(quality.occupied_cells - quality.right_cells, 2U);
 }
@@ -69,8 +74,10 @@ TEST(MapQuality, BlamesAMoverOnlyForCellsFromWhichItSentAnEcho) {
 
 TEST(MapQuality, MovesWithTheWorld) {
   const geometry::Pose2 world_from_map{100.0, -50.0, 1.2};
-  const std::vector<WallSegment> wall = {{world_from_map * kWall[0].from_m, world_from_map * kWall[0].to_m}};
-  const MapQuality quality = map_quality(mapped_wall(), world_from_map, {wall, {}, {}, {}}, kToleranceM);
+  const std::vector<WallSegment> wall = {
+      {world_from_map * kWall[0].from_m, world_from_map * kWall[0].to_m}};
+  const MapQuality quality =
+      map_quality(mapped_wall(), world_from_map, {wall, {}, {}, {}}, kToleranceM);
   EXPECT_EQ(quality.precision(), 1.0);
   EXPECT_EQ(quality.recall(), 1.0);
 }

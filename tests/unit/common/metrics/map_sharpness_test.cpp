@@ -26,7 +26,8 @@ TEST(EndCounts, ABeamPassesEveryCellBeforeTheOneItEndsIn) {
   const MapSharpness sharpness = counts.sharpness();
   EXPECT_EQ(sharpness.touched_cells, 5U);
   EXPECT_EQ(sharpness.occupied_cells, 1U);
-  const double once_bits = -0.25 * std::log2(0.25) - 0.75 * std::log2(0.75);  // once met: 1/4 or 3/4
+  const double once_bits = -0.25 * std::log2(0.25) - 0.75 * std::log2(0.75);  // once met: 1/4 or
+                                                                              // 3/4
   EXPECT_NEAR(sharpness.entropy_bits, 5 * once_bits, 1e-12);
 }
 
@@ -49,7 +50,8 @@ TEST(EndCounts, IsSurerTheOftenerBeamsAgreeAndKnowsNothingWhereTheyDoNot) {
   undecided.add({0.5, 0.5}, {1.5, 0.5});
   EndCounts only_the_end(1.0);
   only_the_end.add({1.5, 0.5}, {1.5, 0.5});
-  EXPECT_NEAR(undecided.sharpness().entropy_bits - only_the_end.sharpness().entropy_bits, 1.0, 1e-12);
+  EXPECT_NEAR(undecided.sharpness().entropy_bits - only_the_end.sharpness().entropy_bits, 1.0,
+              1e-12);
 }
 
 /// A round room of 5 m, seen from many places with poses that are off by so much.
@@ -59,7 +61,8 @@ MapSharpness of_a_room(double position_sigma_m, double heading_sigma_rad) {
   EndCounts counts(kCellM);
   for (int scan = 0; scan < 100; ++scan) {
     const Pose2 truth{2.0 * std::cos(0.2 * scan), 2.0 * std::sin(0.3 * scan), 0.1 * scan};
-    const Pose2 noise{position_sigma_m * normal(random), position_sigma_m * normal(random), heading_sigma_rad * normal(random)};
+    const Pose2 noise{position_sigma_m * normal(random), position_sigma_m * normal(random),
+                      heading_sigma_rad * normal(random)};
     const Pose2 estimate = truth * noise;
     for (int beam = 0; beam < 360; ++beam) {
       const double angle_rad = beam * std::numbers::pi / 180.0;
@@ -90,7 +93,8 @@ TEST(EndCounts, AreTheSameWhereverTheLatticeIsEntered) {
     here.add(origin_m, end_m);
     there.add(origin_m + shift_m, end_m + shift_m);
   }
-  EXPECT_NEAR(static_cast<double>(here.sharpness().touched_cells), static_cast<double>(there.sharpness().touched_cells), 2.0);  // by rounding
+  EXPECT_NEAR(static_cast<double>(here.sharpness().touched_cells),
+              static_cast<double>(there.sharpness().touched_cells), 2.0);  // by rounding
   EXPECT_NEAR(here.sharpness().mean_entropy_bits(), there.sharpness().mean_entropy_bits(), 1e-3);
 }
 

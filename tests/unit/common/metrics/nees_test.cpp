@@ -7,7 +7,8 @@
 namespace slammot::metrics {
 namespace {
 
-/// Squared lengths of vectors drawn from a Gaussian of the given standard deviation in each of three directions.
+/// Squared lengths of vectors drawn from a Gaussian of the given standard deviation in each of
+/// three directions.
 std::vector<double> squared_errors(double sigma, std::size_t count) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal(0.0, sigma);
@@ -26,9 +27,13 @@ TEST(Nees, OfHonestCovariancesIsInsideTheBandAroundTheDegreesOfFreedom) {
   EXPECT_TRUE(summary.is_inside());
 }
 
-TEST(Nees, OfErrorsAFifthLargerThanPromisedIsOutside) { EXPECT_FALSE(summarize_nees(squared_errors(1.2, 500), 3).is_inside()); }
+TEST(Nees, OfErrorsAFifthLargerThanPromisedIsOutside) {
+  EXPECT_FALSE(summarize_nees(squared_errors(1.2, 500), 3).is_inside());
+}
 
-TEST(Nees, OfErrorsAFifthSmallerThanPromisedIsOutside) { EXPECT_FALSE(summarize_nees(squared_errors(0.8, 500), 3).is_inside()); }
+TEST(Nees, OfErrorsAFifthSmallerThanPromisedIsOutside) {
+  EXPECT_FALSE(summarize_nees(squared_errors(0.8, 500), 3).is_inside());
+}
 
 TEST(Nees, OfNothingIsNotInside) { EXPECT_FALSE(summarize_nees({}, 3).is_inside()); }
 

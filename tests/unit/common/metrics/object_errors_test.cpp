@@ -12,7 +12,8 @@ namespace {
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 const CountingRule kRule;
 
-ObjectErrorTables tables_of(const std::vector<Scene>& scenes, std::size_t objects, std::size_t tracks) {
+ObjectErrorTables tables_of(const std::vector<Scene>& scenes, std::size_t objects,
+                            std::size_t tracks) {
   std::vector<CountedScene> counted;
   MotSequence sequence{objects, tracks, {}};
   for (const Scene& scene : scenes) {
@@ -38,9 +39,10 @@ TEST(ObjectErrors, AreTheDifferencesOfTheMatchedRows) {
 }
 
 TEST(ObjectErrors, CountTheDelayFromTheFirstRowThatCounted) {
-  const ObjectErrorTables tables = tables_of({{0, {}, {car_at(10.0, 0.0), car_at(30.0, 9.0, 1)}, {}},
-                                              {kSecondNs, {}, {car_at(10.0, 0.0), car_at(30.0, 9.0, 1)}, {track_at(10.0, 0.0)}}},
-                                             2, 1);
+  const ObjectErrorTables tables =
+      tables_of({{0, {}, {car_at(10.0, 0.0), car_at(30.0, 9.0, 1)}, {}},
+                 {kSecondNs, {}, {car_at(10.0, 0.0), car_at(30.0, 9.0, 1)}, {track_at(10.0, 0.0)}}},
+                2, 1);
   EXPECT_EQ(tables.detection_delay_s.count, 1U);
   EXPECT_NEAR(tables.detection_delay_s.median, 1.0, 1e-12);
   EXPECT_EQ(tables.never_detected, 1U);
@@ -49,7 +51,8 @@ TEST(ObjectErrors, CountTheDelayFromTheFirstRowThatCounted) {
 TEST(ObjectErrors, AreSplitByClassAndDistance) {
   TrueObject bus = car_at(30.0, 0.0, 1);
   bus.object_class = "bus";
-  const ObjectErrorTables tables = tables_of({{0, {}, {car_at(10.0, 0.0), bus}, {track_at(10.0, 0.0), track_at(40.0, 9.0, 1)}}}, 2, 2);
+  const ObjectErrorTables tables = tables_of(
+      {{0, {}, {car_at(10.0, 0.0), bus}, {track_at(10.0, 0.0), track_at(40.0, 9.0, 1)}}}, 2, 2);
   EXPECT_EQ(tables.by_class.at("car").recall, 1.0);
   EXPECT_EQ(tables.by_class.at("bus").recall, 0.0);
   EXPECT_EQ(tables.by_distance[0].errors.matched_rows, 1U);
@@ -60,7 +63,10 @@ TEST(ObjectErrors, AreSplitByClassAndDistance) {
 TEST(ObjectErrors, TellForWhatEachClassWasTaken) {
   ReportedTrack mistaken = track_at(10.0, 0.0);
   mistaken.object_class = "bicycle";
-  const ObjectErrors errors = tables_of({{0, {}, {car_at(10.0, 0.0)}, {track_at(10.0, 0.0)}}, {kSecondNs, {}, {car_at(10.0, 0.0)}, {mistaken}}}, 1, 1).by_class.at("car");
+  const ObjectErrors errors = tables_of({{0, {}, {car_at(10.0, 0.0)}, {track_at(10.0, 0.0)}},
+                                         {kSecondNs, {}, {car_at(10.0, 0.0)}, {mistaken}}},
+                                        1, 1)
+                                  .by_class.at("car");
   EXPECT_EQ(errors.reported_as, (std::map<std::string, std::size_t>{{"bicycle", 1}, {"car", 1}}));
   EXPECT_EQ(errors.right_class, 0.5);
 }
@@ -69,7 +75,8 @@ TEST(ObjectErrors, TakeOneNeesSampleASecond) {
   ReportedTrack track = track_at(10.2, 0.0);
   track.position_covariance_m2 = geometry::Matrix2::Identity() * 0.01;
   std::vector<Scene> scenes;
-  for (int i = 0; i < 21; ++i) scenes.push_back({i * kSecondNs / 10, {}, {car_at(10.0, 0.0)}, {track}});
+  for (int i = 0; i < 21; ++i)
+    scenes.push_back({i * kSecondNs / 10, {}, {car_at(10.0, 0.0)}, {track}});
   const NeesSummary nees = tables_of(scenes, 1, 1).all.position_nees;
   EXPECT_EQ(nees.samples, 3U);
   EXPECT_NEAR(nees.mean, 4.0, 1e-9);  // two standard deviations

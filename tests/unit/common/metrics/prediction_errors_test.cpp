@@ -27,7 +27,9 @@ std::vector<PredictionErrors> errors_of(const std::vector<Scene>& scenes) {
 }
 
 TEST(PredictionErrors, AreDistancesToWhereTheObjectIsThen) {
-  const auto errors = errors_of({{0, {}, {car_at(10.0, 0.0)}, {track_that_predicts(10.0, 1.0, 21.0)}}, {kSecondNs, {}, {car_at(20.0, 0.0)}, {}}});
+  const auto errors =
+      errors_of({{0, {}, {car_at(10.0, 0.0)}, {track_that_predicts(10.0, 1.0, 21.0)}},
+                 {kSecondNs, {}, {car_at(20.0, 0.0)}, {}}});
   ASSERT_EQ(errors.size(), 1U);
   EXPECT_EQ(errors[0].after_s, 1.0);
   EXPECT_NEAR(errors[0].displacement_m.rmse, 1.0, 1e-12);
@@ -36,21 +38,30 @@ TEST(PredictionErrors, AreDistancesToWhereTheObjectIsThen) {
 }
 
 TEST(PredictionErrors, TakeTheTruthFromBetweenTwoScans) {
-  const auto errors = errors_of({{0, {}, {car_at(10.0, 0.0)}, {track_that_predicts(10.0, 0.15, 11.5)}},
-                                 {kSecondNs / 10, {}, {car_at(11.0, 0.0)}, {}},
-                                 {kSecondNs / 5, {}, {car_at(12.0, 0.0)}, {}}});
+  const auto errors =
+      errors_of({{0, {}, {car_at(10.0, 0.0)}, {track_that_predicts(10.0, 0.15, 11.5)}},
+                 {kSecondNs / 10, {}, {car_at(11.0, 0.0)}, {}},
+                 {kSecondNs / 5, {}, {car_at(12.0, 0.0)}, {}}});
   ASSERT_EQ(errors.size(), 1U);
   EXPECT_NEAR(errors[0].displacement_m.rmse, 0.0, 1e-12);
 }
 
 TEST(PredictionErrors, LeaveOutTimesOfWhichTheTruthKnowsNothing) {
-  EXPECT_TRUE(errors_of({{0, {}, {car_at(10.0, 0.0)}, {track_that_predicts(10.0, 3.0, 40.0)}}, {kSecondNs, {}, {car_at(20.0, 0.0)}, {}}}).empty());
-  EXPECT_TRUE(errors_of({{0, {}, {car_at(10.0, 0.0)}, {track_that_predicts(10.0, 0.5, 15.0)}}, {kSecondNs, {}, {car_at(20.0, 0.0)}, {}}}).empty());
+  EXPECT_TRUE(errors_of({{0, {}, {car_at(10.0, 0.0)}, {track_that_predicts(10.0, 3.0, 40.0)}},
+                         {kSecondNs, {}, {car_at(20.0, 0.0)}, {}}})
+                  .empty());
+  EXPECT_TRUE(errors_of({{0, {}, {car_at(10.0, 0.0)}, {track_that_predicts(10.0, 0.5, 15.0)}},
+                         {kSecondNs, {}, {car_at(20.0, 0.0)}, {}}})
+                  .empty());
 }
 
 TEST(PredictionErrors, TakeOneNeesSampleASecond) {
   std::vector<Scene> scenes;
-  for (int i = 0; i < 41; ++i) scenes.push_back({i * kSecondNs / 10, {}, {car_at(10.0 + i, 0.0)}, {track_that_predicts(10.0 + i, 1.0, 20.0 + i)}});
+  for (int i = 0; i < 41; ++i)
+    scenes.push_back({i * kSecondNs / 10,
+                      {},
+                      {car_at(10.0 + i, 0.0)},
+                      {track_that_predicts(10.0 + i, 1.0, 20.0 + i)}});
   const auto errors = errors_of(scenes);
   ASSERT_EQ(errors.size(), 1U);
   EXPECT_EQ(errors[0].displacement_m.count, 31U);

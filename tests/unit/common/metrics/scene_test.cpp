@@ -43,14 +43,18 @@ TEST(DoesCount, NotWhatStandsIsFarOrIsHardlySeen) {
 TEST(CountScene, LeavesOutWhatIsInDirectionsOfWhichTheTruthKnowsNothing) {
   CountingRule rule;
   rule.first_bearing_rad = -0.5, rule.last_bearing_rad = 0.2;
-  const Scene scene{0, {0.0, 0.0, 0.5 * std::numbers::pi}, {car_at(0.0, 20.0), car_at(-20.0, 0.0, 1)}, {track_at(5.0, 15.0), track_at(-15.0, 10.0, 1)}};
+  const Scene scene{0,
+                    {0.0, 0.0, 0.5 * std::numbers::pi},
+                    {car_at(0.0, 20.0), car_at(-20.0, 0.0, 1)},
+                    {track_at(5.0, 15.0), track_at(-15.0, 10.0, 1)}};
   const CountedScene counted = count_scene(scene, rule);
   EXPECT_EQ(counted.objects, std::vector<std::size_t>{0});  // ahead, not left
   EXPECT_EQ(counted.tracks, std::vector<std::size_t>{0});
 }
 
 TEST(CountScene, LeavesOutATrackOnAnObjectThatDoesNotCount) {
-  const Scene scene{0, {}, {stopped_car_at(10.0, 0.0)}, {track_at(10.0, 0.5), track_at(12.9, 0.0, 1)}};
+  const Scene scene{
+      0, {}, {stopped_car_at(10.0, 0.0)}, {track_at(10.0, 0.5), track_at(12.9, 0.0, 1)}};
   const CountedScene counted = count_scene(scene, kRule);
   EXPECT_TRUE(counted.frame.objects.empty());
   EXPECT_TRUE(counted.frame.tracks.empty());  // neither its best track nor another within a metre
@@ -86,14 +90,20 @@ TEST(CountScene, GivesTheSimilarityOfTheDistanceToTheBox) {
 }
 
 TEST(FillGaps, PutsAHiddenObjectOnTheLineBetween) {
-  const std::vector<Scene> filled = fill_gaps({{0, {}, {car_at(0.0, 0.0)}, {}}, {kSecondNs, {}, {}, {}}, {4 * kSecondNs, {}, {car_at(40.0, 0.0)}, {}}}, 5 * kSecondNs);
+  const std::vector<Scene> filled = fill_gaps({{0, {}, {car_at(0.0, 0.0)}, {}},
+                                               {kSecondNs, {}, {}, {}},
+                                               {4 * kSecondNs, {}, {car_at(40.0, 0.0)}, {}}},
+                                              5 * kSecondNs);
   ASSERT_EQ(filled[1].objects.size(), 1U);
   EXPECT_NEAR(filled[1].objects[0].world_from_object.x_m, 10.0, 1e-12);
   EXPECT_EQ(filled[1].objects[0].points, 0);
 }
 
 TEST(FillGaps, LetsAnObjectBeGoneThatStaysHiddenForLong) {
-  const std::vector<Scene> filled = fill_gaps({{0, {}, {car_at(0.0, 0.0)}, {}}, {kSecondNs, {}, {}, {}}, {9 * kSecondNs, {}, {car_at(40.0, 0.0)}, {}}}, 5 * kSecondNs);
+  const std::vector<Scene> filled = fill_gaps({{0, {}, {car_at(0.0, 0.0)}, {}},
+                                               {kSecondNs, {}, {}, {}},
+                                               {9 * kSecondNs, {}, {car_at(40.0, 0.0)}, {}}},
+                                              5 * kSecondNs);
   EXPECT_TRUE(filled[1].objects.empty());
 }
 

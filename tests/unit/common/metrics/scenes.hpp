@@ -4,7 +4,9 @@
 
 namespace slammot::metrics {
 
-inline TrueObject car_at(double x_m, double y_m, std::size_t object = 0) { return {object, "car", {x_m, y_m, 0.0}, 10.0, 4.0, 2.0, 20}; }
+inline TrueObject car_at(double x_m, double y_m, std::size_t object = 0) {
+  return {object, "car", {x_m, y_m, 0.0}, 10.0, 4.0, 2.0, 20};
+}
 
 inline ReportedTrack track_at(double x_m, double y_m, std::size_t track = 0) {
   ReportedTrack reported;

@@ -17,7 +17,9 @@ TEST(Summarize, KnowsTheErrorsOfFiveByHand) {
   EXPECT_DOUBLE_EQ(summary.p95, 4.8);
 }
 
-TEST(Summarize, TakesTheMeanOfTheMiddleTwoOfAnEvenCount) { EXPECT_DOUBLE_EQ(summarize({4.0, 1.0, 3.0, 10.0}).median, 3.5); }
+TEST(Summarize, TakesTheMeanOfTheMiddleTwoOfAnEvenCount) {
+  EXPECT_DOUBLE_EQ(summarize({4.0, 1.0, 3.0, 10.0}).median, 3.5);
+}
 
 TEST(Summarize, IsAllZeroForNothing) {
   EXPECT_EQ(summarize({}).count, 0U);

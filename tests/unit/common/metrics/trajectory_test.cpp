@@ -71,7 +71,8 @@ TEST(AlignRigidly, FindsTheMotionBetweenEqualTrajectories) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(-10.0, 10.0);
   Trajectory truth;
-  for (int i = 0; i < 20; ++i) truth.push_back({i, {uniform(random), uniform(random), uniform(random)}});
+  for (int i = 0; i < 20; ++i)
+    truth.push_back({i, {uniform(random), uniform(random), uniform(random)}});
   const Pose2 world_from_map{3.0, -2.0, 2.5};
   const auto pairs = associate(truth, moved(truth, geometry::inverse(world_from_map)), 0);
   EXPECT_THAT(align_rigidly(pairs), PoseNear(world_from_map, 1e-12));
@@ -81,14 +82,17 @@ TEST(AlignRigidly, FindsTheMotionBetweenEqualTrajectories) {
 TEST(AbsoluteError, OfATrajectoryHalfAMetreAsideAtEveryOtherPoseIsAQuarterAfterAlignment) {
   const Trajectory truth = straight(4);
   Trajectory estimate = truth;
-  for (std::size_t i : {1U, 2U}) estimate[i].pose.y_m = 0.5;  // symmetric, so that alignment does not turn it
+  for (std::size_t i : {1U, 2U})
+    estimate[i].pose.y_m = 0.5;  // symmetric, so that alignment does not turn it
   const auto pairs = associate(truth, estimate, 0);
   ASSERT_EQ(pairs.size(), truth.size());
-  for (const double error_m : absolute_errors_m(pairs, align_rigidly(pairs))) EXPECT_NEAR(error_m, 0.25, 1e-12);
+  for (const double error_m : absolute_errors_m(pairs, align_rigidly(pairs)))
+    EXPECT_NEAR(error_m, 0.25, 1e-12);
 }
 
 TEST(PairsByPath, ConsecutiveOnesBeginWhereTheLastEnded) {
-  const auto pairs = pairs_by_path(poses_at({0, 0.6, 1.2, 1.8, 2.4, 3.0}), 1.0, PathPairs::kConsecutive);
+  const auto pairs =
+      pairs_by_path(poses_at({0, 0.6, 1.2, 1.8, 2.4, 3.0}), 1.0, PathPairs::kConsecutive);
   ASSERT_EQ(pairs.size(), 2U);
   EXPECT_EQ(pairs[0].from, 0U);
   EXPECT_EQ(pairs[0].to, 2U);
@@ -98,7 +102,8 @@ TEST(PairsByPath, ConsecutiveOnesBeginWhereTheLastEnded) {
 
 TEST(PairsByPath, AllBeginAtEachPoseAndLeaveOutWhatIsNotNearEnough) {
   const auto pairs = pairs_by_path(poses_at({0, 0.5, 1.05, 1.5, 2.7}), 1.0, PathPairs::kAll);
-  ASSERT_EQ(pairs.size(), 2U);  // 0 to 1.05 and 0.5 to 1.5; from 1.05 and 1.5 nothing is within 0.1 of a metre away
+  ASSERT_EQ(pairs.size(), 2U);  // 0 to 1.05 and 0.5 to 1.5; from 1.05 and 1.5 nothing is within 0.1
+                                // of a metre away
   EXPECT_EQ(pairs[0].to, 2U);
   EXPECT_EQ(pairs[1].to, 3U);
 }
@@ -121,7 +126,8 @@ TEST(RelativeErrors, OfAScaleOffByOnePercentAreAHundredthOfTheWay) {
 
 TEST(RelativeErrors, DoNotDependOnTheFrameOfEither) {
   const auto plain = relative_errors(associate(straight(11), straight(11, 1.01), 0), {{0, 10}});
-  const auto turned = relative_errors(associate(straight(11), moved(straight(11, 1.01), {5.0, 6.0, 0.7}), 0), {{0, 10}});
+  const auto turned = relative_errors(
+      associate(straight(11), moved(straight(11, 1.01), {5.0, 6.0, 0.7}), 0), {{0, 10}});
   EXPECT_NEAR(plain[0].translation_m, turned[0].translation_m, 1e-12);
 }
 
@@ -129,10 +135,12 @@ TEST(RelativePoseNees, IsTheSquaredErrorInUnitsOfTheTwoCovariancesTogether) {
   const double sigma_m = 0.1;
   std::vector<UncertainStampedPose> estimate;
   for (const StampedPose& pose : straight(3)) {
-    estimate.push_back({pose.stamp_ns, {pose.pose, geometry::Matrix3::Identity() * sigma_m * sigma_m}});
+    estimate.push_back(
+        {pose.stamp_ns, {pose.pose, geometry::Matrix3::Identity() * sigma_m * sigma_m}});
   }
   estimate[1].odom_from_base.pose.y_m = 0.2;
-  estimate.front().odom_from_base.covariance(2, 2) = estimate.back().odom_from_base.covariance(2, 2) = 1e-12;  // no lever arm
+  estimate.front().odom_from_base.covariance(2, 2) =
+      estimate.back().odom_from_base.covariance(2, 2) = 1e-12;  // no lever arm
   const auto nees = relative_pose_nees(straight(3), estimate, 1000 * kMs, 10 * kMs);
   ASSERT_EQ(nees.size(), 2U);
   EXPECT_NEAR(nees[0], 0.2 * 0.2 / (2.0 * sigma_m * sigma_m), 1e-6);
@@ -140,7 +148,8 @@ TEST(RelativePoseNees, IsTheSquaredErrorInUnitsOfTheTwoCovariancesTogether) {
 
 TEST(RelativePoseNees, UsesIntervalsThatDoNotOverlap) {
   std::vector<UncertainStampedPose> estimate;
-  for (const StampedPose& pose : straight(9)) estimate.push_back({pose.stamp_ns, {pose.pose, geometry::Matrix3::Identity()}});
+  for (const StampedPose& pose : straight(9))
+    estimate.push_back({pose.stamp_ns, {pose.pose, geometry::Matrix3::Identity()}});
   EXPECT_EQ(relative_pose_nees(straight(9), estimate, 2000 * kMs, 10 * kMs).size(), 4U);
 }
 

@@ -41,7 +41,8 @@ TEST(BoxFitOfAModel, IsNotTurnedByItsRoundCorners) {
   for (double u = -0.04; u < 0.0; u += 0.01) points.push_back(u * along + u * u / 0.04 * across);
   for (double u = 0.0; u < 0.36; u += 0.01) points.push_back(u * along);
   EXPECT_NEAR(std::remainder(fit_box(points, 0.01).heading_rad - 0.4, M_PI), 0.0, 0.03);
-  EXPECT_GT(std::abs(std::remainder(fit_box(points, kRangeNoiseM).heading_rad - 0.4, M_PI)), 0.03) << "else the noise need not be told";
+  EXPECT_GT(std::abs(std::remainder(fit_box(points, kRangeNoiseM).heading_rad - 0.4, M_PI)), 0.03)
+      << "else the noise need not be told";
 }
 
 TEST(BoxFitOfFewPoints, IsALineOrAPoint) {

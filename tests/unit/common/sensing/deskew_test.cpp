@@ -33,15 +33,18 @@ double off_the_walls_m(const World& world, const Vector2& point_m) {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const auto& wall : world) {
     const Vector2 along_m = wall.to_m - wall.from_m;
-    const double share = std::clamp((point_m - wall.from_m).dot(along_m) / along_m.squaredNorm(), 0.0, 1.0);
+    const double share =
+        std::clamp((point_m - wall.from_m).dot(along_m) / along_m.squaredNorm(), 0.0, 1.0);
     nearest_m = std::min(nearest_m, (wall.from_m + share * along_m - point_m).norm());
   }
   return nearest_m;
 }
 
-double worst_point_m(const World& world, const Pose2& world_from_base, const std::vector<Vector2>& points_in_base_m) {
+double worst_point_m(const World& world, const Pose2& world_from_base,
+                     const std::vector<Vector2>& points_in_base_m) {
   double worst_m = 0.0;
-  for (const Vector2& point_m : points_in_base_m) worst_m = std::max(worst_m, off_the_walls_m(world, world_from_base * point_m));
+  for (const Vector2& point_m : points_in_base_m)
+    worst_m = std::max(worst_m, off_the_walls_m(world, world_from_base * point_m));
   return worst_m;
 }
 
@@ -62,8 +65,9 @@ TEST_P(DeskewOfAMovingScanner, PutsEveryPointBackOntoItsWall) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Motions, DeskewOfAMovingScanner,
-                         ::testing::Values(Motion{0.0, 0.0}, Motion{15.0, 0.0}, Motion{-3.0, 0.0}, Motion{0.0, 1.5},
-                                           Motion{10.0, -0.6}, Motion{10.0, 0.6}));
+                         ::testing::Values(Motion{0.0, 0.0}, Motion{15.0, 0.0}, Motion{-3.0, 0.0},
+                                           Motion{0.0, 1.5}, Motion{10.0, -0.6},
+                                           Motion{10.0, 0.6}));
 
 TEST(Deskew, MattersAtTheSpeedOfACar) {
   const World world = slammot::testing::room();
@@ -86,7 +90,8 @@ TEST(Deskew, WithoutSweepTimeIsThePolarScanInTheBaseFrame) {
 TEST(Deskew, GivesTheLasersPlaceForBeamsWithoutEcho) {
   LaserScan scan;
   scan.scanner = sweeping_scanner();
-  scan.range_m = {std::numeric_limits<float>::quiet_NaN(), 0.0F, -1.0F, 50.0F, std::numeric_limits<float>::infinity()};
+  scan.range_m = {std::numeric_limits<float>::quiet_NaN(), 0.0F, -1.0F, 50.0F,
+                  std::numeric_limits<float>::infinity()};
   const auto points_m = deskewed(scan, 20.0, 1.0);
   ASSERT_EQ(points_m.size(), scan.range_m.size());
   for (const Vector2& point_m : points_m) EXPECT_EQ(point_m, Vector2(2.15, -0.3));

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <random>
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "tests/support/matchers.hpp"
 
@@ -20,9 +20,13 @@ using slammot::testing::PoseNear;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-Matrix3 diagonal(double x, double y, double heading) { return Eigen::Vector3d(x, y, heading).asDiagonal(); }
+Matrix3 diagonal(double x, double y, double heading) {
+  return Eigen::Vector3d(x, y, heading).asDiagonal();
+}
 
-double sum(const ExplanationWeights& weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
+double sum(const ExplanationWeights& weights) {
+  return std::accumulate(weights.begin(), weights.end(), 0.0);
+}
 
 /// A prediction whose errors in x, y and heading depend on each other.
 UncertainPose2 prediction() {
@@ -38,7 +42,8 @@ Matrix3 example_information() {
 }
 
 /// Mean of the scan's likelihood over samples of the prediction.
-double likelihood_by_monte_carlo(const UncertainPose2& prediction, const Pose2& optimum, const Matrix3& information) {
+double likelihood_by_monte_carlo(const UncertainPose2& prediction, const Pose2& optimum,
+                                 const Matrix3& information) {
   constexpr int kSamples = 400000;
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
@@ -46,7 +51,8 @@ double likelihood_by_monte_carlo(const UncertainPose2& prediction, const Pose2& 
   const Eigen::Vector3d apart = geometry::difference(optimum, prediction.pose);
   double likelihood = 0.0;
   for (int i = 0; i < kSamples; ++i) {
-    const Eigen::Vector3d error = root * Eigen::Vector3d(normal(random), normal(random), normal(random)) - apart;
+    const Eigen::Vector3d error =
+        root * Eigen::Vector3d(normal(random), normal(random), normal(random)) - apart;
     likelihood += std::exp(-0.5 * error.dot(information * error));
   }
   return likelihood / kSamples;
@@ -55,14 +61,16 @@ double likelihood_by_monte_carlo(const UncertainPose2& prediction, const Pose2& 
 TEST(LogMarginalLikelihood, IsThatOfMonteCarloIntegration) {
   for (const Pose2& optimum : {Pose2{1.0, 2.0, 0.3}, Pose2{1.4, 1.8, 0.2}, Pose2{0.5, 2.3, 0.45}}) {
     const double expected = likelihood_by_monte_carlo(prediction(), optimum, example_information());
-    EXPECT_NEAR(std::exp(log_marginal_likelihood(prediction(), optimum, example_information())), expected, 0.02 * expected);
+    EXPECT_NEAR(std::exp(log_marginal_likelihood(prediction(), optimum, example_information())),
+                expected, 0.02 * expected);
   }
 }
 
 TEST(LogMarginalLikelihood, IsThatOfMonteCarloIntegrationWhereTheScanSaysNothingOfADirection) {
   const Matrix3 along_a_wall = diagonal(0.0, 400.0, 900.0);
   const double expected = likelihood_by_monte_carlo(prediction(), {7.0, 1.9, 0.25}, along_a_wall);
-  EXPECT_NEAR(std::exp(log_marginal_likelihood(prediction(), {7.0, 1.9, 0.25}, along_a_wall)), expected, 0.02 * expected);
+  EXPECT_NEAR(std::exp(log_marginal_likelihood(prediction(), {7.0, 1.9, 0.25}, along_a_wall)),
+              expected, 0.02 * expected);
 }
 
 TEST(LogMarginalLikelihood, IsTheSameForEveryPredictionOfAScanThatSaysNothing) {
@@ -75,28 +83,39 @@ TEST(LogMarginalLikelihood, DependsOnNothingThatTheScanDoesNotObserve) {
   UncertainPose2 elsewhere_along_it = sure;
   elsewhere_along_it.pose.x_m += 5.0;
   elsewhere_along_it.covariance(0, 0) = 4.0;
-  EXPECT_NEAR(log_marginal_likelihood(sure, {1.0, 2.1, 0.3}, along_a_wall), log_marginal_likelihood(elsewhere_along_it, {1.0, 2.1, 0.3}, along_a_wall), 1e-12);
+  EXPECT_NEAR(log_marginal_likelihood(sure, {1.0, 2.1, 0.3}, along_a_wall),
+              log_marginal_likelihood(elsewhere_along_it, {1.0, 2.1, 0.3}, along_a_wall), 1e-12);
 }
 
-TEST(LogMarginalLikelihood, PrefersTheSurePredictionThatIsRightAndTheVagueOneToASureOneThatIsWrong) {
+TEST(LogMarginalLikelihood,
+     PrefersTheSurePredictionThatIsRightAndTheVagueOneToASureOneThatIsWrong) {
   const UncertainPose2 sure{{}, diagonal(1e-4, 1e-4, 1e-6)};
   const UncertainPose2 vague{{}, diagonal(0.25, 0.25, 0.01)};
   const Matrix3 information = diagonal(1e4, 1e4, 1e6);
-  EXPECT_GT(log_marginal_likelihood(sure, {0.005, 0.0, 0.0}, information), log_marginal_likelihood(vague, {0.005, 0.0, 0.0}, information));
-  EXPECT_LT(log_marginal_likelihood(sure, {0.5, 0.0, 0.0}, information), log_marginal_likelihood(vague, {0.5, 0.0, 0.0}, information));
+  EXPECT_GT(log_marginal_likelihood(sure, {0.005, 0.0, 0.0}, information),
+            log_marginal_likelihood(vague, {0.005, 0.0, 0.0}, information));
+  EXPECT_LT(log_marginal_likelihood(sure, {0.5, 0.0, 0.0}, information),
+            log_marginal_likelihood(vague, {0.5, 0.0, 0.0}, information));
 }
 
 TEST(LogMarginalLikelihood, CountsHeadingsTheShorterWayRound) {
   const UncertainPose2 backwards{{0.0, 0.0, 3.1}, diagonal(0.01, 0.01, 0.01)};
   EXPECT_NEAR(log_marginal_likelihood(backwards, {0.0, 0.0, -3.1}, diagonal(1.0, 1.0, 100.0)),
-              log_marginal_likelihood(backwards, {0.0, 0.0, 3.1 - (2.0 * M_PI - 6.2)}, diagonal(1.0, 1.0, 100.0)), 1e-9);
+              log_marginal_likelihood(backwards, {0.0, 0.0, 3.1 - (2.0 * M_PI - 6.2)},
+                                      diagonal(1.0, 1.0, 100.0)),
+              1e-9);
 }
 
 /// The posterior's mode of two Gaussians.
-Pose2 maximum_a_posteriori(const UncertainPose2& prediction, const Pose2& optimum, const Matrix3& information) {
+Pose2 maximum_a_posteriori(const UncertainPose2& prediction, const Pose2& optimum,
+                           const Matrix3& information) {
   const Matrix3 by_prediction = prediction.covariance.inverse();
-  const Eigen::Vector3d step = (by_prediction + information).ldlt().solve(information * geometry::difference(optimum, prediction.pose));
-  return {prediction.pose.x_m + step.x(), prediction.pose.y_m + step.y(), prediction.pose.heading_rad + step.z()};
+  const Eigen::Vector3d step =
+      (by_prediction + information)
+          .ldlt()
+          .solve(information * geometry::difference(optimum, prediction.pose));
+  return {prediction.pose.x_m + step.x(), prediction.pose.y_m + step.y(),
+          prediction.pose.heading_rad + step.z()};
 }
 
 TEST(ScanOptimum, UndoesThePullOfThePrediction) {
@@ -129,11 +148,13 @@ TEST(PredictedWeights, SumToOneAndReturnToTheirPriorsInTheLongRun) {
 }
 
 TEST(PredictedWeights, NeverRuleAnExplanationOut) {
-  for (const double weight : predicted({1.0, 0.0, 0.0, 0.0}, OdometryBeliefConfig{})) EXPECT_GT(weight, 0.0);
+  for (const double weight : predicted({1.0, 0.0, 0.0, 0.0}, OdometryBeliefConfig{}))
+    EXPECT_GT(weight, 0.0);
 }
 
 TEST(UpdatedWeights, FollowBayesRule) {
-  const ExplanationWeights posterior = updated({0.5, 0.25, 0.15, 0.1}, {std::log(0.1), std::log(0.4), std::log(0.2), std::log(0.8)});
+  const ExplanationWeights posterior =
+      updated({0.5, 0.25, 0.15, 0.1}, {std::log(0.1), std::log(0.4), std::log(0.2), std::log(0.8)});
   const double evidence = 0.5 * 0.1 + 0.25 * 0.4 + 0.15 * 0.2 + 0.1 * 0.8;
   EXPECT_NEAR(sum(posterior), 1.0, 1e-12);
   EXPECT_NEAR(posterior[0], 0.05 / evidence, 1e-12);
@@ -149,21 +170,24 @@ TEST(UpdatedWeights, GiveNothingToAnExplanationThatIsNotAvailable) {
 }
 
 TEST(UpdatedWeights, StandHoweverUnlikelyTheScanIs) {
-  const ExplanationWeights posterior = updated({0.9, 0.05, 0.03, 0.02}, {-1e6, -2e6, -3e6, -1e6 - 1.0});
+  const ExplanationWeights posterior =
+      updated({0.9, 0.05, 0.03, 0.02}, {-1e6, -2e6, -3e6, -1e6 - 1.0});
   EXPECT_NEAR(sum(posterior), 1.0, 1e-12);
   EXPECT_EQ(most_likely(posterior), StepExplanation::kWheels);
 }
 
 /// Steps as wheels have them that are wrong by these factors, on a way with bends and a halt.
-WheelFactorEstimator after_steps(const WheelFactors& truth, int steps, double noise_m = 0.0, double noise_rad = 0.0) {
+WheelFactorEstimator after_steps(const WheelFactors& truth, int steps, double noise_m = 0.0,
+                                 double noise_rad = 0.0) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   WheelFactorEstimator estimator;
   for (int step = 0; step < steps; ++step) {
     const double turn_rad = 0.03 * std::sin(0.3 * step);
     const Pose2 by_wheels{0.1, 0.0, turn_rad};
-    const Pose2 by_matches{truth.way * by_wheels.x_m + noise_m * normal(random), 0.0,
-                           truth.turn * turn_rad + truth.turn_bias_radps * 0.1 + noise_rad * normal(random)};
+    const Pose2 by_matches{
+        truth.way * by_wheels.x_m + noise_m * normal(random), 0.0,
+        truth.turn * turn_rad + truth.turn_bias_radps * 0.1 + noise_rad * normal(random)};
     estimator.observe(by_wheels, by_matches, 0.1);
   }
   return estimator;
@@ -189,7 +213,8 @@ TEST(WheelFactorEstimator, LearnsAConstantYawBias) {
 }
 
 TEST(WheelFactorEstimator, LearnsAllThreeFromNoisyMatches) {
-  const WheelFactorEstimator estimator = after_steps({.way = 1.3, .turn = 0.87, .turn_bias_radps = -0.05}, 300, 0.01, 0.005);
+  const WheelFactorEstimator estimator =
+      after_steps({.way = 1.3, .turn = 0.87, .turn_bias_radps = -0.05}, 300, 0.01, 0.005);
   EXPECT_NEAR(estimator.factors().way, 1.3, 3.0 * estimator.way_sigma());
   EXPECT_NEAR(estimator.factors().turn, 0.87, 3.0 * estimator.turn_sigma());
   EXPECT_NEAR(estimator.factors().turn_bias_radps, -0.05, 0.02);
@@ -203,22 +228,32 @@ TEST(WheelFactorEstimator, KnowsNothingOfWheelsThatStand) {
   EXPECT_EQ(estimator.factors().way, 1.0);
 }
 
-TEST(WheelFactorEstimator, KnowsNothingAfterAFewSteps) { EXPECT_FALSE(after_steps({.way = 1.3}, 3).is_known()); }
+TEST(WheelFactorEstimator, KnowsNothingAfterAFewSteps) {
+  EXPECT_FALSE(after_steps({.way = 1.3}, 3).is_known());
+}
 
-TEST(CorrectedStep, IsTheSameByFactorsOfOne) { EXPECT_THAT(corrected({0.3, -0.02, 0.1}, 0.1, {}), PoseNear(Pose2{0.3, -0.02, 0.1}, 1e-12)); }
+TEST(CorrectedStep, IsTheSameByFactorsOfOne) {
+  EXPECT_THAT(corrected({0.3, -0.02, 0.1}, 0.1, {}), PoseNear(Pose2{0.3, -0.02, 0.1}, 1e-12));
+}
 
 TEST(CorrectedStep, GoesTheWayAlongTheCorrectedArc) {
   constexpr double kTurn_rad = 0.2;
   const auto arc = [](double way_m, double turn_rad) {
-    return Pose2{way_m / turn_rad * std::sin(turn_rad), way_m / turn_rad * (1.0 - std::cos(turn_rad)), turn_rad};
+    return Pose2{way_m / turn_rad * std::sin(turn_rad),
+                 way_m / turn_rad * (1.0 - std::cos(turn_rad)), turn_rad};
   };
-  EXPECT_THAT(corrected(arc(0.5, kTurn_rad), 0.1, {.way = 1.3, .turn = -1.0}), PoseNear(arc(0.65, -kTurn_rad), 0.001));
-  EXPECT_THAT(corrected(arc(0.5, kTurn_rad), 2.0, {.turn_bias_radps = 0.05}), PoseNear(arc(0.5, kTurn_rad + 0.1), 0.002));
+  EXPECT_THAT(corrected(arc(0.5, kTurn_rad), 0.1, {.way = 1.3, .turn = -1.0}),
+              PoseNear(arc(0.65, -kTurn_rad), 0.001));
+  EXPECT_THAT(corrected(arc(0.5, kTurn_rad), 2.0, {.turn_bias_radps = 0.05}),
+              PoseNear(arc(0.5, kTurn_rad + 0.1), 0.002));
 }
 
-OdometryBelief after_straight_steps(int steps, StepExplanation explanation = StepExplanation::kWheels) {
+OdometryBelief after_straight_steps(int steps,
+                                    StepExplanation explanation = StepExplanation::kWheels) {
   OdometryBelief belief;
-  for (int step = 0; step < steps; ++step) belief = moved(belief, explanation, 0.2, Pose2{1.0, 0.0, 0.02}, MotionModelConfig{}, OdometryBeliefConfig{});
+  for (int step = 0; step < steps; ++step)
+    belief = moved(belief, explanation, 0.2, Pose2{1.0, 0.0, 0.02}, MotionModelConfig{},
+                   OdometryBeliefConfig{});
   return belief;
 }
 
@@ -230,7 +265,8 @@ TEST(OdometryBelief, KnowsTheVelocityOfTheMatches) {
 
 TEST(OdometryBelief, GrowsUnsureOfTheVelocityWithoutMatches) {
   const OdometryBelief before = after_straight_steps(20);
-  const OdometryBelief after = moved(before, StepExplanation::kWheels, 1.0, std::nullopt, MotionModelConfig{}, OdometryBeliefConfig{});
+  const OdometryBelief after = moved(before, StepExplanation::kWheels, 1.0, std::nullopt,
+                                     MotionModelConfig{}, OdometryBeliefConfig{});
   EXPECT_EQ(after.matched_velocity, before.matched_velocity);
   EXPECT_GT(after.matched_velocity_variance.x(), before.matched_velocity_variance.x());
 }

@@ -21,7 +21,8 @@ TEST(OdometryBuffer, InterpolatesBetweenTheNeighbours) {
   OdometryBuffer buffer;
   buffer.add({1000, {1.0, 0.0, 3.1}});
   buffer.add({2000, {3.0, 4.0, -3.1}});
-  EXPECT_THAT(*buffer.wheel_from_base_at(1250), PoseNear(geometry::interpolate({1.0, 0.0, 3.1}, {3.0, 4.0, -3.1}, 0.25), 1e-12));
+  EXPECT_THAT(*buffer.wheel_from_base_at(1250),
+              PoseNear(geometry::interpolate({1.0, 0.0, 3.1}, {3.0, 4.0, -3.1}, 0.25), 1e-12));
   EXPECT_THAT(*buffer.wheel_from_base_at(1500), PoseNear(Pose2{2.0, 2.0, std::numbers::pi}, 1e-12));
 }
 
@@ -46,9 +47,12 @@ TEST(OdometryBuffer, SaysNothingOutsideWhatItKnows) {
 TEST(OdometryBuffer, GoesOnFromAStampAtTheVelocityOfTheLastMoments) {
   OdometryBuffer buffer;
   for (int i = 0; i <= 20; ++i) buffer.add({i * 10'000'000LL, {0.02 * i, 0.01 * i, 0.0}});
-  EXPECT_THAT(*buffer.wheel_from_base_after(200'000'000, 50'000'000), PoseNear(Pose2{0.5, 0.25, 0.0}, 1e-12));
-  EXPECT_THAT(*buffer.wheel_from_base_after(200'000'000, -50'000'000), PoseNear(Pose2{0.3, 0.15, 0.0}, 1e-12));
-  EXPECT_FALSE(buffer.wheel_from_base_after(50'000'000, 10'000'000));   // the velocity there is not known
+  EXPECT_THAT(*buffer.wheel_from_base_after(200'000'000, 50'000'000),
+              PoseNear(Pose2{0.5, 0.25, 0.0}, 1e-12));
+  EXPECT_THAT(*buffer.wheel_from_base_after(200'000'000, -50'000'000),
+              PoseNear(Pose2{0.3, 0.15, 0.0}, 1e-12));
+  EXPECT_FALSE(buffer.wheel_from_base_after(50'000'000, 10'000'000));  // the velocity there is not
+                                                                       // known
   EXPECT_FALSE(buffer.wheel_from_base_after(210'000'000, 10'000'000));
 }
 
@@ -63,9 +67,11 @@ TEST(OdometryBuffer, GivesWhatItHasSinceAStamp) {
 
 TEST(OdometryBuffer, IsNotDenseWhereSamplesWereStampedInBursts) {
   OdometryBuffer buffer;
-  for (const std::int64_t stamp_ns : {0, 100, 200, 300, 700, 701, 702, 800}) buffer.add(sample(stamp_ns, 0.0));
+  for (const std::int64_t stamp_ns : {0, 100, 200, 300, 700, 701, 702, 800})
+    buffer.add(sample(stamp_ns, 0.0));
   EXPECT_TRUE(buffer.is_dense(0 + 50, 300, 100));
-  EXPECT_FALSE(buffer.is_dense(250, 400, 100));  // nothing for four times as long, and then all at once
+  EXPECT_FALSE(buffer.is_dense(250, 400, 100));  // nothing for four times as long, and then all at
+                                                 // once
   EXPECT_TRUE(buffer.is_dense(701, 800, 100));
   EXPECT_FALSE(buffer.is_dense(701, 801, 100));  // what comes then is not known
   EXPECT_FALSE(buffer.is_dense(-10, 300, 100));
@@ -121,7 +127,8 @@ TEST(OdometryBuffer, ForgetsTheOldestWhenFullAndKeepsItsCapacity) {
   OdometryBuffer buffer(10);
   for (int i = 0; i < 1000; ++i) {
     buffer.add(sample(i, i));
-    for (int kept = std::max(0, i - 9); kept <= i; ++kept) ASSERT_EQ(buffer.wheel_from_base_at(kept)->x_m, kept);
+    for (int kept = std::max(0, i - 9); kept <= i; ++kept)
+      ASSERT_EQ(buffer.wheel_from_base_at(kept)->x_m, kept);
   }
   EXPECT_FALSE(buffer.wheel_from_base_at(900));
 }

@@ -15,19 +15,32 @@ class OdometryEpisodesTest : public ::testing::Test {
   OdometryEpisodesTest() { episodes_.begin(0); }
 
   /// So many steps as wheels and as matches have them.
-  void drive(int steps, const std::optional<Pose2>& by_wheels, const Pose2& by_matches, StepExplanation explanation = StepExplanation::kWheels) {
+  void drive(int steps, const std::optional<Pose2>& by_wheels, const Pose2& by_matches,
+             StepExplanation explanation = StepExplanation::kWheels) {
     for (int i = 0; i < steps; ++i) {
       stamp_ns_ += kPeriod_ns;
-      episodes_.observe({.stamp_ns = stamp_ns_, .duration_s = kPeriod_s, .by_wheels = by_wheels, .by_matches = by_matches, .explanation = explanation}, factors_);
+      episodes_.observe({.stamp_ns = stamp_ns_,
+                         .duration_s = kPeriod_s,
+                         .by_wheels = by_wheels,
+                         .by_matches = by_matches,
+                         .explanation = explanation},
+                        factors_);
     }
   }
   void drive_believed(int steps) { drive(steps, kStep, kStep); }
   void jump(double by_m) {
     stamp_ns_ += kPeriod_ns;
-    episodes_.observe({.stamp_ns = stamp_ns_, .duration_s = kPeriod_s, .by_wheels = Pose2{by_m, 0.0, 0.0}, .by_matches = kStep, .is_jump = true}, factors_);
+    episodes_.observe({.stamp_ns = stamp_ns_,
+                       .duration_s = kPeriod_s,
+                       .by_wheels = Pose2{by_m, 0.0, 0.0},
+                       .by_matches = kStep,
+                       .is_jump = true},
+                      factors_);
   }
 
-  OdometryConclusions concluded() const { return episodes_.conclusions(MotionCalibration::Zero(), 0.0); }
+  OdometryConclusions concluded() const {
+    return episodes_.conclusions(MotionCalibration::Zero(), 0.0);
+  }
 
   /// The fault of a drive with a single episode, of 40 steps.
   OdometryFault fault_of(const Pose2& by_wheels, const Pose2& by_matches) {
@@ -37,7 +50,8 @@ class OdometryEpisodesTest : public ::testing::Test {
     drive_believed(50);
     const OdometryConclusions conclusions = concluded();
     EXPECT_EQ(conclusions.episodes.size(), 1U);
-    return conclusions.episodes.empty() ? OdometryFault::kRough : conclusions.episodes.front().fault;
+    return conclusions.episodes.empty() ? OdometryFault::kRough
+                                        : conclusions.episodes.front().fault;
   }
 
   static constexpr Pose2 kStep{0.2, 0.0, 0.01};

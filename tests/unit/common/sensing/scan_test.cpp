@@ -33,7 +33,9 @@ TEST(BeamDelay, SpreadsTheSweepFromTheFirstBeamToTheLast) {
   EXPECT_DOUBLE_EQ(beam_delay_s(scanner, 360, 361), 0.013);
 }
 
-TEST(BeamDelay, IsNoneForASingleBeam) { EXPECT_DOUBLE_EQ(beam_delay_s(Scanner{.sweep_s = 0.013}, 0, 1), 0.0); }
+TEST(BeamDelay, IsNoneForASingleBeam) {
+  EXPECT_DOUBLE_EQ(beam_delay_s(Scanner{.sweep_s = 0.013}, 0, 1), 0.0);
+}
 
 }  // namespace
 }  // namespace slammot::sensing

@@ -21,7 +21,8 @@ struct Sweep {
       const double angle = -0.5 * M_PI + beam * kStepRad;
       const std::optional<double> range = range_at(angle);
       range_m.push_back(static_cast<float>(range.value_or(0.0)));
-      points_m.emplace_back(range.value_or(0.0) * std::cos(angle), range.value_or(0.0) * std::sin(angle));
+      points_m.emplace_back(range.value_or(0.0) * std::cos(angle),
+                            range.value_or(0.0) * std::sin(angle));
     }
   }
   std::vector<BeamSpan> spans(const SegmentationConfig& config = {}) const {
@@ -32,7 +33,8 @@ struct Sweep {
 };
 
 TEST(Segmentation, CutsWhereARangeJumps) {
-  const Sweep sweep([](double angle) -> std::optional<double> { return angle < 0.0 ? 10.0 : 14.0; });
+  const Sweep sweep(
+      [](double angle) -> std::optional<double> { return angle < 0.0 ? 10.0 : 14.0; });
   const auto spans = sweep.spans();
   ASSERT_EQ(spans.size(), 2U);
   EXPECT_EQ(spans[0].first, 0);
@@ -41,7 +43,8 @@ TEST(Segmentation, CutsWhereARangeJumps) {
 }
 
 TEST(Segmentation, KeepsAWallAtAGrazingAngleWhole) {
-  // 2 m to the left, parallel to the direction of travel, up to 30 m ahead: there the echoes lie 4 m apart.
+  // 2 m to the left, parallel to the direction of travel, up to 30 m ahead: there the echoes lie 4
+  // m apart.
   const Sweep sweep([](double angle) -> std::optional<double> {
     return angle > 0.066 ? std::optional(2.0 / std::sin(angle)) : std::nullopt;
   });
@@ -52,17 +55,25 @@ TEST(Segmentation, BridgesBeamsWithoutEcho) {
   SegmentationConfig config;
   config.bridged_beams = 2;
   int beam = 0;
-  const Sweep two([&](double) -> std::optional<double> { return ++beam == 100 || beam == 101 ? std::nullopt : std::optional(8.0); });
+  const Sweep two([&](double) -> std::optional<double> {
+    return ++beam == 100 || beam == 101 ? std::nullopt : std::optional(8.0);
+  });
   EXPECT_EQ(two.spans(config).size(), 1U);
   beam = 0;
-  const Sweep three([&](double) -> std::optional<double> { return ++beam >= 100 && beam <= 102 ? std::nullopt : std::optional(8.0); });
+  const Sweep three([&](double) -> std::optional<double> {
+    return ++beam >= 100 && beam <= 102 ? std::nullopt : std::optional(8.0);
+  });
   EXPECT_EQ(three.spans(config).size(), 2U);
 }
 
 TEST(Segmentation, AllowsWiderGapsFartherAway) {
   // Two things half a metre apart: two at 5 m; at 40 m neighbouring beams are as far apart as that.
   const auto gap_at = [](double range_m) {
-    return Sweep([=](double angle) -> std::optional<double> { return std::abs(angle) * range_m < 0.25 || std::abs(angle) * range_m > 2.0 ? std::nullopt : std::optional(range_m); });
+    return Sweep([=](double angle) -> std::optional<double> {
+      return std::abs(angle) * range_m < 0.25 || std::abs(angle) * range_m > 2.0
+                 ? std::nullopt
+                 : std::optional(range_m);
+    });
   };
   EXPECT_EQ(gap_at(5.0).spans().size(), 2U);
   EXPECT_EQ(gap_at(40.0).spans().size(), 1U);
@@ -86,7 +97,8 @@ TEST(Segmentation, KeepsTogetherTheFewEchoesOfADarkFlank) {
 }
 
 TEST(Segmentation, DoesNotTakeScatteredEchoesForADarkFlank) {
-  EXPECT_EQ(dark_flank(6, 1.0).spans().size(), 2U) << "a metre farther back there is something else";
+  EXPECT_EQ(dark_flank(6, 1.0).spans().size(), 2U)
+      << "a metre farther back there is something else";
   EXPECT_GT(dark_flank(16, 0.0).spans().size(), 1U) << "too far apart";
 }
 
@@ -101,7 +113,9 @@ TEST(Segmentation, LeavesApartTwoWhoStandSideBySide) {
 TEST(Segmentation, LeavesApartThreeWhoWalkAbreast) {
   const Sweep three([](double angle) -> std::optional<double> {
     const double along_m = 20.0 * angle;
-    return std::abs(along_m - std::round(along_m)) < 0.2 && std::abs(along_m) < 1.3 ? std::optional(20.0) : std::nullopt;
+    return std::abs(along_m - std::round(along_m)) < 0.2 && std::abs(along_m) < 1.3
+               ? std::optional(20.0)
+               : std::nullopt;
   });
   EXPECT_EQ(three.spans().size(), 3U);
 }
@@ -116,7 +130,8 @@ TEST(Segmentation, KnowsWhatGoesOnFromTheLastBeamToTheFirst) {
       const double angle = -M_PI + beam * step_rad;
       const double range = beam <= 10 ? 10.0 : range_at_end_m;
       range_m[static_cast<std::size_t>(beam)] = static_cast<float>(range);
-      points_m[static_cast<std::size_t>(beam)] = Eigen::Vector2d(range * std::cos(angle), range * std::sin(angle)).cast<float>();
+      points_m[static_cast<std::size_t>(beam)] =
+          Eigen::Vector2d(range * std::cos(angle), range * std::sin(angle)).cast<float>();
     }
     std::vector<BeamSpan> spans;
     segment_by_distance(points_m, range_m, step_rad, {}, spans);

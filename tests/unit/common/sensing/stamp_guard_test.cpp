@@ -11,7 +11,8 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 TEST(StampGuard, BelievesWhatComesInTimeOrLate) {
   StampGuard guard(60.0);
-  for (const std::int64_t stamp_s : {1000, 1001, 1000, 1060, 900}) EXPECT_TRUE(guard.believes(stamp_s * kSecond)) << stamp_s;
+  for (const std::int64_t stamp_s : {1000, 1001, 1000, 1060, 900})
+    EXPECT_TRUE(guard.believes(stamp_s * kSecond)) << stamp_s;
 }
 
 TEST(StampGuard, DoesNotBelieveASingleOneHoweverOftenItIsRepeated) {

@@ -17,9 +17,13 @@ using geometry::UncertainPose2;
 const UncertainPose2 kBefore{Pose2{5.0, -2.0, 1.0}, Matrix3::Zero()};
 const Matrix3 kSure = 1e4 * Matrix3::Identity();
 
-UncertainPose2 anywhere() { return {kBefore.pose, Eigen::Vector3d(1.0, 1.0, 0.6).cwiseAbs2().asDiagonal()}; }
+UncertainPose2 anywhere() {
+  return {kBefore.pose, Eigen::Vector3d(1.0, 1.0, 0.6).cwiseAbs2().asDiagonal()};
+}
 
-double log_density(const StepHistory& history, const Pose2& step) { return history.log_marginal(kBefore, anywhere(), kBefore.pose * step, kSure); }
+double log_density(const StepHistory& history, const Pose2& step) {
+  return history.log_marginal(kBefore, anywhere(), kBefore.pose * step, kSure);
+}
 
 /// A robot that logs a scan each metre and each half radian to the left.
 StepHistory metres_and_left_turns() {
@@ -33,7 +37,8 @@ StepHistory metres_and_left_turns() {
 
 TEST(StepHistory, PrefersStepsThatWereMadeBefore) {
   const StepHistory history = metres_and_left_turns();
-  EXPECT_GT(log_density(history, {1.0, 0.0, 0.0}), log_density(history, {0.0, 0.0, 0.0}) + 3.0) << "standing, which it never did";
+  EXPECT_GT(log_density(history, {1.0, 0.0, 0.0}), log_density(history, {0.0, 0.0, 0.0}) + 3.0)
+      << "standing, which it never did";
   EXPECT_GT(log_density(history, {0.0, 0.0, 0.5}), log_density(history, {0.0, 0.0, 0.25}) + 1.0);
 }
 
@@ -50,10 +55,12 @@ TEST(StepHistory, LeavesAStepThatWasNeverMadeToTheWideDensity) {
 
 TEST(StepHistory, IsTheWideDensityBeforeTheFirstStep) {
   const Pose2 optimum = kBefore.pose * Pose2{0.4, 0.1, 0.2};
-  EXPECT_DOUBLE_EQ(StepHistory{}.log_marginal(kBefore, anywhere(), optimum, kSure), log_marginal_likelihood(anywhere(), optimum, kSure));
+  EXPECT_DOUBLE_EQ(StepHistory{}.log_marginal(kBefore, anywhere(), optimum, kSure),
+                   log_marginal_likelihood(anywhere(), optimum, kSure));
 }
 
-/// The density integrates to that of a scan which tells nothing: sums over a grid of optima agree for any history.
+/// The density integrates to that of a scan which tells nothing: sums over a grid of optima agree
+/// for any history.
 TEST(StepHistory, IntegratesToTheSameForEveryHistory) {
   constexpr double kCell = 0.05;
   const auto mass = [](const StepHistory& history) {
@@ -61,7 +68,9 @@ TEST(StepHistory, IntegratesToTheSameForEveryHistory) {
     for (double x = -4.0; x <= 4.0; x += kCell) {
       for (double y = -4.0; y <= 4.0; y += kCell) {
         for (double heading = -2.4; heading <= 2.4; heading += kCell) {
-          sum += std::exp(history.log_marginal({}, {Pose2{}, Eigen::Vector3d(0.8, 0.8, 0.5).cwiseAbs2().asDiagonal()}, {x, y, heading}, 400.0 * Matrix3::Identity()));
+          sum += std::exp(history.log_marginal(
+              {}, {Pose2{}, Eigen::Vector3d(0.8, 0.8, 0.5).cwiseAbs2().asDiagonal()},
+              {x, y, heading}, 400.0 * Matrix3::Identity()));
         }
       }
     }

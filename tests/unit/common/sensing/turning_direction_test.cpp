@@ -10,7 +10,9 @@ TEST(TurningDirection, IsTheUnitVectorOfEachAngle) {
     TurningDirection direction(-1.57, step_rad);
     for (int i = 0; i < 2000; ++i, direction.advance()) {
       const double angle_rad = -1.57 + i * step_rad;
-      ASSERT_NEAR((direction.now() - geometry::Vector2(std::cos(angle_rad), std::sin(angle_rad))).norm(), 0.0, 1e-11);
+      ASSERT_NEAR(
+          (direction.now() - geometry::Vector2(std::cos(angle_rad), std::sin(angle_rad))).norm(),
+          0.0, 1e-11);
     }
   }
 }

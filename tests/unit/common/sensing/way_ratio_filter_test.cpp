@@ -11,7 +11,8 @@ namespace {
 WayRatioFilter::Profile peaks_at(std::initializer_list<double> ratios) {
   WayRatioFilter::Profile profile{};
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    for (const double ratio : ratios) profile[i] += 3.0 * std::exp(-0.5 * std::pow((WayRatioFilter::kRatios[i] - ratio) / 0.05, 2));
+    for (const double ratio : ratios)
+      profile[i] += 3.0 * std::exp(-0.5 * std::pow((WayRatioFilter::kRatios[i] - ratio) / 0.05, 2));
   }
   return profile;
 }
@@ -45,7 +46,8 @@ TEST(WayRatioFilter, BelievesOdometryAgainAfterTheSlip) {
 
 TEST(WayRatioFilter, LearnsNothingWhereNoRatioStandsOut) {
   WayRatioFilter::Profile slope;
-  for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = 0.8 - 0.2 * WayRatioFilter::kRatios[i] + (i % 2 == 0 ? 0.01 : -0.01);
+  for (std::size_t i = 0; i < slope.size(); ++i)
+    slope[i] = 0.8 - 0.2 * WayRatioFilter::kRatios[i] + (i % 2 == 0 ? 0.01 : -0.01);
   for (const double value : WayRatioFilter::prominent(slope, 0.06)) EXPECT_EQ(value, 0.0);
   slope[3] += 0.2;
   EXPECT_GT(WayRatioFilter::prominent(slope, 0.06)[3], 0.1);

@@ -12,7 +12,8 @@ TEST(Compass, ErrsAsMuchAsItSays) {
   double sigma_rad = 0.0;
   constexpr int kDrives = 3000;
   for (int seed = 0; seed < kDrives; ++seed) {
-    const auto reading = Compass({}, static_cast<std::uint64_t>(seed)).reading({0.0, 0.0, 3.1}, 4.0);
+    const auto reading =
+        Compass({}, static_cast<std::uint64_t>(seed)).reading({0.0, 0.0, 3.1}, 4.0);
     square_rad2 += std::pow(geometry::wrap_angle(reading.heading_from_east_rad - 3.1), 2);
     sigma_rad = reading.sigma_rad;
   }

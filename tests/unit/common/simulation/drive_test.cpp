@@ -35,7 +35,8 @@ TEST(Drive, IsTheSameToTheLastBitForTheSameSeed) {
 }
 
 TEST(Drive, DiffersFromSeedToSeed) {
-  EXPECT_NE(all_scans(short_drive(5)).back().scan.range_m, all_scans(short_drive(6)).back().scan.range_m);
+  EXPECT_NE(all_scans(short_drive(5)).back().scan.range_m,
+            all_scans(short_drive(6)).back().scan.range_m);
 }
 
 TEST(Drive, HasOneScanForEachTurnOfTheScannerWithStampsInOrder) {
@@ -43,13 +44,15 @@ TEST(Drive, HasOneScanForEachTurnOfTheScannerWithStampsInOrder) {
   ASSERT_EQ(scans.size(), 150U);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     EXPECT_EQ(scans[i].scan.sequence, i);
-    EXPECT_NEAR(static_cast<double>(scans[i].scan.stamp_ns) * 1e-9, 21.0 + static_cast<double>(i) / 37.5, 1e-8);
+    EXPECT_NEAR(static_cast<double>(scans[i].scan.stamp_ns) * 1e-9,
+                21.0 + static_cast<double>(i) / 37.5, 1e-8);
     EXPECT_EQ(scans[i].odometry.stamp_ns, scans[i].scan.stamp_ns);
   }
 }
 
 TEST(Drive, StartsItsOdometryAtZero) {
-  EXPECT_TRUE(all_scans(short_drive(1)).front().odometry.wheel_from_base == geometry::Pose2::identity());
+  EXPECT_TRUE(all_scans(short_drive(1)).front().odometry.wheel_from_base ==
+              geometry::Pose2::identity());
 }
 
 TEST(Drive, ListsEachObjectThatAScanHitOnceWithItsPoints) {
@@ -66,7 +69,8 @@ TEST(Drive, ListsEachObjectThatAScanHitOnceWithItsPoints) {
   EXPECT_GT(listed, 0U);
 }
 
-/// Fraction of the points, placed by the true pose, that lie near a true surface or object: what the truth is worth.
+/// Fraction of the points, placed by the true pose, that lie near a true surface or object: what
+/// the truth is worth.
 TEST(Drive, PlacesItsPointsOnTrueSurfaces) {
   const ScenarioConfig scenario = short_drive(1);
   Drive drive(scenario);
@@ -80,9 +84,11 @@ TEST(Drive, PlacesItsPointsOnTrueSurfaces) {
       if (!sensing::is_echo(scan->scan.range_m[beam], scan->scan.scanner.max_range_m)) continue;
       const double range_m = scan->scan.range_m[beam];
       const double angle_rad = beam_angle_rad(scan->scan.scanner, beam);
-      const geometry::Pose2 world_from_laser = scan->world_from_base * scan->scan.scanner.base_from_laser;
+      const geometry::Pose2 world_from_laser =
+          scan->world_from_base * scan->scan.scanner.base_from_laser;
       const geometry::Vector2 point =
-          world_from_laser * geometry::Vector2{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
+          world_from_laser *
+          geometry::Vector2{range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)};
       double nearest_m = 1e9;
       for (const Segment& segment : outline.segments) {
         const geometry::Vector2 along = segment.b - segment.a;
@@ -109,9 +115,13 @@ TEST(Drive, PlacesItsPointsOnTrueSurfaces) {
 TEST(Drive, SaysWhichObjectEachBeamHit) {
   for (const SimulatedScan& scan : all_scans(short_drive(1))) {
     ASSERT_EQ(scan.hits.size(), scan.scan.range_m.size());
-    for (const ObjectTruth& object : scan.objects) EXPECT_EQ(std::ranges::count(scan.hits, object.id), object.points);
+    for (const ObjectTruth& object : scan.objects)
+      EXPECT_EQ(std::ranges::count(scan.hits, object.id), object.points);
     for (const int hit : scan.hits)
-      if (hit > 0) EXPECT_TRUE(std::ranges::any_of(scan.objects, [&](const ObjectTruth& object) { return object.id == hit; })) << hit;
+      if (hit > 0)
+        EXPECT_TRUE(std::ranges::any_of(scan.objects, [&](const ObjectTruth& object) {
+          return object.id == hit;
+        })) << hit;
     for (std::size_t beam = 0; beam < scan.hits.size(); ++beam) {
       const bool is_echo = sensing::is_echo(scan.scan.range_m[beam], scan.scan.scanner.max_range_m);
       EXPECT_EQ(is_echo, scan.hits[beam] != kHitNothing);
@@ -142,15 +152,18 @@ TEST(Drive, HasFurtherScannersBesideTheFirstWhichStaysAsItWas) {
   const auto alone = all_scans(scenario);
   scenario.more_scanners = {rear_scanner()};
   const auto both = all_scans(scenario);
-  EXPECT_TRUE(std::ranges::is_sorted(both, {}, [](const SimulatedScan& scan) { return scan.scan.stamp_ns; }));
+  EXPECT_TRUE(std::ranges::is_sorted(both, {},
+                                     [](const SimulatedScan& scan) { return scan.scan.stamp_ns; }));
   std::vector<SimulatedScan> front, rear;
   for (const SimulatedScan& scan : both) (scan.scanner == 0 ? front : rear).push_back(scan);
   ASSERT_EQ(front.size(), alone.size());
-  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_EQ(front[i].scan.range_m, alone[i].scan.range_m);
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    EXPECT_EQ(front[i].scan.range_m, alone[i].scan.range_m);
   ASSERT_EQ(rear.size(), 50U);
   for (std::size_t i = 0; i < rear.size(); ++i) {
     EXPECT_EQ(rear[i].scan.sequence, i);
-    EXPECT_NEAR(static_cast<double>(rear[i].scan.stamp_ns) * 1e-9, 21.01 + static_cast<double>(i) / 12.5, 1e-8);
+    EXPECT_NEAR(static_cast<double>(rear[i].scan.stamp_ns) * 1e-9,
+                21.01 + static_cast<double>(i) / 12.5, 1e-8);
     EXPECT_EQ(rear[i].scan.scanner.scanner_id, "rear");
     EXPECT_EQ(rear[i].odometry.stamp_ns, rear[i].scan.stamp_ns);
   }
@@ -163,11 +176,14 @@ TEST(Drive, TellsTheTruthAtTheStampsOfFurtherScanners) {
   for (std::size_t i = 1; i + 1 < scans.size(); ++i) {
     if (scans[i].scanner == 0) continue;
     const auto &before = scans[i - 1], &after = scans[i + 1];
-    const double fraction = static_cast<double>(scans[i].scan.stamp_ns - before.scan.stamp_ns) / static_cast<double>(after.scan.stamp_ns - before.scan.stamp_ns);
+    const double fraction = static_cast<double>(scans[i].scan.stamp_ns - before.scan.stamp_ns) /
+                            static_cast<double>(after.scan.stamp_ns - before.scan.stamp_ns);
     const auto between = interpolate(before.world_from_base, after.world_from_base, fraction);
     EXPECT_LT((between.translation_m() - scans[i].world_from_base.translation_m()).norm(), 1e-6);
-    const auto wheels = interpolate(before.odometry.wheel_from_base, after.odometry.wheel_from_base, fraction);
-    EXPECT_LT((wheels.translation_m() - scans[i].odometry.wheel_from_base.translation_m()).norm(), 1e-6);
+    const auto wheels =
+        interpolate(before.odometry.wheel_from_base, after.odometry.wheel_from_base, fraction);
+    EXPECT_LT((wheels.translation_m() - scans[i].odometry.wheel_from_base.translation_m()).norm(),
+              1e-6);
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 namespace slammot::simulation {
 namespace {
@@ -17,7 +17,8 @@ constexpr int kFixes = 2000;
 /// Walls at both sides of a street that goes east.
 Outline canyon(double half_width_m) {
   Outline outline;
-  for (const double y_m : {-half_width_m, half_width_m}) outline.segments.push_back({{-500.0, y_m}, {500.0, y_m}, Material::wall});
+  for (const double y_m : {-half_width_m, half_width_m})
+    outline.segments.push_back({{-500.0, y_m}, {500.0, y_m}, Material::wall});
   return outline;
 }
 
@@ -36,7 +37,9 @@ Errors errors_in(const Outline& outline, const GnssConfig& config, const Pose2& 
     const sensing::GnssFix fix = receiver.fix(place, 1.0, 5.0);
     if (fix.quality == GnssQuality::no_fix) continue;
     ++errors.fixes;
-    const Vector2 error_m = geometry::east_north_m({config.latitude_deg, config.longitude_deg}, fix.position) - place.translation_m();
+    const Vector2 error_m =
+        geometry::east_north_m({config.latitude_deg, config.longitude_deg}, fix.position) -
+        place.translation_m();
     errors.rms_m += error_m.squaredNorm();
     errors.mean_hdop += fix.hdop;
     errors.mean_nees += error_m.dot(fix.covariance_m2.inverse() * error_m);
@@ -68,11 +71,14 @@ TEST(GnssReceiver, KeepsItsSlowErrorsFromFixToFix) {
   GnssConfig config;
   config.range_error_m = 0.0;
   GnssReceiver receiver(config, {}, 3);
-  const auto error_m = [&](const sensing::GnssFix& fix) { return geometry::east_north_m({config.latitude_deg, config.longitude_deg}, fix.position); };
+  const auto error_m = [&](const sensing::GnssFix& fix) {
+    return geometry::east_north_m({config.latitude_deg, config.longitude_deg}, fix.position);
+  };
   const Vector2 first = error_m(receiver.fix({}, 0.0, 0.0));
   EXPECT_LT((error_m(receiver.fix({}, 0.2, 0.0)) - first).norm(), 0.3);
   double apart_m = 0.0;
-  for (int i = 0; i < 20; ++i) apart_m = std::max(apart_m, (error_m(receiver.fix({}, 600.0, 0.0)) - first).norm());
+  for (int i = 0; i < 20; ++i)
+    apart_m = std::max(apart_m, (error_m(receiver.fix({}, 600.0, 0.0)) - first).norm());
   EXPECT_GT(apart_m, 1.0);
 }
 

@@ -8,8 +8,8 @@
 #include "common/simulation/robot.hpp"
 #include "common/simulation/scenario.hpp"
 #include "common/simulation/scene.hpp"
-#include "tests/support/matchers.hpp"
 #include "services/simulator/scenario_files.hpp"
+#include "tests/support/matchers.hpp"
 
 namespace slammot::simulation {
 namespace {
@@ -25,7 +25,8 @@ TEST(BuildOffice, LeavesEveryCorridorFreeFromEndToEnd) {
   for (std::size_t from = 0; from < plan.corridors.ways.size(); ++from) {
     for (const WalkGraph::Way& way : plan.corridors.ways[from]) {
       const Vector2 start = plan.corridors.places_in_world[from];
-      const Vector2 ahead = plan.corridors.places_in_world[static_cast<std::size_t>(way.to)] - start;
+      const Vector2 ahead =
+          plan.corridors.places_in_world[static_cast<std::size_t>(way.to)] - start;
       EXPECT_GT(caster.cast(start, ahead.normalized(), 100.0).range_m, ahead.norm());
     }
   }
@@ -37,7 +38,8 @@ TEST(BuildOffice, WallsInEveryDirection) {
   ASSERT_FALSE(plan.corridors.places_in_world.empty());
   for (const Vector2& place : plan.corridors.places_in_world) {
     for (double heading_rad = -3.1; heading_rad < 3.1; heading_rad += 0.01) {
-      EXPECT_LT(caster.cast(place, {std::cos(heading_rad), std::sin(heading_rad)}, 100.0).range_m, 100.0);
+      EXPECT_LT(caster.cast(place, {std::cos(heading_rad), std::sin(heading_rad)}, 100.0).range_m,
+                100.0);
     }
   }
 }
@@ -70,7 +72,8 @@ TEST_P(OfficeScenario, KeepsRobotAndPeopleApartAndTheRobotOnItsWay) {
     const MovingObject robot = scene->vehicle();
     travelled_m += robot.speed_mps * 0.1;
     for (const MovingObject& person : scene->others()) {
-      const Vector2 apart = person.world_from_object.translation_m() - robot.world_from_object.translation_m();
+      const Vector2 apart =
+          person.world_from_object.translation_m() - robot.world_from_object.translation_m();
       nearest_m = std::min(nearest_m, apart.norm());
     }
   }

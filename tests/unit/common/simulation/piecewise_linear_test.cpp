@@ -27,7 +27,9 @@ TEST(PiecewiseLinear, IsLevelOutside) {
   EXPECT_DOUBLE_EQ(at(99.0), 0.0);
 }
 
-TEST(PiecewiseLinear, IsZeroWithoutKnots) { EXPECT_EQ(piecewise_linear(std::vector<Knot>{}, &Knot::at, &Knot::value, 1.0), 0.0); }
+TEST(PiecewiseLinear, IsZeroWithoutKnots) {
+  EXPECT_EQ(piecewise_linear(std::vector<Knot>{}, &Knot::at, &Knot::value, 1.0), 0.0);
+}
 
 }  // namespace
 }  // namespace slammot::simulation

@@ -49,7 +49,8 @@ TEST(Random, HasNormalNumbersOfMeanZeroAndVarianceOne) {
   // Four standard errors of each estimate.
   EXPECT_NEAR(sum / kCount, 0.0, 4.0 / std::sqrt(kCount));
   EXPECT_NEAR(squares / kCount, 1.0, 4.0 * std::sqrt(2.0 / kCount));
-  EXPECT_NEAR(static_cast<double>(beyond_two_sigma) / kCount, 0.0455, 4.0 * std::sqrt(0.0455 / kCount));
+  EXPECT_NEAR(static_cast<double>(beyond_two_sigma) / kCount, 0.0455,
+              4.0 * std::sqrt(0.0455 / kCount));
 }
 
 }  // namespace

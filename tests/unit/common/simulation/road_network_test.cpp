@@ -33,8 +33,9 @@ TEST_F(RoadNetworkOfACity, LetsOppositeStraightTrafficPassButNotCrossingTraffic)
   const auto straight_from = [&](Direction travel) {
     for (std::size_t i = 0; i < network_.lanes().size(); ++i) {
       const Lane& lane = network_.lanes()[i];
-      if (lane.kind == LaneKind::turn && lane.junction == junction && lane.turn == TurnKind::straight &&
-          lane.user == RoadUser::motor && lane.travel == travel) {
+      if (lane.kind == LaneKind::turn && lane.junction == junction &&
+          lane.turn == TurnKind::straight && lane.user == RoadUser::motor &&
+          lane.travel == travel) {
         return static_cast<int>(i);
       }
     }

@@ -36,7 +36,8 @@ MovingObject car_at(const Pose2& world_from_object) {
   return car;
 }
 
-ScannedWorld scan(const ScannerConfig& config, const Outline& outline, const Moment& before, const Moment& after) {
+ScannedWorld scan(const ScannerConfig& config, const Outline& outline, const Moment& before,
+                  const Moment& after) {
   Random random(1, Purpose::scanner);
   return scan_world(config, RayCaster(outline), {before, after, kStep_s}, random);
 }
@@ -63,7 +64,8 @@ TEST(ScanWorld, FiresEachBeamFromWhereTheVehicleIsThen) {
   const ScannedWorld scanned = scan(exact_scanner(), wall_ahead(20.0), before, after);
   // The middle beam fires after half the sweep of 1/75 s, the last after all of it.
   EXPECT_NEAR(scanned.range_m[kStraightAhead], 20.0 - 15.0 / 150.0, 1e-4);
-  EXPECT_NEAR(scanned.range_m[kStraightAhead + 120] * 0.5, 20.0 - 15.0 / 75.0 * 300.0 / 360.0, 1e-4);
+  EXPECT_NEAR(scanned.range_m[kStraightAhead + 120] * 0.5, 20.0 - 15.0 / 75.0 * 300.0 / 360.0,
+              1e-4);
 }
 
 TEST(ScanWorld, FindsAMovingObjectWhereItIsWhenTheBeamFires) {
@@ -137,18 +139,24 @@ TEST(ScanWorld, ScansAVerticalProfileWhenTurnedOnItsSide) {
   const Moment still;
   const ScannedWorld scanned = scan(config, wall_ahead(8.0), still, still);
   EXPECT_NEAR(scanned.range_m[kStraightAhead], 8.0, 1e-4);
-  EXPECT_NEAR(scanned.range_m[kStraightAhead + 80], 8.0 / std::cos(80.0 / 360.0 * M_PI), 1e-3);  // 40 degrees up the wall
-  EXPECT_EQ(scanned.source[kStraightAhead + 120], kNothing);                                     // 60 degrees: over its 12 m
-  EXPECT_NEAR(scanned.range_m[0], 2.0, 1e-3);                                                    // straight down
-  EXPECT_NEAR(scanned.range_m[kStraightAhead - 120], 2.0 / std::sin(M_PI / 3.0), 1e-3);          // the road at 60 degrees
+  EXPECT_NEAR(scanned.range_m[kStraightAhead + 80], 8.0 / std::cos(80.0 / 360.0 * M_PI),
+              1e-3);                                          // 40 degrees up the wall
+  EXPECT_EQ(scanned.source[kStraightAhead + 120], kNothing);  // 60 degrees: over its 12 m
+  EXPECT_NEAR(scanned.range_m[0], 2.0, 1e-3);                 // straight down
+  EXPECT_NEAR(scanned.range_m[kStraightAhead - 120], 2.0 / std::sin(M_PI / 3.0), 1e-3);  // the road
+                                                                                         // at 60
+                                                                                         // degrees
 }
 
 TEST(ScanWorld, MeetsARisingRoad) {
   const Terrain ramp({{20.0, 0.0}, {40.0, 2.0}});
   const Moment still;
   Random random(1, Purpose::scanner);
-  const ScannedWorld scanned = scan_world(exact_scanner(), RayCaster(wall_ahead(60.0)), {still, still, kStep_s, ramp}, random);
-  const auto from_road = std::count_if(scanned.range_m.begin() + 170, scanned.range_m.begin() + 190, [](float range_m) { return std::abs(range_m - 26.0F) < 0.2F; });
+  const ScannedWorld scanned = scan_world(exact_scanner(), RayCaster(wall_ahead(60.0)),
+                                          {still, still, kStep_s, ramp}, random);
+  const auto from_road =
+      std::count_if(scanned.range_m.begin() + 170, scanned.range_m.begin() + 190,
+                    [](float range_m) { return std::abs(range_m - 26.0F) < 0.2F; });
   EXPECT_GT(from_road, 10);  // some 30 % give no echo from so flat a surface
 }
 
@@ -158,8 +166,9 @@ TEST(ScanWorld, PutsMixedPixelsBetweenTheTwoSurfacesOfASplitSpot) {
   Moment still;
   still.objects = {car_at({20.0, 0.0, 0.0})};
   const ScannedWorld scanned = scan(config, wall_ahead(40.0), still, still);
-  const auto between = std::count_if(scanned.range_m.begin(), scanned.range_m.end(),
-                                     [](float range_m) { return range_m > 18.5F && range_m < 39.9F; });
+  const auto between =
+      std::count_if(scanned.range_m.begin(), scanned.range_m.end(),
+                    [](float range_m) { return range_m > 18.5F && range_m < 39.9F; });
   EXPECT_GE(between, 1);
   EXPECT_LE(between, 4);
 }
@@ -174,7 +183,8 @@ TEST(ScanWorld, SpreadsReadingsAsTheNoiseModelSays) {
   constexpr int kScans = 3000;
   double squares = 0.0;
   for (int i = 0; i < kScans; ++i) {
-    const double error_m = scan_world(config, wall, {still, still, kStep_s}, random).range_m[kStraightAhead] - 20.0;
+    const double error_m =
+        scan_world(config, wall, {still, still, kStep_s}, random).range_m[kStraightAhead] - 20.0;
     squares += error_m * error_m;
   }
   const double sigma_m = 0.012 + 0.0013 * 20.0;
@@ -205,7 +215,9 @@ TEST(ScanWorld, FindsTheWorldWhereItIsWhenASweepBeginsLater) {
   Random random(1, Purpose::scanner);
   ScannerConfig config = exact_scanner();
   config.sweep_s = 0.0;
-  const ScannedWorld scanned = scan_world(config, RayCaster(wall_ahead(20.0)), {before, after, kStep_s, kLevelRoad, 0.25 * kStep_s}, random);
+  const ScannedWorld scanned =
+      scan_world(config, RayCaster(wall_ahead(20.0)),
+                 {before, after, kStep_s, kLevelRoad, 0.25 * kStep_s}, random);
   EXPECT_NEAR(scanned.range_m[kStraightAhead], 19.5, 1e-4);
 }
 

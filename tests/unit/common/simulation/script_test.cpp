@@ -30,12 +30,15 @@ ScriptedObject car(const std::vector<PlaceInWorld>& way, const std::vector<Speed
 }
 
 void advance(Scene& scene, double duration_s) {
-  for (double time_s = 0.0; time_s < duration_s - 0.5 * kStep_s; time_s += kStep_s) scene.advance(kStep_s);
+  for (double time_s = 0.0; time_s < duration_s - 0.5 * kStep_s; time_s += kStep_s)
+    scene.advance(kStep_s);
 }
 
 TEST(ScriptScene, DrivesAlongTheWayAtTheGivenSpeeds) {
-  const auto scene = make_script_scene(scene_of({car({{10.0, 4.0}, {500.0, 4.0}}, {{0.0, 10.0}, {2.0, 10.0}, {4.0, 0.0}})}));
-  EXPECT_EQ(scene->vehicle().speed_mps, 5.0);  // at once: the world did not begin with the recording
+  const auto scene = make_script_scene(
+      scene_of({car({{10.0, 4.0}, {500.0, 4.0}}, {{0.0, 10.0}, {2.0, 10.0}, {4.0, 0.0}})}));
+  EXPECT_EQ(scene->vehicle().speed_mps, 5.0);  // at once: the world did not begin with the
+                                               // recording
   advance(*scene, 2.0);
   EXPECT_NEAR(scene->vehicle().world_from_object.x_m, 10.0, 1e-6);
   EXPECT_NEAR(scene->others()[0].world_from_object.x_m, 30.0, 1e-6);

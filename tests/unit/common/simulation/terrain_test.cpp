@@ -39,7 +39,9 @@ TEST(Terrain, AgreesWithSmallStepsAlongTheRay) {
     for (const double x_m : {-20.0, 5.0, 25.0, 45.0, 60.0}) {
       const double z_m = kHill.height_m(x_m) + 0.6;
       double stepped_m = 0.0;
-      while (stepped_m < 200.0 && z_m + rise * stepped_m > kHill.height_m(x_m + stepped_m * direction.x())) stepped_m += 0.01;
+      while (stepped_m < 200.0 &&
+             z_m + rise * stepped_m > kHill.height_m(x_m + stepped_m * direction.x()))
+        stepped_m += 0.01;
       const double range_m = kHill.distance_to_ground({x_m, 0.0}, direction, z_m, rise);
       if (stepped_m >= 200.0) {
         EXPECT_GT(range_m, 199.0) << x_m << " " << rise;

@@ -18,24 +18,28 @@ using geometry::Vector2;
 
 /// Separating axes of two boxes, each made smaller by margin_m on every side.
 bool overlap(const MovingObject& a, const MovingObject& b, double margin_m) {
-  const double reach_m = 0.5 * (a.size.length_m + a.size.width_m + b.size.length_m + b.size.width_m);
+  const double reach_m =
+      0.5 * (a.size.length_m + a.size.width_m + b.size.length_m + b.size.width_m);
   const Vector2 apart = a.world_from_object.translation_m() - b.world_from_object.translation_m();
   if (apart.squaredNorm() > reach_m * reach_m) return false;
   const auto corners = [margin_m](const MovingObject& object) {
     const double x = 0.5 * object.size.length_m - margin_m;
     const double y = 0.5 * object.size.width_m - margin_m;
     const Pose2& pose = object.world_from_object;
-    return std::array<Vector2, 4>{pose * Vector2{x, y}, pose * Vector2{-x, y}, pose * Vector2{-x, -y}, pose * Vector2{x, -y}};
+    return std::array<Vector2, 4>{pose * Vector2{x, y}, pose * Vector2{-x, y},
+                                  pose * Vector2{-x, -y}, pose * Vector2{x, -y}};
   };
   const auto corners_a = corners(a);
   const auto corners_b = corners(b);
-  for (const double heading_rad : {a.world_from_object.heading_rad, a.world_from_object.heading_rad + M_PI_2,
-                                   b.world_from_object.heading_rad, b.world_from_object.heading_rad + M_PI_2}) {
+  for (const double heading_rad :
+       {a.world_from_object.heading_rad, a.world_from_object.heading_rad + M_PI_2,
+        b.world_from_object.heading_rad, b.world_from_object.heading_rad + M_PI_2}) {
     const Vector2 axis{std::cos(heading_rad), std::sin(heading_rad)};
     const auto reach = [&axis](const std::array<Vector2, 4>& points) {
       double low = 1e9;
       double high = -1e9;
-      for (const Vector2& point : points) low = std::min(low, point.dot(axis)), high = std::max(high, point.dot(axis));
+      for (const Vector2& point : points)
+        low = std::min(low, point.dot(axis)), high = std::max(high, point.dot(axis));
       return std::pair{low, high};
     };
     const auto [low_a, high_a] = reach(corners_a);
@@ -78,7 +82,8 @@ TEST_P(TrafficOfScenario, NeverDrivesOneBodyIntoAnother) {
     const auto& objects = streets_.traffic.objects();
     for (std::size_t a = 0; a < objects.size(); ++a) {
       for (std::size_t b = a + 1; b < objects.size(); ++b) {
-        // A long bus may brush a corner in a tight turn, but never the vehicle that carries the scanners.
+        // A long bus may brush a corner in a tight turn, but never the vehicle that carries the
+        // scanners.
         const bool bus = objects[a].kind == ObjectClass::bus || objects[b].kind == ObjectClass::bus;
         if (bus && a != 0) continue;
         if (overlap(objects[a], objects[b], 0.05)) touching.insert({objects[a].id, objects[b].id});
@@ -111,7 +116,8 @@ TEST_P(TrafficOfScenario, KeepsFlowing) {
   for (int i = 0; i < 3000; ++i) {
     streets_.advance(kStep_s);
     if (i < 2000) continue;  // what stands still after 200 s stands still for ever
-    for (const MovingObject& object : streets_.traffic.objects()) travelled_m += object.speed_mps * kStep_s;
+    for (const MovingObject& object : streets_.traffic.objects())
+      travelled_m += object.speed_mps * kStep_s;
   }
   const auto drivers = static_cast<double>(streets_.traffic.objects().size());
   EXPECT_GT(travelled_m / drivers, 150.0);  // in 100 s

@@ -42,7 +42,8 @@ TEST(WheelOdometer, FollowsTheTruthWhenNothingIsWrongWithIt) {
   WheelOdometer odometer(exact_odometry(), 1);
   // Chords of a circle leave at half their turn.
   const double turn_rad = 0.01;
-  const Pose2 before_from_after{0.2 * std::cos(0.5 * turn_rad), 0.2 * std::sin(0.5 * turn_rad), turn_rad};
+  const Pose2 before_from_after{0.2 * std::cos(0.5 * turn_rad), 0.2 * std::sin(0.5 * turn_rad),
+                                turn_rad};
   Pose2 start_from_base;
   for (int i = 0; i < 500; ++i) {
     odometer.advance(before_from_after, kStep_s);

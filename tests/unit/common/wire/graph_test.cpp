@@ -15,7 +15,12 @@ using slammot::testing::kNan;
 
 TEST(ConstraintOnTheWire, ComesBackAsItWas) {
   testing::Random random(1);
-  const flow::Constraint constraint{{3}, {9}, flow::ConstraintKind::kLoop, testing::uncertain_pose(random), {17}, {flow::ClosureState::kWithdrawn, 21.5, 0.75, "outweighed"}};
+  const flow::Constraint constraint{{3},
+                                    {9},
+                                    flow::ConstraintKind::kLoop,
+                                    testing::uncertain_pose(random),
+                                    {17},
+                                    {flow::ClosureState::kWithdrawn, 21.5, 0.75, "outweighed"}};
   const auto back = decode(encode("car", constraint));
   ASSERT_TRUE(back) << back.fault();
   EXPECT_EQ(back->map_id, constraint.map_id);
@@ -32,7 +37,8 @@ TEST(ConstraintOnTheWire, ComesBackAsItWas) {
 
 TEST(ConstraintOnTheWire, IsRefusedWhereItIsUnsound) {
   const auto fault_after = [](auto corrupt) {
-    slammot_Constraint sample = encode("car", flow::Constraint{{3}, {9}, flow::ConstraintKind::kOdometric, {}});
+    slammot_Constraint sample =
+        encode("car", flow::Constraint{{3}, {9}, flow::ConstraintKind::kOdometric, {}});
     corrupt(sample);
     return decode(sample).fault();
   };
@@ -64,14 +70,15 @@ struct GraphCorrectionInParts : ::testing::Test {
 
   flow::GraphCorrection correction(std::uint32_t sequence, std::uint32_t submaps) {
     flow::GraphCorrection made{sequence, testing::pose(random), {}, {17}, true};
-    for (std::uint32_t id = 0; id < submaps; ++id) made.submaps.push_back({{id}, testing::pose(random)});
+    for (std::uint32_t id = 0; id < submaps; ++id)
+      made.submaps.push_back({{id}, testing::pose(random)});
     return made;
   }
 
   static std::vector<KeptPart> parts_of(const flow::GraphCorrection& whole) {
     std::vector<KeptPart> parts;
-    GraphCorrectionEncoder().encode("car", whole,
-                                    [&](const slammot_GraphCorrection& part) { parts.emplace_back(part); });
+    GraphCorrectionEncoder().encode(
+        "car", whole, [&](const slammot_GraphCorrection& part) { parts.emplace_back(part); });
     return parts;
   }
 
@@ -99,7 +106,8 @@ struct GraphCorrectionInParts : ::testing::Test {
 };
 
 TEST_F(GraphCorrectionInParts, ComesBackAsItWas) {
-  for (const std::uint32_t submaps : {0U, 1U, kMostSubmapsOfPart, kMostSubmapsOfPart + 1, 3 * kMostSubmapsOfPart}) {
+  for (const std::uint32_t submaps :
+       {0U, 1U, kMostSubmapsOfPart, kMostSubmapsOfPart + 1, 3 * kMostSubmapsOfPart}) {
     const flow::GraphCorrection whole = correction(submaps, submaps);
     auto parts = parts_of(whole);
     std::reverse(parts.begin(), parts.end());

@@ -83,7 +83,8 @@ TEST_F(LocalizedScanOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].expected_range_m = kNanF; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].free_evidence = kNanF; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.beams._buffer[3].moving_evidence = 1.5F; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.end_cells._buffer[3] = static_cast<slammot_EndCell>(4); }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.end_cells._buffer[3] = static_cast<slammot_EndCell>(4); }),
+            "");
   EXPECT_NE(fault_after([](auto& s) { --s.end_cells._length; }), "");
 }
 

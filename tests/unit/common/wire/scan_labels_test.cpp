@@ -12,12 +12,12 @@ namespace {
 using flow::PointLabel;
 
 struct ScanLabelsOnTheWire : ::testing::Test {
-  flow::ScanLabels labels{
-      .stamp_ns = 1'700'000'000'123'456'789,
-      .sequence = 42,
-      .scanner_id = "rear",
-      .labels = {PointLabel::kMoving, PointLabel::kNoEcho, PointLabel::kStationary, PointLabel::kUnknown},
-      .restored = {{40, {1, 2, 3}}, {38, {}}, {41, {7}}}};
+  flow::ScanLabels labels{.stamp_ns = 1'700'000'000'123'456'789,
+                          .sequence = 42,
+                          .scanner_id = "rear",
+                          .labels = {PointLabel::kMoving, PointLabel::kNoEcho,
+                                     PointLabel::kStationary, PointLabel::kUnknown},
+                          .restored = {{40, {1, 2, 3}}, {38, {}}, {41, {7}}}};
   ScanLabelsEncoder encoder;
 };
 
@@ -49,7 +49,8 @@ TEST_F(ScanLabelsOnTheWire, AreRefusedWhereTheyAreUnsound) {
     return decode(corrupted).fault();
   };
   EXPECT_EQ(fault_after([](auto&) {}), "");
-  EXPECT_NE(fault_after([](auto& s) { s.labels._buffer[0] = static_cast<slammot_PointLabel>(4); }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.labels._buffer[0] = static_cast<slammot_PointLabel>(4); }),
+            "");
   EXPECT_NE(fault_after([](auto& s) { --s.restored_beams._length; }), "");
   EXPECT_NE(fault_after([](auto& s) { ++s.restored_scans._buffer[0].beam_count; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.restored_beams._buffer[0] = kMostBeams; }), "");

@@ -55,7 +55,8 @@ TEST_F(SegmentedScanOnTheWire, ComesBackAsItWas) {
   EXPECT_EQ(back->range_m, scan.range_m);
   EXPECT_EQ(back->labels, scan.labels);
   ASSERT_EQ(back->segments.size(), scan.segments.size());
-  for (std::size_t i = 0; i < scan.segments.size(); ++i) expect_same(back->segments[i], scan.segments[i]);
+  for (std::size_t i = 0; i < scan.segments.size(); ++i)
+    expect_same(back->segments[i], scan.segments[i]);
 }
 
 TEST_F(SegmentedScanOnTheWire, MayHaveNoSegment) {
@@ -76,8 +77,9 @@ TEST_F(SegmentedScanOnTheWire, KeepsTheLargestSegmentsInTheirOrderWhereNotAllFit
   const auto is_large = [](const flow::Segment& segment) { return segment.beams.size() == 2; };
   EXPECT_EQ(std::count_if(back->segments.begin(), back->segments.end(), is_large),
             std::count_if(scan.segments.begin(), scan.segments.end(), is_large));
-  EXPECT_TRUE(std::is_sorted(back->segments.begin(), back->segments.end(),
-                             [](const auto& a, const auto& b) { return a.segment_id < b.segment_id; }));
+  EXPECT_TRUE(
+      std::is_sorted(back->segments.begin(), back->segments.end(),
+                     [](const auto& a, const auto& b) { return a.segment_id < b.segment_id; }));
 }
 
 TEST_F(SegmentedScanOnTheWire, IsRefusedWhereItIsUnsound) {
@@ -100,13 +102,17 @@ TEST_F(SegmentedScanOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_NE(fault_after([](auto& s) { --s.ranges_m._length; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.points_in_base._buffer[2].y_m = kNanF; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.ranges_m._buffer[2] = -1.0F; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.labels._buffer[2] = static_cast<slammot_PointLabel>(9); }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.labels._buffer[2] = static_cast<slammot_PointLabel>(9); }),
+            "");
   EXPECT_NE(fault_after([](auto& s) { --s.segment_beams._length; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.segment_beams._buffer[0] = 181; }), "");
   EXPECT_NE(fault_after([](auto& s) { ++s.segments._buffer[0].beam_count; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.segments._buffer[0].label = static_cast<slammot_PointLabel>(9); }), "");
+  EXPECT_NE(fault_after(
+                [](auto& s) { s.segments._buffer[0].label = static_cast<slammot_PointLabel>(9); }),
+            "");
   EXPECT_NE(fault_after([](auto& s) { s.segments._buffer[0].centroid_in_odom_m.x = kNan; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.segments._buffer[0].centroid_covariance_m2[3] = -1.0; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.segments._buffer[0].centroid_covariance_m2[3] = -1.0; }),
+            "");
   EXPECT_NE(fault_after([](auto& s) { s.segments._buffer[0].box_heading_rad = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.segments._buffer[0].box_length_m = -1.0; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.segments._buffer[0].moving_share = 2.0; }), "");

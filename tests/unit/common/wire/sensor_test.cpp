@@ -85,7 +85,9 @@ TEST(OdometryOnTheWire, IsRefusedWhereItIsNotFinite) {
 }
 
 struct GnssFixOnTheWire : ::testing::Test {
-  sensing::GnssFix fix{123, "roof", sensing::GnssQuality::differential, {40.1, -79.2}, 231.0, geometry::Matrix2{{4.0, 1.0}, {1.0, 9.0}}, 1.5, 9};
+  sensing::GnssFix fix{123,           "roof", sensing::GnssQuality::differential,
+                       {40.1, -79.2}, 231.0,  geometry::Matrix2{{4.0, 1.0}, {1.0, 9.0}},
+                       1.5,           9};
 };
 
 TEST_F(GnssFixOnTheWire, ComesBackAsItWas) {
@@ -114,7 +116,9 @@ TEST_F(GnssFixOnTheWire, IsRefusedWhereItIsUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.hdop = -1.0; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.covariance_m2[3] = -1.0; }), "");
   EXPECT_NE(fault_after([](auto& s) { reinterpret_cast<std::uint32_t&>(s.quality) = 77; }), "");
-  EXPECT_EQ(fault_after([](auto& s) { s.quality = slammot_GNSS_QUALITY_NO_FIX, s.latitude_deg = kNan; }), "");  // means nothing then
+  EXPECT_EQ(
+      fault_after([](auto& s) { s.quality = slammot_GNSS_QUALITY_NO_FIX, s.latitude_deg = kNan; }),
+      "");  // means nothing then
 }
 
 TEST(CompassReadingOnTheWire, ComesBackAsItWasIfItIsSound) {

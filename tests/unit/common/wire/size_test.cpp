@@ -19,7 +19,8 @@ namespace {
 using dds::serialized_bytes;
 namespace topics = dds::topics;
 
-// Larger samples overflow the receiver's socket buffer and take a second instead of a fraction of a millisecond.
+// Larger samples overflow the receiver's socket buffer and take a second instead of a fraction of a
+// millisecond.
 constexpr std::size_t kMostBytes = 128 * 1024;
 
 struct SizeOfTheLargest : ::testing::Test {
@@ -28,15 +29,16 @@ struct SizeOfTheLargest : ::testing::Test {
 
 TEST_F(SizeOfTheLargest, LaserScanFitsTheBus) {
   EXPECT_LE(
-      serialized_bytes(topics::kLaserScan, LaserScanEncoder().encode("car", testing::laser_scan(random, kMostBeams))),
+      serialized_bytes(topics::kLaserScan,
+                       LaserScanEncoder().encode("car", testing::laser_scan(random, kMostBeams))),
       kMostBytes);
 }
 
 TEST_F(SizeOfTheLargest, LocalizedScanFitsTheBus) {
   LocalizedScanEncoder encoder;
-  EXPECT_LE(
-      serialized_bytes(topics::kLocalizedScan, encoder.encode("car", testing::localized_scan(random, kMostBeams))),
-      kMostBytes);
+  EXPECT_LE(serialized_bytes(topics::kLocalizedScan,
+                             encoder.encode("car", testing::localized_scan(random, kMostBeams))),
+            kMostBytes);
 }
 
 TEST_F(SizeOfTheLargest, SegmentedScanFitsTheBus) {
@@ -52,7 +54,8 @@ TEST_F(SizeOfTheLargest, SegmentedScanFitsTheBus) {
 TEST_F(SizeOfTheLargest, TrackedObjectsFitTheBus) {
   TrackedObjectsEncoder encoder;
   for (const std::uint32_t objects : {1U, 48U, 192U, 500U}) {
-    const auto tracks = testing::tracked_objects(random, objects, kMostContourPoints, kMostPredictedPositions);
+    const auto tracks =
+        testing::tracked_objects(random, objects, kMostContourPoints, kMostPredictedPositions);
     EXPECT_LE(serialized_bytes(topics::kTrackedObjects, encoder.encode("car", tracks)), kMostBytes);
   }
 }
@@ -63,13 +66,15 @@ TEST_F(SizeOfTheLargest, TruthFitsTheBus) {
   scan.hits.assign(kMostBeams, 5);
   scan.unseen.resize(kMostTrueObjects);
   EXPECT_LE(serialized_bytes(topics::kTrueHits, encoder.encode_hits("car", scan)), kMostBytes);
-  EXPECT_LE(serialized_bytes(topics::kTrueObjects, encoder.encode_objects("car", scan)), kMostBytes);
+  EXPECT_LE(serialized_bytes(topics::kTrueObjects, encoder.encode_objects("car", scan)),
+            kMostBytes);
 }
 
 TEST_F(SizeOfTheLargest, ScanLabelsFitTheBus) {
   flow::ScanLabels labels;
   labels.labels.resize(kMostBeams);
-  labels.restored.assign(kMostRestoredScans, {1, std::vector<std::uint16_t>(kMostRestoredPoints / kMostRestoredScans)});
+  labels.restored.assign(kMostRestoredScans,
+                         {1, std::vector<std::uint16_t>(kMostRestoredPoints / kMostRestoredScans)});
   ScanLabelsEncoder encoder;
   EXPECT_LE(serialized_bytes(topics::kScanLabels, encoder.encode("car", labels)), kMostBytes);
 }
@@ -84,7 +89,8 @@ TEST_F(SizeOfTheLargest, SubmapTilesFitTheBus) {
 
 TEST_F(SizeOfTheLargest, GraphCorrectionFitsTheBus) {
   flow::GraphCorrection correction;
-  for (std::uint32_t id = 0; id < kMostSubmapsOfPart; ++id) correction.submaps.push_back({{id}, {}});
+  for (std::uint32_t id = 0; id < kMostSubmapsOfPart; ++id)
+    correction.submaps.push_back({{id}, {}});
   GraphCorrectionEncoder().encode("car", correction, [](const slammot_GraphCorrection& part) {
     EXPECT_LE(serialized_bytes(topics::kGraphCorrection, part), kMostBytes);
   });

@@ -19,7 +19,9 @@ TEST(StoredMapOnTheWire, ComesBackAsItWas) {
   EXPECT_EQ(back->cell_size_m, kMap.cell_size_m);
 }
 
-TEST(StoredMapOnTheWire, OfNothingIsSound) { EXPECT_TRUE(decode(encode("car", flow::StoredMap{}))); }
+TEST(StoredMapOnTheWire, OfNothingIsSound) {
+  EXPECT_TRUE(decode(encode("car", flow::StoredMap{})));
+}
 
 TEST(StoredMapOnTheWire, IsRefusedWhereItIsUnsound) {
   const auto fault_after = [](auto corrupt) {

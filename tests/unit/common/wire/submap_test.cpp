@@ -19,7 +19,8 @@ using slammot::testing::kNanF;
 /// A tile with its own copy of what the encoder lends.
 struct KeptTile {
   explicit KeptTile(const slammot_SubmapTile& tile)
-      : so(tile.so_log_odds_plus_128._buffer, tile.so_log_odds_plus_128._buffer + tile.so_log_odds_plus_128._length),
+      : so(tile.so_log_odds_plus_128._buffer,
+           tile.so_log_odds_plus_128._buffer + tile.so_log_odds_plus_128._length),
         mo(tile.mo_evidence._buffer, tile.mo_evidence._buffer + tile.mo_evidence._length),
         surfels(tile.surfels._buffer, tile.surfels._buffer + tile.surfels._length),
         sample(tile) {}
@@ -39,7 +40,8 @@ struct KeptTile {
 
 std::vector<KeptTile> tiles_of(const flow::Submap& submap) {
   std::vector<KeptTile> tiles;
-  SubmapEncoder().encode("car", submap, [&](const slammot_SubmapTile& tile) { tiles.emplace_back(tile); });
+  SubmapEncoder().encode("car", submap,
+                         [&](const slammot_SubmapTile& tile) { tiles.emplace_back(tile); });
   return tiles;
 }
 
@@ -204,7 +206,8 @@ TEST_F(SubmapInTiles, AreRefusedWhereTheyAreUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.header.cell_size_m = 0.0; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.header.min_x_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.header.saliency = kNan; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.header.column_count = s.header.row_count = 1U << 20; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.header.column_count = s.header.row_count = 1U << 20; }),
+            "");
   EXPECT_NE(fault_after([](auto& s) { s.header.surfel_count = kMostSurfels + 1; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.header.tile_count = 0; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.header.tile_count = 7; }), "");
@@ -220,9 +223,10 @@ TEST_F(SubmapInTiles, AreRefusedWhereTheyAreUnsound) {
 
 TEST_F(SubmapInTiles, AreRefusedWhereTheirHeadersDisagree) {
   ASSERT_EQ(assembler.add(tiles[0].shown()).fault, "");
-  for (auto corrupt :
-       {+[](slammot_SubmapHeader& h) { h.column_count = 299; }, +[](slammot_SubmapHeader& h) { h.row_count = 199; },
-        +[](slammot_SubmapHeader& h) { h.surfel_count = 999; }, +[](slammot_SubmapHeader& h) { h.tile_count = 5; }}) {
+  for (auto corrupt : {+[](slammot_SubmapHeader& h) { h.column_count = 299; },
+                       +[](slammot_SubmapHeader& h) { h.row_count = 199; },
+                       +[](slammot_SubmapHeader& h) { h.surfel_count = 999; },
+                       +[](slammot_SubmapHeader& h) { h.tile_count = 5; }}) {
     KeptTile other = tiles[1];
     corrupt(other.shown().header);
     EXPECT_NE(assembler.add(other.sample).fault, "");

@@ -55,7 +55,8 @@ TEST_F(TrackedObjectsOnTheWire, ComeBackAsTheyWere) {
   EXPECT_EQ(back->odom_id, objects.odom_id);
   EXPECT_EQ(back->odom_from_base, objects.odom_from_base);
   ASSERT_EQ(back->objects.size(), objects.objects.size());
-  for (std::size_t i = 0; i < objects.objects.size(); ++i) expect_same(back->objects[i], objects.objects[i]);
+  for (std::size_t i = 0; i < objects.objects.size(); ++i)
+    expect_same(back->objects[i], objects.objects[i]);
 }
 
 TEST_F(TrackedObjectsOnTheWire, MayBeNone) {
@@ -82,7 +83,8 @@ TEST_F(TrackedObjectsOnTheWire, ShareTheRoomForContoursWhereTheyAreMany) {
     ASSERT_EQ(back->objects[i].contour_in_odom_m.size(), 16U);
     EXPECT_EQ(back->objects[i].contour_in_odom_m[1], objects.objects[i].contour_in_odom_m[4]);
     ASSERT_EQ(back->objects[i].predicted_path.size(), 4U);
-    EXPECT_EQ(back->objects[i].predicted_path[3].after_s, objects.objects[i].predicted_path[3].after_s);
+    EXPECT_EQ(back->objects[i].predicted_path[3].after_s,
+              objects.objects[i].predicted_path[3].after_s);
   }
 }
 
@@ -108,11 +110,18 @@ TEST_F(TrackedObjectsOnTheWire, AreRefusedWhereTheyAreUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].position_in_odom_m.x = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].velocity_in_odom_mps.y = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].covariance[5] = -1.0; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].acceleration_in_odom_mps2.y = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].acceleration_in_odom_mps2.y = kNan; }),
+            "");
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].heading_in_odom_rad = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].length_m = -1.0; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].motion_state = static_cast<slammot_Motion>(2); }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].object_class = static_cast<slammot_ObjectClass>(5); }), "");
+  EXPECT_NE(fault_after([](auto& s) {
+              s.objects._buffer[0].motion_state = static_cast<slammot_Motion>(2);
+            }),
+            "");
+  EXPECT_NE(fault_after([](auto& s) {
+              s.objects._buffer[0].object_class = static_cast<slammot_ObjectClass>(5);
+            }),
+            "");
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].mode_probability[2] = -0.5; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.objects._buffer[0].class_probability[1] = 1.5; }), "");
   EXPECT_NE(fault_after([](auto& s) { ++s.objects._buffer[0].contour_count; }), "");

@@ -17,8 +17,10 @@ struct TruthOnTheWire : ::testing::Test {
     scan.speed_mps = 3.0;
     scan.yaw_rate_radps = -0.2;
     scan.nose_down_rad = 0.03;
-    scan.objects = {{7, simulation::ObjectClass::bus, {12.0, 2.5}, testing::pose(random), 4.0, 2, 30.0}};
-    scan.unseen = {{3, simulation::ObjectClass::pedestrian, {0.5, 0.6}, testing::pose(random), 1.0, 0, 60.0}};
+    scan.objects = {
+        {7, simulation::ObjectClass::bus, {12.0, 2.5}, testing::pose(random), 4.0, 2, 30.0}};
+    scan.unseen = {
+        {3, simulation::ObjectClass::pedestrian, {0.5, 0.6}, testing::pose(random), 1.0, 0, 60.0}};
     scan.hits = {0, 7, 7, -1, -2};
   }
   testing::Random random{1};
@@ -60,7 +62,9 @@ TEST_F(TruthOnTheWire, HasTheSeenAndTheUnseenByTheirIds) {
 
 TEST_F(TruthOnTheWire, LeavesOutTheFarthestOfTooMany) {
   scan.unseen.clear();
-  for (int i = 0; i < 2000; ++i) scan.unseen.push_back({10 + i, simulation::ObjectClass::car, {4.5, 1.8}, {}, 0.0, 0, 2000.0 - i});
+  for (int i = 0; i < 2000; ++i)
+    scan.unseen.push_back(
+        {10 + i, simulation::ObjectClass::car, {4.5, 1.8}, {}, 0.0, 0, 2000.0 - i});
   const auto back = decode(encoder.encode_objects("car", scan));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->objects.size(), kMostTrueObjects);

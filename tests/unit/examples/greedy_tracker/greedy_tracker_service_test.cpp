@@ -39,7 +39,7 @@ struct GreedyTrackerOnTheBus : slammot::testing::ServiceOnTheBus {
   dds::Reader<slammot_ScanLabels> labels{neighbour_, dds::topics::kScanLabels};
   flow::OdomId odom_id{1};
   std::vector<std::uint32_t> labelled;
-  std::vector<std::size_t> confirmed;   ///< Tracks, by message.
+  std::vector<std::size_t> confirmed;  ///< Tracks, by message.
 
   void begin() {
     start<GreedyTrackerService>("tracking");
@@ -56,9 +56,11 @@ struct GreedyTrackerOnTheBus : slammot::testing::ServiceOnTheBus {
     ASSERT_TRUE(comes_to([&] {
       objects.take_each([this](const slammot_TrackedObjects& sample) {
         const auto decoded = wire::decode(sample);
-        confirmed.push_back(static_cast<std::size_t>(std::ranges::count(decoded->objects, true, &flow::TrackedObject::confirmed)));
+        confirmed.push_back(static_cast<std::size_t>(
+            std::ranges::count(decoded->objects, true, &flow::TrackedObject::confirmed)));
       });
-      labels.take_each([this](const slammot_ScanLabels& sample) { labelled.push_back(sample.sequence_number); });
+      labels.take_each(
+          [this](const slammot_ScanLabels& sample) { labelled.push_back(sample.sequence_number); });
       return labelled.size() > so_far && confirmed.size() > so_far;
     }));
   }
@@ -94,7 +96,8 @@ TEST_F(GreedyTrackerOnTheBus, BeginsAnewWithAnotherDrive) {
 TEST(GreedyTrackerSettings, AreThoseOfTheStageThatItReplaces) {
   GreedyTrackerService::Settings settings;
   const auto stages = GreedyTrackerService::stages(settings);
-  const auto fault = config::overlay_text("tracking { fastest_mps: 5 } localization { match_range_m: 30 }", "profile", stages);
+  const auto fault = config::overlay_text(
+      "tracking { fastest_mps: 5 } localization { match_range_m: 30 }", "profile", stages);
   ASSERT_FALSE(fault) << fault->text();
   EXPECT_EQ(settings.config.fastest_mps, 5.0);
 }

@@ -95,7 +95,10 @@ TEST(GreedyTracker, PredictsAlongTheVelocityWithGrowingUncertainty) {
   ASSERT_THAT(object.predicted_path, ::testing::Not(IsEmpty()));
   double trace_before_m2 = object.covariance.topLeftCorner<2, 2>().trace();
   for (const flow::PredictedPosition& there : object.predicted_path) {
-    EXPECT_LT((there.position_in_odom_m - (object.position_in_odom_m + there.after_s * object.velocity_in_odom_mps)).norm(), 1e-9);
+    EXPECT_LT((there.position_in_odom_m -
+               (object.position_in_odom_m + there.after_s * object.velocity_in_odom_mps))
+                  .norm(),
+              1e-9);
     EXPECT_GT(there.covariance_m2.trace(), trace_before_m2);
     trace_before_m2 = there.covariance_m2.trace();
   }
@@ -133,7 +136,9 @@ TEST(GreedyTracker, GivesASegmentToTheNearestOfTwoTracks) {
   ASSERT_THAT(scene.result.objects.objects, SizeIs(2));
   const std::int64_t last_ns = scene.result.objects.stamp_ns;
   const double next_s = static_cast<double>(last_ns) * 1e-9 + kPeriodS;
-  scene.result = scene.tracker.step(scan_of(next_s, {moving_segment({10.6, 3.0 * next_s})}));  // nearer to the second one
+  scene.result =
+      scene.tracker.step(scan_of(next_s, {moving_segment({10.6, 3.0 * next_s})}));  // nearer to the
+                                                                                    // second one
   ASSERT_THAT(scene.result.objects.objects, SizeIs(2));
   EXPECT_EQ(scene.result.objects.objects.at(0).last_seen_ns, last_ns);
   EXPECT_EQ(scene.result.objects.objects.at(1).last_seen_ns, scene.result.objects.stamp_ns);
@@ -143,7 +148,8 @@ TEST(GreedyTracker, DoesNotConfirmWhatDoesNotTravel) {
   Scene scene{.movers = {{{10.0, 0.0}, {0.0, 0.0}}}};
   scene.run(0.0, 3.0);
   EXPECT_THAT(confirmed(scene.result), IsEmpty());
-  EXPECT_THAT(scene.result.labels.labels, Each(PointLabel::kStationary)) << "the map is told that it stands";
+  EXPECT_THAT(scene.result.labels.labels, Each(PointLabel::kStationary))
+      << "the map is told that it stands";
 }
 
 TEST(GreedyTracker, LabelsWhatAConfirmedTrackTakesAsMoving) {
@@ -171,7 +177,8 @@ TEST(GreedyTracker, AnswersALateScanWithoutGoingBackInTime) {
   Scene scene{.movers = {{{10.0, 0.0}, {0.0, 5.0}}}};
   scene.run(0.0, 1.0);
   const auto now = confirmed(scene.result).at(0);
-  const stages::TrackingResult late = scene.tracker.step(scan_of(0.5, {moving_segment({10.0, 2.5})}));
+  const stages::TrackingResult late =
+      scene.tracker.step(scan_of(0.5, {moving_segment({10.0, 2.5})}));
   EXPECT_THAT(late.labels.labels, SizeIs(3));
   EXPECT_EQ(confirmed(late).at(0).last_seen_ns, now.last_seen_ns);
   EXPECT_EQ(scene.tracker.named_counters().at("late_scans"), 1U);
@@ -193,7 +200,9 @@ TEST(GreedyTracker, FollowsACarThroughDetection) {
   }
   EXPECT_THAT(ids, SizeIs(1));
   ASSERT_THAT(confirmed(result), SizeIs(1));
-  EXPECT_LT((confirmed(result).front().position_in_odom_m - Vector2(20.0, -15.0 + 8.0 * time_s)).norm(), 1.0);
+  EXPECT_LT(
+      (confirmed(result).front().position_in_odom_m - Vector2(20.0, -15.0 + 8.0 * time_s)).norm(),
+      1.0);
   EXPECT_LT((confirmed(result).front().velocity_in_odom_mps - Vector2(0.0, 8.0)).norm(), 1.0);
 }
 

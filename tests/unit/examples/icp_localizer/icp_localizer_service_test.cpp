@@ -18,7 +18,9 @@ namespace {
 using slammot::testing::kForever;
 using ::testing::ElementsAre;
 
-std::int64_t stamp_ns_of(std::uint32_t sequence) { return 100'000'000'000 + std::int64_t{sequence} * 100'000'000; }
+std::int64_t stamp_ns_of(std::uint32_t sequence) {
+  return 100'000'000'000 + std::int64_t{sequence} * 100'000'000;
+}
 
 /// Of a vehicle that stands in the middle of a room of 10 m by 10 m.
 sensing::LaserScan room_scan(std::uint32_t sequence) {
@@ -30,7 +32,8 @@ sensing::LaserScan room_scan(std::uint32_t sequence) {
   scan.scanner.max_range_m = 30.0;
   for (std::size_t beam = 0; beam < 181; ++beam) {
     const double angle_rad = sensing::beam_angle_rad(scan.scanner, beam);
-    scan.range_m.push_back(static_cast<float>(5.0 / std::max(std::abs(std::cos(angle_rad)), std::abs(std::sin(angle_rad)))));
+    scan.range_m.push_back(static_cast<float>(
+        5.0 / std::max(std::abs(std::cos(angle_rad)), std::abs(std::sin(angle_rad)))));
   }
   return scan;
 }
@@ -56,7 +59,8 @@ struct IcpLocalizerOnTheBus : slammot::testing::ServiceOnTheBus {
   }
   void localize(std::uint32_t sequence, bool with_odometry = true) {
     const std::size_t so_far = sequences.size();
-    if (with_odometry) odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(sequence), {}}));
+    if (with_odometry)
+      odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(sequence), {}}));
     scans.write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(sequence)));
     ASSERT_TRUE(comes_to([&] {
       localized.take_each([this](const slammot_LocalizedScan& scan) {
@@ -109,8 +113,9 @@ TEST_F(IcpLocalizerOnTheBus, PublishesItsSubmapOnCommand) {
 
 TEST(IcpLocalizerSettings, AreThoseOfTheStageThatItReplaces) {
   IcpLocalizerService::Settings settings;
-  const auto fault = config::overlay_text("localization { match_range_m: 30 map { cell_size_m: 0.05 surfel_size_m: 0.1 } }", "profile",
-                                          IcpLocalizerService::stages(settings));
+  const auto fault = config::overlay_text(
+      "localization { match_range_m: 30 map { cell_size_m: 0.05 surfel_size_m: 0.1 } }", "profile",
+      IcpLocalizerService::stages(settings));
   ASSERT_FALSE(fault) << fault->text();
   EXPECT_EQ(settings.config.match_range_m, 30.0);
   EXPECT_EQ(settings.config.cell_size_m, 0.05);

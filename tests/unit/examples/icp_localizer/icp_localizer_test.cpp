@@ -22,7 +22,8 @@ IcpLocalizerConfig small_map() {
 }
 
 SimulatedDrive drive_down_a_street() {
-  return SimulatedDrive({.world = testing::street(120.0), .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 6.0, 0.01)});
+  return SimulatedDrive({.world = testing::street(120.0),
+                         .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 6.0, 0.01)});
 }
 
 std::vector<flow::Submap> finished_submaps(IcpLocalizer& localizer) {
@@ -40,14 +41,17 @@ TEST(IcpLocalizer, FollowsADriveWithOdometry) {
 }
 
 TEST(IcpLocalizer, FollowsADriveWithoutOdometryAtConstantVelocity) {
-  SimulatedDrive drive({.world = testing::street(120.0), .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 2.0, 0.02)});
+  SimulatedDrive drive({.world = testing::street(120.0),
+                        .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 2.0, 0.02)});
   IcpLocalizer localizer(small_map());
   EXPECT_LT(testing::drive_through(localizer, drive, 0, kScans, false).worst_m, 0.3);
 }
 
 TEST(IcpLocalizer, RemovesMostOfABiasOfTheWheels) {
-  DriveSetup setup{.world = testing::street(120.0), .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 6.0, 0.01)};
-  setup.wheels.heading_rate_bias_radps = 0.02;  // 0.3 rad in 15 s; it is not estimated, so part of it gets into the map
+  DriveSetup setup{.world = testing::street(120.0),
+                   .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 6.0, 0.01)};
+  setup.wheels.heading_rate_bias_radps = 0.02;  // 0.3 rad in 15 s; it is not estimated, so part of
+                                                // it gets into the map
   SimulatedDrive drive(setup);
   IcpLocalizer localizer(small_map());
   EXPECT_LT(testing::drive_through(localizer, drive, 0, kScans).worst_rad, 0.1);
@@ -81,8 +85,10 @@ TEST(IcpLocalizer, ExpectsWhatItHasSeen) {
   SimulatedDrive drive = drive_down_a_street();
   testing::drive_through(localizer, drive, 0, 30);
   const auto localized = testing::drive_one(localizer, drive, 30);
-  const auto occupied = std::ranges::count(localized->beams, flow::EndCell::kOccupied, &flow::LocalizedBeam::end_cell);
-  const auto free = std::ranges::count(localized->beams, flow::EndCell::kFree, &flow::LocalizedBeam::end_cell);
+  const auto occupied = std::ranges::count(localized->beams, flow::EndCell::kOccupied,
+                                           &flow::LocalizedBeam::end_cell);
+  const auto free =
+      std::ranges::count(localized->beams, flow::EndCell::kFree, &flow::LocalizedBeam::end_cell);
   EXPECT_GT(occupied, 90) << "of 181 beams";
   EXPECT_LT(free, 5);
 }
@@ -108,7 +114,8 @@ TEST(IcpLocalizer, MapsAScanWithoutLabelsWhenTooManyWait) {
     localizer.add_odometry(drive.odometry(scan));
     ASSERT_TRUE(localizer.localize(drive.scan(scan)));
   }
-  EXPECT_EQ(localizer.named_counters().at("unmatched_scans"), 3U) << "the map is empty until the fifth scan ends the wait of the first one";
+  EXPECT_EQ(localizer.named_counters().at("unmatched_scans"), 3U)
+      << "the map is empty until the fifth scan ends the wait of the first one";
 }
 
 TEST(IcpLocalizer, FinishesAChainOfSubmaps) {
@@ -123,7 +130,8 @@ TEST(IcpLocalizer, FinishesAChainOfSubmaps) {
   for (std::size_t i = 0; i < submaps.size(); ++i) {
     EXPECT_EQ(submaps[i].submap_id.value, i);
     if (i == 0) continue;
-    const geometry::Pose2 chained = submaps[i - 1].odom_from_submap * submaps[i].previous_from_submap.pose;
+    const geometry::Pose2 chained =
+        submaps[i - 1].odom_from_submap * submaps[i].previous_from_submap.pose;
     EXPECT_LT(testing::distance_m(chained, submaps[i].odom_from_submap), 1e-9);
     EXPECT_GT(submaps[i].previous_from_submap.covariance.diagonal().minCoeff(), 0.0);
     EXPECT_GT(submaps[i].first_stamp_ns, submaps[i - 1].first_stamp_ns);

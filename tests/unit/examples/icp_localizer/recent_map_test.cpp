@@ -17,7 +17,9 @@ MappedScan round_wall(double travelled_m = 0.0, grids::Echo echo = grids::Echo::
   MappedScan scan;
   scan.beam_step_rad = kStep_rad;
   scan.travelled_m = travelled_m;
-  for (int beam = -45; beam <= 45; ++beam) scan.rays.push_back({8.0 * Vector2(std::cos(beam * kStep_rad), std::sin(beam * kStep_rad)), echo});
+  for (int beam = -45; beam <= 45; ++beam)
+    scan.rays.push_back(
+        {8.0 * Vector2(std::cos(beam * kStep_rad), std::sin(beam * kStep_rad)), echo});
   return scan;
 }
 
@@ -66,14 +68,17 @@ TEST(RecentMap, BecomesASubmapInTheFrameOfItsPlace) {
   ASSERT_EQ(submap.mo_evidence.size(), submap.so_log_odds.size());
   const auto cell_at = [&](const Vector2& in_odom_m) {
     const Vector2 in_submap_m = in_odom_m - centre_m;
-    const auto column = static_cast<std::size_t>(std::floor((in_submap_m.x() - submap.min_x_m) / submap.cell_size_m));
-    const auto row = static_cast<std::size_t>(std::floor((in_submap_m.y() - submap.min_y_m) / submap.cell_size_m));
+    const auto column = static_cast<std::size_t>(
+        std::floor((in_submap_m.x() - submap.min_x_m) / submap.cell_size_m));
+    const auto row = static_cast<std::size_t>(
+        std::floor((in_submap_m.y() - submap.min_y_m) / submap.cell_size_m));
     return submap.so_log_odds.at(row * submap.columns + column);
   };
   EXPECT_LT(cell_at({4.1, 0.1}), 0);
   EXPECT_GT(cell_at({8.001, 0.05}), 0);
   ASSERT_FALSE(submap.surfels.empty());
-  for (const flow::Surfel& surfel : submap.surfels) EXPECT_NEAR((Vector2(surfel.x_m, surfel.y_m) + centre_m).norm(), 8.0, 0.1);
+  for (const flow::Surfel& surfel : submap.surfels)
+    EXPECT_NEAR((Vector2(surfel.x_m, surfel.y_m) + centre_m).norm(), 8.0, 0.1);
 }
 
 }  // namespace

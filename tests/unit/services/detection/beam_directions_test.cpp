@@ -19,7 +19,10 @@ flow::LocalizedScan scan_of(double step_rad, std::size_t beams_without_echo) {
     const double angle_rad = -0.5 + static_cast<double>(i) * step_rad;
     const double range_m = 1.0 + 0.1 * static_cast<double>(i);
     scan.beams[i].range_m = static_cast<float>(range_m);
-    scan.beams[i].point_in_base_m = (scan.base_from_laser * geometry::Vector2(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad))).cast<float>();
+    scan.beams[i].point_in_base_m =
+        (scan.base_from_laser *
+         geometry::Vector2(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad)))
+            .cast<float>();
   }
   return scan;
 }
@@ -28,8 +31,12 @@ void expect_directions(const flow::LocalizedScan& scan) {
   BeamDirections directions;
   directions.look_along(scan);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
-    const double in_base_rad = scan.base_from_laser.heading_rad - 0.5 + static_cast<double>(i) * scan.beam_step_rad;
-    EXPECT_LT((directions[i] - geometry::Vector2(std::cos(in_base_rad), std::sin(in_base_rad))).norm(), 1e-5) << i;
+    const double in_base_rad =
+        scan.base_from_laser.heading_rad - 0.5 + static_cast<double>(i) * scan.beam_step_rad;
+    EXPECT_LT(
+        (directions[i] - geometry::Vector2(std::cos(in_base_rad), std::sin(in_base_rad))).norm(),
+        1e-5)
+        << i;
   }
 }
 
@@ -37,7 +44,9 @@ TEST(BeamDirections, AreThoseOfTheScannerAsItIsMounted) { expect_directions(scan
 
 TEST(BeamDirections, AreToldByTheFirstEcho) { expect_directions(scan_of(kStepRad, 7)); }
 
-TEST(BeamDirections, GoTheOtherWayRoundWhereTheScannerDoes) { expect_directions(scan_of(-kStepRad, 7)); }
+TEST(BeamDirections, GoTheOtherWayRoundWhereTheScannerDoes) {
+  expect_directions(scan_of(-kStepRad, 7));
+}
 
 TEST(BeamDirections, AreOfTheLastScanOnly) {
   BeamDirections directions;

@@ -18,7 +18,8 @@ using testing::StreetBox;
 
 const StreetBox kWall{{40.0, 0.0, M_PI / 2.0}, 80.0, 1.0};  // across the view, 39.5 m ahead
 
-const flow::Segment* segment_at(const flow::SegmentedScan& scan, const geometry::Vector2& place_m, double within_m) {
+const flow::Segment* segment_at(const flow::SegmentedScan& scan, const geometry::Vector2& place_m,
+                                double within_m) {
   for (const flow::Segment& segment : scan.segments)
     if ((segment.centroid_in_odom_m - place_m).norm() < within_m) return &segment;
   return nullptr;
@@ -70,7 +71,8 @@ TEST(Detector, TakesNothingButMemoryFromAScanThatIsDoneWith) {
 TEST(Detector, FindsTheSameWithHelp) {
   Street street;
   street.known = {kWall};
-  street.unknown = {{{20.0, 5.0, 0.3}}, {{12.0, -4.0, 1.2}}, {{30.0, 2.0, 0.0}}, {{15.0, 0.0, 0.0}}};
+  street.unknown = {
+      {{20.0, 5.0, 0.3}}, {{12.0, -4.0, 1.2}}, {{30.0, 2.0, 0.0}}, {{15.0, 0.0, 0.0}}};
   const flow::LocalizedScan scan = street.scan(0, 0);
   slammot::testing::HelpAtTheLastMoment help;
   expect_same(Detector({}, &help).detect(scan), detect(scan, {}));
@@ -96,7 +98,8 @@ TEST(Detector, SeesWhatLiesAcrossTheSeamOfAFullTurnAsOneThing) {
 TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {
   Street street;
   street.known = {kWall};
-  street.gone = {{{15.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};  // a fence that hid what is behind it and is no longer there
+  street.gone = {{{15.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};  // a fence that hid what is behind it and
+                                                         // is no longer there
   street.unknown = {{{22.0, 0.0, 0.0}}};
   const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
   const flow::Segment* car = segment_at(segmented, {20.0, 0.0}, 2.0);
@@ -131,13 +134,15 @@ TEST(Detector, SeesWhoWalksInFrontOfAWallAsAThingOfItsOwn) {
   EXPECT_LT(walker->box_length_m, 0.8);
 }
 
-/// Labels of the segments of two who walk, a post between them, 10 m ahead and 20 cm nearer, of so many beams.
+/// Labels of the segments of two who walk, a post between them, 10 m ahead and 20 cm nearer, of so
+/// many beams.
 std::vector<PointLabel> labels_around_a_post(double beams) {
   const double beam_m = 9.8 * M_PI / 360.0;
   const double half_m = 0.5 * beams * beam_m;
   Street street;
   street.known = {kWall, {{9.9, 0.0, M_PI / 2.0}, 2.0 * half_m, 0.2}};
-  for (const double side : {-1.0, 1.0}) street.unknown.push_back({{10.1, side * (half_m + 0.35), M_PI / 2.0}, 0.7, 0.2});
+  for (const double side : {-1.0, 1.0})
+    street.unknown.push_back({{10.1, side * (half_m + 0.35), M_PI / 2.0}, 0.7, 0.2});
   DetectionConfig config;
   config.explained_within_m = 0.05;  // or they would be part of the post
   config.explained_within_per_m = 0.0;
@@ -156,7 +161,9 @@ TEST(Detector, CutsOffWhatTheMapKnowsWhereItIsMoreThanABeamOrTwo) {
 TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
   Street street;
   street.known = {kWall};
-  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -0.5, 0.0}, 0.4, 0.5}};  // somebody in front of a car seen from the side
+  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -0.5, 0.0}, 0.4, 0.5}};  // somebody in front
+                                                                                // of a car seen
+                                                                                // from the side
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   const flow::Segment* right = segment_at(scan, {19.1, -1.85}, 0.2);
   const flow::Segment* left = segment_at(scan, {19.1, 0.9}, 0.2);
@@ -169,7 +176,8 @@ TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
   EXPECT_FALSE(right->occluded_at_start);
 }
 
-/// Somebody 12 m ahead, where the map has never seen, and how surely its MO-map remembers motion there.
+/// Somebody 12 m ahead, where the map has never seen, and how surely its MO-map remembers motion
+/// there.
 flow::LocalizedScan scan_of_somebody(float moving_evidence, double width_m = 0.5) {
   Street street;
   street.knows_the_open = false;
@@ -205,7 +213,8 @@ TEST(Detector, TakesTheMeanOfWhatTheMapRemembersOfASegment) {
   flow::LocalizedScan scan = scan_of_somebody(0.0F);
   int echoes = 0;
   for (const flow::LocalizedBeam& beam : scan.beams) echoes += beam.range_m > 0.0F ? 1 : 0;
-  flow::LocalizedBeam& one = *std::ranges::find_if(scan.beams, [](const flow::LocalizedBeam& beam) { return beam.range_m > 0.0F; });
+  flow::LocalizedBeam& one = *std::ranges::find_if(
+      scan.beams, [](const flow::LocalizedBeam& beam) { return beam.range_m > 0.0F; });
   one.moving_evidence = 0.9F * least * static_cast<float>(echoes);
   EXPECT_EQ(detect(scan, {}).segments.front().label, PointLabel::kUnknown);
   one.moving_evidence = 1.1F * least * static_cast<float>(echoes);
@@ -223,7 +232,8 @@ TEST(Detector, HoldsForStationaryWhatTheMapKnowsThoughItRemembersMotionThere) {
   EXPECT_EQ(post->label, PointLabel::kStationary);
 }
 
-geometry::Matrix2 covariance_of_a_car(const Eigen::Vector3d& variances_of_pose, double local_variance_share = 1.0) {
+geometry::Matrix2 covariance_of_a_car(const Eigen::Vector3d& variances_of_pose,
+                                      double local_variance_share = 1.0) {
   Street street;
   street.known = {kWall};
   street.unknown = {{{20.0, 0.0, M_PI / 2.0}}};
@@ -232,7 +242,8 @@ geometry::Matrix2 covariance_of_a_car(const Eigen::Vector3d& variances_of_pose, 
   scan.local_variance_share = local_variance_share;
   const flow::SegmentedScan segmented = detect(scan, {});
   const flow::Segment* car = segment_at(segmented, {19.1, 0.0}, 0.5);
-  return car == nullptr ? geometry::Matrix2(geometry::Matrix2::Zero()) : car->centroid_covariance_m2;
+  return car == nullptr ? geometry::Matrix2(geometry::Matrix2::Zero())
+                        : car->centroid_covariance_m2;
 }
 
 TEST(Detector, IsAsUnsureOfASegmentAsOfTheVehiclesPose) {
@@ -252,12 +263,15 @@ TEST(Detector, TakesOfThePosesVarianceWhatIsAgainstTheLocalMap) {
 }
 
 /// A line square to the vehicle's axis, `distance_m` ahead, thin.
-StreetBox line_ahead(double distance_m, double width_m) { return {{distance_m, 0.0, M_PI / 2.0}, width_m, 0.1}; }
+StreetBox line_ahead(double distance_m, double width_m) {
+  return {{distance_m, 0.0, M_PI / 2.0}, width_m, 0.1};
+}
 
 TEST(Detector, TakesALineThatNothingIsSeenBeyondForTheGround) {
   Street street;
   street.known = {kWall};
-  street.unknown = {line_ahead(15.0, 200.0)};  // the whole width of the view: what a pitching scanner gets
+  street.unknown = {line_ahead(15.0, 200.0)};  // the whole width of the view: what a pitching
+                                               // scanner gets
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   EXPECT_EQ(scan.labels[180], PointLabel::kNoEcho);
   EXPECT_EQ(segment_at(scan, {14.95, 0.0}, 5.0), nullptr);
@@ -284,7 +298,8 @@ TEST(Detector, DoesNotTakeABusThatCrossesAnEmptySquareForTheGround) {
 TEST(Detector, DoesNotTakeTheBackOfATruckForTheGround) {
   Street street;
   street.known = {kWall};
-  street.unknown = {{{18.5, 0.0, 0.0}, 7.0, 2.5}};  // its back is 15 m ahead, and much is seen beyond it on both sides
+  street.unknown = {{{18.5, 0.0, 0.0}, 7.0, 2.5}};  // its back is 15 m ahead, and much is seen
+                                                    // beyond it on both sides
   const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
   const flow::Segment* truck = segment_at(segmented, {15.0, 0.0}, 0.5);
   ASSERT_NE(truck, nullptr);
@@ -306,11 +321,13 @@ TEST(Detector, HoldsForPartOfAWallWhatIsAsNearToItAsItMayErrAtThatRange) {
   EXPECT_EQ(label_in_front_of_a_wall(50.0, 0.75), PointLabel::kMoving);
 }
 
-/// Whether the right end of a car's side, 8 m ahead, counts as hidden by somebody so far in front of it.
+/// Whether the right end of a car's side, 8 m ahead, counts as hidden by somebody so far in front
+/// of it.
 bool is_hidden_by_somebody(double in_front_m) {
   Street street;
   street.known = {kWall};
-  const double near_m = 8.0 - in_front_m;  // face of the one who hides it, right of the car's right end
+  const double near_m = 8.0 - in_front_m;  // face of the one who hides it, right of the car's right
+                                           // end
   street.unknown = {{{8.9, 0.0, M_PI / 2.0}}, {{near_m + 0.2, -2.4 * near_m / 8.0, 0.0}, 0.4, 0.5}};
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   for (const flow::Segment& segment : scan.segments)
@@ -326,7 +343,9 @@ TEST(Detector, HoldsAnEndForHiddenWhereSomethingIsClearlyInFrontOfIt) {
 
 TEST(Detector, DoesNotTakeACarThatFillsANarrowLaneForTheGround) {
   Street street;
-  street.known = {{{12.0, 5.95, 0.0}, 8.0, 10.0}, {{12.0, -5.95, 0.0}, 8.0, 10.0}};  // houses hide all that is beside it
+  street.known = {{{12.0, 5.95, 0.0}, 8.0, 10.0}, {{12.0, -5.95, 0.0}, 8.0, 10.0}};  // houses hide
+                                                                                     // all that is
+                                                                                     // beside it
   street.unknown = {{{17.5, 0.0, 0.0}}};
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   const flow::Segment* car = segment_at(scan, {15.25, 0.0}, 0.5);
@@ -344,11 +363,16 @@ PointLabel label_ahead_of_a_line(const geometry::Pose2& odom_from_line) {
 TEST(Detector, TakesALineForTheGroundOnlyWhereItIsSquareToTheAxisAndNotRightAhead) {
   const DetectionConfig config;
   const double square_rad = M_PI / 2.0;
-  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 0.8 * config.ground_heading_rad}), PointLabel::kNoEcho);
-  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 1.3 * config.ground_heading_rad}), PointLabel::kMoving);
-  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad - 1.3 * config.ground_heading_rad}), PointLabel::kMoving);
-  EXPECT_EQ(label_ahead_of_a_line({1.2 * config.ground_nearest_m, 0.0, square_rad}), PointLabel::kNoEcho);
-  EXPECT_EQ(label_ahead_of_a_line({0.8 * config.ground_nearest_m, 0.0, square_rad}), PointLabel::kMoving);
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 0.8 * config.ground_heading_rad}),
+            PointLabel::kNoEcho);
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 1.3 * config.ground_heading_rad}),
+            PointLabel::kMoving);
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad - 1.3 * config.ground_heading_rad}),
+            PointLabel::kMoving);
+  EXPECT_EQ(label_ahead_of_a_line({1.2 * config.ground_nearest_m, 0.0, square_rad}),
+            PointLabel::kNoEcho);
+  EXPECT_EQ(label_ahead_of_a_line({0.8 * config.ground_nearest_m, 0.0, square_rad}),
+            PointLabel::kMoving);
 }
 
 TEST(Detector, MovesWithTheWorld) {
@@ -363,7 +387,10 @@ TEST(Detector, MovesWithTheWorld) {
   ASSERT_EQ(there.segments.size(), here.segments.size());
   for (std::size_t i = 0; i < here.segments.size(); ++i) {
     EXPECT_EQ(there.segments[i].label, here.segments[i].label);
-    EXPECT_LT((there.segments[i].centroid_in_odom_m - there_from_here * here.segments[i].centroid_in_odom_m).norm(), 1e-3);
+    EXPECT_LT((there.segments[i].centroid_in_odom_m -
+               there_from_here * here.segments[i].centroid_in_odom_m)
+                  .norm(),
+              1e-3);
     EXPECT_NEAR(there.segments[i].box_length_m, here.segments[i].box_length_m, 0.05);
   }
 }

@@ -30,7 +30,9 @@ metrics::TrueObject person(std::size_t index, double x_m, double y_m) {
 
 TEST(PlaceAnnotations, PutsPeopleIntoTheMapBetweenTheirSightings) {
   Truth truth;
-  truth.annotated = {{{2 * kSecondNs, {person(0, 5.0, 0.0)}}, {2 * kSecondNs + kSecondNs / 2, {person(0, 4.5, 1.0)}}}};  // crosses: x stays in the map
+  truth.annotated = {{{2 * kSecondNs, {person(0, 5.0, 0.0)}},
+                      {2 * kSecondNs + kSecondNs / 2, {person(0, 4.5, 1.0)}}}};  // crosses: x stays
+                                                                                 // in the map
   const Truth placed = place_annotations(truth, straight_way(), 3);
   EXPECT_EQ(placed.trajectory.front().stamp_ns, 2 * kSecondNs);
   EXPECT_EQ(placed.trajectory.back().stamp_ns, 2 * kSecondNs + kSecondNs / 2);
@@ -38,7 +40,8 @@ TEST(PlaceAnnotations, PutsPeopleIntoTheMapBetweenTheirSightings) {
   for (const ObjectsAt& at : *placed.objects) {
     ASSERT_EQ(at.objects.size(), 1U);
     EXPECT_NEAR(at.objects[0].world_from_object.x_m, 7.0, 1e-9);
-    EXPECT_NEAR(at.objects[0].world_from_object.y_m, 2.0 * static_cast<double>(at.stamp_ns - 2 * kSecondNs) / kSecondNs, 1e-9);
+    EXPECT_NEAR(at.objects[0].world_from_object.y_m,
+                2.0 * static_cast<double>(at.stamp_ns - 2 * kSecondNs) / kSecondNs, 1e-9);
     EXPECT_NEAR(at.objects[0].speed_mps, 2.0, 1e-9);
   }
 }
@@ -47,7 +50,9 @@ TEST(PlaceAnnotations, TakesThemFromWhereTheLaserIs) {
   RunResult result = straight_way();
   result.base_from_laser = {0.5, 0.0, 0.5 * std::numbers::pi};
   Truth truth;
-  truth.annotated = {{{2 * kSecondNs, {person(0, 3.0, 0.0)}}, {2 * kSecondNs + kSecondNs / 2, {person(0, 3.0, 0.5)}}}};  // left of the way, stands
+  truth.annotated = {{{2 * kSecondNs, {person(0, 3.0, 0.0)}},
+                      {2 * kSecondNs + kSecondNs / 2, {person(0, 3.0, 0.5)}}}};  // left of the way,
+                                                                                 // stands
   const Truth placed = place_annotations(truth, result, 3);
   ASSERT_FALSE(placed.objects->empty());
   for (const ObjectsAt& at : *placed.objects) {
@@ -58,7 +63,8 @@ TEST(PlaceAnnotations, TakesThemFromWhereTheLaserIs) {
 
 TEST(PlaceAnnotations, SaysNothingOfPeopleWhoWereLeftOutForLong) {
   Truth truth;
-  truth.annotated = {{{2 * kSecondNs, {person(0, 5.0, 0.0)}}, {4 * kSecondNs, {person(0, 3.0, 0.0)}}}};
+  truth.annotated = {
+      {{2 * kSecondNs, {person(0, 5.0, 0.0)}}, {4 * kSecondNs, {person(0, 3.0, 0.0)}}}};
   const Truth placed = place_annotations(truth, straight_way(), 3);
   EXPECT_TRUE(placed.objects->empty());
   EXPECT_EQ(placed.trajectory.size(), 21U);  // these scans count: who is tracked there is false
@@ -67,7 +73,8 @@ TEST(PlaceAnnotations, SaysNothingOfPeopleWhoWereLeftOutForLong) {
 TEST(PlaceAnnotations, TakesThemFromTheScanThatWasLookedAt) {
   constexpr std::int64_t kLateNs = 60'000'000;  // marked between that scan and the next
   Truth truth;
-  truth.annotated = {{{2 * kSecondNs + kLateNs, {person(0, 5.0, 0.0)}}, {2 * kSecondNs + kSecondNs / 2 + kLateNs, {person(0, 4.5, 0.0)}}}};  // stands
+  truth.annotated = {{{2 * kSecondNs + kLateNs, {person(0, 5.0, 0.0)}},
+                      {2 * kSecondNs + kSecondNs / 2 + kLateNs, {person(0, 4.5, 0.0)}}}};  // stands
   const Truth placed = place_annotations(truth, straight_way(), 3);
   ASSERT_EQ(placed.objects->size(), 6U);
   EXPECT_EQ(placed.objects->front().stamp_ns, 2 * kSecondNs);
@@ -79,16 +86,20 @@ TEST(PlaceAnnotations, TakesThemFromTheScanThatWasLookedAt) {
 
 TEST(PlaceAnnotations, HidesPeopleInScansInWhichTheyWereNotMarked) {
   Truth truth;
-  truth.annotated = {{{2 * kSecondNs, {person(0, 5.0, 0.0)}}, {2 * kSecondNs + kSecondNs / 2, {person(0, 4.5, 0.0)}}}};
+  truth.annotated = {{{2 * kSecondNs, {person(0, 5.0, 0.0)}},
+                      {2 * kSecondNs + kSecondNs / 2, {person(0, 4.5, 0.0)}}}};
   const Truth placed = place_annotations(truth, straight_way(), 3);
   ASSERT_EQ(placed.objects->size(), 6U);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(placed.objects->at(i).objects.at(0).points, i == 0 || i == 5 ? 3 : 0);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(placed.objects->at(i).objects.at(0).points, i == 0 || i == 5 ? 3 : 0);
 }
 
 TEST(PlaceAnnotations, DoesNotTakeAnUnsteadyHandForAWalk) {
   Truth truth;
   truth.annotated.emplace();
-  for (int i = 0; i <= 10; ++i) truth.annotated->push_back({2 * kSecondNs + i * kSecondNs / 10, {person(0, 5.0 - 0.1 * i, i % 2 == 0 ? 0.1 : -0.1)}});
+  for (int i = 0; i <= 10; ++i)
+    truth.annotated->push_back(
+        {2 * kSecondNs + i * kSecondNs / 10, {person(0, 5.0 - 0.1 * i, i % 2 == 0 ? 0.1 : -0.1)}});
   const Truth placed = place_annotations(truth, straight_way(), 3);
   ASSERT_FALSE(placed.objects->empty());
   for (const ObjectsAt& at : *placed.objects) EXPECT_LT(at.objects.at(0).speed_mps, 0.2);
@@ -96,7 +107,9 @@ TEST(PlaceAnnotations, DoesNotTakeAnUnsteadyHandForAWalk) {
 
 TEST(ReadTruth, TakesAnnotationsOfAFolder) {
   const testing::TemporaryFolder folder;
-  write(folder / "people_gt.txt", "# bag_time person_id x y (laser frame)\n10.5 1 4.0 -2.0\n10.5 1000 2.0 1.0\n10.6 1 3.9 -2.0\n");
+  write(folder / "people_gt.txt",
+        "# bag_time person_id x y (laser frame)\n10.5 1 4.0 -2.0\n10.5 1000 2.0 1.0\n10.6 1 3.9 "
+        "-2.0\n");
   const auto truth = read_truth(folder.path());
   ASSERT_TRUE(truth) << truth.error().message;
   EXPECT_EQ(truth->object_count, 2U);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/temporary_folder.hpp"
@@ -28,7 +28,8 @@ class EvalCommand : public ::testing::Test {
     CLI::App app;
     int exit_code = 0;
     add_eval_command(app, exit_code);
-    app.parse("eval --result " + folder_.path().string() + " --truth " + (folder_ / "drive").string());
+    app.parse("eval --result " + folder_.path().string() + " --truth " +
+              (folder_ / "drive").string());
     return exit_code;
   }
 

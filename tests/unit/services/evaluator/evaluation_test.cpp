@@ -13,7 +13,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The car ahead, tracked half a metre beside its box; the map begins where the world has x = 100 m.
+/// The car ahead, tracked half a metre beside its box; the map begins where the world has x = 100
+/// m.
 class Evaluate : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -58,8 +59,10 @@ TEST_F(Evaluate, RefusesAnotherDrive) {
   std::string circle;
   for (int i = 0; i <= 300; ++i) {
     const double turn = 0.1 * i;  // 10 m of radius
-    circle += std::to_string(0.1 * i) + " " + std::to_string(10.0 * std::sin(turn)) + " " + std::to_string(-10.0 * std::cos(turn)) + " 0 0 0 " +
-              std::to_string(std::sin(0.5 * turn)) + " " + std::to_string(std::cos(0.5 * turn)) + "\n";
+    circle += std::to_string(0.1 * i) + " " + std::to_string(10.0 * std::sin(turn)) + " " +
+              std::to_string(-10.0 * std::cos(turn)) + " 0 0 0 " +
+              std::to_string(std::sin(0.5 * turn)) + " " + std::to_string(std::cos(0.5 * turn)) +
+              "\n";
   }
   write(folder_ / "drive.tum", circle);
   const auto evaluation = evaluated();
@@ -75,10 +78,13 @@ TEST_F(Evaluate, RefusesObjectsOfAnotherFrame) {
 }
 
 TEST_F(Evaluate, RefusesObjectsOfAnotherClock) {
-  write(folder_ / "drive.objects.csv", "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n900.0,1,car,110,0,0,10,4.5,1.8,20,10\n");
+  write(folder_ / "drive.objects.csv",
+        "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n900.0,1,car,110,0,0,10,4.5,1."
+        "8,20,10\n");
   const auto evaluation = evaluated();
   ASSERT_FALSE(evaluation);
-  EXPECT_THAT(evaluation.error().message, HasSubstr("no scan of the result has true objects at its time"));
+  EXPECT_THAT(evaluation.error().message,
+              HasSubstr("no scan of the result has true objects at its time"));
 }
 
 TEST_F(Evaluate, SaysWhatItLeavesOut) {
@@ -90,7 +96,8 @@ TEST_F(Evaluate, SaysWhatItLeavesOut) {
 }
 
 TEST_F(Evaluate, FollowsOneOtherCarOfMotionCapture) {
-  for (const char* file : {"drive.tum", "drive.objects.csv"}) std::filesystem::remove(folder_ / file);
+  for (const char* file : {"drive.tum", "drive.objects.csv"})
+    std::filesystem::remove(folder_ / file);
   write(folder_ / "drive.ego.tum", straight_tum(100.0));
   write(folder_ / "drive.red.tum", straight_tum(110.0));
   write(folder_ / "tracks.csv", tracks_csv(0.0, 0.1));

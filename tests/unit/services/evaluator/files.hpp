@@ -7,14 +7,18 @@
 
 namespace slammot::evaluator {
 
-inline void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+inline void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
-/// A drive of 30 s along x at 10 m/s, one pose each 0.1 s, beginning at the given place of its frame.
+/// A drive of 30 s along x at 10 m/s, one pose each 0.1 s, beginning at the given place of its
+/// frame.
 inline std::string straight_tum(double start_x_m, double first_stamp_s = 0.0) {
   std::string text;
   for (int i = 0; i <= 300; ++i) {
     char line[96];
-    std::snprintf(line, sizeof line, "%.6f %.6f 0 0 0 0 0 1\n", first_stamp_s + 0.1 * i, start_x_m + i);
+    std::snprintf(line, sizeof line, "%.6f %.6f 0 0 0 0 0 1\n", first_stamp_s + 0.1 * i,
+                  start_x_m + i);
     text += line;
   }
   return text;
@@ -25,7 +29,8 @@ inline std::string car_ahead_csv(double start_x_m) {
   std::string text = "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n";
   for (int i = 0; i <= 300; ++i) {
     char line[128];
-    std::snprintf(line, sizeof line, "%.6f,1,car,%.3f,0,0,10,4.5,1.8,20,10\n", 0.1 * i, start_x_m + i + 10.0);
+    std::snprintf(line, sizeof line, "%.6f,1,car,%.3f,0,0,10,4.5,1.8,20,10\n", 0.1 * i,
+                  start_x_m + i + 10.0);
     text += line;
   }
   return text;
@@ -36,7 +41,8 @@ inline std::string tracks_csv(double start_x_m, double off_m) {
   std::string text = "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class\n";
   for (int i = 0; i <= 300; ++i) {
     char line[128];
-    std::snprintf(line, sizeof line, "%.6f,7,%.3f,%.3f,0,10,0,4.5,1.8,moving,1,car\n", 0.1 * i, start_x_m + i + 10.0, off_m);
+    std::snprintf(line, sizeof line, "%.6f,7,%.3f,%.3f,0,10,0,4.5,1.8,moving,1,car\n", 0.1 * i,
+                  start_x_m + i + 10.0, off_m);
     text += line;
   }
   return text;

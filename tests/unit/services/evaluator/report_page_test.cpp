@@ -3,9 +3,9 @@
 #include <fstream>
 #include <iterator>
 
-#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
 
 #include "services/evaluator/report_command.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -79,15 +79,20 @@ TEST_F(ReportPage, NeedsNoTruth) {
 
 TEST_F(ReportPage, ShowsErrorsAndTrueSpeedsWhereThereIsTruth) {
   const std::string html = page(" --truth " + (folder_ / "drive").string());
-  for (const char* part : {"Against the truth", "position error [m]", "true speed", "truly a car", "HOTA"}) EXPECT_THAT(html, HasSubstr(part));
+  for (const char* part :
+       {"Against the truth", "position error [m]", "true speed", "truly a car", "HOTA"})
+    EXPECT_THAT(html, HasSubstr(part));
 }
 
 TEST_F(ReportPage, LoadsNothingFromElsewhere) {
   const std::string html = page(" --truth " + (folder_ / "drive").string());
-  for (const char* part : {"http:", "https:", "src=", "<link", "@import", "url("}) EXPECT_THAT(html, Not(HasSubstr(part)));
+  for (const char* part : {"http:", "https:", "src=", "<link", "@import", "url("})
+    EXPECT_THAT(html, Not(HasSubstr(part)));
 }
 
-TEST_F(ReportPage, ShowsTheTracksAskedFor) { EXPECT_THAT(page(" --tracks 99"), Not(HasSubstr("Single tracks"))); }
+TEST_F(ReportPage, ShowsTheTracksAskedFor) {
+  EXPECT_THAT(page(" --tracks 99"), Not(HasSubstr("Single tracks")));
+}
 
 }  // namespace
 }  // namespace slammot::evaluator

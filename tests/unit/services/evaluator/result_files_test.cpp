@@ -29,7 +29,9 @@ TEST_F(ResultFiles, NeedTheTrajectoriesOnly) {
 
 TEST_F(ResultFiles, JoinTracksWithTheirCovariances) {
   write(folder_ / "tracks.csv", tracks_csv(0.0, 0.0));
-  write(folder_ / "track_details.csv", "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy\n0.100000,7,0.04,0.01,0.09,1,0,1\n");
+  write(folder_ / "track_details.csv",
+        "timestamp,track_id,var_x,cov_xy,var_y,var_vx,cov_vxy,var_vy\n0.100000,7,0.04,0.01,0.09,1,"
+        "0,1\n");
   const auto result = read_result(folder_.path());
   ASSERT_TRUE(result);
   EXPECT_FALSE(result->tracks[0].tracks[0].position_covariance_m2);
@@ -39,7 +41,9 @@ TEST_F(ResultFiles, JoinTracksWithTheirCovariances) {
 
 TEST_F(ResultFiles, JoinTracksWithTheirPredictions) {
   write(folder_ / "tracks.csv", tracks_csv(0.0, 0.0));
-  write(folder_ / "predictions.csv", "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n0.100000,7,1.0,20,1,0.04,0.01,0.09\n0.100000,7,2.0,30,2,0.4,0.1,0.9\n");
+  write(folder_ / "predictions.csv",
+        "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n0.100000,7,1.0,20,1,0.04,0.01,0.09\n0."
+        "100000,7,2.0,30,2,0.4,0.1,0.9\n");
   const auto result = read_result(folder_.path());
   ASSERT_TRUE(result);
   EXPECT_TRUE(result->tracks[0].tracks[0].predicted_in_map.empty());
@@ -52,7 +56,8 @@ TEST_F(ResultFiles, JoinTracksWithTheirPredictions) {
 
 TEST_F(ResultFiles, RefuseAPredictionOfNoTime) {
   write(folder_ / "tracks.csv", tracks_csv(0.0, 0.0));
-  write(folder_ / "predictions.csv", "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n0.100000,7,8e9,20,1,0.04,0.01,0.09\n");
+  write(folder_ / "predictions.csv",
+        "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n0.100000,7,8e9,20,1,0.04,0.01,0.09\n");
   const auto result = read_result(folder_.path());
   ASSERT_FALSE(result);
   EXPECT_THAT(result.error().message, HasSubstr("no time ahead"));

@@ -13,7 +13,8 @@ using ::testing::Not;
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
   return found;
 }
 
@@ -22,7 +23,9 @@ TEST(SvgNumber, IsShortAndHasNoMinusZero) {
   EXPECT_EQ(svg_number(-0.00000001), "0");
 }
 
-TEST(Escaped, LeavesNothingThatHtmlWouldTakeForATag) { EXPECT_EQ(escaped("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;"); }
+TEST(Escaped, LeavesNothingThatHtmlWouldTakeForATag) {
+  EXPECT_EQ(escaped("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
+}
 
 TEST(Plot, BreaksALineAtAGap) {
   Plot plot{"t", "y", {{"one", "#000", {{0, 1}, {10, 1}, {50, 2}, {60, 1}}, 20.0}}, {}, {}};
@@ -33,7 +36,8 @@ TEST(Plot, BreaksALineAtAGap) {
 
 TEST(Plot, ThinsALongSeriesAndKeepsItsExtremes) {
   Series series{"one", "#000", {}};
-  for (int i = 0; i < 100000; ++i) series.points.push_back({i * 1e-3, i == 54321 ? 7.0 : 0.1 * std::sin(i)});
+  for (int i = 0; i < 100000; ++i)
+    series.points.push_back({i * 1e-3, i == 54321 ? 7.0 : 0.1 * std::sin(i)});
   const std::string svg = to_svg({"t", "y", {series}, {}, 7.0});
   EXPECT_LT(svg.size(), 60000U);
   EXPECT_THAT(svg, HasSubstr(" 10L"));  // the spike reaches the top of the picture
@@ -45,7 +49,9 @@ TEST(Plot, HasALegendForSeveralSeriesOnly) {
   EXPECT_THAT(to_svg({"t", "y", {series, series}, {}, {}}), HasSubstr("legend"));
 }
 
-TEST(Plot, OfNothingIsStillAPicture) { EXPECT_THAT(to_svg({"t", "y", {}, {}, {}}), HasSubstr("</svg>")); }
+TEST(Plot, OfNothingIsStillAPicture) {
+  EXPECT_THAT(to_svg({"t", "y", {}, {}, {}}), HasSubstr("</svg>"));
+}
 
 TEST(LogBars, OfNothingAreNothing) {
   EXPECT_EQ(log_bars_svg({{"stage", 0.0, 0.0, 0.0}}, "ms"), "");

@@ -39,7 +39,9 @@ TEST_F(TableFile, NamesTheLineOfAMalformedRow) {
   EXPECT_THAT(fault_of("a,b\n1,nan\n"), EndsWith("table.csv:2: no number"));
 }
 
-TEST_F(TableFile, MissesAColumn) { EXPECT_THAT(fault_of("a,c\n1,2\n"), EndsWith("table.csv:1: no column b")); }
+TEST_F(TableFile, MissesAColumn) {
+  EXPECT_THAT(fault_of("a,c\n1,2\n"), EndsWith("table.csv:1: no column b"));
+}
 
 TEST_F(TableFile, ReadsLinesThatEndAsOnOtherSystems) { EXPECT_EQ(fault_of("a,b\r\n1,2\r\n"), ""); }
 

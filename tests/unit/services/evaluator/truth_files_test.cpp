@@ -36,8 +36,10 @@ TEST_F(TruthFiles, AreATrajectoryObjectsAndWalls) {
 
 TEST_F(TruthFiles, SayWhatBeamsHit) {
   write(folder_ / "drive.tum", straight_tum(5.0));
-  write(folder_ / "drive.objects.csv", "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n1.0,17,car,1,0,0,2,4,2,3,5\n");
-  write(folder_ / "drive.hits.csv", "timestamp,scanner,hits\n1.0,front,0*2 17*3 -1*1 -2*1\n1.0,rear,0*9\n");
+  write(folder_ / "drive.objects.csv",
+        "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n1.0,17,car,1,0,0,2,4,2,3,5\n");
+  write(folder_ / "drive.hits.csv",
+        "timestamp,scanner,hits\n1.0,front,0*2 17*3 -1*1 -2*1\n1.0,rear,0*9\n");
   const auto truth = read_truth(folder_ / "drive");
   ASSERT_TRUE(truth) << truth.error().message;
   ASSERT_EQ(truth->hits->size(), 1U);  // of the first scanner
@@ -53,9 +55,11 @@ TEST_F(TruthFiles, SayWhatBeamsHit) {
 
 TEST_F(TruthFiles, RefuseHitsThatMeanNothing) {
   write(folder_ / "drive.tum", straight_tum(5.0));
-  write(folder_ / "drive.objects.csv", "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n1.0,17,car,1,0,0,2,4,2,3,5\n");
+  write(folder_ / "drive.objects.csv",
+        "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n1.0,17,car,1,0,0,2,4,2,3,5\n");
   for (const char* hits : {"0", "0*", "*3", "0*0", "18*2", "0*99999999999", "0*2  17*1"}) {
-    write(folder_ / "drive.hits.csv", std::string("timestamp,scanner,hits\n1.0,front,") + hits + "\n");
+    write(folder_ / "drive.hits.csv",
+          std::string("timestamp,scanner,hits\n1.0,front,") + hits + "\n");
     const auto truth = read_truth(folder_ / "drive");
     ASSERT_FALSE(truth) << hits;
     EXPECT_THAT(truth.error().message, HasSubstr("drive.hits.csv:2"));
@@ -71,7 +75,8 @@ TEST_F(TruthFiles, MayBeATrajectoryOnly) {
 }
 
 TEST_F(TruthFiles, ReadCarmenReferences) {
-  write(folder_ / "log.reference.txt", "# index stamp x y theta\n0 21.0 1.5 -2 0.5\n1 22.0 2 -2 0.6\n");
+  write(folder_ / "log.reference.txt",
+        "# index stamp x y theta\n0 21.0 1.5 -2 0.5\n1 22.0 2 -2 0.6\n");
   const auto truth = read_truth(folder_ / "log");
   ASSERT_TRUE(truth);
   EXPECT_THAT(truth->trajectory[0].pose, PoseNear(geometry::Pose2{1.5, -2.0, 0.5}, 1e-12));

@@ -31,12 +31,15 @@ class WallSharpnessOfARoom : public ::testing::Test {
     std::mt19937 random(11);
     std::string log;
     for (int scan = 0; scan < kScans; ++scan) {
-      const auto ranges = slammot::testing::scan_along(slammot::testing::room(), path, time_s(scan), scanner(), kBeams, 0.005, random).range_m;
+      const auto ranges = slammot::testing::scan_along(slammot::testing::room(), path, time_s(scan),
+                                                       scanner(), kBeams, 0.005, random)
+                              .range_m;
       log += "FLASER " + std::to_string(kBeams);
       for (const float range_m : ranges) log += " " + std::to_string(range_m);
       char rest[128];
       const Pose2 pose = path(time_s(scan));
-      std::snprintf(rest, sizeof rest, " %f %f %f %f %f %f %f host %f\n", pose.x_m, pose.y_m, pose.heading_rad, pose.x_m, pose.y_m, pose.heading_rad,
+      std::snprintf(rest, sizeof rest, " %f %f %f %f %f %f %f host %f\n", pose.x_m, pose.y_m,
+                    pose.heading_rad, pose.x_m, pose.y_m, pose.heading_rad,
                     1e-9 * static_cast<double>(stamp_ns(scan)), time_s(scan));
       log += rest;
       pairs_.push_back({stamp_ns(scan), pose, pose});
@@ -46,7 +49,9 @@ class WallSharpnessOfARoom : public ::testing::Test {
 
   static sensing::Scanner scanner() { return slammot::testing::half_circle_scanner(); }
   std::filesystem::path file() const { return folder_ / "room.log"; }
-  WallSharpness of(const std::vector<PosePair>& pairs) const { return *wall_sharpness(file(), pairs, 0.0, {.cell_size_m = 0.05}); }
+  WallSharpness of(const std::vector<PosePair>& pairs) const {
+    return *wall_sharpness(file(), pairs, 0.0, {.cell_size_m = 0.05});
+  }
 
   testing::TemporaryFolder folder_;
   std::vector<PosePair> pairs_;
@@ -62,7 +67,9 @@ TEST_F(WallSharpnessOfARoom, IsTheSameFromTheSamePoses) {
 TEST_F(WallSharpnessOfARoom, IsWorseFromPosesThatAreOff) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
-  for (PosePair& pair : pairs_) pair.estimate = pair.truth * Pose2{0.05 * normal(random), 0.05 * normal(random), 0.01 * normal(random)};
+  for (PosePair& pair : pairs_)
+    pair.estimate =
+        pair.truth * Pose2{0.05 * normal(random), 0.05 * normal(random), 0.01 * normal(random)};
   const WallSharpness walls = of(pairs_);
   EXPECT_GT(walls.of_estimate.mean_entropy_bits(), 1.1 * walls.of_truth.mean_entropy_bits());
 }
@@ -74,11 +81,14 @@ TEST_F(WallSharpnessOfARoom, TakesOnlyScansThatHaveBothPoses) {
 }
 
 TEST_F(WallSharpnessOfARoom, LeavesOutWhatIsFar) {
-  const auto near = wall_sharpness(file(), pairs_, 0.0, {.cell_size_m = 0.05, .longest_range_m = 2.0});
+  const auto near =
+      wall_sharpness(file(), pairs_, 0.0, {.cell_size_m = 0.05, .longest_range_m = 2.0});
   EXPECT_LT(near->of_truth.touched_cells, of(pairs_).of_truth.touched_cells);
 }
 
-TEST_F(WallSharpnessOfARoom, SaysWhatIsWrongWithTheLog) { EXPECT_FALSE(wall_sharpness(folder_ / "none.log", pairs_, 0.0, {.cell_size_m = 0.05})); }
+TEST_F(WallSharpnessOfARoom, SaysWhatIsWrongWithTheLog) {
+  EXPECT_FALSE(wall_sharpness(folder_ / "none.log", pairs_, 0.0, {.cell_size_m = 0.05}));
+}
 
 }  // namespace
 }  // namespace slammot::evaluator

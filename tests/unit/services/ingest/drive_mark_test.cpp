@@ -19,7 +19,9 @@ struct DriveMarkTest : ::testing::Test {
   std::filesystem::path file = folder / "state/ingest.drive";
 };
 
-TEST_F(DriveMarkTest, BeginsANewDriveWhereNoneIsNoted) { EXPECT_EQ(DriveMark(file, "a.log", 7).drive_id(), 7U); }
+TEST_F(DriveMarkTest, BeginsANewDriveWhereNoneIsNoted) {
+  EXPECT_EQ(DriveMark(file, "a.log", 7).drive_id(), 7U);
+}
 
 TEST_F(DriveMarkTest, GoesOnWithTheDriveOfAProcessThatWasKilled) {
   std::filesystem::create_directories(file.parent_path());
@@ -44,7 +46,9 @@ TEST_F(DriveMarkTest, BeginsANewDriveWhereTheMarkIsDamaged) {
   EXPECT_EQ(DriveMark(file, "a.log", 8).drive_id(), 8U);
 }
 
-TEST_F(DriveMarkTest, DoesWithoutAFolderItCanWrite) { EXPECT_EQ(DriveMark("/proc/no/ingest.drive", "a.log", 7).drive_id(), 7U); }
+TEST_F(DriveMarkTest, DoesWithoutAFolderItCanWrite) {
+  EXPECT_EQ(DriveMark("/proc/no/ingest.drive", "a.log", 7).drive_id(), 7U);
+}
 
 }  // namespace
 }  // namespace slammot::ingest

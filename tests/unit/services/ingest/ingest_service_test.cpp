@@ -18,11 +18,14 @@ using slammot::testing::kForever;
 
 constexpr int kScans = 20;
 
-/// Stands for localization, detection and tracking together: beats for them, and answers scans with labels as told.
+/// Stands for localization, detection and tracking together: beats for them, and answers scans with
+/// labels as told.
 class Neighbours {
  public:
   explicit Neighbours(dds::Participant participant) : participant_(std::move(participant)) {
-    wait_set_.on_data(scans_, [this] { scans_.take_each([this](const slammot_LaserScan& scan) { on_scan(scan); }); });
+    wait_set_.on_data(scans_, [this] {
+      scans_.take_each([this](const slammot_LaserScan& scan) { on_scan(scan); });
+    });
   }
 
   std::function<void(const slammot_LaserScan&)> on_scan;
@@ -50,7 +53,8 @@ class Neighbours {
       slammot_Heartbeat beat{};
       assign(beat.vehicle_id, "car");
       assign(beat.service_name, service);
-      beat.state = beats_ < starting_beats ? slammot_SERVICE_STATE_STARTING : slammot_SERVICE_STATE_RUNNING;
+      beat.state =
+          beats_ < starting_beats ? slammot_SERVICE_STATE_STARTING : slammot_SERVICE_STATE_RUNNING;
       heartbeats_.write(beat);
     }
     ++beats_;
@@ -81,7 +85,8 @@ struct IngestOnTheBus : ::testing::Test {
   }
 
   /// Plays the small log to its end.
-  void play(const std::string& speed, double resend_after_s = 0.2, double wait_for_services_s = 20.0) {
+  void play(const std::string& speed, double resend_after_s = 0.2,
+            double wait_for_services_s = 20.0) {
     write_small_log(folder / "drive.log", kScans);
     IngestService::Settings settings;
     settings.input = folder / "drive.log";
@@ -147,7 +152,9 @@ TEST_F(IngestOnTheBus, SkipsWhatAnEarlierProcessAlreadySent) {
 }
 
 TEST_F(IngestOnTheBus, PlaysAtItsPaceWithoutWaitingForAnswers) {
-  neighbours.on_scan = [this](const slammot_LaserScan& scan) { arrived.push_back(scan.sequence_number); };
+  neighbours.on_scan = [this](const slammot_LaserScan& scan) {
+    arrived.push_back(scan.sequence_number);
+  };
   play("20");
   EXPECT_EQ(arrived.size(), kScans);
 }

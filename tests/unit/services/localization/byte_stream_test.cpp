@@ -132,7 +132,8 @@ TEST(Unsealed, RefusesEveryChangedBitAndEveryCut) {
     EXPECT_FALSE(unsealed(bytes)) << bit;
     bytes[bit / 8] ^= flip;
   }
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unsealed(std::span<const std::byte>(bytes).first(size))) << size;
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(unsealed(std::span<const std::byte>(bytes).first(size))) << size;
 }
 
 }  // namespace

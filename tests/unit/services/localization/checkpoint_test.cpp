@@ -17,7 +17,8 @@ using slammot::testing::DriveSetup;
 using slammot::testing::SimulatedDrive;
 
 DriveSetup street_drive() {
-  DriveSetup setup{.world = slammot::testing::street(80.0), .world_from_base_at = arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
+  DriveSetup setup{.world = slammot::testing::street(80.0),
+                   .world_from_base_at = arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
   setup.scan_period_s = 0.05;
   setup.wheels = {.scale = 1.01};
   return setup;
@@ -30,7 +31,8 @@ LocalizerConfig config_of_many_submaps() {
   return config;
 }
 
-std::vector<std::byte> checkpoint_after(std::uint32_t scans, const LocalizerConfig& config = config_of_many_submaps()) {
+std::vector<std::byte> checkpoint_after(std::uint32_t scans,
+                                        const LocalizerConfig& config = config_of_many_submaps()) {
   SimulatedDrive drive(street_drive());
   Localizer localizer(config);
   drive_through(localizer, drive, 0, scans);
@@ -95,7 +97,8 @@ TEST(Checkpoint, IsBridgedByTheOdometryThatCameBeforeItWasTakenUp) {
   ASSERT_TRUE(restored.restore(original.checkpoint()));
   const auto localized = restored.localize(drive.scan(120));
   ASSERT_TRUE(localized);
-  EXPECT_LT(slammot::testing::distance_m(localized->odom_from_base.pose, drive.odom_from_base(120)), 0.3);
+  EXPECT_LT(slammot::testing::distance_m(localized->odom_from_base.pose, drive.odom_from_base(120)),
+            0.3);
   EXPECT_EQ(restored.counters().without_odometry, original.counters().without_odometry);
 }
 
@@ -117,7 +120,8 @@ TEST(Checkpoint, OfTheLocalMapIsNotTroubledBySurfelsThatHadGone) {
   config.side_m = 20.0;
   const auto wall = [](double y_m) { return grids::Ray{{3.1, y_m}, grids::Echo::kStationary}; };
   std::vector<grids::Ray> through;
-  for (double y_m = -1.0; y_m < 1.5; y_m += 0.05) through.push_back({{6.1, y_m}, grids::Echo::kNone});
+  for (double y_m = -1.0; y_m < 1.5; y_m += 0.05)
+    through.push_back({{6.1, y_m}, grids::Echo::kNone});
   LocalMap original(config, {0.0, 0.0});
   original.integrate(1, {0.1, 0.1}, {wall(0.1), wall(2.1)}, 0.0);
   for (int i = 0; i < 29; ++i) original.integrate(2 + i, {0.1, 0.1}, through, 0.0);
@@ -132,7 +136,9 @@ TEST(Checkpoint, OfTheLocalMapIsNotTroubledBySurfelsThatHadGone) {
   EXPECT_TRUE(slammot::testing::same_submap(original.submap(), restored->submap()));
 }
 
-TEST(Checkpoint, IsTheSameBytesForTheSameDrive) { EXPECT_EQ(checkpoint_after(25), checkpoint_after(25)); }
+TEST(Checkpoint, IsTheSameBytesForTheSameDrive) {
+  EXPECT_EQ(checkpoint_after(25), checkpoint_after(25));
+}
 
 TEST(Checkpoint, OfARestoredLocalizerIsTheSameBytesAgain) {
   const auto bytes = checkpoint_after(25);
@@ -147,7 +153,8 @@ TEST(Checkpoint, ForgetsWhatTheRestoredOneHadBefore) {
   drive_through(original, drive, 0, 20);
   while (original.take_finished_submap()) {}
   Localizer restored(config_of_many_submaps());
-  SimulatedDrive other({.world = slammot::testing::room(), .world_from_base_at = arc({0.0, -3.0, 0.0}, 0.5, 0.2)});
+  SimulatedDrive other(
+      {.world = slammot::testing::room(), .world_from_base_at = arc({0.0, -3.0, 0.0}, 0.5, 0.2)});
   drive_through(restored, other, 0, 30);
   ASSERT_TRUE(restored.restore(original.checkpoint()));
   expect_same_future(original, restored, 20, 80);
@@ -175,7 +182,8 @@ TEST_F(RefusedCheckpoint, WhenEmpty) {
 
 TEST_F(RefusedCheckpoint, WhereverItIsCut) {
   const auto bytes = checkpoint_after(5);
-  for (std::size_t size = 0; size < bytes.size(); size += size < 2000 ? 7 : 9973) expect_refused(std::span(bytes).first(size));
+  for (std::size_t size = 0; size < bytes.size(); size += size < 2000 ? 7 : 9973)
+    expect_refused(std::span(bytes).first(size));
   expect_refused(std::span(bytes).first(bytes.size() - 1));
 }
 

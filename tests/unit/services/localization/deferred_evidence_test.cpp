@@ -15,9 +15,15 @@ namespace {
 using geometry::Vector2;
 using slammot::testing::HelpAtTheLastMoment;
 
-grids::EvidenceGrid empty_grid() { return {grids::window_around(Vector2::Zero(), 20.0, 0.2), grids::EvidenceModel{}}; }
+grids::EvidenceGrid empty_grid() {
+  return {grids::window_around(Vector2::Zero(), 20.0, 0.2), grids::EvidenceModel{}};
+}
 
-std::vector<grids::Ray> echoes_at(double x_m) { return {{{x_m, 0.1}, grids::Echo::kStationary}, {{x_m, 0.5}, grids::Echo::kMoving}, {{0.1, 5.0}, grids::Echo::kNone}}; }
+std::vector<grids::Ray> echoes_at(double x_m) {
+  return {{{x_m, 0.1}, grids::Echo::kStationary},
+          {{x_m, 0.5}, grids::Echo::kMoving},
+          {{0.1, 5.0}, grids::Echo::kNone}};
+}
 
 void expect_same(const DeferredEvidence& a, const DeferredEvidence& b) {
   EXPECT_EQ(a.grid().so_cells(), b.grid().so_cells());
@@ -43,7 +49,9 @@ TEST(DeferredEvidence, HoldsTheSameWithHelpAndWithout) {
       std::vector<grids::Ray> rays = echoes_at(3.1 + 0.2 * (scan % 5));
       evidence->integrate({0.1, 0.1}, rays, 0.0);
       rays.clear();  // what was handed over is the caller's again
-      if (scan % 3 == 0) evidence->restore_stationary({3.1, 0.1});  // through which the last scan may have seen: the order tells
+      if (scan % 3 == 0)
+        evidence->restore_stationary({3.1, 0.1});  // through which the last scan may have seen: the
+                                                   // order tells
       if (scan % 4 == 0) evidence->drive_over({{3.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
     }
   }
@@ -86,7 +94,9 @@ TEST(DeferredEvidence, DoesNotGoBeforeItsHelpIsDone) {
 }
 
 TEST(DeferredEvidence, ChangesNothingThatLeavesTheLocalizer) {
-  slammot::testing::DriveSetup street{.world = slammot::testing::street(80.0), .world_from_base_at = slammot::testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
+  slammot::testing::DriveSetup street{
+      .world = slammot::testing::street(80.0),
+      .world_from_base_at = slammot::testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
   street.scan_period_s = 0.05;
   LocalizerConfig config = slammot::testing::small_map_config();
   config.expects_all_ranges = true;
@@ -110,7 +120,8 @@ TEST(DeferredEvidence, ChangesNothingThatLeavesTheLocalizer) {
     const auto submap_of_helped = helped.take_finished_submap();
     const auto submap_of_alone = alone.take_finished_submap();
     ASSERT_EQ(submap_of_helped.has_value(), submap_of_alone.has_value());
-    if (submap_of_alone) ASSERT_TRUE(slammot::testing::same_submap(*submap_of_helped, *submap_of_alone));
+    if (submap_of_alone)
+      ASSERT_TRUE(slammot::testing::same_submap(*submap_of_helped, *submap_of_alone));
     submaps += submap_of_alone.has_value();
     if (scan % 17 == 0) ASSERT_EQ(helped.checkpoint(), alone.checkpoint());
   }
@@ -119,7 +130,9 @@ TEST(DeferredEvidence, ChangesNothingThatLeavesTheLocalizer) {
 }
 
 TEST(DeferredEvidence, IsLentTheSameHelpAfterARestore) {
-  slammot::testing::DriveSetup street{.world = slammot::testing::street(80.0), .world_from_base_at = slammot::testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
+  slammot::testing::DriveSetup street{
+      .world = slammot::testing::street(80.0),
+      .world_from_base_at = slammot::testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
   slammot::testing::SimulatedDrive drive(street);
   Localizer before(slammot::testing::small_map_config());
   drive_through(before, drive, 0, 10);

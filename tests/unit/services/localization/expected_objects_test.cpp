@@ -56,8 +56,11 @@ int taken_off(const flow::TrackedObjects& objects, std::uint32_t sequence) {
   LocalizerConfig config;
   config.map.side_m = 40.0;
   LocalMap map(config.map, Vector2::Zero());
-  for (int i = 0; i < 5; ++i) map.integrate(i, {0.0, 0.0}, {{{10.05, 0.05}, grids::Echo::kStationary}}, 0.0);
-  const auto steps = [&] { return map.evidence().so_steps(map.evidence().window().cell_at(10.05, 0.05)); };
+  for (int i = 0; i < 5; ++i)
+    map.integrate(i, {0.0, 0.0}, {{{10.05, 0.05}, grids::Echo::kStationary}}, 0.0);
+  const auto steps = [&] {
+    return map.evidence().so_steps(map.evidence().window().cell_at(10.05, 0.05));
+  };
   const int before = steps();
   flow::ScanLabels labels;
   labels.stamp_ns = 4 * kSecond_ns;
@@ -73,7 +76,9 @@ TEST(ExpectedObjects, TakeOutOfTheMapWhatAMovingVehicleDrivesOver) {
   EXPECT_GT(taken_off(a_car(), 3), 0);
 }
 
-TEST(ExpectedObjects, LeaveTheMapAloneWhereTheyAreOfAnotherScan) { EXPECT_EQ(taken_off(a_car(), 4), 0); }
+TEST(ExpectedObjects, LeaveTheMapAloneWhereTheyAreOfAnotherScan) {
+  EXPECT_EQ(taken_off(a_car(), 4), 0);
+}
 
 }  // namespace
 }  // namespace slammot::localization

@@ -21,18 +21,23 @@ LocalMapConfig small_config() {
   return config;
 }
 
-std::vector<grids::Ray> rays_in(const slammot::testing::World& world, const Vector2& origin_m, grids::Echo echo = grids::Echo::kStationary) {
+std::vector<grids::Ray> rays_in(const slammot::testing::World& world, const Vector2& origin_m,
+                                grids::Echo echo = grids::Echo::kStationary) {
   std::vector<grids::Ray> rays;
   for (int i = 0; i < 360; ++i) {
     const double range_m = slammot::testing::range_m(world, origin_m, i * kBeamStep_rad);
-    rays.push_back({origin_m + range_m * Vector2(std::cos(i * kBeamStep_rad), std::sin(i * kBeamStep_rad)), echo});
+    rays.push_back(
+        {origin_m + range_m * Vector2(std::cos(i * kBeamStep_rad), std::sin(i * kBeamStep_rad)),
+         echo});
   }
   return rays;
 }
 
 LocalMap map_of_room(int scans = 10) {
   LocalMap map(small_config(), Vector2::Zero());
-  for (int i = 0; i < scans; ++i) map.integrate(1000 + i, {0.1, 0.1}, rays_in(slammot::testing::room(), {0.1, 0.1}), kBeamStep_rad);
+  for (int i = 0; i < scans; ++i)
+    map.integrate(1000 + i, {0.1, 0.1}, rays_in(slammot::testing::room(), {0.1, 0.1}),
+                  kBeamStep_rad);
   return map;
 }
 
@@ -88,7 +93,10 @@ TEST(LocalMap, ExpectsTheWholeRangeOfAnEmptyMap) {
 
 TEST(LocalMap, KeepsMovingEchoesOutOfTheStationaryMap) {
   LocalMap map(small_config(), Vector2::Zero());
-  for (int i = 0; i < 10; ++i) map.integrate(i, {0.1, 0.1}, rays_in(slammot::testing::room(), {0.1, 0.1}, grids::Echo::kMoving), kBeamStep_rad);
+  for (int i = 0; i < 10; ++i)
+    map.integrate(i, {0.1, 0.1},
+                  rays_in(slammot::testing::room(), {0.1, 0.1}, grids::Echo::kMoving),
+                  kBeamStep_rad);
   const auto beam = expected_of(map, {0.1, -5.0});
   EXPECT_NE(beam.end_cell, EndCell::kOccupied);
   EXPECT_GT(beam.moving_evidence, 0.5F);
@@ -127,11 +135,14 @@ TEST(LocalMap, IsOutgrownByDistanceOrByTravel) {
 
 TEST(Submap, HoldsWhatWasSeenInItsOwnFrame) {
   LocalMapConfig config = small_config();
-  config.surfel_size_m = config.cell_size_m;  // so that a surfel at a corner lies in a cell that was hit
+  config.surfel_size_m = config.cell_size_m;  // so that a surfel at a corner lies in a cell that
+                                              // was hit
   LocalMap map(config, {20.0, -10.0});
   // Walls inside cells: one on a border belongs to this cell or that, by the last bit.
-  const slammot::testing::World room = slammot::testing::moved(slammot::testing::room(15.7, 9.7), {20.0, -10.0, 0.0});
-  for (int i = 0; i < 10; ++i) map.integrate(1000 + i, {20.1, -9.9}, rays_in(room, {20.1, -9.9}), kBeamStep_rad);
+  const slammot::testing::World room =
+      slammot::testing::moved(slammot::testing::room(15.7, 9.7), {20.0, -10.0, 0.0});
+  for (int i = 0; i < 10; ++i)
+    map.integrate(1000 + i, {20.1, -9.9}, rays_in(room, {20.1, -9.9}), kBeamStep_rad);
   const flow::Submap submap = map.submap();
   EXPECT_EQ(submap.first_stamp_ns, 1000);
   EXPECT_EQ(submap.last_stamp_ns, 1009);
@@ -144,7 +155,8 @@ TEST(Submap, HoldsWhatWasSeenInItsOwnFrame) {
     const Vector2 in_odom_m = submap.odom_from_submap * Vector2(surfel.x_m, surfel.y_m);
     ASSERT_LT(std::abs(in_odom_m.x() - 20.0), 8.05);
     ASSERT_LT(std::abs(in_odom_m.y() + 10.0), 5.05);
-    const auto column = static_cast<std::size_t>((surfel.x_m - submap.min_x_m) / submap.cell_size_m);
+    const auto column =
+        static_cast<std::size_t>((surfel.x_m - submap.min_x_m) / submap.cell_size_m);
     const auto row = static_cast<std::size_t>((surfel.y_m - submap.min_y_m) / submap.cell_size_m);
     EXPECT_GT(submap.so_log_odds[row * submap.columns + column], 0);
   }
@@ -171,23 +183,32 @@ TEST(Submap, HoldsNothingOfTheOneBefore) {
 /// In steps, at a place in odom; 0 outside.
 int so_log_odds_at(const flow::Submap& submap, const Vector2& in_odom_m) {
   const Vector2 at_m = geometry::inverse(submap.odom_from_submap) * in_odom_m;
-  const int column = static_cast<int>(std::floor((at_m.x() - submap.min_x_m) / submap.cell_size_m + 1e-6));
-  const int row = static_cast<int>(std::floor((at_m.y() - submap.min_y_m) / submap.cell_size_m + 1e-6));
-  const bool is_inside = column >= 0 && row >= 0 && column < static_cast<int>(submap.columns) && row < static_cast<int>(submap.rows);
-  return is_inside ? int{submap.so_log_odds[static_cast<std::size_t>(row) * submap.columns + static_cast<std::size_t>(column)]} : 0;
+  const int column =
+      static_cast<int>(std::floor((at_m.x() - submap.min_x_m) / submap.cell_size_m + 1e-6));
+  const int row =
+      static_cast<int>(std::floor((at_m.y() - submap.min_y_m) / submap.cell_size_m + 1e-6));
+  const bool is_inside = column >= 0 && row >= 0 && column < static_cast<int>(submap.columns) &&
+                         row < static_cast<int>(submap.rows);
+  return is_inside ? int{submap.so_log_odds[static_cast<std::size_t>(row) * submap.columns +
+                                            static_cast<std::size_t>(column)]}
+                   : 0;
 }
 
 TEST(Submap, SumsUpWithTheOnesBeforeToWhatTheMapKnows) {
   LocalMap map = map_of_room(3);
   const flow::Submap first = map.submap();
   map.begin_next({1.0, 1.0});
-  for (int i = 0; i < 3; ++i) map.integrate(2000 + i, {-1.0, 0.3}, rays_in(slammot::testing::room(), {-1.0, 0.3}), kBeamStep_rad);
+  for (int i = 0; i < 3; ++i)
+    map.integrate(2000 + i, {-1.0, 0.3}, rays_in(slammot::testing::room(), {-1.0, 0.3}),
+                  kBeamStep_rad);
   const flow::Submap second = map.submap();
   const grids::GridWindow& window = map.evidence().window();
   for (std::int32_t row = window.first.row; row < window.first.row + window.rows; ++row) {
-    for (std::int32_t column = window.first.column; column < window.first.column + window.columns; ++column) {
+    for (std::int32_t column = window.first.column; column < window.first.column + window.columns;
+         ++column) {
       const Vector2 centre_m = window.centre_of({column, row});
-      ASSERT_EQ(so_log_odds_at(first, centre_m) + so_log_odds_at(second, centre_m), map.evidence().lasting_cells()[window.index({column, row})]);
+      ASSERT_EQ(so_log_odds_at(first, centre_m) + so_log_odds_at(second, centre_m),
+                map.evidence().lasting_cells()[window.index({column, row})]);
     }
   }
 }
@@ -198,7 +219,11 @@ TEST(Submap, HasNothingStandingWhereABodyDroveInAnEarlierOne) {
   EXPECT_LT(so_log_odds_at(map.submap(), {2.1, 0.1}), 0);
   for (int submap = 0; submap < 2; ++submap) {
     map.begin_next({1.0, 1.0});
-    for (int i = 0; i < 100; ++i) map.integrate(2000 + i, {0.1, 0.1}, {{{2.1, 0.1}, grids::Echo::kStationary}, {{0.1, 2.1}, grids::Echo::kStationary}}, kBeamStep_rad);
+    for (int i = 0; i < 100; ++i)
+      map.integrate(
+          2000 + i, {0.1, 0.1},
+          {{{2.1, 0.1}, grids::Echo::kStationary}, {{0.1, 2.1}, grids::Echo::kStationary}},
+          kBeamStep_rad);
     EXPECT_LE(so_log_odds_at(map.submap(), {2.1, 0.1}), 0);
     EXPECT_GT(so_log_odds_at(map.submap(), {0.1, 2.1}), 0);
   }

@@ -17,7 +17,9 @@ const Pose2 kElsewhere{2.5, 1.0, 0.6};
 
 class LocalizationMonitorTest : public ::testing::Test {
  protected:
-  explicit LocalizationMonitorTest(const LocalizerConfig& config = MappedWorld::config_of_small_map()) : monitor_(config) {}
+  explicit LocalizationMonitorTest(
+      const LocalizerConfig& config = MappedWorld::config_of_small_map())
+      : monitor_(config) {}
 
   /// The next scan, made at the origin, is matched at a pose.
   Verdict see(const ScanMatch& match, StepSource source) {
@@ -29,7 +31,9 @@ class LocalizationMonitorTest : public ::testing::Test {
     step.after.covariance *= 1e-6;
     return monitor_.judge({match, step, points_, room_.map()});
   }
-  static ScanMatch believed_at(const Pose2& pose) { return {.odom_from_base = {pose, geometry::Matrix3::Identity()}, .is_believed = true}; }
+  static ScanMatch believed_at(const Pose2& pose) {
+    return {.odom_from_base = {pose, geometry::Matrix3::Identity()}, .is_believed = true};
+  }
   static ScanMatch lost_match() { return {.odom_from_base = {}, .is_lost = true}; }
 
   MappedWorld room_{slammot::testing::room()};
@@ -48,7 +52,8 @@ TEST_F(LocalizationMonitorTest, IsContentWithAMatchThatTheMapExplains) {
 }
 
 TEST_F(LocalizationMonitorTest, TrustsOdometryOfAVehicleThatNobodyPicksUpForAsLongAsItTakes) {
-  for (int scan = 0; scan < 100; ++scan) ASSERT_EQ(see(lost_match(), StepSource::kOdometry), Verdict::kDoesNotFit);
+  for (int scan = 0; scan < 100; ++scan)
+    ASSERT_EQ(see(lost_match(), StepSource::kOdometry), Verdict::kDoesNotFit);
   EXPECT_FALSE(monitor_.is_lost());
   EXPECT_EQ(monitor_.trust(), PoseTrust::kDoubted);
 }
@@ -84,16 +89,20 @@ TEST_F(LocalizationMonitorTest, GivesTheMapUpAfterASearchInVain) {
   const double given_up_s = config.lost_after_s + config.astray_after_s;
   for (int scan = 0; scan < 20; ++scan) see(lost_match(), StepSource::kVelocityAlone);
   const std::int64_t lost_since_ns = *monitor_.state().lost_since_ns;
-  EXPECT_FALSE(monitor_.has_gone_astray(lost_since_ns + static_cast<std::int64_t>(0.9 * given_up_s * 1e9)));
-  EXPECT_TRUE(monitor_.has_gone_astray(lost_since_ns + static_cast<std::int64_t>(1.1 * given_up_s * 1e9)));
+  EXPECT_FALSE(
+      monitor_.has_gone_astray(lost_since_ns + static_cast<std::int64_t>(0.9 * given_up_s * 1e9)));
+  EXPECT_TRUE(
+      monitor_.has_gone_astray(lost_since_ns + static_cast<std::int64_t>(1.1 * given_up_s * 1e9)));
   monitor_.begin_map();
   EXPECT_FALSE(monitor_.is_lost());
-  EXPECT_FALSE(monitor_.has_gone_astray(stamp_ns_ + static_cast<std::int64_t>(1.1 * given_up_s * 1e9)));
+  EXPECT_FALSE(
+      monitor_.has_gone_astray(stamp_ns_ + static_cast<std::int64_t>(1.1 * given_up_s * 1e9)));
 }
 
 TEST_F(LocalizationMonitorTest, LooksWithSeveralScansBeforeItGivesTheMapUp) {
   see(lost_match(), StepSource::kVelocityAlone);
-  EXPECT_FALSE(monitor_.has_gone_astray(stamp_ns_ + 60'000'000'000)) << "scans may come a minute apart";
+  EXPECT_FALSE(monitor_.has_gone_astray(stamp_ns_ + 60'000'000'000))
+      << "scans may come a minute apart";
 }
 
 TEST_F(LocalizationMonitorTest, JudgesFromAStateAsBefore) {
@@ -116,7 +125,8 @@ class LocalizationMonitorOfARobot : public LocalizationMonitorTest {
 
 TEST_F(LocalizationMonitorOfARobot, TrustsOdometryForAWhileAndIsLostThen) {
   const int patient_scans = static_cast<int>(config().lost_after_s * 10.0);
-  for (int scan = 0; scan < patient_scans; ++scan) ASSERT_EQ(see(lost_match(), StepSource::kOdometry), Verdict::kDoesNotFit) << scan;
+  for (int scan = 0; scan < patient_scans; ++scan)
+    ASSERT_EQ(see(lost_match(), StepSource::kOdometry), Verdict::kDoesNotFit) << scan;
   EXPECT_EQ(see(lost_match(), StepSource::kOdometry), Verdict::kLost);
 }
 

@@ -20,7 +20,9 @@ using slammot::testing::kForever;
 
 constexpr std::int64_t kPeriodNs = 100'000'000;
 
-std::int64_t stamp_ns_of(std::uint32_t sequence) { return 100'000'000'000 + std::int64_t{sequence} * kPeriodNs; }
+std::int64_t stamp_ns_of(std::uint32_t sequence) {
+  return 100'000'000'000 + std::int64_t{sequence} * kPeriodNs;
+}
 
 /// Of a vehicle that stands in the middle of a room of 10 m by 10 m.
 sensing::LaserScan room_scan(std::uint32_t sequence) {
@@ -32,7 +34,8 @@ sensing::LaserScan room_scan(std::uint32_t sequence) {
   scan.scanner.max_range_m = 30.0;
   for (std::size_t beam = 0; beam < 181; ++beam) {
     const double angle_rad = sensing::beam_angle_rad(scan.scanner, beam);
-    scan.range_m.push_back(static_cast<float>(5.0 / std::max(std::abs(std::cos(angle_rad)), std::abs(std::sin(angle_rad)))));
+    scan.range_m.push_back(static_cast<float>(
+        5.0 / std::max(std::abs(std::cos(angle_rad)), std::abs(std::sin(angle_rad)))));
   }
   return scan;
 }
@@ -40,7 +43,8 @@ sensing::LaserScan room_scan(std::uint32_t sequence) {
 /// Of one that stands among posts, all of them where the room is empty.
 sensing::LaserScan scan_among_posts(std::uint32_t sequence) {
   sensing::LaserScan scan = room_scan(sequence);
-  for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) scan.range_m[beam] = 1.0F + 0.25F * static_cast<float>((beam / 6 * 7) % 13);
+  for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam)
+    scan.range_m[beam] = 1.0F + 0.25F * static_cast<float>((beam / 6 * 7) % 13);
   return scan;
 }
 
@@ -66,13 +70,16 @@ struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
     scans.write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(sequence)));
   }
   app::ServiceState state() { return context_->status().state(std::chrono::steady_clock::now()); }
-  std::string explanation() { return context_->status().explanation(std::chrono::steady_clock::now()); }
+  std::string explanation() {
+    return context_->status().explanation(std::chrono::steady_clock::now());
+  }
   bool has_localized(std::size_t count) {
     localized.take_each([this](const slammot_LocalizedScan& scan) {
       sequences.push_back(scan.sequence_number);
       maps.insert(scan.map_id);
       submap_in_use = {scan.submap_id};
-      map_from_odom = {scan.map_from_odom.x_m, scan.map_from_odom.y_m, scan.map_from_odom.heading_rad};
+      map_from_odom = {scan.map_from_odom.x_m, scan.map_from_odom.y_m,
+                       scan.map_from_odom.heading_rad};
       odoms.insert(scan.odom_id);
     });
     return sequences.size() >= count;
@@ -107,14 +114,16 @@ TEST_F(LocalizationOnTheBus, CountsBadInputInItsStatusAndGoesOn) {
   begin();
   dds::Reader<slammot_ServiceStatus> statuses(neighbour_, dds::topics::kStatus);
   localize(0, 10);
-  for (const std::uint32_t stale : {9U, 9U, 4U, 3U}) {  // a repeated stamp, and scans out of order, two in a row each
+  for (const std::uint32_t stale : {9U, 9U, 4U, 3U}) {  // a repeated stamp, and scans out of order,
+                                                        // two in a row each
     send(stale);
     ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
   }
   const auto send_blind = [this](std::uint32_t sequence, std::size_t valid_beams) {
     const std::size_t so_far = sequences.size();
     sensing::LaserScan scan = room_scan(sequence);
-    for (std::size_t beam = valid_beams; beam < scan.range_m.size(); ++beam) scan.range_m[beam] = static_cast<float>(scan.scanner.max_range_m);
+    for (std::size_t beam = valid_beams; beam < scan.range_m.size(); ++beam)
+      scan.range_m[beam] = static_cast<float>(scan.scanner.max_range_m);
     odometry.write(wire::encode("car", sensing::Odometry{scan.stamp_ns, {}}));
     scans.write(wire::LaserScanEncoder(drive_id).encode("car", scan));
     ASSERT_TRUE(comes_to([&] { return has_localized(so_far + 1); }));
@@ -125,7 +134,11 @@ TEST_F(LocalizationOnTheBus, CountsBadInputInItsStatusAndGoesOn) {
   odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(41), {400.0, 0.0, 0.0}}));
   scans.write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(41)));
   ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
-  const std::map<std::string, std::uint64_t> expected = {{"duplicate_scans", 2}, {"out_of_order_scans", 2}, {"too_few_echoes", 2}, {"gaps", 1}, {"odometry_jumps", 1}};
+  const std::map<std::string, std::uint64_t> expected = {{"duplicate_scans", 2},
+                                                         {"out_of_order_scans", 2},
+                                                         {"too_few_echoes", 2},
+                                                         {"gaps", 1},
+                                                         {"odometry_jumps", 1}};
   std::map<std::string, std::uint64_t> counted;
   EXPECT_TRUE(comes_to([&] {
     statuses.take_each([&](const slammot_ServiceStatus& sample) {
@@ -212,7 +225,9 @@ struct LostOnTheBus : LocalizationOnTheBus {
     ++next;
     ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
   }
-  bool says_it_is_lost() { return explanation().find("looks for itself in the local map") != std::string::npos; }
+  bool says_it_is_lost() {
+    return explanation().find("looks for itself in the local map") != std::string::npos;
+  }
 };
 
 TEST_F(LostOnTheBus, SaysThatItIsDegradedWhileScansDoNotFitAndNoLonger) {
@@ -231,7 +246,8 @@ TEST_F(LostOnTheBus, BeginsASubmapTiedToNothingWhereItDoesNotFindItself) {
   for (int i = 0; i < 20; ++i) localize_next(room_scan);
   const double patience_s = LocalizerConfig().astray_after_s;
   int scans_until_astray = 0;
-  for (; submap_in_use == flow::SubmapId{0} && scans_until_astray < 60; ++scans_until_astray) localize_next(scan_among_posts);
+  for (; submap_in_use == flow::SubmapId{0} && scans_until_astray < 60; ++scans_until_astray)
+    localize_next(scan_among_posts);
   EXPECT_NEAR(scans_until_astray, patience_s / (kPeriodNs * 1e-9), 3.0);
   EXPECT_EQ(submap_in_use, flow::SubmapId{1});
   EXPECT_EQ(maps.size(), 1U);
@@ -262,19 +278,27 @@ struct LocalizationInAStoredMap : LocalizationOnTheBus {
   dds::Reader<slammot_SubmapTile> tiles{neighbour_, dds::topics::kSubmapTile};
   std::set<std::uint32_t> submaps_published;
 
-  static LocalizationService::Settings continuing(double patience_s = 60.0) { return {.config = {}, .continues_map = true, .map_patience_s = patience_s}; }
+  static LocalizationService::Settings continuing(double patience_s = 60.0) {
+    return {.config = {}, .continues_map = true, .map_patience_s = patience_s};
+  }
   void store(std::uint32_t submaps) {
     const flow::SubmapId last{submaps == 0 ? 0 : submaps - 1};
-    stored_map.write(wire::encode("car", flow::StoredMap{kMap, submaps, 0, last, LocalizerConfig().map.cell_size_m}));
+    stored_map.write(wire::encode(
+        "car", flow::StoredMap{kMap, submaps, 0, last, LocalizerConfig().map.cell_size_m}));
   }
   /// Submap n lies at (10 n, 0).
-  void place(std::uint32_t submaps, bool is_untied = false, const geometry::Pose2& map_from_odom_now = {}) {
+  void place(std::uint32_t submaps, bool is_untied = false,
+             const geometry::Pose2& map_from_odom_now = {}) {
     flow::GraphCorrection correction{submaps, map_from_odom_now, {}, kMap, is_untied};
-    for (std::uint32_t id = 0; id < submaps; ++id) correction.submaps.push_back({{id}, {10.0 * id, 0.0, 0.0}});
-    wire::GraphCorrectionEncoder().encode("car", correction, [this](const slammot_GraphCorrection& part) { corrections.write(part); });
+    for (std::uint32_t id = 0; id < submaps; ++id)
+      correction.submaps.push_back({{id}, {10.0 * id, 0.0, 0.0}});
+    wire::GraphCorrectionEncoder().encode(
+        "car", correction,
+        [this](const slammot_GraphCorrection& part) { corrections.write(part); });
   }
   bool has_published(std::uint32_t submap) {
-    tiles.take_each([this](const slammot_SubmapTile& tile) { submaps_published.insert(tile.submap_id); });
+    tiles.take_each(
+        [this](const slammot_SubmapTile& tile) { submaps_published.insert(tile.submap_id); });
     return submaps_published.contains(submap);
   }
 };
@@ -327,7 +351,9 @@ TEST_F(LocalizationInAStoredMap, BeginsAMapOfItsOwnWhereNobodyStoresAny) {
   localize(0, 1);
   EXPECT_EQ(submap_in_use, flow::SubmapId{0});
   EXPECT_EQ(count("begun_without_stored_map"), 1U);
-  EXPECT_THAT(explanation(), ::testing::HasSubstr("cannot go on in the stored map: map_store has not said what it has"));
+  EXPECT_THAT(
+      explanation(),
+      ::testing::HasSubstr("cannot go on in the stored map: map_store has not said what it has"));
 }
 
 TEST_F(LocalizationInAStoredMap, BeginsAMapOfItsOwnWhereLoopClosingIsNotThere) {
@@ -348,7 +374,8 @@ TEST_F(LocalizationInAStoredMap, BeginsTheFirstMapOfAllWhereNothingIsStored) {
 }
 
 TEST_F(LocalizationInAStoredMap, BeginsAMapOfItsOwnWhereTheStoredOneIsOfAnotherProfile) {
-  stored_map.write(wire::encode("car", flow::StoredMap{kMap, 3, 0, {2}, 2.0 * LocalizerConfig().map.cell_size_m}));
+  stored_map.write(wire::encode(
+      "car", flow::StoredMap{kMap, 3, 0, {2}, 2.0 * LocalizerConfig().map.cell_size_m}));
   place(3);
   begin(continuing());
   localize(0, 1);

@@ -22,23 +22,29 @@ using slammot::testing::small_map_config;
 
 constexpr std::uint32_t kMoves = 20;  // the scan in which it is seen to move,
 constexpr double kFront_m = 2.87;     // and how far before the scanner its front is then
-constexpr double kMiddle_m = 1.494;   // to each side: what beams of 27.5 degrees would meet, and no beam does
+constexpr double kMiddle_m = 1.494;   // to each side: what beams of 27.5 degrees would meet, and no
+                                      // beam does
 
-/// Something as wide as the room, right before the scanner, that nobody predicts to move until it does: half of all echoes.
+/// Something as wide as the room, right before the scanner, that nobody predicts to move until it
+/// does: half of all echoes.
 class LocalizeAgain : public ::testing::Test {
  protected:
-  LocalizeAgain() : before_(in_room_with_block_at(0.0)), moved_(in_room_with_block_at(0.12)) { reach_the_scan(localizer_); }
+  LocalizeAgain() : before_(in_room_with_block_at(0.0)), moved_(in_room_with_block_at(0.12)) {
+    reach_the_scan(localizer_);
+  }
 
   static DriveSetup in_room_with_block_at(double x_m) {
-    DriveSetup setup{.world = slammot::testing::room(), .world_from_base_at = arc({-3.0, 0.0, 0.0}, 0.0, 0.0)};
+    DriveSetup setup{.world = slammot::testing::room(),
+                     .world_from_base_at = arc({-3.0, 0.0, 0.0}, 0.0, 0.0)};
     setup.world = joined(setup.world, slammot::testing::box({x_m, 0.0, 0.0}, 0.5, 8.0));
     return setup;
   }
 
   static LocalizerConfig config() {
     LocalizerConfig config = small_map_config();
-    config.ambiguous.weak_share = 0.0;      // samples disagree about such a scan and keep it from pulling anyway,
-    config.use_odometry = false;            // and so do wheels, most of all where they stand
+    config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from
+                                        // pulling anyway,
+    config.use_odometry = false;        // and so do wheels, most of all where they stand
     return config;
   }
 
@@ -55,13 +61,16 @@ class LocalizeAgain : public ::testing::Test {
     flow::ScanLabels labels = all_stationary(scan);
     for (std::size_t i = 0; i < scan.beams.size(); ++i) {
       const Eigen::Vector2f& at_m = scan.beams[i].point_in_base_m;
-      const bool is_on_front = std::abs(at_m.x() - kFront_m) < config().mask_margin_m && std::abs(at_m.y()) < half_width_m;
+      const bool is_on_front = std::abs(at_m.x() - kFront_m) < config().mask_margin_m &&
+                               std::abs(at_m.y()) < half_width_m;
       if (is_on_front && scan.beams[i].range_m > 0.0F) labels.labels[i] = PointLabel::kMoving;
     }
     return labels;
   }
 
-  double error_m(const flow::LocalizedScan& scan) const { return distance_m(scan.odom_from_base.pose, moved_.odom_from_base(kMoves)); }
+  double error_m(const flow::LocalizedScan& scan) const {
+    return distance_m(scan.odom_from_base.pose, moved_.odom_from_base(kMoves));
+  }
 
   /// What tracking says of the middle of the block's front if it knew of it in time.
   flow::TrackedObjects expected_block() const {
@@ -105,7 +114,8 @@ TEST_F(LocalizeAgain, ComesToTheBitsThatItWouldHaveComeToHadItKnownAtOnce) {
   EXPECT_EQ(again->odom_from_base.covariance, at_once->odom_from_base.covariance);
   knew.integrate(labels_of(*at_once));
   localizer_.integrate(labels_of(*again));
-  EXPECT_EQ(localizer_.checkpoint(), knew.checkpoint());  // estimate, variances, travelled way, counters and map
+  EXPECT_EQ(localizer_.checkpoint(), knew.checkpoint());  // estimate, variances, travelled way,
+                                                          // counters and map
 }
 
 TEST_F(LocalizeAgain, PutsTheScanIntoTheMapOnce) {

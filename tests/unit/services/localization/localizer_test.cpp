@@ -36,7 +36,8 @@ DriveSetup round_in_a_room() {
 
 /// A car with a sweeping scanner at its front bumper, on a road.
 DriveSetup along_a_street(double speed_mps = 8.0) {
-  DriveSetup setup{.world = slammot::testing::street(120.0), .world_from_base_at = arc({2.0, -1.0, 0.02}, speed_mps, 0.0)};
+  DriveSetup setup{.world = slammot::testing::street(120.0),
+                   .world_from_base_at = arc({2.0, -1.0, 0.02}, speed_mps, 0.0)};
   setup.scan_period_s = 0.05;
   setup.scanner.base_from_laser = {2.15, 0.0, 0.0};
   setup.scanner.sweep_s = 0.013;
@@ -57,14 +58,17 @@ TEST(Localizer, KnowsWhereItIsInARoom) {
 /// Out of a street between two bare walls.
 DriveSetup between_bare_walls() {
   DriveSetup setup = along_a_street();
-  setup.world = slammot::testing::joined(slammot::testing::box({5.0, 12.0, 0.3}, 12.0, 4.0), slammot::testing::box({12.0, -12.0, 0.2}, 9.0, 4.0));
-  setup.world = slammot::testing::joined(setup.world, {{{-300.0, 8.0}, {500.0, 8.0}}, {{-300.0, -8.0}, {500.0, -8.0}}});
+  setup.world = slammot::testing::joined(slammot::testing::box({5.0, 12.0, 0.3}, 12.0, 4.0),
+                                         slammot::testing::box({12.0, -12.0, 0.2}, 9.0, 4.0));
+  setup.world = slammot::testing::joined(
+      setup.world, {{{-300.0, 8.0}, {500.0, 8.0}}, {{-300.0, -8.0}, {500.0, -8.0}}});
   setup.noise_m = 0.03;
   setup.world_from_base_at = arc({2.0, -1.0, 0.0}, 8.0, 0.0);
   return setup;
 }
 
-/// A small car that wriggles through a room, with a scanner that turns all around, the other way round than it says.
+/// A small car that wriggles through a room, with a scanner that turns all around, the other way
+/// round than it says.
 DriveSetup with_a_scanner_that_turns_the_other_way(double true_sweep_s) {
   DriveSetup setup{.world = slammot::testing::room()};
   setup.world_from_base_at = [](double time_s) {  // an eight, driven at 0 to 2 m/s
@@ -116,7 +120,8 @@ TEST(Localizer, TakesTheSweepForWhatItIsSaidToBeUnlessAsked) {
   EXPECT_EQ(localizer.sweep_factor().variance, 0.0);
 }
 
-/// A small car that speeds up, brakes and turns through a room; its wheels are stamped later than the scans.
+/// A small car that speeds up, brakes and turns through a room; its wheels are stamped later than
+/// the scans.
 struct LateWheels {
   double offset_s = 0.0;
   double sigma_s = 0.0;
@@ -124,7 +129,8 @@ struct LateWheels {
   Pose2 odom_from_base;
 };
 
-LateWheels after_driving_with_late_wheels(double late_s, double prior_s, int of_samples = 1, double jump_m = 0.0) {
+LateWheels after_driving_with_late_wheels(double late_s, double prior_s, int of_samples = 1,
+                                          double jump_m = 0.0) {
   DriveSetup setup = with_a_scanner_that_turns_the_other_way(0.0);
   SimulatedDrive drive(setup);
   LocalizerConfig config = small_map_config();
@@ -139,12 +145,14 @@ LateWheels after_driving_with_late_wheels(double late_s, double prior_s, int of_
     if (sample > 300 * kPerScan) wheel_from_base.x_m += jump_m;
     localizer.add_odometry({slammot::testing::stamp_ns_of(time_s), wheel_from_base});
     if (sample % kPerScan != 0) continue;
-    const auto localized = localizer.localize(drive.scan(static_cast<std::uint32_t>(sample / kPerScan)));
+    const auto localized =
+        localizer.localize(drive.scan(static_cast<std::uint32_t>(sample / kPerScan)));
     if (localized) localizer.integrate(all_stationary(*localized));
     localized_last = localized;
   }
   const Pose2 odom_from_base = localized_last ? localized_last->odom_from_base.pose : Pose2{};
-  return {localizer.stamp_offset_s(), localizer.stamp_offset_sigma_s(), localizer.applies_stamp_offset(), odom_from_base};
+  return {localizer.stamp_offset_s(), localizer.stamp_offset_sigma_s(),
+          localizer.applies_stamp_offset(), odom_from_base};
 }
 
 TEST(Localizer, LearnsByHowMuchLaterTheWheelsAreStampedThanTheScans) {
@@ -157,13 +165,15 @@ TEST(Localizer, LearnsByHowMuchLaterTheWheelsAreStampedThanTheScans) {
 }
 
 TEST(Localizer, IsTheSameWithAndWithoutLearningStampsThatAreRight) {
-  EXPECT_EQ(after_driving_with_late_wheels(0.0, 0.05).odom_from_base, after_driving_with_late_wheels(0.0, 0.0).odom_from_base);
+  EXPECT_EQ(after_driving_with_late_wheels(0.0, 0.05).odom_from_base,
+            after_driving_with_late_wheels(0.0, 0.0).odom_from_base);
 }
 
 TEST(Localizer, KeepsWhatItKnowsOfStampsWhereWheelsJump) {
   const LateWheels learned = after_driving_with_late_wheels(0.05, 0.05, 1, 400.0);
   EXPECT_TRUE(learned.is_used);
-  EXPECT_GT(learned.sigma_s, 0.0005);  // a jump, taken for a change of the velocity, would tell it to microseconds
+  EXPECT_GT(learned.sigma_s, 0.0005);  // a jump, taken for a change of the velocity, would tell it
+                                       // to microseconds
   EXPECT_NEAR(learned.offset_s, 0.05, 3.0 * learned.sigma_s);
 }
 
@@ -191,7 +201,8 @@ TEST(Localizer, GrowsUnsureAlongBareWallsAndStaysSureAcrossThem) {
     last = localized->odom_from_base.pose;
   }
   EXPECT_GT(localizer.counters().sampled_matches, 280U);
-  EXPECT_EQ(localizer.counters().searches, 0U);  // along a bare wall one place is as good as another
+  EXPECT_EQ(localizer.counters().searches, 0U);  // along a bare wall one place is as good as
+                                                 // another
   // 8 m/s: after 40 m, 80 m and 120 m.
   EXPECT_GT(covariances[200](0, 0), 1.5 * covariances[100](0, 0));
   EXPECT_GT(covariances[299](0, 0), 1.2 * covariances[200](0, 0));
@@ -219,7 +230,8 @@ TEST(Localizer, KnowsWhereItIsAfterAHundredMetresOfStreetAndWhatIsWrongWithTheWh
   EXPECT_NEAR(bias_radps, 0.004, 0.002);
 }
 
-/// How far sideways it thinks it has come while standing for 18 s in a street that seems to creep past, by 0.3 mm a scan.
+/// How far sideways it thinks it has come while standing for 18 s in a street that seems to creep
+/// past, by 0.3 mm a scan.
 double led_astray_m(const LocalizerConfig& config) {
   constexpr std::uint32_t kDriven = 40;
   constexpr std::uint32_t kStands = kDriven + 20;
@@ -252,7 +264,8 @@ TEST(Localizer, StandsWhereItsWheelsStandThoughTheMapSeemsToCreep) {
   constexpr double kCrept_m = 0.027;
   LocalizerConfig may_be_picked_up = small_map_config();
   may_be_picked_up.may_be_picked_up = true;
-  for (const LocalizerConfig& config : {small_map_config(), may_be_picked_up}) EXPECT_LT(led_astray_m(config), 0.3 * kCrept_m);
+  for (const LocalizerConfig& config : {small_map_config(), may_be_picked_up})
+    EXPECT_LT(led_astray_m(config), 0.3 * kCrept_m);
 }
 
 TEST(Localizer, TellsHowFarTheMapLetsBeamsGoWhereAnEchoContradictsIt) {
@@ -276,10 +289,13 @@ TEST(Localizer, TellsHowFarTheMapLetsBeamsGoWhereAnEchoContradictsIt) {
     for (std::size_t i = 0; i < of_told->beams.size(); ++i) {
       const std::size_t first = i < flow::kExpectedAside ? 0 : i - flow::kExpectedAside;
       const std::size_t end = std::min(i + flow::kExpectedAside + 1, of_told->beams.size());
-      const bool is_near_a_contradiction = std::any_of(of_told->beams.begin() + first, of_told->beams.begin() + end,
-                                                       [](const flow::LocalizedBeam& beam) { return beam.end_cell == flow::EndCell::kFree; });
+      const bool is_near_a_contradiction = std::any_of(
+          of_told->beams.begin() + first, of_told->beams.begin() + end,
+          [](const flow::LocalizedBeam& beam) { return beam.end_cell == flow::EndCell::kFree; });
       EXPECT_GT(of_told->beams[i].expected_range_m, 0.0F) << i;
-      EXPECT_EQ(of_asked->beams[i].expected_range_m, is_near_a_contradiction ? of_told->beams[i].expected_range_m : 0.0F) << i;
+      EXPECT_EQ(of_asked->beams[i].expected_range_m,
+                is_near_a_contradiction ? of_told->beams[i].expected_range_m : 0.0F)
+          << i;
     }
   }
 }
@@ -316,14 +332,17 @@ TEST(Localizer, SaysHowFastItGoes) {
 
 TEST(Localizer, IsSurerOfItsWayWhereItStandsThanWhereItDrives) {
   DriveSetup setup = along_a_street();
-  setup.world_from_base_at = [path = setup.world_from_base_at](double time_s) { return path(std::min(time_s, 5.0)); };
+  setup.world_from_base_at = [path = setup.world_from_base_at](double time_s) {
+    return path(std::min(time_s, 5.0));
+  };
   SimulatedDrive drive(setup);
   Localizer localizer(small_map_config());
   std::optional<flow::LocalizedScan> driving;
   for (std::uint32_t scan = 0; scan < 100; ++scan) driving = drive_one(localizer, drive, scan);
   std::optional<flow::LocalizedScan> standing;
   for (std::uint32_t scan = 100; scan < 200; ++scan) standing = drive_one(localizer, drive, scan);
-  EXPECT_LT(9.0 * standing->odom_from_base.covariance(0, 0), driving->odom_from_base.covariance(0, 0));
+  EXPECT_LT(9.0 * standing->odom_from_base.covariance(0, 0),
+            driving->odom_from_base.covariance(0, 0));
   EXPECT_LT(standing->odom_from_base.covariance(1, 1), driving->odom_from_base.covariance(1, 1));
 }
 
@@ -339,7 +358,8 @@ TEST(Localizer, GivesTheSameAnswerWhereverTheWorldLies) {
   Localizer localizer_there(small_map_config());
   for (std::uint32_t scan = 0; scan < 60; ++scan) {
     const Pose2 pose_here = drive_one(localizer_here, here, scan)->odom_from_base.pose;
-    EXPECT_THAT(drive_one(localizer_there, there, scan)->odom_from_base.pose, PoseNear(pose_here, 1e-3));
+    EXPECT_THAT(drive_one(localizer_there, there, scan)->odom_from_base.pose,
+                PoseNear(pose_here, 1e-3));
   }
 }
 
@@ -383,7 +403,8 @@ SimulatedDrive backwards_along_a_street() {
   DriveSetup setup = along_a_street();
   setup.scanner.scanner_id = "rear";
   setup.scanner.base_from_laser = {-2.15, 0.0, std::numbers::pi};
-  setup.world_from_base_at = [ahead = setup.world_from_base_at, half_s = 0.5 * setup.scan_period_s](double time_s) { return ahead(time_s + half_s); };
+  setup.world_from_base_at = [ahead = setup.world_from_base_at, half_s = 0.5 * setup.scan_period_s](
+                                 double time_s) { return ahead(time_s + half_s); };
   return SimulatedDrive(setup);
 }
 
@@ -395,7 +416,8 @@ TEST(Localizer, GoesOnWithOneOfTwoScannersWhenTheOtherFallsSilent) {
     for (std::uint32_t number = 0; number < 100; ++number) {
       const bool one_is_silent = number >= 50;
       if (number == 0) localizer.add_odometry(front.odometry(0));
-      localizer.add_odometry(front.odometry(number + 1));  // the service waits for what reaches the rear scan
+      localizer.add_odometry(front.odometry(number + 1));  // the service waits for what reaches the
+                                                           // rear scan
       if (!one_is_silent || rear_falls_silent) {
         const auto localized = localizer.localize(front.scan(number));
         ASSERT_TRUE(localized);
@@ -409,7 +431,8 @@ TEST(Localizer, GoesOnWithOneOfTwoScannersWhenTheOtherFallsSilent) {
       ASSERT_TRUE(localized);
       localizer.integrate(all_stationary(*localized));
     }
-    EXPECT_LE(localizer.counters().lost_matches, 1U);  // the first scan to the rear sees nothing that is in the map yet
+    EXPECT_LE(localizer.counters().lost_matches, 1U);  // the first scan to the rear sees nothing
+                                                       // that is in the map yet
     EXPECT_EQ(localizer.counters().out_of_order_scans, 0U);
   }
 }
@@ -475,7 +498,8 @@ TEST(Localizer, WorksWithoutAnyOdometryWhenTheLogBeginsInFullDrive) {
   SimulatedDrive drive(setup);
   Localizer localizer(small_map_config());
   const DriveErrors errors = drive_through(localizer, drive, 0, 200, false);
-  EXPECT_LT(errors.worst_m, 0.4);  // the sweep's motion is not known at first, and shears the first walls
+  EXPECT_LT(errors.worst_m, 0.4);  // the sweep's motion is not known at first, and shears the first
+                                   // walls
   EXPECT_LT(errors.worst_rad, 0.01);
 }
 
@@ -496,19 +520,22 @@ TEST(Localizer, GoesOnAtConstantVelocityWhenOdometryJumps) {
 }
 
 TEST(Localizer, IsNotMovedByJumpsOfOdometryOfAnySizeAlsoSeveralInARow) {
-  for (const Pose2& jump : {Pose2{0.3, 0.0, 0.0}, Pose2{-0.5, 0.8, 0.0}, Pose2{2.0, 0.0, 0.0}, Pose2{0.0, 0.0, 0.3}, Pose2{0.0, 0.0, -2.0}, Pose2{4.0, -3.0, 1.5}}) {
+  for (const Pose2& jump : {Pose2{0.3, 0.0, 0.0}, Pose2{-0.5, 0.8, 0.0}, Pose2{2.0, 0.0, 0.0},
+                            Pose2{0.0, 0.0, 0.3}, Pose2{0.0, 0.0, -2.0}, Pose2{4.0, -3.0, 1.5}}) {
     SimulatedDrive drive(round_in_a_room());
     Localizer localizer(small_map_config());
     drive_through(localizer, drive, 0, 50);
     Pose2 sum;
     for (std::uint32_t scan = 50; scan < 100; ++scan) {
       sensing::Odometry odometry = drive.odometry(scan);
-      if (scan == 60 || scan == 80 || scan == 82 || scan == 84) sum = sum * (odometry.wheel_from_base * jump * inverse(odometry.wheel_from_base));
+      if (scan == 60 || scan == 80 || scan == 82 || scan == 84)
+        sum = sum * (odometry.wheel_from_base * jump * inverse(odometry.wheel_from_base));
       odometry.wheel_from_base = sum * odometry.wheel_from_base;
       localizer.add_odometry(odometry);
       const auto localized = localizer.localize(drive.scan(scan));
       localizer.integrate(all_stationary(*localized));
-      EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.04)) << scan << " after jumps of " << jump.x_m << " " << jump.y_m << " " << jump.heading_rad;
+      EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.04))
+          << scan << " after jumps of " << jump.x_m << " " << jump.y_m << " " << jump.heading_rad;
     }
     EXPECT_EQ(localizer.counters().odometry_jumps, 4U);
   }
@@ -517,7 +544,9 @@ TEST(Localizer, IsNotMovedByJumpsOfOdometryOfAnySizeAlsoSeveralInARow) {
 TEST(Localizer, BelievesWheelsThatKeepSayingThatTheVelocityHasChanged) {
   DriveSetup setup = round_in_a_room();
   const auto path = arc({-6.0, -3.0, 0.0}, 4.0, 0.0);
-  setup.world_from_base_at = [=](double time_s) { return path(std::min(time_s, 2.0)); };  // as if against a wall
+  setup.world_from_base_at = [=](double time_s) { return path(std::min(time_s, 2.0)); };  // as if
+                                                                                          // against
+                                                                                          // a wall
   SimulatedDrive drive(setup);
   Localizer localizer(small_map_config());
   EXPECT_LT(drive_through(localizer, drive, 0, 60).worst_m, 0.05);
@@ -535,7 +564,9 @@ TEST(Localizer, TakesNoOdometryWhereItIsToldNotTo) {
 
 /// Through a hall at 3 m/s, with a bend that begins and ends at once.
 DriveSetup through_a_hall() {
-  DriveSetup setup{.world = slammot::testing::joined(slammot::testing::box({20.0, 0.0, 0.0}, 110.0, 70.0), slammot::testing::box({60.0, 25.0, 0.4}, 8.0, 5.0))};
+  DriveSetup setup{
+      .world = slammot::testing::joined(slammot::testing::box({20.0, 0.0, 0.0}, 110.0, 70.0),
+                                        slammot::testing::box({60.0, 25.0, 0.4}, 8.0, 5.0))};
   setup.scan_period_s = 0.027;
   setup.beams = 361;
   setup.scanner.beam_step_rad = std::numbers::pi / 360.0;
@@ -571,7 +602,9 @@ class BehindACarThatDrivesOff : public ::testing::Test {
   static constexpr double kStarts_s = 6.0;
   static constexpr double kAcceleration_mps2 = 2.0;
 
-  static double started_m(double for_s) { return 0.5 * kAcceleration_mps2 * std::pow(std::max(0.0, for_s), 2); }
+  static double started_m(double for_s) {
+    return 0.5 * kAcceleration_mps2 * std::pow(std::max(0.0, for_s), 2);
+  }
 
   static DriveSetup setup() {
     DriveSetup setup = along_a_street();
@@ -580,20 +613,25 @@ class BehindACarThatDrivesOff : public ::testing::Test {
     setup.scanner.beam_step_rad = std::numbers::pi / 360.0;
     setup.world_from_base_at = [](double time_s) {
       const double to_stop_s = std::max(0.0, kStops_s - time_s);
-      return Pose2{40.0 - 0.5 * kAcceleration_mps2 * to_stop_s * to_stop_s + started_m(time_s - kStarts_s), 0.0, 0.0};
+      return Pose2{
+          40.0 - 0.5 * kAcceleration_mps2 * to_stop_s * to_stop_s + started_m(time_s - kStarts_s),
+          0.0, 0.0};
     };
     return setup;
   }
 
-  /// The worst error of a pose until 2 s after the vehicle has started; to whoever labels the points everything stands.
+  /// The worst error of a pose until 2 s after the vehicle has started; to whoever labels the
+  /// points everything stands.
   double worst_m(const LocalizerConfig& config) {
     SimulatedDrive drive(setup());
     const World street = drive.setup().world;
     Localizer localizer(config);
     double worst_m = 0.0;
     for (std::uint32_t scan = 0; drive.time_s(scan) < kStarts_s + 2.0; ++scan) {
-      const double car_at_m = 40.0 + 2.15 + 5.0 + 2.25 + started_m(drive.time_s(scan) - kCarStarts_s);
-      drive.setup().world = slammot::testing::joined(street, slammot::testing::box({car_at_m, 0.0, 0.0}, 4.5, 1.8));
+      const double car_at_m =
+          40.0 + 2.15 + 5.0 + 2.25 + started_m(drive.time_s(scan) - kCarStarts_s);
+      drive.setup().world =
+          slammot::testing::joined(street, slammot::testing::box({car_at_m, 0.0, 0.0}, 4.5, 1.8));
       worst_m = std::max(worst_m, drive_through(localizer, drive, scan, scan + 1, false).worst_m);
     }
     return worst_m;
@@ -632,7 +670,8 @@ TEST(Localizer, FollowsTheWheelsWhenTheScannerSeesNextToNothing) {
     localizer.add_odometry(drive.odometry(scan));
     auto blinded = drive.scan(scan);
     const std::size_t valid_beams = scan % 2 == 0 ? 3 : 0;
-    for (std::size_t i = valid_beams; i < blinded.range_m.size(); ++i) blinded.range_m[i] = static_cast<float>(blinded.scanner.max_range_m);
+    for (std::size_t i = valid_beams; i < blinded.range_m.size(); ++i)
+      blinded.range_m[i] = static_cast<float>(blinded.scanner.max_range_m);
     const auto localized = localizer.localize(blinded);
     ASSERT_TRUE(localized);
     localizer.integrate(all_stationary(*localized));
@@ -647,7 +686,8 @@ TEST(Localizer, TakesScansOfNonsense) {
   Localizer localizer(small_map_config());
   drive_through(localizer, drive, 0, 20);
   auto scan = drive.scan(20);
-  const float strange[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0F, 0.0F, 1e30F};
+  const float strange[] = {std::numeric_limits<float>::quiet_NaN(),
+                           std::numeric_limits<float>::infinity(), -1.0F, 0.0F, 1e30F};
   for (std::size_t i = 0; i < scan.range_m.size(); ++i) scan.range_m[i] = strange[i % 5];
   EXPECT_TRUE(localizer.localize(scan));
   scan = drive.scan(21);
@@ -685,11 +725,15 @@ TEST(Localizer, HasOdometryForWhatTheWheelsHaveReached) {
 /// Something that crosses the room while the robot stands, once the room is known.
 class WithAMover : public ::testing::Test {
  protected:
-  WithAMover() : drive_({.world = slammot::testing::room(), .world_from_base_at = arc({-3.0, 0.0, 0.0}, 0.0, 0.0)}) {
+  WithAMover()
+      : drive_({.world = slammot::testing::room(),
+                .world_from_base_at = arc({-3.0, 0.0, 0.0}, 0.0, 0.0)}) {
     drive_through(localizer_, drive_, 0, 20);
   }
 
-  static Pose2 world_from_mover(std::uint32_t scan) { return {1.0, -3.5 + 0.15 * (scan - 20), 0.0}; }
+  static Pose2 world_from_mover(std::uint32_t scan) {
+    return {1.0, -3.5 + 0.15 * (scan - 20), 0.0};
+  }
 
   /// The scan, and which of its beams met the mover.
   std::pair<sensing::LaserScan, std::vector<bool>> scan_with_mover(std::uint32_t number) {
@@ -698,7 +742,8 @@ class WithAMover : public ::testing::Test {
     setup.world = joined(setup.world, slammot::testing::box(world_from_mover(number), 0.6, 0.6));
     const auto with = SimulatedDrive(setup).scan(number);
     std::vector<bool> on_mover;
-    for (std::size_t i = 0; i < with.range_m.size(); ++i) on_mover.push_back(with.range_m[i] < without.range_m[i] - 0.2F);
+    for (std::size_t i = 0; i < with.range_m.size(); ++i)
+      on_mover.push_back(with.range_m[i] < without.range_m[i] - 0.2F);
     return {with, on_mover};
   }
 
@@ -714,13 +759,15 @@ class WithAMover : public ::testing::Test {
   int traces_in_the_map() const { return traces_in_the_map(localizer_); }
   int traces_in_the_map(const Localizer& localizer) const {
     int traces = 0;
-    const Pose2 odom_from_world = inverse(drive_.odom_from_base(0)) * inverse(Pose2{-3.0, 0.0, 0.0});
+    const Pose2 odom_from_world =
+        inverse(drive_.odom_from_base(0)) * inverse(Pose2{-3.0, 0.0, 0.0});
     for (double y_m = -3.5; y_m < 1.0; y_m += 0.1) {
       for (double x_m = 0.6; x_m < 1.4; x_m += 0.1) {
         const Vector2 at_m = odom_from_world * Vector2(x_m, y_m);
         const auto surfel = localizer.local_map().surfels().nearest(at_m, 1);
         const auto& evidence = localizer.local_map().evidence();
-        traces += (surfel && (surfel->mean_m - at_m).norm() < 0.2) || evidence.so_steps(evidence.window().cell_at(at_m.x(), at_m.y())) > 0;
+        traces += (surfel && (surfel->mean_m - at_m).norm() < 0.2) ||
+                  evidence.so_steps(evidence.window().cell_at(at_m.x(), at_m.y())) > 0;
       }
     }
     return traces;
@@ -747,12 +794,14 @@ TEST_F(WithAMover, LabelsDecideWhichMapAPointGoesTo) {
 }
 
 TEST_F(WithAMover, LabelledStationaryItLeavesTraces) {
-  for (std::uint32_t scan = 20; scan < 24; ++scan) localizer_.integrate(all_stationary(*localizer_.localize(scan_with_mover(scan).first)));
+  for (std::uint32_t scan = 20; scan < 24; ++scan)
+    localizer_.integrate(all_stationary(*localizer_.localize(scan_with_mover(scan).first)));
   EXPECT_GT(traces_in_the_map(), 0);
 }
 
 TEST_F(WithAMover, StaysOutOfTheMapWhenLabelsNeverCome) {
-  for (std::uint32_t scan = 20; scan < 45; ++scan) EXPECT_TRUE(localizer_.localize(scan_with_mover(scan).first));
+  for (std::uint32_t scan = 20; scan < 45; ++scan)
+    EXPECT_TRUE(localizer_.localize(scan_with_mover(scan).first));
   localizer_.finish();
   EXPECT_EQ(traces_in_the_map(), 0);
   EXPECT_EQ(moving_evidence(), 0.0);
@@ -805,7 +854,8 @@ TEST_F(WithAMover, ComesBackIntoTheMapWhenTrackingFindsItStands) {
   }
   ASSERT_GT(restored.beams.size(), 2U);
   auto later = labels(*localizer_.localize(scan_with_mover(21).first), scan_with_mover(21).second);
-  later.restored = {restored, {999, {1, 2, 3}}, {20, {60000}}};  // also a scan and a beam that never were
+  later.restored = {restored, {999, {1, 2, 3}}, {20, {60000}}};  // also a scan and a beam that
+                                                                 // never were
   localizer_.integrate(later);
   EXPECT_GT(traces_in_the_map(), 0);
   EXPECT_EQ(localizer_.counters().restored_points, restored.beams.size());
@@ -854,22 +904,32 @@ TEST_F(WithAMover, IsTakenOutOfTheMapWhereItDrives) {
     for (const std::int8_t steps : evidence.so_cells()) sum += std::max<int>(0, steps);
     return sum;
   };
-  const double under_one_at_rest = walls_under_one([](flow::TrackedObject& object) { object.velocity_in_odom_mps.setZero(); });
+  const double under_one_at_rest =
+      walls_under_one([](flow::TrackedObject& object) { object.velocity_in_odom_mps.setZero(); });
   EXPECT_LT(walls_under_one([](flow::TrackedObject&) {}), under_one_at_rest);
-  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.confirmed = false; }), under_one_at_rest);
-  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.covariance *= 100.0; }), under_one_at_rest);
-  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.last_seen_ns -= 1; }), under_one_at_rest);
-  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.first_seen_ns += 200'000'000; }), under_one_at_rest);
-  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.length_m = 0.5; }), under_one_at_rest) << "who walks";
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.confirmed = false; }),
+            under_one_at_rest);
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.covariance *= 100.0; }),
+            under_one_at_rest);
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.last_seen_ns -= 1; }),
+            under_one_at_rest);
+  EXPECT_EQ(
+      walls_under_one([](flow::TrackedObject& object) { object.first_seen_ns += 200'000'000; }),
+      under_one_at_rest);
+  EXPECT_EQ(walls_under_one([](flow::TrackedObject& object) { object.length_m = 0.5; }),
+            under_one_at_rest)
+      << "who walks";
 }
 
 TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
-  // A wall of a thing right before the scanner, that moves sideways with all its points and would pull the pose along.
+  // A wall of a thing right before the scanner, that moves sideways with all its points and would
+  // pull the pose along.
   DriveSetup setup = drive_.setup();
   setup.world = joined(setup.world, slammot::testing::box({0.0, 0.0, 0.0}, 0.5, 8.0));
   LocalizerConfig config = small_map_config();
-  config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from pulling anyway,
-  config.use_odometry = false;            // and so do wheels, most of all where they stand
+  config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from pulling
+                                      // anyway,
+  config.use_odometry = false;        // and so do wheels, most of all where they stand
   const auto pulled_m = [&](bool with_track) {
     SimulatedDrive blocked(setup);
     Localizer localizer(config);
@@ -884,9 +944,11 @@ TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
     objects.objects = {object};
     if (with_track) localizer.expect(objects);
     DriveSetup moved_setup = drive_.setup();
-    moved_setup.world = joined(moved_setup.world, slammot::testing::box({0.12, 0.0, 0.0}, 0.5, 8.0));
+    moved_setup.world =
+        joined(moved_setup.world, slammot::testing::box({0.12, 0.0, 0.0}, 0.5, 8.0));
     SimulatedDrive later(moved_setup);
-    return slammot::testing::distance_m(localizer.localize(later.scan(20))->odom_from_base.pose, later.odom_from_base(20));
+    return slammot::testing::distance_m(localizer.localize(later.scan(20))->odom_from_base.pose,
+                                        later.odom_from_base(20));
   };
   EXPECT_LT(pulled_m(true), 0.01);
   EXPECT_GT(pulled_m(false), 2.0 * pulled_m(true));
@@ -973,7 +1035,8 @@ TEST_F(OverSeveralSubmaps, EachBeginsWhereTheOneBeforeEndsAndIsTiedToIt) {
     EXPECT_EQ(submaps[i].so_log_odds.size(), std::size_t{submaps[i].columns} * submaps[i].rows);
     if (i == 0) continue;
     EXPECT_GT(submaps[i].first_stamp_ns, submaps[i - 1].last_stamp_ns);
-    EXPECT_THAT(submaps[i - 1].odom_from_submap * submaps[i].previous_from_submap.pose, PoseNear(submaps[i].odom_from_submap, 1e-9));
+    EXPECT_THAT(submaps[i - 1].odom_from_submap * submaps[i].previous_from_submap.pose,
+                PoseNear(submaps[i].odom_from_submap, 1e-9));
   }
 }
 
@@ -992,10 +1055,14 @@ TEST_F(OverSeveralSubmaps, TheUncertaintyOfATieGrowsWithTheWayOfThatTieOnly) {
   Localizer localizer(config());
   const auto submaps = submaps_of_drive(localizer);
   ASSERT_GE(submaps.size(), 4U);
-  const auto drift = [&](double travelled_m) { return std::pow(config().drift_m_per_sqrt_m, 2) * travelled_m; };
+  const auto drift = [&](double travelled_m) {
+    return std::pow(config().drift_m_per_sqrt_m, 2) * travelled_m;
+  };
   for (std::size_t i = 1; i < submaps.size(); ++i) {
     const auto& covariance = submaps[i].previous_from_submap.covariance;
-    EXPECT_NEAR(covariance(0, 0), drift(submaps[i - 1].travelled_m), 0.1 * drift(submaps[i - 1].travelled_m)) << i;
+    EXPECT_NEAR(covariance(0, 0), drift(submaps[i - 1].travelled_m),
+                0.1 * drift(submaps[i - 1].travelled_m))
+        << i;
     EXPECT_GT(covariance(2, 2), 0.0);
   }
 }
@@ -1007,7 +1074,8 @@ TEST_F(OverSeveralSubmaps, TheSameDriveGivesTheSameBits) {
   Localizer second(config());
   const auto second_submaps = submaps_of_drive(second);
   ASSERT_EQ(first_submaps.size(), second_submaps.size());
-  for (std::size_t i = 0; i < first_submaps.size(); ++i) EXPECT_TRUE(slammot::testing::same_submap(first_submaps[i], second_submaps[i]));
+  for (std::size_t i = 0; i < first_submaps.size(); ++i)
+    EXPECT_TRUE(slammot::testing::same_submap(first_submaps[i], second_submaps[i]));
   for (std::size_t i = 0; i < first_scans.size(); ++i) {
     EXPECT_EQ(first_scans[i].odom_from_base.pose, scans_[i].odom_from_base.pose);
     EXPECT_EQ(first_scans[i].odom_from_base.covariance, scans_[i].odom_from_base.covariance);

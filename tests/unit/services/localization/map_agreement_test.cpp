@@ -28,12 +28,16 @@ TEST(MapAgreement, IsContradictedInAnotherPlace) {
   EXPECT_GT(found.share_behind_walls(), 0.1);
 }
 
-TEST(MapAgreement, SaysNothingOfWhatTheMapHasNotSeen) { EXPECT_EQ(agreement_at({500.0, 0.0, 0.0}).contradicting_share(), 0.0); }
+TEST(MapAgreement, SaysNothingOfWhatTheMapHasNotSeen) {
+  EXPECT_EQ(agreement_at({500.0, 0.0, 0.0}).contradicting_share(), 0.0);
+}
 
 TEST(ExplainedShare, FallsWithTheDistanceFromTheTruth) {
   const MappedWorld room(slammot::testing::room());
   const ScanPoints points = room.points_at({});
-  const auto share_at = [&](const Pose2& pose) { return explained_share(points.matched(), pose, room.map().evidence(), room.config().map); };
+  const auto share_at = [&](const Pose2& pose) {
+    return explained_share(points.matched(), pose, room.map().evidence(), room.config().map);
+  };
   EXPECT_GT(share_at({}), 0.95);
   EXPECT_LT(share_at({2.5, 1.0, 0.6}), 0.5);
   EXPECT_EQ(explained_share({}, {}, room.map().evidence(), room.config().map), 0.0);

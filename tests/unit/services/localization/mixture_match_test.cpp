@@ -21,23 +21,29 @@ using slammot::testing::PoseNear;
 /// Scans are so far apart in time that each counts for much.
 constexpr double kPeriod_s = 0.5;
 
-Step step_to(const Pose2& odom_from_base, double sigma_m, double sigma_rad, StepExplanation explanation) {
+Step step_to(const Pose2& odom_from_base, double sigma_m, double sigma_rad,
+             StepExplanation explanation) {
   Step step;
   step.duration_s = step.usual_duration_s = kPeriod_s;
-  step.source = explanation == StepExplanation::kOther ? StepSource::kVelocityAlone : StepSource::kOdometry;
+  step.source =
+      explanation == StepExplanation::kOther ? StepSource::kVelocityAlone : StepSource::kOdometry;
   step.explanation = explanation;
   step.after.odom_from_base = odom_from_base;
-  step.after.covariance.topLeftCorner<3, 3>() = Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+  step.after.covariance.topLeftCorner<3, 3>() =
+      Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
   return step;
 }
 
 /// Wheels to 1 cm, their tail to 4 cm, and constant velocity to 0.3 m.
 StepMixture explanations_of(const Pose2& by_wheels, const Pose2& at_velocity) {
-  return {step_to(by_wheels, 0.01, 0.003, StepExplanation::kWheels), step_to(by_wheels, 0.04, 0.012, StepExplanation::kRoughWheels),
+  return {step_to(by_wheels, 0.01, 0.003, StepExplanation::kWheels),
+          step_to(by_wheels, 0.04, 0.012, StepExplanation::kRoughWheels),
           step_to(at_velocity, 0.3, 0.1, StepExplanation::kOther)};
 }
 
-double weight_of(const ExplainedStep& explained, StepExplanation explanation) { return explained.weights[sensing::index_of(explanation)]; }
+double weight_of(const ExplainedStep& explained, StepExplanation explanation) {
+  return explained.weights[sensing::index_of(explanation)];
+}
 
 class MixtureMatchTest : public ::testing::Test {
  protected:
@@ -54,7 +60,8 @@ class MixtureMatchTest : public ::testing::Test {
     ScanMatcher matcher(config_);
     MixtureMatch mixture(config_);
     weights_ = sensing::predicted(weights_, config_.belief);
-    ExplainedStep explained = mixture.explain({std::move(steps), weights_, usual_share_, history_, points, world.map(), take}, matcher);
+    ExplainedStep explained = mixture.explain(
+        {std::move(steps), weights_, usual_share_, history_, points, world.map(), take}, matcher);
     weights_ = explained.weights;
     return explained;
   }
@@ -68,7 +75,8 @@ class MixtureMatchTest : public ::testing::Test {
 
 TEST_F(MixtureMatchTest, TakesWheelsThatTheScanAgreesWithWithoutASearch) {
   const Pose2 truth{0.3, 0.2, 0.1};
-  const ExplainedStep explained = explain(truth, explanations_of({0.305, 0.196, 0.101}, {0.2, 0.1, 0.05}), room_);
+  const ExplainedStep explained =
+      explain(truth, explanations_of({0.305, 0.196, 0.101}, {0.2, 0.1, 0.05}), room_);
   EXPECT_EQ(explained.step.explanation, StepExplanation::kWheels);
   EXPECT_EQ(explained.searches, 0U);
   EXPECT_GT(weight_of(explained, StepExplanation::kWheels), 0.9);
@@ -106,17 +114,20 @@ TEST_F(MixtureMatchTest, PrefersRecalibratedWheelsThatPredictSurelyAndRight) {
 TEST_F(MixtureMatchTest, LeavesTheWayAlongAWallToTheWheels) {
   const MappedWorld wall({{{-200.0, 3.0}, {200.0, 3.0}}});
   const Pose2 by_wheels{0.7, 0.0, 0.0};
-  const ExplainedStep explained = explain({0.2, 0.0, 0.0}, explanations_of(by_wheels, {0.2, 0.0, 0.0}), wall);
+  const ExplainedStep explained =
+      explain({0.2, 0.0, 0.0}, explanations_of(by_wheels, {0.2, 0.0, 0.0}), wall);
   EXPECT_EQ(explained.step.explanation, StepExplanation::kWheels);
   EXPECT_NEAR(explained.registered.map_from_base.pose.x_m, by_wheels.x_m, 0.02);
-  EXPECT_GT(weight_of(explained, StepExplanation::kWheels), 0.8) << "nothing was learned of the way";
+  EXPECT_GT(weight_of(explained, StepExplanation::kWheels), 0.8)
+      << "nothing was learned of the way";
 }
 
 TEST_F(MixtureMatchTest, BelievesWheelsAgainOnceScansAgreeForAWhile) {
   const Pose2 truth{0.3, 0.2, 0.1};
   explain(truth, explanations_of({0.9, 0.2, 0.1}, {0.2, 0.1, 0.05}), room_);
   int scans = 0;
-  for (; weights_[sensing::index_of(StepExplanation::kWheels)] < 0.9 && scans < 20; ++scans) explain(truth, explanations_of(truth, truth), room_);
+  for (; weights_[sensing::index_of(StepExplanation::kWheels)] < 0.9 && scans < 20; ++scans)
+    explain(truth, explanations_of(truth, truth), room_);
   EXPECT_LT(scans, 8);
 }
 
@@ -131,8 +142,10 @@ TEST_F(MixtureMatchTest, LooksFartherWhereFewerPointsMatchThanUsual) {
 
 TEST_F(MixtureMatchTest, WeighsExplanationsToASumOfOne) {
   for (const double off_m : {0.0, 0.03, 0.1, 0.5, 2.0}) {
-    const ExplainedStep explained = explain({0.3, 0.2, 0.1}, explanations_of({0.3 + off_m, 0.2, 0.1}, {0.2, 0.1, 0.0}), room_);
-    EXPECT_NEAR(std::accumulate(explained.weights.begin(), explained.weights.end(), 0.0), 1.0, 1e-9) << off_m;
+    const ExplainedStep explained =
+        explain({0.3, 0.2, 0.1}, explanations_of({0.3 + off_m, 0.2, 0.1}, {0.2, 0.1, 0.0}), room_);
+    EXPECT_NEAR(std::accumulate(explained.weights.begin(), explained.weights.end(), 0.0), 1.0, 1e-9)
+        << off_m;
   }
 }
 

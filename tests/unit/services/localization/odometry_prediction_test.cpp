@@ -77,7 +77,8 @@ TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityWhereOdometryJumps) {
 TEST_F(OdometryPredictionTest, BelievesAnUnlikelyStepThatIsReportedTwice) {
   drive(0, 5);
   const Pose2 stopped = pose_at(4);
-  for (int scan = 5; scan < 7; ++scan) prediction_.add({stamp_ns(scan), wheel_from_odom_ * stopped});
+  for (int scan = 5; scan < 7; ++scan)
+    prediction_.add({stamp_ns(scan), wheel_from_odom_ * stopped});
   const Step first = prediction_.predict(stamp_ns(5));
   EXPECT_TRUE(first.has_doubted_wheels);
   prediction_.observe(first, without_match(first));
@@ -121,7 +122,9 @@ TEST_F(OdometryPredictionTest, HoldsTheVehicleToStandOnceWheelsHaveStoodForAWhil
 void disbelieve(OdometryPrediction& prediction) {
   const geometry::Matrix3 covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
   const Pose2 by_wheels{1.0, 0.0, 0.0};
-  for (int i = 0; i < 5; ++i) prediction.compare({by_wheels, by_wheels, geometry::UncertainPose2{Pose2{0.0, 0.0, 1.0}, covariance}, 1.0});
+  for (int i = 0; i < 5; ++i)
+    prediction.compare(
+        {by_wheels, by_wheels, geometry::UncertainPose2{Pose2{0.0, 0.0, 1.0}, covariance}, 1.0});
   ASSERT_TRUE(prediction.state().belief.is_disbelieved);
 }
 
@@ -164,10 +167,12 @@ TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityOfTheMatchesWhereOdometryIsNot
 
 TEST_F(OdometryPredictionTest, MarksAGapAndExtrapolatesNoFartherThanThat) {
   prediction_.begin(0);
-  for (int scan = 1; scan < 30; ++scan) prediction_.observe(prediction_.predict(stamp_ns(scan)), matched_at(pose_at(scan)));
+  for (int scan = 1; scan < 30; ++scan)
+    prediction_.observe(prediction_.predict(stamp_ns(scan)), matched_at(pose_at(scan)));
   const Step step = prediction_.predict(stamp_ns(29) + 10 * 1'000'000'000LL);
   EXPECT_TRUE(step.is_gap);
-  EXPECT_NEAR(step.after.odom_from_base.x_m - pose_at(29).x_m, kSpeed_mps * LocalizerConfig{}.longest_step_s, 1.0);
+  EXPECT_NEAR(step.after.odom_from_base.x_m - pose_at(29).x_m,
+              kSpeed_mps * LocalizerConfig{}.longest_step_s, 1.0);
 }
 
 TEST_F(OdometryPredictionTest, GoesOnFromAStateAsBefore) {
@@ -188,11 +193,14 @@ TEST_F(OdometryPredictionTest, ResumesWithTheSamplesOfACheckpointAndThoseThatCam
   resumed.resume(prediction_.state(), prediction_.recent_odometry(), std::move(since));
   EXPECT_TRUE(resumed.reaches(stamp_ns(5)));
   prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
-  EXPECT_EQ(resumed.predict(stamp_ns(5)).after.odom_from_base, prediction_.predict(stamp_ns(5)).after.odom_from_base);
+  EXPECT_EQ(resumed.predict(stamp_ns(5)).after.odom_from_base,
+            prediction_.predict(stamp_ns(5)).after.odom_from_base);
 }
 
-/// Seconds of comparisons that disbelieve the wheels until they are recalibrated; none in half a minute.
-std::optional<int> seconds_until_recalibrated(const std::function<Pose2(const Pose2&, int)>& wheels_of) {
+/// Seconds of comparisons that disbelieve the wheels until they are recalibrated; none in half a
+/// minute.
+std::optional<int> seconds_until_recalibrated(
+    const std::function<Pose2(const Pose2&, int)>& wheels_of) {
   OdometryPrediction prediction{LocalizerConfig{}};
   prediction.add({0, {}});
   prediction.begin(0);
@@ -200,14 +208,17 @@ std::optional<int> seconds_until_recalibrated(const std::function<Pose2(const Po
   for (int second = 1; second <= 30; ++second) {
     const Pose2 by_scans{1.0 + 0.3 * (second % 3), 0.0, second % 2 == 0 ? 0.3 : -0.2};
     const Pose2 by_wheels = wheels_of(by_scans, second);
-    prediction.compare({by_wheels, by_wheels, geometry::UncertainPose2{by_scans, covariance}, 1.0, 0.0});
+    prediction.compare(
+        {by_wheels, by_wheels, geometry::UncertainPose2{by_scans, covariance}, 1.0, 0.0});
     if (prediction.state().belief.recalibrations > 0) return second;
   }
   return std::nullopt;
 }
 
 TEST(OdometryPrediction, RecalibratesWheelsThatAreWrongForSecondsWhereFactorsMakeThemRight) {
-  const auto counts_too_much = [](const Pose2& step, int) { return Pose2{1.4 * step.x_m, step.y_m, step.heading_rad}; };
+  const auto counts_too_much = [](const Pose2& step, int) {
+    return Pose2{1.4 * step.x_m, step.y_m, step.heading_rad};
+  };
   const auto after_s = seconds_until_recalibrated(counts_too_much);
   ASSERT_TRUE(after_s);
   EXPECT_GT(*after_s, 8) << "wheels may slip as long as that";
@@ -215,7 +226,9 @@ TEST(OdometryPrediction, RecalibratesWheelsThatAreWrongForSecondsWhereFactorsMak
 }
 
 TEST(OdometryPrediction, DoesNotRecalibrateWheelsThatNoFactorsMakeRight) {
-  const auto at_random = [](const Pose2&, int second) { return Pose2{0.4 * (second * 7 % 5), 0.0, 0.2 * (second * 3 % 7 - 3)}; };
+  const auto at_random = [](const Pose2&, int second) {
+    return Pose2{0.4 * (second * 7 % 5), 0.0, 0.2 * (second * 3 % 7 - 3)};
+  };
   EXPECT_FALSE(seconds_until_recalibrated(at_random));
 }
 

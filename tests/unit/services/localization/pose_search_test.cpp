@@ -14,12 +14,16 @@ using slammot::testing::MappedWorld;
 using slammot::testing::PoseNear;
 
 UncertainPose2 prior_at(const Pose2& pose, double sigma_m, double sigma_rad) {
-  return {pose, Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal()};
+  return {
+      pose,
+      Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal()};
 }
 
 TEST(IsVague, WherePositionOrHeadingIsUnsure) {
   const LocalizerConfig config;
-  EXPECT_FALSE(is_vague(prior_at({}, 0.9 * config.search_when_sigma_m, 0.9 * config.search_when_heading_sigma_rad), config));
+  EXPECT_FALSE(is_vague(
+      prior_at({}, 0.9 * config.search_when_sigma_m, 0.9 * config.search_when_heading_sigma_rad),
+      config));
   EXPECT_TRUE(is_vague(prior_at({}, 1.1 * config.search_when_sigma_m, 0.0), config));
   EXPECT_TRUE(is_vague(prior_at({}, 0.0, 1.1 * config.search_when_heading_sigma_rad), config));
 }
@@ -28,7 +32,8 @@ TEST(PoseSearch, FindsThePoseWithinItsWindow) {
   const MappedWorld room(slammot::testing::room());
   const Pose2 truth{0.5, -0.4, 0.2};
   PoseSearch search(room.config(), 1);
-  const auto poses = search.poses_around(prior_at({0.0, 0.0, 0.0}, 0.5, 0.15), room.points_at(truth).matched(), room.map().surfels());
+  const auto poses = search.poses_around(prior_at({0.0, 0.0, 0.0}, 0.5, 0.15),
+                                         room.points_at(truth).matched(), room.map().surfels());
   ASSERT_FALSE(poses.empty());
   EXPECT_THAT(poses.front(), PoseNear(truth, 0.15));
 }
@@ -37,11 +42,15 @@ TEST(PoseSearch, LooksNoFartherThanThePriorAllows) {
   const MappedWorld room(slammot::testing::room());
   PoseSearch search(room.config(), 1);
   const auto points = room.points_at({2.0, 0.0, 0.0}).matched();
-  const auto found = search.poses_around(prior_at({0.0, 0.0, 0.0}, 1.0, 0.01), points, room.map().surfels());
+  const auto found =
+      search.poses_around(prior_at({0.0, 0.0, 0.0}, 1.0, 0.01), points, room.map().surfels());
   ASSERT_FALSE(found.empty());
   EXPECT_THAT(found.front(), PoseNear(Pose2{2.0, 0.0, 0.0}, 0.15));
-  const auto poses = search.poses_around(prior_at({0.0, 0.0, 0.0}, 0.1, 0.01), points, room.map().surfels());
-  for (const auto& pose : poses) EXPECT_LT(pose.translation_m().norm(), 0.1 * room.config().search_sigmas * std::sqrt(2.0) + 0.3);
+  const auto poses =
+      search.poses_around(prior_at({0.0, 0.0, 0.0}, 0.1, 0.01), points, room.map().surfels());
+  for (const auto& pose : poses)
+    EXPECT_LT(pose.translation_m().norm(),
+              0.1 * room.config().search_sigmas * std::sqrt(2.0) + 0.3);
 }
 
 }  // namespace

@@ -11,13 +11,17 @@ Step step_with_sigma(double sigma_m) {
   Step step;
   step.duration_s = 0.1;
   step.source = StepSource::kOdometry;
-  step.after.covariance.topLeftCorner<3, 3>() = Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-6).asDiagonal();
+  step.after.covariance.topLeftCorner<3, 3>() =
+      Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-6).asDiagonal();
   return step;
 }
 
 ScanMatch match_at(double x_m, double sigma_m) {
-  const geometry::Matrix3 covariance = Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-7).asDiagonal();
-  return {.odom_from_base = {Pose2{x_m, 0.0, 0.0}, covariance}, .is_believed = true, .rms_residual_m = 0.03};
+  const geometry::Matrix3 covariance =
+      Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 1e-7).asDiagonal();
+  return {.odom_from_base = {Pose2{x_m, 0.0, 0.0}, covariance},
+          .is_believed = true,
+          .rms_residual_m = 0.03};
 }
 
 double published_variance_m2(double surprise_m) {
@@ -27,7 +31,9 @@ double published_variance_m2(double surprise_m) {
   return covariance.published(step.after).covariance(0, 0);
 }
 
-TEST(PublishedCovariance, GrowsWithTheSurprisesOfMatches) { EXPECT_GT(published_variance_m2(0.03), 2.0 * published_variance_m2(0.0)); }
+TEST(PublishedCovariance, GrowsWithTheSurprisesOfMatches) {
+  EXPECT_GT(published_variance_m2(0.03), 2.0 * published_variance_m2(0.0));
+}
 
 TEST(PublishedCovariance, KeepsThePoseOfTheEstimate) {
   PublishedCovariance covariance{LocalizerConfig{}};
@@ -56,7 +62,8 @@ TEST(PublishedCovariance, IsLargerThanThatWithinTheLocalMapWhereScansAloneTell) 
   }
   EXPECT_EQ(with_wheels.local_variance_share(), 1.0);
   EXPECT_NEAR(without.local_variance_share(), 1.0 / config.variance_by_scans_alone, 1e-3);
-  EXPECT_NEAR(without.published(by_scans.after).covariance(0, 0) * without.local_variance_share(), with_wheels.published(by_wheels.after).covariance(0, 0), 1e-9);
+  EXPECT_NEAR(without.published(by_scans.after).covariance(0, 0) * without.local_variance_share(),
+              with_wheels.published(by_wheels.after).covariance(0, 0), 1e-9);
 }
 
 TEST(PublishedCovariance, GoesOnFromAStateAsBefore) {

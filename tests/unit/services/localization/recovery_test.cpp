@@ -23,20 +23,25 @@ using slammot::testing::small_map_config;
 
 constexpr std::uint32_t kCarriedAt = 330;  // it has seen all of the room by then
 
-/// A robot that goes round in a room and is carried away after once around; its wheels do not turn meanwhile.
-DriveSetup carried_away(const Pose2& before_from_after, const slammot::testing::World& world = slammot::testing::room()) {
+/// A robot that goes round in a room and is carried away after once around; its wheels do not turn
+/// meanwhile.
+DriveSetup carried_away(const Pose2& before_from_after,
+                        const slammot::testing::World& world = slammot::testing::room()) {
   DriveSetup setup{.world = world};
   const auto path = arc({0.0, -3.0, 0.0}, 0.5, 0.2);
   const double carried_s = 0.1 * kCarriedAt - 0.05;
   setup.world_from_base_at = [=](double time_s) {
     const Pose2 there = path(carried_s);
-    return time_s < carried_s ? path(time_s) : there * before_from_after * (inverse(there) * path(time_s));
+    return time_s < carried_s ? path(time_s)
+                              : there * before_from_after * (inverse(there) * path(time_s));
   };
   return setup;
 }
 
 /// What the wheels would have said had it not been carried.
-sensing::Odometry odometry(SimulatedDrive& not_carried, std::uint32_t scan) { return not_carried.odometry(scan); }
+sensing::Odometry odometry(SimulatedDrive& not_carried, std::uint32_t scan) {
+  return not_carried.odometry(scan);
+}
 
 /// Wheels are not trusted for a moment, as those of a robot that is carried about.
 LocalizerConfig without_patience() {
@@ -48,7 +53,8 @@ LocalizerConfig without_patience() {
 
 class Recovery : public ::testing::Test {
  protected:
-  void drive(const DriveSetup& setup, std::uint32_t first, std::uint32_t last, bool with_odometry = true) {
+  void drive(const DriveSetup& setup, std::uint32_t first, std::uint32_t last,
+             bool with_odometry = true) {
     SimulatedDrive carried(setup);
     for (std::uint32_t scan = first; scan < last; ++scan) {
       if (with_odometry) localizer_.add_odometry(odometry(wheels_, scan));
@@ -65,12 +71,14 @@ class Recovery : public ::testing::Test {
 };
 
 TEST_F(Recovery, FindsItselfInTheLocalMapWhereverItWasCarried) {
-  for (const Pose2& carried : {Pose2{1.5, 0.0, 0.0}, Pose2{3.0, 1.0, 0.7}, Pose2{0.0, 0.0, std::numbers::pi}}) {
+  for (const Pose2& carried :
+       {Pose2{1.5, 0.0, 0.0}, Pose2{3.0, 1.0, 0.7}, Pose2{0.0, 0.0, std::numbers::pi}}) {
     const DriveSetup setup = carried_away(carried);
     localizer_ = Localizer(without_patience());
     wheels_ = SimulatedDrive(carried_away({}));
     drive(setup, 0, kCarriedAt + 60);
-    EXPECT_THAT(newest(), PoseNear(SimulatedDrive(setup).odom_from_base(kCarriedAt + 59), 0.05)) << carried.x_m << " " << carried.y_m << " " << carried.heading_rad;
+    EXPECT_THAT(newest(), PoseNear(SimulatedDrive(setup).odom_from_base(kCarriedAt + 59), 0.05))
+        << carried.x_m << " " << carried.y_m << " " << carried.heading_rad;
     EXPECT_GE(counters().found_again, 1U);
     EXPECT_EQ(counters().astray, 0U);
   }
@@ -88,7 +96,8 @@ TEST_F(Recovery, KeepsTheMapCleanWhileItIsLost) {
     const geometry::Vector2 at_m = world_from_odom * surfel.mean_m;
     for (const auto& wall : setup.world) {
       const geometry::Vector2 along_m = wall.to_m - wall.from_m;
-      const double share = std::clamp((at_m - wall.from_m).dot(along_m) / along_m.squaredNorm(), 0.0, 1.0);
+      const double share =
+          std::clamp((at_m - wall.from_m).dot(along_m) / along_m.squaredNorm(), 0.0, 1.0);
       nearest_m = std::min(nearest_m, (wall.from_m + share * along_m - at_m).norm());
     }
     if (nearest_m > 0.25) ++smeared;
@@ -97,8 +106,14 @@ TEST_F(Recovery, KeepsTheMapCleanWhileItIsLost) {
 }
 
 TEST_F(Recovery, BeginsAMapTiedByNextToNothingWhereItKnowsNothing) {
-  const DriveSetup elsewhere = carried_away({300.0, 0.0, 0.0}, slammot::testing::joined(slammot::testing::room(), slammot::testing::moved(slammot::testing::polygon(
-                                                {{-6.0, -4.0}, {7.0, -5.0}, {5.0, 6.0}, {0.0, 3.0}, {-7.0, 5.0}}), carried_away({300.0, 0.0, 0.0}).world_from_base_at(35.0))));
+  const DriveSetup elsewhere =
+      carried_away({300.0, 0.0, 0.0},
+                   slammot::testing::joined(
+                       slammot::testing::room(),
+                       slammot::testing::moved(
+                           slammot::testing::polygon(
+                               {{-6.0, -4.0}, {7.0, -5.0}, {5.0, 6.0}, {0.0, 3.0}, {-7.0, 5.0}}),
+                           carried_away({300.0, 0.0, 0.0}).world_from_base_at(35.0))));
   drive(elsewhere, 0, kCarriedAt + 100);
   EXPECT_EQ(counters().astray, 1U);
   const auto first = localizer_.take_finished_submap();
@@ -112,7 +127,10 @@ TEST_F(Recovery, BeginsAMapTiedByNextToNothingWhereItKnowsNothing) {
   // From there on the motion is right again.
   SimulatedDrive truth(elsewhere);
   const auto step = [](const Pose2& from, const Pose2& to) { return inverse(from) * to; };
-  EXPECT_THAT(step(scans_[kCarriedAt + 70].odom_from_base.pose, newest()), PoseNear(step(truth.odom_from_base(kCarriedAt + 70), truth.odom_from_base(kCarriedAt + 99)), 0.05));
+  EXPECT_THAT(
+      step(scans_[kCarriedAt + 70].odom_from_base.pose, newest()),
+      PoseNear(step(truth.odom_from_base(kCarriedAt + 70), truth.odom_from_base(kCarriedAt + 99)),
+               0.05));
 }
 
 TEST_F(Recovery, IsNotLostInADriveLikeAnyOther) {
@@ -128,7 +146,8 @@ TEST_F(Recovery, ComesBackAfterAMinuteInTheDark) {
   for (std::uint32_t scan = kCarriedAt; scan < kCarriedAt + 600; ++scan) {
     localizer_.add_odometry(drive.odometry(scan));
     auto blinded = drive.scan(scan);
-    std::fill(blinded.range_m.begin(), blinded.range_m.end(), static_cast<float>(blinded.scanner.max_range_m));
+    std::fill(blinded.range_m.begin(), blinded.range_m.end(),
+              static_cast<float>(blinded.scanner.max_range_m));
     localizer_.localize(blinded);
   }
   drive_through(localizer_, drive, kCarriedAt + 600, kCarriedAt + 610);

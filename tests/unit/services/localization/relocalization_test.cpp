@@ -47,7 +47,8 @@ TEST(Relocalization, FindsNothingWhereTooMuchOfTheScanIsInFreeSpace) {
   const auto found_beside_a_screen = [&](double half_angle_rad) {
     const double half_m = 2.0 * std::tan(half_angle_rad);  // 2 m to its right
     const geometry::Vector2 middle_m = truth.translation_m() - geometry::Vector2(0.0, 2.0);
-    const slammot::testing::World screen{{middle_m - geometry::Vector2(half_m, 0.0), middle_m + geometry::Vector2(half_m, 0.0)}};
+    const slammot::testing::World screen{
+        {middle_m - geometry::Vector2(half_m, 0.0), middle_m + geometry::Vector2(half_m, 0.0)}};
     const MappedWorld changed(slammot::testing::joined(slammot::testing::room(), screen));
     return find(room, changed.points_at(truth)).found.has_value();
   };
@@ -57,7 +58,8 @@ TEST(Relocalization, FindsNothingWhereTooMuchOfTheScanIsInFreeSpace) {
 
 TEST(Relocalization, WaitsWhereTwoPlacesAreAboutAsGood) {
   const MappedWorld symmetric(slammot::testing::box({0.0, 0.0, 0.0}, 12.0, 8.0));
-  const RelocalizationResult result = find(symmetric, symmetric.points_at({0.03, 0.02, 0.2}));  // or turned by half a circle
+  const RelocalizationResult result =
+      find(symmetric, symmetric.points_at({0.03, 0.02, 0.2}));  // or turned by half a circle
   EXPECT_TRUE(result.has_searched);
   EXPECT_FALSE(result.found);
 }
@@ -66,7 +68,8 @@ TEST(Relocalization, SearchesLessOftenTheLongerTheVehicleIsLost) {
   const MappedWorld room(slammot::testing::room());
   const ScanPoints points = room.points_at({});
   int searches = 0;
-  for (int lost_scans = 1; lost_scans <= 20; ++lost_scans) searches += find(room, points, lost_scans).has_searched;
+  for (int lost_scans = 1; lost_scans <= 20; ++lost_scans)
+    searches += find(room, points, lost_scans).has_searched;
   EXPECT_EQ(searches, 5) << "after 1, 2, 4, 8 and 16 scans";
 }
 

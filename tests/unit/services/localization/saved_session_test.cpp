@@ -11,7 +11,12 @@ namespace {
 
 SavedSession example_session() {
   std::mt19937 random(1);
-  SavedSession session{{42}, {43}, {5}, {{"front", 7}, {"rear", 8}}, {slammot::testing::localized_scan(random, 0)}, {std::byte{1}, std::byte{2}}};
+  SavedSession session{{42},
+                       {43},
+                       {5},
+                       {{"front", 7}, {"rear", 8}},
+                       {slammot::testing::localized_scan(random, 0)},
+                       {std::byte{1}, std::byte{2}}};
   session.last_answers.front().scanner_id = "front";
   return session;
 }
@@ -31,7 +36,8 @@ TEST(SavedSession, ComesBackFromItsBytes) {
 
 TEST(SavedSession, IsNotMadeOfBytesThatAreCutOffOrTooMany) {
   std::vector<std::byte> bytes = to_bytes(example_session());
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(session_of(std::span(bytes).first(size))) << size;
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(session_of(std::span(bytes).first(size))) << size;
   bytes.push_back(std::byte{0});
   EXPECT_FALSE(session_of(bytes));
 }

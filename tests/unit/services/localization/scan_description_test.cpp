@@ -28,7 +28,13 @@ class ScanDescriptionTest : public ::testing::Test {
   flow::LocalizedScan describe(LocalizerConfig config = MappedWorld::config_of_small_map()) {
     points_.deskew(scan_, 0.0, 0.0);
     ScanDescription description(config);
-    return description.describe({.scan = scan_, .points = points_, .map = room_.map(), .odom_from_base = {Pose2::identity(), geometry::Matrix3::Zero()}, .map_from_odom = {5.0, 0.0, 0.0}, .sweep_s = 0.02}, {});
+    return description.describe({.scan = scan_,
+                                 .points = points_,
+                                 .map = room_.map(),
+                                 .odom_from_base = {Pose2::identity(), geometry::Matrix3::Zero()},
+                                 .map_from_odom = {5.0, 0.0, 0.0},
+                                 .sweep_s = 0.02},
+                                {});
   }
 
   MappedWorld room_{slammot::testing::room()};
@@ -46,7 +52,9 @@ TEST_F(ScanDescriptionTest, TellsWhichEchoesTheMapContradictsAndHowFarItWouldHav
 
 TEST_F(ScanDescriptionTest, AsksForTheRangesOfBeamsBesideSuchAnEchoOnlyUnlessAllAreWanted) {
   const auto asked = [](const flow::LocalizedScan& localized) {
-    return std::ranges::count_if(localized.beams, [](const flow::LocalizedBeam& beam) { return beam.expected_range_m > 0.0F; });
+    return std::ranges::count_if(localized.beams, [](const flow::LocalizedBeam& beam) {
+      return beam.expected_range_m > 0.0F;
+    });
   };
   EXPECT_EQ(asked(describe()), 2 * static_cast<std::ptrdiff_t>(flow::kExpectedAside) + 1);
   LocalizerConfig of_all = MappedWorld::config_of_small_map();

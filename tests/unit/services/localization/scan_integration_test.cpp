@@ -19,7 +19,8 @@ class ScanIntegrationTest : public ::testing::Test {
     return config;
   }
 
-  void remember(std::uint32_t sequence, MapAdmission admission = MapAdmission::kMapped, float range_m = 5.0F) {
+  void remember(std::uint32_t sequence, MapAdmission admission = MapAdmission::kMapped,
+                float range_m = 5.0F) {
     sensing::LaserScan scan;
     scan.stamp_ns = sequence * kPeriod_ns;
     scan.sequence = sequence;
@@ -29,16 +30,23 @@ class ScanIntegrationTest : public ::testing::Test {
     flow::LocalizedScan localized;
     localized.beams.resize(1);
     if (range_m > 0.0F) localized.beams.front().end_cell = end_cell_;
-    integration_.remember({scan, localized, {Vector2(range_m, 0.0)}, {Vector2(1.0, 0.0)}}, admission, map_);
+    integration_.remember({scan, localized, {Vector2(range_m, 0.0)}, {Vector2(1.0, 0.0)}},
+                          admission, map_);
   }
 
-  static flow::ScanLabels labels(std::uint32_t sequence, PointLabel label = PointLabel::kStationary) {
+  static flow::ScanLabels labels(std::uint32_t sequence,
+                                 PointLabel label = PointLabel::kStationary) {
     return {sequence * kPeriod_ns, sequence, "front", {label}, {}};
   }
 
-  IntegrationCounts integrate(const flow::ScanLabels& labels, PoseTrust trust = PoseTrust::kConfirmed) { return integration_.integrate(labels, trust, map_); }
+  IntegrationCounts integrate(const flow::ScanLabels& labels,
+                              PoseTrust trust = PoseTrust::kConfirmed) {
+    return integration_.integrate(labels, trust, map_);
+  }
   std::size_t surfels() const { return map_.surfels().all().size(); }
-  bool saw_moving() const { return map_.evidence().moving(map_.evidence().window().cell_at(5.0, 0.0)) > 0; }
+  bool saw_moving() const {
+    return map_.evidence().moving(map_.evidence().window().cell_at(5.0, 0.0)) > 0;
+  }
 
   std::string scanner_id_ = "front";
   flow::EndCell end_cell_ = flow::EndCell::kUnseen;
@@ -84,8 +92,12 @@ TEST_F(ScanIntegrationTest, TakesLabelsOfDetectionWhereThoseOfTrackingAreOverdue
   segmented.scanner_id = "front";
   segmented.labels = {PointLabel::kMoving};
   integration_.note(segmented);
-  EXPECT_EQ(integration_.integrate_overdue(2 * kPeriod_ns, PoseTrust::kConfirmed, map_).fallback_integrations, 0U);
-  EXPECT_EQ(integration_.integrate_overdue(6 * kPeriod_ns, PoseTrust::kConfirmed, map_).fallback_integrations, 1U);
+  EXPECT_EQ(integration_.integrate_overdue(2 * kPeriod_ns, PoseTrust::kConfirmed, map_)
+                .fallback_integrations,
+            0U);
+  EXPECT_EQ(integration_.integrate_overdue(6 * kPeriod_ns, PoseTrust::kConfirmed, map_)
+                .fallback_integrations,
+            1U);
   EXPECT_TRUE(saw_moving());
 }
 

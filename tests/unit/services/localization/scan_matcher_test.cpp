@@ -15,11 +15,13 @@ using slammot::testing::MappedWorld;
 using slammot::testing::PoseNear;
 
 /// A prediction with one sigma of position and heading.
-Step step_to(const Pose2& odom_from_base, double sigma_m, double sigma_rad, StepSource source = StepSource::kOdometry) {
+Step step_to(const Pose2& odom_from_base, double sigma_m, double sigma_rad,
+             StepSource source = StepSource::kOdometry) {
   Step step;
   step.source = source;
   step.after.odom_from_base = odom_from_base;
-  step.after.covariance.topLeftCorner<3, 3>() = Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+  step.after.covariance.topLeftCorner<3, 3>() =
+      Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
   return step;
 }
 
@@ -46,7 +48,8 @@ TEST_F(ScanMatcherTest, FindsThePoseNearThePrediction) {
 
 TEST_F(ScanMatcherTest, SearchesWhereThePredictionIsVague) {
   const Pose2 truth{0.3, 0.2, 0.1};
-  const ScanMatch match = match_at(truth, step_to({1.3, -0.6, 0.3}, 1.0, 0.2, StepSource::kVelocityAlone));
+  const ScanMatch match =
+      match_at(truth, step_to({1.3, -0.6, 0.3}, 1.0, 0.2, StepSource::kVelocityAlone));
   EXPECT_TRUE(match.was_searched);
   EXPECT_THAT(match.odom_from_base.pose, PoseNear(truth, 0.05));
 }
@@ -54,14 +57,16 @@ TEST_F(ScanMatcherTest, SearchesWhereThePredictionIsVague) {
 TEST_F(ScanMatcherTest, SaysThatAScanOfAnotherPlaceDoesNotMatch) {
   const MappedWorld elsewhere(slammot::testing::box({0.0, 0.0, 0.7}, 30.0, 26.0));
   const ScanPoints points = elsewhere.points_at({0.0, 0.0, 0.0});
-  const ScanMatch match = matcher_.match({points.matched(), room_.map().surfels(), step_to({0.1, 0.0, 0.0}, 0.1, 0.01), 1});
+  const ScanMatch match = matcher_.match(
+      {points.matched(), room_.map().surfels(), step_to({0.1, 0.0, 0.0}, 0.1, 0.01), 1});
   EXPECT_TRUE(match.is_lost);
   EXPECT_FALSE(match.is_believed);
   EXPECT_EQ(match.odom_from_base.pose, (Pose2{0.1, 0.0, 0.0}));
 }
 
 TEST_F(ScanMatcherTest, KeepsThePredictionWhereThereAreTooFewPoints) {
-  const ScanMatch match = matcher_.match({{{{1.0, 0.0}}}, room_.map().surfels(), step_to({0.1, 0.0, 0.0}, 0.1, 0.01), 1});
+  const ScanMatch match = matcher_.match(
+      {{{{1.0, 0.0}}}, room_.map().surfels(), step_to({0.1, 0.0, 0.0}, 0.1, 0.01), 1});
   EXPECT_FALSE(match.is_believed || match.is_lost);
   EXPECT_EQ(match.odom_from_base.pose, (Pose2{0.1, 0.0, 0.0}));
 }
@@ -69,7 +74,8 @@ TEST_F(ScanMatcherTest, KeepsThePredictionWhereThereAreTooFewPoints) {
 TEST_F(ScanMatcherTest, LeavesTheDirectionAlongAWallToThePrediction) {
   const MappedWorld wall({{{-200.0, 3.0}, {200.0, 3.0}}});
   const ScanPoints points = wall.points_at({0.0, 0.0, 0.0});
-  const ScanMatch match = matcher_.match({points.matched(), wall.map().surfels(), step_to({0.2, 0.05, 0.0}, 0.1, 0.01), 1});
+  const ScanMatch match = matcher_.match(
+      {points.matched(), wall.map().surfels(), step_to({0.2, 0.05, 0.0}, 0.1, 0.01), 1});
   EXPECT_TRUE(match.was_sampled);
   EXPECT_NEAR(match.odom_from_base.pose.x_m, 0.2, 0.05);
   EXPECT_NEAR(match.odom_from_base.pose.y_m, 0.0, 0.03);
@@ -81,7 +87,8 @@ TEST_F(ScanMatcherTest, RegistersFromAnyPoseWithoutJudging) {
   const ScanPoints points = room_.points_at(truth);
   const Step step = step_to({5.0, 5.0, 0.0}, 0.1, 0.01);
   const geometry::Matrix3 wide = Eigen::Vector3d(100.0, 100.0, 9.0).asDiagonal();
-  const auto result = matcher_.register_from({0.4, 0.1, 0.12}, {{0.4, 0.1, 0.12}, wide}, {points.matched(), room_.map().surfels(), step, 1});
+  const auto result = matcher_.register_from({0.4, 0.1, 0.12}, {{0.4, 0.1, 0.12}, wide},
+                                             {points.matched(), room_.map().surfels(), step, 1});
   EXPECT_THAT(result.map_from_base.pose, PoseNear(truth, 0.03));
 }
 

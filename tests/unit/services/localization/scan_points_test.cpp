@@ -18,7 +18,8 @@ sensing::LaserScan scan() {
   return scan;
 }
 
-ScanPoints selected(const std::vector<grids::Box>& masks = {}, const geometry::Pose2& odom_from_base = {}) {
+ScanPoints selected(const std::vector<grids::Box>& masks = {},
+                    const geometry::Pose2& odom_from_base = {}) {
   ScanPoints points{LocalizerConfig{}};
   points.begin_scan();
   points.deskew(scan(), 0.0, 0.0);
@@ -45,7 +46,9 @@ TEST(ScanPoints, LeaveOutWhatIsMaskedWhereThePredictionHasIt) {
 
 TEST(ScanPoints, LeaveOutWhatLabelsKeepOutOfTheSoMapUntilTheNextScan) {
   ScanPoints points = selected();
-  const std::vector<PointLabel> labels = {PointLabel::kStationary, PointLabel::kMoving, PointLabel::kUnknown, PointLabel::kMoving, PointLabel::kMoving, PointLabel::kNoEcho};
+  const std::vector<PointLabel> labels = {PointLabel::kStationary, PointLabel::kMoving,
+                                          PointLabel::kUnknown,    PointLabel::kMoving,
+                                          PointLabel::kMoving,     PointLabel::kNoEcho};
   EXPECT_TRUE(points.leave_out(labels));
   points.select(scan(), {}, {});
   EXPECT_THAT(points.matched_beams(), ElementsAre(0U, 2U));

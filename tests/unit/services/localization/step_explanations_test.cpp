@@ -13,7 +13,8 @@ using geometry::Pose2;
 using sensing::StepExplanation;
 using slammot::testing::PoseNear;
 
-/// A vehicle at a place in odom, known to the centimetre, that has matched for a while; wheels report a step of 0.1 s.
+/// A vehicle at a place in odom, known to the centimetre, that has matched for a while; wheels
+/// report a step of 0.1 s.
 class StepExplanationsTest : public ::testing::Test {
  protected:
   StepExplanationsTest() {
@@ -39,12 +40,15 @@ class StepExplanationsTest : public ::testing::Test {
     return step;
   }
 
-  static double position_sigma_m(const Step& step) { return std::sqrt(step.prior().covariance.topLeftCorner<2, 2>().trace()); }
+  static double position_sigma_m(const Step& step) {
+    return std::sqrt(step.prior().covariance.topLeftCorner<2, 2>().trace());
+  }
 
   void learn(const sensing::WheelFactors& factors) {
     for (int i = 0; i < 40; ++i) {
       const Pose2 by_wheels{0.5, 0.0, 0.02 * (i % 5 - 2)};
-      belief_.estimator.observe(by_wheels, {factors.way * by_wheels.x_m, 0.0, factors.turn * by_wheels.heading_rad}, 0.1);
+      belief_.estimator.observe(
+          by_wheels, {factors.way * by_wheels.x_m, 0.0, factors.turn * by_wheels.heading_rad}, 0.1);
     }
   }
 
@@ -64,14 +68,17 @@ TEST_F(StepExplanationsTest, RoughWheelsPredictTheSamePoseLessSurely) {
   EXPECT_TRUE(rough.is_by_wheels() && rough.explanation_was_chosen);
 }
 
-TEST_F(StepExplanationsTest, KnowNoOtherFactorsBeforeTheyAreLearned) { EXPECT_FALSE(explanations().recalibrated(by_wheels({0.7, 0.0, 0.05}))); }
+TEST_F(StepExplanationsTest, KnowNoOtherFactorsBeforeTheyAreLearned) {
+  EXPECT_FALSE(explanations().recalibrated(by_wheels({0.7, 0.0, 0.05})));
+}
 
 TEST_F(StepExplanationsTest, RecalibratedWheelsPredictByTheFactorsThatMatchesSuggest) {
   learn({.way = 1.0 / 1.3, .turn = -1.0});
   const auto recalibrated = explanations().recalibrated(by_wheels({0.65, 0.0, 0.05}));
   ASSERT_TRUE(recalibrated);
   EXPECT_EQ(recalibrated->explanation, StepExplanation::kRecalibrated);
-  EXPECT_THAT(recalibrated->after.odom_from_base, PoseNear(kBefore * Pose2{0.5, -0.0125, -0.05}, 0.02));
+  EXPECT_THAT(recalibrated->after.odom_from_base,
+              PoseNear(kBefore * Pose2{0.5, -0.0125, -0.05}, 0.02));
 }
 
 TEST_F(StepExplanationsTest, WithoutOdometryTheVelocityOfTheMatchesPredicts) {
@@ -104,11 +111,16 @@ TEST_F(StepExplanationsTest, WithoutOdometryStepsLikeThoseBeforeAreNarrowerThanR
   belief_.usual_turn_rad = 0.5;
   const Step step = explanations().without_odometry(by_wheels({}));
   const auto expected = [&](const Pose2& before_from_base) { return kBefore * before_from_base; };
-  EXPECT_THAT(explanations().like_the_last(step).after.odom_from_base, PoseNear(expected({0.9, 0.1, 0.2}), 1e-9));
-  EXPECT_THAT(explanations().straight_on(step).after.odom_from_base, PoseNear(expected({1.0, 0.0, 0.0}), 1e-9));
-  EXPECT_THAT(explanations().to_the_left(step).after.odom_from_base, PoseNear(expected({0.0, 0.0, 0.5}), 1e-9));
-  EXPECT_THAT(explanations().to_the_right(step).after.odom_from_base, PoseNear(expected({0.0, 0.0, -0.5}), 1e-9));
-  EXPECT_LT(explanations().straight_on(step).after.covariance(0, 0), 0.5 * step.after.covariance(0, 0));
+  EXPECT_THAT(explanations().like_the_last(step).after.odom_from_base,
+              PoseNear(expected({0.9, 0.1, 0.2}), 1e-9));
+  EXPECT_THAT(explanations().straight_on(step).after.odom_from_base,
+              PoseNear(expected({1.0, 0.0, 0.0}), 1e-9));
+  EXPECT_THAT(explanations().to_the_left(step).after.odom_from_base,
+              PoseNear(expected({0.0, 0.0, 0.5}), 1e-9));
+  EXPECT_THAT(explanations().to_the_right(step).after.odom_from_base,
+              PoseNear(expected({0.0, 0.0, -0.5}), 1e-9));
+  EXPECT_LT(explanations().straight_on(step).after.covariance(0, 0),
+            0.5 * step.after.covariance(0, 0));
 }
 
 TEST_F(StepExplanationsTest, ReachGrowsWithTheWayWhereNoTimeIsKnown) {

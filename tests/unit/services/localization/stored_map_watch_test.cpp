@@ -18,7 +18,8 @@ flow::StoredMap stored(std::uint32_t submaps) { return {kMap, submaps, 0, {subma
 
 flow::GraphCorrection placed(std::uint32_t submaps, flow::MapId map_id = kMap) {
   flow::GraphCorrection correction{.sequence = submaps, .map_id = map_id};
-  for (std::uint32_t id = 0; id < submaps; ++id) correction.submaps.push_back({{id}, {1.0 * id, 0.0, 0.0}});
+  for (std::uint32_t id = 0; id < submaps; ++id)
+    correction.submaps.push_back({{id}, {1.0 * id, 0.0, 0.0}});
   return correction;
 }
 

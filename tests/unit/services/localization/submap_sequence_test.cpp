@@ -26,7 +26,10 @@ class SubmapSequenceTest : public ::testing::Test {
   SubmapSequenceTest() { submaps_.begin(); }
 
   void see_something() {
-    submaps_.map().integrate(++stamp_ns_, odom_from_base_.translation_m(), {{odom_from_base_.translation_m() + geometry::Vector2(3.0, 0.0), grids::Echo::kStationary}}, 0.0);
+    submaps_.map().integrate(
+        ++stamp_ns_, odom_from_base_.translation_m(),
+        {{odom_from_base_.translation_m() + geometry::Vector2(3.0, 0.0), grids::Echo::kStationary}},
+        0.0);
   }
 
   void go(double way_m) {
@@ -48,7 +51,8 @@ TEST_F(SubmapSequenceTest, EndsASubmapAfterTheConfiguredWay) {
   const auto ended = submaps_.take_finished();
   ASSERT_TRUE(ended);
   EXPECT_DOUBLE_EQ(ended->travelled_m, 11.0);
-  EXPECT_THAT(ended->submap_from_base_at_end, PoseNear(geometry::inverse(ended->odom_from_submap) * odom_from_base_, 1e-9));
+  EXPECT_THAT(ended->submap_from_base_at_end,
+              PoseNear(geometry::inverse(ended->odom_from_submap) * odom_from_base_, 1e-9));
   EXPECT_FALSE(submaps_.take_finished());
 }
 
@@ -62,8 +66,11 @@ TEST_F(SubmapSequenceTest, TiesASubmapToTheOneBeforeByTheDriftOfTheWay) {
   const auto second = submaps_.take_finished();
   ASSERT_TRUE(first && second);
   EXPECT_EQ(second->submap_id.value, first->submap_id.value + 1);
-  EXPECT_THAT(second->previous_from_submap.pose, PoseNear(geometry::inverse(first->odom_from_submap) * second->odom_from_submap, 1e-9));
-  EXPECT_NEAR(std::sqrt(second->previous_from_submap.covariance(0, 0)), LocalizerConfig{}.drift_m_per_sqrt_m * 4.0, 1e-9);
+  EXPECT_THAT(
+      second->previous_from_submap.pose,
+      PoseNear(geometry::inverse(first->odom_from_submap) * second->odom_from_submap, 1e-9));
+  EXPECT_NEAR(std::sqrt(second->previous_from_submap.covariance(0, 0)),
+              LocalizerConfig{}.drift_m_per_sqrt_m * 4.0, 1e-9);
 }
 
 TEST_F(SubmapSequenceTest, TiesAnAstraySubmapByNextToNothingAndMakesTheNextOnesShort) {
@@ -74,7 +81,8 @@ TEST_F(SubmapSequenceTest, TiesAnAstraySubmapByNextToNothingAndMakesTheNextOnesS
   go(5.0);
   EXPECT_TRUE(submaps_.begin_next_if_due(odom_from_base_)) << "10 m in submaps of known place";
   submaps_.take_finished();
-  EXPECT_NEAR(std::sqrt(submaps_.take_finished()->previous_from_submap.covariance(0, 0)), LocalizerConfig{}.astray_sigma_m, 1e-9);
+  EXPECT_NEAR(std::sqrt(submaps_.take_finished()->previous_from_submap.covariance(0, 0)),
+              LocalizerConfig{}.astray_sigma_m, 1e-9);
 }
 
 TEST_F(SubmapSequenceTest, FinishesNothingThatIsEmptyOrFinished) {

@@ -43,7 +43,8 @@ TEST(SweepCorrection, LearnsNothingFromAMatchThatIsNotBelieved) {
   step.after.covariance.setIdentity();
   learning.observe(sweeping_scan(), step, points, {}, grids::SurfelMap{});
   EXPECT_FALSE(learning.factor().mapped_motion);
-  learning.observe(sweeping_scan(), step, points, {.odom_from_base = {}, .is_believed = true}, grids::SurfelMap{});
+  learning.observe(sweeping_scan(), step, points, {.odom_from_base = {}, .is_believed = true},
+                   grids::SurfelMap{});
   EXPECT_TRUE(learning.factor().mapped_motion);
 }
 
@@ -55,7 +56,8 @@ TEST(SweepCorrection, LearnsNothingFromAScanWithoutSweep) {
   step.after.covariance.setIdentity();
   sensing::LaserScan at_once = sweeping_scan();
   at_once.scanner.sweep_s = 0.0;
-  learning.observe(at_once, step, points, {.odom_from_base = {}, .is_believed = true}, grids::SurfelMap{});
+  learning.observe(at_once, step, points, {.odom_from_base = {}, .is_believed = true},
+                   grids::SurfelMap{});
   EXPECT_FALSE(learning.factor().mapped_motion);
   EXPECT_EQ(&learning.corrected(at_once), &at_once);
 }

@@ -15,8 +15,8 @@ using flow::Constraint;
 using flow::ConstraintKind;
 using flow::Submap;
 using geometry::Pose2;
-using slammot::testing::FloorPlan;
 using slammot::testing::drive;
+using slammot::testing::FloorPlan;
 using slammot::testing::indoor_loop_closing;
 
 /// Doors and niches along a stretch of corridor, each metre of it made from the seed alone.
@@ -32,7 +32,8 @@ void add_block(FloorPlan& plan, double from_x_m, const Block& block) {
     double x_m = from_x_m;
     while (x_m < from_x_m + block.length_m) {
       const double wall_m = std::min(0.8 + 2.5 * share(random), from_x_m + block.length_m - x_m);
-      const double niche_m = std::min(0.6 + 1.2 * share(random), from_x_m + block.length_m - x_m - wall_m);
+      const double niche_m =
+          std::min(0.6 + 1.2 * share(random), from_x_m + block.length_m - x_m - wall_m);
       const double depth_m = 0.3 + 1.5 * share(random);
       plan.add({x_m, side}, {x_m + wall_m, side});
       x_m += wall_m;
@@ -45,14 +46,19 @@ void add_block(FloorPlan& plan, double from_x_m, const Block& block) {
   }
 }
 
-/// A corridor in which one block comes twice, with others before, between and after: two places that look alike.
+/// A corridor in which one block comes twice, with others before, between and after: two places
+/// that look alike.
 struct LookAlikePair {
   explicit LookAlikePair(unsigned seed) {
     std::mt19937 random(1000 + seed);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     const double alike_m = 8.0 + 14.0 * share(random);
     const double between_m = 20.0 + 20.0 * share(random);
-    const std::vector<Block> blocks{{4 * seed, 15.0}, {4 * seed + 1, alike_m}, {4 * seed + 2, between_m}, {4 * seed + 1, alike_m}, {4 * seed + 3, 20.0}};
+    const std::vector<Block> blocks{{4 * seed, 15.0},
+                                    {4 * seed + 1, alike_m},
+                                    {4 * seed + 2, between_m},
+                                    {4 * seed + 1, alike_m},
+                                    {4 * seed + 3, 20.0}};
     double x_m = -10.0;
     for (const Block& block : blocks) {
       add_block(plan, x_m, block);
@@ -73,8 +79,11 @@ int false_closures_that_last(unsigned seed, double sigma_scale) {
   closer.finish();
   int lasting = 0;
   for (const Constraint& constraint : closer.constraints()) {
-    if (constraint.kind != ConstraintKind::kLoop || constraint.verdict.state != ClosureState::kAccepted) continue;
-    const Pose2 truth = inverse(pair.way[12 * constraint.from.value]) * pair.way[12 * constraint.to.value];
+    if (constraint.kind != ConstraintKind::kLoop ||
+        constraint.verdict.state != ClosureState::kAccepted)
+      continue;
+    const Pose2 truth =
+        inverse(pair.way[12 * constraint.from.value]) * pair.way[12 * constraint.to.value];
     if ((truth.translation_m() - constraint.from_to.pose.translation_m()).norm() > 1.0) ++lasting;
   }
   return lasting;

@@ -16,10 +16,10 @@ using flow::GraphCorrection;
 using flow::Submap;
 using flow::SubmapId;
 using geometry::Pose2;
-using slammot::testing::FloorPlan;
-using slammot::testing::PoseNear;
 using slammot::testing::drive;
+using slammot::testing::FloorPlan;
 using slammot::testing::indoor_loop_closing;
+using slammot::testing::PoseNear;
 using slammot::testing::ring;
 using slammot::testing::way_around_the_ring;
 
@@ -27,7 +27,8 @@ double largest_error_m(const GraphCorrection& correction, const std::vector<Pose
   double largest_m = 0.0;
   for (const auto& node : correction.submaps) {
     const Pose2 truth = inverse(map_from_base.front()) * map_from_base[12 * node.submap_id.value];
-    largest_m = std::max(largest_m, (node.map_from_submap.translation_m() - truth.translation_m()).norm());
+    largest_m =
+        std::max(largest_m, (node.map_from_submap.translation_m() - truth.translation_m()).norm());
   }
   return largest_m;
 }
@@ -39,7 +40,8 @@ TEST(LoopCloser, ClosesARoundWhoseOdometryBends) {
   GraphCorrection correction;
   for (const Submap& submap : submaps) correction = closer.add(submap);
   GraphCorrection uncorrected;
-  for (const Submap& submap : submaps) uncorrected.submaps.push_back({submap.submap_id, submap.odom_from_submap});
+  for (const Submap& submap : submaps)
+    uncorrected.submaps.push_back({submap.submap_id, submap.odom_from_submap});
   EXPECT_GT(largest_error_m(uncorrected, way), 1.5);
   EXPECT_GE(closer.counters().closures, 2U);
   EXPECT_LT(largest_error_m(correction, way), 0.3);
@@ -52,8 +54,10 @@ TEST(LoopCloser, SaysWhereEverySubmapIsEachTimeOneCameIn) {
     const GraphCorrection correction = closer.add(submaps[i]);
     EXPECT_EQ(correction.sequence, i + 1);
     ASSERT_EQ(correction.submaps.size(), i + 1);
-    EXPECT_THAT(correction.submaps.front().map_from_submap, PoseNear(submaps.front().odom_from_submap, 1e-12));
-    EXPECT_THAT(correction.map_from_odom * submaps[i].odom_from_submap, PoseNear(correction.submaps.back().map_from_submap, 1e-9));
+    EXPECT_THAT(correction.submaps.front().map_from_submap,
+                PoseNear(submaps.front().odom_from_submap, 1e-12));
+    EXPECT_THAT(correction.map_from_odom * submaps[i].odom_from_submap,
+                PoseNear(correction.submaps.back().map_from_submap, 1e-9));
   }
 }
 
@@ -75,7 +79,8 @@ TEST(LoopCloser, BridgesASubmapThatWasLost) {
     if (submap.submap_id != SubmapId{2}) correction = closer.add(submap);
   }
   ASSERT_EQ(correction.submaps.size(), submaps.size() - 1);
-  EXPECT_THAT(correction.submaps.back().map_from_submap, PoseNear(submaps.back().odom_from_submap, 1e-6));
+  EXPECT_THAT(correction.submaps.back().map_from_submap,
+              PoseNear(submaps.back().odom_from_submap, 1e-6));
 }
 
 TEST(LoopCloser, GivesTheSameBitsTwice) {
@@ -87,7 +92,8 @@ TEST(LoopCloser, GivesTheSameBitsTwice) {
     const GraphCorrection b = second.add(submap);
     ASSERT_FALSE(a.submaps.empty());
     ASSERT_EQ(a.submaps.size(), b.submaps.size());
-    for (std::size_t i = 0; i < a.submaps.size(); ++i) ASSERT_EQ(a.submaps[i].map_from_submap, b.submaps[i].map_from_submap);
+    for (std::size_t i = 0; i < a.submaps.size(); ++i)
+      ASSERT_EQ(a.submaps[i].map_from_submap, b.submaps[i].map_from_submap);
   }
   EXPECT_GT(first.counters().closures, 0U);
 }
@@ -106,7 +112,8 @@ TEST(LoopCloser, SolvesAtTheEndOfALongDriveWhatItPutOff) {
 }
 
 TEST(LoopCloser, DoesNotTakeOneOfEqualCorridorsForAnother) {
-  // Straight on past door after door, each like the last, with an odometry that admits to being metres off.
+  // Straight on past door after door, each like the last, with an odometry that admits to being
+  // metres off.
   FloorPlan plan;
   for (double x = -20.0; x < 140.0; x += 5.0) {
     plan.add({x, -1}, {x + 4, -1});
@@ -125,7 +132,8 @@ TEST(LoopCloser, DoesNotTakeOneOfEqualCorridorsForAnother) {
   EXPECT_EQ(closer.counters().closures, 0U);
 }
 
-/// The drive around the ring, whose first two submaps of the second round show what lies 12 m ahead of where they are.
+/// The drive around the ring, whose first two submaps of the second round show what lies 12 m ahead
+/// of where they are.
 std::vector<Submap> drive_deceived_once(const std::vector<Pose2>& way) {
   std::vector<Submap> submaps = drive(ring(), way, 0.0, 1.6);
   for (const std::size_t deceived : {14U, 15U}) {
@@ -147,9 +155,13 @@ TEST(LoopCloser, KeepsNoFalseClosureThoughTwoSubmapsShowAnotherPlace) {
   EXPECT_GT(closer.counters().closures, 5U);
   EXPECT_LT(largest_error_m(correction, way), 0.5);
   for (const flow::Constraint& constraint : closer.constraints()) {
-    const bool is_false = constraint.kind == flow::ConstraintKind::kLoop && constraint.to.value >= 14 && constraint.to.value <= 15;
-    if (is_false) EXPECT_NE(constraint.verdict.state, flow::ClosureState::kAccepted) << constraint.verdict.reason;
-    EXPECT_TRUE(constraint.kind == flow::ConstraintKind::kOdometric || !constraint.verdict.reason.empty());
+    const bool is_false = constraint.kind == flow::ConstraintKind::kLoop &&
+                          constraint.to.value >= 14 && constraint.to.value <= 15;
+    if (is_false)
+      EXPECT_NE(constraint.verdict.state, flow::ClosureState::kAccepted)
+          << constraint.verdict.reason;
+    EXPECT_TRUE(constraint.kind == flow::ConstraintKind::kOdometric ||
+                !constraint.verdict.reason.empty());
   }
 }
 
@@ -174,7 +186,8 @@ std::vector<Submap> carried_between(std::vector<Submap> before, const std::vecto
     submap.submap_id = {static_cast<std::uint32_t>(before.size())};
     submap.odom_from_submap = Pose2{300.0, -200.0, 2.5} * submap.odom_from_submap;
     if (submap.previous_from_submap.covariance.isZero()) {  // the first one
-      submap.previous_from_submap.pose = inverse(before.back().odom_from_submap) * submap.odom_from_submap;
+      submap.previous_from_submap.pose =
+          inverse(before.back().odom_from_submap) * submap.odom_from_submap;
       submap.previous_from_submap.covariance = Eigen::Vector3d(225.0, 225.0, 10.0).asDiagonal();
     }
     before.push_back(submap);
@@ -186,7 +199,8 @@ class CarriedAway : public ::testing::Test {
  protected:
   CarriedAway() : around_(way_around_the_ring(1.08)), before_(drive(ring(), around_, 0.0)) {
     const auto again = way_around_the_ring(1.0);
-    after_.assign(again.begin() + 60, again.begin() + 121);  // from the next corridor on, five submaps
+    after_.assign(again.begin() + 60, again.begin() + 121);  // from the next corridor on, five
+                                                             // submaps
   }
 
   /// Of the submaps after it was carried, in map.
@@ -194,7 +208,9 @@ class CarriedAway : public ::testing::Test {
     double largest_m = 0.0;
     for (std::size_t i = before_.size(); i < correction.submaps.size(); ++i) {
       const Pose2 truth = inverse(around_.front()) * after_[12 * (i - before_.size())];
-      largest_m = std::max(largest_m, (correction.submaps[i].map_from_submap.translation_m() - truth.translation_m()).norm());
+      largest_m = std::max(
+          largest_m,
+          (correction.submaps[i].map_from_submap.translation_m() - truth.translation_m()).norm());
     }
     return largest_m;
   }
@@ -207,7 +223,8 @@ class CarriedAway : public ::testing::Test {
 
 TEST_F(CarriedAway, IsFoundHoweverFar) {
   GraphCorrection correction;
-  for (const Submap& submap : carried_between(before_, drive(ring(), after_, 0.0))) correction = closer_.add(submap);
+  for (const Submap& submap : carried_between(before_, drive(ring(), after_, 0.0)))
+    correction = closer_.add(submap);
   EXPECT_TRUE(closer_.knows_where_it_is());
   EXPECT_EQ(closer_.counters().found_elsewhere, 1U);
   EXPECT_LT(largest_error_after_m(correction), 0.2);
@@ -230,7 +247,8 @@ TEST_F(CarriedAway, LiesNowhereRatherThanInAWrongPlace) {
     elsewhere.add_box({21.9, at_m}, {22.3, at_m + 0.8});
     elsewhere.add_box({at_m, 20.1}, {at_m + 0.2, 20.4});
   }
-  for (const Submap& submap : carried_between(before_, drive(elsewhere, after_, 0.0))) closer_.add(submap);
+  for (const Submap& submap : carried_between(before_, drive(elsewhere, after_, 0.0)))
+    closer_.add(submap);
   EXPECT_FALSE(closer_.knows_where_it_is());
   EXPECT_GT(closer_.counters().searches, 20U);
   EXPECT_EQ(closer_.counters().found_elsewhere, 0U);

@@ -42,7 +42,8 @@ TEST(MakePlace, LeavesOutSurfelsThatWereSeenThroughOrHardlySeen) {
 }
 
 TEST(MakePlace, AddsUpTheWayDriven) {
-  const auto submap = submap_seen_from(room_with_pillar(), 0, {Pose2{0, 0, 0}, Pose2{1, 0, 0}, Pose2{2, 0, 0}});
+  const auto submap =
+      submap_seen_from(room_with_pillar(), 0, {Pose2{0, 0, 0}, Pose2{1, 0, 0}, Pose2{2, 0, 0}});
   const Place place = make_place(submap, 100.0, kConfig);
   EXPECT_DOUBLE_EQ(place.travelled_before_m, 100.0);
   EXPECT_DOUBLE_EQ(place.travelled_after_m, 102.0);

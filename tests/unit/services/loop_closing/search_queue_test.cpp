@@ -17,7 +17,10 @@ RevisitConfig indoor_config() {
   RevisitConfig config;
   config.search_cell_m = 0.1;
   config.min_window_m = 0.5;
-  config.registration = {.coarse_gate_m = 0.5, .fine_gate_m = 0.2, .surfel_sigma_m = 0.04, .independent_spacing_m = 0.5};
+  config.registration = {.coarse_gate_m = 0.5,
+                         .fine_gate_m = 0.2,
+                         .surfel_sigma_m = 0.04,
+                         .independent_spacing_m = 0.5};
   return config;
 }
 
@@ -37,7 +40,9 @@ class SearchQueueTest : public ::testing::Test {
   const Place& place(std::uint32_t id, const Pose2& map_from_base) {
     slammot::testing::SubmapMaker maker;
     maker.reach_m = 12.0;
-    places_.push_back(make_place(submap_seen_from(hall(), id, {map_from_base, map_from_base * Pose2{0.5, 0.0, 0.0}}, maker), 0.0, {.tolerance_m = 0.15}));
+    places_.push_back(make_place(
+        submap_seen_from(hall(), id, {map_from_base, map_from_base * Pose2{0.5, 0.0, 0.0}}, maker),
+        0.0, {.tolerance_m = 0.15}));
     return places_.back();
   }
 
@@ -45,7 +50,8 @@ class SearchQueueTest : public ::testing::Test {
   RevisitSearch search(std::uint32_t id, double sigma_m) {
     const Pose2 truth{2.0, 0.5, 0.1};
     const Place& source = place(id, truth);
-    const geometry::UncertainPose2 expected{{}, Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 0.04).asDiagonal()};
+    const geometry::UncertainPose2 expected{
+        {}, Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 0.04).asDiagonal()};
     return {indoor_config(), source, {{{{{&places_.front(), {}}}}, expected, {}}}};
   }
 
@@ -103,14 +109,16 @@ TEST_F(SearchQueueTest, DoesTheNearPartOfEachBeforeAllAroundOfAny) {
   ASSERT_TRUE(near.is_near());
   RevisitSearch around_alone = around;
   RevisitSearch near_alone = near;
-  const std::uint64_t work_around = work_while(around_alone, pyramids, [](const RevisitSearch& one) { return !one.is_done(); });
+  const std::uint64_t work_around =
+      work_while(around_alone, pyramids, [](const RevisitSearch& one) { return !one.is_done(); });
   const std::uint64_t work_near = work_while(near_alone, pyramids, is_near);
 
   SearchQueue queue{{.work_per_submap = 1.0, .work_per_search = 1e12}};
   queue.add(around, Extent::kExpected);
   queue.add(near, Extent::kExpected);
   std::vector<std::uint32_t> finished;
-  for (int submaps = 0; submaps < 100'000 && finished.empty(); ++submaps) finished = sources_of(queue.advance());
+  for (int submaps = 0; submaps < 100'000 && finished.empty(); ++submaps)
+    finished = sources_of(queue.advance());
   EXPECT_EQ(finished, (std::vector<std::uint32_t>{1}));
   EXPECT_GE(queue.work(), work_near + work_around);
 }

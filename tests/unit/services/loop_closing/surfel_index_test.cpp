@@ -16,12 +16,14 @@ std::vector<flow::Surfel> random_surfels(int count) {
   for (int i = 0; i < count; ++i) {
     const float direction = angle(random);
     const bool has_normal = i % 4 != 0;
-    surfels.push_back({place(random), place(random), has_normal ? std::cos(direction) : 0.0F, has_normal ? std::sin(direction) : 0.0F, 1.0F});
+    surfels.push_back({place(random), place(random), has_normal ? std::cos(direction) : 0.0F,
+                       has_normal ? std::sin(direction) : 0.0F, 1.0F});
   }
   return surfels;
 }
 
-float distance_by_brute_force(const std::vector<flow::Surfel>& surfels, const Eigen::Vector2f& at, const Eigen::Vector2f& normal, float reach_m) {
+float distance_by_brute_force(const std::vector<flow::Surfel>& surfels, const Eigen::Vector2f& at,
+                              const Eigen::Vector2f& normal, float reach_m) {
   float best = reach_m;
   for (const flow::Surfel& surfel : surfels) {
     const Eigen::Vector2f other(surfel.normal_x, surfel.normal_y);
@@ -40,12 +42,15 @@ TEST(SurfelIndex, AgreesWithBruteForce) {
   for (int i = 0; i < 500; ++i) {
     const Eigen::Vector2f at(place(random), place(random));
     const float direction = angle(random);
-    const Eigen::Vector2f normal = i % 3 == 0 ? Eigen::Vector2f(0.0F, 0.0F) : Eigen::Vector2f(std::cos(direction), std::sin(direction));
+    const Eigen::Vector2f normal = i % 3 == 0
+                                       ? Eigen::Vector2f(0.0F, 0.0F)
+                                       : Eigen::Vector2f(std::cos(direction), std::sin(direction));
     const float reach_m = i % 2 == 0 ? 1.0F : 0.3F;
     const flow::Surfel* found = index.nearest(at, normal, reach_m);
     const float expected_m = distance_by_brute_force(surfels, at, normal, reach_m);
     ASSERT_EQ(found != nullptr, expected_m < reach_m);
-    if (found != nullptr) ASSERT_NEAR((Eigen::Vector2f(found->x_m, found->y_m) - at).norm(), expected_m, 1e-5F);
+    if (found != nullptr)
+      ASSERT_NEAR((Eigen::Vector2f(found->x_m, found->y_m) - at).norm(), expected_m, 1e-5F);
   }
 }
 

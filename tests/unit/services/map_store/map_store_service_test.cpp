@@ -27,7 +27,8 @@ struct MapStoreOnTheBus : slammot::testing::ServiceOnTheBus {
 
   bool has_stored(std::size_t count) {
     late.reader.take_each([&](const slammot_SubmapTile& tile) {
-      if (auto added = late.assembler.add(tile); added.submap) stored[added.submap->submap_id] = std::move(*added.submap);
+      if (auto added = late.assembler.add(tile); added.submap)
+        stored[added.submap->submap_id] = std::move(*added.submap);
     });
     return stored.size() >= count;
   }
@@ -43,7 +44,8 @@ struct MapStoreOnTheBus : slammot::testing::ServiceOnTheBus {
     return said.has_value();
   }
   void finish(const flow::Submap& submap) {
-    wire::SubmapEncoder().encode("car", submap, [this](const slammot_SubmapTile& tile) { tiles.write(tile); });
+    wire::SubmapEncoder().encode("car", submap,
+                                 [this](const slammot_SubmapTile& tile) { tiles.write(tile); });
   }
 };
 
@@ -79,18 +81,22 @@ TEST_F(MapStoreOnTheBus, SaysWhatThereIsToGoOnIn) {
   flow::Submap of_next_map = example_submap(0);
   of_next_map.map_id = {99};
   finish(of_next_map);
-  ASSERT_TRUE(comes_to([&] { return has_said_what_it_has() && said->map_id == of_next_map.map_id; }));
+  ASSERT_TRUE(
+      comes_to([&] { return has_said_what_it_has() && said->map_id == of_next_map.map_id; }));
   EXPECT_EQ(said->submaps, 1U);
 }
 
 TEST_F(MapStoreOnTheBus, SaysThatASubmapIsDamagedUntilItComesAgain) {
   {
     auto store = Store::open(folder_ / "map.sqlite", {});
-    for (const std::uint32_t id : {0U, 1U, 2U}) ASSERT_EQ(std::get<Store>(store).put("car", example_submap(id)), PutResult::kStored);
+    for (const std::uint32_t id : {0U, 1U, 2U})
+      ASSERT_EQ(std::get<Store>(store).put("car", example_submap(id)), PutResult::kStored);
   }
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open((folder_ / "map.sqlite").c_str(), &database), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(database, "UPDATE submap SET record = x'00ff' WHERE submap_id = 2", nullptr, nullptr, nullptr), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database, "UPDATE submap SET record = x'00ff' WHERE submap_id = 2",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
   sqlite3_close(database);
   start<MapStoreService>("map_store");
   ASSERT_TRUE(comes_to([&] { return has_said_what_it_has(); }));
@@ -123,12 +129,14 @@ TEST_F(MapStoreOnTheBus, KeepsASubmapInMemoryWhileTheDatabaseIsLocked) {
   ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
   finish(example_submap(0));
   ASSERT_TRUE(comes_to([&] { return context_->status().counter("unwritten_submaps") == 1; }));
-  EXPECT_EQ(context_->status().state(std::chrono::steady_clock::now()), app::ServiceState::kDegraded);
+  EXPECT_EQ(context_->status().state(std::chrono::steady_clock::now()),
+            app::ServiceState::kDegraded);
   EXPECT_FALSE(has_stored(1));
   sqlite3_exec(other, "ROLLBACK", nullptr, nullptr, nullptr);
   sqlite3_close(other);
   ASSERT_TRUE(comes_to([&] { return has_stored(1); }));
-  EXPECT_EQ(context_->status().state(std::chrono::steady_clock::now()), app::ServiceState::kRunning);
+  EXPECT_EQ(context_->status().state(std::chrono::steady_clock::now()),
+            app::ServiceState::kRunning);
 }
 
 TEST_F(MapStoreOnTheBus, KeepsTheLastTracksForATrackingServiceThatStartsLater) {
@@ -139,7 +147,8 @@ TEST_F(MapStoreOnTheBus, KeepsTheLastTracksForATrackingServiceThatStartsLater) {
   assign(sample.vehicle_id, "car");
   sample.stamp_ns = 42;
   objects.write(sample);
-  ASSERT_TRUE(comes_to([&] { return objects.wait_for_acknowledgements(std::chrono::milliseconds(1)); }));
+  ASSERT_TRUE(
+      comes_to([&] { return objects.wait_for_acknowledgements(std::chrono::milliseconds(1)); }));
   dds::Reader<slammot_TrackedObjects> late_reader(neighbour_, dds::topics::kStoredTrackedObjects);
   std::int64_t stamp_ns = 0;
   EXPECT_TRUE(comes_to([&] {

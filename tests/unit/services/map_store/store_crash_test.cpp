@@ -19,7 +19,8 @@ namespace {
 using slammot::testing::example_submap;
 using slammot::testing::same_submap;
 
-/// In the child: stores submaps without end, and says each one's number down the pipe once put() has returned.
+/// In the child: stores submaps without end, and says each one's number down the pipe once put()
+/// has returned.
 [[noreturn]] void write_until_killed(const std::filesystem::path& file, int acknowledge) {
   auto store = Store::open(file, {});
   if (!std::holds_alternative<Store>(store)) _exit(1);
@@ -35,8 +36,10 @@ struct Killed {
   int wait_status = 0;
 };
 
-/// Lets a child write, and kills it at a moment that no one chose once it has acknowledged `enough` submaps.
-Killed kill_while_writing(const std::filesystem::path& file, std::uint32_t enough, useconds_t then_us) {
+/// Lets a child write, and kills it at a moment that no one chose once it has acknowledged `enough`
+/// submaps.
+Killed kill_while_writing(const std::filesystem::path& file, std::uint32_t enough,
+                          useconds_t then_us) {
   std::array<int, 2> pipe_ends{};
   if (::pipe(pipe_ends.data()) != 0) throw std::runtime_error("no pipe");
   const pid_t child = ::fork();
@@ -44,7 +47,8 @@ Killed kill_while_writing(const std::filesystem::path& file, std::uint32_t enoug
   ::close(pipe_ends[1]);
   Killed killed;
   std::uint32_t id = 0;
-  while (killed.committed < enough && ::read(pipe_ends[0], &id, sizeof id) == sizeof id) killed.committed = id + 1;
+  while (killed.committed < enough && ::read(pipe_ends[0], &id, sizeof id) == sizeof id)
+    killed.committed = id + 1;
   ::usleep(then_us);  // not to wait for anything: to hit another place in the next write every time
   ::kill(child, SIGKILL);
   while (::read(pipe_ends[0], &id, sizeof id) == sizeof id) killed.committed = id + 1;
@@ -57,7 +61,8 @@ TEST(StoreAfterKill, HasEverySubmapThatWasCommittedAndCanReadAll) {
   std::mt19937 random(11);
   for (int round = 0; round < 20; ++round) {
     const slammot::testing::TemporaryFolder folder;
-    const Killed killed = kill_while_writing(folder / "map.sqlite", 1 + random() % 8, random() % 20'000);
+    const Killed killed =
+        kill_while_writing(folder / "map.sqlite", 1 + random() % 8, random() % 20'000);
     ASSERT_TRUE(WIFSIGNALED(killed.wait_status)) << "the child ended by itself";
     auto opened = Store::open(folder / "map.sqlite", {});
     ASSERT_TRUE(std::holds_alternative<Store>(opened));

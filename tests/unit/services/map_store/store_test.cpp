@@ -13,9 +13,9 @@ namespace slammot::map_store {
 namespace {
 
 using flow::SubmapId;
-using ::testing::ElementsAre;
 using slammot::testing::example_submap;
 using slammot::testing::same_submap;
+using ::testing::ElementsAre;
 
 constexpr std::int64_t kHourNs = 3'600'000'000'000;
 
@@ -94,7 +94,8 @@ TEST_F(StoreTest, KeepsTheNewerOfTwoVersions) {
 TEST_F(StoreTest, KeepsTheMapsOfOneVehicleApart) {
   Store store = open();
   for (const std::uint32_t id : {0U, 1U, 2U}) store.put("car", of_map(7, example_submap(id)));
-  EXPECT_EQ(store.put("car", of_map(8, example_submap(0))), PutResult::kStored) << "the same log, driven again";
+  EXPECT_EQ(store.put("car", of_map(8, example_submap(0))), PutResult::kStored)
+      << "the same log, driven again";
   EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}));
   EXPECT_EQ(store.get("car", SubmapId{0})->map_id, flow::MapId{8});
 }
@@ -119,13 +120,17 @@ TEST_F(StoreTest, ReadsTheDatabaseOfTheVersionBefore) {
   std::filesystem::create_directories(file_.parent_path());
   sqlite3* before = nullptr;
   ASSERT_EQ(sqlite3_open(file_.c_str(), &before), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(before,
-                         "CREATE TABLE submap (vehicle_id TEXT NOT NULL, drive INTEGER NOT NULL, submap_id INTEGER NOT NULL,"
-                         " first_stamp_ns INTEGER NOT NULL, last_stamp_ns INTEGER NOT NULL, record BLOB NOT NULL,"
-                         " PRIMARY KEY (vehicle_id, drive, submap_id)); INSERT INTO submap VALUES ('car', 3, 0, 0, 1, x'00');"
-                         "PRAGMA user_version = 1",
-                         nullptr, nullptr, nullptr),
-            SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(
+          before,
+          "CREATE TABLE submap (vehicle_id TEXT NOT NULL, drive INTEGER NOT NULL, submap_id "
+          "INTEGER NOT NULL,"
+          " first_stamp_ns INTEGER NOT NULL, last_stamp_ns INTEGER NOT NULL, record BLOB NOT NULL,"
+          " PRIMARY KEY (vehicle_id, drive, submap_id)); INSERT INTO submap VALUES ('car', 3, 0, "
+          "0, 1, x'00');"
+          "PRAGMA user_version = 1",
+          nullptr, nullptr, nullptr),
+      SQLITE_OK);
   sqlite3_close(before);
   EXPECT_THAT(open().list("car"), ElementsAre(SubmapId{0}));
 }
@@ -151,7 +156,8 @@ TEST_F(StoreTest, SaysSoWhenThereIsNoRoomAndKeepsWhatItHas) {
   Store store = open(small);
   std::uint32_t id = 0;
   PutResult result = PutResult::kStored;
-  while (result == PutResult::kStored && id < 20) result = store.put("car", example_submap(id++, 0, 600));
+  while (result == PutResult::kStored && id < 20)
+    result = store.put("car", example_submap(id++, 0, 600));
   EXPECT_EQ(result, PutResult::kFailed);
   EXPECT_EQ(store.last_fault(), "database or disk is full");
   EXPECT_EQ(store.list("car").size(), id - 1);
@@ -160,7 +166,8 @@ TEST_F(StoreTest, SaysSoWhenThereIsNoRoomAndKeepsWhatItHas) {
 
 TEST_F(StoreTest, RefusesAFileThatIsNoDatabase) {
   std::filesystem::create_directories(file_.parent_path());
-  std::ofstream(file_) << "This is a letter, and has been one for longer than a database header would be.\n";
+  std::ofstream(file_)
+      << "This is a letter, and has been one for longer than a database header would be.\n";
   const auto store = Store::open(file_, {});
   ASSERT_TRUE(std::holds_alternative<std::string>(store));
   EXPECT_EQ(std::get<std::string>(store), file_.string() + ": file is not a database");
@@ -175,7 +182,9 @@ TEST_F(StoreTest, SaysWhichSubmapIsDamaged) {
   store.put("car", example_submap(0));
   sqlite3* other = nullptr;
   ASSERT_EQ(sqlite3_open(file_.c_str(), &other), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(other, "UPDATE submap SET record = x'00112233445566'", nullptr, nullptr, nullptr), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "UPDATE submap SET record = x'00112233445566'", nullptr, nullptr,
+                         nullptr),
+            SQLITE_OK);
   sqlite3_close(other);
   EXPECT_FALSE(store.get("car", SubmapId{0}));
   EXPECT_EQ(store.last_fault(), "submap 0 is damaged");
@@ -183,7 +192,8 @@ TEST_F(StoreTest, SaysWhichSubmapIsDamaged) {
 
 TEST_F(StoreTest, PutsAnEarlierMapInUseAgain) {
   Store store = open();
-  for (const std::uint32_t id : {0U, 1U, 2U}) ASSERT_EQ(store.put("car", of_map(7, example_submap(id))), PutResult::kStored);
+  for (const std::uint32_t id : {0U, 1U, 2U})
+    ASSERT_EQ(store.put("car", of_map(7, example_submap(id))), PutResult::kStored);
   ASSERT_EQ(store.put("car", of_map(8, example_submap(0))), PutResult::kStored);
   ASSERT_EQ(store.put("truck", of_map(9, example_submap(0))), PutResult::kStored);
   ASSERT_EQ(store.maps("car").size(), 2U);

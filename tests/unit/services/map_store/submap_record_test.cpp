@@ -25,7 +25,8 @@ TEST(SubmapRecord, OfAnEmptySubmapIsReadable) {
 
 TEST(SubmapRecord, IsNotReadFromABlobThatWasCutOff) {
   const std::string blob = to_blob(example_submap(3));
-  for (std::size_t length = 0; length < blob.size(); length += 97) EXPECT_FALSE(from_blob(blob.substr(0, length))) << length;
+  for (std::size_t length = 0; length < blob.size(); length += 97)
+    EXPECT_FALSE(from_blob(blob.substr(0, length))) << length;
 }
 
 TEST(SubmapRecord, IsNotReadFromADamagedBlob) {

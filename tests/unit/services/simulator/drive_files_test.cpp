@@ -56,8 +56,8 @@ TEST_F(WriteDrive, LaysOutScansAsCarmenReadsThem) {
   EXPECT_EQ(words[4], "0.008727");
   EXPECT_EQ(words[5], "81.83");
   EXPECT_EQ(words[8], "361");
-  EXPECT_EQ(words[9 + 361], "0");                 // remissions
-  EXPECT_EQ(words[9 + 361 + 1], "2.150000");      // laser pose, then the robot's
+  EXPECT_EQ(words[9 + 361], "0");             // remissions
+  EXPECT_EQ(words[9 + 361 + 1], "2.150000");  // laser pose, then the robot's
   EXPECT_EQ(words[9 + 361 + 4], "0.000000");
   EXPECT_EQ(words[words.size() - 3], "21.000000");
 }

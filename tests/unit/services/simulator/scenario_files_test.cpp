@@ -19,11 +19,14 @@ using ::testing::IsEmpty;
 
 TEST(ScenarioFields, AreThoseOfTheProto) {
   ScenarioConfig scenario;
-  EXPECT_THAT(config::differences_from_proto(config::bind_stage("Scenario", scenario_fields(), scenario)), IsEmpty());
+  EXPECT_THAT(
+      config::differences_from_proto(config::bind_stage("Scenario", scenario_fields(), scenario)),
+      IsEmpty());
 }
 
 TEST(ShippedScenario, CanBeLoadedByName) {
-  ASSERT_THAT(scenario_names(), ::testing::IsSupersetOf({"block", "city", "corridor", "office", "quiet"}));
+  ASSERT_THAT(scenario_names(),
+              ::testing::IsSupersetOf({"block", "city", "corridor", "office", "quiet"}));
   for (const std::string& name : scenario_names()) {
     const auto scenario = load_scenario(name);
     ASSERT_TRUE(scenario) << scenario.error().message;
@@ -34,9 +37,11 @@ TEST(ShippedScenario, CanBeLoadedByName) {
 }
 
 TEST(ShippedScenario, HasOneForEachDifficultyOfTheThesis) {
-  const std::vector<std::string> names = {"car_ahead", "far_crossing", "occluded_car", "move_stop_move", "pedestrians",
-                                          "bus_stop", "truck", "crowd", "hard_braking", "uphill",
-                                          "long_wall", "empty_lot", "bushes", "parked_cars_gone", "surrounded", "two_vehicles"};
+  const std::vector<std::string> names = {
+      "car_ahead",    "far_crossing",     "occluded_car", "move_stop_move",
+      "pedestrians",  "bus_stop",         "truck",        "crowd",
+      "hard_braking", "uphill",           "long_wall",    "empty_lot",
+      "bushes",       "parked_cars_gone", "surrounded",   "two_vehicles"};
   for (const std::string& name : names) {
     const auto scenario = load_scenario(name);
     ASSERT_TRUE(scenario) << scenario.error().message;
@@ -48,7 +53,10 @@ TEST(ShippedScenario, HasOneForEachDifficultyOfTheThesis) {
 
 TEST(ShippedScenario, TakesAnotherSeed) { EXPECT_EQ(load_scenario("block", 77)->seed, 77U); }
 
-TEST(ShippedScenario, IsNotThereForAnotherName) { EXPECT_THAT(load_scenario("atlantis").error().message, HasSubstr("no scenario is named 'atlantis'")); }
+TEST(ShippedScenario, IsNotThereForAnotherName) {
+  EXPECT_THAT(load_scenario("atlantis").error().message,
+              HasSubstr("no scenario is named 'atlantis'"));
+}
 
 class ScenarioFile : public ::testing::Test {
  protected:
@@ -90,14 +98,18 @@ TEST_F(ScenarioFile, SetsWhatItSaysAndLeavesTheDefaults) {
 TEST_F(ScenarioFile, IsRefusedWithThePlaceOfItsFault) {
   EXPECT_THAT(fault_of("place: ATLANTIS"), HasSubstr("mine.textproto:1:"));
   EXPECT_THAT(fault_of("\ncity { blocks: 3 }"), HasSubstr("mine.textproto:2:"));
-  EXPECT_THAT(fault_of("duration_s: -1"), HasSubstr("mine.textproto:1:1: Scenario.duration_s = -1 is not above 0"));
-  EXPECT_THAT(fault_of("script {\n objects { way { x_m: 1 } }\n objects {\n  copies: 0 } }"),
-              HasSubstr("mine.textproto:4:3: Scenario.script.objects.copies = 0 is outside [1, 500]"));
+  EXPECT_THAT(fault_of("duration_s: -1"),
+              HasSubstr("mine.textproto:1:1: Scenario.duration_s = -1 is not above 0"));
+  EXPECT_THAT(
+      fault_of("script {\n objects { way { x_m: 1 } }\n objects {\n  copies: 0 } }"),
+      HasSubstr("mine.textproto:4:3: Scenario.script.objects.copies = 0 is outside [1, 500]"));
 }
 
 TEST_F(ScenarioFile, IsRefusedWhenItCannotBeDriven) {
-  EXPECT_THAT(fault_of("route { junctions [{ column: 0 }, { column: 9 }] }"), HasSubstr("the vehicle's way leaves the city"));
-  EXPECT_THAT(fault_of("route { junctions [{ column: 0 }, { column: 2 }, { column: 0 }] }"), HasSubstr("turns back in a street"));
+  EXPECT_THAT(fault_of("route { junctions [{ column: 0 }, { column: 9 }] }"),
+              HasSubstr("the vehicle's way leaves the city"));
+  EXPECT_THAT(fault_of("route { junctions [{ column: 0 }, { column: 2 }, { column: 0 }] }"),
+              HasSubstr("turns back in a street"));
   EXPECT_THAT(fault_of("place: OFFICE"), HasSubstr("the robot's way"));
   EXPECT_THAT(fault_of("place: SCRIPT"), HasSubstr("the vehicle has no way"));
   EXPECT_THAT(fault_of("terrain [{ x_m: 2 }, { x_m: 1 }]"), HasSubstr("from west to east"));

@@ -17,15 +17,24 @@ TEST(Simulate, ListsTheScenarios) {
 
 TEST(Simulate, RefusesAnUnknownScenarioInOneLine) {
   std::ostringstream out, err;
-  EXPECT_NE(simulate({.list = false, .scenario = "atlantis", .seed = {}, .output = "x"}, out, err), 0);
-  EXPECT_EQ(err.str(), "slammot simulate: no scenario is named 'atlantis'; slammot simulate --list names them\n");
+  EXPECT_NE(simulate({.list = false, .scenario = "atlantis", .seed = {}, .output = "x"}, out, err),
+            0);
+  EXPECT_EQ(
+      err.str(),
+      "slammot simulate: no scenario is named 'atlantis'; slammot simulate --list names them\n");
 }
 
 TEST(Simulate, WritesADriveForEachVehicleWithAScanner) {
   const testing::TemporaryFolder folder;
   std::ostringstream out, err;
-  ASSERT_EQ(simulate({.list = false, .scenario = "two_vehicles", .seed = {}, .output = folder.path().string()}, out, err), 0) << err.str();
-  for (const char* file : {"two_vehicles.log", "two_vehicles.tum", "two_vehicles.2.log", "two_vehicles.2.tum", "two_vehicles.2.objects.csv"}) {
+  ASSERT_EQ(
+      simulate(
+          {.list = false, .scenario = "two_vehicles", .seed = {}, .output = folder.path().string()},
+          out, err),
+      0)
+      << err.str();
+  for (const char* file : {"two_vehicles.log", "two_vehicles.tum", "two_vehicles.2.log",
+                           "two_vehicles.2.tum", "two_vehicles.2.objects.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
   }
 }

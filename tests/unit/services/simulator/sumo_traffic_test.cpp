@@ -48,7 +48,8 @@ TEST_F(SumoTraffic, IsReadWithItsClassesPlacesAndTimes) {
   EXPECT_EQ(bus.kind, simulation::ObjectClass::bus);
   EXPECT_EQ(person.kind, simulation::ObjectClass::pedestrian);
   EXPECT_EQ(ego.places.at(1).at_s, 1.0);
-  EXPECT_NEAR(ego.places[0].world_from_object.x_m, 50.0 - 2.2, 1e-9);  // half a car behind its bumper
+  EXPECT_NEAR(ego.places[0].world_from_object.x_m, 50.0 - 2.2, 1e-9);  // half a car behind its
+                                                                       // bumper
   EXPECT_NEAR(ego.places[0].world_from_object.heading_rad, 0.0, 1e-9);
   EXPECT_NEAR(bus.places.at(0).world_from_object.y_m, 20.0 - 6.0, 1e-9);
   EXPECT_NEAR(bus.places[0].world_from_object.heading_rad, 0.5 * std::numbers::pi, 1e-9);
@@ -57,7 +58,8 @@ TEST_F(SumoTraffic, IsReadWithItsClassesPlacesAndTimes) {
 
 TEST_F(SumoTraffic, DrivesInAScenarioAndMayCarryTheScanner) {
   write("fcd.xml", kTraffic);
-  const auto scenario = load_scenario(write("mine.textproto", "place: SCRIPT warm_up_s: 0 sumo_fcd: 'fcd.xml' sumo_vehicle: 'ego'"));
+  const auto scenario = load_scenario(write(
+      "mine.textproto", "place: SCRIPT warm_up_s: 0 sumo_fcd: 'fcd.xml' sumo_vehicle: 'ego'"));
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto scene = make_script_scene(*scenario);
   scene->advance(0.5);
@@ -77,7 +79,11 @@ TEST_F(SumoTraffic, OfARealRunIsDrivenThrough) {
   std::map<simulation::ObjectClass, int> classes;
   for (const auto& object : scenario->script.recorded) ++classes[object.kind];
   using simulation::ObjectClass;
-  EXPECT_EQ(classes, (std::map<ObjectClass, int>{{ObjectClass::car, 7}, {ObjectClass::truck, 1}, {ObjectClass::bus, 1}, {ObjectClass::bicycle, 1}, {ObjectClass::pedestrian, 2}}));
+  EXPECT_EQ(classes, (std::map<ObjectClass, int>{{ObjectClass::car, 7},
+                                                 {ObjectClass::truck, 1},
+                                                 {ObjectClass::bus, 1},
+                                                 {ObjectClass::bicycle, 1},
+                                                 {ObjectClass::pedestrian, 2}}));
   simulation::Drive drive(*scenario);
   std::set<ObjectClass> seen;
   double way_m = 0.0;
@@ -96,11 +102,14 @@ TEST_F(SumoTraffic, IsRefusedWithTheLineOfItsFault) {
     const auto read = read_sumo_traffic(write("bad.xml", text));
     return read ? "none" : read.error().message;
   };
-  EXPECT_THAT(fault_of("<fcd-export>\n<timestep time='1'>\n<vehicle id='a' x='1'/>"), HasSubstr("bad.xml:3: a vehicle without"));
+  EXPECT_THAT(fault_of("<fcd-export>\n<timestep time='1'>\n<vehicle id='a' x='1'/>"),
+              HasSubstr("bad.xml:3: a vehicle without"));
   EXPECT_THAT(fault_of("<fcd-export>\n</fcd>"), HasSubstr("bad.xml:2: mismatched tag"));
-  EXPECT_THAT(fault_of("<fcd-export><timestep time='2'/>\n<timestep time='1'/></fcd-export>"), HasSubstr("bad.xml:2: a timestep without"));
+  EXPECT_THAT(fault_of("<fcd-export><timestep time='2'/>\n<timestep time='1'/></fcd-export>"),
+              HasSubstr("bad.xml:2: a timestep without"));
   EXPECT_THAT(fault_of("<fcd-export/>"), HasSubstr("no vehicle or person"));
-  EXPECT_THAT(read_sumo_traffic(folder_ / "missing.xml").error().message, HasSubstr("cannot be read"));
+  EXPECT_THAT(read_sumo_traffic(folder_ / "missing.xml").error().message,
+              HasSubstr("cannot be read"));
 }
 
 }  // namespace

@@ -37,7 +37,10 @@ struct CollectorOnTheBus : ::testing::Test {
 
   void start() {
     collector.reset();
-    while (scans.matched_readers() + localized_scans.matched_readers() + tracked_objects.matched_readers() > 0) std::this_thread::yield();
+    while (scans.matched_readers() + localized_scans.matched_readers() +
+               tracked_objects.matched_readers() >
+           0)
+      std::this_thread::yield();
     collector.emplace(CollectorOptions{"car", bus.domain_id, bus.config, folder / "journal"});
     ASSERT_TRUE(scans.wait_for_readers(1, kForever));
     ASSERT_TRUE(localized_scans.wait_for_readers(1, kForever));
@@ -46,15 +49,22 @@ struct CollectorOnTheBus : ::testing::Test {
 
   void say_that_log_is_finished(bool is_finished) {
     wire::StatusEncoder encoder;
-    statuses.write(encoder.encode({.name = {"car", "ingest", "main"}, .counters = {{"log_finished", is_finished ? 1U : 0U}}}));
+    statuses.write(encoder.encode({.name = {"car", "ingest", "main"},
+                                   .counters = {{"log_finished", is_finished ? 1U : 0U}}}));
   }
 
   /// One scan through all services.
-  void drive(std::uint32_t sequence, std::uint64_t drive_id, flow::MapId map_id, flow::OdomId odom_id = {}) {
+  void drive(std::uint32_t sequence, std::uint64_t drive_id, flow::MapId map_id,
+             flow::OdomId odom_id = {}) {
     sensing::LaserScan scan;
     scan.stamp_ns = std::int64_t{sequence} * kPeriodNs;
     scan.sequence = sequence;
-    scan.scanner = {.scanner_id = "front", .base_from_laser = {}, .first_beam_rad = 0.0, .beam_step_rad = 0.1, .max_range_m = 50.0, .sweep_s = 0.0};
+    scan.scanner = {.scanner_id = "front",
+                    .base_from_laser = {},
+                    .first_beam_rad = 0.0,
+                    .beam_step_rad = 0.1,
+                    .max_range_m = 50.0,
+                    .sweep_s = 0.0};
     scan.range_m = {5.0F};
     flow::LocalizedScan localized;
     localized.stamp_ns = scan.stamp_ns;
@@ -75,7 +85,8 @@ struct CollectorOnTheBus : ::testing::Test {
   ::testing::AssertionResult comes_to(const std::function<bool()>& condition) {
     const auto end = std::chrono::steady_clock::now() + kForever;
     while (!condition()) {
-      if (std::chrono::steady_clock::now() > end) return ::testing::AssertionFailure() << "did not happen";
+      if (std::chrono::steady_clock::now() > end)
+        return ::testing::AssertionFailure() << "did not happen";
       collector->wait(5ms);
     }
     return ::testing::AssertionSuccess();
@@ -112,9 +123,11 @@ TEST_F(CollectorOnTheBus, KeepsTheMapButNotTheScansOfTheDriveBeforeInTheSameMap)
   start();
   flow::Submap submap = slammot::testing::example_submap(0);
   submap.map_id = {7};
-  wire::SubmapEncoder().encode("car", submap, [&](const slammot_SubmapTile& tile) { tiles.write(tile); });
+  wire::SubmapEncoder().encode("car", submap,
+                               [&](const slammot_SubmapTile& tile) { tiles.write(tile); });
   for (const std::uint32_t sequence : {5U, 6U, 7U}) drive(sequence, 1, {7}, {1});
-  ASSERT_TRUE(comes_to([this] { return localized_count() == 3 && collector->record({}).submaps().size() == 1; }));
+  ASSERT_TRUE(comes_to(
+      [this] { return localized_count() == 3 && collector->record({}).submaps().size() == 1; }));
   drive(0, 2, {7}, {2});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
   EXPECT_EQ(collector->record({}).submaps().size(), 1U);
@@ -125,7 +138,8 @@ TEST_F(CollectorOnTheBus, KeepsWhatDetectionAndTrackingHeldEchoesToBe) {
   dds::Writer<slammot_SegmentedScan> segmented_scans(services, dds::topics::kSegmentedScan);
   dds::Writer<slammot_ScanLabels> scan_labels(services, dds::topics::kScanLabels);
   start();
-  ASSERT_TRUE(segmented_scans.wait_for_readers(1, kForever) && scan_labels.wait_for_readers(1, kForever));
+  ASSERT_TRUE(segmented_scans.wait_for_readers(1, kForever) &&
+              scan_labels.wait_for_readers(1, kForever));
   drive(1, 1, {7});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
   flow::SegmentedScan segmented;
@@ -136,7 +150,9 @@ TEST_F(CollectorOnTheBus, KeepsWhatDetectionAndTrackingHeldEchoesToBe) {
   segmented.range_m = {5.0F, 6.0F};
   segmented.labels = {flow::PointLabel::kStationary, flow::PointLabel::kUnknown};
   segmented_scans.write(wire::SegmentedScanEncoder().encode("car", segmented));
-  scan_labels.write(wire::ScanLabelsEncoder().encode("car", {kPeriodNs, 1, "front", {flow::PointLabel::kStationary, flow::PointLabel::kMoving}, {}}));
+  scan_labels.write(wire::ScanLabelsEncoder().encode(
+      "car",
+      {kPeriodNs, 1, "front", {flow::PointLabel::kStationary, flow::PointLabel::kMoving}, {}}));
   ASSERT_TRUE(comes_to([this] {
     const files::RunRecord record = collector->record({});
     const auto rows = record.label_rows();
@@ -152,18 +168,21 @@ TEST_F(CollectorOnTheBus, KnowsTheEndOfASimulatedDrive) {
   drive(0, 1, {7});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
   wire::StatusEncoder encoder;
-  statuses.write(encoder.encode({.name = {"car", "simulator", "main"}, .counters = {{"log_finished", 1U}}}));
+  statuses.write(
+      encoder.encode({.name = {"car", "simulator", "main"}, .counters = {{"log_finished", 1U}}}));
   EXPECT_TRUE(comes_to([this] { return collector->has_drive_ended(); }));
 }
 
 TEST_F(CollectorOnTheBus, GoesOnAfterACrashWithWhatItHad) {
   start();
   for (const std::uint32_t sequence : {0U, 1U, 2U}) drive(sequence, 1, {7});
-  ASSERT_TRUE(comes_to([this] { return localized_count() == 3 && collector->scan_stamps_ns().size() == 3; }));
+  ASSERT_TRUE(comes_to(
+      [this] { return localized_count() == 3 && collector->scan_stamps_ns().size() == 3; }));
   start();
   drive(3, 1, {7});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 4; }));
-  EXPECT_THAT(collector->scan_stamps_ns(), ::testing::ElementsAre(0, kPeriodNs, 2 * kPeriodNs, 3 * kPeriodNs));
+  EXPECT_THAT(collector->scan_stamps_ns(),
+              ::testing::ElementsAre(0, kPeriodNs, 2 * kPeriodNs, 3 * kPeriodNs));
 }
 
 TEST_F(CollectorOnTheBus, DoesNotMixADriveFromBeforeItsCrashWithANewOne) {

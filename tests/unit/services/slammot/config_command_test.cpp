@@ -15,8 +15,8 @@ namespace slammot {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 using testing::Outcome;
+using ::testing::StartsWith;
 
 Outcome config_command(std::vector<std::string> words) {
   words.insert(words.begin(), "config");
@@ -38,12 +38,15 @@ class ConfigCommand : public ::testing::Test {
 TEST_F(ConfigCommand, ExplainsASettingByTheEndOfItsName) {
   const Outcome outcome = config_command({"--explain", "side_m"});
   EXPECT_EQ(outcome.exit_code, kExitDone);
-  EXPECT_THAT(outcome.standard_output, HasSubstr("  localization.map.side_m  (m, 10 to 1000, default "));
+  EXPECT_THAT(outcome.standard_output,
+              HasSubstr("  localization.map.side_m  (m, 10 to 1000, default "));
 }
 
 TEST_F(ConfigCommand, ExplainsEverySettingWithoutAName) {
   const std::string explained = config_command({"--explain"}).standard_output;
-  for (const char* name : {"ingest.sweep_s", "localization.map.cell_size_m", "detection.longest_mover_m", "tracking.", "loop_closing.sure_within_m", "map_store.max_database_mb"}) {
+  for (const char* name :
+       {"ingest.sweep_s", "localization.map.cell_size_m", "detection.longest_mover_m", "tracking.",
+        "loop_closing.sure_within_m", "map_store.max_database_mb"}) {
     EXPECT_THAT(explained, HasSubstr(name));
   }
 }
@@ -51,22 +54,32 @@ TEST_F(ConfigCommand, ExplainsEverySettingWithoutAName) {
 TEST_F(ConfigCommand, NamesTheNearestSettingWhereItKnowsNone) {
   const Outcome outcome = config_command({"--explain", "celsize_m"});
   EXPECT_EQ(outcome.exit_code, kExitFault);
-  EXPECT_EQ(outcome.standard_error, "slammot: no setting or group is called 'celsize_m'; the nearest one is 'cell_size_m'\n");
+  EXPECT_EQ(
+      outcome.standard_error,
+      "slammot: no setting or group is called 'celsize_m'; the nearest one is 'cell_size_m'\n");
 }
 
 TEST_F(ConfigCommand, PrintsWhatARunWouldUseAsAFileThatReadsBack) {
   const std::filesystem::path changes = folder_ / "changes";
   std::ofstream(changes) << "localization { map { side_m: 77 } }";
-  const std::string effective = config_command({"--effective", "--profile", "indoor", "--config", changes.string()}).standard_output;
+  const std::string effective =
+      config_command({"--effective", "--profile", "indoor", "--config", changes.string()})
+          .standard_output;
   EXPECT_THAT(effective, HasSubstr("    side_m: 77 "));
   EXPECT_THAT(effective, HasSubstr("    cell_size_m: 0.05 "));
   std::ofstream(folder_ / "effective") << effective;
-  EXPECT_EQ(config_command({"--effective", "--config", (folder_ / "effective").string()}).standard_output, effective);
+  EXPECT_EQ(
+      config_command({"--effective", "--config", (folder_ / "effective").string()}).standard_output,
+      effective);
 }
 
 TEST_F(ConfigCommand, RefusesWhatCannotBeMeantInOneLine) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {}, {"--explain", "side_m", "--effective"}, {"--explain", "--profile", "indoor"}, {"--effective", "--profile", "moon"}, {"--effective", "--config", "/nowhere"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--explain", "side_m", "--effective"},
+                                             {"--explain", "--profile", "indoor"},
+                                             {"--effective", "--profile", "moon"},
+                                             {"--effective", "--config", "/nowhere"}}) {
     const Outcome outcome = config_command(words);
     EXPECT_EQ(outcome.exit_code, kExitFault);
     EXPECT_THAT(outcome.standard_error, StartsWith("slammot: "));
@@ -75,11 +88,14 @@ TEST_F(ConfigCommand, RefusesWhatCannotBeMeantInOneLine) {
 }
 
 TEST_F(ConfigCommand, HasWrittenThePageOfTheDocumentation) {
-  EXPECT_EQ(config_command({"--page"}).standard_output, read(SLAMMOT_SOURCE_DIR "/docs/settings.md")) << "write it again: slammot config --page > docs/settings.md";
+  EXPECT_EQ(config_command({"--page"}).standard_output,
+            read(SLAMMOT_SOURCE_DIR "/docs/settings.md"))
+      << "write it again: slammot config --page > docs/settings.md";
 }
 
 TEST_F(ConfigCommand, ListsTheSettingsInItsHelp) {
-  EXPECT_THAT(config_command({"--help"}).standard_output, HasSubstr("  localization.map.side_m = "));
+  EXPECT_THAT(config_command({"--help"}).standard_output,
+              HasSubstr("  localization.map.side_m = "));
 }
 
 }  // namespace

@@ -37,15 +37,18 @@ TEST(Implementations, BeginWithTheDefault) {
 }
 
 TEST(Implementations, EachMakesAStageThatHasSeenNothing) {
-  for (const LocalizationImplementation& one : localization_implementations()) EXPECT_EQ(one.make({}, nullptr)->named_counters().at("scans"), 0U) << one.name;
-  for (const TrackingImplementation& one : tracking_implementations()) EXPECT_EQ(one.make({}, nullptr)->named_counters().at("scans"), 0U) << one.name;
+  for (const LocalizationImplementation& one : localization_implementations())
+    EXPECT_EQ(one.make({}, nullptr)->named_counters().at("scans"), 0U) << one.name;
+  for (const TrackingImplementation& one : tracking_implementations())
+    EXPECT_EQ(one.make({}, nullptr)->named_counters().at("scans"), 0U) << one.name;
 }
 
 TEST(Implementations, NamesTheKnownOnesWhereANameIsUnknown) {
   const auto fault = find_fault({.localization = "standard", .tracking = "gready"});
   ASSERT_TRUE(fault);
   EXPECT_THAT(*fault, HasSubstr("tracking: \"gready\""));
-  for (const TrackingImplementation& one : tracking_implementations()) EXPECT_THAT(*fault, HasSubstr(std::string(one.name)));
+  for (const TrackingImplementation& one : tracking_implementations())
+    EXPECT_THAT(*fault, HasSubstr(std::string(one.name)));
   EXPECT_TRUE(find_fault({.localization = "", .tracking = "standard"}));
   EXPECT_FALSE(find_fault({.localization = "icp", .tracking = "greedy"}));
 }
@@ -53,7 +56,8 @@ TEST(Implementations, NamesTheKnownOnesWhereANameIsUnknown) {
 TEST(Implementations, ReplaceTheStageOfThePipeline) {
   Profile profile;
   profile.implementations = {.localization = "icp", .tracking = "greedy"};
-  EXPECT_THAT(replaced_stages(profile.implementations), ElementsAre("localization: icp", "tracking: greedy"));
+  EXPECT_THAT(replaced_stages(profile.implementations),
+              ElementsAre("localization: icp", "tracking: greedy"));
   const auto counters = Pipeline(profile).counters();
   EXPECT_TRUE(counters.at("localization").contains("unmatched_scans"));
   EXPECT_FALSE(counters.at("localization").contains("odometry_jumps"));

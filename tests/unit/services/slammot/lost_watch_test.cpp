@@ -16,7 +16,9 @@ std::vector<std::string> lines_for(const std::string& scans) {
   LostWatch watch("wheels that slip");
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (auto line = watch.see(0.1 * static_cast<double>(i), static_cast<std::uint32_t>(i), scans[i] == 'L')) lines.push_back(*line);
+    if (auto line =
+            watch.see(0.1 * static_cast<double>(i), static_cast<std::uint32_t>(i), scans[i] == 'L'))
+      lines.push_back(*line);
   }
   return lines;
 }

@@ -49,9 +49,11 @@ std::size_t settings_under(const config::BoundStage& stage, const std::string& p
 TEST(Profile, HasASettingForEveryMemberWhereAllAreForUsers) {
   Profile profile;
   std::map<std::string, config::BoundStage> stages;
-  for (config::BoundStage& stage : bind_stages(profile)) stages[std::string(stage.stage)] = std::move(stage);
+  for (config::BoundStage& stage : bind_stages(profile))
+    stages[std::string(stage.stage)] = std::move(stage);
   EXPECT_EQ(settings_under(stages["localization"], "pose_errors."), members<sensing::PoseErrors>());
-  EXPECT_EQ(settings_under(stages["localization"], "pose_errors.forward."), members<sensing::AxisError>());
+  EXPECT_EQ(settings_under(stages["localization"], "pose_errors.forward."),
+            members<sensing::AxisError>());
   EXPECT_EQ(settings_under(stages["tracking"], ""), members<tracking::TrackingConfig>());
   EXPECT_EQ(settings_under(stages["implementations"], ""), members<ImplementationChoice>());
 }
@@ -59,7 +61,8 @@ TEST(Profile, HasASettingForEveryMemberWhereAllAreForUsers) {
 TEST(Profile, SaysWhatGoesWrongWithEveryNumberOutsideOfTracking) {
   Profile profile;
   for (const config::BoundStage& stage : bind_stages(profile)) {
-    if (stage.stage == "tracking" || stage.stage == "implementations") continue;  // the latter has no numbers
+    if (stage.stage == "tracking" || stage.stage == "implementations")
+      continue;  // the latter has no numbers
     for (const config::BoundField& field : stage.fields) {
       EXPECT_NE(field.group, config::Group::none) << field.name;
       if (!config::number_in(field)) continue;
@@ -85,13 +88,15 @@ TEST(Profile, HasEveryStageThatTheProtoHas) {
 
 TEST(Profile, DefaultsAreWithinTheirRanges) {
   Profile profile;
-  for (const config::BoundStage& stage : bind_stages(profile)) EXPECT_EQ(config::find_fault(stage), std::nullopt);
+  for (const config::BoundStage& stage : bind_stages(profile))
+    EXPECT_EQ(config::find_fault(stage), std::nullopt);
 }
 
 TEST(Profile, ExplainsEverySetting) {
   Profile profile;
   for (const config::BoundStage& stage : bind_stages(profile)) {
-    for (const config::BoundField& field : stage.fields) EXPECT_THAT(field.meaning, ::testing::EndsWith(".")) << field.name;
+    for (const config::BoundField& field : stage.fields)
+      EXPECT_THAT(field.meaning, ::testing::EndsWith(".")) << field.name;
   }
 }
 
@@ -116,7 +121,8 @@ TEST(Profile, EveryShippedOneLoads) {
   ASSERT_THAT(config::profile_names(), ::testing::IsSupersetOf({"indoor", "urban"}));
   for (const std::string& name : config::profile_names()) {
     Profile profile;
-    const auto fault = config::overlay_file(config::find_profile(name).value(), bind_stages(profile));
+    const auto fault =
+        config::overlay_file(config::find_profile(name).value(), bind_stages(profile));
     EXPECT_FALSE(fault) << fault->text();
   }
 }

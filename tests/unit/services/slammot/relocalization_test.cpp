@@ -22,13 +22,15 @@ using slammot::testing::SimulatedDrive;
 using slammot::testing::World;
 
 constexpr double kSpeed_mps = 1.0;
-constexpr double kSide_m = 24.0;                 // of the square that the robot goes round
+constexpr double kSide_m = 24.0;  // of the square that the robot goes round
 
 /// A ring of corridors of four widths around a block; pillars make every place its own.
 World corridors() {
   World world = joined(box({12.3, 11.8, 0.0}, 21.4, 21.8), box({12.75, 13.4, 0.0}, 28.5, 29.2));
-  const std::vector<Pose2> pillars{{5.0, -0.9, 0.1}, {8.0, 0.9, 0.0}, {15.5, -1.0, 0.5}, {24.9, 3.0, 0.2},  {23.1, 9.5, 0.0}, {24.8, 17.0, 0.9},
-                                   {19.0, 24.9, 0.3}, {11.0, 23.1, 0.0}, {9.5, 24.9, 0.7}, {-0.9, 21.0, 0.0}, {0.9, 13.0, 0.4}, {-0.8, 6.5, 0.1}};
+  const std::vector<Pose2> pillars{{5.0, -0.9, 0.1},  {8.0, 0.9, 0.0},   {15.5, -1.0, 0.5},
+                                   {24.9, 3.0, 0.2},  {23.1, 9.5, 0.0},  {24.8, 17.0, 0.9},
+                                   {19.0, 24.9, 0.3}, {11.0, 23.1, 0.0}, {9.5, 24.9, 0.7},
+                                   {-0.9, 21.0, 0.0}, {0.9, 13.0, 0.4},  {-0.8, 6.5, 0.1}};
   double size_m = 0.3;
   for (const Pose2& pillar : pillars) world = joined(world, box(pillar, size_m += 0.05, 0.4));
   return world;
@@ -43,9 +45,13 @@ Pose2 around(double time_s) {
   const double side = std::floor(way_m / (kStraight_m + kArc_m));
   const double on_m = way_m - side * (kStraight_m + kArc_m);
   const Pose2 start{kRadius_m, 0.0, 0.0};
-  const Pose2 quarter_turn = Pose2{12.0, 12.0, 0.0} * Pose2{0.0, 0.0, 0.5 * std::numbers::pi * side} * Pose2{-12.0, -12.0, 0.0};
+  const Pose2 quarter_turn = Pose2{12.0, 12.0, 0.0} *
+                             Pose2{0.0, 0.0, 0.5 * std::numbers::pi * side} *
+                             Pose2{-12.0, -12.0, 0.0};
   const double turned_rad = std::max(0.0, on_m - kStraight_m) / kRadius_m;
-  return quarter_turn * start * Pose2{std::min(on_m, kStraight_m), 0.0, 0.0} * Pose2{kRadius_m * std::sin(turned_rad), kRadius_m * (1.0 - std::cos(turned_rad)), turned_rad};
+  return quarter_turn * start * Pose2{std::min(on_m, kStraight_m), 0.0, 0.0} *
+         Pose2{kRadius_m * std::sin(turned_rad), kRadius_m * (1.0 - std::cos(turned_rad)),
+               turned_rad};
 }
 
 Profile indoor() {
@@ -60,32 +66,46 @@ struct Drive {
   double first_s = 0.0;
   double last_s = 0.0;
   double carried_at_s = 1e9;
-  double carried_by_s = 0.0;      ///< Of the way.
-  double gap_s = 0.0;             ///< In the stamps, while it was carried.
+  double carried_by_s = 0.0;  ///< Of the way.
+  double gap_s = 0.0;         ///< In the stamps, while it was carried.
 
-  Pose2 world_from_base(double time_s) const { return around(time_s < carried_at_s ? time_s : time_s + carried_by_s); }
+  Pose2 world_from_base(double time_s) const {
+    return around(time_s < carried_at_s ? time_s : time_s + carried_by_s);
+  }
 
   void through(Pipeline& pipeline) const {
-    const SimulatedDrive robot({.world = corridors(), .world_from_base_at = [this](double time_s) { return world_from_base(time_s); }});
+    const SimulatedDrive robot({.world = corridors(), .world_from_base_at = [this](double time_s) {
+                                  return world_from_base(time_s);
+                                }});
     Pose2 wheel_from_base;
-    for (auto scan = static_cast<std::uint32_t>(10.0 * first_s); scan < static_cast<std::uint32_t>(10.0 * last_s); ++scan) {
-      const bool is_carried = robot.time_s(scan) >= carried_at_s && robot.time_s(scan) - 0.1 < carried_at_s;
-      if (!is_carried) wheel_from_base = wheel_from_base * (inverse(world_from_base(robot.time_s(scan) - 0.1)) * world_from_base(robot.time_s(scan)));
+    for (auto scan = static_cast<std::uint32_t>(10.0 * first_s);
+         scan < static_cast<std::uint32_t>(10.0 * last_s); ++scan) {
+      const bool is_carried =
+          robot.time_s(scan) >= carried_at_s && robot.time_s(scan) - 0.1 < carried_at_s;
+      if (!is_carried)
+        wheel_from_base = wheel_from_base * (inverse(world_from_base(robot.time_s(scan) - 0.1)) *
+                                             world_from_base(robot.time_s(scan)));
       sensing::LaserScan measured = robot.scan(scan);
-      measured.stamp_ns += robot.time_s(scan) < carried_at_s ? 0 : slammot::testing::stamp_ns_of(gap_s);
+      measured.stamp_ns +=
+          robot.time_s(scan) < carried_at_s ? 0 : slammot::testing::stamp_ns_of(gap_s);
       pipeline.take(sensing::Odometry{measured.stamp_ns, wheel_from_base});
       pipeline.take(measured);
     }
     pipeline.finish();
   }
 
-  /// Of the last ten seconds after the last correction, in the frame of a map that begins where the base is at world_from_map.
+  /// Of the last ten seconds after the last correction, in the frame of a map that begins where the
+  /// base is at world_from_map.
   double worst_at_end_m(const Pipeline& pipeline, const Pose2& world_from_map) const {
     const auto trajectory = pipeline.record().corrected_trajectory();
     double worst_m = 0.0;
     for (std::size_t back = 1; back <= 100; ++back) {
-      const Pose2 truth = inverse(world_from_map) * world_from_base(last_s - 0.1 * static_cast<double>(back));
-      worst_m = std::max(worst_m, (trajectory[trajectory.size() - back].map_from_base.translation_m() - truth.translation_m()).norm());
+      const Pose2 truth =
+          inverse(world_from_map) * world_from_base(last_s - 0.1 * static_cast<double>(back));
+      worst_m =
+          std::max(worst_m, (trajectory[trajectory.size() - back].map_from_base.translation_m() -
+                             truth.translation_m())
+                                .norm());
     }
     return worst_m;
   }
@@ -121,7 +141,8 @@ TEST(Relocalization, GoesOnInAStoredMapFromAnyPlaceInIt) {
   second.through(pipeline);
   EXPECT_TRUE(pipeline.knows_where_it_is());
   EXPECT_LT(second.worst_at_end_m(pipeline, around(0.0)), 0.3);
-  EXPECT_GT(pipeline.record().submaps().size(), stored->size());  // one map of both drives, for the third
+  EXPECT_GT(pipeline.record().submaps().size(), stored->size());  // one map of both drives, for the
+                                                                  // third
 }
 
 TEST(Relocalization, DoesNotGoOnInAMapOfAnotherProfile) {
@@ -132,7 +153,9 @@ TEST(Relocalization, DoesNotGoOnInAMapOfAnotherProfile) {
   EXPECT_TRUE(read_stored_map(folder.path(), 0.2));
   const auto refused = read_stored_map(folder.path(), 0.05);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("of another profile, with cells of 0.2 m for 0.05 m here"), std::string::npos) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("of another profile, with cells of 0.2 m for 0.05 m here"),
+            std::string::npos)
+      << refused.error().message;
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 
 namespace slammot::testing {
 
-/// CARMEN log of a robot that drives through the middle of a room of 10 m by 6 m, 181 beams, ten scans a second.
+/// CARMEN log of a robot that drives through the middle of a room of 10 m by 6 m, 181 beams, ten
+/// scans a second.
 inline std::string room_log(int scans) {
   std::string log = "# CARMEN Logfile\nPARAM robot_frontlaser_offset 0.0\n";
   for (int i = 0; i < scans; ++i) {
@@ -22,7 +23,8 @@ inline std::string room_log(int scans) {
       std::snprintf(word, sizeof word, " %.2f", std::min(to_end_m, to_side_m));
       ranges += word;
     }
-    std::snprintf(word, sizeof word, " %.3f 0 0 %.3f 0 0 %.6f host %.6f\n", x_m, x_m, 100.0 + 0.1 * i, 0.1 * i);
+    std::snprintf(word, sizeof word, " %.3f 0 0 %.3f 0 0 %.6f host %.6f\n", x_m, x_m,
+                  100.0 + 0.1 * i, 0.1 * i);
     log += "FLASER 181" + ranges + word;
   }
   return log;

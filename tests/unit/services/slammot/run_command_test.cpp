@@ -8,8 +8,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <zlib.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/command_line_call.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -18,8 +18,8 @@
 namespace slammot {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::call;
+using ::testing::HasSubstr;
 using testing::Outcome;
 using testing::room_log;
 
@@ -35,12 +35,15 @@ class RunCommand : public ::testing::Test {
   }
 
   Outcome run(std::vector<std::string> more = {}) const {
-    std::vector<std::string> words{"run", "--input", log_.string(), "--output", (folder_ / "out").string()};
+    std::vector<std::string> words{"run", "--input", log_.string(), "--output",
+                                   (folder_ / "out").string()};
     words.insert(words.end(), more.begin(), more.end());
     return call(words);
   }
 
-  static void expect_one_line(const std::string& text) { EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text; }
+  static void expect_one_line(const std::string& text) {
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+  }
 
   testing::TemporaryFolder folder_;
   std::filesystem::path log_ = folder_ / "drive.log";
@@ -53,8 +56,9 @@ TEST_F(RunCommand, WritesEveryOutputAndSaysWhereAndWhy) {
   EXPECT_THAT(outcome.standard_output, HasSubstr("profile:  indoor ("));
   EXPECT_THAT(outcome.standard_output, HasSubstr("results are in " + (folder_ / "out").string()));
   EXPECT_EQ(outcome.standard_error, "");
-  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "map.png", "map.yaml", "moving.pgm", "moving.png",
-                           "moving.yaml", "graph.g2o", "report.json", "settings.textproto"}) {
+  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "map.png",
+                           "map.yaml", "moving.pgm", "moving.png", "moving.yaml", "graph.g2o",
+                           "report.json", "settings.textproto"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / file)) << file;
   }
   const std::string online = read(folder_ / "out" / "online.tum");
@@ -73,7 +77,8 @@ TEST_F(RunCommand, MakesTheSameBytesEveryTime) {
   for (const bool again : {false, true}) {
     ASSERT_EQ(run().exit_code, kExitDone);
     std::size_t i = 0;
-    for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "map.png", "moving.png", "graph.g2o"}) {
+    for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "map.png",
+                             "moving.png", "graph.g2o"}) {
       const std::string content = read(folder_ / "out" / file);
       if (!again) first.push_back(content);
       EXPECT_EQ(content, first.at(i++)) << file;
@@ -88,7 +93,8 @@ TEST_F(RunCommand, MakesTheSameBytesByTheSettingsThatItLeaves) {
   std::filesystem::copy_file(folder_ / "out/settings.textproto", settings);
   std::filesystem::rename(folder_ / "out", folder_ / "first");
   ASSERT_EQ(run({"--profile", "urban", "--config", settings.string()}).exit_code, kExitDone);
-  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "labels.csv", "map.pgm", "moving.pgm", "graph.g2o", "settings.textproto"}) {
+  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "labels.csv", "map.pgm",
+                           "moving.pgm", "graph.g2o", "settings.textproto"}) {
     EXPECT_EQ(read(folder_ / "out" / file), read(folder_ / "first" / file)) << file;
   }
 }
@@ -110,7 +116,8 @@ TEST_F(RunCommand, SkipsMalformedLinesAndNamesThem) {
   write("FLASER 181 1 2\n" + room_log(20));
   const Outcome outcome = run();
   EXPECT_EQ(outcome.exit_code, kExitDone);
-  EXPECT_THAT(outcome.standard_output, HasSubstr("malformed lines of the log, skipped: 1; the first: 1"));
+  EXPECT_THAT(outcome.standard_output,
+              HasSubstr("malformed lines of the log, skipped: 1; the first: 1"));
 }
 
 TEST_F(RunCommand, SurvivesScansFullOfNonsense) {
@@ -157,11 +164,14 @@ TEST_P(RunScenario, GivesWhatTheRecordedDriveGives) {
   ASSERT_EQ(from_log.exit_code, kExitDone) << from_log.standard_error;
   const Outcome outcome = call({"run", "--scenario", GetParam(), "--output", folder_ / "live"});
   ASSERT_EQ(outcome.exit_code, kExitDone) << outcome.standard_error;
-  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "moving.pgm", "graph.g2o"}) {
+  for (const char* file :
+       {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "moving.pgm", "graph.g2o"}) {
     EXPECT_EQ(read(folder_ / "live" / file), read(folder_ / "recorded" / file)) << file;
   }
   for (const char* ending : {".tum", ".objects.csv", ".walls.csv"}) {
-    EXPECT_EQ(read(folder_ / "live" / (std::string("truth") + ending)), read(folder_ / "recorded" / (GetParam() + std::string(ending)))) << ending;
+    EXPECT_EQ(read(folder_ / "live" / (std::string("truth") + ending)),
+              read(folder_ / "recorded" / (GetParam() + std::string(ending))))
+        << ending;
   }
   auto live = nlohmann::json::parse(read(folder_ / "live" / "report.json"));
   auto by_log = nlohmann::json::parse(read(folder_ / "recorded" / "report.json"));
@@ -172,20 +182,32 @@ TEST_P(RunScenario, GivesWhatTheRecordedDriveGives) {
   }
   EXPECT_EQ(live, by_log);
 }
-INSTANTIATE_TEST_SUITE_P(OutsideAndInside, RunScenario, ::testing::Values("far_crossing", "corridor"), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(OutsideAndInside, RunScenario,
+                         ::testing::Values("far_crossing", "corridor"),
+                         [](const auto& info) { return info.param; });
 
 TEST_F(RunCommand, WithOneIterationMakesTheBytesItMakesWithout) {
-  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--output", folder_ / "without"}).exit_code, kExitDone);
-  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--iterations", "1", "--output", folder_ / "one"}).exit_code, kExitDone);
-  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "labels.csv", "map.pgm", "moving.pgm", "graph.g2o"}) {
+  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--output", folder_ / "without"}).exit_code,
+            kExitDone);
+  ASSERT_EQ(
+      call({"run", "--scenario", "far_crossing", "--iterations", "1", "--output", folder_ / "one"})
+          .exit_code,
+      kExitDone);
+  for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "labels.csv", "map.pgm",
+                           "moving.pgm", "graph.g2o"}) {
     EXPECT_EQ(read(folder_ / "without" / file), read(folder_ / "one" / file)) << file;
   }
-  EXPECT_FALSE(nlohmann::json::parse(read(folder_ / "one" / "report.json"))["counters"].contains("iteration"));
+  EXPECT_FALSE(nlohmann::json::parse(read(folder_ / "one" / "report.json"))["counters"].contains(
+      "iteration"));
 }
 
 TEST_F(RunCommand, IteratesWhereSomethingMovesAndCountsEachScanOnce) {
-  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--output", folder_ / "one"}).exit_code, kExitDone);
-  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--iterations", "3", "--output", folder_ / "three"}).exit_code, kExitDone);
+  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--output", folder_ / "one"}).exit_code,
+            kExitDone);
+  ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--iterations", "3", "--output",
+                  folder_ / "three"})
+                .exit_code,
+            kExitDone);
   const auto one = nlohmann::json::parse(read(folder_ / "one" / "report.json"));
   const auto three = nlohmann::json::parse(read(folder_ / "three" / "report.json"));
   EXPECT_EQ(three["counts"]["localized_scans"], one["counts"]["localized_scans"]);
@@ -203,7 +225,8 @@ TEST_F(RunCommand, RefusesNoIterationAndBenchHasNone) {
   write(room_log(5));
   EXPECT_EQ(run({"--iterations", "0"}).exit_code, kExitFault);
   EXPECT_EQ(run({"--iterations", "11"}).exit_code, kExitFault);
-  const Outcome bench = call({"bench", "--input", log_.string(), "--output", (folder_ / "out").string(), "--iterations", "2"});
+  const Outcome bench = call({"bench", "--input", log_.string(), "--output",
+                              (folder_ / "out").string(), "--iterations", "2"});
   EXPECT_EQ(bench.exit_code, kExitFault);
   EXPECT_THAT(bench.standard_error, HasSubstr("--iterations"));
 }
@@ -214,14 +237,16 @@ TEST_F(RunCommand, RunsTheImplementationsThatTheSettingsNameAndSaysSo) {
   std::ofstream(settings) << "implementations { localization: \"icp\" tracking: \"greedy\" }";
   const Outcome outcome = run({"--config", settings});
   ASSERT_EQ(outcome.exit_code, kExitDone) << outcome.standard_error;
-  EXPECT_THAT(outcome.standard_output, HasSubstr("replaced: localization: icp\nreplaced: tracking: greedy\n"));
+  EXPECT_THAT(outcome.standard_output,
+              HasSubstr("replaced: localization: icp\nreplaced: tracking: greedy\n"));
   const auto report = nlohmann::json::parse(read(folder_ / "out" / "report.json"));
   EXPECT_EQ(report["replaced_stages"], nlohmann::json({"localization: icp", "tracking: greedy"}));
   EXPECT_EQ(report["counters"]["tracking"]["scans"], 60);
   const std::string online = read(folder_ / "out" / "online.tum");
   EXPECT_EQ(std::count(online.begin(), online.end(), '\n'), 60);
   ASSERT_EQ(run().exit_code, kExitDone);
-  EXPECT_FALSE(nlohmann::json::parse(read(folder_ / "out" / "report.json")).contains("replaced_stages"));
+  EXPECT_FALSE(
+      nlohmann::json::parse(read(folder_ / "out" / "report.json")).contains("replaced_stages"));
 }
 
 TEST_F(RunCommand, RefusesAnImplementationThatIsNotThereOrCannotDoWhatIsAskedFor) {
@@ -230,11 +255,13 @@ TEST_F(RunCommand, RefusesAnImplementationThatIsNotThereOrCannotDoWhatIsAskedFor
   std::ofstream(settings) << "implementations { tracking: \"gready\" }";
   const Outcome unknown = run({"--config", settings});
   EXPECT_EQ(unknown.exit_code, kExitFault);
-  EXPECT_THAT(unknown.standard_error, HasSubstr("no such implementation; there are: standard, greedy"));
+  EXPECT_THAT(unknown.standard_error,
+              HasSubstr("no such implementation; there are: standard, greedy"));
   std::ofstream(settings) << "implementations { localization: \"icp\" }";
   const Outcome without_map = run({"--config", settings, "--map", folder_ / "map"});
   EXPECT_EQ(without_map.exit_code, kExitFault);
-  EXPECT_THAT(without_map.standard_error, HasSubstr("the localization 'icp' does not go on in a stored map"));
+  EXPECT_THAT(without_map.standard_error,
+              HasSubstr("the localization 'icp' does not go on in a stored map"));
 }
 
 TEST_F(RunCommand, WantsEitherALogOrAScenario) {
@@ -265,7 +292,8 @@ Refusal call_with(std::vector<std::string> words) {
   ::testing::internal::CaptureStderr();
   const int exit_code = run_command_line(static_cast<int>(argv.size()), argv.data());
   std::fflush(stdout);
-  return {exit_code, ::testing::internal::GetCapturedStdout(), ::testing::internal::GetCapturedStderr()};
+  return {exit_code, ::testing::internal::GetCapturedStdout(),
+          ::testing::internal::GetCapturedStderr()};
 }
 
 TEST(CommandLine, ListsItsCommandsWhereNoneIsGiven) {
@@ -276,7 +304,8 @@ TEST(CommandLine, ListsItsCommandsWhereNoneIsGiven) {
 }
 
 TEST(CommandLine, NamesAnUnknownCommandAndTheNearestOne) {
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"chek", "--help"}, {"chek", "a.log"}}) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"chek", "--help"}, {"chek", "a.log"}}) {
     const Refusal refusal = call_with(words);
     EXPECT_EQ(refusal.exit_code, kExitFault);
     EXPECT_THAT(refusal.standard_error, HasSubstr("'chek'"));

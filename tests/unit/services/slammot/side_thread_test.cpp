@@ -108,7 +108,8 @@ TEST(SideThread, DoesEachPartOnce) {
 }
 
 TEST(SideThread, SharesWithItsCaller) {
-  if (std::thread::hardware_concurrency() == 1) GTEST_SKIP() << "with one core the caller does everything";
+  if (std::thread::hardware_concurrency() == 1)
+    GTEST_SKIP() << "with one core the caller does everything";
   SideThread side;
   std::atomic<int> at_work = 0;
   side.share(2, [&at_work](std::size_t) {
@@ -120,7 +121,8 @@ TEST(SideThread, SharesWithItsCaller) {
 }
 
 TEST(SideThread, JoinsInBetweenTwoStepsOfWhatItIsAt) {
-  if (std::thread::hardware_concurrency() == 1) GTEST_SKIP() << "with one core the caller does everything";
+  if (std::thread::hardware_concurrency() == 1)
+    GTEST_SKIP() << "with one core the caller does everything";
   SideThread side;
   std::atomic<bool> is_at_work = false;
   std::atomic<bool> may_end = false;

@@ -27,16 +27,22 @@ double cost_for_a_walker(double length_m, flow::PointLabel label, const Tracking
 }
 
 TEST(AssociationCost, DoesNotGiveFurnitureToWhoWalksWhereOnlyPeopleMove) {
-  EXPECT_EQ(cost_for_a_walker(1.1, flow::PointLabel::kStationary, where_only_people_move()), association::kForbidden);
-  EXPECT_EQ(cost_for_a_walker(1.1, flow::PointLabel::kUnknown, where_only_people_move()), association::kForbidden);
-  EXPECT_LT(cost_for_a_walker(0.3, flow::PointLabel::kStationary, where_only_people_move()), kCostOfMiss);
+  EXPECT_EQ(cost_for_a_walker(1.1, flow::PointLabel::kStationary, where_only_people_move()),
+            association::kForbidden);
+  EXPECT_EQ(cost_for_a_walker(1.1, flow::PointLabel::kUnknown, where_only_people_move()),
+            association::kForbidden);
+  EXPECT_LT(cost_for_a_walker(0.3, flow::PointLabel::kStationary, where_only_people_move()),
+            kCostOfMiss);
 }
 
 TEST(AssociationCost, GivesThemWhatMovesHoweverWideItIs) {
-  EXPECT_LT(cost_for_a_walker(1.1, flow::PointLabel::kMoving, where_only_people_move()), kCostOfMiss);
+  EXPECT_LT(cost_for_a_walker(1.1, flow::PointLabel::kMoving, where_only_people_move()),
+            kCostOfMiss);
 }
 
-TEST(AssociationCost, DoesNotKnowFurnitureOnARoad) { EXPECT_LT(cost_for_a_walker(1.1, flow::PointLabel::kUnknown, {}), kCostOfMiss); }
+TEST(AssociationCost, DoesNotKnowFurnitureOnARoad) {
+  EXPECT_LT(cost_for_a_walker(1.1, flow::PointLabel::kUnknown, {}), kCostOfMiss);
+}
 
 TEST(AssociationCost, IsLessForTheNearerSegmentAndForbiddenForABackdrop) {
   const TrackingConfig config;
@@ -51,7 +57,8 @@ TEST(AssociationCost, IsLessForTheNearerSegmentAndForbiddenForABackdrop) {
     segment.box_length_m = 0.4;
     return segment;
   };
-  EXPECT_LT(association_cost(blob, motion, segment_at(0.1), config), association_cost(blob, motion, segment_at(0.5), config));
+  EXPECT_LT(association_cost(blob, motion, segment_at(0.1), config),
+            association_cost(blob, motion, segment_at(0.5), config));
   EXPECT_EQ(association_cost(blob, motion, segment_at(3.0), config), association::kForbidden);
   flow::Segment wall = segment_at(0.1);
   wall.label = flow::PointLabel::kStationary;

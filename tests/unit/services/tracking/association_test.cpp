@@ -13,14 +13,17 @@ using testing::StreetBox;
 
 constexpr std::int64_t kPeriodNs = 100'000'000;
 
-/// One scan of movers before a wall, after a second in which all was as now or only the wall was there.
+/// One scan of movers before a wall, after a second in which all was as now or only the wall was
+/// there.
 class Scene {
  public:
-  Scene(const std::vector<StreetBox>& movers, bool they_were_there, TrackingConfig config = {}) : config_(config), associator_(config) {
+  Scene(const std::vector<StreetBox>& movers, bool they_were_there, TrackingConfig config = {})
+      : config_(config), associator_(config) {
     Street street{{{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0}}, {}, {}};
     if (they_were_there) street.unknown = movers;
     for (std::int64_t i = 0; i < 10; ++i) {
-      const PolarView view(detection::detect(street.scan(i * kPeriodNs, static_cast<std::uint32_t>(i)), {}));
+      const PolarView view(
+          detection::detect(street.scan(i * kPeriodNs, static_cast<std::uint32_t>(i)), {}));
       history_.add(i * kPeriodNs, view, std::vector<Owner>(view.beam_count()));
     }
     street.unknown = movers;
@@ -53,7 +56,8 @@ class Scene {
   /// Mean coordinate across the view of the echoes of a track.
   double mean_y_m(std::size_t track) const {
     double sum_m = 0.0;
-    for (const std::uint16_t beam : associations.shares[track].beams) sum_m += view_.point_in_odom_m(beam).y();
+    for (const std::uint16_t beam : associations.shares[track].beams)
+      sum_m += view_.point_in_odom_m(beam).y();
     return sum_m / static_cast<double>(associations.shares[track].beams.size());
   }
 
@@ -76,7 +80,8 @@ TEST(Association, IsTheBestForAllTracksTogether) {
     TrackingConfig config;
     config.most_hypotheses = most_hypotheses;
     Scene scene({pedestrian_at(0.0), pedestrian_at(0.9)}, false, config);
-    scene.add_pedestrian({7.9, 0.4});   // nearer to the first segment than to the second, but that is the other's
+    scene.add_pedestrian({7.9, 0.4});  // nearer to the first segment than to the second, but that
+                                       // is the other's
     scene.add_pedestrian({7.9, -0.05});
     scene.associate();
     ASSERT_TRUE(scene.associations.has_echoes(0)) << most_hypotheses;

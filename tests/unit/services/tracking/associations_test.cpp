@@ -1,15 +1,15 @@
 #include "services/tracking/associations.hpp"
 
-#include <gtest/gtest.h>
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace slammot::tracking {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using association::kUnassigned;
 using flow::PointLabel;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 /// Two tracks with a segment each, and a segment of nobody's.
 Associations two_tracks() {
@@ -41,7 +41,8 @@ TEST(Associations, ClearedAssignNothing) {
   Associations associations = two_tracks();
   associations.shares[0].label = PointLabel::kMoving;
   clear(associations, 5);
-  EXPECT_THAT(associations.track_of_segment, ElementsAre(kUnassigned, kUnassigned, kUnassigned, kUnassigned, kUnassigned));
+  EXPECT_THAT(associations.track_of_segment,
+              ElementsAre(kUnassigned, kUnassigned, kUnassigned, kUnassigned, kUnassigned));
   EXPECT_FALSE(associations.has_echoes(0));
   EXPECT_EQ(associations.shares[0].label, PointLabel::kUnknown);
 }

@@ -32,7 +32,8 @@ TEST(AxisMeasurement, IsMirroredWithItsAxis) {
   const Projection projection = flank(-2.0, 1.0, Edge::kOpen, Edge::kHidden);
   for (const double laser_at_m : {-8.0, 0.3, 8.0}) {
     const AxisMeasurement here = measure_axis(kCarLength, projection, view_from(laser_at_m), true);
-    const AxisMeasurement there = measure_axis(kCarLength, mirrored(projection), mirrored(view_from(laser_at_m)), true);
+    const AxisMeasurement there =
+        measure_axis(kCarLength, mirrored(projection), mirrored(view_from(laser_at_m)), true);
     EXPECT_NEAR(here.centre_m, -there.centre_m, 1e-12) << laser_at_m;
     EXPECT_NEAR(here.variance_m2, there.variance_m2, 1e-12) << laser_at_m;
     EXPECT_EQ(here.anchor.value_or(9), there.anchor ? -*there.anchor : 9) << laser_at_m;
@@ -40,17 +41,20 @@ TEST(AxisMeasurement, IsMirroredWithItsAxis) {
 }
 
 TEST(AxisMeasurement, IsAnchoredAtTheEndThatIsVisible) {
-  const AxisMeasurement low = measure_axis(kCarLength, flank(-2.1, 0.0, Edge::kOpen, Edge::kHidden), view_from(0.0), true);
+  const AxisMeasurement low =
+      measure_axis(kCarLength, flank(-2.1, 0.0, Edge::kOpen, Edge::kHidden), view_from(0.0), true);
   EXPECT_EQ(low.anchor, -1);
   EXPECT_NEAR(low.centre_m, -2.1 - 0.05 + 2.2, 1e-9);
-  const AxisMeasurement both = measure_axis(kCarLength, flank(-2.15, 2.15, Edge::kOpen, Edge::kOpen), view_from(0.0), true);
+  const AxisMeasurement both =
+      measure_axis(kCarLength, flank(-2.15, 2.15, Edge::kOpen, Edge::kOpen), view_from(0.0), true);
   EXPECT_EQ(both.anchor, 0);
   EXPECT_NEAR(both.centre_m, 0.0, 1e-9);
   EXPECT_LT(both.variance_m2, low.variance_m2);
 }
 
 TEST(AxisMeasurement, IsUnknownBetweenTwoOccluders) {
-  const AxisMeasurement hidden = measure_axis(kCarLength, flank(-1.0, 1.0, Edge::kHidden, Edge::kHidden), view_from(0.0), true);
+  const AxisMeasurement hidden = measure_axis(
+      kCarLength, flank(-1.0, 1.0, Edge::kHidden, Edge::kHidden), view_from(0.0), true);
   EXPECT_FALSE(hidden.anchor.has_value());
   EXPECT_GT(hidden.variance_m2, 1.0);
 }
@@ -61,7 +65,8 @@ TEST(AxisMeasurement, SaysHowLongAFlankIsThatIsVisibleFromEndToEnd) {
   EXPECT_NEAR(evidence.whole.value_m, 4.3, 1e-3);  // half a spacing beyond each end
   EXPECT_EQ(evidence.least_m, 4.2);
   SizeEvidence cut_off;
-  add_sizes(cut_off, kCarLength, flank(-2.1, 2.1, Edge::kHidden, Edge::kOpen), view_from(0.0), true);
+  add_sizes(cut_off, kCarLength, flank(-2.1, 2.1, Edge::kHidden, Edge::kOpen), view_from(0.0),
+            true);
   EXPECT_EQ(cut_off.whole.variance_m2, kUnknownSizeM2);
 }
 

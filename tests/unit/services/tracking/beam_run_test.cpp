@@ -16,7 +16,9 @@ PolarView view_of(const std::vector<float>& range_m, double field_of_view_rad) {
   scan.range_m = range_m;
   for (std::size_t beam = 0; beam < range_m.size(); ++beam) {
     const double angle_rad = static_cast<double>(beam) * scan.beam_step_rad;
-    scan.points_in_base_m.push_back(range_m[beam] * Eigen::Vector2f(static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))));
+    scan.points_in_base_m.push_back(range_m[beam] *
+                                    Eigen::Vector2f(static_cast<float>(std::cos(angle_rad)),
+                                                    static_cast<float>(std::sin(angle_rad))));
   }
   return PolarView(scan);
 }
@@ -29,7 +31,8 @@ TEST(BeamRun, GoesFromTheFirstToTheLastBeam) {
 }
 
 TEST(BeamRun, BeginsAfterTheWidestGapAcrossTheSeam) {
-  const BeamRun run = run_of({0, 1, 18, 19}, view_of(std::vector<float>(20, 10.0F), 2.0 * std::numbers::pi));
+  const BeamRun run =
+      run_of({0, 1, 18, 19}, view_of(std::vector<float>(20, 10.0F), 2.0 * std::numbers::pi));
   EXPECT_EQ(run.start, 2U);
   EXPECT_EQ(run.first, 18);
   EXPECT_EQ(run.last, 1);
@@ -51,7 +54,8 @@ TEST(BeamRun, IsApartFromAnotherIfBeamsPassBeyondBothBetweenThem) {
   EXPECT_TRUE(is_seen_between(a, b, view_of(range_m, std::numbers::pi)));
   EXPECT_TRUE(is_seen_between(b, a, view_of(range_m, std::numbers::pi)));
   range_m[5] = 0.0F;
-  EXPECT_FALSE(is_seen_between(a, b, view_of(range_m, std::numbers::pi))) << "one beam may be a mixed pixel";
+  EXPECT_FALSE(is_seen_between(a, b, view_of(range_m, std::numbers::pi)))
+      << "one beam may be a mixed pixel";
 }
 
 }  // namespace

@@ -55,18 +55,23 @@ TEST(Blob, WithoutSidesIsSomewhereAboutAnEchoThatIsRarelyAnswered) {
 
 TEST(Blob, WithoutSidesWasSeenWholeOnceNothingHasHiddenAnEndOfIt) {
   const std::vector<Vector2d> echoes = {{25.0, -0.2}, {25.0, 0.0}, {25.0, 0.2}};
-  const Blob hidden = measure_blob({}, with_edges(echoes, Edge::kHidden, Edge::kOpen), kConfig).blob;
-  const Blob vague = measure_blob(hidden, with_edges(echoes, Edge::kNoEcho, Edge::kOpen), kConfig).blob;
+  const Blob hidden =
+      measure_blob({}, with_edges(echoes, Edge::kHidden, Edge::kOpen), kConfig).blob;
+  const Blob vague =
+      measure_blob(hidden, with_edges(echoes, Edge::kNoEcho, Edge::kOpen), kConfig).blob;
   EXPECT_FALSE(vague.was_seen_whole);
-  const Blob whole = measure_blob(vague, with_edges(echoes, Edge::kOpen, Edge::kOpen), kConfig).blob;
-  EXPECT_TRUE(measure_blob(whole, with_edges(echoes, Edge::kHidden, Edge::kOpen), kConfig).blob.was_seen_whole);
+  const Blob whole =
+      measure_blob(vague, with_edges(echoes, Edge::kOpen, Edge::kOpen), kConfig).blob;
+  EXPECT_TRUE(measure_blob(whole, with_edges(echoes, Edge::kHidden, Edge::kOpen), kConfig)
+                  .blob.was_seen_whole);
 }
 
 TEST(Blob, OfLegsOrACoatHasItsMiddleWithinAFewCentimetres) {
   const Vector2d centre_m{6.0, 1.0};
   for (const double radius_m : {0.07, 0.125}) {
     const auto echoes = echoes_of_disc(centre_m, radius_m);
-    EXPECT_LT((measure_blob({}, observation_of(echoes), kConfig).centre_m - centre_m).norm(), 0.03) << radius_m;
+    EXPECT_LT((measure_blob({}, observation_of(echoes), kConfig).centre_m - centre_m).norm(), 0.03)
+        << radius_m;
   }
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Depth that is measured of a corner at the origin, of a box in the first quadrant, cut off at 45 degrees by this length of either side.
+/// Depth that is measured of a corner at the origin, of a box in the first quadrant, cut off at 45
+/// degrees by this length of either side.
 std::optional<Size> measured_depth(double cut_m, double spacing_m) {
   std::vector<Vector2d> points_m;
   for (double s = cut_m; s < 2.0; s += 0.05) points_m.emplace_back(s, 0.0);
@@ -21,14 +22,18 @@ std::optional<Size> measured_depth(double cut_m, double spacing_m) {
   AxisView view;
   view.face_variance_m2 = 1e-6;
   view.low = view.high = {spacing_m, 0.0};
-  return seen_corner(observation, Vector2d::Zero(), {Vector2d::UnitX(), Vector2d::UnitY(), view, view, {0.0, 1.0}, {0.0, 1.0}});
+  return seen_corner(observation, Vector2d::Zero(),
+                     {Vector2d::UnitX(), Vector2d::UnitY(), view, view, {0.0, 1.0}, {0.0, 1.0}});
 }
 
 TEST(BoxCorner, IsAsDeepAsItIsCut) {
-  for (const double cut_m : {0.0, 0.2, 0.4}) EXPECT_NEAR(measured_depth(cut_m, 0.05)->value_m, cut_m, 0.02) << cut_m;
+  for (const double cut_m : {0.0, 0.2, 0.4})
+    EXPECT_NEAR(measured_depth(cut_m, 0.05)->value_m, cut_m, 0.02) << cut_m;
 }
 
-TEST(BoxCorner, IsNotMeasuredByEchoesFarApart) { EXPECT_FALSE(measured_depth(0.2, 0.5).has_value()); }
+TEST(BoxCorner, IsNotMeasuredByEchoesFarApart) {
+  EXPECT_FALSE(measured_depth(0.2, 0.5).has_value());
+}
 
 TEST(BoxCorner, IsFusedDownToAFloor) {
   Size corner{0.0, 1e6};

@@ -17,7 +17,8 @@ using testing::observation_of;
 
 const TrackingConfig kConfig;
 
-/// A car of which only the flank is seen, at heading 0 before a laser at the origin that lies beyond its low end.
+/// A car of which only the flank is seen, at heading 0 before a laser at the origin that lies
+/// beyond its low end.
 Box car_of_unknown_length() {
   Box box;
   box.is_oriented = true;
@@ -59,7 +60,8 @@ TEST(Box, OfWhichMoreWasSeenThanWasTakenForTheWholeWasSeenInPieces) {
   box = with_likely_sizes(box, kConfig);
   EXPECT_EQ(box.kind, Kind::kBus);
   EXPECT_GT(box.length.value_m, 11.0);
-  EXPECT_GT(std::sqrt(box.length.variance_m2), 1.0) << "nothing tells how long it is but what buses are";
+  EXPECT_GT(std::sqrt(box.length.variance_m2), 1.0)
+      << "nothing tells how long it is but what buses are";
 }
 
 TEST(Box, KnowsTheLengthAsItsWidthAfterAQuarterTurn) {
@@ -76,7 +78,8 @@ TEST(Box, ScalesWithTheRoadUsersOfALaboratory) {
   TrackingConfig model_cars;
   model_cars.size_scale = 0.1;
   Box box;
-  EXPECT_NEAR(with_likely_sizes(box, model_cars).length.value_m, 0.1 * with_likely_sizes(box, kConfig).length.value_m, 1e-5);
+  EXPECT_NEAR(with_likely_sizes(box, model_cars).length.value_m,
+              0.1 * with_likely_sizes(box, kConfig).length.value_m, 1e-5);
 }
 
 TEST(Box, OfTwoThingsThatAreNoneOnTheRoadIsNotPlausible) {

@@ -25,32 +25,40 @@ TrackingConfig config_with(int most_hypotheses) {
   return config;
 }
 
-/// Two who walk over the street from both sides and pass each other, the second behind the first, at t = 4 s.
+/// Two who walk over the street from both sides and pass each other, the second behind the first,
+/// at t = 4 s.
 struct Passing {
   double speed_mps = 1.2;
   double apart_m = 0.6;
 
   Vector2 walker_at(int who, double t) const {
-    return who == 0 ? Vector2(10.0, speed_mps * (t - 4.0)) : Vector2(10.0 + apart_m, -speed_mps * (t - 4.0));
+    return who == 0 ? Vector2(10.0, speed_mps * (t - 4.0))
+                    : Vector2(10.0 + apart_m, -speed_mps * (t - 4.0));
   }
 };
 
 /// Ids of the tracks at the two walkers at the end, 0 where there is none.
-std::vector<std::uint32_t> ids_after(const TrackingConfig& config, const Passing& passing, double seconds) {
+std::vector<std::uint32_t> ids_after(const TrackingConfig& config, const Passing& passing,
+                                     double seconds) {
   Tracker tracker(config);
   Street street{{{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0}}, {}, {}};
   TrackingResult result;
   for (int scan = 0; scan < std::lround(seconds / kPeriodS); ++scan) {
     const double t = scan * kPeriodS;
     street.unknown.clear();
-    for (const int who : {0, 1}) street.unknown.push_back({{passing.walker_at(who, t).x(), passing.walker_at(who, t).y(), 0.0}, 0.4, 0.5});
-    result = tracker.step(detection::detect(street.scan(static_cast<std::int64_t>(t * 1e9), static_cast<std::uint32_t>(scan)), {}));
+    for (const int who : {0, 1})
+      street.unknown.push_back(
+          {{passing.walker_at(who, t).x(), passing.walker_at(who, t).y(), 0.0}, 0.4, 0.5});
+    result = tracker.step(detection::detect(
+        street.scan(static_cast<std::int64_t>(t * 1e9), static_cast<std::uint32_t>(scan)), {}));
   }
   std::vector<std::uint32_t> ids;
   for (const int who : {0, 1}) {
     ids.push_back(0);
     for (const flow::TrackedObject& object : result.objects.objects)
-      if (object.confirmed && (object.position_in_odom_m - passing.walker_at(who, seconds)).norm() < 0.5) ids.back() = object.track_id.value;
+      if (object.confirmed &&
+          (object.position_in_odom_m - passing.walker_at(who, seconds)).norm() < 0.5)
+        ids.back() = object.track_id.value;
   }
   return ids;
 }
@@ -61,7 +69,8 @@ TEST(CompetingTracks, KeepTheirNamesWhenTheyPassEachOther) {
       const auto before = ids_after(config_with(most_hypotheses), passing, 3.0);
       ASSERT_NE(before[0], 0U);
       ASSERT_NE(before[1], 0U);
-      EXPECT_EQ(ids_after(config_with(most_hypotheses), passing, 6.0), before) << passing.speed_mps << " " << most_hypotheses;
+      EXPECT_EQ(ids_after(config_with(most_hypotheses), passing, 6.0), before)
+          << passing.speed_mps << " " << most_hypotheses;
     }
   }
 }

@@ -10,8 +10,8 @@
 namespace slammot::tracking {
 namespace {
 
-using testing::followed_car;
 using testing::among_people;
+using testing::followed_car;
 using testing::out_from_behind_others;
 
 /// A car drawn where its echoes are not.
@@ -30,7 +30,8 @@ TEST(Confirmation, IsWrongOfTwoDrawnOverEachOtherIfItsEchoesAreNotWhereItIs) {
   EXPECT_EQ(inconsistent_one(right, right, config), nullptr);
   EXPECT_EQ(inconsistent_one(wrong, wrong, config), nullptr);
   Track small;
-  EXPECT_EQ(inconsistent_one(wrong, small, config), nullptr) << "what has no sides may be an echo of anything";
+  EXPECT_EQ(inconsistent_one(wrong, small, config), nullptr)
+      << "what has no sides may be an echo of anything";
 }
 
 TEST(Confirmation, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
@@ -38,9 +39,11 @@ TEST(Confirmation, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
   Track track;
   track.existence.score = config.confirm_score;
   track.existence.hits = config.least_hits;
-  track.existence.motion = {config.sure_moved_votes, 0.0, 0.0};  // a thin post: beams went past it on both sides a moment ago
+  track.existence.motion = {config.sure_moved_votes, 0.0, 0.0};  // a thin post: beams went past it
+                                                                 // on both sides a moment ago
   track.history.birth.R = 0.01 * Eigen::Matrix2d::Identity();
-  track.kinematics.estimate.mean << 1.0, 0.0, 0.5, 0.0, 0.0, 0.0;    // drawn at a stray echo, a metre beside
+  track.kinematics.estimate.mean << 1.0, 0.0, 0.5, 0.0, 0.0, 0.0;  // drawn at a stray echo, a metre
+                                                                   // beside
   track.kinematics.estimate.covariance = 0.01 * filters::Matrix6::Identity();
   track.kinematics.estimate.covariance.block<2, 2>(2, 2) = 0.16 * Eigen::Matrix2d::Identity();
   EXPECT_FALSE(is_confirmable(track, config));
@@ -74,7 +77,8 @@ TEST(Confirmation, IsConfirmedAsSoonAsItCanBePublishedIfItComesOutOfNowhereAsPre
   const TrackingConfig config;
   Track track = out_from_behind_others(config);
   track.existence.motion = {20.0, 0.0, 10.0};
-  track.kinematics.estimate.covariance.block<2, 2>(2, 2) = 0.65 * 0.65 * Eigen::Matrix2d::Identity();
+  track.kinematics.estimate.covariance.block<2, 2>(2, 2) =
+      0.65 * 0.65 * Eigen::Matrix2d::Identity();
   track.existence.consistency = {0.05, 0.6, 5.0};
   EXPECT_TRUE(is_confirmable(track, config));
   Track surprising = track;
@@ -108,7 +112,8 @@ TEST(Confirmation, HasComeFromWhereItWasByTheBodyThatItHasByNow) {
   *track.extent.box() = with_likely_sizes(*track.extent.box(), config);
   track.kinematics.estimate.mean.head<2>() << 28.2, 0.0;
   track.history.birth.centre_m = {24.0, 0.0};
-  track.history.birth.R = 9.0 * Eigen::Matrix2d::Identity();  // all that was seen of it was of some side of something
+  track.history.birth.R = 9.0 * Eigen::Matrix2d::Identity();  // all that was seen of it was of some
+                                                              // side of something
   EXPECT_FALSE(is_confirmable(track, config));
   std::vector<Eigen::Vector2d> rear;
   for (double y_m = -0.9; y_m < 0.91; y_m += 0.2) rear.emplace_back(20.0, y_m);

@@ -12,10 +12,11 @@
 namespace slammot::tracking {
 namespace {
 
-using testing::kPeriodS;
 using testing::followed_car;
+using testing::kPeriodS;
 
-/// A rear, as wide as one of a car and so deep, at which so much is added to the place now and then.
+/// A rear, as wide as one of a car and so deep, at which so much is added to the place now and
+/// then.
 double score_after_two_seconds(double depth_m, double jump_m) {
   const TrackingConfig config;
   std::vector<Eigen::Vector2d> points;
@@ -28,7 +29,9 @@ double score_after_two_seconds(double depth_m, double jump_m) {
     const double x_m = 20.0 + 5.0 * kPeriodS * scan + (scan % 2 == 0 ? jump_m : 0.0);
     for (int i = 0; i < 10; ++i) points.emplace_back(x_m + depth_m * (i % 3) / 2.0, -0.9 + 0.2 * i);
     observation.points_m = points;
-    if (scan == 0) track = initiated({{1}, stamp_ns, observation, 0.0, 1e-4 * Eigen::Matrix2d::Identity()}, config);
+    if (scan == 0)
+      track =
+          initiated({{1}, stamp_ns, observation, 0.0, 1e-4 * Eigen::Matrix2d::Identity()}, config);
     predict(track, scan == 0 ? 0.0 : kPeriodS, config);
     EXPECT_TRUE(update(track, stamp_ns, observation, 1e-4 * Eigen::Matrix2d::Identity(), config));
     score_hit(track, {flow::PointLabel::kMoving, {8.0, 0.0, 2.0}, kPeriodS}, config);

@@ -12,10 +12,13 @@ constexpr double kPeriodS = 0.027;
 TEST(Existence, IsTheProbabilityOfItsLogOdds) {
   EXPECT_DOUBLE_EQ(existence_of(0.0), 0.5);
   EXPECT_NEAR(existence_of(std::log(19.0)), 0.95, 1e-12);
-  for (const double score : {-5.0, -0.3, 2.0}) EXPECT_NEAR(existence_of(score) + existence_of(-score), 1.0, 1e-12);
+  for (const double score : {-5.0, -0.3, 2.0})
+    EXPECT_NEAR(existence_of(score) + existence_of(-score), 1.0, 1e-12);
 }
 
-TEST(MotionEvidence, CountsAnUndecidedEchoForHalf) { EXPECT_DOUBLE_EQ((MotionEvidence{3.0, 1.0, 4.0}.weight()), 6.0); }
+TEST(MotionEvidence, CountsAnUndecidedEchoForHalf) {
+  EXPECT_DOUBLE_EQ((MotionEvidence{3.0, 1.0, 4.0}.weight()), 6.0);
+}
 
 TEST(Consistency, IsThatOfTheLastMoments) {
   Consistency consistency;

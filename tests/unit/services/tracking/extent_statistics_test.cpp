@@ -12,7 +12,9 @@ namespace {
 
 using testing::kPeriodS;
 
-TEST(ResponseRate, AreSupposedToBeManyBeforeAnythingIsKnown) { EXPECT_LT(ResponseRate().unanswered_share(), 0.3); }
+TEST(ResponseRate, AreSupposedToBeManyBeforeAnythingIsKnown) {
+  EXPECT_LT(ResponseRate().unanswered_share(), 0.3);
+}
 
 TEST(ResponseRate, OfSomethingDarkAreStillKnownToBeFewWhenOneEchoIsAllThatIsSeen) {
   ResponseRate responses;

@@ -81,7 +81,8 @@ TEST(Extent, HasEchoesOffItsSidesOnBothSidesOfThem) {
   Box box;
   box.length = {4.0, 0.01};
   box.width = {2.0, 0.01};
-  const std::vector<Vector2d> points_m = {{7.9, 0.0}, {8.1, 0.0}, {8.0, 0.0}};  // the rear of a box at (10, 0)
+  const std::vector<Vector2d> points_m = {{7.9, 0.0}, {8.1, 0.0}, {8.0, 0.0}};  // the rear of a box
+                                                                                // at (10, 0)
   EXPECT_NEAR(distance_from_sides_m(box, {10.0, 0.0}, points_m), 0.2 / 3.0, 1e-9);
 }
 

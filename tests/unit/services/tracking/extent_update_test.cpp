@@ -13,10 +13,10 @@
 namespace slammot::tracking {
 namespace {
 
-using testing::kPeriodS;
 using testing::known_walker;
-using testing::see;
+using testing::kPeriodS;
 using testing::out_from_behind_others;
+using testing::see;
 
 TEST(ExtentUpdate, LiesAlongWhatIsLongerThanAnyFront) {
   const TrackingConfig config;
@@ -30,12 +30,15 @@ TEST(ExtentUpdate, LiesAlongWhatIsLongerThanAnyFront) {
     observation.start = observation.end = Edge::kHidden;
     return observation;
   };
-  Track track = initiated({{1}, 0, flank_m(2.0), 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity()}, config);
-  ASSERT_LT(std::abs(std::sin(track.extent.footprint().heading_rad)), 0.1);  // as wide as the rear of a car
+  Track track =
+      initiated({{1}, 0, flank_m(2.0), 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity()}, config);
+  ASSERT_LT(std::abs(std::sin(track.extent.footprint().heading_rad)), 0.1);  // as wide as the rear
+                                                                             // of a car
   std::int64_t stamp_ns = 0;
   for (int scan = 0; scan < 20; ++scan) {
     predict(track, kPeriodS, config);
-    ASSERT_TRUE(update(track, stamp_ns += 27'000'000, flank_m(3.1), 1e-4 * Eigen::Matrix2d::Identity(), config));
+    ASSERT_TRUE(update(track, stamp_ns += 27'000'000, flank_m(3.1),
+                       1e-4 * Eigen::Matrix2d::Identity(), config));
   }
   EXPECT_GT(std::abs(std::sin(track.extent.footprint().heading_rad)), 0.9);
 }
@@ -51,16 +54,19 @@ TEST(ExtentUpdate, IsDrawnAnewWhereItWouldBeWiderThanAnythingThatGoesItsWay) {
     observation.beam_step_rad = 0.5 * M_PI / 180.0;
     return observation;
   };
-  Track track = initiated({{1}, 0, bicycle_at(10.0), 0.0, 1e-4 * Eigen::Matrix2d::Identity()}, config);
+  Track track =
+      initiated({{1}, 0, bicycle_at(10.0), 0.0, 1e-4 * Eigen::Matrix2d::Identity()}, config);
   track.extent.footprint().heading_rad = 0.5 * M_PI;
-  track.extent.box()->evidence.length.least_m = 4.1;  // once a parked car was taken for a part of it
+  track.extent.box()->evidence.length.least_m = 4.1;  // once a parked car was taken for a part of
+                                                      // it
   track.extent.box()->evidence.width.least_m = 1.7;
   *track.extent.box() = with_likely_sizes(*track.extent.box(), config);
   restart_velocity(track.kinematics, {5.5, 0.0}, 0.3, config);
   track.existence.confirmed = true;
   for (int scan = 1; scan < 10; ++scan) {
     predict(track, kPeriodS, config);
-    update(track, scan * 27'000'000, bicycle_at(10.0 + 5.5 * kPeriodS * scan), 1e-4 * Eigen::Matrix2d::Identity(), config);
+    update(track, scan * 27'000'000, bicycle_at(10.0 + 5.5 * kPeriodS * scan),
+           1e-4 * Eigen::Matrix2d::Identity(), config);
   }
   EXPECT_LT(std::abs(std::sin(track.extent.footprint().heading_rad)), 0.1);
   EXPECT_LT(track.extent.footprint().length.value_m, 2.5);
@@ -89,12 +95,16 @@ TEST(ExtentUpdate, OfWhichOnlyTheSidesAreWrongIsDrawnAnewAfterAWhile) {
   ASSERT_TRUE(misfits_only(track, config));
   const Eigen::Vector2d along = track.velocity_mps().normalized();
   std::vector<Eigen::Vector2d> points_m;
-  for (int i = 0; i < 5; ++i) points_m.push_back(track.position_m() + (i - 2.0) * along);  // a flank
+  for (int i = 0; i < 5; ++i)
+    points_m.push_back(track.position_m() + (i - 2.0) * along);  // a flank
   Observation observation;
   observation.points_m = points_m;
   observation.beam_step_rad = 0.009;
   const double drawn_rad = track.extent.footprint().heading_rad;
-  const auto see_for = [&](double time_s) { for (double s = 0.0; s < time_s; s += kPeriodS) reinitialise_extent_if_misfit(track, observation, kPeriodS, config); };
+  const auto see_for = [&](double time_s) {
+    for (double s = 0.0; s < time_s; s += kPeriodS)
+      reinitialise_extent_if_misfit(track, observation, kPeriodS, config);
+  };
   see_for(0.1);
   EXPECT_EQ(track.extent.footprint().heading_rad, drawn_rad);
   observation.points_m = std::span(points_m).first(4);  // around fewer it would be drawn no better
@@ -102,7 +112,9 @@ TEST(ExtentUpdate, OfWhichOnlyTheSidesAreWrongIsDrawnAnewAfterAWhile) {
   EXPECT_EQ(track.extent.footprint().heading_rad, drawn_rad);
   observation.points_m = points_m;
   see_for(kPeriodS);
-  EXPECT_NEAR(std::abs(std::sin(track.extent.footprint().heading_rad - std::atan2(along.y(), along.x()))), 0.0, 0.05);
+  EXPECT_NEAR(
+      std::abs(std::sin(track.extent.footprint().heading_rad - std::atan2(along.y(), along.x()))),
+      0.0, 0.05);
 }
 
 }  // namespace

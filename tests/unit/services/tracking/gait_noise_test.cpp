@@ -16,11 +16,13 @@ using testing::kPeriodS;
 double sigma_after_m(double innovation_m, const TrackingConfig& config) {
   const Eigen::Matrix2d noise_m2 = 1e-4 * Eigen::Matrix2d::Identity();
   GaitNoise gait;
-  for (int scan = 0; scan < 250; ++scan) gait = with_step(gait, {innovation_m, innovation_m}, noise_m2, kPeriodS, config);
+  for (int scan = 0; scan < 250; ++scan)
+    gait = with_step(gait, {innovation_m, innovation_m}, noise_m2, kPeriodS, config);
   return std::sqrt(*gait.variance_m2);
 }
 
-/// Variance of the mean of `count` errors, of which each keeps so much of the one before; one sigma is 1.
+/// Variance of the mean of `count` errors, of which each keeps so much of the one before; one sigma
+/// is 1.
 double variance_of_mean(double kept, int count) {
   double sum = 0.0;
   for (int i = 0; i < count; ++i)
@@ -47,7 +49,8 @@ TEST(GaitNoise, CountsForAsMuchAsErrorsThatFadeDoTogether) {
   const TrackingConfig config;
   for (const double period_s : {1.0 / 75.0, 1.0 / 37.5, 1.0 / 7.5, 0.5}) {
     const int count = static_cast<int>(std::lround(10.0 / period_s));
-    const double together_m2 = config.gait_noise_m * config.gait_noise_m * variance_of_mean(std::exp(-period_s / config.gait_memory_s), count);
+    const double together_m2 = config.gait_noise_m * config.gait_noise_m *
+                               variance_of_mean(std::exp(-period_s / config.gait_memory_s), count);
     EXPECT_NEAR(gait_variance_m2(period_s, config) / count / together_m2, 1.0, 0.03) << period_s;
   }
 }

@@ -12,11 +12,12 @@
 namespace slammot::tracking {
 namespace {
 
-using testing::kPeriodS;
 using testing::followed_car;
+using testing::kPeriodS;
 
 /// After a scan with two echoes of a car that was going at this velocity, its axis known to this.
-Track car_after_two_echoes(double axis_sigma_rad, const Eigen::Vector2d& velocity_mps, double velocity_sigma_mps, bool is_oriented) {
+Track car_after_two_echoes(double axis_sigma_rad, const Eigen::Vector2d& velocity_mps,
+                           double velocity_sigma_mps, bool is_oriented) {
   const TrackingConfig config;
   Track track = followed_car();
   *track.extent.box() = with_likely_sizes(*track.extent.box(), config);
@@ -36,8 +37,11 @@ Track car_after_two_echoes(double axis_sigma_rad, const Eigen::Vector2d& velocit
   return track;
 }
 
-TEST(HeadingUpdate, IsSteeredForAsLongAsItsAxisTellsWhichSideIsTheFlankButLessWhileNoSideTellsTheAxis) {
-  const auto speed_across_mps = [](double axis_sigma_rad) { return car_after_two_echoes(axis_sigma_rad, {3.0, 1.5}, 1.0, true).velocity_mps().y(); };
+TEST(HeadingUpdate,
+     IsSteeredForAsLongAsItsAxisTellsWhichSideIsTheFlankButLessWhileNoSideTellsTheAxis) {
+  const auto speed_across_mps = [](double axis_sigma_rad) {
+    return car_after_two_echoes(axis_sigma_rad, {3.0, 1.5}, 1.0, true).velocity_mps().y();
+  };
   const double told_mps = speed_across_mps(0.13);
   const double remembered_mps = speed_across_mps(0.24);
   EXPECT_GT(remembered_mps, told_mps + 0.5);
@@ -45,7 +49,9 @@ TEST(HeadingUpdate, IsSteeredForAsLongAsItsAxisTellsWhichSideIsTheFlankButLessWh
 }
 
 TEST(HeadingUpdate, IsNotOrientedByACourseHalfwayBetweenTwoSidesForAsLongAsItsAxisTellsThem) {
-  const auto is_oriented = [](double axis_sigma_rad) { return car_after_two_echoes(axis_sigma_rad, {4.0, 4.0}, 0.3, false).extent.box()->is_oriented; };
+  const auto is_oriented = [](double axis_sigma_rad) {
+    return car_after_two_echoes(axis_sigma_rad, {4.0, 4.0}, 0.3, false).extent.box()->is_oriented;
+  };
   EXPECT_FALSE(is_oriented(0.24));
   EXPECT_TRUE(is_oriented(0.3));
 }
@@ -58,7 +64,8 @@ TEST(HeadingUpdate, DoesNotTurnByWhatIsRound) {
     observation.points_m = points;
     observation.beam_step_rad = 0.5 * M_PI / 180.0;
     observation.side = Side{0.5 * M_PI + 0.3, 1.8, off_m};
-    Track track = initiated({{1}, 0, observation, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity()}, config);
+    Track track =
+        initiated({{1}, 0, observation, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity()}, config);
     track.extent.footprint().heading_rad = 0.0;
     track.extent.box()->heading_variance_rad2 = 0.01;
     predict(track, kPeriodS, config);

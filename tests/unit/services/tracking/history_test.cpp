@@ -37,7 +37,8 @@ TEST(History, DropsTheOldestOfTooManyObservations) {
   Observation observation;
   observation.points_m = points_m;
   const auto count = static_cast<std::int64_t>(ObservationHistory::kMost) + 3;
-  for (std::int64_t stamp_ns = 0; stamp_ns < count; ++stamp_ns) history.observations.add(stamp_ns, observation, Eigen::Matrix2d::Zero());
+  for (std::int64_t stamp_ns = 0; stamp_ns < count; ++stamp_ns)
+    history.observations.add(stamp_ns, observation, Eigen::Matrix2d::Zero());
   EXPECT_EQ(history.observations.size(), ObservationHistory::kMost);
   EXPECT_EQ(history.observations[0].stamp_ns, 3);
 }

@@ -14,14 +14,16 @@ using testing::StreetBox;
 
 const StreetBox kCar{{20.0, 2.0, M_PI / 2.0}};
 
-/// One scan of a car before a wall, compared with earlier scans of the same street with or without it.
+/// One scan of a car before a wall, compared with earlier scans of the same street with or without
+/// it.
 class Scene {
  public:
   explicit Scene(bool car_was_there) {
     Street street{{{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0}}, {}, {}};
     if (car_was_there) street.unknown = {kCar};
     for (std::int64_t i = 0; i < 20; ++i) {
-      const PolarView before(detection::detect(street.scan(i * kPeriodNs, static_cast<std::uint32_t>(i)), {}));
+      const PolarView before(
+          detection::detect(street.scan(i * kPeriodNs, static_cast<std::uint32_t>(i)), {}));
       history_.add(i * kPeriodNs, before, std::vector<Owner>(before.beam_count()));
     }
     street.unknown = {kCar};
@@ -39,7 +41,9 @@ class Scene {
     while ((scan_.segments[s].centroid_in_odom_m - Eigen::Vector2d(19.1, 2.0)).norm() > 1.0) ++s;
     return s;
   }
-  bool may_initiate_car() const { return may_initiate(car_segment(), tracks, associations, context()); }
+  bool may_initiate_car() const {
+    return may_initiate(car_segment(), tracks, associations, context());
+  }
 
   TrackingConfig config;
   std::vector<Track> tracks;
@@ -91,7 +95,8 @@ TEST(Initiation, MakesATrackOfTheSegment) {
   Scene scene(false);
   Track track;
   TrackShare share;
-  initiate_from_segment(track, share, {{5}, scene.car_segment(), 1, kRoadUsersAnywhere}, scene.context());
+  initiate_from_segment(track, share, {{5}, scene.car_segment(), 1, kRoadUsersAnywhere},
+                        scene.context());
   EXPECT_EQ(track.track_id.value, 5U);
   EXPECT_EQ(track.history.scanner, 1U);
   EXPECT_EQ(share.beams, scene.car().beams);

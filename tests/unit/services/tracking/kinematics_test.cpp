@@ -51,7 +51,8 @@ TEST(Kinematics, ShiftedMovesItsPositionsAndNotItsVelocity) {
   combine(kinematics, kConfig);
   EXPECT_NEAR((kinematics.position_m() - before.position_m() - by_m).norm(), 0.0, 1e-12);
   EXPECT_NEAR((kinematics.velocity_mps() - before.velocity_mps()).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((kinematics.measured->centre_m - before.measured->centre_m - by_m).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((kinematics.measured->centre_m - before.measured->centre_m - by_m).norm(), 0.0,
+              1e-12);
   EXPECT_EQ(kinematics.recentred_m, by_m);
 }
 
@@ -85,7 +86,8 @@ TEST(Kinematics, HasTheCourseThatSamplesOfItsVelocityHave) {
   double squares_rad2 = 0.0;
   constexpr int kSamples = 20'000;
   for (int i = 0; i < kSamples; ++i) {
-    const double off_rad = std::atan2(4.0 + normal(random), 3.0 + normal(random)) - course.heading_rad;
+    const double off_rad =
+        std::atan2(4.0 + normal(random), 3.0 + normal(random)) - course.heading_rad;
     sum_rad += off_rad, squares_rad2 += off_rad * off_rad;
   }
   EXPECT_NEAR(sum_rad / kSamples, 0.0, 3.0 * std::sqrt(course.variance_rad2 / kSamples));
@@ -100,7 +102,8 @@ TEST(Kinematics, LosesTheVelocityAcrossTheAxisOfItsBoxAndKeepsThatAlongIt) {
   };
   EXPECT_NEAR(constrained(true).x(), 5.0, 0.05);
   EXPECT_LT(constrained(true).y(), 0.85);
-  EXPECT_GT(constrained(false).y(), constrained(true).y() + 0.02) << "the error of a remembered axis is common to many scans";
+  EXPECT_GT(constrained(false).y(), constrained(true).y() + 0.02)
+      << "the error of a remembered axis is common to many scans";
 }
 
 }  // namespace

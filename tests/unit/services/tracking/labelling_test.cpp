@@ -20,7 +20,7 @@ struct Scene {
   TrackingConfig config;
   Associations associations;
   std::vector<Track> tracks{1};
-  std::size_t car = 0;          ///< Index of its segment.
+  std::size_t car = 0;  ///< Index of its segment.
 
   Scene() {
     const Street street{{{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0}}, {{{20.0, 2.0, M_PI / 2.0}}}, {}};

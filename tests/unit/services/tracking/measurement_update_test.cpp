@@ -10,15 +10,16 @@
 namespace slammot::tracking {
 namespace {
 
-using testing::kPeriodS;
 using testing::known_car;
 using testing::known_walker;
+using testing::kPeriodS;
 using testing::see;
 
 TEST(MeasurementUpdate, CountsHowFarEchoesLieOffItsSidesWhileItIsAVehicleThatIsConfirmed) {
   const TrackingConfig config;
   std::vector<Eigen::Vector2d> points_m;
-  for (int i = 0; i < 12; ++i) points_m.emplace_back(10.0, -0.9 + 1.8 / 11.0 * i);  // the back of a car
+  for (int i = 0; i < 12; ++i)
+    points_m.emplace_back(10.0, -0.9 + 1.8 / 11.0 * i);  // the back of a car
   Observation observation;
   observation.points_m = points_m;
   observation.beam_step_rad = 0.015;
@@ -43,7 +44,8 @@ TEST(MeasurementUpdate, OfOneKnownToWalkGoesOnThoughItIsGivenTheEchoesOfOneWhoCo
   for (int i = 0; i < 40; ++i) see(track, {1.3 * kPeriodS * (i + 1), 8.0}, 0.4, config);
   ASSERT_TRUE(is_known_pedestrian(track));
   const double met_m = track.position_m().x();
-  for (int i = 0; i < 10; ++i) see(track, {met_m + 0.3 - 1.3 * kPeriodS * (i + 1), 7.6}, 0.4, config);
+  for (int i = 0; i < 10; ++i)
+    see(track, {met_m + 0.3 - 1.3 * kPeriodS * (i + 1), 7.6}, 0.4, config);
   EXPECT_GT(track.velocity_mps().x(), 0.9);
   EXPECT_LT(std::abs(track.velocity_mps().y()), 0.5);
 }
@@ -63,7 +65,8 @@ TEST(MeasurementUpdate, OfOneKnownToWalkIsSomebodyWhoWalksThoughTheFilterSaysTha
   const auto noise_m2 = [&](double speed_mps, bool is_known) {
     Track track = known_walker(0.0, config);
     track.existence.hits = is_known ? 100 : 10;
-    track.kinematics.mixture.modes[0].mean[2] = track.kinematics.mixture.modes[1].mean[2] = speed_mps;
+    track.kinematics.mixture.modes[0].mean[2] = track.kinematics.mixture.modes[1].mean[2] =
+        speed_mps;
     see(track, {speed_mps * kPeriodS, 8.0}, 0.4, config);
     return track.kinematics.measured->R(0, 0);
   };
@@ -74,7 +77,8 @@ TEST(MeasurementUpdate, OfOneKnownToWalkIsSomebodyWhoWalksThoughTheFilterSaysTha
 TEST(MeasurementUpdate, OfOneKnownToWalkGoesOnAtTheirVelocityWhileHidden) {
   const TrackingConfig config;
   Track track = known_walker(0.0, config);
-  for (filters::MotionState& mode : track.kinematics.mixture.modes) mode.mean[4] = -1.5;  // as if they were about to turn round
+  for (filters::MotionState& mode : track.kinematics.mixture.modes)
+    mode.mean[4] = -1.5;  // as if they were about to turn round
   for (int i = 0; i < 37; ++i) predict(track, kPeriodS, config);
   EXPECT_NEAR(track.velocity_mps().x(), 1.3, 0.05);
 }

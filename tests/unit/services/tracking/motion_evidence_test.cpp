@@ -21,7 +21,8 @@ class Scene {
   Scene(const StreetBox& now, const StreetBox& before) {
     Street street{{{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0}}, {before}, {}};
     for (std::int64_t i = 0; i < 20; ++i) {
-      const PolarView view(detection::detect(street.scan(i * kPeriodNs, static_cast<std::uint32_t>(i)), {}));
+      const PolarView view(
+          detection::detect(street.scan(i * kPeriodNs, static_cast<std::uint32_t>(i)), {}));
       history_.add(i * kPeriodNs, view, std::vector<Owner>(view.beam_count()));
     }
     street.unknown = {now};
@@ -30,12 +31,13 @@ class Scene {
     comparison_.begin(context());
     for (std::size_t s = 0; s < scan_.segments.size(); ++s) comparison_.compare(s, context());
     for (const flow::Segment& segment : scan_.segments)
-      if (segment.label == flow::PointLabel::kMoving) beams.insert(beams.end(), segment.beams.begin(), segment.beams.end());
+      if (segment.label == flow::PointLabel::kMoving)
+        beams.insert(beams.end(), segment.beams.begin(), segment.beams.end());
   }
 
   ComparedScan context() const { return {{view_, history_, config_}, comparison_}; }
 
-  std::vector<std::uint16_t> beams;   ///< Of the car.
+  std::vector<std::uint16_t> beams;  ///< Of the car.
 
  private:
   flow::SegmentedScan scan_;
@@ -77,9 +79,11 @@ TEST(MotionEvidence, OfAFlankThatMaySlideAlongItselfCountsLess) {
   Track car;
   car.extent.outline = Box();
   car.extent.footprint().heading_rad = M_PI / 2.0;
-  EXPECT_LT(motion_evidence(car, scene.beams, scene.context()).stood, 0.5 * motion_evidence(blob, scene.beams, scene.context()).stood);
+  EXPECT_LT(motion_evidence(car, scene.beams, scene.context()).stood,
+            0.5 * motion_evidence(blob, scene.beams, scene.context()).stood);
   car.kinematics.estimate.mean(3) = 6.0;  // a fast flank leaves its place
-  EXPECT_EQ(motion_evidence(car, scene.beams, scene.context()).stood, motion_evidence(blob, scene.beams, scene.context()).stood);
+  EXPECT_EQ(motion_evidence(car, scene.beams, scene.context()).stood,
+            motion_evidence(blob, scene.beams, scene.context()).stood);
 }
 
 TEST(TentativeEvidence, SumsUpWhatTheMapAndEarlierScansSay) {

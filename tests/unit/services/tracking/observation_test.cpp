@@ -24,7 +24,8 @@ TEST(Observation, SpansItsDiameterToWithinEightPercent) {
   std::uniform_real_distribution<double> place(-3.0, 3.0);
   for (int i = 0; i < 200; ++i) {
     std::vector<Vector2d> points_m;
-    for (int point = 0; point < 6; ++point) points_m.emplace_back(place(random), 0.3 * place(random));
+    for (int point = 0; point < 6; ++point)
+      points_m.emplace_back(place(random), 0.3 * place(random));
     EXPECT_LE(largest_span_m(points_m), diameter_m(points_m) + 1e-9);
     EXPECT_GE(largest_span_m(points_m), 0.92 * diameter_m(points_m));
   }

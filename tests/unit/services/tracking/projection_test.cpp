@@ -10,7 +10,8 @@ namespace {
 using Eigen::Vector2d;
 
 /// The rear and the left flank of a car at heading 0, seen from the origin.
-const std::vector<Vector2d> kCorner = {{14.0, 3.0}, {13.0, 3.0}, {12.0, 3.0}, {11.0, 3.0}, {10.0, 3.0}, {10.0, 3.5}, {10.0, 4.0}, {10.0, 4.5}};
+const std::vector<Vector2d> kCorner = {{14.0, 3.0}, {13.0, 3.0}, {12.0, 3.0}, {11.0, 3.0},
+                                       {10.0, 3.0}, {10.0, 3.5}, {10.0, 4.0}, {10.0, 4.5}};
 
 Observation corner() {
   Observation observation;

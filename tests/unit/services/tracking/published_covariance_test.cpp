@@ -11,14 +11,18 @@
 namespace slammot::tracking {
 namespace {
 
-using testing::kPeriodS;
 using testing::followed_car;
 using testing::known_car;
+using testing::kPeriodS;
 
 /// One sigma of the published centre, across the heading.
-double sigma_across_m(const Track& track) { return std::sqrt(published(track, 0, TrackingConfig()).covariance(1, 1)); }
+double sigma_across_m(const Track& track) {
+  return std::sqrt(published(track, 0, TrackingConfig()).covariance(1, 1));
+}
 
-Eigen::Matrix4d published_covariance(const Track& track) { return published(track, 0, {}).covariance; }
+Eigen::Matrix4d published_covariance(const Track& track) {
+  return published(track, 0, {}).covariance;
+}
 
 TEST(PublishedCovariance, IsInThePublishedCovarianceAsFarAsItIsSeen) {
   const TrackingConfig config;
@@ -58,7 +62,8 @@ TEST(PublishedCovariance, DrawnAsACarMayBeTheBicycleThatItsSpeedSaysItIs) {
   track.classification.probability = {0.0, 0.0, 1.0, 0.0};
   const double surely_m = sigma_across_m(track);
   track.classification.probability = {0.0, 0.5, 0.5, 0.0};
-  EXPECT_NEAR(sigma_across_m(track), std::hypot(surely_m, std::sqrt(0.5) * 0.5 * (1.8 - 0.65)), 1e-3);
+  EXPECT_NEAR(sigma_across_m(track), std::hypot(surely_m, std::sqrt(0.5) * 0.5 * (1.8 - 0.65)),
+              1e-3);
 }
 
 TEST(PublishedCovariance, OfWhichNoSideTellsTheHeadingIsNotPublishedAsIfItsCourseDidSurely) {
@@ -101,7 +106,8 @@ TEST(PublishedCovariance, IsKnownAsWellAsBodiesHereAreBoxes) {
   EXPECT_LT(of_boxes(1, 1), as_taken(1, 1) - 0.006);
   EXPECT_EQ(of_boxes(2, 2), as_taken(2, 2));
   track.extent.range_m = 50.0;
-  EXPECT_GT(published_covariance(track)(0, 0), of_boxes(0, 0) + 0.0002) << "the scanner errs as it did";
+  EXPECT_GT(published_covariance(track)(0, 0), of_boxes(0, 0) + 0.0002)
+      << "the scanner errs as it did";
   track.extent.box()->axis_variance_rad2 = 1.0;
   EXPECT_GT(published_covariance(track)(1, 1), as_taken(1, 1)) << "no side tells the heading";
 }
@@ -109,12 +115,15 @@ TEST(PublishedCovariance, IsKnownAsWellAsBodiesHereAreBoxes) {
 TEST(PublishedCovariance, MayBeAnywhereInItsBoxWhereBeamsPassThroughIt) {
   Track track = known_car();
   const Eigen::Matrix4d solid = published_covariance(track);
-  for (int i = 0; i < 100; ++i) track.existence.passage = with_beams(track.existence.passage, 1, 19, kPeriodS);
+  for (int i = 0; i < 100; ++i)
+    track.existence.passage = with_beams(track.existence.passage, 1, 19, kPeriodS);
   EXPECT_EQ(published_covariance(track)(0, 0), solid(0, 0)) << "a beam or two pass by a corner";
-  for (int i = 0; i < 100; ++i) track.existence.passage = with_beams(track.existence.passage, 16, 4, kPeriodS);
+  for (int i = 0; i < 100; ++i)
+    track.existence.passage = with_beams(track.existence.passage, 16, 4, kPeriodS);
   EXPECT_GT(std::sqrt(published_covariance(track)(0, 0)), 1.0);
   EXPECT_GT(std::sqrt(published_covariance(track)(1, 1)), 0.4);
-  for (int i = 0; i < 100; ++i) track.existence.passage = with_beams(track.existence.passage, 0, 20, kPeriodS);
+  for (int i = 0; i < 100; ++i)
+    track.existence.passage = with_beams(track.existence.passage, 0, 20, kPeriodS);
   EXPECT_NEAR(published_covariance(track)(0, 0), solid(0, 0), 1e-3) << "that is over";
 }
 
@@ -127,7 +136,8 @@ TEST(PublishedCovariance, MayBeAnywhereInItsBoxWhereEchoesLieFarOffItsSides) {
   EXPECT_GT(std::sqrt(published_covariance(track)(0, 0)), std::sqrt(near(0, 0)) + 0.5);
   track.existence.consistency.off_sides_m = 0.15;
   track.extent.range_m = 50.0;
-  EXPECT_LT(std::sqrt(published_covariance(track)(0, 0)), std::sqrt(near(0, 0)) + 0.05) << "far away that is usual";
+  EXPECT_LT(std::sqrt(published_covariance(track)(0, 0)), std::sqrt(near(0, 0)) + 0.05)
+      << "far away that is usual";
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ constexpr double kSpeedMps = 6.0;
 /// Two metres of the flank of a car that drives along y; something nearer hides the rest of it.
 std::vector<Vector2d> flank_at(double time_s) {
   std::vector<Vector2d> points;
-  for (double behind_m = 2.0; behind_m > -0.1; behind_m -= 0.2) points.emplace_back(20.0, kSpeedMps * time_s - behind_m);
+  for (double behind_m = 2.0; behind_m > -0.1; behind_m -= 0.2)
+    points.emplace_back(20.0, kSpeedMps * time_s - behind_m);
   return points;
 }
 
@@ -35,10 +36,12 @@ Observation observation_of(const std::vector<Vector2d>& points) {
 /// As if the flank was the front of a car that comes nearer.
 Track begun_as_a_front(int scans) {
   const std::vector<Vector2d> first = flank_at(0.0);
-  Track track = initiated({{1}, 0, observation_of(first), 0.5 * M_PI, 1e-4 * Matrix2d::Identity()}, kConfig);
+  Track track =
+      initiated({{1}, 0, observation_of(first), 0.5 * M_PI, 1e-4 * Matrix2d::Identity()}, kConfig);
   for (int i = 0; i < scans; ++i) {
     const std::vector<Vector2d> points = flank_at(static_cast<double>(i * kPeriodNs) * 1e-9);
-    track.history.observations.add(i * kPeriodNs, observation_of(points), 1e-4 * Matrix2d::Identity());
+    track.history.observations.add(i * kPeriodNs, observation_of(points),
+                                   1e-4 * Matrix2d::Identity());
   }
   return track;
 }
@@ -50,12 +53,15 @@ TEST(Refiltering, TurnsABodyThatWentSideways) {
   EXPECT_NEAR(std::abs(std::sin(track.extent.footprint().heading_rad)), 1.0, 0.05);
   EXPECT_TRUE(track.extent.box()->is_oriented);
   EXPECT_LT((track.velocity_mps() - Vector2d(0.0, kSpeedMps)).norm(), 0.5);
-  EXPECT_LT(track.position_m().y(), kSpeedMps * 11.0 * static_cast<double>(kPeriodNs) * 1e-9 - 1.5);  // behind the front that is seen
+  EXPECT_LT(track.position_m().y(),
+            kSpeedMps * 11.0 * static_cast<double>(kPeriodNs) * 1e-9 - 1.5);  // behind the front
+                                                                              // that is seen
 }
 
 TEST(Refiltering, LeavesOpenWhichSideIsTheFlankOfWhatHasNotMoved) {
   Track track = begun_as_a_front(1);
-  track.history.observations.add(kPeriodNs, observation_of(flank_at(0.0)), 1e-4 * Matrix2d::Identity());
+  track.history.observations.add(kPeriodNs, observation_of(flank_at(0.0)),
+                                 1e-4 * Matrix2d::Identity());
   set_belief(track, refiltered(track, kConfig));
   EXPECT_FALSE(track.extent.box()->is_oriented);
 }
@@ -63,14 +69,17 @@ TEST(Refiltering, LeavesOpenWhichSideIsTheFlankOfWhatHasNotMoved) {
 TEST(Refiltering, IsNotFastBecauseItsOtherEndComesIntoView) {
   constexpr int kScans = 24;
   Track track;
-  for (int i = 0; i < kScans; ++i) {  // a bicycle that was held to be a car: first its front is seen, then all of it
+  for (int i = 0; i < kScans; ++i) {  // a bicycle that was held to be a car: first its front is
+                                      // seen, then all of it
     const double front_m = 3.0 * static_cast<double>(i * kPeriodNs) * 1e-9;
     const double seen_m = std::min(1.6, 0.8 + 0.08 * i);
     std::vector<Vector2d> points;
-    for (double behind_m = seen_m; behind_m > -0.01; behind_m -= 0.2) points.emplace_back(20.0, front_m - behind_m);
+    for (double behind_m = seen_m; behind_m > -0.01; behind_m -= 0.2)
+      points.emplace_back(20.0, front_m - behind_m);
     Observation observation = observation_of(points);
     observation.start = seen_m < 1.6 ? Edge::kHidden : Edge::kOpen;
-    if (i == 0) track = initiated({{1}, 0, observation, 0.5 * M_PI, 1e-4 * Matrix2d::Identity()}, kConfig);
+    if (i == 0)
+      track = initiated({{1}, 0, observation, 0.5 * M_PI, 1e-4 * Matrix2d::Identity()}, kConfig);
     track.history.observations.add(i * kPeriodNs, observation, 1e-4 * Matrix2d::Identity());
   }
   track.extent.outline = Box();

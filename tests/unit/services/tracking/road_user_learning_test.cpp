@@ -13,7 +13,8 @@ namespace {
 
 using testing::known_car;
 
-/// Followed for so long, to be a person in a coat, of whom less swings than the settings take for it.
+/// Followed for so long, to be a person in a coat, of whom less swings than the settings take for
+/// it.
 Track walker_in_a_coat(double followed_s, const TrackingConfig& config) {
   Track track;
   track.existence.confirmed = true;

@@ -14,7 +14,8 @@ constexpr double kErrorM2 = 0.004;
 /// Lengths of cars, this far apart on either side of 4.5 m.
 RoadUsersSeen cars_seen(int count, double off_m) {
   RoadUsersSeen seen;
-  for (int i = 0; i < count; ++i) seen.add_length(Kind::kCar, {4.5 + (i % 2 == 0 ? off_m : -off_m), kErrorM2});
+  for (int i = 0; i < count; ++i)
+    seen.add_length(Kind::kCar, {4.5 + (i % 2 == 0 ? off_m : -off_m), kErrorM2});
   return seen;
 }
 
@@ -46,7 +47,8 @@ TEST(RoadUsers, AreAlikeWhereOthersAre) {
     return seen.known().kinds[kTruck];
   };
   EXPECT_NEAR(with_a_truck(cars_seen(40, 0.0)).length_m, 7.4, 0.1);
-  EXPECT_LT(with_a_truck(cars_seen(40, 0.0)).length_sigma_m, 0.6 * with_a_truck(cars_seen(40, 0.4)).length_sigma_m);
+  EXPECT_LT(with_a_truck(cars_seen(40, 0.0)).length_sigma_m,
+            0.6 * with_a_truck(cars_seen(40, 0.4)).length_sigma_m);
 }
 
 TEST(RoadUsers, MayBeAsThoseAnywhereAllTheSame) {

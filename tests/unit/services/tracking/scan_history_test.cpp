@@ -15,7 +15,9 @@ using testing::StreetBox;
 
 const StreetBox kWall{{40.0, 0.0, M_PI / 2.0}, 80.0, 1.0};
 
-PolarView view_of(const Street& street) { return PolarView(detection::detect(street.scan(0, 0), {})); }
+PolarView view_of(const Street& street) {
+  return PolarView(detection::detect(street.scan(0, 0), {}));
+}
 
 Street with_box_at(double x_m, double y_m) {
   Street street;
@@ -35,16 +37,22 @@ constexpr std::int64_t kHalfSecondNs = 500'000'000;
 ScanHistory history_of(const std::vector<Street>& streets, bool is_confirmed = false) {
   ScanHistory history;
   std::int64_t stamp_ns = 0;
-  for (const Street& street : streets) history.add(stamp_ns += kHalfSecondNs, view_of(street), earlier(street, is_confirmed).owners);
+  for (const Street& street : streets)
+    history.add(stamp_ns += kHalfSecondNs, view_of(street), earlier(street, is_confirmed).owners);
   return history;
 }
 
 /// Of the beam that points straight ahead, against the latest scan at least age_s old.
-Past past_ahead(const Street& now, const ScanHistory& history, std::size_t scans, double age_s = 0.0) {
-  return history.past_of(180, view_of(now), *history.older_than(static_cast<std::int64_t>(scans) * kHalfSecondNs, age_s), true);
+Past past_ahead(const Street& now, const ScanHistory& history, std::size_t scans,
+                double age_s = 0.0) {
+  return history.past_of(
+      180, view_of(now),
+      *history.older_than(static_cast<std::int64_t>(scans) * kHalfSecondNs, age_s), true);
 }
 
-Past past_ahead(const Street& now, const Street& then, bool is_confirmed = false) { return past_ahead(now, history_of({then}, is_confirmed), 1); }
+Past past_ahead(const Street& now, const Street& then, bool is_confirmed = false) {
+  return past_ahead(now, history_of({then}, is_confirmed), 1);
+}
 
 /// In the open: beams that meet nothing come back from nothing; one thing far aside.
 Street in_the_open(std::vector<StreetBox> things) {
@@ -72,7 +80,8 @@ TEST(SightOfPlace, DoesNotTakeAMissingEchoForAFreeWay) {
 
 TEST(SightOfPlace, IsThereBetweenTheEchoesOfAnObliqueWall) {
   Street street;
-  street.known = {{{20.0, 2.05, 0.0}, 60.0, 0.1}};  // along the way, 2 m to the left: echoes metres apart
+  street.known = {{{20.0, 2.05, 0.0}, 60.0, 0.1}};  // along the way, 2 m to the left: echoes metres
+                                                    // apart
   EXPECT_EQ(view_of(street).sight_of({12.3, 2.0}).sight, Sight::kThere);
 }
 
@@ -102,7 +111,8 @@ TEST(Past, OfAPlaceThatAMoverHasJustLeftIsNotThatSomethingStoodThere) {
 }
 
 TEST(Past, OfALegWhereNothingWasNearIsThatItAppeared) {
-  EXPECT_EQ(past_ahead(in_the_open({leg_at(4.0, 0.0)}), in_the_open({leg_at(5.0, 2.0)})), Past::kAppeared);
+  EXPECT_EQ(past_ahead(in_the_open({leg_at(4.0, 0.0)}), in_the_open({leg_at(5.0, 2.0)})),
+            Past::kAppeared);
 }
 
 TEST(Past, OfWhatAnswersNowAndThenIsNotThatItAppeared) {
@@ -119,20 +129,31 @@ TEST(Past, OfWhatAMoverLeftIsNoReasonAgainstItsHavingAppeared) {
 }
 
 TEST(Past, OfAGlintThatGoesAlongWithTheScannerIsNotThatItAppeared) {
-  const auto view_after = [](double x_m) { return PolarView(detection::detect(in_the_open({leg_at(x_m + 3.0, 3.0)}).scan(0, 0, {x_m, 0.0, 0.0}), {})); };
+  const auto view_after = [](double x_m) {
+    return PolarView(
+        detection::detect(in_the_open({leg_at(x_m + 3.0, 3.0)}).scan(0, 0, {x_m, 0.0, 0.0}), {}));
+  };
   ScanHistory history;
-  for (const int step : {1, 2}) history.add(step * kHalfSecondNs, view_after(step), std::vector<Owner>(view_after(step).beam_count()));
-  EXPECT_EQ(history.past_of(270, view_after(3.0), *history.older_than(2 * kHalfSecondNs, 0.0), true), Past::kUnknown);
+  for (const int step : {1, 2})
+    history.add(step * kHalfSecondNs, view_after(step),
+                std::vector<Owner>(view_after(step).beam_count()));
+  EXPECT_EQ(
+      history.past_of(270, view_after(3.0), *history.older_than(2 * kHalfSecondNs, 0.0), true),
+      Past::kUnknown);
 }
 
 TEST(Past, OfALegWhereTheScannerSawAPillarLongAgoAndNothingSinceIsThatItAppeared) {
   const auto view_at = [](double x_m, std::vector<StreetBox> things) {
-    return PolarView(detection::detect(in_the_open(std::move(things)).scan(0, 0, {x_m, 0.0, 0.0}), {}));
+    return PolarView(
+        detection::detect(in_the_open(std::move(things)).scan(0, 0, {x_m, 0.0, 0.0}), {}));
   };
   ScanHistory history;  // a pillar, then 1.5 s without anything
   history.add(kHalfSecondNs, view_at(1.0, {leg_at(4.0, 3.0)}), std::vector<Owner>(361));
-  for (const int step : {2, 3, 4}) history.add(step * kHalfSecondNs, view_at(step, {}), std::vector<Owner>(361));
-  EXPECT_EQ(history.past_of(270, view_at(5.0, {leg_at(8.0, 3.0)}), *history.older_than(4 * kHalfSecondNs, 0.5), true), Past::kAppeared);
+  for (const int step : {2, 3, 4})
+    history.add(step * kHalfSecondNs, view_at(step, {}), std::vector<Owner>(361));
+  EXPECT_EQ(history.past_of(270, view_at(5.0, {leg_at(8.0, 3.0)}),
+                            *history.older_than(4 * kHalfSecondNs, 0.5), true),
+            Past::kAppeared);
 }
 
 TEST(ScanHistory, KnowsOfWhatHasProvenToMoveThatItDidBefore) {

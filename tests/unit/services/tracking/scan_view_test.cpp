@@ -12,7 +12,8 @@
 namespace slammot::tracking {
 namespace {
 
-/// Of ten beams, the first five of which met a body 10 m away, and the rest something so far away that is held to be this.
+/// Of ten beams, the first five of which met a body 10 m away, and the rest something so far away
+/// that is held to be this.
 Edge edge_beside(float range_m, flow::PointLabel label) {
   flow::SegmentedScan scan = testing::turned_scan(10, 0.5 * std::numbers::pi / 180);
   scan.segments.resize(2);
@@ -33,7 +34,9 @@ TEST(ScanView, SeesBothHalvesOfWhatLiesAcrossTheSeam) {
   car.width.value_m = 1.8;
   const auto beams_at = [&](double angle_rad) {
     car.heading_rad = angle_rad + 0.5 * std::numbers::pi;
-    return ScanView(scan).visibility_of(car, {8.0 * std::cos(angle_rad), 8.0 * std::sin(angle_rad)}).beams;
+    return ScanView(scan)
+        .visibility_of(car, {8.0 * std::cos(angle_rad), 8.0 * std::sin(angle_rad)})
+        .beams;
   };
   EXPECT_EQ(beams_at(-1.3), beams_at(0.0));  // where its first beam points, and elsewhere
 }
@@ -51,7 +54,8 @@ TEST(EdgeBeyond, IsOpenBeforeSomethingFarther) {
 TEST(EdgeBeyond, IsHiddenWhereTheBodyMayGoOnAsAnotherSegment) {
   EXPECT_EQ(edge_beside(10.1F, flow::PointLabel::kMoving), Edge::kHidden);
   EXPECT_EQ(edge_beside(10.1F, flow::PointLabel::kUnknown), Edge::kHidden);
-  EXPECT_EQ(edge_beside(10.1F, flow::PointLabel::kStationary), Edge::kOpen) << "a wall is no part of it";
+  EXPECT_EQ(edge_beside(10.1F, flow::PointLabel::kStationary), Edge::kOpen)
+      << "a wall is no part of it";
 }
 
 TEST(EdgeBeyond, IsUnknownWithoutAnEchoAndHiddenAtTheEndOfTheView) {

@@ -45,7 +45,8 @@ TEST(Scanners, AreForgottenButForTheTimeOnReset) {
   scanners.begin(scan_of("front", 5));
   scanners.reset(1'000'000'000);
   EXPECT_EQ(scanners.count(), 0U);
-  EXPECT_TRUE(scanners.is_late(scan_of("front", 1'000'000'000))) << "who had the last stamp is not known";
+  EXPECT_TRUE(scanners.is_late(scan_of("front", 1'000'000'000)))
+      << "who had the last stamp is not known";
   EXPECT_DOUBLE_EQ(scanners.begin(scan_of("front", 1'500'000'000)), 0.5);
 }
 

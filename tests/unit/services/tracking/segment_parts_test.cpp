@@ -57,14 +57,17 @@ void place_box(Track& track, const Eigen::Vector2d& centre_m, double length_m, d
 }
 
 TEST(SegmentParts, JoinTheBoxThatTheyLieIn) {
-  Scene scene({{{15.0, -1.5, 0.0}, 0.5, 0.5}, {{15.0, 1.5, 0.0}, 0.5, 0.5}, {{15.0, 8.0, 0.0}, 0.5, 0.5}});
+  Scene scene(
+      {{{15.0, -1.5, 0.0}, 0.5, 0.5}, {{15.0, 1.5, 0.0}, 0.5, 0.5}, {{15.0, 8.0, 0.0}, 0.5, 0.5}});
   place_box(scene.add_track(), {15.0, 0.0}, 3.0, 5.0);
   assign_parts(scene.tracks, scene.context(), scene.associations);
   EXPECT_EQ(scene.segments_of(0), 2U) << "the two inside, not the third";
 }
 
 TEST(SegmentParts, AreLegsOfAPedestrianWithinAStride) {
-  Scene scene({{{8.0, 0.0, 0.0}, 0.15, 0.15}, {{8.0, 0.4, 0.0}, 0.15, 0.15}, {{8.0, 2.0, 0.0}, 0.15, 0.15}});
+  Scene scene({{{8.0, 0.0, 0.0}, 0.15, 0.15},
+               {{8.0, 0.4, 0.0}, 0.15, 0.15},
+               {{8.0, 2.0, 0.0}, 0.15, 0.15}});
   Track& pedestrian = scene.add_track();
   pedestrian.kinematics.estimate.mean.head<2>() << 7.95, 0.2;
   pedestrian.extent.largest_span_m = 0.5;
@@ -77,14 +80,18 @@ TEST(SharedSegments, GiveEachTrackTheEchoesInItsPlace) {
   place_box(scene.add_track(), {15.0, -1.0}, 1.0, 2.0);
   place_box(scene.add_track(), {15.0, 1.0}, 1.0, 2.0);
   const std::vector<flow::Segment>& segments = scene.context().scan().segments;
-  const auto shared = static_cast<std::size_t>(std::ranges::find(segments, flow::PointLabel::kMoving, &flow::Segment::label) - segments.begin());
+  const auto shared = static_cast<std::size_t>(
+      std::ranges::find(segments, flow::PointLabel::kMoving, &flow::Segment::label) -
+      segments.begin());
   scene.associations.track_of_segment[shared] = 0;
   scene.associations.shares[0].beams = segments[shared].beams;
   divide_shared_segments(scene.tracks, scene.context(), scene.associations);
   ASSERT_TRUE(scene.associations.has_echoes(0));
   ASSERT_TRUE(scene.associations.has_echoes(1));
-  EXPECT_EQ(scene.associations.shares[0].beams.size() + scene.associations.shares[1].beams.size(), segments[shared].beams.size());
-  for (const std::uint16_t beam : scene.associations.shares[1].beams) EXPECT_GT(scene.context().view.point_in_odom_m(beam).y(), 0.0);
+  EXPECT_EQ(scene.associations.shares[0].beams.size() + scene.associations.shares[1].beams.size(),
+            segments[shared].beams.size());
+  for (const std::uint16_t beam : scene.associations.shares[1].beams)
+    EXPECT_GT(scene.context().view.point_in_odom_m(beam).y(), 0.0);
   EXPECT_EQ(scene.associations.shares[1].label, flow::PointLabel::kMoving);
 }
 

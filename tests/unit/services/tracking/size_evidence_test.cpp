@@ -26,7 +26,8 @@ TEST(SizeEvidence, FusesMeasurementsFromEdgeToEdgeDownToTheirCommonError) {
   const double once_m2 = evidence.whole.variance_m2;
   for (int scan = 0; scan < 100; ++scan) add_whole(evidence, {4.6, 0.04, 0.0}, 1.0);
   EXPECT_LT(evidence.whole.variance_m2, once_m2);
-  EXPECT_NEAR(evidence.whole.variance_m2, 0.25 * 0.04, 1e-9) << "errors of neighbouring scans are correlated";
+  EXPECT_NEAR(evidence.whole.variance_m2, 0.25 * 0.04, 1e-9)
+      << "errors of neighbouring scans are correlated";
 }
 
 TEST(SizeEvidence, IgnoresAPieceAndForgetsTheLowerBoundThatItContradicts) {
@@ -47,8 +48,11 @@ TEST(SizeEvidence, IsCompletedByWhatCornersHide) {
 
 TEST(SizeEvidence, IsLikelierForTheKindThatItFits) {
   const SizeEvidence evidence{4.2, {4.4, 0.01}};
-  EXPECT_GT(log_likelihood_of_size(4.4, 0.4, evidence, 1.0), log_likelihood_of_size(7.0, 1.2, evidence, 1.0));
-  EXPECT_LT(log_likelihood_of_size(1.75, 0.2, {4.2, {0.0, kUnknownSizeM2}}, 1.0), log_likelihood_of_size(4.4, 0.4, {4.2, {0.0, kUnknownSizeM2}}, 1.0)) << "the lower bound alone";
+  EXPECT_GT(log_likelihood_of_size(4.4, 0.4, evidence, 1.0),
+            log_likelihood_of_size(7.0, 1.2, evidence, 1.0));
+  EXPECT_LT(log_likelihood_of_size(1.75, 0.2, {4.2, {0.0, kUnknownSizeM2}}, 1.0),
+            log_likelihood_of_size(4.4, 0.4, {4.2, {0.0, kUnknownSizeM2}}, 1.0))
+      << "the lower bound alone";
 }
 
 TEST(SizeFit, IsThePriorWithoutEvidenceAndTheMeasurementWithAPreciseOne) {

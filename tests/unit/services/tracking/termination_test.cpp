@@ -20,8 +20,10 @@ TEST(Termination, OfAVehicleThatHasComeMayStandForAsLongAsItIsSeen) {
   track.existence.travel.travelled_m = 2.0;
   track.history.last_seen_ns = kMinuteNs;
   EXPECT_FALSE(has_stood_too_long(track, kMinuteNs, config));
-  EXPECT_TRUE(has_stood_too_long(track, kMinuteNs + 3'000'000'000, config));  // where has it been since?
-  track.existence.travel.travelled_m = 1.0;  // it may be a wall of which more and more came into view
+  EXPECT_TRUE(has_stood_too_long(track, kMinuteNs + 3'000'000'000, config));  // where has it been
+                                                                              // since?
+  track.existence.travel.travelled_m = 1.0;  // it may be a wall of which more and more came into
+                                             // view
   EXPECT_TRUE(has_stood_too_long(track, kMinuteNs, config));
   track.existence.travel.travelled_m = 2.0;
   track.extent.outline = Blob();
@@ -59,7 +61,9 @@ Track seen_at(std::int64_t stamp_ns) {
 TEST(Termination, ComesAfterAWhileUnseenAndSoonerToATentativeTrack) {
   const TrackingConfig config;
   Track track = seen_at(1'000'000'000);
-  const auto ends_after = [&](double unseen_s) { return has_ended(track, 1'000'000'000 + static_cast<std::int64_t>(unseen_s * 1e9), config); };
+  const auto ends_after = [&](double unseen_s) {
+    return has_ended(track, 1'000'000'000 + static_cast<std::int64_t>(unseen_s * 1e9), config);
+  };
   EXPECT_FALSE(ends_after(config.longest_unseen_tentative_s + 0.1));
   EXPECT_TRUE(ends_after(config.longest_unseen_s + 0.1));
   track.existence.confirmed = false;

@@ -18,7 +18,8 @@ const TrackingConfig kConfig;
 /// Of something this wide, 10 m ahead of the laser.
 Track initiated_with(double width_m) {
   std::vector<Vector2d> points_m;
-  for (double y_m = -0.5 * width_m; y_m <= 0.5 * width_m + 1e-9; y_m += 0.1) points_m.emplace_back(10.0, y_m);
+  for (double y_m = -0.5 * width_m; y_m <= 0.5 * width_m + 1e-9; y_m += 0.1)
+    points_m.emplace_back(10.0, y_m);
   Observation observation;
   observation.points_m = points_m;
   observation.beam_step_rad = 0.01;
@@ -44,7 +45,10 @@ TEST(TrackInitiation, BeginsTentativeAtRestAndWithOneHit) {
 
 TEST(TrackInitiation, CountsTheErrorOfThePose) {
   const Track track = initiated_with(0.4);
-  EXPECT_NEAR((track.kinematics.position_covariance_m2() - track.history.birth.R - 0.01 * Matrix2d::Identity()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((track.kinematics.position_covariance_m2() - track.history.birth.R -
+               0.01 * Matrix2d::Identity())
+                  .norm(),
+              0.0, 1e-12);
 }
 
 TEST(TrackInitiation, LeavesNothingOfTheTrackWhoseMemoryItUses) {

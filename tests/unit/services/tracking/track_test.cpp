@@ -20,7 +20,8 @@ TEST(Track, ThatIsTooFastForLegsIsNobodyWhoWalksFromTheFirstScanOn) {
   confirm(corner, 0, config);
   EXPECT_TRUE(corner.existence.confirmed);
   EXPECT_EQ(corner.classification.likeliest, flow::ObjectClass::kCar);
-  EXPECT_GT(std::sqrt(published(corner, 0, config).covariance(0, 0)), 1.5);  // its middle may be half a car away
+  EXPECT_GT(std::sqrt(published(corner, 0, config).covariance(0, 0)), 1.5);  // its middle may be
+                                                                             // half a car away
 }
 
 TEST(Track, MayTurnTheFasterTheSmallerItIs) {
@@ -31,7 +32,8 @@ TEST(Track, MayTurnTheFasterTheSmallerItIs) {
     Observation observation;
     observation.points_m = points;
     observation.beam_step_rad = 0.5 * M_PI / 180.0;
-    Track track = initiated({{1}, 0, observation, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity()}, config);
+    Track track =
+        initiated({{1}, 0, observation, 0.5 * M_PI, 1e-4 * Eigen::Matrix2d::Identity()}, config);
     track.extent.box()->heading_variance_rad2 = track.extent.box()->axis_variance_rad2 = 0.0;
     predict(track, 1.0, config);
     EXPECT_EQ(track.extent.box()->axis_variance_rad2, track.extent.box()->heading_variance_rad2);

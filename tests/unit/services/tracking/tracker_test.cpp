@@ -18,8 +18,8 @@ namespace {
 
 using geometry::Pose2;
 using geometry::Vector2;
-using testing::Street;
 using testing::among_people;
+using testing::Street;
 using testing::StreetBox;
 
 constexpr double kPeriodS = 1.0 / 37.5;
@@ -28,7 +28,11 @@ const StreetBox kWall{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0};
 /// A street that plays before a scanner at rest.
 class Play {
  public:
-  explicit Play(const TrackingConfig& config = {}, double period_s = kPeriodS, work::SideWork* help = nullptr) : period_s_(period_s), tracker_(config, help) { street.known = {kWall}; }
+  explicit Play(const TrackingConfig& config = {}, double period_s = kPeriodS,
+                work::SideWork* help = nullptr)
+      : period_s_(period_s), tracker_(config, help) {
+    street.known = {kWall};
+  }
 
   /// Lets time pass; `scene` sets the street for each moment.
   void run(double seconds, const std::function<void(Street&, double)>& scene) {
@@ -75,12 +79,15 @@ Play hall() {
 /// Two legs of somebody, one ahead of the other in turn.
 std::vector<StreetBox> legs_at(double x_m, double y_m, double t) {
   const double swing_m = 0.2 * std::sin(2.0 * M_PI * t);
-  return {{{x_m + swing_m, y_m + 0.1, 0.0}, 0.12, 0.12}, {{x_m - swing_m, y_m - 0.1, 0.0}, 0.12, 0.12}};
+  return {{{x_m + swing_m, y_m + 0.1, 0.0}, 0.12, 0.12},
+          {{x_m - swing_m, y_m - 0.1, 0.0}, 0.12, 0.12}};
 }
 
 TEST(Tracker, KnowsWhereACarThatCrossesIsAndHowFast) {
   Play play;
-  const auto scene = [](Street& street, double t) { street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}}; };
+  const auto scene = [](Street& street, double t) {
+    street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}};
+  };
   play.run(2.0, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
   const flow::TrackedObject car = play.confirmed().front();
@@ -95,7 +102,9 @@ TEST(Tracker, KnowsWhereACarThatCrossesIsAndHowFast) {
 TEST(Tracker, DrawsAnewWhatIsAgainAndAgainTooFarFromWhereItMustBe) {
   Play play;
   constexpr double kBesideM = 0.75;  // as if another part of it had come into view
-  const auto scene = [](Street& street, double t) { street.unknown = {{{t < 2.0 ? 20.0 : 20.0 - kBesideM, -15.0 + 8.0 * t, M_PI / 2.0}}}; };
+  const auto scene = [](Street& street, double t) {
+    street.unknown = {{{t < 2.0 ? 20.0 : 20.0 - kBesideM, -15.0 + 8.0 * t, M_PI / 2.0}}};
+  };
   play.run(2.0, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
   int unpublished = 0;
@@ -107,7 +116,10 @@ TEST(Tracker, DrawsAnewWhatIsAgainAndAgainTooFarFromWhereItMustBe) {
   EXPECT_LE(unpublished, 5);
   ASSERT_EQ(play.confirmed().size(), 1U);
   EXPECT_EQ(play.ids.size(), 1U);
-  EXPECT_LT((play.confirmed().front().position_in_odom_m - Vector2(20.0 - kBesideM, -15.0 + 8.0 * (play.now_s() - kPeriodS))).norm(), 0.3);
+  EXPECT_LT((play.confirmed().front().position_in_odom_m -
+             Vector2(20.0 - kBesideM, -15.0 + 8.0 * (play.now_s() - kPeriodS)))
+                .norm(),
+            0.3);
   EXPECT_LT((play.confirmed().front().velocity_in_odom_mps - Vector2(0.0, 8.0)).norm(), 0.5);
 }
 
@@ -116,11 +128,16 @@ TEST(Tracker, FollowsACarAcrossTheSeamOfAFullTurn) {
   play.street.look_all_round();
   play.street.known.push_back({{-40.0, 0.0, M_PI / 2.0}, 120.0, 1.0});
   for (int i = 0; i < 100; ++i) {
-    play.step([](Street& street, double t) { street.unknown = {{{-10.0, -9.0 + 6.0 * t, M_PI / 2.0}}}; });
+    play.step([](Street& street, double t) {
+      street.unknown = {{{-10.0, -9.0 + 6.0 * t, M_PI / 2.0}}};
+    });
     if (play.now_s() < 1.0) continue;
     ASSERT_EQ(play.confirmed().size(), 1U) << play.now_s();
     const flow::TrackedObject car = play.confirmed().front();
-    EXPECT_LT((car.position_in_odom_m - Vector2(-10.0, -9.0 + 6.0 * (play.now_s() - kPeriodS))).norm(), 0.3) << play.now_s();
+    EXPECT_LT(
+        (car.position_in_odom_m - Vector2(-10.0, -9.0 + 6.0 * (play.now_s() - kPeriodS))).norm(),
+        0.3)
+        << play.now_s();
     EXPECT_LT((car.velocity_in_odom_mps - Vector2(0.0, 6.0)).norm(), 0.45) << play.now_s();
   }
   EXPECT_EQ(play.ids.size(), 1U);
@@ -133,7 +150,9 @@ TEST(Tracker, KnowsWhereACarIsAtTheStampThoughTheBeamThatMeetsItIsFiredLater) {
     play.street.look_all_round();
     play.street.sweep_s = sweep_s;
     play.street.known.push_back({{-40.0, 0.0, M_PI / 2.0}, 120.0, 1.0});
-    const auto scene = [](Street& street, double t) { street.unknown = {{{-10.0, -15.0 + 10.0 * t, M_PI / 2.0}, 4.5, 1.8, {0.0, 10.0}}}; };
+    const auto scene = [](Street& street, double t) {
+      street.unknown = {{{-10.0, -15.0 + 10.0 * t, M_PI / 2.0}, 4.5, 1.8, {0.0, 10.0}}};
+    };
     for (int i = 0; i < 30; ++i) {
       play.step(scene);
       if (play.now_s() < 1.0) continue;
@@ -143,8 +162,12 @@ TEST(Tracker, KnowsWhereACarIsAtTheStampThoughTheBeamThatMeetsItIsFiredLater) {
       EXPECT_LT((car.position_in_odom_m - centre_m).norm(), 0.3) << play.now_s();
       EXPECT_LT((car.velocity_in_odom_mps - Vector2(0.0, 10.0)).norm(), 0.5) << play.now_s();
       ASSERT_FALSE(car.predicted_path.empty());
-      EXPECT_LT((car.predicted_path.front().position_in_odom_m - centre_m - Vector2(0.0, 10.0 * car.predicted_path.front().after_s)).norm(), 0.6);
-      for (const Eigen::Vector2f& point_m : car.contour_in_odom_m) EXPECT_LT(std::abs(point_m.y() - centre_m.y()), 2.5) << play.now_s();
+      EXPECT_LT((car.predicted_path.front().position_in_odom_m - centre_m -
+                 Vector2(0.0, 10.0 * car.predicted_path.front().after_s))
+                    .norm(),
+                0.6);
+      for (const Eigen::Vector2f& point_m : car.contour_in_odom_m)
+        EXPECT_LT(std::abs(point_m.y() - centre_m.y()), 2.5) << play.now_s();
     }
     EXPECT_EQ(play.ids.size(), 1U);
   }
@@ -155,7 +178,9 @@ TEST(Tracker, IsSureOfACarWithinHalfASecond) {
   play.run(1.5, [](Street&, double) {});  // what was there before
   int scans = 0;
   for (; play.confirmed().empty() && scans < 40; ++scans)
-    play.step([](Street& street, double t) { street.unknown = {{{25.0, -12.0 + 8.0 * (t - 1.5), M_PI / 2.0}}}; });
+    play.step([](Street& street, double t) {
+      street.unknown = {{{25.0, -12.0 + 8.0 * (t - 1.5), M_PI / 2.0}}};
+    });
   EXPECT_LT(scans * kPeriodS, 0.5);
 }
 
@@ -165,17 +190,20 @@ TEST(Tracker, NeverBelievesInAWallThatTheMapHoldsToBeFree) {
   play.run(4.0, [&](Street& street, double) { street.unknown = {forgotten}; });
   EXPECT_TRUE(play.ids.empty());
   std::size_t moving = 0;
-  for (const flow::PointLabel label : play.result.labels.labels) moving += label == flow::PointLabel::kMoving ? 1 : 0;
+  for (const flow::PointLabel label : play.result.labels.labels)
+    moving += label == flow::PointLabel::kMoving ? 1 : 0;
   EXPECT_EQ(moving, 0U);  // so that the map learns it
 }
 
 TEST(Tracker, NeverBelievesInTheEndOfAWallThatComesIntoView) {
   Play play;  // a van drives off and uncovers, bit by bit, a wall of which the map knows nothing
   play.run(3.0, [&](Street& street, double t) {
-    street.unknown = {{{20.0, 8.0, M_PI / 2.0}, 10.0, 0.5}, {{12.0, 5.0 + 2.0 * t, M_PI / 2.0}, 5.0, 2.0}};
+    street.unknown = {{{20.0, 8.0, M_PI / 2.0}, 10.0, 0.5},
+                      {{12.0, 5.0 + 2.0 * t, M_PI / 2.0}, 5.0, 2.0}};
   });
   ASSERT_FALSE(play.confirmed().empty()) << "the van";
-  for (const flow::TrackedObject& object : play.confirmed()) EXPECT_LT(object.position_in_odom_m.x(), 15.0);
+  for (const flow::TrackedObject& object : play.confirmed())
+    EXPECT_LT(object.position_in_odom_m.x(), 15.0);
 }
 
 TEST(Tracker, FollowsACarThatStoodInTheMapAndStartsOff) {
@@ -195,7 +223,9 @@ TEST(Tracker, FollowsACarThatStoodInTheMapAndStartsOff) {
 TEST(Tracker, NoticesACarAheadThatCreepsOffBeforeItHasComeHalfAMetre) {
   Play play;
   const auto travelled_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
-  const auto scene = [&](Street& street, double t) { street.known = {kWall, {{14.0 + travelled_m(t), 0.0, 0.0}}}; };  // the map learns at once
+  const auto scene = [&](Street& street, double t) {
+    street.known = {kWall, {{14.0 + travelled_m(t), 0.0, 0.0}}};
+  };  // the map learns at once
   play.run(2.0, scene);
   EXPECT_TRUE(play.ids.empty());
   while (play.confirmed().empty() && play.now_s() < 4.0) play.step(scene);
@@ -205,7 +235,9 @@ TEST(Tracker, NoticesACarAheadThatCreepsOffBeforeItHasComeHalfAMetre) {
 TEST(Tracker, NoticesATruckAheadThatCreepsOffThoughItsBackMightBeAShortFlank) {
   Play play;
   const auto travelled_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
-  const auto scene = [&](Street& street, double t) { street.known = {kWall, {{6.6 + travelled_m(t), 0.0, 0.0}, 7.1, 2.4}}; };
+  const auto scene = [&](Street& street, double t) {
+    street.known = {kWall, {{6.6 + travelled_m(t), 0.0, 0.0}, 7.1, 2.4}};
+  };
   play.run(2.0, scene);
   while (play.confirmed().empty() && play.now_s() < 6.0) play.step(scene);
   EXPECT_LT(travelled_m(play.now_s() - kPeriodS), 0.5);
@@ -215,7 +247,9 @@ TEST(Tracker, NoticesACarAheadThatCreepsOffThoughAPostHidesTheMiddleOfItsRear) {
   Play play;
   const auto travelled_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
   const StreetBox post{{3.0, 0.0, 0.0}, 0.2, 0.36};
-  const auto scene = [&](Street& street, double t) { street.known = {kWall, post, {{9.75 + travelled_m(t), 0.0, 0.0}}}; };
+  const auto scene = [&](Street& street, double t) {
+    street.known = {kWall, post, {{9.75 + travelled_m(t), 0.0, 0.0}}};
+  };
   play.run(2.0, scene);
   while (play.confirmed().empty() && play.now_s() < 5.0) play.step(scene);
   EXPECT_LT(travelled_m(play.now_s() - kPeriodS), 0.5);
@@ -235,7 +269,9 @@ TEST(Tracker, NoticesSoonThatACarCreepsThatComesIntoView) {
 TEST(Tracker, KeepsWhatItIsSureOfThoughThatIsAsSlowAsWhatStops) {
   Play play;  // the two ends of a rear, at less than 0.6 m/s
   const StreetBox post{{3.0, 0.0, 0.0}, 0.2, 0.36};
-  const auto scene = [&](Street& street, double t) { street.known = {kWall, post, {{9.75 + 0.2 * std::pow(std::max(0.0, t - 2.0), 2), 0.0, 0.0}}}; };
+  const auto scene = [&](Street& street, double t) {
+    street.known = {kWall, post, {{9.75 + 0.2 * std::pow(std::max(0.0, t - 2.0), 2), 0.0, 0.0}}};
+  };
   play.run(2.0, scene);
   play.run(3.0, scene);
   EXPECT_FALSE(play.confirmed().empty());
@@ -251,7 +287,10 @@ TEST(Tracker, TakesAWallBesideSomeoneWhoWalksForNoPartOfThem) {
   play.run(6.0, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
   EXPECT_LT(play.confirmed().front().length_m, 1.0);
-  EXPECT_LT((play.confirmed().front().position_in_odom_m - Vector2(14.3, -3.0 + 1.4 * (play.now_s() - kPeriodS))).norm(), 0.4);
+  EXPECT_LT((play.confirmed().front().position_in_odom_m -
+             Vector2(14.3, -3.0 + 1.4 * (play.now_s() - kPeriodS)))
+                .norm(),
+            0.4);
 }
 
 TEST(Tracker, DoesNotPublishTheVelocityOfOneForAnotherThatComesOutWhereItWasHidden) {
@@ -262,7 +301,9 @@ TEST(Tracker, DoesNotPublishTheVelocityOfOneForAnotherThatComesOutWhereItWasHidd
     if (t > 1.5) street.known = {kWall, {{9.0, 3.0, M_PI / 2.0}, 14.0, 2.0}};
     if (t > 1.5) street.unknown = {};
     if (t > 2.4) street.known = {kWall};
-    if (t > 2.4) street.unknown = {{{16.0, 9.3 - 5.0 * (t - 2.4), -M_PI / 2.0}}};  // it has turned off; one comes towards
+    if (t > 2.4)
+      street.unknown = {{{16.0, 9.3 - 5.0 * (t - 2.4), -M_PI / 2.0}}};  // it has turned off; one
+                                                                        // comes towards
   };
   play.run(1.4, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
@@ -271,7 +312,8 @@ TEST(Tracker, DoesNotPublishTheVelocityOfOneForAnotherThatComesOutWhereItWasHidd
   int wrong = 0;
   for (int i = 0; i < 30; ++i) {
     play.step(scene);
-    for (const flow::TrackedObject& object : play.confirmed()) wrong += object.velocity_in_odom_mps.y() > 0.0 ? 1 : 0;
+    for (const flow::TrackedObject& object : play.confirmed())
+      wrong += object.velocity_in_odom_mps.y() > 0.0 ? 1 : 0;
   }
   EXPECT_LE(wrong, 3);
 }
@@ -287,7 +329,8 @@ TEST(Tracker, TakesTheWallBehindWhichSomeoneDisappearsForNoPartOfThem) {
   ASSERT_EQ(play.confirmed().size(), 1U);
   for (int i = 0; i < 100; ++i) {
     play.step(scene);
-    for (const flow::TrackedObject& object : play.confirmed()) EXPECT_LT(object.length_m, 1.2) << play.now_s();
+    for (const flow::TrackedObject& object : play.confirmed())
+      EXPECT_LT(object.length_m, 1.2) << play.now_s();
   }
 }
 
@@ -314,19 +357,22 @@ TEST(Tracker, DrawsNoVehicleAroundThoseWhoWalkSideBySide) {
     const double apart_m = std::max(0.58, 1.4 - 0.5 * std::max(0.0, t - 1.2));  // they close up
     street.known = {kWall};
     street.unknown = {};
-    for (const int i : {-1, 0, 1}) street.unknown.push_back({{10.0 - 1.3 * t + 0.1 * i, 3.0 + i * apart_m, 0.0}, 0.35, 0.5});
+    for (const int i : {-1, 0, 1})
+      street.unknown.push_back({{10.0 - 1.3 * t + 0.1 * i, 3.0 + i * apart_m, 0.0}, 0.35, 0.5});
   };
   play.run(1.2, scene);
   ASSERT_EQ(play.confirmed().size(), 3U);
   while (play.now_s() < 5.0) {
     play.step(scene);
-    for (const flow::TrackedObject& object : play.confirmed()) EXPECT_LT(object.length_m, 1.2) << play.now_s();
+    for (const flow::TrackedObject& object : play.confirmed())
+      EXPECT_LT(object.length_m, 1.2) << play.now_s();
     EXPECT_GE(play.confirmed().size(), 2U) << play.now_s();
   }
 }
 
 TEST(Tracker, IsUnsureWhereTheMiddleIsOfWhatMayBeTheCornerOfACar) {
-  Play play;  // as small as a corner, and at 6 m/s, though nothing is there that would hide the rest
+  Play play;  // as small as a corner, and at 6 m/s, though nothing is there that would hide the
+              // rest
   const auto scene = [](Street& street, double t) {
     const double y_m = -12.0 + 6.0 * t;
     street.known = {kWall};
@@ -341,7 +387,9 @@ TEST(Tracker, IsUnsureWhereTheMiddleIsOfWhatMayBeTheCornerOfACar) {
 
 TEST(Tracker, NoticesACarThatCreepsHoweverFastTheMapLearns) {
   Play play;  // its front comes, its flank slides along itself, and nothing contradicts the map
-  const auto creeps = [](Street& street, double t) { street.known = {kWall, {{14.0 - 0.8 * std::max(0.0, t - 2.0), 4.0, M_PI}}}; };
+  const auto creeps = [](Street& street, double t) {
+    street.known = {kWall, {{14.0 - 0.8 * std::max(0.0, t - 2.0), 4.0, M_PI}}};
+  };
   play.run(2.0, creeps);
   EXPECT_TRUE(play.ids.empty());
   play.run(3.0, creeps);
@@ -353,11 +401,14 @@ TEST(Tracker, NoticesACarThatCreepsHoweverFastTheMapLearns) {
 TEST(Tracker, IsSureOfACarThatComesOutFromBehindABusBeforeEarlierScansTellItsSpeed) {
   Play play;
   const auto scene = [](Street& street, double t) {
-    street.unknown = {{{12.0, 6.0 + 5.0 * t, M_PI / 2.0}, 16.0, 2.5}, {{20.0, 22.0 - 7.0 * t, -M_PI / 2.0}}};
+    street.unknown = {{{12.0, 6.0 + 5.0 * t, M_PI / 2.0}, 16.0, 2.5},
+                      {{20.0, 22.0 - 7.0 * t, -M_PI / 2.0}}};
   };
   constexpr double kComesOutAtS = 1.61;  // with three echoes
   const auto is_sure = [&] {
-    return std::ranges::any_of(play.confirmed(), [](const flow::TrackedObject& object) { return object.position_in_odom_m.x() > 17.0 && object.velocity_in_odom_mps.y() < -3.0; });
+    return std::ranges::any_of(play.confirmed(), [](const flow::TrackedObject& object) {
+      return object.position_in_odom_m.x() > 17.0 && object.velocity_in_odom_mps.y() < -3.0;
+    });
   };
   while (!is_sure() && play.now_s() < 4.0) play.step(scene);
   EXPECT_LT(play.now_s() - kComesOutAtS, 0.23);
@@ -371,7 +422,8 @@ TEST(Tracker, DoesNotLetABusOfWhichItSeesTheBackSwingRound) {
   const auto starts = [&](Street& street, double t) {
     street.known = {kWall};
     street.gone = {standing};
-    street.unknown = {{{18.0 + 0.5 * (t - 2.0) * (t - 2.0), 1.0 + 0.02 * (scans % 3 - 1), 0.0}, 12.0, 2.5}};
+    street.unknown = {
+        {{18.0 + 0.5 * (t - 2.0) * (t - 2.0), 1.0 + 0.02 * (scans % 3 - 1), 0.0}, 12.0, 2.5}};
   };
   for (; scans < 190; ++scans) {
     play.step(starts);
@@ -388,7 +440,9 @@ TEST(Tracker, DoesNotLetABusOfWhichItSeesTheBackSwingRound) {
 TEST(Tracker, DropsSoonWhatStandsAndHasHardlyComeAnywhere) {
   Play play;  // a car rolls 1.2 m and stays
   play.run(2.0, [](Street& street, double) { street.known = {kWall}; });
-  const auto rolls = [](Street& street, double t) { street.unknown = {{{14.0 - std::min(1.2, 1.2 * (t - 2.0)), 4.0, M_PI}}}; };
+  const auto rolls = [](Street& street, double t) {
+    street.unknown = {{{14.0 - std::min(1.2, 1.2 * (t - 2.0)), 4.0, M_PI}}};
+  };
   play.run(1.5, rolls);
   play.run(4.0, rolls);
   EXPECT_TRUE(play.confirmed().empty());
@@ -398,12 +452,15 @@ TEST(Tracker, KeepsWhatHasComeOutOfTheMapThoughItsTrackHasEnded) {
   Play play;  // a car rolls 1.2 m and stays
   const StreetBox parked{{12.8, 4.0, M_PI}};
   play.run(2.0, [](Street& street, double) { street.known = {kWall}; });
-  play.run(9.0, [&](Street& street, double t) { street.unknown = {{{14.0 - std::min(1.2, 1.2 * (t - 2.0)), 4.0, M_PI}}}; });
+  play.run(9.0, [&](Street& street, double t) {
+    street.unknown = {{{14.0 - std::min(1.2, 1.2 * (t - 2.0)), 4.0, M_PI}}};
+  });
   ASSERT_EQ(play.ids.size(), 1U);
   ASSERT_TRUE(play.confirmed().empty());
   int of_car = 0;
   for (std::size_t beam = 0; beam < play.result.labels.labels.size(); ++beam) {
-    const double direction_rad = -0.5 * M_PI + static_cast<double>(beam) * M_PI / (play.street.beams - 1);
+    const double direction_rad =
+        -0.5 * M_PI + static_cast<double>(beam) * M_PI / (play.street.beams - 1);
     if (!testing::range_to(parked, Vector2::Zero(), direction_rad)) continue;
     ++of_car;
     EXPECT_EQ(play.result.labels.labels[beam], flow::PointLabel::kMoving) << beam;
@@ -442,7 +499,9 @@ TEST(Tracker, KnowsSomebodyAgainWhoWasHidden) {
   Play play;
   play.street.known.push_back({{12.0, 0.0, M_PI / 2.0}, 2.0, 1.0});
   bool was_hidden = false;
-  const auto scene = [](Street& street, double t) { street.unknown = {{{16.0, -5.0 + 1.5 * t, M_PI / 2.0}, 0.4, 0.5}}; };
+  const auto scene = [](Street& street, double t) {
+    street.unknown = {{{16.0, -5.0 + 1.5 * t, M_PI / 2.0}, 0.4, 0.5}};
+  };
   for (int i = 0; i < 230; ++i) {
     play.step(scene);
     was_hidden = was_hidden || (i > 80 && play.confirmed().empty());
@@ -460,7 +519,8 @@ TEST(Tracker, TurnsTheVelocityOfACarInABendWithItsSides) {
   const auto scene = [&](Street& street, double t) {
     const double heading_rad = heading_at(t);
     const double straight_m = kRadiusM * kRateRadps * std::min(0.0, t - 1.0);
-    street.unknown = {{{8.0 + kRadiusM * std::sin(heading_rad), straight_m - 6.0 - kRadiusM * std::cos(heading_rad), heading_rad}}};
+    street.unknown = {{{8.0 + kRadiusM * std::sin(heading_rad),
+                        straight_m - 6.0 - kRadiusM * std::cos(heading_rad), heading_rad}}};
   };
   play.run(1.0, scene);
   while (play.now_s() < 3.0) {
@@ -468,7 +528,8 @@ TEST(Tracker, TurnsTheVelocityOfACarInABendWithItsSides) {
     ASSERT_EQ(play.confirmed().size(), 1U);
     const double heading_rad = heading_at(play.now_s() - kPeriodS);
     const Vector2 across{-std::sin(heading_rad), std::cos(heading_rad)};
-    ASSERT_LT(std::abs(across.dot(play.confirmed().front().velocity_in_odom_mps)), 0.7) << play.now_s();
+    ASSERT_LT(std::abs(across.dot(play.confirmed().front().velocity_in_odom_mps)), 0.7)
+        << play.now_s();
   }
 }
 
@@ -482,18 +543,23 @@ TEST(Tracker, HoldsACarThatRoundsABendToTurnIfThatIsAMode) {
   play.run(4.0, [&](Street& street, double t) {
     const double heading_rad = heading_at(t);
     const double straight_m = kRadiusM * kRateRadps * std::min(0.0, t - 1.0);
-    street.unknown = {{{8.0 + kRadiusM * std::sin(heading_rad), straight_m - 6.0 - kRadiusM * std::cos(heading_rad), heading_rad}}};
+    street.unknown = {{{8.0 + kRadiusM * std::sin(heading_rad),
+                        straight_m - 6.0 - kRadiusM * std::cos(heading_rad), heading_rad}}};
   });
   ASSERT_EQ(play.confirmed().size(), 1U);
   const flow::TrackedObject car = play.confirmed().front();
   const double heading_rad = heading_at(play.now_s() - kPeriodS);
-  EXPECT_LT((car.velocity_in_odom_mps - kRadiusM * kRateRadps * Vector2(std::cos(heading_rad), std::sin(heading_rad))).norm(), 0.8);
+  EXPECT_LT((car.velocity_in_odom_mps -
+             kRadiusM * kRateRadps * Vector2(std::cos(heading_rad), std::sin(heading_rad)))
+                .norm(),
+            0.8);
   EXPECT_GT(car.mode_probability[2], 0.0);
-  EXPECT_NEAR(car.mode_probability[0] + car.mode_probability[1] + car.mode_probability[2], 1.0, 1e-9);
+  EXPECT_NEAR(car.mode_probability[0] + car.mode_probability[1] + car.mode_probability[2], 1.0,
+              1e-9);
 }
 
-/// How far off the tracker holds the middle of three cars to be, when it comes out from behind a container: the queue brakes
-/// from 8 to 2 m/s while it is hidden.
+/// How far off the tracker holds the middle of three cars to be, when it comes out from behind a
+/// container: the queue brakes from 8 to 2 m/s while it is hidden.
 double error_behind_a_container_m(bool formations) {
   TrackingConfig config;
   config.formations = formations;
@@ -501,7 +567,8 @@ double error_behind_a_container_m(bool formations) {
   const StreetBox container{{10.0, 0.0, M_PI / 2.0}, 4.5, 1.0};
   const auto travelled_m = [](double t) {
     const double braking = std::clamp(t - 2.4, 0.0, 2.0);
-    return 8.0 * std::min(t, 2.4) + 8.0 * braking - 1.5 * braking * braking + 2.0 * std::max(0.0, t - 4.4);
+    return 8.0 * std::min(t, 2.4) + 8.0 * braking - 1.5 * braking * braking +
+           2.0 * std::max(0.0, t - 4.4);
   };
   constexpr double kApartM = 13.0;
   const auto y_of = [&](int car, double t) { return -23.0 - kApartM * (car - 1) + travelled_m(t); };
@@ -513,13 +580,15 @@ double error_behind_a_container_m(bool formations) {
   play.run(2.0, scene);
   std::uint32_t middle = 0;
   for (const flow::TrackedObject& object : play.confirmed())
-    if (std::abs(object.position_in_odom_m.y() - y_of(1, play.now_s() - kPeriodS)) < 2.0) middle = object.track_id.value;
+    if (std::abs(object.position_in_odom_m.y() - y_of(1, play.now_s() - kPeriodS)) < 2.0)
+      middle = object.track_id.value;
   double worst_m = 0.0;
   while (play.now_s() < 5.0) {
     play.step(scene);
     const double truth_m = y_of(1, play.now_s() - kPeriodS);
     for (const flow::TrackedObject& object : play.result.objects.objects)
-      if (object.track_id.value == middle) worst_m = std::max(worst_m, std::abs(object.position_in_odom_m.y() - truth_m));
+      if (object.track_id.value == middle)
+        worst_m = std::max(worst_m, std::abs(object.position_in_odom_m.y() - truth_m));
   }
   return worst_m;
 }
@@ -542,7 +611,9 @@ TEST(Tracker, HoldsTheTwoEndsOfACarForOneWhileSomethingHidesItsMiddle) {
   for (const flow::TrackedObject& object : play.confirmed())
     if (object.position_in_odom_m.x() > 15.0) far.push_back(object);
   ASSERT_EQ(far.size(), 1U);
-  EXPECT_LT((far.front().position_in_odom_m - Vector2(20.0, -9.0 + 6.0 * (play.now_s() - kPeriodS))).norm(), 0.4);
+  EXPECT_LT((far.front().position_in_odom_m - Vector2(20.0, -9.0 + 6.0 * (play.now_s() - kPeriodS)))
+                .norm(),
+            0.4);
   EXPECT_GT(far.front().length_m, 4.0);
 }
 
@@ -560,7 +631,8 @@ TEST(Tracker, KeepsTwoCyclistsApartBetweenWhichItSeesTheWall) {
   Play play;
   const auto scene = [](Street& street, double t) {
     const double y_m = -9.0 + 6.0 * t;
-    street.unknown = {{{20.0, y_m, M_PI / 2.0}, 1.7, 0.6}, {{20.0, y_m + 2.9, M_PI / 2.0}, 1.7, 0.6}};
+    street.unknown = {{{20.0, y_m, M_PI / 2.0}, 1.7, 0.6},
+                      {{20.0, y_m + 2.9, M_PI / 2.0}, 1.7, 0.6}};
   };
   play.run(2.5, scene);
   EXPECT_EQ(play.confirmed().size(), 2U);
@@ -571,7 +643,9 @@ TEST(Tracker, KnowsACarAgainThatDroveBehindAVan) {
   const auto scene = [](Street& street, double t) {
     street.known = {kWall};
     street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}};
-    if (t > 1.0) street.known.push_back({{10.0, 0.0, M_PI / 2.0}, 6.0, 1.0});  // hides the car for more than a second
+    if (t > 1.0)
+      street.known.push_back({{10.0, 0.0, M_PI / 2.0}, 6.0, 1.0});  // hides the car for more than a
+                                                                    // second
   };
   play.run(1.0, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
@@ -601,8 +675,12 @@ TEST(Tracker, KeepsTheFrontOfATruckWhereItIsSeenThoughItMightBeABus) {
       const flow::TrackedObject truck = play.confirmed().front();
       const double t = play.now_s() - kPeriodS;
       const double heading_rad = M_PI + 0.25 - 0.12 * t;
-      const Vector2 front_m = Vector2(36.0 - 8.0 * t, 4.0) + 3.55 * Vector2(std::cos(heading_rad), std::sin(heading_rad));
-      const Vector2 seen_m = truck.position_in_odom_m + 0.5 * truck.length_m * Vector2(std::cos(truck.heading_in_odom_rad), std::sin(truck.heading_in_odom_rad));
+      const Vector2 front_m = Vector2(36.0 - 8.0 * t, 4.0) +
+                              3.55 * Vector2(std::cos(heading_rad), std::sin(heading_rad));
+      const Vector2 seen_m =
+          truck.position_in_odom_m +
+          0.5 * truck.length_m *
+              Vector2(std::cos(truck.heading_in_odom_rad), std::sin(truck.heading_in_odom_rad));
       EXPECT_LT((seen_m - front_m).norm(), 0.5) << width_m << " at " << play.now_s();
     }
     EXPECT_EQ(play.ids.size(), 1U) << width_m;
@@ -615,11 +693,16 @@ TEST(Tracker, StopsWithWhatStopsAndKeepsIt) {
     const double braking = std::clamp(t - 1.0, 0.0, 4.0);
     return -15.0 + 8.0 * std::min(t, 1.0) + 8.0 * braking - braking * braking;
   };
-  play.run(9.0, [&](Street& street, double t) { street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}}; });
+  play.run(9.0, [&](Street& street, double t) {
+    street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}};
+  });
   ASSERT_EQ(play.confirmed().size(), 1U);
   EXPECT_EQ(play.confirmed().front().velocity_in_odom_mps.norm(), 0.0);
   EXPECT_EQ(play.confirmed().front().motion, flow::Motion::kStopped);
-  EXPECT_NEAR((play.confirmed().front().predicted_path.back().position_in_odom_m - play.confirmed().front().position_in_odom_m).norm(), 0.0, 0.1);
+  EXPECT_NEAR((play.confirmed().front().predicted_path.back().position_in_odom_m -
+               play.confirmed().front().position_in_odom_m)
+                  .norm(),
+              0.0, 0.1);
   EXPECT_EQ(play.ids.size(), 1U);
 }
 
@@ -630,7 +713,9 @@ TEST(Tracker, KnowsSoonAgainTheSpeedOfWhatDrivesOff) {
     const double starting = std::max(0.0, t - 6.0);
     return -8.0 + 4.0 * std::min(t, 1.0) + 4.0 * braking - braking * braking + starting * starting;
   };
-  const auto scene = [&](Street& street, double t) { street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}}; };
+  const auto scene = [&](Street& street, double t) {
+    street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}};
+  };
   play.run(6.0, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
   EXPECT_EQ(play.confirmed().front().velocity_in_odom_mps.norm(), 0.0);
@@ -652,7 +737,9 @@ TEST(Tracker, FindsTheSameToTheLastBitWithHelp) {
   Play helped({}, kPeriodS, &help);
   Play alone;
   const auto scene = [](Street& street, double t) {
-    street.unknown = {{{8.0 + 6.0 * t, 5.0, 0.0}}, {{34.0 - 9.0 * t, -4.0, M_PI}}, {{14.0 - 1.3 * t, 0.2, 0.0}, 0.3, 0.3}};
+    street.unknown = {{{8.0 + 6.0 * t, 5.0, 0.0}},
+                      {{34.0 - 9.0 * t, -4.0, M_PI}},
+                      {{14.0 - 1.3 * t, 0.2, 0.0}, 0.3, 0.3}};
   };
   for (int i = 0; i < 100; ++i) {
     helped.step(scene);
@@ -678,7 +765,8 @@ TEST(Tracker, HoldsTwoLegsForOneWhoWalks) {
   play.run(4.0, [](Street& street, double t) {
     const double swing_m = 0.25 * std::sin(2.0 * M_PI * t);
     const double x_m = 14.0 - 1.3 * t;
-    street.unknown = {{{x_m + swing_m, 0.2, 0.0}, 0.15, 0.15}, {{x_m - swing_m, -0.1, 0.0}, 0.15, 0.15}};
+    street.unknown = {{{x_m + swing_m, 0.2, 0.0}, 0.15, 0.15},
+                      {{x_m - swing_m, -0.1, 0.0}, 0.15, 0.15}};
   });
   ASSERT_EQ(play.confirmed().size(), 1U);
   EXPECT_EQ(play.confirmed().front().object_class, flow::ObjectClass::kPedestrian);
@@ -694,12 +782,15 @@ TEST(Tracker, IsSureSoonOfSomebodyWhoWalksWhereAnotherHasJustBeen) {
     street.unknown.clear();
     for (const int who : {0, 1})
       if (t >= (who == 0 ? kFirstSeenS : kSecondSeenS))
-        for (const StreetBox& leg : legs_at(x_of(who, t), 0.3 * who, t + 0.3 * who)) street.unknown.push_back(leg);
+        for (const StreetBox& leg : legs_at(x_of(who, t), 0.3 * who, t + 0.3 * who))
+          street.unknown.push_back(leg);
   };
   const auto knows = [&](int who) {
     const Vector2 place_m{x_of(who, play.now_s()), 0.3 * who};
     const auto confirmed = play.confirmed();
-    return std::any_of(confirmed.begin(), confirmed.end(), [&](const auto& one) { return (one.position_in_odom_m - place_m).norm() < 0.6; });
+    return std::any_of(confirmed.begin(), confirmed.end(), [&](const auto& one) {
+      return (one.position_in_odom_m - place_m).norm() < 0.6;
+    });
   };
   while (!knows(1) && play.now_s() < 4.0) play.step(scene);
   EXPECT_LT(play.now_s() - kSecondSeenS, 0.8);
@@ -717,7 +808,9 @@ TEST(Tracker, NeverBelievesInAWallInTheOpenThatAnswersBitByBit) {
 
 TEST(Tracker, GoesOnWithTheSameIdsAfterARestart) {
   Play play;
-  const auto scene = [](Street& street, double t) { street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}}; };
+  const auto scene = [](Street& street, double t) {
+    street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}};
+  };
   play.run(1.5, scene);
   ASSERT_EQ(play.confirmed().size(), 1U);
   play.tracker().resume(play.result.objects);
@@ -736,7 +829,8 @@ TEST(Tracker, TellsTheSameWhenAskedTwice) {
   ASSERT_EQ(first.result.objects.objects.size(), second.result.objects.objects.size());
   for (std::size_t i = 0; i < first.result.objects.objects.size(); ++i) {
     EXPECT_EQ(first.result.objects.objects[i].track_id, second.result.objects.objects[i].track_id);
-    EXPECT_EQ(first.result.objects.objects[i].position_in_odom_m, second.result.objects.objects[i].position_in_odom_m);
+    EXPECT_EQ(first.result.objects.objects[i].position_in_odom_m,
+              second.result.objects.objects[i].position_in_odom_m);
   }
   EXPECT_EQ(first.result.labels.labels, second.result.labels.labels);
 }
@@ -755,30 +849,39 @@ TEST(Tracker, DoesNotExpectWhatBrakesToGoOnAsItGoes) {
     const double braking = std::clamp(t - 1.0, 0.0, 10.0 / 3.0);
     return -15.0 + 10.0 * std::min(t, 1.0) + 10.0 * braking - 1.5 * braking * braking;
   };
-  play.run(2.5, [&](Street& street, double t) { street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}}; });
+  play.run(2.5, [&](Street& street, double t) {
+    street.unknown = {{{20.0, y_of(t), M_PI / 2.0}}};
+  });
   ASSERT_EQ(play.confirmed().size(), 1U);
   const flow::TrackedObject car = play.confirmed().front();
   ASSERT_EQ(car.predicted_path.size(), 6U);
   const flow::PredictedPosition& later = car.predicted_path[1];  // a second ahead
   const double truth_m = y_of(play.now_s() - kPeriodS + later.after_s);
-  const double as_it_goes_m = car.position_in_odom_m.y() + later.after_s * car.velocity_in_odom_mps.y();
-  EXPECT_LT(std::abs(later.position_in_odom_m.y() - truth_m), 0.7 * std::abs(as_it_goes_m - truth_m));
-  EXPECT_LT(std::abs(later.position_in_odom_m.y() - truth_m), 2.0 * std::sqrt(later.covariance_m2(1, 1)));
+  const double as_it_goes_m =
+      car.position_in_odom_m.y() + later.after_s * car.velocity_in_odom_mps.y();
+  EXPECT_LT(std::abs(later.position_in_odom_m.y() - truth_m),
+            0.7 * std::abs(as_it_goes_m - truth_m));
+  EXPECT_LT(std::abs(later.position_in_odom_m.y() - truth_m),
+            2.0 * std::sqrt(later.covariance_m2(1, 1)));
 }
 
 TEST(Tracker, SaysWhereAnObjectWillBeAndHowSurely) {
   Play play;
-  play.run(2.0, [](Street& street, double t) { street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}}; });
+  play.run(2.0, [](Street& street, double t) {
+    street.unknown = {{{20.0, -15.0 + 8.0 * t, M_PI / 2.0}}};
+  });
   ASSERT_EQ(play.confirmed().size(), 1U);
   const flow::TrackedObject car = play.confirmed().front();
   ASSERT_FALSE(car.predicted_path.empty());
   EXPECT_NEAR(car.predicted_path.back().after_s, 3.0, 1e-9);
   const Vector2 travelled_m = car.predicted_path.back().position_in_odom_m - car.position_in_odom_m;
   EXPECT_LT((travelled_m - 3.0 * car.velocity_in_odom_mps).norm(), 0.5);
-  EXPECT_GT(car.predicted_path.back().covariance_m2.trace(), car.predicted_path.front().covariance_m2.trace());
+  EXPECT_GT(car.predicted_path.back().covariance_m2.trace(),
+            car.predicted_path.front().covariance_m2.trace());
 }
 
-/// A street before a front scanner and behind a rear one at the same place, each of half a circle. They speak in turns, or together.
+/// A street before a front scanner and behind a rear one at the same place, each of half a circle.
+/// They speak in turns, or together.
 class PlayBeforeTwo {
  public:
   explicit PlayBeforeTwo(double delay_s) : delay_s_(delay_s), tracker_({}) {
@@ -790,13 +893,15 @@ class PlayBeforeTwo {
   void run(double seconds, const std::function<Vector2(double)>& centre_m) {
     for (int i = 0; i < std::lround(seconds / kPeriodS); ++i, ++sequence_) {
       look(front, "front", sequence_ * kPeriodS, centre_m);
-      if (rear_speaks && sequence_ % rear_every == 0) look(rear, "rear", sequence_ * kPeriodS + delay_s_, centre_m);
+      if (rear_speaks && sequence_ % rear_every == 0)
+        look(rear, "rear", sequence_ * kPeriodS + delay_s_, centre_m);
       least_confirmed = std::min(least_confirmed, i * kPeriodS > 2.0 ? confirmed() : 1);
     }
   }
 
   std::size_t confirmed() const {
-    return static_cast<std::size_t>(std::ranges::count_if(result.objects.objects, &flow::TrackedObject::confirmed));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(result.objects.objects, &flow::TrackedObject::confirmed));
   }
 
   Tracker& tracker() { return tracker_; }
@@ -804,14 +909,15 @@ class PlayBeforeTwo {
   Street front;
   Street rear;
   bool rear_speaks = true;
-  std::uint32_t rear_every = 1;                ///< So many of the front one's scans.
+  std::uint32_t rear_every = 1;  ///< So many of the front one's scans.
   TrackingResult result;
-  std::set<std::uint32_t> ids;                 ///< Of all that were ever confirmed.
-  double least_existence = 1.0;                ///< Of these.
-  std::size_t least_confirmed = 1;             ///< In any scan, 2 s after a run began.
+  std::set<std::uint32_t> ids;      ///< Of all that were ever confirmed.
+  double least_existence = 1.0;     ///< Of these.
+  std::size_t least_confirmed = 1;  ///< In any scan, 2 s after a run began.
 
  private:
-  void look(Street& street, const std::string& scanner_id, double now_s, const std::function<Vector2(double)>& centre_m) {
+  void look(Street& street, const std::string& scanner_id, double now_s,
+            const std::function<Vector2(double)>& centre_m) {
     street.unknown = {{{centre_m(now_s).x(), centre_m(now_s).y(), 0.0}, 4.5, 1.8}};
     flow::LocalizedScan scan = street.scan(static_cast<std::int64_t>(now_s * 1e9), sequence_);
     scan.scanner_id = scanner_id;

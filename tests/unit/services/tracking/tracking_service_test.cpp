@@ -70,7 +70,8 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
   }
   bool has_labelled(std::size_t count) {
     objects.take_each([this](const auto& sample) { published.push_back(*wire::decode(sample)); });
-    labels.take_each([this](const slammot_ScanLabels& sample) { labelled.push_back(sample.sequence_number); });
+    labels.take_each(
+        [this](const slammot_ScanLabels& sample) { labelled.push_back(sample.sequence_number); });
     return labelled.size() >= count;
   }
 };
@@ -86,7 +87,8 @@ TEST_F(TrackingOnTheBus, GivesTheSameAnswerToAScanThatComesAgain) {
   begin();
   for (const std::uint32_t sequence : {0U, 1U, 1U, 0U}) send(sequence);
   ASSERT_TRUE(comes_to([this] { return has_labelled(4); }));
-  EXPECT_THAT(labelled, ::testing::ElementsAre(0, 1, 1, 1)) << "the newest answer tells how far tracking is";
+  EXPECT_THAT(labelled, ::testing::ElementsAre(0, 1, 1, 1))
+      << "the newest answer tells how far tracking is";
 }
 
 TEST_F(TrackingOnTheBus, TakesUpTheTracksOfTheProcessBefore) {
@@ -96,7 +98,8 @@ TEST_F(TrackingOnTheBus, TakesUpTheTracksOfTheProcessBefore) {
   ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
   ASSERT_EQ(published.front().objects.size(), 1U);
   EXPECT_EQ(published.front().objects.front().track_id, flow::TrackId{17});
-  EXPECT_NEAR(published.front().objects.front().position_in_odom_m.x(), 20.8, 0.3) << "predicted over the gap";
+  EXPECT_NEAR(published.front().objects.front().position_in_odom_m.x(), 20.8, 0.3)
+      << "predicted over the gap";
 }
 
 TEST_F(TrackingOnTheBus, LeavesTracksOfAnotherDriveAlone) {

@@ -16,7 +16,8 @@ constexpr std::int64_t kPeriodNs = 100'000'000;
 constexpr std::int64_t kStartNs = 10'000'000'000;
 constexpr double kSpeedMps = 8.0;
 
-/// A car that crosses at 8 m/s before a wall, ten scans a second for a second, and a track of it with this speed.
+/// A car that crosses at 8 m/s before a wall, ten scans a second for a second, and a track of it
+/// with this speed.
 class Scene {
  public:
   explicit Scene(double tracked_mps) {
@@ -24,7 +25,8 @@ class Scene {
     for (std::int64_t i = 0; i <= 10; ++i) {
       const double y_m = -4.0 + kSpeedMps * static_cast<double>(i * kPeriodNs) * 1e-9;
       street.unknown = {{{20.0, y_m, M_PI / 2.0}}};
-      scan_ = detection::detect(street.scan(kStartNs + i * kPeriodNs, static_cast<std::uint32_t>(i)), {});
+      scan_ = detection::detect(
+          street.scan(kStartNs + i * kPeriodNs, static_cast<std::uint32_t>(i)), {});
       if (i == 10) break;
       const PolarView before(scan_);
       history_.add(kStartNs + i * kPeriodNs, before, std::vector<Owner>(before.beam_count()));
@@ -32,7 +34,8 @@ class Scene {
     view_.look_at(scan_);
     for (const flow::Segment& segment : scan_.segments)
       if (segment.label == flow::PointLabel::kMoving)
-        for (const std::uint16_t beam : segment.beams) points_m_.push_back(view_.point_in_odom_m(beam));
+        for (const std::uint16_t beam : segment.beams)
+          points_m_.push_back(view_.point_in_odom_m(beam));
     track.track_id = {1};
     track.history.first_seen_ns = kStartNs;
     track.extent.outline = Box();

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "tests/support/help_at_the_last_moment.hpp"
 
@@ -14,7 +14,8 @@ using ::testing::ElementsAre;
 
 std::vector<flow::RestoredPoints> points_of(std::size_t scans) {
   std::vector<flow::RestoredPoints> points(scans);
-  for (std::size_t i = 0; i < scans; ++i) points[i] = {static_cast<std::uint32_t>(i), std::vector<std::uint16_t>(100, 1)};
+  for (std::size_t i = 0; i < scans; ++i)
+    points[i] = {static_cast<std::uint32_t>(i), std::vector<std::uint16_t>(100, 1)};
   return points;
 }
 
@@ -31,7 +32,8 @@ TEST(Workspace, GivesBackTheMemoryOfWhatWasRemoved) {
 TEST(Workspace, RemovesWithoutChangingTheOrderOfTheOthers) {
   Workspace workspace(nullptr);
   std::vector<flow::RestoredPoints> points = points_of(5);
-  workspace.remove_if(points, [](const flow::RestoredPoints& one) { return one.sequence % 2 == 1; });
+  workspace.remove_if(points,
+                      [](const flow::RestoredPoints& one) { return one.sequence % 2 == 1; });
   std::vector<std::uint32_t> left;
   for (const flow::RestoredPoints& one : points) left.push_back(one.sequence);
   EXPECT_THAT(left, ElementsAre(0U, 2U, 4U));
@@ -39,7 +41,8 @@ TEST(Workspace, RemovesWithoutChangingTheOrderOfTheOthers) {
 
 TEST(Workspace, DoesEachPartOnceWithHelpAndWithout) {
   testing::HelpAtTheLastMoment help;
-  for (work::SideWork* helper : {static_cast<work::SideWork*>(nullptr), static_cast<work::SideWork*>(&help)}) {
+  for (work::SideWork* helper :
+       {static_cast<work::SideWork*>(nullptr), static_cast<work::SideWork*>(&help)}) {
     const Workspace workspace(helper);
     std::vector<int> done(10, 0);
     workspace.for_each(done.size(), [&](std::size_t i) { ++done[i]; });
