@@ -40,9 +40,9 @@ struct Odometry {
 inline constexpr double kRareScans_s = 0.3;  ///< Longer scan periods are rare scans: their errors
                                              ///< are nearly independent.
 
-/// True if the scan is to be skipped: it has no beams, or it is blank (no finite reading), so that
-/// it does not show free space either. A blank scan is kept if scans are rare, because dead
-/// reckoning is better than interpolation between two poses. period_s: usual time between scans.
+/// True if the scan measures nothing: it has no beams, or all readings are NaN, so that it does not
+/// show free space either. Its pose is predicted only. Where scans are rare, a scan of NaN is a
+/// step of dead reckoning like any other. period_s: usual time between scans.
 bool is_blank(const LaserScan& scan, double period_s);
 
 /// True if the reading is an echo.

@@ -177,10 +177,12 @@ bool IngestService::is_acknowledged(const sensing::LaserScan& scan) const {
 /// again in the middle of a drive, it so skips what localization had from the process before: the
 /// first answer tells how much that is.
 bool IngestService::fetch() {
-  // Localization would not answer.
+  // Localization does not answer a scan without beams, nor a blank one before it has a pose.
   const auto is_blank = [&] {
-    return fetched_->scan &&
-           sensing::is_blank(*fetched_->scan, source_.log().plan().figures.scan_period_s);
+    if (!fetched_->scan) return false;
+    return fetched_->scan->range_m.empty() ||
+           (!has_sent_scan_ &&
+            sensing::is_blank(*fetched_->scan, source_.log().plan().figures.scan_period_s));
   };
   while (!fetched_ || is_blank() || (fetched_->scan && is_acknowledged(*fetched_->scan))) {
     if (fetched_) ++context_.status().counter(is_blank() ? "blank_scans" : "skipped_scans");
@@ -192,7 +194,10 @@ bool IngestService::fetch() {
 
 void IngestService::send_fetched() {
   send(*fetched_);
-  if (fetched_->scan) ++context_.status().counter("scans");
+  if (fetched_->scan) {
+    ++context_.status().counter("scans");
+    has_sent_scan_ = true;
+  }
   fetched_.reset();
 }
 

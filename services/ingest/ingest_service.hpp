@@ -73,6 +73,7 @@ class IngestService {
   std::chrono::steady_clock::time_point give_up_waiting_at_;
   bool has_begun_ = false;
   bool has_finished_ = false;
+  bool has_sent_scan_ = false;
   std::optional<Step> fetched_;                  ///< The next one to be sent.
   std::deque<Step> in_flight_;                   ///< At speed max: sent and not acknowledged.
   std::optional<std::int64_t> acknowledged_ns_;  ///< Newest scan that was done with,

@@ -60,11 +60,7 @@ std::optional<std::int64_t> Localizer::last_stamp_ns() const {
   return prediction_.last() ? std::optional(prediction_.last()->stamp_ns) : std::nullopt;
 }
 
-bool Localizer::is_usable(const sensing::LaserScan& scan) {
-  if (sensing::is_blank(scan, prediction_.state().belief.usual_step_s)) {
-    ++counters_.blank_scans;
-    return false;
-  }
+bool Localizer::is_in_order(const sensing::LaserScan& scan) {
   switch (order_.judge(scan, last_stamp_ns())) {
     case ScanOrder::Verdict::kUsable: return true;
     case ScanOrder::Verdict::kDuplicate: ++counters_.duplicate_scans; break;
@@ -76,7 +72,9 @@ bool Localizer::is_usable(const sensing::LaserScan& scan) {
 
 std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan,
                                                        flow::LocalizedScan workspace) {
-  if (!is_usable(scan)) return std::nullopt;
+  if (!is_in_order(scan)) return std::nullopt;
+  if (sensing::is_blank(scan, prediction_.state().belief.usual_step_s))
+    return predict_blank(scan, std::move(workspace));
   ++counters_.scans;
   count(integration_.integrate_overdue(scan.stamp_ns, monitor_.trust(), submaps_.map()), counters_);
   if (prediction_.last()) counters_.submaps += submaps_.begin_next_if_due(odom_from_base());
@@ -85,6 +83,19 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   if (prediction_.last()) place_next(scan);
   else begin(scan);
   return describe_and_remember(scan, std::move(workspace));
+}
+
+/// A blank scan measures nothing: its pose is the prediction, and the estimate stays as it is.
+std::optional<flow::LocalizedScan> Localizer::predict_blank(const sensing::LaserScan& scan,
+                                                            flow::LocalizedScan workspace) {
+  ++counters_.blank_scans;
+  if (scan.range_m.empty() || !prediction_.last() || scan.stamp_ns <= last_blank_ns_)
+    return std::nullopt;
+  last_blank_ns_ = scan.stamp_ns;
+  const Step step = prediction_.predict(scan.stamp_ns);
+  const sensing::LaserScan without_beams{scan.stamp_ns, scan.sequence, scan.scanner, {}};
+  return describe(without_beams, {step.after, step.speed_mps, step.yaw_rate_radps},
+                  std::move(workspace));
 }
 
 /// The first scan: the map begins where it is.
@@ -195,7 +206,16 @@ void Localizer::begin_astray_map() {
 flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& scan,
                                                      flow::LocalizedScan workspace) {
   const OdometryPrediction::LastScan& now = *prediction_.last();
-  const geometry::UncertainPose2 published = covariance_.published(prediction_.estimate());
+  flow::LocalizedScan localized = describe(
+      scan, {prediction_.estimate(), now.speed_mps, now.yaw_rate_radps}, std::move(workspace));
+  integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom()},
+                        monitor_.admission(), submaps_.map());
+  return localized;
+}
+
+flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const EstimateAtScan& now,
+                                        flow::LocalizedScan workspace) {
+  const geometry::UncertainPose2 published = covariance_.published(now.estimate);
   const geometry::UncertainPose2 within_local_map{
       published.pose, covariance_.local_variance_share() * published.covariance};
   flow::LocalizedScan localized = description_.describe({.scan = scan,
@@ -207,8 +227,6 @@ flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& s
                                                          .yaw_rate_radps = now.yaw_rate_radps,
                                                          .sweep_s = sweep_.sweep_s(scan)},
                                                         std::move(workspace));
-  integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom()},
-                        monitor_.admission(), submaps_.map());
   localized.odom_from_base = published;
   localized.local_variance_share = covariance_.local_variance_share();
   return localized;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -136,9 +137,17 @@ class Localizer final : public stages::LocalizationStage {
     std::uint64_t integrated_scans = 0;  ///< With more in the map, it is another one.
   };
 
+  struct EstimateAtScan {
+    const sensing::MotionEstimate& estimate;
+    double speed_mps;
+    double yaw_rate_radps;
+  };
+
   Progress progress() const;
   void return_to(const Progress& progress);
-  bool is_usable(const sensing::LaserScan& scan);
+  bool is_in_order(const sensing::LaserScan& scan);
+  std::optional<flow::LocalizedScan> predict_blank(const sensing::LaserScan& scan,
+                                                   flow::LocalizedScan workspace);
   std::optional<std::int64_t> last_stamp_ns() const;
   const geometry::Pose2& odom_from_base() const { return prediction_.estimate().odom_from_base; }
   void begin(const sensing::LaserScan& scan);
@@ -155,6 +164,8 @@ class Localizer final : public stages::LocalizationStage {
                            const std::vector<flow::PointLabel>& labels) const;
   flow::LocalizedScan describe_and_remember(const sensing::LaserScan& scan,
                                             flow::LocalizedScan workspace);
+  flow::LocalizedScan describe(const sensing::LaserScan& scan, const EstimateAtScan& now,
+                               flow::LocalizedScan workspace);
   Checkpoint checkpoint_now() const;
   void resume(RestoredCheckpoint restored, OdometryPrediction&& before);
 
@@ -175,6 +186,7 @@ class Localizer final : public stages::LocalizationStage {
   ScanIntegration integration_;
   LocalizerCounters counters_;
   sensing::OdometryEpisodes episodes_;
+  std::int64_t last_blank_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Stamp.
   std::optional<Progress> before_scan_;  ///< Before the last one, while it may be localized again.
 };
 

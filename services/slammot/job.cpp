@@ -109,8 +109,7 @@ std::string describe_left_out(const files::RunRecord& record, const files::RunRe
   constexpr std::pair<const char*, const char*> kReasons[] = {
       {"duplicate_scans", "have the stamp of another"},
       {"out_of_order_scans", "are older than one before"},
-      {"far_ahead_scans", "have a stamp far ahead of all others"},
-      {"blank_scans", "hold no reading"}};
+      {"far_ahead_scans", "have a stamp far ahead of all others"}};
   const auto stage = report.counters.find("localization");
   if (stage == report.counters.end()) return {};
   std::string reasons;
@@ -123,6 +122,10 @@ std::string describe_left_out(const files::RunRecord& record, const files::RunRe
   std::string lines;
   if (record.localized_scans() < record.scans() && !reasons.empty())
     lines += "not localized: " + reasons + "\n";
+  const auto blank = stage->second.find("blank_scans");
+  if (blank != stage->second.end() && blank->second > 0)
+    lines += text("warning:  %llu scans hold no valid reading (NaN): poses and tracks predicted\n",
+                  static_cast<unsigned long long>(blank->second));
   const auto few = stage->second.find("too_few_echoes");
   if (few != stage->second.end() && few->second > 0)
     lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n",

@@ -25,6 +25,12 @@ const TrackingResult& Tracker::step(const flow::SegmentedScan& scan) {
   }
   ++counters_.scans;
   const double time_s = scanners_.begin(scan);
+  if (scan.range_m.empty()) {
+    coast(time_s);
+    terminate();
+    publish(scan);
+    return result_;
+  }
   result_.labels.restored.swap(scanners_.current().restored);
   current_.view.look_at(scan);
   const ComparedScan context{{current_.view, scanners_.current().history, config_},
@@ -50,6 +56,15 @@ void Tracker::begin_result(const flow::SegmentedScan& scan) {
   result_.labels.scanner_id = scan.scanner_id;
   result_.labels.labels = scan.labels;
   workspace_.resize(result_.labels.restored, 0);
+}
+
+/// Nothing was measured: tracks are predicted, and their existence does not change.
+void Tracker::coast(double time_s) {
+  for (Track& track : tracks_) {
+    predict(track, time_s, config_);
+    track.history.since_in_view_s += time_s;
+  }
+  estimation_.associator.predict(time_s);
 }
 
 void Tracker::compare(const ScanContext& context) {

@@ -60,6 +60,7 @@ class Tracker final : public stages::TrackingStage {
   };
 
   void begin_result(const flow::SegmentedScan& scan);
+  void coast(double time_s);
   void compare(const ScanContext& context);
   void associate(const ComparedScan& context);
   void update(const ComparedScan& context);

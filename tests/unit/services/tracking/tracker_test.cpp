@@ -232,6 +232,25 @@ TEST(Tracker, NoticesACarAheadThatCreepsOffBeforeItHasComeHalfAMetre) {
   EXPECT_LT(travelled_m(play.now_s() - kPeriodS), 0.5);
 }
 
+TEST(Tracker, PredictsAndPublishesItsTracksAtABlankScan) {
+  Play play;
+  play.run(3.0, [](Street& street, double t) {
+    street.known = {kWall};
+    street.unknown = {{{8.0 + 3.0 * t, 2.0, 0.0}}};
+  });
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const double before_m = play.confirmed().front().position_in_odom_m.x();
+  flow::SegmentedScan blank;
+  blank.stamp_ns = static_cast<std::int64_t>(play.now_s() * 1e9);
+  play.result = play.tracker().step(blank);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_NEAR(play.confirmed().front().position_in_odom_m.x() - before_m, 3.0 * kPeriodS, 0.02);
+  EXPECT_TRUE(play.result.labels.labels.empty());
+  blank.stamp_ns += 1'000'000'000;
+  play.result = play.tracker().step(blank);
+  EXPECT_TRUE(play.confirmed().empty()) << "blank for longer than a track is published unseen";
+}
+
 TEST(Tracker, NoticesATruckAheadThatCreepsOffThoughItsBackMightBeAShortFlank) {
   Play play;
   const auto travelled_m = [](double t) { return 0.5 * std::pow(std::max(0.0, t - 2.0), 2); };
