@@ -121,6 +121,8 @@ void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
         text("only %.0f %% of the sampled pairs of scans match each other: range unit or field of "
              "view may be wrong",
              100.0 * evidence.matched_share));
+  if (!scans_show_motion(plan))
+    findings.emplace_back("scans see too little to judge odometry: it is believed");
   if (is_far_off(evidence.way_scale))
     findings.push_back(
         text("the way by odometry is %.2f times that by scans: corrected by as much to begin with",
@@ -199,6 +201,13 @@ std::string likely_causes(const LogPlan& plan) {
 
 double way_factor_of(const LogPlan& plan) {
   return is_far_off(plan.evidence.way_scale) ? plan.evidence.way_scale : 1.0;
+}
+
+bool scans_show_motion(const LogPlan& plan) {
+  constexpr double kFewEchoes = 0.25;
+  constexpr double kFewPairs = 0.4;
+  const bool sees_little = plan.figures.echo_share < kFewEchoes;
+  return plan.evidence.pairs == 0 || !sees_little || plan.evidence.matched_share >= kFewPairs;
 }
 
 std::vector<std::string> describe_findings(const LogPlan& plan) {

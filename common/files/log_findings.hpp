@@ -11,6 +11,11 @@ namespace slammot::files {
 /// else 1.
 double way_factor_of(const LogPlan& plan);
 
+/// False if scans see so little, by the share of beams with an echo and the share of sampled pairs
+/// that match, that what they match is mostly traffic: they are no evidence against odometry. True
+/// where no pair was tried.
+bool scans_show_motion(const LogPlan& plan);
+
 /// Defects of a log and their treatment: one sentence each, without a full stop; empty for a log
 /// without defects.
 std::vector<std::string> describe_findings(const LogPlan& plan);

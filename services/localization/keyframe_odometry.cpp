@@ -17,6 +17,7 @@ constexpr double kFar_m = 1.0;  // from the keyframe,
 constexpr double kFar_rad = 0.25;
 constexpr double kLong_s = 1.0;            // after which what stands still is forgotten
 constexpr double kReach_m = 50.0;          // half side of what is kept of the keyframe
+constexpr std::size_t kFewestPoints = 50;  // fewer may all be of one moving object
 constexpr double kLeastShare = 0.35;       // of the points
 constexpr double kInformationShare = 0.4;  // neighbouring points share the errors of a surface
 constexpr std::array kStarts{1.0, 0.75, 0.5, 0.0, 1.3};  // of the expected way: registration
@@ -126,6 +127,7 @@ KeyframeOdometry::BestPlace KeyframeOdometry::best_place(const UncertainPose2& p
 std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected,
                                                            const Pose2& by_wheels,
                                                            const ScanPoints& points) {
+  if (points.matched().size() < kFewestPoints) return std::nullopt;
   const double way_m = std::hypot(expected.x_m, expected.y_m);
   const double ahead_m = kExpected_m + kExpectedShare * way_m;
   const double turn_rad = kExpected_rad + kExpectedShare * std::abs(expected.heading_rad);
@@ -201,7 +203,7 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
   for (std::size_t i = 0; i < fits.size(); ++i)
     fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]), points);
   fits = sensing::WayRatioFilter::prominent(fits, kProminent);
-  for (double& fit : fits) fit *= nats_;
+  for (double& fit : fits) fit *= nats_ * evidence_share(points.matched().size());
   state_.way_ratio.update(fits);
   if (state_.way_ratio.sound_probability() > kDoubtBelow) return;
   comparison.by_scans = registered_near(pose_at(state_.way_ratio.most_likely_ratio()), points);
@@ -221,7 +223,7 @@ void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& 
     best = fit;
     best_m = way_m;
   }
-  if (nats_ * (best - standing) < kClearlyDrives) return;
+  if (nats_ * evidence_share(points.matched().size()) * (best - standing) < kClearlyDrives) return;
   comparison.by_scans =
       registered_near({by_wheels.x_m + best_m, by_wheels.y_m, by_wheels.heading_rad}, points);
   if (comparison.by_scans) comparison.extra_odds = -kClearlyDrives;

@@ -142,7 +142,8 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
   const double fits_share =
       matching::fit_of(registered, config_.match.robust_scale_m) -
       agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
-  const double fit = config_.belief.share_nats * independent_share(scan.steps.front()) * fits_share;
+  const double fit = config_.belief.share_nats * evidence_share(scan.points.matched().size()) *
+                     independent_share(scan.steps.front()) * fits_share;
   const LogLikelihoods priors = log_priors(scan, optimum, registered);
   for (std::size_t explanation = 0; explanation < priors.size(); ++explanation) {
     const double log_likelihood = fit + priors[explanation];

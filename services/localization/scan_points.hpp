@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -11,6 +12,13 @@
 #include "services/localization/localizer_config.hpp"
 
 namespace slammot::localization {
+
+/// Evidence of a scan with so few points, as a share of that of a whole scan: each point is a
+/// measurement of its own. 20 echoes of one passing car do not outweigh odometry.
+inline double evidence_share(std::size_t points) {
+  constexpr double kWholeScan = 100.0;
+  return std::min(1.0, static_cast<double>(points) / kWholeScan);
+}
 
 /// End points of the scan at hand, and those of them that are matched against the map.
 class ScanPoints {

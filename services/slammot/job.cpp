@@ -215,6 +215,7 @@ files::Result<Job> prepare_job(const JobOptions& options) {
     profile.localization.sweep_factor_sigma =
         std::max(profile.localization.sweep_factor_sigma, 1.0);
   begin_with_way_factor(files::way_factor_of(drive->plan), profile.localization);
+  profile.localization.belief.enabled = files::scans_show_motion(drive->plan);
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
   return Job{begin(*drive, options, ingest::log_options(profile.ingest)),

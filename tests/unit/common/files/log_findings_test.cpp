@@ -47,6 +47,18 @@ TEST(DescribeFindings, CountsScansWithoutAReading) {
   EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("14 of 100 scans")));
 }
 
+TEST(ScansShowMotion, NotWhereFewBeamsHaveAnEchoAndPairsHardlyMatch) {
+  LogPlan plan = sound_plan();
+  EXPECT_TRUE(scans_show_motion(plan)) << "no pair was tried";
+  plan.evidence = {.pairs = 60, .matched_share = 0.2};
+  EXPECT_TRUE(scans_show_motion(plan)) << "far apart, but full of echoes";
+  plan.figures.echo_share = 0.12;
+  EXPECT_FALSE(scans_show_motion(plan));
+  EXPECT_THAT(describe_findings(plan), ::testing::Contains(HasSubstr("it is believed")));
+  plan.evidence.matched_share = 0.8;
+  EXPECT_TRUE(scans_show_motion(plan));
+}
+
 TEST(LikelyCauses, NameWhatTheEvidenceLeavesOpen) {
   LogPlan plan = sound_plan();
   EXPECT_THAT(likely_causes(plan), HasSubstr("heading sign"));
