@@ -17,6 +17,9 @@ constexpr double kSuspiciousShareDrop = 0.15;  // Every explanation is matched f
                                                // where the matched share falls below its usual
                                                // value by more than this.
 
+constexpr double kLeastOfUsualShare = 0.6;  // of the usual matched share: with less, an explanation
+                                            // other than odometry does not win
+
 constexpr std::size_t kWheels = 0;  // places of the explanations that set the window of a search
 constexpr std::size_t kRough = 1;
 constexpr std::size_t kOther = 2;
@@ -239,18 +242,29 @@ ExplainedStep MixtureMatch::explain_without_odometry(const StepToExplain& scan,
   return concluded(scan, best, sensing::updated(scan.weights, best.log_likelihoods), matcher);
 }
 
-/// A scan that matches nowhere tells nothing of odometry.
+/// Without a match under the best explanation nothing is learned of odometry, and the prediction by
+/// odometry stands: next to a vehicle that fills the view, the scan matches the map a little under
+/// any explanation.
 ExplainedStep MixtureMatch::concluded(const StepToExplain& scan, const Best& best,
                                       const sensing::ExplanationWeights& weights,
                                       ScanMatcher& matcher) const {
-  const bool is_lost = best.registered.matched_share < config_.least_matched_share;
-  const Step& step = scan.steps[is_lost ? kWheels : best.step];
-  scan.take_points(step);
-  const geometry::Pose2& start =
-      is_lost ? step.after.odom_from_base : best.registered.map_from_base.pose;
-  const auto registered =
-      matcher.register_from(start, step.prior(), {scan.points.matched(), scan.map.surfels(), step});
-  return {step, registered, is_lost ? scan.weights : weights, searches_};
+  const bool contradicts_wheels = scan.steps.front().is_by_wheels() && best.step != kWheels;
+  const double least_share = contradicts_wheels ? std::max(config_.least_matched_share,
+                                                           kLeastOfUsualShare * scan.usual_share)
+                                                : config_.least_matched_share;
+  const auto register_under = [&](const Step& step, const geometry::Pose2& start) {
+    scan.take_points(step);
+    return matcher.register_from(start, step.prior(),
+                                 {scan.points.matched(), scan.map.surfels(), step});
+  };
+  if (best.registered.matched_share >= least_share) {
+    const Step& step = scan.steps[best.step];
+    const auto registered = register_under(step, best.registered.map_from_base.pose);
+    if (!contradicts_wheels || registered.matched_share >= least_share)
+      return {step, registered, weights, searches_};
+  }
+  const Step& step = scan.steps[kWheels];
+  return {step, register_under(step, step.after.odom_from_base), scan.weights, searches_};
 }
 
 }  // namespace slammot::localization
