@@ -49,7 +49,11 @@ class MixtureMatchTest : public ::testing::Test {
  protected:
   /// A scan at the pose under these predictions.
   ExplainedStep explain(const Pose2& truth, StepMixture steps, const MappedWorld& world) {
-    const sensing::LaserScan scan = world.scan_at(truth);
+    return explain(world.scan_at(truth), std::move(steps), world);
+  }
+
+  ExplainedStep explain(const sensing::LaserScan& scan, StepMixture steps,
+                        const MappedWorld& world) {
     ScanPoints points(config_);
     points.begin_scan();
     const auto take = [&](const Step& step) {
@@ -138,6 +142,18 @@ TEST_F(MixtureMatchTest, LooksFartherWhereFewerPointsMatchThanUsual) {
   const ExplainedStep explained = explain(truth, steps, room_);
   EXPECT_GT(explained.searches, 0U);
   EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.03));
+}
+
+TEST_F(MixtureMatchTest, StaysWithWheelsWhereTheScanHardlyMatchesUnderAnyExplanation) {
+  const MappedWorld bus(
+      {{{1.5, -1.2}, {1.1, -0.4}}, {{1.1, -0.4}, {1.8, 0.3}}, {{1.8, 0.3}, {1.2, 1.2}}});
+  const Pose2 by_wheels{0.3, 0.2, 0.1};
+  const ExplainedStep explained =
+      explain(bus.scan_at({0.0, 0.0, 0.0}), explanations_of(by_wheels, {0.9, 0.4, 0.3}), room_);
+  EXPECT_EQ(explained.step.explanation, StepExplanation::kWheels);
+  EXPECT_EQ(explained.step.after.odom_from_base, by_wheels);
+  EXPECT_GT(weight_of(explained, StepExplanation::kWheels), 0.9)
+      << "nothing is learned of odometry";
 }
 
 TEST_F(MixtureMatchTest, WeighsExplanationsToASumOfOne) {
