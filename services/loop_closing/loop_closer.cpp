@@ -20,33 +20,35 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
-constexpr double kGateSigmas = 3.0;  // What the graph's uncertainty adds to max_distance_m.
-constexpr int kNeighbours = 1;  // Submaps before and after the earlier one that join the target.
-constexpr double kOdometrySigmaScale = 2.0;  // What the odometric sigmas are multiplied by in the
-                                             // gate: docs/decisions/loop-closing.md.
-constexpr int kPatienceSubmaps = 6;          // How long a hypothesis waits for others that agree.
+constexpr double kGateSigmas = 3.0;  // Gate of the graph's uncertainty, in addition to
+                                     // max_distance_m.
+constexpr int kNeighbours = 1;  // Submaps before and after the earlier one that join its target.
+constexpr double kOdometrySigmaScale = 2.0;  // Factor on odometric sigmas in the gate:
+                                             // docs/decisions/loop-closing.md.
+constexpr int kSupportWaitSubmaps = 6;       // Submaps for which a hypothesis waits for support.
 constexpr double kMaxSquaredError = 16.0;    // Chi-square of a closure against the graph before and
-                                             // after: docs/decisions/loop-closing.md.
-constexpr int kMaxCandidatesElsewhere = 40;  // Targets for one new submap among those that nothing
-                                             // ties it to yet.
+                                             // after it: docs/decisions/loop-closing.md.
+constexpr int kMaxCandidatesElsewhere = 40;  // Targets on other islands for one new submap.
 
-constexpr double kAnyHeading_rad = 1.0;  // one sigma
-constexpr double kSamePlaceCells = 5.0;  // of the search: nearer to each other it does not tell
-                                         // places apart,
-constexpr double kSamePlace_rad = 0.15;  // nor with less between their headings
-constexpr double kClearlyWorse = 2.0;    // times the contradictions of the best,
-constexpr int kMostUnsolved = 10;  // closures that the graph predicted, before it is solved again
-constexpr double kNoise_share = 0.01;              // and this much more
-constexpr double kSameWithinSquaredSigmas = 11.3;  // chi-square, 3 degrees of freedom, 99 %
+constexpr double kAnyHeading_rad = 1.0;  // Largest one-sigma error of a heading that is still
+                                         // informative.
+constexpr double kSamePlaceCells = 5.0;  // Greatest distance of poses of one place, in search
+                                         // cells.
+constexpr double kSamePlace_rad = 0.15;  // Greatest difference of headings of one place.
+constexpr double kClearlyWorse = 2.0;  // Greatest contradicted share of a hypothesis, as a multiple
+                                       // of the least one.
+constexpr double kNoise_share = 0.01;  // Added to that limit.
+constexpr int kMaxUnsolved = 10;       // Closures that the graph predicted, before the next solve.
+constexpr double kSameWithinSquaredSigmas = 11.3;  // Chi-square, 3 degrees of freedom, 99 %.
 
-/// Largest standard deviation of the position in any direction.
+/// Largest standard deviation of the position over all directions [m].
 double widest_sigma_m(const Matrix3& covariance) {
   const double half_trace = 0.5 * (covariance(0, 0) + covariance(1, 1));
   const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
   return std::sqrt(half_trace + std::hypot(half_difference, covariance(0, 1)));
 }
 
-/// A covariance that can be inverted, whatever the front end said.
+/// Adds a floor, so that a degenerate covariance from localization can be inverted.
 Matrix3 with_floor(Matrix3 covariance) {
   constexpr double kPositionFloorM = 0.01;
   constexpr double kHeadingFloorRad = 0.001;
@@ -56,8 +58,9 @@ Matrix3 with_floor(Matrix3 covariance) {
   return covariance;
 }
 
-/// Whether the tie to the submap before says next to nothing, not even which way the vehicle looks.
-bool has_gone_astray(const flow::Submap& submap) {
+/// True if odometry does not determine even the heading relative to the submap before. Such a
+/// submap begins an island.
+bool begins_island(const flow::Submap& submap) {
   return submap.previous_from_submap.covariance(2, 2) > kAnyHeading_rad * kAnyHeading_rad;
 }
 
@@ -65,7 +68,7 @@ bool is_finite(const Pose2& pose) {
   return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad);
 }
 
-/// Whether all that the graph is made from are numbers.
+/// True if every number that the graph uses is finite.
 bool is_sound(const flow::Submap& submap) {
   return is_finite(submap.odom_from_submap) && is_finite(submap.previous_from_submap.pose) &&
          submap.previous_from_submap.covariance.allFinite() &&
@@ -81,8 +84,8 @@ double contradicted_share_of(const Hypothesis& hypothesis) {
   return 1.0 - hypothesis.agreement.agreed_share();
 }
 
-/// In corridors all of which look alike most of the walls agree anywhere: what contradicts tells
-/// them apart.
+/// Drops hypotheses clearly worse than the best one. In repetitive corridors most walls agree at
+/// any pose, so that only contradictions distinguish the poses.
 void drop_clearly_worse(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
   const double best_quality = std::ranges::max(hypotheses, {}, quality_of).quality();
   std::erase_if(hypotheses,
@@ -94,9 +97,9 @@ void drop_clearly_worse(std::vector<Hypothesis>& hypotheses, double rival_ratio)
   });
 }
 
-/// The middles of both on each other, and no more known than that.
-UncertainPose2 anywhere_on(const Place& target, const Place& source, double sigma_m) {
-  const Vector2 shift_m = target.middle_m - source.middle_m;
+/// Prior of a target on another island: centres coincide, sigma_m in position, any heading.
+UncertainPose2 unknown_pose_on(const Place& target, const Place& source, double sigma_m) {
+  const Vector2 shift_m = target.centre_m - source.centre_m;
   return {{shift_m.x(), shift_m.y(), 0.0},
           Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, std::numbers::pi * std::numbers::pi)
               .asDiagonal()};
@@ -121,25 +124,25 @@ flow::GraphCorrection LoopCloser::add(const flow::Submap& submap) {
     return correction();
   }
   ++counters_.submaps;
-  // How far it was carried nobody knows: it may be anywhere again.
-  if (has_gone_astray(submap)) travelled_m_ += config_.min_travel_between_m;
+  // The distance of the gap is unknown: the submap may show any earlier place.
+  if (begins_island(submap)) travelled_m_ += config_.min_travel_between_m;
   extend_graph(submap);
   const Place& source =
       places_.emplace(submap.submap_id, make_place(submap, travelled_m_, config_.place))
           .first->second;
   travelled_m_ += submap.travelled_m;
-  look_for_revisits(source);
+  begin_searches(source);
   for (const SearchQueue::Finished& search : searches_.advance()) take(search);
-  close_what_is_firm();
+  close_supported();
   return correction();
 }
 
 flow::GraphCorrection LoopCloser::finish() {
   for (const SearchQueue::Finished& search : searches_.finish()) {
     take(search);
-    close_what_is_firm();
+    close_supported();
   }
-  solve_what_waits();
+  solve_deferred();
   return correction();
 }
 
@@ -164,7 +167,7 @@ void LoopCloser::extend_graph(const flow::Submap& submap) {
     return;
   }
   const Place& previous = places_.rbegin()->second;
-  // Where a submap in between was lost, odometry still tells where this one lies.
+  // After a missing submap the poses in odom still give the relative pose.
   const bool follows_directly = submap.submap_id.value == previous.id.value + 1;
   UncertainPose2 previous_from_submap = submap.previous_from_submap;
   if (!follows_directly)
@@ -173,8 +176,8 @@ void LoopCloser::extend_graph(const flow::Submap& submap) {
   previous_from_submap.covariance = with_floor(previous_from_submap.covariance);
   graph_.add_node(submap.submap_id, graph_.map_from_node(previous.id) * previous_from_submap.pose);
   island_of_.emplace(submap.submap_id, submap.submap_id);
-  // However weak, a tie that is wrong by a kilometre would pull.
-  if (has_gone_astray(submap)) return;
+  // Even a weak constraint would pull if it is wrong by a kilometre.
+  if (begins_island(submap)) return;
   add_constraint({previous.id, submap.submap_id, ConstraintKind::kOdometric, previous_from_submap});
 }
 
@@ -185,7 +188,7 @@ std::map<SubmapId, UncertainPose2> LoopCloser::expectations_from(SubmapId id) co
     if (constraint.kind == ConstraintKind::kOdometric) constraint.from_to.covariance *= scale;
   }
   auto expected = graphs::poses_along_best_paths(id, widened);
-  // The path gives the uncertainty, the graph as a whole the pose.
+  // Covariance along the best path; mean from the optimized graph.
   const Pose2 id_from_map = geometry::inverse(graph_.map_from_node(id));
   for (auto& [node, pose] : expected) pose.pose = id_from_map * graph_.map_from_node(node);
   return expected;
@@ -197,7 +200,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates_for(const Place& sourc
     const Place& target = places_.at(id);
     if (source.travelled_before_m - target.travelled_after_m < config_.min_travel_between_m)
       continue;
-    const double distance_m = (source_from_target.pose * target.middle_m - source.middle_m).norm();
+    const double distance_m = (source_from_target.pose * target.centre_m - source.centre_m).norm();
     if (distance_m >
         config_.max_distance_m + kGateSigmas * widest_sigma_m(source_from_target.covariance))
       continue;
@@ -206,7 +209,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates_for(const Place& sourc
   return nearest(std::move(all), config_.max_candidates);
 }
 
-/// Neighbours of a chosen one are part of its target already.
+/// The nearest candidates. Neighbours of a chosen candidate are part of its target.
 std::vector<LoopCloser::Candidate> LoopCloser::nearest(std::vector<Candidate> all, int most) const {
   std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
     return a.distance_m < b.distance_m;
@@ -222,14 +225,14 @@ std::vector<LoopCloser::Candidate> LoopCloser::nearest(std::vector<Candidate> al
   return chosen;
 }
 
-/// The nearest by the last that is known of the vehicle: nobody knows better where to begin.
+/// Targets on other islands, nearest first by the last known position of the vehicle.
 std::vector<LoopCloser::Candidate> LoopCloser::candidates_elsewhere_for(const Place& source) const {
-  const Vector2 source_in_map_m = graph_.map_from_node(source.id) * source.middle_m;
+  const Vector2 source_in_map_m = graph_.map_from_node(source.id) * source.centre_m;
   std::vector<Candidate> all;
   for (const auto& [id, target] : places_) {
     if (island_of_.at(id) == island_of_.at(source.id)) continue;
-    all.push_back({id, anywhere_on(target, source, config_.max_distance_m),
-                   (graph_.map_from_node(id) * target.middle_m - source_in_map_m).norm()});
+    all.push_back({id, unknown_pose_on(target, source, config_.max_distance_m),
+                   (graph_.map_from_node(id) * target.centre_m - source_in_map_m).norm()});
   }
   return nearest(std::move(all), kMaxCandidatesElsewhere);
 }
@@ -250,21 +253,22 @@ Target LoopCloser::target_around(SubmapId id, const Place& source) const {
   return target;
 }
 
-void LoopCloser::look_for_revisits(const Place& source) {
+void LoopCloser::begin_searches(const Place& source) {
   for (const Candidate& candidate : candidates_for(source)) {
     ++counters_.searches;
-    searches_.add({config_.revisit, source, {search_at(candidate, source)}},
+    searches_.add({config_.revisit, source, {revisit_candidate(candidate, source)}},
                   SearchQueue::Extent::kExpected);
   }
   std::vector<RevisitCandidate> elsewhere;
   for (const Candidate& candidate : candidates_elsewhere_for(source))
-    elsewhere.push_back(search_at(candidate, source));
+    elsewhere.push_back(revisit_candidate(candidate, source));
   if (elsewhere.empty()) return;
   counters_.searches += elsewhere.size();
   searches_.add({config_.revisit, source, std::move(elsewhere)}, SearchQueue::Extent::kEverywhere);
 }
 
-RevisitCandidate LoopCloser::search_at(const Candidate& candidate, const Place& source) const {
+RevisitCandidate LoopCloser::revisit_candidate(const Candidate& candidate,
+                                               const Place& source) const {
   return {target_around(candidate.id, source), candidate.target_from_source,
           graph_.map_from_node(candidate.id)};
 }
@@ -273,15 +277,14 @@ void LoopCloser::take(const SearchQueue::Finished& search) {
   counters_.searches_given_up = searches_.given_up();
   counters_.search_work = searches_.work();
   std::erase_if(waiting_, [&](const Hypothesis& one) {
-    return one.to.value + static_cast<std::uint32_t>(kPatienceSubmaps) < search.source.value;
+    return one.to.value + static_cast<std::uint32_t>(kSupportWaitSubmaps) < search.source.value;
   });
   std::vector<Hypothesis> found = search.hypotheses;
   if (found.empty() && !search.is_given_up && search.extent == SearchQueue::Extent::kExpected)
-    look_at_contradictions(search);
+    check_contradiction(search);
   if (found.empty()) return;
   ++counters_.hypotheses;
-  // Two places far from each other may look alike: those found in all of them are each other's
-  // rivals.
+  // Distant places may look alike: hypotheses on all targets compete.
   if (search.extent == SearchQueue::Extent::kEverywhere) {
     drop_clearly_worse(found, config_.revisit.rival_ratio);
     for (Hypothesis& one : found) {
@@ -297,7 +300,7 @@ void LoopCloser::take(const SearchQueue::Finished& search) {
   waiting_.insert(waiting_.end(), found.begin(), found.end());
 }
 
-/// Whether both put one submap onto one island, in different places.
+/// True if both place one submap on one island, at different poses.
 bool LoopCloser::are_rivals(const Hypothesis& a, const Hypothesis& b) const {
   if (a.to != b.to || island_of_.at(a.from) != island_of_.at(b.from)) return false;
   const Eigen::Vector3d apart = geometry::difference(graph_.map_from_node(a.from) * a.from_to.pose,
@@ -306,11 +309,11 @@ bool LoopCloser::are_rivals(const Hypothesis& a, const Hypothesis& b) const {
          std::abs(apart.z()) > kSamePlace_rad;
 }
 
-/// Covariance of the way between two submaps, by the graph: what drifts between them is all the
-/// same if neither hypothesis is wrong.
+/// Covariance of the relative pose of two submaps of one drive, by a drift model: two correct
+/// hypotheses differ by this drift.
 Matrix3 LoopCloser::drift_between(SubmapId a, SubmapId b) const {
-  constexpr double kDriftShare = 0.02;     // of the way,
-  constexpr double kDrift_radpm = 0.0005;  // and of the heading
+  constexpr double kDriftShare = 0.02;     // Sigma of the position as a share of the distance.
+  constexpr double kDrift_radpm = 0.0005;  // Sigma of the heading by distance [rad/m].
   const double way_m =
       std::abs(places_.at(a).travelled_before_m - places_.at(b).travelled_before_m);
   return Eigen::Vector3d(kDriftShare * way_m, kDriftShare * way_m, kDrift_radpm * way_m)
@@ -347,16 +350,16 @@ int LoopCloser::needed_support_for(const Hypothesis& hypothesis) const {
   return hypothesis.searched_sigma_m <= config_.sure_within_m ? 1 : config_.needed_support;
 }
 
-void LoopCloser::close_what_is_firm() {
-  std::vector<Hypothesis> firm;
+void LoopCloser::close_supported() {
+  std::vector<Hypothesis> supported;
   for (const Hypothesis& hypothesis : waiting_) {
     if (hypothesis.agreement.agreed_share() < config_.revisit.min_agreed_share)
-      continue;  // good for the support of others
+      continue;  // Too weak for a closure; it still supports others.
     const int support = support_of(hypothesis);
     if (support < needed_support_for(hypothesis)) continue;
-    const bool has_equal_rival =
+    const bool has_supported_rival =
         std::any_of(waiting_.begin(), waiting_.end(), [&](const Hypothesis& other) {
-          // Found anywhere at all, it must be the only one that others support.
+          // A hypothesis on another island must be the only one with support.
           const bool is_found_elsewhere =
               island_of_.at(hypothesis.from) != island_of_.at(hypothesis.to);
           if (is_found_elsewhere)
@@ -366,9 +369,9 @@ void LoopCloser::close_what_is_firm() {
               other.to == hypothesis.to && other.from == hypothesis.from && &other != &hypothesis;
           return is_rival && support_of(other) >= support;
         });
-    if (!has_equal_rival) firm.push_back(hypothesis);
+    if (!has_supported_rival) supported.push_back(hypothesis);
   }
-  for (const Hypothesis& hypothesis : firm) {
+  for (const Hypothesis& hypothesis : supported) {
     if (close(hypothesis)) {
       ++counters_.closures;
     } else {
@@ -380,7 +383,7 @@ void LoopCloser::close_what_is_firm() {
   }
 }
 
-/// The later island moves, all of it: the map is where the first submap is.
+/// Moves the whole later island: the first submap defines the frame map.
 void LoopCloser::join_islands(const Hypothesis& hypothesis) {
   const bool to_moves = island_of_.at(hypothesis.from) < island_of_.at(hypothesis.to);
   const Pose2 map_from_from = graph_.map_from_node(hypothesis.from);
@@ -398,9 +401,9 @@ void LoopCloser::join_islands(const Hypothesis& hypothesis) {
 bool LoopCloser::close(const Hypothesis& hypothesis) {
   const Constraint constraint = loop_constraint(hypothesis);
   const bool joins = island_of_.at(hypothesis.from) != island_of_.at(hypothesis.to);
-  if (!joins && can_be_solved_later(constraint)) {
+  if (!joins && can_defer_solving(constraint)) {
     propose(hypothesis);
-    if (++unsolved_ >= kMostUnsolved) solve_what_waits();
+    if (++unsolved_ >= kMaxUnsolved) solve_deferred();
     return true;
   }
   unsolved_ = 0;
@@ -411,15 +414,14 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
   } else {
     Constraint widened = constraint;
     widened.from_to.covariance += expectations_from(hypothesis.from).at(hypothesis.to).covariance;
-    // What is wrong may be the graph: enough that agree with each other may challenge it.
+    // The graph may be wrong: with enough agreeing submaps a closure may contradict it.
     if (error_of(widened) > kMaxSquaredError &&
         support_of(hypothesis) < config_.needed_when_ambiguous) {
-      reject(hypothesis, error_of(widened),
-             "farther from where the graph has it than its uncertainty allows");
+      reject(hypothesis, error_of(widened), "contradicts the graph by more than its uncertainty");
       return false;
     }
   }
-  const bool founds_group =
+  const bool is_first_of_group =
       std::ranges::none_of(closures_, [group = group_for(constraint)](const Closure& one) {
         return one.group == group && one.constraint.verdict.state == flow::ClosureState::kAccepted;
       });
@@ -427,43 +429,44 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
   if (!joins) {
     graph_.optimise();
     ++counters_.optimisations;
-    leave_out_what_costs_most(before);
+    exclude_costliest_closures(before);
   }
   const double weight = graph_.weight(closures_.back().edge);
-  if (weight >= 0.5 && founds_group && contradicts_around(hypothesis)) {
+  if (weight >= 0.5 && is_first_of_group && preceding_submaps_contradict(hypothesis)) {
     graph_ = before;
     island_of_ = islands_before;
     closures_.pop_back();
-    reject(hypothesis, error_of(constraint), "submaps before it would contradict the map");
+    reject(hypothesis, error_of(constraint), "preceding submaps would contradict the map");
     return false;
   }
   if (joins) ++counters_.found_elsewhere;
-  settle("outweighed by closure " + std::to_string(hypothesis.from.value) + " - " +
-         std::to_string(hypothesis.to.value));
+  update_verdicts("outweighed by closure " + std::to_string(hypothesis.from.value) + " - " +
+                  std::to_string(hypothesis.to.value));
   if (weight < 0.5) return false;
   for (const int group : groups_between(hypothesis.from, hypothesis.to))
     ++groups_[group].confirmations;
   return true;
 }
 
-/// In a large graph what it predicts within the closure's own uncertainty moves nothing by itself.
-bool LoopCloser::can_be_solved_later(const Constraint& constraint) const {
+/// In a large graph, a closure that the graph predicts within the closure's covariance hardly moves
+/// a node: solving is deferred.
+bool LoopCloser::can_defer_solving(const Constraint& constraint) const {
   constexpr std::size_t kLargeGraph = 100;  // nodes
   constexpr double kPredictedSquaredError = 1.0;
   return places_.size() > kLargeGraph && error_of(constraint) < kPredictedSquaredError;
 }
 
-void LoopCloser::solve_what_waits() {
+void LoopCloser::solve_deferred() {
   if (unsolved_ == 0) return;
   unsolved_ = 0;
   graph_.optimise();
   ++counters_.optimisations;
-  settle("outweighed by the closures since");
+  update_verdicts("outweighed by later closures");
 }
 
 int LoopCloser::group_for(const Constraint& constraint) {
   const auto is_near = [&](SubmapId a, SubmapId b) {
-    return std::abs(static_cast<double>(a.value) - b.value) <= kPatienceSubmaps;
+    return std::abs(static_cast<double>(a.value) - b.value) <= kSupportWaitSubmaps;
   };
   const auto known = std::ranges::find_if(closures_, [&](const Closure& one) {
     return one.constraint.verdict.state == flow::ClosureState::kAccepted &&
@@ -473,7 +476,7 @@ int LoopCloser::group_for(const Constraint& constraint) {
   return known != closures_.end() ? known->group : static_cast<int>(closures_.size());
 }
 
-/// Together with what was dropped before and agrees with it.
+/// Adds the closure to the graph and re-enables excluded closures that agree with it.
 LoopCloser::Closure& LoopCloser::propose(const Hypothesis& hypothesis) {
   for (Closure& dropped : closures_) {
     const bool is_dropped = dropped.constraint.verdict.state != flow::ClosureState::kAccepted;
@@ -501,11 +504,11 @@ void LoopCloser::reject(const Hypothesis& hypothesis, double squared_error, std:
   rejected_.push_back(constraint);
 }
 
-/// Surer than odometry, closures that contradict each other bend it rather than show an error of
-/// their own. Where the newest, with those that it brought back, bends it more than leaving out
-/// some closure would cost, the cheapest is chosen: to leave out these, or one of the groups that
-/// they contradict (truncated least squares over groups).
-void LoopCloser::leave_out_what_costs_most(const graphs::PoseGraph& before) {
+/// Contradictory closures are more certain than odometry: instead of showing large errors of their
+/// own, they distort odometric constraints. If the newest closure, with those that it re-enabled,
+/// raises the cost by more than the price of excluding a closure, takes the cheapest alternative:
+/// exclude these, or one of the latest groups (truncated least squares over groups).
+void LoopCloser::exclude_costliest_closures(const graphs::PoseGraph& before) {
   constexpr std::size_t kMostGroups = 3;
   const double price = kMaxSquaredError;
   const auto cost_of = [&](const graphs::PoseGraph& graph) {
@@ -548,8 +551,8 @@ void LoopCloser::leave_out_what_costs_most(const graphs::PoseGraph& before) {
   graph_ = best;
 }
 
-/// Takes over what the graph now makes of each closure.
-void LoopCloser::settle(const std::string& what_decided) {
+/// Sets the state of each closure from its weight in the graph.
+void LoopCloser::update_verdicts(const std::string& reason) {
   bool has_changed = false;
   for (Closure& closure : closures_) {
     flow::ClosureVerdict& verdict = closure.constraint.verdict;
@@ -566,10 +569,10 @@ void LoopCloser::settle(const std::string& what_decided) {
     } else if (verdict.state == flow::ClosureState::kAccepted && is_newest) {
       verdict.state = flow::ClosureState::kRejected;
       verdict.squared_error = error_of(closure.constraint);
-      verdict.reason = "would bend the graph more than its uncertainty allows";
+      verdict.reason = "distorts the graph by more than its uncertainty";
       graph_.set_enabled(closure.edge, false);
     } else if (verdict.state == flow::ClosureState::kAccepted) {
-      withdraw(closure, what_decided);
+      withdraw(closure, reason);
     } else {
       graph_.set_enabled(closure.edge, false);
     }
@@ -585,10 +588,11 @@ void LoopCloser::withdraw(Closure& closure, std::string reason) {
   ++counters_.withdrawn;
 }
 
-/// Where the graph is sure that a submap lies on another and it does not fit, a closure on the way
-/// between them is wrong.
-void LoopCloser::look_at_contradictions(const SearchQueue::Finished& search) {
-  constexpr int kMostDoubts = 2;
+/// Counts a contradiction where the graph is certain that a submap lies on another and their walls
+/// disagree: some closure on the path between both is wrong. Withdraws the weakest group on the
+/// path after repeated contradictions.
+void LoopCloser::check_contradiction(const SearchQueue::Finished& search) {
+  constexpr int kMaxContradictions = 2;
   if (search.searched_sigma_m > config_.sure_within_m ||
       island_of_.at(search.source) != island_of_.at(search.target))
     return;
@@ -596,15 +600,18 @@ void LoopCloser::look_at_contradictions(const SearchQueue::Finished& search) {
   ++counters_.contradictions;
   const std::vector<int> between = groups_between(search.source, search.target);
   if (between.empty()) return;
-  const int weakest = std::ranges::min(
-      between, {}, [&](int group) { return groups_[group].confirmations - groups_[group].doubts; });
+  const int weakest = std::ranges::min(between, {}, [&](int group) {
+    return groups_[group].confirmations - groups_[group].contradictions;
+  });
   ClosureGroup& group = groups_[weakest];
-  if (++group.doubts < kMostDoubts || group.doubts <= 2 * group.confirmations) return;
+  if (++group.contradictions < kMaxContradictions ||
+      group.contradictions <= 2 * group.confirmations)
+    return;
   for (Closure& closure : closures_) {
     if (closure.group == weakest &&
         closure.constraint.verdict.state == flow::ClosureState::kAccepted) {
       withdraw(closure, "contradicted by submap " + std::to_string(search.source.value) +
-                            ", which does not fit where this puts it");
+                            " at the pose that this implies");
     }
   }
   group = {};
@@ -613,11 +620,11 @@ void LoopCloser::look_at_contradictions(const SearchQueue::Finished& search) {
   ++counters_.optimisations;
 }
 
-/// Whether the source, moved by what refinement can, sees free where the target has walls or has
-/// walls where that is free.
+/// True if the source, after registration, has walls in free space of the target or the reverse.
 bool LoopCloser::contradicts(SubmapId target_id, const Place& source) const {
   constexpr double kMostAgreedShare = 0.6;
-  constexpr double kLeastComparedShare = 0.4;  // of the source's walls
+  constexpr double kLeastComparedShare = 0.4;  // Share of the source's walls that must be
+                                               // comparable.
   const Target target = target_around(target_id, source);
   const Pose2 target_from_source =
       geometry::inverse(graph_.map_from_node(target_id)) * graph_.map_from_node(source.id);
@@ -628,34 +635,34 @@ bool LoopCloser::contradicts(SubmapId target_id, const Place& source) const {
          agreement.agreed_share() < kMostAgreedShare;
 }
 
-/// Whether most of the submaps just before the one that was found, which come to lie with it,
-/// contradict what is there.
-bool LoopCloser::contradicts_around(const Hypothesis& hypothesis) const {
+/// True if at least half of the submaps just before the located one contradict the map at the poses
+/// that the closure implies.
+bool LoopCloser::preceding_submaps_contradict(const Hypothesis& hypothesis) const {
   constexpr std::uint32_t kBefore = 3;
-  int asked = 0;
+  int compared = 0;
   int contradicting = 0;
   for (std::uint32_t step = 1; step <= kBefore && step <= hypothesis.to.value; ++step) {
     const auto found = places_.find({hypothesis.to.value - step});
     if (found == places_.end() || island_of_.at(found->first) != island_of_.at(hypothesis.from))
       continue;
     const Place& source = found->second;
-    const Vector2 in_map_m = graph_.map_from_node(source.id) * source.middle_m;
+    const Vector2 in_map_m = graph_.map_from_node(source.id) * source.centre_m;
     const Place* nearest_place = nullptr;
     double nearest_m = 0.5 * config_.max_distance_m;
     for (const auto& [id, place] : places_) {
       if (source.travelled_before_m - place.travelled_after_m < config_.min_travel_between_m ||
           island_of_.at(id) != island_of_.at(source.id))
         continue;
-      const double distance_m = (graph_.map_from_node(id) * place.middle_m - in_map_m).norm();
+      const double distance_m = (graph_.map_from_node(id) * place.centre_m - in_map_m).norm();
       if (distance_m >= nearest_m) continue;
       nearest_m = distance_m;
       nearest_place = &place;
     }
     if (nearest_place == nullptr) continue;
-    ++asked;
+    ++compared;
     if (contradicts(nearest_place->id, source)) ++contradicting;
   }
-  return contradicting > 0 && 2 * contradicting >= asked;
+  return contradicting > 0 && 2 * contradicting >= compared;
 }
 
 std::vector<int> LoopCloser::groups_between(SubmapId a, SubmapId b) const {
@@ -693,7 +700,7 @@ std::vector<Constraint> LoopCloser::constraints() const {
   return all;
 }
 
-bool LoopCloser::knows_where_it_is() const {
+bool LoopCloser::is_connected() const {
   return places_.empty() || island_of_.at(places_.rbegin()->first) == places_.begin()->first;
 }
 
@@ -705,7 +712,7 @@ flow::GraphCorrection LoopCloser::correction() {
   correction.map_from_odom =
       graph_.map_from_node(newest.id) * geometry::inverse(newest.odom_from_submap);
   correction.submaps = graph_.nodes();
-  correction.is_untied = !knows_where_it_is();
+  correction.is_untied = !is_connected();
   return correction;
 }
 

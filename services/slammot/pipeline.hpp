@@ -56,7 +56,7 @@ class Pipeline {
   }
 
   /// Whether the newest finished submap is tied to the first one of the map.
-  bool knows_where_it_is() const { return loop_closer_.knows_where_it_is(); }
+  bool is_connected() const { return loop_closer_.is_connected(); }
 
  private:
   /// A scan with the pose by which it was segmented.

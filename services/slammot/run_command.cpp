@@ -142,10 +142,10 @@ std::string describe_whereabouts(const Pipeline& pipeline, const RunOptions& opt
                                : "warning:  lost its way and began a new part of the map, " +
                                      std::to_string(astray) + " times\n";
   const std::string place =
-      pipeline.knows_where_it_is()
+      pipeline.is_connected()
           ? "found itself in the map (parts joined: " + std::to_string(found) + ")\n"
           : "did not find itself in the map: its poses begin anywhere in it\n";
-  return lost + (pipeline.knows_where_it_is() ? "map:      " : "warning:  ") + place;
+  return lost + (pipeline.is_connected() ? "map:      " : "warning:  ") + place;
 }
 
 int run(const RunOptions& run_options) {

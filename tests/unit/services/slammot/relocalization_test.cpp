@@ -115,7 +115,7 @@ TEST(Relocalization, FindsItselfInTheMapAfterBeingCarriedAwayWithItsScannerOff) 
   const Drive drive{.last_s = 190.0, .carried_at_s = 110.0, .carried_by_s = 35.0, .gap_s = 30.0};
   Pipeline pipeline(indoor());
   drive.through(pipeline);
-  EXPECT_TRUE(pipeline.knows_where_it_is());
+  EXPECT_TRUE(pipeline.is_connected());
   EXPECT_LT(drive.worst_at_end_m(pipeline, around(0.0)), 0.3);
 }
 
@@ -123,7 +123,7 @@ TEST(Relocalization, FindsItselfInTheMapAfterBeingCarriedAwayFromOneScanToTheNex
   const Drive drive{.last_s = 190.0, .carried_at_s = 110.0, .carried_by_s = 35.0};
   Pipeline pipeline(indoor());
   drive.through(pipeline);
-  EXPECT_TRUE(pipeline.knows_where_it_is());
+  EXPECT_TRUE(pipeline.is_connected());
   EXPECT_LT(drive.worst_at_end_m(pipeline, around(0.0)), 0.3);
 }
 
@@ -139,7 +139,7 @@ TEST(Relocalization, GoesOnInAStoredMapFromAnyPlaceInIt) {
   Pipeline pipeline(indoor());
   pipeline.go_on_in(*stored);
   second.through(pipeline);
-  EXPECT_TRUE(pipeline.knows_where_it_is());
+  EXPECT_TRUE(pipeline.is_connected());
   EXPECT_LT(second.worst_at_end_m(pipeline, around(0.0)), 0.3);
   EXPECT_GT(pipeline.record().submaps().size(), stored->size());  // one map of both drives, for the
                                                                   // third
