@@ -5,7 +5,7 @@
 
 namespace slammot::detection {
 
-/// The settings of detection as message Detection has them.
+/// Settings of detection, as in message Detection.
 const config::FieldTable<DetectionConfig>& detection_fields();
 
 }  // namespace slammot::detection

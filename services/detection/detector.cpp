@@ -36,18 +36,20 @@ PointLabel label_of(const LocalizedBeam& beam, const DetectionConfig& config) {
   return PointLabel::kUnknown;
 }
 
-/// Where the map expects each beam to end, in base; only where it expects an end.
+/// End points that the map predicts for the beams, in base. Beams for which it predicts none have
+/// no end point.
 class ExpectedOutline {
  public:
   ExpectedOutline(const LocalizedScan& scan, const BeamDirections& directions)
       : scan_(scan), directions_(directions) {}
 
-  /// Whether the echo lies near the line through what neighbouring beams should have met: a wall at
-  /// a grazing angle is met far from where one beam expects it, but never far from its line.
-  bool explains(std::size_t beam, const DetectionConfig& config) const {
+  /// True if the echo lies near the polyline through the end points of neighbouring beams. At
+  /// grazing incidence an echo of a wall is far from its own beam's end point but near the wall's
+  /// line.
+  bool contains(std::size_t beam, const DetectionConfig& config) const {
     const LocalizedBeam& echo = scan_.beams[beam];
-    const double within_m = config.explained_within_m +
-                            config.explained_within_per_m * static_cast<double>(echo.range_m);
+    const double within_m = config.outline_tolerance_m +
+                            config.outline_tolerance_per_m * static_cast<double>(echo.range_m);
     const Vector2 point = echo.point_in_base_m.cast<double>();
     const std::size_t first = beam < flow::kExpectedAside ? 0 : beam - flow::kExpectedAside;
     const std::size_t last = std::min(beam + flow::kExpectedAside + 1, scan_.beams.size());
@@ -58,7 +60,7 @@ class ExpectedOutline {
       if (i + 1 == last || !has_end(i + 1)) continue;
       const Vector2 way = end_of(i + 1) - end;
       const double length2 = way.squaredNorm();
-      if (length2 > kLongestFaceM * kLongestFaceM) continue;
+      if (length2 > kMaxFaceM * kMaxFaceM) continue;
       const double share = std::clamp(way.dot(point - end) / std::max(length2, 1e-9), 0.0, 1.0);
       if ((point - end - share * way).squaredNorm() < within_m * within_m) return true;
     }
@@ -66,8 +68,8 @@ class ExpectedOutline {
   }
 
  private:
-  static constexpr double kLongestFaceM = 6.0;  ///< Between neighbouring beams; what is longer is
-                                                ///< two things.
+  static constexpr double kMaxFaceM = 6.0;  ///< Longest face between end points of neighbouring
+                                            ///< beams; a greater distance is a gap between objects.
   bool has_end(std::size_t beam) const {
     return static_cast<double>(scan_.beams[beam].expected_range_m) < scan_.max_range_m - 0.5;
   }
@@ -79,7 +81,7 @@ class ExpectedOutline {
   const BeamDirections& directions_;
 };
 
-/// The rest is as it was in the other scan.
+/// Copies the header of the scan; the other fields of `segmented` stay.
 SegmentedScan with_header_of(const LocalizedScan& scan, SegmentedScan segmented) {
   segmented.stamp_ns = scan.stamp_ns;
   segmented.sequence = scan.sequence;
@@ -89,8 +91,8 @@ SegmentedScan with_header_of(const LocalizedScan& scan, SegmentedScan segmented)
   segmented.beam_step_rad = scan.beam_step_rad;
   segmented.sweep_s = scan.sweep_s;
   segmented.odom_from_base = scan.odom_from_base;
-  segmented.odom_from_base.covariance *= scan.local_variance_share;  // what moves is judged against
-                                                                     // the local map
+  // Motion is judged relative to the local map.
+  segmented.odom_from_base.covariance *= scan.local_variance_share;
   segmented.map_from_odom = scan.map_from_odom;
   segmented.map_id = scan.map_id;
   segmented.odom_id = scan.odom_id;
@@ -107,7 +109,7 @@ void label_points(const LocalizedScan& scan, const BeamDirections& directions,
     segmented.points_in_base_m[i] = scan.beams[i].point_in_base_m;
     segmented.range_m[i] = scan.beams[i].range_m;
     segmented.labels[i] = label_of(scan.beams[i], config);
-    if (segmented.labels[i] == PointLabel::kMoving && outline.explains(i, config))
+    if (segmented.labels[i] == PointLabel::kMoving && outline.contains(i, config))
       segmented.labels[i] = PointLabel::kStationary;
   }
 }
@@ -129,11 +131,11 @@ bool lies_on_line(const Eigen::Vector2f& from, const Eigen::Vector2f& to,
          static_cast<float>(within_m) * way.norm();
 }
 
-/// Whether the moving run only goes on with the line that the stationary runs around it make: a
-/// wall of which the map does not know all cells yet.
-bool goes_on_with_a_wall(std::size_t index, const std::vector<Run>& runs,
-                         std::span<const std::uint16_t> beams, const SegmentedScan& scan,
-                         const DetectionConfig& config) {
+/// True if the moving run continues the line of the stationary runs beside it: a wall whose cells
+/// the map does not know completely.
+bool continues_wall(std::size_t index, const std::vector<Run>& runs,
+                    std::span<const std::uint16_t> beams, const SegmentedScan& scan,
+                    const DetectionConfig& config) {
   constexpr std::size_t kBack = 4;
   const auto point = [&](std::size_t i) { return scan.points_in_base_m[beams[i]]; };
   const Run& run = runs[index];
@@ -148,31 +150,31 @@ bool goes_on_with_a_wall(std::size_t index, const std::vector<Run>& runs,
                  : end + std::min(kBack, runs[index + 1].count) - 1;
   const std::size_t to = has_after ? end : run.first - 1;
   for (std::size_t i = run.first; i < end; ++i)
-    if (!lies_on_line(point(from), point(to), point(i), config.explained_within_m)) return false;
+    if (!lies_on_line(point(from), point(to), point(i), config.outline_tolerance_m)) return false;
   return true;
 }
 
-/// Runs of moving and not moving beams; where the map cannot say, a beam goes with the one before.
-/// Runs too short to be a thing of their own take the label of their neighbours.
+/// Splits beams into moving and stationary runs. A beam with unknown label joins the run before it.
+/// Runs too short for an object take the label of their neighbours.
 void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& scan,
                     const DetectionConfig& config, std::vector<Run>& runs) {
   runs.clear();
-  std::size_t undecided = 0;
+  std::size_t unknown = 0;
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const PointLabel label = scan.labels[beams[i]];
     if (label == PointLabel::kUnknown && runs.empty()) {
-      ++undecided;
+      ++unknown;
       continue;
     }
     const bool is_moving =
         label == PointLabel::kUnknown ? runs.back().is_moving : label == PointLabel::kMoving;
-    if (runs.empty()) runs.push_back({0, undecided + 1, is_moving});
+    if (runs.empty()) runs.push_back({0, unknown + 1, is_moving});
     else if (runs.back().is_moving == is_moving) ++runs.back().count;
     else runs.push_back({i, 1, is_moving});
   }
   if (runs.empty()) runs.push_back({0, beams.size(), false});
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (runs[i].is_moving && goes_on_with_a_wall(i, runs, beams, scan, config))
+    if (runs[i].is_moving && continues_wall(i, runs, beams, scan, config))
       runs[i].is_moving = false;
   merge_with_equal_neighbours(runs);
   for (int pass = 0; pass < 2 && runs.size() > 1; ++pass) {
@@ -208,23 +210,23 @@ PointLabel label_of_segment(const Segment& segment, const LocalizedScan& localiz
       std::any_of(segment.beams.begin(), segment.beams.end(),
                   [&](std::uint16_t beam) { return scan.labels[beam] == PointLabel::kStationary; });
   if (is_stationary) return PointLabel::kStationary;
-  const bool moved_here_before =
+  const bool has_moving_evidence =
       static_cast<int>(segment.beams.size()) <= config.largest_by_moving_evidence &&
       mean_moving_evidence(segment, localized) >= config.least_moving_evidence;
-  return moved_here_before ? PointLabel::kMoving : PointLabel::kUnknown;
+  return has_moving_evidence ? PointLabel::kMoving : PointLabel::kUnknown;
 }
 
-/// Whether the neighbour `step` (+1 or -1) beams on, where there is an echo, lies in front of the
-/// beam's.
-bool is_hidden_beyond(std::uint16_t beam, int step, const SegmentedScan& scan,
-                      const DetectionConfig& config) {
+/// True if the nearest echo within two beams in direction `step` (+1 or -1) is clearly nearer than
+/// the beam's echo, or if the field of view ends there.
+bool is_occluded_beyond(std::uint16_t beam, int step, const SegmentedScan& scan,
+                        const DetectionConfig& config) {
   constexpr int kBeamsLookedAt = 2;
   for (int i = 1; i <= kBeamsLookedAt; ++i) {
     const int count = static_cast<int>(scan.range_m.size());
     int neighbour = static_cast<int>(beam) + i * step;
     if (geometry::goes_all_round(scan.range_m.size(), scan.beam_step_rad))
       neighbour = (neighbour + count) % count;
-    if (neighbour < 0 || neighbour >= count) return true;  // the field of view ends
+    if (neighbour < 0 || neighbour >= count) return true;  // end of the field of view
     const double range_m = static_cast<double>(scan.range_m[static_cast<std::size_t>(neighbour)]);
     if (range_m > 0.0)
       return range_m < static_cast<double>(scan.range_m[beam]) - config.occluder_margin_m;
@@ -238,21 +240,19 @@ void add_echoes(const BeamSpan& span, const std::vector<float>& range_m,
     if (range_m[beam] > 0.0F) beams.push_back(beam);
 }
 
-/// Noise of one echo along and across its beam, in odom, without the pose's.
+/// Measurement covariance of one echo in odom [m²], without that of the vehicle's pose.
 Matrix2 echo_covariance(const Vector2& way_m, double beam_step_rad, const DetectionConfig& config) {
   const double range_m = std::max(way_m.norm(), 1e-3);
   const Vector2 along = way_m / range_m;
   const double sigma_along_m = config.range_noise_m + config.range_noise_per_m * range_m;
-  const double sigma_across_m = range_m * std::abs(beam_step_rad) / std::sqrt(12.0);  // somewhere
-                                                                                      // in the
-                                                                                      // beam's
-                                                                                      // share
+  // Uniformly distributed over the beam's width.
+  const double sigma_across_m = range_m * std::abs(beam_step_rad) / std::sqrt(12.0);
   return sigma_along_m * sigma_along_m * along * along.transpose() +
          sigma_across_m * sigma_across_m * (Matrix2::Identity() - along * along.transpose());
 }
 
-/// Covariance of a point in odom, at the end of a lever from the vehicle's place, from that of its
-/// pose; Wang 2004, Eq. (2.3).
+/// Contribution of the pose's covariance to a point at `lever_in_odom_m` from the vehicle; Wang
+/// 2004, Eq. (2.3).
 Matrix2 pose_contribution(const geometry::UncertainPose2& odom_from_base,
                           const Vector2& lever_in_odom_m) {
   const geometry::Matrix3 J = geometry::compound_jacobian_first(lever_in_odom_m);
@@ -276,7 +276,8 @@ void describe_shape(Segment& segment, const SegmentedScan& scan, const Matrix2& 
       echo_covariance(segment.centroid_in_odom_m - laser_in_odom_m, scan.beam_step_rad, config) /
           count +
       pose_contribution(scan.odom_from_base, R * centroid_in_base_m);
-  // Only what may become a track needs the searched heading; the ends of the rest tell enough.
+  // Only segments that may initiate a track need the heading of the best fit. For the others the
+  // line between the end points suffices.
   const Vector2 way = points_in_odom_m.back() - points_in_odom_m.front();
   const sensing::OrientedBox box =
       segment.label == PointLabel::kMoving
@@ -293,8 +294,8 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
                     std::vector<Vector2>& points_in_odom_m) {
   segment.moving_share = moving_share(segment, scan);
   segment.label = label_of_segment(segment, localized, scan, config);
-  segment.occluded_at_start = is_hidden_beyond(segment.beams.front(), -1, scan, config);
-  segment.occluded_at_end = is_hidden_beyond(segment.beams.back(), +1, scan, config);
+  segment.occluded_at_start = is_occluded_beyond(segment.beams.front(), -1, scan, config);
+  segment.occluded_at_end = is_occluded_beyond(segment.beams.back(), +1, scan, config);
   describe_shape(segment, scan, odom_from_base_turn, config, points_in_odom_m);
   if (segment.label == PointLabel::kMoving && segment.box_length_m > config.longest_mover_m)
     segment.label = PointLabel::kUnknown;
@@ -302,17 +303,17 @@ void finish_segment(Segment& segment, const LocalizedScan& localized, const Dete
 
 }  // namespace
 
-SegmentedScan Detector::detect(const LocalizedScan& localized, SegmentedScan done_with) {
-  SegmentedScan scan = with_header_of(localized, std::move(done_with));
-  directions_.look_along(localized);
+SegmentedScan Detector::detect(const LocalizedScan& localized, SegmentedScan recycled) {
+  SegmentedScan scan = with_header_of(localized, std::move(recycled));
+  directions_.compute(localized);
   label_points(localized, directions_, config_, scan);
-  leave_out_ground(scan);
-  cut(localized, scan);
+  remove_ground(scan);
+  create_segments(localized, scan);
   finish_segments(localized, scan);
   return scan;
 }
 
-void Detector::leave_out_ground(SegmentedScan& scan) {
+void Detector::remove_ground(SegmentedScan& scan) {
   find_ground(scan, directions_, config_, is_ground_);
   range_without_ground_m_ = scan.range_m;
   for (std::size_t i = 0; i < is_ground_.size(); ++i) {
@@ -322,25 +323,25 @@ void Detector::leave_out_ground(SegmentedScan& scan) {
   }
 }
 
-/// Into segments of which nothing but the beams is known.
-void Detector::cut(const LocalizedScan& localized, SegmentedScan& scan) {
+/// Creates segments and assigns their beams.
+void Detector::create_segments(const LocalizedScan& localized, SegmentedScan& scan) {
   sensing::segment_by_distance(scan.points_in_base_m, range_without_ground_m_,
                                localized.beam_step_rad, config_.segmentation, spans_);
-  const bool goes_on_at_first =
+  const bool first_span_continues_last =
       sensing::goes_on_across_seam(scan.points_in_base_m, range_without_ground_m_,
                                    localized.beam_step_rad, config_.segmentation, spans_);
   std::size_t count = 0;
-  for (std::size_t i = goes_on_at_first ? 1 : 0; i < spans_.size(); ++i) {
+  for (std::size_t i = first_span_continues_last ? 1 : 0; i < spans_.size(); ++i) {
     beams_.clear();
     add_echoes(spans_[i], range_without_ground_m_, beams_);
-    if (goes_on_at_first && i + 1 == spans_.size())
+    if (first_span_continues_last && i + 1 == spans_.size())
       add_echoes(spans_.front(), range_without_ground_m_, beams_);
     split_by_label(beams_, scan, config_, runs_);
     for (const Run& run : runs_) {
       if (count == scan.segments.size()) spare_segments_.resize(scan.segments, count + 1);
       std::vector<std::uint16_t>& beams = scan.segments[count++].beams;
       if (!beams.empty() && beams.capacity() < run.count)
-        beams.reserve(scan.range_m.size());  // once for good, where it was too small
+        beams.reserve(scan.range_m.size());  // once for all later scans
       const auto first = beams_.begin() + static_cast<std::ptrdiff_t>(run.first);
       beams.assign(first, first + static_cast<std::ptrdiff_t>(run.count));
     }
