@@ -92,28 +92,28 @@ std::string span_of(const metrics::Trajectory& trajectory) {
               seconds(trajectory.back().stamp_ns));
 }
 
-/// Two drives, or two clocks, agree in nothing: motions of one differ from those of the other by as
-/// much as they are long.
+/// Fails if result and truth are of different drives or clocks: their relative motions then differ
+/// by as much as their length.
 std::optional<Error> fault_of_motion(const std::vector<PosePair>& pairs) {
   constexpr double kDeltaM = 10.0;
-  constexpr double kNotAlike = 0.5;  // public systems that drift badly are below 0.02
-  constexpr std::size_t kFewest = 5;
+  constexpr double kMinDifferenceShare = 0.5;  // Systems with large drift stay below 0.02.
+  constexpr std::size_t kMinPairs = 5;
   const auto ends =
       metrics::pairs_by_path(true_poses(pairs), kDeltaM, metrics::PathPairs::kConsecutive);
-  if (ends.size() < kFewest) return std::nullopt;
+  if (ends.size() < kMinPairs) return std::nullopt;
   const double median_m =
       metrics::summarize(translations_m(metrics::relative_errors(pairs, ends))).median;
-  if (median_m < kNotAlike * kDeltaM) return std::nullopt;
+  if (median_m < kMinDifferenceShare * kDeltaM) return std::nullopt;
   return Error{
-      text("the frames do not overlap: over 10 m of the true path the result is %.1f m off, so it "
-           "is of another drive or its clock is shifted",
+      text("the frames do not overlap: over 10 m of the true path the result has an error of %.1f "
+           "m, so it is of another drive or its clock is shifted",
            median_m)};
 }
 
 std::optional<Error> fault_of_overlap(const RunResult& result, const Truth& truth,
                                       const std::vector<PosePair>& pairs) {
-  constexpr std::size_t kFewest = 3;
-  if (pairs.size() >= kFewest) return fault_of_motion(pairs);
+  constexpr std::size_t kMinPairs = 3;
+  if (pairs.size() >= kMinPairs) return fault_of_motion(pairs);
   return Error{text(
       "the clocks do not overlap: %zu poses of the result (%s) have a true pose at their time (%s)",
       pairs.size(), span_of(result.online).c_str(), span_of(truth.trajectory).c_str())};
@@ -138,10 +138,11 @@ metrics::ReportedTrack in_world(const ResultTrack& track, std::size_t index,
   return reported;
 }
 
-/// Stamps of one log are written alike, up to the last digit; scans are farther apart.
+/// Tolerance of stamps of one log, which may be rounded; less than the interval of scans.
 constexpr std::int64_t kSameStampNs = 1'000'000;
 
-/// The element whose stamp is nearest, if it is near enough. Elements ascend.
+/// The element with the nearest stamp, if the difference is within the tolerance; otherwise null.
+/// Elements ascend.
 template <typename Element>
 const Element* at_stamp(const std::vector<Element>& elements, std::int64_t stamp_ns,
                         std::int64_t max_difference_ns) {
@@ -191,8 +192,8 @@ Scenes make_scenes(const RunResult& result, const Truth& truth, std::int64_t max
   return made;
 }
 
-/// Nothing that a scanner sees is this far away.
-constexpr double kBeyondAnyScannerM = 500.0;
+/// Greater than the range of any scanner.
+constexpr double kMaxDistanceM = 500.0;
 
 std::optional<Error> fault_of_objects(const std::vector<Scene>& scenes, bool has_objects) {
   double nearest_object_m = std::numeric_limits<double>::infinity();
@@ -212,11 +213,11 @@ std::optional<Error> fault_of_objects(const std::vector<Scene>& scenes, bool has
   }
   if (has_objects && !has_rows)
     return Error{"the clocks do not overlap: no scan of the result has true objects at its time"};
-  if (has_rows && nearest_object_m > kBeyondAnyScannerM)
+  if (has_rows && nearest_object_m > kMaxDistanceM)
     return Error{text(
         "the frames do not overlap: the nearest true object is %.0f m from the true trajectory",
         nearest_object_m)};
-  if (has_tracks && nearest_track_m > kBeyondAnyScannerM)
+  if (has_tracks && nearest_track_m > kMaxDistanceM)
     return Error{
         text("the frames do not overlap: the nearest track is %.0f m from the online trajectory",
              nearest_track_m)};
@@ -279,17 +280,17 @@ metrics::OccupancyCells to_cells(const files::MapImage& image) {
   return cells;
 }
 
-/// What one pass over the echoes of the drive tells.
+/// Results of one pass over the echoes of the drive.
 struct EchoSurvey {
   std::optional<DetectionEvaluation> detection;
-  std::vector<geometry::Vector2> wall_places_m;  // in world, one for each square that sent an echo
-  std::vector<geometry::Vector2> object_places_m;
+  std::vector<geometry::Vector2> wall_points_m;  // in world; one point for each square with an echo
+  std::vector<geometry::Vector2> object_points_m;
 };
 
-/// One point for each square of the given size that holds a point.
-class Places {
+/// Subsamples points: the first one in each square of the given size.
+class SubsampledPoints {
  public:
-  explicit Places(double size_m) : size_m_(size_m) {}
+  explicit SubsampledPoints(double size_m) : size_m_(size_m) {}
 
   void add(const geometry::Vector2& point_m) {
     const auto x = static_cast<std::int64_t>(std::floor(point_m.x() / size_m_));
@@ -305,7 +306,7 @@ class Places {
   std::vector<geometry::Vector2> points_m_;
 };
 
-/// By what the beams are known to have hit, or else by where the echoes are.
+/// Labels beams by the recorded hits, if available, otherwise by the position of the echoes.
 std::vector<metrics::BeamTruth> truth_of_beams(const EchoesInWorld& scan, const Truth& truth,
                                                const Scene& scene,
                                                const metrics::CountingRule& rule) {
@@ -323,8 +324,8 @@ files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResul
   EchoSurvey survey;
   if (!echoes) return survey;
   if (truth.objects && !result.labels.empty()) survey.detection.emplace();
-  Places walls(0.25 * options.map_tolerance_m);
-  Places objects(0.25 * options.map_tolerance_m);
+  SubsampledPoints walls(0.25 * options.map_tolerance_m);
+  SubsampledPoints objects(0.25 * options.map_tolerance_m);
   const auto least_points = static_cast<std::size_t>(options.rule.least_points);
   const auto fault = echoes([&](const EchoesInWorld& scan) {
     const Scene* const scene = at_stamp(scenes, scan.stamp_ns, kSameStampNs);
@@ -346,8 +347,8 @@ files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResul
         metrics::add_scan(survey.detection->by_tracking, beams, labels->by_tracking, least_points);
   });
   if (fault) return *fault;
-  survey.wall_places_m = walls.take();
-  survey.object_places_m = objects.take();
+  survey.wall_points_m = walls.take();
+  survey.object_points_m = objects.take();
   return survey;
 }
 
@@ -355,7 +356,8 @@ OtherCarEvaluation evaluate_other_car(const std::vector<Scene>& scenes,
                                       const metrics::Trajectory& other_car) {
   constexpr double kGateM = 0.5;  // about the length of such a car
   constexpr std::int64_t kLongestTruthGapNs = 200'000'000;
-  constexpr std::int64_t kDifferenceNs = 50'000'000;  // motion capture trembles by millimetres
+  constexpr std::int64_t kDifferenceNs = 50'000'000;  // averages millimetres of noise of motion
+                                                      // capture
   OtherCarEvaluation evaluation;
   std::vector<double> position_m;
   std::vector<double> velocity_mps;
@@ -376,8 +378,8 @@ OtherCarEvaluation evaluate_other_car(const std::vector<Scene>& scenes,
     };
     for (const metrics::ReportedTrack& track : scene.tracks) {
       if (away_m(track) > kGateM) continue;
-      const bool goes_on = track_before && track.track == *track_before;
-      if (!match || goes_on || (match->track != track_before && away_m(track) < away_m(*match)))
+      const bool continues = track_before && track.track == *track_before;
+      if (!match || continues || (match->track != track_before && away_m(track) < away_m(*match)))
         match = &track;
     }
     for (const metrics::ReportedTrack& track : scene.tracks)
@@ -417,8 +419,8 @@ void add_notes(const RunResult& result, const Truth& truth, const EchoSource& ec
     evaluation.notes.emplace_back("no true objects: tracking is not evaluated");
   if (truth.objects && !echoes)
     evaluation.notes.emplace_back(
-        "no log: labels of points are not evaluated, and walls count as seen where the map knows "
-        "the place");
+        "no log: labels of points are not evaluated, and walls count as seen where the map is "
+        "known");
   if (truth.objects && result.labels.empty())
     evaluation.notes.emplace_back(
         "no labels.csv in the result: labels of points are not evaluated");
@@ -429,9 +431,9 @@ void add_notes(const RunResult& result, const Truth& truth, const EchoSource& ec
     evaluation.notes.emplace_back("no online_covariance.csv in the result: no NEES of poses");
 }
 
-/// Fills the parts about the vehicle's own way.
-std::optional<Error> evaluate_way(const RunResult& result, const Truth& truth,
-                                  std::int64_t max_difference_ns, Evaluation& evaluation) {
+/// Evaluates the trajectories.
+std::optional<Error> evaluate_trajectories(const RunResult& result, const Truth& truth,
+                                           std::int64_t max_difference_ns, Evaluation& evaluation) {
   evaluation.online = evaluate_trajectory(truth.trajectory, result.online, max_difference_ns);
   if (auto fault = fault_of_overlap(result, truth, evaluation.online.matched)) return *fault;
   evaluation.corrected = evaluate_trajectory(truth.trajectory, result.corrected, max_difference_ns);
@@ -447,7 +449,7 @@ std::optional<Error> evaluate_way(const RunResult& result, const Truth& truth,
   return std::nullopt;
 }
 
-/// Fills all other parts.
+/// Evaluates detection, tracking and the map.
 std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth,
                                      const EchoSource& echoes, const EvaluationOptions& options,
                                      Evaluation& evaluation) {
@@ -474,7 +476,7 @@ std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth
     evaluation.map =
         metrics::map_quality(to_cells(*result.map), evaluation.corrected.world_from_map,
                              {*truth.walls, moving_objects(truth, options.rule.least_speed_mps),
-                              survey->wall_places_m, survey->object_places_m},
+                              survey->wall_points_m, survey->object_points_m},
                              options.map_tolerance_m);
   }
   add_notes(result, truth, echoes, evaluation);
@@ -506,10 +508,11 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth,
     if (auto fault = evaluate_scenes(result, placed, echoes, options, evaluation)) return *fault;
     evaluation.notes.emplace_back(
         "annotated in the frame of the laser: no trajectory is evaluated, and objects are placed "
-        "by the result's own");
+        "by the result's trajectory");
     return evaluation;
   }
-  if (auto fault = evaluate_way(result, truth, to_ns(options.max_stamp_difference_s), evaluation))
+  if (auto fault =
+          evaluate_trajectories(result, truth, to_ns(options.max_stamp_difference_s), evaluation))
     return *fault;
   if (auto fault = evaluate_scenes(result, truth, echoes, options, evaluation)) return *fault;
   return evaluation;
