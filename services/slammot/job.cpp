@@ -33,7 +33,7 @@ std::string text(const char* format, Values... values) {
   return line;
 }
 
-/// nullopt inside for "max"; Error for what is neither that nor a positive number.
+/// "max" gives nullopt; anything but a positive number gives an Error.
 files::Result<std::optional<double>> parse_speed(const std::string& speed) {
   if (speed == "max") return std::optional<double>();
   double times = 0.0;
@@ -47,15 +47,15 @@ files::Result<std::optional<double>> parse_speed(const std::string& speed) {
 std::optional<Error> find_fault_of_implementations(const JobOptions& options,
                                                    const ImplementationChoice& choice) {
   if (const auto fault = find_fault(choice)) return Error{*fault};
-  if (!options.map.empty() && !localization_of(choice).takes_up_stored_maps)
+  if (!options.map.empty() && !localization_of(choice).can_continue_map)
     return Error{"--map: the localization '" + choice.localization +
-                 "' does not go on in a stored map"};
+                 "' cannot continue a stored map"};
   return std::nullopt;
 }
 
 std::optional<Error> find_fault_of_source(const JobOptions& options) {
   if (options.input.empty() && options.scenario.empty())
-    return Error{"say what to drive, with --input FILE or with --scenario NAME"};
+    return Error{"a drive is required: --input FILE or --scenario NAME"};
   if (!options.input.empty() && !options.scenario.empty())
     return Error{"--input and --scenario exclude each other: a drive is recorded or simulated"};
   if (options.seed && options.scenario.empty())
@@ -63,10 +63,10 @@ std::optional<Error> find_fault_of_source(const JobOptions& options) {
   return std::nullopt;
 }
 
-/// What is to be driven, before the settings are known.
+/// A drive before the settings are known.
 struct OpenedDrive {
-  std::optional<files::CarmenLog> log;                 ///< Either this
-  std::optional<simulation::ScenarioConfig> scenario;  ///< or that.
+  std::optional<files::CarmenLog> log;                 ///< Empty for a simulated drive.
+  std::optional<simulation::ScenarioConfig> scenario;  ///< Empty for a recorded drive.
   files::LogPlan plan;
   files::ProfileChoice profile;
 };
@@ -79,7 +79,7 @@ files::Result<OpenedDrive> open_drive(const JobOptions& options) {
     auto plan = simulator::plan_of(*scenario, options.topics.scanners);
     if (!plan) return plan.error();
     drive.plan = std::move(*plan);
-    drive.profile = {scenario->profile, "as the scenario says"};
+    drive.profile = {scenario->profile, "by the scenario"};
     drive.scenario = std::move(*scenario);
   } else {
     files::CarmenLogOptions log_options;
@@ -90,7 +90,7 @@ files::Result<OpenedDrive> open_drive(const JobOptions& options) {
     drive.profile = files::choose_profile(drive.plan.figures);
     drive.log = std::move(*log);
   }
-  if (!options.profile.empty()) drive.profile = {options.profile, "as asked for"};
+  if (!options.profile.empty()) drive.profile = {options.profile, "as requested"};
   return drive;
 }
 
@@ -104,13 +104,14 @@ files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options,
   return std::move(*drive.log);
 }
 
-/// Why scans were not localized, and which were so without a match; "" where none.
+/// Counts of scans that were not localized, by reason, and of scans without a match; empty if there
+/// are none.
 std::string describe_left_out(const files::RunRecord& record, const files::RunReport& report) {
   constexpr std::pair<const char*, const char*> kReasons[] = {
-      {"duplicate_scans", "have the stamp of another"},
-      {"out_of_order_scans", "are older than one before"},
+      {"duplicate_scans", "repeat an earlier stamp"},
+      {"out_of_order_scans", "are older than an earlier one"},
       {"far_ahead_scans", "have a stamp far ahead of all others"},
-      {"blank_scans", "hold no reading"}};
+      {"blank_scans", "have no reading"}};
   const auto stage = report.counters.find("localization");
   if (stage == report.counters.end()) return {};
   std::string reasons;
@@ -145,8 +146,9 @@ std::string describe_faults(const files::LogFaults& faults) {
   return lines;
 }
 
-/// Pairs of scans tell the factor to a few percent; a profile may know it.
-void begin_with_way_factor(double factor, localization::LocalizerConfig& config) {
+/// Sets the initial odometry scale from the log's scan pairs, which determine it to a few percent.
+/// A scale in the profile has priority.
+void set_initial_odometry_scale(double factor, localization::LocalizerConfig& config) {
   constexpr double kSigma = 0.08;
   if (factor == 1.0 || config.belief.way_at_start != 1.0) return;
   config.belief.way_at_start = factor;
@@ -206,12 +208,11 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   if (auto fault = find_fault_of_implementations(options, profile.implementations)) return *fault;
   profile.localization.time_is_known =
       profile.localization.time_is_known && drive->plan.figures.has_clock;
-  // Whether the beam that is now the first was measured first, too, is not known: sweeps may run
-  // the other way.
+  // The sweep of a reversed scanner may run either way: the scale of the sweep is estimated.
   if (drive->plan.evidence.correction.reverses_beams)
     profile.localization.sweep_factor_sigma =
         std::max(profile.localization.sweep_factor_sigma, 1.0);
-  begin_with_way_factor(files::way_factor_of(drive->plan), profile.localization);
+  set_initial_odometry_scale(files::way_factor_of(drive->plan), profile.localization);
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
   return Job{begin(*drive, options, ingest::log_options(profile.ingest)),
@@ -291,8 +292,9 @@ std::string describe_outcome(const files::RunRecord& record, const files::RunRep
            static_cast<unsigned long long>(record.scans()),
            static_cast<unsigned long long>(record.localized_scans()),
            static_cast<unsigned long long>(record.confirmed_tracks()), record.submaps().size());
-  lines += text("%.1f s of work, %.1f times real time, %.0f MB at most\n", report.measured.wall_s,
-                report.measured.real_time_factor, report.measured.peak_memory_mb);
+  lines += text("%.1f s of processing, %.1f times real time, %.0f MB peak memory\n",
+                report.measured.wall_s, report.measured.real_time_factor,
+                report.measured.peak_memory_mb);
   return lines + describe_left_out(record, report) + describe_faults(report.faults) +
          "results are in " + output.string() + "\n";
 }
@@ -304,7 +306,7 @@ std::string where_damaged(const files::LogFaults& faults) {
 double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts kilobytes
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux reports kilobytes.
 }
 
 }  // namespace slammot
