@@ -17,6 +17,10 @@ struct EchoesInWorld {
   std::vector<std::optional<geometry::Vector2>> points_m;
 };
 
+/// Passes the echoes of every scan to `take`.
+using EchoSource = std::function<std::optional<files::Error>(
+    const std::function<void(const EchoesInWorld&)>& take)>;
+
 /// Reads a log and passes each scan with a true pose to `take`. `sweep_s`: time from the first beam
 /// of a scan to its last.
 std::optional<files::Error> read_echoes(const std::filesystem::path& log,
