@@ -98,6 +98,22 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
   return place;
 }
 
+std::vector<flow::Surfel> surfels_in_target(const Target& target) {
+  std::vector<flow::Surfel> surfels;
+  for (const Target::Member& member : target.members) {
+    const Eigen::Matrix2d turn = geometry::rotation(member.target_from_member.heading_rad);
+    for (const flow::Surfel& surfel : member.place->surfels) {
+      const Vector2 at =
+          turn * Vector2(surfel.x_m, surfel.y_m) + member.target_from_member.translation_m();
+      const Vector2 normal = turn * Vector2(surfel.normal_x, surfel.normal_y);
+      surfels.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()),
+                         static_cast<float>(normal.x()), static_cast<float>(normal.y()),
+                         surfel.weight});
+    }
+  }
+  return surfels;
+}
+
 Agreement compare(const Target& target, const Place& source, const Pose2& target_from_source) {
   Agreement agreement;
   for (const flow::Surfel& surfel : source.surfels) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "common/flow/submap.hpp"
@@ -32,6 +33,8 @@ struct Place {
   CellState state_at(const geometry::Vector2& point_in_submap_m) const;
 };
 
+using Places = std::map<flow::SubmapId, Place>;
+
 struct PlaceConfig {
   double tolerance_m = 0.4;  ///< Walls of two submaps within this distance agree.
 };
@@ -47,6 +50,9 @@ struct Target {
   };
   std::vector<Member> members;  ///< The first member is the target itself, at identity.
 };
+
+/// Surfels of all members, in the target's frame.
+std::vector<flow::Surfel> surfels_in_target(const Target& target);
 
 /// Agreement of a place with a target where both have seen something [surfels].
 struct Agreement {

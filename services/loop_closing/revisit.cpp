@@ -5,9 +5,6 @@
 #include <map>
 #include <numbers>
 
-#include <Eigen/Cholesky>
-#include "common/geometry/displacement.hpp"
-
 namespace slammot::loop_closing {
 namespace {
 
@@ -30,11 +27,6 @@ constexpr double kMinOverlapShare = 0.3;  // Least share of the new submap's wal
 constexpr double kMinAgreedInSupport = 0.8;  // With unknown heading, least agreed share of a
                                              // hypothesis that may support others.
 
-constexpr double kSameWithinSquaredSigmas = 11.3;  // Chi-square, 3 degrees of freedom, 99 %.
-
-constexpr std::size_t kMostPyramids = 64;
-constexpr double kSameShapeCells = 0.25;  // Smaller relative motion of a target's members leaves
-                                          // its grid unchanged.
 // Work of the other steps, in cells that a search reads in the same time.
 constexpr std::uint64_t kWorkOfRegisteringSurfel = 400;
 constexpr std::uint64_t kWorkOfComparingSurfel = 20;
@@ -64,29 +56,6 @@ matching::WideSearchConfig search_config(const RevisitConfig& config, std::size_
           .peak_separation_rad = 0.15};
 }
 
-std::vector<flow::Surfel> surfels_in_target(const Target& target) {
-  std::vector<flow::Surfel> surfels;
-  for (const Target::Member& member : target.members) {
-    const Eigen::Matrix2d turn = geometry::rotation(member.target_from_member.heading_rad);
-    for (const flow::Surfel& surfel : member.place->surfels) {
-      const Vector2 at =
-          turn * Vector2(surfel.x_m, surfel.y_m) + member.target_from_member.translation_m();
-      const Vector2 normal = turn * Vector2(surfel.normal_x, surfel.normal_y);
-      surfels.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()),
-                         static_cast<float>(normal.x()), static_cast<float>(normal.y()),
-                         surfel.weight});
-    }
-  }
-  return surfels;
-}
-
-std::vector<matching::TargetPoint> as_target_points(const std::vector<flow::Surfel>& surfels) {
-  std::vector<matching::TargetPoint> points;
-  points.reserve(surfels.size());
-  for (const flow::Surfel& surfel : surfels) points.push_back({surfel.x_m, surfel.y_m, 1.0F});
-  return points;
-}
-
 Vector2 centroid_of(const std::vector<flow::Surfel>& surfels) {
   Vector2 sum = Vector2::Zero();
   for (const flow::Surfel& surfel : surfels) sum += Vector2(surfel.x_m, surfel.y_m);
@@ -110,53 +79,6 @@ bool has_unknown_heading(const UncertainPose2& expected) {
   return expected.covariance(2, 2) > kAnyHeadingSigma_rad * kAnyHeadingSigma_rad;
 }
 
-bool are_same(const UncertainPose2& a, const UncertainPose2& b) {
-  const Eigen::Vector3d difference = geometry::difference(a.pose, b.pose);
-  return difference.dot(Matrix3(a.covariance + b.covariance).ldlt().solve(difference)) <
-         kSameWithinSquaredSigmas;
-}
-
-void drop_duplicates(std::vector<Hypothesis>& hypotheses) {
-  std::stable_sort(
-      hypotheses.begin(), hypotheses.end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.quality() > b.quality(); });
-  std::vector<Hypothesis> kept;
-  for (const Hypothesis& hypothesis : hypotheses) {
-    const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& one) {
-      return are_same(one.from_to, hypothesis.from_to);
-    });
-    if (!is_known) kept.push_back(hypothesis);
-  }
-  hypotheses = std::move(kept);
-}
-
-/// Drops hypotheses with clearly more contradictions than another. In repetitive corridors most
-/// walls agree at any pose, so that only contradictions distinguish the poses.
-void drop_contradicted(std::vector<Hypothesis>& hypotheses) {
-  constexpr double kClearlyWorse = 2.0;     // Limit as a multiple of the other hypothesis'
-                                            // contradicted share.
-  constexpr double kNoise_share = 0.01;     // Added to that limit.
-  constexpr double kComparableShare = 0.5;  // Least quality of the other hypothesis, as a share of
-                                            // this one's.
-  const auto contradicted_share = [](const Hypothesis& one) {
-    return 1.0 - one.agreement.agreed_share();
-  };
-  const std::vector<Hypothesis> all = hypotheses;
-  std::erase_if(hypotheses, [&](const Hypothesis& one) {
-    return std::ranges::any_of(all, [&](const Hypothesis& other) {
-      return contradicted_share(one) > kClearlyWorse * contradicted_share(other) + kNoise_share &&
-             other.quality() > kComparableShare * one.quality();
-    });
-  });
-}
-
-void drop_low_quality(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
-  if (hypotheses.empty()) return;
-  const double least_quality = rival_ratio * hypotheses.front().quality();
-  std::erase_if(hypotheses, [&](const Hypothesis& one) { return one.quality() < least_quality; });
-  for (Hypothesis& hypothesis : hypotheses) hypothesis.has_rivals = hypotheses.size() > 1;
-}
-
 double sigma_m(const UncertainPose2& expected) {
   return std::sqrt(expected.covariance.topLeftCorner<2, 2>().trace());
 }
@@ -177,37 +99,6 @@ matching::SearchWindow window_around(const UncertainPose2& expected,
 }
 
 }  // namespace
-
-bool PyramidCache::is_of(const Entry& entry, const Target& target, double cell_m) {
-  return entry.pyramid->cell_m() == cell_m &&
-         std::ranges::equal(entry.members, target.members,
-                            [&](const auto& known, const Target::Member& member) {
-                              const Eigen::Vector3d moved =
-                                  geometry::difference(known.second, member.target_from_member);
-                              return known.first == member.place->id &&
-                                     geometry::as_seen_10_m_away(moved) < kSameShapeCells * cell_m;
-                            });
-}
-
-PyramidCache::Pyramid PyramidCache::pyramid_of(const Target& target, double cell_m) {
-  ++uses_;
-  const auto known = std::ranges::find_if(
-      entries_, [&](const Entry& entry) { return is_of(entry, target, cell_m); });
-  if (known != entries_.end()) {
-    known->used = uses_;
-    return {known->pyramid};
-  }
-  if (entries_.size() >= kMostPyramids)
-    entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
-  Entry entry{.used = uses_};
-  for (const Target::Member& member : target.members)
-    entry.members.emplace_back(member.place->id, member.target_from_member);
-  constexpr int kLevels = 6;
-  entry.pyramid = std::make_shared<const matching::ScorePyramid>(
-      as_target_points(surfels_in_target(target)), cell_m, cell_m, kLevels);
-  entries_.push_back(entry);
-  return {entry.pyramid, entry.pyramid->work()};
-}
 
 RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source,
                              std::vector<RevisitCandidate> candidates)
@@ -313,9 +204,7 @@ std::vector<Hypothesis> RevisitSearch::found() const {
   for (const Hypothesis& hypothesis : hypotheses_) by_target[hypothesis.from].push_back(hypothesis);
   std::vector<Hypothesis> all;
   for (auto& [id, hypotheses] : by_target) {
-    drop_duplicates(hypotheses);
-    drop_contradicted(hypotheses);
-    drop_low_quality(hypotheses, config_.rival_ratio);
+    select_on_one_target(hypotheses, config_.rival_ratio);
     all.insert(all.end(), hypotheses.begin(), hypotheses.end());
   }
   return all;

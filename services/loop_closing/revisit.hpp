@@ -9,7 +9,9 @@
 #include "common/flow/ids.hpp"
 #include "common/geometry/uncertain_pose2.hpp"
 #include "common/matching/wide_search.hpp"
+#include "services/loop_closing/hypotheses.hpp"
 #include "services/loop_closing/place.hpp"
+#include "services/loop_closing/pyramid_cache.hpp"
 #include "services/loop_closing/registration.hpp"
 #include "services/loop_closing/wall_directions.hpp"
 
@@ -26,46 +28,11 @@ struct RevisitConfig {
   RegistrationConfig registration;
 };
 
-/// One possible pose of a new submap on an earlier one.
-struct Hypothesis {
-  flow::SubmapId from;  ///< The earlier submap.
-  flow::SubmapId to;    ///< The new submap.
-  geometry::UncertainPose2 from_to;
-  Agreement agreement;
-  double score = 0.0;             ///< Of the search, in [0, 1].
-  bool has_rivals = false;        ///< Other poses fit about as well and differ by more than the
-                                  ///< covariance.
-  double searched_sigma_m = 0.0;  ///< One sigma of the expected position.
-
-  double quality() const { return agreement.agreed_share() * agreement.overlap_share(); }
-};
-
 /// A target and the expected pose of the source on it.
 struct RevisitCandidate {
   Target target;
   geometry::UncertainPose2 target_from_source;  ///< Prior.
   geometry::Pose2 map_from_target;  ///< Tells whether poses on two targets are the same place.
-};
-
-/// Cache of the score pyramids of the targets used last.
-class PyramidCache {
- public:
-  struct Pyramid {
-    std::shared_ptr<const matching::ScorePyramid> pyramid;
-    std::uint64_t work = 0;  ///< Cells written by this call.
-  };
-  Pyramid pyramid_of(const Target& target, double cell_m);
-
- private:
-  struct Entry {
-    std::vector<std::pair<flow::SubmapId, geometry::Pose2>> members = {};
-    std::shared_ptr<const matching::ScorePyramid> pyramid = nullptr;
-    std::uint64_t used = 0;
-  };
-  static bool is_of(const Entry& entry, const Target& target, double cell_m);
-
-  std::vector<Entry> entries_;
-  std::uint64_t uses_ = 0;
 };
 
 /// Search for one place on one or several targets, in pieces of counted work: first near the
