@@ -24,6 +24,7 @@
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/implementations.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/job_text.hpp"
 #include "services/slammot/progress_bar.hpp"
 #include "services/slammot/service_processes.hpp"
 #include "services/slammot/stored_map.hpp"
@@ -189,6 +190,14 @@ files::Result<BenchOptions> with_recorded_drive(BenchOptions options) {
   return options;
 }
 
+void keep_until(std::int64_t last_ns, std::vector<std::int64_t>& stamps_ns) {
+  std::erase_if(stamps_ns, [&](std::int64_t stamp_ns) { return stamp_ns > last_ns; });
+}
+
+double duration_of(const std::vector<std::int64_t>& stamps_ns) {
+  return static_cast<double>(*std::ranges::max_element(stamps_ns) - stamps_ns.front()) * 1e-9;
+}
+
 int bench(const BenchOptions& requested) {
   std::atomic<bool> is_interrupted = false;
   const app::StopSignal stop_signal([&] { is_interrupted = true; });
@@ -214,12 +223,10 @@ int bench(const BenchOptions& requested) {
   if (const auto fault = await_drive(collector, *services, stamps_ns, is_interrupted))
     return fail(*fault);
   const bool is_cut_short = is_interrupted && !collector.has_drive_ended();
-  if (is_cut_short) {
-    services->end("ingest");
-    if (!collector.last_localized_ns()) {
-      std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
-      return kExitInterrupted;
-    }
+  if (is_cut_short) services->end("ingest");
+  if (is_cut_short && !collector.last_localized_ns()) {
+    std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
+    return kExitInterrupted;
   }
   const bool is_complete =
       collector.finish(is_cut_short ? kInterruptedSubmapTimeout : kSubmapTimeout);
@@ -228,11 +235,8 @@ int bench(const BenchOptions& requested) {
   collector.wait(kFinalStatusTime);  // final counters of the services
   files::RunReport report = make_report(*job, options, collector, restarts);
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
-  if (is_cut_short)
-    std::erase_if(stamps_ns,
-                  [&](std::int64_t stamp_ns) { return stamp_ns > *collector.last_localized_ns(); });
-  const double duration_s =
-      static_cast<double>(*std::ranges::max_element(stamps_ns) - stamps_ns.front()) * 1e-9;
+  if (is_cut_short) keep_until(*collector.last_localized_ns(), stamps_ns);
+  const double duration_s = duration_of(stamps_ns);
   report.is_interrupted = is_cut_short;
   report.measured = {collector.latencies(), wall_s, duration_s / wall_s,
                      std::max(peak_memory_mb(), peak_memory_of_services_mb())};

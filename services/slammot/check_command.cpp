@@ -12,6 +12,7 @@
 #include "services/ingest/topic_arguments.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/job_text.hpp"
 
 namespace slammot {
 namespace {

@@ -15,6 +15,7 @@
 #include "services/slammot/collector.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/job_text.hpp"
 
 namespace slammot {
 namespace {

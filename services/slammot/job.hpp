@@ -56,21 +56,8 @@ std::optional<files::Error> write_settings(const Profile& profile,
 /// Stamps of all scans in the log's order. Reads the log to its end.
 std::vector<std::int64_t> stamps_of(files::CarmenLog& log);
 
-/// "log: ..." and "profile: ..." for the terminal.
-std::string describe_job(const Job& job, const JobOptions& options);
-
-/// Name of the drive in the report.
-std::string name_of_drive(const JobOptions& options);
-
 /// The part of the report that is known from the job.
 files::RunReport report_of(const Job& job, const JobOptions& options, const std::string& command);
-
-/// Summary for the terminal: counts, latencies, speed, faults of the log, output folder.
-std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report,
-                             const std::filesystem::path& output);
-
-/// Place of the damage, such as " (the chunk at byte 1234 does not unpack)"; empty if unknown.
-std::string where_damaged(const files::LogFaults& faults);
 
 /// Greatest resident memory of this process so far [MB].
 double peak_memory_mb();

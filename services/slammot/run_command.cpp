@@ -15,6 +15,7 @@
 #include "common/files/run_outputs.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/job_text.hpp"
 #include "services/slammot/lost_watch.hpp"
 #include "services/slammot/pipeline.hpp"
 #include "services/slammot/progress_bar.hpp"
