@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/config/fields.hpp"
-#include "services/detection/detector.hpp"
+#include "services/detection/detection_config.hpp"
 
 namespace slammot::detection {
 

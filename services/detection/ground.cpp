@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "services/detection/beam_directions.hpp"
-#include "services/detection/detector.hpp"
+#include "services/detection/detection_config.hpp"
 
 namespace slammot::detection {
 namespace {
