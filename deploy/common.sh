@@ -6,12 +6,12 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source-path=SCRIPTDIR source=packages.sh
 source "$root/deploy/packages.sh"
 
-# Objects compiled in another checkout serve this one too, and those of this one serve the image (build/objects is part
-# of what the engine is handed). Without the language of messages, which the image has none of.
+# Shares compiled objects between checkouts, and with the image through build/objects, which is part of its build context.
+# The locale is ignored: the image has none.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content CCACHE_SLOPPINESS=locale
 export CCACHE_REMOTE_STORAGE="file:$root/build/objects" CCACHE_RESHARE=1
 
-# Further arguments are cmake's.
+# Passes further arguments to cmake.
 configure_preset() {
   local preset=$1
   shift
@@ -19,7 +19,7 @@ configure_preset() {
   cmake -S "$root" --preset "$preset" --log-level=WARNING "$@"
 }
 
-# Further arguments are targets; everything when there are none.
+# Further arguments are targets; default: everything.
 build_preset() {
   local preset=$1
   shift
@@ -27,15 +27,15 @@ build_preset() {
   cmake --build "$root/build/$preset" ${1:+--target "$@"}
 }
 
-# A small drive through a simulated town, with its truth. Made once for each version of the program.
+# A small drive through a simulated town, with ground truth. Simulated once for each version of the program.
 drive_folder=out/drive
 drive_log=$drive_folder/block.log
-# make_drive VERSION COMMAND...: the command is slammot and may see the folder under another name, $drive_seen_as.
+# make_drive VERSION COMMAND...: COMMAND is slammot; $drive_seen_as is the folder's path for it, if it differs.
 make_drive() {
   local version=$1
   shift
   if [[ $(cat "$drive_folder/made-by" 2>/dev/null) == "$version" ]]; then
-    say "The drive is there: $drive_log"
+    say "The drive exists: $drive_log"
     return
   fi
   say "Simulating a small drive into $drive_folder"
@@ -46,11 +46,11 @@ make_drive() {
 
 engine_runs() { command -v docker >/dev/null && timeout 20 docker info >/dev/null 2>&1; }
 
-# Builds the image where a Docker engine runs; the container test skips itself where none does.
+# Builds the image if a Docker engine runs; otherwise the container test is skipped.
 build_image_where_possible() {
   if engine_runs; then
     "$root/deploy/image"
   else
-    say "No Docker engine runs here: no image is built and the container test will be skipped"
+    say "No Docker engine runs: no image is built and the container test is skipped"
   fi
 }

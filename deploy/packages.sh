@@ -1,5 +1,5 @@
-# Installs what deploy/packages.txt lists: source it, do not run it. Apart from common.sh so that the image's layer of
-# packages is made anew only when the packages change.
+# Installs the packages of deploy/packages.txt: source it, do not run it. Separate from common.sh, so that the image's
+# layer of packages is rebuilt only when the packages change.
 # shellcheck shell=bash
 
 packages_list=$(dirname "${BASH_SOURCE[0]}")/packages.txt
@@ -11,7 +11,7 @@ die() {
   exit 1
 }
 
-# Prints the packages of the named sections of packages.txt, one a line.
+# Prints the packages of the named sections of packages.txt, one per line.
 packages_of() {
   local section
   for section in "$@"; do
@@ -20,7 +20,7 @@ packages_of() {
   done
 }
 
-# Those of the given packages that dpkg does not hold as installed.
+# Prints those of the given packages that are not installed.
 missing_of() {
   local package
   for package in "$@"; do
@@ -34,11 +34,11 @@ as_root() {
   elif command -v sudo >/dev/null; then
     sudo "$@"
   else
-    die "packages are missing and have to be installed: run this as root, or install sudo"
+    die "packages are missing: run this as root, or install sudo"
   fi
 }
 
-# Installs what is missing of the named sections, and nothing when nothing is: no network is needed then.
+# Installs the missing packages of the named sections. Needs no network if none is missing.
 install_packages() {
   local packages missing
   mapfile -t packages < <(packages_of "$@")
@@ -47,7 +47,7 @@ install_packages() {
     say "All ${#packages[@]} Debian packages are installed"
     return
   fi
-  command -v apt-get >/dev/null || die "this is not Debian; install what corresponds to: ${missing[*]}"
+  command -v apt-get >/dev/null || die "this is not Debian; install the equivalents of: ${missing[*]}"
   say "Installing ${#missing[@]} of ${#packages[@]} Debian packages: ${missing[*]}"
   as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}"

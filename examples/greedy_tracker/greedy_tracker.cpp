@@ -21,8 +21,8 @@ using PositionOfState = Eigen::Matrix<double, 2, 4>;
 
 double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
 
-/// Constant velocity with white acceleration in continuous time: Bar-Shalom, Li, Kirubarajan 2001,
-/// Section 6.2.2.
+/// Prediction with a constant velocity and continuous white acceleration: Bar-Shalom, Li,
+/// Kirubarajan 2001, section 6.2.2.
 filters::Gaussian<4> predicted(const filters::Gaussian<4>& state, double time_s, double density) {
   Matrix4d F = Matrix4d::Identity();
   F.topRightCorner<2, 2>() = time_s * Matrix2d::Identity();
@@ -39,7 +39,7 @@ Matrix2d measurement_covariance(const Segment& segment, const GreedyTrackerConfi
   return segment.centroid_covariance_m2 + sigma_m * sigma_m * Matrix2d::Identity();
 }
 
-/// Detection's labels, until tracking knows better.
+/// Initializes the labels with those of detection.
 void begin_labels(const flow::SegmentedScan& scan, flow::ScanLabels& labels) {
   labels.stamp_ns = scan.stamp_ns;
   labels.sequence = scan.sequence;
@@ -50,7 +50,7 @@ void begin_labels(const flow::SegmentedScan& scan, flow::ScanLabels& labels) {
 
 bool may_begin(const Segment& segment, const GreedyTrackerConfig& config) {
   return segment.label == PointLabel::kMoving &&
-         segment.beams.size() >= config.least_points_at_birth;
+         segment.beams.size() >= config.min_initiation_points;
 }
 
 void label(const Segment& segment, PointLabel label, flow::ScanLabels& labels) {
@@ -73,8 +73,8 @@ const stages::TrackingResult& GreedyTracker::step(const flow::SegmentedScan& sca
   if (scans_ == 0 || scan.stamp_ns >= last_stamp_ns_) {
     predict(scan.stamp_ns);
     const std::vector<std::size_t> paired = segment_of_each_track(scan.segments);
-    // Only what a confirmed track has travelled with stays out of the map: the map so unlearns what
-    // it wrongly holds to be free.
+    // Only points of confirmed tracks stay out of the map. Other moving points correct cells that
+    // the map falsely holds to be free.
     for (const Segment& segment : scan.segments)
       if (segment.label != PointLabel::kUnknown)
         label(segment, PointLabel::kStationary, result_.labels);
@@ -105,8 +105,8 @@ void GreedyTracker::predict(std::int64_t stamp_ns) {
   last_stamp_ns_ = stamp_ns;
 }
 
-/// Greedy: of all pairs inside the gate the nearest one first. Index of the segment, kNone for a
-/// track without.
+/// Greedy assignment: of all pairs inside the gate the nearest first. Index of each track's
+/// segment, or kNone.
 std::vector<std::size_t> GreedyTracker::segment_of_each_track(
     const std::vector<Segment>& segments) const {
   const double gate = association::planar_gate(config_.gate_share);
@@ -168,8 +168,8 @@ void GreedyTracker::delete_unseen(std::int64_t stamp_ns) {
   });
 }
 
-/// Heading is the velocity's where the object moves; a box seen across it is as long as it was
-/// wide.
+/// The heading is that of the velocity if the object moves. For a box across the velocity, length
+/// and width are exchanged.
 flow::TrackedObject GreedyTracker::described(const Track& track) const {
   constexpr double kStandsBelow_mps = 0.5;
   constexpr double kPathStep_s = 0.5;

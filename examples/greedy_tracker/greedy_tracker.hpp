@@ -11,26 +11,27 @@
 namespace slammot::greedy_tracker {
 
 struct GreedyTrackerConfig {
-  double fastest_mps = 20.0;  ///< One sigma of a new track's velocity is half of this, on each
-                              ///< axis.
+  double fastest_mps = 20.0;          ///< Two sigma of a new track's velocity, on each axis.
   double acceleration_density = 4.0;  ///< Power spectral density of the white acceleration
                                       ///< [m^2/s^3].
   double position_sigma_m = 0.1;  ///< One sigma of the box centre as a measurement of the object's
-                                  ///< centre,
-  double position_sigma_per_m = 0.2;  ///< and what each metre of the box's length adds: mostly one
-                                      ///< side is visible.
-  double gate_share = 0.99;           ///< Share of true pairs inside the gate.
-  std::size_t least_points_at_birth = 3;  ///< Beams of a moving segment that begins a track.
-  int least_hits = 10;                    ///< Measurements before a track is confirmed,
-  double least_travel_m = 1.0;  ///< and distance from its first position: errors of the map do not
-                                ///< travel.
-  double longest_unseen_s = 0.6;  ///< A confirmed track without measurement is deleted after so
-                                  ///< long,
-  double longest_unseen_tentative_s = 0.1;  ///< and a tentative one.
+                                  ///< centre.
+  double position_sigma_per_m = 0.2;      ///< Increase of that sigma per metre of the box's length:
+                                          ///< often only one side is visible.
+  double gate_share = 0.99;               ///< Share of true pairs inside the gate.
+  std::size_t min_initiation_points = 3;  ///< Fewest points of a moving segment that initiates a
+                                          ///< track.
+  int least_hits = 10;                    ///< Measurements before a track is confirmed.
+  double least_travel_m = 1.0;    ///< Distance from its first position before a track is confirmed:
+                                  ///< errors of the map do not move.
+  double longest_unseen_s = 0.6;  ///< Time without measurement after which a confirmed track is
+                                  ///< deleted.
+  double longest_unseen_tentative_s = 0.1;  ///< Time without measurement after which a tentative
+                                            ///< track is deleted.
 };
 
-/// Nearest-neighbour tracking: gates (Wang 2004, Eqs. 5.8-5.9), pairs greedily by Mahalanobis
-/// distance, and runs one constant-velocity Kalman filter a track. No occlusion, no shape beyond
+/// Nearest-neighbour tracking: gates (Wang 2004, Eqs. 5.8-5.9), assigns greedily by Mahalanobis
+/// distance, and runs one constant-velocity Kalman filter per track. No occlusion, no shape beyond
 /// the largest box seen, no class, no second hypothesis.
 class GreedyTracker final : public stages::TrackingStage {
  public:
@@ -41,8 +42,8 @@ class GreedyTracker final : public stages::TrackingStage {
 
  private:
   struct Track {
-    flow::TrackedObject object;  ///< Id, times, whether confirmed, and the largest box so far with
-                                 ///< its heading.
+    flow::TrackedObject object;    ///< Id, times, state of confirmation, and the largest box so far
+                                   ///< with its heading.
     filters::Gaussian<4> state{};  ///< (x, y [m], vx, vy [m/s]) in odom.
     Eigen::Vector2d first_m{};     ///< Position of the first measurement.
     int hits = 1;

@@ -5,7 +5,8 @@
 
 namespace slammot::greedy_tracker {
 
-/// What it reads of the stage `tracking`; a profile sets it for every implementation alike.
+/// The settings of stage `tracking` that this implementation reads. A profile sets them for all
+/// implementations.
 inline const config::FieldTable<GreedyTrackerConfig>& greedy_tracker_fields() {
   using C = GreedyTrackerConfig;
   static const config::FieldTable<C> table = {

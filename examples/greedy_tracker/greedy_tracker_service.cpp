@@ -27,14 +27,14 @@ void GreedyTrackerService::take(const slammot_SegmentedScan& sample) {
                          "dropped a segmented scan: " + std::string(scan.fault()));
   begin_drive_of(*scan);
   const auto last = last_results_.find(scan->scanner_id);
-  // A scan that is sent again: its sender missed the answer.
+  // A scan that was sent again: repeats the lost answer.
   if (last != last_results_.end() && scan->stamp_ns <= last->second.labels.stamp_ns)
     return publish(last->second);
   const app::Stopwatch stopwatch(context_.status().latency("track"));
   publish(last_results_[scan->scanner_id] = tracker_.step(*scan));
 }
 
-/// Tracks of another map or another frame odom mean nothing in this one.
+/// Discards the tracks of another map or another frame odom.
 void GreedyTrackerService::begin_drive_of(const flow::SegmentedScan& scan) {
   const std::pair drive{scan.map_id, scan.odom_id};
   if (drive_ == drive) return;
@@ -43,7 +43,8 @@ void GreedyTrackerService::begin_drive_of(const flow::SegmentedScan& scan) {
   last_results_.clear();
 }
 
-/// Objects first: localization must know them when the labels let the next scan come.
+/// Publishes objects before labels: the labels trigger the next scan, for which localization needs
+/// the objects.
 void GreedyTrackerService::publish(const stages::TrackingResult& result) {
   objects_.write(objects_encoder_.encode(context_.vehicle_id(), result.objects));
   labels_.write(labels_encoder_.encode(context_.vehicle_id(), result.labels));

@@ -13,14 +13,14 @@
 
 namespace slammot::greedy_tracker {
 
-/// The tracker in the place of the service tracking: decodes, calls and encodes.
+/// Runs the tracker as the service tracking: decodes, calls and encodes.
 class GreedyTrackerService {
  public:
   struct Settings {
     GreedyTrackerConfig config;
   };
-  static constexpr const char* kName = "tracking";  ///< The part it takes on the bus: others wait
-                                                    ///< for this heartbeat.
+  static constexpr const char* kName = "tracking";  ///< Name on the bus; other services wait for
+                                                    ///< its heartbeat.
   static constexpr const char* kPurpose =
       "Example of a service that replaces slammot-tracking: nearest neighbour, one Kalman filter.";
   static std::vector<config::BoundStage> stages(Settings& settings);
@@ -40,7 +40,7 @@ class GreedyTrackerService {
   dds::Writer<slammot_ScanLabels>& labels_;
   wire::TrackedObjectsEncoder objects_encoder_;
   wire::ScanLabelsEncoder labels_encoder_;
-  std::optional<std::pair<flow::MapId, flow::OdomId>> drive_;   ///< None before the first scan.
+  std::optional<std::pair<flow::MapId, flow::OdomId>> drive_;   ///< Empty before the first scan.
   std::map<std::string, stages::TrackingResult> last_results_;  ///< By scanner.
 };
 

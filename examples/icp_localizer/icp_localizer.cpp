@@ -15,7 +15,7 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
-/// One sigma of the predicted step: what each scan has, and what its length adds.
+/// One sigma of the predicted step: a constant and a share of its length.
 struct StepNoise {
   double position_m;
   double position_per_m;
@@ -70,11 +70,11 @@ std::optional<LocalizedScan> IcpLocalizer::localize(const sensing::LaserScan& sc
   last_stamp_ns_ = scan.stamp_ns;
   last_scanner_id_ = scan.scanner.scanner_id;
   LocalizedScan localized = described(scan, std::move(workspace));
-  remember(scan, localized);
+  add_pending(scan, localized);
   return localized;
 }
 
-/// Scans of several scanners may share a stamp.
+/// Several scanners may share a stamp.
 bool IcpLocalizer::is_late(const sensing::LaserScan& scan) const {
   if (scan.range_m.empty()) return true;
   if (scans_ == 0 || scan.stamp_ns > last_stamp_ns_) return false;
@@ -89,7 +89,7 @@ IcpLocalizer::Step IcpLocalizer::predicted_step(std::int64_t stamp_ns) const {
   return {{speed_mps_ * duration_s, 0.0, yaw_rate_radps_ * duration_s}, duration_s, false};
 }
 
-/// None where the scan has too few echoes, or too few of them find a surface.
+/// nullopt if the scan has too few echoes, or too few echoes with a surfel.
 std::optional<UncertainPose2> IcpLocalizer::matched(const sensing::LaserScan& scan,
                                                     const UncertainPose2& predicted) {
   const double most_m = std::min(config_.match_range_m, scan.scanner.max_range_m);
@@ -116,7 +116,7 @@ void IcpLocalizer::move_to(const UncertainPose2& odom_from_base, double duration
   odom_from_base_ = odom_from_base;
 }
 
-/// The first one, the one after finish(), or one that was outgrown.
+/// Begins a local map before the first scan, after finish(), or when the present one is complete.
 void IcpLocalizer::begin_local_map_if_due() {
   const Vector2 place_m = odom_from_base_.pose.translation_m();
   if (!map_) {
@@ -184,7 +184,7 @@ LocalizedScan IcpLocalizer::described(const sensing::LaserScan& scan,
     beam.range_m = scan.range_m[i];
     map_->look_up_end(odom_from_base_.pose * points_in_base_m_[i], beam);
   }
-  // Detection asks for the expected range only beside an echo that contradicts the map.
+  // Detection needs expected ranges only near echoes that contradict the map.
   const Pose2 odom_from_laser = odom_from_base_.pose * scan.scanner.base_from_laser;
   for (std::size_t i = 0; i < localized.beams.size(); ++i) {
     if (localized.beams[i].end_cell != EndCell::kFree) continue;
@@ -200,8 +200,8 @@ LocalizedScan IcpLocalizer::described(const sensing::LaserScan& scan,
   return localized;
 }
 
-/// The scan waits for its labels; until then no echo of it is in the map.
-void IcpLocalizer::remember(const sensing::LaserScan& scan, const LocalizedScan& localized) {
+/// Stores the scan until its labels arrive; its echoes are mapped then.
+void IcpLocalizer::add_pending(const sensing::LaserScan& scan, const LocalizedScan& localized) {
   const Pose2 odom_from_laser = odom_from_base_.pose * scan.scanner.base_from_laser;
   const Vector2 laser_m = odom_from_laser.translation_m();
   Pending& pending = pending_.emplace_back(
@@ -235,7 +235,7 @@ void IcpLocalizer::integrate(const flow::ScanLabels& labels) {
   integrate_first(&labels.labels);
 }
 
-/// Without labels, everything counts as stationary.
+/// Without labels all points count as stationary.
 void IcpLocalizer::integrate_first(const std::vector<PointLabel>* labels) {
   MappedScan& scan = pending_.front().scan;
   for (std::size_t i = 0; labels && i < scan.rays.size(); ++i)

@@ -15,15 +15,15 @@
 
 namespace slammot::icp_localizer {
 
-/// Point-to-line ICP (Censi 2008) of each scan against a local map of the recent scans, from where
-/// odometry, or constant velocity, predicts it. No calibration of odometry, no search when lost, no
-/// honest covariance.
+/// Point-to-line ICP (Censi 2008) of each scan against a local map of recent scans, from the
+/// prediction by odometry or constant velocity. No calibration of odometry, no relocalization, no
+/// consistent covariance.
 class IcpLocalizer final : public stages::LocalizationStage {
  public:
   explicit IcpLocalizer(const IcpLocalizerConfig& config) : config_(config) {}
 
   void add_odometry(const sensing::Odometry& sample) override;
-  /// Whether waiting for more odometry could still improve the prediction at the stamp.
+  /// True unless later odometry could improve the prediction at the stamp.
   bool has_odometry_for(std::int64_t stamp_ns) const { return odometry_.reaches(stamp_ns); }
 
   std::optional<flow::LocalizedScan> localize(const sensing::LaserScan& scan,
@@ -37,13 +37,13 @@ class IcpLocalizer final : public stages::LocalizationStage {
   std::map<std::string, std::uint64_t> named_counters() const override;
 
  private:
-  /// Motion from the last scan to this one, in the base frame of the last.
+  /// Motion from the last scan to this one, in base at the last scan.
   struct Step {
     geometry::Pose2 before_from_base;
     double duration_s = 0.0;
     bool is_by_wheels = false;
   };
-  /// A scan that waits for its labels.
+  /// A scan whose labels are pending.
   struct Pending {
     std::uint32_t sequence = 0;
     std::string scanner_id;
@@ -58,24 +58,25 @@ class IcpLocalizer final : public stages::LocalizationStage {
   void begin_local_map_if_due();
   flow::LocalizedScan described(const sensing::LaserScan& scan,
                                 flow::LocalizedScan localized) const;
-  void remember(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
+  void add_pending(const sensing::LaserScan& scan, const flow::LocalizedScan& localized);
   void integrate_first(const std::vector<flow::PointLabel>* labels);
 
   IcpLocalizerConfig config_;
   sensing::OdometryBuffer odometry_;
   matching::PointToLineMatcher matcher_;
-  std::optional<RecentMap> map_;             ///< None before the first scan.
-  bool is_map_finished_ = false;             ///< The next scan begins the next one.
-  geometry::UncertainPose2 odom_from_base_;  ///< At the last scan; covariance within the local map.
+  std::optional<RecentMap> map_;             ///< Empty before the first scan.
+  bool is_map_finished_ = false;             ///< The next scan begins a new local map.
+  geometry::UncertainPose2 odom_from_base_;  ///< At the last scan; covariance relative to the local
+                                             ///< map.
   geometry::Pose2 map_from_odom_;
   geometry::UncertainPose2 previous_from_submap_;  ///< Of the local map.
   double speed_mps_ = 0.0;
   double yaw_rate_radps_ = 0.0;
   double travelled_m_ = 0.0;
-  double map_began_at_m_ = 0.0;  ///< Of the way travelled.
+  double map_began_at_m_ = 0.0;  ///< Distance travelled before the local map.
   std::int64_t last_stamp_ns_ = 0;
   std::string last_scanner_id_;
-  std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the scan at hand, one a beam.
+  std::vector<geometry::Vector2> points_in_base_m_;  ///< Of the present scan, one a beam.
   std::deque<Pending> pending_;
   std::deque<flow::Submap> finished_;
   std::uint64_t scans_ = 0;

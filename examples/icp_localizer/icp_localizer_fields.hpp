@@ -5,7 +5,8 @@
 
 namespace slammot::icp_localizer {
 
-/// What it reads of the stage `localization`; a profile sets it for every implementation alike.
+/// The settings of stage `localization` that this implementation reads. A profile sets them for all
+/// implementations.
 inline const config::FieldTable<IcpLocalizerConfig>& icp_localizer_fields() {
   using C = IcpLocalizerConfig;
   using config::kNotNegative;

@@ -11,15 +11,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kTurn = 10ms;
-/// Turns that a scan waits for odometry of its time; the first one longer, until the bus has found
-/// the writer.
-constexpr int kOdometryPatience = 5;
+constexpr auto kCycle = 10ms;
+/// Cycles that a scan waits for odometry at its stamp; longer for the first scan, until discovery
+/// of the writer.
+constexpr int kOdometryWaitCycles = 5;
 constexpr int kFirstOdometryPatience = 50;
-/// After so many scans in a row without odometry none is expected any more.
-constexpr int kMostVainWaits = 3;
+/// Number of consecutive scans without odometry after which none is expected.
+constexpr int kMaxScansWithoutOdometry = 3;
 constexpr std::size_t kRecentOdometry = 300;
-/// Times that a tile is written while a reader is slow.
+/// Attempts to write a tile while a reader is slow.
 constexpr int kTileAttempts = 20;
 
 std::uint64_t new_id() {
@@ -39,8 +39,7 @@ IcpLocalizerService::IcpLocalizerService(app::ServiceContext& context, const Set
       localized_scans_(context.write(dds::topics::kLocalizedScan)),
       tiles_(context.write(dds::topics::kSubmapTile)) {
   using app::Input;
-  // In this order where several wait: what is known of earlier scans goes into the map before the
-  // next one is matched.
+  // In this order: labels and objects of earlier scans are mapped before the next scan is matched.
   context.read(dds::topics::kGraphCorrection, Input::kOccasional,
                [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kScanLabels, Input::kSteady,
@@ -49,8 +48,8 @@ IcpLocalizerService::IcpLocalizerService(app::ServiceContext& context, const Set
                [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kLaserScan, Input::kSteady,
                [this](const auto& sample) { take(sample); });
-  context.every(kTurn, [this] {
-    for (Waiting& waiting : waiting_) ++waiting.turns;
+  context.every(kCycle, [this] {
+    for (Waiting& waiting : waiting_) ++waiting.cycles;
     localize_waiting();
   });
   context.before_report([this] { context_.status().set_counters(localizer_.named_counters()); });
@@ -96,8 +95,8 @@ void IcpLocalizerService::take(const slammot_GraphCorrection& sample) {
 
 bool IcpLocalizerService::awaits_odometry(const Waiting& waiting) const {
   return config_.use_odometry && !localizer_.has_odometry_for(waiting.scan.stamp_ns) &&
-         scans_without_odometry_ < kMostVainWaits &&
-         waiting.turns <= (last_published_.empty() ? kFirstOdometryPatience : kOdometryPatience);
+         scans_without_odometry_ < kMaxScansWithoutOdometry &&
+         waiting.cycles <= (last_published_.empty() ? kFirstOdometryPatience : kOdometryWaitCycles);
 }
 
 void IcpLocalizerService::localize_waiting() {
@@ -110,7 +109,7 @@ void IcpLocalizerService::localize_waiting() {
   }
 }
 
-/// Every scanner names its drive: a new one begins when a known scanner names another.
+/// A new drive begins when a known scanner reports another drive id.
 void IcpLocalizerService::begin_drive_of(const Waiting& waiting) {
   const std::string& scanner_id = waiting.scan.scanner.scanner_id;
   const auto known = drive_by_scanner_.find(scanner_id);
@@ -135,7 +134,7 @@ void IcpLocalizerService::localize(const sensing::LaserScan& scan) {
     localized->odom_id = {map_id_.value};
     last_published_[scanner_id] = std::move(*localized);
   }
-  // Also for a scan that is sent again: its sender missed the answer.
+  // A scan that was sent again: repeats the lost answer.
   if (const auto last = last_published_.find(scanner_id); last != last_published_.end())
     localized_scans_.write(scan_encoder_.encode(context_.vehicle_id(), last->second));
   publish_finished_submaps();

@@ -14,16 +14,15 @@
 
 namespace slammot::icp_localizer {
 
-/// The localizer in the place of the service localization: decodes, calls and encodes. Each process
-/// and each drive begins a map of its own.
+/// Runs the localizer as the service localization: decodes, calls and encodes. Each process and
+/// each drive begins a new map.
 class IcpLocalizerService {
  public:
   struct Settings {
     IcpLocalizerConfig config;
   };
-  static constexpr const char* kName = "localization";  ///< The part it takes on the bus: others
-                                                        ///< wait for this heartbeat and send it
-                                                        ///< commands.
+  static constexpr const char* kName = "localization";  ///< Name on the bus; other services wait
+                                                        ///< for its heartbeat and send it commands.
   static constexpr const char* kPurpose =
       "Example of a service that replaces slammot-localization: ICP against the recent scans.";
   static std::vector<config::BoundStage> stages(Settings& settings);
@@ -35,7 +34,7 @@ class IcpLocalizerService {
   struct Waiting {
     sensing::LaserScan scan;
     std::uint64_t drive_id = 0;
-    int turns = 0;  ///< Of the service's loop, in which odometry had its chance.
+    int cycles = 0;  ///< Cycles of the service since the scan arrived.
   };
 
   void take(const slammot_LaserScan& sample);
@@ -58,11 +57,11 @@ class IcpLocalizerService {
   wire::SubmapEncoder submap_encoder_;
   wire::GraphCorrectionAssembler corrections_;
   std::deque<Waiting> waiting_;
-  std::deque<sensing::Odometry> recent_odometry_;  ///< For a drive whose odometry comes before its
+  std::deque<sensing::Odometry> recent_odometry_;  ///< For a drive whose odometry precedes its
                                                    ///< first scan.
-  int scans_without_odometry_ = 0;                 ///< One after the other.
+  int scans_without_odometry_ = 0;                 ///< Consecutive ones.
   std::map<std::string, std::uint64_t> drive_by_scanner_;
-  flow::MapId map_id_;                                         ///< And number of the frame odom.
+  flow::MapId map_id_;                                         ///< Also the id of the frame odom.
   std::map<std::string, flow::LocalizedScan> last_published_;  ///< By scanner.
 };
 

@@ -11,7 +11,7 @@ using geometry::Vector2;
 
 constexpr double kSurfelWeightLimit = 1000.0;
 constexpr std::uint64_t kScansBetweenCleanings = 10;
-constexpr std::size_t kScansKept = 20;  // with which the next local map begins
+constexpr std::size_t kScansKept = 20;  // scans with which the next local map begins
 constexpr double kKeptScansApart_m = 0.5;
 
 }  // namespace

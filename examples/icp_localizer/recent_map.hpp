@@ -12,7 +12,7 @@
 
 namespace slammot::icp_localizer {
 
-/// One scan as the map takes it: rays in odom, in the order of the beams.
+/// A scan to be mapped: rays in odom, in the order of beams.
 struct MappedScan {
   std::int64_t stamp_ns = 0;
   geometry::Vector2 laser_in_odom_m = geometry::Vector2::Zero();
@@ -21,9 +21,9 @@ struct MappedScan {
   double travelled_m = 0.0;  ///< Of the vehicle, since the drive's first scan.
 };
 
-/// Local map of the recent scans, in odom: surfels to match against, SO-map and MO-map to tell what
-/// moves. Each local map becomes one submap; the next one begins with the last few scans, so that
-/// matching and detection have something to compare with.
+/// Local map of recent scans in odom: surfels for matching; SO-map and MO-map for detection. Each
+/// local map becomes a submap. The next one begins with the last few scans, so that matching and
+/// detection have a reference.
 class RecentMap {
  public:
   RecentMap(const IcpLocalizerConfig& config, flow::SubmapId id,
@@ -31,13 +31,13 @@ class RecentMap {
 
   void add(const MappedScan& scan);
 
-  /// The next local map, around the place, with the last scans of this one.
+  /// The next local map, with the given centre and the last scans of this one.
   RecentMap next(const geometry::Vector2& centre_in_odom_m) const;
 
-  /// What the map says about the cell in which the beam ended.
+  /// Sets the beam's state of the cell in which it ended.
   void look_up_end(const geometry::Vector2& end_in_odom_m, flow::LocalizedBeam& beam) const;
 
-  /// From the laser to the first occupied cell in the direction (unit vector), or max_range_m.
+  /// Range to the first occupied cell along the direction (unit vector), or max_range_m.
   double expected_range_m(const geometry::Vector2& laser_in_odom_m,
                           const geometry::Vector2& direction, double max_range_m) const {
     return evidence_.distance_to_occupied(laser_in_odom_m, direction, max_range_m);
@@ -48,7 +48,7 @@ class RecentMap {
   const geometry::Pose2& odom_from_submap() const { return odom_from_submap_; }
   bool has_scans() const { return scans_ > 0; }
 
-  /// Grids and surfels as a submap. Constraint and travel are the caller's to fill in.
+  /// Grids and surfels as a submap. The caller sets constraint and travelled distance.
   flow::Submap submap() const;
 
  private:
@@ -59,8 +59,8 @@ class RecentMap {
   geometry::Pose2 odom_from_submap_;
   grids::EvidenceGrid evidence_;
   grids::SurfelMap surfels_;
-  std::deque<MappedScan> last_scans_;  ///< Some distance apart.
-  std::uint64_t scans_ = 0;            ///< Without those that it began with.
+  std::deque<MappedScan> last_scans_;  ///< At some distance from each other.
+  std::uint64_t scans_ = 0;            ///< Without the initial ones.
   std::int64_t first_stamp_ns_ = 0;
   std::int64_t last_stamp_ns_ = 0;
 };

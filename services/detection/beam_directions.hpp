@@ -9,10 +9,10 @@
 
 namespace slammot::detection {
 
-/// Unit vectors along the beams of a scan, in base. Keeps its memory from scan to scan.
+/// Unit vectors along the beams of a scan, in base. Reuses its memory.
 class BeamDirections {
  public:
-  void look_along(const flow::LocalizedScan& scan) {
+  void compute(const flow::LocalizedScan& scan) {
     directions_.clear();
     sensing::TurningDirection direction(first_beam_rad(scan), scan.beam_step_rad);
     for (std::size_t i = 0; i < scan.beams.size(); ++i, direction.advance())
@@ -22,7 +22,7 @@ class BeamDirections {
   const geometry::Vector2& operator[](std::size_t beam) const { return directions_[beam]; }
 
  private:
-  /// By the first echo; any will do where there is none.
+  /// From the first echo; arbitrary in a scan without echoes.
   static double first_beam_rad(const flow::LocalizedScan& scan) {
     for (std::size_t i = 0; i < scan.beams.size(); ++i) {
       if (scan.beams[i].range_m <= 0.0F) continue;

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "common/config/fields.hpp"
-#include "services/detection/detector.hpp"
+#include "services/detection/detection_config.hpp"
 
 namespace slammot::detection {
 
-/// The settings of detection as message Detection has them.
+/// Settings of detection, as in message Detection.
 const config::FieldTable<DetectionConfig>& detection_fields();
 
 }  // namespace slammot::detection

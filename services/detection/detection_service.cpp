@@ -26,8 +26,8 @@ void DetectionService::take(const slammot_LocalizedScan& sample) {
     return context_.warn("faulty_localized_scan",
                          "dropped a localized scan: " + std::string(scan.fault()));
   const app::Stopwatch stopwatch(context_.status().latency("detect"));
-  done_with_ = detector_.detect(*scan, std::move(done_with_));
-  segmented_scans_.write(encoder_.encode(context_.vehicle_id(), done_with_));
+  segmented_scan_ = detector_.detect(*scan, std::move(segmented_scan_));
+  segmented_scans_.write(encoder_.encode(context_.vehicle_id(), segmented_scan_));
   ++context_.status().counter("scans");
 }
 

@@ -8,7 +8,7 @@
 
 namespace slammot::detection {
 
-/// Cuts localized scans into segments. Keeps nothing from scan to scan but memory.
+/// Segments localized scans. Stateless except for reused memory.
 class DetectionService {
  public:
   struct Settings {
@@ -16,7 +16,7 @@ class DetectionService {
   };
   static constexpr const char* kName = "detection";
   static constexpr const char* kPurpose =
-      "Cuts scans into segments and labels those that contradict the map as moving.";
+      "Segments scans and labels the segments that contradict the map as moving.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
@@ -27,7 +27,7 @@ class DetectionService {
 
   app::ServiceContext& context_;
   Detector detector_;
-  flow::SegmentedScan done_with_;  ///< Memory for the next one.
+  flow::SegmentedScan segmented_scan_;  ///< Its memory is reused for the next scan.
   dds::Writer<slammot_SegmentedScan>& segmented_scans_;
   wire::SegmentedScanEncoder encoder_;
 };

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "services/detection/beam_directions.hpp"
-#include "services/detection/detector.hpp"
+#include "services/detection/detection_config.hpp"
 
 namespace slammot::detection {
 namespace {
@@ -36,8 +36,7 @@ class Ground {
            from_laser_m(beam).x() > config_.ground_nearest_m;
   }
 
-  /// Line through the run of moving echoes that begins here, where it is straight and square to the
-  /// axis.
+  /// Least-squares line through a run of candidates; empty if it is not square to the axis.
   std::optional<Line> line_from(std::size_t first, std::size_t last) const {
     double n = 0.0, sy = 0.0, sx = 0.0, syy = 0.0, sxy = 0.0;
     for (std::size_t i = first; i <= last; ++i) {
@@ -54,25 +53,26 @@ class Ground {
   Side side_of(std::size_t beam, const Line& line) const {
     const Vector2& direction = directions_[beam];
     const double approach = direction.x() - line.slope * direction.y();
-    constexpr double kSteepest = 0.2;  // beams nearly along the line meet it too far away to tell
-    if (approach < kSteepest) return Side::kNotCrossed;
+    constexpr double kMinApproach = 0.2;  // Least rate of approach: a nearly parallel beam meets
+                                          // the line too far away.
+    if (approach < kMinApproach) return Side::kNotCrossed;
     const double crossing_m = line.distance_m / approach;
     if (crossing_m > 0.9 * scan_.max_range_m) return Side::kNotCrossed;
     const auto range_m = static_cast<double>(scan_.range_m[beam]);
     const double tolerance_m = config_.ground_thickness_m + 0.02 * crossing_m;
-    if (range_m <= 0.0) return Side::kNoEcho;  // dark asphalt may give none
+    if (range_m <= 0.0) return Side::kNoEcho;  // asphalt may return no echo
     if (range_m > crossing_m + tolerance_m) return Side::kBeyond;
     return range_m < crossing_m - tolerance_m ? Side::kInFront : Side::kOn;
   }
 
-  /// Beams on the line, and what the others say of it.
+  /// Beams on the line, and those of all other relations to it.
   struct Tally {
     int on = 0;
     int beyond = 0;
     int without_echo = 0;
-    int without_echo_between = 0;  ///< The line's ends.
-    int first = -1;                ///< Beam on it,
-    int last = -1;                 ///< and the last.
+    int without_echo_between = 0;  ///< Between the first and the last beam on the line.
+    int first = -1;                ///< First beam on the line.
+    int last = -1;                 ///< Last beam on the line.
     double low_y_m = 1e9;
     double high_y_m = -1e9;
   };
@@ -96,9 +96,9 @@ class Ground {
     return tally;
   }
 
-  /// The ground ends where something stands before it; a vehicle that crosses ends where one sees
-  /// past it.
-  bool ends_before_something(int beam, int step, const Line& line) const {
+  /// True if the next beams in direction `step` end in front of the line. A ground line ends at an
+  /// occluder; beside a crossing vehicle the beams see beyond it.
+  bool ends_at_occluder(int beam, int step, const Line& line) const {
     constexpr int kBeamsLookedAt = 6;
     for (int i = 1; i <= kBeamsLookedAt; ++i) {
       const int neighbour = beam + i * step;
@@ -113,11 +113,11 @@ class Ground {
   bool is_ground(const Line& line) const {
     const Tally tally = tally_of(line);
     if (tally.high_y_m - tally.low_y_m < config_.ground_least_width_m ||
-        tally.beyond > config_.ground_most_beyond * tally.on)
+        tally.beyond > config_.ground_max_beyond_share * tally.on)
       return false;
     if (tally.without_echo <= tally.on) return true;
-    return tally.without_echo_between <= tally.on && ends_before_something(tally.first, -1, line) &&
-           ends_before_something(tally.last, +1, line);
+    return tally.without_echo_between <= tally.on && ends_at_occluder(tally.first, -1, line) &&
+           ends_at_occluder(tally.last, +1, line);
   }
 
  private:
@@ -132,18 +132,17 @@ void find_ground(const flow::SegmentedScan& scan, const BeamDirections& directio
                  const DetectionConfig& config, std::vector<char>& is_ground) {
   is_ground.assign(scan.range_m.size(), 0);
   const Ground ground(scan, directions, config);
-  constexpr std::size_t kFewestEchoes = 4;
-  constexpr std::size_t kMostEchoes = 12;  // enough for a line, short enough to follow one that
-                                           // bends
-  for (std::size_t first = 0; first + kFewestEchoes <= scan.range_m.size(); ++first) {
+  constexpr std::size_t kMinEchoes = 4;
+  constexpr std::size_t kMaxEchoes = 12;  // Enough for a line, few enough to follow a curved one.
+  for (std::size_t first = 0; first + kMinEchoes <= scan.range_m.size(); ++first) {
     if (is_ground[first] || !ground.is_candidate(first)) continue;
     std::size_t last = first;
-    while (last + 1 < scan.range_m.size() && last + 1 < first + kMostEchoes &&
+    while (last + 1 < scan.range_m.size() && last + 1 < first + kMaxEchoes &&
            ground.is_candidate(last + 1) &&
            std::abs(ground.from_laser_m(last + 1).x() - ground.from_laser_m(last).x()) <
                config.ground_thickness_m)
       ++last;
-    if (last + 1 < first + kFewestEchoes) continue;
+    if (last + 1 < first + kMinEchoes) continue;
     const std::optional<Line> line = ground.line_from(first, last);
     if (line && ground.is_ground(*line)) {
       for (std::size_t i = 0; i < scan.range_m.size(); ++i)

@@ -12,12 +12,11 @@ constexpr std::int64_t kLongestGapNs = 1'000'000'000;
 constexpr std::int64_t kLongestScanGapNs = 500'000'000;
 
 struct Sighting {
-  std::int64_t stamp_ns = 0;   ///< Of the scan that was looked at.
+  std::int64_t stamp_ns = 0;   ///< Of the annotated scan.
   metrics::TrueObject person;  ///< In the map.
 };
 
-/// Each person's sightings, by time. What is marked after a scan and before the next was seen in
-/// that scan.
+/// Sightings of each person, by time. An annotation between two scans belongs to the earlier one.
 std::map<std::size_t, std::vector<Sighting>> sightings_in_map(
     const std::vector<ObjectsAt>& annotated, const RunResult& result) {
   std::map<std::size_t, std::vector<Sighting>> sightings;
@@ -37,8 +36,8 @@ std::map<std::size_t, std::vector<Sighting>> sightings_in_map(
   return sightings;
 }
 
-/// Of the line that fits the sightings of a second before and after best: from click to click a
-/// hand's error of a decimetre would be a speed of its own.
+/// Slope of the line fitted to the sightings within one second. The difference of two annotations
+/// alone would turn an error of a decimetre into a speed.
 geometry::Vector2 velocity_at(const std::vector<Sighting>& sightings, std::int64_t stamp_ns) {
   double count = 0.0;
   double mean_s = 0.0;

@@ -5,11 +5,11 @@
 
 namespace slammot::evaluator {
 
-/// Where the only truth is what was annotated in the frame of the laser: the truth of the scans
-/// from the first annotation to the last, in a world that is the map as published live. An
-/// annotation is of the latest scan at its time. A person is there at a scan between two
-/// annotations at most a second apart, on the straight line between them, with as many points as
-/// count; else it may be there, unseen.
+/// Truth for drives with annotations in the laser's frame only: covers the scans from the first to
+/// the last annotation; the world is the map as published live. An annotation belongs to the latest
+/// scan at its time. Between two annotations at most one second apart a person is on the straight
+/// line between them and has `points` points; otherwise it may be present but is not required to be
+/// seen.
 Truth place_annotations(const Truth& truth, const RunResult& result, int points);
 
 }  // namespace slammot::evaluator

@@ -26,7 +26,7 @@ void add_comparison_options(CLI::App& command, ComparisonOptions& options, Truth
       ->type_name("PREFIX");
   command
       .add_option("--input", options.input,
-                  "Log of the drive, for what is judged echo by echo [PREFIX.log]")
+                  "Log of the drive, for figures of single echoes [PREFIX.log]")
       ->type_name("FILE");
   command.add_option("--range", rule.range_m, "Objects farther away do not count [m]")
       ->capture_default_str()
@@ -38,8 +38,8 @@ void add_comparison_options(CLI::App& command, ComparisonOptions& options, Truth
             rule.first_bearing_rad = deg.first * kDegree,
             rule.last_bearing_rad = deg.second * kDegree;
           },
-          "Objects seen from the vehicle in other directions than between these two do not count: "
-          "FROM TO, left of its axis is positive [deg]")
+          "Only objects with a bearing between these two count: "
+          "FROM TO, positive to the left of the vehicle's axis [deg]")
       ->type_name("DEG DEG");
   command.add_option("--min-speed", rule.least_speed_mps, "Slower objects do not count [m/s]")
       ->capture_default_str()
@@ -57,12 +57,12 @@ void add_comparison_options(CLI::App& command, ComparisonOptions& options, Truth
       ->check(CLI::PositiveNumber);
   command
       .add_option("--max-stamp-difference", options.evaluation.max_stamp_difference_s,
-                  "Between a pose and its true one [s]")
+                  "Greatest difference of stamps of a pose and its true pose [s]")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command
       .add_option("--map-tolerance", options.evaluation.map_tolerance_m,
-                  "From an occupied cell to a true wall [m]")
+                  "Greatest distance of an occupied cell from a true wall [m]")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
 }

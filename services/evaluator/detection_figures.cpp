@@ -33,11 +33,11 @@ std::string recall_bars(const TrackingEvaluation& tracking) {
                     band.errors.recall, remark(band.errors)});
   }
   return "<figure>" + share_bars_svg(bars, "#1f5fa8") +
-         "<figcaption>Recall: rows of objects that count, and how many of them were matched by a "
+         "<figcaption>Recall: share of the rows of objects that count with a matched "
          "track.</figcaption></figure>";
 }
 
-/// Means over buckets of time, of one count a scan.
+/// Means of a count per scan over intervals of time.
 class MeanOverTime {
  public:
   void add(double at_s, double value) {
@@ -91,8 +91,8 @@ std::string counts_row(const char* name, const metrics::DetectionCounts& counts)
 }
 
 std::string label_table(const DetectionEvaluation& detection) {
-  return "<table><caption>Labels of echoes against what they came "
-         "from</caption><tr><th></th><th>moving: precision</th><th>recall</th><th>stationary: "
+  return "<table><caption>Labels of echoes against their true "
+         "origin</caption><tr><th></th><th>moving: precision</th><th>recall</th><th>stationary: "
          "precision</th><th>recall</th>"
          "<th>segments: precision</th><th>recall</th></tr>" +
          counts_row("by detection", detection.by_detection) +
@@ -112,11 +112,9 @@ std::string detection_figures(const ReportSource& source) {
 }
 
 std::string latency_figure(const ReportSource& source) {
-  const auto report = nlohmann::ordered_json::parse(source.report_json, nullptr, false);  // stages
-                                                                                          // in the
-                                                                                          // order
-                                                                                          // of a
-                                                                                          // scan
+  const auto report =
+      nlohmann::ordered_json::parse(source.report_json, nullptr, false);  // Stages in the order of
+                                                                          // processing.
   const nlohmann::ordered_json::json_pointer place("/measured/stage_latency");
   if (!report.is_object() || !report.contains(place) || !report[place].is_object()) return {};
   std::vector<LogBar> bars;
@@ -127,9 +125,9 @@ std::string latency_figure(const ReportSource& source) {
   if (svg.empty()) return {};
   return "<section><h2>Latency of the stages</h2><figure>" + svg +
          "<p class=\"legend\"><span><i style=\"background:#1f5fa8\"></i>median</span><span><i "
-         "style=\"background:#e0a100\"></i>99 of 100 below</span>"
-         "<span><i style=\"background:#d9480f\"></i>longest</span></p><figcaption>On the machine "
-         "and at the time of the run.</figcaption></figure></section>";
+         "style=\"background:#e0a100\"></i>99th percentile</span>"
+         "<span><i style=\"background:#d9480f\"></i>maximum</span></p><figcaption>Measured on the "
+         "machine of the run.</figcaption></figure></section>";
 }
 
 }  // namespace slammot::evaluator

@@ -10,7 +10,7 @@ namespace slammot::evaluator {
 namespace {
 
 constexpr std::int64_t kLongestTruthGapNs = 200'000'000;
-constexpr double kDifferenceS = 0.05;  // over which the true velocity is taken
+constexpr double kDifferenceS = 0.05;  // Baseline of the true velocity.
 
 struct Motion {
   geometry::Pose2 world_from_base;

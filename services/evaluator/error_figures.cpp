@@ -10,8 +10,8 @@ namespace {
 
 constexpr const char* kCorrected = "#1f5fa8";
 constexpr const char* kOnline = "#e0a100";
-constexpr double kGapS = 3.0;  // a line breaks where there is nothing for longer, as while the
-                               // vehicle stands
+constexpr double kGapS = 3.0;  // Longer gaps interrupt the line, for example while the vehicle
+                               // stands.
 
 double seconds_since(std::int64_t begin_ns, std::int64_t stamp_ns) {
   return static_cast<double>(stamp_ns - begin_ns) * 1e-9;
@@ -50,7 +50,7 @@ std::string figure(const Plot& plot, const char* caption) {
   return "<figure>" + to_svg(plot) + "<figcaption>" + caption + "</figcaption></figure>";
 }
 
-/// What the published covariance says of the pose against the local map.
+/// Published standard deviation of the pose relative to the local map.
 std::string sigma_figure(const RunResult& result, std::int64_t begin_ns) {
   if (result.uncertain.empty()) return {};
   Series along{"position", kCorrected, {}};
@@ -64,7 +64,7 @@ std::string sigma_figure(const RunResult& result, std::int64_t begin_ns) {
   along.name = "position, worse of x and y [cm]";
   heading.name = "heading [deg]";
   return figure({"time [s]", "one sigma", {along, heading}, {}, {}, 190.0},
-                "How sure the published pose says it is, against its local map.");
+                "Published standard deviation of the pose relative to the local map.");
 }
 
 }  // namespace
@@ -89,10 +89,10 @@ std::string error_figures(const ReportSource& source) {
     if (!best.translation_m.points.empty()) {
       html +=
           figure({"time [s]", "over 10 m [m]", {live.translation_m, best.translation_m}, {}, {}},
-                 "Error of the motion over ten metres of the true path, at its end.");
+                 "Position drift over ten metres of the true path.");
       html += figure(
           {"time [s]", "over 10 m [deg]", {live.rotation_deg, best.rotation_deg}, {}, {}, 190.0},
-          "The same, of the heading.");
+          "Heading drift over ten metres of the true path.");
     }
   }
   html += sigma_figure(*source.result, begin_ns);

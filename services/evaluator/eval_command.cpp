@@ -19,7 +19,7 @@ int fail(const files::Error& fault) {
   return 1;
 }
 
-/// Says nothing where nobody asked for it.
+/// Does nothing unless requested.
 std::optional<files::Error> evaluate_walls(const ComparisonOptions& options,
                                            const RunResult& result, Evaluation& evaluation) {
   if (options.evaluation.walls.cell_size_m <= 0.0) return std::nullopt;

@@ -9,8 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Six decimals are more than any figure is worth; -0 and what is not finite would not be the same
-/// everywhere.
+/// Rounds to six decimals. Replaces -0 and non-finite values, which would differ between machines.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
   const double rounded = std::round(value * 1e6) / 1e6;

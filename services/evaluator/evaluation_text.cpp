@@ -24,8 +24,9 @@ std::string error_row(const char* name, const metrics::ErrorSummary& errors, con
 
 std::string describe(const char* title, const TrajectoryEvaluation& trajectory) {
   if (trajectory.poses == 0) return {};
-  std::string lines = text("%s: %zu of %zu poses have a true one\n  %-34s %9s %9s %9s %9s\n", title,
-                           trajectory.pairs, trajectory.poses, "", "rmse", "mean", "median", "max");
+  std::string lines =
+      text("%s: %zu of %zu poses have a true pose\n  %-34s %9s %9s %9s %9s\n", title,
+           trajectory.pairs, trajectory.poses, "", "rmse", "mean", "median", "max");
   lines += error_row("ATE, rigidly aligned", trajectory.absolute_m, "m");
   lines += error_row("ATE, first pose aligned", trajectory.absolute_from_start_m, "m");
   for (const RelativeErrors& relative : trajectory.relative) {

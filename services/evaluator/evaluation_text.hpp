@@ -6,11 +6,11 @@
 
 namespace slammot::evaluator {
 
-/// The table for the terminal.
+/// Table for the terminal.
 std::string to_text(const Evaluation& evaluation, const EvaluationOptions& options);
 
-/// evaluation.json: every figure of the table and more, SI units in the names. The same for the
-/// same input.
+/// Content of evaluation.json: all figures of the table and more, with SI units in the names.
+/// Reproducible.
 std::string to_json_text(const Evaluation& evaluation, const EvaluationOptions& options);
 
 }  // namespace slammot::evaluator

@@ -13,12 +13,12 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-/// SVG's y goes down.
+/// The y axis of SVG points down.
 std::string place(const Vector2& point_in_map_m) {
   return svg_number(point_in_map_m.x()) + " " + svg_number(-point_in_map_m.y());
 }
 
-/// Of points in map; those that are nearer than a step to the last one drawn are left out.
+/// SVG path of points in map; points nearer than a step to the last one are left out.
 class PathText {
  public:
   explicit PathText(double step_m) : step_m_(step_m) {}
@@ -53,10 +53,10 @@ std::string trajectory_path(const metrics::Trajectory& trajectory, const Pose2& 
 
 struct DrawnTrack {
   PathText path;
-  std::string object_class;  // as believed last
+  std::string object_class;  // as published last
 };
 
-/// Tracks hang on the corrected poses, as the map does.
+/// Paths of tracks relative to the corrected poses, consistent with the map.
 std::map<std::uint32_t, DrawnTrack> drawn_tracks(const RunResult& result, double step_m) {
   std::map<std::uint32_t, DrawnTrack> drawn;
   for (const TracksAt& at : result.tracks) {
@@ -77,7 +77,7 @@ struct Frame {
   Vector2 high_m = Vector2::Ones();
 };
 
-/// Of the map where there is one, else of the trajectory.
+/// Bounds of the map if there is one, otherwise of the trajectory.
 Frame frame_of(const RunResult& result) {
   if (result.map) {
     const files::MapImage& map = *result.map;
@@ -157,9 +157,9 @@ std::string map_figure(const ReportSource& source) {
   svg += "</svg>";
   return "<section><h2>Map, trajectory and tracks</h2><figure>" + svg +
          class_legend(classes, source.truth != nullptr) +
-         "<figcaption>What stands still is black, what was seen free white; " +
+         "<figcaption>Stationary objects are black, free space is white; " +
          svg_number(std::round(size_m.x())) + " m by " + svg_number(std::round(size_m.y())) +
-         " m. Tracks are drawn from the corrected poses of the "
+         " m. Tracks are drawn relative to the corrected poses of the "
          "vehicle.</figcaption></figure></section>";
 }
 

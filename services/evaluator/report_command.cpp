@@ -29,14 +29,15 @@ int fail(const files::Error& fault) {
   return 1;
 }
 
-/// Empty where there is no such file.
+/// Empty if there is no such file.
 std::string content_of(const path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::string title_of(const path& folder) {
-  const path whole = std::filesystem::absolute(folder).lexically_normal();  // "." has a name, too
+  const path whole = std::filesystem::absolute(folder).lexically_normal();  // Resolves "." to a
+                                                                            // name.
   return "slammot: " + (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 

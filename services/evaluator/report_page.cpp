@@ -84,7 +84,7 @@ std::string tracking_table(const TrackingEvaluation& tracking) {
 
 std::string figures_section(const Evaluation& evaluation) {
   std::string html =
-      "<section><h2>Against the "
+      "<section><h2>Evaluation against ground "
       "truth</h2><table><caption>Trajectory</caption><tr><th></th><th>RMS</th><th>mean</"
       "th><th>median</th><th>largest</th></tr>";
   html += trajectory_rows("after the last correction", evaluation.corrected) +
@@ -125,7 +125,7 @@ std::string figures_section(const Evaluation& evaluation) {
   return html + "</section>";
 }
 
-/// What report.json says in a line.
+/// One-line summary of report.json.
 std::string about(const std::string& report_json) {
   const auto report = nlohmann::json::parse(report_json, nullptr, false);
   if (!report.is_object()) return {};

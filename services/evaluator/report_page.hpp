@@ -9,25 +9,26 @@
 
 namespace slammot::evaluator {
 
-/// What a page is made of. Pointers are not null but where the comment says so.
+/// Content of a page. Pointers are not null unless stated.
 struct ReportSource {
   std::string title;
   const RunResult* result = nullptr;
   std::string report_json;       ///< Text of report.json; may be empty.
   std::string map_png;           ///< Bytes of map.png; may be empty.
-  const Truth* truth = nullptr;  ///< Null where there is none, as is evaluation.
+  const Truth* truth = nullptr;  ///< May be null, like evaluation.
   const Evaluation* evaluation = nullptr;
-  std::vector<std::uint32_t> track_ids;  ///< To be shown one by one; chosen where empty.
+  std::vector<std::uint32_t> track_ids;  ///< Tracks to show in detail; empty: chosen by
+                                         ///< choose_tracks().
 };
 
-/// One page of HTML that needs nothing else: pictures are inside.
+/// A self-contained HTML page.
 std::string to_html(const ReportSource& source);
 
-/// Tracks worth looking at: of each class the two that were followed longest, and the two that
-/// stopped and went on most often.
+/// Tracks for the detailed figures: of each class the two with the longest life, and the two with
+/// the most stops.
 std::vector<std::uint32_t> choose_tracks(const RunResult& result);
 
-/// Bytes in the alphabet of RFC 4648.
+/// Base64, RFC 4648.
 std::string to_base64(const std::string& bytes);
 
 }  // namespace slammot::evaluator

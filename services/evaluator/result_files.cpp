@@ -31,9 +31,9 @@ std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
                    "motion", "class"},
                   [&](auto fields) -> RowFault {
                     const auto row = numbers(fields.first(9));
-                    if (!row) return "a field is no number";
+                    if (!row) return "a field is not a number";
                     const auto& v = *row;
-                    if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
+                    if (v[1] < 0.0 || v[1] > kLargestId) return "not a valid track id";
                     ResultTrack track;
                     track.stamp_ns = to_ns(v[0]);
                     track.track_id = static_cast<std::uint32_t>(v[1]);
@@ -49,15 +49,15 @@ std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
 }
 
 std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks) {
-  const std::vector<std::string> modes = columns_beginning_with(file, "mode_");
+  const std::vector<std::string> modes = columns_with_prefix(file, "mode_");
   std::vector<std::string_view> columns = {"timestamp", "track_id", "var_x", "cov_xy", "var_y"};
   const auto first_mode = static_cast<std::ptrdiff_t>(columns.size());
   columns.insert(columns.end(), modes.begin(), modes.end());
   return read_csv(file, columns, [&](auto fields) -> RowFault {
     const auto row = numbers(fields);
-    if (!row) return "a field is no number";
+    if (!row) return "a field is not a number";
     const auto& v = *row;
-    if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
+    if (v[1] < 0.0 || v[1] > kLargestId) return "not a valid track id";
     const auto at = tracks.find(to_ns(v[0]));
     if (at == tracks.end()) return "no such scan in tracks.csv";
     for (ResultTrack& track : at->second) {
@@ -74,10 +74,10 @@ std::optional<Error> read_predictions(const path& file, TracksByStamp& tracks) {
       file, {"timestamp", "track_id", "after", "x", "y", "var_x", "cov_xy", "var_y"},
       [&](auto fields) -> RowFault {
         const auto row = numbers(fields);
-        if (!row) return "a field is no number";
+        if (!row) return "a field is not a number";
         const auto& v = *row;
-        if (v[1] < 0.0 || v[1] > kLargestId) return "no number of a track";
-        if (v[2] < 0.0 || v[2] > kFarthestAheadS) return "no time ahead";
+        if (v[1] < 0.0 || v[1] > kLargestId) return "not a valid track id";
+        if (v[2] < 0.0 || v[2] > kFarthestAheadS) return "not a valid horizon";
         const auto at = tracks.find(to_ns(v[0]));
         if (at == tracks.end()) return "no such scan in tracks.csv";
         for (ResultTrack& track : at->second) {
@@ -96,7 +96,7 @@ std::optional<Error> read_online_covariance(const path& file,
       {"timestamp", "x", "y", "heading", "var_x", "cov_xy", "cov_xh", "var_y", "cov_yh", "var_h"},
       [&](auto fields) -> RowFault {
         const auto row = numbers(fields);
-        if (!row) return "a field is no number";
+        if (!row) return "a field is not a number";
         const auto& v = *row;
         geometry::UncertainPose2 pose{{v[1], v[2], v[3]}, geometry::Matrix3::Zero()};
         pose.covariance << v[4], v[5], v[6], v[5], v[7], v[8], v[6], v[8], v[9];
@@ -105,15 +105,15 @@ std::optional<Error> read_online_covariance(const path& file,
       });
 }
 
-/// Of several scanners the first one's, as of the truth's hits.
+/// With several scanners, reads the labels of the first one, as for true hits.
 std::optional<Error> read_labels(const path& file, std::vector<LabelsAt>& labels) {
   std::vector<std::string_view> columns = {"timestamp", "detection", "tracking"};
-  const bool has_several_scanners = !columns_beginning_with(file, "scanner").empty();
+  const bool has_several_scanners = !columns_with_prefix(file, "scanner").empty();
   if (has_several_scanners) columns.emplace_back("scanner");
   std::string scanner;
   return read_csv(file, columns, [&](auto fields) -> RowFault {
     const auto stamp = numbers(fields.first(1));
-    if (!stamp) return "a field is no number";
+    if (!stamp) return "a field is not a number";
     if (has_several_scanners && scanner.empty()) scanner = fields[3];
     if (has_several_scanners && scanner != fields[3]) return std::nullopt;
     labels.push_back({to_ns(stamp->front()), std::string(fields[1]), std::string(fields[2])});
@@ -135,7 +135,7 @@ std::string read_all(const path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// What report.json says of the input; 0 for what it does not.
+/// Member of the report's input; 0 if it is missing.
 double number_of_input(const nlohmann::json& report, const std::string& name) {
   const auto place = nlohmann::json::json_pointer("/input/" + name);
   return report.is_object() && report.contains(place) && report[place].is_number()
@@ -166,7 +166,7 @@ Result<files::MapImage> read_map(const path& yaml_file) {
           3 ||
       depth != 255)
     return Error{pgm_file.string() + ": not a binary grey picture of 8 bits"};
-  const auto begin = static_cast<std::size_t>(header) + 1;  // one blank ends the header
+  const auto begin = static_cast<std::size_t>(header) + 1;  // A single blank ends the header.
   const std::size_t pixels = std::size_t{image.width} * image.height;
   if (pgm.size() < begin + pixels) return Error{pgm_file.string() + ": cut off"};
   image.pixels.assign(pgm.begin() + static_cast<std::ptrdiff_t>(begin),

@@ -15,7 +15,7 @@
 
 namespace slammot::evaluator {
 
-/// A row of tracks.csv, and of track_details.csv where there is one; in the frame map.
+/// A row of tracks.csv and of track_details.csv, if there is one; in map.
 struct ResultTrack {
   std::int64_t stamp_ns = 0;
   std::uint32_t track_id = 0;
@@ -26,8 +26,8 @@ struct ResultTrack {
   bool is_moving = true;
   std::string object_class;
   std::optional<geometry::Matrix2> position_covariance_m2;
-  std::vector<double> mode_probability;  ///< Of each motion model; empty where it was not written.
-  std::vector<metrics::PredictedPlace> predicted_in_map;  ///< From predictions.csv, where there is
+  std::vector<double> mode_probability;  ///< Of each motion model; empty if not written.
+  std::vector<metrics::PredictedPlace> predicted_in_map;  ///< From predictions.csv, if there is
                                                           ///< one.
 };
 
@@ -36,29 +36,29 @@ struct TracksAt {
   std::vector<ResultTrack> tracks;
 };
 
-/// A row of labels.csv: a letter a beam, 's' stationary, 'm' moving, '?' unknown, '-' no echo.
+/// A row of labels.csv. One letter a beam: 's' stationary, 'm' moving, '?' unknown, '-' no echo.
 struct LabelsAt {
   std::int64_t stamp_ns = 0;
   std::string by_detection;
   std::string by_tracking;
 };
 
-/// What `slammot run` or `bench` wrote.
+/// Output of `slammot run` or `bench`.
 struct RunResult {
   metrics::Trajectory online;     ///< map_from_base as published live; never empty.
   metrics::Trajectory corrected;  ///< After the last correction; never empty.
-  std::vector<metrics::UncertainStampedPose> uncertain;  ///< Empty where it was not written.
-  std::vector<TracksAt> tracks;  ///< Ascending stamps; scans without tracks are not in it.
-  std::vector<LabelsAt> labels;  ///< Ascending stamps; empty where it was not written.
+  std::vector<metrics::UncertainStampedPose> uncertain;  ///< Empty if not written.
+  std::vector<TracksAt> tracks;  ///< Ascending stamps; without scans that have no tracks.
+  std::vector<LabelsAt> labels;  ///< Ascending stamps; empty if not written.
   std::optional<files::MapImage> map;
-  geometry::Pose2 base_from_laser;  ///< As the run took it.
-  double sweep_s = 0.0;  ///< From the first beam of a scan to its last, as the run took it; 0 where
-                         ///< it does not say.
+  geometry::Pose2 base_from_laser;  ///< As used by the run.
+  double sweep_s = 0.0;  ///< Time from the first beam of a scan to its last, as used by the run; 0
+                         ///< if unknown.
 };
 
 files::Result<RunResult> read_result(const std::filesystem::path& folder);
 
-/// A picture as map_image writes it: NAME.pgm and NAME.yaml.
+/// An image written by map_image: NAME.pgm and NAME.yaml.
 files::Result<files::MapImage> read_map(const std::filesystem::path& yaml);
 
 }  // namespace slammot::evaluator

@@ -34,7 +34,8 @@ std::string begin_svg(double height) {
   return "<svg viewBox=\"0 0 " + svg_number(kWidth) + " " + svg_number(height) + "\" role=\"img\">";
 }
 
-/// 1, 2 or 5 times a power of ten, so that about so many steps fit.
+/// The smallest of 1, 2 or 5 times a power of ten that divides the range into at most about `steps`
+/// steps.
 double round_step(double range, int steps) {
   const double raw = range / steps;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
@@ -47,7 +48,7 @@ double round_step(double range, int steps) {
 struct Axis {
   double low = 0.0;
   double high = 1.0;
-  double from = 0.0;  // in the picture
+  double from = 0.0;  // position in the image
   double to = 1.0;
 
   double operator()(double value) const {
@@ -110,7 +111,7 @@ std::string grid(const Plot& plot, const Axis& x, const Axis& y) {
   return svg + text_at(14.0, middle, "middle", plot.y_label, turn);
 }
 
-/// Of the points that fall into one column of pixels the lowest and the highest, in their order.
+/// Keeps the lowest and the highest point of each column of pixels, in their order.
 std::vector<PlotPoint> thinned(const std::vector<PlotPoint>& points, const Axis& x) {
   std::vector<PlotPoint> kept;
   for (std::size_t begin = 0; begin < points.size();) {
@@ -131,7 +132,7 @@ std::vector<PlotPoint> thinned(const std::vector<PlotPoint>& points, const Axis&
 std::string curve(const Series& series, const Axis& x, const Axis& y) {
   std::string path;
   const std::vector<PlotPoint> points = thinned(series.points, x);
-  // Thinning leaves out points, so a gap is one of a few pixels at least.
+  // Thinning leaves gaps of up to a pixel, which must not interrupt the line.
   const double longest_gap = std::max(series.longest_gap, 3.0 * (x.high - x.low) / (x.to - x.from));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool begins =

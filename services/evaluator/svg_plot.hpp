@@ -14,13 +14,13 @@ struct PlotPoint {
 
 struct Series {
   std::string name;
-  std::string colour;             ///< As CSS writes it.
+  std::string colour;             ///< CSS colour.
   std::vector<PlotPoint> points;  ///< Ascending x.
-  double longest_gap = 0.0;       ///< Of x: the line breaks where it is longer; 0 for never.
+  double longest_gap = 0.0;       ///< In x; longer gaps interrupt the line; 0: never.
   bool is_dashed = false;
 };
 
-/// A part of the x axis that is shaded.
+/// A shaded interval of the x axis.
 struct Span {
   double from = 0.0;
   double to = 0.0;
@@ -31,14 +31,15 @@ struct Plot {
   std::string y_label;
   std::vector<Series> series;
   std::vector<Span> shaded;
-  std::optional<double> y_max;  ///< Else what the series need; y begins at 0 or below.
-  double height = 220.0;        ///< Of 760 units of width.
+  std::optional<double> y_max;  ///< Upper limit of the y axis; default: from the series. Its lower
+                                ///< limit is 0 or below.
+  double height = 220.0;        ///< The width is 760.
 };
 
 struct Bar {
   std::string name;
   double value = 0.0;  ///< [0, 1]
-  std::string remark;  ///< Behind the bar.
+  std::string remark;  ///< Text after the bar.
 };
 
 struct LogBar {
@@ -48,20 +49,20 @@ struct LogBar {
   double high = 0.0;
 };
 
-/// Curves over one x axis, with a legend where there are several. Long series are thinned to the
+/// Curves over a common x axis; with a legend for several series. Long series are reduced to the
 /// extremes of each pixel.
 std::string to_svg(const Plot& plot);
 
 /// Horizontal bars of shares.
 std::string share_bars_svg(const std::vector<Bar>& bars, std::string_view colour);
 
-/// Three marks a row on a logarithmic axis.
+/// Three marks per row on a logarithmic axis.
 std::string log_bars_svg(const std::vector<LogBar>& bars, std::string_view unit);
 
-/// Text that HTML and SVG show as it is.
+/// Text with HTML and SVG special characters escaped.
 std::string escaped(std::string_view text);
 
-/// A number as short as SVG needs it.
+/// A number with as few characters as SVG needs.
 std::string svg_number(double value);
 
 }  // namespace slammot::evaluator

@@ -36,7 +36,7 @@ void split_at_blanks(std::string_view line, std::vector<std::string_view>& field
   }
 }
 
-constexpr double kLargest = 9e9;  // as seconds still a count of nanoseconds in 64 bits
+constexpr double kLargest = 9e9;  // Greatest number of seconds whose nanoseconds fit into 64 bits.
 
 std::optional<Error> cut_fault(const std::filesystem::path& path, const LineReader& reader) {
   if (reader.is_cut()) return Error{path.string() + ": the file is cut off or damaged"};
@@ -75,8 +75,8 @@ std::optional<Error> read_csv(const std::filesystem::path& path,
   return cut_fault(path, *reader);
 }
 
-std::vector<std::string> columns_beginning_with(const std::filesystem::path& path,
-                                                std::string_view beginning) {
+std::vector<std::string> columns_with_prefix(const std::filesystem::path& path,
+                                             std::string_view beginning) {
   auto reader = LineReader::open(path);
   const auto header = reader ? reader->next() : std::nullopt;
   std::vector<std::string_view> fields;

@@ -13,34 +13,34 @@
 
 namespace slammot::evaluator {
 
-/// What is wrong with a row, or nothing.
+/// Fault of a row; empty if there is none.
 using RowFault = std::optional<std::string>;
 using TakeRow = std::function<RowFault(std::span<const std::string_view> fields)>;
 
-/// Hands over each row of a file with commas and a header: the named columns, in the order asked
-/// for. Stops with "FILE:LINE: what" at the first row that is malformed, and where a column is
-/// missing or the file is cut off.
+/// Passes each row of a comma-separated file with a header to `take`: the named columns in the
+/// given order. Stops with "FILE:LINE: what" at the first malformed row, a missing column or a
+/// truncated file.
 std::optional<files::Error> read_csv(const std::filesystem::path& path,
                                      const std::vector<std::string_view>& columns,
                                      const TakeRow& take);
 
-/// Names in the header of such a file that begin like this; none where it cannot be read.
-std::vector<std::string> columns_beginning_with(const std::filesystem::path& path,
-                                                std::string_view beginning);
+/// Columns whose names begin with the prefix; empty if the file cannot be read.
+std::vector<std::string> columns_with_prefix(const std::filesystem::path& path,
+                                             std::string_view beginning);
 
-/// As read_csv, for a file with blanks between its fields and no header: lines that begin with #
-/// are left out, the others have at least so many fields.
+/// Like read_csv(), for files with fields separated by blanks and without a header. Skips lines
+/// that begin with #; the others have at least `least_fields` fields.
 std::optional<files::Error> read_fields(const std::filesystem::path& path, std::size_t least_fields,
                                         const TakeRow& take);
 
-/// The numbers in the fields; nullopt where one is no finite number, or too large for a clock or a
-/// map of the earth.
+/// The numbers in the fields; nullopt if one is not finite, or too large for a stamp or a
+/// coordinate.
 std::optional<std::vector<double>> numbers(std::span<const std::string_view> fields);
 
-/// Seconds as nanoseconds.
+/// Converts seconds to nanoseconds.
 std::int64_t to_ns(double seconds);
 
-/// The file, or the same with ".gz" behind its name; nullopt where there is neither.
+/// The file or, if it does not exist, the file with ".gz" appended; nullopt if neither exists.
 std::optional<std::filesystem::path> plain_or_gz(const std::filesystem::path& path);
 
 }  // namespace slammot::evaluator

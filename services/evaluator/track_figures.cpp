@@ -11,7 +11,7 @@
 namespace slammot::evaluator {
 namespace {
 
-constexpr double kGapS = 0.5;  // a line breaks where a track was not reported for longer
+constexpr double kGapS = 0.5;  // Longer gaps between reports interrupt the line.
 const std::array<const char*, 6> kModeColours = {"#1f5fa8", "#d9480f", "#2e8b57",
                                                  "#6f42c1", "#e0a100", "#7a7a7a"};
 
@@ -32,8 +32,7 @@ std::size_t turns_of_motion(const Rows& rows) {
   return turns;
 }
 
-/// The true object that the track was nearest to in most scans, within the gate; none without
-/// truth.
+/// The true object nearest to the track, within the gate, in most scans; empty without truth.
 std::optional<std::size_t> object_of(const Evaluation& evaluation, std::uint32_t track_id) {
   constexpr double kGateM = 2.0;
   const auto known = std::find(evaluation.track_ids.begin(), evaluation.track_ids.end(), track_id);
@@ -139,13 +138,13 @@ std::string one_track(const ReportSource& source, std::uint32_t track_id, const 
   std::string caption =
       "Track " + std::to_string(track_id) + ", " + rows.back()->object_class + ", " +
       svg_number(std::round(rows.back()->length_m * 10.0) / 10.0) + " m by " +
-      svg_number(std::round(rows.back()->width_m * 10.0) / 10.0) + " m, followed for " +
+      svg_number(std::round(rows.back()->width_m * 10.0) / 10.0) + " m, tracked for " +
       svg_number(
           std::round(static_cast<double>(rows.back()->stamp_ns - rows.front()->stamp_ns) * 1e-8) /
           10.0) +
       " s";
-  if (truth) caption += "; truly a " + truth->object_class;
-  if (!shaded.empty()) caption += "; shaded where it was held to stand";
+  if (truth) caption += "; true class: " + truth->object_class;
+  if (!shaded.empty()) caption += "; shaded: stationary";
   return "<figure>" + speed_figure(rows, truth, shaded, zero_ns) +
          mode_figure(rows, shaded, zero_ns) + "<figcaption>" + escaped(caption) +
          ".</figcaption></figure>";

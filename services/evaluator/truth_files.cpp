@@ -28,7 +28,7 @@ Result<metrics::Trajectory> read_reference(const path& file) {
   metrics::Trajectory trajectory;
   const auto fault = read_fields(file, 5, [&](auto fields) -> RowFault {
     const auto row = numbers(fields.first(5));
-    if (!row) return "a field is no number";
+    if (!row) return "a field is not a number";
     trajectory.push_back({to_ns((*row)[1]), {(*row)[2], (*row)[3], (*row)[4]}});
     return std::nullopt;
   });
@@ -40,14 +40,14 @@ Result<metrics::Trajectory> read_reference(const path& file) {
 
 using IndexOfId = std::unordered_map<std::string, std::size_t>;
 
-/// Fills truth.objects, truth.object_count and the index of each object's id.
+/// Reads objects, their number and the index of each id.
 std::optional<Error> read_objects(const path& file, Truth& truth, IndexOfId& index_of_id) {
   std::map<std::int64_t, std::vector<metrics::TrueObject>> by_stamp;
   const auto fault = read_csv(
       file, {"timestamp", "x", "y", "yaw", "speed", "length", "width", "points", "id", "class"},
       [&](auto fields) -> RowFault {
         const auto row = numbers(fields.first(8));
-        if (!row) return "a field is no number";
+        if (!row) return "a field is not a number";
         const auto& v = *row;
         metrics::TrueObject object;
         object.object =
@@ -71,7 +71,7 @@ std::optional<Error> read_objects(const path& file, Truth& truth, IndexOfId& ind
 
 constexpr std::size_t kMostBeams = 100'000;
 
-/// "hit*beams"; nullopt for anything else.
+/// Parses "hit*beams"; nullopt for anything else.
 std::optional<HitsAt::Run> parse_run(std::string_view text, const IndexOfId& index_of_id) {
   const std::size_t star = text.find('*');
   if (star == std::string_view::npos) return std::nullopt;
@@ -99,7 +99,7 @@ std::optional<Error> read_hits(const path& file, const IndexOfId& index_of_id, T
     if (scanner.empty()) scanner = fields[1];
     if (scanner != fields[1]) return std::nullopt;
     const auto stamp = numbers(fields.first(1));
-    if (!stamp) return "the timestamp is no number";
+    if (!stamp) return "the timestamp is not a number";
     HitsAt at{to_ns(stamp->front()), {}};
     std::size_t beams = 0;
     std::string_view rest = fields[2];
@@ -125,7 +125,7 @@ std::optional<Error> read_walls(const path& file, Truth& truth) {
   truth.walls.emplace();
   return read_csv(file, {"ax", "ay", "bx", "by"}, [&](auto fields) -> RowFault {
     const auto row = numbers(fields);
-    if (!row) return "a field is no number";
+    if (!row) return "a field is not a number";
     if (std::hypot((*row)[2] - (*row)[0], (*row)[3] - (*row)[1]) > kLongestWallM)
       return "a wall longer than a city";
     truth.walls->push_back({{(*row)[0], (*row)[1]}, {(*row)[2], (*row)[3]}});
@@ -139,7 +139,7 @@ Result<Truth> read_people(const path& file) {
   const auto fault = read_fields(file, 4, [&](auto fields) -> RowFault {
     const auto stamp = numbers(fields.first(1));
     const auto place = numbers(fields.subspan(2, 2));
-    if (!stamp || !place) return "a field is no number";
+    if (!stamp || !place) return "a field is not a number";
     metrics::TrueObject person;
     person.object =
         index_of_id.try_emplace(std::string(fields[1]), index_of_id.size()).first->second;
@@ -149,7 +149,7 @@ Result<Truth> read_people(const path& file) {
     return std::nullopt;
   });
   if (fault) return *fault;
-  if (by_stamp.empty()) return Error{file.string() + ": nobody is annotated"};
+  if (by_stamp.empty()) return Error{file.string() + ": no annotations"};
   Truth truth;
   truth.object_count = index_of_id.size();
   truth.annotated.emplace();
@@ -197,7 +197,7 @@ Result<metrics::Trajectory> read_tum(const path& file) {
   metrics::Trajectory trajectory;
   const auto fault = read_fields(file, 8, [&](auto fields) -> RowFault {
     const auto row = numbers(fields.first(8));
-    if (!row) return "a field is no number";
+    if (!row) return "a field is not a number";
     const auto& v = *row;
     const double heading_rad =
         std::atan2(2.0 * (v[7] * v[6] + v[4] * v[5]), 1.0 - 2.0 * (v[5] * v[5] + v[6] * v[6]));

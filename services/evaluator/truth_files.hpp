@@ -20,7 +20,7 @@ struct ObjectsAt {
   std::vector<metrics::TrueObject> objects;
 };
 
-/// What the beams of one scan hit, runs of the same together.
+/// What the beams of one scan hit, run-length encoded.
 struct HitsAt {
   struct Run {
     metrics::BeamHit hit;
@@ -32,28 +32,27 @@ struct HitsAt {
   std::vector<metrics::BeamHit> hits() const;  ///< One a beam.
 };
 
-/// What truly happened in a drive, as far as there are files of it.
+/// Ground truth of a drive. Members without a file are empty.
 struct Truth {
   metrics::Trajectory trajectory;                 ///< world_from_base.
   std::optional<std::vector<ObjectsAt>> objects;  ///< Ascending stamps.
   std::size_t object_count = 0;
   std::optional<std::vector<metrics::WallSegment>> walls;
   std::optional<std::vector<HitsAt>> hits;          ///< Of the first scanner; ascending stamps.
-  std::optional<std::vector<ObjectsAt>> annotated;  ///< People marked by hand, now and then, in the
-                                                    ///< frame of the laser: where there are such,
-                                                    ///< there is no trajectory and there are no
-                                                    ///< objects.
-  std::optional<metrics::Trajectory> other_car;  ///< Motion capture of a second car.
-  std::vector<std::string> read;                 ///< File names.
+  std::optional<std::vector<ObjectsAt>> annotated;  ///< Manual annotations of people in the laser's
+                                                    ///< frame, at some scans. Excludes trajectory
+                                                    ///< and objects.
+  std::optional<metrics::Trajectory> other_car;     ///< Motion capture of a second car.
+  std::vector<std::string> read;                    ///< Names of the files read.
 };
 
-/// "stamp x y z qx qy qz qw" a line, by ascending stamps after reading.
+/// Reads lines "stamp x y z qx qy qz qw" and sorts them by stamp.
 files::Result<metrics::Trajectory> read_tum(const std::filesystem::path& path);
 
-/// Reads PREFIX.tum, .objects.csv, .hits.csv and .walls.csv, each plain or .gz; else PREFIX.ego.tum
-/// and .red.tum (motion capture of two cars); else PREFIX.reference.txt ("index stamp x y heading"
-/// a line). Only the trajectory must exist. Of a folder people_gt.txt ("stamp person x y" a line)
-/// is read: annotations and nothing else.
+/// Reads PREFIX.tum, .objects.csv, .hits.csv and .walls.csv, each plain or .gz; otherwise
+/// PREFIX.ego.tum and .red.tum (motion capture of two cars); otherwise PREFIX.reference.txt (lines
+/// "index stamp x y heading"). Only the trajectory is required. Of a folder, reads people_gt.txt
+/// only (lines "stamp person x y").
 files::Result<Truth> read_truth(const std::filesystem::path& prefix);
 
 }  // namespace slammot::evaluator

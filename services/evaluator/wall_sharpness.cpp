@@ -15,9 +15,9 @@ using geometry::Pose2;
 using metrics::PosePair;
 using Pairs = std::vector<PosePair>;
 
-constexpr std::int64_t kSameStampNs = 1'000'000;  // trajectories are written with fewer digits than
-                                                  // logs
-constexpr std::int64_t kLongestDifferenceNs = 200'000'000;  // over which a velocity is taken
+constexpr std::int64_t kSameStampNs = 1'000'000;  // Trajectories are written with fewer digits than
+                                                  // logs.
+constexpr std::int64_t kLongestDifferenceNs = 200'000'000;  // Longest baseline of a velocity.
 
 Pairs::const_iterator pair_at(const Pairs& pairs, std::int64_t stamp_ns) {
   const auto found = std::lower_bound(
@@ -26,7 +26,7 @@ Pairs::const_iterator pair_at(const Pairs& pairs, std::int64_t stamp_ns) {
   return found != pairs.end() && found->stamp_ns <= stamp_ns + kSameStampNs ? found : pairs.end();
 }
 
-/// Adds the scan as seen from one of the two poses of its pair.
+/// Adds scans to a map at one of the two poses of each pair.
 class Mapper {
  public:
   Mapper(Pose2 PosePair::*pose, double cell_size_m) : pose_(pose), counts_(cell_size_m) {}

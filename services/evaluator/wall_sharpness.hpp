@@ -9,7 +9,7 @@
 
 namespace slammot::evaluator {
 
-/// Maps of the same scans, once from the estimated poses and once from the true ones.
+/// Sharpness of maps of the same scans, at the estimated and at the true poses.
 struct WallSharpness {
   std::size_t scans = 0;
   metrics::MapSharpness of_estimate;
@@ -21,8 +21,8 @@ struct WallSharpnessOptions {
   double longest_range_m = 80.0;
 };
 
-/// Reads the log and maps each scan that has a pair at its very stamp, from both poses. Sweeps of
-/// sweep_s are straightened by the motion between the pairs.
+/// Reads the log and maps each scan with a pair at its stamp, at both poses. Deskews sweeps of
+/// `sweep_s` by the motion between pairs.
 files::Result<WallSharpness> wall_sharpness(const std::filesystem::path& log,
                                             const std::vector<metrics::PosePair>& pairs,
                                             double sweep_s, const WallSharpnessOptions& options);

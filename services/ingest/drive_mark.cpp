@@ -6,12 +6,12 @@
 namespace slammot::ingest {
 namespace {
 
-std::optional<std::uint64_t> noted_drive(const std::filesystem::path& file,
-                                         const std::string& log) {
+std::optional<std::uint64_t> recorded_drive(const std::filesystem::path& file,
+                                            const std::string& log) {
   std::ifstream stream(file);
-  std::string noted_log;
+  std::string recorded_log;
   std::uint64_t drive_id = 0;
-  if (!std::getline(stream, noted_log) || noted_log != log || !(stream >> drive_id))
+  if (!std::getline(stream, recorded_log) || recorded_log != log || !(stream >> drive_id))
     return std::nullopt;
   return drive_id;
 }
@@ -19,16 +19,16 @@ std::optional<std::uint64_t> noted_drive(const std::filesystem::path& file,
 }  // namespace
 
 DriveMark::DriveMark(std::filesystem::path file, const std::string& log, std::uint64_t new_id)
-    : file_(std::move(file)), drive_id_(noted_drive(file_, log).value_or(new_id)) {
-  std::error_code cannot_make;
+    : file_(std::move(file)), drive_id_(recorded_drive(file_, log).value_or(new_id)) {
+  std::error_code ignored_fault;
   if (file_.has_parent_path())
-    std::filesystem::create_directories(file_.parent_path(), cannot_make);
+    std::filesystem::create_directories(file_.parent_path(), ignored_fault);
   std::ofstream(file_) << log << '\n' << drive_id_ << '\n';
 }
 
 DriveMark::~DriveMark() {
-  std::error_code not_there;
-  std::filesystem::remove(file_, not_there);
+  std::error_code ignored_fault;
+  std::filesystem::remove(file_, ignored_fault);
 }
 
 }  // namespace slammot::ingest

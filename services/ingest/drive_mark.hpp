@@ -6,13 +6,13 @@
 
 namespace slammot::ingest {
 
-/// The drive that this process is playing, noted in a file: after a crash the next process goes on
-/// with the same drive. One that ends or is stopped leaves no mark, so that what comes after it is
-/// a new drive, be it the same log.
+/// File with the id of the drive that this process plays. After a crash the next process continues
+/// the drive. A process that ends or is stopped removes the file, so that its successor begins a
+/// new drive, even for the same log.
 class DriveMark {
  public:
-  /// Takes up the drive in the file if it is of this log, otherwise begins `new_id`. A folder that
-  /// cannot be written leaves the drive unmarked: after a crash it begins anew.
+  /// Continues the drive in the file if it is of this log; otherwise begins `new_id`. If the folder
+  /// is not writable, a drive does not continue after a crash.
   DriveMark(std::filesystem::path file, const std::string& log, std::uint64_t new_id);
   ~DriveMark();
   DriveMark(const DriveMark&) = delete;

@@ -5,7 +5,7 @@
 
 namespace slammot::ingest {
 
-/// The settings of ingest as message Ingest has them.
+/// Settings of ingest, as in message Ingest.
 const config::FieldTable<IngestConfig>& ingest_fields();
 
 }  // namespace slammot::ingest

@@ -14,16 +14,15 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// How long the end waits for readers that do not have the last scan yet.
-constexpr std::chrono::seconds kLastWords{1};
+/// Time at the end for readers that have not received the last scan.
+constexpr std::chrono::seconds kAcknowledgementTime{1};
 
 std::chrono::nanoseconds nanoseconds_of(double seconds) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
 }
 
 LogSource open_source(const IngestService::Settings& settings) {
-  if (settings.input.empty())
-    throw app::StartupFailure("--input FILE is needed: the drive to play");
+  if (settings.input.empty()) throw app::StartupFailure("--input FILE is required");
   auto source = LogSource::open(settings.input, settings.config, settings.topics);
   if (!source) throw app::StartupFailure(source.error().message);
   return std::move(*source);
@@ -41,7 +40,7 @@ std::filesystem::path mark_path(const app::ServiceOptions& options) {
   return options.state_dir / ("ingest-" + options.vehicle_id + "-" + options.instance + ".drive");
 }
 
-/// Tells one log from another, in one line.
+/// One line that identifies a log.
 std::string describe(const std::filesystem::path& input, const files::LogFigures& figures) {
   return input.filename().string() + " " + std::to_string(figures.scans) + " scans " +
          std::to_string(figures.duration_s) + " s " + std::to_string(figures.distance_m) + " m";
@@ -51,7 +50,7 @@ std::uint64_t new_drive_id() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
-bool is_at_work(slammot_ServiceState state) {
+bool is_operational(slammot_ServiceState state) {
   return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
 }
 
@@ -67,11 +66,11 @@ void IngestService::add_options(CLI::App& command_line, Settings& settings) {
   add_topic_options(command_line, settings.topics);
   command_line
       .add_option("--speed", settings.speed,
-                  "Times the recorded speed, or 'max': as fast as the other services are done")
+                  "Multiple of the recorded speed, or 'max': as fast as the other services answer")
       ->capture_default_str();
   command_line.add_flag(
       "--forgive-cut", settings.forgive_cut,
-      "End with 0 also where the log is cut off, for those who would start it again");
+      "Exit code 0 for a truncated log, for supervisors that restart failed processes");
   command_line.add_flag("--linger", settings.linger, "Stay after the end of the log until stopped");
 }
 
@@ -96,8 +95,8 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
   context.status().counter("log_scans") = source_.log().plan().figures.scans;
   context.read(
       dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
-        readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
-        // One that starts and says so will be there.
+        readiness_.heard(std::string(wire::text(beat.service_name)), is_operational(beat.state));
+        // A starting service announces that it will be ready.
         if (beat.state == slammot_SERVICE_STATE_STARTING)
           give_up_waiting_at_ = steady_clock::now() + nanoseconds_of(config_.wait_for_services_s);
         if (wire::text(beat.service_name) == "loop_closing") graph_.heard(steady_clock::now());
@@ -112,14 +111,14 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
 void IngestService::watch_graph() {
   context_.read(dds::topics::kLocalizedScan, app::Input::kOccasional,
                 [this](const slammot_LocalizedScan& scan) {
-                  graph_.is_in_use({scan.map_id}, scan.submap_id, steady_clock::now());
+                  graph_.set_current({scan.map_id}, scan.submap_id, steady_clock::now());
                 });
   context_.read(dds::topics::kGraphCorrection, app::Input::kOccasional,
                 [this](const slammot_GraphCorrection& part) {
                   if (part.part_index + 1 != part.part_count || part.submaps._length == 0) return;
-                  graph_.is_placed({part.map_id},
-                                   part.submaps._buffer[part.submaps._length - 1].submap_id);
-                  if (has_begun_ && !has_finished_) proceed_with_room();
+                  graph_.set_placed({part.map_id},
+                                    part.submaps._buffer[part.submaps._length - 1].submap_id);
+                  if (has_begun_ && !has_finished_) proceed_at_max_speed();
                 });
 }
 
@@ -136,16 +135,14 @@ void IngestService::begin() {
   proceed();
 }
 
-void IngestService::proceed() {
-  pace_.is_unlimited() ? proceed_with_room() : proceed_at_its_pace();
-}
+void IngestService::proceed() { pace_.is_unlimited() ? proceed_at_max_speed() : proceed_at_pace(); }
 
-void IngestService::proceed_at_its_pace() {
+void IngestService::proceed_at_pace() {
   while (fetch()) {
     const auto now = steady_clock::now();
     const auto due = fetched_->scan ? pace_.due(fetched_->scan->stamp_ns, now) : now;
     if (due > now) {
-      context_.after(due - now, [this] { proceed_at_its_pace(); });
+      context_.after(due - now, [this] { proceed_at_pace(); });
       return;
     }
     send_fetched();
@@ -153,7 +150,7 @@ void IngestService::proceed_at_its_pace() {
   finish();
 }
 
-void IngestService::proceed_with_room() {
+void IngestService::proceed_at_max_speed() {
   while (window_.has_room()) {
     if (graph_.is_behind(steady_clock::now())) return;
     if (!fetch()) break;
@@ -173,11 +170,10 @@ bool IngestService::is_acknowledged(const sensing::LaserScan& scan) const {
          acknowledged_scanners_.contains(scan.scanner.scanner_id);
 }
 
-/// Makes fetched_ the next step that nobody has done with; false at the end of the log. Started
-/// again in the middle of a drive, it so skips what localization had from the process before: the
-/// first answer tells how much that is.
+/// Makes fetched_ the next unprocessed step; false at the end of the log. After a restart this
+/// skips the scans that the previous process has sent: the first answer names the latest of them.
 bool IngestService::fetch() {
-  // Localization does not answer a scan without beams, nor a blank one before it has a pose.
+  // Localization answers neither a scan without beams nor a blank one before it has a pose.
   const auto is_blank = [&] {
     if (!fetched_->scan) return false;
     return fetched_->scan->range_m.empty() ||
@@ -204,7 +200,7 @@ void IngestService::send_fetched() {
 void IngestService::send(const Step& step) {
   const auto count_timeout = [this](dds::WriteResult result) {
     if (result == dds::WriteResult::kTimedOut)
-      context_.warn("slow_readers", "a reader is slow: a sample was not sent");
+      context_.warn("slow_readers", "a sample was not sent: a reader is slow");
   };
   for (const sensing::Odometry& odometry : step.odometry)
     count_timeout(odometry_.write(wire::encode(context_.vehicle_id(), odometry)));
@@ -224,27 +220,27 @@ void IngestService::take_labels(const slammot_ScanLabels& labels) {
   in_flight_.erase(in_flight_.begin(), in_flight_.begin() + static_cast<std::ptrdiff_t>(done));
   if (!has_begun_ || has_finished_) return;
   if (pace_.is_unlimited()) {
-    if (done > 0) proceed_with_room();
+    if (done > 0) proceed_at_max_speed();
   } else if (is_ahead) {
-    pace_.restart();  // the pending timer sends what comes next
+    pace_.restart();  // the pending timer sends the next scan
   }
 }
 
 void IngestService::check_progress() {
   const auto now = steady_clock::now();
   if (has_finished_ || !pace_.is_unlimited()) return;
-  if (window_.has_room()) proceed_with_room();  // the wait for the graph has ended by itself
+  if (window_.has_room()) proceed_at_max_speed();  // the wait for the graph may have timed out
   if (has_finished_ || !window_.is_overdue(now)) return;
   const std::size_t given_up = window_.resend(now);
   for (std::size_t i = 0; i < given_up; ++i) {
     context_.warn("given_up_scans",
-                  "nobody answers for scan " + std::to_string(in_flight_.front().scan->sequence));
+                  "no answer to scan " + std::to_string(in_flight_.front().scan->sequence));
     in_flight_.pop_front();
   }
   if (!in_flight_.empty())
-    context_.warn("resent_scans", "no labels for too long: sends what is in flight again");
+    context_.warn("resent_scans", "no labels in time: sends pending scans again");
   for (const Step& step : in_flight_) send(step);
-  proceed_with_room();
+  proceed_at_max_speed();
 }
 
 void IngestService::finish() {
@@ -255,10 +251,10 @@ void IngestService::finish() {
   status.counter("malformed_lines") = faults.malformed_lines;
   status.counter("log_is_cut") = faults.is_cut ? 1 : 0;
   status.counter("log_finished") = 1;
-  if (faults.is_cut) spdlog::warn("the log is cut off; what could be read was played");
+  if (faults.is_cut) spdlog::warn("the log is truncated; the readable part was played");
   spdlog::info("finished {} scans", status.counter("scans"));
   if (linger_) return;
-  scans_.wait_for_acknowledgements(kLastWords);
+  scans_.wait_for_acknowledgements(kAcknowledgementTime);
   context_.stop(faults.is_cut && !forgive_cut_ ? kExitCut : 0);
 }
 

@@ -20,7 +20,7 @@
 
 namespace slammot::ingest {
 
-/// Plays a recorded drive onto the bus.
+/// Plays a recorded drive on the bus.
 class IngestService {
  public:
   struct Settings {
@@ -28,13 +28,13 @@ class IngestService {
     std::filesystem::path input;
     files::TopicOptions topics;
     std::string speed = "1";
-    bool linger = false;       ///< Stay after the end of the log.
-    bool forgive_cut = false;  ///< A log that ends early is no failure of this process.
+    bool linger = false;       ///< Continue to run after the end of the log.
+    bool forgive_cut = false;  ///< A truncated log gives exit code 0.
   };
   static constexpr const char* kName = "ingest";
   static constexpr const char* kPurpose =
-      "Plays a recorded drive (a CARMEN log or a ROS bag) onto the bus.";
-  static constexpr int kExitCut = 3;  ///< The log ended early.
+      "Plays a recorded drive (a CARMEN log or a ROS bag) on the bus.";
+  static constexpr int kExitCut = 3;  ///< The log is truncated.
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 
@@ -45,8 +45,8 @@ class IngestService {
   void wait_for_services();
   void begin();
   void proceed();
-  void proceed_at_its_pace();
-  void proceed_with_room();
+  void proceed_at_pace();
+  void proceed_at_max_speed();
   void take_labels(const slammot_ScanLabels& labels);
   void watch_graph();
   bool fetch();
@@ -74,10 +74,11 @@ class IngestService {
   bool has_begun_ = false;
   bool has_finished_ = false;
   bool has_sent_scan_ = false;
-  std::optional<Step> fetched_;                  ///< The next one to be sent.
-  std::deque<Step> in_flight_;                   ///< At speed max: sent and not acknowledged.
-  std::optional<std::int64_t> acknowledged_ns_;  ///< Newest scan that was done with,
-  std::set<std::string> acknowledged_scanners_;  ///< and whose scans of that stamp were.
+  std::optional<Step> fetched_;                  ///< Next step to send.
+  std::deque<Step> in_flight_;                   ///< At speed max: sent, without labels.
+  std::optional<std::int64_t> acknowledged_ns_;  ///< Stamp of the latest processed scan.
+  std::set<std::string> acknowledged_scanners_;  ///< Scanners whose scans of that stamp are
+                                                 ///< processed.
 };
 
 }  // namespace slammot::ingest

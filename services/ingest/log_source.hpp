@@ -10,23 +10,23 @@
 
 namespace slammot::ingest {
 
-/// How a log is to be read.
+/// Options for reading a log.
 files::CarmenLogOptions log_options(const IngestConfig& config);
 
-/// A scan and the odometry that the log has between the scan before and it.
+/// A scan and the odometry since the previous scan.
 struct Step {
   std::vector<sensing::Odometry> odometry;
-  std::optional<sensing::LaserScan> scan;  ///< None for odometry after the last scan.
+  std::optional<sensing::LaserScan> scan;  ///< Empty for odometry after the last scan.
 };
 
-/// A recorded drive, scan by scan, as ingest sends it.
+/// Reads a recorded drive scan by scan.
 class LogSource {
  public:
   static files::Result<LogSource> open(const std::filesystem::path& file,
                                        const IngestConfig& config,
                                        const files::TopicOptions& topics = {});
 
-  /// None at the end of the log.
+  /// nullopt at the end of the log.
   std::optional<Step> next();
 
   const files::CarmenLog& log() const { return log_; }

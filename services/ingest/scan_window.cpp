@@ -17,7 +17,7 @@ std::size_t ScanWindow::acknowledge(std::int64_t stamp_ns, Time now) {
 std::size_t ScanWindow::resend(Time now) {
   last_progress_ = now;
   const std::size_t given_up = std::erase_if(
-      in_flight_, [this](const Scan& scan) { return scan.sendings >= limits_.most_sendings; });
+      in_flight_, [this](const Scan& scan) { return scan.sendings >= limits_.max_sendings; });
   for (Scan& scan : in_flight_) ++scan.sendings;
   return given_up;
 }

@@ -7,11 +7,9 @@
 
 namespace slammot::ingest {
 
-/// Flow control: how many scans may be on their way through localization, detection and tracking at
-/// once, and when what is on its way has to be sent again because some service that had it died.
-///
-/// Acknowledgements are cumulative: whoever answers for a scan has done with all before it. Time is
-/// a parameter.
+/// Flow control: limits the number of scans in processing by localization, detection and tracking,
+/// and decides when to send them again because a service died. Acknowledgements are cumulative: an
+/// answer to a scan acknowledges all earlier ones. Time is a parameter.
 class ScanWindow {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -19,7 +17,7 @@ class ScanWindow {
   struct Limits {
     std::size_t most_in_flight = 1;
     std::chrono::nanoseconds resend_after{1'000'000'000};
-    int most_sendings = 5;  ///< Then a scan is given up.
+    int max_sendings = 5;  ///< A scan is then given up.
   };
   explicit ScanWindow(const Limits& limits) : limits_(limits) {}
 
@@ -28,17 +26,16 @@ class ScanWindow {
 
   void sent(std::int64_t stamp_ns, Time now);
 
-  /// All scans up to this stamp have been done with. Returns how many of those in flight these
-  /// were.
+  /// Acknowledges all scans up to this stamp. Returns the number of pending scans among them.
   std::size_t acknowledge(std::int64_t stamp_ns, Time now);
 
-  /// Whether what is in flight should be sent again now: no progress for resend_after.
+  /// True if there was no progress for resend_after: pending scans should be sent again.
   bool is_overdue(Time now) const {
     return !in_flight_.empty() && now - last_progress_ >= limits_.resend_after;
   }
 
-  /// To be called when is_overdue(): forgets scans that were sent often enough and counts the
-  /// others as sent again. Returns how many were forgotten; they are the first ones.
+  /// Call if is_overdue(): drops scans that were sent most_sendings times and counts the others as
+  /// sent again. Returns the number of dropped scans, which are the oldest.
   std::size_t resend(Time now);
 
  private:

@@ -42,7 +42,7 @@ std::vector<std::string> arguments_of(const files::TopicOptions& topics) {
     arguments.insert(arguments.end(), {"--scan-topic", topics.scan_topic});
   if (!topics.odometry_topic.empty())
     arguments.insert(arguments.end(), {"--odom-topic", topics.odometry_topic});
-  // With '=', for a number below 0 looks like an option.
+  // The form with '=' is required: a negative number looks like an option.
   if (topics.cloud_from_m)
     arguments.push_back("--cloud-from=" + files::fixed_text(*topics.cloud_from_m, kDecimals));
   if (topics.cloud_to_m)

@@ -11,10 +11,10 @@ class App;
 
 namespace slammot::ingest {
 
-/// --scan-topic and its like: which topics of a log that leaves a choice are taken.
+/// Adds --scan-topic and the other options that select topics of a log.
 void add_topic_options(CLI::App& command_line, files::TopicOptions& topics);
 
-/// The same options as arguments, for another process.
+/// The options as arguments for another process.
 std::vector<std::string> arguments_of(const files::TopicOptions& topics);
 
 }  // namespace slammot::ingest

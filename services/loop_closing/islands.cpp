@@ -23,7 +23,7 @@ std::map<SubmapId, SubmapId> islands(const std::vector<flow::CorrectedSubmap>& s
     const SubmapId b = earliest_of(tied_to, constraint.to);
     tied_to[std::max(a, b)] = std::min(a, b);
   }
-  // Each is tied to an earlier one, which has its answer already.
+  // Ids ascend: the submap that this one is tied to is resolved already.
   for (auto& [id, earlier] : tied_to) earlier = tied_to.at(earlier);
   return tied_to;
 }

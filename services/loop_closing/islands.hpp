@@ -8,9 +8,9 @@
 
 namespace slammot::loop_closing {
 
-/// For every submap the earliest one that constraints tie it to, itself where none does: two with
-/// the same answer are on one island. Where islands lie to each other nobody knows until a revisit
-/// joins them.
+/// Connected components of the pose graph: for each submap, the earliest submap that constraints
+/// connect it to, or itself. Two submaps with the same value are on one island. Relative poses of
+/// different islands are unknown until a closure joins them.
 std::map<flow::SubmapId, flow::SubmapId> islands(const std::vector<flow::CorrectedSubmap>& submaps,
                                                  std::span<const flow::Constraint> constraints);
 

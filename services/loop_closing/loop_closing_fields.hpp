@@ -5,7 +5,7 @@
 
 namespace slammot::loop_closing {
 
-/// The settings of loop closing as message LoopClosing has them.
+/// Settings of loop closing, as in message LoopClosing.
 const config::FieldTable<LoopClosingConfig>& loop_closing_fields();
 
 }  // namespace slammot::loop_closing

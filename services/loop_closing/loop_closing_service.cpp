@@ -37,7 +37,7 @@ void LoopClosingService::take(const slammot_SubmapTile& tile) {
 }
 
 void LoopClosingService::begin_map(flow::MapId map_id) {
-  if (map_id_) spdlog::info("a new map: forgets {} submaps", added_);
+  if (map_id_) spdlog::info("new map: discards {} submaps", added_);
   for (const flow::Constraint& constraint : closer_.constraints())
     constraints_.end(wire::encode(context_.vehicle_id(), constraint));
   closer_ = LoopCloser(config_);
@@ -47,7 +47,7 @@ void LoopClosingService::begin_map(flow::MapId map_id) {
   map_id_ = map_id;
 }
 
-/// In ascending order, without gaps: each is bound to the one before it.
+/// Adds submaps in ascending order without gaps, since each is constrained to the one before.
 void LoopClosingService::add_waiting() {
   std::erase_if(waiting_, [this](const auto& waiting) { return waiting.first.value < added_; });
   for (auto next = waiting_.begin(); next != waiting_.end() && next->first.value == added_;
@@ -63,9 +63,9 @@ void LoopClosingService::add_waiting() {
 
 void LoopClosingService::add(const flow::Submap& submap) {
   const app::Stopwatch stopwatch(context_.status().latency("add_submap"));
-  const bool knew_where_it_is = closer_.knows_where_it_is();
+  const bool was_connected = closer_.is_connected();
   flow::GraphCorrection correction = closer_.add(submap);
-  tell_whereabouts(submap.submap_id, knew_where_it_is);
+  report_connection(submap.submap_id, was_connected);
   ++added_;
   reports_since_submap_ = 0;
   publish(std::move(correction));
@@ -78,27 +78,26 @@ void LoopClosingService::publish(flow::GraphCorrection correction) {
                              [this](const auto& part) { corrections_.write(part); });
 }
 
-/// Where no submap comes for a while the drive may be over: what its searches would find is said
-/// now.
+/// The drive may be over if no submap arrives: publishes the result of the pending searches.
 void LoopClosingService::finish_when_idle() {
   constexpr int kIdleReports = 3;
   if (++reports_since_submap_ != kIdleReports || !closer_.has_unfinished_work()) return;
   publish(closer_.finish());
 }
 
-void LoopClosingService::tell_whereabouts(flow::SubmapId newest, bool knew_before) {
-  const bool knows = closer_.knows_where_it_is();
-  if (!knows && knew_before)
-    spdlog::warn("nothing ties submap {} to the first one yet: looks for it everywhere",
+void LoopClosingService::report_connection(flow::SubmapId newest, bool was_connected) {
+  const bool knows = closer_.is_connected();
+  if (!knows && was_connected)
+    spdlog::warn("submap {} is not connected to the first one: searches for it on all islands",
                  newest.value);
-  if (knows && !knew_before) spdlog::info("found where submap {} lies", newest.value);
+  if (knows && !was_connected) spdlog::info("located submap {}", newest.value);
   if (knows) context_.status().clear_trouble("astray");
   else
     context_.status().set_trouble(
-        "astray", "nothing ties submap " + std::to_string(newest.value) + " to the first one yet");
+        "astray", "submap " + std::to_string(newest.value) + " is not connected to the first one");
 }
 
-/// Those that are new, and closures about which something else is held now.
+/// Publishes new constraints and closures whose state has changed.
 void LoopClosingService::publish_new_constraints() {
   for (flow::Constraint& constraint : closer_.constraints()) {
     const auto [published, is_new] = published_states_.try_emplace(

@@ -13,8 +13,7 @@
 
 namespace slammot::loop_closing {
 
-/// Looks for revisits among the stored submaps of one vehicle. Its graph is rebuilt from them when
-/// it starts.
+/// Detects revisits among the stored submaps of one vehicle. Rebuilds its graph from them at start.
 class LoopClosingService {
  public:
   struct Settings {
@@ -22,7 +21,7 @@ class LoopClosingService {
   };
   static constexpr const char* kName = "loop_closing";
   static constexpr const char* kPurpose =
-      "Recognizes revisited places and corrects the poses of all submaps.";
+      "Detects revisited places and corrects the poses of all submaps.";
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
@@ -33,7 +32,7 @@ class LoopClosingService {
   void begin_map(flow::MapId map_id);
   void add_waiting();
   void add(const flow::Submap& submap);
-  void tell_whereabouts(flow::SubmapId newest, bool knew_before);
+  void report_connection(flow::SubmapId newest, bool was_connected);
   void publish(flow::GraphCorrection correction);
   void publish_new_constraints();
   void finish_when_idle();
@@ -45,9 +44,9 @@ class LoopClosingService {
   wire::GraphCorrectionEncoder correction_encoder_;
   dds::Writer<slammot_Constraint>& constraints_;
   dds::Writer<slammot_GraphCorrection>& corrections_;
-  std::map<flow::SubmapId, flow::Submap> waiting_;  ///< For those before them.
-  std::optional<flow::MapId> map_id_;               ///< None before the first submap.
-  std::size_t added_ = 0;  ///< Submaps in the graph: those with numbers below.
+  std::map<flow::SubmapId, flow::Submap> waiting_;  ///< Submaps whose predecessors are missing.
+  std::optional<flow::MapId> map_id_;               ///< Empty before the first submap.
+  std::size_t added_ = 0;  ///< Submaps in the graph; their ids are smaller than this.
   int reports_since_submap_ = 0;
   std::map<std::tuple<flow::SubmapId, flow::SubmapId, flow::ConstraintKind>, flow::ClosureState>
       published_states_;

@@ -9,11 +9,11 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr double kLeastEchoes = 2.0;  // A surfel with fewer echoes may be anything and is left out.
-constexpr double kOccupiedLogOdds = 0.8;  // From here on a cell of a submap counts as occupied.
-constexpr double kFreeLogOdds = 0.8;      // With this much against it a cell counts as free.
+constexpr double kLeastEchoes = 2.0;      // Surfels with fewer echoes are ignored.
+constexpr double kOccupiedLogOdds = 0.8;  // Least log-odds of an occupied cell.
+constexpr double kFreeLogOdds = 0.8;      // Least negative log-odds of a free cell.
 
-constexpr double kStepsPerLogOdds = 16.0;  // of flow::Submap::so_log_odds
+constexpr double kStepsPerLogOdds = 16.0;  // Scale of flow::Submap::so_log_odds.
 
 std::int8_t steps_of(double log_odds) {
   return static_cast<std::int8_t>(std::clamp(std::lround(kStepsPerLogOdds * log_odds), 1L, 127L));
@@ -24,20 +24,20 @@ void mark_around(Place& place, std::int32_t column, std::int32_t row, std::int32
        ++y) {
     for (std::int32_t x = std::max(column - radius, 0);
          x <= std::min(column + radius, place.columns - 1); ++x) {
-      place.spots[static_cast<std::size_t>(y) * static_cast<std::size_t>(place.columns) +
-                  static_cast<std::size_t>(x)] = Spot::kOccupied;
+      place.cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(place.columns) +
+                  static_cast<std::size_t>(x)] = CellState::kOccupied;
     }
   }
 }
 
-void take_spots(const flow::Submap& submap, const PlaceConfig& config, Place& place) {
+void set_cells(const flow::Submap& submap, const PlaceConfig& config, Place& place) {
   const std::int8_t occupied = steps_of(kOccupiedLogOdds);
   const std::int8_t free = steps_of(kFreeLogOdds);
   const auto radius =
       static_cast<std::int32_t>(std::lround(config.tolerance_m / submap.cell_size_m));
-  place.spots.assign(submap.so_log_odds.size(), Spot::kUnknown);
-  for (std::size_t i = 0; i < place.spots.size(); ++i) {
-    if (submap.so_log_odds[i] <= -free) place.spots[i] = Spot::kFree;
+  place.cells.assign(submap.so_log_odds.size(), CellState::kUnknown);
+  for (std::size_t i = 0; i < place.cells.size(); ++i) {
+    if (submap.so_log_odds[i] <= -free) place.cells[i] = CellState::kFree;
   }
   for (std::int32_t row = 0; row < place.rows; ++row) {
     for (std::int32_t column = 0; column < place.columns; ++column) {
@@ -49,28 +49,28 @@ void take_spots(const flow::Submap& submap, const PlaceConfig& config, Place& pl
   }
 }
 
-/// What the target as a whole knows: a wall to one member is a wall, whatever another made of it.
-Spot spot_in(const Target& target, const Vector2& point_in_target_m) {
-  Spot spot = Spot::kUnknown;
+/// State over all members; occupied outweighs free, free outweighs unknown.
+CellState state_in(const Target& target, const Vector2& point_in_target_m) {
+  CellState state = CellState::kUnknown;
   for (const Target::Member& member : target.members) {
-    spot = std::max(spot, member.place->spot_at(geometry::inverse(member.target_from_member) *
-                                                point_in_target_m));
+    state = std::max(state, member.place->state_at(geometry::inverse(member.target_from_member) *
+                                                   point_in_target_m));
   }
-  return spot;
+  return state;
 }
 
-void count(Spot spot, Agreement& agreement) {
-  if (spot == Spot::kOccupied) ++agreement.occupied_in_both;
-  if (spot == Spot::kFree) ++agreement.contradicted;
+void count(CellState state, Agreement& agreement) {
+  if (state == CellState::kOccupied) ++agreement.occupied_in_both;
+  if (state == CellState::kFree) ++agreement.contradicted;
 }
 
 }  // namespace
 
-Spot Place::spot_at(const Vector2& point_in_submap_m) const {
+CellState Place::state_at(const Vector2& point_in_submap_m) const {
   const double column = std::floor((point_in_submap_m.x() - min_x_m) / cell_size_m);
   const double row = std::floor((point_in_submap_m.y() - min_y_m) / cell_size_m);
-  if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows)) return Spot::kUnknown;
-  return spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+  if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows)) return CellState::kUnknown;
+  return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                static_cast<std::size_t>(column)];
 }
 
@@ -80,27 +80,44 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
   place.travelled_before_m = travelled_before_m;
   place.travelled_after_m = travelled_before_m + submap.travelled_m;
   place.odom_from_submap = submap.odom_from_submap;
-  place.middle_m = 0.5 * submap.submap_from_base_at_end.translation_m();
+  place.centre_m = 0.5 * submap.submap_from_base_at_end.translation_m();
   place.cell_size_m = submap.cell_size_m;
   place.spacing_m = submap.cell_size_m;
   place.min_x_m = submap.min_x_m;
   place.min_y_m = submap.min_y_m;
   place.columns = static_cast<std::int32_t>(submap.columns);
   place.rows = static_cast<std::int32_t>(submap.rows);
-  take_spots(submap, config, place);
+  set_cells(submap, config, place);
   for (const flow::Surfel& surfel : submap.surfels) {
-    // What was seen a few times and then seen through is no wall.
-    if (surfel.weight < kLeastEchoes || place.spot_at({surfel.x_m, surfel.y_m}) == Spot::kFree)
+    // A surfel in free space was seen through later: it is no wall.
+    if (surfel.weight < kLeastEchoes ||
+        place.state_at({surfel.x_m, surfel.y_m}) == CellState::kFree)
       continue;
     place.surfels.push_back(surfel);
   }
   return place;
 }
 
+std::vector<flow::Surfel> surfels_in_target(const Target& target) {
+  std::vector<flow::Surfel> surfels;
+  for (const Target::Member& member : target.members) {
+    const Eigen::Matrix2d turn = geometry::rotation(member.target_from_member.heading_rad);
+    for (const flow::Surfel& surfel : member.place->surfels) {
+      const Vector2 at =
+          turn * Vector2(surfel.x_m, surfel.y_m) + member.target_from_member.translation_m();
+      const Vector2 normal = turn * Vector2(surfel.normal_x, surfel.normal_y);
+      surfels.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()),
+                         static_cast<float>(normal.x()), static_cast<float>(normal.y()),
+                         surfel.weight});
+    }
+  }
+  return surfels;
+}
+
 Agreement compare(const Target& target, const Place& source, const Pose2& target_from_source) {
   Agreement agreement;
   for (const flow::Surfel& surfel : source.surfels) {
-    count(spot_in(target, target_from_source * Vector2(surfel.x_m, surfel.y_m)), agreement);
+    count(state_in(target, target_from_source * Vector2(surfel.x_m, surfel.y_m)), agreement);
   }
   agreement.source_in_target = agreement.occupied_in_both;
   agreement.source_walls = static_cast<int>(source.surfels.size());
@@ -108,7 +125,7 @@ Agreement compare(const Target& target, const Place& source, const Pose2& target
     const Pose2 source_from_member =
         geometry::inverse(target_from_source) * member.target_from_member;
     for (const flow::Surfel& surfel : member.place->surfels) {
-      count(source.spot_at(source_from_member * Vector2(surfel.x_m, surfel.y_m)), agreement);
+      count(source.state_at(source_from_member * Vector2(surfel.x_m, surfel.y_m)), agreement);
     }
   }
   return agreement;

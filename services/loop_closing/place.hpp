@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "common/flow/submap.hpp"
@@ -9,49 +10,54 @@
 
 namespace slammot::loop_closing {
 
-/// What a submap knows about a spot; the greater one outweighs the other.
-enum class Spot : std::uint8_t { kUnknown, kFree, kOccupied };
+/// State of a cell. In a union of submaps the greater value wins.
+enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
 
-/// What loop closing keeps of a submap: its walls, thinned, and for every cell whether it was free
-/// or occupied.
+/// The part of a submap that loop closing keeps: surfels of walls, and a grid of free and occupied
+/// cells.
 struct Place {
   flow::SubmapId id;
-  double travelled_before_m = 0.0;  ///< By the vehicle, when the submap began,
-  double travelled_after_m = 0.0;   ///< and when it ended.
+  double travelled_before_m = 0.0;  ///< Distance driven until the submap begins.
+  double travelled_after_m = 0.0;   ///< Distance driven until the submap ends.
   geometry::Pose2 odom_from_submap;
-  geometry::Vector2 middle_m;  ///< Of the way driven, in the submap's frame.
+  geometry::Vector2 centre_m;  ///< Midpoint of the trajectory, in the submap's frame.
   std::vector<flow::Surfel> surfels;
-  double spacing_m = 0.0;  ///< Between neighbouring surfels.
+  double spacing_m = 0.0;  ///< Distance between neighbouring surfels.
   double cell_size_m = 0.0;
   double min_x_m = 0.0;
   double min_y_m = 0.0;
   std::int32_t columns = 0;
   std::int32_t rows = 0;
-  std::vector<Spot> spots;  ///< Row-major; occupied cells are widened by the tolerance.
+  std::vector<CellState> cells;  ///< Row-major; occupied cells are dilated by the tolerance.
 
-  Spot spot_at(const geometry::Vector2& point_in_submap_m) const;
+  CellState state_at(const geometry::Vector2& point_in_submap_m) const;
 };
+
+using Places = std::map<flow::SubmapId, Place>;
 
 struct PlaceConfig {
-  double tolerance_m = 0.4;  ///< A wall this far off still is that wall.
+  double tolerance_m = 0.4;  ///< Walls of two submaps within this distance agree.
 };
 
-/// travelled_before_m: by the vehicle, in all the submaps before this one.
+/// `travelled_before_m`: distance driven in all submaps before this one.
 Place make_place(const flow::Submap& submap, double travelled_before_m, const PlaceConfig& config);
 
-/// Earlier places taken as one target, in the frame of the first of them.
+/// Earlier places as one target, in the frame of the first member.
 struct Target {
   struct Member {
     const Place* place = nullptr;
     geometry::Pose2 target_from_member;
   };
-  std::vector<Member> members;  ///< The first one is the target itself, at identity.
+  std::vector<Member> members;  ///< The first member is the target itself, at identity.
 };
 
-/// How well a place agrees with a target about what both have seen.
+/// Surfels of all members, in the target's frame.
+std::vector<flow::Surfel> surfels_in_target(const Target& target);
+
+/// Agreement of a place with a target where both have seen something [surfels].
 struct Agreement {
   int occupied_in_both = 0;  ///< Walls of either that the other has too.
-  int contradicted = 0;      ///< A wall to one, free to the other.
+  int contradicted = 0;      ///< Walls of one in free space of the other.
   int source_in_target = 0;  ///< Walls of the source that the target has too.
   int source_walls = 0;
 
@@ -63,8 +69,8 @@ struct Agreement {
   }
 };
 
-/// Asks each side about the other's walls: what a false closure almost always gets wrong is what
-/// ought to be free.
+/// Compares the walls of each side with the grid of the other. Free space is decisive: a false
+/// closure almost always puts walls into it.
 Agreement compare(const Target& target, const Place& source,
                   const geometry::Pose2& target_from_source);
 

@@ -17,8 +17,8 @@ using geometry::Pose2;
 constexpr int kCoarseSteps = 6;  // Gauss-Newton steps with the wide gate.
 constexpr int kFineSteps = 10;   // Gauss-Newton steps with the narrow gate.
 
-// What keeps a direction without information where it is: too weak to pull at anything the walls do
-// say.
+// Weak prior at the initial pose, which regularizes unobserved directions. Negligible beside any
+// wall.
 constexpr double kUnobservedSigmaM = 5.0;
 constexpr double kUnobservedSigmaRad = 0.5;
 
@@ -38,7 +38,7 @@ struct NormalEquations {
   }
 };
 
-/// Weight of Geman and McClure: 1 at zero, a quarter at the scale.
+/// Weight of Geman and McClure: 1 at zero, 1/4 at the scale.
 double robust_weight(double residual_m, double scale_m) {
   const double root = 1.0 / (1.0 + residual_m * residual_m / (scale_m * scale_m));
   return root * root;
@@ -64,7 +64,8 @@ NormalEquations linearize(std::span<const flow::Surfel> source, const SurfelInde
           robust_weight(pair_normal.dot(offset_m), 0.5 * gate_m) / (sigma_m * sigma_m);
       equations.add(pair_normal, offset_m, by_heading_m, weight);
     } else {
-      // A dot or a blob: its mean is as wide as its cell, and says as much in either direction.
+      // A surfel without a normal (a pole): its mean is as uncertain as its cell is wide, equally
+      // in all directions.
       const double weight =
           0.25 * robust_weight(offset_m.norm(), 0.5 * gate_m) / (sigma_m * sigma_m);
       equations.add(Eigen::Vector2d::UnitX(), offset_m, by_heading_m, weight);
@@ -74,7 +75,7 @@ NormalEquations linearize(std::span<const flow::Surfel> source, const SurfelInde
   return equations;
 }
 
-Matrix3 weak_hold() {
+Matrix3 weak_prior() {
   return Eigen::Vector3d(1.0 / (kUnobservedSigmaM * kUnobservedSigmaM),
                          1.0 / (kUnobservedSigmaM * kUnobservedSigmaM),
                          1.0 / (kUnobservedSigmaRad * kUnobservedSigmaRad))
@@ -95,7 +96,7 @@ Registration register_surfels(std::span<const flow::Surfel> source, double sourc
     equations =
         linearize(source, target, pose, is_coarse ? config.coarse_gate_m : config.fine_gate_m,
                   config.surfel_sigma_m);
-    const Eigen::Vector3d change = -(independent_share * equations.H + weak_hold())
+    const Eigen::Vector3d change = -(independent_share * equations.H + weak_prior())
                                         .ldlt()
                                         .solve(independent_share * equations.g);
     pose = geometry::displaced(pose, change);
@@ -111,7 +112,7 @@ Registration register_surfels(std::span<const flow::Surfel> source, double sourc
   registration.rms_m = std::sqrt(equations.squared_m2 / std::max(equations.matched, 1));
   const double inflation = std::max(1.0, std::pow(registration.rms_m / config.surfel_sigma_m, 2));
   Matrix3& covariance = registration.target_from_source.covariance;
-  covariance = Matrix3((independent_share / inflation * equations.H + weak_hold()).inverse());
+  covariance = Matrix3((independent_share / inflation * equations.H + weak_prior()).inverse());
   covariance.diagonal() += Eigen::Vector3d(config.position_floor_m * config.position_floor_m,
                                            config.position_floor_m * config.position_floor_m,
                                            config.heading_floor_rad * config.heading_floor_rad);

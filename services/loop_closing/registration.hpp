@@ -9,25 +9,26 @@
 namespace slammot::loop_closing {
 
 struct RegistrationConfig {
-  double coarse_gate_m = 1.0;    ///< Surfels farther apart are no pair,
-  double fine_gate_m = 0.4;      ///< in the last steps.
-  double surfel_sigma_m = 0.06;  ///< Of the distance between two surfels of one wall, across the
-                                 ///< wall.
-  double independent_spacing_m = 2.0;  ///< Surfels nearer than this on a wall share their error.
-  double position_floor_m = 0.02;    ///< No closure is surer of the position than this, one sigma,
-  double heading_floor_rad = 0.002;  ///< and of the heading than this.
+  double coarse_gate_m = 1.0;    ///< Greatest distance of paired surfels in the first steps.
+  double fine_gate_m = 0.4;      ///< Greatest distance of paired surfels in the last steps.
+  double surfel_sigma_m = 0.06;  ///< One sigma of the distance between two surfels of one wall,
+                                 ///< across the wall.
+  double independent_spacing_m = 2.0;  ///< Surfels nearer than this along a wall have a common
+                                       ///< error.
+  double position_floor_m = 0.02;      ///< Least one-sigma error of a closure's position.
+  double heading_floor_rad = 0.002;    ///< Least one-sigma error of a closure's heading.
 };
 
 struct Registration {
   geometry::UncertainPose2 target_from_source;
-  double matched_share = 0.0;  ///< Of the source's surfels.
-  double rms_m = 0.0;          ///< Of the distances of the matched across the wall.
+  double matched_share = 0.0;  ///< Share of the source's surfels with a pair.
+  double rms_m = 0.0;          ///< Of the distances of paired surfels, across the wall.
 };
 
-/// Moves the source's surfels onto the target's by Gauss-Newton on point-to-line distances. Along
-/// directions in which the walls say nothing (down a corridor) the pose stays at the initial one
-/// and the covariance is metres wide. source_spacing_m is the distance between neighbouring surfels
-/// of the source.
+/// Registers the source's surfels to the target's by Gauss-Newton on point-to-line distances. In
+/// directions without information (along a corridor) the pose stays at the initial one and the
+/// covariance is metres wide. `source_spacing_m` is the distance between neighbouring surfels of
+/// the source.
 Registration register_surfels(std::span<const flow::Surfel> source, double source_spacing_m,
                               const SurfelIndex& target,
                               const geometry::Pose2& initial_target_from_source,

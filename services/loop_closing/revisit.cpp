@@ -5,9 +5,6 @@
 #include <map>
 #include <numbers>
 
-#include <Eigen/Cholesky>
-#include "common/geometry/displacement.hpp"
-
 namespace slammot::loop_closing {
 namespace {
 
@@ -16,34 +13,30 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
-constexpr double kMinScore = 0.35;  // Least score of the search before refinement.
-constexpr int kMaxPeaks = 4;  // Poses of one search that are looked at; twice as many where several
-                              // targets are searched.
-constexpr int kMaxPoints = 300;          // Surfels of the new submap that take part in the search.
-constexpr double kWindowSigmas = 3.0;    // How far around the expected pose is searched.
-constexpr double kMinWindow_rad = 0.06;  // Half width of the smallest window of the heading.
-constexpr double kMaxWindow_rad = 0.6;   // Half width of the largest window of the heading.
-constexpr double kAnyHeadingSigma_rad = 1.0;  // Less sure of the heading than this, all of the
-                                              // circle is searched.
-constexpr double kMinOverlapShare = 0.3;  // Of the new submap's walls, those that the earlier one
+constexpr double kMinScore = 0.35;  // Least score of the search before registration.
+constexpr int kMaxPeaks = 4;  // Poses of one search that are registered; twice as many on several
+                              // targets.
+constexpr int kMaxPoints = 300;               // Surfels of the new submap used in the search.
+constexpr double kWindowSigmas = 3.0;         // Half width of the window around the expected pose.
+constexpr double kMinWindow_rad = 0.06;       // Least half width of the window of the heading.
+constexpr double kMaxWindow_rad = 0.6;        // Greatest half width of the window of the heading.
+constexpr double kAnyHeadingSigma_rad = 1.0;  // With a greater one-sigma error of the heading, all
+                                              // headings are searched.
+constexpr double kMinOverlapShare = 0.3;  // Least share of the new submap's walls that the target
                                           // has too.
-constexpr double kMinAgreedInSupport = 0.8;  // Searched for everywhere, so much still supports
-                                             // another that agrees.
+constexpr double kMinAgreedInSupport = 0.8;  // With unknown heading, least agreed share of a
+                                             // hypothesis that may support others.
 
-constexpr double kSameWithinSquaredSigmas = 11.3;  // chi-square, 3 degrees of freedom, 99 %
-
-constexpr std::size_t kMostPyramids = 64;
-constexpr double kSameShapeCells = 0.25;  // members that moved less against each other draw the
-                                          // same grid
-// Work of the other steps in cells that a search could read in the same time.
+// Work of the other steps, in cells that a search reads in the same time.
 constexpr std::uint64_t kWorkOfRegisteringSurfel = 400;
 constexpr std::uint64_t kWorkOfComparingSurfel = 20;
 
-constexpr double kNearShare = 0.25;  // of the window: a sixtieth of the poses, and most revisits
-constexpr double kBorderCost = 0.1;  // score; the border is three sigmas away
+constexpr double kNearShare = 0.25;  // Share of the full window that is searched first: 1/64 of the
+                                     // poses, and most revisits.
+constexpr double kBorderCost = 0.1;  // Score penalty at the border of the window, three sigmas from
+                                     // the expected pose.
 
-// Searched for everywhere, a place is found by coarser steps and fewer points: refinement bridges
-// the step.
+// A search on several targets uses a coarser step and fewer points: registration bridges the step.
 constexpr double kCoarserOnSeveralTargets = 2.0;
 constexpr int kFewerPointsOnSeveralTargets = 2;
 
@@ -63,36 +56,13 @@ matching::WideSearchConfig search_config(const RevisitConfig& config, std::size_
           .peak_separation_rad = 0.15};
 }
 
-std::vector<flow::Surfel> surfels_in_target(const Target& target) {
-  std::vector<flow::Surfel> surfels;
-  for (const Target::Member& member : target.members) {
-    const Eigen::Matrix2d turn = geometry::rotation(member.target_from_member.heading_rad);
-    for (const flow::Surfel& surfel : member.place->surfels) {
-      const Vector2 at =
-          turn * Vector2(surfel.x_m, surfel.y_m) + member.target_from_member.translation_m();
-      const Vector2 normal = turn * Vector2(surfel.normal_x, surfel.normal_y);
-      surfels.push_back({static_cast<float>(at.x()), static_cast<float>(at.y()),
-                         static_cast<float>(normal.x()), static_cast<float>(normal.y()),
-                         surfel.weight});
-    }
-  }
-  return surfels;
-}
-
-std::vector<matching::TargetPoint> as_target_points(const std::vector<flow::Surfel>& surfels) {
-  std::vector<matching::TargetPoint> points;
-  points.reserve(surfels.size());
-  for (const flow::Surfel& surfel : surfels) points.push_back({surfel.x_m, surfel.y_m, 1.0F});
-  return points;
-}
-
 Vector2 centroid_of(const std::vector<flow::Surfel>& surfels) {
   Vector2 sum = Vector2::Zero();
   for (const flow::Surfel& surfel : surfels) sum += Vector2(surfel.x_m, surfel.y_m);
   return sum / static_cast<double>(std::max<std::size_t>(surfels.size(), 1));
 }
 
-/// Evenly thinned surfels about their centroid: a turn about it hardly shifts them.
+/// Evenly thinned surfels relative to their centroid, which decouples rotation from translation.
 std::vector<Eigen::Vector2f> points_about(const Vector2& centre_m,
                                           const std::vector<flow::Surfel>& surfels,
                                           int max_points) {
@@ -105,107 +75,30 @@ std::vector<Eigen::Vector2f> points_about(const Vector2& centre_m,
   return points;
 }
 
-bool is_astray(const UncertainPose2& expected) {
+bool has_unknown_heading(const UncertainPose2& expected) {
   return expected.covariance(2, 2) > kAnyHeadingSigma_rad * kAnyHeadingSigma_rad;
-}
-
-bool are_same(const UncertainPose2& a, const UncertainPose2& b) {
-  const Eigen::Vector3d difference = geometry::difference(a.pose, b.pose);
-  return difference.dot(Matrix3(a.covariance + b.covariance).ldlt().solve(difference)) <
-         kSameWithinSquaredSigmas;
-}
-
-void keep_best_of_the_same(std::vector<Hypothesis>& hypotheses) {
-  std::stable_sort(
-      hypotheses.begin(), hypotheses.end(),
-      [](const Hypothesis& a, const Hypothesis& b) { return a.quality() > b.quality(); });
-  std::vector<Hypothesis> kept;
-  for (const Hypothesis& hypothesis : hypotheses) {
-    const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& one) {
-      return are_same(one.from_to, hypothesis.from_to);
-    });
-    if (!is_known) kept.push_back(hypothesis);
-  }
-  hypotheses = std::move(kept);
-}
-
-/// In corridors all of which look alike most of the walls agree anywhere: what contradicts tells
-/// poses apart.
-void drop_contradicted(std::vector<Hypothesis>& hypotheses) {
-  constexpr double kClearlyWorse = 2.0;     // times the contradictions of another pose,
-  constexpr double kNoise_share = 0.01;     // and this much more,
-  constexpr double kComparableShare = 0.5;  // if that explains at least this share of what this one
-                                            // does
-  const auto contradicted_share = [](const Hypothesis& one) {
-    return 1.0 - one.agreement.agreed_share();
-  };
-  const std::vector<Hypothesis> all = hypotheses;
-  std::erase_if(hypotheses, [&](const Hypothesis& one) {
-    return std::ranges::any_of(all, [&](const Hypothesis& other) {
-      return contradicted_share(one) > kClearlyWorse * contradicted_share(other) + kNoise_share &&
-             other.quality() > kComparableShare * one.quality();
-    });
-  });
-}
-
-void drop_poor_rivals(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
-  if (hypotheses.empty()) return;
-  const double least_quality = rival_ratio * hypotheses.front().quality();
-  std::erase_if(hypotheses, [&](const Hypothesis& one) { return one.quality() < least_quality; });
-  for (Hypothesis& hypothesis : hypotheses) hypothesis.has_rivals = hypotheses.size() > 1;
 }
 
 double sigma_m(const UncertainPose2& expected) {
   return std::sqrt(expected.covariance.topLeftCorner<2, 2>().trace());
 }
 
-/// share: of the window that holds all of the uncertainty.
+/// `share`: of the half widths of the full window.
 matching::SearchWindow window_around(const UncertainPose2& expected,
                                      const UncertainPose2& target_from_centre,
                                      const RevisitConfig& config, double share) {
-  const bool astray = is_astray(expected);
+  const bool any_heading = has_unknown_heading(expected);
   const auto window = [&](double variance, double least, double most) {
     return std::max(share * std::clamp(kWindowSigmas * std::sqrt(variance), least, most), least);
   };
-  const double most_m = astray ? config.astray_window_m : config.max_window_m;
+  const double most_m = any_heading ? config.astray_window_m : config.max_window_m;
   return {window(target_from_centre.covariance(0, 0), config.min_window_m, most_m),
           window(target_from_centre.covariance(1, 1), config.min_window_m, most_m),
           window(expected.covariance(2, 2), kMinWindow_rad,
-                 astray ? std::numbers::pi : kMaxWindow_rad)};
+                 any_heading ? std::numbers::pi : kMaxWindow_rad)};
 }
 
 }  // namespace
-
-bool PyramidCache::is_of(const Entry& entry, const Target& target, double cell_m) {
-  return entry.pyramid->cell_m() == cell_m &&
-         std::ranges::equal(entry.members, target.members,
-                            [&](const auto& known, const Target::Member& member) {
-                              const Eigen::Vector3d moved =
-                                  geometry::difference(known.second, member.target_from_member);
-                              return known.first == member.place->id &&
-                                     geometry::as_seen_10_m_away(moved) < kSameShapeCells * cell_m;
-                            });
-}
-
-PyramidCache::Drawn PyramidCache::pyramid_of(const Target& target, double cell_m) {
-  ++uses_;
-  const auto known = std::ranges::find_if(
-      entries_, [&](const Entry& entry) { return is_of(entry, target, cell_m); });
-  if (known != entries_.end()) {
-    known->used = uses_;
-    return {known->pyramid};
-  }
-  if (entries_.size() >= kMostPyramids)
-    entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
-  Entry entry{.used = uses_};
-  for (const Target::Member& member : target.members)
-    entry.members.emplace_back(member.place->id, member.target_from_member);
-  constexpr int kLevels = 6;
-  entry.pyramid = std::make_shared<const matching::ScorePyramid>(
-      as_target_points(surfels_in_target(target)), cell_m, cell_m, kLevels);
-  entries_.push_back(entry);
-  return {entry.pyramid, entry.pyramid->work()};
-}
 
 RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source,
                              std::vector<RevisitCandidate> candidates)
@@ -216,11 +109,11 @@ RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source,
       walls_(source.surfels),
       is_done_(candidates_.empty() || source.surfels.empty()) {
   if (is_done_) return;
-  const bool begins_near =
+  const bool starts_near =
       is_somewhere_expected() &&
       kNearShare * std::min(kWindowSigmas * searched_sigma_m(), config.max_window_m) >
           config.min_window_m;
-  begin_search(begins_near ? kNearShare : 1.0);
+  begin_search(starts_near ? kNearShare : 1.0);
 }
 
 void RevisitSearch::begin_search(double window_share) {
@@ -258,10 +151,10 @@ std::uint64_t RevisitSearch::advance(std::uint64_t most_work, PyramidCache& pyra
   return work_ - work_before;
 }
 
-/// The pose that is expected is judged though its walls may overlap less than elsewhere along a
-/// corridor.
+/// True if one pose is expected. It is then registered even where another pose along a corridor has
+/// the greater score.
 bool RevisitSearch::is_somewhere_expected() const {
-  return candidates_.size() == 1 && !is_astray(candidates_.front().target_from_source);
+  return candidates_.size() == 1 && !has_unknown_heading(candidates_.front().target_from_source);
 }
 
 double RevisitSearch::searched_sigma_m() const {
@@ -298,7 +191,7 @@ std::uint64_t RevisitSearch::judge(const matching::WidePeak& peak) {
       .score = peak.score,
       .searched_sigma_m = sigma_m(expected)};
   const double least_agreed_share =
-      is_astray(expected) ? kMinAgreedInSupport : config_.min_agreed_share;
+      has_unknown_heading(expected) ? kMinAgreedInSupport : config_.min_agreed_share;
   const bool holds = hypothesis.agreement.agreed_share() >= least_agreed_share &&
                      hypothesis.agreement.overlap_share() >= kMinOverlapShare;
   if (holds) hypotheses_.push_back(hypothesis);
@@ -311,9 +204,7 @@ std::vector<Hypothesis> RevisitSearch::found() const {
   for (const Hypothesis& hypothesis : hypotheses_) by_target[hypothesis.from].push_back(hypothesis);
   std::vector<Hypothesis> all;
   for (auto& [id, hypotheses] : by_target) {
-    keep_best_of_the_same(hypotheses);
-    drop_contradicted(hypotheses);
-    drop_poor_rivals(hypotheses, config_.rival_ratio);
+    select_on_one_target(hypotheses, config_.rival_ratio);
     all.insert(all.end(), hypotheses.begin(), hypotheses.end());
   }
   return all;

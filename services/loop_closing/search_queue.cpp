@@ -8,10 +8,10 @@ namespace slammot::loop_closing {
 void SearchQueue::add(RevisitSearch search, Extent extent) {
   waiting_.push_back({std::move(search), extent});
   if (waiting_.size() <= static_cast<std::size_t>(budget_.most_waiting)) return;
-  // The oldest of those that look everywhere: each is one of many attempts.
+  // A search everywhere is given up first: it is one of many attempts.
   auto oldest = std::ranges::find(waiting_, Extent::kEverywhere, &Waiting::extent);
   if (oldest == waiting_.end()) oldest = waiting_.begin();
-  crowded_out_.push_back(end(oldest, true));
+  displaced_.push_back(end(oldest, true));
 }
 
 std::vector<SearchQueue::Finished> SearchQueue::advance() {
@@ -20,11 +20,11 @@ std::vector<SearchQueue::Finished> SearchQueue::advance() {
 
 double SearchQueue::everywhere_share() const {
   constexpr int kPatience = 5;
-  return static_cast<double>(kPatience) / std::max(kPatience, in_vain_);
+  return static_cast<double>(kPatience) / std::max(kPatience, failures_in_a_row_);
 }
 
 std::vector<SearchQueue::Finished> SearchQueue::advance(double most_work, double most_everywhere) {
-  std::vector<Finished> finished = std::exchange(crowded_out_, {});
+  std::vector<Finished> finished = std::exchange(displaced_, {});
   double left = most_work;
   double left_everywhere = most_everywhere;
   while (!waiting_.empty()) {
@@ -55,8 +55,8 @@ std::vector<SearchQueue::Finished> SearchQueue::finish() {
 }
 
 std::deque<SearchQueue::Waiting>::iterator SearchQueue::next() {
-  const auto near =
-      std::ranges::find_if(waiting_, [](const Waiting& one) { return one.search.is_near(); });
+  const auto near = std::ranges::find_if(
+      waiting_, [](const Waiting& one) { return one.search.is_near_expected(); });
   if (near != waiting_.end()) return near;
   const auto expected = std::ranges::find(waiting_, Extent::kExpected, &Waiting::extent);
   return expected == waiting_.end() ? waiting_.begin() : expected;
@@ -71,7 +71,7 @@ SearchQueue::Finished SearchQueue::end(std::deque<Waiting>::iterator waiting, bo
                     is_given_up};
   if (is_given_up) ++given_up_;
   if (waiting->extent == Extent::kEverywhere)
-    in_vain_ = finished.hypotheses.empty() ? in_vain_ + 1 : 0;
+    failures_in_a_row_ = finished.hypotheses.empty() ? failures_in_a_row_ + 1 : 0;
   waiting_.erase(waiting);
   return finished;
 }

@@ -9,15 +9,14 @@
 namespace slammot::loop_closing {
 
 struct SearchBudget {
-  double work_per_submap = 60e6;   ///< Cells that searches read for each submap that comes; about 1
-                                   ///< ns each.
-  double work_per_search = 160e6;  ///< A search that has read so many is given up.
-  double work_at_end = 80e6;       ///< For what is left when the drive ends.
-  int most_waiting = 6;            ///< Searches that wait; more, and the oldest is given up.
+  double work_per_submap = 60e6;   ///< Cells read per new submap; about 1 ns each.
+  double work_per_search = 160e6;  ///< A search is given up after so many cells.
+  double work_at_end = 80e6;       ///< For pending searches when the drive ends.
+  int most_waiting = 6;            ///< With more pending searches the oldest is given up.
 };
 
-/// Searches that take turns, in pieces of counted work: near expected poses first, then all around
-/// these, then everywhere; older ones first.
+/// Schedules searches in pieces of counted work: first near expected poses, then in their full
+/// windows, then everywhere; within each stage, older searches first.
 class SearchQueue {
  public:
   enum class Extent { kExpected, kEverywhere };
@@ -26,21 +25,21 @@ class SearchQueue {
     flow::SubmapId source;
     Extent extent = Extent::kExpected;
     std::vector<Hypothesis> hypotheses;
-    flow::SubmapId target;          ///< The only one, or the first.
-    double searched_sigma_m = 0.0;  ///< How unsure the pose on it was.
-    bool is_given_up = false;       ///< Better poses may exist on what was not looked at.
+    flow::SubmapId target;          ///< The first target.
+    double searched_sigma_m = 0.0;  ///< One sigma of the expected position on it.
+    bool is_given_up = false;       ///< Better poses may exist in the part not searched.
   };
 
   explicit SearchQueue(const SearchBudget& budget) : budget_(budget) {}
 
   void add(RevisitSearch search, Extent extent);
 
-  /// Does the work that one submap buys; the searches that ended. The more searches everywhere
-  /// found nothing in a row, the less each submap buys of them: a place that was never seen costs
-  /// no more than the logarithm of the way through it.
+  /// Spends one submap's budget and returns the searches that ended. Each unsuccessful search
+  /// everywhere in a row reduces the share of the next, so that the total cost in unmapped terrain
+  /// grows with the logarithm of the distance.
   std::vector<Finished> advance();
 
-  /// Does the work that the end of a drive buys, then gives up what is left.
+  /// Spends the budget of the end of a drive, then gives up all pending searches.
   std::vector<Finished> finish();
 
   bool is_empty() const { return waiting_.empty(); }
@@ -60,8 +59,8 @@ class SearchQueue {
   SearchBudget budget_;
   PyramidCache pyramids_;
   std::deque<Waiting> waiting_;
-  std::vector<Finished> crowded_out_;
-  int in_vain_ = 0;  ///< Searches everywhere in a row that found nothing.
+  std::vector<Finished> displaced_;
+  int failures_in_a_row_ = 0;  ///< Unsuccessful searches everywhere in a row.
   std::uint64_t given_up_ = 0;
   std::uint64_t work_ = 0;
 };

@@ -6,13 +6,13 @@
 namespace slammot::loop_closing {
 namespace {
 
-constexpr float kLeastCosine = 0.7F;  // of the angle between normals of one wall seen twice
+constexpr float kLeastCosine = 0.7F;  // Cosine of the greatest angle between normals of one wall.
 
 bool normals_agree(const flow::Surfel& surfel, const Eigen::Vector2f& normal) {
-  const bool either_has_none =
+  const bool either_has_no_normal =
       (surfel.normal_x == 0.0F && surfel.normal_y == 0.0F) || normal.isZero();
   // The sign of a normal is arbitrary.
-  return either_has_none ||
+  return either_has_no_normal ||
          std::abs(surfel.normal_x * normal.x() + surfel.normal_y * normal.y()) >= kLeastCosine;
 }
 

@@ -10,15 +10,14 @@
 
 namespace slammot::loop_closing {
 
-/// Finds the surfel nearest to a point among those that may belong to the same side of the same
-/// wall.
+/// Nearest-neighbour index over surfels, restricted to surfels with a similar normal.
 class SurfelIndex {
  public:
-  /// Buckets of bucket_m, which is also the longest distance that can be asked for.
+  /// `bucket_m`: bucket size and greatest search radius.
   SurfelIndex(std::vector<flow::Surfel> surfels, double bucket_m);
 
-  /// Nearest surfel within reach_m (at most bucket_m) whose normal agrees with the given one; null
-  /// when there is none. A surfel or a query without a normal agrees with all.
+  /// Nearest surfel within `reach_m` (at most `bucket_m`) with a similar normal; null if there is
+  /// none. A surfel or query without a normal is similar to all.
   const flow::Surfel* nearest(const Eigen::Vector2f& point_m, const Eigen::Vector2f& normal,
                               float reach_m) const;
 
@@ -28,8 +27,9 @@ class SurfelIndex {
   std::int32_t column_of(float x_m) const;
   std::int32_t row_of(float y_m) const;
 
-  std::vector<flow::Surfel> surfels_;  ///< Ordered by bucket.
-  std::vector<std::uint32_t> first_;   ///< Of each bucket, row-major; one more at the end.
+  std::vector<flow::Surfel> surfels_;  ///< Sorted by bucket.
+  std::vector<std::uint32_t> first_;   ///< First surfel of each bucket, row-major; plus one at the
+                                       ///< end.
   float bucket_m_ = 1.0F;
   float min_x_m_ = 0.0F;
   float min_y_m_ = 0.0F;

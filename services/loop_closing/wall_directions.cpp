@@ -8,8 +8,8 @@
 namespace slammot::loop_closing {
 namespace {
 
-constexpr std::array kSmoothing{0.25, 0.6, 1.0, 0.6, 0.25};  // normals err by some degrees
-constexpr double kLeastShare = 0.6;                          // of the best correlation
+constexpr std::array kSmoothing{0.25, 0.6, 1.0, 0.6, 0.25};  // Normals have errors of some degrees.
+constexpr double kLeastShare = 0.6;                          // Of the greatest correlation.
 
 std::size_t bin_of(double angle_rad, std::size_t bins) {
   const double turns = angle_rad / std::numbers::pi;

@@ -8,32 +8,31 @@
 
 namespace slammot::loop_closing {
 
-/// Histogram of the directions of walls: places that are the same have the same, turned by the
-/// heading between them (Weiss, Wetzler, von Puttkamer, IROS 1994: angle histograms). Normals count
-/// without their sign.
+/// Angle histogram of wall normals, without their sign: two scans of one place have equal
+/// histograms up to a shift by the heading between them (Weiss, Wetzler and von Puttkamer, IROS
+/// 1994).
 class WallDirections {
  public:
   explicit WallDirections(std::span<const flow::Surfel> surfels);
 
-  /// Whether most of the surfels have a direction.
+  /// True if at least 40 % of the surfels have a normal.
   bool has_walls() const { return has_walls_; }
 
-  /// Correlation with another place that is turned by this angle, in [0, 1] of the product of the
-  /// norms.
+  /// Correlation with the histogram of another place turned by `by_rad`, normalized to [0, 1].
   double correlation(const WallDirections& turned, double by_rad) const;
 
  private:
-  static constexpr std::size_t kBins = 90;  // of two degrees
-  std::array<double, kBins> shares_{};      // smoothed; norm 1
+  static constexpr std::size_t kBins = 90;  // 2 degrees each
+  std::array<double, kBins> shares_{};      // smoothed, norm 1
   bool has_walls_ = false;
 };
 
-/// Headings target_from_source by which the walls of both may lie on each other.
+/// Headings of `target_from_source` at which the walls of both may coincide.
 class PlausibleHeadings {
  public:
   PlausibleHeadings(const WallDirections& target, const WallDirections& source);
 
-  /// True for all where one of them has few walls, or walls in all directions.
+  /// True for all headings if one of the places has few walls, or walls in all directions.
   bool contains(double heading_rad) const;
 
  private:

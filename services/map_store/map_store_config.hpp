@@ -3,12 +3,11 @@
 namespace slammot::map_store {
 
 struct MapStoreConfig {
-  double busy_timeout_s = 0.5;     ///< How long to wait for another program that has the database
-                                   ///< locked.
-  int max_database_mb = 0;         ///< 0: as large as the disk.
-  double retry_after_s = 1.0;      ///< After a submap could not be written.
-  int max_unwritten_submaps = 64;  ///< Kept in memory while the database takes none; then the
-                                   ///< oldest is dropped and counted.
+  double busy_timeout_s = 0.5;     ///< Longest wait for a database that another program has locked.
+  int max_database_mb = 0;         ///< 0: limited by the disk only.
+  double retry_after_s = 1.0;      ///< Interval of attempts after a failed write.
+  int max_unwritten_submaps = 64;  ///< In memory after failed writes; the oldest beyond that number
+                                   ///< is dropped and counted.
 };
 
 }  // namespace slammot::map_store

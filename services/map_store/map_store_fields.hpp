@@ -5,7 +5,7 @@
 
 namespace slammot::map_store {
 
-/// The settings of the map store as message MapStore has them.
+/// Settings of the map store, as in message MapStore.
 const config::FieldTable<MapStoreConfig>& map_store_fields();
 
 }  // namespace slammot::map_store

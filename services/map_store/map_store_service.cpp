@@ -14,7 +14,7 @@ namespace {
 std::string names_of(const std::vector<Store::StoredMap>& maps) {
   std::string names;
   for (const Store::StoredMap& map : maps)
-    names += (names.empty() ? "; there are " : ", ") + std::to_string(map.map_id.value) + " (" +
+    names += (names.empty() ? "; available: " : ", ") + std::to_string(map.map_id.value) + " (" +
              std::to_string(map.submaps) + " submaps)";
   return names;
 }
@@ -27,7 +27,7 @@ Store open_store(const app::ServiceContext& context, const MapStoreService::Sett
   Store store = std::move(std::get<Store>(opened));
   if (settings.map_id && !store.make_latest(context.vehicle_id(), {*settings.map_id})) {
     const std::string why = store.last_fault().empty()
-                                ? "there is no such map of vehicle " + context.vehicle_id()
+                                ? "no such map of vehicle " + context.vehicle_id()
                                 : store.last_fault();
     throw app::StartupFailure("--map " + std::to_string(*settings.map_id) + ": " + why +
                               names_of(store.maps(context.vehicle_id())));
@@ -43,10 +43,9 @@ std::vector<config::BoundStage> MapStoreService::stages(Settings& settings) {
 
 void MapStoreService::add_options(CLI::App& command_line, Settings& settings) {
   command_line.add_option("--database", settings.database,
-                          "SQLite file; map.sqlite in the state folder when not given");
+                          "SQLite file; default: map.sqlite in the state folder");
   command_line
-      .add_option("--map", settings.map_id,
-                  "Put this map of the vehicle in use again, in place of its latest")
+      .add_option("--map", settings.map_id, "Use this map of the vehicle instead of its latest")
       ->type_name("ID");
 }
 
@@ -60,8 +59,7 @@ MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& s
   publish_stored();
   context.read(dds::topics::kSubmapTile, app::Input::kOccasional,
                [this](const auto& tile) { take(tile); });
-  // The last tracks only pass through: this service outlives a crash of tracking, which takes them
-  // up again from here.
+  // Relays the last tracks: a tracking service that restarts after a crash restores them from here.
   context.read(dds::topics::kTrackedObjects, app::Input::kOccasional,
                [this](const slammot_TrackedObjects& objects) { stored_objects_.write(objects); });
   context.every(std::chrono::nanoseconds(static_cast<std::int64_t>(config_.retry_after_s * 1e9)),
@@ -74,11 +72,11 @@ void MapStoreService::take(const slammot_SubmapTile& tile) {
     context_.warn("faulty_tiles", "dropped a submap tile: " + std::string(added.fault));
   context_.status().counter("tiles") = assembler_.counters().tiles;
   context_.status().counter("incomplete_submaps") = assembler_.incomplete();
-  if (added.submap && !keep(*added.submap)) put_off(std::move(*added.submap));
+  if (added.submap && !store(*added.submap)) defer(std::move(*added.submap));
 }
 
-/// False when the database does not take it now.
-bool MapStoreService::keep(const flow::Submap& submap) {
+/// Stores and publishes a submap. Returns false if the write failed.
+bool MapStoreService::store(const flow::Submap& submap) {
   const app::Stopwatch stopwatch(context_.status().latency("put"));
   const PutResult result = store_.put(context_.vehicle_id(), submap);
   if (result == PutResult::kFailed) {
@@ -92,26 +90,26 @@ bool MapStoreService::keep(const flow::Submap& submap) {
     ++context_.status().counter("stored_submaps");
     if (map_id_ != submap.map_id) unreadable_.clear();
     unreadable_.erase(submap.submap_id);
-    withdraw_what_is_no_more();
+    withdraw_previous_map();
     publish(submap);
     publish_stored_map();
   }
   return true;
 }
 
-void MapStoreService::put_off(flow::Submap submap) {
+void MapStoreService::defer(flow::Submap submap) {
   unwritten_.push_back(std::move(submap));
   if (unwritten_.size() > static_cast<std::size_t>(config_.max_unwritten_submaps)) {
-    context_.warn(
-        "lost_submaps",
-        "gave up submap " + std::to_string(unwritten_.front().submap_id.value) + ": never written");
+    context_.warn("lost_submaps", "lost submap " +
+                                      std::to_string(unwritten_.front().submap_id.value) +
+                                      ": it could not be written");
     unwritten_.pop_front();
   }
   context_.status().counter("unwritten_submaps") = unwritten_.size();
 }
 
 void MapStoreService::retry() {
-  while (!unwritten_.empty() && keep(unwritten_.front())) unwritten_.pop_front();
+  while (!unwritten_.empty() && store(unwritten_.front())) unwritten_.pop_front();
   context_.status().counter("unwritten_submaps") = unwritten_.size();
   for (const flow::SubmapId id : std::set<flow::SubmapId>(std::move(unpublished_))) {
     if (const auto submap = store_.get(context_.vehicle_id(), id)) publish(*submap);
@@ -133,12 +131,12 @@ void MapStoreService::publish_stored() {
   if (!published_.empty())
     spdlog::info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value,
                  maps.size() > 1 ? names_of(maps) : "");
-  else tell_of_other_vehicles();
+  else report_other_vehicles();
   publish_stored_map();
 }
 
-/// A map is its vehicle's: whoever expects to find one wants to know under which name it is there.
-void MapStoreService::tell_of_other_vehicles() {
+/// Logs the vehicles that have maps: a stored map belongs to the id of one vehicle.
+void MapStoreService::report_other_vehicles() {
   std::string names;
   const std::vector<std::string> vehicles = store_.vehicles();
   for (const std::string& vehicle : vehicles) names += (names.empty() ? "" : ", ") + vehicle;
@@ -147,7 +145,7 @@ void MapStoreService::tell_of_other_vehicles() {
     spdlog::warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(), names);
 }
 
-/// What there is to go on in, after each change.
+/// Publishes the description of the stored map after each change.
 void MapStoreService::publish_stored_map() {
   const std::vector<flow::SubmapId> stored = store_.list(context_.vehicle_id());
   const flow::SubmapId last = stored.empty() ? flow::SubmapId{} : stored.back();
@@ -169,14 +167,14 @@ void MapStoreService::publish(const flow::Submap& submap) {
   cell_size_m_ = submap.cell_size_m;
   if (!all_written) {
     unpublished_.insert(submap.submap_id);
-    context_.warn("slow_readers", "a reader of stored submaps is slow; publishing again later");
+    context_.warn("slow_readers", "a reader of stored submaps is slow: publishes again later");
   } else {
     unpublished_.erase(submap.submap_id);
   }
 }
 
-/// A new map has begun: late joiners must not mix it with the one before.
-void MapStoreService::withdraw_what_is_no_more() {
+/// Withdraws tiles of the previous map, so that late joiners do not receive both.
+void MapStoreService::withdraw_previous_map() {
   const std::vector<flow::SubmapId> stored = store_.list(context_.vehicle_id());
   slammot_SubmapTile key{};
   wire::set_text(key.vehicle_id, context_.vehicle_id());

@@ -10,12 +10,12 @@
 
 namespace slammot::map_store {
 
-/// What SQLite answered, where it was not what was asked for. Does not leave Store.
+/// Fault reported by SQLite. Caught within Store.
 struct SqliteError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One prepared statement, its parameters bound in order. Throws SqliteError.
+/// A prepared statement; parameters are bound in order. Throws SqliteError.
 class Statement {
  public:
   Statement(sqlite3* database, std::string_view sql) : database_(database) {
@@ -29,20 +29,20 @@ class Statement {
     check(sqlite3_bind_int64(statement_.get(), ++bound_, value));
     return *this;
   }
-  /// The text must live until the last step.
+  /// `text` must outlive the last step.
   Statement& operator<<(std::string_view text) {
     check(sqlite3_bind_text(statement_.get(), ++bound_, text.data(), static_cast<int>(text.size()),
                             SQLITE_STATIC));
     return *this;
   }
-  /// The bytes must live until the last step.
+  /// `bytes` must outlive the last step.
   Statement& bind_blob(std::string_view bytes) {
     check(
         sqlite3_bind_blob64(statement_.get(), ++bound_, bytes.data(), bytes.size(), SQLITE_STATIC));
     return *this;
   }
 
-  /// Whether there is a (next) row.
+  /// Advances to the next row; false if there is none.
   bool step() {
     const int result = sqlite3_step(statement_.get());
     if (result != SQLITE_ROW && result != SQLITE_DONE) throw SqliteError(sqlite3_errmsg(database_));

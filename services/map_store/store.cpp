@@ -52,8 +52,9 @@ void Store::Close::operator()(sqlite3* database) const { sqlite3_close_v2(databa
 
 std::variant<Store, std::string> Store::open(const std::filesystem::path& file,
                                              const MapStoreConfig& config) {
-  std::error_code cannot_make;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), cannot_make);
+  std::error_code ignored_fault;
+  if (file.has_parent_path())
+    std::filesystem::create_directories(file.parent_path(), ignored_fault);
   sqlite3* handle = nullptr;
   const int result =
       sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
@@ -68,8 +69,8 @@ std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
   try {
     sqlite3_busy_timeout(database, static_cast<int>(std::lround(config.busy_timeout_s * 1e3)));
     Statement(database, "PRAGMA journal_mode = WAL").step();
-    // FULL: a commit is on the disk, also when the power fails next. Submaps come every few
-    // seconds, so it costs nothing.
+    // FULL: a commit survives a power failure. At one submap every few seconds the cost is
+    // negligible.
     Statement(database, "PRAGMA synchronous = FULL").step();
     if (config.max_database_mb > 0) {
       const std::int64_t pages = std::int64_t{config.max_database_mb} * 1024 * 1024 / kPageBytes;
@@ -77,7 +78,7 @@ std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
     }
     Statement version(database, "PRAGMA user_version");
     version.step();
-    if (version.integer(0) > kSchemaVersion) return "made by a later version of slammot";
+    if (version.integer(0) > kSchemaVersion) return "written by a later version of slammot";
     if (version.integer(0) == 1)
       Statement(database, "ALTER TABLE submap RENAME COLUMN drive TO map_id").step();
     Statement(database, kSchema).step();
@@ -164,7 +165,7 @@ std::vector<Store::StoredMap> Store::maps(std::string_view vehicle_id) {
   return maps;
 }
 
-/// A row that is put again is the last one that was put.
+/// Replacing a row makes it the last one that was added.
 bool Store::make_latest(std::string_view vehicle_id, flow::MapId map_id) {
   last_fault_.clear();
   try {

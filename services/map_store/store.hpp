@@ -16,48 +16,47 @@ struct sqlite3;
 namespace slammot::map_store {
 
 enum class PutResult {
-  kStored,  ///< Committed: survives a crash of this process and of the machine.
-  kKnown,   ///< The same submap was already there.
-  kOlder,   ///< A later version of it is there.
-  kFailed,  ///< Not stored; last_fault() says why.
+  kStored,  ///< Committed: survives a crash of the process or the machine.
+  kKnown,   ///< An equal submap is stored already.
+  kOlder,   ///< A later version is stored already.
+  kFailed,  ///< Not stored; last_fault() gives the reason.
 };
 
 /// Finished submaps of all vehicles in one SQLite file.
 ///
-/// get() and list() speak of the vehicle's latest map, the one to which a submap was added last;
-/// earlier ones stay in the file. One thread at a time. Several processes may have the same file
-/// open.
+/// get() and list() refer to the vehicle's latest map, to which a submap was added last; earlier
+/// maps stay in the file. Not thread-safe. Several processes may open one file.
 class Store {
  public:
-  /// Opens the database or makes it, folders too. Otherwise why that is not possible, in one line.
+  /// Opens or creates the database and its folders. Returns one line if that fails.
   static std::variant<Store, std::string> open(const std::filesystem::path& file,
                                                const MapStoreConfig& config);
 
-  /// Repeating it changes nothing. Of two versions of a submap of one map the one with the later
-  /// last stamp stays.
+  /// Stores a submap; idempotent. Of two versions of a submap of one map the one with the later
+  /// last stamp is kept.
   PutResult put(std::string_view vehicle_id, const flow::Submap& submap);
 
-  /// Nothing when there is none or it is damaged (then last_fault() is not empty).
+  /// nullopt if there is no such submap, or if it is damaged (last_fault() is then not empty).
   std::optional<flow::Submap> get(std::string_view vehicle_id, flow::SubmapId submap_id);
 
-  /// Ascending.
+  /// Ids of the stored submaps, ascending.
   std::vector<flow::SubmapId> list(std::string_view vehicle_id);
 
   struct StoredMap {
     flow::MapId map_id;
     std::int64_t submaps = 0;
   };
-  /// Of the vehicle, the latest one last.
+  /// Maps of the vehicle, the latest one last.
   std::vector<StoredMap> maps(std::string_view vehicle_id);
 
-  /// From now on it is the vehicle's latest map. False where there is no such map, or it could not
-  /// be done (then last_fault() is not empty).
+  /// Makes a map the vehicle's latest one. False if there is no such map, or on a fault
+  /// (last_fault() is then not empty).
   bool make_latest(std::string_view vehicle_id, flow::MapId map_id);
 
-  /// All that have a submap, sorted.
+  /// All vehicles with submaps, sorted.
   std::vector<std::string> vehicles();
 
-  /// Why the last call failed; empty when it did not.
+  /// Reason of the last call's failure; empty after success.
   const std::string& last_fault() const { return last_fault_; }
 
  private:

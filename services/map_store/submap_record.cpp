@@ -11,7 +11,7 @@ namespace slammot::map_store {
 namespace {
 
 constexpr int kDeflateLevel = 6;
-/// No submap comes near it; keeps a damaged blob from asking for all the memory there is.
+/// Greater than any record; limits the allocation for a damaged blob.
 constexpr std::size_t kMaxRecordBytes = std::size_t{256} << 20;
 
 void set_pose(const geometry::Pose2& pose, PoseRecord& record) {
@@ -55,7 +55,7 @@ SubmapRecord to_record(const flow::Submap& submap) {
   return record;
 }
 
-bool agrees_with_itself(const SubmapRecord& record) {
+bool is_consistent(const SubmapRecord& record) {
   const std::size_t cells = std::size_t{record.columns()} * record.rows();
   const int surfels = record.surfel_x_m_size();
   return record.so_log_odds().size() == cells && record.mo_evidence().size() == cells &&
@@ -97,7 +97,7 @@ flow::Submap from_record(const SubmapRecord& record) {
   return submap;
 }
 
-/// Blob: length of the record in 4 bytes, lowest first, then its zlib stream.
+/// Blob: length of the record in 4 bytes, little-endian, then its zlib stream.
 std::optional<std::string> inflated(std::string_view blob) {
   if (blob.size() < 4) return std::nullopt;
   std::size_t length = 0;
@@ -121,7 +121,7 @@ std::string to_blob(const flow::Submap& submap) {
   for (std::size_t i = 0; i < 4; ++i) blob[i] = static_cast<char>(bytes.size() >> (8 * i) & 0xFF);
   compress2(reinterpret_cast<Bytef*>(blob.data() + 4), &written,
             reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-            kDeflateLevel);  // cannot fail: the buffer is as large as compressBound() asks
+            kDeflateLevel);  // cannot fail: the buffer has the size given by compressBound()
   blob.resize(4 + written);
   return blob;
 }
@@ -129,7 +129,7 @@ std::string to_blob(const flow::Submap& submap) {
 std::optional<flow::Submap> from_blob(std::string_view blob) {
   const std::optional<std::string> bytes = inflated(blob);
   SubmapRecord record;
-  if (!bytes || !record.ParseFromString(*bytes) || !agrees_with_itself(record)) return std::nullopt;
+  if (!bytes || !record.ParseFromString(*bytes) || !is_consistent(record)) return std::nullopt;
   return from_record(record);
 }
 

@@ -9,10 +9,10 @@
 
 namespace slammot::map_store {
 
-/// The bytes that the database keeps for a submap: a SubmapRecord, deflated.
+/// Serializes a submap for the database: a compressed SubmapRecord.
 std::string to_blob(const flow::Submap& submap);
 
-/// The submap of a blob; nothing when the blob is damaged or its sizes contradict each other.
+/// Deserializes a submap; nullopt if the blob is damaged or its sizes are inconsistent.
 std::optional<flow::Submap> from_blob(std::string_view blob);
 
 }  // namespace slammot::map_store

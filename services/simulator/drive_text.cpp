@@ -14,27 +14,27 @@ using simulation::SimulatedScan;
 
 namespace {
 
-/// Decimal text with a fixed number of places, the same on every platform and in every locale.
-void append(std::string& text, double value, int places) {
+/// Decimal text with a fixed number of decimals, independent of platform and locale.
+void append(std::string& text, double value, int decimals) {
   std::array<char, 64> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                 std::chars_format::fixed, places);
+                                 std::chars_format::fixed, decimals);
   text.append(digits.data(), end.ptr);
 }
 
-void append_all(std::string& text, std::initializer_list<double> values, int places,
+void append_all(std::string& text, std::initializer_list<double> values, int decimals,
                 char separator) {
   for (const double value : values) {
-    append(text, value, places);
+    append(text, value, decimals);
     text += separator;
   }
 }
 
-void append_parameter(std::string& text, std::string_view name, double value, int places) {
+void append_parameter(std::string& text, std::string_view name, double value, int decimals) {
   text += "PARAM ";
   text += name;
   text += ' ';
-  append(text, value, places);
+  append(text, value, decimals);
   text += '\n';
 }
 
@@ -76,8 +76,9 @@ std::string robotlaser_line(const SimulatedScan& drive, const simulation::Scanne
   return text;
 }
 
-/// FLASER n ranges... x y theta odom_x odom_y odom_theta ipc_timestamp host logger_timestamp; no
-/// beam directions: by convention the first of 180 looks 90 degrees to the right, one degree apart.
+/// FLASER n ranges... x y theta odom_x odom_y odom_theta ipc_timestamp host logger_timestamp. The
+/// record has no beam directions: by convention 180 beams, one degree apart, from 90 degrees to the
+/// right.
 std::string flaser_line(const SimulatedScan& drive) {
   std::string text = "FLASER ";
   append_ranges(text, drive);

@@ -6,22 +6,22 @@
 
 namespace slammot::simulator {
 
-// A drive as text: whole lines, the same on every platform and in every locale.
+// Text formats of a drive. All functions return whole lines, independent of platform and locale.
 
-/// First lines of a CARMEN log of all scanners: mountings as PARAM robot_frontlaser_* and, of the
-/// scanner N from 2 on, robot_laserN_*.
+/// First lines of a CARMEN log of all scanners: mountings as PARAM robot_frontlaser_*, and
+/// robot_laserN_* of scanner N from 2 on.
 std::string log_header(const simulation::ScenarioConfig& scenario);
-/// ROBOTLASER1 or FLASER, as the scenario says; ROBOTLASERn where there are several scanners. Pose
-/// by odometry.
+/// ROBOTLASER1 or FLASER, as the scenario selects; ROBOTLASERn with several scanners. The pose is
+/// odometry.
 std::string log_line(const simulation::SimulatedScan& drive,
                      const simulation::ScenarioConfig& scenario);
 
-/// The same of a log that has one of several scanners only, as if it were the vehicle's first one.
+/// Header and lines of a log of one of several scanners, as if it were the vehicle's first one.
 std::string header_of_log_of(const simulation::ScenarioConfig& scenario, std::size_t scanner);
 std::string line_of_log_of_its_scanner(const simulation::SimulatedScan& drive,
                                        const simulation::ScenarioConfig& scenario);
 
-/// "stamp x y 0 0 0 qz qw": the vehicle's centre in the world.
+/// "stamp x y 0 0 0 qz qw": the vehicle's centre in world.
 std::string tum_line(const simulation::SimulatedScan& drive);
 
 std::string objects_header();
@@ -29,7 +29,7 @@ std::string objects_header();
 std::string object_lines(const simulation::SimulatedScan& drive);
 
 std::string hits_header();
-/// What each beam hit, runs of the same together: "timestamp,scanner,hit*beams hit*beams ...".
+/// Run-length encoded hits of the beams: "timestamp,scanner,hit*beams hit*beams ...".
 std::string hits_line(const simulation::SimulatedScan& drive);
 
 std::string gnss_header();
@@ -37,7 +37,7 @@ std::string gnss_line(const sensing::GnssFix& fix);
 std::string compass_header();
 std::string compass_line(const sensing::CompassReading& reading);
 
-/// Header and one line for each segment of what stands still.
+/// Header and one line for each stationary segment.
 std::string wall_lines(const simulation::Outline& stationary_in_world);
 
 }  // namespace slammot::simulator

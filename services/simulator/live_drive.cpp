@@ -9,11 +9,11 @@
 namespace slammot::simulator {
 namespace {
 
-constexpr std::size_t kMostAhead = 64;
+constexpr std::size_t kMaxAheadLines = 64;
 
-/// As written to and read from the log, with so many decimal places.
-double with_places(double value, int places) {
-  const double scale = std::pow(10.0, places);
+/// Rounds as writing to and reading from a log does.
+double rounded_to_decimals(double value, int decimals) {
+  const double scale = std::pow(10.0, decimals);
   return std::round(value * scale) / scale;
 }
 
@@ -34,14 +34,15 @@ files::ScannerPlan scanner_plan(const simulation::ScenarioConfig& scenario, std:
   plan.kind = is_flaser ? files::LaserRecordKind::kFlaser : files::LaserRecordKind::kRobotLaser1;
   plan.name = is_flaser ? "FLASER" : "ROBOTLASER" + std::to_string(index + 1);
   plan.slot = static_cast<std::uint8_t>(index + 1);
-  plan.base_from_laser = {with_places(scanner.ahead_m, 3), with_places(scanner.left_m, 3),
-                          with_places(scanner.heading_rad, 6)};
+  plan.base_from_laser = {rounded_to_decimals(scanner.ahead_m, 3),
+                          rounded_to_decimals(scanner.left_m, 3),
+                          rounded_to_decimals(scanner.heading_rad, 6)};
   plan.max_range_m = static_cast<double>(static_cast<float>(scanner.max_range_m));
   plan.scans = scans_of(scenario, index);
   return plan;
 }
 
-/// What is known of a scanner's figures before the drive.
+/// Figures of a scanner that are known before the drive.
 files::LogFigures figures_of(const simulation::ScenarioConfig& scenario, std::size_t index) {
   const simulation::ScannerConfig& scanner = scenario.scanner_at(index);
   files::LogFigures figures;
@@ -63,7 +64,7 @@ LiveDrive::LiveDrive(const simulation::ScenarioConfig& scenario,
       drive_(scenario),
       truth_(truth_prefix, drive_.stationary_in_world(), HitsFile::written),
       log_(std::filesystem::path(truth_prefix) += ".log.gz"),
-      scans_(count_of_scans(scenario)),
+      scans_(scan_count(scenario)),
       thread_([this](const std::stop_token& stop) { simulate(stop); }) {}
 
 void LiveDrive::simulate(const std::stop_token& stop) {
@@ -88,10 +89,10 @@ void LiveDrive::simulate(const std::stop_token& stop) {
   changed_.notify_all();
 }
 
-/// False when nobody reads any more.
+/// False if the reader has stopped.
 bool LiveDrive::put(std::string text, const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  if (!changed_.wait(lock, stop, [this] { return ahead_.size() < kMostAhead; })) return false;
+  if (!changed_.wait(lock, stop, [this] { return ahead_.size() < kMaxAheadLines; })) return false;
   ahead_.push_back(std::move(text));
   changed_.notify_all();
   return true;
@@ -114,7 +115,7 @@ double LiveDrive::fraction_read() const {
              : std::min(1.0, static_cast<double>(line_number_) / static_cast<double>(scans_));
 }
 
-std::uint64_t count_of_scans(const simulation::ScenarioConfig& scenario) {
+std::uint64_t scan_count(const simulation::ScenarioConfig& scenario) {
   std::uint64_t scans = 0;
   for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i) scans += scans_of(scenario, i);
   return scans;

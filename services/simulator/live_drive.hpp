@@ -17,10 +17,9 @@
 
 namespace slammot::simulator {
 
-/// A drive that is simulated while it is read: the lines that write_drive() would put into its log.
-/// A thread of its own works ahead of the reader by a few scans and writes the truth and, as
-/// PREFIX.log.gz, the lines; who reads fast waits, so that the lines are the same whatever the
-/// speed.
+/// A drive that is simulated while it is read: yields the lines that write_drive() writes into the
+/// log. A separate thread works a few scans ahead of the reader and writes the ground truth and
+/// PREFIX.log.gz. The lines do not depend on the reader's speed.
 class LiveDrive : public files::LineSource {
  public:
   LiveDrive(const simulation::ScenarioConfig& scenario, const std::filesystem::path& truth_prefix);
@@ -44,16 +43,15 @@ class LiveDrive : public files::LineSource {
   bool has_ended_ = false;         // guarded by mutex_
   std::string line_;
   std::uint64_t line_number_ = 0;
-  std::jthread thread_;  // last: it uses all of the above
+  std::jthread thread_;  // Last member: uses all others.
 };
 
-/// What a survey of the log would say of how to read it, and of its figures what is known before
-/// the drive. wanted: as CarmenLogOptions::scanners; fails for the name of a scanner that the drive
-/// does not have.
+/// The plan that a survey of the log would give, with the figures that are known before the drive.
+/// `wanted`: as CarmenLogOptions::scanners; fails for unknown scanners.
 files::Result<files::LogPlan> plan_of(const simulation::ScenarioConfig& scenario,
                                       const std::vector<std::string>& wanted = {});
 
-/// Scans of all scanners.
-std::uint64_t count_of_scans(const simulation::ScenarioConfig& scenario);
+/// Number of scans of all scanners.
+std::uint64_t scan_count(const simulation::ScenarioConfig& scenario);
 
 }  // namespace slammot::simulator

@@ -20,189 +20,205 @@ constexpr Range kMetres{-1e5, 1e5};
 
 FieldTable<CityConfig> city_fields() {
   return {
-      {"blocks_east", &CityConfig::blocks_east, "Blocks from west to east.", {1, 30}},
-      {"blocks_north", &CityConfig::blocks_north, "Blocks from south to north.", {1, 30}},
+      {"blocks_east", &CityConfig::blocks_east, "Number of blocks from west to east.", {1, 30}},
+      {"blocks_north", &CityConfig::blocks_north, "Number of blocks from south to north.", {1, 30}},
       {"block_pitch_m",
        &CityConfig::block_pitch_m,
-       "From street to street, before the variation.",
+       "Mean distance between neighbouring streets.",
        {50, 500}},
       {"pitch_variation",
        &CityConfig::pitch_variation,
-       "Each row and column of blocks differs by up to this share.",
+       "Greatest deviation of that distance, as a share of it.",
        {0, 0.5}},
-      {"bend_m",
-       &CityConfig::bend_m,
-       "Streets swing this far to either side of straight.",
-       {0, 10}},
-      {"bend_length_m", &CityConfig::bend_length_m, "Wavelength of that swing.", {100, 1e5}},
+      {"bend_m", &CityConfig::bend_m, "Amplitude of the sinusoidal course of streets.", {0, 10}},
+      {"bend_length_m",
+       &CityConfig::bend_length_m,
+       "Wavelength of the course of streets.",
+       {100, 1e5}},
       {"lane_offset_m", &CityConfig::lane_offset_m,
-       "Middle of a lane from the middle of the street.", kPositive},
+       "Distance of lane centres from the centre of the street.", kPositive},
       {"bicycle_offset_m", &CityConfig::bicycle_offset_m,
-       "Where bicycles go, from the middle of the street.", kPositive},
+       "Distance of bicycles from the centre of the street.", kPositive},
       {"parking_offset_m", &CityConfig::parking_offset_m,
-       "Where cars are parked, from the middle of the street.", kPositive},
-      {"curb_m", &CityConfig::curb_m, "The kerb, from the middle of the street.", kPositive},
-      {"front_m", &CityConfig::front_m, "Nearest a building comes to the middle of the street.",
+       "Distance of parked cars from the centre of the street.", kPositive},
+      {"curb_m", &CityConfig::curb_m, "Distance of the kerb from the centre of the street.",
        kPositive},
-      {"stop_line_m", &CityConfig::stop_line_m, "From the middle of the junction.", kPositive},
+      {"front_m", &CityConfig::front_m,
+       "Least distance of buildings from the centre of the street.", kPositive},
+      {"stop_line_m", &CityConfig::stop_line_m,
+       "Distance of stop lines from the centre of the junction.", kPositive},
       {"signalled_share", &CityConfig::signalled_share,
-       "Of the junctions; the others go by who comes first.", kShare},
-      {"parked_share", &CityConfig::parked_share, "Of the kerb.", kShare},
-      {"tree_spacing_m", &CityConfig::tree_spacing_m, "Between the trees of a street.", kPositive},
-      {"lamp_spacing_m", &CityConfig::lamp_spacing_m, "Between the lamps of a street.", kPositive},
+       "Share of junctions with traffic lights; at the others the first to arrive has priority.",
+       kShare},
+      {"parked_share", &CityConfig::parked_share, "Share of the kerb with parked cars.", kShare},
+      {"tree_spacing_m", &CityConfig::tree_spacing_m, "Distance between the trees of a street.",
+       kPositive},
+      {"lamp_spacing_m", &CityConfig::lamp_spacing_m,
+       "Distance between the lamp posts of a street.", kPositive},
       {"park_share", &CityConfig::park_share,
-       "Of the blocks: trees and bushes in place of buildings.", kShare},
+       "Share of blocks with trees and bushes instead of buildings.", kShare},
       {"gap_share", &CityConfig::gap_share,
-       "Of a block's side: alleys and car parks between buildings.", kShare},
+       "Share of a block's side without buildings: alleys and car parks.", kShare},
   };
 }
 
 FieldTable<JunctionId> junction_fields() {
-  return {{"column", &JunctionId::column, "From the west, from 0.", {0, 30}},
-          {"row", &JunctionId::row, "From the south, from 0.", {0, 30}}};
+  return {{"column", &JunctionId::column, "Column of junctions, from the west, from 0.", {0, 30}},
+          {"row", &JunctionId::row, "Row of junctions, from the south, from 0.", {0, 30}}};
 }
 
 FieldTable<OfficeCorner> office_corner_fields() {
-  return {{"column",
-           &OfficeCorner::column,
-           "Of the corridors that run north, from the west, from 0.",
-           {0, 30}},
-          {"row", &OfficeCorner::row, "0 the southern, 1 the northern corridor.", {0, 1}}};
+  return {
+      {"column",
+       &OfficeCorner::column,
+       "Corridor that runs north, from the west, from 0.",
+       {0, 30}},
+      {"row", &OfficeCorner::row, "0: the southern corridor, 1: the northern corridor.", {0, 1}}};
 }
 
 FieldTable<TrafficConfig> traffic_fields() {
   return {
-      {"cars", &TrafficConfig::cars, "How many; fewer where the streets are full.", kCount},
-      {"trucks", &TrafficConfig::trucks, "How many.", kCount},
-      {"buses", &TrafficConfig::buses, "How many.", kCount},
-      {"bicycles", &TrafficConfig::bicycles, "How many.", kCount},
+      {"cars", &TrafficConfig::cars, "Number of cars; fewer if the streets are full.", kCount},
+      {"trucks", &TrafficConfig::trucks, "Number of trucks.", kCount},
+      {"buses", &TrafficConfig::buses, "Number of buses.", kCount},
+      {"bicycles", &TrafficConfig::bicycles, "Number of bicycles.", kCount},
       {"stopping_share", &TrafficConfig::stopping_share,
-       "Of the cars and trucks: those that stop in the lane now and then.", kShare},
+       "Share of cars and trucks that stop in the lane occasionally.", kShare},
       list_of("car_ahead", &TrafficConfig::car_ahead, junction_fields(),
-              "Corners of the way of a car that stops and goes right ahead of the vehicle."),
-      {"green_s", &TrafficConfig::green_s, "Of each axis at a signalled junction.", kPositive},
-      {"clearance_s", &TrafficConfig::clearance_s, "Red for all after each green.", kNotNegative},
+              "Corners of the path of a stop-and-go car directly ahead of the vehicle."),
+      {"green_s", &TrafficConfig::green_s, "Duration of green of each axis of a junction.",
+       kPositive},
+      {"clearance_s", &TrafficConfig::clearance_s, "Duration of red for all after each green.",
+       kNotNegative},
   };
 }
 
 FieldTable<RouteConfig> route_fields() {
   return {
       list_of("junctions", &RouteConfig::junctions, junction_fields(),
-              "Corners of the vehicle's way, straight streets between; at random after the last."),
-      {"start_m", &RouteConfig::start_m, "Behind the stop line of the first junction.", kPositive},
-      {"speed_factor", &RouteConfig::speed_factor, "Of the limit.", {0.1, 3}},
+              "Corners of the vehicle's route, joined by straight streets; random after the last."),
+      {"start_m", &RouteConfig::start_m,
+       "Distance of the start before the stop line of the first junction.", kPositive},
+      {"speed_factor", &RouteConfig::speed_factor, "Speed as a multiple of the limit.", {0.1, 3}},
       {"hard_brake_every_s", &RouteConfig::hard_brake_every_s,
-       "Mean time between frights of the driver; 0: none.", kNotNegative},
-      {"hard_brake_mps2", &RouteConfig::hard_brake_mps2, "How hard the vehicle then brakes.",
+       "Mean time between emergency stops of the vehicle; 0: none.", kNotNegative},
+      {"hard_brake_mps2", &RouteConfig::hard_brake_mps2, "Deceleration of an emergency stop.",
        kNotNegative},
-      {"length_m", &RouteConfig::length_m, "Of the vehicle.", kPositive},
-      {"width_m", &RouteConfig::width_m, "Of the vehicle.", kPositive},
+      {"length_m", &RouteConfig::length_m, "Length of the vehicle.", kPositive},
+      {"width_m", &RouteConfig::width_m, "Width of the vehicle.", kPositive},
   };
 }
 
 FieldTable<WalkersConfig> walkers_fields() {
   return {
-      {"pedestrians", &WalkersConfig::pedestrians, "How many.", kCount},
-      {"speed_mps", &WalkersConfig::speed_mps, "Mean.", kPositive},
-      {"speed_sigma_mps", &WalkersConfig::speed_sigma_mps, "How people differ.", kNotNegative},
-      {"runner_share", &WalkersConfig::runner_share, "Of those who are alone.", kShare},
-      {"pair_share", &WalkersConfig::pair_share, "Of the groups: two side by side.", kShare},
-      {"trio_share", &WalkersConfig::trio_share, "Of the groups: three side by side.", kShare},
+      {"pedestrians", &WalkersConfig::pedestrians, "Number of pedestrians.", kCount},
+      {"speed_mps", &WalkersConfig::speed_mps, "Mean speed.", kPositive},
+      {"speed_sigma_mps", &WalkersConfig::speed_sigma_mps,
+       "One sigma of the speed over pedestrians.", kNotNegative},
+      {"runner_share", &WalkersConfig::runner_share, "Share of runners among single pedestrians.",
+       kShare},
+      {"pair_share", &WalkersConfig::pair_share,
+       "Share of groups with two pedestrians side by side.", kShare},
+      {"trio_share", &WalkersConfig::trio_share,
+       "Share of groups with three pedestrians side by side.", kShare},
       {"pause_every_s", &WalkersConfig::pause_every_s, "Mean time between pauses.", kPositive},
       {"pause_s", &WalkersConfig::pause_s, "Longest pause.", kNotNegative},
       {"sideways_m", &WalkersConfig::sideways_m,
-       "People keep up to this far from the middle of the way.", kNotNegative},
-      {"step_aside_m", &WalkersConfig::step_aside_m,
-       "They step this far aside to let a vehicle pass.", kNotNegative},
+       "Greatest distance from the centre of the pavement or corridor.", kNotNegative},
+      {"step_aside_m", &WalkersConfig::step_aside_m, "Sidestep for a passing vehicle.",
+       kNotNegative},
   };
 }
 
 FieldTable<OfficeConfig> office_fields() {
   return {
-      {"length_m", &OfficeConfig::length_m, "Of the ring of corridors from west to east.",
+      {"length_m", &OfficeConfig::length_m, "Length of the ring of corridors from west to east.",
        kPositive},
-      {"depth_m", &OfficeConfig::depth_m, "Of the ring from south to north.", kPositive},
-      {"cross_corridors", &OfficeConfig::cross_corridors, "Between the ring's two ends.", {0, 20}},
+      {"depth_m", &OfficeConfig::depth_m, "Length of the ring of corridors from south to north.",
+       kPositive},
+      {"cross_corridors",
+       &OfficeConfig::cross_corridors,
+       "Number of corridors across the ring.",
+       {0, 20}},
       {"corridor_m", &OfficeConfig::corridor_m, "Width of a corridor.", kPositive},
-      {"open_door_share", &OfficeConfig::open_door_share, "Of the doors.", kShare},
-      {"furniture_share", &OfficeConfig::furniture_share, "Of the places along a room's walls.",
-       kShare},
+      {"open_door_share", &OfficeConfig::open_door_share, "Share of open doors.", kShare},
+      {"furniture_share", &OfficeConfig::furniture_share,
+       "Share of occupied places along a room's walls.", kShare},
       {"corridor_furniture_per_m", &OfficeConfig::corridor_furniture_per_m,
-       "Things that stand in a corridor.", kNotNegative},
+       "Objects per metre of corridor.", kNotNegative},
   };
 }
 
 FieldTable<RobotConfig> robot_fields() {
   return {
-      {"speed_mps", &RobotConfig::speed_mps, "In corridors.", kPositive},
-      {"turning_speed_mps", &RobotConfig::turning_speed_mps, "In bends.", kPositive},
-      {"acceleration_mps2", &RobotConfig::acceleration_mps2, "And a third of its braking.",
+      {"speed_mps", &RobotConfig::speed_mps, "Speed in corridors.", kPositive},
+      {"turning_speed_mps", &RobotConfig::turning_speed_mps, "Speed in turns.", kPositive},
+      {"acceleration_mps2", &RobotConfig::acceleration_mps2,
+       "Acceleration, and a third of the deceleration.", kPositive},
+      {"bend_m", &RobotConfig::bend_m, "Distance from the beginning of a turn to the corner.",
        kPositive},
-      {"bend_m", &RobotConfig::bend_m, "From where it leaves the straight to the corner.",
-       kPositive},
-      {"diameter_m", &RobotConfig::diameter_m, "Of the robot.", kPositive},
-      {"keep_clear_m", &RobotConfig::keep_clear_m, "Stops for people this near ahead.",
-       kNotNegative},
+      {"diameter_m", &RobotConfig::diameter_m, "Diameter of the robot.", kPositive},
+      {"keep_clear_m", &RobotConfig::keep_clear_m,
+       "Distance to a person ahead at which the robot stops.", kNotNegative},
   };
 }
 
 FieldTable<PlaceInWorld> place_fields() {
-  return {{"x_m", &PlaceInWorld::x_m, "East, in the world frame.", kMetres},
-          {"y_m", &PlaceInWorld::y_m, "North, in the world frame.", kMetres}};
+  return {{"x_m", &PlaceInWorld::x_m, "East, in world.", kMetres},
+          {"y_m", &PlaceInWorld::y_m, "North, in world.", kMetres}};
 }
 
 FieldTable<SpeedAt> speed_fields() {
-  return {{"at_s", &SpeedAt::at_s, "After the first scan."},
+  return {{"at_s", &SpeedAt::at_s, "Time since the first scan."},
           {"mps", &SpeedAt::mps, "Speed at that time.", {0, 100}}};
 }
 
 FieldTable<ScriptedObject> object_fields() {
   return {
-      {"kind", &ScriptedObject::kind, "What it is."},
-      {"length_m", &ScriptedObject::length_m, "0: usual for its kind.", kNotNegative},
-      {"width_m", &ScriptedObject::width_m, "0: usual for its kind.", kNotNegative},
-      list_of(
-          "way", &ScriptedObject::way, place_fields(),
-          "Places that its centre passes, straight from one to the next; stays at a single one."),
-      {"heading_rad", &ScriptedObject::heading_rad, "Of what stays.", kAnyAngle},
-      {"bend_m", &ScriptedObject::bend_m,
-       "Corners of the way are rounded from this far before them on.", kPositive},
+      {"kind", &ScriptedObject::kind, "Class of the object."},
+      {"length_m", &ScriptedObject::length_m, "0: typical of the class.", kNotNegative},
+      {"width_m", &ScriptedObject::width_m, "0: typical of the class.", kNotNegative},
+      list_of("way", &ScriptedObject::way, place_fields(),
+              "Points on the path of its centre, joined by straight lines; a single point: "
+              "stationary."),
+      {"heading_rad", &ScriptedObject::heading_rad, "Heading of a stationary object.", kAnyAngle},
+      {"bend_m", &ScriptedObject::bend_m, "Distance from the beginning of a turn to the corner.",
+       kPositive},
       list_of("speed", &ScriptedObject::speed, speed_fields(),
-              "Even change of speed between these times; stands without any."),
-      {"from_s", &ScriptedObject::from_s, "In the world from here."},
-      {"until_s", &ScriptedObject::until_s, "In the world to here."},
+              "Speeds, interpolated linearly in time; none: stationary."),
+      {"from_s", &ScriptedObject::from_s, "Time at which the object appears."},
+      {"until_s", &ScriptedObject::until_s, "Time at which the object disappears."},
       {"carries_scanner", &ScriptedObject::carries_scanner,
-       "A further vehicle, with a log of its own."},
-      {"copies",
-       &ScriptedObject::copies,
-       "The same so many times, with these differences at random.",
-       {1, 500}},
+       "A further vehicle with scanners and its own log."},
+      {"copies", &ScriptedObject::copies, "Number of copies with random variations.", {1, 500}},
       {"ahead_variation_m", &ScriptedObject::ahead_variation_m,
-       "Starts up to this far along the way.", kNotNegative},
+       "Greatest variation of the start along the path.", kNotNegative},
       {"sideways_variation_m", &ScriptedObject::sideways_variation_m,
-       "Moves up to this far beside the way.", kNotNegative},
-      {"speed_variation", &ScriptedObject::speed_variation, "Up to this share faster or slower.",
-       kShare},
+       "Greatest lateral distance from the path.", kNotNegative},
+      {"speed_variation", &ScriptedObject::speed_variation,
+       "Greatest variation of the speed, as a share of it.", kShare},
   };
 }
 
 FieldTable<ScriptedFront> front_fields() {
   return {
       list_of("along", &ScriptedFront::along, place_fields(),
-              "Corners; what stands out goes to the left of the way along them."),
-      {"bay_m", &ScriptedFront::bay_m, "Mean width of what stands out or back.", kPositive},
-      {"depth_m", &ScriptedFront::depth_m, "How far at most; 0: a plain wall.", kNotNegative},
-      {"gap_share", &ScriptedFront::gap_share, "Of the bays: nothing there.", kShare},
+              "Corners of the front; projections extend to the left of its direction."),
+      {"bay_m", &ScriptedFront::bay_m, "Mean width of projections and recesses.", kPositive},
+      {"depth_m", &ScriptedFront::depth_m, "Greatest depth of projections; 0: a plane wall.",
+       kNotNegative},
+      {"gap_share", &ScriptedFront::gap_share, "Share of gaps.", kShare},
   };
 }
 
 FieldTable<ScriptedRow> row_fields() {
   FieldTable<ScriptedRow> table = {
-      {"of", &ScriptedRow::of, "What stands there."},
-      {"spacing_m", &ScriptedRow::spacing_m, "0: one thing, at `from`.", kNotNegative},
-      {"variation_m", &ScriptedRow::variation_m, "Each is up to this far from its place.",
+      {"of", &ScriptedRow::of, "Kind of object."},
+      {"spacing_m", &ScriptedRow::spacing_m,
+       "Distance between objects; 0: a single object at `from`.", kNotNegative},
+      {"variation_m", &ScriptedRow::variation_m, "Greatest variation of the position.",
        kNotNegative},
-      {"radius_m", &ScriptedRow::radius_m, "Of posts and bushes.", kPositive},
+      {"radius_m", &ScriptedRow::radius_m, "Radius of posts and bushes.", kPositive},
   };
   table = with_nested(std::move(table), "from", &ScriptedRow::from, place_fields());
   return with_nested(std::move(table), "to", &ScriptedRow::to, place_fields());
@@ -210,79 +226,88 @@ FieldTable<ScriptedRow> row_fields() {
 
 FieldTable<ScriptConfig> script_fields() {
   FieldTable<ScriptConfig> table = {
-      list_of("objects", &ScriptConfig::objects, object_fields(),
-              "Everything else that moves or could."),
+      list_of("objects", &ScriptConfig::objects, object_fields(), "All other movable objects."),
       list_of("fronts", &ScriptConfig::fronts, front_fields(), "House fronts and walls."),
-      list_of("rows", &ScriptConfig::rows, row_fields(), "Posts, bushes, parked cars."),
+      list_of("rows", &ScriptConfig::rows, row_fields(), "Rows of posts, bushes or parked cars."),
   };
   return with_nested(std::move(table), "vehicle", &ScriptConfig::vehicle, object_fields());
 }
 
 FieldTable<HeightAt> height_fields() {
-  return {{"x_m", &HeightAt::x_m, "East, in the world frame, ascending.", kMetres},
-          {"z_m", &HeightAt::z_m, "Height of the road there.", kMetres}};
+  return {{"x_m", &HeightAt::x_m, "East, in world, ascending.", kMetres},
+          {"z_m", &HeightAt::z_m, "Height of the road.", kMetres}};
 }
 
 FieldTable<SuspensionConfig> suspension_fields() {
   return {
       {"pitch_per_mps2_rad", &SuspensionConfig::pitch_per_mps2_rad,
-       "At rest under constant acceleration.", kNotNegative},
-      {"frequency_hz", &SuspensionConfig::frequency_hz, "Of the body on its springs.", {0.1, 5}},
-      {"damping_ratio", &SuspensionConfig::damping_ratio, "Of these springs.", {0, 2}},
+       "Static pitch per acceleration.", kNotNegative},
+      {"frequency_hz",
+       &SuspensionConfig::frequency_hz,
+       "Natural frequency of the pitch.",
+       {0.1, 5}},
+      {"damping_ratio", &SuspensionConfig::damping_ratio, "Damping ratio of the pitch.", {0, 2}},
   };
 }
 
 FieldTable<OdometryConfig> odometry_fields() {
   return {
       {"scale_error_low", &OdometryConfig::scale_error_low,
-       "Wheel size is wrong by at least this share, either way,", kNotNegative},
-      {"scale_error_high", &OdometryConfig::scale_error_high, "and at most by this.", kNotNegative},
-      {"distance_noise", &OdometryConfig::distance_noise, "Of each step's length, one sigma.",
-       kNotNegative},
+       "Least magnitude of the relative scale error.", kNotNegative},
+      {"scale_error_high", &OdometryConfig::scale_error_high,
+       "Greatest magnitude of the relative scale error.", kNotNegative},
+      {"distance_noise", &OdometryConfig::distance_noise,
+       "One sigma of the length of a step, as a share of it.", kNotNegative},
       {"heading_noise_rad", &OdometryConfig::heading_noise_rad,
-       "Of each step while moving, one sigma.", kNotNegative},
+       "One sigma of the rotation of a step, while moving.", kNotNegative},
       {"rate_bias_sigma_radps", &OdometryConfig::rate_bias_sigma_radps,
-       "Heading rate at rest; drawn once a drive.", kNotNegative},
+       "One sigma of the bias of the heading rate, constant during a drive.", kNotNegative},
       {"rate_bias_walk_radps", &OdometryConfig::rate_bias_walk_radps,
-       "Its drift in one second, one sigma.", kNotNegative},
+       "One sigma of the drift of that bias in one second.", kNotNegative},
   };
 }
 
 FieldTable<ScannerConfig> scanner_fields() {
   return {
-      {"scanner_id", &ScannerConfig::scanner_id, "Its name."},
-      {"ahead_m", &ScannerConfig::ahead_m, "Of the vehicle's centre.", kMetres},
-      {"left_m", &ScannerConfig::left_m, "Of the vehicle's centre.", kMetres},
+      {"scanner_id", &ScannerConfig::scanner_id, "Name of the scanner."},
+      {"ahead_m", &ScannerConfig::ahead_m, "Position forward of the vehicle's centre.", kMetres},
+      {"left_m", &ScannerConfig::left_m, "Position to the left of the vehicle's centre.", kMetres},
       {"heading_rad", &ScannerConfig::heading_rad,
-       "Where it looks, counter-clockwise from straight ahead.", kAnyAngle},
-      {"nose_down_rad", &ScannerConfig::nose_down_rad, "Tipped forward.", kAnyAngle},
-      {"left_up_rad", &ScannerConfig::left_up_rad,
-       "Tipped to its right; 1.5708 scans a vertical profile.", kAnyAngle},
-      {"height_m", &ScannerConfig::height_m, "Above the road.", kPositive},
-      {"beams", &ScannerConfig::beams, "In a scan.", {2, 8192}},
-      {"first_beam_rad", &ScannerConfig::first_beam_rad,
-       "Direction of the first beam, counter-clockwise from straight ahead.", kAnyAngle},
-      {"field_of_view_rad", &ScannerConfig::field_of_view_rad, "From the first to the last beam.",
+       "Heading of the scanner in base, counter-clockwise.", kAnyAngle},
+      {"nose_down_rad", &ScannerConfig::nose_down_rad, "Pitch of the scanner, positive down.",
        kAnyAngle},
-      {"rate_hz", &ScannerConfig::rate_hz, "Scans in a second.", {1, 200}},
+      {"left_up_rad", &ScannerConfig::left_up_rad,
+       "Roll of the scanner to the right; 1.5708: a vertical profile.", kAnyAngle},
+      {"height_m", &ScannerConfig::height_m, "Height above the road.", kPositive},
+      {"beams", &ScannerConfig::beams, "Beams per scan.", {2, 8192}},
+      {"first_beam_rad", &ScannerConfig::first_beam_rad,
+       "Direction of the first beam from the scanner's heading, counter-clockwise.", kAnyAngle},
+      {"field_of_view_rad", &ScannerConfig::field_of_view_rad,
+       "Angle from the first to the last beam.", kAnyAngle},
+      {"rate_hz", &ScannerConfig::rate_hz, "Scans per second.", {1, 200}},
       {"delay_s",
        &ScannerConfig::delay_s,
-       "Of a further scanner's first scan behind that of the first one.",
+       "Delay of a further scanner's first scan after that of the first scanner.",
        {0, 10}},
-      {"sweep_s", &ScannerConfig::sweep_s, "From the first to the last beam.", kNotNegative},
-      {"max_range_m", &ScannerConfig::max_range_m, "Reading for no echo.", kPositive},
-      {"resolution_m", &ScannerConfig::resolution_m, "Step of the readings.", kPositive},
+      {"sweep_s", &ScannerConfig::sweep_s, "Time from the first to the last beam.", kNotNegative},
+      {"max_range_m", &ScannerConfig::max_range_m, "Greatest range, and the reading without echo.",
+       kPositive},
+      {"resolution_m", &ScannerConfig::resolution_m, "Resolution of readings.", kPositive},
       {"noise", &ScannerConfig::noise,
-       "Of ranges: AS_GIVEN by the next two, DATA_SHEET (0.01 m) or CONSERVATIVE (1 % of the "
-       "range)."},
-      {"noise_floor_m", &ScannerConfig::noise_floor_m, "One sigma at no distance.", kNotNegative},
-      {"noise_per_m", &ScannerConfig::noise_per_m, "Growth of sigma with range.", kNotNegative},
-      {"spot_rad", &ScannerConfig::spot_rad, "Full width of the beam.", kNotNegative},
+       "Noise of ranges: AS_GIVEN (the next two settings), DATA_SHEET (0.01 m) or CONSERVATIVE (1 "
+       "% of the range)."},
+      {"noise_floor_m", &ScannerConfig::noise_floor_m, "One sigma of a range at range zero.",
+       kNotNegative},
+      {"noise_per_m", &ScannerConfig::noise_per_m, "Increase of sigma per metre of range.",
+       kNotNegative},
+      {"spot_rad", &ScannerConfig::spot_rad, "Full width of a beam.", kNotNegative},
       {"mixed_share", &ScannerConfig::mixed_share,
-       "Of the spots split over an edge: reading between the two surfaces.", kShare},
-      {"drop_out", &ScannerConfig::drop_out, "Echo lost at no distance.", kShare},
+       "Share of mixed pixels among the beams that hit two surfaces.", kShare},
+      {"drop_out", &ScannerConfig::drop_out, "Probability of a lost echo at range zero.", kShare},
       {"dark_drop_out", &ScannerConfig::dark_drop_out,
-       "Echo from a car lost at maximum range; grows with the square of range.", kShare},
+       "Probability of a lost echo from a car at maximum range; proportional to the square of the "
+       "range.",
+       kShare},
   };
 }
 
@@ -290,29 +315,33 @@ FieldTable<GnssConfig> gnss_fields() {
   return {
       {"rate_hz",
        &GnssConfig::rate_hz,
-       "Fixes in a second, at most one a scan; 0: no receiver.",
+       "Fixes per second, at most one per scan; 0: no receiver.",
        {0, 100}},
       {"latitude_deg",
        &GnssConfig::latitude_deg,
-       "Of the world's origin; its x goes east.",
+       "Latitude of the world's origin; x points east.",
        {-80, 80}},
-      {"longitude_deg", &GnssConfig::longitude_deg, "Of the world's origin.", {-180, 180}},
-      {"altitude_m", &GnssConfig::altitude_m, "Of the world's origin.", kMetres},
-      {"satellites", &GnssConfig::satellites, "Above the horizon.", {0, 100}},
-      {"lowest_rad", &GnssConfig::lowest_rad, "Lower ones are not used.", {0.01, 1.5}},
+      {"longitude_deg",
+       &GnssConfig::longitude_deg,
+       "Longitude of the world's origin.",
+       {-180, 180}},
+      {"altitude_m", &GnssConfig::altitude_m, "Altitude of the world's origin.", kMetres},
+      {"satellites", &GnssConfig::satellites, "Satellites above the horizon.", {0, 100}},
+      {"lowest_rad", &GnssConfig::lowest_rad, "Least elevation of a used satellite.", {0.01, 1.5}},
       {"building_height_m", &GnssConfig::building_height_m,
-       "What the sky is hidden by: every wall is so high.", kNotNegative},
-      {"antenna_height_m", &GnssConfig::antenna_height_m, "Above the road.", kNotNegative},
+       "Height of walls, which occlude satellites.", kNotNegative},
+      {"antenna_height_m", &GnssConfig::antenna_height_m, "Height of the antenna above the road.",
+       kNotNegative},
       {"range_error_m", &GnssConfig::range_error_m,
-       "Of one satellite, one sigma, anew for each fix.", kNotNegative},
-      {"wander_m", &GnssConfig::wander_m, "Slow error by the atmosphere, one sigma each way.",
+       "One sigma of the white range error of a satellite.", kNotNegative},
+      {"wander_m", &GnssConfig::wander_m, "One sigma of the atmospheric error per axis.",
        kNotNegative},
-      {"wander_s", &GnssConfig::wander_s, "It is alike over this time.", kPositive},
+      {"wander_s", &GnssConfig::wander_s, "Correlation time of the atmospheric error.", kPositive},
       {"multipath_m", &GnssConfig::multipath_m,
-       "Error by reflections, one sigma each way; times the share of satellites that are hidden.",
+       "One sigma of the multipath error per axis, times the share of occluded satellites.",
        kNotNegative},
-      {"multipath_length_m", &GnssConfig::multipath_length_m, "It is alike over this way.",
-       kPositive},
+      {"multipath_length_m", &GnssConfig::multipath_length_m,
+       "Correlation length of the multipath error.", kPositive},
   };
 }
 
@@ -320,15 +349,16 @@ FieldTable<CompassConfig> compass_fields() {
   return {
       {"rate_hz",
        &CompassConfig::rate_hz,
-       "Readings in a second, at most one a scan; 0: no compass.",
+       "Readings per second, at most one per scan; 0: no compass.",
        {0, 200}},
-      {"noise_rad", &CompassConfig::noise_rad, "Of each reading, one sigma.", kNotNegative},
-      {"bias_sigma_rad", &CompassConfig::bias_sigma_rad,
-       "By its mounting and the vehicle's iron; drawn once a drive.", kNotNegative},
-      {"disturbance_rad", &CompassConfig::disturbance_rad, "By iron around the vehicle, one sigma.",
+      {"noise_rad", &CompassConfig::noise_rad, "One sigma of the white noise of a reading.",
        kNotNegative},
-      {"disturbance_length_m", &CompassConfig::disturbance_length_m, "It is alike over this way.",
-       kPositive},
+      {"bias_sigma_rad", &CompassConfig::bias_sigma_rad,
+       "One sigma of the bias by mounting and vehicle, constant during a drive.", kNotNegative},
+      {"disturbance_rad", &CompassConfig::disturbance_rad,
+       "One sigma of the disturbance by iron in the surroundings.", kNotNegative},
+      {"disturbance_length_m", &CompassConfig::disturbance_length_m,
+       "Correlation length of that disturbance.", kPositive},
   };
 }
 
@@ -336,28 +366,28 @@ FieldTable<CompassConfig> compass_fields() {
 
 FieldTable<ScenarioConfig> scenario_fields() {
   FieldTable<ScenarioConfig> table = {
-      {"description", &ScenarioConfig::description, "One line, for people."},
-      {"seed", &ScenarioConfig::seed, "Of everything that is random."},
-      {"duration_s", &ScenarioConfig::duration_s, "Of the recording.", kPositive},
-      {"start_stamp_s", &ScenarioConfig::start_stamp_s, "Clock at the first scan.", kNotNegative},
-      {"warm_up_s", &ScenarioConfig::warm_up_s, "The world moves this long before, unrecorded.",
+      {"description", &ScenarioConfig::description, "One line of description."},
+      {"seed", &ScenarioConfig::seed, "Seed of all random numbers."},
+      {"duration_s", &ScenarioConfig::duration_s, "Duration of the recording.", kPositive},
+      {"start_stamp_s", &ScenarioConfig::start_stamp_s, "Stamp of the first scan.", kNotNegative},
+      {"warm_up_s", &ScenarioConfig::warm_up_s, "Simulated time before the first scan.",
        kNotNegative},
-      {"place", &ScenarioConfig::place, "Which of the three worlds below it is."},
-      {"profile", &ScenarioConfig::profile, "Settings that suit the drive."},
-      {"log_record", &ScenarioConfig::log_record, "Of a log of the drive."},
+      {"place", &ScenarioConfig::place, "Kind of world: CITY, OFFICE or SCRIPT."},
+      {"profile", &ScenarioConfig::profile, "Profile that suits the drive."},
+      {"log_record", &ScenarioConfig::log_record, "CARMEN record of scans in the log."},
       list_of("robot_way", &ScenarioConfig::robot_way, office_corner_fields(),
-              "Corners of the robot's way in turn."),
+              "Corners of the robot's path, in order."),
       list_of("terrain", &ScenarioConfig::terrain, height_fields(),
               "Height of the road from west to east; empty: level."),
       list_of("more_scanners", &ScenarioConfig::more_scanners, scanner_fields(),
-              "Each with an id of its own."),
+              "Further scanners, each with its own id."),
       {"sumo_fcd", &ScenarioConfig::sumo_fcd,
-       "Traffic of a script from Eclipse SUMO: the file of its --fcd-output."},
+       "File with the traffic of a script, written by Eclipse SUMO with --fcd-output."},
       {"sumo_vehicle", &ScenarioConfig::sumo_vehicle,
-       "Whom of it to ride; empty: the script's own vehicle."},
+       "Vehicle of that traffic that carries the scanners; empty: the script's own vehicle."},
       {"ride",
        &ScenarioConfig::ride,
-       "Of a script's vehicles with scanners: which one; 0 is the vehicle.",
+       "Index of the script's vehicle whose scanners are simulated; 0: `vehicle`.",
        {0, 100}},
   };
   table = with_nested(std::move(table), "city", &ScenarioConfig::city, city_fields());

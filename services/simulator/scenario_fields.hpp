@@ -5,7 +5,7 @@
 
 namespace slammot::simulator {
 
-/// Everything that a scenario file may set; `Scenario` in scenario.proto.
+/// All settings of a scenario file; `Scenario` in scenario.proto.
 config::FieldTable<simulation::ScenarioConfig> scenario_fields();
 
 }  // namespace slammot::simulator

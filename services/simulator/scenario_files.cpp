@@ -11,15 +11,15 @@
 namespace slammot::simulator {
 namespace {
 
-constexpr std::size_t kLongestId = 32;  // of a scanner on the bus, with its end
+constexpr std::size_t kMaxIdSize = 32;  // Capacity of a scanner id on the bus, with its terminator.
 
 using simulation::JunctionId;
 using simulation::ScenarioConfig;
 using simulation::ScriptedObject;
 
-std::optional<std::string> find_fault_of_way(const std::vector<JunctionId>& corners,
-                                             const simulation::CityConfig& city,
-                                             const std::string& name) {
+std::optional<std::string> find_fault_of_route(const std::vector<JunctionId>& corners,
+                                               const simulation::CityConfig& city,
+                                               const std::string& name) {
   const std::vector<JunctionId> way = along_streets(corners);
   for (std::size_t i = 0; i < way.size(); ++i) {
     if (way[i].column > city.blocks_east || way[i].row > city.blocks_north)
@@ -31,15 +31,15 @@ std::optional<std::string> find_fault_of_way(const std::vector<JunctionId>& corn
 
 std::optional<std::string> find_fault_of_object(const ScriptedObject& object,
                                                 const std::string& name) {
-  if (object.way.empty()) return name + " has no way";
+  if (object.way.empty()) return name + " has no path";
   const auto same_place = [](const auto& a, const auto& b) {
     return a.x_m == b.x_m && a.y_m == b.y_m;
   };
   if (std::adjacent_find(object.way.begin(), object.way.end(), same_place) != object.way.end())
-    return name + " has the same place twice in a row";
+    return name + " has two equal consecutive points on its path";
   const auto not_later = [](const auto& a, const auto& b) { return a.at_s >= b.at_s; };
   if (std::adjacent_find(object.speed.begin(), object.speed.end(), not_later) != object.speed.end())
-    return name + " has times of its speed out of order";
+    return name + " has speeds whose times do not ascend";
   return std::nullopt;
 }
 
@@ -48,19 +48,20 @@ std::optional<std::string> find_fault_of_scanners(const ScenarioConfig& scenario
   for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i) {
     const simulation::ScannerConfig& scanner = scenario.scanner_at(i);
     const bool can_be_named = !scanner.scanner_id.empty() &&
-                              scanner.scanner_id.size() < kLongestId &&
+                              scanner.scanner_id.size() < kMaxIdSize &&
                               scanner.scanner_id.find_first_of("/ ,") == std::string::npos;
     if (!can_be_named)
       return "scanner " + std::to_string(i + 1) +
              " needs a scanner_id of at most 31 characters without blank, comma and slash";
     if (!ids.insert(scanner.scanner_id).second)
       return "two scanners are named '" + scanner.scanner_id + "'";
-    if (scanner.sweep_s * scanner.rate_hz > 1.0) return "a sweep of the scanner outlasts its scan";
+    if (scanner.sweep_s * scanner.rate_hz > 1.0)
+      return "the sweep of a scanner is longer than its period";
   }
   return std::nullopt;
 }
 
-/// Reads the traffic that the scenario names; the fault, if there is one.
+/// Reads the recorded traffic that the scenario names, if any.
 std::optional<files::Error> add_recorded_traffic(ScenarioConfig& scenario,
                                                  const std::filesystem::path& folder) {
   if (scenario.sumo_fcd.empty()) return std::nullopt;
@@ -72,7 +73,7 @@ std::optional<files::Error> add_recorded_traffic(ScenarioConfig& scenario,
   const auto vehicle =
       std::ranges::find(script.recorded, scenario.sumo_vehicle, &simulation::RecordedObject::name);
   if (vehicle == script.recorded.end())
-    return files::Error{scenario.sumo_fcd + ": nobody is named '" + scenario.sumo_vehicle + "'"};
+    return files::Error{scenario.sumo_fcd + ": no object is named '" + scenario.sumo_vehicle + "'"};
   script.recorded_vehicle = static_cast<int>(vehicle - script.recorded.begin());
   return std::nullopt;
 }
@@ -94,14 +95,15 @@ std::optional<std::string> find_fault_of_script(const simulation::ScriptConfig& 
 std::optional<std::string> find_fault(const ScenarioConfig& scenario) {
   const auto not_further = [](const auto& a, const auto& b) { return a.x_m >= b.x_m; };
   if (std::ranges::adjacent_find(scenario.terrain, not_further) != scenario.terrain.end())
-    return "the terrain's places do not go from west to east";
+    return "the points of the terrain do not ascend from west to east";
   if (auto fault = find_fault_of_scanners(scenario)) return fault;
   switch (scenario.place) {
     case simulation::Place::city: {
-      auto fault = find_fault_of_way(scenario.route.junctions, scenario.city, "the vehicle's way");
+      auto fault =
+          find_fault_of_route(scenario.route.junctions, scenario.city, "the vehicle's route");
       return fault ? fault
-                   : find_fault_of_way(scenario.traffic.car_ahead, scenario.city,
-                                       "the way of the car ahead");
+                   : find_fault_of_route(scenario.traffic.car_ahead, scenario.city,
+                                         "the route of the car ahead");
     }
     case simulation::Place::office: {
       const bool is_inside = std::ranges::all_of(scenario.robot_way, [&](const auto& corner) {
@@ -109,7 +111,7 @@ std::optional<std::string> find_fault(const ScenarioConfig& scenario) {
       });
       return scenario.robot_way.size() < 2 || !is_inside
                  ? std::optional<std::string>(
-                       "the robot's way has under two corners, or leaves the office")
+                       "the robot's path has less than two corners, or leaves the office")
                  : std::nullopt;
     }
     case simulation::Place::script: break;

@@ -9,16 +9,16 @@
 
 namespace slammot::simulator {
 
-/// The scenario in a file: by name of a shipped one or by path, with its own seed or with another.
-/// The fault is one line, with the line and column where there is one.
+/// Loads a scenario by the name of a shipped file or by path; `seed` replaces its seed. A fault is
+/// one line, with line and column if they are known.
 files::Result<simulation::ScenarioConfig> load_scenario(
     const std::string& name_or_path, std::optional<std::uint64_t> seed = std::nullopt);
 
-/// What no single setting shows, such as a way that leaves the city; empty when the scenario can be
-/// driven.
+/// Checks conditions across settings, such as a route that leaves the city; empty if the scenario
+/// is valid.
 std::optional<std::string> find_fault(const simulation::ScenarioConfig& scenario);
 
-/// Names that load_scenario() knows, sorted.
+/// Names of shipped scenarios, sorted.
 std::vector<std::string> scenario_names();
 
 }  // namespace slammot::simulator

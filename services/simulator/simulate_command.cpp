@@ -22,7 +22,7 @@ void list_scenarios(std::ostream& out) {
   }
 }
 
-/// One for each vehicle that carries scanners: NAME, NAME.2 and so on.
+/// One scenario for each vehicle with scanners: NAME, NAME.2 and so on.
 std::vector<simulation::ScenarioConfig> drives_of(const simulation::ScenarioConfig& scenario) {
   std::vector<simulation::ScenarioConfig> drives{scenario};
   if (scenario.place != simulation::Place::script || scenario.ride != 0) return drives;
@@ -59,7 +59,7 @@ int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& er
     return 1;
   }
   if (options.output.empty()) {
-    err << "slammot simulate: say where to write with --output DIR\n";
+    err << "slammot simulate: --output DIR is required\n";
     return 1;
   }
   for (const simulation::ScenarioConfig& drive : drives_of(*scenario)) {
@@ -85,7 +85,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   command->add_option("--output", options->output,
                       "Folder for NAME.log, .tum, .objects.csv and .walls.csv");
   command->add_flag("--hits", options->hits,
-                    "Write NAME.hits.csv, too: the object that each beam hit");
+                    "Also write NAME.hits.csv: the object that each beam hit");
   command->callback(
       [options, &exit_code] { exit_code = simulate(*options, std::cout, std::cerr); });
 }

@@ -19,11 +19,11 @@ struct SimulateOptions {
   bool hits = false;
 };
 
-/// `slammot simulate`: names the scenarios or drives one and writes its files. Returns the
-/// process's exit code.
+/// Runs `slammot simulate`: lists scenarios, or simulates one and writes its files. Returns the
+/// exit code.
 int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& err);
 
-/// Adds the subcommand to a command line; when it was given, exit_code is set while parsing.
+/// Adds the subcommand. Parsing sets `exit_code` if it is given.
 void add_simulate_command(CLI::App& app, int& exit_code);
 
 }  // namespace slammot::simulator

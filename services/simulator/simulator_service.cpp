@@ -14,19 +14,18 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kLastWords{1};  ///< How long the end waits for readers that do not
-                                               ///< have all yet.
-constexpr std::chrono::seconds kAnswerWithin{1};  ///< At speed max.
+constexpr std::chrono::seconds kAcknowledgementTime{1};  ///< Time at the end for readers that have
+                                                         ///< not received everything.
+constexpr std::chrono::seconds kAnswerTimeout{1};        ///< At speed max.
 
 simulation::ScenarioConfig scenario_of(const SimulatorService::Settings& settings) {
-  if (settings.scenario.empty())
-    throw app::StartupFailure("--scenario NAME is needed: the drive to simulate");
+  if (settings.scenario.empty()) throw app::StartupFailure("--scenario NAME is required");
   auto scenario = load_scenario(settings.scenario, settings.seed);
   if (!scenario) throw app::StartupFailure(scenario.error().message);
   if (settings.ride > 0) scenario->ride = settings.ride;
   for (std::size_t i = 0; i <= scenario->more_scanners.size(); ++i) {
     if (scenario->scanner_at(i).beams > static_cast<int>(wire::kMostBeams))
-      throw app::StartupFailure("a scanner has more beams than the bus carries");
+      throw app::StartupFailure("a scanner has more beams than a message holds");
   }
   return std::move(*scenario);
 }
@@ -43,7 +42,7 @@ std::uint64_t new_drive_id() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
-bool is_at_work(slammot_ServiceState state) {
+bool is_operational(slammot_ServiceState state) {
   return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
 }
 
@@ -53,17 +52,18 @@ void SimulatorService::add_options(CLI::App& command_line, Settings& settings) {
   command_line.add_option("--scenario", settings.scenario,
                           "Name (slammot simulate --list) or file");
   command_line.add_option("--seed", settings.seed,
-                          "Other world, traffic and noise than the scenario's own");
+                          "Seed of world, traffic and noise; default: the scenario's own");
   command_line
       .add_option("--ride", settings.ride,
-                  "Which of the scenario's vehicles with scanners; 0 is the first")
+                  "Index of the scenario's vehicle with scanners; 0: the first")
       ->check(CLI::Range(0, 100));
   command_line
       .add_option("--speed", settings.speed,
-                  "Times the simulated clock, or 'max': as fast as the other services are done")
+                  "Multiple of the simulated clock, or 'max': as fast as the other services answer")
       ->capture_default_str();
   command_line
-      .add_option("--wait-for-services", settings.wait_for_services_s, "Before the first scan [s]")
+      .add_option("--wait-for-services", settings.wait_for_services_s,
+                  "Longest time to wait for other services before the first scan [s]")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 3600.0));
   command_line.add_flag("--linger", settings.linger,
@@ -91,8 +91,8 @@ SimulatorService::SimulatorService(app::ServiceContext& context, const Settings&
   context.status().counter("log_scans") = drive_.scan_count();
   context.read(
       dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
-        readiness_.heard(std::string(wire::text(beat.service_name)), is_at_work(beat.state));
-        // One that starts and says so will be there.
+        readiness_.heard(std::string(wire::text(beat.service_name)), is_operational(beat.state));
+        // A starting service announces that it will be ready.
         if (beat.state == slammot_SERVICE_STATE_STARTING)
           give_up_waiting_at_ = steady_clock::now() + patience_;
       });
@@ -111,12 +111,12 @@ void SimulatorService::wait_for_services() {
 
 void SimulatorService::begin() {
   has_begun_ = true;
-  spdlog::info("drives {} scans", drive_.scan_count());
+  spdlog::info("begins a drive of {} scans", drive_.scan_count());
   next_ = drive_.next();
   schedule();
 }
 
-/// Sends the next scan when it is due, and at the earliest when all else has been looked after.
+/// Sends the next scan when it is due, after pending events of the service.
 void SimulatorService::schedule() {
   if (!next_) return finish();
   const auto now = steady_clock::now();
@@ -126,19 +126,19 @@ void SimulatorService::schedule() {
 
 void SimulatorService::send_next() {
   send(*next_);
-  const bool is_waited_for = pace_.is_unlimited() && next_->scanner == 0;
-  if (is_waited_for) {
+  const bool waits_for_answer = pace_.is_unlimited() && next_->scanner == 0;
+  if (waits_for_answer) {
     unanswered_ns_ = next_->scan.stamp_ns;
     unanswered_since_ = steady_clock::now();
   }
   next_ = drive_.next();
-  if (!is_waited_for) schedule();
+  if (!waits_for_answer) schedule();
 }
 
 void SimulatorService::send(const simulation::SimulatedScan& drive) {
   const auto count_timeout = [this](dds::WriteResult result) {
     if (result == dds::WriteResult::kTimedOut)
-      context_.warn("slow_readers", "a reader is slow: a sample was not sent");
+      context_.warn("slow_readers", "a sample was not sent: a reader is slow");
   };
   const std::string& vehicle = context_.vehicle_id();
   for (const sensing::GnssFix& fix : drive.gnss)
@@ -160,8 +160,8 @@ void SimulatorService::take_labels(const slammot_ScanLabels& labels) {
 }
 
 void SimulatorService::check_progress() {
-  if (!unanswered_ns_ || steady_clock::now() - unanswered_since_ < kAnswerWithin) return;
-  context_.warn("unanswered_scans", "no labels for too long: drives on");
+  if (!unanswered_ns_ || steady_clock::now() - unanswered_since_ < kAnswerTimeout) return;
+  context_.warn("unanswered_scans", "no labels in time: continues");
   unanswered_ns_.reset();
   schedule();
 }
@@ -172,8 +172,8 @@ void SimulatorService::finish() {
   context_.status().counter("log_finished") = 1;
   spdlog::info("finished {} scans", context_.status().counter("scans"));
   if (linger_) return;
-  scans_.wait_for_acknowledgements(kLastWords);
-  true_hits_.wait_for_acknowledgements(kLastWords);
+  scans_.wait_for_acknowledgements(kAcknowledgementTime);
+  true_hits_.wait_for_acknowledgements(kAcknowledgementTime);
   context_.stop(0);
 }
 

@@ -14,26 +14,26 @@
 
 namespace slammot::simulator {
 
-/// Simulates a drive onto the bus, in the place of ingest, and tells the truth beside it.
+/// Simulates a drive on the bus in place of ingest, and publishes ground truth.
 class SimulatorService {
  public:
   struct Settings {
     std::string scenario;               ///< Name or file.
-    std::optional<std::uint64_t> seed;  ///< In place of the scenario's own.
-    int ride = 0;                       ///< Which of the scenario's vehicles with scanners.
+    std::optional<std::uint64_t> seed;  ///< Replaces the scenario's seed.
+    int ride = 0;                       ///< Index of the scenario's vehicle with scanners.
     std::string speed = "1";
     double wait_for_services_s = 20.0;
-    bool linger = false;  ///< Stay after the end of the drive.
+    bool linger = false;  ///< Continue after the end of the drive.
   };
   static constexpr const char* kName = "simulator";
   static constexpr const char* kPurpose =
       "Simulates a drive onto the bus: sensor data and ground truth.";
   static std::vector<config::BoundStage> stages(Settings&) {
     return {};
-  }  ///< The scenario's file is all there is to set.
+  }  ///< All settings are in the scenario file.
   static void add_options(CLI::App& command_line, Settings& settings);
 
-  /// Throws app::StartupFailure for a scenario that cannot be driven.
+  /// Throws app::StartupFailure for an invalid scenario.
   SimulatorService(app::ServiceContext& context, const Settings& settings);
 
  private:
@@ -51,7 +51,7 @@ class SimulatorService {
   app::ServiceContext& context_;
   app::Pace pace_;
   bool linger_;
-  std::chrono::milliseconds patience_;  ///< With services that are not there.
+  std::chrono::milliseconds patience_;  ///< Time to wait for absent services.
   Time give_up_waiting_at_;
   simulation::Drive drive_;
   app::Readiness readiness_{{"localization", "detection", "tracking"}};
@@ -67,8 +67,8 @@ class SimulatorService {
   bool has_begun_ = false;
   bool has_finished_ = false;
   std::optional<simulation::SimulatedScan> next_;
-  std::optional<std::int64_t> unanswered_ns_;  ///< At speed max: the scan whose labels are waited
-                                               ///< for, since
+  /// At speed max: the scan whose labels are pending, and the time since when.
+  std::optional<std::int64_t> unanswered_ns_;
   Time unanswered_since_{};
 };
 

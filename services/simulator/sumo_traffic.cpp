@@ -41,7 +41,7 @@ std::optional<double> number(const Attributes& attributes, std::string_view name
              : std::nullopt;
 }
 
-/// Takes the elements one after the other.
+/// Processes XML elements in order.
 class Reader {
  public:
   void take(std::string_view element, const Attributes& attributes) {
@@ -55,7 +55,7 @@ class Reader {
  private:
   void begin_step(std::optional<double> time_s) {
     if (!time_s || (now_s_ && *time_s <= *now_s_)) {
-      fault_ = "a timestep without a time later than the one before";
+      fault_ = "a timestep whose time is missing or not later than the previous one";
       return;
     }
     if (!now_s_) first_s_ = *time_s;
@@ -132,7 +132,7 @@ files::Result<std::vector<RecordedObject>> read_sumo_traffic(const std::filesyst
                         std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": " + why};
   }
   std::vector<RecordedObject> objects = parsing.reader.objects();
-  if (objects.empty()) return files::Error{file.string() + ": no vehicle or person in it"};
+  if (objects.empty()) return files::Error{file.string() + ": no vehicle and no person"};
   return objects;
 }
 

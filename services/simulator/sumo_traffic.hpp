@@ -8,10 +8,10 @@
 
 namespace slammot::simulator {
 
-/// Everybody in a file that Eclipse SUMO wrote with --fcd-output (plain XML, no geographic
-/// coordinates). Its places are of front bumpers and its angles in degrees, clockwise from north;
-/// the vehicle type's name tells the class. Times count from the file's first one. The fault names
-/// the line.
+/// Reads all objects in a file written by Eclipse SUMO with --fcd-output (plain XML, no geographic
+/// coordinates). SUMO positions are those of front bumpers; its angles are in degrees, clockwise
+/// from north. The name of the vehicle type gives the class. Times are relative to the first one in
+/// the file. A fault names the line.
 files::Result<std::vector<simulation::RecordedObject>> read_sumo_traffic(
     const std::filesystem::path& file);
 

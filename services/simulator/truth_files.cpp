@@ -35,12 +35,12 @@ TruthFiles::TruthFiles(const std::filesystem::path& prefix,
 void TruthFiles::add(const simulation::SimulatedScan& drive) {
   if (hits_) *hits_ << hits_line(drive);
   if (newest_ && newest_->scan.stamp_ns != drive.scan.stamp_ns) write_newest();
-  newest_ = seen_by_any(drive);
+  newest_ = with_all_scanners(drive);
 }
 
-/// The scan with the objects that it or the newest scan of another scanner hit, and the beams of
-/// both together.
-simulation::SimulatedScan TruthFiles::seen_by_any(const simulation::SimulatedScan& drive) {
+/// The scan with the objects that it or the latest scan of another scanner hit, and the sum of
+/// their beams.
+simulation::SimulatedScan TruthFiles::with_all_scanners(const simulation::SimulatedScan& drive) {
   std::map<int, int>& own = points_by_scanner_[drive.scanner];
   own.clear();
   for (const simulation::ObjectTruth& object : drive.objects) own[object.id] = object.points;

@@ -10,13 +10,13 @@
 
 namespace slammot::simulator {
 
-/// Whether the files say which beam hit what.
+/// Selects whether the hits of beams are written.
 enum class HitsFile { left_out, written };
 
-/// PREFIX.tum, PREFIX.objects.csv, PREFIX.walls.csv and, if wanted, PREFIX.hits.csv, written while
-/// the drive goes on. Files of these names are replaced. Poses and objects are those of each stamp
-/// of a scan, hits those of each scan; an object is in view if the scan or the newest one of
-/// another scanner hit it, and its points are the beams of all of these.
+/// Writes PREFIX.tum, PREFIX.objects.csv, PREFIX.walls.csv and optionally PREFIX.hits.csv during
+/// the drive. Replaces existing files. Poses and objects are written once per stamp, hits once per
+/// scan. An object is in view if the scan or the latest scan of another scanner hit it; its points
+/// are the beams of all these scans.
 class TruthFiles {
  public:
   TruthFiles(const std::filesystem::path& prefix, const simulation::Outline& stationary_in_world,
@@ -24,7 +24,7 @@ class TruthFiles {
 
   void add(const simulation::SimulatedScan& drive);
 
-  /// Ends the files; why they are not complete, if they are not.
+  /// Closes the files. Returns the reason if they are incomplete.
   std::optional<std::string> close();
 
   const std::filesystem::path& tum() const { return tum_path_; }
@@ -33,7 +33,7 @@ class TruthFiles {
   double distance_m() const { return distance_m_; }
 
  private:
-  simulation::SimulatedScan seen_by_any(const simulation::SimulatedScan& drive);
+  simulation::SimulatedScan with_all_scanners(const simulation::SimulatedScan& drive);
   void write_newest();
 
   std::filesystem::path tum_path_;
@@ -43,9 +43,9 @@ class TruthFiles {
   std::ofstream objects_;
   std::ofstream walls_;
   std::optional<std::ofstream> hits_;
-  std::map<std::size_t, std::map<int, int>> points_by_scanner_;  // and object, of the newest scan
-  std::optional<simulation::SimulatedScan> newest_;  // not written yet: another scanner may share
-                                                     // its stamp
+  std::map<std::size_t, std::map<int, int>> points_by_scanner_;  // and object, of the latest scan
+  std::optional<simulation::SimulatedScan> newest_;  // pending: another scanner may have the same
+                                                     // stamp
   std::optional<geometry::Pose2> last_;
   double distance_m_ = 0.0;
 };

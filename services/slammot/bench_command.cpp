@@ -24,6 +24,7 @@
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/implementations.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/job_text.hpp"
 #include "services/slammot/progress_bar.hpp"
 #include "services/slammot/service_processes.hpp"
 #include "services/slammot/stored_map.hpp"
@@ -34,13 +35,13 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPatienceAtTheEnd = 30s;
-constexpr auto kPatienceIfInterrupted = 5s;
-constexpr auto kLastWords = 50ms;
+constexpr auto kSubmapTimeout = 30s;
+constexpr auto kInterruptedSubmapTimeout = 5s;
+constexpr auto kFinalStatusTime = 50ms;
 constexpr const char* kVehicle = "bench";
-constexpr const char* kFound = "map:      found itself in the map\n";
+constexpr const char* kFound = "map:      the drive is located in the map\n";
 constexpr const char* kNotFound =
-    "warning:  did not find itself in the map: its poses begin anywhere in it\n";
+    "warning:  the drive is not located in the map: the origin of its poses is arbitrary\n";
 
 struct BenchOptions : JobOptions {
   std::uint32_t domain_id = 0;
@@ -51,7 +52,7 @@ int fail(const std::string& line) {
   return kExitFault;
 }
 
-/// The settings' file for the services: as asked for, or all of the job's where the log itself
+/// Settings file for the services: the user's, or the complete settings of the job if the log
 /// changed some of them.
 files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOptions& options,
                                                    const std::filesystem::path& folder) {
@@ -63,7 +64,7 @@ files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOp
   return folder / kSettingsFile;
 }
 
-/// The program that takes the part of a service.
+/// Program that implements a service.
 std::string program_of(const std::string& service, const ImplementationChoice& choice) {
   if (service == "localization") return "slammot-" + std::string(localization_of(choice).program);
   if (service == "tracking") return "slammot-" + std::string(tracking_of(choice).program);
@@ -98,8 +99,8 @@ std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& opt
   return services;
 }
 
-/// Where map_store looks for it, if a map was asked for.
-std::optional<files::Error> lay_out_map(const Job& job, const BenchOptions& options,
+/// Writes the stored map, if there is one, to where map_store reads it.
+std::optional<files::Error> provide_map(const Job& job, const BenchOptions& options,
                                         const std::filesystem::path& state_folder) {
   if (options.map.empty()) return std::nullopt;
   const auto stored = read_stored_map(options.map, job.profile.localization.map.cell_size_m);
@@ -109,29 +110,29 @@ std::optional<files::Error> lay_out_map(const Job& job, const BenchOptions& opti
   return write_stored_map(state_folder, *stored, kVehicle);
 }
 
-/// Until the drive has ended or is interrupted; otherwise the line that says why it has not.
-std::optional<std::string> attend(Collector& collector, ServiceProcesses& services,
-                                  const std::vector<std::int64_t>& stamps_ns,
-                                  const std::atomic<bool>& is_interrupted) {
+/// Waits until the drive has ended or is interrupted. Returns a message if a service keeps failing.
+std::optional<std::string> await_drive(Collector& collector, ServiceProcesses& services,
+                                       const std::vector<std::int64_t>& stamps_ns,
+                                       const std::atomic<bool>& is_interrupted) {
   ProgressBar progress("slammot bench");
   const double duration_ns =
       static_cast<double>(std::max<std::int64_t>(1, stamps_ns.back() - stamps_ns.front()));
-  auto look_after_services_at = Clock::now();
+  auto check_services_at = Clock::now();
   while (!collector.has_drive_ended() && !is_interrupted) {
     collector.wait(100ms);
     if (collector.last_localized_ns())
       progress.show(static_cast<double>(*collector.last_localized_ns() - stamps_ns.front()) /
                     duration_ns);
-    if (Clock::now() < look_after_services_at) continue;
+    if (Clock::now() < check_services_at) continue;
     if (auto fault = services.restart_dead()) return fault;
-    look_after_services_at = Clock::now() + 20ms;
+    check_services_at = Clock::now() + 20ms;
   }
   return std::nullopt;
 }
 
 double peak_memory_of_services_mb() {
   rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);  // the largest of those that have ended
+  getrusage(RUSAGE_CHILDREN, &usage);  // Of the largest process that has ended.
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
@@ -168,13 +169,13 @@ int write(const Job& job, const BenchOptions& options, const files::RunRecord& r
   }
   if (!report.faults.is_cut) return kExitDone;
   std::fprintf(stderr,
-               "slammot: %s is cut off or damaged: only what could be read of it was processed%s\n",
+               "slammot: %s is cut off or damaged: only the readable part was processed%s\n",
                options.input.c_str(), where_damaged(report.faults).c_str());
   return kExitLogIsCut;
 }
 
-/// Services of their own read a log, so a simulated drive is recorded first: truth.log and its
-/// truth in the output folder.
+/// Services read recorded drives only: records a simulated drive as truth.log, with its ground
+/// truth, in the output folder.
 files::Result<BenchOptions> with_recorded_drive(BenchOptions options) {
   if (options.scenario.empty() || !options.input.empty()) return options;
   const auto scenario = simulator::load_scenario(options.scenario, options.seed);
@@ -189,10 +190,18 @@ files::Result<BenchOptions> with_recorded_drive(BenchOptions options) {
   return options;
 }
 
-int bench(const BenchOptions& asked_for) {
+void keep_until(std::int64_t last_ns, std::vector<std::int64_t>& stamps_ns) {
+  std::erase_if(stamps_ns, [&](std::int64_t stamp_ns) { return stamp_ns > last_ns; });
+}
+
+double duration_of(const std::vector<std::int64_t>& stamps_ns) {
+  return static_cast<double>(*std::ranges::max_element(stamps_ns) - stamps_ns.front()) * 1e-9;
+}
+
+int bench(const BenchOptions& requested) {
   std::atomic<bool> is_interrupted = false;
   const app::StopSignal stop_signal([&] { is_interrupted = true; });
-  const auto recorded = with_recorded_drive(asked_for);
+  const auto recorded = with_recorded_drive(requested);
   if (!recorded) return fail(recorded.error().message);
   const BenchOptions& options = *recorded;
   const auto start = Clock::now();
@@ -203,7 +212,7 @@ int bench(const BenchOptions& asked_for) {
   std::vector<std::int64_t> stamps_ns = stamps_of(job->log);
 
   const TemporaryFolder folder("slammot-bench-");
-  if (const auto fault = lay_out_map(*job, options, folder.path())) return fail(fault->message);
+  if (const auto fault = provide_map(*job, options, folder.path())) return fail(fault->message);
   const auto settings = settings_file(*job, options, folder.path());
   if (!settings) return fail(settings.error().message);
   const std::string dds_config = dds::loopback_config("slammot-bench-" + std::to_string(getpid()));
@@ -211,38 +220,33 @@ int bench(const BenchOptions& asked_for) {
   std::optional<ServiceProcesses> services;
   services.emplace(services_for(*job, options, *settings, folder.path()), folder.path(),
                    std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
-  if (const auto fault = attend(collector, *services, stamps_ns, is_interrupted))
+  if (const auto fault = await_drive(collector, *services, stamps_ns, is_interrupted))
     return fail(*fault);
   const bool is_cut_short = is_interrupted && !collector.has_drive_ended();
-  if (is_cut_short) {
-    services->end("ingest");
-    if (!collector.last_localized_ns()) {
-      std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
-      return kExitInterrupted;
-    }
+  if (is_cut_short) services->end("ingest");
+  if (is_cut_short && !collector.last_localized_ns()) {
+    std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
+    return kExitInterrupted;
   }
   const bool is_complete =
-      collector.finish(is_cut_short ? kPatienceIfInterrupted : kPatienceAtTheEnd);
+      collector.finish(is_cut_short ? kInterruptedSubmapTimeout : kSubmapTimeout);
   const auto restarts = services->restarts();
   services.reset();
-  collector.wait(kLastWords);  // the services' last counters
+  collector.wait(kFinalStatusTime);  // final counters of the services
   files::RunReport report = make_report(*job, options, collector, restarts);
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
-  if (is_cut_short)
-    std::erase_if(stamps_ns,
-                  [&](std::int64_t stamp_ns) { return stamp_ns > *collector.last_localized_ns(); });
-  const double duration_s =
-      static_cast<double>(*std::ranges::max_element(stamps_ns) - stamps_ns.front()) * 1e-9;
+  if (is_cut_short) keep_until(*collector.last_localized_ns(), stamps_ns);
+  const double duration_s = duration_of(stamps_ns);
   report.is_interrupted = is_cut_short;
   report.measured = {collector.latencies(), wall_s, duration_s / wall_s,
                      std::max(peak_memory_mb(), peak_memory_of_services_mb())};
   const int exit_code = write(*job, options, collector.record(stamps_ns), report, duration_s);
   if (!is_complete && !is_cut_short)
-    return fail("the last submap did not come: the map lacks the end of the drive");
+    return fail("the last submap did not arrive: the map lacks the end of the drive");
   return exit_code;
 }
 
-int bench_or_say_why_not(const BenchOptions& options) {
+int bench_or_fail(const BenchOptions& options) {
   try {
     return bench(options);
   } catch (const std::runtime_error& fault) { return fail(fault.what()); }
@@ -257,10 +261,11 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<BenchOptions>();
   add_job_options(*command, *options);
   command
-      ->add_option("--domain", options->domain_id, "DDS domain, on loopback and closed to others")
+      ->add_option("--domain", options->domain_id,
+                   "DDS domain, on loopback and isolated from others")
       ->check(CLI::Range(0, 230))
       ->capture_default_str();
-  command->callback([options, &exit_code] { exit_code = bench_or_say_why_not(*options); });
+  command->callback([options, &exit_code] { exit_code = bench_or_fail(*options); });
 }
 
 }  // namespace slammot

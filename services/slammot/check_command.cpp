@@ -12,6 +12,7 @@
 #include "services/ingest/topic_arguments.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/job_text.hpp"
 
 namespace slammot {
 namespace {
@@ -47,7 +48,7 @@ int check(const CheckOptions& options) {
   std::vector<std::string> findings = files::describe_findings(plan);
   while (log->next()) {}
   if (log->faults().is_cut)
-    findings.push_back("the file is cut off or damaged: this is of what could be read of it" +
+    findings.push_back("the file is cut off or damaged: this report covers its readable part" +
                        where_damaged(log->faults()));
   for (const std::string& finding : findings) std::printf("doubtful   %s\n", finding.c_str());
   std::printf("run it     %s\n", command_to_run(options).c_str());

@@ -15,6 +15,7 @@
 #include "services/slammot/collector.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/job_text.hpp"
 
 namespace slammot {
 namespace {
@@ -24,7 +25,7 @@ using namespace std::chrono_literals;
 struct CollectOptions : CollectorOptions {
   std::filesystem::path output;
   std::filesystem::path input;  ///< The log that is played; may be empty.
-  files::TopicOptions topics;   ///< As it is played.
+  files::TopicOptions topics;   ///< Must equal those of the player.
 };
 
 int fail(const std::string& line) {
@@ -32,7 +33,8 @@ int fail(const std::string& line) {
   return kExitFault;
 }
 
-/// What the log says about the drive, where it is at hand: all its scans, heard of or not.
+/// Stamps of all scans, from the log if it is available, otherwise of the received scans. Also
+/// fills the report's description of the log.
 files::Result<std::vector<std::int64_t>> scans_of_drive(const CollectOptions& options,
                                                         const Collector& collector,
                                                         files::RunReport& report) {
@@ -62,13 +64,12 @@ int write(const CollectOptions& options, Collector& collector, double wall_s) {
   const files::RunRecord record = collector.record(*stamps_ns);
   if (const auto fault = files::write_outputs(options.output, record, report))
     return fail(fault->message);
-  collector.forget_journal();
+  collector.remove_journal();
   std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
   if (report.faults.is_cut)
-    std::fprintf(
-        stderr,
-        "slammot: the log is cut off or damaged: only what could be read of it was processed%s\n",
-        where_damaged(report.faults).c_str());
+    std::fprintf(stderr,
+                 "slammot: the log is cut off or damaged: only the readable part was processed%s\n",
+                 where_damaged(report.faults).c_str());
   return kExitDone;
 }
 
@@ -86,7 +87,7 @@ int collect(const CollectOptions& options) {
   std::printf("waits for the drive of vehicle %s\n", options.vehicle_id.c_str());
   std::fflush(stdout);
   while (!collector.has_drive_ended() && collector.wait(100ms)) {}
-  // Interrupted, what has come so far is written all the same.
+  // After an interruption, everything received so far is written.
   const bool is_complete = collector.finish(60s);
   to_stop = nullptr;
   const int exit_code =
@@ -94,7 +95,7 @@ int collect(const CollectOptions& options) {
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (exit_code != kExitDone) return exit_code;
   return is_complete ? kExitDone
-                     : fail("the last submap did not come: the map lacks the end of the drive");
+                     : fail("the last submap did not arrive: the map lacks the end of the drive");
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ void add_collect_command(CLI::App& app, int& exit_code) {
       ->type_name("DIR");
   command
       ->add_option("--input", options->input,
-                   "The log that is played: scans that were not received get rows, too")
+                   "The log that is played, for rows of scans that were not received")
       ->type_name("FILE");
   ingest::add_topic_options(*command, options->topics);
   command->add_option("--vehicle", options->vehicle_id, "Vehicle whose drive is collected")

@@ -15,17 +15,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kSilenceAtTheEnd = 2s;  ///< After the log's end: no more answers are under way.
+constexpr auto kFinalSilence = 2s;  ///< Silence after the end of the log that means that no more
+                                    ///< tracks will come.
 constexpr auto kRepeatCommand = 500ms;
-constexpr auto kIngestIsGone = 30s;  ///< Without a heartbeat, in a drive taken up from a journal.
+constexpr auto kIngestTimeout = 30s;  ///< Time without a heartbeat of ingest after which a drive
+                                      ///< restored from a journal has ended.
 
-/// Also where each process runs in a container of its own, with the same number every time.
+/// Unique over restarts in containers, where each process has the same id.
 std::string unique_name() {
   return "collector-" + std::to_string(getpid()) + "-" +
          std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
-/// Where scans come from: a log or a simulation.
+/// True for services that publish scans.
 bool is_source(std::string_view service) { return service == "ingest" || service == "simulator"; }
 
 bool is_set(const wire::ServiceStatus& status, std::string_view counter) {
@@ -57,7 +59,7 @@ Collector::Collector(const CollectorOptions& options)
       requester_(unique_name()),
       last_progress_(Clock::now()) {
   if (!options.journal.empty()) journal_.emplace(options.journal);
-  if (const auto content = files::RunJournal::read(options.journal)) take_up(*content);
+  if (const auto content = files::RunJournal::read(options.journal)) restore(*content);
   read(laser_scans_, [this](const auto& sample) { take(sample); });
   read(localized_scans_, [this](const auto& sample) { take(sample); });
   read(tracked_objects_, [this](const auto& sample) { take(sample); });
@@ -96,11 +98,11 @@ bool Collector::wait(std::chrono::milliseconds longest) {
   return wait_set_.wait(longest) != dds::WaitSet::Wake::kStopped;
 }
 
-void Collector::take_up(const files::RunJournal::Content& content) {
-  is_taken_up_ = true;
+void Collector::restore(const files::RunJournal::Content& content) {
+  is_restored_ = true;
   map_id_ = content.map_id;
   odom_id_ = content.odom_id;
-  for (const files::JournalScan& scan : content.scans) remember(scan);
+  for (const files::JournalScan& scan : content.scans) record_stamp(scan);
   for (const flow::LocalizedScan& scan : content.localized_scans) {
     records_[scan.map_id].add(scan);
     last_localized_ns_ = scan.stamp_ns;
@@ -113,8 +115,8 @@ void Collector::take_up(const files::RunJournal::Content& content) {
   journal_->resume();
 }
 
-/// Of a drive that a scanner has left, nothing is kept.
-void Collector::remember(const files::JournalScan& scan) {
+/// Records the stamp of a scan. The first scan of a new drive discards those of the previous one.
+void Collector::record_stamp(const files::JournalScan& scan) {
   const auto drive = drives_.judge(scan.scanner_id, scan.drive_id);
   if (drive == localization::DriveWatch::Scan::kOfEarlierDrive) return;
   if (drive == localization::DriveWatch::Scan::kOfNewDrive) {
@@ -128,12 +130,12 @@ void Collector::take(const slammot_LaserScan& sample) {
   const files::JournalScan scan{std::string(wire::text(sample.scanner_id)), sample.drive_id,
                                 sample.sequence_number, sample.stamp_ns};
   last_progress_ = Clock::now();
-  remember(scan);
+  record_stamp(scan);
   seen_at_.emplace(scan.stamp_ns, Clock::now());
   if (journal_ && map_id_) journal_->add(scan);
 }
 
-/// What was made of the drive before is not wanted any more.
+/// Discards the results of the previous drive.
 void Collector::begin_drive(flow::MapId map_id, flow::OdomId odom_id) {
   if (map_id_ == map_id) records_[map_id].forget_drive();
   else if (map_id_) records_.erase(*map_id_);
@@ -215,20 +217,21 @@ bool Collector::is_last_scan_tracked() const {
 bool Collector::has_drive_ended() const {
   if (stamps_by_sequence_.empty()) return false;
   const auto now = Clock::now();
-  if (is_log_finished()) return is_last_scan_tracked() || now - last_progress_ > kSilenceAtTheEnd;
-  return is_taken_up_ && now - last_ingest_ > kIngestIsGone && now - last_progress_ > kIngestIsGone;
+  if (is_log_finished()) return is_last_scan_tracked() || now - last_progress_ > kFinalSilence;
+  return is_restored_ && now - last_ingest_ > kIngestTimeout &&
+         now - last_progress_ > kIngestTimeout;
 }
 
-void Collector::forget_journal() {
+void Collector::remove_journal() {
   if (journal_) journal_->remove();
 }
 
-void Collector::ask_to_finish_submap() {
+void Collector::request_finished_submap() {
   wire::Command command;
   command.vehicle_id = vehicle_id_;
   command.service = "localization";
   command.requester = requester_;
-  command.request_number = 1;  // the same each time: asked again, it is not done again
+  command.request_number = 1;  // The number stays the same: a repeated request is executed once.
   command.verb = "finish_submap";
   commands_.write(wire::encode(command));
 }
@@ -247,16 +250,16 @@ bool Collector::finish(std::chrono::seconds patience) {
   while (!is_complete()) {
     if (Clock::now() - last_progress_ > patience) return false;
     if (!is_submap_finished_ && Clock::now() >= ask_again_at) {
-      ask_to_finish_submap();
+      request_finished_submap();
       ask_again_at = Clock::now() + kRepeatCommand;
     }
     if (!wait(100ms)) return false;
   }
-  wait(50ms);  // constraints and statuses that are still on their way
+  wait(50ms);  // For constraints and statuses in transit.
   return true;
 }
 
-/// One scanner's scans in the order in which it made them, those of several by time.
+/// Stamps of received scans: of one scanner by sequence number, of several by time.
 std::vector<std::int64_t> Collector::scan_stamps_ns() const {
   std::vector<std::int64_t> stamps_ns;
   for (const auto& [scanner_id, stamps] : stamps_by_sequence_) {

@@ -27,41 +27,39 @@ namespace slammot {
 struct CollectorOptions {
   std::string vehicle_id = "vehicle";
   std::uint32_t domain_id = 0;
-  std::optional<std::string> dds_config;  ///< Cyclone XML; the environment's when not set.
-  std::filesystem::path journal{};  ///< Where to write what comes, to go on from after a crash;
-                                    ///< empty: nowhere.
+  std::optional<std::string> dds_config;  ///< Cyclone configuration (XML); default: from the
+                                          ///< environment.
+  std::filesystem::path journal{};  ///< File that records received data for a restart; empty: none.
 };
 
-/// Takes from the bus what the services make of a drive: the one that is being driven, so that a
-/// new one forgets the one before. Everything happens in the thread that calls wait().
+/// Collects the results of the services for the current drive from the bus. A new drive discards
+/// the results of the previous one. All handlers run in the thread that calls wait().
 class Collector {
  public:
   explicit Collector(const CollectorOptions& options);
 
-  /// Handles what comes, for at most this long; false once stopped.
+  /// Handles received data for at most this time; false once stopped.
   bool wait(std::chrono::milliseconds longest);
 
-  /// Makes wait() return false, from any thread.
+  /// Makes wait() return false. May be called from any thread.
   void stop() { wait_set_.stop(); }
 
-  /// Whether there was a drive, ingest has said that its log is finished, and tracking has answered
-  /// the last scan or will not any more. Taken up from a journal a drive has also ended when ingest
-  /// has been gone for long.
+  /// True if a drive was received, all sources have finished, and tracking has processed the last
+  /// scan or is silent. A drive restored from a journal has also ended after 30 s without ingest.
   bool has_drive_ended() const;
 
-  /// Ends the submap in progress and waits for what follows from it: the submap stored, and its
-  /// place in the graph. False when nothing more comes for the given time before that; what is
-  /// there then is what there is.
+  /// Finishes the current submap and waits until it is stored and in the graph. False if nothing
+  /// arrives for `patience` before that; the results then lack the submap.
   bool finish(std::chrono::seconds patience);
 
-  /// Newest stamp that was localized.
+  /// Latest stamp of a localized scan.
   std::optional<std::int64_t> last_localized_ns() const { return last_localized_ns_; }
 
-  /// Its results are written: nothing to go on from any more.
-  void forget_journal();
+  /// Removes the journal, once the results are written.
+  void remove_journal();
 
-  /// What came of the drive. scan_stamps_ns: every scan of it; those that were on the bus where the
-  /// log is not at hand.
+  /// Results of the drive, with a row for each of `scan_stamps_ns`: all scans of the log, or the
+  /// received ones (scan_stamps_ns()) if the log is not available.
   files::RunRecord record(const std::vector<std::int64_t>& scan_stamps_ns) const;
   std::vector<std::int64_t> scan_stamps_ns() const;
 
@@ -79,12 +77,12 @@ class Collector {
   void take(const slammot_SubmapTile& tile);
   void take(const slammot_GraphCorrection& part);
   void take(const slammot_ServiceStatus& status);
-  void take_up(const files::RunJournal::Content& content);
+  void restore(const files::RunJournal::Content& content);
   void begin_drive(flow::MapId map_id, flow::OdomId odom_id);
-  void remember(const files::JournalScan& scan);
+  void record_stamp(const files::JournalScan& scan);
   bool is_log_finished() const;
   bool is_last_scan_tracked() const;
-  void ask_to_finish_submap();
+  void request_finished_submap();
   bool is_complete() const;
 
   std::string vehicle_id_;
@@ -106,25 +104,25 @@ class Collector {
   wire::GraphCorrectionAssembler correction_assembler_;
 
   std::optional<files::RunJournal> journal_;
-  bool is_taken_up_ = false;  ///< From a journal.
+  bool is_restored_ = false;  ///< From a journal.
   localization::DriveWatch drives_;
-  std::map<std::string, std::map<std::uint32_t, std::int64_t>> stamps_by_sequence_;  ///< By
-                                                                                     ///< scanner;
-                                                                                     ///< of its
-                                                                                     ///< drive.
-  std::optional<flow::MapId> map_id_;                ///< Of the newest localized scan,
-  flow::OdomId odom_id_;                             ///< and its drive in that map.
-  std::map<flow::MapId, files::RunRecord> records_;  ///< What the bus keeps of earlier maps comes,
-                                                     ///< too.
-  std::map<std::int64_t, Clock::time_point> seen_at_;  ///< Scans without tracks so far, by stamp.
+  /// Of the current drive, by scanner.
+  std::map<std::string, std::map<std::uint32_t, std::int64_t>> stamps_by_sequence_;
+  std::optional<flow::MapId> map_id_;  ///< Of the latest localized scan.
+  flow::OdomId odom_id_;               ///< Drive of the latest localized scan.
+  /// Results by map: the bus also delivers retained data of earlier maps.
+  std::map<flow::MapId, files::RunRecord> records_;
+  /// Reception times of scans without tracks, by stamp.
+  std::map<std::int64_t, Clock::time_point> seen_at_;
   app::LatencyHistogram scan_to_tracks_;
   std::optional<std::int64_t> last_localized_ns_;
   std::optional<std::int64_t> last_tracked_ns_;
   std::optional<flow::SubmapId> submap_in_use_;
-  std::set<std::pair<flow::MapId, flow::SubmapId>> placed_submaps_;  ///< In the graph.
+  /// Submaps in the graph.
+  std::set<std::pair<flow::MapId, flow::SubmapId>> placed_submaps_;
   std::map<std::string, wire::ServiceStatus> status_by_service_;
-  std::map<std::string, bool> is_log_finished_;  ///< By instance of ingest.
-  Clock::time_point last_ingest_;                ///< Heartbeat.
+  std::map<std::string, bool> is_log_finished_;  ///< By instance of ingest or simulator.
+  Clock::time_point last_ingest_;                ///< Its last heartbeat.
   bool is_submap_finished_ = false;
   std::string requester_;
   Clock::time_point last_progress_;

@@ -37,7 +37,7 @@ std::vector<std::string> options_of(const CLI::App& command) {
   return names;
 }
 
-/// One line on the first word that is no command, or no option of its command.
+/// Message about an unknown command, or an unknown option of a command.
 std::optional<std::string> unknown_word(CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty() || words.front().starts_with("-")) return std::nullopt;
   const std::vector<std::string> commands = commands_of(app);

@@ -2,18 +2,17 @@
 
 namespace slammot {
 
-/// What the program returns to the shell.
+/// Exit codes.
 enum ExitCode : int {
   kExitDone = 0,
-  kExitFault = 1,     ///< Nothing was made, or not everything could be written; one line on stderr
-                      ///< says why.
-  kExitDoubtful = 2,  ///< `check`: the log can be run, and something in it is doubtful.
-  kExitLogIsCut = 3,  ///< The log ends early; what could be read of it was processed and written.
-  kExitInterrupted = 130,  ///< By SIGINT or SIGTERM; `run` has written what it had processed by
-                           ///< then.
+  kExitFault = 1,     ///< Failed, or outputs are incomplete; one line on stderr gives the reason.
+  kExitDoubtful = 2,  ///< `check`: the log can be processed and has doubtful findings.
+  kExitLogIsCut = 3,  ///< The log is truncated or damaged; the readable part was processed and
+                      ///< written.
+  kExitInterrupted = 130,  ///< By SIGINT or SIGTERM; `run` has written the processed part.
 };
 
-/// The command `slammot`: one subcommand a file, each adds itself.
+/// Runs the command line `slammot` and returns its exit code.
 int run_command_line(int argc, char** argv);
 
 }  // namespace slammot

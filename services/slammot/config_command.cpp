@@ -29,7 +29,7 @@ constexpr const char* kPageTitle =
 
 struct ConfigOptions {
   bool explains = false;
-  std::string word;  ///< Which settings to explain; empty: all.
+  std::string word;  ///< Setting or group to explain; empty: all.
   bool is_effective = false;
   bool is_page = false;
   std::string profile;
@@ -46,7 +46,7 @@ std::vector<config::Explanation> default_settings() {
   return config::explain(bind_stages(defaults));
 }
 
-/// The name as a user wrote it: whole, or its last part.
+/// Nearest name of a setting. Compares full names if `word` has a dot, otherwise their last parts.
 std::string nearest_setting(const std::string& word,
                             const std::vector<config::Explanation>& settings) {
   std::vector<std::string> names;
@@ -58,11 +58,11 @@ std::string nearest_setting(const std::string& word,
 
 int explain(const std::string& word) {
   const std::vector<config::Explanation> all = default_settings();
-  const std::vector<config::Explanation> asked_for = word.empty() ? all : config::named(word, all);
-  if (asked_for.empty())
+  const std::vector<config::Explanation> requested = word.empty() ? all : config::named(word, all);
+  if (requested.empty())
     return fail("no setting or group is called '" + word + "'; the nearest one is '" +
                 nearest_setting(word, all) + "'");
-  std::fputs(config::explanation_text(asked_for).c_str(), stdout);
+  std::fputs(config::explanation_text(requested).c_str(), stdout);
   return kExitDone;
 }
 
@@ -81,7 +81,7 @@ int print_page() {
 
 int show(const ConfigOptions& options) {
   if (int(options.explains) + int(options.is_effective) + int(options.is_page) != 1)
-    return fail("config needs one of --explain, --effective and --page");
+    return fail("config requires one of --explain, --effective and --page");
   if (!options.is_effective && (!options.profile.empty() || !options.config.empty()))
     return fail("--profile and --config belong to --effective");
   if (options.is_effective) return print_effective(options);
@@ -104,9 +104,9 @@ void add_config_command(CLI::App& app, int& exit_code) {
                     "Print all settings as a file for --config");
   command
       ->add_option("--profile", options->profile,
-                   "Whose settings --effective prints; the defaults when not given")
+                   "Profile for --effective; default: none, the built-in settings")
       ->type_name("NAME");
-  command->add_option("--config", options->config, "Settings that replace some of the profile's")
+  command->add_option("--config", options->config, "Settings that override the profile's")
       ->type_name("FILE");
   command->add_flag("--page", options->is_page,
                     "Print the page of the documentation, docs/settings.md");

@@ -15,8 +15,8 @@
 namespace slammot {
 namespace {
 
-/// Settings of an implementation that reads some fields of its stage by name: as its own process
-/// gets them from the same profile.
+/// Settings of an implementation that reads a subset of its stage's settings. Equal to those that
+/// its own process reads from the same profile.
 template <class Config>
 Config settings_from(Profile profile, std::string_view stage,
                      const config::FieldTable<Config>& fields) {

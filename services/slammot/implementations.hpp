@@ -13,32 +13,31 @@
 
 namespace slammot {
 
-/// One implementation of a stage. A new one is a new row of its table in implementations.cpp.
+/// An implementation of a stage. To add one, add a row to its table in implementations.cpp.
 template <class Stage>
 struct Implementation {
-  std::string_view name;      ///< In the settings: implementations { tracking: "NAME" }.
-  std::string_view program;   ///< That runs it as a service: slammot-PROGRAM, beside slammot.
-  bool takes_up_stored_maps;  ///< Implements go_on_after() and, as a program, --continue-map.
-  /// help, where not null, outlives the stage.
+  std::string_view name;     ///< Name in the settings: implementations { tracking: "NAME" }.
+  std::string_view program;  ///< Executable of its service: slammot-PROGRAM, beside slammot.
+  bool can_continue_map;     ///< Implements go_on_after() and, as a service, --continue-map.
+  /// `help`, if not null, must outlive the stage.
   std::unique_ptr<Stage> (*make)(const Profile& profile, work::SideWork* help);
 };
 
 using LocalizationImplementation = Implementation<stages::LocalizationStage>;
 using TrackingImplementation = Implementation<stages::TrackingStage>;
 
-/// All implementations; the first one is the default.
+/// All implementations; the first is the default.
 std::span<const LocalizationImplementation> localization_implementations();
 std::span<const TrackingImplementation> tracking_implementations();
 
-/// The row that the settings name. Precondition: find_fault() is empty.
+/// The implementation that the settings name. Precondition: find_fault() is empty.
 const LocalizationImplementation& localization_of(const ImplementationChoice& choice);
 const TrackingImplementation& tracking_of(const ImplementationChoice& choice);
 
-/// One line on the first name that no table has.
+/// Message about the first unknown name.
 std::optional<std::string> find_fault(const ImplementationChoice& choice);
 
-/// Names of the stages whose implementation is not the default, with the implementation: "tracking:
-/// greedy".
+/// Stages with an implementation other than the default: "tracking: greedy".
 std::vector<std::string> replaced_stages(const ImplementationChoice& choice);
 
 }  // namespace slammot

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 
 #include <sys/resource.h>
 #include <CLI/CLI.hpp>
@@ -14,26 +12,19 @@
 #include "common/files/atomic_file.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/log_profile.hpp"
-#include "common/files/odometry_findings.hpp"
 #include "services/ingest/log_source.hpp"
 #include "services/ingest/topic_arguments.hpp"
 #include "services/simulator/live_drive.hpp"
 #include "services/simulator/scenario_files.hpp"
 #include "services/slammot/implementations.hpp"
+#include "services/slammot/job_text.hpp"
 
 namespace slammot {
 namespace {
 
 using files::Error;
 
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[512];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
-
-/// nullopt inside for "max"; Error for what is neither that nor a positive number.
+/// "max" gives nullopt; anything but a positive number gives an Error.
 files::Result<std::optional<double>> parse_speed(const std::string& speed) {
   if (speed == "max") return std::optional<double>();
   double times = 0.0;
@@ -47,15 +38,15 @@ files::Result<std::optional<double>> parse_speed(const std::string& speed) {
 std::optional<Error> find_fault_of_implementations(const JobOptions& options,
                                                    const ImplementationChoice& choice) {
   if (const auto fault = find_fault(choice)) return Error{*fault};
-  if (!options.map.empty() && !localization_of(choice).takes_up_stored_maps)
+  if (!options.map.empty() && !localization_of(choice).can_continue_map)
     return Error{"--map: the localization '" + choice.localization +
-                 "' does not go on in a stored map"};
+                 "' cannot continue a stored map"};
   return std::nullopt;
 }
 
 std::optional<Error> find_fault_of_source(const JobOptions& options) {
   if (options.input.empty() && options.scenario.empty())
-    return Error{"say what to drive, with --input FILE or with --scenario NAME"};
+    return Error{"a drive is required: --input FILE or --scenario NAME"};
   if (!options.input.empty() && !options.scenario.empty())
     return Error{"--input and --scenario exclude each other: a drive is recorded or simulated"};
   if (options.seed && options.scenario.empty())
@@ -63,10 +54,10 @@ std::optional<Error> find_fault_of_source(const JobOptions& options) {
   return std::nullopt;
 }
 
-/// What is to be driven, before the settings are known.
+/// A drive before the settings are known.
 struct OpenedDrive {
-  std::optional<files::CarmenLog> log;                 ///< Either this
-  std::optional<simulation::ScenarioConfig> scenario;  ///< or that.
+  std::optional<files::CarmenLog> log;                 ///< Empty for a simulated drive.
+  std::optional<simulation::ScenarioConfig> scenario;  ///< Empty for a recorded drive.
   files::LogPlan plan;
   files::ProfileChoice profile;
 };
@@ -79,7 +70,7 @@ files::Result<OpenedDrive> open_drive(const JobOptions& options) {
     auto plan = simulator::plan_of(*scenario, options.topics.scanners);
     if (!plan) return plan.error();
     drive.plan = std::move(*plan);
-    drive.profile = {scenario->profile, "as the scenario says"};
+    drive.profile = {scenario->profile, "by the scenario"};
     drive.scenario = std::move(*scenario);
   } else {
     files::CarmenLogOptions log_options;
@@ -90,7 +81,7 @@ files::Result<OpenedDrive> open_drive(const JobOptions& options) {
     drive.profile = files::choose_profile(drive.plan.figures);
     drive.log = std::move(*log);
   }
-  if (!options.profile.empty()) drive.profile = {options.profile, "as asked for"};
+  if (!options.profile.empty()) drive.profile = {options.profile, "as requested"};
   return drive;
 }
 
@@ -104,52 +95,9 @@ files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options,
   return std::move(*drive.log);
 }
 
-/// Why scans were not localized, and which were so without a match; "" where none.
-std::string describe_left_out(const files::RunRecord& record, const files::RunReport& report) {
-  constexpr std::pair<const char*, const char*> kReasons[] = {
-      {"duplicate_scans", "have the stamp of another"},
-      {"out_of_order_scans", "are older than one before"},
-      {"far_ahead_scans", "have a stamp far ahead of all others"}};
-  const auto stage = report.counters.find("localization");
-  if (stage == report.counters.end()) return {};
-  std::string reasons;
-  for (const auto& [counter, reason] : kReasons) {
-    const auto count = stage->second.find(counter);
-    if (count == stage->second.end() || count->second == 0) continue;
-    reasons += text("%s%llu %s", reasons.empty() ? "" : ", ",
-                    static_cast<unsigned long long>(count->second), reason);
-  }
-  std::string lines;
-  if (record.localized_scans() < record.scans() && !reasons.empty())
-    lines += "not localized: " + reasons + "\n";
-  const auto blank = stage->second.find("blank_scans");
-  if (blank != stage->second.end() && blank->second > 0)
-    lines += text("warning:  %llu scans hold no valid reading (NaN): poses and tracks predicted\n",
-                  static_cast<unsigned long long>(blank->second));
-  const auto few = stage->second.find("too_few_echoes");
-  if (few != stage->second.end() && few->second > 0)
-    lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n",
-                  static_cast<unsigned long long>(few->second));
-  return lines;
-}
-
-std::string describe_faults(const files::LogFaults& faults) {
-  std::string lines;
-  if (faults.malformed_lines > 0) {
-    lines += text("warning:  malformed lines of the log, skipped: %llu; the first:",
-                  static_cast<unsigned long long>(faults.malformed_lines));
-    for (const std::uint64_t line : faults.first_malformed_lines)
-      lines += text(" %llu", static_cast<unsigned long long>(line));
-    lines += "\n";
-  }
-  if (faults.overlong_lines > 0)
-    lines += text("warning:  overlong lines of the log, skipped: %llu\n",
-                  static_cast<unsigned long long>(faults.overlong_lines));
-  return lines;
-}
-
-/// Pairs of scans tell the factor to a few percent; a profile may know it.
-void begin_with_way_factor(double factor, localization::LocalizerConfig& config) {
+/// Sets the initial odometry scale from the log's scan pairs, which determine it to a few percent.
+/// A scale in the profile has priority.
+void set_initial_odometry_scale(double factor, localization::LocalizerConfig& config) {
   constexpr double kSigma = 0.08;
   if (factor == 1.0 || config.belief.way_at_start != 1.0) return;
   config.belief.way_at_start = factor;
@@ -209,12 +157,11 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   if (auto fault = find_fault_of_implementations(options, profile.implementations)) return *fault;
   profile.localization.time_is_known =
       profile.localization.time_is_known && drive->plan.figures.has_clock;
-  // Whether the beam that is now the first was measured first, too, is not known: sweeps may run
-  // the other way.
+  // The sweep of a reversed scanner may run either way: the scale of the sweep is estimated.
   if (drive->plan.evidence.correction.reverses_beams)
     profile.localization.sweep_factor_sigma =
         std::max(profile.localization.sweep_factor_sigma, 1.0);
-  begin_with_way_factor(files::way_factor_of(drive->plan), profile.localization);
+  set_initial_odometry_scale(files::way_factor_of(drive->plan), profile.localization);
   profile.localization.belief.enabled = files::scans_show_motion(drive->plan);
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
@@ -240,30 +187,6 @@ std::vector<std::int64_t> stamps_of(files::CarmenLog& log) {
   return stamps_ns;
 }
 
-std::string describe_job(const Job& job, const JobOptions& options) {
-  const files::LogFigures& figures = job.log.plan().figures;
-  std::string lines = text(
-      "%s %s: %llu scans of %zu beams over %.0f degrees, %.0f s",
-      options.scenario.empty() ? "log:     " : "scenario:", name_of_drive(options).c_str(),
-      static_cast<unsigned long long>(figures.scans), figures.beams,
-      std::floor(figures.field_of_view_rad * 180.0 / std::numbers::pi + 0.25), figures.duration_s);
-  lines += "\n";
-  lines += files::describe(job.log.topics());
-  lines += files::describe_scanners(job.log.plan());
-  if (options.scenario.empty())
-    lines += "odometry: " + files::describe_odometry(job.log.plan()) + "\n";
-  for (const std::string& finding : files::describe_findings(job.log.plan()))
-    lines += "warning:  " + finding + "\n";
-  for (const std::string& stage : replaced_stages(job.profile.implementations))
-    lines += "replaced: " + stage + "\n";
-  return lines + text("profile:  %s (%s)\n", job.profile_name.c_str(), job.profile_reason.c_str());
-}
-
-std::string name_of_drive(const JobOptions& options) {
-  if (options.scenario.empty()) return options.input.filename().string();
-  return options.scenario + (options.seed ? " (seed " + std::to_string(*options.seed) + ")" : "");
-}
-
 files::RunReport report_of(const Job& job, const JobOptions& options, const std::string& command) {
   files::RunReport report;
   report.command = command;
@@ -278,37 +201,10 @@ files::RunReport report_of(const Job& job, const JobOptions& options, const std:
   return report;
 }
 
-std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report,
-                             const std::filesystem::path& output) {
-  std::string lines =
-      report.odometry
-          ? "odometry: " +
-                files::describe_odometry(*report.odometry, report.plan.figures.has_clock) + "\n"
-          : std::string();
-  lines += text("%-14s %10s %10s %10s\n", "stage", "p50 [ms]", "p99 [ms]", "max [ms]");
-  for (const files::StageLatency& stage : report.measured.stages) {
-    lines += text("%-14s %10.3f %10.3f %10.3f\n", stage.stage.c_str(), stage.p50_ms, stage.p99_ms,
-                  stage.max_ms);
-  }
-  lines +=
-      text("%llu scans, %llu of them localized; %llu confirmed tracks; %zu submaps\n",
-           static_cast<unsigned long long>(record.scans()),
-           static_cast<unsigned long long>(record.localized_scans()),
-           static_cast<unsigned long long>(record.confirmed_tracks()), record.submaps().size());
-  lines += text("%.1f s of work, %.1f times real time, %.0f MB at most\n", report.measured.wall_s,
-                report.measured.real_time_factor, report.measured.peak_memory_mb);
-  return lines + describe_left_out(record, report) + describe_faults(report.faults) +
-         "results are in " + output.string() + "\n";
-}
-
-std::string where_damaged(const files::LogFaults& faults) {
-  return faults.damage.empty() ? std::string() : " (" + faults.damage + ")";
-}
-
 double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts kilobytes
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux reports kilobytes.
 }
 
 }  // namespace slammot

@@ -13,8 +13,8 @@ Pipeline::Pipeline(const Profile& profile, int iterations)
       loop_closer_(profile.loop_closing),
       iterations_(iterations) {}
 
-/// The graph is made again from its submaps, as it was made when they came.
-void Pipeline::go_on_in(const std::vector<flow::Submap>& stored) {
+/// Rebuilds the graph from the submaps, in the order in which they were made.
+void Pipeline::continue_map(const std::vector<flow::Submap>& stored) {
   for (const flow::Submap& submap : stored) {
     const flow::GraphCorrection correction = loop_closer_.add(submap);
     record_.add(submap);
@@ -40,22 +40,22 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add(segmented);
   record_.add(tracked.labels);
   record_.add(tracked.objects);
-  localized_done_with_ = std::move(localized);
-  segmented_done_with_ = std::move(segmented);
+  recycled_localized_ = std::move(localized);
+  recycled_segmented_ = std::move(segmented);
   close_loops();
 }
 
 std::optional<Pipeline::Detected> Pipeline::localize_and_detect(const sensing::LaserScan& scan) {
   auto localized = times_.measure(
-      "localization", [&] { return localizer_->localize(scan, std::move(localized_done_with_)); });
+      "localization", [&] { return localizer_->localize(scan, std::move(recycled_localized_)); });
   if (!localized) return std::nullopt;
   auto segmented = times_.measure(
-      "detection", [&] { return detector_.detect(*localized, std::move(segmented_done_with_)); });
+      "detection", [&] { return detector_.detect(*localized, std::move(recycled_segmented_)); });
   return Detected{*std::move(localized), std::move(segmented)};
 }
 
-/// Tracks have a state and see the scan once, when this is over: until then what moves is said by
-/// detection alone.
+/// Matches the scan again without points labelled as moving by detection. Tracking is stateful and
+/// processes the scan once, afterwards.
 Pipeline::Detected Pipeline::iterate(const sensing::LaserScan& scan, Detected detected) {
   for (int iteration = 1; iteration < iterations_; ++iteration) {
     auto localized = localizer_->localize_again(scan, detected.segmented.labels);

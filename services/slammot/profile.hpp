@@ -15,13 +15,13 @@
 
 namespace slammot {
 
-/// Which implementation of a stage runs, by its name in implementations.cpp.
+/// Names of the implementations in implementations.cpp.
 struct ImplementationChoice {
   std::string localization = "standard";
   std::string tracking = "standard";
 };
 
-/// The settings of all stages, for what runs all of them.
+/// Settings of all stages.
 struct Profile {
   ingest::IngestConfig ingest;
   localization::LocalizerConfig localization;
@@ -32,12 +32,12 @@ struct Profile {
   ImplementationChoice implementations;
 };
 
-/// Every stage of the profile, for config::overlay_file(), config::print() and
-/// config::find_fault(). Points into it.
+/// All stages of the profile, for config::overlay_file(), config::print() and config::find_fault().
+/// The result refers to `profile`.
 std::vector<config::BoundStage> bind_stages(Profile& profile);
 
-/// Overlays a profile, by name or file, and then a file with settings; either may be empty.
-/// Otherwise why that is not possible, in one line.
+/// Overlays a profile (name or file), then a settings file; either may be empty. Returns one line
+/// if that fails.
 std::optional<std::string> load_settings(const std::string& profile_name,
                                          const std::filesystem::path& config_file,
                                          Profile& profile);

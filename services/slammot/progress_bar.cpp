@@ -16,7 +16,7 @@ constexpr const char* kClearLine = "\r\033[K";
 }  // namespace
 
 ProgressBar::ProgressBar(std::string what)
-    : what_(std::move(what)),
+    : title_(std::move(what)),
       is_terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()),
       next_(start_) {}
@@ -30,7 +30,7 @@ void ProgressBar::show(double fraction, const std::string& note) {
   if (!is_terminal_ || now < next_) return;
   next_ = now + kBetweenUpdates;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  std::fprintf(stderr, "%s%s %s %.0f s %s", kClearLine, what_.c_str(),
+  std::fprintf(stderr, "%s%s %s %.0f s %s", kClearLine, title_.c_str(),
                bar_text(fraction, kWidth).c_str(), elapsed_s, note.c_str());
   std::fflush(stderr);
 }

@@ -5,8 +5,7 @@
 
 namespace slammot {
 
-/// One line on stderr that tells how far the work is. Silent where stderr is no terminal. Leaves
-/// the line clean.
+/// Progress line on stderr; silent if stderr is no terminal. Clears the line when destroyed.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string what);
@@ -14,14 +13,14 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// fraction in [0, 1]; note is shown behind the bar.
+  /// `fraction` in [0, 1]; `note` follows the bar.
   void show(double fraction, const std::string& note = "");
 
-  /// A line of its own above the bar, also where stderr is no terminal.
+  /// Prints a separate line above the bar, also if stderr is no terminal.
   void say(const std::string& line);
 
  private:
-  std::string what_;
+  std::string title_;
   bool is_terminal_ = false;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point next_;

@@ -5,8 +5,9 @@
 namespace slammot {
 namespace {
 
-constexpr std::size_t kEventsPerBatch = 64;  // handing over one by one would cost more than reading
-constexpr std::size_t kMostBatches = 8;
+constexpr std::size_t kEventsPerBatch = 64;  // Passing single events would cost more than reading
+                                             // them.
+constexpr std::size_t kMaxBatches = 8;
 
 }  // namespace
 
@@ -32,7 +33,7 @@ void ReadAhead::read(const std::stop_token& stop) {
     Batch batch = read_batch();
     has_ended = batch.empty();
     std::unique_lock lock(mutex_);
-    if (!changed_.wait(lock, stop, [&] { return ready_.size() < kMostBatches; })) return;
+    if (!changed_.wait(lock, stop, [&] { return ready_.size() < kMaxBatches; })) return;
     ready_.push_back(std::move(batch));
     changed_.notify_all();
   }

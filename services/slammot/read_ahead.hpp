@@ -11,15 +11,14 @@
 
 namespace slammot {
 
-/// One event of a log, with how much of the log was read for it.
+/// An event of a log and the share of the log read so far.
 struct ReadEvent {
   files::LogEvent event;
   double fraction_read = 0.0;  ///< [0, 1]
 };
 
-/// Reads a log on a thread of its own, some events ahead of whoever takes them: unpacking, parsing
-/// and simulating cost the stages no time. The order is the log's. Nobody else may touch the log
-/// until this is gone.
+/// Reads a log ahead in a separate thread, so that decompression, parsing and simulation cost the
+/// stages no time. Keeps the log's order. Nothing else may use the log while this exists.
 class ReadAhead {
  public:
   explicit ReadAhead(files::CarmenLog& log);
@@ -27,7 +26,7 @@ class ReadAhead {
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  /// Waits for the next event; nullopt at the end of what can be read.
+  /// Waits for the next event; nullopt at the end of the readable part.
   std::optional<ReadEvent> next();
 
  private:
@@ -39,11 +38,11 @@ class ReadAhead {
   files::CarmenLog& log_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<Batch> ready_;  ///< The last one is empty when the log has ended.
-  Batch taken_;              ///< By next(), from taken_count_ on.
+  std::deque<Batch> ready_;  ///< An empty batch marks the end of the log.
+  Batch taken_;              ///< Batch that next() reads, from taken_count_ on.
   std::size_t taken_count_ = 0;
   bool is_ended_ = false;
-  std::jthread thread_;  ///< Last: it must end before the rest goes.
+  std::jthread thread_;  ///< Last member: must end before the others are destroyed.
 };
 
 }  // namespace slammot

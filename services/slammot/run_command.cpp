@@ -15,6 +15,7 @@
 #include "common/files/run_outputs.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
+#include "services/slammot/job_text.hpp"
 #include "services/slammot/lost_watch.hpp"
 #include "services/slammot/pipeline.hpp"
 #include "services/slammot/progress_bar.hpp"
@@ -26,7 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostIterations = 10;  // it has converged long before
+constexpr int kMaxIterations = 10;  // Matching converges long before.
 
 int fail(const files::Error& fault) {
   std::fprintf(stderr, "slammot: %s\n", fault.message.c_str());
@@ -37,13 +38,13 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Holds the drive back to a multiple of the recorded rate, if one was asked for.
+/// Limits processing to a multiple of the recorded rate, if one is given.
 class Pace {
  public:
   Pace(std::optional<double> speed, std::int64_t first_stamp_ns)
       : speed_(speed), first_stamp_ns_(first_stamp_ns) {}
 
-  /// Until the scan is due, or no longer than until a stop is requested.
+  /// Waits until the scan is due or a stop is requested.
   void wait_for(std::int64_t stamp_ns, const std::stop_token& stop) const {
     if (!speed_) return;
     const std::chrono::duration<double> due_after(static_cast<double>(stamp_ns - first_stamp_ns_) *
@@ -61,19 +62,19 @@ class Pace {
   Clock::time_point start_ = Clock::now();
 };
 
-/// What `run` is asked for beyond what any job is.
+/// Options of `run` in addition to those of any job.
 struct RunOptions {
   JobOptions job;
-  int iterations = 1;  ///< Of localization and detection a scan, at most.
+  int iterations = 1;  ///< Greatest number of matches of a scan.
 };
 
-/// How much of a drive was processed.
+/// The processed part of a drive.
 struct Driven {
   double duration_s = 0.0;
-  bool is_interrupted = false;  ///< There was more of it.
+  bool is_interrupted = false;  ///< True if more of the drive remained.
 };
 
-/// Takes the drive through all stages, to its end or until a stop is requested.
+/// Processes the drive to its end or until a stop is requested.
 Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
   ProgressBar progress("slammot run");
   std::optional<Pace> pace;
@@ -94,8 +95,8 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
       pace->wait_for(scan->stamp_ns, stop);
       pipeline.take(*scan);
       last_stamp_ns = std::max(last_stamp_ns, scan->stamp_ns);
-      if (const auto line = lost.see(static_cast<double>(scan->stamp_ns - first_stamp_ns) * 1e-9,
-                                     scan->sequence, pipeline.is_lost(), pipeline.maps_begun()))
+      if (const auto line = lost.update(static_cast<double>(scan->stamp_ns - first_stamp_ns) * 1e-9,
+                                        scan->sequence, pipeline.is_lost(), pipeline.maps_begun()))
         progress.say(*line);
       progress.show(read->fraction_read);
     }
@@ -104,8 +105,8 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
   return {static_cast<double>(last_stamp_ns - first_stamp_ns) * 1e-9, read.has_value()};
 }
 
-/// The last line of a run that did not have the whole drive, and its exit code.
-int end_of(const JobOptions& options, const files::RunReport& report, const Driven& driven) {
+/// Prints the last line of an incomplete run and returns its exit code.
+int report_end(const JobOptions& options, const files::RunReport& report, const Driven& driven) {
   std::fflush(stdout);
   if (driven.is_interrupted) {
     std::fprintf(stderr,
@@ -115,37 +116,37 @@ int end_of(const JobOptions& options, const files::RunReport& report, const Driv
   }
   if (!report.faults.is_cut) return kExitDone;
   std::fprintf(stderr,
-               "slammot: %s is cut off or damaged: only what could be read of it was processed%s\n",
+               "slammot: %s is cut off or damaged: only the readable part was processed%s\n",
                options.input.c_str(), where_damaged(report.faults).c_str());
   return kExitLogIsCut;
 }
 
-/// Takes up the stored map, if one was asked for.
-std::optional<files::Error> take_up_map(const std::filesystem::path& map, const Profile& profile,
-                                        Pipeline& pipeline) {
+/// Continues the stored map, if one is given.
+std::optional<files::Error> continue_stored_map(const std::filesystem::path& map,
+                                                const Profile& profile, Pipeline& pipeline) {
   if (map.empty()) return std::nullopt;
   const auto stored = read_stored_map(map, profile.localization.map.cell_size_m);
   if (!stored) return stored.error();
-  pipeline.go_on_in(*stored);
+  pipeline.continue_map(*stored);
   std::printf("map:      %zu submaps of %s\n", stored->size(), map.c_str());
   std::fflush(stdout);
   return std::nullopt;
 }
 
-/// What a drive that was lost, or began in a stored map, wants to know.
-std::string describe_whereabouts(const Pipeline& pipeline, const RunOptions& options) {
-  const auto astray = pipeline.maps_begun();
-  if (options.job.map.empty() && astray == 0) return {};
+/// Relation of the drive to the map, if it was lost or began in a stored map.
+std::string describe_location(const Pipeline& pipeline, const RunOptions& options) {
+  const auto maps_begun = pipeline.maps_begun();
+  if (options.job.map.empty() && maps_begun == 0) return {};
   const auto found = pipeline.counters().at("loop_closing").at("found_elsewhere");
-  const std::string lost = astray == 0
-                               ? std::string()
-                               : "warning:  lost its way and began a new part of the map, " +
-                                     std::to_string(astray) + " times\n";
+  const std::string lost =
+      maps_begun == 0 ? std::string()
+                      : "warning:  localization was lost and began a new part of the map, " +
+                            std::to_string(maps_begun) + " times\n";
   const std::string place =
-      pipeline.knows_where_it_is()
-          ? "found itself in the map (parts joined: " + std::to_string(found) + ")\n"
-          : "did not find itself in the map: its poses begin anywhere in it\n";
-  return lost + (pipeline.knows_where_it_is() ? "map:      " : "warning:  ") + place;
+      pipeline.is_connected()
+          ? "the drive is located in the map (parts joined: " + std::to_string(found) + ")\n"
+          : "the drive is not located in the map: the origin of its poses is arbitrary\n";
+  return lost + (pipeline.is_connected() ? "map:      " : "warning:  ") + place;
 }
 
 int run(const RunOptions& run_options) {
@@ -158,7 +159,8 @@ int run(const RunOptions& run_options) {
   std::fputs(describe_job(*job, options).c_str(), stdout);
   std::fflush(stdout);
   Pipeline pipeline(job->profile, run_options.iterations);
-  if (const auto fault = take_up_map(options.map, job->profile, pipeline)) return fail(*fault);
+  if (const auto fault = continue_stored_map(options.map, job->profile, pipeline))
+    return fail(*fault);
   const Driven driven = drive(*job, pipeline, interruption.get_token());
   if (driven.is_interrupted && pipeline.record().scans() == 0) {
     std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
@@ -178,9 +180,9 @@ int run(const RunOptions& run_options) {
     if (const auto fault = write_stored_map(options.output, pipeline.record().submaps()))
       return fail(*fault);
   }
-  std::fputs(describe_whereabouts(pipeline, run_options).c_str(), stdout);
+  std::fputs(describe_location(pipeline, run_options).c_str(), stdout);
   std::fputs(describe_outcome(pipeline.record(), report, options.output).c_str(), stdout);
-  return end_of(options, report, driven);
+  return report_end(options, report, driven);
 }
 
 }  // namespace
@@ -195,7 +197,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "Maximum number of matches of a scan, each without what detection then labelled "
                    "as moving")
       ->type_name("N")
-      ->check(CLI::Range(1, kMostIterations))
+      ->check(CLI::Range(1, kMaxIterations))
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -6,8 +6,8 @@ class App;
 
 namespace slammot {
 
-/// Adds `slammot run`: a drive through all stages in this one process, the same result every time.
-/// exit_code is set when the command has run and must outlive the app.
+/// Adds `slammot run`: processes a drive in this process, reproducibly. `exit_code` is set when the
+/// command has run and must outlive `app`.
 void add_run_command(CLI::App& app, int& exit_code);
 
 }  // namespace slammot

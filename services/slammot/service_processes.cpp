@@ -21,8 +21,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kAtOnce = 2s;  ///< A service that dies sooner has not worked.
-constexpr int kMostFailedStarts = 3;
+constexpr auto kStartupTime = 2s;  ///< A service that exits with a fault sooner has failed to
+                                   ///< start.
+constexpr int kMaxFailedStarts = 3;
 constexpr auto kPatience = 2s;
 
 std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
@@ -32,11 +33,11 @@ std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
   return pointers;
 }
 
-/// In the child, between fork and exec: nothing but system calls.
-[[noreturn]] void become(char* const* arguments, char* const* environment, int log, pid_t parent) {
+/// Runs in the child between fork and exec: system calls only.
+[[noreturn]] void execute(char* const* arguments, char* const* environment, int log, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127);  // it died before the line above
-  setpgid(0, 0);  // Ctrl-C is for the parent, which then ends its children in order
+  if (getppid() != parent) _exit(127);  // the parent died before prctl()
+  setpgid(0, 0);  // Ctrl-C reaches only the parent, which then ends its children in order.
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -76,7 +77,7 @@ void ServiceProcesses::start(Running& running) {
   const pid_t parent = getpid();
   running.started = std::chrono::steady_clock::now();
   running.process = fork();
-  if (running.process == 0) become(arguments.data(), environment.data(), log, parent);
+  if (running.process == 0) execute(arguments.data(), environment.data(), log, parent);
   if (log >= 0) close(log);
   if (running.process < 0) {
     running.process = 0;
@@ -95,13 +96,13 @@ std::optional<std::string> ServiceProcesses::restart_dead() {
       running.exit_code = exit_code;
       continue;
     }
-    const bool has_failed_at_once =
-        exit_code > 0 && std::chrono::steady_clock::now() - running.started < kAtOnce;
-    running.failed_at_once = has_failed_at_once ? running.failed_at_once + 1 : 0;
-    if (running.failed_at_once >= kMostFailedStarts ||
-        ++restarts_[running.service.name] > kMostRestarts) {
-      return running.service.name + " does not keep running (" + last_words(running.service.name) +
-             ")";
+    const bool has_failed_start =
+        exit_code > 0 && std::chrono::steady_clock::now() - running.started < kStartupTime;
+    running.failed_starts = has_failed_start ? running.failed_starts + 1 : 0;
+    if (running.failed_starts >= kMaxFailedStarts ||
+        ++restarts_[running.service.name] > kMaxRestarts) {
+      return running.service.name + " does not keep running (" +
+             last_log_line(running.service.name) + ")";
     }
     start(running);
   }
@@ -115,24 +116,24 @@ std::optional<int> ServiceProcesses::ended(const std::string& name) const {
   return std::nullopt;
 }
 
-std::string ServiceProcesses::last_words(const std::string& name) const {
+std::string ServiceProcesses::last_log_line(const std::string& name) const {
   std::ifstream file(log_folder_ / (name + ".log"));
-  std::string last = "it said nothing";
+  std::string last = "no output";
   for (std::string line; std::getline(file, line);) {
     if (!line.empty()) last = line;
   }
   return last;
 }
 
-void ServiceProcesses::end(const std::function<bool(const Running&)>& is_meant) {
+void ServiceProcesses::end(const std::function<bool(const Running&)>& is_selected) {
   const auto has_ended = [&](Running& running) {
-    if (!is_meant(running)) return true;
+    if (!is_selected(running)) return true;
     if (running.process != 0 && waitpid(running.process, nullptr, WNOHANG) == running.process)
       running.process = 0;
     return running.process == 0;
   };
   for (const Running& running : all_) {
-    if (is_meant(running) && running.process != 0) kill(running.process, SIGTERM);
+    if (is_selected(running) && running.process != 0) kill(running.process, SIGTERM);
   }
   const auto give_up_at = std::chrono::steady_clock::now() + kPatience;
   while (!std::ranges::all_of(all_, has_ended) && std::chrono::steady_clock::now() < give_up_at)
@@ -156,7 +157,7 @@ ServiceProcesses::~ServiceProcesses() {
 TemporaryFolder::TemporaryFolder(const std::string& prefix) {
   std::string name = (std::filesystem::temp_directory_path() / (prefix + "XXXXXX")).string();
   if (mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("cannot make a folder like " + name + ": " + std::strerror(errno));
+    throw std::runtime_error("cannot create a folder like " + name + ": " + std::strerror(errno));
   path_ = name;
 }
 

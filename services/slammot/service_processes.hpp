@@ -13,35 +13,35 @@
 
 namespace slammot {
 
-/// One process to be started and kept running.
+/// A process to be kept running.
 struct ServiceProcess {
   std::string name;                    ///< For messages.
   std::vector<std::string> arguments;  ///< The program's path first.
-  bool may_end = false;  ///< Its end with exit code 0 or 3 (the log is cut) is no accident.
+  bool may_end = false;                ///< Exit codes 0 and 3 (truncated log) are not failures.
 };
 
-/// Child processes that are started again when they die, and that never outlive this process: they
-/// end with the object, and the kernel kills them when this process is killed. Their output goes to
+/// Child processes that are restarted when they die. They never outlive this process: the
+/// destructor ends them, and the kernel kills them if this process is killed. Their output goes to
 /// NAME.log in the log folder.
 class ServiceProcesses {
  public:
-  static constexpr int kMostRestarts = 20;  ///< Of one service in a row; then it is broken.
+  static constexpr int kMaxRestarts = 20;  ///< Of one service; it is then considered broken.
 
-  /// Throws std::runtime_error, one line, when a program cannot be started.
+  /// Throws std::runtime_error with one line if a program cannot be started.
   ServiceProcesses(std::vector<ServiceProcess> services, std::filesystem::path log_folder,
                    std::map<std::string, std::string> environment);
-  ~ServiceProcesses();  ///< SIGTERM to all, SIGKILL to what has not ended after 2 s.
+  ~ServiceProcesses();  ///< SIGTERM to all; SIGKILL after 2 s.
   ServiceProcesses(const ServiceProcesses&) = delete;
   ServiceProcesses& operator=(const ServiceProcesses&) = delete;
 
-  /// Starts again what has died. Otherwise why there is no point in it, with the service's last
-  /// words.
+  /// Restarts dead processes. Returns a message, with the last line of the service's log, if a
+  /// service keeps failing.
   std::optional<std::string> restart_dead();
 
-  /// Ends one for good: SIGTERM, SIGKILL after 2 s.
+  /// Ends a service for good: SIGTERM, SIGKILL after 2 s.
   void end(const std::string& name);
 
-  /// Exit code of a service that may end and has.
+  /// Exit code of a service that may end and has ended.
   std::optional<int> ended(const std::string& name) const;
 
   const std::map<std::string, std::uint64_t>& restarts() const { return restarts_; }
@@ -52,12 +52,12 @@ class ServiceProcesses {
     pid_t process = 0;  ///< 0: has ended.
     std::optional<int> exit_code;
     std::chrono::steady_clock::time_point started;
-    int failed_at_once = 0;
+    int failed_starts = 0;
   };
 
   void start(Running& running);
-  void end(const std::function<bool(const Running&)>& is_meant);
-  std::string last_words(const std::string& name) const;
+  void end(const std::function<bool(const Running&)>& is_selected);
+  std::string last_log_line(const std::string& name) const;
 
   std::vector<Running> all_;
   std::filesystem::path log_folder_;
@@ -65,7 +65,7 @@ class ServiceProcesses {
   std::map<std::string, std::uint64_t> restarts_;
 };
 
-/// A folder of its own under the system's temporary one, removed with everything in it at the end.
+/// A folder under the system's temporary folder, removed with its content by the destructor.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& prefix);
@@ -78,7 +78,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// Folder of this executable: where the services' are, too.
+/// Folder of this executable and of the services.
 std::filesystem::path folder_of_this_program();
 
 }  // namespace slammot

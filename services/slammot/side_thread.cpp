@@ -8,10 +8,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Waking a thread costs both sides more than what is often handed over, and work comes scan by
-/// scan: longer than the pauses within one.
-constexpr std::chrono::microseconds kLooksFor(250);
-constexpr int kLooksBetweenTimes = 64;
+/// Waking a thread often costs more than the work passed to it. Work arrives scan by scan: the
+/// thread spins for longer than the pauses within a scan.
+constexpr std::chrono::microseconds kSpinTime(250);
+constexpr int kSpinsPerClockReading = 64;
 
 void pause_briefly() {
 #if defined(__x86_64__)
@@ -19,17 +19,17 @@ void pause_briefly() {
 #endif
 }
 
-/// Whether looking takes nothing from whoever is to change the state.
-bool has_core_of_its_own() {
-  static const bool has = std::thread::hardware_concurrency() != 1;  // 0: nobody knows
+/// True unless spinning would delay the thread that is waited for.
+bool may_spin() {
+  static const bool has = std::thread::hardware_concurrency() != 1;  // 0: unknown
   return has;
 }
 
-/// Until it is another, without sleeping for as long as that is worth it.
-void await_other(const std::atomic<std::uint32_t>& state, std::uint32_t than) {
-  const Clock::time_point until = Clock::now() + kLooksFor;
-  while (has_core_of_its_own() && Clock::now() < until) {
-    for (int look = 0; look < kLooksBetweenTimes; ++look, pause_briefly())
+/// Waits until the state differs from `than`: spins for a while, then sleeps.
+void await_change(const std::atomic<std::uint32_t>& state, std::uint32_t than) {
+  const Clock::time_point until = Clock::now() + kSpinTime;
+  while (may_spin() && Clock::now() < until) {
+    for (int spin = 0; spin < kSpinsPerClockReading; ++spin, pause_briefly())
       if (state.load(std::memory_order_acquire) != than) return;
   }
   state.wait(than, std::memory_order_acquire);
@@ -56,27 +56,27 @@ void SideThread::put(Place& place, Number number, std::function<bool()> step) {
   place.state.store(state_of(number, kBegun), std::memory_order_release);
 }
 
-void SideThread::call() {
-  calls_.fetch_add(1, std::memory_order_release);
-  calls_.notify_one();
+void SideThread::wake() {
+  wakes_.fetch_add(1, std::memory_order_release);
+  wakes_.notify_one();
 }
 
 void SideThread::begin(std::function<bool()> step) {
   const Number number = begun_.load(std::memory_order_relaxed);
-  while (number - ended_ >= kPlaces) end_first();
+  while (number - ended_ >= kPlaces) complete_oldest();
   put(place_of(number), number, std::move(step));
   begun_.store(number + 1, std::memory_order_release);
-  call();
+  wake();
 }
 
 void SideThread::wait() {
-  while (ended_ != begun_.load(std::memory_order_relaxed)) end_first();
+  while (ended_ != begun_.load(std::memory_order_relaxed)) complete_oldest();
 }
 
-/// Of what the caller does not know to be done.
-void SideThread::end_first() {
+/// Completes the oldest work that the caller has not awaited.
+void SideThread::complete_oldest() {
   Place& place = place_of(ended_);
-  if (!take_and_do(place, ended_, false)) await_end_of(place, ended_);
+  if (!try_work(place, ended_, false)) await_completion(place, ended_);
   ++ended_;
 }
 
@@ -88,62 +88,61 @@ void SideThread::share(std::size_t parts, const std::function<void(std::size_t)>
       part(i);
     return false;
   };
-  if (has_core_of_its_own()) {
+  if (may_spin()) {
     const Number number = shares_.load(std::memory_order_relaxed);
     put(shared_, number, std::cref(take_parts));
     shares_.store(number + 1, std::memory_order_release);
-    call();
+    wake();
     take_parts();
-    if (!withdraw(shared_, number)) await_end_of(shared_, number);
+    if (!withdraw(shared_, number)) await_completion(shared_, number);
   } else {
     take_parts();
   }
 }
 
-/// False if somebody else has taken the work, or had. Whoever joins in does what is shared between
-/// two steps.
-bool SideThread::take_and_do(Place& place, Number number, bool joins_in) {
+/// Does the work unless somebody else has taken it; returns false in that case. With `joins_in`,
+/// does shared parts between steps.
+bool SideThread::try_work(Place& place, Number number, bool joins_shared) {
   std::uint32_t begun = state_of(number, kBegun);
   if (!place.state.compare_exchange_strong(begun, state_of(number, kTaken),
                                            std::memory_order_acquire))
     return false;
   while (place.step())
-    if (joins_in) join_in();
+    if (joins_shared) do_shared();
   place.state.store(state_of(number, kDone), std::memory_order_release);
   place.state.notify_one();
   return true;
 }
 
-/// Whether nobody has taken the work, and now nobody will.
+/// Removes work that nobody has taken. Returns true if there was such work.
 bool SideThread::withdraw(Place& place, Number number) {
   std::uint32_t begun = state_of(number, kBegun);
   return place.state.compare_exchange_strong(begun, state_of(number, kDone),
                                              std::memory_order_relaxed);
 }
 
-/// The place may have gone to another work meanwhile, with another number.
-void SideThread::await_end_of(Place& place, Number number) {
+/// The place may hold a later work, with another number, by the time that this returns.
+void SideThread::await_completion(Place& place, Number number) {
   while (place.state.load(std::memory_order_acquire) == state_of(number, kTaken))
-    await_other(place.state, state_of(number, kTaken));
+    await_change(place.state, state_of(number, kTaken));
 }
 
-/// Does what it can of what is shared just now, if anything.
-void SideThread::join_in() {
+/// Does parts that are shared at present, if any.
+void SideThread::do_shared() {
   const Number shares = shares_.load(std::memory_order_acquire);
-  take_and_do(shared_, shares - 1, false);
+  try_work(shared_, shares - 1, false);
 }
 
-/// One thing that was begun after the other: what the caller has taken, too, must have ended before
-/// the next begins.
+/// Works strictly in order: work that the caller has taken must end before the next begins.
 void SideThread::work_until_stopped() {
   for (Number number = 0; !is_stopping_;) {
-    const std::uint32_t calls = calls_.load(std::memory_order_acquire);
-    join_in();
+    const std::uint32_t wakes = wakes_.load(std::memory_order_acquire);
+    do_shared();
     if (begun_.load(std::memory_order_acquire) == number) {
-      await_other(calls_, calls);
+      await_change(wakes_, wakes);
       continue;
     }
-    if (!take_and_do(place_of(number), number, true)) await_end_of(place_of(number), number);
+    if (!try_work(place_of(number), number, true)) await_completion(place_of(number), number);
     ++number;
   }
 }

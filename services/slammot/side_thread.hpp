@@ -11,9 +11,9 @@
 
 namespace slammot {
 
-/// Work beside the caller's on a thread of its own. What the thread has not even begun when it is
-/// waited for, for want of a core, the caller does instead: help never costs more than it saves.
-/// Used from one thread.
+/// Work in a separate thread beside the caller's. On waiting, the caller does work that the thread
+/// has not begun, for example for want of a core: using the thread never costs more than it saves.
+/// All functions must be called from one thread.
 class SideThread : public work::SideWork {
  public:
   SideThread();
@@ -24,17 +24,17 @@ class SideThread : public work::SideWork {
   void begin(std::function<bool()> step) override;
   void wait() override;
 
-  /// The thread joins in after the step that it is at, if there are parts left by then.
+  /// The thread joins after its current step, if parts are left by then.
   void share(std::size_t parts, const std::function<void(std::size_t)>& part) override;
 
  private:
-  /// Works are numbered as they are begun, modulo a power of two that no two at hand differ by.
+  /// Works are numbered in order, modulo a power of two; no two pending works have equal numbers.
   using Number = std::uint32_t;
   enum Stage : std::uint32_t { kBegun, kTaken, kDone, kStages };
   struct Place {
-    std::atomic<std::uint32_t> state{0};  ///< Of the work that is here now: its number * kStages +
-                                          ///< its stage.
-    std::function<bool()> step;           ///< Belongs to whoever took the state from kBegun on.
+    std::atomic<std::uint32_t> state{0};  ///< Of the work in this place: its number * kStages + its
+                                          ///< stage.
+    std::function<bool()> step;  ///< Owned by whoever has moved the state from kBegun to kTaken.
   };
   static constexpr Number kPlaces = 16;
 
@@ -44,22 +44,21 @@ class SideThread : public work::SideWork {
   Place& place_of(Number number) { return places_[number % kPlaces]; }
   static void put(Place& place, Number number, std::function<bool()> step);
   static bool withdraw(Place& place, Number number);
-  static void await_end_of(Place& place, Number number);
-  bool take_and_do(Place& place, Number number, bool joins_in);
-  void end_first();
-  void join_in();
-  void call();
+  static void await_completion(Place& place, Number number);
+  bool try_work(Place& place, Number number, bool joins_shared);
+  void complete_oldest();
+  void do_shared();
+  void wake();
   void work_until_stopped();
 
-  std::array<Place, kPlaces> places_;  ///< What was begun, by its number.
-  Place shared_;                       ///< What is shared, numbered by itself.
+  std::array<Place, kPlaces> places_;  ///< Begun works, by number.
+  Place shared_;                       ///< The shared work, with its own numbers.
   std::atomic<Number> begun_{0};
   std::atomic<Number> shares_{0};
-  std::atomic<std::uint32_t> calls_{0};  ///< Changes whenever there is something to do for the
-                                         ///< thread.
-  Number ended_ = 0;                     ///< So many of what was begun the caller knows to be done.
-  bool is_stopping_ = false;             ///< The thread's.
-  std::jthread thread_;                  ///< Last: it must end before the rest goes.
+  std::atomic<std::uint32_t> wakes_{0};  ///< Changes when there is work for the thread.
+  Number ended_ = 0;                     ///< Number of works that the caller has awaited.
+  bool is_stopping_ = false;             ///< Accessed by the thread only.
+  std::jthread thread_;                  ///< Last member: must end before the others are destroyed.
 };
 
 }  // namespace slammot

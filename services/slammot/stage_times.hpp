@@ -10,10 +10,10 @@
 
 namespace slammot {
 
-/// How long each stage took, call by call.
+/// Duration of each call of each stage.
 class StageTimes {
  public:
-  /// Runs the stage and returns what it returns.
+  /// Runs the stage and returns its result.
   template <typename Stage>
   decltype(auto) measure(const std::string& name, Stage&& stage) {
     const Stopwatch stopwatch(durations_of(name));
@@ -51,9 +51,8 @@ class StageTimes {
     return durations_ms_.emplace_back(name, std::vector<double>()).second;
   }
 
-  std::deque<std::pair<std::string, std::vector<double>>> durations_ms_;  // in the order of first
-                                                                          // use; references stay
-                                                                          // valid
+  // In the order of first use. A deque keeps references valid.
+  std::deque<std::pair<std::string, std::vector<double>>> durations_ms_;
 };
 
 }  // namespace slammot

@@ -23,7 +23,7 @@ std::filesystem::path file_of(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path) ? path / kFileName : path;
 }
 
-/// Loop closing does not tell places by points of another density.
+/// Loop closing cannot compare submaps with different cell sizes.
 std::optional<Error> find_fault(const std::vector<flow::Submap>& submaps, double cell_size_m,
                                 const std::string& name) {
   constexpr double kSame = 1e-6;
@@ -33,7 +33,7 @@ std::optional<Error> find_fault(const std::vector<flow::Submap>& submaps, double
   if (other == submaps.end()) return std::nullopt;
   char text[128];
   std::snprintf(text, sizeof text,
-                ": the map is of another profile, with cells of %g m for %g m here",
+                ": the map is of another profile, with cells of %g m instead of %g m",
                 other->cell_size_m, cell_size_m);
   return Error{name + text};
 }
@@ -41,15 +41,15 @@ std::optional<Error> find_fault(const std::vector<flow::Submap>& submaps, double
 Result<std::vector<flow::Submap>> read(Store& store, const std::string& name) {
   const std::vector<std::string> vehicles = store.vehicles();
   if (!store.last_fault().empty()) return Error{name + ": " + store.last_fault()};
-  if (vehicles.empty()) return Error{name + ": no map is stored there"};
+  if (vehicles.empty()) return Error{name + ": contains no map"};
   if (vehicles.size() > 1)
-    return Error{name + ": maps of " + std::to_string(vehicles.size()) +
-                 " vehicles are stored there, one is expected"};
+    return Error{name + ": contains maps of " + std::to_string(vehicles.size()) +
+                 " vehicles, one is expected"};
   std::vector<flow::Submap> submaps;
   for (const flow::SubmapId id : store.list(vehicles.front())) {
     auto submap = store.get(vehicles.front(), id);
     if (!submap) return Error{name + ": " + store.last_fault()};
-    submap->map_id = {};  // in one process there is one map
+    submap->map_id = {};  // One process has one map.
     submaps.push_back(std::move(*submap));
   }
   return submaps;
@@ -62,7 +62,7 @@ Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& p
   const std::filesystem::path file = file_of(path);
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(file, unreadable))
-    return Error{file.string() + ": no such file; run --store-map makes one"};
+    return Error{file.string() + ": no such file; slammot run --store-map writes it"};
   auto store = Store::open(file, {});
   if (const auto* fault = std::get_if<std::string>(&store)) return Error{*fault};
   auto submaps = read(std::get<Store>(store), file.string());
@@ -92,8 +92,8 @@ std::optional<Error> write_stored_map(const std::filesystem::path& folder,
         return Error{unfinished.string() + ": " + std::get<Store>(store).last_fault()};
     }
   }
-  // Closed, it is one file: the write-ahead log is in it. That of the one before must not be taken
-  // for this one's.
+  // A closed database is a single file without a write-ahead log. Logs left by the previous file
+  // would be applied to it.
   for (const char* ending : {"-wal", "-shm"})
     std::filesystem::remove(folder / (std::string(kFileName) + ending), fault);
   std::filesystem::rename(unfinished, folder / kFileName, fault);

@@ -11,18 +11,18 @@
 
 namespace slammot {
 
-/// Submaps of the latest map in a database of map_store, ascending. `path` is the file or the
-/// folder that holds it as map.sqlite: what `run --store-map` wrote, or the state folder of
-/// map_store. cell_size_m: of the profile that is to go on in it; a map with others is refused.
+/// Submaps of the latest map in a database of map_store, ascending. `path`: the file, or the folder
+/// that contains it as map.sqlite (output of `run --store-map`, or map_store's state folder). A map
+/// with another cell size than `cell_size_m` is rejected.
 files::Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path,
                                                          double cell_size_m);
 
-/// Writes them as map.sqlite into the folder, which must exist; replaces the one that is there.
+/// Writes the submaps as map.sqlite into the folder, which must exist; replaces an existing file.
 std::optional<files::Error> write_stored_map(const std::filesystem::path& folder,
                                              const std::vector<flow::Submap>& submaps,
                                              const std::string& vehicle_id);
 
-/// The same for what a run made, under the name that services have unless told another.
+/// As above, for the default vehicle id.
 std::optional<files::Error> write_stored_map(const std::filesystem::path& folder,
                                              const std::map<flow::SubmapId, flow::Submap>& submaps);
 

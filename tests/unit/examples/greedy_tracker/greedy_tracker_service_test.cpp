@@ -13,7 +13,7 @@ namespace {
 using slammot::testing::kForever;
 using ::testing::ElementsAre;
 
-/// One object of three beams that walks along x.
+/// A pedestrian of three beams that moves along x.
 flow::SegmentedScan scan_of(std::uint32_t sequence) {
   flow::Segment segment;
   segment.label = flow::PointLabel::kMoving;
@@ -39,7 +39,7 @@ struct GreedyTrackerOnTheBus : slammot::testing::ServiceOnTheBus {
   dds::Reader<slammot_ScanLabels> labels{neighbour_, dds::topics::kScanLabels};
   flow::OdomId odom_id{1};
   std::vector<std::uint32_t> labelled;
-  std::vector<std::size_t> confirmed;  ///< Tracks, by message.
+  std::vector<std::size_t> confirmed;  ///< Number of tracks, by message.
 
   void begin() {
     start<GreedyTrackerService>("tracking");
@@ -47,7 +47,7 @@ struct GreedyTrackerOnTheBus : slammot::testing::ServiceOnTheBus {
     ASSERT_TRUE(objects.wait_for_writers(1, kForever));
     ASSERT_TRUE(labels.wait_for_writers(1, kForever));
   }
-  /// Sends a scan and waits for its answer.
+  /// Sends a scan and waits for the answer.
   void track(std::uint32_t sequence) {
     flow::SegmentedScan scan = scan_of(sequence);
     scan.odom_id = odom_id;
@@ -66,7 +66,7 @@ struct GreedyTrackerOnTheBus : slammot::testing::ServiceOnTheBus {
   }
 };
 
-TEST_F(GreedyTrackerOnTheBus, LabelsEveryScanAndConfirmsWhatWalks) {
+TEST_F(GreedyTrackerOnTheBus, LabelsEveryScanAndConfirmsAPedestrian) {
   begin();
   std::vector<std::uint32_t> sent;
   for (std::uint32_t sequence = 0; sequence < 20; ++sequence) {
@@ -78,13 +78,13 @@ TEST_F(GreedyTrackerOnTheBus, LabelsEveryScanAndConfirmsWhatWalks) {
   EXPECT_EQ(confirmed.back(), 1U);
 }
 
-TEST_F(GreedyTrackerOnTheBus, GivesTheNewestAnswerToAScanThatComesAgain) {
+TEST_F(GreedyTrackerOnTheBus, RepeatsTheLatestAnswerToARepeatedScan) {
   begin();
   for (const std::uint32_t sequence : {0U, 1U, 1U, 0U}) track(sequence);
   EXPECT_THAT(labelled, ElementsAre(0, 1, 1, 1));
 }
 
-TEST_F(GreedyTrackerOnTheBus, BeginsAnewWithAnotherDrive) {
+TEST_F(GreedyTrackerOnTheBus, DiscardsItsTracksWithANewDrive) {
   begin();
   for (std::uint32_t sequence = 0; sequence < 20; ++sequence) track(sequence);
   odom_id = {2};
@@ -93,7 +93,7 @@ TEST_F(GreedyTrackerOnTheBus, BeginsAnewWithAnotherDrive) {
   EXPECT_EQ(confirmed.back(), 0U);
 }
 
-TEST(GreedyTrackerSettings, AreThoseOfTheStageThatItReplaces) {
+TEST(GreedyTrackerSettings, AreASubsetOfThoseOfTheStageThatItReplaces) {
   GreedyTrackerService::Settings settings;
   const auto stages = GreedyTrackerService::stages(settings);
   const auto fault = config::overlay_text(

@@ -32,7 +32,7 @@ flow::Segment moving_segment(const Vector2& centre_m) {
   return segment;
 }
 
-/// A scan of these segments, three beams each.
+/// A scan with these segments of three beams each.
 flow::SegmentedScan scan_of(double time_s, std::vector<flow::Segment> segments) {
   flow::SegmentedScan scan;
   scan.stamp_ns = std::llround(time_s * 1e9);
@@ -77,7 +77,7 @@ struct Scene {
   }
 };
 
-TEST(GreedyTracker, KnowsPositionAndVelocityOfWhatMovesAtConstantVelocity) {
+TEST(GreedyTracker, EstimatesPositionAndVelocityAtConstantVelocity) {
   Scene scene{.movers = {{{10.0, -5.0}, {1.0, 6.0}}}};
   scene.run(0.0, 2.0);
   ASSERT_THAT(confirmed(scene.result), SizeIs(1));
@@ -104,7 +104,7 @@ TEST(GreedyTracker, PredictsAlongTheVelocityWithGrowingUncertainty) {
   }
 }
 
-TEST(GreedyTracker, MovesItsAnswerWithTheWorld) {
+TEST(GreedyTracker, IsEquivariantUnderAMotionOfTheWorld) {
   const Vector2 shift_m(100.0, -40.0);
   Scene here{.movers = {{{10.0, -5.0}, {1.0, 6.0}}}};
   Scene there{.movers = {{Vector2(10.0, -5.0) + shift_m, {1.0, 6.0}}}};
@@ -115,7 +115,7 @@ TEST(GreedyTracker, MovesItsAnswerWithTheWorld) {
   EXPECT_LT((b.velocity_in_odom_mps - a.velocity_in_odom_mps).norm(), 1e-9);
 }
 
-TEST(GreedyTracker, KeepsTheIdsOfTwoThatPassEachOther) {
+TEST(GreedyTracker, KeepsTheIdsOfTwoObjectsThatPassEachOther) {
   Scene scene{.movers = {{{-8.0, 0.0}, {5.0, 0.0}}, {{8.0, 2.0}, {-5.0, 0.0}}}};
   scene.run(0.0, 1.0);
   ASSERT_THAT(confirmed(scene.result), SizeIs(2));
@@ -130,7 +130,7 @@ TEST(GreedyTracker, KeepsTheIdsOfTwoThatPassEachOther) {
   EXPECT_EQ(to_the_right(scene.result), before);
 }
 
-TEST(GreedyTracker, GivesASegmentToTheNearestOfTwoTracks) {
+TEST(GreedyTracker, AssignsASegmentToTheNearestTrack) {
   Scene scene{.movers = {{{10.0, 0.0}, {0.0, 3.0}}, {{11.0, 0.0}, {0.0, 3.0}}}};
   scene.run(0.0, 1.0);
   ASSERT_THAT(scene.result.objects.objects, SizeIs(2));
@@ -144,7 +144,7 @@ TEST(GreedyTracker, GivesASegmentToTheNearestOfTwoTracks) {
   EXPECT_EQ(scene.result.objects.objects.at(1).last_seen_ns, scene.result.objects.stamp_ns);
 }
 
-TEST(GreedyTracker, DoesNotConfirmWhatDoesNotTravel) {
+TEST(GreedyTracker, DoesNotConfirmAStationaryObject) {
   Scene scene{.movers = {{{10.0, 0.0}, {0.0, 0.0}}}};
   scene.run(0.0, 3.0);
   EXPECT_THAT(confirmed(scene.result), IsEmpty());
@@ -152,13 +152,13 @@ TEST(GreedyTracker, DoesNotConfirmWhatDoesNotTravel) {
       << "the map is told that it stands";
 }
 
-TEST(GreedyTracker, LabelsWhatAConfirmedTrackTakesAsMoving) {
+TEST(GreedyTracker, LabelsSegmentsOfConfirmedTracksMoving) {
   Scene scene{.movers = {{{10.0, 0.0}, {0.0, 5.0}}}};
   scene.run(0.0, 2.0);
   EXPECT_THAT(scene.result.labels.labels, Each(PointLabel::kMoving));
 }
 
-TEST(GreedyTracker, DeletesAConfirmedTrackThatStaysUnseenAndNeverReusesItsId) {
+TEST(GreedyTracker, DeletesAnUnseenTrackAndNeverReusesItsId) {
   Scene scene{.movers = {{{10.0, 0.0}, {0.0, 5.0}}}};
   scene.run(0.0, 2.0);
   const flow::TrackId gone = confirmed(scene.result).at(0).track_id;
@@ -173,7 +173,7 @@ TEST(GreedyTracker, DeletesAConfirmedTrackThatStaysUnseenAndNeverReusesItsId) {
   EXPECT_GT(confirmed(scene.result).at(0).track_id, gone);
 }
 
-TEST(GreedyTracker, AnswersALateScanWithoutGoingBackInTime) {
+TEST(GreedyTracker, AnswersALateScanWithoutChangingItsTracks) {
   Scene scene{.movers = {{{10.0, 0.0}, {0.0, 5.0}}}};
   scene.run(0.0, 1.0);
   const auto now = confirmed(scene.result).at(0);
@@ -184,8 +184,8 @@ TEST(GreedyTracker, AnswersALateScanWithoutGoingBackInTime) {
   EXPECT_EQ(scene.tracker.named_counters().at("late_scans"), 1U);
 }
 
-/// From the scanner's beams on: a car of 4.5 m that crosses 20 m ahead.
-TEST(GreedyTracker, FollowsACarThroughDetection) {
+/// Starts from the scanner's beams: a car of 4.5 m that crosses 20 m ahead.
+TEST(GreedyTracker, TracksACarThatDetectionSegments) {
   testing::Street street;
   street.known = {{{40.0, 0.0, M_PI / 2.0}, 120.0, 1.0}};
   GreedyTracker tracker{GreedyTrackerConfig{}};

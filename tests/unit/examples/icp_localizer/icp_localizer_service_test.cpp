@@ -79,7 +79,7 @@ TEST_F(IcpLocalizerOnTheBus, LocalizesEveryScanWithAndWithoutOdometry) {
   EXPECT_EQ(maps.size(), 1U);
 }
 
-TEST_F(IcpLocalizerOnTheBus, GivesTheNewestAnswerToAScanThatComesAgain) {
+TEST_F(IcpLocalizerOnTheBus, RepeatsTheLatestAnswerToARepeatedScan) {
   begin();
   for (const std::uint32_t sequence : {0U, 1U, 1U, 0U}) localize(sequence);
   EXPECT_THAT(sequences, ElementsAre(0, 1, 1, 1));
@@ -111,7 +111,7 @@ TEST_F(IcpLocalizerOnTheBus, PublishesItsSubmapOnCommand) {
   EXPECT_THAT(submaps, ElementsAre(0));
 }
 
-TEST(IcpLocalizerSettings, AreThoseOfTheStageThatItReplaces) {
+TEST(IcpLocalizerSettings, AreASubsetOfThoseOfTheStageThatItReplaces) {
   IcpLocalizerService::Settings settings;
   const auto fault = config::overlay_text(
       "localization { match_range_m: 30 map { cell_size_m: 0.05 surfel_size_m: 0.1 } }", "profile",

@@ -47,11 +47,11 @@ TEST(IcpLocalizer, FollowsADriveWithoutOdometryAtConstantVelocity) {
   EXPECT_LT(testing::drive_through(localizer, drive, 0, kScans, false).worst_m, 0.3);
 }
 
-TEST(IcpLocalizer, RemovesMostOfABiasOfTheWheels) {
+TEST(IcpLocalizer, ReducesTheEffectOfAnOdometryBias) {
   DriveSetup setup{.world = testing::street(120.0),
                    .world_from_base_at = testing::arc({2.0, -1.0, 0.02}, 6.0, 0.01)};
-  setup.wheels.heading_rate_bias_radps = 0.02;  // 0.3 rad in 15 s; it is not estimated, so part of
-                                                // it gets into the map
+  setup.wheels.heading_rate_bias_radps = 0.02;  // 0.3 rad in 15 s; not estimated, so part of it
+                                                // distorts the map
   SimulatedDrive drive(setup);
   IcpLocalizer localizer(small_map());
   EXPECT_LT(testing::drive_through(localizer, drive, 0, kScans).worst_rad, 0.1);
@@ -67,7 +67,7 @@ TEST(IcpLocalizer, DropsARepeatedAndAnOlderScan) {
   EXPECT_TRUE(testing::drive_one(localizer, drive, 5));
 }
 
-TEST(IcpLocalizer, GoesOnByWheelsWhereAScanSeesNothing) {
+TEST(IcpLocalizer, ContinuesByOdometryWithoutEchoes) {
   IcpLocalizer localizer(small_map());
   SimulatedDrive drive = drive_down_a_street();
   testing::drive_through(localizer, drive, 0, 20);
@@ -80,7 +80,7 @@ TEST(IcpLocalizer, GoesOnByWheelsWhereAScanSeesNothing) {
   EXPECT_LT(testing::distance_m(localized->odom_from_base.pose, drive.odom_from_base(20)), 0.3);
 }
 
-TEST(IcpLocalizer, ExpectsWhatItHasSeen) {
+TEST(IcpLocalizer, PredictsTheRangesOfMappedSurfaces) {
   IcpLocalizer localizer(small_map());
   SimulatedDrive drive = drive_down_a_street();
   testing::drive_through(localizer, drive, 0, 30);
@@ -107,7 +107,7 @@ TEST(IcpLocalizer, KeepsWhatIsLabelledAsMovingOutOfTheMap) {
   EXPECT_THAT(finished_submaps(localizer).at(0).surfels, ::testing::IsEmpty());
 }
 
-TEST(IcpLocalizer, MapsAScanWithoutLabelsWhenTooManyWait) {
+TEST(IcpLocalizer, MapsAScanWithoutLabelsWhenTooManyArePending) {
   IcpLocalizer localizer(small_map());
   SimulatedDrive drive = drive_down_a_street();
   for (std::uint32_t scan = 0; scan < 10; ++scan) {
@@ -139,7 +139,7 @@ TEST(IcpLocalizer, FinishesAChainOfSubmaps) {
   EXPECT_EQ(finished_submaps(localizer).size(), 0U);
 }
 
-TEST(IcpLocalizer, GoesOnAfterFinish) {
+TEST(IcpLocalizer, ContinuesAfterFinish) {
   IcpLocalizer localizer(small_map());
   SimulatedDrive drive = drive_down_a_street();
   testing::drive_through(localizer, drive, 0, 40);
@@ -151,7 +151,7 @@ TEST(IcpLocalizer, GoesOnAfterFinish) {
   EXPECT_EQ(finished_submaps(localizer).at(0).submap_id, flow::SubmapId{1});
 }
 
-TEST(IcpLocalizer, PublishesWhatLoopClosingCorrected) {
+TEST(IcpLocalizer, AppliesCorrectionsOfLoopClosing) {
   IcpLocalizer localizer(small_map());
   SimulatedDrive drive = drive_down_a_street();
   testing::drive_through(localizer, drive, 0, 5);

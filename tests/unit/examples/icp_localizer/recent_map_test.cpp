@@ -12,7 +12,7 @@ using geometry::Vector2;
 
 constexpr double kStep_rad = M_PI / 180.0;
 
-/// From the origin of odom: a round wall 8 m away, over a quarter of a circle.
+/// Echoes from the origin of odom: a quarter circle of wall 8 m away.
 MappedScan round_wall(double travelled_m = 0.0, grids::Echo echo = grids::Echo::kStationary) {
   MappedScan scan;
   scan.beam_step_rad = kStep_rad;
@@ -29,7 +29,7 @@ flow::LocalizedBeam end_at(const RecentMap& map, const Vector2& end_m) {
   return beam;
 }
 
-TEST(RecentMap, TellsTheFreeFromTheOccupiedAndTheUnseen) {
+TEST(RecentMap, DistinguishesFreeOccupiedAndUnseenCells) {
   RecentMap map({}, {}, Vector2::Zero());
   for (int scan = 0; scan < 10; ++scan) map.add(round_wall());
   EXPECT_EQ(end_at(map, {4.0, 0.0}).end_cell, EndCell::kFree);
@@ -40,7 +40,7 @@ TEST(RecentMap, TellsTheFreeFromTheOccupiedAndTheUnseen) {
   EXPECT_EQ(map.expected_range_m(Vector2::Zero(), {-1.0, 0.0}, 50.0), 50.0);
 }
 
-TEST(RecentMap, KeepsMovingEchoesOutOfWhatIsMatched) {
+TEST(RecentMap, ExcludesMovingEchoesFromMatching) {
   RecentMap map({}, {}, Vector2::Zero());
   for (int scan = 0; scan < 10; ++scan) map.add(round_wall(0.0, grids::Echo::kMoving));
   EXPECT_TRUE(map.surfels().all().empty());
@@ -59,7 +59,7 @@ TEST(RecentMap, BeginsTheNextOneWithItsLastScans) {
   EXPECT_EQ(next.odom_from_submap().x_m, 5.0);
 }
 
-TEST(RecentMap, BecomesASubmapInTheFrameOfItsPlace) {
+TEST(RecentMap, BecomesASubmapInItsOwnFrame) {
   const Vector2 centre_m(3.0, 1.0);
   RecentMap map({}, {}, centre_m);
   for (int scan = 0; scan < 10; ++scan) map.add(round_wall());

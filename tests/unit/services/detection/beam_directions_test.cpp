@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kStepRad = 0.02;
 
-/// A scanner that is mounted ahead, aside and turned; the first beams have no echo.
+/// A scanner with an offset and a rotation; the first beams have no echo.
 flow::LocalizedScan scan_of(double step_rad, std::size_t beams_without_echo) {
   flow::LocalizedScan scan;
   scan.base_from_laser = {2.0, -1.0, 0.3};
@@ -29,7 +29,7 @@ flow::LocalizedScan scan_of(double step_rad, std::size_t beams_without_echo) {
 
 void expect_directions(const flow::LocalizedScan& scan) {
   BeamDirections directions;
-  directions.look_along(scan);
+  directions.compute(scan);
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     const double in_base_rad =
         scan.base_from_laser.heading_rad - 0.5 + static_cast<double>(i) * scan.beam_step_rad;
@@ -40,26 +40,24 @@ void expect_directions(const flow::LocalizedScan& scan) {
   }
 }
 
-TEST(BeamDirections, AreThoseOfTheScannerAsItIsMounted) { expect_directions(scan_of(kStepRad, 0)); }
+TEST(BeamDirections, IncludeTheMountingOfTheScanner) { expect_directions(scan_of(kStepRad, 0)); }
 
-TEST(BeamDirections, AreToldByTheFirstEcho) { expect_directions(scan_of(kStepRad, 7)); }
+TEST(BeamDirections, StartFromTheFirstEcho) { expect_directions(scan_of(kStepRad, 7)); }
 
-TEST(BeamDirections, GoTheOtherWayRoundWhereTheScannerDoes) {
-  expect_directions(scan_of(-kStepRad, 7));
-}
+TEST(BeamDirections, FollowTheScannersSenseOfRotation) { expect_directions(scan_of(-kStepRad, 7)); }
 
 TEST(BeamDirections, AreOfTheLastScanOnly) {
   BeamDirections directions;
-  directions.look_along(scan_of(kStepRad, 0));
+  directions.compute(scan_of(kStepRad, 0));
   flow::LocalizedScan other = scan_of(-kStepRad, 0);
-  directions.look_along(other);
+  directions.compute(other);
   EXPECT_NEAR(directions[0].y(), std::sin(-0.2), 1e-5);
   EXPECT_NEAR(directions[10].y(), std::sin(-0.2 - 10 * kStepRad), 1e-5);
 }
 
-TEST(BeamDirections, AreAStepApartWhereThereIsNoEcho) {
+TEST(BeamDirections, AreAStepApartWithoutEchoes) {
   BeamDirections directions;
-  directions.look_along(scan_of(kStepRad, 50));
+  directions.compute(scan_of(kStepRad, 50));
   EXPECT_NEAR(directions[0].dot(directions[1]), std::cos(kStepRad), 1e-9);
 }
 

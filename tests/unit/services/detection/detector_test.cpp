@@ -25,7 +25,7 @@ const flow::Segment* segment_at(const flow::SegmentedScan& scan, const geometry:
   return nullptr;
 }
 
-TEST(Detector, HoldsForMovingWhatStandsInSpaceKnownToBeFree) {
+TEST(Detector, LabelsObjectsInKnownFreeSpaceMoving) {
   Street street;
   street.known = {kWall};
   street.unknown = {{{20.0, 5.0, 0.3}}};
@@ -53,7 +53,7 @@ void expect_same(const flow::SegmentedScan& a, const flow::SegmentedScan& b) {
   }
 }
 
-TEST(Detector, TakesNothingButMemoryFromAScanThatIsDoneWith) {
+TEST(Detector, ReusesOnlyTheMemoryOfARecycledScan) {
   Street empty_street;
   empty_street.known = {kWall};
   Street full_street = empty_street;
@@ -63,12 +63,12 @@ TEST(Detector, TakesNothingButMemoryFromAScanThatIsDoneWith) {
   Detector detector{{}};
   expect_same(detector.detect(few, detector.detect(many)), detect(few, {}));
   expect_same(detector.detect(many, detector.detect(few)), detect(many, {}));
-  flow::SegmentedScan done_with = detector.detect(many);
-  const std::uint16_t* const beams = done_with.segments.front().beams.data();
-  EXPECT_EQ(detector.detect(many, std::move(done_with)).segments.front().beams.data(), beams);
+  flow::SegmentedScan recycled = detector.detect(many);
+  const std::uint16_t* const beams = recycled.segments.front().beams.data();
+  EXPECT_EQ(detector.detect(many, std::move(recycled)).segments.front().beams.data(), beams);
 }
 
-TEST(Detector, FindsTheSameWithHelp) {
+TEST(Detector, GivesTheSameResultInParallel) {
   Street street;
   street.known = {kWall};
   street.unknown = {
@@ -79,7 +79,7 @@ TEST(Detector, FindsTheSameWithHelp) {
   EXPECT_GT(help.shared(), 0);
 }
 
-TEST(Detector, SeesWhatLiesAcrossTheSeamOfAFullTurnAsOneThing) {
+TEST(Detector, JoinsASegmentAcrossTheSeamOfAFullTurn) {
   Street street;
   street.look_all_round();
   street.known = {kWall, {{-40.0, 0.0, M_PI / 2.0}, 80.0, 1.0}};
@@ -95,11 +95,11 @@ TEST(Detector, SeesWhatLiesAcrossTheSeamOfAFullTurnAsOneThing) {
   EXPECT_FALSE(car->occluded_at_end);
 }
 
-TEST(Detector, CannotSayWhatIsWhereTheMapHasNeverSeen) {
+TEST(Detector, LabelsEchoesInUnseenSpaceUnknown) {
   Street street;
   street.known = {kWall};
-  street.gone = {{{15.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};  // a fence that hid what is behind it and
-                                                         // is no longer there
+  // A fence that occluded what is behind it and has been removed.
+  street.gone = {{{15.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};
   street.unknown = {{{22.0, 0.0, 0.0}}};
   const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
   const flow::Segment* car = segment_at(segmented, {20.0, 0.0}, 2.0);
@@ -123,19 +123,19 @@ TEST(Detector, PutsEveryEchoIntoExactlyOneSegment) {
   }
 }
 
-TEST(Detector, SeesWhoWalksInFrontOfAWallAsAThingOfItsOwn) {
+TEST(Detector, SegmentsAPedestrianInFrontOfAWallSeparately) {
   Street street;
   street.known = {{{12.0, 0.0, M_PI / 2.0}, 30.0, 1.0}};  // its face is 11.5 m ahead
   street.unknown = {{{10.4, 0.0, 0.0}, 0.4, 0.5}};
   const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
-  const flow::Segment* walker = segment_at(segmented, {10.2, 0.0}, 0.3);
-  ASSERT_NE(walker, nullptr);
-  EXPECT_EQ(walker->label, PointLabel::kMoving);
-  EXPECT_LT(walker->box_length_m, 0.8);
+  const flow::Segment* pedestrian = segment_at(segmented, {10.2, 0.0}, 0.3);
+  ASSERT_NE(pedestrian, nullptr);
+  EXPECT_EQ(pedestrian->label, PointLabel::kMoving);
+  EXPECT_LT(pedestrian->box_length_m, 0.8);
 }
 
-/// Labels of the segments of two who walk, a post between them, 10 m ahead and 20 cm nearer, of so
-/// many beams.
+/// Labels of the segments of two pedestrians 10 m ahead and of a post between them, 20 cm nearer
+/// and this many beams wide.
 std::vector<PointLabel> labels_around_a_post(double beams) {
   const double beam_m = 9.8 * M_PI / 360.0;
   const double half_m = 0.5 * beams * beam_m;
@@ -144,26 +144,25 @@ std::vector<PointLabel> labels_around_a_post(double beams) {
   for (const double side : {-1.0, 1.0})
     street.unknown.push_back({{10.1, side * (half_m + 0.35), M_PI / 2.0}, 0.7, 0.2});
   DetectionConfig config;
-  config.explained_within_m = 0.05;  // or they would be part of the post
-  config.explained_within_per_m = 0.0;
+  config.outline_tolerance_m = 0.05;  // keeps the pedestrians apart from the post
+  config.outline_tolerance_per_m = 0.0;
   std::vector<PointLabel> labels;
   for (const flow::Segment& segment : detect(street.scan(0, 0), config).segments)
     if (segment.centroid_in_odom_m.x() < 12.0) labels.push_back(segment.label);
   return labels;
 }
 
-TEST(Detector, CutsOffWhatTheMapKnowsWhereItIsMoreThanABeamOrTwo) {
+TEST(Detector, SeparatesStationaryPointsOfMoreThanTwoBeams) {
   using enum PointLabel;
   EXPECT_EQ(labels_around_a_post(2.0), (std::vector{kMoving}));
   EXPECT_EQ(labels_around_a_post(4.0), (std::vector{kMoving, kStationary, kMoving}));
 }
 
-TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
+TEST(Detector, MarksEndsOfSegmentsThatANearerObjectOccludes) {
   Street street;
   street.known = {kWall};
-  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -0.5, 0.0}, 0.4, 0.5}};  // somebody in front
-                                                                                // of a car seen
-                                                                                // from the side
+  // A pedestrian in front of a car seen from the side.
+  street.unknown = {{{20.0, 0.0, M_PI / 2.0}}, {{10.0, -0.5, 0.0}, 0.4, 0.5}};
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   const flow::Segment* right = segment_at(scan, {19.1, -1.85}, 0.2);
   const flow::Segment* left = segment_at(scan, {19.1, 0.9}, 0.2);
@@ -176,9 +175,8 @@ TEST(Detector, TellsWhereSomethingNearerHidesTheEndOfASegment) {
   EXPECT_FALSE(right->occluded_at_start);
 }
 
-/// Somebody 12 m ahead, where the map has never seen, and how surely its MO-map remembers motion
-/// there.
-flow::LocalizedScan scan_of_somebody(float moving_evidence, double width_m = 0.5) {
+/// A pedestrian 12 m ahead in unseen space, where the MO-map holds this evidence.
+flow::LocalizedScan scan_of_pedestrian(float moving_evidence, double width_m = 0.5) {
   Street street;
   street.knows_the_open = false;
   street.unknown = {{{12.0, 0.0, M_PI / 2.0}, width_m, 0.5}};
@@ -187,30 +185,30 @@ flow::LocalizedScan scan_of_somebody(float moving_evidence, double width_m = 0.5
   return scan;
 }
 
-PointLabel label_of_somebody(float moving_evidence, double width_m = 0.5) {
-  const flow::SegmentedScan scan = detect(scan_of_somebody(moving_evidence, width_m), {});
-  const flow::Segment* somebody = segment_at(scan, {11.75, 0.0}, 0.2);
-  return somebody == nullptr ? PointLabel::kNoEcho : somebody->label;
+PointLabel label_of_pedestrian(float moving_evidence, double width_m = 0.5) {
+  const flow::SegmentedScan scan = detect(scan_of_pedestrian(moving_evidence, width_m), {});
+  const flow::Segment* pedestrian = segment_at(scan, {11.75, 0.0}, 0.2);
+  return pedestrian == nullptr ? PointLabel::kNoEcho : pedestrian->label;
 }
 
-TEST(Detector, HoldsForMovingWhatTheMapCannotDecideWhereItRemembersMotion) {
+TEST(Detector, LabelsUnknownPointsMovingWhereTheMoMapHasEvidence) {
   const auto least = static_cast<float>(DetectionConfig().least_moving_evidence);
-  EXPECT_EQ(label_of_somebody(0.0F), PointLabel::kUnknown);
-  EXPECT_EQ(label_of_somebody(0.9F * least), PointLabel::kUnknown);
-  EXPECT_EQ(label_of_somebody(1.1F * least), PointLabel::kMoving);
-  EXPECT_EQ(label_of_somebody(0.5F), PointLabel::kMoving) << "who came by every other time";
+  EXPECT_EQ(label_of_pedestrian(0.0F), PointLabel::kUnknown);
+  EXPECT_EQ(label_of_pedestrian(0.9F * least), PointLabel::kUnknown);
+  EXPECT_EQ(label_of_pedestrian(1.1F * least), PointLabel::kMoving);
+  EXPECT_EQ(label_of_pedestrian(0.5F), PointLabel::kMoving) << "motion in every other observation";
 }
 
-TEST(Detector, HoldsOnlySmallThingsForMovingByWhatTheMapRemembers) {
+TEST(Detector, LabelsOnlySmallSegmentsByTheMoMap) {
   const int most = DetectionConfig().largest_by_moving_evidence;
   const double beam_m = 11.75 * M_PI / 360.0;
-  EXPECT_EQ(label_of_somebody(1.0F, (most - 2) * beam_m), PointLabel::kMoving);
-  EXPECT_EQ(label_of_somebody(1.0F, (most + 3) * beam_m), PointLabel::kUnknown);
+  EXPECT_EQ(label_of_pedestrian(1.0F, (most - 2) * beam_m), PointLabel::kMoving);
+  EXPECT_EQ(label_of_pedestrian(1.0F, (most + 3) * beam_m), PointLabel::kUnknown);
 }
 
-TEST(Detector, TakesTheMeanOfWhatTheMapRemembersOfASegment) {
+TEST(Detector, AveragesTheEvidenceOfTheMoMapOverASegment) {
   const auto least = static_cast<float>(DetectionConfig().least_moving_evidence);
-  flow::LocalizedScan scan = scan_of_somebody(0.0F);
+  flow::LocalizedScan scan = scan_of_pedestrian(0.0F);
   int echoes = 0;
   for (const flow::LocalizedBeam& beam : scan.beams) echoes += beam.range_m > 0.0F ? 1 : 0;
   flow::LocalizedBeam& one = *std::ranges::find_if(
@@ -221,7 +219,7 @@ TEST(Detector, TakesTheMeanOfWhatTheMapRemembersOfASegment) {
   EXPECT_EQ(detect(scan, {}).segments.front().label, PointLabel::kMoving);
 }
 
-TEST(Detector, HoldsForStationaryWhatTheMapKnowsThoughItRemembersMotionThere) {
+TEST(Detector, LabelsAKnownPostStationaryDespiteMovingEvidence) {
   Street street;
   street.known = {{{12.0, 0.0, M_PI / 2.0}, 0.5, 0.5}};
   flow::LocalizedScan scan = street.scan(0, 0);
@@ -246,7 +244,7 @@ geometry::Matrix2 covariance_of_a_car(const Eigen::Vector3d& variances_of_pose,
                         : car->centroid_covariance_m2;
 }
 
-TEST(Detector, IsAsUnsureOfASegmentAsOfTheVehiclesPose) {
+TEST(Detector, AddsThePosesCovarianceToThatOfASegment) {
   const geometry::Matrix2 by_scanner = covariance_of_a_car({0.0, 0.0, 0.0});
   const geometry::Matrix2 by_pose = covariance_of_a_car({0.04, 0.09, 0.0}) - by_scanner;
   EXPECT_GT(by_scanner.trace(), 0.0);
@@ -257,36 +255,36 @@ TEST(Detector, IsAsUnsureOfASegmentAsOfTheVehiclesPose) {
   EXPECT_NEAR(by_heading(1, 1), 1e-4 * 19.1 * 19.1, 1e-3);  // at the end of the lever
 }
 
-TEST(Detector, TakesOfThePosesVarianceWhatIsAgainstTheLocalMap) {
+TEST(Detector, UsesTheShareOfThePosesVarianceRelativeToTheLocalMap) {
   const geometry::Matrix2 by_scanner = covariance_of_a_car({0.0, 0.0, 0.0});
   EXPECT_NEAR((covariance_of_a_car({0.04, 0.09, 0.0}, 0.25) - by_scanner)(1, 1), 0.25 * 0.09, 1e-6);
 }
 
-/// A line square to the vehicle's axis, `distance_m` ahead, thin.
+/// A thin line square to the vehicle's axis.
 StreetBox line_ahead(double distance_m, double width_m) {
   return {{distance_m, 0.0, M_PI / 2.0}, width_m, 0.1};
 }
 
-TEST(Detector, TakesALineThatNothingIsSeenBeyondForTheGround) {
+TEST(Detector, LabelsALineWithNothingBeyondItAsGround) {
   Street street;
   street.known = {kWall};
-  street.unknown = {line_ahead(15.0, 200.0)};  // the whole width of the view: what a pitching
-                                               // scanner gets
+  // As wide as the view: echoes of a pitching scanner.
+  street.unknown = {line_ahead(15.0, 200.0)};
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   EXPECT_EQ(scan.labels[180], PointLabel::kNoEcho);
   EXPECT_EQ(segment_at(scan, {14.95, 0.0}, 5.0), nullptr);
 }
 
-TEST(Detector, TakesALineBetweenHousesForTheGroundThoughMostBeamsMeetNothing) {
+TEST(Detector, LabelsALineBetweenHousesAsGroundThoughMostBeamsHaveNoEcho) {
   Street street;
   street.known = {{{12.0, 4.5, 0.0}, 8.0, 2.0}, {{12.0, -4.5, 0.0}, 8.0, 2.0}};
-  street.unknown = {line_ahead(15.0, 12.0)};  // dark asphalt beside the houses does not answer
+  street.unknown = {line_ahead(15.0, 12.0)};  // asphalt beside the houses returns no echo
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   ASSERT_GT(scan.range_m[180], 0.0F);
   EXPECT_EQ(scan.labels[180], PointLabel::kNoEcho);
 }
 
-TEST(Detector, DoesNotTakeABusThatCrossesAnEmptySquareForTheGround) {
+TEST(Detector, DoesNotLabelACrossingBusAsGround) {
   Street street;
   street.unknown = {{{16.25, 0.0, M_PI / 2.0}, 12.0, 2.5}};
   const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
@@ -295,18 +293,18 @@ TEST(Detector, DoesNotTakeABusThatCrossesAnEmptySquareForTheGround) {
   EXPECT_EQ(bus->label, PointLabel::kMoving);
 }
 
-TEST(Detector, DoesNotTakeTheBackOfATruckForTheGround) {
+TEST(Detector, DoesNotLabelTheBackOfATruckAsGround) {
   Street street;
   street.known = {kWall};
-  street.unknown = {{{18.5, 0.0, 0.0}, 7.0, 2.5}};  // its back is 15 m ahead, and much is seen
-                                                    // beyond it on both sides
+  // Its back is 15 m ahead; beams pass it on both sides.
+  street.unknown = {{{18.5, 0.0, 0.0}, 7.0, 2.5}};
   const flow::SegmentedScan segmented = detect(street.scan(0, 0), {});
   const flow::Segment* truck = segment_at(segmented, {15.0, 0.0}, 0.5);
   ASSERT_NE(truck, nullptr);
   EXPECT_EQ(truck->label, PointLabel::kMoving);
 }
 
-/// Something 1 m wide so far in front of a wall.
+/// An object 1 m wide at this distance in front of a wall.
 PointLabel label_in_front_of_a_wall(double wall_m, double in_front_m) {
   Street street;
   street.known = {{{wall_m + 0.5, 0.0, M_PI / 2.0}, 80.0, 1.0}};
@@ -314,38 +312,38 @@ PointLabel label_in_front_of_a_wall(double wall_m, double in_front_m) {
   return detect(street.scan(0, 0), {}).labels[180];
 }
 
-TEST(Detector, HoldsForPartOfAWallWhatIsAsNearToItAsItMayErrAtThatRange) {
+TEST(Detector, LabelsEchoesWithinTheErrorOfAWallStationary) {
   EXPECT_EQ(label_in_front_of_a_wall(10.0, 0.33), PointLabel::kStationary);
   EXPECT_EQ(label_in_front_of_a_wall(10.0, 0.45), PointLabel::kMoving);
   EXPECT_EQ(label_in_front_of_a_wall(50.0, 0.45), PointLabel::kStationary);
   EXPECT_EQ(label_in_front_of_a_wall(50.0, 0.75), PointLabel::kMoving);
 }
 
-/// Whether the right end of a car's side, 8 m ahead, counts as hidden by somebody so far in front
-/// of it.
-bool is_hidden_by_somebody(double in_front_m) {
+/// True if the right end of a car's side, 8 m ahead, is labelled occluded by a pedestrian at this
+/// distance in front of it.
+bool is_occluded_by_pedestrian(double in_front_m) {
   Street street;
   street.known = {kWall};
-  const double near_m = 8.0 - in_front_m;  // face of the one who hides it, right of the car's right
-                                           // end
+  // Face of the occluder, right of the car's right end.
+  const double near_m = 8.0 - in_front_m;
   street.unknown = {{{8.9, 0.0, M_PI / 2.0}}, {{near_m + 0.2, -2.4 * near_m / 8.0, 0.0}, 0.4, 0.5}};
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   for (const flow::Segment& segment : scan.segments)
     if (std::abs(segment.centroid_in_odom_m.x() - 8.0) < 0.05) return segment.occluded_at_start;
-  ADD_FAILURE() << "no car is seen behind somebody " << in_front_m << " m in front of it";
+  ADD_FAILURE() << "no segment of the car behind a pedestrian " << in_front_m
+                << " m in front of it";
   return false;
 }
 
-TEST(Detector, HoldsAnEndForHiddenWhereSomethingIsClearlyInFrontOfIt) {
-  EXPECT_TRUE(is_hidden_by_somebody(2.0));
-  EXPECT_TRUE(is_hidden_by_somebody(0.8));
+TEST(Detector, MarksAnEndAsOccludedByAnObjectClearlyInFrontOfIt) {
+  EXPECT_TRUE(is_occluded_by_pedestrian(2.0));
+  EXPECT_TRUE(is_occluded_by_pedestrian(0.8));
 }
 
-TEST(Detector, DoesNotTakeACarThatFillsANarrowLaneForTheGround) {
+TEST(Detector, DoesNotLabelACarThatFillsANarrowLaneAsGround) {
   Street street;
-  street.known = {{{12.0, 5.95, 0.0}, 8.0, 10.0}, {{12.0, -5.95, 0.0}, 8.0, 10.0}};  // houses hide
-                                                                                     // all that is
-                                                                                     // beside it
+  // Houses occlude everything beside it.
+  street.known = {{{12.0, 5.95, 0.0}, 8.0, 10.0}, {{12.0, -5.95, 0.0}, 8.0, 10.0}};
   street.unknown = {{{17.5, 0.0, 0.0}}};
   const flow::SegmentedScan scan = detect(street.scan(0, 0), {});
   const flow::Segment* car = segment_at(scan, {15.25, 0.0}, 0.5);
@@ -360,7 +358,7 @@ PointLabel label_ahead_of_a_line(const geometry::Pose2& odom_from_line) {
   return detect(street.scan(0, 0), {}).labels[180];
 }
 
-TEST(Detector, TakesALineForTheGroundOnlyWhereItIsSquareToTheAxisAndNotRightAhead) {
+TEST(Detector, LabelsAsGroundOnlyALineSquareToTheAxisAndBeyondTheLeastDistance) {
   const DetectionConfig config;
   const double square_rad = M_PI / 2.0;
   EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 0.8 * config.ground_heading_rad}),

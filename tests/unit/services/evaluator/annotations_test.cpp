@@ -15,7 +15,7 @@ using geometry::Vector2;
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 
 /// Ten seconds at 1 m/s along x, a pose every 0.1 s.
-RunResult straight_way() {
+RunResult straight_drive() {
   RunResult result;
   for (int i = 0; i <= 100; ++i) result.online.push_back({i * kSecondNs / 10, {0.1 * i, 0.0, 0.0}});
   return result;
@@ -28,12 +28,12 @@ metrics::TrueObject person(std::size_t index, double x_m, double y_m) {
   return person;
 }
 
-TEST(PlaceAnnotations, PutsPeopleIntoTheMapBetweenTheirSightings) {
+TEST(PlaceAnnotations, InterpolatesPeopleBetweenTheirSightings) {
   Truth truth;
   truth.annotated = {{{2 * kSecondNs, {person(0, 5.0, 0.0)}},
-                      {2 * kSecondNs + kSecondNs / 2, {person(0, 4.5, 1.0)}}}};  // crosses: x stays
-                                                                                 // in the map
-  const Truth placed = place_annotations(truth, straight_way(), 3);
+                      {2 * kSecondNs + kSecondNs / 2, {person(0, 4.5, 1.0)}}}};  // crosses: x in
+                                                                                 // map stays
+  const Truth placed = place_annotations(truth, straight_drive(), 3);
   EXPECT_EQ(placed.trajectory.front().stamp_ns, 2 * kSecondNs);
   EXPECT_EQ(placed.trajectory.back().stamp_ns, 2 * kSecondNs + kSecondNs / 2);
   ASSERT_FALSE(placed.objects->empty());
@@ -46,13 +46,13 @@ TEST(PlaceAnnotations, PutsPeopleIntoTheMapBetweenTheirSightings) {
   }
 }
 
-TEST(PlaceAnnotations, TakesThemFromWhereTheLaserIs) {
-  RunResult result = straight_way();
+TEST(PlaceAnnotations, TransformsPeopleFromTheLasersFrame) {
+  RunResult result = straight_drive();
   result.base_from_laser = {0.5, 0.0, 0.5 * std::numbers::pi};
   Truth truth;
   truth.annotated = {{{2 * kSecondNs, {person(0, 3.0, 0.0)}},
-                      {2 * kSecondNs + kSecondNs / 2, {person(0, 3.0, 0.5)}}}};  // left of the way,
-                                                                                 // stands
+                      {2 * kSecondNs + kSecondNs / 2, {person(0, 3.0, 0.5)}}}};  // stands left of
+                                                                                 // the path
   const Truth placed = place_annotations(truth, result, 3);
   ASSERT_FALSE(placed.objects->empty());
   for (const ObjectsAt& at : *placed.objects) {
@@ -61,21 +61,21 @@ TEST(PlaceAnnotations, TakesThemFromWhereTheLaserIs) {
   }
 }
 
-TEST(PlaceAnnotations, SaysNothingOfPeopleWhoWereLeftOutForLong) {
+TEST(PlaceAnnotations, OmitsPeopleBetweenDistantSightings) {
   Truth truth;
   truth.annotated = {
       {{2 * kSecondNs, {person(0, 5.0, 0.0)}}, {4 * kSecondNs, {person(0, 3.0, 0.0)}}}};
-  const Truth placed = place_annotations(truth, straight_way(), 3);
+  const Truth placed = place_annotations(truth, straight_drive(), 3);
   EXPECT_TRUE(placed.objects->empty());
-  EXPECT_EQ(placed.trajectory.size(), 21U);  // these scans count: who is tracked there is false
+  EXPECT_EQ(placed.trajectory.size(), 21U);  // tracks in these scans count as false
 }
 
-TEST(PlaceAnnotations, TakesThemFromTheScanThatWasLookedAt) {
-  constexpr std::int64_t kLateNs = 60'000'000;  // marked between that scan and the next
+TEST(PlaceAnnotations, UsesTheAnnotatedScan) {
+  constexpr std::int64_t kLateNs = 60'000'000;  // annotated between that scan and the next
   Truth truth;
   truth.annotated = {{{2 * kSecondNs + kLateNs, {person(0, 5.0, 0.0)}},
                       {2 * kSecondNs + kSecondNs / 2 + kLateNs, {person(0, 4.5, 0.0)}}}};  // stands
-  const Truth placed = place_annotations(truth, straight_way(), 3);
+  const Truth placed = place_annotations(truth, straight_drive(), 3);
   ASSERT_EQ(placed.objects->size(), 6U);
   EXPECT_EQ(placed.objects->front().stamp_ns, 2 * kSecondNs);
   for (const ObjectsAt& at : *placed.objects) {
@@ -84,23 +84,23 @@ TEST(PlaceAnnotations, TakesThemFromTheScanThatWasLookedAt) {
   }
 }
 
-TEST(PlaceAnnotations, HidesPeopleInScansInWhichTheyWereNotMarked) {
+TEST(PlaceAnnotations, DoesNotRequirePeopleInScansWithoutAnnotation) {
   Truth truth;
   truth.annotated = {{{2 * kSecondNs, {person(0, 5.0, 0.0)}},
                       {2 * kSecondNs + kSecondNs / 2, {person(0, 4.5, 0.0)}}}};
-  const Truth placed = place_annotations(truth, straight_way(), 3);
+  const Truth placed = place_annotations(truth, straight_drive(), 3);
   ASSERT_EQ(placed.objects->size(), 6U);
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_EQ(placed.objects->at(i).objects.at(0).points, i == 0 || i == 5 ? 3 : 0);
 }
 
-TEST(PlaceAnnotations, DoesNotTakeAnUnsteadyHandForAWalk) {
+TEST(PlaceAnnotations, SmoothsTheNoiseOfAnnotations) {
   Truth truth;
   truth.annotated.emplace();
   for (int i = 0; i <= 10; ++i)
     truth.annotated->push_back(
         {2 * kSecondNs + i * kSecondNs / 10, {person(0, 5.0 - 0.1 * i, i % 2 == 0 ? 0.1 : -0.1)}});
-  const Truth placed = place_annotations(truth, straight_way(), 3);
+  const Truth placed = place_annotations(truth, straight_drive(), 3);
   ASSERT_FALSE(placed.objects->empty());
   for (const ObjectsAt& at : *placed.objects) EXPECT_LT(at.objects.at(0).speed_mps, 0.2);
 }

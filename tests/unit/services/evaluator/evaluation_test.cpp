@@ -13,8 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The car ahead, tracked half a metre beside its box; the map begins where the world has x = 100
-/// m.
+/// A car ahead with a track 0.5 m beside its box; the map begins at x = 100 m in world.
 class Evaluate : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -48,17 +47,17 @@ TEST_F(Evaluate, JoinsMapAndWorldByTheVehicle) {
   EXPECT_NEAR(evaluation->tracking->gospa.localization_m2, 0.25, 1e-9);
 }
 
-TEST_F(Evaluate, RefusesAnotherClock) {
+TEST_F(Evaluate, RejectsAnotherClock) {
   write(folder_ / "drive.tum", straight_tum(100.0, 5000.0));
   const auto evaluation = evaluated();
   ASSERT_FALSE(evaluation);
   EXPECT_THAT(evaluation.error().message, HasSubstr("the clocks do not overlap"));
 }
 
-TEST_F(Evaluate, RefusesAnotherDrive) {
+TEST_F(Evaluate, RejectsAnotherDrive) {
   std::string circle;
   for (int i = 0; i <= 300; ++i) {
-    const double turn = 0.1 * i;  // 10 m of radius
+    const double turn = 0.1 * i;  // radius of 10 m
     circle += std::to_string(0.1 * i) + " " + std::to_string(10.0 * std::sin(turn)) + " " +
               std::to_string(-10.0 * std::cos(turn)) + " 0 0 0 " +
               std::to_string(std::sin(0.5 * turn)) + " " + std::to_string(std::cos(0.5 * turn)) +
@@ -70,14 +69,14 @@ TEST_F(Evaluate, RefusesAnotherDrive) {
   EXPECT_THAT(evaluation.error().message, HasSubstr("the frames do not overlap"));
 }
 
-TEST_F(Evaluate, RefusesObjectsOfAnotherFrame) {
+TEST_F(Evaluate, RejectsObjectsOfAnotherFrame) {
   write(folder_ / "drive.objects.csv", car_ahead_csv(90000.0));
   const auto evaluation = evaluated();
   ASSERT_FALSE(evaluation);
   EXPECT_THAT(evaluation.error().message, HasSubstr("the nearest true object is"));
 }
 
-TEST_F(Evaluate, RefusesObjectsOfAnotherClock) {
+TEST_F(Evaluate, RejectsObjectsOfAnotherClock) {
   write(folder_ / "drive.objects.csv",
         "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n900.0,1,car,110,0,0,10,4.5,1."
         "8,20,10\n");
@@ -87,7 +86,7 @@ TEST_F(Evaluate, RefusesObjectsOfAnotherClock) {
               HasSubstr("no scan of the result has true objects at its time"));
 }
 
-TEST_F(Evaluate, SaysWhatItLeavesOut) {
+TEST_F(Evaluate, NotesThePartsThatItLeavesOut) {
   std::filesystem::remove(folder_ / "drive.objects.csv");
   const auto evaluation = evaluated();
   ASSERT_TRUE(evaluation);
@@ -95,7 +94,7 @@ TEST_F(Evaluate, SaysWhatItLeavesOut) {
   EXPECT_THAT(evaluation->notes, ::testing::Contains(HasSubstr("no true objects")));
 }
 
-TEST_F(Evaluate, FollowsOneOtherCarOfMotionCapture) {
+TEST_F(Evaluate, EvaluatesTheOtherCarOfMotionCapture) {
   for (const char* file : {"drive.tum", "drive.objects.csv"})
     std::filesystem::remove(folder_ / file);
   write(folder_ / "drive.ego.tum", straight_tum(100.0));

@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(ToBase64, IsThatOfTheStandard) {
+TEST(ToBase64, MatchesTheStandard) {
   EXPECT_EQ(to_base64(""), "");
   EXPECT_EQ(to_base64("f"), "Zg==");
   EXPECT_EQ(to_base64("fo"), "Zm8=");
@@ -79,18 +79,18 @@ TEST_F(ReportPage, NeedsNoTruth) {
 
 TEST_F(ReportPage, ShowsErrorsAndTrueSpeedsWhereThereIsTruth) {
   const std::string html = page(" --truth " + (folder_ / "drive").string());
-  for (const char* part :
-       {"Against the truth", "position error [m]", "true speed", "truly a car", "HOTA"})
+  for (const char* part : {"Evaluation against ground truth", "position error [m]", "true speed",
+                           "true class: car", "HOTA"})
     EXPECT_THAT(html, HasSubstr(part));
 }
 
-TEST_F(ReportPage, LoadsNothingFromElsewhere) {
+TEST_F(ReportPage, IsSelfContained) {
   const std::string html = page(" --truth " + (folder_ / "drive").string());
   for (const char* part : {"http:", "https:", "src=", "<link", "@import", "url("})
     EXPECT_THAT(html, Not(HasSubstr(part)));
 }
 
-TEST_F(ReportPage, ShowsTheTracksAskedFor) {
+TEST_F(ReportPage, ShowsTheRequestedTracks) {
   EXPECT_THAT(page(" --tracks 99"), Not(HasSubstr("Single tracks")));
 }
 

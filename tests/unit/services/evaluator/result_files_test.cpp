@@ -54,13 +54,13 @@ TEST_F(ResultFiles, JoinTracksWithTheirPredictions) {
   EXPECT_EQ(predicted[1].covariance_m2(1, 0), 0.1);
 }
 
-TEST_F(ResultFiles, RefuseAPredictionOfNoTime) {
+TEST_F(ResultFiles, RejectAPredictionWithoutHorizon) {
   write(folder_ / "tracks.csv", tracks_csv(0.0, 0.0));
   write(folder_ / "predictions.csv",
         "timestamp,track_id,after,x,y,var_x,cov_xy,var_y\n0.100000,7,8e9,20,1,0.04,0.01,0.09\n");
   const auto result = read_result(folder_.path());
   ASSERT_FALSE(result);
-  EXPECT_THAT(result.error().message, HasSubstr("no time ahead"));
+  EXPECT_THAT(result.error().message, HasSubstr("not a valid horizon"));
 }
 
 TEST_F(ResultFiles, ReadTheMapAsItIsWritten) {
@@ -76,7 +76,7 @@ TEST_F(ResultFiles, ReadTheMapAsItIsWritten) {
   EXPECT_DOUBLE_EQ(map->resolution_m, 0.2);
 }
 
-TEST_F(ResultFiles, SayWhatIsCutOff) {
+TEST_F(ResultFiles, ReportATruncatedFile) {
   const files::MapImage image{3, 2, 0.2, -1.0, 4.0, {0, 205, 254, 254, 205, 0}};
   const std::string pgm = files::to_pgm(image);
   write(folder_ / "map.pgm", pgm.substr(0, pgm.size() - 1));
@@ -86,7 +86,7 @@ TEST_F(ResultFiles, SayWhatIsCutOff) {
   EXPECT_THAT(map.error().message, HasSubstr("cut off"));
 }
 
-TEST_F(ResultFiles, SayThatAFolderHoldsNoResult) {
+TEST_F(ResultFiles, ReportAFolderWithoutResult) {
   testing::TemporaryFolder empty;
   const auto result = read_result(empty.path());
   ASSERT_FALSE(result);

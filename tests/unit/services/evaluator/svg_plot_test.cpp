@@ -23,7 +23,7 @@ TEST(SvgNumber, IsShortAndHasNoMinusZero) {
   EXPECT_EQ(svg_number(-0.00000001), "0");
 }
 
-TEST(Escaped, LeavesNothingThatHtmlWouldTakeForATag) {
+TEST(Escaped, EscapesSpecialCharactersOfHtml) {
   EXPECT_EQ(escaped("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
 }
 
@@ -40,7 +40,7 @@ TEST(Plot, ThinsALongSeriesAndKeepsItsExtremes) {
     series.points.push_back({i * 1e-3, i == 54321 ? 7.0 : 0.1 * std::sin(i)});
   const std::string svg = to_svg({"t", "y", {series}, {}, 7.0});
   EXPECT_LT(svg.size(), 60000U);
-  EXPECT_THAT(svg, HasSubstr(" 10L"));  // the spike reaches the top of the picture
+  EXPECT_THAT(svg, HasSubstr(" 10L"));  // the peak reaches the top of the image
 }
 
 TEST(Plot, HasALegendForSeveralSeriesOnly) {
@@ -49,11 +49,11 @@ TEST(Plot, HasALegendForSeveralSeriesOnly) {
   EXPECT_THAT(to_svg({"t", "y", {series, series}, {}, {}}), HasSubstr("legend"));
 }
 
-TEST(Plot, OfNothingIsStillAPicture) {
+TEST(Plot, WithoutSeriesIsAnEmptyImage) {
   EXPECT_THAT(to_svg({"t", "y", {}, {}, {}}), HasSubstr("</svg>"));
 }
 
-TEST(LogBars, OfNothingAreNothing) {
+TEST(LogBars, WithoutRowsAreEmpty) {
   EXPECT_EQ(log_bars_svg({{"stage", 0.0, 0.0, 0.0}}, "ms"), "");
   EXPECT_THAT(log_bars_svg({{"stage", 0.01, 0.1, 3.0}}, "ms"), HasSubstr("stage"));
 }

@@ -28,7 +28,7 @@ class TableFile : public ::testing::Test {
   std::vector<double> last_;
 };
 
-TEST_F(TableFile, HandsOverColumnsByName) {
+TEST_F(TableFile, PassesColumnsByName) {
   EXPECT_EQ(fault_of("a,x,b\n1,2,3\n"), "");
   EXPECT_EQ(last_, (std::vector<double>{3.0, 1.0}));
 }
@@ -39,11 +39,11 @@ TEST_F(TableFile, NamesTheLineOfAMalformedRow) {
   EXPECT_THAT(fault_of("a,b\n1,nan\n"), EndsWith("table.csv:2: no number"));
 }
 
-TEST_F(TableFile, MissesAColumn) {
+TEST_F(TableFile, ReportsAMissingColumn) {
   EXPECT_THAT(fault_of("a,c\n1,2\n"), EndsWith("table.csv:1: no column b"));
 }
 
-TEST_F(TableFile, ReadsLinesThatEndAsOnOtherSystems) { EXPECT_EQ(fault_of("a,b\r\n1,2\r\n"), ""); }
+TEST_F(TableFile, ReadsCarriageReturns) { EXPECT_EQ(fault_of("a,b\r\n1,2\r\n"), ""); }
 
 }  // namespace
 }  // namespace slammot::evaluator

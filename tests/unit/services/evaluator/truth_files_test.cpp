@@ -34,7 +34,7 @@ TEST_F(TruthFiles, AreATrajectoryObjectsAndWalls) {
   EXPECT_EQ(truth->walls->front().to_m, geometry::Vector2(2.0, 3.0));
 }
 
-TEST_F(TruthFiles, SayWhatBeamsHit) {
+TEST_F(TruthFiles, ReadTheHitsOfBeams) {
   write(folder_ / "drive.tum", straight_tum(5.0));
   write(folder_ / "drive.objects.csv",
         "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n1.0,17,car,1,0,0,2,4,2,3,5\n");
@@ -53,7 +53,7 @@ TEST_F(TruthFiles, SayWhatBeamsHit) {
   EXPECT_EQ(hits[6].on, On::kSeveral);
 }
 
-TEST_F(TruthFiles, RefuseHitsThatMeanNothing) {
+TEST_F(TruthFiles, RejectInvalidHits) {
   write(folder_ / "drive.tum", straight_tum(5.0));
   write(folder_ / "drive.objects.csv",
         "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n1.0,17,car,1,0,0,2,4,2,3,5\n");
@@ -91,7 +91,7 @@ TEST_F(TruthFiles, ReadMotionCaptureOfTwoCars) {
   EXPECT_EQ(truth->other_car->front().pose.x_m, 3.0);
 }
 
-TEST_F(TruthFiles, SayWhereNothingIs) {
+TEST_F(TruthFiles, ReportMissingFiles) {
   const auto truth = read_truth(folder_ / "nothing");
   ASSERT_FALSE(truth);
   EXPECT_THAT(truth.error().message, HasSubstr("no truth here"));

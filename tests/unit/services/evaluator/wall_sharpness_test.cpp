@@ -23,7 +23,7 @@ double time_s(int scan) { return 0.1 * scan; }
 
 std::int64_t stamp_ns(int scan) { return std::int64_t{100'000'000} * scan + 50'000'000'000; }
 
-/// A robot that goes round in a room, its log and its true poses.
+/// A robot that drives a loop in a room: log and true poses.
 class WallSharpnessOfARoom : public ::testing::Test {
  protected:
   WallSharpnessOfARoom() {
@@ -57,14 +57,14 @@ class WallSharpnessOfARoom : public ::testing::Test {
   std::vector<PosePair> pairs_;
 };
 
-TEST_F(WallSharpnessOfARoom, IsTheSameFromTheSamePoses) {
+TEST_F(WallSharpnessOfARoom, IsEqualAtEqualPoses) {
   const WallSharpness walls = of(pairs_);
   EXPECT_EQ(walls.scans, static_cast<std::size_t>(kScans));
   EXPECT_GT(walls.of_truth.occupied_cells, 300U);
   EXPECT_EQ(walls.of_estimate.entropy_bits, walls.of_truth.entropy_bits);
 }
 
-TEST_F(WallSharpnessOfARoom, IsWorseFromPosesThatAreOff) {
+TEST_F(WallSharpnessOfARoom, IsLowerAtPosesWithErrors) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   for (PosePair& pair : pairs_)
@@ -74,19 +74,19 @@ TEST_F(WallSharpnessOfARoom, IsWorseFromPosesThatAreOff) {
   EXPECT_GT(walls.of_estimate.mean_entropy_bits(), 1.1 * walls.of_truth.mean_entropy_bits());
 }
 
-TEST_F(WallSharpnessOfARoom, TakesOnlyScansThatHaveBothPoses) {
+TEST_F(WallSharpnessOfARoom, UsesOnlyScansWithBothPoses) {
   pairs_.erase(pairs_.begin() + 10, pairs_.begin() + 30);
   pairs_.push_back({stamp_ns(kScans + 5), {}, {}});
   EXPECT_EQ(of(pairs_).scans, static_cast<std::size_t>(kScans - 20));
 }
 
-TEST_F(WallSharpnessOfARoom, LeavesOutWhatIsFar) {
+TEST_F(WallSharpnessOfARoom, LeavesOutDistantEchoes) {
   const auto near =
       wall_sharpness(file(), pairs_, 0.0, {.cell_size_m = 0.05, .longest_range_m = 2.0});
   EXPECT_LT(near->of_truth.touched_cells, of(pairs_).of_truth.touched_cells);
 }
 
-TEST_F(WallSharpnessOfARoom, SaysWhatIsWrongWithTheLog) {
+TEST_F(WallSharpnessOfARoom, ReportsFaultsOfTheLog) {
   EXPECT_FALSE(wall_sharpness(folder_ / "none.log", pairs_, 0.0, {.cell_size_m = 0.05}));
 }
 

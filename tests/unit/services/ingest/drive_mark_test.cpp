@@ -9,7 +9,7 @@
 namespace slammot::ingest {
 namespace {
 
-/// As a process leaves it that was killed.
+/// Writes the file that a killed process leaves.
 void leave_mark(const std::filesystem::path& file, const std::string& log, std::uint64_t drive_id) {
   std::ofstream(file) << log << '\n' << drive_id << '\n';
 }
@@ -19,11 +19,11 @@ struct DriveMarkTest : ::testing::Test {
   std::filesystem::path file = folder / "state/ingest.drive";
 };
 
-TEST_F(DriveMarkTest, BeginsANewDriveWhereNoneIsNoted) {
+TEST_F(DriveMarkTest, BeginsANewDriveWithoutAFile) {
   EXPECT_EQ(DriveMark(file, "a.log", 7).drive_id(), 7U);
 }
 
-TEST_F(DriveMarkTest, GoesOnWithTheDriveOfAProcessThatWasKilled) {
+TEST_F(DriveMarkTest, ContinuesTheDriveOfAKilledProcess) {
   std::filesystem::create_directories(file.parent_path());
   leave_mark(file, "a.log", 7);
   EXPECT_EQ(DriveMark(file, "a.log", 8).drive_id(), 7U);
@@ -40,13 +40,13 @@ TEST_F(DriveMarkTest, BeginsANewDriveAfterOneThatEnded) {
   EXPECT_EQ(DriveMark(file, "a.log", 8).drive_id(), 8U);
 }
 
-TEST_F(DriveMarkTest, BeginsANewDriveWhereTheMarkIsDamaged) {
+TEST_F(DriveMarkTest, BeginsANewDriveWithADamagedFile) {
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file) << "a.log\nseven\n";
   EXPECT_EQ(DriveMark(file, "a.log", 8).drive_id(), 8U);
 }
 
-TEST_F(DriveMarkTest, DoesWithoutAFolderItCanWrite) {
+TEST_F(DriveMarkTest, WorksWithoutAWritableFolder) {
   EXPECT_EQ(DriveMark("/proc/no/ingest.drive", "a.log", 7).drive_id(), 7U);
 }
 

@@ -18,8 +18,8 @@ using slammot::testing::kForever;
 
 constexpr int kScans = 20;
 
-/// Stands for localization, detection and tracking together: beats for them, and answers scans with
-/// labels as told.
+/// Stands in for localization, detection and tracking: sends their heartbeats and answers scans
+/// with labels.
 class Neighbours {
  public:
   explicit Neighbours(dds::Participant participant) : participant_(std::move(participant)) {
@@ -29,7 +29,7 @@ class Neighbours {
   }
 
   std::function<void(const slammot_LaserScan&)> on_scan;
-  int starting_beats = 0;  ///< So many times they say that they are starting.
+  int starting_beats = 0;  ///< Number of heartbeats in state starting.
   bool is_starting() const { return beats_ <= starting_beats; }
 
   void answer(std::int64_t stamp_ns) {
@@ -106,7 +106,7 @@ struct IngestOnTheBus : ::testing::Test {
   std::uint64_t count(const std::string& name) { return context.status().counter(name); }
 };
 
-TEST_F(IngestOnTheBus, SendsEveryScanInOrderAsFastAsItIsAnswered) {
+TEST_F(IngestOnTheBus, SendsEveryScanInOrderAfterTheAnswerToThePreviousOne) {
   neighbours.on_scan = [this](const slammot_LaserScan& scan) {
     arrived.push_back(scan.sequence_number);
     neighbours.answer(scan.stamp_ns);
@@ -118,7 +118,7 @@ TEST_F(IngestOnTheBus, SendsEveryScanInOrderAsFastAsItIsAnswered) {
   EXPECT_EQ(count("log_finished"), 1U);
 }
 
-TEST_F(IngestOnTheBus, SendsAgainWhatWasNotAnswered) {
+TEST_F(IngestOnTheBus, SendsUnansweredScansAgain) {
   neighbours.on_scan = [this](const slammot_LaserScan& scan) {
     arrived.push_back(scan.sequence_number);
     const bool is_first_time = std::ranges::count(arrived, scan.sequence_number) == 1;
@@ -131,7 +131,7 @@ TEST_F(IngestOnTheBus, SendsAgainWhatWasNotAnswered) {
   EXPECT_EQ(count("given_up_scans"), 0U);
 }
 
-TEST_F(IngestOnTheBus, GivesUpAScanThatNobodyEverAnswersFor) {
+TEST_F(IngestOnTheBus, GivesUpAScanThatIsNeverAnswered) {
   neighbours.on_scan = [this](const slammot_LaserScan& scan) {
     if (scan.sequence_number != 7) neighbours.answer(scan.stamp_ns);
   };
@@ -140,7 +140,7 @@ TEST_F(IngestOnTheBus, GivesUpAScanThatNobodyEverAnswersFor) {
   EXPECT_EQ(count("scans"), kScans);
 }
 
-TEST_F(IngestOnTheBus, SkipsWhatAnEarlierProcessAlreadySent) {
+TEST_F(IngestOnTheBus, SkipsScansThatThePreviousProcessSent) {
   static constexpr std::int64_t kDoneNs = 101'000'000'000;  // scans 0 to 10
   neighbours.on_scan = [this](const slammot_LaserScan& scan) {
     arrived.push_back(scan.sequence_number);
@@ -151,7 +151,7 @@ TEST_F(IngestOnTheBus, SkipsWhatAnEarlierProcessAlreadySent) {
   EXPECT_EQ(count("skipped_scans"), 10U);
 }
 
-TEST_F(IngestOnTheBus, PlaysAtItsPaceWithoutWaitingForAnswers) {
+TEST_F(IngestOnTheBus, PlaysAtItsSpeedWithoutWaitingForAnswers) {
   neighbours.on_scan = [this](const slammot_LaserScan& scan) {
     arrived.push_back(scan.sequence_number);
   };
@@ -159,8 +159,8 @@ TEST_F(IngestOnTheBus, PlaysAtItsPaceWithoutWaitingForAnswers) {
   EXPECT_EQ(arrived.size(), kScans);
 }
 
-TEST_F(IngestOnTheBus, WaitsBeyondItsPatienceForAServiceThatSaysThatItIsStarting) {
-  neighbours.starting_beats = 50;  // a second and more
+TEST_F(IngestOnTheBus, WaitsForAServiceInStateStarting) {
+  neighbours.starting_beats = 50;  // more than a second
   neighbours.on_scan = [this](const slammot_LaserScan& scan) {
     EXPECT_FALSE(neighbours.is_starting());
     arrived.push_back(scan.sequence_number);

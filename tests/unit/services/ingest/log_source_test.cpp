@@ -8,7 +8,7 @@
 namespace slammot::ingest {
 namespace {
 
-TEST(LogSource, GivesEachScanWithTheOdometryBeforeIt) {
+TEST(LogSource, ReturnsEachScanWithTheOdometryBeforeIt) {
   const slammot::testing::TemporaryFolder folder;
   write_small_log(folder / "drive.log", 20);
   IngestConfig config;
@@ -28,7 +28,7 @@ TEST(LogSource, GivesEachScanWithTheOdometryBeforeIt) {
   EXPECT_EQ(scans, 20U);
 }
 
-TEST(LogSource, SaysWhyALogCannotBePlayed) {
+TEST(LogSource, ReportsWhyALogCannotBePlayed) {
   const auto source = LogSource::open("/nowhere/drive.log", {});
   ASSERT_FALSE(source);
   EXPECT_NE(source.error().message.find("/nowhere/drive.log"), std::string::npos);

@@ -25,7 +25,7 @@ TEST(ScanWindow, HasRoomAgainAfterAnAnswer) {
   EXPECT_TRUE(window.has_room());
 }
 
-TEST(ScanWindow, TakesAnAnswerForAllScansUpToIt) {
+TEST(ScanWindow, AcknowledgesCumulatively) {
   ScanWindow window({3, 1s});
   for (const std::int64_t stamp : {10, 20, 30}) window.sent(stamp, kStart);
   EXPECT_EQ(window.acknowledge(25, kStart), 2U);
@@ -41,7 +41,7 @@ TEST(ScanWindow, IsOverdueWithoutProgress) {
   EXPECT_TRUE(window.is_overdue(kStart + 1s));
 }
 
-TEST(ScanWindow, StartsWaitingAnewWithProgressAndWithResending) {
+TEST(ScanWindow, RestartsItsTimerOnProgressAndOnResending) {
   ScanWindow window({2, 1s});
   window.sent(10, kStart);
   window.sent(20, kStart + 500ms);
@@ -52,7 +52,7 @@ TEST(ScanWindow, StartsWaitingAnewWithProgressAndWithResending) {
   EXPECT_FALSE(window.is_overdue(kStart + 2800ms));
 }
 
-TEST(ScanWindow, GivesUpWhatNobodyAnswersFor) {
+TEST(ScanWindow, GivesUpUnansweredScans) {
   ScanWindow window({1, 1s, 3});
   window.sent(10, kStart);
   EXPECT_EQ(window.resend(kStart + 1s), 0U);

@@ -5,8 +5,8 @@
 
 namespace slammot::ingest {
 
-/// A CARMEN log of `scans` scans of 5 beams, one every 0.1 s from 100 s on, of a vehicle that
-/// drives ahead at 1 m/s.
+/// Writes a CARMEN log of `scans` scans of 5 beams, one every 0.1 s from 100 s on, of a vehicle
+/// that moves forward at 1 m/s.
 inline void write_small_log(const std::filesystem::path& file, int scans) {
   std::ofstream log(file);
   for (int i = 0; i < scans; ++i) {

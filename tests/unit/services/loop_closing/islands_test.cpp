@@ -30,7 +30,7 @@ TEST(Islands, AreNamedByTheirEarliestSubmap) {
                                                      is_on(3, 2), is_on(4, 2), is_on(5, 5)));
 }
 
-TEST(Islands, BecomeOneByASingleTieWhicheverWayItPoints) {
+TEST(Islands, AreJoinedByOneConstraintInEitherDirection) {
   for (const Constraint& revisit : {tie(1, 4), tie(4, 1)}) {
     const std::vector<Constraint> ties{tie(2, 3), tie(0, 1), tie(3, 4), revisit};
     EXPECT_THAT(islands(submaps(5), ties),

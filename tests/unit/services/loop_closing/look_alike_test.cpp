@@ -19,7 +19,7 @@ using slammot::testing::drive;
 using slammot::testing::FloorPlan;
 using slammot::testing::indoor_loop_closing;
 
-/// Doors and niches along a stretch of corridor, each metre of it made from the seed alone.
+/// Doors and niches along a stretch of corridor; each metre is generated from the seed alone.
 struct Block {
   unsigned seed = 0;
   double length_m = 0.0;
@@ -46,8 +46,7 @@ void add_block(FloorPlan& plan, double from_x_m, const Block& block) {
   }
 }
 
-/// A corridor in which one block comes twice, with others before, between and after: two places
-/// that look alike.
+/// A corridor that contains one block twice, with different blocks before, between and after.
 struct LookAlikePair {
   explicit LookAlikePair(unsigned seed) {
     std::mt19937 random(1000 + seed);
@@ -89,15 +88,15 @@ int false_closures_that_last(unsigned seed, double sigma_scale) {
   return lasting;
 }
 
-/// SLAMMOT_LOOK_ALIKE_PAIRS sets how many; tests/look_alike.sh runs all 200.
+/// Number of pairs, from SLAMMOT_LOOK_ALIKE_PAIRS; tests/look_alike.sh runs all 200.
 unsigned pairs_to_try() {
   const char* const pairs = std::getenv("SLAMMOT_LOOK_ALIKE_PAIRS");
   return pairs == nullptr ? 6U : static_cast<unsigned>(std::strtoul(pairs, nullptr, 10));
 }
 
-TEST(LookAlikePlaces, AreNotTakenForEachOtherInTheEnd) {
+TEST(LookAlikePlaces, AreNotConfusedAtTheEndOfTheDrive) {
   for (unsigned seed = 0; seed < pairs_to_try(); ++seed) {
-    // From an odometry that excludes the other place to one that would believe either.
+    // From odometry that excludes the other place to odometry that admits either.
     const double sigma_scale = seed % 3 == 0 ? 1.0 : seed % 3 == 1 ? 4.0 : 10.0;
     EXPECT_EQ(false_closures_that_last(seed, sigma_scale), 0) << "pair " << seed;
   }

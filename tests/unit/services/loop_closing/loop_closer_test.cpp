@@ -33,7 +33,7 @@ double largest_error_m(const GraphCorrection& correction, const std::vector<Pose
   return largest_m;
 }
 
-TEST(LoopCloser, ClosesARoundWhoseOdometryBends) {
+TEST(LoopCloser, ClosesALoopWithDriftingOdometry) {
   const auto way = way_around_the_ring(1.3);
   const auto submaps = drive(ring(), way, 0.002);
   LoopCloser closer(indoor_loop_closing());
@@ -47,7 +47,7 @@ TEST(LoopCloser, ClosesARoundWhoseOdometryBends) {
   EXPECT_LT(largest_error_m(correction, way), 0.3);
 }
 
-TEST(LoopCloser, SaysWhereEverySubmapIsEachTimeOneCameIn) {
+TEST(LoopCloser, ReturnsThePosesOfAllSubmapsAfterEachOne) {
   const auto submaps = drive(ring(), way_around_the_ring(0.4), 0.0);
   LoopCloser closer(indoor_loop_closing());
   for (std::size_t i = 0; i < submaps.size(); ++i) {
@@ -61,7 +61,7 @@ TEST(LoopCloser, SaysWhereEverySubmapIsEachTimeOneCameIn) {
   }
 }
 
-TEST(LoopCloser, IgnoresASubmapThatItKnows) {
+TEST(LoopCloser, IgnoresARepeatedSubmap) {
   const auto submaps = drive(ring(), way_around_the_ring(0.4), 0.0);
   LoopCloser closer(indoor_loop_closing());
   for (const Submap& submap : submaps) closer.add(submap);
@@ -71,7 +71,7 @@ TEST(LoopCloser, IgnoresASubmapThatItKnows) {
   EXPECT_EQ(closer.counters().repeated_submaps, 1U);
 }
 
-TEST(LoopCloser, BridgesASubmapThatWasLost) {
+TEST(LoopCloser, BridgesAMissingSubmap) {
   const auto submaps = drive(ring(), way_around_the_ring(0.5), 0.0);
   LoopCloser closer(indoor_loop_closing());
   GraphCorrection correction;
@@ -98,7 +98,7 @@ TEST(LoopCloser, GivesTheSameBitsTwice) {
   EXPECT_GT(first.counters().closures, 0U);
 }
 
-TEST(LoopCloser, SolvesAtTheEndOfALongDriveWhatItPutOff) {
+TEST(LoopCloser, SolvesDeferredClosuresAtTheEndOfALongDrive) {
   const auto submaps = drive(ring(), way_around_the_ring(9.0), 0.0);
   ASSERT_GT(submaps.size(), 110U) << "of fewer each closure is solved at once";
   LoopCloser closer(indoor_loop_closing());
@@ -111,9 +111,8 @@ TEST(LoopCloser, SolvesAtTheEndOfALongDriveWhatItPutOff) {
   EXPECT_FALSE(closer.has_unfinished_work());
 }
 
-TEST(LoopCloser, DoesNotTakeOneOfEqualCorridorsForAnother) {
-  // Straight on past door after door, each like the last, with an odometry that admits to being
-  // metres off.
+TEST(LoopCloser, DoesNotConfuseEqualCorridors) {
+  // Equal doors at equal distances, and odometry with an error of metres within its covariance.
   FloorPlan plan;
   for (double x = -20.0; x < 140.0; x += 5.0) {
     plan.add({x, -1}, {x + 4, -1});
@@ -132,8 +131,8 @@ TEST(LoopCloser, DoesNotTakeOneOfEqualCorridorsForAnother) {
   EXPECT_EQ(closer.counters().closures, 0U);
 }
 
-/// The drive around the ring, whose first two submaps of the second round show what lies 12 m ahead
-/// of where they are.
+/// The drive around the ring; the first two submaps of the second round show what lies 12 m ahead
+/// of them.
 std::vector<Submap> drive_deceived_once(const std::vector<Pose2>& way) {
   std::vector<Submap> submaps = drive(ring(), way, 0.0, 1.6);
   for (const std::size_t deceived : {14U, 15U}) {
@@ -144,7 +143,7 @@ std::vector<Submap> drive_deceived_once(const std::vector<Pose2>& way) {
   return submaps;
 }
 
-TEST(LoopCloser, KeepsNoFalseClosureThoughTwoSubmapsShowAnotherPlace) {
+TEST(LoopCloser, KeepsNoFalseClosureSupportedByTwoSubmaps) {
   const auto way = way_around_the_ring(1.9);
   LoopClosingConfig credulous = indoor_loop_closing();
   credulous.needed_support = credulous.needed_when_ambiguous = 1;
@@ -170,7 +169,8 @@ TEST(LoopCloser, ReadsNoMoreCellsForASubmapThanItsBudget) {
   LoopClosingConfig config = indoor_loop_closing();
   config.search.work_per_submap = 1e6;
   LoopCloser closer(config);
-  constexpr std::uint64_t kMostOfOneStep = 3'000'000;  // one target drawn, or one pose refined
+  constexpr std::uint64_t kMostOfOneStep = 3'000'000;  // Building one target or registering one
+                                                       // pose.
   std::uint64_t before = 0;
   for (const Submap& submap : submaps) {
     closer.add(submap);
@@ -180,12 +180,12 @@ TEST(LoopCloser, ReadsNoMoreCellsForASubmapThanItsBudget) {
   EXPECT_GT(closer.counters().searches_given_up + closer.counters().closures, 0U);
 }
 
-/// Two drives of one vehicle that was carried in between: its odometry knows nothing of the way.
+/// Two drives of one vehicle that was carried in between: odometry does not observe the motion.
 std::vector<Submap> carried_between(std::vector<Submap> before, const std::vector<Submap>& after) {
   for (Submap submap : after) {
     submap.submap_id = {static_cast<std::uint32_t>(before.size())};
     submap.odom_from_submap = Pose2{300.0, -200.0, 2.5} * submap.odom_from_submap;
-    if (submap.previous_from_submap.covariance.isZero()) {  // the first one
+    if (submap.previous_from_submap.covariance.isZero()) {  // first submap of a drive
       submap.previous_from_submap.pose =
           inverse(before.back().odom_from_submap) * submap.odom_from_submap;
       submap.previous_from_submap.covariance = Eigen::Vector3d(225.0, 225.0, 10.0).asDiagonal();
@@ -203,7 +203,7 @@ class CarriedAway : public ::testing::Test {
                                                              // submaps
   }
 
-  /// Of the submaps after it was carried, in map.
+  /// Of the submaps after the vehicle was carried, in map.
   double largest_error_after_m(const GraphCorrection& correction) const {
     double largest_m = 0.0;
     for (std::size_t i = before_.size(); i < correction.submaps.size(); ++i) {
@@ -221,25 +221,25 @@ class CarriedAway : public ::testing::Test {
   LoopCloser closer_{indoor_loop_closing()};
 };
 
-TEST_F(CarriedAway, IsFoundHoweverFar) {
+TEST_F(CarriedAway, IsLocatedAtAnyDistance) {
   GraphCorrection correction;
   for (const Submap& submap : carried_between(before_, drive(ring(), after_, 0.0)))
     correction = closer_.add(submap);
-  EXPECT_TRUE(closer_.knows_where_it_is());
+  EXPECT_TRUE(closer_.is_connected());
   EXPECT_EQ(closer_.counters().found_elsewhere, 1U);
   EXPECT_LT(largest_error_after_m(correction), 0.2);
 }
 
-TEST_F(CarriedAway, SaysThatItDoesNotKnowWhereUntilTwoSubmapsAgree) {
+TEST_F(CarriedAway, IsUnconnectedUntilTwoSubmapsAgree) {
   const auto submaps = carried_between(before_, drive(ring(), after_, 0.0));
   for (const Submap& submap : before_) closer_.add(submap);
-  EXPECT_TRUE(closer_.knows_where_it_is());
+  EXPECT_TRUE(closer_.is_connected());
   EXPECT_TRUE(closer_.add(submaps[before_.size()]).is_untied);
-  EXPECT_FALSE(closer_.knows_where_it_is());
+  EXPECT_FALSE(closer_.is_connected());
 }
 
-TEST_F(CarriedAway, LiesNowhereRatherThanInAWrongPlace) {
-  FloorPlan elsewhere;  // corridors of the same width without anything in them that the ring has
+TEST_F(CarriedAway, StaysUnconnectedInAnUnknownPlace) {
+  FloorPlan elsewhere;  // corridors of the same width without any feature of the ring
   elsewhere.add_box({0, 0}, {20, 20});
   elsewhere.add_box({-2.3, -2.2}, {22.4, 22.1});
   for (double at_m = -1.0; at_m < 20.0; at_m += 4.3) {
@@ -249,12 +249,12 @@ TEST_F(CarriedAway, LiesNowhereRatherThanInAWrongPlace) {
   }
   for (const Submap& submap : carried_between(before_, drive(elsewhere, after_, 0.0)))
     closer_.add(submap);
-  EXPECT_FALSE(closer_.knows_where_it_is());
+  EXPECT_FALSE(closer_.is_connected());
   EXPECT_GT(closer_.counters().searches, 20U);
   EXPECT_EQ(closer_.counters().found_elsewhere, 0U);
 }
 
-TEST(LoopCloser, IgnoresSubmapsWhoseNumbersAreNone) {
+TEST(LoopCloser, IgnoresSubmapsWithInvalidNumbers) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const auto submaps = drive(ring(), way_around_the_ring(0.4), 0.0);
   std::vector<Submap> faulty(6, submaps[1]);

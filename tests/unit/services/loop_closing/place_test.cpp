@@ -24,16 +24,16 @@ Place place_of(const FloorPlan& plan, std::uint32_t id, const Pose2& map_from_ba
   return make_place(submap_seen_from(plan, id, {map_from_base}), 0.0, kConfig);
 }
 
-TEST(MakePlace, KnowsWhatIsFreeOccupiedAndUnseen) {
+TEST(MakePlace, MarksFreeOccupiedAndUnseenCells) {
   const Place place = place_of(room_with_pillar(), 0, {});
-  EXPECT_EQ(place.spot_at({-3.0, 1.0}), Spot::kFree);
-  EXPECT_EQ(place.spot_at({2.0, 1.5}), Spot::kOccupied);
-  EXPECT_EQ(place.spot_at({2.0 - 0.12, 1.5}), Spot::kOccupied);  // within the tolerance
-  EXPECT_EQ(place.spot_at({5.0, 3.5}), Spot::kUnknown);          // in the pillar's shadow
-  EXPECT_EQ(place.spot_at({1e9, -1e9}), Spot::kUnknown);
+  EXPECT_EQ(place.state_at({-3.0, 1.0}), CellState::kFree);
+  EXPECT_EQ(place.state_at({2.0, 1.5}), CellState::kOccupied);
+  EXPECT_EQ(place.state_at({2.0 - 0.12, 1.5}), CellState::kOccupied);  // within the tolerance
+  EXPECT_EQ(place.state_at({5.0, 3.5}), CellState::kUnknown);          // in the pillar's shadow
+  EXPECT_EQ(place.state_at({1e9, -1e9}), CellState::kUnknown);
 }
 
-TEST(MakePlace, LeavesOutSurfelsThatWereSeenThroughOrHardlySeen) {
+TEST(MakePlace, LeavesOutSurfelsSeenThroughOrWithFewEchoes) {
   flow::Submap submap = submap_seen_from(room_with_pillar(), 0, {Pose2{}});
   const std::size_t walls = make_place(submap, 0.0, kConfig).surfels.size();
   submap.surfels.push_back({-3.0F, 1.0F, 1.0F, 0.0F, 50.0F});
@@ -41,13 +41,13 @@ TEST(MakePlace, LeavesOutSurfelsThatWereSeenThroughOrHardlySeen) {
   EXPECT_EQ(make_place(submap, 0.0, kConfig).surfels.size(), walls);
 }
 
-TEST(MakePlace, AddsUpTheWayDriven) {
+TEST(MakePlace, SumsTheDistanceDriven) {
   const auto submap =
       submap_seen_from(room_with_pillar(), 0, {Pose2{0, 0, 0}, Pose2{1, 0, 0}, Pose2{2, 0, 0}});
   const Place place = make_place(submap, 100.0, kConfig);
   EXPECT_DOUBLE_EQ(place.travelled_before_m, 100.0);
   EXPECT_DOUBLE_EQ(place.travelled_after_m, 102.0);
-  EXPECT_NEAR(place.middle_m.x(), 1.0, 1e-9);
+  EXPECT_NEAR(place.centre_m.x(), 1.0, 1e-9);
 }
 
 TEST(Compare, AgreesWithItselfFromAnotherPose) {
@@ -59,7 +59,7 @@ TEST(Compare, AgreesWithItselfFromAnotherPose) {
   EXPECT_GT(agreement.overlap_share(), 0.8);
 }
 
-TEST(Compare, IsTheSameFromBothSidesAsToWhatIsContradicted) {
+TEST(Compare, CountsTheSameContradictionsWithSidesSwapped) {
   const Pose2 wrong{1.5, 0.7, 0.2};
   const Place a = place_of(room_with_pillar(), 0, {});
   const Place b = place_of(room_with_pillar(), 1, {-1.0, 0.5, 0.1});
@@ -69,7 +69,7 @@ TEST(Compare, IsTheSameFromBothSidesAsToWhatIsContradicted) {
   EXPECT_EQ(forth.occupied_in_both, back.occupied_in_both);
 }
 
-TEST(Compare, IsContradictedWhereAWallStandsInWhatWasFree) {
+TEST(Compare, CountsAWallInFreeSpaceAsAContradiction) {
   const Place place = place_of(room_with_pillar(), 0, {});
   const Agreement shifted = compare({{{&place, Pose2::identity()}}}, place, {1.0, 0.0, 0.0});
   EXPECT_LT(shifted.agreed_share(), 0.8);

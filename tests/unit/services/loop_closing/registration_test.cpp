@@ -40,14 +40,14 @@ Registration registered(const FloorPlan& plan, const Pose2& guess_error,
                           kSecond * guess_error, config);
 }
 
-TEST(RegisterSurfels, PullsANoisyGuessToTheTruth) {
+TEST(RegisterSurfels, ConvergesFromANoisyGuess) {
   const Registration registration = registered(room(), {0.15, -0.1, 0.04});
   EXPECT_THAT(registration.target_from_source.pose, PoseNear(kSecond, 0.01));
   EXPECT_GT(registration.matched_share, 0.9);
   EXPECT_LT(registration.rms_m, 0.03);
 }
 
-TEST(RegisterSurfels, HoldsItsErrorWithinItsCovariance) {
+TEST(RegisterSurfels, HasAnErrorWithinItsCovariance) {
   const Registration registration = registered(room(), {0.1, 0.1, -0.03});
   const Pose2& pose = registration.target_from_source.pose;
   const geometry::Matrix3& covariance = registration.target_from_source.covariance;
@@ -57,7 +57,7 @@ TEST(RegisterSurfels, HoldsItsErrorWithinItsCovariance) {
   EXPECT_LT(std::sqrt(covariance(0, 0)), 0.1);
 }
 
-TEST(RegisterSurfels, IsAsUnsureAsFewAreIndependentOnTopOfWhatASubmapBends) {
+TEST(RegisterSurfels, HasACovarianceOfTheIndependentSurfelsPlusTheFloor) {
   RegistrationConfig config;
   const auto variances = [&](double spacing_m, double position_floor_m,
                              double heading_floor_rad) -> Eigen::Vector3d {
@@ -76,7 +76,7 @@ TEST(RegisterSurfels, IsAsUnsureAsFewAreIndependentOnTopOfWhatASubmapBends) {
   EXPECT_LT((variances(2.0, 0.3, 0.04) - by_walls - floors).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(RegisterSurfels, SaysThatItDoesNotKnowWhereInACorridorItIs) {
+TEST(RegisterSurfels, HasAWideCovarianceAlongACorridor) {
   const Registration registration = registered(corridor(), {0.0, 0.1, 0.02});
   EXPECT_GT(std::sqrt(registration.target_from_source.covariance(0, 0)), 1.0);
   EXPECT_LT(std::sqrt(registration.target_from_source.covariance(1, 1)), 0.1);

@@ -44,7 +44,7 @@ FloorPlan hall() {
   return plan;
 }
 
-/// Corridor of 60 m along x with a niche every 4 m: from within, each 4 m look like the next.
+/// Corridor of 60 m along x with a niche every 4 m: from within, each period looks like the next.
 FloorPlan corridor_of_equal_niches() {
   FloorPlan plan;
   plan.add({-30, -1}, {30, -1});
@@ -105,7 +105,7 @@ TEST(FindRevisits, FindsNothingInAnotherRoom) {
                   .empty());
 }
 
-TEST(FindRevisits, KnowsThatEqualNichesHaveRivals) {
+TEST(FindRevisits, ReportsRivalsAmongEqualNiches) {
   std::vector<Pose2> way;
   for (double x = 0.0; x <= 12.0; x += 0.5) way.push_back({x, 0.0, 0.0});
   const Place earlier =
@@ -117,7 +117,7 @@ TEST(FindRevisits, KnowsThatEqualNichesHaveRivals) {
   for (const Hypothesis& hypothesis : found) EXPECT_TRUE(hypothesis.has_rivals);
 }
 
-TEST(FindRevisits, IsWideAlongABareCorridorRatherThanRivalled) {
+TEST(FindRevisits, HasAWideCovarianceAlongABareCorridorAndNoRivals) {
   FloorPlan corridor;
   corridor.add({-40, -1}, {40, -1});
   corridor.add({-40, 1}, {40, 1});

@@ -46,7 +46,7 @@ class SearchQueueTest : public ::testing::Test {
     return places_.back();
   }
 
-  /// For a place that was seen 2 m off its expected pose, on the first one.
+  /// For a place seen 2 m from its expected pose, on the first target.
   RevisitSearch search(std::uint32_t id, double sigma_m) {
     const Pose2 truth{2.0, 0.5, 0.1};
     const Place& source = place(id, truth);
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> sources_of(const std::vector<SearchQueue::Finished>& 
   return sources;
 }
 
-TEST_F(SearchQueueTest, EndsASearchWithWhatItFound) {
+TEST_F(SearchQueueTest, ReturnsTheHypothesesOfAFinishedSearch) {
   SearchQueue queue{SearchBudget{}};
   queue.add(search(1, 1.5), Extent::kExpected);
   EXPECT_FALSE(queue.is_empty());
@@ -80,7 +80,7 @@ TEST_F(SearchQueueTest, EndsASearchWithWhatItFound) {
   EXPECT_EQ(queue.given_up(), 0U);
 }
 
-TEST_F(SearchQueueTest, DoesExpectedOnesBeforeThoseEverywhere) {
+TEST_F(SearchQueueTest, SearchesExpectedPlacesBeforeEverywhere) {
   SearchQueue queue{SearchBudget{}};
   queue.add(search(1, 1.5), Extent::kEverywhere);
   queue.add(search(2, 1.5), Extent::kExpected);
@@ -91,7 +91,7 @@ TEST_F(SearchQueueTest, DoesExpectedOnesBeforeThoseEverywhere) {
   EXPECT_EQ(order, (std::vector<std::uint32_t>{2, 3, 1}));
 }
 
-/// Work of a search until the condition no longer holds, drawing nothing.
+/// Work of a search until the condition no longer holds, without building targets.
 template <typename Condition>
 std::uint64_t work_while(RevisitSearch& search, PyramidCache& pyramids, const Condition& holds) {
   const std::uint64_t before = search.work();
@@ -99,19 +99,19 @@ std::uint64_t work_while(RevisitSearch& search, PyramidCache& pyramids, const Co
   return search.work() - before;
 }
 
-TEST_F(SearchQueueTest, DoesTheNearPartOfEachBeforeAllAroundOfAny) {
-  const auto is_near = [](const RevisitSearch& one) { return one.is_near(); };
+TEST_F(SearchQueueTest, SearchesNearEachExpectedPoseBeforeAnyFullWindow) {
+  const auto is_near_expected = [](const RevisitSearch& one) { return one.is_near_expected(); };
   PyramidCache pyramids;
   RevisitSearch around = search(1, 4.0);
-  work_while(around, pyramids, is_near);
+  work_while(around, pyramids, is_near_expected);
   ASSERT_FALSE(around.is_done());
   const RevisitSearch near = search(2, 4.0);
-  ASSERT_TRUE(near.is_near());
+  ASSERT_TRUE(near.is_near_expected());
   RevisitSearch around_alone = around;
   RevisitSearch near_alone = near;
   const std::uint64_t work_around =
       work_while(around_alone, pyramids, [](const RevisitSearch& one) { return !one.is_done(); });
-  const std::uint64_t work_near = work_while(near_alone, pyramids, is_near);
+  const std::uint64_t work_near = work_while(near_alone, pyramids, is_near_expected);
 
   SearchQueue queue{{.work_per_submap = 1.0, .work_per_search = 1e12}};
   queue.add(around, Extent::kExpected);
@@ -132,7 +132,7 @@ TEST_F(SearchQueueTest, GivesUpASearchThatHasReadTooMuch) {
   EXPECT_EQ(queue.given_up(), 1U);
 }
 
-TEST_F(SearchQueueTest, GivesUpTheOldestOfThoseEverywhereWhereTooManyWait) {
+TEST_F(SearchQueueTest, GivesUpTheOldestSearchEverywhereWhenTooManyArePending) {
   SearchQueue queue{{.work_per_submap = 0.0, .most_waiting = 2}};
   queue.add(search(1, 1.5), Extent::kExpected);
   queue.add(search(2, 1.5), Extent::kEverywhere);
@@ -143,7 +143,7 @@ TEST_F(SearchQueueTest, GivesUpTheOldestOfThoseEverywhereWhereTooManyWait) {
   EXPECT_TRUE(queue.advance().empty()) << "told once";
 }
 
-TEST_F(SearchQueueTest, GivesUpAtTheEndWhatIsLeft) {
+TEST_F(SearchQueueTest, GivesUpPendingSearchesAtTheEnd) {
   SearchQueue queue{{.work_per_submap = 0.0, .work_at_end = 1.0}};
   queue.add(search(1, 4.0), Extent::kExpected);
   queue.add(search(2, 4.0), Extent::kEverywhere);
@@ -153,7 +153,7 @@ TEST_F(SearchQueueTest, GivesUpAtTheEndWhatIsLeft) {
   EXPECT_EQ(queue.given_up(), 2U);
 }
 
-TEST_F(SearchQueueTest, HasWorkAtTheEndForWhatIsLeft) {
+TEST_F(SearchQueueTest, SpendsTheFinalBudgetOnPendingSearches) {
   SearchQueue queue{{.work_per_submap = 0.0}};
   queue.add(search(1, 1.5), Extent::kExpected);
   EXPECT_TRUE(queue.advance().empty());

@@ -54,7 +54,7 @@ TEST(SurfelIndex, AgreesWithBruteForce) {
   }
 }
 
-TEST(SurfelIndex, FindsNothingAmongNone) {
+TEST(SurfelIndex, FindsNothingInAnEmptyIndex) {
   EXPECT_EQ(SurfelIndex({}, 1.0).nearest({0.0F, 0.0F}, {1.0F, 0.0F}, 1.0F), nullptr);
 }
 

@@ -18,7 +18,7 @@ struct MapStoreOnTheBus : slammot::testing::ServiceOnTheBus {
   dds::Writer<slammot_SubmapTile> tiles{neighbour_, dds::topics::kSubmapTile};
   std::map<flow::SubmapId, flow::Submap> stored;
 
-  /// What a reader gets that comes now.
+  /// What a reader receives that joins now.
   struct LateReader {
     dds::Reader<slammot_SubmapTile> reader;
     wire::SubmapAssembler assembler;
@@ -58,7 +58,7 @@ TEST_F(MapStoreOnTheBus, PublishesASubmapOnceItIsCommitted) {
   EXPECT_TRUE(std::get<Store>(store).get("car", {0}));
 }
 
-TEST_F(MapStoreOnTheBus, PublishesAllThatIsStoredWhenItStartsAgain) {
+TEST_F(MapStoreOnTheBus, PublishesAllStoredSubmapsAfterARestart) {
   start<MapStoreService>("map_store");
   for (const std::uint32_t id : {0U, 1U, 2U}) finish(example_submap(id));
   ASSERT_TRUE(comes_to([&] { return has_stored(3); }));
@@ -69,7 +69,7 @@ TEST_F(MapStoreOnTheBus, PublishesAllThatIsStoredWhenItStartsAgain) {
   EXPECT_TRUE(comes_to([&] { return has_stored(3); }));
 }
 
-TEST_F(MapStoreOnTheBus, SaysWhatThereIsToGoOnIn) {
+TEST_F(MapStoreOnTheBus, PublishesTheDescriptionOfTheStoredMap) {
   start<MapStoreService>("map_store");
   ASSERT_TRUE(comes_to([&] { return has_said_what_it_has(); }));
   EXPECT_EQ(said->submaps, 0U) << "nothing is stored, and it says so";
@@ -86,7 +86,7 @@ TEST_F(MapStoreOnTheBus, SaysWhatThereIsToGoOnIn) {
   EXPECT_EQ(said->submaps, 1U);
 }
 
-TEST_F(MapStoreOnTheBus, SaysThatASubmapIsDamagedUntilItComesAgain) {
+TEST_F(MapStoreOnTheBus, ReportsADamagedSubmapUntilItIsReplaced) {
   {
     auto store = Store::open(folder_ / "map.sqlite", {});
     for (const std::uint32_t id : {0U, 1U, 2U})
@@ -108,7 +108,7 @@ TEST_F(MapStoreOnTheBus, SaysThatASubmapIsDamagedUntilItComesAgain) {
   EXPECT_EQ(said->unreadable, 0U);
 }
 
-TEST_F(MapStoreOnTheBus, HasNothingOfAnotherVehiclesMap) {
+TEST_F(MapStoreOnTheBus, PublishesNoMapOfAnotherVehicle) {
   {
     auto store = Store::open(folder_ / "map.sqlite", {});
     ASSERT_EQ(std::get<Store>(store).put("truck", example_submap(0)), PutResult::kStored);
@@ -139,7 +139,7 @@ TEST_F(MapStoreOnTheBus, KeepsASubmapInMemoryWhileTheDatabaseIsLocked) {
             app::ServiceState::kRunning);
 }
 
-TEST_F(MapStoreOnTheBus, KeepsTheLastTracksForATrackingServiceThatStartsLater) {
+TEST_F(MapStoreOnTheBus, RelaysTheLastTracksToALateTrackingService) {
   start<MapStoreService>("map_store");
   dds::Writer<slammot_TrackedObjects> objects(neighbour_, dds::topics::kTrackedObjects);
   ASSERT_TRUE(objects.wait_for_readers(1, kForever));
@@ -163,7 +163,7 @@ TEST_F(MapStoreOnTheBus, CannotStartWithoutItsDatabase) {
   EXPECT_THROW(start<MapStoreService>("map_store", settings), app::StartupFailure);
 }
 
-TEST_F(MapStoreOnTheBus, CannotStartWithAMapThatIsNotThere) {
+TEST_F(MapStoreOnTheBus, CannotStartWithAnUnknownMap) {
   MapStoreService::Settings settings;
   settings.map_id = 99;
   EXPECT_THROW(start<MapStoreService>("map_store", settings), app::StartupFailure);

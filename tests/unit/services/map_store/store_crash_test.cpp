@@ -19,8 +19,8 @@ namespace {
 using slammot::testing::example_submap;
 using slammot::testing::same_submap;
 
-/// In the child: stores submaps without end, and says each one's number down the pipe once put()
-/// has returned.
+/// Runs in the child: stores submaps until killed and writes the number of each to the pipe after
+/// put() has returned.
 [[noreturn]] void write_until_killed(const std::filesystem::path& file, int acknowledge) {
   auto store = Store::open(file, {});
   if (!std::holds_alternative<Store>(store)) _exit(1);
@@ -36,8 +36,7 @@ struct Killed {
   int wait_status = 0;
 };
 
-/// Lets a child write, and kills it at a moment that no one chose once it has acknowledged `enough`
-/// submaps.
+/// Kills a writing child at an arbitrary time after it has acknowledged `enough` submaps.
 Killed kill_while_writing(const std::filesystem::path& file, std::uint32_t enough,
                           useconds_t then_us) {
   std::array<int, 2> pipe_ends{};
@@ -49,7 +48,7 @@ Killed kill_while_writing(const std::filesystem::path& file, std::uint32_t enoug
   std::uint32_t id = 0;
   while (killed.committed < enough && ::read(pipe_ends[0], &id, sizeof id) == sizeof id)
     killed.committed = id + 1;
-  ::usleep(then_us);  // not to wait for anything: to hit another place in the next write every time
+  ::usleep(then_us);  // arbitrary delay, so that each kill hits another place in a write
   ::kill(child, SIGKILL);
   while (::read(pipe_ends[0], &id, sizeof id) == sizeof id) killed.committed = id + 1;
   ::close(pipe_ends[0]);
@@ -57,7 +56,7 @@ Killed kill_while_writing(const std::filesystem::path& file, std::uint32_t enoug
   return killed;
 }
 
-TEST(StoreAfterKill, HasEverySubmapThatWasCommittedAndCanReadAll) {
+TEST(StoreAfterKill, ContainsEveryCommittedSubmap) {
   std::mt19937 random(11);
   for (int round = 0; round < 20; ++round) {
     const slammot::testing::TemporaryFolder folder;

@@ -36,7 +36,7 @@ class StoreTest : public ::testing::Test {
   std::filesystem::path file_ = folder_ / "new folder/map.sqlite";
 };
 
-TEST_F(StoreTest, GivesBackWhatWasPut) {
+TEST_F(StoreTest, ReturnsAStoredSubmap) {
   Store store = open();
   EXPECT_EQ(store.put("car", example_submap(4)), PutResult::kStored);
   const auto submap = store.get("car", SubmapId{4});
@@ -44,14 +44,14 @@ TEST_F(StoreTest, GivesBackWhatWasPut) {
   EXPECT_TRUE(same_submap(*submap, example_submap(4)));
 }
 
-TEST_F(StoreTest, HasNothingOfWhatWasNotPut) {
+TEST_F(StoreTest, ReturnsNothingForUnknownIds) {
   Store store = open();
   EXPECT_FALSE(store.get("car", SubmapId{0}));
   EXPECT_THAT(store.list("car"), ElementsAre());
   EXPECT_EQ(store.last_fault(), "");
 }
 
-TEST_F(StoreTest, StillHasItAfterItWasClosed) {
+TEST_F(StoreTest, PersistsAfterClosing) {
   open().put("car", example_submap(0));
   EXPECT_TRUE(open().get("car", SubmapId{0}));
 }
@@ -66,13 +66,13 @@ TEST_F(StoreTest, KeepsVehiclesApart) {
   EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}));
 }
 
-TEST_F(StoreTest, ListsAscendingWhateverTheOrderOfArrival) {
+TEST_F(StoreTest, ListsAscendingForAnyOrderOfArrival) {
   Store store = open();
   for (const std::uint32_t id : {2U, 0U, 1U}) store.put("car", example_submap(id));
   EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}, SubmapId{1}, SubmapId{2}));
 }
 
-TEST_F(StoreTest, ChangesNothingWhenASubmapComesAgain) {
+TEST_F(StoreTest, IgnoresARepeatedSubmap) {
   Store store = open();
   store.put("car", example_submap(0));
   EXPECT_EQ(store.put("car", example_submap(0)), PutResult::kKnown);
@@ -100,7 +100,7 @@ TEST_F(StoreTest, KeepsTheMapsOfOneVehicleApart) {
   EXPECT_EQ(store.get("car", SubmapId{0})->map_id, flow::MapId{8});
 }
 
-TEST_F(StoreTest, TakesTheMapThatWasAddedToLastForTheLatestWhateverItsNumber) {
+TEST_F(StoreTest, ChoosesTheMapWithTheLastAdditionAsTheLatest) {
   Store store = open();
   store.put("car", of_map(9, example_submap(0)));
   store.put("car", of_map(4, example_submap(0, kHourNs)));
@@ -108,7 +108,7 @@ TEST_F(StoreTest, TakesTheMapThatWasAddedToLastForTheLatestWhateverItsNumber) {
   EXPECT_THAT(store.list("car"), ElementsAre(SubmapId{0}, SubmapId{1}));
 }
 
-TEST_F(StoreTest, DoesNotTakeASubmapThatItHasForANewOneOfAnEarlierMap) {
+TEST_F(StoreTest, DoesNotChangeTheLatestMapByARepeatedSubmap) {
   Store store = open();
   store.put("car", of_map(7, example_submap(0)));
   store.put("car", of_map(8, example_submap(0)));
@@ -116,7 +116,7 @@ TEST_F(StoreTest, DoesNotTakeASubmapThatItHasForANewOneOfAnEarlierMap) {
   EXPECT_EQ(store.get("car", SubmapId{0})->map_id, flow::MapId{8});
 }
 
-TEST_F(StoreTest, ReadsTheDatabaseOfTheVersionBefore) {
+TEST_F(StoreTest, ReadsTheDatabaseOfThePreviousVersion) {
   std::filesystem::create_directories(file_.parent_path());
   sqlite3* before = nullptr;
   ASSERT_EQ(sqlite3_open(file_.c_str(), &before), SQLITE_OK);
@@ -135,7 +135,7 @@ TEST_F(StoreTest, ReadsTheDatabaseOfTheVersionBefore) {
   EXPECT_THAT(open().list("car"), ElementsAre(SubmapId{0}));
 }
 
-TEST_F(StoreTest, SaysSoWhenAnotherProgramHasTheDatabaseLockedAndGoesOnAfterwards) {
+TEST_F(StoreTest, ReportsALockedDatabaseAndRecovers) {
   MapStoreConfig impatient;
   impatient.busy_timeout_s = 0.01;
   Store store = open(impatient);
@@ -150,7 +150,7 @@ TEST_F(StoreTest, SaysSoWhenAnotherProgramHasTheDatabaseLockedAndGoesOnAfterward
   sqlite3_close(other);
 }
 
-TEST_F(StoreTest, SaysSoWhenThereIsNoRoomAndKeepsWhatItHas) {
+TEST_F(StoreTest, ReportsAFullDatabaseAndKeepsItsContent) {
   MapStoreConfig small;
   small.max_database_mb = 1;
   Store store = open(small);
@@ -164,7 +164,7 @@ TEST_F(StoreTest, SaysSoWhenThereIsNoRoomAndKeepsWhatItHas) {
   EXPECT_TRUE(store.get("car", SubmapId{0}));
 }
 
-TEST_F(StoreTest, RefusesAFileThatIsNoDatabase) {
+TEST_F(StoreTest, RejectsAFileThatIsNotADatabase) {
   std::filesystem::create_directories(file_.parent_path());
   std::ofstream(file_)
       << "This is a letter, and has been one for longer than a database header would be.\n";
@@ -173,11 +173,11 @@ TEST_F(StoreTest, RefusesAFileThatIsNoDatabase) {
   EXPECT_EQ(std::get<std::string>(store), file_.string() + ": file is not a database");
 }
 
-TEST_F(StoreTest, RefusesAPathThatCannotBe) {
+TEST_F(StoreTest, RejectsAnInvalidPath) {
   EXPECT_TRUE(std::holds_alternative<std::string>(Store::open("/proc/no/map.sqlite", {})));
 }
 
-TEST_F(StoreTest, SaysWhichSubmapIsDamaged) {
+TEST_F(StoreTest, NamesADamagedSubmap) {
   Store store = open();
   store.put("car", example_submap(0));
   sqlite3* other = nullptr;
@@ -190,7 +190,7 @@ TEST_F(StoreTest, SaysWhichSubmapIsDamaged) {
   EXPECT_EQ(store.last_fault(), "submap 0 is damaged");
 }
 
-TEST_F(StoreTest, PutsAnEarlierMapInUseAgain) {
+TEST_F(StoreTest, MakesAnEarlierMapTheLatest) {
   Store store = open();
   for (const std::uint32_t id : {0U, 1U, 2U})
     ASSERT_EQ(store.put("car", of_map(7, example_submap(id))), PutResult::kStored);
@@ -205,7 +205,7 @@ TEST_F(StoreTest, PutsAnEarlierMapInUseAgain) {
   EXPECT_EQ(store.maps("car").back().submaps, 3);
 }
 
-TEST_F(StoreTest, PutsNoMapInUseThatIsNotTheVehicles) {
+TEST_F(StoreTest, RejectsAMapOfAnotherVehicle) {
   Store store = open();
   ASSERT_EQ(store.put("car", of_map(7, example_submap(0))), PutResult::kStored);
   ASSERT_EQ(store.put("truck", of_map(9, example_submap(0))), PutResult::kStored);

@@ -10,7 +10,7 @@ namespace {
 using slammot::testing::example_submap;
 using slammot::testing::same_submap;
 
-TEST(SubmapRecord, ReadBackIsTheSameSubmap) {
+TEST(SubmapRecord, IsEqualAfterReadingBack) {
   const flow::Submap submap = example_submap(3);
   const auto read_back = from_blob(to_blob(submap));
   ASSERT_TRUE(read_back);
@@ -23,7 +23,7 @@ TEST(SubmapRecord, OfAnEmptySubmapIsReadable) {
   EXPECT_TRUE(same_submap(*read_back, flow::Submap{}));
 }
 
-TEST(SubmapRecord, IsNotReadFromABlobThatWasCutOff) {
+TEST(SubmapRecord, IsNotReadFromATruncatedBlob) {
   const std::string blob = to_blob(example_submap(3));
   for (std::size_t length = 0; length < blob.size(); length += 97)
     EXPECT_FALSE(from_blob(blob.substr(0, length))) << length;
@@ -38,7 +38,7 @@ TEST(SubmapRecord, IsNotReadFromADamagedBlob) {
   }
 }
 
-TEST(SubmapRecord, WhoseGridContradictsItsSizeIsRefused) {
+TEST(SubmapRecord, WithInconsistentSizesIsRejected) {
   flow::Submap submap = example_submap(3);
   submap.columns += 1;
   EXPECT_FALSE(from_blob(to_blob(submap)));

@@ -37,7 +37,7 @@ class WriteDrive : public ::testing::Test {
   simulation::ScenarioConfig scenario_;
 };
 
-TEST_F(WriteDrive, WritesAScanAndATruePoseForEachTurnOfTheScanner) {
+TEST_F(WriteDrive, WritesAScanAndATruePoseForEachPeriodOfTheScanner) {
   const auto files = write_drive(scenario_, folder_ / "new").files;
   ASSERT_TRUE(files.has_value());
   const auto log = lines_of(files->log);
@@ -47,7 +47,7 @@ TEST_F(WriteDrive, WritesAScanAndATruePoseForEachTurnOfTheScanner) {
   EXPECT_EQ(log[1], "PARAM robot_frontlaser_offset 2.150");
 }
 
-TEST_F(WriteDrive, LaysOutScansAsCarmenReadsThem) {
+TEST_F(WriteDrive, WritesScansInTheFormatOfCarmen) {
   const auto files = write_drive(scenario_, folder_.path()).files;
   ASSERT_TRUE(files.has_value());
   const auto words = words_of(lines_of(files->log)[4]);
@@ -57,12 +57,12 @@ TEST_F(WriteDrive, LaysOutScansAsCarmenReadsThem) {
   EXPECT_EQ(words[5], "81.83");
   EXPECT_EQ(words[8], "361");
   EXPECT_EQ(words[9 + 361], "0");             // remissions
-  EXPECT_EQ(words[9 + 361 + 1], "2.150000");  // laser pose, then the robot's
+  EXPECT_EQ(words[9 + 361 + 1], "2.150000");  // laser pose, then robot pose
   EXPECT_EQ(words[9 + 361 + 4], "0.000000");
   EXPECT_EQ(words[words.size() - 3], "21.000000");
 }
 
-TEST_F(WriteDrive, LaysOutIndoorScansAsTheOldRecord) {
+TEST_F(WriteDrive, WritesIndoorScansAsFlaser) {
   scenario_ = *load_scenario("corridor");
   scenario_.duration_s = 2.0;
   const auto files = write_drive(scenario_, folder_.path()).files;
@@ -74,7 +74,7 @@ TEST_F(WriteDrive, LaysOutIndoorScansAsTheOldRecord) {
   EXPECT_EQ(words[words.size() - 3], "1.000000");
 }
 
-TEST_F(WriteDrive, WritesTheSameBytesTwice) {
+TEST_F(WriteDrive, IsReproducible) {
   const auto first = write_drive(scenario_, folder_ / "a").files;
   const auto second = write_drive(scenario_, folder_ / "b").files;
   EXPECT_EQ(lines_of(first->log), lines_of(second->log));
@@ -82,7 +82,7 @@ TEST_F(WriteDrive, WritesTheSameBytesTwice) {
   EXPECT_EQ(lines_of(first->walls), lines_of(second->walls));
 }
 
-TEST_F(WriteDrive, SaysWhatBeamsHitIfWanted) {
+TEST_F(WriteDrive, WritesTheHitsOfBeamsIfRequested) {
   const auto files = write_drive(scenario_, folder_.path(), HitsFile::written).files;
   ASSERT_TRUE(files.has_value());
   const auto hits = lines_of(folder_ / "block.hits.csv");
@@ -140,7 +140,7 @@ TEST_F(WriteDrive, WritesAllScannersIntoOneLog) {
   EXPECT_EQ(lines_of(files->tum).size(), 100U);
 }
 
-TEST_F(WriteDrive, TellsTheTruthOnceForScansOfTheSameStamp) {
+TEST_F(WriteDrive, WritesTheTruthOncePerStamp) {
   simulation::ScannerConfig rear;
   rear.scanner_id = "rear";
   rear.rate_hz = scenario_.scanner.rate_hz;
@@ -150,7 +150,7 @@ TEST_F(WriteDrive, TellsTheTruthOnceForScansOfTheSameStamp) {
   EXPECT_EQ(lines_of(files->tum).size(), 75U);
 }
 
-TEST_F(WriteDrive, WritesWhatReceiverAndCompassSay) {
+TEST_F(WriteDrive, WritesGnssAndCompass) {
   scenario_.gnss.rate_hz = 5.0;
   scenario_.compass.rate_hz = 10.0;
   const auto files = write_drive(scenario_, folder_.path()).files;
@@ -159,7 +159,7 @@ TEST_F(WriteDrive, WritesWhatReceiverAndCompassSay) {
   EXPECT_EQ(lines_of(folder_ / "block.compass.csv").size(), 1U + 20U);
 }
 
-TEST_F(WriteDrive, SaysWhyItCannotWrite) {
+TEST_F(WriteDrive, ReportsWhyItCannotWrite) {
   std::ofstream(folder_ / "file") << "in the way";
   const auto result = write_drive(scenario_, folder_ / "file");
   EXPECT_FALSE(result.files.has_value());

@@ -17,7 +17,7 @@ using simulation::ScenarioConfig;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-TEST(ScenarioFields, AreThoseOfTheProto) {
+TEST(ScenarioFields, MatchTheProto) {
   ScenarioConfig scenario;
   EXPECT_THAT(
       config::differences_from_proto(config::bind_stage("Scenario", scenario_fields(), scenario)),
@@ -51,9 +51,9 @@ TEST(ShippedScenario, HasOneForEachDifficultyOfTheThesis) {
   }
 }
 
-TEST(ShippedScenario, TakesAnotherSeed) { EXPECT_EQ(load_scenario("block", 77)->seed, 77U); }
+TEST(ShippedScenario, AcceptsAnotherSeed) { EXPECT_EQ(load_scenario("block", 77)->seed, 77U); }
 
-TEST(ShippedScenario, IsNotThereForAnotherName) {
+TEST(ShippedScenario, IsNotFoundByAnotherName) {
   EXPECT_THAT(load_scenario("atlantis").error().message,
               HasSubstr("no scenario is named 'atlantis'"));
 }
@@ -72,7 +72,7 @@ class ScenarioFile : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(ScenarioFile, SetsWhatItSaysAndLeavesTheDefaults) {
+TEST_F(ScenarioFile, OverridesTheDefaults) {
   const auto scenario = load(R"(
     place: SCRIPT
     script {
@@ -95,7 +95,7 @@ TEST_F(ScenarioFile, SetsWhatItSaysAndLeavesTheDefaults) {
   EXPECT_EQ(scenario->script.rows.at(0).from.x_m, 6.0);
 }
 
-TEST_F(ScenarioFile, IsRefusedWithThePlaceOfItsFault) {
+TEST_F(ScenarioFile, IsRejectedWithThePlaceOfItsFault) {
   EXPECT_THAT(fault_of("place: ATLANTIS"), HasSubstr("mine.textproto:1:"));
   EXPECT_THAT(fault_of("\ncity { blocks: 3 }"), HasSubstr("mine.textproto:2:"));
   EXPECT_THAT(fault_of("duration_s: -1"),
@@ -105,15 +105,16 @@ TEST_F(ScenarioFile, IsRefusedWithThePlaceOfItsFault) {
       HasSubstr("mine.textproto:4:3: Scenario.script.objects.copies = 0 is outside [1, 500]"));
 }
 
-TEST_F(ScenarioFile, IsRefusedWhenItCannotBeDriven) {
+TEST_F(ScenarioFile, IsRejectedIfItIsInvalid) {
   EXPECT_THAT(fault_of("route { junctions [{ column: 0 }, { column: 9 }] }"),
-              HasSubstr("the vehicle's way leaves the city"));
+              HasSubstr("the vehicle's route leaves the city"));
   EXPECT_THAT(fault_of("route { junctions [{ column: 0 }, { column: 2 }, { column: 0 }] }"),
               HasSubstr("turns back in a street"));
-  EXPECT_THAT(fault_of("place: OFFICE"), HasSubstr("the robot's way"));
-  EXPECT_THAT(fault_of("place: SCRIPT"), HasSubstr("the vehicle has no way"));
+  EXPECT_THAT(fault_of("place: OFFICE"), HasSubstr("the robot's path"));
+  EXPECT_THAT(fault_of("place: SCRIPT"), HasSubstr("the vehicle has no path"));
   EXPECT_THAT(fault_of("terrain [{ x_m: 2 }, { x_m: 1 }]"), HasSubstr("from west to east"));
-  EXPECT_THAT(fault_of("scanner { rate_hz: 75 sweep_s: 0.02 }"), HasSubstr("outlasts its scan"));
+  EXPECT_THAT(fault_of("scanner { rate_hz: 75 sweep_s: 0.02 }"),
+              HasSubstr("is longer than its period"));
 }
 
 }  // namespace

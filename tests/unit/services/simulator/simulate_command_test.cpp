@@ -15,7 +15,7 @@ TEST(Simulate, ListsTheScenarios) {
   EXPECT_NE(out.str().find("block"), std::string::npos);
 }
 
-TEST(Simulate, RefusesAnUnknownScenarioInOneLine) {
+TEST(Simulate, RejectsAnUnknownScenarioInOneLine) {
   std::ostringstream out, err;
   EXPECT_NE(simulate({.list = false, .scenario = "atlantis", .seed = {}, .output = "x"}, out, err),
             0);
@@ -39,7 +39,7 @@ TEST(Simulate, WritesADriveForEachVehicleWithAScanner) {
   }
 }
 
-TEST(Simulate, AsksForAFolder) {
+TEST(Simulate, RequiresAFolder) {
   std::ostringstream out, err;
   EXPECT_NE(simulate({.list = false, .scenario = "block", .seed = {}, .output = ""}, out, err), 0);
   EXPECT_NE(err.str().find("--output"), std::string::npos);

@@ -56,7 +56,7 @@ TEST_F(SumoTraffic, IsReadWithItsClassesPlacesAndTimes) {
   EXPECT_NEAR(person.places.at(0).world_from_object.y_m, 25.0, 1e-9);
 }
 
-TEST_F(SumoTraffic, DrivesInAScenarioAndMayCarryTheScanner) {
+TEST_F(SumoTraffic, TakesPartInAScenarioAndMayCarryTheScanner) {
   write("fcd.xml", kTraffic);
   const auto scenario = load_scenario(write(
       "mine.textproto", "place: SCRIPT warm_up_s: 0 sumo_fcd: 'fcd.xml' sumo_vehicle: 'ego'"));
@@ -66,14 +66,14 @@ TEST_F(SumoTraffic, DrivesInAScenarioAndMayCarryTheScanner) {
   EXPECT_NEAR(scene->vehicle().world_from_object.x_m, 55.0 - 2.2, 1e-9);
   EXPECT_NEAR(scene->vehicle().speed_mps, 11.0, 1e-9);
   ASSERT_EQ(scene->others().size(), 2U);
-  EXPECT_TRUE(scene->others()[1].outline_in_object.circles.empty());  // anna comes later
+  EXPECT_TRUE(scene->others()[1].outline_in_object.circles.empty());  // anna appears later
   scene->advance(0.5);
   EXPECT_FALSE(scene->others()[1].outline_in_object.circles.empty());
   EXPECT_TRUE(scene->others()[0].outline_in_object.segments.empty());  // and the bus has left
 }
 
-/// Written by SUMO 1.15; docs/scenarios.md says how.
-TEST_F(SumoTraffic, OfARealRunIsDrivenThrough) {
+/// Written by SUMO 1.15 as docs/scenarios.md describes.
+TEST_F(SumoTraffic, OfARealRunIsSimulated) {
   const auto scenario = load_scenario(SLAMMOT_SUMO_FOLDER "/junction.textproto");
   ASSERT_TRUE(scenario) << scenario.error().message;
   std::map<simulation::ObjectClass, int> classes;
@@ -97,7 +97,7 @@ TEST_F(SumoTraffic, OfARealRunIsDrivenThrough) {
   EXPECT_NEAR(way_m, 200.0, 60.0);
 }
 
-TEST_F(SumoTraffic, IsRefusedWithTheLineOfItsFault) {
+TEST_F(SumoTraffic, IsRejectedWithTheLineOfItsFault) {
   const auto fault_of = [&](const std::string& text) {
     const auto read = read_sumo_traffic(write("bad.xml", text));
     return read ? "none" : read.error().message;
@@ -106,8 +106,8 @@ TEST_F(SumoTraffic, IsRefusedWithTheLineOfItsFault) {
               HasSubstr("bad.xml:3: a vehicle without"));
   EXPECT_THAT(fault_of("<fcd-export>\n</fcd>"), HasSubstr("bad.xml:2: mismatched tag"));
   EXPECT_THAT(fault_of("<fcd-export><timestep time='2'/>\n<timestep time='1'/></fcd-export>"),
-              HasSubstr("bad.xml:2: a timestep without"));
-  EXPECT_THAT(fault_of("<fcd-export/>"), HasSubstr("no vehicle or person"));
+              HasSubstr("bad.xml:2: a timestep whose time"));
+  EXPECT_THAT(fault_of("<fcd-export/>"), HasSubstr("no vehicle and no person"));
   EXPECT_THAT(read_sumo_traffic(folder_ / "missing.xml").error().message,
               HasSubstr("cannot be read"));
 }

@@ -24,7 +24,7 @@ using slammot::testing::kForever;
 
 constexpr std::int64_t kPeriodNs = 100'000'000;
 
-/// Stands for ingest, localization and tracking of one vehicle.
+/// Stands in for ingest, localization and tracking of one vehicle.
 struct CollectorOnTheBus : ::testing::Test {
   slammot::testing::TemporaryFolder folder;
   slammot::testing::PrivateBus bus;
@@ -53,7 +53,7 @@ struct CollectorOnTheBus : ::testing::Test {
                                    .counters = {{"log_finished", is_finished ? 1U : 0U}}}));
   }
 
-  /// One scan through all services.
+  /// Passes one scan through all services.
   void drive(std::uint32_t sequence, std::uint64_t drive_id, flow::MapId map_id,
              flow::OdomId odom_id = {}) {
     sensing::LaserScan scan;
@@ -93,7 +93,7 @@ struct CollectorOnTheBus : ::testing::Test {
   }
 };
 
-TEST_F(CollectorOnTheBus, TakesALogThatWasFinishedBeforeItsTimeForNoDrive) {
+TEST_F(CollectorOnTheBus, IgnoresALogThatFinishedBeforeItsStart) {
   say_that_log_is_finished(true);
   start();
   ASSERT_TRUE(comes_to([this] { return !collector->counters().empty(); }));
@@ -109,7 +109,7 @@ TEST_F(CollectorOnTheBus, EndsWithTheLastScanOfTheLog) {
   EXPECT_TRUE(comes_to([this] { return collector->has_drive_ended(); }));
 }
 
-TEST_F(CollectorOnTheBus, ForgetsTheDriveBeforeWhenANewOneBegins) {
+TEST_F(CollectorOnTheBus, DiscardsThePreviousDriveWhenANewOneBegins) {
   start();
   for (const std::uint32_t sequence : {0U, 1U, 2U}) drive(sequence, 1, {7});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 3; }));
@@ -118,7 +118,7 @@ TEST_F(CollectorOnTheBus, ForgetsTheDriveBeforeWhenANewOneBegins) {
   EXPECT_EQ(collector->scan_stamps_ns().size(), 1U);
 }
 
-TEST_F(CollectorOnTheBus, KeepsTheMapButNotTheScansOfTheDriveBeforeInTheSameMap) {
+TEST_F(CollectorOnTheBus, KeepsTheMapButNotTheScansOfAPreviousDriveInIt) {
   dds::Writer<slammot_SubmapTile> tiles(services, dds::topics::kStoredSubmapTile);
   start();
   flow::Submap submap = slammot::testing::example_submap(0);
@@ -134,7 +134,7 @@ TEST_F(CollectorOnTheBus, KeepsTheMapButNotTheScansOfTheDriveBeforeInTheSameMap)
   EXPECT_THAT(collector->scan_stamps_ns(), ::testing::ElementsAre(0));
 }
 
-TEST_F(CollectorOnTheBus, KeepsWhatDetectionAndTrackingHeldEchoesToBe) {
+TEST_F(CollectorOnTheBus, KeepsTheLabelsOfDetectionAndTracking) {
   dds::Writer<slammot_SegmentedScan> segmented_scans(services, dds::topics::kSegmentedScan);
   dds::Writer<slammot_ScanLabels> scan_labels(services, dds::topics::kScanLabels);
   start();
@@ -163,7 +163,7 @@ TEST_F(CollectorOnTheBus, KeepsWhatDetectionAndTrackingHeldEchoesToBe) {
   EXPECT_EQ(record.label_rows()[0]->by_tracking, "sm");
 }
 
-TEST_F(CollectorOnTheBus, KnowsTheEndOfASimulatedDrive) {
+TEST_F(CollectorOnTheBus, DetectsTheEndOfASimulatedDrive) {
   start();
   drive(0, 1, {7});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
@@ -173,7 +173,7 @@ TEST_F(CollectorOnTheBus, KnowsTheEndOfASimulatedDrive) {
   EXPECT_TRUE(comes_to([this] { return collector->has_drive_ended(); }));
 }
 
-TEST_F(CollectorOnTheBus, GoesOnAfterACrashWithWhatItHad) {
+TEST_F(CollectorOnTheBus, ContinuesAfterACrash) {
   start();
   for (const std::uint32_t sequence : {0U, 1U, 2U}) drive(sequence, 1, {7});
   ASSERT_TRUE(comes_to(
@@ -204,11 +204,11 @@ TEST_F(CollectorOnTheBus, DoesNotMixADriveFromBeforeItsCrashWithANewOneInTheSame
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
 }
 
-TEST_F(CollectorOnTheBus, HasNothingToGoOnFromOnceItsResultsAreWritten) {
+TEST_F(CollectorOnTheBus, RemovesTheJournalOnceItsResultsAreWritten) {
   start();
   drive(0, 1, {7});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
-  collector->forget_journal();
+  collector->remove_journal();
   start();
   EXPECT_EQ(localized_count(), 0U);
 }

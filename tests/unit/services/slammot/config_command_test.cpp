@@ -51,7 +51,7 @@ TEST_F(ConfigCommand, ExplainsEverySettingWithoutAName) {
   }
 }
 
-TEST_F(ConfigCommand, NamesTheNearestSettingWhereItKnowsNone) {
+TEST_F(ConfigCommand, NamesTheNearestSettingOfAnUnknownName) {
   const Outcome outcome = config_command({"--explain", "celsize_m"});
   EXPECT_EQ(outcome.exit_code, kExitFault);
   EXPECT_EQ(
@@ -73,7 +73,7 @@ TEST_F(ConfigCommand, PrintsWhatARunWouldUseAsAFileThatReadsBack) {
       effective);
 }
 
-TEST_F(ConfigCommand, RefusesWhatCannotBeMeantInOneLine) {
+TEST_F(ConfigCommand, RejectsContradictoryOptionsInOneLine) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{},
                                              {"--explain", "side_m", "--effective"},
@@ -87,7 +87,7 @@ TEST_F(ConfigCommand, RefusesWhatCannotBeMeantInOneLine) {
   }
 }
 
-TEST_F(ConfigCommand, HasWrittenThePageOfTheDocumentation) {
+TEST_F(ConfigCommand, MatchesThePageOfTheDocumentation) {
   EXPECT_EQ(config_command({"--page"}).standard_output,
             read(SLAMMOT_SOURCE_DIR "/docs/settings.md"))
       << "write it again: slammot config --page > docs/settings.md";

@@ -36,14 +36,14 @@ TEST(Implementations, BeginWithTheDefault) {
   EXPECT_THAT(replaced_stages(defaults), IsEmpty());
 }
 
-TEST(Implementations, EachMakesAStageThatHasSeenNothing) {
+TEST(Implementations, MakeStagesInTheirInitialState) {
   for (const LocalizationImplementation& one : localization_implementations())
     EXPECT_EQ(one.make({}, nullptr)->named_counters().at("scans"), 0U) << one.name;
   for (const TrackingImplementation& one : tracking_implementations())
     EXPECT_EQ(one.make({}, nullptr)->named_counters().at("scans"), 0U) << one.name;
 }
 
-TEST(Implementations, NamesTheKnownOnesWhereANameIsUnknown) {
+TEST(Implementations, AreListedWhereANameIsUnknown) {
   const auto fault = find_fault({.localization = "standard", .tracking = "gready"});
   ASSERT_TRUE(fault);
   EXPECT_THAT(*fault, HasSubstr("tracking: \"gready\""));
@@ -64,7 +64,7 @@ TEST(Implementations, ReplaceTheStageOfThePipeline) {
   EXPECT_FALSE(counters.at("tracking").contains("points_restored"));
 }
 
-/// The local map's cells are the profile's.
+/// The cell size of the local map is the profile's.
 TEST(Implementations, GetTheSettingsOfTheStageThatTheyReplace) {
   Profile profile;
   profile.implementations.localization = "icp";

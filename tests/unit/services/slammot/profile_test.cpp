@@ -14,10 +14,10 @@
 namespace slammot {
 namespace {
 
-/// Stands for a value of any type where a struct is initialised member by member.
+/// Converts to any type, to count the members of an aggregate.
 struct Anything {
   template <class Type>
-  operator Type() const;  // not defined: never called
+  operator Type() const;  // never called, not defined
 };
 
 template <class Struct, std::size_t... kIndices>
@@ -58,11 +58,11 @@ TEST(Profile, HasASettingForEveryMemberWhereAllAreForUsers) {
   EXPECT_EQ(settings_under(stages["implementations"], ""), members<ImplementationChoice>());
 }
 
-TEST(Profile, SaysWhatGoesWrongWithEveryNumberOutsideOfTracking) {
+TEST(Profile, ExplainsTheEffectOfEveryNumberOutsideTracking) {
   Profile profile;
   for (const config::BoundStage& stage : bind_stages(profile)) {
     if (stage.stage == "tracking" || stage.stage == "implementations")
-      continue;  // the latter has no numbers
+      continue;  // has no numeric settings
     for (const config::BoundField& field : stage.fields) {
       EXPECT_NE(field.group, config::Group::none) << field.name;
       if (!config::number_in(field)) continue;
@@ -81,7 +81,7 @@ TEST(Profile, TablesAndProtoAgreeFieldByField) {
 
 TEST(Profile, HasEveryStageThatTheProtoHas) {
   Profile profile;
-  std::vector<std::string> bound = {"example"};  // the configuration's own tests use it
+  std::vector<std::string> bound = {"example"};  // used by the tests of the configuration
   for (const config::BoundStage& stage : bind_stages(profile)) bound.emplace_back(stage.stage);
   EXPECT_THAT(bound, ::testing::UnorderedElementsAreArray(config::stages_in_proto()));
 }

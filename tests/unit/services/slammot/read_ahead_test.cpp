@@ -23,7 +23,7 @@ std::int64_t stamp_of(const files::LogEvent& event) {
   return std::visit([](const auto& one) { return one.stamp_ns; }, event);
 }
 
-TEST_F(AReadAhead, HandsOutWhatTheLogHoldsInItsOrder) {
+TEST_F(AReadAhead, ReturnsTheEventsOfTheLogInOrder) {
   write(300);
   files::CarmenLog log = open();
   files::CarmenLog again = open();
@@ -53,7 +53,7 @@ TEST_F(AReadAhead, EndsWithMostOfTheLogUnread) {
   }
   int left = 0;
   while (log.next()) ++left;
-  EXPECT_GT(left, 2000);  // it waits when it is far enough ahead
+  EXPECT_GT(left, 2000);  // it stops reading when it is far enough ahead
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ using slammot::testing::SimulatedDrive;
 using slammot::testing::World;
 
 constexpr double kSpeed_mps = 1.0;
-constexpr double kSide_m = 24.0;  // of the square that the robot goes round
+constexpr double kSide_m = 24.0;  // side of the square path
 
-/// A ring of corridors of four widths around a block; pillars make every place its own.
+/// A ring of corridors of four widths around a block, with pillars that make every place unique.
 World corridors() {
   World world = joined(box({12.3, 11.8, 0.0}, 21.4, 21.8), box({12.75, 13.4, 0.0}, 28.5, 29.2));
   const std::vector<Pose2> pillars{{5.0, -0.9, 0.1},  {8.0, 0.9, 0.0},   {15.5, -1.0, 0.5},
@@ -36,7 +36,7 @@ World corridors() {
   return world;
 }
 
-/// Round the square, the corners cut by quarter circles.
+/// Pose on the square path with rounded corners.
 Pose2 around(double time_s) {
   constexpr double kRadius_m = 1.0;
   constexpr double kStraight_m = kSide_m - 2.0 * kRadius_m;
@@ -61,13 +61,14 @@ Profile indoor() {
   return profile;
 }
 
-/// Ten scans a second, from first_s of the way on; wheels do not turn while the robot is carried.
+/// Ten scans a second, from first_s of the path on; odometry does not move while the robot is
+/// carried.
 struct Drive {
   double first_s = 0.0;
   double last_s = 0.0;
   double carried_at_s = 1e9;
-  double carried_by_s = 0.0;  ///< Of the way.
-  double gap_s = 0.0;         ///< In the stamps, while it was carried.
+  double carried_by_s = 0.0;  ///< Along the path.
+  double gap_s = 0.0;         ///< Gap in the stamps while it was carried.
 
   Pose2 world_from_base(double time_s) const {
     return around(time_s < carried_at_s ? time_s : time_s + carried_by_s);
@@ -94,8 +95,8 @@ struct Drive {
     pipeline.finish();
   }
 
-  /// Of the last ten seconds after the last correction, in the frame of a map that begins where the
-  /// base is at world_from_map.
+  /// Greatest position error of the last ten seconds of the corrected trajectory, in the frame of a
+  /// map whose origin is at world_from_map.
   double worst_at_end_m(const Pipeline& pipeline, const Pose2& world_from_map) const {
     const auto trajectory = pipeline.record().corrected_trajectory();
     double worst_m = 0.0;
@@ -111,23 +112,23 @@ struct Drive {
   }
 };
 
-TEST(Relocalization, FindsItselfInTheMapAfterBeingCarriedAwayWithItsScannerOff) {
+TEST(Relocalization, LocatesARobotCarriedWithItsScannerOff) {
   const Drive drive{.last_s = 190.0, .carried_at_s = 110.0, .carried_by_s = 35.0, .gap_s = 30.0};
   Pipeline pipeline(indoor());
   drive.through(pipeline);
-  EXPECT_TRUE(pipeline.knows_where_it_is());
+  EXPECT_TRUE(pipeline.is_connected());
   EXPECT_LT(drive.worst_at_end_m(pipeline, around(0.0)), 0.3);
 }
 
-TEST(Relocalization, FindsItselfInTheMapAfterBeingCarriedAwayFromOneScanToTheNext) {
+TEST(Relocalization, LocatesARobotCarriedBetweenTwoScans) {
   const Drive drive{.last_s = 190.0, .carried_at_s = 110.0, .carried_by_s = 35.0};
   Pipeline pipeline(indoor());
   drive.through(pipeline);
-  EXPECT_TRUE(pipeline.knows_where_it_is());
+  EXPECT_TRUE(pipeline.is_connected());
   EXPECT_LT(drive.worst_at_end_m(pipeline, around(0.0)), 0.3);
 }
 
-TEST(Relocalization, GoesOnInAStoredMapFromAnyPlaceInIt) {
+TEST(Relocalization, ContinuesAStoredMapFromAnyPlaceInIt) {
   const slammot::testing::TemporaryFolder folder;
   Pipeline first(indoor());
   Drive{.last_s = 110.0}.through(first);
@@ -137,15 +138,15 @@ TEST(Relocalization, GoesOnInAStoredMapFromAnyPlaceInIt) {
 
   const Drive second{.first_s = 40.0, .last_s = 100.0};
   Pipeline pipeline(indoor());
-  pipeline.go_on_in(*stored);
+  pipeline.continue_map(*stored);
   second.through(pipeline);
-  EXPECT_TRUE(pipeline.knows_where_it_is());
+  EXPECT_TRUE(pipeline.is_connected());
   EXPECT_LT(second.worst_at_end_m(pipeline, around(0.0)), 0.3);
   EXPECT_GT(pipeline.record().submaps().size(), stored->size());  // one map of both drives, for the
                                                                   // third
 }
 
-TEST(Relocalization, DoesNotGoOnInAMapOfAnotherProfile) {
+TEST(Relocalization, RejectsAMapOfAnotherProfile) {
   const slammot::testing::TemporaryFolder folder;
   flow::Submap submap = slammot::testing::example_submap(0);
   submap.cell_size_m = 0.2;
@@ -153,8 +154,9 @@ TEST(Relocalization, DoesNotGoOnInAMapOfAnotherProfile) {
   EXPECT_TRUE(read_stored_map(folder.path(), 0.2));
   const auto refused = read_stored_map(folder.path(), 0.05);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("of another profile, with cells of 0.2 m for 0.05 m here"),
-            std::string::npos)
+  EXPECT_NE(
+      refused.error().message.find("of another profile, with cells of 0.2 m instead of 0.05 m"),
+      std::string::npos)
       << refused.error().message;
 }
 

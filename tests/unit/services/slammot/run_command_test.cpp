@@ -1,4 +1,4 @@
-// The command as a user calls it, on small logs made here.
+// Tests of the command line on small generated logs.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -49,7 +49,7 @@ class RunCommand : public ::testing::Test {
   std::filesystem::path log_ = folder_ / "drive.log";
 };
 
-TEST_F(RunCommand, WritesEveryOutputAndSaysWhereAndWhy) {
+TEST_F(RunCommand, WritesEveryOutputAndReportsItsChoices) {
   write(room_log(60));
   const Outcome outcome = run();
   EXPECT_EQ(outcome.exit_code, kExitDone);
@@ -71,7 +71,7 @@ TEST_F(RunCommand, WritesEveryOutputAndSaysWhereAndWhy) {
   EXPECT_TRUE(report["measured"]["stage_latency"].contains("tracking"));
 }
 
-TEST_F(RunCommand, MakesTheSameBytesEveryTime) {
+TEST_F(RunCommand, IsReproducible) {
   write(room_log(60));
   std::vector<std::string> first;
   for (const bool again : {false, true}) {
@@ -86,7 +86,7 @@ TEST_F(RunCommand, MakesTheSameBytesEveryTime) {
   }
 }
 
-TEST_F(RunCommand, MakesTheSameBytesByTheSettingsThatItLeaves) {
+TEST_F(RunCommand, IsReproducibleFromItsSettingsFile) {
   write(room_log(60));
   ASSERT_EQ(run().exit_code, kExitDone);
   const std::filesystem::path settings = folder_ / "kept.textproto";
@@ -99,7 +99,7 @@ TEST_F(RunCommand, MakesTheSameBytesByTheSettingsThatItLeaves) {
   }
 }
 
-TEST_F(RunCommand, ProcessesWhatCanBeReadOfACutLogAndSaysSoLast) {
+TEST_F(RunCommand, ProcessesTheReadablePartOfATruncatedLog) {
   const gzFile file = gzopen(log_.c_str(), "wb");
   const std::string content = room_log(100);
   gzwrite(file, content.data(), static_cast<unsigned>(content.size()));
@@ -120,7 +120,7 @@ TEST_F(RunCommand, SkipsMalformedLinesAndNamesThem) {
               HasSubstr("malformed lines of the log, skipped: 1; the first: 1"));
 }
 
-TEST_F(RunCommand, SurvivesScansFullOfNonsense) {
+TEST_F(RunCommand, SurvivesInvalidScans) {
   std::string content = room_log(5);
   for (int i = 0; i < 20; ++i) {
     const std::string stamp = std::to_string(101 + i);
@@ -134,7 +134,7 @@ TEST_F(RunCommand, SurvivesScansFullOfNonsense) {
   EXPECT_EQ(std::count(online.begin(), online.end(), '\n'), 65);
 }
 
-TEST_F(RunCommand, RefusesBadInputInOneLine) {
+TEST_F(RunCommand, RejectsBadInputInOneLine) {
   const auto expect_refused = [&](const std::vector<std::string>& more, const std::string& reason) {
     const Outcome outcome = run(more);
     EXPECT_EQ(outcome.exit_code, kExitFault) << reason;
@@ -156,7 +156,7 @@ TEST_F(RunCommand, RefusesBadInputInOneLine) {
 
 class RunScenario : public RunCommand, public ::testing::WithParamInterface<const char*> {};
 
-TEST_P(RunScenario, GivesWhatTheRecordedDriveGives) {
+TEST_P(RunScenario, EqualsTheRunOfTheRecordedDrive) {
   const std::string recorded = folder_ / "recorded";
   ASSERT_EQ(call({"simulate", GetParam(), "--output", recorded}).exit_code, kExitDone);
   const std::string log = recorded + "/" + GetParam() + ".log";
@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(OutsideAndInside, RunScenario,
                          ::testing::Values("far_crossing", "corridor"),
                          [](const auto& info) { return info.param; });
 
-TEST_F(RunCommand, WithOneIterationMakesTheBytesItMakesWithout) {
+TEST_F(RunCommand, IsUnchangedByOneIteration) {
   ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--output", folder_ / "without"}).exit_code,
             kExitDone);
   ASSERT_EQ(
@@ -201,7 +201,7 @@ TEST_F(RunCommand, WithOneIterationMakesTheBytesItMakesWithout) {
       "iteration"));
 }
 
-TEST_F(RunCommand, IteratesWhereSomethingMovesAndCountsEachScanOnce) {
+TEST_F(RunCommand, IteratesScansWithMovingPointsAndCountsEachOnce) {
   ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--output", folder_ / "one"}).exit_code,
             kExitDone);
   ASSERT_EQ(call({"run", "--scenario", "far_crossing", "--iterations", "3", "--output",
@@ -221,7 +221,7 @@ TEST_F(RunCommand, IteratesWhereSomethingMovesAndCountsEachScanOnce) {
   EXPECT_NE(read(folder_ / "three" / "online.tum"), read(folder_ / "one" / "online.tum"));
 }
 
-TEST_F(RunCommand, RefusesNoIterationAndBenchHasNone) {
+TEST_F(RunCommand, RejectsZeroIterationsAndBenchHasNone) {
   write(room_log(5));
   EXPECT_EQ(run({"--iterations", "0"}).exit_code, kExitFault);
   EXPECT_EQ(run({"--iterations", "11"}).exit_code, kExitFault);
@@ -231,7 +231,7 @@ TEST_F(RunCommand, RefusesNoIterationAndBenchHasNone) {
   EXPECT_THAT(bench.standard_error, HasSubstr("--iterations"));
 }
 
-TEST_F(RunCommand, RunsTheImplementationsThatTheSettingsNameAndSaysSo) {
+TEST_F(RunCommand, RunsAndReportsTheImplementationsInTheSettings) {
   write(room_log(60));
   const std::string settings = folder_ / "settings.textproto";
   std::ofstream(settings) << "implementations { localization: \"icp\" tracking: \"greedy\" }";
@@ -249,7 +249,7 @@ TEST_F(RunCommand, RunsTheImplementationsThatTheSettingsNameAndSaysSo) {
       nlohmann::json::parse(read(folder_ / "out" / "report.json")).contains("replaced_stages"));
 }
 
-TEST_F(RunCommand, RefusesAnImplementationThatIsNotThereOrCannotDoWhatIsAskedFor) {
+TEST_F(RunCommand, RejectsUnknownAndUnsuitableImplementations) {
   write(room_log(20));
   const std::string settings = folder_ / "settings.textproto";
   std::ofstream(settings) << "implementations { tracking: \"gready\" }";
@@ -261,10 +261,10 @@ TEST_F(RunCommand, RefusesAnImplementationThatIsNotThereOrCannotDoWhatIsAskedFor
   const Outcome without_map = run({"--config", settings, "--map", folder_ / "map"});
   EXPECT_EQ(without_map.exit_code, kExitFault);
   EXPECT_THAT(without_map.standard_error,
-              HasSubstr("the localization 'icp' does not go on in a stored map"));
+              HasSubstr("the localization 'icp' cannot continue a stored map"));
 }
 
-TEST_F(RunCommand, WantsEitherALogOrAScenario) {
+TEST_F(RunCommand, RequiresEitherALogOrAScenario) {
   const auto expect_refused = [&](std::vector<std::string> words, const std::string& reason) {
     words.insert(words.begin(), {"run", "--output", (folder_ / "out").string()});
     const Outcome outcome = call(words);
@@ -272,7 +272,7 @@ TEST_F(RunCommand, WantsEitherALogOrAScenario) {
     EXPECT_THAT(outcome.standard_error, HasSubstr(reason));
     expect_one_line(outcome.standard_error);
   };
-  expect_refused({}, "say what to drive");
+  expect_refused({}, "a drive is required");
   expect_refused({"--input", "a.log", "--scenario", "demo"}, "exclude each other");
   expect_refused({"--input", "a.log", "--seed", "3"}, "--seed belongs to --scenario");
   expect_refused({"--scenario", "atlantis"}, "no scenario is named 'atlantis'");
@@ -296,7 +296,7 @@ Refusal call_with(std::vector<std::string> words) {
           ::testing::internal::GetCapturedStderr()};
 }
 
-TEST(CommandLine, ListsItsCommandsWhereNoneIsGiven) {
+TEST(CommandLine, ListsItsCommandsWithoutArguments) {
   const Refusal refusal = call_with({});
   EXPECT_EQ(refusal.exit_code, kExitFault);
   EXPECT_THAT(refusal.standard_output, HasSubstr("check"));
@@ -320,7 +320,7 @@ TEST(CommandLine, NamesAnUnknownOptionAndTheNearestOne) {
   EXPECT_THAT(refusal.standard_error, HasSubstr("'--input'"));
 }
 
-TEST_F(RunCommand, IsToldBeforehandByCheckWhatIsInTheLog) {
+TEST_F(RunCommand, IsPrecededByCheck) {
   write(room_log(60));
   const Outcome sound = call({"check", log_.string()});
   EXPECT_THAT(sound.standard_output, HasSubstr("scans      60 of"));
@@ -334,11 +334,11 @@ TEST_F(RunCommand, IsToldBeforehandByCheckWhatIsInTheLog) {
   EXPECT_EQ(call({"check", log_.string()}).exit_code, kExitFault);
 }
 
-TEST_F(RunCommand, SaysWhyScansWereNotLocalized) {
+TEST_F(RunCommand, ReportsWhyScansWereNotLocalized) {
   const std::string log = room_log(60);
   const std::string last_line = log.substr(log.rfind('\n', log.size() - 2) + 1);
   write(log + last_line + last_line);
-  EXPECT_THAT(run().standard_output, HasSubstr("not localized: 2 have the stamp of another"));
+  EXPECT_THAT(run().standard_output, HasSubstr("not localized: 2 repeat an earlier stamp"));
 }
 
 }  // namespace

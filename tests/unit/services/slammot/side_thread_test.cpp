@@ -19,9 +19,9 @@ std::function<bool()> once(std::function<void()> work) {
   };
 }
 
-TEST(SideThread, HasDoneWhatWasBegunWhenItWasWaitedFor) {
+TEST(SideThread, CompletesBegunWorkOnWait) {
   SideThread side;
-  std::vector<int> done;  // no lock: waiting is what orders them
+  std::vector<int> done;  // not locked: wait() orders the accesses
   for (int i = 0; i < 5000; ++i) {
     side.begin(once([&done, i] { done.push_back(i); }));
     side.wait();
@@ -29,17 +29,17 @@ TEST(SideThread, HasDoneWhatWasBegunWhenItWasWaitedFor) {
   }
 }
 
-TEST(SideThread, DoesOneThingAfterTheOtherInTheirOrder) {
+TEST(SideThread, WorksInOrder) {
   std::vector<int> done;
   {
     SideThread side;
     for (int i = 0; i < 5000; ++i) side.begin(once([&done, i] { done.push_back(i); }));
-  }  // and all of it before it goes
+  }  // the destructor completes all work
   ASSERT_EQ(done.size(), 5000U);
   for (int i = 0; i < 5000; ++i) ASSERT_EQ(done[static_cast<std::size_t>(i)], i);
 }
 
-TEST(SideThread, WorksBesideItsCaller) {
+TEST(SideThread, WorksInParallelWithTheCaller) {
   SideThread side;
   std::atomic<bool> is_at_work = false;
   std::atomic<bool> may_end = false;
@@ -50,29 +50,29 @@ TEST(SideThread, WorksBesideItsCaller) {
     is_at_work.notify_one();
     may_end.wait(false);
   }));
-  is_at_work.wait(false);  // for ever, if nobody but the waiting caller did the work
+  is_at_work.wait(false);  // hangs if the waiting caller did the work
   may_end = true;
   may_end.notify_one();
   side.wait();
   EXPECT_NE(at_work, std::this_thread::get_id());
 }
 
-TEST(SideThread, WakesAgainAfterARest) {
+TEST(SideThread, WakesAfterAPause) {
   SideThread side;
   for (int i = 0; i < 3; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // longer than it looks out for work
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // longer than the thread spins
     std::atomic<bool> is_done = false;
     side.begin(once([&] {
       is_done = true;
       is_done.notify_one();
     }));
-    is_done.wait(false);  // not SideThread::wait(), which would do it here
+    is_done.wait(false);  // not SideThread::wait(), which would do the work here
     side.wait();
     EXPECT_TRUE(is_done);
   }
 }
 
-TEST(SideThread, TakesStepAfterStepUntilThereIsNoMore) {
+TEST(SideThread, RepeatsStepsUntilTheLast) {
   SideThread side;
   for (int i = 0; i < 1000; ++i) {
     int steps = 0;
@@ -82,7 +82,7 @@ TEST(SideThread, TakesStepAfterStepUntilThereIsNoMore) {
   }
 }
 
-TEST(SideThread, BeginsMoreThanItHasRoomFor) {
+TEST(SideThread, AcceptsMoreWorksThanPlaces) {
   SideThread side;
   std::atomic<bool> may_end = false;
   std::vector<int> done;
@@ -98,16 +98,16 @@ TEST(SideThread, BeginsMoreThanItHasRoomFor) {
   EXPECT_TRUE(std::ranges::is_sorted(done));
 }
 
-TEST(SideThread, DoesEachPartOnce) {
+TEST(SideThread, DoesEachSharedPartOnce) {
   SideThread side;
   for (std::size_t i = 0; i < 5000; ++i) {
-    std::vector<int> done(i % 9, 0);  // no lock: sharing is what orders them
+    std::vector<int> done(i % 9, 0);  // not locked: share() orders the accesses
     side.share(done.size(), [&done](std::size_t part) { ++done[part]; });
     ASSERT_TRUE(std::ranges::all_of(done, [](int times) { return times == 1; })) << i;
   }
 }
 
-TEST(SideThread, SharesWithItsCaller) {
+TEST(SideThread, SharesPartsWithTheCaller) {
   if (std::thread::hardware_concurrency() == 1)
     GTEST_SKIP() << "with one core the caller does everything";
   SideThread side;
@@ -115,12 +115,13 @@ TEST(SideThread, SharesWithItsCaller) {
   side.share(2, [&at_work](std::size_t) {
     ++at_work;
     at_work.notify_all();
-    for (int now = at_work; now < 2; now = at_work) at_work.wait(now);  // for ever, if one did both
+    for (int now = at_work; now < 2; now = at_work)
+      at_work.wait(now);  // hangs if one thread did both
   });
   EXPECT_EQ(at_work, 2);
 }
 
-TEST(SideThread, JoinsInBetweenTwoStepsOfWhatItIsAt) {
+TEST(SideThread, DoesSharedPartsBetweenTwoSteps) {
   if (std::thread::hardware_concurrency() == 1)
     GTEST_SKIP() << "with one core the caller does everything";
   SideThread side;
@@ -143,7 +144,7 @@ TEST(SideThread, JoinsInBetweenTwoStepsOfWhatItIsAt) {
   EXPECT_EQ(at_work, 2);
 }
 
-TEST(SideThread, DoesNotWaitWithItsPartsForWhatItIsAt) {
+TEST(SideThread, DoesNotDelaySharedPartsForACurrentStep) {
   SideThread side;
   std::atomic<bool> is_at_work = false;
   std::atomic<bool> may_end = false;
@@ -154,14 +155,14 @@ TEST(SideThread, DoesNotWaitWithItsPartsForWhatItIsAt) {
   }));
   is_at_work.wait(false);
   int done = 0;
-  side.share(3, [&done](std::size_t) { ++done; });  // for ever, if it waited
+  side.share(3, [&done](std::size_t) { ++done; });  // hangs if it waited
   EXPECT_EQ(done, 3);
   may_end = true;
   may_end.notify_one();
   side.wait();
 }
 
-TEST(SideThread, WaitsForNothingWhereNothingWasBegun) {
+TEST(SideThread, ReturnsAtOnceWithoutWork) {
   SideThread side;
   side.wait();
   side.wait();

@@ -5,7 +5,7 @@
 namespace slammot {
 namespace {
 
-TEST(StageTimes, CountsCallsInTheOrderOfFirstUseAndHandsOnResults) {
+TEST(StageTimes, CountsCallsInTheOrderOfFirstUseAndReturnsResults) {
   StageTimes times;
   EXPECT_EQ(times.measure("localization", [] { return 7; }), 7);
   times.measure("detection", [] {});

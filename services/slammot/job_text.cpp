@@ -1,0 +1,120 @@
+#include "services/slammot/job_text.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "common/files/log_findings.hpp"
+#include "common/files/odometry_findings.hpp"
+#include "services/slammot/implementations.hpp"
+
+namespace slammot {
+namespace {
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[512];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+/// Counts of scans that were not localized, by reason, and of scans without a match; empty if there
+/// are none.
+std::string describe_left_out(const files::RunRecord& record, const files::RunReport& report) {
+  constexpr std::pair<const char*, const char*> kReasons[] = {
+      {"duplicate_scans", "repeat an earlier stamp"},
+      {"out_of_order_scans", "are older than an earlier one"},
+      {"far_ahead_scans", "have a stamp far ahead of all others"}};
+  const auto stage = report.counters.find("localization");
+  if (stage == report.counters.end()) return {};
+  std::string reasons;
+  for (const auto& [counter, reason] : kReasons) {
+    const auto count = stage->second.find(counter);
+    if (count == stage->second.end() || count->second == 0) continue;
+    reasons += text("%s%llu %s", reasons.empty() ? "" : ", ",
+                    static_cast<unsigned long long>(count->second), reason);
+  }
+  std::string lines;
+  if (record.localized_scans() < record.scans() && !reasons.empty())
+    lines += "not localized: " + reasons + "\n";
+  const auto blank = stage->second.find("blank_scans");
+  if (blank != stage->second.end() && blank->second > 0)
+    lines += text("warning:  %llu scans have no valid reading (NaN): poses and tracks predicted\n",
+                  static_cast<unsigned long long>(blank->second));
+  const auto few = stage->second.find("too_few_echoes");
+  if (few != stage->second.end() && few->second > 0)
+    lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n",
+                  static_cast<unsigned long long>(few->second));
+  return lines;
+}
+
+std::string describe_faults(const files::LogFaults& faults) {
+  std::string lines;
+  if (faults.malformed_lines > 0) {
+    lines += text("warning:  malformed lines of the log, skipped: %llu; the first:",
+                  static_cast<unsigned long long>(faults.malformed_lines));
+    for (const std::uint64_t line : faults.first_malformed_lines)
+      lines += text(" %llu", static_cast<unsigned long long>(line));
+    lines += "\n";
+  }
+  if (faults.overlong_lines > 0)
+    lines += text("warning:  overlong lines of the log, skipped: %llu\n",
+                  static_cast<unsigned long long>(faults.overlong_lines));
+  return lines;
+}
+
+}  // namespace
+
+std::string name_of_drive(const JobOptions& options) {
+  if (options.scenario.empty()) return options.input.filename().string();
+  return options.scenario + (options.seed ? " (seed " + std::to_string(*options.seed) + ")" : "");
+}
+
+std::string describe_job(const Job& job, const JobOptions& options) {
+  const files::LogFigures& figures = job.log.plan().figures;
+  std::string lines = text(
+      "%s %s: %llu scans of %zu beams over %.0f degrees, %.0f s",
+      options.scenario.empty() ? "log:     " : "scenario:", name_of_drive(options).c_str(),
+      static_cast<unsigned long long>(figures.scans), figures.beams,
+      std::floor(figures.field_of_view_rad * 180.0 / std::numbers::pi + 0.25), figures.duration_s);
+  lines += "\n";
+  lines += files::describe(job.log.topics());
+  lines += files::describe_scanners(job.log.plan());
+  if (options.scenario.empty())
+    lines += "odometry: " + files::describe_odometry(job.log.plan()) + "\n";
+  for (const std::string& finding : files::describe_findings(job.log.plan()))
+    lines += "warning:  " + finding + "\n";
+  for (const std::string& stage : replaced_stages(job.profile.implementations))
+    lines += "replaced: " + stage + "\n";
+  return lines + text("profile:  %s (%s)\n", job.profile_name.c_str(), job.profile_reason.c_str());
+}
+
+std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report,
+                             const std::filesystem::path& output) {
+  std::string lines =
+      report.odometry
+          ? "odometry: " +
+                files::describe_odometry(*report.odometry, report.plan.figures.has_clock) + "\n"
+          : std::string();
+  lines += text("%-14s %10s %10s %10s\n", "stage", "p50 [ms]", "p99 [ms]", "max [ms]");
+  for (const files::StageLatency& stage : report.measured.stages) {
+    lines += text("%-14s %10.3f %10.3f %10.3f\n", stage.stage.c_str(), stage.p50_ms, stage.p99_ms,
+                  stage.max_ms);
+  }
+  lines +=
+      text("%llu scans, %llu of them localized; %llu confirmed tracks; %zu submaps\n",
+           static_cast<unsigned long long>(record.scans()),
+           static_cast<unsigned long long>(record.localized_scans()),
+           static_cast<unsigned long long>(record.confirmed_tracks()), record.submaps().size());
+  lines += text("%.1f s of processing, %.1f times real time, %.0f MB peak memory\n",
+                report.measured.wall_s, report.measured.real_time_factor,
+                report.measured.peak_memory_mb);
+  return lines + describe_left_out(record, report) + describe_faults(report.faults) +
+         "results are in " + output.string() + "\n";
+}
+
+std::string where_damaged(const files::LogFaults& faults) {
+  return faults.damage.empty() ? std::string() : " (" + faults.damage + ")";
+}
+
+}  // namespace slammot

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "common/files/run_record.hpp"
+#include "common/files/run_report.hpp"
+#include "services/slammot/job.hpp"
+
+namespace slammot {
+
+/// "log: ..." and "profile: ..." for the terminal.
+std::string describe_job(const Job& job, const JobOptions& options);
+
+/// Name of the drive in the report.
+std::string name_of_drive(const JobOptions& options);
+
+/// Summary for the terminal: counts, latencies, speed, faults of the log, output folder.
+std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report,
+                             const std::filesystem::path& output);
+
+/// Place of the damage, such as " (the chunk at byte 1234 does not unpack)"; empty if unknown.
+std::string where_damaged(const files::LogFaults& faults);
+
+}  // namespace slammot
