@@ -13,13 +13,14 @@ struct GroupWords {
 };
 
 /// In the order of Group.
-constexpr std::array<GroupWords, 11> kGroups = {{
+constexpr std::array<GroupWords, 12> kGroups = {{
     {"sensor", "where a scanner is and what its ranges are worth"},
     {"odometry", "what wheels say of the motion from scan to scan"},
     {"map", "the local map and what it holds"},
     {"matching", "how a scan is matched against the map"},
     {"closing", "how a revisit is found and the graph corrected"},
     {"motion", "what moves, and how"},
+    {"association", "which echoes belong to which track"},
     {"extent", "which echoes are one body, and how large it is"},
     {"existence", "when a track begins, is confirmed and ends"},
     {"publication", "what is published, and how sure it is said to be"},

@@ -33,6 +33,7 @@ enum class Group {
   matching,
   closing,
   motion,
+  association,
   extent,
   existence,
   publication,
@@ -128,18 +129,34 @@ FieldTable<Config> joined(std::initializer_list<FieldTable<Config>> tables) {
   return all;
 }
 
+/// The table with the rows of a member that is a struct itself added, their names behind the
+/// prefix.
+template <class Config, class Inner>
+FieldTable<Config> with_prefixed(FieldTable<Config> table, const std::string& prefix,
+                                 Inner Config::*member, const FieldTable<Inner>& inner_table) {
+  for (const Field<Inner>& inner : inner_table) {
+    table.emplace_back(
+        prefix + inner.name,
+        [member, value_of = inner.value_of](Config& config) { return value_of(config.*member); },
+        inner.meaning, inner.range, inner.consequences, inner.group);
+  }
+  return table;
+}
+
 /// The table with the rows of a member that is a struct itself added: under "name.", as a message
 /// of its own in the proto.
 template <class Config, class Inner>
 FieldTable<Config> with_nested(FieldTable<Config> table, std::string_view name,
                                Inner Config::*member, const FieldTable<Inner>& inner_table) {
-  for (const Field<Inner>& inner : inner_table) {
-    table.emplace_back(
-        std::string(name) + "." + inner.name,
-        [member, value_of = inner.value_of](Config& config) { return value_of(config.*member); },
-        inner.meaning, inner.range, inner.consequences, inner.group);
-  }
-  return table;
+  return with_prefixed(std::move(table), std::string(name) + ".", member, inner_table);
+}
+
+/// The table with the rows of a member that is a struct itself added, under their own names: a
+/// group of settings that the proto does not nest.
+template <class Config, class Inner>
+FieldTable<Config> with_members_of(FieldTable<Config> table, Inner Config::*member,
+                                   const FieldTable<Inner>& inner_table) {
+  return with_prefixed(std::move(table), "", member, inner_table);
 }
 
 /// A setting of one particular struct.

@@ -92,7 +92,8 @@ void Associator::assign_whole_segments(std::vector<Track>& tracks, const Compare
           !has_other_past(segments[s], context.comparison.segment(s), tracks[t], context))
         costs_(t, s) = cost;
     }
-  if (context.config.most_hypotheses > 1) assign_competing_tracks(tracks, context, associations);
+  if (context.config.association.most_hypotheses > 1)
+    assign_competing_tracks(tracks, context, associations);
   const std::vector<std::size_t>& segment_of_track = assigner_.assign(costs_, kCostOfMiss);
   for (std::size_t t = 0; t < tracks.size(); ++t)
     if (segment_of_track[t] != kUnassigned) associations.track_of_segment[segment_of_track[t]] = t;

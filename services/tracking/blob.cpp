@@ -32,11 +32,11 @@ BlobMeasurement measure_blob(const Blob& blob, const Observation& observation,
   const Vector2d along = sight_m / range_m;
   const Vector2d across{-along.y(), along.x()};
   const double span_m = largest_span_m(observation.points_m);
-  const double shape_m = std::hypot(config.blob_noise_share * span_m, config.shape_noise_m,
-                                    gap_noise_m(observation, range_m, config.size_scale));
+  const double shape_m = std::hypot(kBlobNoiseShare * span_m, config.sensor.shape_noise_m,
+                                    gap_noise_m(observation, range_m, config.extent.size_scale));
   const double sigma_along_m = std::hypot(echo_sigma_m(range_m, config), shape_m);
   const double sigma_across_m = std::hypot(range_m * observation.beam_step_rad / 3.5, shape_m);
-  measurement.centre_m = mean_m + kSurfaceToMiddleM * config.size_scale * along;
+  measurement.centre_m = mean_m + kSurfaceToMiddleM * config.extent.size_scale * along;
   measurement.covariance_m2 = sigma_along_m * sigma_along_m * along * along.transpose() +
                               sigma_across_m * sigma_across_m * across * across.transpose();
   Blob& after = measurement.blob;

@@ -7,6 +7,9 @@
 
 namespace slammot::tracking {
 
+/// One sigma of the wandering of a centre without known sides, as a share of the span.
+inline constexpr double kBlobNoiseShare = 0.2;
+
 /// Extent of an object without straight sides: length and width are equal.
 struct Blob : Footprint {
   bool was_seen_whole = false;  ///< Once both ends were visible in one scan.

@@ -32,13 +32,14 @@ Box likely_box(double box_heading_rad, const Observation& observation, const Tra
   constexpr double kWidestFaceM = 2.6;  // a longer side is a flank
   const double longer_m = span_along_m(observation, box_heading_rad);
   const double shorter_m = span_along_m(observation, box_heading_rad + kQuarterRad);
-  const bool is_face = longer_m > kNarrowestM * config.size_scale &&
-                       longer_m < kWidestFaceM * config.size_scale && shorter_m < 0.5 * longer_m;
+  const bool is_face = longer_m > kNarrowestM * config.extent.size_scale &&
+                       longer_m < kWidestFaceM * config.extent.size_scale &&
+                       shorter_m < 0.5 * longer_m;
   Box box;
   box.road_users = &road_users;
   box.heading_rad = geometry::wrap_angle(box_heading_rad + (is_face ? kQuarterRad : 0.0));
   box.heading_variance_rad2 = is_face ? 0.3 : 0.1;
-  box.is_oriented = longer_m > kWidestM * config.size_scale;
+  box.is_oriented = longer_m > kWidestM * config.extent.size_scale;
   box.evidence.length.least_m = is_face ? shorter_m : longer_m;
   box.evidence.width.least_m = is_face ? longer_m : shorter_m;
   return with_likely_sizes(box, config);
@@ -82,8 +83,8 @@ Box turned_about(Box box) {
 }
 
 bool is_plausible(const Box& box, const TrackingConfig& config) {
-  return box.evidence.width.least_m < kWidestM * config.size_scale &&
-         box.evidence.length.least_m < config.longest_body_m;
+  return box.evidence.width.least_m < kWidestM * config.extent.size_scale &&
+         box.evidence.length.least_m < config.extent.longest_body_m;
 }
 
 }  // namespace slammot::tracking

@@ -27,7 +27,7 @@ struct BoxProjection {
 double face_depth_m(double sigma_m, const TrackingConfig& config) {
   constexpr double kFaceDepthM = 0.15;
   constexpr double kFaceDepthSigmas = 3.0;
-  return kFaceDepthM * config.size_scale + kFaceDepthSigmas * sigma_m;
+  return kFaceDepthM * config.extent.size_scale + kFaceDepthSigmas * sigma_m;
 }
 
 BoxProjection box_projection_of(const Box& box, const Vector2d& predicted_centre_m,
@@ -36,7 +36,8 @@ BoxProjection box_projection_of(const Box& box, const Vector2d& predicted_centre
   seen.along = {std::cos(box.heading_rad), std::sin(box.heading_rad)};
   seen.across = {-seen.along.y(), seen.along.x()};
   const Vector2d to_laser_m = observation.laser_m - predicted_centre_m;
-  const double sigma_m = std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.shape_noise_m);
+  const double sigma_m =
+      std::hypot(echo_sigma_m(to_laser_m.norm(), config), config.sensor.shape_noise_m);
   seen.u =
       projection_of(observation, predicted_centre_m, seen.along, face_depth_m(sigma_m, config));
   seen.v =
@@ -49,16 +50,16 @@ BoxProjection box_projection_of(const Box& box, const Vector2d& predicted_centre
                     end_view(observation, predicted_centre_m + projection.low_m * axis, axis),
                     end_view(observation, predicted_centre_m + projection.high_m * axis, axis),
                     gap,
-                    0.4 * config.size_scale,
-                    0.5 * config.size_scale,
-                    config.size_scale,
+                    0.4 * config.extent.size_scale,
+                    0.5 * config.extent.size_scale,
+                    config.extent.size_scale,
                     true,
                     corner};
   };
   seen.u_view = view_of(seen.along, seen.u);
   seen.v_view = view_of(seen.across, seen.v);
   seen.v_view.is_length = false;
-  const double clear_m = 0.3 * config.size_scale;
+  const double clear_m = 0.3 * config.extent.size_scale;
   seen.is_flank_visible = std::abs(seen.v_view.laser_at_m) > 0.5 * box.width.value_m + clear_m;
   seen.is_face_visible = std::abs(seen.u_view.laser_at_m) > 0.5 * box.length.value_m + clear_m;
   return seen;

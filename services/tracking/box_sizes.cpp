@@ -23,10 +23,10 @@ using KindFits = std::array<KindFit, std::tuple_size_v<decltype(RoadUsers::kinds
 
 KindFits kind_fits(const Box& box, const TrackingConfig& config) {
   constexpr double kLongestPieceM = 16.0;
-  const double scale = config.size_scale;
+  const double scale = config.extent.size_scale;
+  // log_likelihood_of_size() omits the root.
   const double log_piece_density =
-      std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // log_likelihood_of_size()
-                                                                               // omits the root
+      std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));
   const EvidenceByKind evidence = evidence_by_kind(box, config);
   const auto fit_of = [&](const KindOfBody& kind) {
     KindFit fit;
@@ -51,9 +51,9 @@ SizesSeen with_corners(const Box& box, const Size& corner) {
 
 Size corner_of(const Box& box, Kind kind, const TrackingConfig& config) {
   if (kind == Kind::kBicycle || only_people_move(config)) return {0.0, 0.0};
-  const double prior_m2 = squared(config.size_scale) * box.road_users->corner.variance_m2;
+  const double prior_m2 = squared(config.extent.size_scale) * box.road_users->corner.variance_m2;
   const double gain = prior_m2 / (prior_m2 + box.corner_seen.variance_m2);
-  const double prior_m = config.size_scale * box.road_users->corner.value_m;
+  const double prior_m = config.extent.size_scale * box.road_users->corner.value_m;
   return {prior_m + gain * (box.corner_seen.value_m - prior_m), (1.0 - gain) * prior_m2};
 }
 
@@ -79,8 +79,8 @@ Box with_likely_sizes(Box box, const TrackingConfig& config) {
   }
   box.length.variance_m2 /= total;
   box.width.variance_m2 /= total;
-  box.length.value_m = std::min(box.length.value_m, config.longest_body_m);
-  box.width.value_m = std::min(box.width.value_m, kWidestM * config.size_scale);
+  box.length.value_m = std::min(box.length.value_m, config.extent.longest_body_m);
+  box.width.value_m = std::min(box.width.value_m, kWidestM * config.extent.size_scale);
   return box;
 }
 

@@ -15,6 +15,9 @@ using association::TrackKey;
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
+/// Scans after which an assignment is final: docs/decisions/association.md.
+constexpr std::size_t kHypothesisScans = 15;
+
 /// Blobs only: the sides of a vehicle tell where it is.
 bool may_compete(const Track& track) {
   return track.existence.confirmed && track.extent.box() == nullptr;
@@ -22,8 +25,8 @@ bool may_compete(const Track& track) {
 
 association::MhtConfig mht_config(const TrackingConfig& config) {
   association::MhtConfig mht;
-  mht.most_hypotheses = static_cast<std::size_t>(config.most_hypotheses);
-  mht.scans_back = static_cast<std::size_t>(config.hypothesis_scans);
+  mht.most_hypotheses = static_cast<std::size_t>(config.association.most_hypotheses);
+  mht.scans_back = kHypothesisScans;
   return mht;
 }
 
@@ -49,8 +52,8 @@ class CompetingTracksScan {
       const flow::Segment& segment = view.scan().segments[s];
       if (is_backdrop(segment, config) || segment.box_length_m > kWidestGroupM) continue;
       const bool is_near = std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
-        return may_compete(track) &&
-               (track.position_m() - segment.centroid_in_odom_m).norm() < config.widest_gate_m;
+        return may_compete(track) && (track.position_m() - segment.centroid_in_odom_m).norm() <
+                                         config.association.widest_gate_m;
       });
       if (!is_near) continue;
       segments_.push_back(s);

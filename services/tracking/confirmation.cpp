@@ -8,10 +8,14 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kLeastMovedShare = 0.3;  ///< Of all votes.
+constexpr double kSureMovedShare = 0.7;
+constexpr double kLeastTravelSigmas = 3.0;  ///< Of the distance from birth.
+
 bool echoes_lie_off_sides(const Track& track, const TrackingConfig& config) {
   constexpr double kMostM = 0.2;
   return track.extent.box() != nullptr &&
-         track.existence.consistency.off_sides_m > kMostM * config.size_scale;
+         track.existence.consistency.off_sides_m > kMostM * config.extent.size_scale;
 }
 
 /// Place of the first observation. The extent at that time may have been wrong: the oldest stored
@@ -36,8 +40,9 @@ bool has_known_velocity(const Track& track, const TrackingConfig& config) {
   const bool is_as_predicted = consistency.weight > 0.0 && consistency.nis < kMostNis &&
                                appeared_in_free_space(track, config);
   const double most_mps =
-      is_as_predicted ? std::max(config.most_speed_sigma_mps, config.most_speed_sigma_published_mps)
-                      : config.most_speed_sigma_mps;
+      is_as_predicted
+          ? std::max(kKnownSpeedSigmaMps, config.publication.most_speed_sigma_published_mps)
+          : kKnownSpeedSigmaMps;
   return speed_sigma_mps(track.kinematics) <= most_mps;
 }
 
@@ -47,25 +52,23 @@ bool has_moved(const Track& track, const TrackingConfig& config) {
   // space wrongly mapped as free have none.
   constexpr double kLeastVotes = 0.5;  // one, half faded
   const MotionEvidence& evidence = track.existence.motion;
-  return (evidence.moved >= config.least_moved_votes &&
-          evidence.moved >= config.least_moved_share * evidence.weight()) ||
+  return (evidence.moved >= kLeastMovedVotes &&
+          evidence.moved >= kLeastMovedShare * evidence.weight()) ||
          (evidence.moved > kLeastVotes && appeared_in_free_space(track, config));
 }
 
 /// True if most echoes come from where beams passed before, which no stationary object does.
-bool has_arrived(const Track& track, const TrackingConfig& config) {
+bool has_arrived(const Track& track) {
   const MotionEvidence& evidence = track.existence.motion;
-  return evidence.moved >= config.sure_moved_votes &&
-         evidence.moved >= config.sure_moved_share * evidence.weight();
+  return evidence.moved >= kSureMovedVotes && evidence.moved >= kSureMovedShare * evidence.weight();
 }
 
 /// All conditions of confirmation but the fit of the extent.
 bool moves_by_all_signs(const Track& track, const TrackingConfig& config) {
   const Existence& existence = track.existence;
-  return existence.hits >= config.least_hits && existence.score >= config.confirm_score &&
-         has_moved(track, config) && has_known_velocity(track, config) &&
-         is_surely_fast(track, config) &&
-         (has_arrived(track, config) || has_travelled(track, config));
+  return existence.hits >= config.existence.least_hits && existence.score >= kConfirmScore &&
+         has_moved(track, config) && has_known_velocity(track, config) && is_surely_fast(track) &&
+         (has_arrived(track) || has_travelled(track, config));
 }
 
 }  // namespace
@@ -103,11 +106,10 @@ const Track* inconsistent_one(const Track& a, const Track& b, const TrackingConf
   return is_inconsistent(a, config) ? &a : &b;
 }
 
-bool is_surely_fast(const Track& track, const TrackingConfig& config) {
+bool is_surely_fast(const Track& track) {
   constexpr double kPedestrianShare = 0.75;  // their covariance includes the gait, which a post
                                              // does not have
-  const double sigmas =
-      config.detection_sigmas * (may_be_pedestrian(track) ? kPedestrianShare : 1.0);
+  const double sigmas = kDetectionSigmas * (may_be_pedestrian(track) ? kPedestrianShare : 1.0);
   return track.velocity_mps().norm() >=
          filters::minimum_detection_speed_mps(track.kinematics.estimate, sigmas);
 }
@@ -122,7 +124,7 @@ bool has_travelled(const Track& track, const TrackingConfig& config) {
   // A jump does not count: glass or chair legs that answer in turns would travel far at once.
   const double covered_m =
       distance_m - (may_be_pedestrian(track) ? track.kinematics.innovation_m : 0.0);
-  return covered_m >= config.least_travel_m && covered_m >= config.least_travel_sigmas * sigma_m;
+  return covered_m >= config.existence.least_travel_m && covered_m >= kLeastTravelSigmas * sigma_m;
 }
 
 }  // namespace slammot::tracking

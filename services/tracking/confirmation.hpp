@@ -5,6 +5,13 @@
 
 namespace slammot::tracking {
 
+/// Least log-odds of existence of a confirmable track.
+inline constexpr double kConfirmScore = 2.0;
+/// Faded votes that it moved: so many suffice with a significant distance,
+inline constexpr double kLeastMovedVotes = 6.0;
+/// and so many without one. All limits: docs/decisions/existence-and-publication.md.
+inline constexpr double kSureMovedVotes = 30.0;
+
 /// True if the evidence suffices to publish the track as an object that moves.
 bool is_confirmable(const Track& track, const TrackingConfig& config);
 
@@ -24,8 +31,8 @@ bool is_inconsistent(const Track& track, const TrackingConfig& config);
 /// The inconsistent one of two boxes if the other is consistent, else null.
 const Track* inconsistent_one(const Track& a, const Track& b, const TrackingConfig& config);
 
-/// True if the speed differs from zero by the configured number of sigmas.
-bool is_surely_fast(const Track& track, const TrackingConfig& config);
+/// True if the speed differs from zero by kDetectionSigmas; less for pedestrians.
+bool is_surely_fast(const Track& track);
 
 /// True if the object is elsewhere than at its birth.
 bool has_travelled(const Track& track, const TrackingConfig& config);

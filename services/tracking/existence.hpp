@@ -59,6 +59,10 @@ struct Travel {
 /// Distance of one step of Travel [m], before scaling.
 inline constexpr double kProgressM = 1.0;
 
+/// Time that a confirmed object may stand for each least_travel_to_stand_m of its way:
+/// docs/decisions/existence-and-publication.md.
+inline constexpr double kLongestStandS = 2.0;
+
 /// Verdict of earlier scans on the velocity.
 struct VelocityCheck {
   bool is_refuted = false;

@@ -8,6 +8,24 @@
 namespace slammot::tracking {
 namespace {
 
+constexpr double kOtherHitScore = 0.1;      ///< Gain of a scan whose echoes need not be moving.
+constexpr double kImplausibleScore = -1.0;  ///< Of an extent or speed that no road user has.
+constexpr double kEvidenceMemoryS = 0.5;    ///< Of the votes for motion.
+constexpr double kMappedMemoryS = 0.8;      ///< Of the share of scans on mapped structure,
+constexpr double kMostMappedShare = 0.6;    ///< above which a track without progress
+constexpr double kMappedScorePerS = -6.0;   ///< is mapped structure: IDF1 of `city` 0.83 / 0.86,
+                                            ///< docs/decisions/existence-and-publication.md.
+constexpr double kOccludedScorePerS = -1.0;
+constexpr double kOutOfViewScorePerS = -30.0;
+constexpr double kPassedBeamScore = -0.6;  ///< Of each beam through the predicted extent,
+constexpr double kMostPassedScore = -2.0;  ///< and of all of them in one scan at most.
+
+/// Of a scan whose echoes lie on what stood before. Where only people move it counts twice: a
+/// pedestrian leaves the place of each foot within the compared time.
+double contradiction_score(const TrackingConfig& config) {
+  return only_people_move(config) ? -1.0 : -0.5;
+}
+
 void add_faded(MotionEvidence& sum, const MotionEvidence& evidence, double fade) {
   sum.moved = fade * sum.moved + evidence.moved;
   sum.stood = fade * sum.stood + evidence.stood;
@@ -26,8 +44,8 @@ bool is_contradicted(const Track& track, const MotionEvidence& evidence, bool is
 }
 
 bool makes_no_progress(const Track& track, const TrackingConfig& config) {
-  return track.velocity_mps().norm() < config.moving_above_mps ||
-         track.existence.travel.without_progress_s > config.longest_stand_s;
+  return track.velocity_mps().norm() < moving_above_mps(config) ||
+         track.existence.travel.without_progress_s > kLongestStandS;
 }
 
 }  // namespace
@@ -39,29 +57,29 @@ void score_hit(Track& track, const Hit& hit, const TrackingConfig& config) {
   const MotionEvidence& evidence = hit.motion;
   const bool is_moving = hit.label == flow::PointLabel::kMoving ||
                          evidence.moved > evidence.stood + 0.5 * evidence.undecided;
-  add_faded(existence.motion, evidence, std::exp(-hit.time_s / config.evidence_memory_s));
-  double gain = is_moving ? config.moving_hit_score : config.other_hit_score;
+  add_faded(existence.motion, evidence, std::exp(-hit.time_s / kEvidenceMemoryS));
+  double gain = is_moving ? config.existence.moving_hit_score : kOtherHitScore;
   const bool is_mapped = hit.label == flow::PointLabel::kStationary && !is_moving;
-  existence.mapped_share += (1.0 - std::exp(-hit.time_s / config.mapped_memory_s)) *
+  existence.mapped_share += (1.0 - std::exp(-hit.time_s / kMappedMemoryS)) *
                             ((is_mapped ? 1.0 : 0.0) - existence.mapped_share);
   existence.travel.without_progress_s += hit.time_s;
   const double speed_mps = track.velocity_mps().norm();
-  if (existence.mapped_share > config.most_mapped_share && makes_no_progress(track, config))
-    gain = config.mapped_score_per_s * hit.time_s;
-  if (is_contradicted(track, evidence, is_moving) && speed_mps > config.contradicted_above_mps)
-    gain = config.contradiction_score;
-  if (!is_plausible(track.extent.outline, config) || speed_mps > 2.0 * config.fastest_mps)
-    gain = config.implausible_score;
+  if (existence.mapped_share > kMostMappedShare && makes_no_progress(track, config))
+    gain = kMappedScorePerS * hit.time_s;
+  if (is_contradicted(track, evidence, is_moving) &&
+      speed_mps > config.existence.contradicted_above_mps)
+    gain = contradiction_score(config);
+  if (!is_plausible(track.extent.outline, config) || speed_mps > 2.0 * config.motion.fastest_mps)
+    gain = kImplausibleScore;
   if (is_inconsistent(track, config)) gain = std::min(gain, kInconsistentScore);
-  existence.score = std::min(config.most_score, existence.score + gain);
+  existence.score = std::min(config.existence.most_score, existence.score + gain);
 }
 
 void score_miss(Track& track, const Visibility& visibility, double time_s,
                 const TrackingConfig& config) {
   constexpr double kLegUnanswered = 0.1;  // legs are thin and often dark; a vehicle answers
   track.existence.score +=
-      (visibility.beams == 0 ? config.out_of_view_score_per_s : config.occluded_score_per_s) *
-      time_s;
+      (visibility.beams == 0 ? kOutOfViewScorePerS : kOccludedScorePerS) * time_s;
   const double passed =
       visibility.passed +
       (only_people_move(config) && may_be_pedestrian(track) ? kLegUnanswered : 1.0) *
@@ -70,17 +88,15 @@ void score_miss(Track& track, const Visibility& visibility, double time_s,
                                                                                  // occluded object
                                                                                  // is missed less
                                                                                  // surely
-  track.existence.score +=
-      std::max(config.most_passed_score, config.passed_beam_score * passed) * share;
+  track.existence.score += std::max(kMostPassedScore, kPassedBeamScore * passed) * share;
 }
 
-void score_passed(Track& track, const Visibility& interior, std::size_t echoes,
-                  const TrackingConfig& config) {
+void score_passed(Track& track, const Visibility& interior, std::size_t echoes) {
   constexpr double kLeastMappedShare = 0.05;
   const int excess = interior.passed - static_cast<int>(echoes);
   if (excess <= 0 || track.existence.mapped_share < kLeastMappedShare) return;
-  track.existence.score += std::max(config.most_passed_score, config.passed_beam_score * excess) *
-                           interior.passed / interior.beams;
+  track.existence.score +=
+      std::max(kMostPassedScore, kPassedBeamScore * excess) * interior.passed / interior.beams;
 }
 
 Footprint interior_of(const Track& track) {

@@ -27,8 +27,7 @@ void score_miss(Track& track, const Visibility& visibility, double time_s,
 
 /// Lowers the score of a box through whose interior more beams pass than are echoed. Does not apply
 /// where the map contradicts the echoes: there the object exists and its box is too large.
-void score_passed(Track& track, const Visibility& interior, std::size_t echoes,
-                  const TrackingConfig& config);
+void score_passed(Track& track, const Visibility& interior, std::size_t echoes);
 
 /// The part of a footprint that the object fills even if size and position are wrong by one sigma,
 /// the position either way.

@@ -37,7 +37,8 @@ Box box_along_course(const Track& track, const Observation& observation,
   const Vector2d way = observation.points_m.back() - observation.points_m.front();
   Box box = likely_box(std::atan2(way.y(), way.x()), observation, config, road_users);
   const Course course = course_of(track.kinematics);
-  if (track.velocity_mps().norm() > config.box_from_speed_mps && course.variance_rad2 < 0.05) {
+  if (track.velocity_mps().norm() > config.extent.box_from_speed_mps &&
+      course.variance_rad2 < 0.05) {
     box = likely_box(course.heading_rad, observation, config, road_users);
     if (std::abs(std::cos(box.heading_rad - course.heading_rad)) < 0.7)
       box = turned_by_a_quarter(box, 1.0, config);
@@ -49,8 +50,8 @@ Box box_along_course(const Track& track, const Observation& observation,
 
 void become_box_if_large(Track& track, const Observation& observation,
                          const TrackingConfig& config) {
-  if (track.extent.box() != nullptr || track.extent.largest_span_m < config.box_from_extent_m ||
-      is_known_pedestrian(track))
+  if (track.extent.box() != nullptr ||
+      track.extent.largest_span_m < config.extent.box_from_extent_m || is_known_pedestrian(track))
     return;
   redraw(track, box_along_course(track, observation, config), observation, config);
 }
@@ -59,7 +60,8 @@ void exchange_sides_if_likelier(Track& track, const Observation& observation,
                                 const TrackingConfig& config) {
   constexpr double kWidestCarM = 2.1;
   const Box& box = *track.extent.box();
-  if (box.is_oriented || box.evidence.width.least_m < kWidestCarM * config.size_scale) return;
+  if (box.is_oriented || box.evidence.width.least_m < kWidestCarM * config.extent.size_scale)
+    return;
   const Box turned = turned_by_a_quarter(box, 1.0, config);
   if (!is_plausible(turned, config) ||
       log_evidence_of_sizes(turned, config) - log_evidence_of_sizes(box, config) < kSureOdds)

@@ -90,7 +90,7 @@ std::array<std::span<const std::uint16_t>, 2> sides_of(std::span<const std::uint
                                                        const TrackingConfig& config) {
   constexpr double kCornerM = 0.25;
   const Corner corner = corner_of(beams, view);
-  if (corner.off_m <= kCornerM * config.size_scale) return {beams, {}};
+  if (corner.off_m <= kCornerM * config.extent.size_scale) return {beams, {}};
   return {beams.first(corner.index + 1), beams.subspan(corner.index)};
 }
 
@@ -173,7 +173,7 @@ struct Asked {
 bool is_surely_too_narrow(std::span<const std::uint16_t> side, const PolarView& view,
                           const TrackingConfig& config) {
   constexpr double kSurely = 1.0 - 1e-9;
-  const double most_m = kSurely * kNarrowestM * config.size_scale;
+  const double most_m = kSurely * kNarrowestM * config.extent.size_scale;
   return (view.point_in_odom_m(side.back()) - view.point_in_odom_m(side.front())).squaredNorm() <
          most_m * most_m;
 }
@@ -182,17 +182,18 @@ bool is_surely_too_narrow(std::span<const std::uint16_t> side, const PolarView& 
 /// too wide or bent.
 Vector2d shift_of(const Face& face, std::size_t echoes, const PolarView& now, const Asked& asked) {
   const TrackingConfig& config = asked.config;
-  if (2.0 * face.half_width_m < kNarrowestM * config.size_scale ||
-      2.0 * face.half_width_m > kWidestM * config.size_scale)
+  if (2.0 * face.half_width_m < kNarrowestM * config.extent.size_scale ||
+      2.0 * face.half_width_m > kWidestM * config.extent.size_scale)
     return Vector2d::Zero();
   const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
   const double echo_m = echo_sigma_m(range_m, config);
-  if (face.off_m > std::hypot(kStraightM * config.size_scale, echo_m)) return Vector2d::Zero();
+  if (face.off_m > std::hypot(kStraightM * config.extent.size_scale, echo_m))
+    return Vector2d::Zero();
   const double sigma_m =
       std::hypot(asked.pose_sigma_m(), echo_m * std::sqrt(2.0 / static_cast<double>(echoes)));
-  const double least_m =
-      std::max(kLeastShiftM * config.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
-  return -agreed_off_m(face, now, asked.earlier, {echo_m, least_m, config.size_scale}) *
+  const double least_m = std::max(
+      kLeastShiftM * config.extent.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
+  return -agreed_off_m(face, now, asked.earlier, {echo_m, least_m, config.extent.size_scale}) *
          face.normal;
 }
 
@@ -227,7 +228,7 @@ std::optional<FaceShift> face_shift_with(std::span<const std::uint16_t> other_be
   if (first.back() >= last.front()) return std::nullopt;
   const double width_m =
       (now.point_in_odom_m(last.back()) - now.point_in_odom_m(first.front())).norm();
-  if (width_m > kWidestM * config.size_scale) return std::nullopt;
+  if (width_m > kWidestM * config.extent.size_scale) return std::nullopt;
   Face face = face_through(first, last, now);
   const double from_m = face.along.dot(now.point_in_odom_m(first.back()) - face.middle_m);
   const double to_m = face.along.dot(now.point_in_odom_m(last.front()) - face.middle_m);

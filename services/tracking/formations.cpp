@@ -19,14 +19,14 @@ constexpr std::size_t kMostMembers = 6;
 
 bool may_be_member(const Track& track, const TrackingConfig& config) {
   return track.existence.confirmed && track.extent.box() != nullptr &&
-         track.velocity_mps().norm() > kSlowestMps * config.size_scale;
+         track.velocity_mps().norm() > kSlowestMps * config.extent.size_scale;
 }
 
 bool go_alike(const Track& a, const Track& b, const TrackingConfig& config) {
   const double most_mps =
-      kMostApartMps * config.size_scale + kMostApartShare * a.velocity_mps().norm();
+      kMostApartMps * config.extent.size_scale + kMostApartShare * a.velocity_mps().norm();
   return may_be_member(a, config) && may_be_member(b, config) &&
-         (a.position_m() - b.position_m()).norm() < kReachM * config.size_scale &&
+         (a.position_m() - b.position_m()).norm() < kReachM * config.extent.size_scale &&
          (a.velocity_mps() - b.velocity_mps()).norm() < most_mps;
 }
 
@@ -36,7 +36,7 @@ Track& track_of(TrackId id, std::vector<Track>& tracks) {
 }
 
 filters::FormationMotion queue_motion(const TrackingConfig& config) {
-  return {{filters::MotionKind::kConstantAcceleration, config.jerk_noise_density, 0.0},
+  return {{filters::MotionKind::kConstantAcceleration, config.motion.jerk_noise_density, 0.0},
           kSharedShare};
 }
 

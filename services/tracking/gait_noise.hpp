@@ -16,6 +16,16 @@ struct GaitNoise {
   std::optional<double> variance_m2;  ///< Along each axis; none before the first measurement.
 };
 
+/// Time after which the error of the gait has faded to 1/e: docs/decisions/motion-models.md.
+inline constexpr double kGaitMemoryS = 0.12;
+
+/// One sigma of the distance of a pedestrian's centre from the middle of the visible legs: 0.1 m
+/// for people (docs/decisions/motion-models.md).
+inline double gait_sigma_m(const TrackingConfig& config) {
+  constexpr double kSizeOverGait = 10.0;  // 1 m / 0.1 m
+  return config.extent.size_scale / kSizeOverGait;
+}
+
 /// Variance along each axis that the gait adds to a centre measured after_s (> 0) after the one
 /// before. The errors fade exponentially, but the filter takes scans for independent: the closer
 /// they follow each other, the more each one adds, so that the mean of many is as uncertain as it

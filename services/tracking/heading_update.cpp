@@ -67,7 +67,7 @@ void follow_side(Track& track, const Observation& observation, double time_s,
   // The visible side may be a face or a flank.
   const double off_rad =
       std::remainder(observation.side->heading_rad - box.heading_rad, kQuarterTurnRad);
-  const double side_sigma_rad = sigma_rad(*observation.side, config.size_scale);
+  const double side_sigma_rad = sigma_rad(*observation.side, config.extent.size_scale);
   const double off_axis_rad =
       std::remainder(observation.side->heading_rad - box.axis_rad, kQuarterTurnRad);
   const double axis_gain =
@@ -83,7 +83,7 @@ void follow_side(Track& track, const Observation& observation, double time_s,
 
 void follow_course(Track& track, const Observation& observation, double time_s,
                    const TrackingConfig& config) {
-  if (track.velocity_mps().norm() < config.box_from_speed_mps) return;
+  if (track.velocity_mps().norm() < config.extent.box_from_speed_mps) return;
   const Course course = course_of(track.kinematics);
   if (course.variance_rad2 > 0.1) return;
   double off_rad = wrap_angle(course.heading_rad - track.extent.box()->heading_rad);

@@ -16,11 +16,13 @@ using Eigen::Vector2d;
 using flow::PointLabel;
 using flow::Segment;
 
+constexpr std::size_t kFewestEchoes = 2;  ///< A single echo has no extent.
+
 bool is_in_confirmed_vehicle(const Segment& segment, const std::vector<Track>& tracks,
                              const Associations& associations, const TrackingConfig& config) {
   for (std::size_t t = 0; t < tracks.size(); ++t)
     if (tracks[t].existence.confirmed && is_vehicle(tracks[t]) && associations.has_echoes(t) &&
-        is_inside(tracks[t].footprint(), tracks[t].position_m(), config.gate_margin_m,
+        is_inside(tracks[t].footprint(), tracks[t].position_m(), config.association.gate_margin_m,
                   segment.centroid_in_odom_m))
       return true;
   return false;
@@ -38,11 +40,12 @@ bool has_changed(const Segment& segment, const SegmentComparison& comparison,
   if (has_flank && comparison.longest_arrival >= kFewest &&
       comparison.longest_arrival >= kLeastFaceShare * count)
     return true;
-  if (only_people_move(config) && segment.box_length_m < config.stride_m &&
+  if (only_people_move(config) && segment.box_length_m < config.extent.stride_m &&
       comparison.came == count)
     return true;  // a leg sends few echoes
   const int moved = comparison.arrived + comparison.receded;
-  return moved >= kFewest && moved > 0.6 * count && segment.box_length_m < config.longest_body_m;
+  return moved >= kFewest && moved > 0.6 * count &&
+         segment.box_length_m < config.extent.longest_body_m;
 }
 
 }  // namespace
@@ -52,7 +55,7 @@ bool may_initiate(std::size_t index, const std::vector<Track>& tracks,
   if (!associations.is_unassigned(index)) return false;
   const Segment& segment = context.scan().segments[index];
   const SegmentComparison& of_segment = context.comparison.segment(index);
-  if (static_cast<int>(segment.beams.size()) < context.config.least_points_at_birth) return false;
+  if (segment.beams.size() < kFewestEchoes) return false;
   if (is_in_confirmed_vehicle(segment, tracks, associations, context.config)) return false;
   if (!of_segment.face_shift_m.isZero()) return true;
   if (segment.label == PointLabel::kMoving) return !of_segment.stood_before;
@@ -76,7 +79,7 @@ void initiate_from_segment(Track& track, TrackShare& share, const Initiation& in
   const double heading_rad =
       segment.label == PointLabel::kMoving
           ? segment.box_heading_rad
-          : sensing::fit_box(share.points_m, config.range_noise_m).heading_rad;
+          : sensing::fit_box(share.points_m, config.sensor.range_noise_m).heading_rad;
   initiate(
       track,
       {initiation.track_id, view.scan().stamp_ns, observation, heading_rad, pose_covariance_m2},

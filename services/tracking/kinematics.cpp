@@ -8,13 +8,21 @@ namespace slammot::tracking {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
+namespace {
+
+constexpr double kMeanStayS = 3.0;  ///< Mean time in one mode: docs/decisions/motion-models.md.
+constexpr double kTurnNoiseDensity = 3.0;  ///< Of the coordinated turn [m^2/s^5].
+
+}  // namespace
+
 filters::ModelSet motion_models(const TrackingConfig& config) {
   filters::ModelSet set;
-  set.models[0] = {filters::MotionKind::kConstantVelocity, config.velocity_noise_density,
-                   config.idle_acceleration_mps2};
-  set.models[1] = {filters::MotionKind::kConstantAcceleration, config.jerk_noise_density, 0.0};
+  set.models[0] = {filters::MotionKind::kConstantVelocity, config.motion.velocity_noise_density,
+                   kIdleAccelerationMps2};
+  set.models[1] = {filters::MotionKind::kConstantAcceleration, config.motion.jerk_noise_density,
+                   0.0};
   set.size = 2;
-  set.mean_stay_s = config.mean_stay_s;
+  set.mean_stay_s = kMeanStayS;
   return set;
 }
 
@@ -22,8 +30,7 @@ filters::ModelSet models_of(const Kinematics& kinematics, const TrackingConfig& 
   filters::ModelSet set = motion_models(config);
   if (kinematics.cruises_only) set.size = 1;
   if (kinematics.may_turn)
-    set.models[set.size++] = {filters::MotionKind::kCoordinatedTurn, config.turn_noise_density,
-                              0.0};
+    set.models[set.size++] = {filters::MotionKind::kCoordinatedTurn, kTurnNoiseDensity, 0.0};
   return set;
 }
 
@@ -72,7 +79,7 @@ void restart_velocity(Kinematics& kinematics, const Vector2d& velocity_mps, doub
   start.covariance.topLeftCorner<2, 2>() = kinematics.position_covariance_m2();
   start.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
   start.covariance.block<2, 2>(4, 4) =
-      config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
+      kIdleAccelerationMps2 * kIdleAccelerationMps2 * Matrix2d::Identity();
   restart_from(kinematics, start, config);
 }
 
@@ -86,7 +93,7 @@ void constrain_to_axis(Kinematics& kinematics, const AxisConstraint& constraint,
   const Vector2d across{-std::sin(constraint.axis_rad), std::cos(constraint.axis_rad)};
   const double variance = kinematics.velocity_mps().squaredNorm() *
                               (kSlip * kSlip + scans * constraint.axis_variance_rad2) +
-                          std::pow(kSlipMps * config.size_scale, 2);
+                          std::pow(kSlipMps * config.extent.size_scale, 2);
   const filters::ModelSet models = models_of(kinematics, config);
   kinematics.mixture = filters::imm_update_speed(models, kinematics.mixture, across, 0.0, variance);
   kinematics.estimate = filters::imm_combine(models, kinematics.mixture);

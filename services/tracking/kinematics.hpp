@@ -44,6 +44,14 @@ struct Kinematics {
   Eigen::Matrix2d velocity_covariance() const { return estimate.covariance.block<2, 2>(2, 2); }
 };
 
+/// One sigma of the acceleration along each axis that constant velocity neglects.
+inline constexpr double kIdleAccelerationMps2 = 0.5;
+/// Sigmas of the velocity above which an object surely moves (Wang 2004, Section 4.6).
+inline constexpr double kDetectionSigmas = 2.0;
+/// Sigma of the velocity below which the velocity is known. Confirmed at 0.4 m/s pedestrians, buses
+/// and trucks come later: docs/decisions/existence-and-publication.md.
+inline constexpr double kKnownSpeedSigmaMps = 0.5;
+
 /// Constant velocity and constant acceleration: the modes of every object.
 filters::ModelSet motion_models(const TrackingConfig& config);
 

@@ -13,6 +13,10 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
+constexpr double kStandingMemoryS = 0.5;  ///< Of the stop hypothesis (Wang 2004, Section 4.6):
+                                          ///< docs/decisions/motion-models.md.
+constexpr double kOutlierSigmas = 6.0;    ///< docs/decisions/association.md.
+
 /// Factor of the noise of a known pedestrian's centre at this squared distance. They are given
 /// echoes of others now and then: errors have the tails of Student's t, whose weight for a centre
 /// is the inverse of this factor (Lange 1989).
@@ -47,9 +51,8 @@ PositionUpdate position_update(const Track& track, const Observation& observatio
 }
 
 bool is_outlier(const Track& track, const PositionUpdate& update, const TrackingConfig& config) {
-  return track.existence.confirmed &&
-         update.distance2 > config.most_surprise_sigmas * config.most_surprise_sigmas &&
-         update.innovation_m.norm() > config.least_surprise_m;
+  return track.existence.confirmed && update.distance2 > kOutlierSigmas * kOutlierSigmas &&
+         update.innovation_m.norm() > config.existence.least_surprise_m;
 }
 
 void update_gait(Track& track, const PositionUpdate& update, double time_s,
@@ -57,7 +60,7 @@ void update_gait(Track& track, const PositionUpdate& update, double time_s,
   if (!may_be_pedestrian(track)) return;
   const GaitNoise before{
       std::pow(gait_share(track.kinematics.gait, *track.footprint().road_users, config) *
-                   config.gait_noise_m,
+                   gait_sigma_m(config),
                2)};
   track.kinematics.gait =
       with_step(before, update.innovation_m, update.noise_at_rest_m2, time_s, config);
@@ -77,11 +80,11 @@ void update_position(Track& track, const PositionUpdate& update, double time_s,
   kinematics.measured = {update.measurement.centre_m, R};
   kinematics.estimate = filters::imm_combine(models, kinematics.mixture);
   filters::MotionState moving = kinematics.estimate;
-  moving.covariance *= update.noise_at_rest_m2.trace() / update.R.trace();  // standing legs have no
-                                                                            // gait
+  // Standing legs have no gait.
+  moving.covariance *= update.noise_at_rest_m2.trace() / update.R.trace();
   kinematics.move_stop =
       filters::weigh(kinematics.move_stop, {moving, update.measurement.centre_m, time_s},
-                     {config.standing_memory_s, config.detection_sigmas});
+                     {kStandingMemoryS, kDetectionSigmas});
 }
 
 void update_consistency(Track& track, double nis, double time_s, const Observation& observation,
@@ -99,10 +102,9 @@ void update_consistency(Track& track, double nis, double time_s, const Observati
 void update_travel(Track& track, const TrackingConfig& config) {
   Travel& travel = track.existence.travel;
   const double step_m = (track.position_m() - travel.anchor_m).norm();
-  if (step_m <= kProgressM * config.size_scale) return;
-  travel.travelled_m += std::min(step_m, 2.0 * kProgressM * config.size_scale);  // a larger jump is
-                                                                                 // a change of the
-                                                                                 // object
+  if (step_m <= kProgressM * config.extent.size_scale) return;
+  // A larger jump is a change of the object.
+  travel.travelled_m += std::min(step_m, 2.0 * kProgressM * config.extent.size_scale);
   travel.anchor_m = track.position_m();
   travel.claimed_m = 0.0;
   travel.without_progress_s = 0.0;
@@ -111,9 +113,9 @@ void update_travel(Track& track, const TrackingConfig& config) {
 void update_motion_state(Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
   update_travel(track, config);
   const double speed = track.velocity_mps().norm();
-  if (speed < config.stopped_below_mps) track.kinematics.state = flow::Motion::kStopped;
-  if (speed > config.moving_above_mps) track.kinematics.state = flow::Motion::kMoving;
-  if (speed > config.moving_above_mps || track.kinematics.state == flow::Motion::kMoving)
+  if (speed < config.motion.stopped_below_mps) track.kinematics.state = flow::Motion::kStopped;
+  if (speed > moving_above_mps(config)) track.kinematics.state = flow::Motion::kMoving;
+  if (speed > moving_above_mps(config) || track.kinematics.state == flow::Motion::kMoving)
     track.existence.travel.last_moving_ns = stamp_ns;
 }
 
@@ -142,7 +144,7 @@ bool update(Track& track, std::int64_t stamp_ns, const Observation& observation,
   note_observation(track, stamp_ns, observation);
   // A hidden object moves unseen: its claim is judged when it is seen again.
   track.existence.travel.claimed_m +=
-      std::max(0.0, track.velocity_mps().norm() - config.moving_above_mps) * unseen_s;
+      std::max(0.0, track.velocity_mps().norm() - moving_above_mps(config)) * unseen_s;
   if (track.extent.box() != nullptr) {
     follow_axis(track, unseen_s, config);
     follow_course(track, observation, unseen_s, config);

@@ -49,7 +49,7 @@ bool is_part_of(const Track& vehicle, const Track& part, const TrackingConfig& c
       (vehicle.velocity_mps() - part.velocity_mps()).norm() >
           1.5 + 0.2 * vehicle.velocity_mps().norm())
     return false;
-  return is_inside(vehicle.footprint(), vehicle.position_m(), config.gate_margin_m,
+  return is_inside(vehicle.footprint(), vehicle.position_m(), config.association.gate_margin_m,
                    part.position_m());
 }
 
@@ -57,8 +57,8 @@ bool is_part_of(const Track& vehicle, const Track& part, const TrackingConfig& c
 bool are_far_apart(const Track& a, const Track& b, const TrackingConfig& config) {
   const double sizes_m = a.footprint().length.value_m + a.footprint().width.value_m +
                          b.footprint().length.value_m + b.footprint().width.value_m;
-  const double reach_m =
-      0.5 * sizes_m + 2.0 * config.gate_margin_m + config.stride_m + config.merge_overlap_m;
+  const double reach_m = 0.5 * sizes_m + 2.0 * config.association.gate_margin_m +
+                         config.extent.stride_m + config.extent.merge_overlap_m;
   return (a.position_m() - b.position_m()).squaredNorm() > reach_m * reach_m;
 }
 
@@ -81,9 +81,9 @@ bool extents_coincide(const Track& a, const Track& b, const TrackingConfig& conf
       std::max(overlap_share(a, b), overlap_share(b, a)) > kMostOverlap)
     return true;
   const bool b_in_a =
-      is_inside(a.footprint(), a.position_m(), -config.merge_overlap_m, b.position_m());
+      is_inside(a.footprint(), a.position_m(), -config.extent.merge_overlap_m, b.position_m());
   const bool a_in_b =
-      is_inside(b.footprint(), b.position_m(), -config.merge_overlap_m, a.position_m());
+      is_inside(b.footprint(), b.position_m(), -config.extent.merge_overlap_m, a.position_m());
   if (a.extent.box() != nullptr || b.extent.box() != nullptr) return b_in_a || a_in_b;
   constexpr int kLongKnownHits = 75;
   constexpr double kLikeMps = 0.8;  // legs of one pedestrian, not two who pass each other
@@ -93,7 +93,7 @@ bool extents_coincide(const Track& a, const Track& b, const TrackingConfig& conf
   const bool is_young = a.existence.hits < 20 || b.existence.hits < 20;  // two pedestrians side by
                                                                          // side are not merged
   return (a.position_m() - b.position_m()).norm() <
-         (is_young ? config.stride_m : config.merge_overlap_m);
+         (is_young ? config.extent.stride_m : config.extent.merge_overlap_m);
 }
 
 /// Mostly without the square root.
@@ -147,7 +147,7 @@ bool are_parts_of_one_vehicle(const Track& a, const Track& b, const TrackingConf
   constexpr double kCarWidthM = 2.1;
   constexpr double kTruckLengthM = 8.2;
   constexpr double kTruckWidthM = 2.6;
-  if (is_longer(a.position_m() - b.position_m(), 2.0 * kCarLengthM * config.size_scale))
+  if (is_longer(a.position_m() - b.position_m(), 2.0 * kCarLengthM * config.extent.size_scale))
     return false;
   const double least_mps = is_vehicle(a) && is_vehicle(b) ? kSlowVehicleMps : kFastestWalkMps;
   const Vector2d velocity_mps = 0.5 * (a.velocity_mps() + b.velocity_mps());
@@ -160,13 +160,13 @@ bool are_parts_of_one_vehicle(const Track& a, const Track& b, const TrackingConf
   for (const auto* contour : {&a.extent.contour_in_odom_m, &b.extent.contour_in_odom_m})
     for (const Eigen::Vector2f& point : *contour)
       seen.extend(Vector2d(along.dot(point.cast<double>()), across.dot(point.cast<double>())));
-  if (seen.sizes().x() < kCarLengthM * config.size_scale &&
-      seen.sizes().y() < kCarWidthM * config.size_scale)
+  if (seen.sizes().x() < kCarLengthM * config.extent.size_scale &&
+      seen.sizes().y() < kCarWidthM * config.extent.size_scale)
     return true;
   const double longest_m =
       std::max({seen.sizes().x(), a.footprint().length.value_m, b.footprint().length.value_m});
-  return a.extent.box() != nullptr && longest_m < kTruckLengthM * config.size_scale &&
-         seen.sizes().y() < kTruckWidthM * config.size_scale &&
+  return a.extent.box() != nullptr && longest_m < kTruckLengthM * config.extent.size_scale &&
+         seen.sizes().y() < kTruckWidthM * config.extent.size_scale &&
          std::max(overlap_share(a, b), overlap_share(b, a)) > 0.0;
 }
 

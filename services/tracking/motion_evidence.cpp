@@ -58,9 +58,9 @@ Past past_of(std::uint16_t beam, const EarlierScan& then, bool is_usual,
              const ComparedScan& context) {
   // A stationary wall that answers now and then appears, too.
   const TrackingConfig& config = context.config;
-  const bool may_appear =
-      only_people_move(config) &&
-      context.scan().segments[context.view.segment_of_beam(beam)].box_length_m < config.stride_m;
+  const bool may_appear = only_people_move(config) &&
+                          context.scan().segments[context.view.segment_of_beam(beam)].box_length_m <
+                              config.extent.stride_m;
   const bool is_compared =
       context.comparison.has_shifted(beam) || (is_usual && !only_people_move(config));
   return is_compared ? context.comparison.beam(beam)
@@ -74,7 +74,7 @@ MotionEvidence evidence_against(const EarlierScan& then, const Track& track,
                                 const ComparedScan& context) {
   MotionEvidence evidence;
   const bool is_usual =
-      &then == context.history.older_than(context.scan().stamp_ns, context.config.compare_after_s);
+      &then == context.history.older_than(context.scan().stamp_ns, kCompareAfterS);
   for (const std::uint16_t beam : beams) {
     const Past past = past_of(beam, then, is_usual, context);
     const bool has_stayed = context.comparison.beam(beam) == Past::kStood;  // since it came into
@@ -100,8 +100,7 @@ MotionEvidence motion_evidence(const Track& track, const std::vector<std::uint16
   if (track.existence.confirmed) return evidence_by_comparison(track, beams, context);
   MotionEvidence best;
   double best_share = -1.0;
-  for (const double age_s : {context.config.compare_fast_after_s, context.config.compare_after_s,
-                             context.config.compare_slow_after_s}) {
+  for (const double age_s : {kCompareFastAfterS, kCompareAfterS, kCompareSlowAfterS}) {
     const EarlierScan* then = context.history.older_than(context.scan().stamp_ns, age_s);
     if (then == nullptr) continue;
     const MotionEvidence evidence = evidence_against(*then, track, beams, context);

@@ -66,20 +66,20 @@ ClassProbabilities log_fit_of_box(const Box& box, const TrackingConfig& config) 
   ClassProbabilities fit;
   fit.fill(-1e300);
   const EvidenceByKind evidence = evidence_by_kind(box, config);
-  fit[kPedestrian] =
-      std::max(log_fit(kCompany, box.evidence.length, box.evidence.width, config.size_scale),
-               log_fit(kCompany, box.evidence.width, box.evidence.length, config.size_scale));
+  fit[kPedestrian] = std::max(
+      log_fit(kCompany, box.evidence.length, box.evidence.width, config.extent.size_scale),
+      log_fit(kCompany, box.evidence.width, box.evidence.length, config.extent.size_scale));
   for (const KindOfBody& kind : box.road_users->kinds) {
     if (kind.share <= 0.0) continue;
     double& of_class = fit[entry_of(class_of(kind.kind))];
     of_class = log_sum(of_class, log_fit(kind, evidence.of(kind.kind).length,
-                                         evidence.of(kind.kind).width, config.size_scale));
+                                         evidence.of(kind.kind).width, config.extent.size_scale));
   }
   return fit;
 }
 
 ClassProbabilities log_fit_of_blob(const Blob& blob, const TrackingConfig& config) {
-  const double extent_m = blob.length.value_m / config.size_scale;
+  const double extent_m = blob.length.value_m / config.extent.size_scale;
   const auto& density = blob.was_seen_whole ? kDensityOfWhole : kDensityOfPiece;
   ClassProbabilities log_fit;
   for (std::size_t i = 0; i < log_fit.size(); ++i) {
@@ -102,8 +102,8 @@ SpeedsSeen with_first_speed(const SpeedHeld& held, const TrackingConfig& config)
 
 SpeedsSeen with_speed(const SpeedsSeen& before, const SpeedHeld& held,
                       const TrackingConfig& config) {
-  const double speed_mps = held.speed_mps / config.size_scale;
-  const double sigma_mps = held.sigma_mps / config.size_scale;
+  const double speed_mps = held.speed_mps / config.extent.size_scale;
+  const double sigma_mps = held.sigma_mps / config.extent.size_scale;
   const double fade = std::exp(-held.time_s / kSpeedMemoryS);
   SpeedsSeen after;
   // A moment's error is no speed: it must be held.

@@ -48,7 +48,7 @@ Observation observe(TrackShare& share, const SweptMotion& motion, const Response
                     const ScanContext& context) {
   constexpr double kLongSideM = 1.4;
   const ScanView& view = context.view;
-  const double size_scale = context.config.size_scale;
+  const double size_scale = context.config.extent.size_scale;
   const std::vector<std::uint16_t>& beams = share.beams;
   share.points_m.clear();
   const BeamRun run = run_of(beams, view.polar());

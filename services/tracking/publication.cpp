@@ -11,6 +11,8 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
+constexpr double kPublishScore = 0.0;  ///< As likely as not.
+
 /// True for a vehicle whose velocity was unknown a moment ago and that is elsewhere than predicted:
 /// it may be another one.
 bool may_be_another(const Track& track) {
@@ -25,8 +27,8 @@ bool may_be_another(const Track& track) {
 /// True if the object has not travelled and seems to stand already: it may never have moved. Where
 /// only people move it is the standing foot of a pedestrian.
 bool may_always_have_stood(const Track& track, const TrackingConfig& config) {
-  const bool seems_to_stand =
-      track.kinematics.move_stop.stands || track.velocity_mps().norm() < config.stopped_below_mps;
+  const bool seems_to_stand = track.kinematics.move_stop.stands ||
+                              track.velocity_mps().norm() < config.motion.stopped_below_mps;
   return !only_people_move(config) && track.existence.travel.travelled_m == 0.0 && seems_to_stand;
 }
 
@@ -86,9 +88,9 @@ void publish_extent(const Track& track, flow::TrackedObject& object) {
 bool is_published(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
   const Existence& existence = track.existence;
   return existence.confirmed && !existence.velocity_check.is_refuted &&
-         !may_always_have_stood(track, config) && existence.score >= config.publish_score &&
+         !may_always_have_stood(track, config) && existence.score >= kPublishScore &&
          has_published_velocity(track, config) && !may_be_another(track) &&
-         unseen_s(track, stamp_ns) <= config.longest_unseen_published_s;
+         unseen_s(track, stamp_ns) <= config.publication.longest_unseen_published_s;
 }
 
 void publish(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config,

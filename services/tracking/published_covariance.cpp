@@ -24,10 +24,12 @@ CentreErrors errors_if_smaller(const Track& track, const TrackingConfig& config)
   const auto add_if = [&](double probability, double length_m, double width_m) {
     errors.along_m2 +=
         probability *
-        std::pow(0.5 * std::max(0.0, footprint.length.value_m - length_m * config.size_scale), 2);
+        std::pow(
+            0.5 * std::max(0.0, footprint.length.value_m - length_m * config.extent.size_scale), 2);
     errors.across_m2 +=
         probability *
-        std::pow(0.5 * std::max(0.0, footprint.width.value_m - width_m * config.size_scale), 2);
+        std::pow(0.5 * std::max(0.0, footprint.width.value_m - width_m * config.extent.size_scale),
+                 2);
   };
   add_if(track.classification.probability_of(flow::ObjectClass::kPedestrian), kPedestrianM,
          kPedestrianM);
@@ -39,7 +41,7 @@ CentreErrors errors_if_smaller(const Track& track, const TrackingConfig& config)
 /// Sigma of a measured centre at the track's range relative to the filter's assumption.
 double echo_share(const Track& track, const TrackingConfig& config) {
   const double unneeded_m =
-      (1.0 - track.footprint().road_users->shape_share) * config.range_noise_m;
+      (1.0 - track.footprint().road_users->shape_share) * config.sensor.range_noise_m;
   return 1.0 - unneeded_m / echo_sigma_m(track.extent.range_m, config);
 }
 
@@ -93,13 +95,13 @@ CentreErrors errors_of_box(const Track& track, const Box& box, const TrackingCon
   const double corner_m = corner_of(box, box.kind, config).value_m;
   CentreErrors errors = errors_if_smaller(track, config);
   errors.along_m2 +=
-      std::pow(of_shape * kFaceM * config.size_scale, 2) +
+      std::pow(of_shape * kFaceM * config.extent.size_scale, 2) +
       std::pow(kFaceShareOfCorner * corner_m, 2) +
       0.25 * (box.length.variance_m2 + heading_rad2 * std::pow(box.width.value_m, 2));
   errors.across_m2 +=
       0.25 * (box.width.variance_m2 + heading_rad2 * std::pow(box.length.value_m, 2));
   if (box.kind == Kind::kBicycle)
-    errors.across_m2 += std::pow(kFrameOrRiderM * config.size_scale, 2);
+    errors.across_m2 += std::pow(kFrameOrRiderM * config.extent.size_scale, 2);
   const double doubt = doubt_of_box(track, config);
   errors.along_m2 += doubt * 0.25 * std::pow(box.length.value_m, 2);
   errors.across_m2 += doubt * 0.25 * std::pow(box.width.value_m, 2);
@@ -112,14 +114,14 @@ CentreErrors errors_of_blob(const Track& track, const TrackingConfig& config) {
                                         // is visible
   CentreErrors errors;
   if (!may_be_pedestrian(track))
-    errors = {std::pow(kHalfACycleM * config.size_scale, 2),
-              std::pow(0.5 * kHalfACycleM * config.size_scale, 2)};
+    errors = {std::pow(kHalfACycleM * config.extent.size_scale, 2),
+              std::pow(0.5 * kHalfACycleM * config.extent.size_scale, 2)};
   for (const std::size_t index : {std::size_t{1}, std::size_t{2}}) {  // the visible part may be a
                                                                       // corner of a car or truck
     const KindOfBody& kind = kKinds[index];
     const double probability = track.classification.probability_of(class_of(kind.kind));
-    errors.along_m2 += probability * std::pow(0.5 * kind.length_m * config.size_scale, 2);
-    errors.across_m2 += probability * std::pow(0.5 * kind.width_m * config.size_scale, 2);
+    errors.along_m2 += probability * std::pow(0.5 * kind.length_m * config.extent.size_scale, 2);
+    errors.across_m2 += probability * std::pow(0.5 * kind.width_m * config.extent.size_scale, 2);
   }
   return errors;
 }

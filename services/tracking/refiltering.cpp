@@ -29,9 +29,9 @@ filters::MotionState first_state(const Track& track, const Box& box, const Track
   filters::MotionState start;
   start.mean.head<2>() = measured.centre_m - measured.recentring_m;
   start.covariance.topLeftCorner<2, 2>() = measured.covariance_m2 + stored.pose_covariance_m2;
-  start.covariance.block<2, 2>(2, 2) = std::pow(0.5 * config.fastest_mps, 2) * Matrix2d::Identity();
-  start.covariance.block<2, 2>(4, 4) =
-      std::pow(config.idle_acceleration_mps2, 2) * Matrix2d::Identity();
+  start.covariance.block<2, 2>(2, 2) =
+      std::pow(0.5 * config.motion.fastest_mps, 2) * Matrix2d::Identity();
+  start.covariance.block<2, 2>(4, 4) = std::pow(kIdleAccelerationMps2, 2) * Matrix2d::Identity();
   return start;
 }
 
@@ -74,8 +74,8 @@ double log_likelihood_of_course(const FilteredBox& filtered, const TrackingConfi
     const double S = axis.dot(P * axis) + variance;
     return -0.5 * std::pow(axis.dot(velocity_mps), 2) / S - 0.5 * std::log(S);
   };
-  return log_density(along, std::pow(0.5 * config.fastest_mps, 2)) +
-         log_density(across, std::pow(kSlipMps * config.size_scale, 2) +
+  return log_density(along, std::pow(0.5 * config.motion.fastest_mps, 2)) +
+         log_density(across, std::pow(kSlipMps * config.extent.size_scale, 2) +
                                  kSlip * kSlip * velocity_mps.squaredNorm());
 }
 

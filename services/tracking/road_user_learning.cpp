@@ -25,7 +25,7 @@ Size between(const Size& whole, double least_m) {
 void learn_sizes(RoadUsersSeen& seen, const Track& track, const TrackingConfig& config) {
   constexpr double kKnownM = 0.15;  // one sigma
   const Box* box = track.extent.box();
-  const double scale = config.size_scale;
+  const double scale = config.extent.size_scale;
   if (!track.existence.confirmed || box == nullptr || !box->is_oriented ||
       track.existence.travel.travelled_m < kLeastTravelM * scale)
     return;
@@ -48,7 +48,7 @@ void learn_outline_error(RoadUsersSeen& seen, const Track& track, const Tracking
   const bool is_known_vehicle = track.existence.confirmed && is_vehicle(track) && box->is_oriented;
   const OutlineError& error = track.extent.outline_error;
   if (!is_known_vehicle || only_people_move(config) ||
-      track.existence.travel.travelled_m < kLeastTravelM * config.size_scale ||
+      track.existence.travel.travelled_m < kLeastTravelM * config.extent.size_scale ||
       error.scans < kFewestScans)
     return;
   seen.add_off_sides_share(error.shares / error.echoes);

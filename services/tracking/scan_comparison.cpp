@@ -20,7 +20,7 @@ bool may_have_come(const Segment& segment, const TrackingConfig& config) {
   const bool may_be_vehicle =
       segment.label == PointLabel::kMoving || segment.label == PointLabel::kUnknown;
   return !only_people_move(config) && may_be_vehicle &&
-         segment.box_length_m <= config.longest_body_m;
+         segment.box_length_m <= config.extent.longest_body_m;
 }
 
 /// Most neighbouring echoes that have arrived since.
@@ -70,8 +70,8 @@ void judge(SegmentComparison& comparison, const Segment& segment, const SeenBefo
 
 bool may_have_flank(const Segment& segment, const TrackingConfig& config) {
   constexpr double kShortestFlankM = 2.5;
-  return segment.box_length_m > kShortestFlankM * config.size_scale &&
-         segment.box_length_m < config.longest_body_m;
+  return segment.box_length_m > kShortestFlankM * config.extent.size_scale &&
+         segment.box_length_m < config.extent.longest_body_m;
 }
 
 EarlierScans earlier_scans(const ScanContext& context) {
@@ -82,12 +82,12 @@ EarlierScans earlier_scans(const ScanContext& context) {
     return context.history.older_than(context.scan().stamp_ns, age_s);
   };
   EarlierScans earlier;
-  earlier.usual = older_than(config.compare_after_s);
-  earlier.recent = only_people_move(config) ? older_than(config.compare_fast_after_s) : nullptr;
-  earlier.distant = older_than(config.compare_slow_after_s);
+  earlier.usual = older_than(kCompareAfterS);
+  earlier.recent = only_people_move(config) ? older_than(kCompareFastAfterS) : nullptr;
+  earlier.distant = older_than(kCompareSlowAfterS);
   if (only_people_move(config)) return earlier;
-  for (const double age_s : {config.compare_fast_after_s, kSoonS, kLaterS, config.compare_after_s,
-                             config.compare_slow_after_s})
+  for (const double age_s :
+       {kCompareFastAfterS, kSoonS, kLaterS, kCompareAfterS, kCompareSlowAfterS})
     if (const EarlierScan* then = older_than(age_s); then != nullptr)
       earlier.for_faces[earlier.count_for_faces++] = then;
   return earlier;
@@ -152,7 +152,8 @@ void ScanComparison::compare_face(std::size_t index, const ScanContext& context)
   if (only_people_move(config)) return;
   const std::vector<Segment>& segments = context.scan().segments;
   const Segment& segment = segments[index];
-  if (segment.label == PointLabel::kNoEcho || segment.box_length_m > config.longest_body_m) return;
+  if (segment.label == PointLabel::kNoEcho || segment.box_length_m > config.extent.longest_body_m)
+    return;
   const std::span<const EarlierScan* const> earlier(earlier_.for_faces.data(),
                                                     earlier_.count_for_faces);
   const auto pose_sigma_m = [&] {
@@ -160,7 +161,7 @@ void ScanComparison::compare_face(std::size_t index, const ScanContext& context)
   };
   const auto may_be_piece = [&](const Segment& one) {
     return one.label != PointLabel::kNoEcho &&
-           one.box_length_m < kLongestPieceM * config.size_scale;
+           one.box_length_m < kLongestPieceM * config.extent.size_scale;
   };
   std::optional<FaceShift> shift =
       face_shift(segment.beams, context.view.polar(), earlier, pose_sigma_m, config);

@@ -12,9 +12,9 @@ namespace slammot::tracking {
 
 /// The earlier scans with which a scan is compared; null where the history is too short.
 struct EarlierScans {
-  const EarlierScan* usual = nullptr;    ///< compare_after_s ago.
-  const EarlierScan* recent = nullptr;   ///< compare_fast_after_s ago; where only people move.
-  const EarlierScan* distant = nullptr;  ///< compare_slow_after_s ago.
+  const EarlierScan* usual = nullptr;    ///< kCompareAfterS ago.
+  const EarlierScan* recent = nullptr;   ///< kCompareFastAfterS ago; where only people move.
+  const EarlierScan* distant = nullptr;  ///< kCompareSlowAfterS ago.
   std::array<const EarlierScan*, 5> for_faces{};  ///< Newest first.
   std::size_t count_for_faces = 0;
 };

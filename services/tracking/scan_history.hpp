@@ -10,6 +10,12 @@
 
 namespace slammot::tracking {
 
+/// Ages of the earlier scans with which a scan is compared: for fast objects, most, and slow ones;
+/// docs/decisions/moving-object-detection.md.
+inline constexpr double kCompareFastAfterS = 0.25;
+inline constexpr double kCompareAfterS = 0.8;
+inline constexpr double kCompareSlowAfterS = 1.6;
+
 /// The object to which an echo belonged when it was measured.
 struct Owner {
   flow::TrackId track_id;

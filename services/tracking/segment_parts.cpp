@@ -16,12 +16,13 @@ using flow::Segment;
 /// Margin around a predicted extent within which points may belong to it.
 double margin_of(const Track& track, const TrackingConfig& config) {
   const double sigma_m = std::sqrt(0.5 * track.kinematics.position_covariance_m2().trace());
-  return config.gate_margin_m + std::min(1.0, sigma_m);
+  return config.association.gate_margin_m + std::min(1.0, sigma_m);
 }
 
 /// True if the ends and the middle of the segment lie in the box.
 bool lies_in_box(const Segment& segment, const Track& track, const ScanContext& context) {
-  if (segment.box_length_m > track.footprint().length.value_m + context.config.gate_margin_m)
+  if (segment.box_length_m >
+      track.footprint().length.value_m + context.config.association.gate_margin_m)
     return false;
   const double margin_m = margin_of(track, context.config);
   const auto contains = [&](const Vector2d& point_m) {
@@ -34,9 +35,9 @@ bool lies_in_box(const Segment& segment, const Track& track, const ScanContext& 
 
 /// True if the segment may be another leg of a pedestrian.
 bool is_leg(const Segment& segment, const Track& track, const TrackingConfig& config) {
-  return track.extent.box() == nullptr && segment.box_length_m < config.stride_m &&
-         track.extent.largest_span_m < 2.0 * config.stride_m &&
-         (segment.centroid_in_odom_m - track.position_m()).norm() < config.stride_m;
+  return track.extent.box() == nullptr && segment.box_length_m < config.extent.stride_m &&
+         track.extent.largest_span_m < 2.0 * config.extent.stride_m &&
+         (segment.centroid_in_odom_m - track.position_m()).norm() < config.extent.stride_m;
 }
 
 bool is_part(const Segment& segment, const Track& track, const ScanContext& context) {

@@ -7,6 +7,9 @@
 
 namespace slammot::tracking {
 
+/// Log-odds of existence below which a track ends.
+inline constexpr double kRejectScore = -3.0;
+
 /// True if a tentative track has not been confirmed within its time. One that has travelled and is
 /// surely fast lacks only votes or a better known speed: it has twice the time.
 bool is_timed_out(const Track& track, double age_s, const TrackingConfig& config);

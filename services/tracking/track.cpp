@@ -9,7 +9,9 @@ namespace {
 using Eigen::Vector2d;
 
 /// Random walk of the heading: at one speed, smaller objects turn faster.
-double heading_drift_rad2_per_s(const TrackingConfig& config) { return 0.1 / config.size_scale; }
+double heading_drift_rad2_per_s(const TrackingConfig& config) {
+  return 0.1 / config.extent.size_scale;
+}
 
 /// The coordinated turn is linearised about the velocity, which must be well known; pedestrians and
 /// tentative tracks have no wheels that tie the course to the speed.
@@ -19,13 +21,14 @@ bool is_surely_driving(const Track& track, const TrackingConfig& config) {
   const double variance = 0.5 * track.kinematics.velocity_covariance().trace();
   return track.existence.confirmed && track.extent.box() != nullptr &&
          track.velocity_mps().squaredNorm() >
-             std::max(std::pow(kSlowestMps * config.size_scale, 2), kSigmas * kSigmas * variance);
+             std::max(std::pow(kSlowestMps * config.extent.size_scale, 2),
+                      kSigmas * kSigmas * variance);
 }
 
 /// The speed counts for the class once the track is confirmed, while it is known and not zero.
-bool has_known_speed(const Track& track, const TrackingConfig& config) {
+bool has_known_speed(const Track& track) {
   const bool is_known = track.existence.confirmed && !track.existence.velocity_check.is_refuted &&
-                        speed_sigma_mps(track.kinematics) < config.most_speed_sigma_mps;
+                        speed_sigma_mps(track.kinematics) < kKnownSpeedSigmaMps;
   return is_known && !track.kinematics.move_stop.stands &&
          track.kinematics.state == flow::Motion::kMoving;
 }
@@ -59,7 +62,7 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
   kinematics.measured.reset();
   kinematics.recentred_m.setZero();
   kinematics.cruises_only = is_known_pedestrian(track);
-  kinematics.may_turn = config.coordinated_turn && is_surely_driving(track, config);
+  kinematics.may_turn = config.motion.coordinated_turn && is_surely_driving(track, config);
   predict(kinematics, time_s, config);
   if (Box* box = track.extent.box()) {
     box->heading_variance_rad2 =
@@ -70,13 +73,13 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
 }
 
 bool has_published_velocity(const Track& track, const TrackingConfig& config) {
-  return speed_sigma_mps(track.kinematics) <= config.most_speed_sigma_published_mps;
+  return speed_sigma_mps(track.kinematics) <= config.publication.most_speed_sigma_published_mps;
 }
 
 void update_class(Track& track, double time_s, const TrackingConfig& config) {
   constexpr double kLongestHeldS = 0.2;
   Classification& classification = track.classification;
-  if (has_known_speed(track, config))
+  if (has_known_speed(track))
     classification.speeds =
         with_speed(classification.speeds,
                    {track.velocity_mps().norm(), speed_sigma_mps(track.kinematics),
@@ -94,7 +97,7 @@ void confirm(Track& track, std::int64_t stamp_ns, const TrackingConfig& config) 
   travel.travelled_m = 0.0;          // until now it may have been made of several objects
   travel.anchor_m = track.position_m();
   clear_tentative(track.history);
-  if (has_known_speed(track, config))
+  if (has_known_speed(track))
     track.classification.speeds =
         with_first_speed({track.velocity_mps().norm(), speed_sigma_mps(track.kinematics)}, config);
   update_class(track, 0.0, config);

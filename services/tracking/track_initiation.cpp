@@ -23,7 +23,7 @@ void clear(Track& track) {
 OutlineMeasurement first_outline(const FirstObservation& first, const TrackingConfig& config,
                                  const RoadUsers& road_users) {
   const double span_m = std::max(0.4, largest_span_m(first.observation.points_m));
-  if (span_m > config.box_from_extent_m) {
+  if (span_m > config.extent.box_from_extent_m) {
     const Box box = likely_box(first.box_heading_rad, first.observation, config, road_users);
     return measure(box, supposed_centre_m(box, first.observation), first.observation, config);
   }
@@ -40,15 +40,15 @@ filters::MotionState state_at_rest(const OutlineMeasurement& measurement,
   filters::MotionState state;
   state.mean.head<2>() = measurement.centre_m;
   state.covariance.topLeftCorner<2, 2>() = measurement.covariance_m2 + pose_covariance_m2;
-  const double sigma_mps = (is_box(measurement.outline) ? 0.5 : 0.2) * config.fastest_mps;
+  const double sigma_mps = (is_box(measurement.outline) ? 0.5 : 0.2) * config.motion.fastest_mps;
   state.covariance.block<2, 2>(2, 2) = sigma_mps * sigma_mps * Matrix2d::Identity();
   state.covariance.block<2, 2>(4, 4) =
-      config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
+      kIdleAccelerationMps2 * kIdleAccelerationMps2 * Matrix2d::Identity();
   return state;
 }
 
 Outline outline_from_message(const flow::TrackedObject& object, const TrackingConfig& config) {
-  if (object.length_m <= config.box_from_extent_m) {
+  if (object.length_m <= config.extent.box_from_extent_m) {
     Blob blob;
     blob.heading_rad = object.heading_in_odom_rad;
     blob.length = {object.length_m, 0.3};
@@ -66,7 +66,7 @@ Outline outline_from_message(const flow::TrackedObject& object, const TrackingCo
 
 double score_from(double existence, const TrackingConfig& config) {
   const double score = std::log(std::max(existence, 1e-6) / std::max(1.0 - existence, 1e-6));
-  return std::min(score, config.most_score);
+  return std::min(score, config.existence.most_score);
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ void initiate(Track& track, const FirstObservation& first, const TrackingConfig&
   clear(track);
   track.track_id = first.track_id;
   track.history.first_seen_ns = first.stamp_ns;
-  track.existence.score = config.birth_score;
+  track.existence.score = kBirthScore;
   const OutlineMeasurement measurement = first_outline(first, config, road_users);
   track.extent.outline = measurement.outline;
   restart_from(track.kinematics, state_at_rest(measurement, first.pose_covariance_m2, config),
@@ -100,8 +100,8 @@ Track track_from_message(const flow::TrackedObject& object, const TrackingConfig
   track.extent.largest_span_m = object.length_m;
   track.existence.confirmed = object.confirmed;
   track.existence.score = score_from(object.existence, config);
-  track.existence.hits = config.least_hits;
-  track.existence.travel.travelled_m = config.least_travel_to_stand_m;
+  track.existence.hits = config.existence.least_hits;
+  track.existence.travel.travelled_m = config.existence.least_travel_to_stand_m;
   track.existence.travel.anchor_m = object.position_in_odom_m;
   track.existence.travel.last_moving_ns = object.last_seen_ns;
   track.classification.likeliest = object.object_class;
@@ -114,7 +114,7 @@ Track track_from_message(const flow::TrackedObject& object, const TrackingConfig
       object.acceleration_in_odom_mps2;
   start.covariance.topLeftCorner<4, 4>() = object.covariance;
   start.covariance.block<2, 2>(4, 4) =
-      config.idle_acceleration_mps2 * config.idle_acceleration_mps2 * Matrix2d::Identity();
+      kIdleAccelerationMps2 * kIdleAccelerationMps2 * Matrix2d::Identity();
   restart_from(track.kinematics, start, config);
   track.kinematics.state = object.motion;
   return track;

@@ -11,6 +11,9 @@
 
 namespace slammot::tracking {
 
+/// Log-odds of existence of a new track.
+inline constexpr double kBirthScore = -1.0;
+
 /// What is known of an object at its first observation.
 struct FirstObservation {
   flow::TrackId track_id;

@@ -35,12 +35,12 @@ void keep_pedestrian_echoes(Track& track, std::vector<std::uint16_t>& beams, dou
   if (!is_likely || beams.empty()) return;
   const auto is_near = [&](std::uint16_t beam) {
     return (view.point_in_odom_m(beam) - track.position_m()).norm() <
-           config.stride_m + (is_known ? 0.0 : config.gate_margin_m);
+           config.extent.stride_m + (is_known ? 0.0 : config.association.gate_margin_m);
   };
   const BeamRun run = run_of(beams, view.polar());
   const bool is_oversized =
       (view.point_in_odom_m(run.last) - view.point_in_odom_m(run.first)).norm() >
-      config.box_from_extent_m;
+      config.extent.box_from_extent_m;
   double& oversized_s = track.extent.misfit.oversized_s;
   oversized_s = is_oversized ? oversized_s + time_s : 0.0;
   if (!is_oversized || (!is_known && oversized_s > kBelievedAfterS) ||
@@ -64,7 +64,7 @@ bool accepts(Track& track, const Observation& observation, flow::PointLabel labe
     rejected_s += time_s;
     const bool surely_moves =
         label == flow::PointLabel::kMoving &&
-        track.existence.travel.travelled_m > kKnownToMoveM * config.size_scale;
+        track.existence.travel.travelled_m > kKnownToMoveM * config.extent.size_scale;
     const bool may_be_redrawn =
         track.extent.box() != nullptr && observation.points_m.size() >= kFewestEchoes;
     if (!may_be_redrawn || !surely_moves || rejected_s < kWrongAfterS) return false;
@@ -84,7 +84,7 @@ void update_existence(Track& track, const TrackShare& share, double time_s,
   score_hit(track, {share.label, motion_evidence(track, share.beams, context), time_s}, config);
   if (!existence.confirmed || !is_vehicle(track)) return;
   const Visibility interior = context.view.visibility_of(interior_of(track), track.position_m());
-  score_passed(track, interior, share.beams.size(), config);
+  score_passed(track, interior, share.beams.size());
   existence.passage = with_beams(existence.passage, interior.passed, share.beams.size(), time_s);
 }
 

@@ -12,6 +12,11 @@
 #include "services/tracking/track_update.hpp"
 
 namespace slammot::tracking {
+namespace {
+
+constexpr double kOutlierScore = -0.5;  ///< Of a scan whose echoes a track refuses.
+
+}  // namespace
 
 Tracker::Tracker(const TrackingConfig& config, work::SideWork* help)
     : config_(config), estimation_{Associator(config), Formations(config), {}}, workspace_(help) {}
@@ -40,7 +45,7 @@ const TrackingResult& Tracker::step(const flow::SegmentedScan& scan) {
   compare(context);
   associate(context);
   update(context);
-  if (config_.formations) estimation_.formations.follow(tracks_, time_s);
+  if (config_.motion.formations) estimation_.formations.follow(tracks_, time_s);
   initiate(context);
   merge(context);
   remember(context);
@@ -88,7 +93,7 @@ void Tracker::update(const ComparedScan& context) {
   });
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (shares[t].outcome == UpdateOutcome::kRejected) {
-      tracks_[t].existence.score += config_.surprise_score;
+      tracks_[t].existence.score += kOutlierScore;
       release(current_.associations, t);
     }
     if (shares[t].outcome == UpdateOutcome::kConfirmable) confirm(tracks_[t]);

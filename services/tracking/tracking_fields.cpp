@@ -1,143 +1,239 @@
 #include "services/tracking/tracking_fields.hpp"
 
-namespace slammot::tracking {
+#include <utility>
 
-const config::FieldTable<TrackingConfig>& tracking_fields() {
-  using C = TrackingConfig;
-  using config::kNotNegative;
-  using config::kPositive;
-  using config::kShare;
-  using config::Range;
-  constexpr Range kScore{-1000.0, 1000.0};
-  static const config::FieldTable<C> table = {
-      {"velocity_noise_density", &C::velocity_noise_density,
-       "Of white acceleration while cruising [m^2/s^3].", kPositive},
-      {"jerk_noise_density", &C::jerk_noise_density, "While manoeuvring [m^2/s^5].", kPositive},
-      {"idle_acceleration_mps2", &C::idle_acceleration_mps2,
-       "One sigma of the acceleration that cruising leaves open.", kPositive},
-      {"coordinated_turn", &C::coordinated_turn,
-       "Whether turning is a mode of its own, of vehicles that surely move."},
-      {"turn_noise_density", &C::turn_noise_density, "While turning [m^2/s^5].", kPositive},
-      {"mean_stay_s", &C::mean_stay_s, "Mean time in one of the modes.", kPositive},
-      {"formations", &C::formations,
-       "Whether vehicles of a queue that are hidden go on as the others do."},
-      {"fastest_mps", &C::fastest_mps, "One sigma of a new track's speed is half of this.",
-       kPositive},
-      {"stopped_below_mps", &C::stopped_below_mps, "Slower for a while is stopped.", kNotNegative},
-      {"moving_above_mps", &C::moving_above_mps, "Faster is moving again.", kNotNegative},
-      {"standing_memory_s", &C::standing_memory_s,
-       "For which measurements tell whether something stands still.", kPositive},
-      {"detection_sigmas", &C::detection_sigmas, "Of its velocity: what is faster surely moves.",
-       kPositive},
-      {"range_noise_m", &C::range_noise_m, "One sigma at the scanner.", kPositive},
-      {"range_noise_per_m", &C::range_noise_per_m, "What each metre of range adds to it.",
-       kNotNegative},
-      {"shape_noise_m", &C::shape_noise_m, "One sigma of how far an edge may lie off a box.",
-       kPositive},
-      {"blob_noise_share", &C::blob_noise_share,
-       "Of its extent: how the middle of something without sides wanders.", kNotNegative},
-      {"gait_noise_m", &C::gait_noise_m,
-       "One sigma of how far who walks is off the middle of the legs that are seen.", kNotNegative},
-      {"gait_memory_s", &C::gait_memory_s, "For which that is much the same.", kPositive},
-      {"gate_share", &C::gate_share, "Of true pairs that the gate lets through.",
-       Range{0.5, 0.999999}},
-      {"gate_margin_m", &C::gate_margin_m, "Points this near a predicted body are its own.",
-       kNotNegative},
-      {"widest_gate_m", &C::widest_gate_m, "However unsure the prediction is.", kPositive},
-      {"other_label_cost", &C::other_label_cost,
-       "Added for a segment that detection does not hold to be moving.", kNotNegative},
-      {"larger_body_cost_per_m", &C::larger_body_cost_per_m,
-       "Added for each metre by which a segment outgrows the body.", kNotNegative},
-      {"most_hypotheses", &C::most_hypotheses,
-       "Of whose segments are whose among those who walk close together; 1: decided at once.",
-       Range{1, 64}},
-      {"hypothesis_scans", &C::hypothesis_scans, "After which such a decision is final.",
-       Range{1, 1000}},
-      {"birth_score", &C::birth_score, "Log-odds of existence of a new track.", kScore},
-      {"moving_hit_score", &C::moving_hit_score,
-       "What a segment that moves adds, where the track should be.", kScore},
-      {"other_hit_score", &C::other_hit_score, "What any other segment there adds.", kScore},
-      {"contradiction_score", &C::contradiction_score,
-       "What a segment adds that stands where something stood before.", kScore},
-      {"contradicted_above_mps", &C::contradicted_above_mps,
-       "What is faster does not lie on what stood there before.", kNotNegative},
-      {"mapped_memory_s", &C::mapped_memory_s,
-       "For which echoes from where the map has something count.", kPositive},
-      {"most_mapped_share", &C::most_mapped_share,
-       "With more of them what makes no way is what the map has.", kShare},
-      {"mapped_score_per_s", &C::mapped_score_per_s, "While it does.", kScore},
-      {"occluded_score_per_s", &C::occluded_score_per_s, "While something hides it.", kScore},
-      {"out_of_view_score_per_s", &C::out_of_view_score_per_s,
-       "While it is out of the scanner's view.", kScore},
-      {"passed_beam_score", &C::passed_beam_score,
-       "For each beam that went through where the body should be.", kScore},
-      {"most_passed_score", &C::most_passed_score, "By such beams in one scan at most.", kScore},
-      {"most_surprise_sigmas", &C::most_surprise_sigmas,
-       "Echoes so far off a confirmed track's prediction are not its own, if also as far off as "
-       "the next says.",
-       kPositive},
-      {"least_surprise_m", &C::least_surprise_m, "How far off they must be at least.",
-       kNotNegative},
-      {"surprise_score", &C::surprise_score, "What such echoes add.", kScore},
-      {"implausible_score", &C::implausible_score,
-       "What a shape or speed adds that nothing on the road has.", kScore},
-      {"least_points_at_birth", &C::least_points_at_birth, "Of a segment that begins a track.",
-       Range{1, 4096}},
-      {"most_score", &C::most_score, "No track is surer than this.", kPositive},
-      {"confirm_score", &C::confirm_score, "From here on a track may be confirmed.", kScore},
-      {"reject_score", &C::reject_score, "Below this a track ends.", kScore},
-      {"least_hits", &C::least_hits, "Segments before a track can be confirmed.", Range{1, 1000}},
-      {"compare_after_s", &C::compare_after_s,
-       "Between the scans that are compared to tell what moved.", kPositive},
-      {"compare_fast_after_s", &C::compare_fast_after_s, "The same for what moves fast.",
-       kPositive},
-      {"compare_slow_after_s", &C::compare_slow_after_s, "The same for what moves slowly.",
-       kPositive},
-      {"evidence_memory_s", &C::evidence_memory_s, "For which echoes that tell of motion count.",
-       kPositive},
-      {"least_moved_votes", &C::least_moved_votes,
-       "Echoes that must say that a track has moved, to be confirmed.", kNotNegative},
-      {"least_moved_share", &C::least_moved_share,
-       "Their share among those that also say that it stood.", kShare},
-      {"sure_moved_votes", &C::sure_moved_votes,
-       "With so many of them a track need not have come far, if the next holds, too.",
-       kNotNegative},
-      {"sure_moved_share", &C::sure_moved_share, "Their share for that.", kShare},
-      {"least_travel_m", &C::least_travel_m, "From where it began, to be confirmed.", kNotNegative},
-      {"least_travel_sigmas", &C::least_travel_sigmas, "The same in its own standard deviations.",
-       kNotNegative},
-      {"most_speed_sigma_mps", &C::most_speed_sigma_mps,
-       "A velocity less well known than this is not confirmed.", kPositive},
-      {"longest_unseen_s", &C::longest_unseen_s,
-       "Without a segment before a track ends, however well it is explained.", kPositive},
-      {"longest_unseen_published_s", &C::longest_unseen_published_s,
-       "After which it is followed, but not published as confirmed.", kPositive},
-      {"most_speed_sigma_published_mps", &C::most_speed_sigma_published_mps,
-       "While its velocity is known less well it is not published as confirmed either.", kPositive},
-      {"publish_score", &C::publish_score, "With a lower score it is not published as confirmed.",
-       kScore},
-      {"longest_unseen_tentative_s", &C::longest_unseen_tentative_s,
-       "The same for one that is not confirmed.", kPositive},
-      {"longest_tentative_s", &C::longest_tentative_s,
-       "What has not proven to move by then is rejected; what seems to, after twice that.",
-       kPositive},
-      {"box_from_extent_m", &C::box_from_extent_m,
-       "Larger objects have sides; smaller ones are blobs.", kNotNegative},
-      {"box_from_speed_mps", &C::box_from_speed_mps,
-       "Their heading is that of motion above this speed.", kNotNegative},
-      {"size_scale", &C::size_scale, "Of all road users, against real ones.", kPositive},
-      {"longest_body_m", &C::longest_body_m, "No object is longer.", kPositive},
-      {"stride_m", &C::stride_m, "Small things so near to someone who walks are a leg.",
-       kNotNegative},
-      {"least_travel_to_stand_m", &C::least_travel_to_stand_m,
-       "For each time that it has come so far a confirmed track may stand as long as the next "
-       "says.",
-       kNotNegative},
-      {"longest_stand_s", &C::longest_stand_s, "After which it is held never to have moved.",
-       kPositive},
-      {"merge_overlap_m", &C::merge_overlap_m,
-       "Bodies that reach this deep into each other with like motion are one.", kNotNegative},
+namespace slammot::tracking {
+namespace {
+
+using config::FieldTable;
+using config::Group;
+using config::in_group;
+using config::kNotNegative;
+using config::kPositive;
+using config::Range;
+using config::with_members_of;
+
+constexpr Range kScore{-1000.0, 1000.0};
+
+FieldTable<SensorNoise> sensor_fields() {
+  using C = SensorNoise;
+  return {
+      {"range_noise_m",
+       &C::range_noise_m,
+       "One sigma of a range at the scanner.",
+       kPositive,
+       {"Tracks follow noise, and lose echoes.",
+        "Velocities lag, and published errors are large."}},
+      {"range_noise_per_m",
+       &C::range_noise_per_m,
+       "Increase of that sigma with range.",
+       kNotNegative,
+       {"Distant tracks follow noise.", "Distant tracks lag."}},
+      {"shape_noise_m",
+       &C::shape_noise_m,
+       "One sigma of the distance of an edge from its box.",
+       kPositive,
+       {"Bumpers and mirrors pull the box.", "Velocities of vehicles converge late."}},
   };
+}
+
+FieldTable<MotionConfig> motion_fields() {
+  using C = MotionConfig;
+  return {
+      {"velocity_noise_density",
+       &C::velocity_noise_density,
+       "Process noise of constant velocity, as white acceleration [m^2/s^3].",
+       kPositive,
+       {"Gentle changes of speed are followed late.", "Velocities of cruising objects are noisy."}},
+      {"jerk_noise_density",
+       &C::jerk_noise_density,
+       "Process noise of constant acceleration, as white jerk [m^2/s^5].",
+       kPositive,
+       {"Hard braking is followed late.", "Velocities of turning objects are noisy."}},
+      {"coordinated_turn", &C::coordinated_turn,
+       "Adds the coordinated turn as a third mode of vehicles that surely move. For slow "
+       "scanners."},
+      {"formations", &C::formations,
+       "Tracks a queue of vehicles as one state: hidden ones brake with the others."},
+      {"fastest_mps",
+       &C::fastest_mps,
+       "Speed of the fastest objects: twice the sigma of a new track's speed.",
+       kPositive,
+       {"Fast objects are lost before they are confirmed.",
+        "New tracks jump to neighbours, and velocities converge late."}},
+      {"stopped_below_mps",
+       &C::stopped_below_mps,
+       "Below this speed an object stops; above twice this speed it moves again.",
+       kNotNegative,
+       {"Standing objects are published as moving.",
+        "Creeping vehicles are published as standing."}},
+  };
+}
+
+FieldTable<AssociationConfig> association_fields() {
+  using C = AssociationConfig;
+  return {
+      {"gate_margin_m",
+       &C::gate_margin_m,
+       "Points this near to a predicted body belong to it.",
+       kNotNegative,
+       {"Parts of one body become tracks of their own.",
+        "Bodies take echoes of their neighbours."}},
+      {"widest_gate_m",
+       &C::widest_gate_m,
+       "Largest distance of an echo from a predicted body, however uncertain the prediction is.",
+       kPositive,
+       {"Objects that emerge from behind others get new identities.",
+        "Tracks jump to other objects."}},
+      {"most_hypotheses",
+       &C::most_hypotheses,
+       "Hypotheses of the association of pedestrians who walk close together; 1: nearest "
+       "neighbour.",
+       Range{1, 64},
+       {"Pedestrians who meet may exchange identities.", "Time grows with their number."}},
+  };
+}
+
+FieldTable<ExtentConfig> extent_fields() {
+  using C = ExtentConfig;
+  return {
+      {"size_scale",
+       &C::size_scale,
+       "Size of road users relative to real ones; 0.1 for models at 1:10.",
+       kPositive,
+       {"Vehicles are taken for several, or for none.", "Neighbours join, classes are wrong."}},
+      {"longest_body_m",
+       &C::longest_body_m,
+       "Longer segments are not objects. Below 3 m times the scale only people move.",
+       kPositive,
+       {"Trucks and buses are not tracked.", "Walls become tracks."}},
+      {"box_from_extent_m",
+       &C::box_from_extent_m,
+       "Objects longer than this are boxes with a heading, smaller ones blobs.",
+       kNotNegative,
+       {"Pairs of pedestrians become boxes.", "Bicycles and small cars have no heading."}},
+      {"box_from_speed_mps",
+       &C::box_from_speed_mps,
+       "Above this speed the heading of a box is that of its velocity.",
+       kNotNegative,
+       {"Standing boxes turn with noise.", "Headings of creeping vehicles stay wrong."}},
+      {"stride_m",
+       &C::stride_m,
+       "Small segments this near to a pedestrian are one of the legs.",
+       kNotNegative,
+       {"Legs become pedestrians of their own.", "Pedestrians beside each other are one."}},
+      {"merge_overlap_m",
+       &C::merge_overlap_m,
+       "Tracks whose bodies overlap this deep with like motion are one object.",
+       kNotNegative,
+       {"Neighbours merge.", "One vehicle has two tracks."}},
+  };
+}
+
+/// Which scans speak for a track, and how much of them confirms it.
+FieldTable<ExistenceConfig> confirmation_fields() {
+  using C = ExistenceConfig;
+  return {
+      {"moving_hit_score",
+       &C::moving_hit_score,
+       "Log-odds that a scan with moving echoes adds; more for slow scanners, whose errors are "
+       "independent.",
+       kScore,
+       {"Objects are confirmed late.", "Errors that last some scans become objects."}},
+      {"contradicted_above_mps",
+       &C::contradicted_above_mps,
+       "Above this speed echoes where something stood before speak against a track.",
+       kNotNegative,
+       {"Long flanks and crowds end tracks.", "Walls that seem to move remain tracks."}},
+      {"most_score",
+       &C::most_score,
+       "Upper limit of the log-odds of existence.",
+       kPositive,
+       {"Tracks end behind short occlusions.", "Tracks outlive what they followed."}},
+      {"least_hits",
+       &C::least_hits,
+       "Scans with echoes before a track is confirmed.",
+       Range{1, 1000},
+       {"Noise becomes objects.", "Objects are confirmed late."}},
+      {"least_travel_m",
+       &C::least_travel_m,
+       "Distance from its birth before a track is confirmed, unless most echoes say that it moved.",
+       kNotNegative,
+       {"Bushes and posts become objects.", "Objects are confirmed late."}},
+  };
+}
+
+/// When a track refuses echoes, stands too long, or ends.
+FieldTable<ExistenceConfig> termination_fields() {
+  using C = ExistenceConfig;
+  return {
+      {"least_travel_to_stand_m",
+       &C::least_travel_to_stand_m,
+       "A confirmed track may stand 2 s for each time that it has come so far.",
+       kNotNegative,
+       {"False tracks on bushes last.", "Pedestrians who wait lose their track."}},
+      {"least_surprise_m",
+       &C::least_surprise_m,
+       "Least distance at which echoes beyond six sigmas of a confirmed track's prediction are "
+       "outliers.",
+       kNotNegative,
+       {"Sharp manoeuvres lose the track.", "Tracks jump to neighbours."}},
+      {"longest_unseen_s",
+       &C::longest_unseen_s,
+       "A confirmed track without echoes ends after this time.",
+       kPositive,
+       {"Objects get new identities behind others.", "Predictions wander and take other objects."}},
+      {"longest_unseen_tentative_s",
+       &C::longest_unseen_tentative_s,
+       "A tentative track without echoes ends after this time.",
+       kPositive,
+       {"Objects that answer now and then are never confirmed.",
+        "Chance echoes join to false tracks."}},
+      {"longest_tentative_s",
+       &C::longest_tentative_s,
+       "A track that is not confirmed ends after this time; after twice this time if it moves.",
+       kPositive,
+       {"Slow objects are never confirmed.", "Walls wait until they seem to move."}},
+  };
+}
+
+FieldTable<PublicationConfig> publication_fields() {
+  using C = PublicationConfig;
+  return {
+      {"longest_unseen_published_s",
+       &C::longest_unseen_published_s,
+       "A confirmed track without echoes for longer is followed, but not published as confirmed.",
+       kPositive,
+       {"Tracks vanish between the scans of alternating scanners.",
+        "Predictions without echoes are published."}},
+      {"most_speed_sigma_published_mps",
+       &C::most_speed_sigma_published_mps,
+       "A track with a larger sigma of the velocity is not published as confirmed.",
+       kPositive,
+       {"Objects are published late.", "Wrong velocities are published."}},
+  };
+}
+
+}  // namespace
+
+const FieldTable<TrackingConfig>& tracking_fields() {
+  using C = TrackingConfig;
+  static const FieldTable<C> table = [] {
+    FieldTable<C> fields =
+        with_members_of<C>({}, &C::sensor, in_group(Group::sensor, sensor_fields()));
+    fields =
+        with_members_of<C>(std::move(fields), &C::motion, in_group(Group::motion, motion_fields()));
+    fields = with_members_of<C>(std::move(fields), &C::association,
+                                in_group(Group::association, association_fields()));
+    fields =
+        with_members_of<C>(std::move(fields), &C::extent, in_group(Group::extent, extent_fields()));
+    fields = with_members_of<C>(
+        std::move(fields), &C::existence,
+        in_group(Group::existence,
+                 config::joined<ExistenceConfig>({confirmation_fields(), termination_fields()})));
+    return with_members_of<C>(std::move(fields), &C::publication,
+                              in_group(Group::publication, publication_fields()));
+  }();
   return table;
 }
 

@@ -46,7 +46,7 @@ void check_velocity(Track& track, const Observation& observation, const ScanCont
   const double across_mps = (velocity_mps - speed_mps * along).norm();
   const SpeedEvidence evidence =
       speed_along({along, observation.points_m, context.scan().stamp_ns, track.track_id},
-                  context.history, kFastestOfSigmas * context.config.fastest_mps);
+                  context.history, kFastestOfSigmas * context.config.motion.fastest_mps);
   const bool moves_sideways = across_mps > 2.0 + 0.3 * std::abs(speed_mps);
   const bool is_off = moves_sideways || std::abs(speed_mps - evidence.speed_mps) >
                                             3.0 * evidence.sigma_mps + kSlackMps;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Core>
 
+#include "services/tracking/confirmation.hpp"
 #include "services/tracking/measurement_update.hpp"
 #include "services/tracking/track.hpp"
 #include "services/tracking/tracking_config.hpp"
@@ -94,15 +95,14 @@ inline void see(Track& track, const Eigen::Vector2d& middle_m, double width_m,
 /// As the profile of a slow robot in a building says.
 inline TrackingConfig among_people() {
   TrackingConfig config;
-  config.fastest_mps = 5.0;
-  config.longest_body_m = 2.0;
-  config.longest_unseen_tentative_s = 0.7;
-  config.longest_tentative_s = 3.0;
-  config.moving_hit_score = 1.5;
-  config.least_hits = 4;
-  config.most_score = 5.0;
-  config.contradicted_above_mps = 0.6;
-  config.contradiction_score = -1.0;
+  config.motion.fastest_mps = 5.0;
+  config.extent.longest_body_m = 2.0;
+  config.existence.longest_unseen_tentative_s = 0.7;
+  config.existence.longest_tentative_s = 3.0;
+  config.existence.moving_hit_score = 1.5;
+  config.existence.least_hits = 4;
+  config.existence.most_score = 5.0;
+  config.existence.contradicted_above_mps = 0.6;
   return config;
 }
 
@@ -110,8 +110,8 @@ inline TrackingConfig among_people() {
 /// was.
 inline Track out_from_behind_others(const TrackingConfig& config) {
   Track track;
-  track.existence.score = config.confirm_score;
-  track.existence.hits = config.least_hits;
+  track.existence.score = tracking::kConfirmScore;
+  track.existence.hits = config.existence.least_hits;
   track.existence.mean_echoes = 5.0;
   track.existence.motion = {3.0, 0.0, 30.0};
   track.existence.tentative = {40.0, 36.0, 0.0};

@@ -54,5 +54,16 @@ TEST(BindStage, PointsIntoTheStructItWasGiven) {
   EXPECT_EQ(config.offset.x_m, 3.5);
 }
 
+TEST(WithMembersOf, BindsTheMembersOfAMemberUnderTheirOwnNames) {
+  const FieldTable<ExampleInnerConfig> inner = {{"x_m", &ExampleInnerConfig::x_m, "Ahead."}};
+  ExampleConfig config;
+  const BoundStage stage = bind_stage(
+      "example", with_members_of<ExampleConfig>({}, &ExampleConfig::offset, inner), config);
+  ASSERT_EQ(stage.fields.size(), 1U);
+  EXPECT_EQ(stage.fields[0].name, "x_m");
+  *std::get<double*>(stage.fields[0].value) = 3.5;
+  EXPECT_EQ(config.offset.x_m, 3.5);
+}
+
 }  // namespace
 }  // namespace slammot::config

@@ -54,15 +54,17 @@ TEST(Profile, HasASettingForEveryMemberWhereAllAreForUsers) {
   EXPECT_EQ(settings_under(stages["localization"], "pose_errors."), members<sensing::PoseErrors>());
   EXPECT_EQ(settings_under(stages["localization"], "pose_errors.forward."),
             members<sensing::AxisError>());
-  EXPECT_EQ(settings_under(stages["tracking"], ""), members<tracking::TrackingConfig>());
+  EXPECT_EQ(settings_under(stages["tracking"], ""),
+            members<tracking::SensorNoise>() + members<tracking::MotionConfig>() +
+                members<tracking::AssociationConfig>() + members<tracking::ExtentConfig>() +
+                members<tracking::ExistenceConfig>() + members<tracking::PublicationConfig>());
   EXPECT_EQ(settings_under(stages["implementations"], ""), members<ImplementationChoice>());
 }
 
-TEST(Profile, ExplainsTheEffectOfEveryNumberOutsideTracking) {
+TEST(Profile, ExplainsTheEffectOfEveryNumber) {
   Profile profile;
   for (const config::BoundStage& stage : bind_stages(profile)) {
-    if (stage.stage == "tracking" || stage.stage == "implementations")
-      continue;  // has no numeric settings
+    if (stage.stage == "implementations") continue;  // it has no numbers
     for (const config::BoundField& field : stage.fields) {
       EXPECT_NE(field.group, config::Group::none) << field.name;
       if (!config::number_in(field)) continue;

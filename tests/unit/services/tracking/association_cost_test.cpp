@@ -9,7 +9,7 @@ namespace {
 
 TrackingConfig where_only_people_move() {
   TrackingConfig config;
-  config.longest_body_m = 2.0;
+  config.extent.longest_body_m = 2.0;
   return config;
 }
 
@@ -62,7 +62,7 @@ TEST(AssociationCost, IsLessForTheNearerSegmentAndForbiddenForABackdrop) {
   EXPECT_EQ(association_cost(blob, motion, segment_at(3.0), config), association::kForbidden);
   flow::Segment wall = segment_at(0.1);
   wall.label = flow::PointLabel::kStationary;
-  wall.box_length_m = 2.0 * config.longest_body_m;
+  wall.box_length_m = 2.0 * config.extent.longest_body_m;
   EXPECT_EQ(association_cost(blob, motion, wall, config), association::kForbidden);
 }
 

@@ -78,7 +78,7 @@ StreetBox pedestrian_at(double y_m) { return {{8.0, y_m, 0.0}, 0.4, 0.4}; }
 TEST(Association, IsTheBestForAllTracksTogether) {
   for (const int most_hypotheses : {1, 4}) {
     TrackingConfig config;
-    config.most_hypotheses = most_hypotheses;
+    config.association.most_hypotheses = most_hypotheses;
     Scene scene({pedestrian_at(0.0), pedestrian_at(0.9)}, false, config);
     scene.add_pedestrian({7.9, 0.4});  // nearer to the first segment than to the second, but that
                                        // is the other's

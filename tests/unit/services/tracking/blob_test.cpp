@@ -77,7 +77,7 @@ TEST(Blob, OfLegsOrACoatHasItsMiddleWithinAFewCentimetres) {
 
 TEST(Blob, OfSomethingSmallIsAsDeepAsTheScaleSays) {
   TrackingConfig config;
-  config.size_scale = 0.1;
+  config.extent.size_scale = 0.1;
   const Vector2d centre_m{2.0, 0.3};
   const auto echoes = echoes_of_disc(centre_m, 0.01);
   EXPECT_LT((measure_blob({}, observation_of(echoes), config).centre_m - centre_m).norm(), 0.003);

@@ -134,8 +134,9 @@ TEST(BoxMeasurement, OfAModelIsMeasuredAsThatOfACarIs) {
       settled(likely_box(0.0, observation_of(points), kConfig), {8.0, 4.0}, observation_of(points));
   const double scale = 0.1;
   TrackingConfig config;
-  config.size_scale = scale;
-  for (double* length_m : {&config.range_noise_m, &config.shape_noise_m, &config.longest_body_m})
+  config.extent.size_scale = scale;
+  for (double* length_m :
+       {&config.sensor.range_noise_m, &config.sensor.shape_noise_m, &config.extent.longest_body_m})
     *length_m *= scale;
   std::vector<Vector2d> model_points;
   for (const Vector2d& point : points) model_points.push_back(scale * point);

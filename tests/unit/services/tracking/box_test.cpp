@@ -76,7 +76,7 @@ TEST(Box, KnowsTheLengthAsItsWidthAfterAQuarterTurn) {
 
 TEST(Box, ScalesWithTheRoadUsersOfALaboratory) {
   TrackingConfig model_cars;
-  model_cars.size_scale = 0.1;
+  model_cars.extent.size_scale = 0.1;
   Box box;
   EXPECT_NEAR(with_likely_sizes(box, model_cars).length.value_m,
               0.1 * with_likely_sizes(box, kConfig).length.value_m, 1e-5);

@@ -21,7 +21,7 @@ constexpr double kPeriodS = 1.0 / 37.5;
 
 TrackingConfig config_with(int most_hypotheses) {
   TrackingConfig config;
-  config.most_hypotheses = most_hypotheses;
+  config.association.most_hypotheses = most_hypotheses;
   return config;
 }
 

@@ -37,10 +37,10 @@ TEST(Confirmation, IsWrongOfTwoDrawnOverEachOtherIfItsEchoesAreNotWhereItIs) {
 TEST(Confirmation, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
   const TrackingConfig config;
   Track track;
-  track.existence.score = config.confirm_score;
-  track.existence.hits = config.least_hits;
-  track.existence.motion = {config.sure_moved_votes, 0.0, 0.0};  // a thin post: beams went past it
-                                                                 // on both sides a moment ago
+  track.existence.score = kConfirmScore;
+  track.existence.hits = config.existence.least_hits;
+  track.existence.motion = {kSureMovedVotes, 0.0, 0.0};  // a thin post: beams went past it
+                                                         // on both sides a moment ago
   track.history.birth.R = 0.01 * Eigen::Matrix2d::Identity();
   track.kinematics.estimate.mean << 1.0, 0.0, 0.5, 0.0, 0.0, 0.0;  // drawn at a stray echo, a metre
                                                                    // beside
@@ -127,9 +127,9 @@ TEST(Confirmation, HasComeFromWhereItWasByTheBodyThatItHasByNow) {
 TEST(Confirmation, HasComeNoWayByTheJumpThatItHasJustMade) {
   const TrackingConfig config;
   Track track;
-  track.existence.score = config.confirm_score;
-  track.existence.hits = config.least_hits;
-  track.existence.motion = {2.0 * config.least_moved_votes, 0.0, 0.0};
+  track.existence.score = kConfirmScore;
+  track.existence.hits = config.existence.least_hits;
+  track.existence.motion = {2.0 * kLeastMovedVotes, 0.0, 0.0};
   track.history.birth.R = 0.01 * Eigen::Matrix2d::Identity();
   track.kinematics.estimate.mean << 0.9, 0.0, 1.5, 0.0, 0.0, 0.0;
   track.kinematics.estimate.covariance = 0.01 * filters::Matrix6::Identity();

@@ -41,20 +41,19 @@ double score_after_two_seconds(double depth_m, double jump_m) {
 }
 
 TEST(ExistenceScore, IsBelievedInLessWhereMoreBeamsPassThroughTheMiddleOfItThanAreEchoed) {
-  const TrackingConfig config;
   const Visibility seen{10, 0, 8, 0};
   Track track = followed_car();
   track.existence.mapped_share = 0.5;
-  score_passed(track, seen, 8, config);
+  score_passed(track, seen, 8);
   EXPECT_EQ(track.existence.score, 5.0);
-  score_passed(track, seen, 2, config);
+  score_passed(track, seen, 2);
   EXPECT_LT(track.existence.score, 4.0);
 }
 
 TEST(ExistenceScore, OfWhatTheMapContradictsIsSomethingThoughItIsDrawnTooLarge) {
   Track track = followed_car();
   track.existence.mapped_share = 0.0;
-  score_passed(track, {10, 0, 8, 0}, 2, {});
+  score_passed(track, {10, 0, 8, 0}, 2);
   EXPECT_EQ(track.existence.score, 5.0);
 }
 

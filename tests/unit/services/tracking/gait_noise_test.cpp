@@ -33,15 +33,15 @@ double variance_of_mean(double kept, int count) {
 TEST(GaitNoise, IsThatOfLegsUntilLessOrMoreIsSeen) {
   const TrackingConfig config;
   EXPECT_NEAR(sigma_after_m(0.07, config), 0.07, 0.01);
-  EXPECT_NEAR(sigma_after_m(0.0, config), std::sqrt(0.125) * config.gait_noise_m, 1e-12);
+  EXPECT_NEAR(sigma_after_m(0.0, config), std::sqrt(0.125) * gait_sigma_m(config), 1e-12);
   EXPECT_NEAR(sigma_after_m(0.2, config), 0.2, 0.01);
-  EXPECT_NEAR(sigma_after_m(1.0, config), 3.0 * config.gait_noise_m, 1e-12) << "nobody who walks";
+  EXPECT_NEAR(sigma_after_m(1.0, config), 3.0 * gait_sigma_m(config), 1e-12) << "nobody who walks";
 }
 
 TEST(GaitNoise, IsNeverLessThanThatOfLegsWhereOnlyPeopleMove) {
   TrackingConfig config;
-  config.longest_body_m = 2.0;
-  EXPECT_NEAR(sigma_after_m(0.0, config), config.gait_noise_m, 1e-12);
+  config.extent.longest_body_m = 2.0;
+  EXPECT_NEAR(sigma_after_m(0.0, config), gait_sigma_m(config), 1e-12);
   EXPECT_NEAR(sigma_after_m(0.2, config), 0.2, 0.01);
 }
 
@@ -49,8 +49,8 @@ TEST(GaitNoise, CountsForAsMuchAsErrorsThatFadeDoTogether) {
   const TrackingConfig config;
   for (const double period_s : {1.0 / 75.0, 1.0 / 37.5, 1.0 / 7.5, 0.5}) {
     const int count = static_cast<int>(std::lround(10.0 / period_s));
-    const double together_m2 = config.gait_noise_m * config.gait_noise_m *
-                               variance_of_mean(std::exp(-period_s / config.gait_memory_s), count);
+    const double together_m2 = gait_sigma_m(config) * gait_sigma_m(config) *
+                               variance_of_mean(std::exp(-period_s / kGaitMemoryS), count);
     EXPECT_NEAR(gait_variance_m2(period_s, config) / count / together_m2, 1.0, 0.03) << period_s;
   }
 }

@@ -45,6 +45,8 @@ class Scene {
     return may_initiate(car_segment(), tracks, associations, context());
   }
 
+  void keep_echoes_of_car(std::size_t count) { scan_.segments[car_segment()].beams.resize(count); }
+
   TrackingConfig config;
   std::vector<Track> tracks;
   Associations associations;
@@ -85,9 +87,11 @@ TEST(Initiation, IsNotInsideAConfirmedVehicleThatIsSeen) {
   EXPECT_FALSE(scene.may_initiate_car());
 }
 
-TEST(Initiation, NeedsEnoughPoints) {
+TEST(Initiation, NeedsTwoEchoes) {
   Scene scene(false);
-  scene.config.least_points_at_birth = static_cast<int>(scene.car().beams.size()) + 1;
+  scene.keep_echoes_of_car(2);
+  EXPECT_TRUE(scene.may_initiate_car());
+  scene.keep_echoes_of_car(1);
   EXPECT_FALSE(scene.may_initiate_car());
 }
 

@@ -148,7 +148,7 @@ TEST(ObjectClass, CountsSpeedsByTimeAndNotByScans) {
 
 TEST(ObjectClass, GoesWithTheScaleOfAModelTown) {
   TrackingConfig town;
-  town.size_scale = 0.1;
+  town.extent.size_scale = 0.1;
   Box model = box_of(0.44, 0.18, 0.01);
   EXPECT_EQ(
       likeliest_class(class_probabilities(model, with_speed({}, {0.8, 0.02, 1.0}, town), town)),

@@ -30,7 +30,7 @@ TEST(PublishedCovariance, IsInThePublishedCovarianceAsFarAsItIsSeen) {
   track.kinematics.estimate.mean << 10.0, 0.0, 1.3, 0.0, 0.0, 0.0;
   track.kinematics.estimate.covariance = 0.01 * track.kinematics.estimate.covariance.Identity();
   const Eigen::Matrix4d by_legs = published(track, 0, config).covariance;
-  track.kinematics.gait.variance_m2 = 0.25 * config.gait_noise_m * config.gait_noise_m;
+  track.kinematics.gait.variance_m2 = 0.25 * gait_sigma_m(config) * gait_sigma_m(config);
   const Eigen::Matrix4d by_a_coat = published(track, 0, config).covariance;
   EXPECT_NEAR(by_legs(0, 0) - by_a_coat(0, 0), 0.75 * 0.01, 1e-9);
   EXPECT_EQ(by_legs(2, 2), by_a_coat(2, 2));

@@ -33,7 +33,7 @@ struct Hidden {
 /// times.
 Hidden middle_of_a_queue(bool formations) {
   TrackingConfig config;
-  config.formations = formations;
+  config.motion.formations = formations;
   Tracker tracker(config);
   const auto y_of = [](int car, double time_s) {
     return -23.0 - kApartM * (car - 1) + way_m(time_s);

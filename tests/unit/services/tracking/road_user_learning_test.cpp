@@ -20,7 +20,7 @@ Track walker_in_a_coat(double followed_s, const TrackingConfig& config) {
   track.existence.confirmed = true;
   track.kinematics.estimate.mean << 10.0, 0.0, 1.3, 0.0, 0.0, 0.0;
   track.kinematics.estimate.covariance = 0.01 * track.kinematics.estimate.covariance.Identity();
-  track.kinematics.gait.variance_m2 = std::pow(0.3 * config.gait_noise_m, 2);
+  track.kinematics.gait.variance_m2 = std::pow(0.3 * gait_sigma_m(config), 2);
   track.history.last_seen_ns = static_cast<std::int64_t>(followed_s * 1e9);
   return track;
 }
@@ -49,7 +49,7 @@ TEST(RoadUserLearning, IsLearnedOfThoseOnlyWhoWereFollowedForAWhileAndNotWhereOn
   RoadUsersSeen seen;
   for (int i = 0; i < 20; ++i) learn_gait(seen, walker_in_a_coat(1.0, config), config);
   TrackingConfig indoors;
-  indoors.longest_body_m = 2.0;
+  indoors.extent.longest_body_m = 2.0;
   for (int i = 0; i < 20; ++i) learn_gait(seen, walker_in_a_coat(5.0, indoors), indoors);
   EXPECT_EQ(seen.known().swing_share, 1.0);
 }

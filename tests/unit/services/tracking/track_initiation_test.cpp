@@ -36,7 +36,7 @@ TEST(TrackInitiation, BeginsTentativeAtRestAndWithOneHit) {
   EXPECT_EQ(track.track_id.value, 7U);
   EXPECT_FALSE(track.existence.confirmed);
   EXPECT_EQ(track.existence.hits, 1);
-  EXPECT_EQ(track.existence.score, kConfig.birth_score);
+  EXPECT_EQ(track.existence.score, kBirthScore);
   EXPECT_EQ(track.velocity_mps(), Vector2d::Zero());
   EXPECT_EQ(track.history.first_seen_ns, 123);
   EXPECT_EQ(track.history.birth.centre_m, track.position_m());

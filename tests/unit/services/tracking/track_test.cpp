@@ -28,7 +28,7 @@ TEST(Track, MayTurnTheFasterTheSmallerItIs) {
   const std::vector<Eigen::Vector2d> points{{20.0, -0.9}, {20.0, -0.3}, {20.0, 0.3}, {20.0, 0.9}};
   const auto variance_after_a_second = [&](double size_scale) {
     TrackingConfig config;
-    config.size_scale = size_scale;
+    config.extent.size_scale = size_scale;
     Observation observation;
     observation.points_m = points;
     observation.beam_step_rad = 0.5 * M_PI / 180.0;

@@ -554,7 +554,7 @@ TEST(Tracker, TurnsTheVelocityOfACarInABendWithItsSides) {
 
 TEST(Tracker, HoldsACarThatRoundsABendToTurnIfThatIsAMode) {
   TrackingConfig config;
-  config.coordinated_turn = true;
+  config.motion.coordinated_turn = true;
   Play play(config);
   constexpr double kRateRadps = 0.5;
   constexpr double kRadiusM = 16.0;
@@ -581,7 +581,7 @@ TEST(Tracker, HoldsACarThatRoundsABendToTurnIfThatIsAMode) {
 /// container: the queue brakes from 8 to 2 m/s while it is hidden.
 double error_behind_a_container_m(bool formations) {
   TrackingConfig config;
-  config.formations = formations;
+  config.motion.formations = formations;
   Play play(config);
   const StreetBox container{{10.0, 0.0, M_PI / 2.0}, 4.5, 1.0};
   const auto travelled_m = [](double t) {
@@ -999,7 +999,7 @@ TEST(TrackerOfTwoScanners, EndsTracksThatOnlyTheSilentOneSaw) {
   play.run(3.0, behind);
   EXPECT_EQ(play.confirmed(), 1U);
   play.rear_speaks = false;
-  play.run(TrackingConfig{}.longest_unseen_s + 0.5, behind);
+  play.run(TrackingConfig{}.existence.longest_unseen_s + 0.5, behind);
   EXPECT_EQ(play.confirmed(), 0U);
 }
 
