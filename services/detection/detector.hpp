@@ -24,10 +24,10 @@ struct DetectionConfig {
   double explained_within_per_m = 0.006;  ///< so much more for each metre of range, contradicts
                                           ///< nothing.
   double least_moving_evidence = 0.3;     ///< Where the MO-map remembers at least this much motion,
-                                       ///< what the map cannot decide counts as moving: slow
-                                       ///< pedestrians; Wang 2004, 6.2.
-  int largest_by_moving_evidence = 12;  ///< Points of a segment that may be held to be moving by
-                                        ///< the MO-map alone.
+                                          ///< what the map cannot decide counts as moving: slow
+                                          ///< pedestrians; Wang 2004, 6.2.
+  int largest_by_moving_evidence = 12;    ///< Points of a segment that may be held to be moving by
+                                          ///< the MO-map alone.
   int least_moving_run = 2;       ///< Moving beams side by side that make a segment of their own,
   int least_stationary_run = 3;   ///< and stationary ones.
   double longest_mover_m = 16.0;  ///< What is longer does not move as one thing.

@@ -43,8 +43,8 @@ struct Truth {
                                                     ///< frame of the laser: where there are such,
                                                     ///< there is no trajectory and there are no
                                                     ///< objects.
-  std::optional<metrics::Trajectory> other_car;  ///< Motion capture of a second car.
-  std::vector<std::string> read;                 ///< File names.
+  std::optional<metrics::Trajectory> other_car;     ///< Motion capture of a second car.
+  std::vector<std::string> read;                    ///< File names.
 };
 
 /// "stamp x y z qx qy qz qw" a line, by ascending stamps after reading.

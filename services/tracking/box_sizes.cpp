@@ -24,9 +24,9 @@ using KindFits = std::array<KindFit, std::tuple_size_v<decltype(RoadUsers::kinds
 KindFits kind_fits(const Box& box, const TrackingConfig& config) {
   constexpr double kLongestPieceM = 16.0;
   const double scale = config.size_scale;
+  // log_likelihood_of_size() omits the root
   const double log_piece_density =
-      std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));  // log_likelihood_of_size()
-                                                                               // omits the root
+      std::log(std::sqrt(2.0 * std::numbers::pi) / (kLongestPieceM * scale));
   const EvidenceByKind evidence = evidence_by_kind(box, config);
   const auto fit_of = [&](const KindOfBody& kind) {
     KindFit fit;
