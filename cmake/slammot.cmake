@@ -11,6 +11,7 @@ file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/core_headers.cpp CONTENT "")
 add_library(core_headers OBJECT ${CMAKE_BINARY_DIR}/core_headers.cpp)
 target_link_libraries(core_headers PRIVATE Eigen3::Eigen)
 target_compile_options(core_headers PRIVATE ${SLAMMOT_LIBRARY_OPTIONS})
+set_target_properties(core_headers PROPERTIES COMPILE_WARNING_AS_ERROR OFF)  # else ccache misses all after a change of SLAMMOT_WERROR
 target_precompile_headers(core_headers PRIVATE
   <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky> <Eigen/LU>
   <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <functional> <map> <memory> <numbers> <numeric>
