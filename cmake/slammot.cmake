@@ -11,6 +11,7 @@ file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/core_headers.cpp CONTENT "")
 add_library(core_headers OBJECT ${CMAKE_BINARY_DIR}/core_headers.cpp)
 target_link_libraries(core_headers PRIVATE Eigen3::Eigen)
 target_compile_options(core_headers PRIVATE ${SLAMMOT_LIBRARY_OPTIONS})
+set_target_properties(core_headers PROPERTIES COMPILE_WARNING_AS_ERROR OFF)  # else ccache misses all after a change of SLAMMOT_WERROR
 target_precompile_headers(core_headers PRIVATE
   <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky> <Eigen/LU>
   <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <functional> <map> <memory> <numbers> <numeric>
@@ -20,10 +21,20 @@ target_precompile_headers(core_headers PRIVATE
 function(slammot_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_compile_features(${name} PUBLIC cxx_std_20)
   target_compile_options(${name} PRIVATE ${SLAMMOT_LIBRARY_OPTIONS})
   target_precompile_headers(${name} REUSE_FROM core_headers)
   target_link_libraries(${name} PUBLIC ${ARG_LINK})
+endfunction()
+
+# slammot_headers(common_flow LINK common_geometry): a library without sources.
+function(slammot_headers name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  add_library(${name} INTERFACE)
+  target_include_directories(${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_compile_features(${name} INTERFACE cxx_std_20)
+  target_link_libraries(${name} INTERFACE ${ARG_LINK})
 endfunction()
 
 # slammot_service(ingest SOURCES ingest.cpp ingest_service.cpp LINK ...): library service_ingest and, from
@@ -34,7 +45,7 @@ function(slammot_service name)
   string(REPLACE "_" "-" dashed ${name})
   add_executable(slammot-${dashed} main.cpp)
   target_link_libraries(slammot-${dashed} PRIVATE service_${name} common_app)
-  add_dependencies(executables slammot-${dashed})
+  slammot_install_program(slammot-${dashed})
 endfunction()
 
 # slammot_test(unit_geometry SOURCES ... LINK ...): a GoogleTest executable whose tests ctest knows one by one. What is

@@ -11,6 +11,11 @@ source "$root/deploy/packages.sh"
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_COMPILERCHECK=content CCACHE_SLOPPINESS=locale
 export CCACHE_REMOTE_STORAGE="file:$root/build/objects" CCACHE_RESHARE=1
 
+# Every C++ file of the tree, one a line.
+cpp_files() {
+  find "$root"/{common,examples,services,tests} -name '*.[ch]pp' | sort
+}
+
 # Passes further arguments to cmake.
 configure_preset() {
   local preset=$1

@@ -54,10 +54,8 @@ int serve_or_say_why_not(const std::string& program, const ServiceDescription& d
 }  // namespace
 
 int run_service(int argc, char** argv, const ServiceDescription& description) {
-  const std::string program = std::filesystem::path(argv[0]).filename();  // not by the name:
-                                                                          // another program may
-                                                                          // take the service's
-                                                                          // place
+  // not by the name: another program may take the service's place
+  const std::string program = std::filesystem::path(argv[0]).filename();
   CLI::App command_line(description.purpose, program);
   ServiceOptions options;
   command_line.set_version_flag("--version", program + " " + std::string(kVersion));

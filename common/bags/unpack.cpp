@@ -87,9 +87,8 @@ Unpacked unpack_bz2(Bytes packed, std::size_t most_bytes) {
     constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
     const std::size_t in = std::min(from.size(), kMostAtOnce);
     const std::size_t out = std::min(room.size(), kMostAtOnce);
-    stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(from.data()));  // the library
-                                                                                     // only reads
-                                                                                     // it
+    // the library only reads it
+    stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(from.data()));
     stream.avail_in = static_cast<unsigned>(in);
     stream.next_out = reinterpret_cast<char*>(room.data());
     stream.avail_out = static_cast<unsigned>(out);

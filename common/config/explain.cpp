@@ -132,7 +132,7 @@ std::vector<Explanation> explain(std::span<const BoundStage> stages) {
 std::vector<Explanation> named(std::string_view word, std::span<const Explanation> settings) {
   std::vector<Explanation> found;
   const std::string inside = std::string(word) + ".";
-  const std::string end = "." + std::string(word);
+  const std::string end = std::string(".").append(word);
   std::ranges::copy_if(settings, std::back_inserter(found), [&](const Explanation& setting) {
     return setting.name == word || setting.name.ends_with(end) ||
            setting.name.starts_with(inside) ||
@@ -178,7 +178,7 @@ std::string explanation_tables(std::span<const Explanation> settings) {
         for (const std::string& cell :
              {"`" + setting.name + "`", setting.unit, setting.range, "`" + setting.value + "`",
               setting.meaning, setting.too_small, setting.too_large}) {
-          row += " " + in_cell(cell) + " |";
+          row.append(" ").append(in_cell(cell)).append(" |");
         }
         return row + "\n";
       });

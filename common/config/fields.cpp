@@ -81,8 +81,8 @@ std::optional<double> number_in(const BoundField& field) {
 std::optional<std::string> find_fault(const BoundField& field) {
   const std::optional<double> number = number_in(field);
   if (!number) return std::nullopt;
-  const bool inside = *number >= field.range.lowest && *number <= field.range.highest;  // false for
-                                                                                        // NaN
+  // false for NaN
+  const bool inside = *number >= field.range.lowest && *number <= field.range.highest;
   if (inside) return std::nullopt;
   std::ostringstream fault;
   fault << field.name << " = " << *number << " is " << in_words(field.range) << ": "

@@ -163,12 +163,8 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
     topic.candidate.field_of_view_rad = 2.0 * std::numbers::pi;
     topic.candidate.beams = topic.slice.beams;
     ++topic.candidate.messages;
-    topic.advancing = topic.log_advancing += message.log_time_ns > topic.last_ns ? 1 : 0;  // the
-                                                                                           // header
-                                                                                           // of a
-                                                                                           // cloud
-                                                                                           // is not
-                                                                                           // parsed
+    // the header of a cloud is not parsed
+    topic.advancing = topic.log_advancing += message.log_time_ns > topic.last_ns ? 1 : 0;
     topic.last_ns = topic.newest_stamp_ns = std::max(topic.last_ns, message.log_time_ns);
     return;
   }

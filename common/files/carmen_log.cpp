@@ -135,10 +135,8 @@ void CarmenLog::set_options(const CarmenLogOptions& options) {
   options_ = options;
   for (std::size_t i = 1; i < topics_.scanners.size() && is_choice_of_plan_; ++i)
     topics_.scanners[i].is_chosen = options.uses_all_scanners;
-  const geometry::Pose2 unsaid{0.0, 0.0, plan_.evidence.correction.laser_turn_rad};  // for scans
-                                                                                     // without a
-                                                                                     // mounting in
-                                                                                     // the record
+  // for scans without a mounting in the record
+  const geometry::Pose2 unsaid{0.0, 0.0, plan_.evidence.correction.laser_turn_rad};
   if (options.fallback_base_from_laser == geometry::Pose2::identity() ||
       difference(plan_.base_from_laser, unsaid).norm() > 1e-9)
     return;
@@ -155,8 +153,8 @@ std::optional<LogEvent> CarmenLog::next() {
     if (survey_) survey_->add(now_.record);
     std::visit(Overloaded{[this](const IgnoredLine&) { ++faults_.ignored_lines; },
                           [this](const MalformedLine&) { note_malformed(); },
-                          [](const ParamRecord&) {}, [](const ImuRecord&) {},  // processed by the
-                                                                               // survey
+                          // The survey processes these two.
+                          [](const ParamRecord&) {}, [](const ImuRecord&) {},
                           [this](const OdometryRecord& known) { take(known); },
                           [this](LaserRecord& known) { take(std::move(known)); }},
                now_.record);

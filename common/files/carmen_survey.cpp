@@ -320,8 +320,8 @@ void CarmenSurvey::add_param(const ParamRecord& record) {
 /// of them does not replace the rest.
 std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(
     const std::string& main_scanner) const {
-  constexpr std::array<double, 5> kWorth = {1.0, 1.0 + 1e-9, 0.5, 0.25, 1.0};  // weight by
-                                                                               // LaserRecordKind
+  // weight by LaserRecordKind
+  constexpr std::array<double, 5> kWorth = {1.0, 1.0 + 1e-9, 0.5, 0.25, 1.0};
   const auto worth = [&](const Lasers& lasers) {
     return kWorth[static_cast<std::size_t>(lasers.kind)] * static_cast<double>(lasers.scans);
   };

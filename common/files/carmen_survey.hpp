@@ -216,8 +216,8 @@ class CarmenSurvey {
     std::uint64_t scans_without_readings = 0;
     std::vector<std::uint32_t> readings_by_unit;  // as written, whatever the unit
     matching::OdometryCheck odometry_check;
-    PairSample moved_pairs{0.25, 0.12, std::numeric_limits<double>::infinity()};  // whatever the
-                                                                                  // unit
+    // whatever the unit
+    PairSample moved_pairs{0.25, 0.12, std::numeric_limits<double>::infinity()};
     PairSample pairs_in_small_units{
         250.0, 0.12, std::numeric_limits<double>::infinity()};  // of odometry in millimetres
     PairSample turned_pairs{1.2, 0.05, 1.2};                    // of a vehicle that seldom turns

@@ -18,8 +18,8 @@ struct Gaussian {
 /// Innovation of a measurement against a prediction.
 template <int M>
 struct Innovation {
-  Eigen::Matrix<double, M, 1> residual = Eigen::Matrix<double, M, 1>::Zero();  ///< Measured minus
-                                                                               ///< predicted.
+  /// Measured minus predicted.
+  Eigen::Matrix<double, M, 1> residual = Eigen::Matrix<double, M, 1>::Zero();
   Eigen::Matrix<double, M, M> covariance = Eigen::Matrix<double, M, M>::Identity();
   double nis = 0.0;  ///< Normalized innovation squared; chi-square with M degrees of freedom if the
                      ///< filter is consistent.

@@ -121,9 +121,8 @@ ImmState imm_update_speed(const ModelSet& set, const ImmState& predicted,
   ImmState posterior = predicted;
   for (std::size_t i = 0; i < set.size; ++i) {
     MotionState& mode = posterior.modes[i];
-    const Eigen::Matrix<double, 6, 1> Ph = mode.covariance.middleCols<2>(2) * direction;  // H = (0,
-                                                                                          // direction,
-                                                                                          // 0)
+    // H = (0, direction, 0)
+    const Eigen::Matrix<double, 6, 1> Ph = mode.covariance.middleCols<2>(2) * direction;
     const double S = direction.dot(Ph.segment<2>(2)) + variance;
     mode.mean += Ph * ((speed_mps - direction.dot(mode.mean.segment<2>(2))) / S);
     mode.covariance -= Ph * (Ph.transpose() / S);

@@ -91,10 +91,8 @@ KalmanUpdate<6, 2> update_with_position(const MotionState& predicted,
   Matrix6& after = update.posterior.covariance;
   after = I_KH_P.leftCols<2>() * I_KH.transpose();
   after.rightCols<4>() += I_KH_P.rightCols<4>();
-  after.col(2) =
-      I_KH_P.col(0) * I_KH(2, 0) + (I_KH_P.col(1) * I_KH(2, 1) + I_KH_P.col(2));  // Eigen sums six
-                                                                                  // products in two
-                                                                                  // halves
+  // Eigen sums six products in two halves
+  after.col(2) = I_KH_P.col(0) * I_KH(2, 0) + (I_KH_P.col(1) * I_KH(2, 1) + I_KH_P.col(2));
   after += K * R * K.transpose();
   return update;
 }

@@ -34,12 +34,8 @@ TwoCells first_centres(TwoPlaces places, std::int32_t count) {
   const TwoPlaces inside = from_first > 0.0 ? from_first : TwoPlaces{};
   const TwoPlaces at = inside < end ? inside : end;
   const TwoCells below = __builtin_convertvector(at, TwoCells);
-  return below -
-         __builtin_convertvector(__builtin_convertvector(below, TwoPlaces) < at, TwoCells);  // rounded
-                                                                                             // up:
-                                                                                             // true
-                                                                                             // is
-                                                                                             // -1
+  // rounded up: true is -1
+  return below - __builtin_convertvector(__builtin_convertvector(below, TwoPlaces) < at, TwoCells);
 }
 
 /// Coordinates in cells of the window.

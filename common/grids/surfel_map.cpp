@@ -203,10 +203,8 @@ SurfelView SurfelMap::view_of(std::int32_t slot) const {
 
 std::int32_t SurfelMap::nearest_slot(const Eigen::Vector2d& point_m, int radius) const {
   const Cell centre = window_.cell_at(point_m.x(), point_m.y());
-  const auto clamped = [](std::int64_t place, std::int32_t first, std::int32_t count) {  // 64 bits:
-                                                                                         // points
-                                                                                         // may be
-                                                                                         // anywhere
+  // 64 bits: points may be anywhere
+  const auto clamped = [](std::int64_t place, std::int32_t first, std::int32_t count) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(place - first, 0, count));
   };
   const std::int32_t first_column =

@@ -80,9 +80,8 @@ double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
   }
   const auto best = std::ranges::min_element(errors) - errors.begin();
   const auto at = [&](std::ptrdiff_t i) { return errors[static_cast<std::size_t>(i)]; };
-  const double usual_error =
-      std::max(at(best) / static_cast<double>(compared.size()), kLeastError);  // a bad fit needs a
-                                                                               // larger improvement
+  // a bad fit needs a larger improvement
+  const double usual_error = std::max(at(best) / static_cast<double>(compared.size()), kLeastError);
   if (best == 0 || best == 2 * kSteps || at(kSteps) - at(best) < kClearly * usual_error) return 0.0;
   const double bend = at(best - 1) - 2.0 * at(best) + at(best + 1);
   const double within =

@@ -33,8 +33,8 @@ struct WideSearchTarget {
   SearchWindow window;
   geometry::Pose2 common_from_target;  ///< Decides whether poses on different targets are the same
                                        ///< place.
-  std::function<bool(double heading_rad)> may_be;  ///< Accepts headings target_from_source to
-                                                   ///< search; empty: all in the window.
+  std::function<bool(double heading_rad)> may_be = {};  ///< Accepts headings target_from_source to
+                                                        ///< search; empty: all in the window.
 };
 
 struct WidePeak {
@@ -87,8 +87,8 @@ class WideSearch {
     std::int32_t half_columns = 0;
     std::int32_t half_rows = 0;
     std::int32_t half_headings = 0;
-    std::vector<std::int32_t> looked_at;  ///< Cumulative count of accepted headings before each
-                                          ///< step of the window.
+    std::vector<std::int32_t> looked_at = {};  ///< Cumulative count of accepted headings before
+                                               ///< each step of the window.
   };
   static bool is_after(const Block& a, const Block& b);
 

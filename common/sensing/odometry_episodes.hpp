@@ -27,9 +27,9 @@ enum class OdometryFault {
 struct OdometryStep {
   std::int64_t stamp_ns = 0;  ///< Of the scan at the end of the step.
   double duration_s = 0.0;
-  std::optional<geometry::Pose2> by_wheels;   ///< With the way and turn factors applied; none: no
-                                              ///< odometry.
-  std::optional<geometry::Pose2> by_matches;  ///< None if the scan was not matched.
+  std::optional<geometry::Pose2> by_wheels = {};   ///< With the way and turn factors applied; none:
+                                                   ///< no odometry.
+  std::optional<geometry::Pose2> by_matches = {};  ///< None if the scan was not matched.
   StepExplanation explanation = StepExplanation::kWheels;
   bool is_jump = false;  ///< Odometry reported an impossible motion.
 

@@ -54,8 +54,8 @@ struct PersonOnRoad {
 /// Traffic as pedestrians perceive it before and while they cross.
 struct StreetView {
   std::function<bool(const Crossing&)> may_start;  ///< Signal or gap allows crossing.
-  std::function<bool(const geometry::Vector2& place_in_world)> is_occupied;  ///< A vehicle is or
-                                                                             ///< will be here.
+  /// A vehicle is or will be here.
+  std::function<bool(const geometry::Vector2& place_in_world)> is_occupied;
 };
 
 /// Pedestrians who walk at random over a graph, alone or in groups, pause, wait at crossings and

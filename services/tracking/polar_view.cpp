@@ -23,17 +23,13 @@ constexpr double kLongestSideM = 3.0;  ///< Between neighbouring echoes of one s
 double rough_angle_rad(const Vector2d& way) {
   const double x = std::abs(way.x());
   const double y = std::abs(way.y());
-  const double slope =
-      std::min(x, y) / std::max({x, y, std::numeric_limits<double>::min()});  // at the laser itself
-                                                                              // any direction is
-                                                                              // right
+  // at the laser itself any direction is right
+  const double slope = std::min(x, y) / std::max({x, y, std::numeric_limits<double>::min()});
   const double slope2 = slope * slope;
   const double slope4 = slope2 * slope2;
+  // two independent halves
   const double below_diagonal_rad =
-      slope *
-      (0.99921417 - 0.32117868 * slope2 + slope4 * (0.14627357 - 0.03899266 * slope2));  // two
-                                                                                         // independent
-                                                                                         // halves
+      slope * (0.99921417 - 0.32117868 * slope2 + slope4 * (0.14627357 - 0.03899266 * slope2));
   const double from_x_axis_rad =
       y > x ? 0.5 * std::numbers::pi - below_diagonal_rad : below_diagonal_rad;
   return std::copysign(way.x() < 0.0 ? std::numbers::pi - from_x_axis_rad : from_x_axis_rad,
@@ -166,9 +162,8 @@ long PolarView::beam_towards(const Vector2d& way) const {
   if (off_middle_rad > std::numbers::pi) off_middle_rad -= kFullTurn;
   if (off_middle_rad < -std::numbers::pi) off_middle_rad += kFullTurn;
   const double steps = half_view_rad_ * beams_per_rad_ + off_middle_rad * beams_per_rad_;
-  const auto beam = static_cast<long>(steps + std::copysign(0.5, steps));  // std::lround() but for
-                                                                           // ties, which are not
-                                                                           // sure
+  // std::lround() but for ties, which are not sure
+  const auto beam = static_cast<long>(steps + std::copysign(0.5, steps));
   const bool is_sure =
       std::abs(steps - static_cast<double>(beam)) < 0.5 - kRoughErrorRad * beams_per_rad_ &&
       std::abs(off_middle_rad) + kRoughErrorRad < std::numbers::pi;

@@ -96,13 +96,9 @@ class BagFuzz : public ::testing::Test {
     opened_ = refused_ = 0;
     for (int i = 0; i < times; ++i) {
       std::string damaged = i % 3 == 0 ? mutated(whole, kWords, random) : whole;
+      // most others are refused at once
       if (i % 3 != 0)
-        damaged[below(damaged.size(), random)] ^= static_cast<char>(1 << below(8, random));  // most
-                                                                                             // others
-                                                                                             // are
-                                                                                             // refused
-                                                                                             // at
-                                                                                             // once
+        damaged[below(damaged.size(), random)] ^= static_cast<char>(1 << below(8, random));
       if (i % 4 == 0) damaged.resize(below(damaged.size() + 1, random));
       slammot::testing::write_file(folder_ / name, damaged);
       read_all(name, i % 2 == 0 ? 0 : std::size_t{1} << 20);

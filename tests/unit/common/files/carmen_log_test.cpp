@@ -155,9 +155,8 @@ TEST_F(CarmenLogTest, InterpolatesOdomLinesForScansWhoseOwnPoseStandsStill) {
   EXPECT_EQ(reading.order, "oosoos");
   EXPECT_EQ(reading.odometry[1].stamp_ns, reading.scans[0].stamp_ns);
   EXPECT_THAT(reading.odometry[1].wheel_from_base, PoseNear(Pose2{0.25, 0.0, 0.0}, 1e-12));
-  EXPECT_THAT(reading.odometry[3].wheel_from_base, PoseNear(Pose2{1.0, 0.0, 0.0}, 1e-12));  // held:
-                                                                                            // nothing
-                                                                                            // newer
+  // held: nothing newer
+  EXPECT_THAT(reading.odometry[3].wheel_from_base, PoseNear(Pose2{1.0, 0.0, 0.0}, 1e-12));
 }
 
 TEST_F(CarmenLogTest, GivesScansOfALogThatNeverMovesWithoutOdometry) {

@@ -48,12 +48,11 @@ TEST(RunRecord, HasARowForEveryScanOfTheLogInItsOrder) {
   ASSERT_EQ(trajectory.size(), 5u);
   EXPECT_EQ(trajectory[2].stamp_ns, 150);
   EXPECT_THAT(trajectory[0].map_from_base, PoseNear(Pose2{1.0, 0.0, 0.0}, 1e-12));
-  EXPECT_THAT(trajectory[2].map_from_base, PoseNear(Pose2{2.0, 0.0, 0.0}, 1e-12));  // between its
-                                                                                    // neighbours in
-                                                                                    // time
+  // between its neighbours in time
+  EXPECT_THAT(trajectory[2].map_from_base, PoseNear(Pose2{2.0, 0.0, 0.0}, 1e-12));
   EXPECT_THAT(trajectory[3].map_from_base, PoseNear(Pose2{3.0, 0.0, 0.0}, 1e-12));
-  EXPECT_THAT(trajectory[4].map_from_base, PoseNear(Pose2{3.0, 0.0, 0.0}, 1e-12));  // the nearest
-                                                                                    // there is
+  // the nearest there is
+  EXPECT_THAT(trajectory[4].map_from_base, PoseNear(Pose2{3.0, 0.0, 0.0}, 1e-12));
 }
 
 TEST(RunRecord, HasRowsEvenWhenNothingWasLocalized) {

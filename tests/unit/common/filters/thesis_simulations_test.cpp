@@ -123,8 +123,8 @@ TEST(ConstantAccelerationSimulation,
             0.85);
 }
 
-TEST(ConstantAccelerationSimulation, LeavesAFilterOfConstantVelocityBehind) {  // why Figure 4.2
-                                                                               // needs both models
+// why Figure 4.2 needs both models
+TEST(ConstantAccelerationSimulation, LeavesAFilterOfConstantVelocityBehind) {
   EXPECT_GT(mean_of({kCruise}, testing::accelerating, 2.0, 6.0, velocity_error_mps), 4.0);
   EXPECT_GT(mean_of({kCruise}, testing::accelerating, 2.0, 6.0, position_error_m), 1.0);
 }
@@ -138,10 +138,8 @@ TEST(ConstantVelocitySimulation, IsStablyTrackedAfterASecond) {  // Figures 4.4,
   EXPECT_LT(settled_mps, 0.25);
 }
 
-TEST(ConstantVelocitySimulation, IsLessClearlyOneModelsThanConstantAcceleration) {  // Figure 4.5
-                                                                                    // against 4.3,
-                                                                                    // by
-                                                                                    // Section 4.5
+// Figure 4.5 against 4.3, by Section 4.5
+TEST(ConstantVelocitySimulation, IsLessClearlyOneModelsThanConstantAcceleration) {
   const double when_accelerating =
       mean_of(kCruiseOrAccelerate, testing::accelerating, 2.0, 6.0, probability_of_second);
   const double when_cruising =
@@ -195,8 +193,8 @@ TEST(StationarySimulation, IsOvershotByAFilterOfConstantVelocity) {  // Figure 4
   EXPECT_GT(still_off_m, 2.0 * process_off_m);
 }
 
-TEST(StationarySimulation, ConvergesWithTheStationaryProcessAndNotWithTheStopModel) {  // Figures 4.11,
-                                                                                       // 4.12
+// Figures 4.11, 4.12
+TEST(StationarySimulation, ConvergesWithTheStationaryProcessAndNotWithTheStopModel) {
   double stop_off_m2 = 0.0;
   double process_off_m2 = 0.0;
   for (unsigned seed = 1; seed <= kRuns; ++seed) {
@@ -204,9 +202,8 @@ TEST(StationarySimulation, ConvergesWithTheStationaryProcessAndNotWithTheStopMod
     stop_off_m2 += track_by_stop_model(positions_m).mean.squaredNorm() / kRuns;
     const StationaryProcess process = track_by_stationary_process(positions_m);
     process_off_m2 += process.mean_m.squaredNorm() / kRuns;
-    EXPECT_NEAR(std::sqrt(0.5 * process.covariance_m2().trace()), kManeuverSigmaM, 0.03);  // represents
-                                                                                           // the
-                                                                                           // series
+    // represents the series
+    EXPECT_NEAR(std::sqrt(0.5 * process.covariance_m2().trace()), kManeuverSigmaM, 0.03);
   }
   EXPECT_LT(process_off_m2, 0.1 * stop_off_m2);
 }
@@ -215,10 +212,9 @@ TEST(ConstantVelocitySimulation,
      IsNoStationaryProcessWhateverTheStopModelSays) {  // Figures 4.13, 4.14
   const auto positions_m = testing::measured(testing::cruising, 20, 1);
   const Gaussian<2> stop = track_by_stop_model(positions_m);
-  EXPECT_LT(std::sqrt(stop.covariance(0, 0)), kManeuverSigmaM);          // sure of itself,
-  EXPECT_GT(std::abs(stop.mean.x() - testing::cruising(2.0).x()), 0.5);  // and wrong: about the
-                                                                         // last two measurements'
-                                                                         // mean
+  EXPECT_LT(std::sqrt(stop.covariance(0, 0)), kManeuverSigmaM);  // sure of itself,
+  // and wrong: about the last two measurements' mean
+  EXPECT_GT(std::abs(stop.mean.x() - testing::cruising(2.0).x()), 0.5);
   const StationaryProcess process = track_by_stationary_process(positions_m);
   EXPECT_GT(std::sqrt(process.covariance_m2()(0, 0)), 5.0);
   EXPECT_GT(std::sqrt(process.mean_covariance_m2()(0, 0)),

@@ -116,9 +116,8 @@ TEST(PoseGraph, TakesTheWeightOfAFalseLoopOnceRightOnesContradictIt) {
   const auto truth = square_drive(5);
   PoseGraph graph = bent_chain(truth, 0.01);
   const std::size_t odometric = graph.constraints().size();
-  graph.add_constraint(
-      constraint_between(2, 20, ConstraintKind::kLoop, Pose2::identity()));  // 4 m off, in reach of
-                                                                             // the odometry
+  // 4 m off, in reach of the odometry
+  graph.add_constraint(constraint_between(2, 20, ConstraintKind::kLoop, Pose2::identity()));
   graph.optimise();
   EXPECT_GT(graph.weight(odometric), 0.5);
   EXPECT_GT(largest_position_error_m(graph, truth), 2.0);

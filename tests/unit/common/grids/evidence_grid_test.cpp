@@ -55,8 +55,8 @@ std::vector<Ray> rays_in_a_room(const Vector2d& origin_m, int beams,
 }
 
 std::vector<Ray> rays_in_a_room(const Vector2d& origin_m, int beams) {
-  return rays_in_a_room(origin_m, beams, slammot::testing::room(15.7, 10.3));  // walls inside
-                                                                               // cells, not between
+  // walls inside cells, not between
+  return rays_in_a_room(origin_m, beams, slammot::testing::room(15.7, 10.3));
 }
 
 std::vector<Ray> shifted(std::vector<Ray> rays, const Vector2d& by_m) {

@@ -240,9 +240,8 @@ TEST(OdometryCheck, SeesHeadingsThatTurnAgainstTheirArcs) {
 }
 
 TEST(OdometryCheck, SeesArcsAlsoWherePositionsAreLate) {
-  const auto [sound, mirrored] = turning_by_steps({0.2, -0.2 * 0.1, 0.1});  // along the heading of
-                                                                            // one and a half steps
-                                                                            // ago
+  // along the heading of one and a half steps ago
+  const auto [sound, mirrored] = turning_by_steps({0.2, -0.2 * 0.1, 0.1});
   EXPECT_TRUE(sound.turns_with_its_arcs());
   EXPECT_FALSE(sound.turns_against_its_arcs());
   EXPECT_TRUE(mirrored.turns_against_its_arcs());

@@ -99,9 +99,8 @@ TEST(WideSearch, FindsTheBestPoseThatComparingAllFinds) {
   const auto points = seen_from(room(), truth);
   const SearchWindow window{1.0, 1.0, 0.1};
   WideSearch exhaustive(points, kCellM, {.min_score = 0.0});
-  exhaustive.add_target({pyramid_of(room(), 0), {0.2, 0.1, 0.15}, window, {}});  // no level but the
-                                                                                 // finest: no
-                                                                                 // bounds
+  // no level but the finest: no bounds
+  exhaustive.add_target({pyramid_of(room(), 0), {0.2, 0.1, 0.15}, window, {}});
   WideSearch bounded(points, kCellM, {.min_score = 0.0});
   bounded.add_target({pyramid_of(room()), {0.2, 0.1, 0.15}, window, {}});
   run_to_its_end(exhaustive);

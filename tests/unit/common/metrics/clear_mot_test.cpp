@@ -20,15 +20,14 @@ TEST(ClearMot, OfPerfectTracksIsOne) {
 }
 
 TEST(ClearMot, CountsMissesFalseRowsAndSwitchesAgainstTheObjects) {
-  const ClearMot clear = clear_mot({1,
-                                    3,
-                                    {scan({{0, 0.0}}, {{0, 0.0}}),            // right
-                                     scan({{0, 0.0}}, {}),                    // missed
-                                     scan({{0, 0.0}}, {{1, 0.0}, {2, 9.0}}),  // right by another
-                                                                              // track: a switch;
-                                                                              // one false
-                                     scan({{0, 0.0}}, {{1, 0.0}})}},
-                                   0.5);
+  const ClearMot clear =
+      clear_mot({1,
+                 3,
+                 {scan({{0, 0.0}}, {{0, 0.0}}),  // right
+                  scan({{0, 0.0}}, {}),          // missed
+                  // right by another track: a switch; one false
+                  scan({{0, 0.0}}, {{1, 0.0}, {2, 9.0}}), scan({{0, 0.0}}, {{1, 0.0}})}},
+                0.5);
   EXPECT_EQ(clear.true_positives, 3U);
   EXPECT_EQ(clear.misses, 1U);
   EXPECT_EQ(clear.false_positives, 1U);

@@ -26,8 +26,8 @@ TEST(EndCounts, ABeamPassesEveryCellBeforeTheOneItEndsIn) {
   const MapSharpness sharpness = counts.sharpness();
   EXPECT_EQ(sharpness.touched_cells, 5U);
   EXPECT_EQ(sharpness.occupied_cells, 1U);
-  const double once_bits = -0.25 * std::log2(0.25) - 0.75 * std::log2(0.75);  // once met: 1/4 or
-                                                                              // 3/4
+  // once met: 1/4 or 3/4
+  const double once_bits = -0.25 * std::log2(0.25) - 0.75 * std::log2(0.75);
   EXPECT_NEAR(sharpness.entropy_bits, 5 * once_bits, 1e-12);
 }
 

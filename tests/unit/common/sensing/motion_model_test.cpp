@@ -470,8 +470,8 @@ TEST(MovedAtVelocity, IsAsUnsureInOneStepAsInMany) {
   MotionEstimate in_many = at_velocity({5.0, 0.0}, {0.5, 0.1});
   const MotionEstimate in_one = moved_at_velocity(in_many, 1.0, kConfig);
   for (int i = 0; i < 100; ++i) in_many = moved_at_velocity(in_many, 0.01, kConfig);
-  const double floor_m2 = 99 * kConfig.position_noise_m * kConfig.position_noise_m;  // of every
-                                                                                     // step
+  // of every step
+  const double floor_m2 = 99 * kConfig.position_noise_m * kConfig.position_noise_m;
   EXPECT_NEAR(in_many.covariance(0, 0) - floor_m2, in_one.covariance(0, 0),
               1e-3 * in_one.covariance(0, 0));
   EXPECT_NEAR(in_many.covariance(10, 10), in_one.covariance(10, 10), 1e-9);

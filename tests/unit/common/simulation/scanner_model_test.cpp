@@ -143,9 +143,8 @@ TEST(ScanWorld, ScansAVerticalProfileWhenTurnedOnItsSide) {
               1e-3);                                          // 40 degrees up the wall
   EXPECT_EQ(scanned.source[kStraightAhead + 120], kNothing);  // 60 degrees: over its 12 m
   EXPECT_NEAR(scanned.range_m[0], 2.0, 1e-3);                 // straight down
-  EXPECT_NEAR(scanned.range_m[kStraightAhead - 120], 2.0 / std::sin(M_PI / 3.0), 1e-3);  // the road
-                                                                                         // at 60
-                                                                                         // degrees
+  // the road at 60 degrees
+  EXPECT_NEAR(scanned.range_m[kStraightAhead - 120], 2.0 / std::sin(M_PI / 3.0), 1e-3);
 }
 
 TEST(ScanWorld, MeetsARisingRoad) {

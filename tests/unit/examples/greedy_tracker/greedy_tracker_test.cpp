@@ -136,9 +136,8 @@ TEST(GreedyTracker, AssignsASegmentToTheNearestTrack) {
   ASSERT_THAT(scene.result.objects.objects, SizeIs(2));
   const std::int64_t last_ns = scene.result.objects.stamp_ns;
   const double next_s = static_cast<double>(last_ns) * 1e-9 + kPeriodS;
-  scene.result =
-      scene.tracker.step(scan_of(next_s, {moving_segment({10.6, 3.0 * next_s})}));  // nearer to the
-                                                                                    // second one
+  // nearer to the second one
+  scene.result = scene.tracker.step(scan_of(next_s, {moving_segment({10.6, 3.0 * next_s})}));
   ASSERT_THAT(scene.result.objects.objects, SizeIs(2));
   EXPECT_EQ(scene.result.objects.objects.at(0).last_seen_ns, last_ns);
   EXPECT_EQ(scene.result.objects.objects.at(1).last_seen_ns, scene.result.objects.stamp_ns);

@@ -714,7 +714,8 @@ TEST(Localizer, PredictsThePoseOfABlankScan) {
         ASSERT_TRUE(predicted);
         EXPECT_EQ(predicted->stamp_ns, blank.stamp_ns);
         EXPECT_TRUE(predicted->beams.empty());
-        EXPECT_LT(testing::distance_m(predicted->odom_from_base.pose, drive.odom_from_base(20)), 0.05);
+        EXPECT_LT(testing::distance_m(predicted->odom_from_base.pose, drive.odom_from_base(20)),
+                  0.05);
         EXPECT_FALSE(localizer.localize(blank)) << "a second one with this stamp";
       }
       each->integrate(testing::all_stationary(*each->localize(drive.scan(scan))));
