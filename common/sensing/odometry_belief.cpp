@@ -201,17 +201,30 @@ bool has_changed(const OdometryBelief& belief, const Pose2& by_wheels, double du
   constexpr double kJitter_rad = 0.008;
   constexpr double kAcceleration_mps2 = 8.0;
   constexpr double kTurnAcceleration_radps2 = 6.0;
-  if (belief.last_duration_s <= 0.0) return false;
-  const double ratio = duration_s / belief.last_duration_s;
-  const double squared_s2 = duration_s * duration_s;
-  const double apart_m = std::abs(by_wheels.x_m - ratio * belief.last_by_wheels.x_m);
-  const double apart_rad =
-      std::abs(by_wheels.heading_rad - ratio * belief.last_by_wheels.heading_rad);
-  return apart_m > kJitter_m + kAcceleration_mps2 * squared_s2 ||
-         apart_rad > kJitter_rad + kTurnAcceleration_radps2 * squared_s2;
+  // between_s: from the middle of the earlier step to the middle of this one
+  const auto differs_from = [&](const Pose2& earlier, double earlier_s, double between_s) {
+    if (earlier_s <= 0.0) return false;
+    const double ratio = duration_s / earlier_s;
+    const double apart_m = std::abs(by_wheels.x_m - ratio * earlier.x_m);
+    const double apart_rad = std::abs(by_wheels.heading_rad - ratio * earlier.heading_rad);
+    return apart_m > kJitter_m + kAcceleration_mps2 * duration_s * between_s ||
+           apart_rad > kJitter_rad + kTurnAcceleration_radps2 * duration_s * between_s;
+  };
+  // A change in the middle of a step shows in full only against the step before the last.
+  return differs_from(belief.last_by_wheels, belief.last_duration_s, duration_s) ||
+         differs_from(belief.previous_by_wheels, belief.previous_duration_s,
+                      duration_s + belief.last_duration_s);
+}
+
+OdometryBelief with_changed_wheels(OdometryBelief belief) {
+  constexpr double kMostOdds = 1.0;
+  if (!belief.is_disbelieved) belief.log_odds = std::min(belief.log_odds, kMostOdds);
+  return belief;
 }
 
 OdometryBelief with_wheels(OdometryBelief belief, const Pose2& by_wheels, double duration_s) {
+  belief.previous_by_wheels = belief.last_by_wheels;
+  belief.previous_duration_s = belief.last_duration_s;
   belief.last_by_wheels = by_wheels;
   belief.last_duration_s = duration_s;
   return belief;

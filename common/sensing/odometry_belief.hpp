@@ -117,6 +117,8 @@ struct OdometryBelief {
   double usual_step_s = 0.1;                        ///< Running mean of the time between scans.
   geometry::Pose2 last_step;                        ///< Last step by matches.
   StepHistory steps;                                ///< Earlier steps by matches.
+  geometry::Pose2 previous_by_wheels;               ///< Step by odometry before the last one.
+  double previous_duration_s = 0.0;                 ///< Its duration; 0: none yet.
   geometry::Pose2 last_by_wheels;                   ///< Last step by odometry, uncorrected.
   double last_duration_s = 0.0;                     ///< Duration of the last step; 0: none yet.
   double usual_way_m = 0.5;                         ///< Usual way of a step.
@@ -156,9 +158,13 @@ struct OdometryComparison {
 
 OdometryBelief compared(OdometryBelief belief, const OdometryComparison& comparison);
 
-/// True if odometry's velocity (uncorrected) changed from the last step to this one more than a
-/// vehicle's can.
+/// True if odometry's velocity (uncorrected) changed from one of the last two steps to this one
+/// more than a vehicle's can.
 bool has_changed(const OdometryBelief& belief, const geometry::Pose2& by_wheels, double duration_s);
+
+/// After such a change odometry has to be confirmed by comparisons with scans: limits the log-odds
+/// that it is right.
+OdometryBelief with_changed_wheels(OdometryBelief belief);
 
 /// State after a step with this odometry.
 OdometryBelief with_wheels(OdometryBelief belief, const geometry::Pose2& by_wheels,

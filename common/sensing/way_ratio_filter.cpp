@@ -44,6 +44,14 @@ void WayRatioFilter::update(const Profile& log_likelihoods) {
   for (double& weight : weights_) weight /= sum;
 }
 
+void WayRatioFilter::doubt() {
+  constexpr double kRedrawn = 0.5;
+  const Profile fresh = prior();
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    weights_[i] = (1.0 - kRedrawn) * weights_[i] +
+                  kRedrawn * (is_right(kRatios[i]) ? 0.0 : fresh[i] / (1.0 - kRightPrior));
+}
+
 WayRatioFilter::Profile WayRatioFilter::prominent(Profile profile, double least) {
   const auto n = static_cast<double>(profile.size());
   const double mean_ratio = std::accumulate(kRatios.begin(), kRatios.end(), 0.0) / n;

@@ -19,6 +19,9 @@ class WayRatioFilter {
   /// Updates with one comparison; log_likelihoods [nats], one a ratio, up to a constant.
   void update(const Profile& log_likelihoods);
 
+  /// The ratio may have become any other one: even odds for that.
+  void doubt();
+
   /// The profile minus its linear trend, because after less way less of the place is new. All zero
   /// unless one ratio exceeds the others by `least`: along a bare wall all ratios fit equally and
   /// the rest is noise.

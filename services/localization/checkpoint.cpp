@@ -46,6 +46,8 @@ void visit_belief(Belief& belief, Visitor visit) {
   visit(belief.usual_step_s);
   visit(belief.last_step);
   visit(belief.steps);
+  visit(belief.previous_by_wheels);
+  visit(belief.previous_duration_s);
   visit(belief.last_by_wheels);
   visit(belief.last_duration_s);
   visit(belief.usual_way_m);
@@ -151,6 +153,7 @@ bool is_sound(const sensing::OdometryBelief& belief) {
       std::isfinite(belief.log_odds) && std::isfinite(belief.log_odds_of_factors) &&
       is_not_negative(belief.disbelieved_s) && is_believable(belief.last_step) &&
       belief.steps.is_sound() && is_believable(belief.last_by_wheels) &&
+      is_believable(belief.previous_by_wheels) && is_not_negative(belief.previous_duration_s) &&
       is_not_negative(belief.last_duration_s) && is_not_negative(belief.usual_way_m) &&
       is_not_negative(belief.usual_drive_m) && is_not_negative(belief.usual_turn_rad);
   if (!has_odds) return false;

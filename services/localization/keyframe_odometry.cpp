@@ -245,6 +245,14 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
     return std::nullopt;
   }
   if (state_.compared_ns == step.stamp_ns) return last_;
+  if (step.wheels_jerked) {
+    // Before and after the change odometry may have different factors: a comparison across it
+    // would mix them.
+    state_.way_ratio.doubt();
+    state_.is_in_doubt = true;
+    begin(seen);
+    return std::nullopt;
+  }
   if (!state_.keyframe || state_.rests) {
     if (!state_.compared_ns || state_.is_in_doubt ||
         step.stamp_ns - *state_.compared_ns >= kRest_ns)

@@ -218,10 +218,11 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   }
   const bool was_disbelieved =
       state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;
-  step.wheels_changed =
+  step.wheels_jerked =
       config_.time_is_known && by_wheels &&
-      (was_disbelieved ||
-       sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s));
+      sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s);
+  step.wheels_changed =
+      step.wheels_jerked || (config_.time_is_known && by_wheels && was_disbelieved);
   const bool cannot_be = by_wheels && is_impossible(*by_wheels, step.duration_s);
   const bool is_jump =
       config_.time_is_known && by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
@@ -288,6 +289,7 @@ void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) 
                           config_.motion, config_.belief);
   if (is_matched)
     belief.usual_share += kUsualShareMemory * (match.matched_share - belief.usual_share);
+  if (step.wheels_jerked) belief = sensing::with_changed_wheels(belief);
   if (step.has_wheels() || step.has_doubted_wheels)
     belief = sensing::with_wheels(belief, step.uncorrected_by_wheels, step.duration_s);
   const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels &&

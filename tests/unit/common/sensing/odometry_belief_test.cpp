@@ -257,6 +257,36 @@ OdometryBelief after_straight_steps(int steps,
   return belief;
 }
 
+TEST(HasChanged, SeesASlipThatBeginsAtAnyTimeWithinAStepAndNoBraking) {
+  constexpr double kStep_s = 1.0 / 37.5;
+  const auto change_seen = [&](double speed_mps, double change_mps2, double jump_mps,
+                               double first_share) {
+    OdometryBelief belief;
+    bool is_seen = false;
+    for (int i = 0; i < 6; ++i) {
+      const double jumped = i < 2 ? 0.0 : i == 2 ? first_share : 1.0;
+      const Pose2 step{(speed_mps + change_mps2 * i * kStep_s + jumped * jump_mps) * kStep_s, 0.0,
+                       0.0};
+      is_seen = is_seen || has_changed(belief, step, kStep_s);
+      belief = with_wheels(belief, step, kStep_s);
+    }
+    return is_seen;
+  };
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+    EXPECT_TRUE(change_seen(6.0, 0.0, 1.0, share)) << share;
+  EXPECT_FALSE(change_seen(6.0, -7.0, 0.0, 0.0));
+}
+
+TEST(OdometryBelief, AsksForNewComparisonsAfterAnImpossibleChange) {
+  OdometryBelief belief;
+  belief.log_odds = 4.0;
+  belief = with_changed_wheels(belief);
+  EXPECT_LE(belief.log_odds, 1.0);
+  belief.log_odds = -3.0;
+  belief.is_disbelieved = true;
+  EXPECT_EQ(with_changed_wheels(belief).log_odds, -3.0) << "it is disbelieved already";
+}
+
 TEST(OdometryBelief, KnowsTheVelocityOfTheMatches) {
   const OdometryBelief belief = after_straight_steps(20);
   EXPECT_NEAR(belief.matched_velocity.x(), 5.0, 0.05);

@@ -44,6 +44,18 @@ TEST(WayRatioFilter, BelievesOdometryAgainAfterTheSlip) {
   EXPECT_GT(filter.sound_probability(), 0.95);
 }
 
+TEST(WayRatioFilter, DecidesByOneComparisonOnceInDoubt) {
+  for (const double ratio : {0.85, 1.0}) {
+    WayRatioFilter filter;
+    for (int i = 0; i < 20; ++i) filter.update(peaks_at({1.0}));
+    filter.doubt();
+    EXPECT_TRUE(filter.is_sound());
+    EXPECT_NEAR(filter.sound_probability(), 0.5, 0.05);
+    filter.update(peaks_at({ratio}));
+    EXPECT_DOUBLE_EQ(filter.most_likely_ratio(), ratio);
+  }
+}
+
 TEST(WayRatioFilter, LearnsNothingWhereNoRatioStandsOut) {
   WayRatioFilter::Profile slope;
   for (std::size_t i = 0; i < slope.size(); ++i)
