@@ -101,8 +101,8 @@ std::optional<Error> select_scanners(const std::vector<std::string>& wanted,
   return std::nullopt;
 }
 
-/// A first stamp in the future would make all others late.
-void CarmenSurvey::ClockCheck::begin_anew_without_the_first() {
+/// Discards a first stamp in the future, after which all others would be late.
+void CarmenSurvey::ClockCheck::restart_without_first() {
   sensing::StampGuard of_the_others{kFarAhead_s};
   const std::int64_t second_ns = first_ns_[1];
   const std::int64_t third_ns = first_ns_[2];
@@ -122,7 +122,7 @@ void CarmenSurvey::ClockCheck::begin_anew_without_the_first() {
 void CarmenSurvey::ClockCheck::add(std::optional<std::int64_t> stamp_ns) {
   if (stamp_ns && first_ns_.size() < 3) {
     first_ns_.push_back(*stamp_ns);
-    if (first_ns_.size() == 3) begin_anew_without_the_first();
+    if (first_ns_.size() == 3) restart_without_first();
     if (begins_ahead_) return;
   }
   ++scans_;

@@ -134,7 +134,7 @@ class CarmenSurvey {
     bool begins_ahead() const { return begins_ahead_; }
 
    private:
-    void begin_anew_without_the_first();
+    void restart_without_first();
 
     std::vector<std::int64_t> first_ns_;  // three of them
     bool begins_ahead_ = false;

@@ -88,11 +88,11 @@ void LineReader::unpack_ahead(std::vector<char> into) {
 bool LineReader::fill() {
   begin_ = end_ = 0;
   if (!next_chunk_.valid()) return false;
-  std::vector<char> done_with = std::move(chunk_.text);
+  std::vector<char> recycled = std::move(chunk_.text);
   chunk_ = next_chunk_.get();
   is_cut_ = is_cut_ || chunk_.is_cut;
   end_ = chunk_.bytes;
-  if (end_ > 0 && !is_cut_) unpack_ahead(std::move(done_with));
+  if (end_ > 0 && !is_cut_) unpack_ahead(std::move(recycled));
   return end_ > 0;
 }
 

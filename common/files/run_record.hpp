@@ -97,8 +97,8 @@ class RunRecord {
   /// submap.
   geometry::Pose2 map_from_submap(const flow::Submap& submap) const;
 
-  /// True if the newest submap is tied to the first one after the last correction.
-  bool knows_where_it_is() const { return !correction_.is_untied; }
+  /// True if constraints connect the newest submap to the first one after the last correction.
+  bool is_connected() const { return !correction_.is_untied; }
 
   /// One pose for every scan of the log, as published live; scans of several scanners that share a
   /// stamp share the pose. A scan that was dropped or lost is given the pose between its neighbours

@@ -156,9 +156,9 @@ void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<co
   if (config.dark_gap_beams > 0) join_what_is_dark(points_m, range_m, config, spans);
 }
 
-bool goes_on_across_seam(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
-                         double beam_step_rad, const SegmentationConfig& config,
-                         std::span<const BeamSpan> spans) {
+bool continues_across_seam(std::span<const Eigen::Vector2f> points_m,
+                           std::span<const float> range_m, double beam_step_rad,
+                           const SegmentationConfig& config, std::span<const BeamSpan> spans) {
   if (spans.size() < 2 || !geometry::goes_all_round(range_m.size(), beam_step_rad)) return false;
   const std::size_t last = spans.back().last;
   const std::size_t first = spans.front().first;

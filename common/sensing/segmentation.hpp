@@ -40,8 +40,8 @@ void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<co
 
 /// True if the last span of a full-circle scan continues in its first span, without an object's
 /// edge in between.
-bool goes_on_across_seam(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
-                         double beam_step_rad, const SegmentationConfig& config,
-                         std::span<const BeamSpan> spans);
+bool continues_across_seam(std::span<const Eigen::Vector2f> points_m,
+                           std::span<const float> range_m, double beam_step_rad,
+                           const SegmentationConfig& config, std::span<const BeamSpan> spans);
 
 }  // namespace slammot::sensing

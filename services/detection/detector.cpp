@@ -67,8 +67,8 @@ void Detector::create_segments(const LocalizedScan& localized, SegmentedScan& sc
   sensing::segment_by_distance(scan.points_in_base_m, range_without_ground_m_,
                                localized.beam_step_rad, config_.segmentation, spans_);
   const bool first_span_continues_last =
-      sensing::goes_on_across_seam(scan.points_in_base_m, range_without_ground_m_,
-                                   localized.beam_step_rad, config_.segmentation, spans_);
+      sensing::continues_across_seam(scan.points_in_base_m, range_without_ground_m_,
+                                     localized.beam_step_rad, config_.segmentation, spans_);
   std::size_t count = 0;
   for (std::size_t i = first_span_continues_last ? 1 : 0; i < spans_.size(); ++i) {
     beams_.clear();

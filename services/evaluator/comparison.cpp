@@ -12,22 +12,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-}  // namespace
-
-void add_comparison_options(CLI::App& command, ComparisonOptions& options, TruthIs truth) {
-  metrics::CountingRule& rule = options.evaluation.rule;
-  command.add_option("--result", options.result, "Folder with the outputs of run or bench")
-      ->required()
-      ->type_name("DIR");
-  command
-      .add_option("--truth", options.truth,
-                  "Truth files without their endings: PREFIX.tum, PREFIX.objects.csv, ...")
-      ->required(truth == TruthIs::kRequired)
-      ->type_name("PREFIX");
-  command
-      .add_option("--input", options.input,
-                  "Log of the drive, for figures of single echoes [PREFIX.log]")
-      ->type_name("FILE");
+/// Options that select the objects and tracks that count.
+void add_counting_rule(CLI::App& command, metrics::CountingRule& rule) {
   command.add_option("--range", rule.range_m, "Objects farther away do not count [m]")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -55,6 +41,24 @@ void add_comparison_options(CLI::App& command, ComparisonOptions& options, Truth
                   "Similarity is 1 - distance / this [m]")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+}
+
+}  // namespace
+
+void add_comparison_options(CLI::App& command, ComparisonOptions& options, TruthIs truth) {
+  command.add_option("--result", options.result, "Folder with the outputs of run or bench")
+      ->required()
+      ->type_name("DIR");
+  command
+      .add_option("--truth", options.truth,
+                  "Truth files without their endings: PREFIX.tum, PREFIX.objects.csv, ...")
+      ->required(truth == TruthIs::kRequired)
+      ->type_name("PREFIX");
+  command
+      .add_option("--input", options.input,
+                  "Log of the drive, for figures of single echoes [PREFIX.log]")
+      ->type_name("FILE");
+  add_counting_rule(command, options.evaluation.rule);
   command
       .add_option("--max-stamp-difference", options.evaluation.max_stamp_difference_s,
                   "Greatest difference of stamps of a pose and its true pose [s]")

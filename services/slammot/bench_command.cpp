@@ -155,7 +155,7 @@ int write(const Job& job, const BenchOptions& options, const files::RunRecord& r
     if (const auto fault = write_stored_map(options.output, record.submaps()))
       return fail(fault->message);
   }
-  if (!options.map.empty()) std::fputs(record.knows_where_it_is() ? kFound : kNotFound, stdout);
+  if (!options.map.empty()) std::fputs(record.is_connected() ? kFound : kNotFound, stdout);
   std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
   for (const auto& [name, count] : report.counters.at("bench")) {
     if (count > 0) std::printf("%s: %llu\n", name.c_str(), static_cast<unsigned long long>(count));

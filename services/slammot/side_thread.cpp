@@ -100,8 +100,8 @@ void SideThread::share(std::size_t parts, const std::function<void(std::size_t)>
   }
 }
 
-/// Does the work unless somebody else has taken it; returns false in that case. With `joins_in`,
-/// does shared parts between steps.
+/// Does the work unless somebody else has taken it; returns false in that case. With
+/// `joins_shared`, does shared parts between steps.
 bool SideThread::try_work(Place& place, Number number, bool joins_shared) {
   std::uint32_t begun = state_of(number, kBegun);
   if (!place.state.compare_exchange_strong(begun, state_of(number, kTaken),

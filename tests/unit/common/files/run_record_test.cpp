@@ -177,11 +177,11 @@ TEST(RunRecord, KeepsScansOfSeveralScannersApartThatShareAStamp) {
 
 TEST(RunRecord, KnowsWhereItIsByTheLastCorrection) {
   RunRecord record;
-  EXPECT_TRUE(record.knows_where_it_is());
+  EXPECT_TRUE(record.is_connected());
   record.add(flow::GraphCorrection{.sequence = 1, .is_untied = true});
-  EXPECT_FALSE(record.knows_where_it_is());
+  EXPECT_FALSE(record.is_connected());
   record.add(flow::GraphCorrection{.sequence = 2});
-  EXPECT_TRUE(record.knows_where_it_is());
+  EXPECT_TRUE(record.is_connected());
 }
 
 TEST(RunRecord, ForgetsADriveButNotItsMap) {

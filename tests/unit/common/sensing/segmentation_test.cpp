@@ -136,7 +136,7 @@ TEST(Segmentation, KnowsWhatGoesOnFromTheLastBeamToTheFirst) {
     std::vector<BeamSpan> spans;
     segment_by_distance(points_m, range_m, step_rad, {}, spans);
     EXPECT_EQ(spans.size(), 2U);
-    return goes_on_across_seam(points_m, range_m, step_rad, {}, spans);
+    return continues_across_seam(points_m, range_m, step_rad, {}, spans);
   };
   EXPECT_TRUE(goes_on(10.1, kStepRad));
   EXPECT_FALSE(goes_on(12.0, kStepRad)) << "something else";

@@ -72,7 +72,7 @@ TEST_F(MapStoreOnTheBus, PublishesAllStoredSubmapsAfterARestart) {
 TEST_F(MapStoreOnTheBus, PublishesTheDescriptionOfTheStoredMap) {
   start<MapStoreService>("map_store");
   ASSERT_TRUE(comes_to([&] { return has_said_what_it_has(); }));
-  EXPECT_EQ(said->submaps, 0U) << "nothing is stored, and it says so";
+  EXPECT_EQ(said->submaps, 0U) << "an empty map is published, too";
   for (const std::uint32_t id : {0U, 1U, 2U}) finish(example_submap(id));
   ASSERT_TRUE(comes_to([&] { return has_said_what_it_has() && said->submaps == 3; }));
   EXPECT_EQ(said->map_id, example_submap(0).map_id);
