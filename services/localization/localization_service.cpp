@@ -11,7 +11,7 @@
 #include "common/wire/sensor.hpp"
 #include "common/wire/tracked_objects.hpp"
 #include "services/localization/localization_fields.hpp"
-#include "services/localization/monotonic_clock.hpp"
+#include "services/localization/localization_service_clock.hpp"
 
 namespace slammot::localization {
 namespace {

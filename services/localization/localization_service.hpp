@@ -10,12 +10,12 @@
 #include "common/wire/graph.hpp"
 #include "common/wire/stored_map.hpp"
 #include "services/localization/drive_watch.hpp"
+#include "services/localization/localization_service_scans.hpp"
+#include "services/localization/localization_service_session.hpp"
+#include "services/localization/localization_service_submaps.hpp"
 #include "services/localization/localizer.hpp"
 #include "services/localization/recent_odometry.hpp"
-#include "services/localization/scan_publisher.hpp"
-#include "services/localization/session_file.hpp"
 #include "services/localization/stored_map_watch.hpp"
-#include "services/localization/submap_publisher.hpp"
 #include "services/localization/waiting_scans.hpp"
 
 namespace slammot::localization {
@@ -71,7 +71,7 @@ class LocalizationService {
   void publish_finished_submaps();
   app::CommandResult finish_submap();
 
-  // Drives: localization_drives.cpp.
+  // Drives: localization_service_drives.cpp.
   bool knows_map_of(const WaitingScan& waiting);
   bool is_stored_map_known();
   bool is_of_this_drive(const WaitingScan& waiting);

@@ -1,4 +1,4 @@
-#include "services/localization/submap_publisher.hpp"
+#include "services/localization/localization_service_submaps.hpp"
 
 #include "common/wire/text.hpp"
 

@@ -1,4 +1,4 @@
-#include "services/localization/scan_publisher.hpp"
+#include "services/localization/localization_service_scans.hpp"
 
 #include <utility>
 

@@ -5,7 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "services/localization/localization_service.hpp"
-#include "services/localization/monotonic_clock.hpp"
+#include "services/localization/localization_service_clock.hpp"
 
 namespace slammot::localization {
 namespace {

@@ -1,4 +1,4 @@
-#include "services/localization/session_file.hpp"
+#include "services/localization/localization_service_session.hpp"
 
 #include <spdlog/spdlog.h>
 
