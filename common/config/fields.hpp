@@ -38,6 +38,7 @@ enum class Group {
   existence,
   publication,
   operation,
+  log,
   none
 };
 

@@ -1,7 +1,6 @@
 #include "common/config/nearest.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 #include <utility>
 
@@ -21,10 +20,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string nearest(std::string_view word, const std::vector<std::string>& known) {
-  assert(!known.empty());
-  return *std::ranges::min_element(
-      known, {}, [&](const std::string& name) { return edit_distance(word, name); });
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known) {
+  constexpr std::size_t kLettersToADifference = 3;
+  const auto name = std::ranges::min_element(
+      known, {}, [&](const std::string& one) { return edit_distance(word, one); });
+  if (name == known.end() ||
+      kLettersToADifference * edit_distance(word, *name) > std::max(word.size(), name->size()))
+    return std::nullopt;
+  return *name;
+}
+
+std::string hint_at_nearest(std::string_view word, const std::vector<std::string>& known) {
+  const std::optional<std::string> name = nearest(word, known);
+  return name ? "; the nearest one is '" + *name + "'" : "";
 }
 
 }  // namespace slammot::config

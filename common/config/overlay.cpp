@@ -42,8 +42,7 @@ std::string in_our_words(const std::string& fault) {
   if (descriptor == nullptr || descriptor->field_count() == 0) return fault;
   std::vector<std::string> known;
   for (int i = 0; i < descriptor->field_count(); ++i) known.push_back(descriptor->field(i)->name());
-  return "no setting is called \"" + *name + "\" here; the nearest one is \"" +
-         nearest(*name, known) + "\"";
+  return "no setting is called '" + *name + "' here" + hint_at_nearest(*name, known);
 }
 
 /// Keeps the first error only: later ones are mostly consequences of it.

@@ -14,8 +14,7 @@ constexpr double kWellInside_m = 0.4;  ///< Margin inside a body, for errors of 
 
 LastingEvidence::LastingEvidence(const GridWindow& window, const LastingModel& model)
     : model_(model),
-      hit_steps_(steps_of_log_odds(model.hit_log_odds)),
-      free_steps_(steps_of_log_odds(model.free_log_odds)),
+      echo_steps_(steps_of_log_odds(model.echo_log_odds)),
       limit_steps_(std::min(126, steps_of_log_odds(model.limit_log_odds))),
       window_(window),
       cells_(window.cell_count(), 0),
@@ -24,7 +23,7 @@ LastingEvidence::LastingEvidence(const GridWindow& window, const LastingModel& m
 void LastingEvidence::hit(Cell cell) {
   std::int8_t& steps = cells_[window_.index(cell)];
   if (is_driven_over(steps)) return;
-  steps = static_cast<std::int8_t>(std::min(limit_steps_, steps + hit_steps_));
+  steps = static_cast<std::int8_t>(std::min(limit_steps_, steps + echo_steps_));
   lowest_.clear(cell.column - window_.first.column, cell.row - window_.first.row);
 }
 
@@ -38,7 +37,7 @@ void LastingEvidence::pass(BitRows& surely_free) {
         cells_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.columns) +
         static_cast<std::size_t>(first_column);
     lowest |= lower_cells(cells, std::min(kCellsPerWord, window_.columns - first_column), to_lower,
-                          free_steps_, -limit_steps_);
+                          echo_steps_, -limit_steps_);
   });
 }
 
@@ -51,9 +50,9 @@ void LastingEvidence::drive_over(const Box& body) {
       std::int8_t& cell = cells_[window_.index({column, row})];
       const Eigen::Vector2d centre_m = window_.centre_of({column, row});
       if (inside.covers(centre_m))
-        cell = static_cast<std::int8_t>(std::max<int>(kDrivenOver, cell - free_steps_));
+        cell = static_cast<std::int8_t>(std::max<int>(kDrivenOver, cell - echo_steps_));
       else if (cell > 0 && body.covers(centre_m))
-        cell = static_cast<std::int8_t>(cell - free_steps_);
+        cell = static_cast<std::int8_t>(cell - echo_steps_);
     }
   }
 }

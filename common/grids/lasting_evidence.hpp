@@ -12,9 +12,8 @@
 namespace slammot::grids {
 
 struct LastingModel {
-  double hit_log_odds = 0.4;    ///< Added at a stationary echo.
-  double free_log_odds = 0.4;   ///< Subtracted where a beam and its neighbours passed, once a scan
-                                ///< and cell.
+  double echo_log_odds = 0.4;   ///< Added at a stationary echo, and subtracted where a beam and its
+                                ///< neighbours passed, once a scan and cell.
   double limit_log_odds = 5.0;  ///< Limit of the absolute log-odds, except in cells that were
                                 ///< driven over.
 };
@@ -54,8 +53,7 @@ class LastingEvidence {
   static constexpr std::int8_t kDrivenOver = -127;
 
   LastingModel model_;
-  int hit_steps_ = 0;
-  int free_steps_ = 0;
+  int echo_steps_ = 0;
   int limit_steps_ = 0;
   GridWindow window_;
   std::vector<std::int8_t> cells_;

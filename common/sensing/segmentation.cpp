@@ -11,6 +11,16 @@
 namespace slammot::sensing {
 namespace {
 
+// Multiples of gap_m.
+constexpr double kWidestGap = 5.0;  ///< At any range,
+constexpr double kLineGap = 20.0;   ///< on a straight wall at grazing incidence,
+constexpr double kDarkGap = 5.0;    ///< and between single echoes of a dark object on a line.
+
+constexpr double kGapBeamSpacings = 3.0;  ///< Growth of the gap with the beam spacing at the range.
+constexpr float kLineGapGrowth = 2.5F;    ///< Largest ratio of neighbouring gaps on a wall.
+constexpr int kBridgedBeams = 2;          ///< Drop-outs between two echoes of a segment,
+constexpr int kDarkGapBeams = 12;         ///< and between two single echoes of a dark object.
+
 /// Echoes at one end of a span: the last, the one before it, and one a few echoes further in.
 struct Tip {
   Eigen::Vector2f end_m;
@@ -41,9 +51,8 @@ Tip tip_of(const BeamSpan& span, int step, std::span<const Eigen::Vector2f> poin
 bool goes_on_at(const Tip& tip, const Eigen::Vector2f& point_m, const SegmentationConfig& config) {
   if (!tip.is_line) return false;
   const Eigen::Vector2f gap = point_m - tip.end_m;
-  const float widest_m =
-      std::min(static_cast<float>(config.line_gap_m),
-               static_cast<float>(config.line_gap_growth) * (tip.end_m - tip.next_m).norm());
+  const float widest_m = std::min(static_cast<float>(kLineGap * config.gap_m),
+                                  kLineGapGrowth * (tip.end_m - tip.next_m).norm());
   const Eigen::Vector2f direction = (tip.end_m - tip.inner_m).normalized();
   const float along_m = direction.dot(gap);
   const float across_m = direction.x() * gap.y() - direction.y() * gap.x();
@@ -54,7 +63,7 @@ bool goes_on_at(const Tip& tip, const Eigen::Vector2f& point_m, const Segmentati
 void join_along_lines(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
                       const SegmentationConfig& config, std::vector<BeamSpan>& spans) {
   const auto are_near = [&](const BeamSpan& a, const BeamSpan& b) {
-    return b.first - a.last <= config.bridged_beams + 1;
+    return b.first - a.last <= kBridgedBeams + 1;
   };
   std::size_t kept = 0;
   for (std::size_t i = 1; i < spans.size(); ++i) {
@@ -98,11 +107,12 @@ void join_what_is_dark(std::span<const Eigen::Vector2f> points_m, std::span<cons
   constexpr std::size_t kFewestSpans = 3;
   constexpr double kMostInARowInTheMean = 1.9;  // pedestrians abreast return longer runs of echoes
   constexpr double kMostAnsweredShare = 0.5;
+  const double dark_gap_m = kDarkGap * config.gap_m;
   const auto is_short = [](const BeamSpan& span) { return span.last - span.first < kMostInARow; };
   const auto may_follow = [&](const BeamSpan& a, const BeamSpan& b) {
-    return b.first - a.last <= config.dark_gap_beams + 1 && is_short(b) &&
+    return b.first - a.last <= kDarkGapBeams + 1 && is_short(b) &&
            (points_m[b.first] - points_m[a.last]).squaredNorm() <=
-               static_cast<float>(config.dark_gap_m * config.dark_gap_m);
+               static_cast<float>(dark_gap_m * dark_gap_m);
   };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < spans.size();) {
@@ -132,7 +142,7 @@ bool lie_together(std::size_t before, std::size_t beam, std::span<const Eigen::V
   const double spacing_m =
       std::abs(beam_step_rad) * static_cast<double>(std::max(range_m[before], range_m[beam]));
   const double gap_m =
-      std::min(config.widest_gap_m, config.gap_m + config.gap_beam_spacings * spacing_m);
+      std::min(kWidestGap * config.gap_m, config.gap_m + kGapBeamSpacings * spacing_m);
   return (points_m[beam] - points_m[before]).squaredNorm() <= static_cast<float>(gap_m * gap_m);
 }
 
@@ -147,13 +157,13 @@ void segment_by_distance(std::span<const Eigen::Vector2f> points_m, std::span<co
     if (range_m[beam] <= 0.0F) continue;
     const auto index = static_cast<std::uint16_t>(beam);
     const bool goes_on =
-        !spans.empty() && index - spans.back().last <= config.bridged_beams + 1 &&
+        !spans.empty() && index - spans.back().last <= kBridgedBeams + 1 &&
         lie_together(spans.back().last, beam, points_m, range_m, beam_step_rad, config);
     if (goes_on) spans.back().last = index;
     else spans.push_back({index, index});
   }
   join_along_lines(points_m, range_m, config, spans);
-  if (config.dark_gap_beams > 0) join_what_is_dark(points_m, range_m, config, spans);
+  if (kDarkGapBeams > 0) join_what_is_dark(points_m, range_m, config, spans);
 }
 
 bool continues_across_seam(std::span<const Eigen::Vector2f> points_m,
@@ -163,7 +173,7 @@ bool continues_across_seam(std::span<const Eigen::Vector2f> points_m,
   const std::size_t last = spans.back().last;
   const std::size_t first = spans.front().first;
   const std::size_t unanswered = range_m.size() - 1 - last + first;
-  return static_cast<int>(unanswered) <= config.bridged_beams &&
+  return static_cast<int>(unanswered) <= kBridgedBeams &&
          lie_together(last, first, points_m, range_m, beam_step_rad, config);
 }
 

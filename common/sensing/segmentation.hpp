@@ -11,16 +11,8 @@ namespace slammot::sensing {
 
 /// Thresholds on the distance between neighbouring echoes of one segment.
 struct SegmentationConfig {
-  double gap_m = 0.3;              ///< Allowed gap at range zero;
-  double gap_beam_spacings = 3.0;  ///< it grows by this multiple of the beam spacing at the range.
-  double widest_gap_m = 1.5;
-  int bridged_beams = 2;           ///< Drop-outs allowed between two echoes of a segment.
-  double line_gap_m = 6.0;         ///< Allowed gap on a straight wall at grazing incidence,
-  double line_gap_growth = 2.5;    ///< at most this multiple of the gap before,
-  double line_tolerance_m = 0.25;  ///< if the next echo is within this distance of the wall's line.
-  double dark_gap_m = 1.5;  ///< Allowed gap between single echoes of a dark object on a line,
-  int dark_gap_beams = 12;  ///< with at most this many drop-outs in between; 0: such echoes are not
-                            ///< joined.
+  double gap_m = 0.3;              ///< Allowed gap at range zero; other gaps are multiples of it.
+  double line_tolerance_m = 0.25;  ///< Allowed distance of an echo from the line of its wall.
 };
 
 /// Beams [first, last] of one segment; beams without echo may lie between.

@@ -17,31 +17,16 @@ FieldTable<sensing::SegmentationConfig> segmentation_fields() {
       {
           {"gap_m",
            &C::gap_m,
-           "Greatest distance of neighbouring echoes of one segment, close to the scanner.",
+           "Greatest distance of neighbouring echoes of one segment, close to the scanner. "
+           "Greatest "
+           "gaps at any range, along walls and of dark objects are multiples of it.",
            kNotNegative,
            {"One object is split.", "A pedestrian beside a wall is merged with it."}},
-          {"widest_gap_m",
-           &C::widest_gap_m,
-           "Greatest gap within a segment at any range.",
-           kPositive,
-           {"Distant objects are split.", "Distant objects side by side are merged."}},
-          {"line_gap_m",
-           &C::line_gap_m,
-           "Greatest gap within a straight wall at grazing incidence.",
-           kNotNegative,
-           {"Distant walls are split into parts that resemble objects.",
-            "Gaps in walls, where a pedestrian may stand, are bridged."}},
           {"line_tolerance_m",
            &C::line_tolerance_m,
            "Greatest distance of the next echo from the wall's line.",
            kPositive,
            {"Noise splits walls.", "An object that touches a wall is merged with it."}},
-          {"dark_gap_m",
-           &C::dark_gap_m,
-           "Greatest gap between sparse echoes of a dark object on a line.",
-           kNotNegative,
-           {"A dark car is split into single echoes.",
-            "Single echoes of different objects are merged."}},
       });
 }
 

@@ -45,7 +45,7 @@ void add_echoes(const BeamSpan& span, const std::vector<float>& range_m,
 SegmentedScan Detector::detect(const LocalizedScan& localized, SegmentedScan recycled) {
   SegmentedScan scan = with_header_of(localized, std::move(recycled));
   directions_.compute(localized);
-  label_points(localized, directions_, config_, scan);
+  label_points(localized, directions_, scan);
   remove_ground(scan);
   create_segments(localized, scan);
   describe_segments(localized, scan);
@@ -53,7 +53,7 @@ SegmentedScan Detector::detect(const LocalizedScan& localized, SegmentedScan rec
 }
 
 void Detector::remove_ground(SegmentedScan& scan) {
-  find_ground(scan, directions_, config_, is_ground_);
+  find_ground(scan, directions_, is_ground_);
   range_without_ground_m_ = scan.range_m;
   for (std::size_t i = 0; i < is_ground_.size(); ++i) {
     if (!is_ground_[i]) continue;
@@ -75,7 +75,7 @@ void Detector::create_segments(const LocalizedScan& localized, SegmentedScan& sc
     add_echoes(spans_[i], range_without_ground_m_, beams_);
     if (first_span_continues_last && i + 1 == spans_.size())
       add_echoes(spans_.front(), range_without_ground_m_, beams_);
-    split_by_label(beams_, scan, config_, runs_);
+    split_by_label(beams_, scan, runs_);
     for (const Run& run : runs_) {
       if (count == scan.segments.size()) spare_segments_.resize(scan.segments, count + 1);
       std::vector<std::uint16_t>& beams = scan.segments[count++].beams;

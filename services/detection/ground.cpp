@@ -6,12 +6,18 @@
 #include <optional>
 
 #include "services/detection/beam_directions.hpp"
-#include "services/detection/detection_config.hpp"
 
 namespace slammot::detection {
 namespace {
 
 using geometry::Vector2;
+
+constexpr double kLeastWidthM = 3.0;  ///< Least width of a ground line across the vehicle's axis.
+constexpr double kThicknessM = 0.4;   ///< Greatest distance of its echoes from it, along the axis.
+constexpr double kHeadingRad = 0.25;  ///< Greatest deviation from a right angle to the axis.
+constexpr double kNearestM = 3.0;     ///< Least distance ahead of the scanner.
+constexpr double kMaxBeyondShare = 0.2;  ///< Greatest number of beams that see beyond it, as a
+                                         ///< share of those on it.
 
 /// x = distance + slope * y, in a frame at the laser parallel to base.
 struct Line {
@@ -23,17 +29,15 @@ enum class Side { kInFront, kOn, kBeyond, kNoEcho, kNotCrossed };
 
 class Ground {
  public:
-  Ground(const flow::SegmentedScan& scan, const BeamDirections& directions,
-         const DetectionConfig& config)
-      : scan_(scan), config_(config), directions_(directions) {}
+  Ground(const flow::SegmentedScan& scan, const BeamDirections& directions)
+      : scan_(scan), directions_(directions) {}
 
   Vector2 from_laser_m(std::size_t beam) const {
     return scan_.points_in_base_m[beam].cast<double>() - scan_.base_from_laser.translation_m();
   }
 
   bool is_candidate(std::size_t beam) const {
-    return scan_.labels[beam] == flow::PointLabel::kMoving &&
-           from_laser_m(beam).x() > config_.ground_nearest_m;
+    return scan_.labels[beam] == flow::PointLabel::kMoving && from_laser_m(beam).x() > kNearestM;
   }
 
   /// Least-squares line through a run of candidates; empty if it is not square to the axis.
@@ -46,7 +50,7 @@ class Ground {
     }
     const double spread = syy - sy * sy / n;
     const double slope = (sxy - sx * sy / n) / std::max(spread, 1e-9);
-    if (std::abs(slope) > std::tan(config_.ground_heading_rad)) return std::nullopt;
+    if (std::abs(slope) > std::tan(kHeadingRad)) return std::nullopt;
     return Line{(sx - slope * sy) / n, slope};
   }
 
@@ -59,7 +63,7 @@ class Ground {
     const double crossing_m = line.distance_m / approach;
     if (crossing_m > 0.9 * scan_.max_range_m) return Side::kNotCrossed;
     const auto range_m = static_cast<double>(scan_.range_m[beam]);
-    const double tolerance_m = config_.ground_thickness_m + 0.02 * crossing_m;
+    const double tolerance_m = kThicknessM + 0.02 * crossing_m;
     if (range_m <= 0.0) return Side::kNoEcho;  // asphalt may return no echo
     if (range_m > crossing_m + tolerance_m) return Side::kBeyond;
     return range_m < crossing_m - tolerance_m ? Side::kInFront : Side::kOn;
@@ -112,8 +116,7 @@ class Ground {
 
   bool is_ground(const Line& line) const {
     const Tally tally = tally_of(line);
-    if (tally.high_y_m - tally.low_y_m < config_.ground_least_width_m ||
-        tally.beyond > config_.ground_max_beyond_share * tally.on)
+    if (tally.high_y_m - tally.low_y_m < kLeastWidthM || tally.beyond > kMaxBeyondShare * tally.on)
       return false;
     if (tally.without_echo <= tally.on) return true;
     return tally.without_echo_between <= tally.on && ends_at_occluder(tally.first, -1, line) &&
@@ -122,16 +125,15 @@ class Ground {
 
  private:
   const flow::SegmentedScan& scan_;
-  const DetectionConfig& config_;
   const BeamDirections& directions_;
 };
 
 }  // namespace
 
 void find_ground(const flow::SegmentedScan& scan, const BeamDirections& directions,
-                 const DetectionConfig& config, std::vector<char>& is_ground) {
+                 std::vector<char>& is_ground) {
   is_ground.assign(scan.range_m.size(), 0);
-  const Ground ground(scan, directions, config);
+  const Ground ground(scan, directions);
   constexpr std::size_t kMinEchoes = 4;
   constexpr std::size_t kMaxEchoes = 12;  // Enough for a line, few enough to follow a curved one.
   for (std::size_t first = 0; first + kMinEchoes <= scan.range_m.size(); ++first) {
@@ -140,7 +142,7 @@ void find_ground(const flow::SegmentedScan& scan, const BeamDirections& directio
     while (last + 1 < scan.range_m.size() && last + 1 < first + kMaxEchoes &&
            ground.is_candidate(last + 1) &&
            std::abs(ground.from_laser_m(last + 1).x() - ground.from_laser_m(last).x()) <
-               config.ground_thickness_m)
+               kThicknessM)
       ++last;
     if (last + 1 < first + kMinEchoes) continue;
     const std::optional<Line> line = ground.line_from(first, last);

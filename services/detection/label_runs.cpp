@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/detection/point_labels.hpp"
+
 namespace slammot::detection {
 namespace {
 
 using flow::PointLabel;
 using flow::SegmentedScan;
+
+/// Fewest neighbouring beams of one label that are a segment of their own.
+constexpr int kLeastMovingRun = 2;
+constexpr int kLeastStationaryRun = 3;
 
 void merge_with_equal_neighbours(std::vector<Run>& runs) {
   std::size_t kept = 0;
@@ -29,8 +35,7 @@ bool lies_on_line(const Eigen::Vector2f& from, const Eigen::Vector2f& to,
 /// True if the moving run continues the line of the stationary runs beside it: a wall whose cells
 /// the map does not know completely.
 bool continues_wall(std::size_t index, const std::vector<Run>& runs,
-                    std::span<const std::uint16_t> beams, const SegmentedScan& scan,
-                    const DetectionConfig& config) {
+                    std::span<const std::uint16_t> beams, const SegmentedScan& scan) {
   constexpr std::size_t kBack = 4;
   const auto point = [&](std::size_t i) { return scan.points_in_base_m[beams[i]]; };
   const Run& run = runs[index];
@@ -45,14 +50,14 @@ bool continues_wall(std::size_t index, const std::vector<Run>& runs,
                  : end + std::min(kBack, runs[index + 1].count) - 1;
   const std::size_t to = has_after ? end : run.first - 1;
   for (std::size_t i = run.first; i < end; ++i)
-    if (!lies_on_line(point(from), point(to), point(i), config.outline_tolerance_m)) return false;
+    if (!lies_on_line(point(from), point(to), point(i), kOutlineToleranceM)) return false;
   return true;
 }
 
 }  // namespace
 
 void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& scan,
-                    const DetectionConfig& config, std::vector<Run>& runs) {
+                    std::vector<Run>& runs) {
   runs.clear();
   std::size_t unknown = 0;
   for (std::size_t i = 0; i < beams.size(); ++i) {
@@ -69,12 +74,11 @@ void split_by_label(std::span<const std::uint16_t> beams, const SegmentedScan& s
   }
   if (runs.empty()) runs.push_back({0, beams.size(), false});
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (runs[i].is_moving && continues_wall(i, runs, beams, scan, config))
-      runs[i].is_moving = false;
+    if (runs[i].is_moving && continues_wall(i, runs, beams, scan)) runs[i].is_moving = false;
   merge_with_equal_neighbours(runs);
   for (int pass = 0; pass < 2 && runs.size() > 1; ++pass) {
     for (Run& run : runs) {
-      const int least = run.is_moving ? config.least_moving_run : config.least_stationary_run;
+      const int least = run.is_moving ? kLeastMovingRun : kLeastStationaryRun;
       if (static_cast<int>(run.count) < least) run.is_moving = !run.is_moving;
     }
     merge_with_equal_neighbours(runs);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "common/flow/segmented_scan.hpp"
-#include "services/detection/detection_config.hpp"
 
 namespace slammot::detection {
 
@@ -20,6 +19,6 @@ struct Run {
 /// Splits beams into moving and stationary runs. A beam with unknown label joins the run before it.
 /// Runs too short for an object take the label of their neighbours.
 void split_by_label(std::span<const std::uint16_t> beams, const flow::SegmentedScan& scan,
-                    const DetectionConfig& config, std::vector<Run>& runs);
+                    std::vector<Run>& runs);
 
 }  // namespace slammot::detection

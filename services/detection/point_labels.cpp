@@ -12,13 +12,17 @@ using flow::PointLabel;
 using flow::SegmentedScan;
 using geometry::Vector2;
 
-PointLabel label_of(const LocalizedBeam& beam, const DetectionConfig& config) {
+constexpr double kLeastFreeLogOdds = 0.8;        ///< Least log-odds of free space that make an echo
+                                                 ///< there moving.
+constexpr double kOutlineTolerancePerM = 0.006;  ///< Increase of kOutlineToleranceM per metre of
+                                                 ///< range.
+
+PointLabel label_of(const LocalizedBeam& beam) {
   switch (beam.end_cell) {
     case EndCell::kNoEcho: return PointLabel::kNoEcho;
     case EndCell::kOccupied: return PointLabel::kStationary;
     case EndCell::kFree:
-      return beam.free_evidence >= config.least_free_log_odds ? PointLabel::kMoving
-                                                              : PointLabel::kUnknown;
+      return beam.free_evidence >= kLeastFreeLogOdds ? PointLabel::kMoving : PointLabel::kUnknown;
     case EndCell::kUnseen: break;
   }
   return PointLabel::kUnknown;
@@ -34,10 +38,10 @@ class ExpectedOutline {
   /// True if the echo lies near the polyline through the end points of neighbouring beams. At
   /// grazing incidence an echo of a wall is far from its own beam's end point but near the wall's
   /// line.
-  bool contains(std::size_t beam, const DetectionConfig& config) const {
+  bool contains(std::size_t beam) const {
     const LocalizedBeam& echo = scan_.beams[beam];
-    const double within_m = config.outline_tolerance_m +
-                            config.outline_tolerance_per_m * static_cast<double>(echo.range_m);
+    const double within_m =
+        kOutlineToleranceM + kOutlineTolerancePerM * static_cast<double>(echo.range_m);
     const Vector2 point = echo.point_in_base_m.cast<double>();
     const std::size_t first = beam < flow::kExpectedAside ? 0 : beam - flow::kExpectedAside;
     const std::size_t last = std::min(beam + flow::kExpectedAside + 1, scan_.beams.size());
@@ -72,7 +76,7 @@ class ExpectedOutline {
 }  // namespace
 
 void label_points(const LocalizedScan& scan, const BeamDirections& directions,
-                  const DetectionConfig& config, SegmentedScan& segmented) {
+                  SegmentedScan& segmented) {
   segmented.points_in_base_m.resize(scan.beams.size());
   segmented.range_m.resize(scan.beams.size());
   segmented.labels.resize(scan.beams.size());
@@ -80,8 +84,8 @@ void label_points(const LocalizedScan& scan, const BeamDirections& directions,
   for (std::size_t i = 0; i < scan.beams.size(); ++i) {
     segmented.points_in_base_m[i] = scan.beams[i].point_in_base_m;
     segmented.range_m[i] = scan.beams[i].range_m;
-    segmented.labels[i] = label_of(scan.beams[i], config);
-    if (segmented.labels[i] == PointLabel::kMoving && outline.contains(i, config))
+    segmented.labels[i] = label_of(scan.beams[i]);
+    if (segmented.labels[i] == PointLabel::kMoving && outline.contains(i))
       segmented.labels[i] = PointLabel::kStationary;
   }
 }

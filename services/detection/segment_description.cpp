@@ -17,6 +17,13 @@ using flow::SegmentedScan;
 using geometry::Matrix2;
 using geometry::Vector2;
 
+/// A segment is moving if more than this share of its points with known label is; Wang 2004,
+/// section 6.2.
+constexpr double kMovingShare = 0.5;
+constexpr double kOccluderMarginM = 0.5;  ///< A neighbouring echo nearer by more than this occludes
+                                          ///< the end of a segment.
+constexpr double kRangeNoisePerM = 0.001;  ///< Increase of range_noise_m per metre of range.
+
 double moving_share(const Segment& segment, const SegmentedScan& scan) {
   int moving = 0;
   int decidable = 0;
@@ -35,22 +42,21 @@ double mean_moving_evidence(const Segment& segment, const LocalizedScan& scan) {
 }
 
 PointLabel label_of_segment(const Segment& segment, const LocalizedScan& localized,
-                            const SegmentedScan& scan, const DetectionConfig& config) {
-  if (segment.moving_share > config.moving_share) return PointLabel::kMoving;
+                            const SegmentedScan& scan) {
+  if (segment.moving_share > kMovingShare) return PointLabel::kMoving;
   const bool is_stationary =
       std::any_of(segment.beams.begin(), segment.beams.end(),
                   [&](std::uint16_t beam) { return scan.labels[beam] == PointLabel::kStationary; });
   if (is_stationary) return PointLabel::kStationary;
   const bool has_moving_evidence =
-      static_cast<int>(segment.beams.size()) <= config.largest_by_moving_evidence &&
-      mean_moving_evidence(segment, localized) >= config.least_moving_evidence;
+      static_cast<int>(segment.beams.size()) <= kLargestByMovingEvidence &&
+      mean_moving_evidence(segment, localized) >= kLeastMovingEvidence;
   return has_moving_evidence ? PointLabel::kMoving : PointLabel::kUnknown;
 }
 
 /// True if the nearest echo within two beams in direction `step` (+1 or -1) is clearly nearer than
 /// the beam's echo, or if the field of view ends there.
-bool is_occluded_beyond(std::uint16_t beam, int step, const SegmentedScan& scan,
-                        const DetectionConfig& config) {
+bool is_occluded_beyond(std::uint16_t beam, int step, const SegmentedScan& scan) {
   constexpr int kBeamsLookedAt = 2;
   for (int i = 1; i <= kBeamsLookedAt; ++i) {
     const int count = static_cast<int>(scan.range_m.size());
@@ -59,8 +65,7 @@ bool is_occluded_beyond(std::uint16_t beam, int step, const SegmentedScan& scan,
       neighbour = (neighbour + count) % count;
     if (neighbour < 0 || neighbour >= count) return true;  // end of the field of view
     const double range_m = static_cast<double>(scan.range_m[static_cast<std::size_t>(neighbour)]);
-    if (range_m > 0.0)
-      return range_m < static_cast<double>(scan.range_m[beam]) - config.occluder_margin_m;
+    if (range_m > 0.0) return range_m < static_cast<double>(scan.range_m[beam]) - kOccluderMarginM;
   }
   return false;
 }
@@ -69,7 +74,7 @@ bool is_occluded_beyond(std::uint16_t beam, int step, const SegmentedScan& scan,
 Matrix2 echo_covariance(const Vector2& way_m, double beam_step_rad, const DetectionConfig& config) {
   const double range_m = std::max(way_m.norm(), 1e-3);
   const Vector2 along = way_m / range_m;
-  const double sigma_along_m = config.range_noise_m + config.range_noise_per_m * range_m;
+  const double sigma_along_m = config.range_noise_m + kRangeNoisePerM * range_m;
   // Uniformly distributed over the beam's width.
   const double sigma_across_m = range_m * std::abs(beam_step_rad) / std::sqrt(12.0);
   return sigma_along_m * sigma_along_m * along * along.transpose() +
@@ -120,9 +125,9 @@ void describe_segment(Segment& segment, const LocalizedScan& localized,
                       const DetectionConfig& config, const SegmentedScan& scan,
                       const Matrix2& odom_from_base_turn, std::vector<Vector2>& points_in_odom_m) {
   segment.moving_share = moving_share(segment, scan);
-  segment.label = label_of_segment(segment, localized, scan, config);
-  segment.occluded_at_start = is_occluded_beyond(segment.beams.front(), -1, scan, config);
-  segment.occluded_at_end = is_occluded_beyond(segment.beams.back(), +1, scan, config);
+  segment.label = label_of_segment(segment, localized, scan);
+  segment.occluded_at_start = is_occluded_beyond(segment.beams.front(), -1, scan);
+  segment.occluded_at_end = is_occluded_beyond(segment.beams.back(), +1, scan);
   describe_shape(segment, scan, odom_from_base_turn, config, points_in_odom_m);
   if (segment.label == PointLabel::kMoving && segment.box_length_m > config.longest_mover_m)
     segment.label = PointLabel::kUnknown;

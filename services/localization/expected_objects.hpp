@@ -16,6 +16,9 @@ namespace slammot::localization {
 /// the map they drive over.
 class ExpectedObjects {
  public:
+  /// Margin around the box of a tracked object that is left out of the match.
+  static constexpr double kMaskMarginM = 0.4;
+
   explicit ExpectedObjects(const LocalizerConfig& config) : config_(config) {}
 
   void expect(const flow::TrackedObjects& objects);

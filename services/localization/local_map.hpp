@@ -74,7 +74,7 @@ class LocalMap {
   /// Whether the vehicle has gone far enough for a new map.
   bool is_outgrown(const geometry::Vector2& position_in_odom_m, double travelled_m) const;
 
-  bool has_echoes() const { return scans_ > 0; }
+  bool has_echoes() const { return progress_.scans > 0; }
 
   /// The submap in progress. Pose constraints and travel are the caller's to fill in.
   flow::Submap submap() const;
@@ -95,29 +95,46 @@ class LocalMap {
                                           work::SideWork* help = nullptr);
 
  private:
-  void count_way(const geometry::Vector2& origin_m);
+  /// What the window held when the submap began: a submap holds only what was seen in it.
+  struct Inherited {
+    std::vector<std::int8_t> so;
+    std::vector<std::uint8_t> mo;
+    std::vector<std::int8_t> lasting;
+    grids::SurfelMap surfels;
+  };
+  /// Scans of the submap in progress.
+  struct Progress {
+    std::int64_t first_stamp_ns = 0;
+    std::int64_t last_stamp_ns = 0;
+    std::uint32_t scans = 0;
+  };
+  /// Way of the laser, in steps larger than jitter.
+  struct Odometer {
+    double way_m = 0.0;
+    std::optional<geometry::Vector2> counted_to_m;
+
+    void count(const geometry::Vector2& origin_m);
+  };
+
+  LocalMap(const LocalMapConfig& config, const grids::GridWindow& window,
+           const grids::GridWindow& surfel_lattice, work::SideWork* help);
   void forget_surfels_in_free_space();
   void leave_behind_what_was_not_seen();
+  void put_own_cells(const grids::GridWindow& bounds, flow::Submap& submap) const;
   std::optional<flow::Surfel> own_surfel(const grids::SurfelView& surfel) const;
   geometry::Vector2 window_centre_m() const;
 
   LocalMapConfig config_;
-  int free_steps_ = 0;          ///< Of the configuration's free_log_odds,
-  int end_cell_tolerance_ = 0;  ///< and of its end_cell_tolerance_m, in cells.
+  int free_steps_ = 0;          ///< free_log_odds of the configuration.
+  int end_cell_tolerance_ = 0;  ///< end_cell_tolerance_m of the configuration, in cells.
   DeferredEvidence evidence_;
   grids::SurfelMap surfels_;
-  std::vector<std::int8_t> inherited_so_;  ///< What the window held when the submap began,
-  std::vector<std::uint8_t> inherited_mo_;
-  std::vector<std::int8_t> inherited_lasting_;
-  grids::SurfelMap inherited_surfels_;  ///< so that a submap tells only what was seen in it.
+  Inherited inherited_;
   flow::SubmapId submap_id_;
   geometry::Pose2 odom_from_submap_;
-  std::int64_t first_stamp_ns_ = 0;
-  std::int64_t last_stamp_ns_ = 0;
-  std::uint32_t scans_ = 0;
-  double odometer_m_ = 0.0;  ///< Way of the laser, in steps that are more than jitter.
-  std::optional<geometry::Vector2> counted_to_m_;
-  std::vector<geometry::Vector2> stationary_m_;  ///< Of the scan at hand; kept to reuse the memory.
+  Progress progress_;
+  Odometer odometer_;
+  std::vector<geometry::Vector2> stationary_m_;  ///< Of the present scan; kept for its memory.
 };
 
 }  // namespace slammot::localization

@@ -37,7 +37,7 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
     state_.unmatched_scans = 0;
   }
   ++state_.unmatched_scans;
-  state_.scans_to_prove = config_.found_scans + 1;
+  state_.scans_to_prove = kFoundScans + 1;
   state_.contradicts_map = is_contradicting;
   if (trusts_prediction(judged.step)) return Verdict::kDoesNotFit;
   ++state_.lost_scans;
@@ -105,12 +105,12 @@ bool LocalizationMonitor::contradicts_too_much(const MatchToJudge& judged, doubl
                      config_.map);
   };
   if (is_vague(judged.step.prior(), config_))
-    return there().contradicting_share() > config_.most_contradicted_share;
+    return there().contradicting_share() > kMostContradictedShare;
   if (was_lost && changed)
-    return there().contradicting_share() > kFoundByHalf * config_.most_contradicted_share;
+    return there().contradicting_share() > kFoundByHalf * kMostContradictedShare;
   if (!does_not_match && !was_lost && explained >= 1.0 - kMostContradictedWhenSure) return false;
   const double most =
-      does_not_match || was_lost ? config_.most_contradicted_share : kMostContradictedWhenSure;
+      does_not_match || was_lost ? kMostContradictedShare : kMostContradictedWhenSure;
   const MapAgreement found = there();
   return found.contradicting_share() > most &&
          (changed || found.share_behind_walls() > kSeenThroughWalls_share);
@@ -118,7 +118,7 @@ bool LocalizationMonitor::contradicts_too_much(const MatchToJudge& judged, doubl
 
 bool LocalizationMonitor::has_gone_astray(std::int64_t stamp_ns) const {
   return state_.lost_since_ns && state_.lost_scans > 0 && state_.unmatched_scans > kAstrayScans &&
-         lost_s(stamp_ns) > config_.lost_after_s + config_.astray_after_s;
+         lost_s(stamp_ns) > config_.lost_after_s + kAstrayAfterS;
 }
 
 void LocalizationMonitor::begin_map() {

@@ -25,6 +25,11 @@ struct MatchToJudge {
 /// confirm() where the match is believed in the end.
 class LocalizationMonitor {
  public:
+  /// Scans in a row that match before a pose that was found again is believed.
+  static constexpr int kFoundScans = 3;
+  /// Time of a search in vain after which a new map begins, tied loosely to the last one.
+  static constexpr double kAstrayAfterS = 2.0;
+
   enum class Verdict {
     kFits,        ///< Nothing speaks against the match, or there was too little to match.
     kDoesNotFit,  ///< The prediction is trusted for now, or for good.

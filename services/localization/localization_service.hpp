@@ -1,23 +1,22 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/app/run_service.hpp"
-#include "common/app/state_file.hpp"
 #include "common/wire/graph.hpp"
-#include "common/wire/localized_scan.hpp"
 #include "common/wire/stored_map.hpp"
-#include "common/wire/submap.hpp"
 #include "services/localization/drive_watch.hpp"
+#include "services/localization/localization_service_scans.hpp"
+#include "services/localization/localization_service_session.hpp"
+#include "services/localization/localization_service_submaps.hpp"
 #include "services/localization/localizer.hpp"
-#include "services/localization/saved_session.hpp"
+#include "services/localization/recent_odometry.hpp"
 #include "services/localization/stored_map_watch.hpp"
+#include "services/localization/waiting_scans.hpp"
 
 namespace slammot::localization {
 
@@ -40,12 +39,21 @@ class LocalizationService {
   LocalizationService(app::ServiceContext& context, const Settings& settings);
 
  private:
-  struct WaitingScan {
-    sensing::LaserScan scan;
-    std::uint64_t drive_id;
-    int turns = 0;  ///< Of the service's loop: odometry had its chance so often.
+  struct Drive {
+    std::optional<flow::MapId> map_id;  ///< None before the first scan.
+    flow::OdomId odom_id;
+    flow::SubmapId first_submap;
+    std::optional<std::int64_t> last_done_ns;  ///< Stamp of the newest published scan.
+    /// The drive before, of the checkpoint: its last submap may not be stored.
+    std::optional<SavedSession> before;
+  };
+  struct Corrections {
+    wire::GraphCorrectionAssembler assembler;
+    /// From before the first scan: the bus keeps those from before this process.
+    std::map<flow::MapId, flow::GraphCorrection> early;
   };
 
+  void read_inputs(app::ServiceContext& context);
   void take(const slammot_LaserScan& sample);
   void take(const slammot_Odometry& sample);
   void take(const slammot_SegmentedScan& sample);
@@ -57,15 +65,18 @@ class LocalizationService {
   bool is_good(const wire::Decoded<Value>& decoded, std::string_view topic);
 
   void localize_waiting();
-  bool awaits_odometry(const WaitingScan& waiting) const;
-  bool is_tracking_awaited() const;
-  bool awaits_tracking(const WaitingScan& waiting) const;
+  Awaited awaited() const;
+  void localize(const sensing::LaserScan& scan);
+  void tell_whereabouts(bool was_lost, std::uint64_t astray_before);
+  void publish_finished_submaps();
+  app::CommandResult finish_submap();
+
+  // Drives: localization_service_drives.cpp.
   bool knows_map_of(const WaitingScan& waiting);
   bool is_stored_map_known();
   bool is_of_this_drive(const WaitingScan& waiting);
-  void localize(const sensing::LaserScan& scan);
-  void tell_whereabouts(bool was_lost, std::uint64_t astray_before);
   bool come_back(const WaitingScan& first);
+  void take_up(const SavedSession& session);
   void hand_over_earlier_drive();
   void end_drive();
   void begin_drive();
@@ -73,42 +84,20 @@ class LocalizationService {
   void go_on_in_stored_map();
   void correct(const flow::GraphCorrection& correction);
   void tell_whether_it_is_tied(bool is_tied);
-  void add_odometry_of_new_drive();
   void save_checkpoint(std::int64_t stamp_ns);
-  void withdraw_submaps();
-  void publish_finished_submaps();
-  void publish(const flow::Submap& submap);
-  app::CommandResult finish_submap();
 
   app::ServiceContext& context_;
   LocalizerConfig config_;
   Localizer localizer_;
-  app::StateFile checkpoint_;
-  dds::Writer<slammot_LocalizedScan>& localized_scans_;
-  dds::Writer<slammot_SubmapTile>& tiles_;
-  wire::LocalizedScanEncoder scan_encoder_;
-  wire::SubmapEncoder submap_encoder_;
-  wire::GraphCorrectionAssembler corrections_;
-  std::deque<WaitingScan> waiting_;
-  std::deque<sensing::Odometry> recent_odometry_;  ///< In the order of arrival.
-  int waited_in_vain_ = 0;  ///< Scans for which no odometry came, one after the other.
-  std::int64_t newest_objects_ns_ = 0;
-  std::int64_t newest_labels_ns_ = 0;
-  int waited_for_tracking_in_vain_ = 0;  ///< Scans one after the other, too.
+  ScanPublisher scans_;
+  SubmapPublisher submaps_;
+  SessionFile checkpoint_;
+  Corrections corrections_;
+  WaitingScans waiting_;
+  RecentOdometry recent_odometry_;
   DriveWatch drives_;
-  std::optional<StoredMapWatch> stored_map_;   ///< Where drives go on in it.
-  std::optional<SavedSession> earlier_drive_;  ///< From the checkpoint; its last submap may not be
-                                               ///< stored.
-  bool has_looked_back_ = false;               ///< For a checkpoint.
-  std::optional<flow::MapId> map_id_;          ///< None before the first scan.
-  flow::OdomId odom_id_;
-  flow::SubmapId first_submap_;                                     ///< Of this drive.
-  std::map<flow::MapId, flow::GraphCorrection> early_corrections_;  ///< Kept by the bus from before
-                                                                    ///< this process.
-  std::map<std::string, flow::LocalizedScan> last_published_;       ///< By scanner.
-  std::map<flow::SubmapId, std::uint32_t> published_tiles_;         ///< How many.
-  std::optional<std::int64_t> last_done_ns_;  ///< Newest scan that was published.
-  std::optional<std::int64_t> saved_ns_;
+  Drive drive_;
+  std::optional<StoredMapWatch> stored_map_;  ///< None where each drive begins its own map.
 };
 
 }  // namespace slammot::localization

@@ -10,33 +10,34 @@
 
 namespace slammot::localization {
 
+/// Kinds of vehicles, numbered as in slammot.proto.
+enum class Vehicle { car, robot };
+
+/// Models of the errors of published poses, numbered as in slammot.proto.
+enum class PoseErrorModel { road, building, model_cars };
+
 struct LocalizerConfig {
-  double match_range_m = 80.0;        ///< Echoes beyond it are not matched,
-  double map_range_m = 80.0;          ///< and beyond this not mapped.
+  Vehicle vehicle = Vehicle::car;                          ///< Set by set_vehicle(),
+  PoseErrorModel pose_error_model = PoseErrorModel::road;  ///< and by set_pose_error_model().
+  double match_range_m = 80.0;                             ///< Echoes beyond it are not matched,
+  double map_range_m = 80.0;                               ///< and beyond this not mapped.
   double min_range_m = 0.3;           ///< Nearer echoes come from the vehicle itself.
-  double range_noise_m = 0.03;        ///< One sigma at the scanner,
-  double range_noise_per_m = 0.001;   ///< and what each metre of range adds.
-  int min_echoes = 10;                ///< With fewer, the prediction is the pose.
+  double range_noise_m = 0.03;        ///< One sigma of a range at the scanner.
   double least_matched_share = 0.3;   ///< With fewer points matched, the match is not believed.
   double search_when_sigma_m = 0.15;  ///< A prediction less sure than this is searched for by
                                       ///< correlation first,
   double search_when_heading_sigma_rad = 0.02;  ///< or less sure of the heading than this.
-  double search_reach_m = 25.0;  ///< Half side of the square of the map that is searched.
-  double search_sigmas = 3.0;    ///< Half width of the search window in standard deviations of the
-                                 ///< prediction.
-  double most_contradicted_share = 0.5;  ///< Lost, too, where the prediction is vague and the match
-                                         ///< puts more points into what the map knows to be free.
-  int found_scans = 3;  ///< Lost and found again, so many scans match in a row before they go into
-                        ///< the map again.
+  double search_reach_m = 25.0;   ///< Half side of the square of the map that is searched.
+  double search_sigmas = 3.0;     ///< Half width of the search window in standard deviations of the
+                                  ///< prediction.
   bool may_be_picked_up = false;  ///< And set down elsewhere, with wheels that notice nothing; a
                                   ///< road vehicle is not.
   bool recovers = true;       ///< Looks for itself after being carried away; off: goes on by dead
                               ///< reckoning.
-  double lost_after_s = 3.0;  ///< Wheels are trusted for so long where scans do not match; then it
-                              ///< looks for itself,
-  double astray_after_s = 2.0;   ///< and after so long in vain a new map begins, tied to the last
-                                 ///< one by next to nothing:
-  double astray_sigma_m = 50.0;  ///< one sigma of that tie.
+  double lost_after_s = 3.0;  ///< Time without a match that odometry bridges; then the pose is
+                              ///< searched for.
+  double astray_sigma_m = 50.0;  ///< One sigma of the tie between two maps where the vehicle lost
+                                 ///< its way.
   bool expects_all_ranges = false;  ///< Tells of every beam how far the map would let it go, not
                                     ///< only of those near an echo that contradicts it.
   bool leave_out_moving = true;  ///< Off, to see what it is worth: everything is mapped and matched
@@ -48,7 +49,6 @@ struct LocalizerConfig {
                                               ///< off.
   bool use_odometry = true;     ///< Off, for wheels that are worse than none: constant velocity
                                 ///< predicts.
-  double mask_margin_m = 0.4;   ///< Around a tracked object's box, left out of the match.
   double longest_step_s = 2.0;  ///< Without odometry nothing is extrapolated farther; longer gaps
                                 ///< are counted.
   double far_ahead_s = 60.0;    ///< A stamp so far ahead of those before is believed when a second

@@ -10,6 +10,9 @@
 
 namespace slammot::localization {
 
+/// Share of contradicting points above which a pose is wrong, where the prediction is vague.
+inline constexpr double kMostContradictedShare = 0.5;
+
 constexpr double kFoundByHalf = 0.5;  ///< What the vehicle was lost by must have fallen to this
                                       ///< share where it is found.
 

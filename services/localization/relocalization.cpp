@@ -57,8 +57,7 @@ Relocalization::Candidate Relocalization::registered(const geometry::Pose2& abou
   const double contradicted =
       agreement(points, result.map_from_base.pose, map.evidence(), config_.map)
           .contradicting_share();
-  if (result.matched_share < kFoundShare ||
-      contradicted > kFoundByHalf * config_.most_contradicted_share)
+  if (result.matched_share < kFoundShare || contradicted > kFoundByHalf * kMostContradictedShare)
     return {};
   return {.match = {.odom_from_base = result.map_from_base,
                     .is_believed = true,

@@ -86,7 +86,7 @@ matching::PointToLineResult ScanMatcher::match_from_search(const ScanToMatch& sc
 
 ScanMatch ScanMatcher::match(const ScanToMatch& scan) {
   const UncertainPose2 prior = scan.step.prior();
-  if (static_cast<int>(scan.points.size()) < config_.min_echoes) return {.odom_from_base = prior};
+  if (scan.points.size() < kFewestEchoes) return {.odom_from_base = prior};
   // Along a featureless wall a search finds any place as good as any other.
   const bool is_unsure = is_vague(prior, config_);
   bool searches = is_unsure && !scan.step.last_was_sampled && !scan.registered;

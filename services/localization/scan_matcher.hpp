@@ -30,6 +30,9 @@ struct ScanToMatch {
 /// the scan says too little.
 class ScanMatcher {
  public:
+  /// With fewer the prediction is the pose.
+  static constexpr std::size_t kFewestEchoes = 10;
+
   /// help (null: none) must outlive this; the results are the same with it and without.
   explicit ScanMatcher(const LocalizerConfig& config, work::SideWork* help = nullptr);
 
@@ -39,7 +42,7 @@ class ScanMatcher {
 
   /// Whether there are enough points for a match.
   bool can_match(const std::vector<matching::MatchPoint>& points) const {
-    return static_cast<int>(points.size()) >= config_.min_echoes;
+    return points.size() >= kFewestEchoes;
   }
 
   /// Share of a scan's information that counts under this prediction: points of scans shortly after

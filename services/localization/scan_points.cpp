@@ -9,6 +9,12 @@
 
 namespace slammot::localization {
 
+namespace {
+
+constexpr double kRangeNoisePerM = 0.001;  ///< Increase of range_noise_m with range.
+
+}  // namespace
+
 void ScanPoints::begin_scan() {
   left_out_beams_.clear();
   matched_before_.swap(matched_);
@@ -39,9 +45,9 @@ void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& o
       continue;
     candidate_beams_.push_back(beam);
     if (std::ranges::binary_search(left_out_beams_, beam)) continue;
-    matched_.push_back({points_in_base_m_[beam],
-                        config_.range_noise_m +
-                            config_.range_noise_per_m * static_cast<double>(scan.range_m[beam])});
+    matched_.push_back(
+        {points_in_base_m_[beam],
+         config_.range_noise_m + kRangeNoisePerM * static_cast<double>(scan.range_m[beam])});
     matched_beams_.push_back(beam);
   }
 }

@@ -16,7 +16,8 @@ using geometry::Vector2;
 
 constexpr double kGateSigmas = 3.0;  // Gate of the graph's uncertainty, in addition to
                                      // max_distance_m.
-constexpr int kNeighbours = 1;  // Submaps before and after the earlier one that join its target.
+constexpr int kNeighbours = 1;     // Submaps before and after the earlier one that join its target.
+constexpr int kMaxCandidates = 3;  // Targets on the same island for one new submap.
 constexpr int kMaxCandidatesElsewhere = 40;  // Targets on other islands for one new submap.
 
 struct Candidate {
@@ -96,7 +97,7 @@ std::vector<RevisitCandidate> expected_candidates(const SubmapView& submaps, con
       continue;
     all.push_back({id, geometry::inverse(source_from_target), distance_m});
   }
-  return as_candidates(submaps, nearest(std::move(all), config.max_candidates), source);
+  return as_candidates(submaps, nearest(std::move(all), kMaxCandidates), source);
 }
 
 std::vector<RevisitCandidate> candidates_elsewhere(const SubmapView& submaps, const Place& source) {

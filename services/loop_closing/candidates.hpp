@@ -20,7 +20,7 @@ struct SubmapView {
 Target target_around(const SubmapView& submaps, flow::SubmapId id, const Place& source);
 
 /// Targets on the island of `source` that its expected pose may overlap, nearest first; at most
-/// `max_candidates`. Gate by the graph's covariance: Wang 2004, section 6.4.
+/// `kMaxCandidates`. Gate by the graph's covariance: Wang 2004, section 6.4.
 std::vector<RevisitCandidate> expected_candidates(const SubmapView& submaps, const Place& source);
 
 /// Targets on other islands, nearest first by the last known position of the vehicle.

@@ -12,7 +12,6 @@ struct LoopClosingConfig {
   double min_travel_between_m = 200.0;  ///< Least distance driven since the earlier submap.
   double max_distance_m = 60.0;   ///< Greatest distance between the centres of two submaps that may
                                   ///< show the same place.
-  int max_candidates = 3;         ///< Searches per new submap.
   double sure_within_m = 5.0;     ///< One match suffices if the one-sigma error of the expected
                                   ///< position is smaller.
   int needed_support = 2;         ///< Submaps that must agree otherwise.

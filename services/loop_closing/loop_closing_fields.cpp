@@ -21,14 +21,10 @@ FieldTable<PlaceConfig> place_fields() {
 FieldTable<RegistrationConfig> registration_fields() {
   using C = RegistrationConfig;
   return {
-      {"coarse_gate_m",
-       &C::coarse_gate_m,
-       "Greatest distance of paired surfels in the first steps of a registration.",
-       Range{0.01, 10.0},
-       {"A registration stays at the pose of the search.", "It is pulled towards other walls."}},
       {"fine_gate_m",
        &C::fine_gate_m,
-       "Greatest distance of paired surfels in the last steps of a registration.",
+       "Greatest distance of paired surfels in the last steps of a registration; 2.5 times as "
+       "much in the first ones.",
        Range{0.01, 10.0},
        {"Few pairs are left, and the closure is weak.",
         "Surfels of other walls bias the closure."}},
@@ -52,14 +48,10 @@ FieldTable<RevisitConfig> revisit_fields() {
       {
           {"search_cell_m",
            &C::search_cell_m,
-           "Step of the search and cell of its grid.",
+           "Step of the search and cell of its grid; the smallest window is 5 cells to either "
+           "side.",
            Range{0.02, 5.0},
            {"Searches take long and are given up.", "Narrow places are missed."}},
-          {"min_window_m",
-           &C::min_window_m,
-           "Least half width of the search window around the expected pose.",
-           kPositive,
-           {"A revisit just outside is missed.", "Searches take long."}},
           {"max_window_m",
            &C::max_window_m,
            "Greatest half width of the search window around the expected pose.",
@@ -90,11 +82,6 @@ FieldTable<LoopClosingConfig> all_fields() {
        kPositive,
        {"Revisits on another lane or corridor are missed.",
         "Searches are spent on submaps that share nothing."}},
-      {"max_candidates",
-       &C::max_candidates,
-       "Searches per new submap; 0: loops are closed between islands only.",
-       Range{0, 100},
-       {"The matching submap may not be among those searched.", "Searches take long."}},
       {"sure_within_m",
        &C::sure_within_m,
        "One match suffices if the one-sigma error of the expected position is smaller.",

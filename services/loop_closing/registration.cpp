@@ -94,7 +94,7 @@ Registration register_surfels(std::span<const flow::Surfel> source, double sourc
   for (int step = 0; step < kCoarseSteps + kFineSteps; ++step) {
     const bool is_coarse = step < kCoarseSteps;
     equations =
-        linearize(source, target, pose, is_coarse ? config.coarse_gate_m : config.fine_gate_m,
+        linearize(source, target, pose, is_coarse ? coarse_gate_m(config) : config.fine_gate_m,
                   config.surfel_sigma_m);
     const Eigen::Vector3d change = -(independent_share * equations.H + weak_prior())
                                         .ldlt()

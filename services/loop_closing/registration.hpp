@@ -9,7 +9,6 @@
 namespace slammot::loop_closing {
 
 struct RegistrationConfig {
-  double coarse_gate_m = 1.0;    ///< Greatest distance of paired surfels in the first steps.
   double fine_gate_m = 0.4;      ///< Greatest distance of paired surfels in the last steps.
   double surfel_sigma_m = 0.06;  ///< One sigma of the distance between two surfels of one wall,
                                  ///< across the wall.
@@ -18,6 +17,12 @@ struct RegistrationConfig {
   double position_floor_m = 0.02;      ///< Least one-sigma error of a closure's position.
   double heading_floor_rad = 0.002;    ///< Least one-sigma error of a closure's heading.
 };
+
+/// Greatest distance of paired surfels in the first steps.
+inline double coarse_gate_m(const RegistrationConfig& config) {
+  constexpr double kOverFineGate = 2.5;
+  return kOverFineGate * config.fine_gate_m;
+}
 
 struct Registration {
   geometry::UncertainPose2 target_from_source;

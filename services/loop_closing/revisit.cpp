@@ -40,6 +40,12 @@ constexpr double kBorderCost = 0.1;  // Score penalty at the border of the windo
 constexpr double kCoarserOnSeveralTargets = 2.0;
 constexpr int kFewerPointsOnSeveralTargets = 2;
 
+/// Least half width of the searched window.
+double min_window_m(const RevisitConfig& config) {
+  constexpr double kCells = 5.0;
+  return kCells * config.search_cell_m;
+}
+
 double search_cell_m(const RevisitConfig& config, std::size_t targets) {
   return targets > 1 ? kCoarserOnSeveralTargets * config.search_cell_m : config.search_cell_m;
 }
@@ -92,8 +98,8 @@ matching::SearchWindow window_around(const UncertainPose2& expected,
     return std::max(share * std::clamp(kWindowSigmas * std::sqrt(variance), least, most), least);
   };
   const double most_m = any_heading ? config.astray_window_m : config.max_window_m;
-  return {window(target_from_centre.covariance(0, 0), config.min_window_m, most_m),
-          window(target_from_centre.covariance(1, 1), config.min_window_m, most_m),
+  return {window(target_from_centre.covariance(0, 0), min_window_m(config), most_m),
+          window(target_from_centre.covariance(1, 1), min_window_m(config), most_m),
           window(expected.covariance(2, 2), kMinWindow_rad,
                  any_heading ? std::numbers::pi : kMaxWindow_rad)};
 }
@@ -112,7 +118,7 @@ RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source,
   const bool starts_near =
       is_somewhere_expected() &&
       kNearShare * std::min(kWindowSigmas * searched_sigma_m(), config.max_window_m) >
-          config.min_window_m;
+          min_window_m(config);
   begin_search(starts_near ? kNearShare : 1.0);
 }
 
@@ -179,7 +185,7 @@ std::uint64_t RevisitSearch::add_next_target(PyramidCache& pyramids) {
 
 std::uint64_t RevisitSearch::judge(const matching::WidePeak& peak) {
   const auto& [target, expected, map_from_target] = candidates_[peak.target];
-  const SurfelIndex index(surfels_in_target(target), config_.registration.coarse_gate_m);
+  const SurfelIndex index(surfels_in_target(target), coarse_gate_m(config_.registration));
   const Pose2 target_from_source = peak.target_from_source * geometry::inverse(source_from_centre_);
   const Registration registration = register_surfels(source_->surfels, source_->spacing_m, index,
                                                      target_from_source, config_.registration);
@@ -212,7 +218,7 @@ std::vector<Hypothesis> RevisitSearch::found() const {
 
 Agreement agreement_after_refining(const RevisitConfig& config, const Target& target,
                                    const Place& source, const Pose2& target_from_source) {
-  const SurfelIndex index(surfels_in_target(target), config.registration.coarse_gate_m);
+  const SurfelIndex index(surfels_in_target(target), coarse_gate_m(config.registration));
   const Registration registration = register_surfels(source.surfels, source.spacing_m, index,
                                                      target_from_source, config.registration);
   return compare(target, source, registration.target_from_source.pose);

@@ -19,8 +19,8 @@ namespace slammot::loop_closing {
 
 struct RevisitConfig {
   double search_cell_m = 0.4;  ///< Step of the search.
-  double min_window_m = 2.0;  ///< Least half width of the searched window around the expected pose.
-  double max_window_m = 30.0;     ///< Greatest half width of the searched window.
+  double max_window_m = 30.0;  ///< Greatest half width of the searched window around the expected
+                               ///< pose.
   double astray_window_m = 60.0;  ///< Half width of the window with unknown heading.
   double min_agreed_share = 0.9;  ///< Of the walls that both have seen the surroundings of.
   double rival_ratio = 0.75;  ///< Another pose with at least this share of the best quality makes a

@@ -42,16 +42,17 @@ std::optional<std::string> unknown_word(CLI::App& app, const std::vector<std::st
   if (words.empty() || words.front().starts_with("-")) return std::nullopt;
   const std::vector<std::string> commands = commands_of(app);
   if (std::find(commands.begin(), commands.end(), words.front()) == commands.end()) {
-    return "unknown command '" + words.front() + "'; the nearest one is '" +
-           config::nearest(words.front(), commands) + "', slammot --help lists all";
+    return "unknown command '" + words.front() + "'" +
+           config::hint_at_nearest(words.front(), commands) + "; slammot --help lists all";
   }
   const std::vector<std::string> options = options_of(*app.get_subcommand(words.front()));
   for (auto word = words.begin() + 1; word != words.end() && *word != "--"; ++word) {
     const std::string name = word->substr(0, word->find('='));
     if (!name.starts_with("--") || std::find(options.begin(), options.end(), name) != options.end())
       continue;
-    return "unknown option '" + name + "' of " + words.front() + "; the nearest one is '" +
-           config::nearest(name, options) + "', slammot " + words.front() + " --help lists all";
+    return "unknown option '" + name + "' of " + words.front() +
+           config::hint_at_nearest(name, options) + "; slammot " + words.front() +
+           " --help lists all";
   }
   return std::nullopt;
 }

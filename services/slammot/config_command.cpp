@@ -46,22 +46,23 @@ std::vector<config::Explanation> default_settings() {
   return config::explain(bind_stages(defaults));
 }
 
-/// Nearest name of a setting. Compares full names if `word` has a dot, otherwise their last parts.
-std::string nearest_setting(const std::string& word,
-                            const std::vector<config::Explanation>& settings) {
+/// Names that a user may have meant: full ones if `word` has a dot, otherwise their last parts.
+std::vector<std::string> names_like(const std::string& word,
+                                    const std::vector<config::Explanation>& settings) {
   std::vector<std::string> names;
   const bool is_path = word.find('.') != std::string::npos;
   for (const config::Explanation& setting : settings)
     names.push_back(is_path ? setting.name : setting.name.substr(setting.name.rfind('.') + 1));
-  return config::nearest(word, names);
+  return names;
 }
 
 int explain(const std::string& word) {
   const std::vector<config::Explanation> all = default_settings();
   const std::vector<config::Explanation> requested = word.empty() ? all : config::named(word, all);
   if (requested.empty())
-    return fail("no setting or group is called '" + word + "'; the nearest one is '" +
-                nearest_setting(word, all) + "'");
+    return fail("no setting or group is called '" + word + "'" +
+                config::hint_at_nearest(word, names_like(word, all)) +
+                "; slammot config --explain lists all");
   std::fputs(config::explanation_text(requested).c_str(), stdout);
   return kExitDone;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/tracking/evidence_limits.hpp"
+
 namespace slammot::tracking {
 namespace {
 
@@ -66,7 +68,7 @@ bool has_arrived(const Track& track) {
 /// All conditions of confirmation but the fit of the extent.
 bool moves_by_all_signs(const Track& track, const TrackingConfig& config) {
   const Existence& existence = track.existence;
-  return existence.hits >= config.existence.least_hits && existence.score >= kConfirmScore &&
+  return existence.hits >= evidence_limits(config).least_hits && existence.score >= kConfirmScore &&
          has_moved(track, config) && has_known_velocity(track, config) && is_surely_fast(track) &&
          (has_arrived(track) || has_travelled(track, config));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "services/tracking/confirmation.hpp"
+#include "services/tracking/evidence_limits.hpp"
 
 namespace slammot::tracking {
 namespace {
@@ -19,12 +20,6 @@ constexpr double kOccludedScorePerS = -1.0;
 constexpr double kOutOfViewScorePerS = -30.0;
 constexpr double kPassedBeamScore = -0.6;  ///< Of each beam through the predicted extent,
 constexpr double kMostPassedScore = -2.0;  ///< and of all of them in one scan at most.
-
-/// Of a scan whose echoes lie on what stood before. Where only people move it counts twice: a
-/// pedestrian leaves the place of each foot within the compared time.
-double contradiction_score(const TrackingConfig& config) {
-  return only_people_move(config) ? -1.0 : -0.5;
-}
 
 void add_faded(MotionEvidence& sum, const MotionEvidence& evidence, double fade) {
   sum.moved = fade * sum.moved + evidence.moved;
@@ -58,7 +53,7 @@ void score_hit(Track& track, const Hit& hit, const TrackingConfig& config) {
   const bool is_moving = hit.label == flow::PointLabel::kMoving ||
                          evidence.moved > evidence.stood + 0.5 * evidence.undecided;
   add_faded(existence.motion, evidence, std::exp(-hit.time_s / kEvidenceMemoryS));
-  double gain = is_moving ? config.existence.moving_hit_score : kOtherHitScore;
+  double gain = is_moving ? evidence_limits(config).moving_hit_score : kOtherHitScore;
   const bool is_mapped = hit.label == flow::PointLabel::kStationary && !is_moving;
   existence.mapped_share += (1.0 - std::exp(-hit.time_s / kMappedMemoryS)) *
                             ((is_mapped ? 1.0 : 0.0) - existence.mapped_share);
@@ -68,11 +63,11 @@ void score_hit(Track& track, const Hit& hit, const TrackingConfig& config) {
     gain = kMappedScorePerS * hit.time_s;
   if (is_contradicted(track, evidence, is_moving) &&
       speed_mps > config.existence.contradicted_above_mps)
-    gain = contradiction_score(config);
+    gain = evidence_limits(config).contradiction_score;
   if (!is_plausible(track.extent.outline, config) || speed_mps > 2.0 * config.motion.fastest_mps)
     gain = kImplausibleScore;
   if (is_inconsistent(track, config)) gain = std::min(gain, kInconsistentScore);
-  existence.score = std::min(config.existence.most_score, existence.score + gain);
+  existence.score = std::min(evidence_limits(config).most_score, existence.score + gain);
 }
 
 void score_miss(Track& track, const Visibility& visibility, double time_s,

@@ -3,15 +3,17 @@
 #include <algorithm>
 
 #include "services/tracking/confirmation.hpp"
+#include "services/tracking/evidence_limits.hpp"
 
 namespace slammot::tracking {
 
 bool is_timed_out(const Track& track, double age_s, const TrackingConfig& config) {
   constexpr double kTimesIfMoving = 2.0;
-  if (track.existence.confirmed || age_s <= config.existence.longest_tentative_s) return false;
+  if (track.existence.confirmed || age_s <= evidence_limits(config).longest_tentative_s)
+    return false;
   const bool seems_to_move = track.existence.score >= kConfirmScore && is_surely_fast(track) &&
                              has_travelled(track, config);
-  return !seems_to_move || age_s > kTimesIfMoving * config.existence.longest_tentative_s;
+  return !seems_to_move || age_s > kTimesIfMoving * evidence_limits(config).longest_tentative_s;
 }
 
 bool claims_motion_without_travel(const Track& track, const TrackingConfig& config) {
@@ -39,7 +41,7 @@ bool has_ended(const Track& track, std::int64_t stamp_ns, const TrackingConfig& 
   const double age_s = static_cast<double>(stamp_ns - track.history.first_seen_ns) * 1e-9;
   const bool is_lost =
       unseen_s > (track.existence.confirmed ? config.existence.longest_unseen_s
-                                            : config.existence.longest_unseen_tentative_s);
+                                            : evidence_limits(config).longest_unseen_tentative_s);
   const bool never_moved = track.existence.confirmed && has_stood_too_long(track, stamp_ns, config);
   return is_lost || is_timed_out(track, age_s, config) || never_moved ||
          claims_motion_without_travel(track, config) || track.existence.score < kRejectScore;

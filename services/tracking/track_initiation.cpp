@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "services/tracking/evidence_limits.hpp"
 #include "services/tracking/measurement_update.hpp"
 
 namespace slammot::tracking {
@@ -66,7 +67,7 @@ Outline outline_from_message(const flow::TrackedObject& object, const TrackingCo
 
 double score_from(double existence, const TrackingConfig& config) {
   const double score = std::log(std::max(existence, 1e-6) / std::max(1.0 - existence, 1e-6));
-  return std::min(score, config.existence.most_score);
+  return std::min(score, evidence_limits(config).most_score);
 }
 
 }  // namespace
@@ -100,7 +101,7 @@ Track track_from_message(const flow::TrackedObject& object, const TrackingConfig
   track.extent.largest_span_m = object.length_m;
   track.existence.confirmed = object.confirmed;
   track.existence.score = score_from(object.existence, config);
-  track.existence.hits = config.existence.least_hits;
+  track.existence.hits = evidence_limits(config).least_hits;
   track.existence.travel.travelled_m = config.existence.least_travel_to_stand_m;
   track.existence.travel.anchor_m = object.position_in_odom_m;
   track.existence.travel.last_moving_ns = object.last_seen_ns;

@@ -35,16 +35,11 @@ struct ExtentConfig {
 
 /// Log-odds of existence (Wang 2004, Eqs. 5.1-5.5) and the limits of a track's life.
 struct ExistenceConfig {
-  double moving_hit_score = 0.8;            ///< Gain of a scan with moving echoes.
-  double contradicted_above_mps = 1.5;      ///< Faster objects do not lie on what stood before.
-  double most_score = 8.0;                  ///< Upper limit of the score.
-  int least_hits = 5;                       ///< Scans with echoes before confirmation.
-  double least_travel_m = 0.3;              ///< Distance from birth for confirmation.
-  double least_travel_to_stand_m = 1.5;     ///< Distance travelled that allows kLongestStandS more.
-  double least_surprise_m = 0.6;            ///< Least distance of an outlier from the prediction.
-  double longest_unseen_s = 3.0;            ///< A confirmed track ends after this.
-  double longest_unseen_tentative_s = 0.4;  ///< A tentative track ends after this.
-  double longest_tentative_s = 1.5;         ///< Time to be confirmed; twice that if it moves.
+  double contradicted_above_mps = 1.5;   ///< Faster objects do not lie on what stood before.
+  double least_travel_m = 0.3;           ///< Distance from birth for confirmation.
+  double least_travel_to_stand_m = 1.5;  ///< Distance travelled that allows kLongestStandS more.
+  double least_surprise_m = 0.6;         ///< Least distance of an outlier from the prediction.
+  double longest_unseen_s = 3.0;         ///< A confirmed track ends after this.
 };
 
 struct PublicationConfig {

@@ -13,8 +13,6 @@ using config::kPositive;
 using config::Range;
 using config::with_members_of;
 
-constexpr Range kScore{-1000.0, 1000.0};
-
 FieldTable<SensorNoise> sensor_fields() {
   using C = SensorNoise;
   return {
@@ -104,7 +102,8 @@ FieldTable<ExtentConfig> extent_fields() {
        {"Vehicles are taken for several, or for none.", "Neighbours join, classes are wrong."}},
       {"longest_body_m",
        &C::longest_body_m,
-       "Longer segments are not objects. Below 3 m times the scale only people move.",
+       "Longer segments are not objects. Below 3 m times the scale only people move, and the "
+       "evidence of legs counts.",
        kPositive,
        {"Trucks and buses are not tracked.", "Walls become tracks."}},
       {"box_from_extent_m",
@@ -134,27 +133,11 @@ FieldTable<ExtentConfig> extent_fields() {
 FieldTable<ExistenceConfig> confirmation_fields() {
   using C = ExistenceConfig;
   return {
-      {"moving_hit_score",
-       &C::moving_hit_score,
-       "Log-odds that a scan with moving echoes adds; more for slow scanners, whose errors are "
-       "independent.",
-       kScore,
-       {"Objects are confirmed late.", "Errors that last some scans become objects."}},
       {"contradicted_above_mps",
        &C::contradicted_above_mps,
        "Above this speed echoes where something stood before speak against a track.",
        kNotNegative,
        {"Long flanks and crowds end tracks.", "Walls that seem to move remain tracks."}},
-      {"most_score",
-       &C::most_score,
-       "Upper limit of the log-odds of existence.",
-       kPositive,
-       {"Tracks end behind short occlusions.", "Tracks outlive what they followed."}},
-      {"least_hits",
-       &C::least_hits,
-       "Scans with echoes before a track is confirmed.",
-       Range{1, 1000},
-       {"Noise becomes objects.", "Objects are confirmed late."}},
       {"least_travel_m",
        &C::least_travel_m,
        "Distance from its birth before a track is confirmed, unless most echoes say that it moved.",
@@ -183,17 +166,6 @@ FieldTable<ExistenceConfig> termination_fields() {
        "A confirmed track without echoes ends after this time.",
        kPositive,
        {"Objects get new identities behind others.", "Predictions wander and take other objects."}},
-      {"longest_unseen_tentative_s",
-       &C::longest_unseen_tentative_s,
-       "A tentative track without echoes ends after this time.",
-       kPositive,
-       {"Objects that answer now and then are never confirmed.",
-        "Chance echoes join to false tracks."}},
-      {"longest_tentative_s",
-       &C::longest_tentative_s,
-       "A track that is not confirmed ends after this time; after twice this time if it moves.",
-       kPositive,
-       {"Slow objects are never confirmed.", "Walls wait until they seem to move."}},
   };
 }
 

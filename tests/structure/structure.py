@@ -16,7 +16,7 @@ ALGORITHM_FOLDERS = {"geometry", "sensing", "flow", "memory", "work", "grids", "
 # Their own code is pure; ingest and map_store do nothing but carry data, so they are shell throughout.
 ALGORITHM_SERVICES = {"localization", "detection", "tracking", "loop_closing"}
 # Where a service joins the rings.
-JOINING_FILE = re.compile(r"(_service|_fields)\.(hpp|cpp)$|(^|/)main\.cpp$")
+JOINING_FILE = re.compile(r"(_service(_[a-z]+)?|_fields)\.(hpp|cpp)$|(^|/)main\.cpp$")
 COMPOSER = "services/slammot"
 PROGRAMS = ("services/", "examples/")
 

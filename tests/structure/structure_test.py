@@ -52,6 +52,7 @@ class AlgorithmRing(unittest.TestCase):
         readme = {"services/detection/README.md": "", "common/dds/writer.hpp": ""}
         self.assertEqual(2, len(faults_in({"services/detection/detector.cpp": shell, **readme})))
         self.assertEqual([], faults_in({"services/detection/detection_service.cpp": shell, **readme}))
+        self.assertEqual([], faults_in({"services/detection/detection_service_inputs.cpp": shell, **readme}))
 
 
 class Services(unittest.TestCase):

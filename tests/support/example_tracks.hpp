@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "services/tracking/confirmation.hpp"
+#include "services/tracking/evidence_limits.hpp"
 #include "services/tracking/measurement_update.hpp"
 #include "services/tracking/track.hpp"
 #include "services/tracking/tracking_config.hpp"
@@ -97,11 +98,6 @@ inline TrackingConfig among_people() {
   TrackingConfig config;
   config.motion.fastest_mps = 5.0;
   config.extent.longest_body_m = 2.0;
-  config.existence.longest_unseen_tentative_s = 0.7;
-  config.existence.longest_tentative_s = 3.0;
-  config.existence.moving_hit_score = 1.5;
-  config.existence.least_hits = 4;
-  config.existence.most_score = 5.0;
   config.existence.contradicted_above_mps = 0.6;
   return config;
 }
@@ -111,7 +107,7 @@ inline TrackingConfig among_people() {
 inline Track out_from_behind_others(const TrackingConfig& config) {
   Track track;
   track.existence.score = tracking::kConfirmScore;
-  track.existence.hits = config.existence.least_hits;
+  track.existence.hits = tracking::evidence_limits(config).least_hits;
   track.existence.mean_echoes = 5.0;
   track.existence.motion = {3.0, 0.0, 30.0};
   track.existence.tentative = {40.0, 36.0, 0.0};

@@ -16,12 +16,9 @@ inline loop_closing::LoopClosingConfig indoor_loop_closing() {
   config.sure_within_m = 1.0;
   config.place.tolerance_m = 0.15;
   config.revisit.search_cell_m = 0.1;
-  config.revisit.min_window_m = 0.5;
   config.revisit.astray_window_m = 12.0;
-  config.revisit.registration = {.coarse_gate_m = 0.5,
-                                 .fine_gate_m = 0.2,
-                                 .surfel_sigma_m = 0.04,
-                                 .independent_spacing_m = 0.5};
+  config.revisit.registration = {
+      .fine_gate_m = 0.2, .surfel_sigma_m = 0.04, .independent_spacing_m = 0.5};
   return config;
 }
 

@@ -105,8 +105,7 @@ void deskew_and_match_in_a_city(benchmark::State& state) {
       const float range_m = now.scan.range_m[beam];
       if (sensing::is_echo(range_m, std::min(config.match_range_m, now.scan.scanner.max_range_m)))
         points.push_back(
-            {points_in_base_m[beam],
-             config.range_noise_m + config.range_noise_per_m * static_cast<double>(range_m)});
+            {points_in_base_m[beam], config.range_noise_m + 0.001 * static_cast<double>(range_m)});
     }
     benchmark::DoNotOptimize(
         matcher.match(points, localizer.local_map().surfels(), prior, prior.pose, config.match));

@@ -56,8 +56,8 @@ TEST(Overlay, SaysWhereAnUnknownFieldStands) {
 
 TEST(Overlay, NamesTheNearestSettingThatThereIs) {
   EXPECT_EQ(fault_of("example {\n  windw_scans: 3\n}"),
-            "drive.textproto:2:14: no setting is called \"windw_scans\" here; the nearest one is "
-            "\"window_scans\"");
+            "drive.textproto:2:14: no setting is called 'windw_scans' here; the nearest one is "
+            "'window_scans'");
 }
 
 TEST(Overlay, TakesUpTheBaseThatAFileNamesFirst) {

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kCell_m = 0.2;
 const LastingModel kModel;
-const int kHit = steps_of_log_odds(kModel.hit_log_odds);
-const int kFree = steps_of_log_odds(kModel.free_log_odds);
+const int kHit = steps_of_log_odds(kModel.echo_log_odds);
+const int kFree = kHit;
 const int kLimit = steps_of_log_odds(kModel.limit_log_odds);
 const Box kBody{{0.0, 0.0}, {1.0, 0.0}, {2.1, 0.9}};
 

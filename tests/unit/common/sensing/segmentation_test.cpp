@@ -52,18 +52,16 @@ TEST(Segmentation, KeepsAWallAtAGrazingAngleWhole) {
 }
 
 TEST(Segmentation, BridgesBeamsWithoutEcho) {
-  SegmentationConfig config;
-  config.bridged_beams = 2;
   int beam = 0;
   const Sweep two([&](double) -> std::optional<double> {
     return ++beam == 100 || beam == 101 ? std::nullopt : std::optional(8.0);
   });
-  EXPECT_EQ(two.spans(config).size(), 1U);
+  EXPECT_EQ(two.spans().size(), 1U);
   beam = 0;
   const Sweep three([&](double) -> std::optional<double> {
     return ++beam >= 100 && beam <= 102 ? std::nullopt : std::optional(8.0);
   });
-  EXPECT_EQ(three.spans(config).size(), 2U);
+  EXPECT_EQ(three.spans().size(), 2U);
 }
 
 TEST(Segmentation, AllowsWiderGapsFartherAway) {
@@ -91,9 +89,7 @@ Sweep dark_flank(int every_nth, double step_back_m) {
 
 TEST(Segmentation, KeepsTogetherTheFewEchoesOfADarkFlank) {
   EXPECT_EQ(dark_flank(6, 0.0).spans().size(), 1U);
-  SegmentationConfig config;
-  config.dark_gap_beams = 0;
-  EXPECT_GT(dark_flank(6, 0.0).spans(config).size(), 5U);
+  EXPECT_GT(dark_flank(6, 0.0).spans({.gap_m = 0.05}).size(), 5U) << "half a metre apart";
 }
 
 TEST(Segmentation, DoesNotTakeScatteredEchoesForADarkFlank) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/detection/segment_description.hpp"
 #include "tests/support/help_at_the_last_moment.hpp"
 #include "tests/support/street.hpp"
 
@@ -142,12 +143,9 @@ std::vector<PointLabel> labels_around_a_post(double beams) {
   Street street;
   street.known = {kWall, {{9.9, 0.0, M_PI / 2.0}, 2.0 * half_m, 0.2}};
   for (const double side : {-1.0, 1.0})
-    street.unknown.push_back({{10.1, side * (half_m + 0.35), M_PI / 2.0}, 0.7, 0.2});
-  DetectionConfig config;
-  config.outline_tolerance_m = 0.05;  // keeps the pedestrians apart from the post
-  config.outline_tolerance_per_m = 0.0;
+    street.unknown.push_back({{10.35, side * (half_m + 0.35), M_PI / 2.0}, 0.7, 0.2});
   std::vector<PointLabel> labels;
-  for (const flow::Segment& segment : detect(street.scan(0, 0), config).segments)
+  for (const flow::Segment& segment : detect(street.scan(0, 0), {}).segments)
     if (segment.centroid_in_odom_m.x() < 12.0) labels.push_back(segment.label);
   return labels;
 }
@@ -192,7 +190,7 @@ PointLabel label_of_pedestrian(float moving_evidence, double width_m = 0.5) {
 }
 
 TEST(Detector, LabelsUnknownPointsMovingWhereTheMoMapHasEvidence) {
-  const auto least = static_cast<float>(DetectionConfig().least_moving_evidence);
+  const auto least = static_cast<float>(kLeastMovingEvidence);
   EXPECT_EQ(label_of_pedestrian(0.0F), PointLabel::kUnknown);
   EXPECT_EQ(label_of_pedestrian(0.9F * least), PointLabel::kUnknown);
   EXPECT_EQ(label_of_pedestrian(1.1F * least), PointLabel::kMoving);
@@ -200,14 +198,14 @@ TEST(Detector, LabelsUnknownPointsMovingWhereTheMoMapHasEvidence) {
 }
 
 TEST(Detector, LabelsOnlySmallSegmentsByTheMoMap) {
-  const int most = DetectionConfig().largest_by_moving_evidence;
+  const int most = kLargestByMovingEvidence;
   const double beam_m = 11.75 * M_PI / 360.0;
   EXPECT_EQ(label_of_pedestrian(1.0F, (most - 2) * beam_m), PointLabel::kMoving);
   EXPECT_EQ(label_of_pedestrian(1.0F, (most + 3) * beam_m), PointLabel::kUnknown);
 }
 
 TEST(Detector, AveragesTheEvidenceOfTheMoMapOverASegment) {
-  const auto least = static_cast<float>(DetectionConfig().least_moving_evidence);
+  const auto least = static_cast<float>(kLeastMovingEvidence);
   flow::LocalizedScan scan = scan_of_pedestrian(0.0F);
   int echoes = 0;
   for (const flow::LocalizedBeam& beam : scan.beams) echoes += beam.range_m > 0.0F ? 1 : 0;
@@ -359,18 +357,17 @@ PointLabel label_ahead_of_a_line(const geometry::Pose2& odom_from_line) {
 }
 
 TEST(Detector, LabelsAsGroundOnlyALineSquareToTheAxisAndBeyondTheLeastDistance) {
-  const DetectionConfig config;
+  constexpr double kHeadingRad = 0.25;
+  constexpr double kNearestM = 3.0;
   const double square_rad = M_PI / 2.0;
-  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 0.8 * config.ground_heading_rad}),
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 0.8 * kHeadingRad}),
             PointLabel::kNoEcho);
-  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 1.3 * config.ground_heading_rad}),
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad + 1.3 * kHeadingRad}),
             PointLabel::kMoving);
-  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad - 1.3 * config.ground_heading_rad}),
+  EXPECT_EQ(label_ahead_of_a_line({15.0, 0.0, square_rad - 1.3 * kHeadingRad}),
             PointLabel::kMoving);
-  EXPECT_EQ(label_ahead_of_a_line({1.2 * config.ground_nearest_m, 0.0, square_rad}),
-            PointLabel::kNoEcho);
-  EXPECT_EQ(label_ahead_of_a_line({0.8 * config.ground_nearest_m, 0.0, square_rad}),
-            PointLabel::kMoving);
+  EXPECT_EQ(label_ahead_of_a_line({1.2 * kNearestM, 0.0, square_rad}), PointLabel::kNoEcho);
+  EXPECT_EQ(label_ahead_of_a_line({0.8 * kNearestM, 0.0, square_rad}), PointLabel::kMoving);
 }
 
 TEST(Detector, MovesWithTheWorld) {

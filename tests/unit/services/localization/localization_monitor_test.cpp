@@ -79,14 +79,14 @@ TEST_F(LocalizationMonitorTest, ConfirmsOnlyAfterSeveralScansInARow) {
   see(lost_match(), StepSource::kVelocityAlone);
   int scans = 1;
   while (!monitor_.confirm()) ++scans;
-  EXPECT_EQ(scans, LocalizerConfig{}.found_scans + 1);
+  EXPECT_EQ(scans, LocalizationMonitor::kFoundScans + 1);
   EXPECT_FALSE(monitor_.is_lost());
   EXPECT_EQ(monitor_.trust(), PoseTrust::kConfirmed);
 }
 
 TEST_F(LocalizationMonitorTest, GivesTheMapUpAfterASearchInVain) {
   const LocalizerConfig config;
-  const double given_up_s = config.lost_after_s + config.astray_after_s;
+  const double given_up_s = config.lost_after_s + LocalizationMonitor::kAstrayAfterS;
   for (int scan = 0; scan < 20; ++scan) see(lost_match(), StepSource::kVelocityAlone);
   const std::int64_t lost_since_ns = *monitor_.state().lost_since_ns;
   EXPECT_FALSE(

@@ -244,7 +244,7 @@ TEST_F(LostOnTheBus, SaysThatItIsDegradedWhileScansDoNotFitAndNoLonger) {
 
 TEST_F(LostOnTheBus, BeginsASubmapTiedToNothingWhereItDoesNotFindItself) {
   for (int i = 0; i < 20; ++i) localize_next(room_scan);
-  const double patience_s = LocalizerConfig().astray_after_s;
+  const double patience_s = LocalizationMonitor::kAstrayAfterS;
   int scans_until_astray = 0;
   for (; submap_in_use == flow::SubmapId{0} && scans_until_astray < 60; ++scans_until_astray)
     localize_next(scan_among_posts);

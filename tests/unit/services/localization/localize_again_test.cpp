@@ -61,7 +61,7 @@ class LocalizeAgain : public ::testing::Test {
     flow::ScanLabels labels = all_stationary(scan);
     for (std::size_t i = 0; i < scan.beams.size(); ++i) {
       const Eigen::Vector2f& at_m = scan.beams[i].point_in_base_m;
-      const bool is_on_front = std::abs(at_m.x() - kFront_m) < config().mask_margin_m &&
+      const bool is_on_front = std::abs(at_m.x() - kFront_m) < ExpectedObjects::kMaskMarginM &&
                                std::abs(at_m.y()) < half_width_m;
       if (is_on_front && scan.beams[i].range_m > 0.0F) labels.labels[i] = PointLabel::kMoving;
     }
@@ -78,7 +78,7 @@ class LocalizeAgain : public ::testing::Test {
     block.confirmed = true;
     block.position_in_odom_m = {kFront_m, 0.0};
     block.length_m = 0.0;
-    block.width_m = 2.0 * (kMiddle_m - config().mask_margin_m);
+    block.width_m = 2.0 * (kMiddle_m - ExpectedObjects::kMaskMarginM);
     flow::TrackedObjects objects;
     objects.stamp_ns = scan().stamp_ns;
     objects.objects = {block};

@@ -54,9 +54,17 @@ TEST_F(ConfigCommand, ExplainsEverySettingWithoutAName) {
 TEST_F(ConfigCommand, NamesTheNearestSettingOfAnUnknownName) {
   const Outcome outcome = config_command({"--explain", "celsize_m"});
   EXPECT_EQ(outcome.exit_code, kExitFault);
-  EXPECT_EQ(
-      outcome.standard_error,
-      "slammot: no setting or group is called 'celsize_m'; the nearest one is 'cell_size_m'\n");
+  EXPECT_EQ(outcome.standard_error,
+            "slammot: no setting or group is called 'celsize_m'; the nearest one is 'cell_size_m'; "
+            "slammot config --explain lists all\n");
+}
+
+TEST_F(ConfigCommand, NamesNoSettingWhereNoneIsNear) {
+  const Outcome outcome = config_command({"--explain", "NONSENSE"});
+  EXPECT_EQ(outcome.exit_code, kExitFault);
+  EXPECT_EQ(outcome.standard_error,
+            "slammot: no setting or group is called 'NONSENSE'; "
+            "slammot config --explain lists all\n");
 }
 
 TEST_F(ConfigCommand, PrintsWhatARunWouldUseAsAFileThatReadsBack) {

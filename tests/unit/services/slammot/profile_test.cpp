@@ -51,9 +51,6 @@ TEST(Profile, HasASettingForEveryMemberWhereAllAreForUsers) {
   std::map<std::string, config::BoundStage> stages;
   for (config::BoundStage& stage : bind_stages(profile))
     stages[std::string(stage.stage)] = std::move(stage);
-  EXPECT_EQ(settings_under(stages["localization"], "pose_errors."), members<sensing::PoseErrors>());
-  EXPECT_EQ(settings_under(stages["localization"], "pose_errors.forward."),
-            members<sensing::AxisError>());
   EXPECT_EQ(settings_under(stages["tracking"], ""),
             members<tracking::SensorNoise>() + members<tracking::MotionConfig>() +
                 members<tracking::AssociationConfig>() + members<tracking::ExtentConfig>() +

@@ -7,6 +7,8 @@
 
 #include "tests/support/example_tracks.hpp"
 
+#include "services/tracking/evidence_limits.hpp"
+
 namespace slammot::tracking {
 namespace {
 
@@ -38,7 +40,7 @@ TEST(Confirmation, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
   const TrackingConfig config;
   Track track;
   track.existence.score = kConfirmScore;
-  track.existence.hits = config.existence.least_hits;
+  track.existence.hits = evidence_limits(config).least_hits;
   track.existence.motion = {kSureMovedVotes, 0.0, 0.0};  // a thin post: beams went past it
                                                          // on both sides a moment ago
   track.history.birth.R = 0.01 * Eigen::Matrix2d::Identity();
@@ -128,7 +130,7 @@ TEST(Confirmation, HasComeNoWayByTheJumpThatItHasJustMade) {
   const TrackingConfig config;
   Track track;
   track.existence.score = kConfirmScore;
-  track.existence.hits = config.existence.least_hits;
+  track.existence.hits = evidence_limits(config).least_hits;
   track.existence.motion = {2.0 * kLeastMovedVotes, 0.0, 0.0};
   track.history.birth.R = 0.01 * Eigen::Matrix2d::Identity();
   track.kinematics.estimate.mean << 0.9, 0.0, 1.5, 0.0, 0.0, 0.0;

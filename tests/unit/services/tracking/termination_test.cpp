@@ -7,6 +7,8 @@
 
 #include "tests/support/example_tracks.hpp"
 
+#include "services/tracking/evidence_limits.hpp"
+
 namespace slammot::tracking {
 namespace {
 
@@ -39,12 +41,12 @@ TEST(Termination, ThatSeemsToMoveIsWaitedForTwiceAsLong) {
   here.kinematics.estimate.mean.head<2>().setZero();
   Track unlikely = moving;
   unlikely.existence.score = 0.0;
-  const double late_s = config.existence.longest_tentative_s + 0.1;
+  const double late_s = evidence_limits(config).longest_tentative_s + 0.1;
   EXPECT_FALSE(is_timed_out(moving, late_s, config));
   EXPECT_TRUE(is_timed_out(moving, 2.0 * late_s, config));
   for (const Track* other : {&slow, &here, &unlikely}) {
     EXPECT_TRUE(is_timed_out(*other, late_s, config));
-    EXPECT_FALSE(is_timed_out(*other, config.existence.longest_tentative_s - 0.1, config));
+    EXPECT_FALSE(is_timed_out(*other, evidence_limits(config).longest_tentative_s - 0.1, config));
   }
   slow.existence.confirmed = true;
   EXPECT_FALSE(is_timed_out(slow, late_s, config));
@@ -64,11 +66,11 @@ TEST(Termination, ComesAfterAWhileUnseenAndSoonerToATentativeTrack) {
   const auto ends_after = [&](double unseen_s) {
     return has_ended(track, 1'000'000'000 + static_cast<std::int64_t>(unseen_s * 1e9), config);
   };
-  EXPECT_FALSE(ends_after(config.existence.longest_unseen_tentative_s + 0.1));
+  EXPECT_FALSE(ends_after(evidence_limits(config).longest_unseen_tentative_s + 0.1));
   EXPECT_TRUE(ends_after(config.existence.longest_unseen_s + 0.1));
   track.existence.confirmed = false;
-  EXPECT_FALSE(ends_after(config.existence.longest_unseen_tentative_s - 0.1));
-  EXPECT_TRUE(ends_after(config.existence.longest_unseen_tentative_s + 0.1));
+  EXPECT_FALSE(ends_after(evidence_limits(config).longest_unseen_tentative_s - 0.1));
+  EXPECT_TRUE(ends_after(evidence_limits(config).longest_unseen_tentative_s + 0.1));
 }
 
 TEST(Termination, ComesToATrackThatItsScoreRejects) {

@@ -1,0 +1,154 @@
+// LocalMap as bytes of a checkpoint.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "services/localization/local_map.hpp"
+#include "services/localization/local_map_windows.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Vector2;
+
+struct StoredSurfel {
+  grids::Cell cell;
+  grids::CellMoments moments;
+};
+
+struct StoredMap {
+  grids::GridWindow window;
+  std::vector<std::int8_t> so;
+  std::vector<std::uint8_t> mo;
+  std::vector<std::int8_t> lasting;
+  std::vector<std::int8_t> inherited_so;
+  std::vector<std::uint8_t> inherited_mo;
+  std::vector<std::int8_t> inherited_lasting;
+  grids::GridWindow surfel_lattice;
+  std::vector<StoredSurfel> surfels;
+  std::vector<StoredSurfel> inherited_surfels;
+};
+
+void put_surfels(std::vector<std::byte>& bytes, const grids::SurfelMap& map) {
+  std::vector<StoredSurfel> surfels;
+  for (const grids::SurfelView& surfel : map.all())
+    surfels.push_back({surfel.cell, *map.moments_at(surfel.cell)});
+  put_all(bytes, surfels);
+}
+
+StoredMap stored_map_of(ByteReader& from) {
+  StoredMap stored;
+  from.get(stored.window);
+  from.get_all(stored.so);
+  from.get_all(stored.mo);
+  from.get_all(stored.lasting);
+  from.get_all(stored.inherited_so);
+  from.get_all(stored.inherited_mo);
+  from.get_all(stored.inherited_lasting);
+  from.get(stored.surfel_lattice);
+  from.get_all(stored.surfels);
+  from.get_all(stored.inherited_surfels);
+  return stored;
+}
+
+/// Same shape, and on the lattice where no index can overflow.
+bool is_like(const grids::GridWindow& window, const grids::GridWindow& expected) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 30;
+  const auto is_near = [](std::int64_t place) { return std::abs(place) < kFarthest; };
+  return window.cell_size_m == expected.cell_size_m && window.columns == expected.columns &&
+         window.rows == expected.rows && is_near(window.first.column) && is_near(window.first.row);
+}
+
+/// True if these can be the moments of echoes in one cell.
+bool is_possible(const grids::CellMoments& moments, double cell_size_m) {
+  const double farthest_m = cell_size_m * static_cast<double>(moments.weight);
+  return moments.weight > 0.0F && std::isfinite(moments.weight) &&
+         std::abs(moments.x) <= farthest_m && std::abs(moments.y) <= farthest_m &&
+         std::isfinite(moments.xx) && std::isfinite(moments.xy) && std::isfinite(moments.yy) &&
+         std::isfinite(moments.own_echoes) && std::isfinite(moments.first_seen_at_m) &&
+         std::isfinite(moments.last_seen_at_m);
+}
+
+/// True if this can be a map of the configuration.
+bool is_possible(const StoredMap& stored, const LocalMapConfig& config) {
+  const auto is_of_map = [&](const auto& cells) {
+    return cells.size() == stored.window.cell_count();
+  };
+  const auto are_of_surfels = [&](const std::vector<StoredSurfel>& surfels) {
+    return std::ranges::all_of(surfels, [&](const StoredSurfel& one) {
+      return is_possible(one.moments, config.surfel_size_m);
+    });
+  };
+  return is_like(stored.window, evidence_window(config, {0.0, 0.0})) &&
+         is_like(stored.surfel_lattice, surfel_window(config, {0.0, 0.0})) &&
+         is_of_map(stored.so) && is_of_map(stored.mo) && is_of_map(stored.lasting) &&
+         is_of_map(stored.inherited_so) && is_of_map(stored.inherited_mo) &&
+         is_of_map(stored.inherited_lasting) && are_of_surfels(stored.surfels) &&
+         are_of_surfels(stored.inherited_surfels);
+}
+
+void set_surfels(grids::SurfelMap& map, const std::vector<StoredSurfel>& surfels) {
+  for (const StoredSurfel& surfel : surfels) map.set_moments(surfel.cell, surfel.moments);
+}
+
+}  // namespace
+
+void LocalMap::write(std::vector<std::byte>& bytes) const {
+  put(bytes, evidence().window());
+  put_all(bytes, evidence().so_cells());
+  put_all(bytes, evidence().mo_cells());
+  put_all(bytes, evidence().lasting_cells());
+  put_all(bytes, inherited_.so);
+  put_all(bytes, inherited_.mo);
+  put_all(bytes, inherited_.lasting);
+  put(bytes, surfels_.window());
+  put_surfels(bytes, surfels_);
+  put_surfels(bytes, inherited_.surfels);
+  put(bytes, submap_id_);
+  put(bytes, odom_from_submap_);
+  put(bytes, progress_.first_stamp_ns);
+  put(bytes, progress_.last_stamp_ns);
+  put(bytes, progress_.scans);
+  put(bytes, odometer_.way_m);
+  put(bytes, odometer_.counted_to_m.has_value());
+  put(bytes, odometer_.counted_to_m.value_or(Vector2::Zero()));
+}
+
+std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from,
+                                           work::SideWork* help) {
+  StoredMap stored = stored_map_of(from);
+  flow::SubmapId submap_id;
+  geometry::Pose2 odom_from_submap;
+  Progress progress;
+  Odometer odometer;
+  bool has_counted = false;
+  Vector2 counted_to_m = Vector2::Zero();
+  from.get(submap_id);
+  from.get(odom_from_submap);
+  from.get(progress.first_stamp_ns);
+  from.get(progress.last_stamp_ns);
+  from.get(progress.scans);
+  from.get(odometer.way_m);
+  from.get(has_counted);
+  from.get(counted_to_m);
+  if (has_counted) odometer.counted_to_m = counted_to_m;
+  const bool fits = from.ok() && is_possible(stored, config) && is_believable(odom_from_submap) &&
+                    odometer.way_m >= 0.0 && std::isfinite(odometer.way_m) &&
+                    counted_to_m.allFinite();
+  if (!fits) return std::nullopt;
+  LocalMap map(config, stored.window, stored.surfel_lattice, help);
+  map.inherited_ = {std::move(stored.inherited_so), std::move(stored.inherited_mo),
+                    std::move(stored.inherited_lasting), map.surfels_};
+  map.evidence_.grid().set_cells(std::move(stored.so), std::move(stored.mo),
+                                 std::move(stored.lasting));
+  set_surfels(map.surfels_, stored.surfels);
+  set_surfels(map.inherited_.surfels, stored.inherited_surfels);
+  map.submap_id_ = submap_id;
+  map.odom_from_submap_ = odom_from_submap;
+  map.progress_ = progress;
+  map.odometer_ = odometer;
+  return map;
+}
+
+}  // namespace slammot::localization

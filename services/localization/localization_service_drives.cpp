@@ -1,0 +1,184 @@
+// How LocalizationService begins, continues and ends drives.
+#include <chrono>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "services/localization/localization_service.hpp"
+#include "services/localization/localization_service_clock.hpp"
+
+namespace slammot::localization {
+namespace {
+
+/// Unlike any before, unless the clock was set back to the very nanosecond.
+std::uint64_t new_id() {
+  return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
+}
+
+}  // namespace
+
+/// Where drives continue in the stored map, the first scan of a drive waits until that is known.
+/// Older ones than a live sensor needs are dropped: a vehicle wants to know where it is now.
+bool LocalizationService::knows_map_of(const WaitingScan& waiting) {
+  constexpr std::size_t kMostWaiting = 100;
+  if (!drive_.map_id && come_back(waiting)) return true;
+  const bool is_new =
+      !drive_.map_id || drives_.look_at(waiting.scan.scanner.scanner_id, waiting.drive_id) ==
+                            DriveWatch::Scan::kOfNewDrive;
+  if (!stored_map_ || !is_new) return true;
+  if (drive_.map_id) end_drive();
+  else hand_over_earlier_drive();
+  if (is_stored_map_known()) return true;
+  while (waiting_.size() > kMostWaiting) {
+    waiting_.drop_oldest();
+    ++context_.status().counter("scans_before_map");
+  }
+  return false;
+}
+
+/// Reports in the status what is awaited, or what is wrong with the stored map.
+bool LocalizationService::is_stored_map_known() {
+  const StoredMapWatch::Answer answer = stored_map_->answer(monotonic_ns());
+  const bool waits = answer.verdict == StoredMapWatch::Verdict::kWait;
+  context_.status().set_starting(waits);
+  if (waits)
+    context_.status().set_trouble("stored_map", "waits for the stored map: " + answer.reason);
+  else if (answer.verdict == StoredMapWatch::Verdict::kCannot)
+    context_.status().set_trouble("stored_map", "cannot go on in the stored map: " + answer.reason);
+  else context_.status().clear_trouble("stored_map");
+  return !waits;
+}
+
+/// Begins a drive where the scan is of a new one.
+bool LocalizationService::is_of_this_drive(const WaitingScan& waiting) {
+  const DriveWatch::Scan scan = drives_.judge(waiting.scan.scanner.scanner_id, waiting.drive_id);
+  if (scan == DriveWatch::Scan::kOfEarlierDrive) {
+    context_.warn("scans_of_earlier_drives", "dropped a scan of an earlier drive");
+    return false;
+  }
+  if (!drive_.map_id || scan == DriveWatch::Scan::kOfNewDrive) begin_drive();
+  return true;
+}
+
+/// Continues from the checkpoint, if it is of the drive of this scan.
+bool LocalizationService::come_back(const WaitingScan& first) {
+  auto saved = checkpoint_.look_back();
+  if (!saved) return false;
+  SavedSession& session = saved->session;
+  const auto drive = session.drive_by_scanner.find(first.scan.scanner.scanner_id);
+  if (drive == session.drive_by_scanner.end() || drive->second != first.drive_id) {
+    spdlog::info("the checkpoint is of another drive");
+    drive_.before = std::move(session);
+    return false;
+  }
+  if (!localizer_.restore(session.localizer)) {
+    spdlog::warn("begins a new map: the checkpoint is of another version or configuration");
+    return false;
+  }
+  take_up(session);
+  spdlog::info("goes on from a checkpoint {:.1f} s before this scan",
+               static_cast<double>(first.scan.stamp_ns - saved->stamp_ns) * 1e-9);
+  return true;
+}
+
+void LocalizationService::take_up(const SavedSession& session) {
+  drive_.map_id = session.map_id;
+  drive_.odom_id = session.odom_id;
+  drive_.first_submap = session.first_submap_id;
+  drives_.take_up(session.drive_by_scanner);
+  scans_.take_up(session.last_answers);
+  tell_whether_it_is_tied(drive_.first_submap.value == 0);
+  if (const auto correction = corrections_.early.find(*drive_.map_id);
+      correction != corrections_.early.end())
+    correct(correction->second);
+  context_.status().set_starting(false);
+  context_.status().clear_trouble("stored_map");
+  ++context_.status().counter("restored_checkpoints");
+}
+
+/// The vehicle was switched off in the middle of a submap of the stored map: the checkpoint holds
+/// it, and it is the next one of that map.
+void LocalizationService::hand_over_earlier_drive() {
+  if (!drive_.before || !stored_map_->map()) return;
+  const SavedSession session = *std::exchange(drive_.before, std::nullopt);
+  Localizer localizer(config_);
+  if (session.map_id != stored_map_->map()->map_id || !localizer.restore(session.localizer)) return;
+  localizer.finish();
+  auto submap = localizer.take_finished_submap();
+  if (!submap || submap->submap_id.value != stored_map_->map()->last_submap_id.value + 1) return;
+  submap->map_id = session.map_id;
+  submaps_.publish(*submap);
+  stored_map_->is_on_its_way(session.map_id, submap->submap_id, monotonic_ns());
+  spdlog::info("hands over submap {}, with which the drive before ended", submap->submap_id.value);
+}
+
+/// The last submap is on its way into the map in which the next drive continues.
+void LocalizationService::end_drive() {
+  localizer_.finish();
+  publish_finished_submaps();
+  if (const auto newest = submaps_.newest())
+    stored_map_->is_on_its_way(*drive_.map_id, *newest, monotonic_ns());
+}
+
+void LocalizationService::begin_drive() {
+  localizer_ = Localizer(config_);
+  for (const sensing::Odometry& odometry : recent_odometry_.of_newest_drive())
+    localizer_.add_odometry(odometry);
+  scans_.clear();
+  drive_.last_done_ns.reset();
+  checkpoint_.begin_drive();
+  drive_.odom_id = {new_id()};
+  const auto verdict = stored_map_ ? stored_map_->answer(monotonic_ns()).verdict
+                                   : StoredMapWatch::Verdict::kNothingStored;
+  if (verdict == StoredMapWatch::Verdict::kGoOn) return go_on_in_stored_map();
+  if (verdict == StoredMapWatch::Verdict::kCannot)
+    ++context_.status().counter("begun_without_stored_map");
+  begin_map();
+}
+
+void LocalizationService::begin_map() {
+  submaps_.withdraw();
+  drive_.map_id = {drive_.odom_id.value};
+  drive_.first_submap = {};
+  tell_whether_it_is_tied(true);
+  ++context_.status().counter("maps");
+  spdlog::info("begins map {}", drive_.map_id->value);
+}
+
+/// The graph is corrected as for the drive before, so that only later corrections are new.
+void LocalizationService::go_on_in_stored_map() {
+  const flow::StoredMap& stored = *stored_map_->map();
+  if (drive_.map_id != stored.map_id) submaps_.withdraw();
+  drive_.map_id = stored.map_id;
+  drive_.first_submap = {stored.last_submap_id.value + 1};
+  localizer_.correct(stored_map_->graph());
+  localizer_.go_on_after(stored_map_->graph().submaps.back());
+  tell_whether_it_is_tied(false);
+  ++context_.status().counter("continued_maps");
+  spdlog::info("goes on in map {} after its {} submaps", drive_.map_id->value, stored.submaps);
+}
+
+/// A correction without a submap of this drive is about the frame odom of an earlier drive.
+void LocalizationService::correct(const flow::GraphCorrection& correction) {
+  if (correction.submaps.empty() || correction.submaps.back().submap_id < drive_.first_submap)
+    return;
+  localizer_.correct(correction);
+  tell_whether_it_is_tied(!correction.is_untied);
+}
+
+void LocalizationService::tell_whether_it_is_tied(bool is_tied) {
+  if (is_tied) context_.status().clear_trouble("place");
+  else
+    context_.status().set_trouble("place", "not found in the map yet: poses in map mean nothing");
+}
+
+void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
+  if (!checkpoint_.is_due(stamp_ns)) return;
+  const app::Stopwatch stopwatch(context_.status().latency("checkpoint"));
+  const std::string fault = checkpoint_.fault();
+  if (!fault.empty()) context_.warn("failed_checkpoints", fault);
+  checkpoint_.save(stamp_ns, {*drive_.map_id, drive_.odom_id, drive_.first_submap, drives_.drives(),
+                              scans_.newest(), localizer_.checkpoint()});
+}
+
+}  // namespace slammot::localization

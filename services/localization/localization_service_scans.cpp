@@ -1,0 +1,31 @@
+#include "services/localization/localization_service_scans.hpp"
+
+#include <utility>
+
+namespace slammot::localization {
+
+void ScanPublisher::publish(flow::LocalizedScan scan) {
+  scans_.write(encoder_.encode(context_.vehicle_id(), scan));
+  const std::string scanner_id = scan.scanner_id;
+  newest_[scanner_id] = std::move(scan);
+}
+
+void ScanPublisher::repeat(const std::string& scanner_id) {
+  if (const auto newest = newest_.find(scanner_id); newest != newest_.end())
+    scans_.write(encoder_.encode(context_.vehicle_id(), newest->second));
+}
+
+void ScanPublisher::take_up(const std::vector<flow::LocalizedScan>& newest) {
+  for (const flow::LocalizedScan& scan : newest) newest_[scan.scanner_id] = scan;
+}
+
+std::vector<flow::LocalizedScan> ScanPublisher::newest() const {
+  std::vector<flow::LocalizedScan> scans;
+  for (const auto& [scanner_id, scan] : newest_) {
+    scans.push_back(scan);
+    scans.back().beams.clear();
+  }
+  return scans;
+}
+
+}  // namespace slammot::localization

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/app/service_context.hpp"
+#include "common/wire/localized_scan.hpp"
+
+namespace slammot::localization {
+
+/// Publishes localized scans, and keeps the newest one of each scanner.
+class ScanPublisher {
+ public:
+  explicit ScanPublisher(app::ServiceContext& context)
+      : context_(context), scans_(context.write(dds::topics::kLocalizedScan)) {}
+
+  void publish(flow::LocalizedScan scan);
+
+  /// Publishes the newest scan of the scanner once more, if there is one: the answer to a scan that
+  /// is done, or to a sender that begins its drive again. It tells both how far the drive is.
+  void repeat(const std::string& scanner_id);
+
+  /// Continues after the scans of an earlier process.
+  void take_up(const std::vector<flow::LocalizedScan>& newest);
+
+  /// The newest scan of each scanner, without its beams.
+  std::vector<flow::LocalizedScan> newest() const;
+
+  void clear() { newest_.clear(); }
+
+ private:
+  app::ServiceContext& context_;
+  dds::Writer<slammot_LocalizedScan>& scans_;
+  wire::LocalizedScanEncoder encoder_;
+  std::map<std::string, flow::LocalizedScan> newest_;
+};
+
+}  // namespace slammot::localization

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/app/state_file.hpp"
+#include "services/localization/saved_session.hpp"
+
+namespace slammot::localization {
+
+struct StampedSession {
+  std::int64_t stamp_ns = 0;
+  SavedSession session;
+};
+
+/// The checkpoint of a session as a file, written once a second by the clock of the data.
+class SessionFile {
+ public:
+  explicit SessionFile(std::filesystem::path path) : file_(std::move(path)) {}
+
+  /// The session of the process before; none if there was none or it is of another version, and at
+  /// every later call.
+  std::optional<StampedSession> look_back();
+
+  /// True if a session of this stamp is due and can be saved.
+  bool is_due(std::int64_t stamp_ns) const;
+  void save(std::int64_t stamp_ns, const SavedSession& session);
+
+  /// Makes the next session due at once.
+  void begin_drive() { saved_ns_.reset(); }
+
+  /// Error of the last write; empty if it succeeded.
+  std::string fault() const { return file_.fault(); }
+
+ private:
+  app::StateFile file_;
+  bool has_looked_back_ = false;
+  std::optional<std::int64_t> saved_ns_;
+};
+
+}  // namespace slammot::localization

@@ -1,0 +1,80 @@
+#include "services/localization/map_fields.hpp"
+
+namespace slammot::localization {
+namespace {
+
+using config::FieldTable;
+using config::Range;
+
+FieldTable<grids::LastingModel> lasting_fields() {
+  using C = grids::LastingModel;
+  return {{"echo_log_odds",
+           &C::echo_log_odds,
+           "Log-odds that a stationary echo adds to a cell of a submap, and that a beam past it "
+           "subtracts; from 0.6 on one echo is a wall.",
+           Range{0.04, 7.8},
+           {"Walls seen once are missing from the map.", "Single false echoes stay in the map."}}};
+}
+
+FieldTable<LocalMapConfig> size_fields() {
+  using C = LocalMapConfig;
+  return {
+      {"side_m",
+       &C::side_m,
+       "Side of the square held around the vehicle.",
+       Range{10.0, 1000.0},
+       {"Distant echoes find no map to match.", "Memory grows with the square."}},
+      {"cell_size_m",
+       &C::cell_size_m,
+       "Edge of a cell of SO-map and MO-map.",
+       Range{0.02, 1.0},
+       {"Memory and time grow, and cells are seen too rarely.",
+        "Doors close, and pedestrians beside walls are not seen to move."}},
+      {"surfel_size_m",
+       &C::surfel_size_m,
+       "Edge of the cells whose echoes are averaged for matching.",
+       Range{0.02, 2.0},
+       {"Normals are noisy.", "Corners are rounded, poses less accurate."}},
+      {"new_map_after_m",
+       &C::new_map_after_m,
+       "Distance from the map's centre at which a new map begins.",
+       Range{1.0, 500.0},
+       {"Many small submaps, each too poor to be recognised.",
+        "Drift within a submap that no closure corrects."}},
+      {"new_map_after_travel_m",
+       &C::new_map_after_travel_m,
+       "Distance travelled in a map after which a new one begins.",
+       Range{1.0, 1e4},
+       {"Many small submaps, each too poor to be recognised.",
+        "Drift within a submap that no closure corrects."}},
+  };
+}
+
+FieldTable<LocalMapConfig> evidence_fields() {
+  using C = LocalMapConfig;
+  return config::with_nested<C>(
+      {
+          {"no_echo_free_m",
+           &C::no_echo_free_m,
+           "Length of a beam without echo that is free.",
+           Range{0.0, 200.0},
+           {"Movers in open space are detected late.",
+            "Dark bodies and glass are erased from the map."}},
+          {"end_cell_tolerance_m",
+           &C::end_cell_tolerance_m,
+           "An occupied cell this near explains an echo.",
+           Range{0.0, 5.0},
+           {"Walls seem to move where the pose is a little off.",
+            "Pedestrians beside walls are taken for the wall."}},
+      },
+      "lasting", &C::lasting, lasting_fields());
+}
+
+}  // namespace
+
+FieldTable<LocalMapConfig> map_fields() {
+  return in_group(config::Group::map,
+                  config::joined<LocalMapConfig>({size_fields(), evidence_fields()}));
+}
+
+}  // namespace slammot::localization

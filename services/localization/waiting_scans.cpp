@@ -1,0 +1,60 @@
+#include "services/localization/waiting_scans.hpp"
+
+#include <utility>
+
+namespace slammot::localization {
+namespace {
+
+constexpr int kOdometryPatience = 5;  ///< In turns.
+/// The bus finds the writer of odometry in its own time, and after a crash nothing else bridges the
+/// gap.
+constexpr int kFirstOdometryPatience = 50;
+constexpr int kTrackingPatience = 3;
+/// After so many scans in a row that awaited something in vain, none awaits it any more.
+constexpr int kVainWaits = 3;
+
+}  // namespace
+
+void WaitingScans::count_turn() {
+  for (WaitingScan& waiting : scans_) ++waiting.turns;
+}
+
+void WaitingScans::note_objects(std::int64_t stamp_ns, bool awaits_labels) {
+  newest_objects_ns_ = stamp_ns;
+  if (!is_tracking_late(awaits_labels)) without_tracking_ = 0;
+}
+
+void WaitingScans::note_labels(std::int64_t stamp_ns, bool awaits_labels) {
+  newest_labels_ns_ = stamp_ns;
+  if (!is_tracking_late(awaits_labels)) without_tracking_ = 0;
+}
+
+bool WaitingScans::awaits_odometry(const Awaited& awaited) const {
+  return !awaited.has_odometry && without_odometry_ < kVainWaits &&
+         oldest().turns <= (awaited.is_first ? kFirstOdometryPatience : kOdometryPatience);
+}
+
+/// Labels and objects come on different topics; tracking publishes the objects first.
+bool WaitingScans::is_tracking_late(bool awaits_labels) const {
+  return awaits_labels || newest_objects_ns_ < newest_labels_ns_;
+}
+
+/// Not where scans queue up.
+bool WaitingScans::awaits_tracking(const Awaited& awaited) const {
+  return is_tracking_late(awaited.awaits_labels) && scans_.size() == 1 &&
+         oldest().turns < kTrackingPatience && without_tracking_ < kVainWaits;
+}
+
+bool WaitingScans::may_begin(const Awaited& awaited) const {
+  return !awaits_odometry(awaited) && !awaits_tracking(awaited);
+}
+
+WaitingScan WaitingScans::take(const Awaited& awaited) {
+  WaitingScan oldest = std::move(scans_.front());
+  scans_.pop_front();
+  if (!awaited.has_odometry) ++without_odometry_;
+  if (is_tracking_late(awaited.awaits_labels)) ++without_tracking_;
+  return oldest;
+}
+
+}  // namespace slammot::localization

@@ -1,0 +1,49 @@
+#include "services/localization/localizer_presets.hpp"
+
+#include <gtest/gtest.h>
+
+namespace slammot::localization {
+namespace {
+
+TEST(LocalizerPresets, OfACarAndTheRoadAreTheDefaults) {
+  const LocalizerConfig defaults;
+  LocalizerConfig config;
+  set_vehicle(config, Vehicle::robot);
+  set_pose_error_model(config, PoseErrorModel::building);
+  set_vehicle(config, Vehicle::car);
+  set_pose_error_model(config, PoseErrorModel::road);
+  EXPECT_EQ(config.vehicle, Vehicle::car);
+  EXPECT_EQ(config.motion.position_noise_m, defaults.motion.position_noise_m);
+  EXPECT_EQ(config.motion.heading_noise_rad, defaults.motion.heading_noise_rad);
+  EXPECT_EQ(config.motion.askew_prior_rad, defaults.motion.askew_prior_rad);
+  EXPECT_EQ(config.motion.pivot_prior_m, defaults.motion.pivot_prior_m);
+  EXPECT_EQ(config.motion.pivot_walk_m, defaults.motion.pivot_walk_m);
+  EXPECT_EQ(config.motion.speed_prior_mps, defaults.motion.speed_prior_mps);
+  EXPECT_EQ(config.match.proven_after_m, defaults.match.proven_after_m);
+  EXPECT_EQ(config.variance_by_scans_alone, defaults.variance_by_scans_alone);
+  EXPECT_EQ(config.pose_errors.forward.of_scan, defaults.pose_errors.forward.of_scan);
+}
+
+TEST(LocalizerPresets, OfARobotTurnAboutItsMiddleAndHaveNoPitchingScanner) {
+  LocalizerConfig config;
+  set_vehicle(config, Vehicle::robot);
+  EXPECT_EQ(config.vehicle, Vehicle::robot);
+  EXPECT_LT(config.motion.pivot_walk_m, LocalizerConfig().motion.pivot_walk_m);
+  EXPECT_LT(config.motion.speed_prior_mps, LocalizerConfig().motion.speed_prior_mps);
+  EXPECT_EQ(config.match.proven_after_m, 0.0);
+}
+
+TEST(LocalizerPresets, OfABuildingReplacesAllPoseErrorsAndOfModelCarsThemAlone) {
+  LocalizerConfig config;
+  set_pose_error_model(config, PoseErrorModel::building);
+  EXPECT_EQ(config.pose_error_model, PoseErrorModel::building);
+  EXPECT_GT(config.pose_errors.forward.of_map, LocalizerConfig().pose_errors.forward.of_map);
+  EXPECT_LT(config.variance_by_scans_alone, LocalizerConfig().variance_by_scans_alone);
+  set_pose_error_model(config, PoseErrorModel::model_cars);
+  EXPECT_GT(config.pose_errors.forward.of_surprises,
+            LocalizerConfig().pose_errors.forward.of_surprises);
+  EXPECT_EQ(config.variance_by_scans_alone, LocalizerConfig().variance_by_scans_alone);
+}
+
+}  // namespace
+}  // namespace slammot::localization
