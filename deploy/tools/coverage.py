@@ -4,7 +4,8 @@
 usage: coverage.py BUILD [--uncovered PREFIX]
 
 BUILD was built with the preset coverage and its tests ran. --uncovered also lists the lines that none ran of files
-whose path begins with PREFIX. Counts of one source in several programs are summed.
+whose path begins with PREFIX. Counts of one source in several programs are summed. A source that no program links is not
+in the table.
 """
 
 import argparse
