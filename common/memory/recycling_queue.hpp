@@ -2,7 +2,7 @@
 
 #include <cassert>
 #include <cstddef>
-#include <ranges>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -51,16 +51,33 @@ class RecyclingQueue {
   void clear() { size_ = 0; }
 
   /// All elements, oldest first.
-  auto all() {
-    return std::views::iota(std::size_t{0}, size_) |
-           std::views::transform([this](std::size_t i) -> T& { return (*this)[i]; });
-  }
-  auto all() const {
-    return std::views::iota(std::size_t{0}, size_) |
-           std::views::transform([this](std::size_t i) -> const T& { return (*this)[i]; });
-  }
+  auto all() { return Elements<RecyclingQueue, T>{this}; }
+  auto all() const { return Elements<const RecyclingQueue, const T>{this}; }
 
  private:
+  template <typename Queue, typename Element>
+  struct Iterator {
+    using value_type = T;
+    using difference_type = std::ptrdiff_t;
+
+    Element& operator*() const { return (*queue)[i]; }
+    Iterator& operator++() { return ++i, *this; }
+    Iterator operator++(int) { return {queue, i++}; }
+    bool operator==(const Iterator&) const = default;
+
+    Queue* queue = nullptr;
+    std::size_t i = 0;
+  };
+
+  /// std::views would do, but clang before 16 does not compile those of libstdc++.
+  template <typename Queue, typename Element>
+  struct Elements {
+    Iterator<Queue, Element> begin() const { return {queue, 0}; }
+    Iterator<Queue, Element> end() const { return {queue, queue->size()}; }
+
+    Queue* queue = nullptr;
+  };
+
   std::size_t place_of(std::size_t i) const {
     return first_ + i < places_.size() ? first_ + i : first_ + i - places_.size();
   }

@@ -106,7 +106,7 @@ void OdometryEpisodes::take(const OdometryStep& step) {
 /// Accepted steps between two rejected ones belong to the same episode.
 void OdometryEpisodes::extend(const OdometryStep& step) {
   if (!open_) {
-    open_.emplace();
+    open_ = Open{};
     open_->episode.begin_ns = step.stamp_ns - static_cast<std::int64_t>(step.duration_s * 1e9);
     open_->episode.first_scan = conclusions_.steps - 1;  // the scan before the step
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 
 namespace slammot::evaluator {
 namespace {
@@ -48,14 +47,16 @@ geometry::Vector2 velocity_at(const std::vector<Sighting>& sightings, std::int64
   const auto time_s = [&](const Sighting& sighting) {
     return 1e-9 * static_cast<double>(sighting.stamp_ns - stamp_ns);
   };
-  for (const Sighting& sighting : sightings | std::views::filter(is_near)) {
+  for (const Sighting& sighting : sightings) {
+    if (!is_near(sighting)) continue;
     count += 1.0;
     mean_s += (time_s(sighting) - mean_s) / count;
     mean_m += (sighting.person.world_from_object.translation_m() - mean_m) / count;
   }
   double variance_s2 = 0.0;
   geometry::Vector2 covariance_ms = geometry::Vector2::Zero();
-  for (const Sighting& sighting : sightings | std::views::filter(is_near)) {
+  for (const Sighting& sighting : sightings) {
+    if (!is_near(sighting)) continue;
     const double off_s = time_s(sighting) - mean_s;
     variance_s2 += off_s * off_s;
     covariance_ms += off_s * (sighting.person.world_from_object.translation_m() - mean_m);

@@ -260,7 +260,7 @@ std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes
   if (!content) return std::nullopt;
   ByteReader from(*content);
   Checkpoint checkpoint = before;
-  checkpoint.prediction.last.emplace();
+  checkpoint.prediction.last = OdometryPrediction::LastScan{};
   std::uint64_t mark = 0;
   from.get(mark);
   if (mark != kMark) return std::nullopt;

@@ -87,7 +87,7 @@ void KeyframeOdometry::map_keyframe() {
 }
 
 void KeyframeOdometry::begin(const Seen& seen) {
-  if (!state_.keyframe) state_.keyframe.emplace();
+  if (!state_.keyframe) state_.keyframe = Keyframe{};
   state_.rests = false;
   state_.keyframe->stamp_ns = seen.step.stamp_ns;
   state_.keyframe->wheel_from_base = *seen.step.wheel_from_base;

@@ -32,8 +32,8 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   if (iterations_ > 1)
     detected = times_.measure("iteration", [&] { return iterate(scan, *std::move(detected)); });
   auto& [localized, segmented] = *detected;
-  const stages::TrackingResult& tracked =
-      times_.measure("tracking", [&]() -> decltype(auto) { return tracker_->step(segmented); });
+  const stages::TrackingResult& tracked = times_.measure(
+      "tracking", [&]() -> decltype(auto) { return tracker_->step(detected->segmented); });
   localizer_->expect(tracked.objects);
   times_.measure("mapping", [&] { localizer_->integrate(tracked.labels); });
   record_.add(localized);

@@ -164,6 +164,16 @@ def link_faults(source, root):
                 yield f"{source.path}:{number}: a link to nothing: {target}"
 
 
+def ring_faults(source):
+    """The libraries that CMake builds and installs as the algorithm ring are those that are checked as such here."""
+    listed = re.search(r"# The algorithm ring.*\nforeach\(folder ([^)]+)\)", source.text)
+    if not listed:
+        yield f"{source.path}: the list of the algorithm ring is not found"
+    elif set(listed.group(1).split()) != ALGORITHM_FOLDERS:
+        different = sorted(set(listed.group(1).split()) ^ ALGORITHM_FOLDERS)
+        yield f"{source.path}: not the algorithm ring of tests/structure: {', '.join(different)}"
+
+
 def tree_faults(sources, root):
     programs = {program_of(source.path) for source in sources if re.fullmatch(r"(services|examples)/\w+/.+", source.path)}
     for program in sorted(programs):
@@ -187,6 +197,8 @@ def faults_of(sources, root):
             yield from idl_faults(source)
         if source.path.endswith(".md"):
             yield from link_faults(source, root)
+        if source.path == "common/CMakeLists.txt":
+            yield from ring_faults(source)
         yield from path_faults(source)
     yield from tree_faults(sources, root)
 

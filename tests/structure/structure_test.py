@@ -44,6 +44,14 @@ class AlgorithmRing(unittest.TestCase):
         self.assertEqual([], faults_in({"common/graphs/b.cpp": "#include <ceres/ceres.h>\n"}))
         self.assertEqual(1, len(faults_in({"common/matching/b.cpp": "#include <ceres/ceres.h>\n"})))
 
+    def test_is_the_same_for_cmake(self):
+        ring = "# The algorithm ring: ...\nforeach(folder {})\n"
+        every = " ".join(sorted(structure.ALGORITHM_FOLDERS))
+        self.assertEqual([], faults_in({"common/CMakeLists.txt": ring.format(every)}))
+        self.assertEqual(["common/CMakeLists.txt: not the algorithm ring of tests/structure: dds"],
+                         faults_in({"common/CMakeLists.txt": ring.format(every + " dds")}))
+        self.assertEqual(1, len(faults_in({"common/CMakeLists.txt": "foreach(folder geometry)\n"})))
+
     def test_covers_the_algorithm_of_an_example(self):
         self.assertEqual(1, len(faults_in({"examples/greedy/README.md": "", "examples/greedy/greedy.cpp": "#include <thread>\n"})))
 

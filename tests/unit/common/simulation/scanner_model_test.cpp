@@ -103,7 +103,7 @@ TEST(ScanWorld, LooksFromWhereTheScannerIsMounted) {
   still.world_from_base = {0.0, 0.0, -M_PI_2};  // so that it looks along x, from (2, -1)
   const ScannedWorld scanned = scan(config, wall_ahead(20.0), still, still);
   EXPECT_NEAR(scanned.range_m[kStraightAhead], 18.0, 1e-4);
-  EXPECT_TRUE(scanner_of(config).base_from_laser == Pose2(1.0, 2.0, M_PI_2));
+  EXPECT_TRUE((scanner_of(config).base_from_laser == Pose2{1.0, 2.0, M_PI_2}));
 }
 
 TEST(ScanWorld, MeasuresAlongTheBeamOfATippedScanner) {
