@@ -1,0 +1,142 @@
+#include "services/localization/odometry_prediction.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace slammot::localization {
+namespace {
+
+using geometry::Pose2;
+
+constexpr double kNanosecond_s = 1e-9;
+constexpr double kUsualShareMemory = 0.05;  // Weight of one scan in the usual matched share.
+constexpr double kCertainSigmas = 2.5;      // stamped right, it is never more than 1.2 off:
+                                            // docs/decisions/time-and-stamps.md
+
+bool is_sure_of_velocity(const sensing::MotionEstimate& estimate) {
+  constexpr double kSure_mps = 1.0;  // one sigma
+  return estimate.covariance.bottomRightCorner<2, 2>()(0, 0) < kSure_mps * kSure_mps;
+}
+
+}  // namespace
+
+void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
+  state_.estimate =
+      match.is_believed ? sensing::matched(step.after, match.odom_from_base) : step.after;
+  if (step.duration_s > 0.0) learn_wheels(step, match);
+  learn_stamp_offset(step, match);
+  renew_map(matched_step(step, match), match);
+  state_.last = last_after(step, match);
+}
+
+void OdometryPrediction::compare(const sensing::OdometryComparison& comparison) {
+  constexpr double kAdoptAbove = 2.0;
+  constexpr double kAdoptAfter_s = 8.0;  // wheels slip for seconds
+  sensing::OdometryBelief& belief = state_.belief;
+  belief = sensing::compared(belief, comparison);
+  belief.disbelieved_s = belief.is_disbelieved ? belief.disbelieved_s + comparison.duration_s : 0.0;
+  if (belief.disbelieved_s < kAdoptAfter_s || belief.log_odds_of_factors < kAdoptAbove) return;
+  adopt_wheel_factors();
+  belief.log_odds = belief.log_odds_of_factors;
+  belief.is_disbelieved = false;
+}
+
+void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) {
+  constexpr double kAdoptAbove = 0.8;
+  constexpr int kAdoptAfterScans = 3;
+  sensing::OdometryBelief& belief = state_.belief;
+  const bool is_matched = match.is_believed && !match.is_lost;
+  belief = sensing::moved(belief, step.explanation, step.duration_s,
+                          is_matched ? std::optional(matched_step(step, match)) : std::nullopt,
+                          config_.motion, config_.belief);
+  if (is_matched)
+    belief.usual_share += kUsualShareMemory * (match.matched_share - belief.usual_share);
+  if (step.wheels_jerked) belief = sensing::with_changed_wheels(belief);
+  if (step.has_wheels() || step.has_doubted_wheels)
+    belief = sensing::with_wheels(belief, step.uncorrected_by_wheels, step.duration_s);
+  const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels &&
+                               step.wheel_from_base && state_.last->has_wheels &&
+                               !step.has_doubted_wheels;
+  if (is_matched && tells_of_wheels && !match.was_sampled)
+    belief.estimator.observe(step.uncorrected_by_wheels, matched_step(step, match),
+                             step.duration_s);
+  const bool is_better =
+      belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)] > kAdoptAbove;
+  belief.recalibrated_scans = is_better ? belief.recalibrated_scans + 1 : 0;
+  if (belief.recalibrated_scans >= kAdoptAfterScans) adopt_wheel_factors();
+}
+
+/// What was learned of the wheels beside the old factors is worth nothing beside the new ones.
+void OdometryPrediction::adopt_wheel_factors() {
+  sensing::OdometryBelief& belief = state_.belief;
+  belief.recalibrated_scans = 0;
+  ++belief.recalibrations;
+  belief.factors = belief.estimator.factors();
+  std::swap(belief.weights[sensing::index_of(sensing::StepExplanation::kWheels)],
+            belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)]);
+  const sensing::MotionEstimate fresh = sensing::at_start(motion_of_one_clock_);
+  for (sensing::MotionEstimate* estimate : {&state_.estimate, &state_.with_stamp_offset}) {
+    estimate->calibration.head<3>().setZero();
+    estimate->covariance.middleRows<3>(3).setZero();
+    estimate->covariance.middleCols<3>(3).setZero();
+    estimate->covariance.block<3, 3>(3, 3) = fresh.covariance.block<3, 3>(3, 3);
+  }
+}
+
+/// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
+void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& match) {
+  if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;
+  sensing::MotionEstimate& watched = state_.with_stamp_offset;
+  const double offset_s = sensing::stamp_offset_s(watched);
+  const bool tells = step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
+                     !step.is_standing && match.is_believed && !match.was_sampled &&
+                     !match.is_lost && tells_of_stamps(step.stamp_ns);
+  const auto by_wheels =
+      tells ? wheel_step(step.stamp_ns, std::llround(offset_s / kNanosecond_s)) : std::nullopt;
+  if (!by_wheels) {
+    watched = sensing::put_at(watched, state_.estimate.uncertain_pose());
+    return;
+  }
+  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(
+      watched, {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s)},
+      config_.motion);
+  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(),
+                                                              step.prior(), match.odom_from_base));
+  if (std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
+  state_.estimate = watched;
+  state_.applies_stamp_offset = true;
+}
+
+/// The map grows by what is matched to it, with the errors of those matches in it.
+void OdometryPrediction::renew_map(const Pose2& before_from_base, const ScanMatch& match) {
+  const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
+  const double renewed_share =
+      1.0 - std::exp(-moved_m * match.new_share / config_.match.new_below_m);
+  state_.estimate = sensing::against_renewed_map(state_.estimate, renewed_share);
+  state_.with_stamp_offset = sensing::against_renewed_map(state_.with_stamp_offset, renewed_share);
+}
+
+OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,
+                                                            const ScanMatch& match) const {
+  const bool is_later = step.duration_s > 0.0;
+  const bool is_by_velocity = is_later && !step.is_by_wheels();
+  return {
+      .stamp_ns = step.stamp_ns,
+      .has_wheels = step.wheel_from_base.has_value(),
+      .wheel_from_base = step.wheel_from_base.value_or(Pose2{}),
+      .knows_velocity = state_.last->knows_velocity ||
+                        (is_later && (step.is_by_wheels() || is_sure_of_velocity(state_.estimate))),
+      .was_sampled = match.was_sampled,
+      .speed_mps = is_by_velocity ? state_.estimate.velocity.x() : step.speed_mps,
+      .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,
+      .doubted_wheels = step.has_doubted_wheels,
+      .trusted_s = step.has_doubted_wheels ? 0.0 : state_.last->trusted_s + step.duration_s,
+      .stood_s = step.stood_s};
+}
+
+void OdometryPrediction::begin_map_here() {
+  state_.estimate.covariance.topRows<3>().setZero();
+  state_.estimate.covariance.leftCols<3>().setZero();
+}
+
+}  // namespace slammot::localization
