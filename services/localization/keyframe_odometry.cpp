@@ -13,8 +13,7 @@ namespace {
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-constexpr double kFar_m = 1.0;   // from the keyframe,
-constexpr double kFar_s = 0.25;  // or so long: a slip of 0.5 m/s then shows by more than errors
+constexpr double kFar_m = 1.0;  // from the keyframe,
 constexpr double kFar_rad = 0.25;
 constexpr double kLong_s = 1.0;             // after which what stands still is forgotten
 constexpr double kReach_m = 50.0;           // half side of what is kept of the keyframe
@@ -268,8 +267,7 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
       std::max(std::hypot(by_wheels.x_m, by_wheels.y_m), std::hypot(expected.x_m, expected.y_m));
   const double turn_rad = std::max(std::abs(by_wheels.heading_rad), std::abs(expected.heading_rad));
   const double duration_s = static_cast<double>(step.stamp_ns - state_.keyframe->stamp_ns) * 1e-9;
-  const double far_m = std::max(kFar_m, kFar_s * way_m / std::max(duration_s, 1e-3));
-  if (way_m < far_m && turn_rad < kFar_rad && duration_s < kLong_s) return std::nullopt;
+  if (way_m < kFar_m && turn_rad < kFar_rad && duration_s < kLong_s) return std::nullopt;
   const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
   last_ = sensing::OdometryComparison{by_wheels, as_believed,
                                       registered(expected, as_believed, seen.points), duration_s};
