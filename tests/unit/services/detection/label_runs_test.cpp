@@ -29,7 +29,7 @@ std::string runs_of(std::string_view labels, double in_front_m = 2.0) {
   std::vector<std::uint16_t> beams(labels.size());
   std::iota(beams.begin(), beams.end(), std::uint16_t{0});
   std::vector<Run> runs;
-  split_by_label(beams, scan, {}, runs);
+  split_by_label(beams, scan, runs);
   std::string text;
   for (const Run& run : runs) {
     EXPECT_EQ(run.first, text.size());
