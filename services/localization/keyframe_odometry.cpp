@@ -15,12 +15,11 @@ using geometry::UncertainPose2;
 
 constexpr double kFar_m = 1.0;  // from the keyframe,
 constexpr double kFar_rad = 0.25;
-constexpr double kLong_s = 1.0;             // after which what stands still is forgotten
-constexpr double kReach_m = 50.0;           // half side of what is kept of the keyframe
-constexpr std::size_t kThinnedPoints = 90;  // by which ways are compared
-constexpr std::size_t kFewestPoints = 50;   // fewer may all be of one moving object
-constexpr double kLeastShare = 0.35;        // of the points
-constexpr double kInformationShare = 0.4;   // neighbouring points share the errors of a surface
+constexpr double kLong_s = 1.0;            // after which what stands still is forgotten
+constexpr double kReach_m = 50.0;          // half side of what is kept of the keyframe
+constexpr std::size_t kFewestPoints = 50;  // fewer may all be of one moving object
+constexpr double kLeastShare = 0.35;       // of the points
+constexpr double kInformationShare = 0.4;  // neighbouring points share the errors of a surface
 constexpr std::array kStarts{1.0, 0.75, 0.5, 0.0, 1.3};  // of the expected way: registration
                                                          // converges from half a metre only
 constexpr double kMovesAlong = 0.35;                     // of the way by odometry, and less
@@ -166,22 +165,14 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
   return with_floor({optimum, information.inverse()});
 }
 
-/// Neighbouring points share the errors of a surface: a part of them tells nearly as much.
-void KeyframeOdometry::thin(const ScanPoints& points) {
-  thinned_.clear();
-  const std::size_t step = std::max<std::size_t>(1, points.matched().size() / kThinnedPoints);
-  for (std::size_t i = 0; i < points.matched().size(); i += step)
-    thinned_.push_back(points.matched()[i]);
-}
-
-/// How well the thinned points lie on the keyframe's at this very pose.
-double KeyframeOdometry::fit_at(const Pose2& pose) {
+/// How well the points lie on the keyframe's at this very pose.
+double KeyframeOdometry::fit_at(const Pose2& pose, const ScanPoints& points) {
   matching::PointToLineConfig once = match_;
   once.coarse_steps = 0;
   once.fine_steps = 1;
   const UncertainPose2 exactly{
       pose, Eigen::Vector3d(squared(kExactly), squared(kExactly), squared(kExactly)).asDiagonal()};
-  return matching::fit_of(matcher_.match(thinned_, surfels_, exactly, pose, once),
+  return matching::fit_of(matcher_.match(points.matched(), surfels_, exactly, pose, once),
                           match_.robust_scale_m);
 }
 
@@ -210,7 +201,7 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
   };
   sensing::WayRatioFilter::Profile fits;
   for (std::size_t i = 0; i < fits.size(); ++i)
-    fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]));
+    fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]), points);
   fits = sensing::WayRatioFilter::prominent(fits, kProminent);
   for (double& fit : fits) fit *= nats_ * evidence_share(points.matched().size());
   state_.way_ratio.update(fits);
@@ -222,11 +213,12 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
 /// Wheels that stand while the vehicle begins to drive.
 void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& points,
                                       sensing::OdometryComparison& comparison) {
-  const double standing = fit_at(by_wheels);
+  const double standing = fit_at(by_wheels, points);
   double best_m = 0.0;
   double best = standing;
   for (const double way_m : kWaysOfStanding_m) {
-    const double fit = fit_at({by_wheels.x_m + way_m, by_wheels.y_m, by_wheels.heading_rad});
+    const double fit =
+        fit_at({by_wheels.x_m + way_m, by_wheels.y_m, by_wheels.heading_rad}, points);
     if (fit <= best) continue;
     best = fit;
     best_m = way_m;
@@ -271,7 +263,6 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
   const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
   last_ = sensing::OdometryComparison{by_wheels, as_believed,
                                       registered(expected, as_believed, seen.points), duration_s};
-  thin(seen.points);
   if (as_believed.translation_m().norm() > kStands_m) judge_way(as_believed, seen.points, *last_);
   else judge_standing(as_believed, seen.points, *last_);
   state_.compared_ns = step.stamp_ns;

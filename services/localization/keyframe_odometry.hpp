@@ -62,8 +62,7 @@ class KeyframeOdometry {
   void map_keyframe();
   matching::PointToLineResult registered_about(const geometry::UncertainPose2& expected,
                                                const ScanPoints& points);
-  void thin(const ScanPoints& points);
-  double fit_at(const geometry::Pose2& pose);
+  double fit_at(const geometry::Pose2& pose, const ScanPoints& points);
   /// The best of registrations from several shares of the expected way, and how well the best other
   /// place fits.
   struct BestPlace {
@@ -83,9 +82,8 @@ class KeyframeOdometry {
                       sensing::OdometryComparison& comparison);
 
   matching::PointToLineConfig match_;
-  grids::SurfelMap surfels_;                   ///< Of the keyframe, in its base.
-  double nats_;                                ///< Log-likelihood of a fit of 1 against one of 0.
-  std::vector<matching::MatchPoint> thinned_;  ///< Of the scan at hand.
+  grids::SurfelMap surfels_;  ///< Of the keyframe, in its base.
+  double nats_;               ///< Log-likelihood of a fit of 1 against one of 0.
   State state_;
   std::optional<sensing::OdometryComparison> last_;  ///< What the scan of state_.compared_ns said.
   matching::PointToLineMatcher matcher_;
