@@ -52,6 +52,10 @@ constexpr double kMostEchoes = 1000.0;  // weight limit: more than a scan has
 
 double squared(double value) { return value * value; }
 
+bool is_far(const Pose2& moved) {
+  return std::hypot(moved.x_m, moved.y_m) >= kFar_m || std::abs(moved.heading_rad) >= kFar_rad;
+}
+
 UncertainPose2 with_floor(UncertainPose2 pose) {
   pose.covariance.diagonal() +=
       Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
@@ -255,11 +259,8 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
   const Pose2 by_wheels =
       geometry::inverse(state_.keyframe->wheel_from_base) * *step.wheel_from_base;
   const Pose2 expected = geometry::inverse(state_.keyframe->odom_from_base) * seen.odom_from_base;
-  const double way_m =
-      std::max(std::hypot(by_wheels.x_m, by_wheels.y_m), std::hypot(expected.x_m, expected.y_m));
-  const double turn_rad = std::max(std::abs(by_wheels.heading_rad), std::abs(expected.heading_rad));
   const double duration_s = static_cast<double>(step.stamp_ns - state_.keyframe->stamp_ns) * 1e-9;
-  if (way_m < kFar_m && turn_rad < kFar_rad && duration_s < kLong_s) return std::nullopt;
+  if (!is_far(by_wheels) && !is_far(expected) && duration_s < kLong_s) return std::nullopt;
   const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
   last_ = sensing::OdometryComparison{by_wheels, as_believed,
                                       registered(expected, as_believed, seen.points), duration_s};
