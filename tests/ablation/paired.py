@@ -10,7 +10,12 @@ import pathlib
 import shutil
 import statistics
 import subprocess
+import sys
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+
+from figures import at, difference
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -58,12 +63,6 @@ def recorded(data):
     return [drive for drive in known if any(pathlib.Path(word).exists() for word in drive.inputs if "/" in word)]
 
 
-def at(tree, path):
-    for step in path:
-        tree = tree.get(step) if isinstance(tree, dict) else None
-    return tree
-
-
 def folder_of(options, name):
     """Of the finished runs with these settings; another program has others."""
     program = hashlib.sha1(pathlib.Path(options.binary).read_bytes()).hexdigest()[:8]
@@ -93,13 +92,6 @@ def figures_of(drive, settings, runs_folder, binary):
     kept.write_text(json.dumps(figures))
     shutil.rmtree(folder)
     return figures
-
-
-def difference(before, after):
-    """Mean of after - before and its standard error; the error is NaN for fewer than two pairs."""
-    changes = [b - a for a, b in zip(before, after)]
-    error = statistics.stdev(changes) / math.sqrt(len(changes)) if len(changes) > 1 else math.nan
-    return statistics.mean(changes), error
 
 
 def pairs_of(runs, title):

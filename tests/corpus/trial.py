@@ -13,6 +13,7 @@ import picture
 import process
 import trajectories
 import ways
+from figures import at
 
 KEPT = {"trajectory.tum", "online.tum", "report.json", "graph.g2o", "evaluation.json", "output.txt", "eval.txt", "trajectory.svg", "reference.txt"}
 EVALUATED = ("online.tum", "trajectory.tum", "online_covariance.csv", "tracks.csv", "track_details.csv", "predictions.csv", "report.json")
@@ -62,9 +63,7 @@ FIGURES = {
 def figures_of(evaluation):
     figures = {}
     for name, path in FIGURES.items():
-        value = evaluation
-        for step in path:
-            value = value.get(step) if isinstance(value, dict) else None
+        value = at(evaluation, path)
         if value is not None:
             figures[name] = value
     return figures

@@ -3,6 +3,8 @@
 import math
 import statistics
 
+from figures import difference
+
 SCAN_MS = 20.0
 CLOSING_MS = 200.0
 SECONDS_A_SCAN = 0.0015
@@ -90,10 +92,10 @@ def with_error(values):
 
 def paired(now, before):
     """Mean difference with its standard error; NaN and infinity where there are not two pairs."""
-    differences = [a - b for a, b in zip(now, before) if is_known(a) and is_known(b)]
-    if len(differences) < 2:
+    pairs = [(b, a) for a, b in zip(now, before) if is_known(a) and is_known(b)]
+    if len(pairs) < 2:
         return math.nan, math.inf
-    return statistics.fmean(differences), statistics.stdev(differences) / math.sqrt(len(differences))
+    return difference(*zip(*pairs))
 
 
 def by_drive(results):
@@ -151,9 +153,9 @@ def paired_summary(name, results):
                                 ("HOTA", lambda outcome: outcome.figures.get("hota"), -1), ("IDF1", lambda outcome: outcome.figures.get("idf1"), -1),
                                 ("velocity [m/s]", lambda outcome: outcome.figures.get("velocity_mps"), 1)):
         pairs = [(figure(outcome), figure(before)) for _, outcome, before in results if before is not None]
-        difference, error = paired([pair[0] for pair in pairs], [pair[1] for pair in pairs])
-        if math.isfinite(difference):
-            worse = sign * difference > 2 * error
-            sentences.append(f"{name} against the other binary: {label} {difference:+.4f} ± {error:.4f}" + (" (worse)" if worse else ""))
+        change, error = paired([pair[0] for pair in pairs], [pair[1] for pair in pairs])
+        if math.isfinite(change):
+            worse = sign * change > 2 * error
+            sentences.append(f"{name} against the other binary: {label} {change:+.4f} ± {error:.4f}" + (" (worse)" if worse else ""))
             is_worse = is_worse or worse
     return sentences, is_worse
