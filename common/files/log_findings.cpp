@@ -1,20 +1,14 @@
 #include "common/files/log_findings.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
+
+#include "common/files/text.hpp"
 
 namespace slammot::files {
 namespace {
 
 using sensing::ClockFault;
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[320];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 std::string made_from_way(const LogPlan& plan) {
   if (plan.odometry == OdometrySource::kNone)

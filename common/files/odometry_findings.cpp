@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <vector>
+
+#include "common/files/text.hpp"
 
 namespace slammot::files {
 namespace {
@@ -19,13 +20,6 @@ constexpr double kLeastBias_radps = 0.002;
 constexpr double kLeastOffset_s = 0.01;
 constexpr double kMostDisbelievedShare = 0.5;
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[256];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 std::string joined(const std::vector<std::string>& parts, const char* between) {
   std::string line;

@@ -1,19 +1,15 @@
 #include "services/evaluator/evaluation_text.hpp"
 
-#include <cstdio>
 #include <numbers>
+
+#include "common/files/text.hpp"
 
 namespace slammot::evaluator {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+using files::text;
 
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[512];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string error_row(const char* name, const metrics::ErrorSummary& errors, const char* unit,
                       double scale = 1.0) {

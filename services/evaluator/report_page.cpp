@@ -1,15 +1,17 @@
 #include "services/evaluator/report_page.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
+#include "common/files/text.hpp"
 #include "services/evaluator/figures.hpp"
 #include "services/evaluator/svg_plot.hpp"
 
 namespace slammot::evaluator {
 namespace {
+
+using files::text;
 
 constexpr const char* kStyle = R"(
 :root { color: #1b1f24; background: #fff; font: 15px/1.5 system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; }
@@ -39,13 +41,6 @@ caption { padding-bottom: .3rem; }
 th, td { padding: .25rem .8rem .25rem 0; text-align: right; border-bottom: 1px solid #e6e9ed; }
 th { font-weight: 600; } th:first-child, td:first-child { text-align: left; }
 )";
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[256];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 std::string cell(const std::string& content) { return "<td>" + escaped(content) + "</td>"; }
 

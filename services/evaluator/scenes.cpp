@@ -1,26 +1,20 @@
 #include "services/evaluator/scenes.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <utility>
 
+#include "common/files/text.hpp"
 #include "services/evaluator/stamps.hpp"
 
 namespace slammot::evaluator {
 namespace {
 
 using files::Error;
+using files::text;
 using geometry::Pose2;
 using metrics::Scene;
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[512];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 /// Greater than the range of any scanner.
 constexpr double kMaxDistanceM = 500.0;

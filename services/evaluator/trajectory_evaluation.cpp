@@ -1,22 +1,15 @@
 #include "services/evaluator/trajectory_evaluation.hpp"
 
-#include <cstdio>
-
+#include "common/files/text.hpp"
 #include "services/evaluator/stamps.hpp"
 
 namespace slammot::evaluator {
 namespace {
 
 using files::Error;
+using files::text;
 using geometry::Pose2;
 using metrics::PosePair;
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[512];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 double seconds(std::int64_t stamp_ns) { return static_cast<double>(stamp_ns) * 1e-9; }
 

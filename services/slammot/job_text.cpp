@@ -1,22 +1,17 @@
 #include "services/slammot/job_text.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "common/files/log_findings.hpp"
 #include "common/files/odometry_findings.hpp"
+#include "common/files/text.hpp"
 #include "services/slammot/implementations.hpp"
 
 namespace slammot {
 namespace {
 
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[512];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
+using files::text;
 
 /// Counts of scans that were not localized, by reason, and of scans without a match; empty if there
 /// are none.
@@ -27,24 +22,23 @@ std::string describe_left_out(const files::RunRecord& record, const files::RunRe
       {"far_ahead_scans", "have a stamp far ahead of all others"}};
   const auto stage = report.counters.find("localization");
   if (stage == report.counters.end()) return {};
+  const auto count_of = [&](const char* counter) {
+    const auto count = stage->second.find(counter);
+    return static_cast<unsigned long long>(count == stage->second.end() ? 0 : count->second);
+  };
   std::string reasons;
   for (const auto& [counter, reason] : kReasons) {
-    const auto count = stage->second.find(counter);
-    if (count == stage->second.end() || count->second == 0) continue;
-    reasons += text("%s%llu %s", reasons.empty() ? "" : ", ",
-                    static_cast<unsigned long long>(count->second), reason);
+    if (const auto count = count_of(counter); count > 0)
+      reasons += text("%s%llu %s", reasons.empty() ? "" : ", ", count, reason);
   }
   std::string lines;
   if (record.localized_scans() < record.scans() && !reasons.empty())
     lines += "not localized: " + reasons + "\n";
-  const auto blank = stage->second.find("blank_scans");
-  if (blank != stage->second.end() && blank->second > 0)
+  if (const auto blank = count_of("blank_scans"); blank > 0)
     lines += text("warning:  %llu scans have no valid reading (NaN): poses and tracks predicted\n",
-                  static_cast<unsigned long long>(blank->second));
-  const auto few = stage->second.find("too_few_echoes");
-  if (few != stage->second.end() && few->second > 0)
-    lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n",
-                  static_cast<unsigned long long>(few->second));
+                  blank);
+  if (const auto few = count_of("too_few_echoes"); few > 0)
+    lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n", few);
   return lines;
 }
 
