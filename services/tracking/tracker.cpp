@@ -70,6 +70,7 @@ void Tracker::coast(double time_s) {
     track.history.since_in_view_s += time_s;
   }
   estimation_.associator.predict(time_s);
+  if (config_.motion.formations) estimation_.formations.follow(tracks_, time_s);
 }
 
 void Tracker::compare(const ScanContext& context) {
