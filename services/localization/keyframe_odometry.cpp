@@ -207,7 +207,7 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
   for (std::size_t i = 0; i < fits.size(); ++i)
     fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]), points);
   fits = sensing::WayRatioFilter::prominent(fits, kProminent);
-  for (double& fit : fits) fit *= nats_ * evidence_share(points.matched().size());
+  for (double& fit : fits) fit *= nats_ * points.evidence_share();
   state_.way_ratio.update(fits);
   if (state_.way_ratio.sound_probability() > kDoubtBelow) return;
   comparison.by_scans = registered_near(pose_at(state_.way_ratio.most_likely_ratio()), points);
@@ -227,7 +227,7 @@ void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& 
     best = fit;
     best_m = way_m;
   }
-  if (nats_ * evidence_share(points.matched().size()) * (best - standing) < kClearlyDrives) return;
+  if (nats_ * points.evidence_share() * (best - standing) < kClearlyDrives) return;
   comparison.by_scans =
       registered_near({by_wheels.x_m + best_m, by_wheels.y_m, by_wheels.heading_rad}, points);
   if (comparison.by_scans) comparison.extra_odds = -kClearlyDrives;
@@ -241,7 +241,7 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
     return std::nullopt;
   }
   if (state_.compared_ns == step.stamp_ns) return last_;
-  if (step.wheels_jerked) {
+  if (step.wheels_changed) {
     // Before and after the change odometry may have different factors: a comparison across it
     // would mix them.
     state_.way_ratio.doubt();

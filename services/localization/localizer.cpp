@@ -89,9 +89,8 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
 std::optional<flow::LocalizedScan> Localizer::predict_blank(const sensing::LaserScan& scan,
                                                             flow::LocalizedScan workspace) {
   ++counters_.blank_scans;
-  if (scan.range_m.empty() || !prediction_.last() || scan.stamp_ns <= last_blank_ns_)
+  if (scan.range_m.empty() || !prediction_.last() || !order_.accept_blank(scan))
     return std::nullopt;
-  last_blank_ns_ = scan.stamp_ns;
   const Step step = prediction_.predict(scan.stamp_ns);
   const sensing::LaserScan without_beams{scan.stamp_ns, scan.sequence, scan.scanner, {}};
   return describe(without_beams, {step.after, step.speed_mps, step.yaw_rate_radps},

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -186,7 +185,6 @@ class Localizer final : public stages::LocalizationStage {
   ScanIntegration integration_;
   LocalizerCounters counters_;
   sensing::OdometryEpisodes episodes_;
-  std::int64_t last_blank_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Stamp.
   std::optional<Progress> before_scan_;  ///< Before the last one, while it may be localized again.
 };
 

@@ -145,7 +145,7 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
   const double fits_share =
       matching::fit_of(registered, config_.match.robust_scale_m) -
       agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
-  const double fit = config_.belief.share_nats * evidence_share(scan.points.matched().size()) *
+  const double fit = config_.belief.share_nats * scan.points.evidence_share() *
                      independent_share(scan.steps.front()) * fits_share;
   const LogLikelihoods priors = log_priors(scan, optimum, registered);
   for (std::size_t explanation = 0; explanation < priors.size(); ++explanation) {
@@ -190,7 +190,7 @@ sensing::ExplanationWeights in_doubt(sensing::ExplanationWeights weights) {
 }
 
 ExplainedStep MixtureMatch::explain(const StepToExplain& questioned, ScanMatcher& matcher) {
-  if (!questioned.steps.front().wheels_changed) return explain_as_weighed(questioned, matcher);
+  if (!questioned.steps.front().wheels_in_doubt) return explain_as_weighed(questioned, matcher);
   StepToExplain scan = questioned;
   scan.weights = in_doubt(scan.weights);
   return explain_as_weighed(scan, matcher);
@@ -208,8 +208,8 @@ ExplainedStep MixtureMatch::explain_as_weighed(const StepToExplain& scan, ScanMa
   Best best = is_unsure ? nothing_yet() : at_prediction(scan, matcher);
   if (is_unsure) around(scan, widest(scan, kRough), matcher, best);
   sensing::ExplanationWeights weights = sensing::updated(scan.weights, best.log_likelihoods);
-  const bool stands = by_wheels.stood_s > kStands_s && !by_wheels.wheels_changed;
-  const bool has_changed = !is_unsure && by_wheels.wheels_changed;
+  const bool stands = by_wheels.stood_s > kStands_s && !by_wheels.wheels_in_doubt;
+  const bool has_changed = !is_unsure && by_wheels.wheels_in_doubt;
   const bool is_suspicious =
       has_changed ||
       (!is_unsure && weights[sensing::index_of(StepExplanation::kWheels)] < kSuspiciousBelow);

@@ -8,10 +8,7 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr double kNanosecond_s = 1e-9;
 constexpr double kUsualShareMemory = 0.05;  // Weight of one scan in the usual matched share.
-constexpr double kCertainSigmas = 2.5;      // stamped right, it is never more than 1.2 off:
-                                            // docs/decisions/time-and-stamps.md
 
 bool is_sure_of_velocity(const sensing::MotionEstimate& estimate) {
   constexpr double kSure_mps = 1.0;  // one sigma
@@ -51,7 +48,7 @@ void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) 
                           config_.motion, config_.belief);
   if (is_matched)
     belief.usual_share += kUsualShareMemory * (match.matched_share - belief.usual_share);
-  if (step.wheels_jerked) belief = sensing::with_changed_wheels(belief);
+  if (step.wheels_changed) belief = sensing::with_changed_wheels(belief);
   if (step.has_wheels() || step.has_doubted_wheels)
     belief = sensing::with_wheels(belief, step.uncorrected_by_wheels, step.duration_s);
   const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels &&
@@ -81,30 +78,6 @@ void OdometryPrediction::adopt_wheel_factors() {
     estimate->covariance.middleCols<3>(3).setZero();
     estimate->covariance.block<3, 3>(3, 3) = fresh.covariance.block<3, 3>(3, 3);
   }
-}
-
-/// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
-void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& match) {
-  if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;
-  sensing::MotionEstimate& watched = state_.with_stamp_offset;
-  const double offset_s = sensing::stamp_offset_s(watched);
-  const bool tells = step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
-                     !step.is_standing && match.is_believed && !match.was_sampled &&
-                     !match.is_lost && tells_of_stamps(step.stamp_ns);
-  const auto by_wheels =
-      tells ? wheel_step(step.stamp_ns, std::llround(offset_s / kNanosecond_s)) : std::nullopt;
-  if (!by_wheels) {
-    watched = sensing::put_at(watched, state_.estimate.uncertain_pose());
-    return;
-  }
-  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(
-      watched, {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s)},
-      config_.motion);
-  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(),
-                                                              step.prior(), match.odom_from_base));
-  if (std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
-  state_.estimate = watched;
-  state_.applies_stamp_offset = true;
 }
 
 /// The map grows by what is matched to it, with the errors of those matches in it.

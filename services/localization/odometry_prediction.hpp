@@ -48,9 +48,8 @@ struct Step {
                                                                              ///< the mixture of
                                                                              ///< predictions this
                                                                              ///< is.
-  bool wheels_jerked = false;   ///< Odometry changed its velocity as no vehicle does.
-  bool wheels_changed = false;  ///< Odometry changed its velocity as no vehicle does, or was not
-                                ///< believed at the last scan.
+  bool wheels_changed = false;            ///< Odometry changed its velocity as no vehicle does.
+  bool wheels_in_doubt = false;           ///< So it did, or it was not believed at the last scan.
   bool explanation_was_chosen = false;    ///< Odometry predicted the step, and another explanation
                                           ///< won.
   geometry::Pose2 uncorrected_by_wheels;  ///< As odometry has the step.

@@ -22,4 +22,15 @@ void ScanOrder::accept(const sensing::LaserScan& scan,
   scanners_at_last_.push_back(scan.scanner.scanner_id);
 }
 
+bool ScanOrder::accept_blank(const sensing::LaserScan& scan) {
+  if (last_blank_ns_ && scan.stamp_ns < *last_blank_ns_) return false;
+  if (last_blank_ns_ != scan.stamp_ns) scanners_at_last_blank_.clear();
+  last_blank_ns_ = scan.stamp_ns;
+  if (std::ranges::find(scanners_at_last_blank_, scan.scanner.scanner_id) !=
+      scanners_at_last_blank_.end())
+    return false;
+  scanners_at_last_blank_.push_back(scan.scanner.scanner_id);
+  return true;
+}
+
 }  // namespace slammot::localization

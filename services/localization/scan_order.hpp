@@ -27,10 +27,16 @@ class ScanOrder {
   Verdict judge(const sensing::LaserScan& scan, const std::optional<std::int64_t>& last_stamp_ns);
   void accept(const sensing::LaserScan& scan, const std::optional<std::int64_t>& last_stamp_ns);
 
+  /// Accepts a usable scan that is blank. Blank scans have an order of their own: false for a
+  /// second one of the same scanner and stamp, or one older than a blank scan before.
+  bool accept_blank(const sensing::LaserScan& scan);
+
  private:
   sensing::StampGuard stamps_;
   std::vector<std::string> scanners_at_last_;  ///< Whose scans have the last stamp; empty after a
                                                ///< restart.
+  std::optional<std::int64_t> last_blank_ns_;
+  std::vector<std::string> scanners_at_last_blank_;
 };
 
 }  // namespace slammot::localization

@@ -12,6 +12,7 @@ namespace slammot::localization {
 namespace {
 
 constexpr double kRangeNoisePerM = 0.001;  ///< Increase of range_noise_m with range.
+constexpr double kWholeScanPoints = 100.0;
 
 }  // namespace
 
@@ -50,6 +51,10 @@ void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& o
          config_.range_noise_m + kRangeNoisePerM * static_cast<double>(scan.range_m[beam])});
     matched_beams_.push_back(beam);
   }
+}
+
+double ScanPoints::evidence_share() const {
+  return std::min(1.0, static_cast<double>(matched_.size()) / kWholeScanPoints);
 }
 
 bool ScanPoints::leave_out(const std::vector<flow::PointLabel>& labels) {

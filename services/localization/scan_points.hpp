@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -12,13 +11,6 @@
 #include "services/localization/localizer_config.hpp"
 
 namespace slammot::localization {
-
-/// Evidence of a scan with so few points, as a share of that of a whole scan: each point is a
-/// measurement of its own. 20 echoes of one passing car do not outweigh odometry.
-inline double evidence_share(std::size_t points) {
-  constexpr double kWholeScan = 100.0;
-  return std::min(1.0, static_cast<double>(points) / kWholeScan);
-}
 
 /// End points of the scan at hand, and those of them that are matched against the map.
 class ScanPoints {
@@ -46,6 +38,9 @@ class ScanPoints {
   const std::vector<matching::MatchPoint>& matched() const { return matched_; }
   const std::vector<std::size_t>& matched_beams() const { return matched_beams_; }
   const std::vector<matching::MatchPoint>& matched_before() const { return matched_before_; }
+  /// Evidence of the matched points, as a share of that of a whole scan: each point is a
+  /// measurement of its own, so that 20 echoes of a passing car do not outweigh odometry.
+  double evidence_share() const;
   /// Where the scanner is in the base.
   const geometry::Vector2& laser_in_base_m() const { return laser_in_base_m_; }
 

@@ -90,7 +90,7 @@ TEST_F(MixtureMatchTest, TakesWheelsThatTheScanAgreesWithWithoutASearch) {
 TEST_F(MixtureMatchTest, FollowsTheScanWhereWheelsAreOffByManySigmas) {
   const Pose2 truth{0.3, 0.2, 0.1};
   StepMixture steps = explanations_of({0.9, 0.2, 0.1}, {0.15, 0.1, 0.05});
-  steps.front().wheels_changed = true;
+  steps.front().wheels_in_doubt = true;
   const ExplainedStep explained = explain(truth, steps, room_);
   EXPECT_EQ(explained.step.explanation, StepExplanation::kOther);
   EXPECT_LT(weight_of(explained, StepExplanation::kWheels), 0.01);

@@ -47,6 +47,14 @@ TEST_F(ScanOrderTest, TakesTheStampOfACheckpointForThatOfAnyScanner) {
   EXPECT_EQ(take("rear", 1.0), Verdict::kDuplicate);
 }
 
+TEST_F(ScanOrderTest, AcceptsBlankScansOnceForEachScannerAndStampInAnOrderOfTheirOwn) {
+  EXPECT_TRUE(order_.accept_blank(scan_of("front", 100)));
+  EXPECT_TRUE(order_.accept_blank(scan_of("rear", 100)));
+  EXPECT_FALSE(order_.accept_blank(scan_of("front", 100)));
+  EXPECT_TRUE(order_.accept_blank(scan_of("front", 200)));
+  EXPECT_FALSE(order_.accept_blank(scan_of("rear", 100)));
+}
+
 TEST_F(ScanOrderTest, BelievesAStampFarAheadOnceASecondOneAgrees) {
   take("front", 1.0);
   EXPECT_EQ(take("front", 1000.0), Verdict::kFarAhead);
