@@ -82,10 +82,12 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   points_.begin_scan();
   if (prediction_.last()) place_next(scan);
   else begin(scan);
-  return describe_and_remember(scan, std::move(workspace));
+  return describe_and_remember(scan, estimate_at_last_scan(), monitor_.admission(),
+                               std::move(workspace));
 }
 
-/// A blank scan measures nothing: its pose is the prediction, and the estimate stays as it is.
+/// A blank scan measures nothing: its pose is the prediction, the estimate stays as it is, and
+/// nothing goes into the map. Its labels are awaited like those of any scan.
 std::optional<flow::LocalizedScan> Localizer::predict_blank(const sensing::LaserScan& scan,
                                                             flow::LocalizedScan workspace) {
   ++counters_.blank_scans;
@@ -93,8 +95,8 @@ std::optional<flow::LocalizedScan> Localizer::predict_blank(const sensing::Laser
     return std::nullopt;
   const Step step = prediction_.predict(scan.stamp_ns);
   const sensing::LaserScan without_beams{scan.stamp_ns, scan.sequence, scan.scanner, {}};
-  return describe(without_beams, {step.after, step.speed_mps, step.yaw_rate_radps},
-                  std::move(workspace));
+  return describe_and_remember(without_beams, {step.after, step.speed_mps, step.yaw_rate_radps},
+                               MapAdmission::kWithheld, std::move(workspace));
 }
 
 /// The first scan: the map begins where it is.
@@ -202,18 +204,15 @@ void Localizer::begin_astray_map() {
   count(integration_.drop_doubted(), counters_);
 }
 
-flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& scan,
-                                                     flow::LocalizedScan workspace) {
-  const OdometryPrediction::LastScan& now = *prediction_.last();
-  flow::LocalizedScan localized = describe(
-      scan, {prediction_.estimate(), now.speed_mps, now.yaw_rate_radps}, std::move(workspace));
-  integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom()},
-                        monitor_.admission(), submaps_.map());
-  return localized;
+Localizer::EstimateAtScan Localizer::estimate_at_last_scan() const {
+  const OdometryPrediction::LastScan& last = *prediction_.last();
+  return {prediction_.estimate(), last.speed_mps, last.yaw_rate_radps};
 }
 
-flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const EstimateAtScan& now,
-                                        flow::LocalizedScan workspace) {
+flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& scan,
+                                                     const EstimateAtScan& now,
+                                                     MapAdmission admission,
+                                                     flow::LocalizedScan workspace) {
   const geometry::UncertainPose2 published = covariance_.published(now.estimate);
   const geometry::UncertainPose2 within_local_map{
       published.pose, covariance_.local_variance_share() * published.covariance};
@@ -226,6 +225,8 @@ flow::LocalizedScan Localizer::describe(const sensing::LaserScan& scan, const Es
                                                          .yaw_rate_radps = now.yaw_rate_radps,
                                                          .sweep_s = sweep_.sweep_s(scan)},
                                                         std::move(workspace));
+  integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom()},
+                        admission, submaps_.map());
   localized.odom_from_base = published;
   localized.local_variance_share = covariance_.local_variance_share();
   return localized;
@@ -269,7 +270,7 @@ std::optional<flow::LocalizedScan> Localizer::localize_again(
     return std::nullopt;
   }
   integration_.forget_last();
-  return describe_and_remember(scan, {});
+  return describe_and_remember(scan, estimate_at_last_scan(), monitor_.admission(), {});
 }
 
 void Localizer::integrate(const flow::ScanLabels& labels) {

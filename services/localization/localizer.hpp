@@ -161,10 +161,10 @@ class Localizer final : public stages::LocalizationStage {
   void begin_astray_map();
   bool can_be_placed_again(const sensing::LaserScan& scan,
                            const std::vector<flow::PointLabel>& labels) const;
+  EstimateAtScan estimate_at_last_scan() const;
   flow::LocalizedScan describe_and_remember(const sensing::LaserScan& scan,
+                                            const EstimateAtScan& now, MapAdmission admission,
                                             flow::LocalizedScan workspace);
-  flow::LocalizedScan describe(const sensing::LaserScan& scan, const EstimateAtScan& now,
-                               flow::LocalizedScan workspace);
   Checkpoint checkpoint_now() const;
   void resume(RestoredCheckpoint restored, OdometryPrediction&& before);
 

@@ -96,7 +96,7 @@ void ScanIntegration::integrate_first(const std::vector<PointLabel>* labels, Pos
                                       LocalMap& map, IntegrationCounts& counts) {
   PendingScan& scan = pending_.front();
   if (scan.admission == MapAdmission::kWithheld) {
-    ++counts.withheld_scans;
+    counts.withheld_scans += scan.rays.empty() ? 0 : 1;  // of a blank scan there is nothing
     pending_.pop_front();
     return;
   }

@@ -717,6 +717,10 @@ TEST(Localizer, PredictsThePoseOfABlankScan) {
         EXPECT_LT(testing::distance_m(predicted->odom_from_base.pose, drive.odom_from_base(20)),
                   0.05);
         EXPECT_FALSE(localizer.localize(blank)) << "a second one with this stamp";
+        EXPECT_TRUE(localizer.awaits_labels());
+        localizer.integrate(testing::all_stationary(*predicted));
+        EXPECT_FALSE(localizer.awaits_labels());
+        EXPECT_EQ(localizer.counters().withheld_scans, 0u);
       }
       each->integrate(testing::all_stationary(*each->localize(drive.scan(scan))));
     }
