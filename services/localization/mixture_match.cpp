@@ -48,6 +48,15 @@ double independent_share(const Step& step) {
           std::clamp((step.usual_duration_s - kFrequent_s) / (kRare_s - kFrequent_s), 0.0, 1.0));
 }
 
+/// Without odometry nothing tells of a pose but the scan and the usual steps, of which a look-alike
+/// place is often one. Half a nat a point, which is careful beside odometry, lets a place where a
+/// usual step ends outweigh a twentieth of the points: docs/decisions/scan-matching.md.
+double weight_of_evidence(const Step& step) {
+  constexpr double kWithoutOdometry = 2.5;
+  const bool is_without = step.source == StepSource::kReach && !step.wheel_from_base;
+  return is_without ? kWithoutOdometry : 1.0;
+}
+
 double log_likelihood_of(const Step& step, const geometry::Pose2& optimum,
                          const matching::PointToLineResult& registered) {
   return sensing::log_marginal_likelihood(step.prior(), optimum, registered.scan_information);
@@ -146,7 +155,8 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
       matching::fit_of(registered, config_.match.robust_scale_m) -
       agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
   const double fit = config_.belief.share_nats * scan.points.evidence_share() *
-                     independent_share(scan.steps.front()) * fits_share;
+                     independent_share(scan.steps.front()) *
+                     weight_of_evidence(scan.steps.front()) * fits_share;
   const LogLikelihoods priors = log_priors(scan, optimum, registered);
   for (std::size_t explanation = 0; explanation < priors.size(); ++explanation) {
     const double log_likelihood = fit + priors[explanation];

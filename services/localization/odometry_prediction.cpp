@@ -199,6 +199,8 @@ void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before
   step.explanation = sensing::StepExplanation::kOther;
   step.source = step.wheel_from_base || state_.last->has_wheels ? StepSource::kVelocityThisOnce
                                                                 : StepSource::kVelocityAlone;
+  if (step.source == StepSource::kVelocityAlone)
+    step.usual_duration_s = usual_duration_so_far_s(step, state_.belief, config_.belief);
   if (has_velocity(step, config_)) {
     step.after = sensing::moved_at_velocity(
         before, std::min(step.duration_s, config_.longest_step_s), config_.motion);

@@ -26,6 +26,15 @@ bool has_velocity(const Step& step, const LocalizerConfig& config) {
   return config.time_is_known && step.usual_duration_s < kLongestVelocity_s;
 }
 
+double usual_duration_so_far_s(const Step& step, const sensing::OdometryBelief& belief,
+                               const sensing::OdometryBeliefConfig& config) {
+  const double share_of_start =
+      std::pow(1.0 - config.usual_step_memory, static_cast<double>(belief.steps.size()));
+  if (share_of_start == 1.0) return step.duration_s;
+  const double at_start_s = sensing::OdometryBelief{}.usual_step_s;
+  return (belief.usual_step_s - share_of_start * at_start_s) / (1.0 - share_of_start);
+}
+
 Step StepExplanations::without_odometry(Step step) const {
   const geometry::Pose2& last = belief_.last_step;
   const geometry::Pose2 half{0.5 * last.x_m, 0.5 * last.y_m, 0.5 * last.heading_rad};

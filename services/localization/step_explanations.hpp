@@ -12,6 +12,11 @@ namespace slammot::localization {
 /// Whether steps are short enough, and time known, for a velocity to predict them.
 bool has_velocity(const Step& step, const LocalizerConfig& config);
 
+/// Usual time between scans without the value that its running mean begins with, which scans a
+/// second apart outweigh only after many; before the first step that step's own duration.
+double usual_duration_so_far_s(const Step& step, const sensing::OdometryBelief& belief,
+                               const sensing::OdometryBeliefConfig& config);
+
 /// The components of the mixture that predicts a step, beside odometry as calibrated: see
 /// sensing::StepExplanation.
 class StepExplanations {

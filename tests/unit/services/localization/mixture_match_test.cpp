@@ -156,6 +156,29 @@ TEST_F(MixtureMatchTest, StaysWithWheelsWhereTheScanHardlyMatchesUnderAnyExplana
       << "nothing is learned of odometry";
 }
 
+/// Anywhere about the last pose, and like a step before.
+StepMixture steps_without_odometry(const Pose2& usual) {
+  StepMixture steps{step_to({0.3, 0.0, 0.0}, 0.8, 0.3, StepExplanation::kOther),
+                    step_to(usual, 0.15, 0.1, StepExplanation::kOther),
+                    step_to(usual, 0.15, 0.1, StepExplanation::kOther)};
+  for (Step& step : steps) step.source = StepSource::kReach;
+  return steps;
+}
+
+TEST_F(MixtureMatchTest, WithoutOdometryAFewPointsOutweighAUsualStepAlongACorridor) {
+  const MappedWorld corridor{{{{-20.0, 1.5}, {20.0, 1.5}},
+                              {{-20.0, -1.5}, {20.0, -1.5}},
+                              {{3.0, 1.5}, {3.0, 0.75}},
+                              {{-2.5, -1.5}, {-2.5, -1.2}}}};
+  const Pose2 usual{1.2, 0.0, 0.0};
+  const Pose2 truth{0.2, 0.0, 0.0};
+  for (std::size_t i = 0; i < sensing::StepHistory::kKept; ++i) history_.add(usual);
+  usual_share_ = 1.0;
+  weights_ = {0.0, 0.0, 0.0, 1.0};
+  const ExplainedStep explained = explain(truth, steps_without_odometry(usual), corridor);
+  EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.1));
+}
+
 TEST_F(MixtureMatchTest, WeighsExplanationsToASumOfOne) {
   for (const double off_m : {0.0, 0.03, 0.1, 0.5, 2.0}) {
     const ExplainedStep explained =

@@ -96,6 +96,13 @@ TEST_F(OdometryPredictionTest, NeverBelievesAStepFasterThanAnyVehicle) {
   }
 }
 
+TEST_F(OdometryPredictionTest, TheFirstStepWithoutOdometryMayLeadAnywhereWhereScansAreRare) {
+  OdometryPrediction rare{LocalizerConfig{}};
+  rare.begin(0);
+  EXPECT_EQ(rare.predict(10 * kPeriod_ns).source, StepSource::kReach);
+  EXPECT_EQ(rare.predict(kPeriod_ns).source, StepSource::kVelocityAlone);
+}
+
 TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityOfTheMatchesWithoutOdometry) {
   prediction_.begin(0);
   for (int scan = 1; scan < 30; ++scan) {

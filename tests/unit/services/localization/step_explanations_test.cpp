@@ -132,6 +132,17 @@ TEST_F(StepExplanationsTest, ReachGrowsWithTheWayWhereNoTimeIsKnown) {
   EXPECT_GT(position_sigma_m(far), position_sigma_m(near) + 0.5);
 }
 
+TEST_F(StepExplanationsTest, TheUsualDurationIsThatOfTheStepsSoFarFromTheFirstOneOn) {
+  const Step step = by_wheels({1.0, 0.0, 0.0}, 1.0);
+  EXPECT_DOUBLE_EQ(usual_duration_so_far_s(step, {}, config_.belief), 1.0);
+  sensing::OdometryBelief belief;
+  for (int i = 0; i < 3; ++i)
+    belief = sensing::moved(belief, StepExplanation::kOther, 0.8, Pose2{1.0, 0.0, 0.0},
+                            config_.motion, config_.belief);
+  EXPECT_LT(belief.usual_step_s, 0.4);
+  EXPECT_NEAR(usual_duration_so_far_s(step, belief, config_.belief), 0.8, 1e-9);
+}
+
 TEST_F(StepExplanationsTest, ReachCountsWhereScansAreRare) {
   Step rare = by_wheels({0.7, 0.0, 0.0}, 2.0);
   rare.usual_duration_s = 2.0;
