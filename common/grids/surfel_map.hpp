@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -78,6 +80,39 @@ class SurfelMap {
   std::size_t nearest_place(const Eigen::Vector2d& point_m, int radius) const;
   static constexpr std::size_t kNoPlace = static_cast<std::size_t>(-1);
   Surface surface_at(std::size_t place) const;
+  const Eigen::Vector2d& mean_at(std::size_t place) const { return means_m_[place + 1]; }
+
+  /// The surfels in the 3 x 3 cells around a cell, for several points in it.
+  struct Neighbours {
+    std::array<std::size_t, 9> places{};
+    std::array<Eigen::Vector2d, 9> means_m;
+    std::size_t count = 0;
+
+    /// As SurfelMap::nearest_place() with radius 1.
+    std::size_t nearest_place(const Eigen::Vector2d& point_m) const {
+      double best_m2 = std::numeric_limits<double>::infinity();
+      std::size_t best = kNoPlace;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double distance_m2 = (means_m[i] - point_m).squaredNorm();
+        if (distance_m2 >= best_m2) continue;
+        best_m2 = distance_m2;
+        best = places[i];
+      }
+      return best;
+    }
+  };
+  Neighbours neighbours_of(Cell centre) const {
+    Neighbours found;
+    for (std::int32_t row = -1; row <= 1; ++row) {
+      for (std::int32_t column = -1; column <= 1; ++column) {
+        const std::int32_t slot = slot_of({centre.column + column, centre.row + row});
+        if (is_empty(slot)) continue;
+        found.places[found.count] = static_cast<std::size_t>(slot);
+        found.means_m[found.count++] = mean_m(slot);
+      }
+    }
+    return found;
+  }
 
   /// Removes every surfel with is_gone(mean_m). help (may be null) evaluates a part of them.
   template <typename Predicate>

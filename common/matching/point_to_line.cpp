@@ -24,11 +24,14 @@ constexpr double kSamePairsWithin = 0.01;   ///< As a share of a surfel's cell: 
 
 }  // namespace
 
+int search_radius(const grids::SurfelMap& surfels, double gate_m) {
+  return std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
+}
+
 void PointToLineMatcher::pair(const std::vector<MatchPoint>& points,
                               const grids::SurfelMap& surfels, const Pose2& map_from_base,
                               double gate_m, const PointToLineConfig& config) {
-  const int radius =
-      std::max(1, static_cast<int>(std::ceil(gate_m / surfels.window().cell_size_m - 0.5)));
+  const int radius = search_radius(surfels, gate_m);
   const geometry::Matrix2 turn = geometry::rotation(map_from_base.heading_rad);
   places_.resize(points.size());
   constexpr std::size_t kRanges = 4;

@@ -51,6 +51,9 @@ struct PointToLineResult {
                            ///< new_below_m of way ago.
 };
 
+/// Cells around a point's in which surfels within the gate are looked for.
+int search_radius(const grids::SurfelMap& surfels, double gate_m);
+
 /// Share of the points that lie on surfels, in [0, 1]. A point's weight decreases with its
 /// residual: half at robust_scale_m.
 double fit_of(const PointToLineResult& registered, double robust_scale_m);

@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "common/matching/fit_profile.hpp"
+
 namespace slammot::localization {
 namespace {
 
@@ -30,14 +32,13 @@ constexpr double kRivalShare = 0.9;  // another place that fits as well as this 
 constexpr double kBestFit = 0.9;     // of any place
 constexpr double kClearly = 2.2;   // times the fit of what is expected: the way was another; echoes
                                    // from the ground move along
-constexpr double kExactly = 1e-3;  // m, rad
 constexpr double kStands_m = 0.3;  // by odometry between two keyframes
 constexpr std::int64_t kRest_ns = 200'000'000;
 constexpr double kSoundAbove = 0.9;
 constexpr double kDoubtBelow = 0.05;  // probability that the way by odometry is right
 constexpr double kProminent = 0.06;   // of a fit
 constexpr double kDoubtOdds = 2.0;
-constexpr std::array kWaysOfStanding_m{0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.2, 1.5};
+constexpr std::array kWaysOfStanding_m{0.0, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.2, 1.5};
 constexpr double kClearlyDrives = 5.0;  // nats
 constexpr double kAsWell = 0.97;        // of the fit
 constexpr double kSure_m = 0.01;        // one sigma of what is expected, if it is right,
@@ -169,15 +170,11 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
   return with_floor({optimum, information.inverse()});
 }
 
-/// How well the points lie on the keyframe's at this very pose.
-double KeyframeOdometry::fit_at(const Pose2& pose, const ScanPoints& points) {
-  matching::PointToLineConfig once = match_;
-  once.coarse_steps = 0;
-  once.fine_steps = 1;
-  const UncertainPose2 exactly{
-      pose, Eigen::Vector3d(squared(kExactly), squared(kExactly), squared(kExactly)).asDiagonal()};
-  return matching::fit_of(matcher_.match(points.matched(), surfels_, exactly, pose, once),
-                          match_.robust_scale_m);
+/// How well the points lie on the keyframe's at these very poses.
+std::vector<double> KeyframeOdometry::fits_at(double heading_rad,
+                                              std::span<const geometry::Vector2> positions_m,
+                                              const ScanPoints& points) const {
+  return matching::fits_at(points.matched(), surfels_, heading_rad, positions_m, match_);
 }
 
 std::optional<UncertainPose2> KeyframeOdometry::registered_near(const Pose2& pose,
@@ -203,9 +200,11 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
     return Pose2{ratio * way_m * std::cos(direction_rad), ratio * way_m * std::sin(direction_rad),
                  heading_rad};
   };
+  std::array<geometry::Vector2, sensing::WayRatioFilter::kRatios.size()> positions_m;
+  std::ranges::transform(sensing::WayRatioFilter::kRatios, positions_m.begin(),
+                         [&](double ratio) { return pose_at(ratio).translation_m(); });
   sensing::WayRatioFilter::Profile fits;
-  for (std::size_t i = 0; i < fits.size(); ++i)
-    fits[i] = fit_at(pose_at(sensing::WayRatioFilter::kRatios[i]), points);
+  std::ranges::copy(fits_at(heading_rad, positions_m, points), fits.begin());
   fits = sensing::WayRatioFilter::prominent(fits, kProminent);
   for (double& fit : fits) fit *= nats_ * points.evidence_share();
   state_.way_ratio.update(fits);
@@ -217,17 +216,15 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
 /// Wheels that stand while the vehicle begins to drive.
 void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& points,
                                       sensing::OdometryComparison& comparison) {
-  const double standing = fit_at(by_wheels, points);
-  double best_m = 0.0;
-  double best = standing;
-  for (const double way_m : kWaysOfStanding_m) {
-    const double fit =
-        fit_at({by_wheels.x_m + way_m, by_wheels.y_m, by_wheels.heading_rad}, points);
-    if (fit <= best) continue;
-    best = fit;
-    best_m = way_m;
-  }
-  if (nats_ * points.evidence_share() * (best - standing) < kClearlyDrives) return;
+  std::array<geometry::Vector2, kWaysOfStanding_m.size()> positions_m;
+  std::ranges::transform(kWaysOfStanding_m, positions_m.begin(), [&](double way_m) {
+    return geometry::Vector2(by_wheels.x_m + way_m, by_wheels.y_m);
+  });
+  const std::vector<double> fits = fits_at(by_wheels.heading_rad, positions_m, points);
+  const auto best_fit = std::ranges::max_element(fits);
+  const double standing = fits.front();
+  const double best_m = kWaysOfStanding_m[static_cast<std::size_t>(best_fit - fits.begin())];
+  if (nats_ * points.evidence_share() * (*best_fit - standing) < kClearlyDrives) return;
   comparison.by_scans =
       registered_near({by_wheels.x_m + best_m, by_wheels.y_m, by_wheels.heading_rad}, points);
   if (comparison.by_scans) comparison.extra_odds = -kClearlyDrives;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,7 +63,8 @@ class KeyframeOdometry {
   void map_keyframe();
   matching::PointToLineResult registered_about(const geometry::UncertainPose2& expected,
                                                const ScanPoints& points);
-  double fit_at(const geometry::Pose2& pose, const ScanPoints& points);
+  std::vector<double> fits_at(double heading_rad, std::span<const geometry::Vector2> positions_m,
+                              const ScanPoints& points) const;
   /// The best of registrations from several shares of the expected way, and how well the best other
   /// place fits.
   struct BestPlace {
