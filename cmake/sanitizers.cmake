@@ -8,7 +8,10 @@ set(SLAMMOT_TEST_PATIENCE 1)
 
 if(SLAMMOT_SANITIZE)
   set(SLAMMOT_TEST_PATIENCE 10)
-  add_compile_options(-fsanitize=${SLAMMOT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  # Reports name lines, for which -g1 suffices: a quarter less time to build than with -g.
+  add_compile_options(-fsanitize=${SLAMMOT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1)
+  # GCC loses track of what an optional holds in instrumented code. Without instrumentation this warning is an error as well.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${SLAMMOT_SANITIZE})
 
   # Read by ctest, so that every test and every process that a test starts has it.

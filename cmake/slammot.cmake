@@ -50,6 +50,7 @@ endfunction()
 
 # slammot_test(unit_geometry SOURCES ... LINK ...): a GoogleTest executable whose tests ctest knows one by one. What is
 # tested is optimized in its own library; tests are built in half the time with less, and with their headers precompiled.
+# SLAMMOT_TEST_LABEL is a label besides; `ninja tests_LABEL` builds the programs that have it.
 function(slammot_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -66,6 +67,18 @@ function(slammot_test name)
   target_precompile_headers(${name} REUSE_FROM test_headers)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${limit_s} LABELS "${ARG_LABELS}")
+  if(SLAMMOT_TEST_LABEL)  # by a file of its own: gtest_discover_tests takes lists apart
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake
+"if(${name}_TESTS)
+  set_tests_properties(\${${name}_TESTS} PROPERTIES LABELS \"${ARG_LABELS};${SLAMMOT_TEST_LABEL}\")
+endif()
+")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake)
+    if(NOT TARGET tests_${SLAMMOT_TEST_LABEL})
+      add_custom_target(tests_${SLAMMOT_TEST_LABEL})
+    endif()
+    add_dependencies(tests_${SLAMMOT_TEST_LABEL} ${name})
+  endif()
 endfunction()
 
 # slammot_script_test(bench COMMAND ... LABELS integration TIMEOUT 300): a test that is no GoogleTest. Exit code 77 is

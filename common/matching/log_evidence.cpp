@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/LU>
+
 #include "common/matching/correlative.hpp"
 
 namespace slammot::matching {
@@ -147,6 +149,7 @@ double same_sign_share(const std::vector<MatchedPair>& turning_pairs) {
 
 double turn_scale(const std::vector<MatchedPair>& turning_pairs) {
   std::vector<double> scales;
+  scales.reserve(turning_pairs.size());
   for (const MatchedPair& pair : turning_pairs)
     scales.push_back(pair.by_scans.heading_rad / pair.by_odometry.heading_rad);
   return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
@@ -166,6 +169,7 @@ std::vector<MatchedPair> straight(const std::vector<MatchedPair>& matched) {
 
 double way_scale(const std::vector<MatchedPair>& straight_pairs) {
   std::vector<double> scales;
+  scales.reserve(straight_pairs.size());
   for (const MatchedPair& pair : straight_pairs)
     scales.push_back(pair.by_scans.translation_m().norm() /
                      pair.by_odometry.translation_m().norm());

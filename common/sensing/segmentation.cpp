@@ -12,9 +12,10 @@ namespace slammot::sensing {
 namespace {
 
 // Multiples of gap_m.
-constexpr double kWidestGap = 5.0;  ///< At any range,
-constexpr double kLineGap = 20.0;   ///< on a straight wall at grazing incidence,
-constexpr double kDarkGap = 5.0;    ///< and between single echoes of a dark object on a line.
+constexpr double kWidestGap = 5.0;      ///< At any range,
+constexpr double kLineGap = 20.0;       ///< on a straight wall at grazing incidence,
+constexpr double kDarkGap = 5.0;        ///< and between single echoes of a dark object on a line.
+constexpr double kOffLine = 5.0 / 6.0;  ///< Allowed distance of an echo from the line of its wall.
 
 constexpr double kGapBeamSpacings = 3.0;  ///< Growth of the gap with the beam spacing at the range.
 constexpr float kLineGapGrowth = 2.5F;    ///< Largest ratio of neighbouring gaps on a wall.
@@ -57,7 +58,7 @@ bool goes_on_at(const Tip& tip, const Eigen::Vector2f& point_m, const Segmentati
   const float along_m = direction.dot(gap);
   const float across_m = direction.x() * gap.y() - direction.y() * gap.x();
   return along_m > 0.0F && along_m <= widest_m &&
-         std::abs(across_m) <= static_cast<float>(config.line_tolerance_m);
+         std::abs(across_m) <= static_cast<float>(kOffLine * config.gap_m);
 }
 
 void join_along_lines(std::span<const Eigen::Vector2f> points_m, std::span<const float> range_m,
@@ -120,7 +121,7 @@ void join_what_is_dark(std::span<const Eigen::Vector2f> points_m, std::span<cons
     int answered = spans[i].last - spans[i].first + 1;
     while (is_short(spans[i]) && end < spans.size() && may_follow(spans[end - 1], spans[end]) &&
            are_on_a_line(spans[i].first, spans[end].last, points_m, range_m,
-                         config.line_tolerance_m)) {
+                         kOffLine * config.gap_m)) {
       answered += spans[end].last - spans[end].first + 1;
       ++end;
     }

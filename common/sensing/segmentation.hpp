@@ -11,8 +11,7 @@ namespace slammot::sensing {
 
 /// Thresholds on the distance between neighbouring echoes of one segment.
 struct SegmentationConfig {
-  double gap_m = 0.3;              ///< Allowed gap at range zero; other gaps are multiples of it.
-  double line_tolerance_m = 0.25;  ///< Allowed distance of an echo from the line of its wall.
+  double gap_m = 0.3;  ///< Allowed gap at range zero; other distances are multiples of it.
 };
 
 /// Beams [first, last] of one segment; beams without echo may lie between.

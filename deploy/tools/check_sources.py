@@ -4,7 +4,8 @@
 usage: check_sources.py BUILD {syntax,tidy} [--changed BASE] [--part PREFIX]... [FILE...]
 
 BUILD is a folder with compile_commands.json, configured for clang, whose precompiled and generated headers are built.
-syntax compiles without output, with warnings as errors. tidy runs clang-tidy with the tree's .clang-tidy.
+syntax compiles without output, with warnings as errors. tidy runs clang-tidy with the tree's .clang-tidy, without the precompiled
+headers: it walks through every declaration that a source includes, and those hold more than a source needs.
 Without files: every source. --part keeps those whose path begins with PREFIX. --changed keeps those that differ from
 the merge base with BASE, and those that include a changed header directly. Exit code 1 if anything is found.
 """
@@ -17,6 +18,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -55,6 +57,29 @@ def without_launcher(words):
     return words
 
 
+def without_precompiled_headers(words):
+    """The same command without what CMake adds of clang for a precompiled header."""
+    kept = []
+    words = iter(words)
+    for word in words:
+        if word == "-Xclang":
+            argument = next(words)
+            if argument in ("-include-pch", "-include"):
+                next(words), next(words)  # -Xclang and the file
+            else:
+                kept += [word, argument]
+        elif word != "-Winvalid-pch":
+            kept.append(word)
+    return kept
+
+
+def write_database(commands, folder):
+    """compile_commands.json for clang-tidy in the folder."""
+    entries = [{"directory": directory, "file": words[-1], "arguments": without_launcher(without_precompiled_headers(words))}
+               for directory, words in commands.values()]
+    (folder / "compile_commands.json").write_text(json.dumps(entries), encoding="utf-8")
+
+
 def changed_files(root, base):
     """Paths that differ from the merge base with a branch, committed or not."""
     def git(*words):
@@ -88,13 +113,13 @@ def selected(sources, options, root):
     return sources
 
 
-def check(path, command, options, root):
+def check(path, command, kind, root, database):
     """(path, whether it is clean, what was printed)"""
     folder, words = command
-    if options.kind == "syntax":
+    if kind == "syntax":
         done = subprocess.run(without_output(words), cwd=folder, capture_output=True, text=True, check=False)
     else:
-        done = subprocess.run(["clang-tidy", "--quiet", "-p", str(options.build), str(root / path)],
+        done = subprocess.run(["clang-tidy", "--quiet", "-p", database, str(root / path)],
                               capture_output=True, text=True, check=False)
     is_clean = done.returncode == 0
     return path, is_clean, "" if is_clean else done.stdout + done.stderr
@@ -122,8 +147,9 @@ def main(arguments, root=Path(__file__).resolve().parents[2]):
         return 2
     began = time.monotonic()
     faulty = 0
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for path, is_clean, text in pool.map(lambda path: check(path, commands[path], options, root), sources):
+    with tempfile.TemporaryDirectory() as database, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        write_database({path: commands[path] for path in sources}, Path(database))
+        for path, is_clean, text in pool.map(lambda path: check(path, commands[path], options.kind, root, database), sources):
             if not is_clean:
                 faulty += 1
                 print(f"{path}:\n{text}", flush=True)

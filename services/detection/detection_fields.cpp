@@ -18,15 +18,10 @@ FieldTable<sensing::SegmentationConfig> segmentation_fields() {
           {"gap_m",
            &C::gap_m,
            "Greatest distance of neighbouring echoes of one segment, close to the scanner. "
-           "Greatest "
-           "gaps at any range, along walls and of dark objects are multiples of it.",
+           "Greatest gaps at any range, along walls and of dark objects, and distances of echoes "
+           "from a wall's line are multiples of it.",
            kNotNegative,
            {"One object is split.", "A pedestrian beside a wall is merged with it."}},
-          {"line_tolerance_m",
-           &C::line_tolerance_m,
-           "Greatest distance of the next echo from the wall's line.",
-           kPositive,
-           {"Noise splits walls.", "An object that touches a wall is merged with it."}},
       });
 }
 

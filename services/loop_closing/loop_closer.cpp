@@ -123,7 +123,7 @@ bool LoopCloser::are_rivals(const Hypothesis& a, const Hypothesis& b) const {
   if (a.to != b.to || !graph_.are_on_one_island(a.from, b.from)) return false;
   const Eigen::Vector3d apart = geometry::difference(graph_.map_from_node(a.from) * a.from_to.pose,
                                                      graph_.map_from_node(b.from) * b.from_to.pose);
-  return apart.head<2>().norm() > kSamePlaceCells * config_.revisit.search_cell_m ||
+  return apart.head<2>().norm() > kSamePlaceCells * search_cell_m(places_.at(a.to)) ||
          std::abs(apart.z()) > kSamePlace_rad;
 }
 

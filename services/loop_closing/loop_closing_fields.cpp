@@ -34,11 +34,6 @@ FieldTable<RegistrationConfig> registration_fields() {
        kPositive,
        {"Closures are overconfident and distort the graph.",
         "Closures weigh too little to correct the drift."}},
-      {"independent_spacing_m",
-       &C::independent_spacing_m,
-       "Surfels nearer than this along a wall have a common error.",
-       kPositive,
-       {"Closures are overconfident.", "Closures weigh too little."}},
   };
 }
 
@@ -46,12 +41,6 @@ FieldTable<RevisitConfig> revisit_fields() {
   using C = RevisitConfig;
   return with_nested<C>(
       {
-          {"search_cell_m",
-           &C::search_cell_m,
-           "Step of the search and cell of its grid; the smallest window is 5 cells to either "
-           "side.",
-           Range{0.02, 5.0},
-           {"Searches take long and are given up.", "Narrow places are missed."}},
           {"max_window_m",
            &C::max_window_m,
            "Greatest half width of the search window around the expected pose.",

@@ -82,7 +82,6 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
   place.odom_from_submap = submap.odom_from_submap;
   place.centre_m = 0.5 * submap.submap_from_base_at_end.translation_m();
   place.cell_size_m = submap.cell_size_m;
-  place.spacing_m = submap.cell_size_m;
   place.min_x_m = submap.min_x_m;
   place.min_y_m = submap.min_y_m;
   place.columns = static_cast<std::int32_t>(submap.columns);

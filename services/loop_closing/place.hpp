@@ -22,7 +22,6 @@ struct Place {
   geometry::Pose2 odom_from_submap;
   geometry::Vector2 centre_m;  ///< Midpoint of the trajectory, in the submap's frame.
   std::vector<flow::Surfel> surfels;
-  double spacing_m = 0.0;  ///< Distance between neighbouring surfels.
   double cell_size_m = 0.0;
   double min_x_m = 0.0;
   double min_y_m = 0.0;

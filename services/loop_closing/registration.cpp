@@ -84,11 +84,11 @@ Matrix3 weak_prior() {
 
 }  // namespace
 
-Registration register_surfels(std::span<const flow::Surfel> source, double source_spacing_m,
-                              const SurfelIndex& target, const Pose2& initial_target_from_source,
+Registration register_surfels(std::span<const flow::Surfel> source, const SurfelIndex& target,
+                              const Pose2& initial_target_from_source,
                               const RegistrationConfig& config) {
   constexpr double kConvergedM = 1e-4;
-  const double independent_share = std::min(1.0, source_spacing_m / config.independent_spacing_m);
+  const double independent_share = config.independent_share;
   Pose2 pose = initial_target_from_source;
   NormalEquations equations;
   for (int step = 0; step < kCoarseSteps + kFineSteps; ++step) {

@@ -9,13 +9,13 @@
 namespace slammot::loop_closing {
 
 struct RegistrationConfig {
-  double fine_gate_m = 0.4;      ///< Greatest distance of paired surfels in the last steps.
-  double surfel_sigma_m = 0.06;  ///< One sigma of the distance between two surfels of one wall,
-                                 ///< across the wall.
-  double independent_spacing_m = 2.0;  ///< Surfels nearer than this along a wall have a common
-                                       ///< error.
-  double position_floor_m = 0.02;      ///< Least one-sigma error of a closure's position.
-  double heading_floor_rad = 0.002;    ///< Least one-sigma error of a closure's heading.
+  double fine_gate_m = 0.4;        ///< Greatest distance of paired surfels in the last steps.
+  double surfel_sigma_m = 0.06;    ///< One sigma of the distance between two surfels of one wall,
+                                   ///< across the wall.
+  double independent_share = 0.1;  ///< Share of the surfels with an error of their own: neighbours
+                                   ///< along a wall have a common one.
+  double position_floor_m = 0.02;  ///< Least one-sigma error of a closure's position.
+  double heading_floor_rad = 0.002;  ///< Least one-sigma error of a closure's heading.
 };
 
 /// Greatest distance of paired surfels in the first steps.
@@ -32,10 +32,8 @@ struct Registration {
 
 /// Registers the source's surfels to the target's by Gauss-Newton on point-to-line distances. In
 /// directions without information (along a corridor) the pose stays at the initial one and the
-/// covariance is metres wide. `source_spacing_m` is the distance between neighbouring surfels of
-/// the source.
-Registration register_surfels(std::span<const flow::Surfel> source, double source_spacing_m,
-                              const SurfelIndex& target,
+/// covariance is metres wide.
+Registration register_surfels(std::span<const flow::Surfel> source, const SurfelIndex& target,
                               const geometry::Pose2& initial_target_from_source,
                               const RegistrationConfig& config);
 

@@ -41,24 +41,25 @@ constexpr double kCoarserOnSeveralTargets = 2.0;
 constexpr int kFewerPointsOnSeveralTargets = 2;
 
 /// Least half width of the searched window.
-double min_window_m(const RevisitConfig& config) {
+double min_window_m(const Place& source) {
   constexpr double kCells = 5.0;
-  return kCells * config.search_cell_m;
+  return kCells * search_cell_m(source);
 }
 
-double search_cell_m(const RevisitConfig& config, std::size_t targets) {
-  return targets > 1 ? kCoarserOnSeveralTargets * config.search_cell_m : config.search_cell_m;
+double step_m(const Place& source, std::size_t targets) {
+  return targets > 1 ? kCoarserOnSeveralTargets * search_cell_m(source) : search_cell_m(source);
 }
 int most_points(std::size_t targets) {
   return targets > 1 ? kMaxPoints / kFewerPointsOnSeveralTargets : kMaxPoints;
 }
 
-matching::WideSearchConfig search_config(const RevisitConfig& config, std::size_t targets) {
+matching::WideSearchConfig search_config(const RevisitConfig& config, const Place& source,
+                                         std::size_t targets) {
   return {.min_score = kMinScore,
           .border_cost = targets > 1 ? 0.0 : kBorderCost,
           .max_peaks = static_cast<std::size_t>(targets > 1 ? 2 * kMaxPeaks : kMaxPeaks),
           .min_peak_ratio = 0.8 * config.rival_ratio,
-          .peak_separation_m = 5.0 * search_cell_m(config, targets),
+          .peak_separation_m = 5.0 * step_m(source, targets),
           .peak_separation_rad = 0.15};
 }
 
@@ -92,19 +93,25 @@ double sigma_m(const UncertainPose2& expected) {
 /// `share`: of the half widths of the full window.
 matching::SearchWindow window_around(const UncertainPose2& expected,
                                      const UncertainPose2& target_from_centre,
-                                     const RevisitConfig& config, double share) {
+                                     const RevisitConfig& config, double least_m, double share) {
   const bool any_heading = has_unknown_heading(expected);
   const auto window = [&](double variance, double least, double most) {
     return std::max(share * std::clamp(kWindowSigmas * std::sqrt(variance), least, most), least);
   };
   const double most_m = any_heading ? config.astray_window_m : config.max_window_m;
-  return {window(target_from_centre.covariance(0, 0), min_window_m(config), most_m),
-          window(target_from_centre.covariance(1, 1), min_window_m(config), most_m),
+  return {window(target_from_centre.covariance(0, 0), least_m, most_m),
+          window(target_from_centre.covariance(1, 1), least_m, most_m),
           window(expected.covariance(2, 2), kMinWindow_rad,
                  any_heading ? std::numbers::pi : kMaxWindow_rad)};
 }
 
 }  // namespace
+
+double search_cell_m(const Place& source) {
+  constexpr double kMapCells = 2.0;  // A finer step costs its third power in time, a coarser one
+                                     // misses narrow places.
+  return kMapCells * source.cell_size_m;
+}
 
 RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source,
                              std::vector<RevisitCandidate> candidates)
@@ -118,7 +125,7 @@ RevisitSearch::RevisitSearch(const RevisitConfig& config, const Place& source,
   const bool starts_near =
       is_somewhere_expected() &&
       kNearShare * std::min(kWindowSigmas * searched_sigma_m(), config.max_window_m) >
-          min_window_m(config);
+          min_window_m(source);
   begin_search(starts_near ? kNearShare : 1.0);
 }
 
@@ -128,8 +135,8 @@ void RevisitSearch::begin_search(double window_share) {
   peaks_judged_ = 0;
   search_.emplace(points_about(source_from_centre_.translation_m(), source_->surfels,
                                most_points(candidates_.size())),
-                  search_cell_m(config_, candidates_.size()),
-                  search_config(config_, candidates_.size()));
+                  step_m(*source_, candidates_.size()),
+                  search_config(config_, *source_, candidates_.size()));
 }
 
 std::uint64_t RevisitSearch::advance(std::uint64_t most_work, PyramidCache& pyramids) {
@@ -170,13 +177,13 @@ double RevisitSearch::searched_sigma_m() const {
 std::uint64_t RevisitSearch::add_next_target(PyramidCache& pyramids) {
   const RevisitCandidate& candidate = candidates_[targets_added_++];
   const auto [pyramid, work] =
-      pyramids.pyramid_of(candidate.target, search_cell_m(config_, candidates_.size()));
+      pyramids.pyramid_of(candidate.target, step_m(*source_, candidates_.size()));
   const UncertainPose2 target_from_centre =
       geometry::compound(candidate.target_from_source, {source_from_centre_, Matrix3::Zero()});
   return work +
          search_->add_target({pyramid, target_from_centre.pose,
                               window_around(candidate.target_from_source, target_from_centre,
-                                            config_, window_share_),
+                                            config_, min_window_m(*source_), window_share_),
                               candidate.map_from_target,
                               [headings = PlausibleHeadings(
                                    WallDirections(surfels_in_target(candidate.target)), walls_)](
@@ -187,8 +194,8 @@ std::uint64_t RevisitSearch::judge(const matching::WidePeak& peak) {
   const auto& [target, expected, map_from_target] = candidates_[peak.target];
   const SurfelIndex index(surfels_in_target(target), coarse_gate_m(config_.registration));
   const Pose2 target_from_source = peak.target_from_source * geometry::inverse(source_from_centre_);
-  const Registration registration = register_surfels(source_->surfels, source_->spacing_m, index,
-                                                     target_from_source, config_.registration);
+  const Registration registration =
+      register_surfels(source_->surfels, index, target_from_source, config_.registration);
   const Hypothesis hypothesis{
       .from = target.members.front().place->id,
       .to = source_->id,
@@ -219,8 +226,8 @@ std::vector<Hypothesis> RevisitSearch::found() const {
 Agreement agreement_after_refining(const RevisitConfig& config, const Target& target,
                                    const Place& source, const Pose2& target_from_source) {
   const SurfelIndex index(surfels_in_target(target), coarse_gate_m(config.registration));
-  const Registration registration = register_surfels(source.surfels, source.spacing_m, index,
-                                                     target_from_source, config.registration);
+  const Registration registration =
+      register_surfels(source.surfels, index, target_from_source, config.registration);
   return compare(target, source, registration.target_from_source.pose);
 }
 

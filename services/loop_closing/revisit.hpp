@@ -18,7 +18,6 @@
 namespace slammot::loop_closing {
 
 struct RevisitConfig {
-  double search_cell_m = 0.4;  ///< Step of the search.
   double max_window_m = 30.0;  ///< Greatest half width of the searched window around the expected
                                ///< pose.
   double astray_window_m = 60.0;  ///< Half width of the window with unknown heading.
@@ -27,6 +26,9 @@ struct RevisitConfig {
                               ///< match ambiguous.
   RegistrationConfig registration;
 };
+
+/// Step of the search for a place on one target, and cell of its grid.
+double search_cell_m(const Place& source);
 
 /// A target and the expected pose of the source on it.
 struct RevisitCandidate {

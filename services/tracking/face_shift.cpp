@@ -65,7 +65,7 @@ struct Corner {
 };
 
 Corner corner_of(std::span<const std::uint16_t> beams, const PolarView& view) {
-  const Vector2d first_m = view.point_in_odom_m(beams.front());
+  const Vector2d& first_m = view.point_in_odom_m(beams.front());
   const Vector2d way = view.point_in_odom_m(beams.back()) - first_m;
   const double length_m = way.norm();
   Corner corner;

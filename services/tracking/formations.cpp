@@ -88,6 +88,7 @@ std::vector<std::vector<TrackId>> Formations::groups(const std::vector<Track>& t
 Formations::Formation Formations::initiated(const std::vector<TrackId>& members,
                                             const std::vector<Track>& tracks) const {
   std::vector<filters::MotionState> states;
+  states.reserve(members.size());
   for (const TrackId id : members)
     states.push_back(std::find_if(tracks.begin(), tracks.end(), [id](const Track& track) {
                        return track.track_id == id;

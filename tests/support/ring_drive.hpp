@@ -15,10 +15,8 @@ inline loop_closing::LoopClosingConfig indoor_loop_closing() {
   config.max_distance_m = 10.0;
   config.sure_within_m = 1.0;
   config.place.tolerance_m = 0.15;
-  config.revisit.search_cell_m = 0.1;
   config.revisit.astray_window_m = 12.0;
-  config.revisit.registration = {
-      .fine_gate_m = 0.2, .surfel_sigma_m = 0.04, .independent_spacing_m = 0.5};
+  config.revisit.registration = {.fine_gate_m = 0.2, .surfel_sigma_m = 0.04};
   return config;
 }
 

@@ -19,6 +19,10 @@ class Commands(unittest.TestCase):
         words = "/usr/bin/cmake -E env A=b ccache /usr/bin/clang++ -DX -MD -MT a.o -MF a.d -o a.o -c a.cpp".split()
         self.assertEqual("/usr/bin/clang++ -DX a.cpp -Werror -fsyntax-only".split(), check_sources.without_output(words))
 
+    def test_lose_their_precompiled_header_and_keep_other_words_for_clang(self):
+        words = "clang++ -Winvalid-pch -Xclang -include-pch -Xclang a.pch -Xclang -include -Xclang a.hxx -Xclang -w -c a.cpp".split()
+        self.assertEqual("clang++ -Xclang -w -c a.cpp".split(), check_sources.without_precompiled_headers(words))
+
     def test_are_those_of_the_trees_own_sources(self):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
@@ -44,7 +48,7 @@ class Selection(unittest.TestCase):
 
 @unittest.skipUnless(shutil.which("clang++"), "clang++ is not installed")
 class Check(unittest.TestCase):
-    def status_of(self, code):
+    def status_of(self, code, kind="syntax"):
         """Exit code and text of a check of one file with this code."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder).resolve()
@@ -54,8 +58,9 @@ class Check(unittest.TestCase):
             entry = {"directory": folder, "file": str(source), "command": f"clang++ -Wall -c {source} -o a.o"}
             (root / "compile_commands.json").write_text(json.dumps([entry]), encoding="utf-8")
             printed = io.StringIO()
+            (root / ".clang-tidy").write_text("Checks: '-*,bugprone-sizeof-expression'\nWarningsAsErrors: '*'\n", encoding="utf-8")
             with contextlib.redirect_stdout(printed):
-                return check_sources.main([folder, "syntax"], root), printed.getvalue()
+                return check_sources.main([folder, kind], root), printed.getvalue()
 
     def test_passes_clean_code(self):
         self.assertEqual(0, self.status_of("int main() {}\n")[0])
@@ -64,6 +69,13 @@ class Check(unittest.TestCase):
         code, text = self.status_of("int main() { int unused; }\n")
         self.assertEqual(1, code)
         self.assertIn("unused variable", text)
+
+    @unittest.skipUnless(shutil.which("clang-tidy"), "clang-tidy is not installed")
+    def test_by_tidy_fails_on_a_bug_alone(self):
+        self.assertEqual(0, self.status_of("int main() { int unused; }\n", "tidy")[0])
+        code, text = self.status_of("int main() { return sizeof(sizeof(int)); }\n", "tidy")
+        self.assertEqual(1, code)
+        self.assertIn("bugprone-sizeof-expression", text)
 
 
 if __name__ == "__main__":

@@ -17,13 +17,13 @@ using ::testing::HasSubstr;
 
 struct ExampleService {
   struct Settings {
-    double retry_after_s = 1.0;
+    int max_database_mb = 1;
   };
   static constexpr const char* kName = "map_store";
   static constexpr const char* kPurpose = "Stands for a service.";
   static std::vector<config::BoundStage> stages(Settings& settings) {
     static const config::FieldTable<Settings> table = {
-        {"retry_after_s", &Settings::retry_after_s, "Patience.", config::kPositive}};
+        {"max_database_mb", &Settings::max_database_mb, "Space.", config::kPositive}};
     return {config::bind_stage("map_store", table, settings)};
   }
   static void add_options(CLI::App&, Settings&) {}
@@ -76,19 +76,19 @@ TEST_F(RunService, IsCalledAsItsProgramAlsoInThePlaceOfAnother) {
 }
 
 TEST_F(RunService, PrintsTheSettingsInEffect) {
-  EXPECT_EQ(run({"--config", file("map_store { retry_after_s: 2.5 }"), "--print-config"}).out,
-            "map_store {\n  retry_after_s: 2.5  # Patience.\n}\n");
+  EXPECT_EQ(run({"--config", file("map_store { max_database_mb: 25 }"), "--print-config"}).out,
+            "map_store {\n  max_database_mb: 25  # Space.\n}\n");
 }
 
 TEST_F(RunService, ChecksSettingsAndLeaves) {
-  const Ran ran = run({"--profile", "urban", "--config", file("map_store { retry_after_s: 2.5 }"),
+  const Ran ran = run({"--profile", "urban", "--config", file("map_store { max_database_mb: 25 }"),
                        "--check-config"});
   EXPECT_EQ(ran.exit_code, 0);
   EXPECT_EQ(ran.out + ran.err, "");
 }
 
 TEST_F(RunService, RefusesAFaultySettingWithOneLineThatSaysWhere) {
-  const std::string path = file("map_store {\n  retry_after: 2.5\n}");
+  const std::string path = file("map_store {\n  max_database: 25\n}");
   const Ran ran = run({"--config", path, "--check-config"});
   EXPECT_EQ(ran.exit_code, kExitUsage);
   EXPECT_THAT(ran.err, ::testing::StartsWith("slammot-map-store: " + path + ":2:"));

@@ -117,8 +117,8 @@ TEST(Overlay, RefusesAFieldThatIsSetTwice) {
 }
 
 TEST(Overlay, ChecksTheNamesInStagesThatAreNotBound) {
-  EXPECT_EQ(fault_of("map_store { busy_timeout_s: 1 }"), "");
-  EXPECT_NE(fault_of("map_store { busy_timeout: 1 }"), "");
+  EXPECT_EQ(fault_of("map_store { max_database_mb: 1 }"), "");
+  EXPECT_NE(fault_of("map_store { max_database: 1 }"), "");
 }
 
 TEST(Overlay, SaysSoWhenTheFileCannotBeRead) {
@@ -141,14 +141,14 @@ TEST(DifferencesFromProto, FindsWhatIsOnlyInTheTable) {
 
 TEST(DifferencesFromProto, FindsWhatIsOnlyInTheProto) {
   EXPECT_THAT(differences_from_proto(BoundStage{"map_store", {}}),
-              ::testing::Contains("map_store.busy_timeout_s: not once in the table"));
+              ::testing::Contains("map_store.max_database_mb: not once in the table"));
 }
 
 TEST(DifferencesFromProto, FindsTypesThatDiffer) {
   bool not_a_number = false;
-  BoundStage stage{"map_store", {{"busy_timeout_s", &not_a_number, "", {}}}};
+  BoundStage stage{"map_store", {{"max_database_mb", &not_a_number, "", {}}}};
   EXPECT_THAT(differences_from_proto(stage),
-              ::testing::Contains("map_store.busy_timeout_s: types differ, or not optional"));
+              ::testing::Contains("map_store.max_database_mb: types differ, or not optional"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "common/filters/model_set.hpp"

@@ -4,6 +4,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "tests/support/matchers.hpp"
 

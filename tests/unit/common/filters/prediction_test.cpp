@@ -1,5 +1,6 @@
 // Where an object will be, foretold by the mixture: whether the covariances promise what they keep.
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <random>

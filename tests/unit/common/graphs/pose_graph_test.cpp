@@ -5,6 +5,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "common/graphs/path_uncertainty.hpp"
 #include "tests/support/g2o_graph.hpp"

@@ -36,8 +36,8 @@ Registration registered(const FloorPlan& plan, const Pose2& guess_error,
                         const RegistrationConfig& config = {}) {
   const auto target = submap_seen_from(plan, 0, {kFirst});
   const auto source = submap_seen_from(plan, 1, {kSecond});
-  return register_surfels(source.surfels, source.cell_size_m, SurfelIndex(target.surfels, 1.0),
-                          kSecond * guess_error, config);
+  return register_surfels(source.surfels, SurfelIndex(target.surfels, 1.0), kSecond * guess_error,
+                          config);
 }
 
 TEST(RegisterSurfels, ConvergesFromANoisyGuess) {
@@ -59,21 +59,21 @@ TEST(RegisterSurfels, HasAnErrorWithinItsCovariance) {
 
 TEST(RegisterSurfels, HasACovarianceOfTheIndependentSurfelsPlusTheFloor) {
   RegistrationConfig config;
-  const auto variances = [&](double spacing_m, double position_floor_m,
+  const auto variances = [&](double independent_share, double position_floor_m,
                              double heading_floor_rad) -> Eigen::Vector3d {
-    config.independent_spacing_m = spacing_m;
+    config.independent_share = independent_share;
     config.position_floor_m = position_floor_m;
     config.heading_floor_rad = heading_floor_rad;
     return registered(room(), {0.05, 0.05, 0.01}, config).target_from_source.covariance.diagonal();
   };
-  const Eigen::Vector3d by_walls = variances(2.0, 0.0, 0.0);
-  EXPECT_LT((variances(8.0, 0.0, 0.0) - 4.0 * by_walls)
+  const Eigen::Vector3d by_walls = variances(0.2, 0.0, 0.0);
+  EXPECT_LT((variances(0.05, 0.0, 0.0) - 4.0 * by_walls)
                 .cwiseQuotient(4.0 * by_walls)
                 .cwiseAbs()
                 .maxCoeff(),
             0.01);
   const Eigen::Vector3d floors(0.3 * 0.3, 0.3 * 0.3, 0.04 * 0.04);
-  EXPECT_LT((variances(2.0, 0.3, 0.04) - by_walls - floors).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((variances(0.2, 0.3, 0.04) - by_walls - floors).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(RegisterSurfels, HasAWideCovarianceAlongACorridor) {
@@ -86,7 +86,7 @@ TEST(RegisterSurfels, HasAWideCovarianceAlongACorridor) {
 TEST(RegisterSurfels, StaysAtTheGuessWhenNothingMatches) {
   const auto source = submap_seen_from(room(), 1, {kSecond});
   const Registration registration =
-      register_surfels(source.surfels, 0.1, SurfelIndex({}, 1.0), kSecond, {});
+      register_surfels(source.surfels, SurfelIndex({}, 1.0), kSecond, {});
   EXPECT_EQ(registration.matched_share, 0.0);
   EXPECT_THAT(registration.target_from_source.pose, PoseNear(kSecond, 1e-12));
 }

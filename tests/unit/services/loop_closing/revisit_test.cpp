@@ -18,8 +18,7 @@ using slammot::testing::submap_seen_from;
 
 RevisitConfig indoor_config() {
   RevisitConfig config;
-  config.search_cell_m = 0.1;
-  config.registration = {.fine_gate_m = 0.2, .surfel_sigma_m = 0.04, .independent_spacing_m = 0.5};
+  config.registration = {.fine_gate_m = 0.2, .surfel_sigma_m = 0.04};
   return config;
 }
 
