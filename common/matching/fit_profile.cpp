@@ -1,8 +1,6 @@
 #include "common/matching/fit_profile.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace slammot::matching {
 namespace {
@@ -36,12 +34,10 @@ class SurfacesAround {
   grids::SurfelMap::Neighbours near_;
 };
 
-struct Sums {
-  int matched = 0;
-  double squared_residuals_m2 = 0.0;
-};
+}  // namespace
 
-void add(const grids::SurfelMap::Surface& surface, const Vector2& offset_m, Sums& sums) {
+void FitProfile::add(const grids::SurfelMap::Surface& surface, const Vector2& offset_m,
+                     Sums& sums) {
   ++sums.matched;
   if (surface.normal.isZero()) {
     sums.squared_residuals_m2 += 0.5 * offset_m.squaredNorm();
@@ -51,15 +47,14 @@ void add(const grids::SurfelMap::Surface& surface, const Vector2& offset_m, Sums
   }
 }
 
-}  // namespace
-
-std::vector<double> fits_at(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
-                            double heading_rad, std::span<const Vector2> positions_m,
-                            const PointToLineConfig& config) {
+std::span<const double> FitProfile::fits_at(const std::vector<MatchPoint>& points,
+                                            const grids::SurfelMap& surfels, double heading_rad,
+                                            std::span<const Vector2> positions_m,
+                                            const PointToLineConfig& config) {
   const double gate_m = config.fine_gate_m;
   const int radius = search_radius(surfels, gate_m);
   const geometry::Matrix2 turn = geometry::rotation(heading_rad);
-  std::vector<Sums> sums(positions_m.size());
+  sums_.assign(positions_m.size(), {});
   for (const MatchPoint& point : points) {
     const Vector2 turned_m = turn * point.in_base_m;
     SurfacesAround around(surfels, radius);
@@ -69,21 +64,18 @@ std::vector<double> fits_at(const std::vector<MatchPoint>& points, const grids::
       if (place == grids::SurfelMap::kNoPlace) continue;
       const Vector2 offset_m = at_m - surfels.mean_at(place);
       if (offset_m.squaredNorm() > gate_m * gate_m) continue;
-      add(surfels.surface_at(place), offset_m, sums[i]);
+      add(surfels.surface_at(place), offset_m, sums_[i]);
     }
   }
-  std::vector<double> fits;
-  fits.reserve(sums.size());
-  for (const Sums& sum : sums) {
-    PointToLineResult at_position;
-    if (sum.matched > 0) {
-      at_position.matched_share =
-          static_cast<double>(sum.matched) / static_cast<double>(points.size());
-      at_position.rms_residual_m = std::sqrt(sum.squared_residuals_m2 / sum.matched);
-    }
-    fits.push_back(fit_of(at_position, config.robust_scale_m));
+  fits_.clear();
+  for (const Sums& sums : sums_) {
+    const double matched = sums.matched;
+    fits_.push_back(sums.matched == 0 ? 0.0
+                                      : fit_of(matched / static_cast<double>(points.size()),
+                                               std::sqrt(sums.squared_residuals_m2 / matched),
+                                               config.robust_scale_m));
   }
-  return fits;
+  return fits_;
 }
 
 }  // namespace slammot::matching

@@ -180,10 +180,13 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
   return result;
 }
 
-double fit_of(const PointToLineResult& registered, double robust_scale_m) {
+double fit_of(double matched_share, double rms_residual_m, double robust_scale_m) {
   const double scale_m2 = robust_scale_m * robust_scale_m;
-  return registered.matched_share * scale_m2 /
-         (scale_m2 + registered.rms_residual_m * registered.rms_residual_m);
+  return matched_share * scale_m2 / (scale_m2 + rms_residual_m * rms_residual_m);
+}
+
+double fit_of(const PointToLineResult& registered, double robust_scale_m) {
+  return fit_of(registered.matched_share, registered.rms_residual_m, robust_scale_m);
 }
 
 }  // namespace slammot::matching

@@ -56,6 +56,7 @@ int search_radius(const grids::SurfelMap& surfels, double gate_m);
 
 /// Share of the points that lie on surfels, in [0, 1]. A point's weight decreases with its
 /// residual: half at robust_scale_m.
+double fit_of(double matched_share, double rms_residual_m, double robust_scale_m);
 double fit_of(const PointToLineResult& registered, double robust_scale_m);
 
 /// Registers points to surfels by Gauss-Newton on point-to-line distances with a Gaussian prior. It

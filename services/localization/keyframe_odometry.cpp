@@ -7,8 +7,6 @@
 
 #include <Eigen/LU>
 
-#include "common/matching/fit_profile.hpp"
-
 namespace slammot::localization {
 namespace {
 
@@ -171,10 +169,10 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
 }
 
 /// How well the points lie on the keyframe's at these very poses.
-std::vector<double> KeyframeOdometry::fits_at(double heading_rad,
-                                              std::span<const geometry::Vector2> positions_m,
-                                              const ScanPoints& points) const {
-  return matching::fits_at(points.matched(), surfels_, heading_rad, positions_m, match_);
+std::span<const double> KeyframeOdometry::fits_at(double heading_rad,
+                                                  std::span<const geometry::Vector2> positions_m,
+                                                  const ScanPoints& points) {
+  return fit_profile_.fits_at(points.matched(), surfels_, heading_rad, positions_m, match_);
 }
 
 std::optional<UncertainPose2> KeyframeOdometry::registered_near(const Pose2& pose,
@@ -220,7 +218,7 @@ void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& 
   std::ranges::transform(kWaysOfStanding_m, positions_m.begin(), [&](double way_m) {
     return geometry::Vector2(by_wheels.x_m + way_m, by_wheels.y_m);
   });
-  const std::vector<double> fits = fits_at(by_wheels.heading_rad, positions_m, points);
+  const std::span<const double> fits = fits_at(by_wheels.heading_rad, positions_m, points);
   const auto best_fit = std::ranges::max_element(fits);
   const double standing = fits.front();
   const double best_m = kWaysOfStanding_m[static_cast<std::size_t>(best_fit - fits.begin())];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/grids/surfel_map.hpp"
+#include "common/matching/fit_profile.hpp"
 #include "common/matching/point_to_line.hpp"
 #include "common/sensing/odometry_belief.hpp"
 #include "common/sensing/way_ratio_filter.hpp"
@@ -63,8 +64,9 @@ class KeyframeOdometry {
   void map_keyframe();
   matching::PointToLineResult registered_about(const geometry::UncertainPose2& expected,
                                                const ScanPoints& points);
-  std::vector<double> fits_at(double heading_rad, std::span<const geometry::Vector2> positions_m,
-                              const ScanPoints& points) const;
+  std::span<const double> fits_at(double heading_rad,
+                                  std::span<const geometry::Vector2> positions_m,
+                                  const ScanPoints& points);
   /// The best of registrations from several shares of the expected way, and how well the best other
   /// place fits.
   struct BestPlace {
@@ -89,6 +91,7 @@ class KeyframeOdometry {
   State state_;
   std::optional<sensing::OdometryComparison> last_;  ///< What the scan of state_.compared_ns said.
   matching::PointToLineMatcher matcher_;
+  matching::FitProfile fit_profile_;
 };
 
 }  // namespace slammot::localization

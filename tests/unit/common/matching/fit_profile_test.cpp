@@ -42,7 +42,8 @@ TEST_P(FitsAt, AreThoseOfRegistrationsHeldThere) {
   config.body_sigma_m = 0.15;
   std::vector<Vector2> positions_m;
   for (int i = -12; i <= 12; ++i) positions_m.emplace_back(0.3 + 0.11 * i, -0.2 + 0.02 * i);
-  const std::vector<double> fits = fits_at(points, surfels, 0.4, positions_m, config);
+  FitProfile profile;
+  const std::span<const double> fits = profile.fits_at(points, surfels, 0.4, positions_m, config);
   ASSERT_EQ(fits.size(), positions_m.size());
   for (std::size_t i = 0; i < fits.size(); ++i)
     EXPECT_EQ(fits[i], fit_of_registration(points, surfels,
@@ -54,7 +55,10 @@ INSTANTIATE_TEST_SUITE_P(CellsOf, FitsAt, ::testing::Values(0.1, 0.2, 0.5));
 
 TEST(FitsAtNoPoints, AreZero) {
   const std::vector<Vector2> positions_m{Vector2::Zero()};
-  EXPECT_EQ(fits_at({}, surfels_of(kRoom), 0.0, positions_m, {}), std::vector<double>{0.0});
+  FitProfile profile;
+  const std::span<const double> fits = profile.fits_at({}, surfels_of(kRoom), 0.0, positions_m, {});
+  ASSERT_EQ(fits.size(), 1U);
+  EXPECT_EQ(fits.front(), 0.0);
 }
 
 }  // namespace
