@@ -114,17 +114,18 @@ geometry::Pose2 corrected(const geometry::Pose2& by_wheels, double duration_s,
 struct OdometryBelief {
   ExplanationWeights weights{1.0, 0.0, 0.0, 0.0};
   StepExplanation last = StepExplanation::kWheels;  ///< Most probable explanation of the last step.
-  double usual_step_s = 0.1;                        ///< Running mean of the time between scans.
-  geometry::Pose2 last_step;                        ///< Last step by matches.
-  StepHistory steps;                                ///< Earlier steps by matches.
-  geometry::Pose2 previous_by_wheels;               ///< Step by odometry before the last one.
-  double previous_duration_s = 0.0;                 ///< Its duration; 0: none yet.
-  geometry::Pose2 last_by_wheels;                   ///< Last step by odometry, uncorrected.
-  double last_duration_s = 0.0;                     ///< Duration of the last step; 0: none yet.
-  double usual_way_m = 0.5;                         ///< Usual way of a step.
-  double usual_drive_m = 0.5;   ///< Usual way of a step that is no turn on the spot.
-  double usual_turn_rad = 0.5;  ///< Usual absolute turn of a turn on the spot.
-  double usual_share = 0.5;     ///< Usual share of a scan's points that match.
+  static constexpr double kUsualStepAtStart_s = 0.1;
+  double usual_step_s = kUsualStepAtStart_s;  ///< Running mean of the time between scans.
+  geometry::Pose2 last_step;                  ///< Last step by matches.
+  StepHistory steps;                          ///< Earlier steps by matches.
+  geometry::Pose2 previous_by_wheels;         ///< Step by odometry before the last one.
+  double previous_duration_s = 0.0;           ///< Its duration; 0: none yet.
+  geometry::Pose2 last_by_wheels;             ///< Last step by odometry, uncorrected.
+  double last_duration_s = 0.0;               ///< Duration of the last step; 0: none yet.
+  double usual_way_m = 0.5;                   ///< Usual way of a step.
+  double usual_drive_m = 0.5;                 ///< Usual way of a step that is no turn on the spot.
+  double usual_turn_rad = 0.5;                ///< Usual absolute turn of a turn on the spot.
+  double usual_share = 0.5;                   ///< Usual share of a scan's points that match.
   Velocity matched_velocity = Velocity::Zero();  ///< Velocity from the last steps between matches.
   Eigen::Vector2d matched_velocity_variance = Eigen::Vector2d::Constant(1e3);
   WheelFactors factors;  ///< Applied to odometry first.

@@ -31,8 +31,8 @@ double usual_duration_so_far_s(const Step& step, const sensing::OdometryBelief& 
   const double share_of_start =
       std::pow(1.0 - config.usual_step_memory, static_cast<double>(belief.steps.size()));
   if (share_of_start == 1.0) return step.duration_s;
-  const double at_start_s = sensing::OdometryBelief{}.usual_step_s;
-  return (belief.usual_step_s - share_of_start * at_start_s) / (1.0 - share_of_start);
+  return (belief.usual_step_s - share_of_start * sensing::OdometryBelief::kUsualStepAtStart_s) /
+         (1.0 - share_of_start);
 }
 
 Step StepExplanations::without_odometry(Step step) const {

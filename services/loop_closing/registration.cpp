@@ -88,7 +88,6 @@ Registration register_surfels(std::span<const flow::Surfel> source, const Surfel
                               const Pose2& initial_target_from_source,
                               const RegistrationConfig& config) {
   constexpr double kConvergedM = 1e-4;
-  const double independent_share = config.independent_share;
   Pose2 pose = initial_target_from_source;
   NormalEquations equations;
   for (int step = 0; step < kCoarseSteps + kFineSteps; ++step) {
@@ -96,9 +95,9 @@ Registration register_surfels(std::span<const flow::Surfel> source, const Surfel
     equations =
         linearize(source, target, pose, is_coarse ? coarse_gate_m(config) : config.fine_gate_m,
                   config.surfel_sigma_m);
-    const Eigen::Vector3d change = -(independent_share * equations.H + weak_prior())
+    const Eigen::Vector3d change = -(config.independent_share * equations.H + weak_prior())
                                         .ldlt()
-                                        .solve(independent_share * equations.g);
+                                        .solve(config.independent_share * equations.g);
     pose = geometry::displaced(pose, change);
     const bool has_converged = geometry::as_seen_10_m_away(change) < kConvergedM;
     if (has_converged && !is_coarse) break;
@@ -112,7 +111,8 @@ Registration register_surfels(std::span<const flow::Surfel> source, const Surfel
   registration.rms_m = std::sqrt(equations.squared_m2 / std::max(equations.matched, 1));
   const double inflation = std::max(1.0, std::pow(registration.rms_m / config.surfel_sigma_m, 2));
   Matrix3& covariance = registration.target_from_source.covariance;
-  covariance = Matrix3((independent_share / inflation * equations.H + weak_prior()).inverse());
+  covariance =
+      Matrix3((config.independent_share / inflation * equations.H + weak_prior()).inverse());
   covariance.diagonal() += Eigen::Vector3d(config.position_floor_m * config.position_floor_m,
                                            config.position_floor_m * config.position_floor_m,
                                            config.heading_floor_rad * config.heading_floor_rad);
