@@ -22,6 +22,9 @@ void score_hit(Track& track, const Hit& hit, const TrackingConfig& config);
 
 /// Adds a scan without echoes to the score: beams that pass through the predicted extent count
 /// against the track, occlusion hardly does.
+/// Score of a scan in which the track is hidden, or expected where some beams pass.
+void score_hidden(Track& track, double time_s);
+
 void score_miss(Track& track, const Visibility& visibility, double time_s,
                 const TrackingConfig& config);
 

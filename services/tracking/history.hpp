@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -57,6 +58,10 @@ struct History {
   memory::RecyclingQueue<PastPoints> past_points;  ///< Newest last.
   std::size_t scanner = 0;       ///< The last scanner that had it in its field of view.
   double since_in_view_s = 0.0;  ///< Since the last scan that had it in its field of view.
+  std::optional<std::int64_t> first_published_ns;
+  bool is_hidden = false;        ///< Nothing is expected to be seen of it: it takes no echoes.
+  bool is_unseen = false;        ///< Had no echo in the last scans either.
+  double expected_passed = 0.0;  ///< Expected share of beams through it, where hidden.
 };
 
 /// An empty history in the memory of one that is no longer needed.

@@ -12,6 +12,11 @@ namespace slammot::tracking {
 /// known velocity that nothing contradicts.
 bool is_published(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config);
 
+/// True if the track is published as occluded at this stamp: it was published for a while, has no
+/// echo now, probably exists, and its position is known to a few metres.
+bool is_published_as_occluded(const Track& track, std::int64_t stamp_ns,
+                              const TrackingConfig& config);
+
 /// Writes the track as it is published at this stamp. All members of the object are overwritten.
 void publish(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config,
              flow::TrackedObject& object);

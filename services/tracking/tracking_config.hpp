@@ -39,11 +39,11 @@ struct ExistenceConfig {
   double least_travel_m = 0.3;           ///< Distance from birth for confirmation.
   double least_travel_to_stand_m = 1.5;  ///< Distance travelled that allows kLongestStandS more.
   double least_surprise_m = 0.6;         ///< Least distance of an outlier from the prediction.
-  double longest_unseen_s = 3.0;         ///< A confirmed track ends after this.
+  double longest_unseen_s = 6.0;         ///< A confirmed track ends after this.
 };
 
 struct PublicationConfig {
-  double longest_unseen_published_s = 0.02;     ///< Longer unseen: followed, not published.
+  double longest_unseen_published_s = 5.0;      ///< Published as occluded for this long.
   double most_speed_sigma_published_mps = 0.7;  ///< With a larger sigma of the velocity neither.
 };
 

@@ -174,10 +174,10 @@ FieldTable<PublicationConfig> publication_fields() {
   return {
       {"longest_unseen_published_s",
        &C::longest_unseen_published_s,
-       "A confirmed track without echoes for longer is followed, but not published as confirmed.",
-       kPositive,
-       {"Tracks vanish between the scans of alternating scanners.",
-        "Predictions without echoes are published."}},
+       "A confirmed track without echoes is published as occluded, with its predicted state, for "
+       "this time.",
+       kNotNegative,
+       {"Objects behind others vanish.", "Predictions far from the objects are published."}},
       {"most_speed_sigma_published_mps",
        &C::most_speed_sigma_published_mps,
        "A track with a larger sigma of the velocity is not published as confirmed.",
