@@ -107,6 +107,27 @@ std::string describe(const TrackingEvaluation& tracking) {
   return lines + describe_classes(tracking.errors.by_class) + describe(tracking.predictions);
 }
 
+std::string describe(const metrics::OcclusionFigures& occlusion) {
+  std::string lines =
+      text("occlusions\n  %-12s %14s %14s\n", "length", "identity kept", "covered [%]");
+  for (const metrics::OcclusionBand& band : occlusion.by_length)
+    lines +=
+        text("  %-12s %14s %14.1f\n", text("%g-%g s", band.from_s, band.to_s).c_str(),
+             text("%zu of %zu", band.kept, band.occlusions).c_str(), 100.0 * band.covered_share());
+  lines += "  " + describe_nees("position while hidden", occlusion.position_nees);
+  lines += text("  position while hidden: rmse %.2f m over %zu rows, %.3f in the 95 %% ellipse\n",
+                occlusion.position_m.rmse, occlusion.position_m.count, occlusion.inside_share);
+  lines +=
+      text("  rows of occluded tracks: %zu at their object, %zu at another, %zu at none\n",
+           occlusion.published.occluded.at_own_object, occlusion.published.occluded.at_other_object,
+           occlusion.published.occluded.at_nothing);
+  return lines + text(
+                     "  gaps in what is published of tracks: %zu, %zu of them on one object, %zu "
+                     "with it in view\n",
+                     occlusion.published.gaps.gaps, occlusion.published.gaps.gaps_on_object,
+                     occlusion.published.gaps.gaps_in_view);
+}
+
 std::string describe(const OtherCarEvaluation& car) {
   std::string lines = text(
       "other car: matched in %zu of %zu scans, by %zu tracks; %.3f false moving tracks a scan\n  "
@@ -171,6 +192,7 @@ std::string to_text(const Evaluation& evaluation, const EvaluationOptions& optio
         options.rule.gate_m);
     lines += describe(*evaluation.tracking);
   }
+  if (evaluation.occlusion) lines += describe(*evaluation.occlusion);
   if (evaluation.other_car) lines += describe(*evaluation.other_car);
   if (evaluation.map) lines += describe(*evaluation.map);
   if (evaluation.walls) lines += describe(*evaluation.walls, options.walls.cell_size_m);
