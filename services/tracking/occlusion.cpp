@@ -49,8 +49,8 @@ struct BeamCounts {
   int passed = 0;
 };
 
-BeamCounts count_beams(const Footprint& footprint, const Vector2d& centre_m, const ScanView& view) {
-  constexpr double kMarginM = 0.3;
+BeamCounts count_beams(const Footprint& footprint, const Vector2d& centre_m, double margin_m,
+                       const ScanView& view) {
   const ScanView::Directions directions = view.directions_of(footprint, centre_m, 0.0);
   const double step_rad = view.beam_step_rad() * (view.scan().beam_step_rad < 0.0 ? -1.0 : 1.0);
   const Vector2d to_centre_m = centre_m - view.laser_in_odom_m();
@@ -58,29 +58,31 @@ BeamCounts count_beams(const Footprint& footprint, const Vector2d& centre_m, con
   const double middle = view.polar().steps_towards(middle_rad);
   BeamCounts counts;
   for (std::size_t i = 0; i < directions.count; ++i) {
-    const std::size_t beam =
-        *view.polar().neighbour_of(directions.first, static_cast<long>(i));
+    const std::size_t beam = *view.polar().neighbour_of(directions.first, static_cast<long>(i));
     const double direction_rad = middle_rad + (static_cast<double>(beam) - middle) * step_rad;
     const std::optional<Chord> chord =
         chord_of(footprint, -to_centre_m, {std::cos(direction_rad), std::sin(direction_rad)});
     if (!chord) continue;
     const double range_m = view.polar().range_m(beam);
     ++counts.beams;
-    counts.visible += range_m <= 0.0 || range_m > chord->entry_m - kMarginM ? 1 : 0;
-    counts.passed += range_m > chord->exit_m + kMarginM ? 1 : 0;
+    counts.visible += range_m <= 0.0 || range_m > chord->entry_m - margin_m ? 1 : 0;
+    counts.passed += range_m > chord->exit_m + margin_m ? 1 : 0;
   }
   return counts;
 }
 
 }  // namespace
 
-ExpectedView expected_view(const Track& track, const ScanView& view,
-                           const TrackingConfig& config) {
+ExpectedView expected_view(const Track& track, const ScanView& view, const TrackingConfig& config) {
+  constexpr double kMarginM = 0.3;
+  constexpr double kMostErrorM = 1.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
       track.kinematics.position_covariance_m2() +
       common_error_covariance(track, track.footprint().heading_rad, config));
   const Vector2d step_m =
       std::sqrt(3.0 * std::max(0.0, axes.eigenvalues()(1))) * axes.eigenvectors().col(1);
+  // An echo this near may be the object's own.
+  const double margin_m = kMarginM + std::min(kMostErrorM, step_m.norm() / std::sqrt(3.0));
   struct Node {
     double offset;
     double weight;
@@ -89,7 +91,7 @@ ExpectedView expected_view(const Track& track, const ScanView& view,
   ExpectedView expected;
   for (const Node& node : kNodes) {
     const BeamCounts counts =
-        count_beams(track.footprint(), track.position_m() + node.offset * step_m, view);
+        count_beams(track.footprint(), track.position_m() + node.offset * step_m, margin_m, view);
     if (counts.beams == 0) continue;
     expected.in_view += node.weight;
     expected.visible += node.weight * counts.visible / counts.beams;
@@ -100,18 +102,18 @@ ExpectedView expected_view(const Track& track, const ScanView& view,
 
 void follow_occlusion(Track& track, const ScanView& view, const TrackingConfig& config) {
   constexpr double kMostVisible = 0.5;
+  constexpr double kSurelyVisible = 0.9;
   constexpr double kLongHiddenS = 1.0;
   constexpr double kUnseenAfterS = 0.05;
   History& history = track.history;
-  const double unseen_s =
-      static_cast<double>(view.scan().stamp_ns - history.last_seen_ns) * 1e-9;
-  if (!track.existence.confirmed || unseen_s < kUnseenAfterS) {
+  const double unseen_s = static_cast<double>(view.scan().stamp_ns - history.last_seen_ns) * 1e-9;
+  if (!track.existence.confirmed || history.misses == 0 || unseen_s < kUnseenAfterS) {
     history.is_hidden = history.is_unseen = false;
     return;
   }
   const ExpectedView expected = expected_view(track, view, config);
   if (expected.in_view < 0.5) return;  // not this scanner's to tell
-  history.is_unseen = true;
+  history.is_unseen = expected.visible < kSurelyVisible || history.is_unseen;
   history.expected_passed = expected.passed;
   history.is_hidden =
       expected.visible < kMostVisible || (history.is_hidden && unseen_s > kLongHiddenS);

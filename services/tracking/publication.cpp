@@ -11,7 +11,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double kPublishScore = 0.0;  ///< As likely as not.
+constexpr double kPublishScore = 0.0;   ///< As likely as not.
 constexpr double kUnseenAfterS = 0.02;  ///< Since the last echo: less than a scan.
 
 /// True for a vehicle whose velocity was unknown a moment ago and that is elsewhere than predicted:
@@ -96,7 +96,7 @@ bool is_published(const Track& track, std::int64_t stamp_ns, const TrackingConfi
 
 bool is_published_as_occluded(const Track& track, std::int64_t stamp_ns,
                               const TrackingConfig& config) {
-  constexpr double kLeastPublishedS = 0.3;
+  constexpr double kLeastPublishedS = 0.1;
   constexpr double kMostSigmaM = 3.0;
   const Existence& existence = track.existence;
   const History& history = track.history;
@@ -104,10 +104,8 @@ bool is_published_as_occluded(const Track& track, std::int64_t stamp_ns,
     return false;
   const double published_s =
       static_cast<double>(history.last_seen_ns - *history.first_published_ns) * 1e-9;
-  const double unseen_for_s = unseen_s(track, stamp_ns);
   return published_s >= kLeastPublishedS &&
-         unseen_for_s > kUnseenAfterS &&
-         unseen_for_s <= config.publication.longest_unseen_published_s &&
+         unseen_s(track, stamp_ns) <= config.publication.longest_unseen_published_s &&
          existence.score >= kPublishScore &&
          track.kinematics.position_covariance_m2().trace() < 2.0 * kMostSigmaM * kMostSigmaM;
 }

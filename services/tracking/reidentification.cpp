@@ -29,7 +29,8 @@ Matrix4d covariance_of(const Track& track, const TrackingConfig& config) {
 /// Likelihood ratio of the classes: the same one against any.
 double ratio_of_classes(const Classification& a, const Classification& b) {
   double same = 0.0;
-  for (std::size_t i = 0; i < a.probability.size(); ++i) same += a.probability[i] * b.probability[i];
+  for (std::size_t i = 0; i < a.probability.size(); ++i)
+    same += a.probability[i] * b.probability[i];
   return same * static_cast<double>(a.probability.size());
 }
 
@@ -53,7 +54,8 @@ double log_odds_of_same_object(const Track& lost, const Track& found,
 
 std::optional<std::size_t> track_of_same_object(const Track& found, std::span<const Track> tracks,
                                                 const TrackingConfig& config) {
-  constexpr std::int64_t kMostOverlapNs = 200'000'000;  // the lost track had other echoes at its end
+  constexpr std::int64_t kMostOverlapNs = 200'000'000;  // the lost track had other echoes at its
+                                                        // end
   std::optional<std::size_t> best;
   double best_odds = 0.0;
   for (std::size_t t = 0; t < tracks.size(); ++t) {

@@ -15,8 +15,8 @@ namespace slammot::tracking {
 /// -infinity where the two differ by more than their covariances allow.
 double log_odds_of_same_object(const Track& lost, const Track& found, const TrackingConfig& config);
 
-/// The track that lost its object behind another, and whose object `found` is, about to be published
-/// for the first time; none where a new object is likelier.
+/// The track that lost its object behind another, and whose object `found` is, about to be
+/// published for the first time; none where a new object is likelier.
 std::optional<std::size_t> track_of_same_object(const Track& found, std::span<const Track> tracks,
                                                 const TrackingConfig& config);
 

@@ -36,8 +36,8 @@ bool has_known_speed(const Track& track) {
 
 /// White acceleration of an unseen object [m^2/s^3]: vehicles accelerate along their axis.
 Matrix2d unseen_acceleration_density(const Track& track) {
-  constexpr double kPedestrian = 0.1;
-  constexpr double kAlong = 1.0;
+  constexpr double kPedestrian = 0.2;
+  constexpr double kAlong = 2.0;
   constexpr double kAcross = 0.05;
   if (!is_vehicle(track)) return kPedestrian * Matrix2d::Identity();
   const double heading_rad = track.footprint().heading_rad;

@@ -153,8 +153,9 @@ UpdateOutcome update_track(Track& track, TrackShare& share, const ComparedScan& 
   const double time_s = std::exchange(track.history.since_in_view_s, 0.0);
   keep_pedestrian_echoes(track, share.beams, time_s, context);
   count_echoes(track, share.beams.size(), time_s);
+  track.history.misses = share.beams.empty() ? track.history.misses + 1 : 0;
   if (share.beams.empty() && track.history.is_unseen) {
-    score_hidden(track, time_s);
+    score_unseen(track, time_s);
     return UpdateOutcome::kContinues;
   }
   if (share.beams.empty()) {
