@@ -18,6 +18,7 @@
 #include "services/slammot/collect_command.hpp"
 #include "services/slammot/config_command.hpp"
 #include "services/slammot/health_command.hpp"
+#include "services/slammot/live_command.hpp"
 #include "services/slammot/run_command.hpp"
 
 namespace slammot {
@@ -71,6 +72,7 @@ int run_command_line(int argc, char** argv) {
   add_collect_command(app, exit_code);
   add_config_command(app, exit_code);
   add_health_command(app, exit_code);
+  add_live_command(app, exit_code);
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);
   evaluator::add_report_command(app, exit_code);

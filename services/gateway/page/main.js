@@ -11,6 +11,9 @@ import { World } from "./world.js";
 const PANEL_PERIOD_MS = 200;
 const ADDRESS_PERIOD_MS = 500;
 const SELECT_PX = 26;
+const SLOW_FRAME_MS = 40; // above it, fewer pixels are drawn
+const FAST_FRAME_MS = 22;
+const COARSEST = 0.5; // share of the screen's pixels along each side
 
 const $ = (id) => document.getElementById(id);
 const world = new World();
@@ -116,16 +119,30 @@ function refresh() {
 }
 
 function resize() {
-  const ratio = devicePixelRatio || 1;
+  const ratio = (devicePixelRatio || 1) * fineness;
   camera.width = innerWidth;
   camera.height = innerHeight;
   $("scene").width = Math.round(innerWidth * ratio);
   $("scene").height = Math.round(innerHeight * ratio);
 }
 
+let fineness = 1;
+let frameMs = 30; // smoothed
+/** A machine without a graphics processor draws fewer pixels rather than fewer pictures. */
+function adaptFineness(ms) {
+  frameMs += (Math.min(ms, 500) - frameMs) * 0.05;
+  const wanted = frameMs > SLOW_FRAME_MS ? fineness - 0.125 : frameMs < FAST_FRAME_MS ? fineness + 0.125 : fineness;
+  const next = Math.min(1, Math.max(COARSEST, wanted));
+  if (next === fineness) return;
+  fineness = next;
+  frameMs = 30;
+  resize();
+}
+
 let last = performance.now();
 function frame(now) {
   const seconds = Math.min(0.2, (now - last) / 1000);
+  adaptFineness(now - last);
   last = now;
   camera.update(seconds, world.vehicle);
   camera.lastMatrix = camera.matrix();

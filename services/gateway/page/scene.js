@@ -11,7 +11,7 @@ const PREDICTION_S = 1; // of the velocity's arrow
 
 export class Scene {
   constructor(canvas, world, onError) {
-    this.gl = canvas.getContext("webgl2", { antialias: true, alpha: false, preserveDrawingBuffer: true });
+    this.gl = canvas.getContext("webgl2", { antialias: false, alpha: false, depth: false });
     if (!this.gl) throw new Error("this browser has no WebGL 2");
     this.world = world;
     this.map = new MapLayer(this.gl, onError);
@@ -184,7 +184,7 @@ export class Scene {
     const last = track.path.at(-1);
     if (!last) return;
     const [a, b, , d] = last.covariance;
-    this.addEllipse(apply(map, last.position), a, b, d, map[2], color, 0.4 * alpha);
+    this.addEllipse(apply(map, last.position), a, b, d, map[2], color, 0.16 * alpha);
   }
 
   addMeasured([from, to]) {
