@@ -130,6 +130,7 @@ let fineness = 1;
 let frameMs = 30; // smoothed
 /** A machine without a graphics processor draws fewer pixels rather than fewer pictures. */
 function adaptFineness(ms) {
+  if (options.isFine) return;
   frameMs += (Math.min(ms, 500) - frameMs) * 0.05;
   const wanted = frameMs > SLOW_FRAME_MS ? fineness - 0.125 : frameMs < FAST_FRAME_MS ? fineness + 0.125 : fineness;
   const next = Math.min(1, Math.max(COARSEST, wanted));

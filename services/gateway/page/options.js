@@ -1,4 +1,5 @@
-// What is shown and from where, kept in the page's address (after '#') so that a view can be passed on.
+// What is shown and from where, kept in the page's address (after '#') so that a view can be passed on. With 'q' all pixels
+// are drawn, also where that is slow.
 
 export const LAYERS = {
   so: ["Stationary map", 1], free: ["Free space", 1], mo: ["Moving-object map", 0.8], scan: ["Scan", 1],
@@ -24,7 +25,7 @@ export function readOptions(camera) {
     if (name in layers && Number.isFinite(Number(opacity))) layers[name] = Math.min(1, Math.max(0, Number(opacity)));
   }
   const prefersLight = matchMedia("(prefers-color-scheme: light)").matches;
-  return { theme: given.get("c") ?? (prefersLight ? "light" : "dark"), layers, selected: given.has("s") ? number("s", null) : null, measured: null };
+  return { theme: given.get("c") ?? (prefersLight ? "light" : "dark"), layers, selected: given.has("s") ? number("s", null) : null, measured: null, isFine: given.has("q") };
 }
 
 /** Writes the view into the address, without a new entry in the history. */
@@ -38,6 +39,7 @@ export function writeOptions(camera, options) {
   }
   const changed = Object.entries(options.layers).filter(([name, opacity]) => opacity !== LAYERS[name][1]);
   if (changed.length) view.set("l", changed.map(([name, opacity]) => `${name}:${short(opacity, 2)}`).join(","));
+  if (options.isFine) view.set("q", 1);
   if (options.selected !== null) view.set("s", options.selected);
   const address = `#${view}`;
   if (address !== location.hash) history.replaceState(null, "", location.pathname + location.search + address);

@@ -17,7 +17,7 @@ void main() {
   float end = float(gl_VertexID & 1); side = float(gl_VertexID >> 1) * 2.0 - 1.0;
   half_width = width * 0.5 + 1.0;
   vec4 at = end < 0.5 ? a : b;
-  vec2 offset = (vec2(-dir.y, dir.x) * side + dir * (end * 2.0 - 1.0) * 0.4) * half_width * 2.0;
+  vec2 offset = vec2(-dir.y, dir.x) * side * half_width * 2.0;
   gl_Position = at + vec4(offset / size * at.w, 0.0, 0.0);
   tint = color;
 }`;

@@ -64,12 +64,12 @@ async def test_disconnection(page):
 
 
 async def take_pictures(page, live, folder):
-    views = {"live_top_dark": "#c=dark&d=95", "live_tilted_dark": "#c=dark&d=60&t=0.95", "live_top_light": "#c=light&d=95",
-             "live_map_dark": "#c=dark&d=420&l=graph:0.8"}
+    views = {"live_top_dark": "#q=1&c=dark&d=95", "live_tilted_dark": "#q=1&c=dark&d=60&t=0.95", "live_top_light": "#q=1&c=light&d=95",
+             "live_map_dark": "#q=1&c=dark&d=420&l=graph:0.8"}
     for name, view in views.items():
         await page.go("about:blank")
         await comes_alive(page, live, view)
-        await asyncio.sleep(6)
+        await asyncio.sleep(8)
         await page.picture(Path(folder) / f"{name}.png")
 
 
