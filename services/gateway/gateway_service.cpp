@@ -105,7 +105,7 @@ GatewayService::GatewayService(app::ServiceContext& context, const Settings& set
        settings.page_folder.empty() ? built_in_page() : page_in(settings.page_folder))
     server_.put(file.path, std::move(file.content));
   const auto read = [&](const auto& topic, app::Input kind) {
-    context.read(topic, kind, [this](const auto& sample) { take(sample); });
+    context.read(topic, kind, [this](const auto& sample) { this->take(sample); });
   };
   read(dds::topics::kLaserScan, app::Input::kOccasional);
   read(dds::topics::kLocalizedScan, app::Input::kSteady);
