@@ -18,6 +18,7 @@
 #include "services/slammot/collect_command.hpp"
 #include "services/slammot/config_command.hpp"
 #include "services/slammot/health_command.hpp"
+#include "services/slammot/live_command.hpp"
 #include "services/slammot/map_command.hpp"
 #include "services/slammot/run_command.hpp"
 
@@ -87,6 +88,7 @@ int run_command_line(int argc, char** argv) {
   add_collect_command(app, exit_code);
   add_config_command(app, exit_code);
   add_health_command(app, exit_code);
+  add_live_command(app, exit_code);
   add_map_command(app, exit_code);
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);
