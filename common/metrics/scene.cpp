@@ -9,15 +9,6 @@ namespace {
 
 using geometry::Vector2;
 
-bool is_in_view(const geometry::Pose2& world_from_object, const Scene& scene,
-                const CountingRule& rule) {
-  const Vector2 in_base_m =
-      geometry::inverse(scene.world_from_base) * world_from_object.translation_m();
-  const double bearing_rad = std::atan2(in_base_m.y(), in_base_m.x());
-  return in_base_m.norm() <= rule.range_m && bearing_rad >= rule.first_bearing_rad &&
-         bearing_rad <= rule.last_bearing_rad;
-}
-
 Eigen::MatrixXd distances_m(const Scene& scene) {
   Eigen::MatrixXd distance_m(scene.objects.size(), scene.tracks.size());
   for (std::size_t row = 0; row < scene.objects.size(); ++row) {
@@ -93,6 +84,15 @@ double distance_to_box_m(const Vector2& point_in_world_m, const TrueObject& obje
   const double ahead_m = std::max(0.0, std::abs(in_object_m.x()) - 0.5 * object.length_m);
   const double aside_m = std::max(0.0, std::abs(in_object_m.y()) - 0.5 * object.width_m);
   return std::hypot(ahead_m, aside_m);
+}
+
+bool is_in_view(const geometry::Pose2& world_from_object, const Scene& scene,
+                const CountingRule& rule) {
+  const Vector2 in_base_m =
+      geometry::inverse(scene.world_from_base) * world_from_object.translation_m();
+  const double bearing_rad = std::atan2(in_base_m.y(), in_base_m.x());
+  return in_base_m.norm() <= rule.range_m && bearing_rad >= rule.first_bearing_rad &&
+         bearing_rad <= rule.last_bearing_rad;
 }
 
 bool does_count(const TrueObject& object, const Scene& scene, const CountingRule& rule) {

@@ -48,6 +48,9 @@ struct Scene {
   geometry::Pose2 world_from_base;
   std::vector<TrueObject> objects;
   std::vector<ReportedTrack> tracks;
+  std::vector<TrueObject> hidden_objects = {};      ///< True objects without an echo,
+  std::vector<ReportedTrack> occluded_tracks = {};  ///< and tracks reported as occluded: judged by
+                                                    ///< occlusion_figures() only.
 };
 
 /// Which objects count, and matching thresholds; reasons are in docs/evaluation.md.
@@ -74,6 +77,10 @@ struct CountedScene {
 
 /// From the point to the object's box; 0 inside. [m]
 double distance_to_box_m(const geometry::Vector2& point_in_world_m, const TrueObject& object);
+
+/// True if the centre is within the rule's range and bearings.
+bool is_in_view(const geometry::Pose2& world_from_object, const Scene& scene,
+                const CountingRule& rule);
 
 /// True if the object counts in this scene.
 bool does_count(const TrueObject& object, const Scene& scene, const CountingRule& rule);

@@ -102,6 +102,7 @@ std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth
       evaluation.counted.push_back(metrics::count_scene(scene, options.rule));
     evaluation.tracking =
         evaluate_tracking(made, evaluation.counted, truth.object_count, options.rule);
+    evaluation.occlusion = metrics::occlusion_figures(made.scenes, options.rule);
   }
   if (truth.walls && result.map) {
     evaluation.map =

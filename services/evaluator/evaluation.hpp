@@ -7,6 +7,7 @@
 
 #include "common/files/result.hpp"
 #include "common/metrics/map_quality.hpp"
+#include "common/metrics/occlusion.hpp"
 #include "services/evaluator/echo_survey.hpp"
 #include "services/evaluator/echoes.hpp"
 #include "services/evaluator/other_car_evaluation.hpp"
@@ -36,6 +37,7 @@ struct Evaluation {
   std::optional<metrics::NeesSummary> relative_pose_nees;
   std::optional<DetectionEvaluation> detection;
   std::optional<TrackingEvaluation> tracking;
+  std::optional<metrics::OcclusionFigures> occlusion;
   std::optional<OtherCarEvaluation> other_car;
   std::optional<metrics::MapQuality> map;
   std::optional<WallSharpness> walls;  ///< Filled by the caller, who has the log.

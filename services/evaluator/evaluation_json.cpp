@@ -95,6 +95,16 @@ Json to_json(const std::vector<metrics::PredictionErrors>& predictions) {
   return rows;
 }
 
+Json to_json(const metrics::BoxErrors& errors) {
+  if (errors.rows == 0) return nullptr;
+  return {{"rows", errors.rows},
+          {"iou_median", number(errors.iou_median)},
+          {"iou_lowest_tenth", number(errors.iou_lowest_tenth)},
+          {"centre_m", to_json(errors.centre_m)},
+          {"heading_rad", to_json(errors.heading_rad)},
+          {"velocity_mps", to_json(errors.velocity_mps)}};
+}
+
 Json to_json(const TrackingEvaluation& tracking) {
   Json classes = Json::object();
   for (const auto& [name, errors] : tracking.errors.by_class) classes[name] = to_json(errors);
@@ -123,7 +133,37 @@ Json to_json(const TrackingEvaluation& tracking) {
           {"all", to_json(tracking.errors.all)},
           {"by_class", classes},
           {"by_distance", bands},
-          {"predictions", to_json(tracking.predictions)}};
+          {"predictions", to_json(tracking.predictions)},
+          {"strict_hota", to_json(tracking.strict_hota)},
+          {"vehicle_boxes", to_json(tracking.vehicle_boxes)},
+          {"stopped",
+           {{"rows", tracking.stopped.rows}, {"covered_rows", tracking.stopped.covered_rows}}}};
+}
+
+Json to_json(const metrics::OcclusionFigures& occlusion) {
+  Json bands = Json::array();
+  for (const metrics::OcclusionBand& band : occlusion.by_length)
+    bands.push_back({{"from_s", number(band.from_s)},
+                     {"to_s", number(band.to_s)},
+                     {"occlusions", band.occlusions},
+                     {"identity_kept", band.kept},
+                     {"hidden_rows", band.hidden_rows},
+                     {"covered_rows", band.covered_rows}});
+  return {{"by_length", bands},
+          {"position_m", to_json(occlusion.position_m)},
+          {"position_nees", to_json(occlusion.position_nees)},
+          {"inside_share", number(occlusion.inside_share)},
+          {"occluded_rows",
+           {{"at_own_object", occlusion.published.occluded.at_own_object},
+            {"at_other_object", occlusion.published.occluded.at_other_object},
+            {"at_nothing", occlusion.published.occluded.at_nothing},
+            {"precision", number(occlusion.published.occluded.precision())}}},
+          {"published_gaps",
+           {{"gaps", occlusion.published.gaps.gaps},
+            {"missing_rows", occlusion.published.gaps.missing_rows},
+            {"gaps_on_object", occlusion.published.gaps.gaps_on_object},
+            {"gaps_in_view", occlusion.published.gaps.gaps_in_view},
+            {"missing_rows_in_view", occlusion.published.gaps.missing_rows_in_view}}}};
 }
 
 Json to_json(const OtherCarEvaluation& car) {
@@ -200,6 +240,7 @@ std::string to_json_text(const Evaluation& evaluation, const EvaluationOptions& 
                          {"by_tracking", to_json(evaluation.detection->by_tracking)}};
   }
   if (evaluation.tracking) json["tracking"] = to_json(*evaluation.tracking);
+  if (evaluation.occlusion) json["occlusion"] = to_json(*evaluation.occlusion);
   if (evaluation.other_car) json["other_car"] = to_json(*evaluation.other_car);
   if (evaluation.map) json["map"] = to_json(*evaluation.map);
   if (evaluation.walls) json["walls"] = to_json(*evaluation.walls, options.walls.cell_size_m);

@@ -26,26 +26,29 @@ constexpr double kFarthestAheadS = 60.0;
 using TracksByStamp = std::map<std::int64_t, std::vector<ResultTrack>>;
 
 std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
-  return read_csv(file,
-                  {"timestamp", "track_id", "x", "y", "heading", "vx", "vy", "length", "width",
-                   "motion", "class"},
-                  [&](auto fields) -> RowFault {
-                    const auto row = numbers(fields.first(9));
-                    if (!row) return "a field is not a number";
-                    const auto& v = *row;
-                    if (v[1] < 0.0 || v[1] > kLargestId) return "not a valid track id";
-                    ResultTrack track;
-                    track.stamp_ns = to_ns(v[0]);
-                    track.track_id = static_cast<std::uint32_t>(v[1]);
-                    track.map_from_object = {v[2], v[3], v[4]};
-                    track.velocity_in_map_mps = {v[5], v[6]};
-                    track.length_m = v[7];
-                    track.width_m = v[8];
-                    track.is_moving = fields[9] == "moving";
-                    track.object_class = fields[10];
-                    tracks[track.stamp_ns].push_back(std::move(track));
-                    return std::nullopt;
-                  });
+  std::vector<std::string_view> columns = {"timestamp", "track_id", "x",    "y",
+                                           "heading",   "vx",       "vy",   "length",
+                                           "width",     "motion",   "class"};
+  const bool has_occluded = !columns_with_prefix(file, "occluded").empty();
+  if (has_occluded) columns.emplace_back("occluded");
+  return read_csv(file, columns, [&](auto fields) -> RowFault {
+    const auto row = numbers(fields.first(9));
+    if (!row) return "a field is not a number";
+    const auto& v = *row;
+    if (v[1] < 0.0 || v[1] > kLargestId) return "not a valid track id";
+    ResultTrack track;
+    track.stamp_ns = to_ns(v[0]);
+    track.track_id = static_cast<std::uint32_t>(v[1]);
+    track.map_from_object = {v[2], v[3], v[4]};
+    track.velocity_in_map_mps = {v[5], v[6]};
+    track.length_m = v[7];
+    track.width_m = v[8];
+    track.is_moving = fields[9] == "moving";
+    track.object_class = fields[10];
+    track.is_occluded = has_occluded && fields[11] == "1";
+    tracks[track.stamp_ns].push_back(std::move(track));
+    return std::nullopt;
+  });
 }
 
 std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks) {

@@ -24,6 +24,7 @@ struct ResultTrack {
   double length_m = 0.0;
   double width_m = 0.0;
   bool is_moving = true;
+  bool is_occluded = false;  ///< Column `occluded`; false if it is absent.
   std::string object_class;
   std::optional<geometry::Matrix2> position_covariance_m2;
   std::vector<double> mode_probability;  ///< Of each motion model; empty if not written.

@@ -52,7 +52,7 @@ Scenes make_scenes(const RunResult& result, const Truth& truth, std::int64_t max
     if (truth.objects) {
       if (const ObjectsAt* at =
               at_stamp(*truth.objects, online.stamp_ns, std::min(max_difference_ns, kSameStampNs)))
-        scene.objects = at->objects;
+        scene.objects = at->objects, scene.hidden_objects = at->hidden;
     }
     const Pose2 world_from_map = *world_from_base * geometry::inverse(online.pose);
     if (const TracksAt* at = at_stamp(result.tracks, online.stamp_ns, kSameStampNs)) {
@@ -61,7 +61,8 @@ Scenes make_scenes(const RunResult& result, const Truth& truth, std::int64_t max
             index_of_track.try_emplace(track.track_id, index_of_track.size());
         if (is_new) made.track_ids.push_back(track.track_id);
         const std::size_t index = known->second;
-        scene.tracks.push_back(in_world(track, index, world_from_map));
+        (track.is_occluded ? scene.occluded_tracks : scene.tracks)
+            .push_back(in_world(track, index, world_from_map));
       }
     }
     made.scenes.push_back(std::move(scene));

@@ -42,7 +42,7 @@ using IndexOfId = std::unordered_map<std::string, std::size_t>;
 
 /// Reads objects, their number and the index of each id.
 std::optional<Error> read_objects(const path& file, Truth& truth, IndexOfId& index_of_id) {
-  std::map<std::int64_t, std::vector<metrics::TrueObject>> by_stamp;
+  std::map<std::int64_t, ObjectsAt> by_stamp;
   const auto fault = read_csv(
       file, {"timestamp", "x", "y", "yaw", "speed", "length", "width", "points", "id", "class"},
       [&](auto fields) -> RowFault {
@@ -58,14 +58,15 @@ std::optional<Error> read_objects(const path& file, Truth& truth, IndexOfId& ind
         object.length_m = v[5];
         object.width_m = v[6];
         object.points = static_cast<int>(std::clamp(v[7], 0.0, 1e6));
-        by_stamp[to_ns(v[0])].push_back(object);
+        ObjectsAt& at = by_stamp[to_ns(v[0])];
+        (object.points > 0 ? at.objects : at.hidden).push_back(object);
         return std::nullopt;
       });
   if (fault) return fault;
   truth.object_count = index_of_id.size();
   truth.objects.emplace();
-  for (auto& [stamp_ns, objects] : by_stamp)
-    truth.objects->push_back({stamp_ns, std::move(objects)});
+  for (auto& [stamp_ns, at] : by_stamp)
+    truth.objects->push_back({stamp_ns, std::move(at.objects), std::move(at.hidden)});
   return std::nullopt;
 }
 

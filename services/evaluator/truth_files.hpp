@@ -18,6 +18,7 @@ namespace slammot::evaluator {
 struct ObjectsAt {
   std::int64_t stamp_ns = 0;
   std::vector<metrics::TrueObject> objects;
+  std::vector<metrics::TrueObject> hidden = {};  ///< Objects whose rows have no points.
 };
 
 /// What the beams of one scan hit, run-length encoded.

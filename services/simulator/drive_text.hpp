@@ -25,7 +25,7 @@ std::string line_of_log_of_its_scanner(const simulation::SimulatedScan& drive,
 std::string tum_line(const simulation::SimulatedScan& drive);
 
 std::string objects_header();
-/// One line for each moving object that the scan hit.
+/// One line for each of the objects.
 std::string object_lines(const simulation::SimulatedScan& drive);
 
 std::string hits_header();

@@ -1,11 +1,15 @@
 #include "services/simulator/truth_files.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "services/simulator/drive_text.hpp"
 
 namespace slammot::simulator {
 namespace {
+
+constexpr std::int64_t kHiddenNs = 10'000'000'000;
 
 std::filesystem::path with_ending(std::filesystem::path prefix, const char* ending) {
   return prefix += ending;
@@ -39,7 +43,7 @@ void TruthFiles::add(const simulation::SimulatedScan& drive) {
 }
 
 /// The scan with the objects that it or the latest scan of another scanner hit, and the sum of
-/// their beams.
+/// their beams; after them those that were hit within kHiddenNs, without beams.
 simulation::SimulatedScan TruthFiles::with_all_scanners(const simulation::SimulatedScan& drive) {
   std::map<int, int>& own = points_by_scanner_[drive.scanner];
   own.clear();
@@ -47,14 +51,19 @@ simulation::SimulatedScan TruthFiles::with_all_scanners(const simulation::Simula
   simulation::SimulatedScan seen;
   seen.scan.stamp_ns = drive.scan.stamp_ns;
   seen.world_from_base = drive.world_from_base;
+  std::vector<simulation::ObjectTruth> hidden;
   const auto add = [&](simulation::ObjectTruth object) {
     object.points = 0;
     for (const auto& [scanner, points] : points_by_scanner_)
       object.points += points.contains(object.id) ? points.at(object.id) : 0;
-    if (object.points > 0) seen.objects.push_back(object);
+    if (object.points > 0) last_hit_ns_[object.id] = drive.scan.stamp_ns;
+    const auto hit = last_hit_ns_.find(object.id);
+    if (hit != last_hit_ns_.end() && drive.scan.stamp_ns - hit->second <= kHiddenNs)
+      (object.points > 0 ? seen.objects : hidden).push_back(object);
   };
   std::ranges::for_each(drive.objects, add);
   std::ranges::for_each(drive.unseen, add);
+  seen.objects.insert(seen.objects.end(), hidden.begin(), hidden.end());
   return seen;
 }
 

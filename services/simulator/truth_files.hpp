@@ -16,7 +16,8 @@ enum class HitsFile { left_out, written };
 /// Writes PREFIX.tum, PREFIX.objects.csv, PREFIX.walls.csv and optionally PREFIX.hits.csv during
 /// the drive. Replaces existing files. Poses and objects are written once per stamp, hits once per
 /// scan. An object is in view if the scan or the latest scan of another scanner hit it; its points
-/// are the beams of all these scans.
+/// are the beams of all these scans. For 10 s after it was in view an object is hidden: it has a
+/// row without points, so that a track through an occlusion can be judged.
 class TruthFiles {
  public:
   TruthFiles(const std::filesystem::path& prefix, const simulation::Outline& stationary_in_world,
@@ -44,6 +45,7 @@ class TruthFiles {
   std::ofstream walls_;
   std::optional<std::ofstream> hits_;
   std::map<std::size_t, std::map<int, int>> points_by_scanner_;  // and object, of the latest scan
+  std::map<int, std::int64_t> last_hit_ns_;                      // by object
   std::optional<simulation::SimulatedScan> newest_;  // pending: another scanner may have the same
                                                      // stamp
   std::optional<geometry::Pose2> last_;

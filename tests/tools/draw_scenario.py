@@ -22,7 +22,7 @@ def read(prefix):
     with open(prefix + ".walls.csv", newline="") as file:
         walls = [((float(r["ax"]), float(r["ay"])), (float(r["bx"]), float(r["by"])), COLOUR_OF_SURFACE.get(r["class"], 1)) for r in csv.DictReader(file)]
     with open(prefix + ".objects.csv", newline="") as file:
-        dots = [(float(r["x"]), float(r["y"]), COLOUR_OF_CLASS[r["class"]]) for r in csv.DictReader(file)]
+        dots = [(float(r["x"]), float(r["y"]), COLOUR_OF_CLASS[r["class"]]) for r in csv.DictReader(file) if r.get("points") != "0"]
     with open(prefix + ".tum") as file:
         way = [tuple(map(float, line.split()[1:3])) for line in file]
     return walls, dots, way

@@ -1,6 +1,8 @@
 #include "services/evaluator/evaluation.hpp"
 
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,6 +47,38 @@ TEST_F(Evaluate, JoinsMapAndWorldByTheVehicle) {
   EXPECT_NEAR(evaluation->tracking->errors.all.centre_m.rmse, 1.4, 1e-9);
   EXPECT_NEAR(evaluation->tracking->errors.all.velocity_mps.rmse, 0.0, 1e-9);
   EXPECT_NEAR(evaluation->tracking->gospa.localization_m2, 0.25, 1e-9);
+}
+
+/// The lines with another ending: `before` up to the first line that begins with `mark`, `after`
+/// from there on.
+std::string with_ending(const std::string& csv, const std::string& mark, const std::string& ending,
+                        const std::string& before, const std::string& after) {
+  std::string text;
+  bool is_after = false;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    is_after = is_after || line.starts_with(mark);
+    if (line.ends_with(ending))
+      line.replace(line.size() - ending.size(), ending.size(), is_after ? after : before);
+    text += line + "\n";
+  }
+  return text;
+}
+
+TEST_F(Evaluate, LeavesHiddenObjectsAndOccludedTracksToTheFiguresOfOcclusion) {
+  std::string tracks = with_ending(tracks_csv(0.0, 0.0), "25.0", ",car", ",car,0", ",car,1");
+  tracks.insert(tracks.find('\n'), ",occluded");
+  write(folder_ / "tracks.csv", tracks);
+  write(folder_ / "drive.objects.csv",
+        with_ending(car_ahead_csv(100.0), "25.0", ",20,10", ",20,10", ",0,10"));
+  const auto evaluation = evaluated();
+  ASSERT_TRUE(evaluation);
+  EXPECT_EQ(evaluation->tracking->clear.true_positives, 250U);
+  EXPECT_EQ(evaluation->tracking->clear.false_positives, 0U);
+  EXPECT_EQ(evaluation->tracking->clear.misses, 0U);
+  ASSERT_TRUE(evaluation->occlusion);
+  EXPECT_EQ(evaluation->occlusion->published.occluded.at_own_object, 51U);
+  EXPECT_EQ(evaluation->occlusion->position_m.count, 51U);
 }
 
 TEST_F(Evaluate, RejectsAnotherClock) {

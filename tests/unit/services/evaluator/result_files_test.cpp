@@ -39,6 +39,19 @@ TEST_F(ResultFiles, JoinTracksWithTheirCovariances) {
   EXPECT_EQ((*result->tracks[1].tracks[0].position_covariance_m2)(0, 1), 0.01);
 }
 
+TEST_F(ResultFiles, TellOccludedTracksWhereTheColumnIsPresent) {
+  const std::string header =
+      "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class";
+  const std::string row = "0.1,7,1,2,0,10,0,4.5,1.8,moving,1,car";
+  write(folder_ / "tracks.csv", header + ",occluded\n" + row + ",1\n" + row + ",0\n");
+  const auto result = read_result(folder_.path());
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->tracks[0].tracks[0].is_occluded);
+  EXPECT_FALSE(result->tracks[0].tracks[1].is_occluded);
+  write(folder_ / "tracks.csv", header + "\n" + row + "\n");
+  EXPECT_FALSE(read_result(folder_.path())->tracks[0].tracks[0].is_occluded);
+}
+
 TEST_F(ResultFiles, JoinTracksWithTheirPredictions) {
   write(folder_ / "tracks.csv", tracks_csv(0.0, 0.0));
   write(folder_ / "predictions.csv",

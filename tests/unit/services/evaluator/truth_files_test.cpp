@@ -34,6 +34,18 @@ TEST_F(TruthFiles, AreATrajectoryObjectsAndWalls) {
   EXPECT_EQ(truth->walls->front().to_m, geometry::Vector2(2.0, 3.0));
 }
 
+TEST_F(TruthFiles, SeparateHiddenObjects) {
+  write(folder_ / "drive.tum", straight_tum(5.0));
+  write(folder_ / "drive.objects.csv",
+        "timestamp,id,class,x,y,yaw,speed,length,width,points,range\n"
+        "1.0,17,car,1,0,0,2,4,2,3,5\n1.0,18,car,9,0,0,2,4,2,0,5\n");
+  const auto truth = read_truth(folder_ / "drive");
+  ASSERT_TRUE(truth);
+  ASSERT_EQ(truth->objects->front().objects.size(), 1U);
+  ASSERT_EQ(truth->objects->front().hidden.size(), 1U);
+  EXPECT_EQ(truth->objects->front().hidden.front().world_from_object.x_m, 9.0);
+}
+
 TEST_F(TruthFiles, ReadTheHitsOfBeams) {
   write(folder_ / "drive.tum", straight_tum(5.0));
   write(folder_ / "drive.objects.csv",

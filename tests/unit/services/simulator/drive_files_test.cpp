@@ -1,5 +1,6 @@
 #include "services/simulator/drive_files.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -148,6 +149,27 @@ TEST_F(WriteDrive, WritesTheTruthOncePerStamp) {
   const auto files = write_drive(scenario_, folder_.path()).files;
   ASSERT_TRUE(files.has_value());
   EXPECT_EQ(lines_of(files->tum).size(), 75U);
+}
+
+TEST_F(WriteDrive, WritesHiddenObjectsForTenSeconds) {
+  scenario_ = *load_scenario("occluded_car");
+  const auto files = write_drive(scenario_, folder_.path()).files;
+  ASSERT_TRUE(files.has_value());
+  int hidden_rows = 0;
+  double last_seen_s = 0.0;
+  double longest_s = 0.0;
+  for (const std::string& line : lines_of(files->objects)) {
+    std::string text = line;
+    std::ranges::replace(text, ',', ' ');
+    const auto fields = words_of(text);
+    if (fields[2] != "car") continue;
+    const double at_s = std::stod(fields[0]);
+    if (fields[9] != "0") last_seen_s = at_s;
+    if (fields[9] == "0") ++hidden_rows;
+    longest_s = std::max(longest_s, at_s - last_seen_s);
+  }
+  EXPECT_GT(hidden_rows, 2 * 37);  // behind the truck for three seconds
+  EXPECT_LE(longest_s, 10.0);
 }
 
 TEST_F(WriteDrive, WritesGnssAndCompass) {
