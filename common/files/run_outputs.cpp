@@ -254,6 +254,13 @@ double travelled_m(const std::vector<StampedPose>& trajectory) {
   return sum_m;
 }
 
+std::optional<Error> write_map_outputs(const std::filesystem::path& folder, const RunRecord& record,
+                                       const RunReport& report) {
+  if (auto fault = write_file_atomically(folder / "graph.g2o", to_g2o(record))) return fault;
+  if (auto fault = write_maps(folder, record)) return fault;
+  return write_file_atomically(folder / "report.json", to_json_text(record, report, 0.0));
+}
+
 std::optional<Error> write_outputs(const std::filesystem::path& folder, const RunRecord& record,
                                    const RunReport& report) {
   // Drawing takes as long as writing all text.

@@ -43,6 +43,11 @@ std::string to_g2o(const RunRecord& record);
 /// Distance along the trajectory, without the noise of a standing vehicle.
 double travelled_m(const std::vector<StampedPose>& trajectory);
 
+/// Writes the part of the outputs that is about the map: graph.g2o, map.{pgm,png,yaml},
+/// moving.{pgm,png,yaml} and report.json.
+std::optional<Error> write_map_outputs(const std::filesystem::path& folder, const RunRecord& record,
+                                       const RunReport& report);
+
 /// Writes online.tum, online_covariance.csv, trajectory.tum, tracks.csv, track_details.csv,
 /// predictions.csv, labels.csv (where there are labels), graph.g2o, map.{pgm,png,yaml},
 /// moving.{pgm,png,yaml} and report.json into the folder, which must exist. Stops at the first file

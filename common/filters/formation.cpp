@@ -37,7 +37,9 @@ FormationState formation_of(std::span<const MotionState> members) {
 }
 
 FormationState predict(const FormationMotion& motion, const FormationState& state, double time_s) {
-  assert(time_s >= 0.0 && motion.model.kind != MotionKind::kCoordinatedTurn);
+  assert(time_s >= 0.0);
+  assert(motion.model.kind == MotionKind::kConstantVelocity ||
+         motion.model.kind == MotionKind::kConstantAcceleration);
   const Matrix6 F = transition_of(motion.model, time_s);
   const Matrix6 Q = noise_of(motion.model, time_s);
   FormationState predicted = state;

@@ -7,10 +7,10 @@
 
 namespace slammot::filters {
 
-/// Generalized pseudo-Bayesian estimators (Wang 2004, Section 2.3; Tugnait 1982): baselines for the
-/// IMM in tests and benchmarks. First order (GPB1) costs as much as the IMM and follows manoeuvres
+/// Generalized pseudo-Bayesian estimators (Wang 2004, Section 2.3; Tugnait 1982), a whole cycle as
+/// one function: what tests hold imm_predict and imm_update with Mixture::kGpb1 and kGpb2 against,
+/// by which tracking uses them. First order (GPB1) costs as much as the IMM and follows manoeuvres
 /// worse. Second order (GPB2) follows them as well and runs a filter for each pair of models.
-/// Tracking uses neither.
 
 /// A measured position, time_s (>= 0) after the estimate that it corrects; R positive definite.
 struct PositionFix {

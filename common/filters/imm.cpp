@@ -40,6 +40,8 @@ ImmState narrowed(const ModelSet& set, const ImmState& state) {
 struct Switching {
   double stays = 1.0;
   double leaves = 0.0;
+
+  double probability(std::size_t from, std::size_t to) const { return from == to ? stays : leaves; }
 };
 
 Switching switching_over(const ModelSet& set, double time_s) {  // the same for every model
@@ -56,9 +58,9 @@ ImmState predicted_over(double time_s, const Switching& switching, const ModelSe
     if (to >= set.size) return MotionState{};
     ModelWeights weight = {};
     for (std::size_t from = 0; from < set.size; ++from)
-      probability[to] += weight[from] =
-          (from == to ? switching.stays : switching.leaves) * state.probability[from];
-    for (std::size_t from = 0; from < set.size; ++from) {
+      probability[to] += weight[from] = switching.probability(from, to) * state.probability[from];
+    if (set.mixture == Mixture::kGpb1) weight = state.probability;
+    for (std::size_t from = 0; from < set.size && set.mixture != Mixture::kGpb1; ++from) {
       if (probability[to] > 0.0) weight[from] /= probability[to];
       else weight[from] = from == to ? 1.0 : 0.0;  // a model of probability zero keeps its weight
     }
@@ -67,9 +69,53 @@ ImmState predicted_over(double time_s, const Switching& switching, const ModelSe
     return predict(set.models[to], mixed(modes_of(set, state), {weight.data(), set.size}), time_s);
   };
   static_assert(kMaxModels == 3);
-  return {{predicted(0), predicted(1), predicted(2)}, probability};  // in place: zeroing a state
-                                                                     // costs as much as a
-                                                                     // prediction
+  // in place: zeroing a state costs as much as a prediction
+  return {{predicted(0), predicted(1), predicted(2)}, probability, {}, {}};
+}
+
+/// Adds the predictions of all pairs of models to a prediction whose modes they are merged into.
+void predict_pairs(double time_s, const Switching& switching, const ModelSet& set,
+                   const ImmState& state, ImmState& predicted) {
+  for (std::size_t to = 0; to < set.size; ++to) {
+    for (std::size_t from = 0; from < set.size; ++from) {
+      predicted.pairs.push_back(predict(set.models[to], state.modes[from], time_s));
+      predicted.pair_probability.push_back(switching.probability(from, to) *
+                                           state.probability[from]);
+    }
+  }
+}
+
+double log_of(double probability) { return std::log(std::max(probability, 1e-300)); }
+
+/// Updates the pairs and merges those that end in the same model.
+ImmUpdate updated_by_pairs(const ModelSet& set, const ImmState& predicted,
+                           const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R) {
+  assert(predicted.pairs.size() == set.size * set.size);
+  ImmUpdate update;
+  for (std::size_t to = 0; to < set.size; ++to) {
+    std::array<MotionState, kMaxModels> histories;
+    ModelWeights weight = {};
+    for (std::size_t from = 0; from < set.size; ++from) {
+      const std::size_t pair = to * set.size + from;
+      const auto mode = update_with_position(predicted.pairs[pair], position_m, R);
+      histories[from] = mode.posterior;
+      weight[from] = mode.innovation.log_likelihood + log_of(predicted.pair_probability[pair]);
+    }
+    update.posterior.probability[to] = normalize_logs({weight.data(), set.size});
+    update.posterior.modes[to] =
+        moment_match({histories.data(), set.size}, {weight.data(), set.size});
+  }
+  update.log_likelihood = normalize_logs({update.posterior.probability.data(), set.size});
+  return update;
+}
+
+/// Update of one mode by a velocity component, H = (0, direction, 0).
+void update_speed(MotionState& mode, const Eigen::Vector2d& direction, double speed_mps,
+                  double variance) {
+  const Eigen::Matrix<double, 6, 1> Ph = mode.covariance.middleCols<2>(2) * direction;
+  const double S = direction.dot(Ph.segment<2>(2)) + variance;
+  mode.mean += Ph * ((speed_mps - direction.dot(mode.mean.segment<2>(2))) / S);
+  mode.covariance -= Ph * (Ph.transpose() / S);
 }
 
 /// Predicts in place: a state has a kilobyte and is not copied (imm_path in
@@ -93,7 +139,12 @@ ImmState imm_start(const ModelSet& set, const MotionState& estimate) {
 
 ImmState imm_predict(const ModelSet& set, const ImmState& state, double time_s) {
   assert(time_s >= 0.0);
-  return predicted_over(time_s, switching_over(set, time_s), set, state);
+  const Switching switching = switching_over(set, time_s);
+  if (set.mixture != Mixture::kGpb2) return predicted_over(time_s, switching, set, state);
+  const ImmState before = has_models_beyond(set, state) ? narrowed(set, state) : state;
+  ImmState predicted = predicted_over(time_s, switching, set, before);
+  predict_pairs(time_s, switching, set, before, predicted);
+  return predicted;
 }
 
 Innovation<2> imm_innovation(const ModelSet& set, const ImmState& predicted,
@@ -105,12 +156,13 @@ Innovation<2> imm_innovation(const ModelSet& set, const ImmState& predicted,
 
 ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted,
                      const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R) {
+  if (!predicted.pairs.empty()) return updated_by_pairs(set, predicted, position_m, R);
   ImmUpdate update;
   for (std::size_t i = 0; i < set.size; ++i) {
     const auto mode = update_with_position(predicted.modes[i], position_m, R);
     update.posterior.modes[i] = mode.posterior;
     update.posterior.probability[i] =
-        mode.innovation.log_likelihood + std::log(std::max(predicted.probability[i], 1e-300));
+        mode.innovation.log_likelihood + log_of(predicted.probability[i]);
   }
   update.log_likelihood = normalize_logs({update.posterior.probability.data(), set.size});
   return update;
@@ -119,14 +171,9 @@ ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted,
 ImmState imm_update_speed(const ModelSet& set, const ImmState& predicted,
                           const Eigen::Vector2d& direction, double speed_mps, double variance) {
   ImmState posterior = predicted;
-  for (std::size_t i = 0; i < set.size; ++i) {
-    MotionState& mode = posterior.modes[i];
-    // H = (0, direction, 0)
-    const Eigen::Matrix<double, 6, 1> Ph = mode.covariance.middleCols<2>(2) * direction;
-    const double S = direction.dot(Ph.segment<2>(2)) + variance;
-    mode.mean += Ph * ((speed_mps - direction.dot(mode.mean.segment<2>(2))) / S);
-    mode.covariance -= Ph * (Ph.transpose() / S);
-  }
+  for (std::size_t i = 0; i < set.size; ++i)
+    update_speed(posterior.modes[i], direction, speed_mps, variance);
+  for (MotionState& pair : posterior.pairs) update_speed(pair, direction, speed_mps, variance);
   return posterior;
 }
 
@@ -141,11 +188,13 @@ void imm_foretell(const ModelSet& set, const ImmState& state, double step_s,
 
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m) {
   for (std::size_t i = 0; i < set.size; ++i) state.modes[i].mean.head<2>() += shift_m;
+  for (MotionState& pair : state.pairs) pair.mean.head<2>() += shift_m;
 }
 
 void imm_loosen(const ModelSet& set, ImmState& state, const Eigen::Matrix2d& covariance_m2) {
   for (std::size_t i = 0; i < set.size; ++i)
     state.modes[i].covariance.topLeftCorner<2, 2>() += covariance_m2;
+  for (MotionState& pair : state.pairs) pair.covariance.topLeftCorner<2, 2>() += covariance_m2;
 }
 
 }  // namespace slammot::filters

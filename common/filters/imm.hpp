@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -10,10 +11,17 @@
 
 namespace slammot::filters {
 
+/// Estimate of an object that switches between motion models. The functions below work for each
+/// Mixture of the model set; the IMM is the default.
+
 /// One estimate a model, with the model probabilities.
 struct ImmState {
   std::array<MotionState, kMaxModels> modes;
   ModelWeights probability = {};
+  /// Of GPB2, between prediction and update: estimates and probabilities of all pairs of models,
+  /// at index to * size + from. Empty otherwise. Unlike the rest it allocates.
+  std::vector<MotionState> pairs;
+  std::vector<double> pair_probability;
 };
 
 struct ImmUpdate {
@@ -24,7 +32,8 @@ struct ImmUpdate {
 /// Initializes every model with the same estimate; all models are equally probable.
 ImmState imm_start(const ModelSet& set, const MotionState& estimate);
 
-/// Mixing (Wang 2004, Eqs. 2.49-2.51) and mode-matched prediction over time_s >= 0. Switching
+/// Mixing (Wang 2004, Eqs. 2.49-2.51) and mode-matched prediction over time_s >= 0. GPB1 mixes all
+/// models into one estimate; GPB2 predicts all pairs, which the update merges. Switching
 /// probabilities follow from the time and the mean stay, not from the number of scans. The model
 /// set may differ from that of the step before if one is a prefix of the other (variable structure:
 /// Li and Bar-Shalom 1996). A new model gets its probability by switches; the last remaining model
@@ -37,7 +46,8 @@ Innovation<2> imm_innovation(const ModelSet& set, const ImmState& predicted,
                              const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R);
 
 /// Mode-matched update with a measured position (covariance R, positive definite), and update of
-/// the model probabilities; Wang 2004, Eqs. (2.46)-(2.47).
+/// the model probabilities; Wang 2004, Eqs. (2.46)-(2.47). Of GPB2: of all pairs, merged by the
+/// model in which they end, Eq. (2.42).
 ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted,
                      const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R);
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include <Eigen/Core>
@@ -13,11 +14,20 @@ namespace slammot::filters {
 
 inline constexpr std::size_t kMaxModels = 3;
 
+/// Which histories of modes are merged, and when (Wang 2004, Section 2.3): what every model starts
+/// its prediction from. r models.
+enum class Mixture : std::uint8_t {
+  kImm = 0,   ///< The mixed estimate of each model: r filters (Eqs. 2.48-2.51).
+  kGpb1 = 1,  ///< One estimate for all models: r filters (Eq. 2.41; Tugnait 1982).
+  kGpb2 = 2,  ///< Every model's estimate, merged after the update: r^2 filters (Eq. 2.42).
+};
+
 /// Set of motion models between which an object is assumed to switch.
 struct ModelSet {
   std::array<MotionModel, kMaxModels> models;
   std::size_t size = 0;      ///< Number of models in use, from the front; at least 1.
   double mean_stay_s = 1.0;  ///< Mean time in one model before a switch, > 0.
+  Mixture mixture = Mixture::kImm;
 };
 
 using ModelWeights = std::array<double, kMaxModels>;

@@ -156,6 +156,20 @@ Matrix6 spread_by_constant_velocity(const Matrix6& P, double time_s) {
   return spread;
 }
 
+/// Wang 2004, Eqs. (4.14)-(4.16); the velocity is that of the step, the acceleration idle.
+MotionState stopped(const MotionModel& model, const MotionState& state, double time_s) {
+  MotionState next;
+  next.mean.head<2>() = state.mean.head<2>();
+  const Matrix2 velocity = model.noise_density * Matrix2::Identity();
+  next.covariance.topLeftCorner<2, 2>() =
+      state.covariance.topLeftCorner<2, 2>() + time_s * time_s * velocity;
+  next.covariance.block<2, 2>(0, 2) = next.covariance.block<2, 2>(2, 0) = time_s * velocity;
+  next.covariance.block<2, 2>(2, 2) = velocity;
+  next.covariance.block<2, 2>(4, 4) =
+      model.idle_acceleration_mps2 * model.idle_acceleration_mps2 * Matrix2::Identity();
+  return next;
+}
+
 }  // namespace
 
 Matrix6 constant_velocity_transition(double time_s) {
@@ -197,6 +211,7 @@ MotionState predict(const MotionModel& model, const MotionState& state, double t
       return {accelerated(state.mean, time_s),
               with_noise(spread_by_constant_acceleration(state.covariance, time_s),
                          axis_noise_of_constant_acceleration(time_s, model.noise_density))};
+    case MotionKind::kStop: return stopped(model, state, time_s);
     case MotionKind::kCoordinatedTurn: break;
   }
   const Turn turn = turn_of(state.mean, time_s);

@@ -14,13 +14,21 @@ using MotionState = Gaussian<6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-enum class MotionKind : std::uint8_t { kConstantVelocity, kConstantAcceleration, kCoordinatedTurn };
+enum class MotionKind : std::uint8_t {
+  kConstantVelocity,
+  kConstantAcceleration,
+  kCoordinatedTurn,
+  /// The stop model simplified from constant velocity (Wang 2004, Eqs. 4.13-4.16), which degrades a
+  /// mixture (Section 4.5). For comparison; tracking stops by filters::MoveStop.
+  kStop
+};
 
 struct MotionModel {
   MotionKind kind = MotionKind::kConstantVelocity;
   /// Power spectral density of the white noise on the highest derivative: of acceleration for
   /// constant velocity [m^2/s^3], of jerk for the others [m^2/s^5]. A density is independent of the
-  /// scan rate, unlike the thesis' noise per sampling period (Eqs. 4.7, 4.12).
+  /// scan rate, unlike the thesis' noise per sampling period (Eqs. 4.7, 4.12). Of the stop model:
+  /// the variance of the velocity, drawn anew at each step [m^2/s^2].
   double noise_density = 1.0;
   /// One sigma of the acceleration [m/s^2] that the constant-velocity model does not estimate. A
   /// mixture passes it to models with an acceleration. Zero would claim an acceleration of exactly

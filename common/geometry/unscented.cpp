@@ -1,5 +1,6 @@
 #include "common/geometry/unscented.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slammot::geometry::unscented {
@@ -78,6 +79,27 @@ UncertainPose2 compound(const UncertainPose2& a_from_b, const UncertainPose2& b_
                         const Matrix3& cross) {
   return of_two(a_from_b, b_from_c, cross,
                 [](const Pose2& ab, const Pose2& bc) { return ab * bc; });
+}
+
+double linearization_error(const UncertainPose2& a_from_b, const UncertainPose2& b_from_c,
+                           const Matrix3& cross) {
+  const Vector2 lever_in_a = rotation(a_from_b.pose.heading_rad) * b_from_c.pose.translation_m();
+  const double lever_m = lever_in_a.norm();
+  const double bend_m = 0.5 * lever_m * a_from_b.covariance(2, 2);
+  if (bend_m <= 0.0) return 0.0;
+  const Vector2 along = lever_in_a / lever_m;
+  const Vector2 across{-along.y(), along.x()};
+  const Eigen::Matrix2d position =
+      geometry::compound(a_from_b, b_from_c, cross).covariance.topLeftCorner<2, 2>();
+  return std::max(bend_m / std::sqrt(std::max(along.dot(position * along), 0.0)),
+                  2.0 * bend_m / std::sqrt(std::max(across.dot(position * across), 0.0)));
+}
+
+UncertainPose2 compound_as_needed(const UncertainPose2& a_from_b, const UncertainPose2& b_from_c,
+                                  const Matrix3& cross) {
+  return linearization_error(a_from_b, b_from_c, cross) > kLargestLinearizationError
+             ? unscented::compound(a_from_b, b_from_c, cross)
+             : geometry::compound(a_from_b, b_from_c, cross);
 }
 
 UncertainPose2 inverse(const UncertainPose2& a_from_b) {

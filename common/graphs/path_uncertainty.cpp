@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "common/geometry/unscented.hpp"
+
 namespace slammot::graphs {
 namespace {
 
@@ -62,7 +64,8 @@ std::map<SubmapId, Arrival> arrivals_from(SubmapId root,
     if (found == steps.end()) continue;
     for (const Step& step : found->second) {
       if (arrivals.contains(step.to)) continue;
-      const UncertainPose2 next = geometry::compound(reached.arrival.root_from_node, step.from_to);
+      const UncertainPose2 next =
+          geometry::unscented::compound_as_needed(reached.arrival.root_from_node, step.from_to);
       queue.push({position_sigma_m(next), step.to, {next, reached.node, step.constraint}});
     }
   }

@@ -10,6 +10,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/graphs/relative_pose.hpp"
+
 namespace slammot::graphs {
 namespace {
 
@@ -33,25 +35,14 @@ class RelativePoseCost final : public ceres::SizedCostFunction<3, 3, 3> {
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const Pose2 map_from_from{blocks[0][0], blocks[0][1], blocks[0][2]};
     const Pose2 map_from_to{blocks[1][0], blocks[1][1], blocks[1][2]};
-    const Pose2 from_to = geometry::inverse(map_from_from) * map_from_to;
+    const RelativePose relative = relative_pose(map_from_from, map_from_to);
     const Matrix3 whitening = std::sqrt(weight_) * unweighted_;
-    Eigen::Map<Eigen::Vector3d>{residuals} = whitening * geometry::difference(from_to, measured_);
+    Eigen::Map<Eigen::Vector3d>{residuals} =
+        whitening * geometry::difference(relative.from_to, measured_);
     if (jacobians == nullptr) return true;
-    const Eigen::Matrix2d turn_back = geometry::rotation(-map_from_from.heading_rad);
     using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-    if (jacobians[0] != nullptr) {
-      Matrix3 J = Matrix3::Zero();
-      J.topLeftCorner<2, 2>() = -turn_back;
-      J(0, 2) = from_to.y_m;
-      J(1, 2) = -from_to.x_m;
-      J(2, 2) = -1.0;
-      Eigen::Map<RowMajor>{jacobians[0]} = whitening * J;
-    }
-    if (jacobians[1] != nullptr) {
-      Matrix3 J = Matrix3::Identity();
-      J.topLeftCorner<2, 2>() = turn_back;
-      Eigen::Map<RowMajor>{jacobians[1]} = whitening * J;
-    }
+    if (jacobians[0] != nullptr) Eigen::Map<RowMajor>{jacobians[0]} = whitening * relative.by_from;
+    if (jacobians[1] != nullptr) Eigen::Map<RowMajor>{jacobians[1]} = whitening * relative.by_to;
     return true;
   }
 
@@ -83,6 +74,7 @@ void PoseGraph::add_node(flow::SubmapId id, const Pose2& map_from_node) {
 
 void PoseGraph::move_node(flow::SubmapId id, const Pose2& map_from_node) {
   map_from_node_[index_of_.at(id)] = map_from_node;
+  filtered_.reset();
 }
 
 void PoseGraph::add_constraint(const flow::Constraint& constraint) {
@@ -174,10 +166,14 @@ double PoseGraph::truncated_cost(double odometric_sigma_scale) const {
 }
 
 OptimisationSummary PoseGraph::optimise() {
+  if (constraints_.empty()) return {.has_converged = true};
+  return config_.estimator == Estimator::kEkf ? filter() : solve();
+}
+
+OptimisationSummary PoseGraph::solve() {
   constexpr double kGrowth = 1.6;  // growth of the non-convexity per step
   constexpr int kIterationsPerStep = 3;
   constexpr int kMostSteps = 40;
-  if (constraints_.empty()) return {.has_converged = true};
   const double limit = config_.loop_loss_scale * config_.loop_loss_scale;
   const auto can_lose_weight = [&](std::size_t i) {
     return is_enabled_[i] && constraints_[i].kind == flow::ConstraintKind::kLoop && limit > 0.0;

@@ -2,15 +2,24 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "common/flow/graph_correction.hpp"
 #include "common/flow/ids.hpp"
 #include "common/geometry/pose2.hpp"
+#include "common/graphs/submap_filter.hpp"
 
 namespace slammot::graphs {
 
+/// What estimates the poses from the constraints.
+enum class Estimator {
+  kGraph,  ///< Least squares over all constraints (Grisetti et al. 2010).
+  kEkf,    ///< Extended Kalman filter over submaps as features (Wang 2004, sections 2.2, 3.5).
+};
+
 struct PoseGraphConfig {
+  Estimator estimator = Estimator::kGraph;
   double loop_loss_scale = 3.0;  ///< Sigmas beyond which a loop constraint is ignored (truncated
                                  ///< least squares); 0: none is ignored.
   int max_iterations = 50;       ///< Of one linearized solve.
@@ -47,7 +56,15 @@ class PoseGraph {
   /// including those with weight 0: truncated least squares by graduated non-convexity (Yang et
   /// al., RA-L 2020, Eqs. (12)-(14)). Without outliers it equals least squares. A solution with a
   /// higher truncated cost than the previous one is rejected.
+  ///
+  /// The Kalman filter takes the constraints since the last call in their order and ignores a loop
+  /// whose innovation exceeds its covariance (gate); where a constraint that it took has been
+  /// disabled since, or a node was moved, it begins again.
   OptimisationSummary optimise();
+
+  /// Covariance of each node of the first node's island relative to the first node, after the last
+  /// optimise(). Least squares: the inverse of the information, dense; for evaluation.
+  std::map<flow::SubmapId, geometry::Matrix3> covariances() const;
 
   /// Sum of squared errors of the enabled constraints: odometric ones with scaled sigmas, loops
   /// truncated.
@@ -69,6 +86,19 @@ class PoseGraph {
 
  private:
   struct Solver;
+  /// State of the Kalman filter.
+  struct Filtered {
+    SubmapFilter filter;
+    std::vector<std::optional<std::size_t>> slots;  ///< In the filter, of each node.
+    std::vector<bool> is_used;                      ///< Of each constraint.
+  };
+
+  OptimisationSummary solve();
+  OptimisationSummary filter();
+  bool can_continue_filter() const;
+  bool take_next_constraints(std::vector<bool>& is_refused);
+  bool take_constraint(std::size_t constraint);
+  bool begin_next_island();
   std::vector<double> squared_errors() const;
 
   PoseGraphConfig config_;
@@ -77,6 +107,7 @@ class PoseGraph {
   std::vector<flow::Constraint> constraints_;
   std::vector<double> weights_;   // as constraints_
   std::vector<bool> is_enabled_;  // as constraints_
+  std::optional<Filtered> filtered_;
 };
 
 /// Squared Mahalanobis distance between a constraint's measurement and the poses. Chi-square with 3

@@ -22,6 +22,26 @@ constexpr std::size_t kPlannedLanes = 4;
 constexpr double kWaysPart_m = 8.5;  ///< Past the stop line a left turn is a car's width away from
                                      ///< straight on.
 
+/// Of the vehicles sold: small cars to estates, vans, trucks without and with trailer, midibuses to
+/// articulated buses (drawn as one rigid body).
+BoxSize varied_size_of(ObjectClass kind, Random& random) {
+  constexpr double kShareOfVans = 0.15;
+  constexpr double kShareWithTrailer = 0.4;
+  switch (kind) {
+    case ObjectClass::car:
+      if (random.chance(kShareOfVans)) return {random.uniform(5.0, 6.0), random.uniform(1.9, 2.1)};
+      return {random.uniform(3.4, 5.3), random.uniform(1.6, 1.95)};
+    case ObjectClass::truck:
+      return {
+          random.chance(kShareWithTrailer) ? random.uniform(12.0, 16.5) : random.uniform(6.0, 10.0),
+          random.uniform(2.3, 2.55)};
+    case ObjectClass::bus: return {random.uniform(8.0, 18.0), 2.55};
+    case ObjectClass::bicycle:
+    case ObjectClass::pedestrian: break;
+  }
+  return usual_size(kind);
+}
+
 BoxSize size_of(ObjectClass kind, Random& random) {
   if (kind != ObjectClass::car) return usual_size(kind);
   return {random.uniform(4.0, 4.8), random.uniform(1.7, 1.9)};
@@ -99,7 +119,7 @@ Traffic::Driver Traffic::make_driver(ObjectClass kind, const TrafficConfig& conf
   Driver driver;
   driver.kind = kind;
   driver.user = kind == ObjectClass::bicycle ? RoadUser::bicycle : RoadUser::motor;
-  const BoxSize size = size_of(kind, random_);
+  const BoxSize size = config.varied_sizes ? varied_size_of(kind, random_) : size_of(kind, random_);
   driver.length_m = size.length_m;
   driver.half_width_m = 0.5 * size.width_m;
   const double spread_m = kind == ObjectClass::car ? 0.12 : 0.03;

@@ -19,8 +19,10 @@ struct TrafficConfig {
   /// Route of a stop-and-go car directly ahead of the vehicle, from its first junction on; empty:
   /// none.
   std::vector<JunctionId> car_ahead;
-  double green_s = 13.0;     ///< Of each of the two axes at a signalled junction.
-  double clearance_s = 3.0;  ///< Red for all after each green.
+  double green_s = 13.0;      ///< Of each of the two axes at a signalled junction.
+  double clearance_s = 3.0;   ///< Red for all after each green.
+  bool varied_sizes = false;  ///< Sizes differ within each class as those on the road do; otherwise
+                              ///< trucks are alike, buses are alike, and cars differ a little.
 };
 
 /// Where the vehicle goes and how it is driven.

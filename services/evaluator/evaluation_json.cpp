@@ -95,6 +95,16 @@ Json to_json(const std::vector<metrics::PredictionErrors>& predictions) {
   return rows;
 }
 
+Json to_json(const metrics::BoxErrors& errors) {
+  if (errors.rows == 0) return nullptr;
+  return {{"rows", errors.rows},
+          {"iou_median", number(errors.iou_median)},
+          {"iou_lowest_tenth", number(errors.iou_lowest_tenth)},
+          {"centre_m", to_json(errors.centre_m)},
+          {"heading_rad", to_json(errors.heading_rad)},
+          {"velocity_mps", to_json(errors.velocity_mps)}};
+}
+
 Json to_json(const TrackingEvaluation& tracking) {
   Json classes = Json::object();
   for (const auto& [name, errors] : tracking.errors.by_class) classes[name] = to_json(errors);
@@ -123,7 +133,11 @@ Json to_json(const TrackingEvaluation& tracking) {
           {"all", to_json(tracking.errors.all)},
           {"by_class", classes},
           {"by_distance", bands},
-          {"predictions", to_json(tracking.predictions)}};
+          {"predictions", to_json(tracking.predictions)},
+          {"strict_hota", to_json(tracking.strict_hota)},
+          {"vehicle_boxes", to_json(tracking.vehicle_boxes)},
+          {"stopped",
+           {{"rows", tracking.stopped.rows}, {"covered_rows", tracking.stopped.covered_rows}}}};
 }
 
 Json to_json(const metrics::OcclusionFigures& occlusion) {

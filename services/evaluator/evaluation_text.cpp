@@ -73,6 +73,18 @@ std::string describe(const std::vector<metrics::PredictionErrors>& predictions) 
   return lines;
 }
 
+std::string describe_strictly(const TrackingEvaluation& tracking) {
+  const metrics::BoxErrors& boxes = tracking.vehicle_boxes;
+  return text("  strict: HOTA %.3f   stopped objects that had moved: covered in %zu of %zu rows\n",
+              tracking.strict_hota.hota, tracking.stopped.covered_rows, tracking.stopped.rows) +
+         text(
+             "  boxes of vehicles from 2 s on, %zu rows: IoU median %.3f, lowest tenth %.3f   95 "
+             "%% "
+             "within: centre %.2f m, heading %.1f deg   velocity rmse %.2f m/s\n",
+             boxes.rows, boxes.iou_median, boxes.iou_lowest_tenth, boxes.centre_m.p95,
+             boxes.heading_rad.p95 * kDegrees, boxes.velocity_mps.rmse);
+}
+
 std::string describe(const TrackingEvaluation& tracking) {
   const metrics::ClearMot& clear = tracking.clear;
   std::string lines = text("tracking: %zu objects and %zu tracks that count, in %zu scans\n",
@@ -104,7 +116,8 @@ std::string describe(const TrackingEvaluation& tracking) {
   for (const auto& [name, errors] : tracking.errors.by_class) lines += object_row(name, errors);
   for (const metrics::DistanceBand& band : tracking.errors.by_distance)
     lines += object_row(text("%g-%g m", band.from_m, band.to_m), band.errors);
-  return lines + describe_classes(tracking.errors.by_class) + describe(tracking.predictions);
+  return lines + describe_classes(tracking.errors.by_class) + describe(tracking.predictions) +
+         describe_strictly(tracking);
 }
 
 std::string describe(const metrics::OcclusionFigures& occlusion) {
@@ -114,7 +127,7 @@ std::string describe(const metrics::OcclusionFigures& occlusion) {
     lines +=
         text("  %-12s %14s %14.1f\n", text("%g-%g s", band.from_s, band.to_s).c_str(),
              text("%zu of %zu", band.kept, band.occlusions).c_str(), 100.0 * band.covered_share());
-  lines += "  " + describe_nees("position while hidden", occlusion.position_nees);
+  lines += describe_nees("  position while hidden", occlusion.position_nees);
   lines += text("  position while hidden: rmse %.2f m over %zu rows, %.3f in the 95 %% ellipse\n",
                 occlusion.position_m.rmse, occlusion.position_m.count, occlusion.inside_share);
   lines +=

@@ -44,6 +44,10 @@ TrackingEvaluation evaluate_tracking(const Scenes& scenes,
                                              {0.0, 10.0, 20.0, 30.0, 40.0}, rule.range_m);
   evaluation.predictions =
       metrics::prediction_errors(scenes.scenes, counted, evaluation.clear.matches);
+  evaluation.vehicle_boxes = metrics::vehicle_box_errors(scenes.scenes, counted, evaluation.clear);
+  evaluation.strict_hota =
+      metrics::strict_hota(scenes.scenes, counted, object_count, scenes.track_ids.size());
+  evaluation.stopped = metrics::stopped_rows(scenes.scenes, rule);
   return evaluation;
 }
 

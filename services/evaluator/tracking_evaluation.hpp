@@ -8,6 +8,7 @@
 #include "common/metrics/identity.hpp"
 #include "common/metrics/object_errors.hpp"
 #include "common/metrics/prediction_errors.hpp"
+#include "common/metrics/strict_figures.hpp"
 #include "services/evaluator/scenes.hpp"
 
 namespace slammot::evaluator {
@@ -29,6 +30,9 @@ struct TrackingEvaluation {
   MeanGospa gospa;
   metrics::ObjectErrorTables errors;
   std::vector<metrics::PredictionErrors> predictions;  ///< By horizon; empty if none were written.
+  metrics::BoxErrors vehicle_boxes;
+  metrics::Hota strict_hota;
+  metrics::StoppedRows stopped;
 };
 
 /// Tracks against true objects. `counted`: the counted objects and tracks of each scene.

@@ -18,7 +18,6 @@ constexpr double kGateSigmas = 3.0;  // Gate of the graph's uncertainty, in addi
                                      // max_distance_m.
 constexpr int kNeighbours = 1;     // Submaps before and after the earlier one that join its target.
 constexpr int kMaxCandidates = 3;  // Targets on the same island for one new submap.
-constexpr int kMaxCandidatesElsewhere = 40;  // Targets on other islands for one new submap.
 
 struct Candidate {
   SubmapId id;
@@ -109,7 +108,8 @@ std::vector<RevisitCandidate> candidates_elsewhere(const SubmapView& submaps, co
     all.push_back({id, unknown_pose_on(target, source, submaps.config.max_distance_m),
                    (graph.map_from_node(id) * target.centre_m - source_in_map_m).norm()});
   }
-  return as_candidates(submaps, nearest(std::move(all), kMaxCandidatesElsewhere), source);
+  return as_candidates(submaps, nearest(std::move(all), submaps.config.most_targets_elsewhere),
+                       source);
 }
 
 }  // namespace slammot::loop_closing

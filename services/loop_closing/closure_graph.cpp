@@ -110,6 +110,12 @@ int ClosureGraph::group_for(const Constraint& closure) const {
   return known != closures_.end() ? known->group : static_cast<int>(closures_.size());
 }
 
+bool ClosureGraph::is_on_record(SubmapId from, SubmapId to) const {
+  const auto relates = [&](const Constraint& one) { return one.from == from && one.to == to; };
+  return std::ranges::any_of(rejected_, relates) ||
+         std::ranges::any_of(closures_, relates, &Closure::constraint);
+}
+
 bool ClosureGraph::founds_group(const Constraint& closure) const {
   return std::ranges::none_of(closures_, [group = group_for(closure)](const Closure& one) {
     return one.group == group && one.constraint.verdict.state == ClosureState::kAccepted;

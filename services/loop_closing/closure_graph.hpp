@@ -72,6 +72,9 @@ class ClosureGraph {
   Snapshot snapshot() const { return {graph_, island_of_, closures_.size()}; }
   void restore(const Snapshot& snapshot);
 
+  /// True if a closure between these two submaps was proposed, whatever its verdict.
+  bool is_on_record(flow::SubmapId from, flow::SubmapId to) const;
+
   /// True if no closure between the same two stretches is accepted.
   bool founds_group(const flow::Constraint& closure) const;
 

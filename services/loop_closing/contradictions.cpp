@@ -27,19 +27,28 @@ const Place* nearest_earlier_place(const SubmapView& submaps, const Place& sourc
 
 }  // namespace
 
-bool contradicts(const SubmapView& submaps, SubmapId target_id, const Place& source) {
+Agreement agreement_on(const SubmapView& submaps, SubmapId target_id, const Place& source) {
   const ClosureGraph& graph = submaps.graph;
-  constexpr double kMostAgreedShare = 0.6;
-  constexpr double kLeastComparedShare = 0.4;  // Share of the source's walls that must be
-                                               // comparable.
   const Target target = target_around(submaps, target_id, source);
   const Pose2 target_from_source =
       geometry::inverse(graph.map_from_node(target_id)) * graph.map_from_node(source.id);
-  const Agreement agreement =
-      agreement_after_refining(submaps.config.revisit, target, source, target_from_source);
+  return agreement_after_refining(submaps.config.revisit, target, source, target_from_source);
+}
+
+bool is_comparable(const Agreement& agreement) {
+  constexpr double kLeastComparedShare = 0.4;  // Share of the source's walls that must be
+                                               // comparable.
   return agreement.occupied_in_both + agreement.contradicted >
-             kLeastComparedShare * agreement.source_walls &&
-         agreement.agreed_share() < kMostAgreedShare;
+         kLeastComparedShare * agreement.source_walls;
+}
+
+bool contradicts(const Agreement& agreement) {
+  constexpr double kMostAgreedShare = 0.6;
+  return is_comparable(agreement) && agreement.agreed_share() < kMostAgreedShare;
+}
+
+bool contradicts(const SubmapView& submaps, SubmapId target, const Place& source) {
+  return contradicts(agreement_on(submaps, target, source));
 }
 
 bool preceding_submaps_contradict(const SubmapView& submaps, SubmapId located) {

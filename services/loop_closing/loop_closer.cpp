@@ -1,35 +1,20 @@
 #include "services/loop_closing/loop_closer.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <set>
 #include <utility>
 
 #include "services/loop_closing/contradictions.hpp"
 #include "services/loop_closing/submap_odometry.hpp"
+#include "services/loop_closing/support.hpp"
 
 namespace slammot::loop_closing {
 namespace {
 
-using flow::ConstraintKind;
 using flow::SubmapId;
-using geometry::Matrix3;
 using geometry::Pose2;
-using geometry::UncertainPose2;
 
-constexpr int kSupportWaitSubmaps = 6;   // Submaps for which a hypothesis waits for support.
-constexpr double kSamePlaceCells = 5.0;  // Greatest distance of poses of one place, in search
-                                         // cells.
-constexpr double kSamePlace_rad = 0.15;  // Greatest difference of headings of one place.
-constexpr int kMaxUnsolved = 10;  // Closures that the graph predicted, before the next solve.
-constexpr double kSameWithinSquaredSigmas = 11.3;  // Chi-square, 3 degrees of freedom, 99 %.
-
-flow::Constraint closure_of(const Hypothesis& hypothesis) {
-  flow::Constraint closure{hypothesis.from, hypothesis.to, ConstraintKind::kLoop,
-                           hypothesis.from_to};
-  closure.verdict.agreed_share = hypothesis.agreement.agreed_share();
-  return closure;
-}
+constexpr int kSupportWaitSubmaps = 6;  // Submaps for which a hypothesis waits for support.
+constexpr int kMaxUnsolved = 10;        // Closures that the graph predicted, before the next solve.
 
 }  // namespace
 
@@ -79,12 +64,26 @@ void LoopCloser::extend_graph(const flow::Submap& submap) {
   if (!begins_island(submap)) graph_.add_constraint(odometric);
 }
 
-void LoopCloser::begin_searches(const Place& source) {
+flow::GraphCorrection LoopCloser::search_again(SubmapId first) {
+  for (auto place = places_.lower_bound(first); place != places_.end(); ++place) {
+    begin_expected_searches(place->second);
+    for (const SearchQueue::Finished& search : searches_.advance()) take(search);
+    close_supported();
+  }
+  return finish();
+}
+
+void LoopCloser::begin_expected_searches(const Place& source) {
   for (RevisitCandidate& candidate : expected_candidates(submaps(), source)) {
+    if (graph_.is_on_record(candidate.target.members.front().place->id, source.id)) continue;
     ++counters_.searches;
     searches_.add({config_.revisit, source, {std::move(candidate)}},
                   SearchQueue::Extent::kExpected);
   }
+}
+
+void LoopCloser::begin_searches(const Place& source) {
+  begin_expected_searches(source);
   std::vector<RevisitCandidate> elsewhere = candidates_elsewhere(submaps(), source);
   if (elsewhere.empty()) return;
   counters_.searches += elsewhere.size();
@@ -106,8 +105,9 @@ void LoopCloser::take(const SearchQueue::Finished& search) {
   if (search.extent == SearchQueue::Extent::kEverywhere) {
     drop_clearly_worse(found, config_.revisit.rival_ratio);
     for (Hypothesis& one : found) {
-      one.has_rivals = std::any_of(found.begin(), found.end(),
-                                   [&](const Hypothesis& other) { return are_rivals(one, other); });
+      one.has_rivals = std::any_of(found.begin(), found.end(), [&](const Hypothesis& other) {
+        return are_rivals(submaps(), one, other);
+      });
     }
   }
   if (search.is_given_up) {
@@ -116,51 +116,6 @@ void LoopCloser::take(const SearchQueue::Finished& search) {
   if (std::any_of(found.begin(), found.end(), [](const Hypothesis& one) { return one.has_rivals; }))
     ++counters_.ambiguous;
   waiting_.insert(waiting_.end(), found.begin(), found.end());
-}
-
-/// True if both place one submap on one island, at different poses.
-bool LoopCloser::are_rivals(const Hypothesis& a, const Hypothesis& b) const {
-  if (a.to != b.to || !graph_.are_on_one_island(a.from, b.from)) return false;
-  const Eigen::Vector3d apart = geometry::difference(graph_.map_from_node(a.from) * a.from_to.pose,
-                                                     graph_.map_from_node(b.from) * b.from_to.pose);
-  return apart.head<2>().norm() > kSamePlaceCells * search_cell_m(places_.at(a.to)) ||
-         std::abs(apart.z()) > kSamePlace_rad;
-}
-
-/// Covariance of the relative pose of two submaps of one drive, by a drift model: two correct
-/// hypotheses differ by this drift.
-Matrix3 LoopCloser::drift_between(SubmapId a, SubmapId b) const {
-  constexpr double kDriftShare = 0.02;     // Sigma of the position as a share of the distance.
-  constexpr double kDrift_radpm = 0.0005;  // Sigma of the heading by distance [rad/m].
-  const double way_m =
-      std::abs(places_.at(a).travelled_before_m - places_.at(b).travelled_before_m);
-  return Eigen::Vector3d(kDriftShare * way_m, kDriftShare * way_m, kDrift_radpm * way_m)
-      .cwiseAbs2()
-      .asDiagonal();
-}
-
-bool LoopCloser::agree(const Hypothesis& a, const Hypothesis& b) const {
-  const UncertainPose2 between_earlier{
-      geometry::inverse(graph_.map_from_node(a.from)) * graph_.map_from_node(b.from),
-      drift_between(a.from, b.from)};
-  const Pose2 a_to_from_b_to =
-      geometry::inverse(graph_.map_from_node(a.to)) * graph_.map_from_node(b.to);
-  UncertainPose2 to_to_by_both = geometry::compound(
-      geometry::compound(geometry::inverse(a.from_to), between_earlier), b.from_to);
-  to_to_by_both.covariance += drift_between(a.to, b.to);
-  return graphs::squared_error({a.to, b.to, ConstraintKind::kLoop, to_to_by_both},
-                               Pose2::identity(), a_to_from_b_to) < kSameWithinSquaredSigmas;
-}
-
-int LoopCloser::support_of(const Hypothesis& hypothesis) const {
-  std::set<SubmapId> supporters{hypothesis.to};
-  for (const Hypothesis& other : waiting_) {
-    const bool is_comparable = graph_.are_on_one_island(other.to, hypothesis.to) &&
-                               graph_.are_on_one_island(other.from, hypothesis.from);
-    if (other.to != hypothesis.to && is_comparable && agree(hypothesis, other))
-      supporters.insert(other.to);
-  }
-  return static_cast<int>(supporters.size());
 }
 
 int LoopCloser::needed_support_for(const Hypothesis& hypothesis) const {
@@ -173,18 +128,19 @@ void LoopCloser::close_supported() {
   for (const Hypothesis& hypothesis : waiting_) {
     if (hypothesis.agreement.agreed_share() < config_.revisit.min_agreed_share)
       continue;  // Too weak for a closure; it still supports others.
-    const int support = support_of(hypothesis);
+    const int support = support_of(submaps(), waiting_, hypothesis);
     if (support < needed_support_for(hypothesis)) continue;
     const bool has_supported_rival =
         std::any_of(waiting_.begin(), waiting_.end(), [&](const Hypothesis& other) {
           // A hypothesis on another island must be the only one with support.
           const bool is_found_elsewhere = !graph_.are_on_one_island(hypothesis.from, hypothesis.to);
           if (is_found_elsewhere)
-            return are_rivals(hypothesis, other) &&
-                   support_of(other) >= std::min(support, config_.needed_support);
+            return are_rivals(submaps(), hypothesis, other) &&
+                   support_of(submaps(), waiting_, other) >=
+                       std::min(support, config_.needed_support);
           const bool is_rival =
               other.to == hypothesis.to && other.from == hypothesis.from && &other != &hypothesis;
-          return is_rival && support_of(other) >= support;
+          return is_rival && support_of(submaps(), waiting_, other) >= support;
         });
     if (!has_supported_rival) supported.push_back(hypothesis);
   }
@@ -200,6 +156,17 @@ void LoopCloser::close_supported() {
   }
 }
 
+/// True if as many submaps as the hypothesis needs agree with it, with each other and, once its
+/// islands are joined, with the graph.
+bool LoopCloser::holds_after_join(const Hypothesis& hypothesis,
+                                  const std::vector<Hypothesis>& supporters) const {
+  const auto fits = std::ranges::count_if(supporters, [&](const Hypothesis& one) {
+    return one.to == hypothesis.to ||
+           error_with_graph_uncertainty(graph_, closure_of(one)) <= kMaxSquaredError;
+  });
+  return fits >= needed_support_for(hypothesis);
+}
+
 bool LoopCloser::close(const Hypothesis& hypothesis) {
   flow::Constraint closure = closure_of(hypothesis);
   const bool joins = !graph_.are_on_one_island(hypothesis.from, hypothesis.to);
@@ -210,13 +177,15 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
   }
   unsolved_ = 0;
   const ClosureGraph::Snapshot before = graph_.snapshot();
+  std::vector<Hypothesis> supporters;
   if (joins) {
+    supporters = consistent_set(submaps(), waiting_, hypothesis);
     graph_.join_islands(closure);
   } else {
-    closure.verdict.squared_error = error_with_graph_uncertainty(closure);
+    closure.verdict.squared_error = error_with_graph_uncertainty(graph_, closure);
     // The graph may be wrong: with enough agreeing submaps a closure may contradict it.
     if (closure.verdict.squared_error > kMaxSquaredError &&
-        support_of(hypothesis) < config_.needed_when_ambiguous) {
+        support_of(submaps(), waiting_, hypothesis) < config_.needed_when_ambiguous) {
       graph_.reject(closure, "contradicts the graph by more than its uncertainty");
       return false;
     }
@@ -225,6 +194,11 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
   propose(hypothesis);
   if (!joins) graph_.solve_since(before);
   const bool is_active = graph_.is_newest_active();
+  if (joins && !holds_after_join(hypothesis, supporters)) {
+    graph_.restore(before);
+    graph_.reject(closure, "the submaps that support it contradict each other");
+    return false;
+  }
   if (is_active && is_first_of_group && preceding_submaps_contradict(submaps(), hypothesis.to)) {
     graph_.restore(before);
     closure.verdict.squared_error = graph_.error_of(closure);
@@ -236,13 +210,6 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
                          std::to_string(hypothesis.to.value));
   if (is_active) graph_.confirm_path(hypothesis.from, hypothesis.to);
   return is_active;
-}
-
-/// Chi-square of a closure against the graph, given the covariances of both.
-double LoopCloser::error_with_graph_uncertainty(const flow::Constraint& closure) const {
-  flow::Constraint widened = closure;
-  widened.from_to.covariance += graph_.expectations_from(closure.from).at(closure.to).covariance;
-  return graph_.error_of(widened);
 }
 
 /// In a large graph, a closure that the graph predicts within the closure's covariance hardly moves
@@ -261,10 +228,11 @@ void LoopCloser::solve_deferred() {
 
 void LoopCloser::propose(const Hypothesis& hypothesis) {
   flow::Constraint closure = closure_of(hypothesis);
-  closure.verdict.reason = "supported by " + std::to_string(support_of(hypothesis)) + " submaps";
+  closure.verdict.reason =
+      "supported by " + std::to_string(support_of(submaps(), waiting_, hypothesis)) + " submaps";
   graph_.propose(closure, [&](const flow::Constraint& excluded) {
     return agree(
-        hypothesis,
+        submaps(), hypothesis,
         {.from = excluded.from, .to = excluded.to, .from_to = excluded.from_to, .agreement = {}});
   });
 }

@@ -32,6 +32,11 @@ class LoopCloser {
   /// the poses of all submaps.
   flow::GraphCorrection finish();
 
+  /// Searches once more for the submaps from `first` on, where their corrected poses overlap
+  /// earlier submaps that no closure relates them to yet. Finds revisits that were driven through
+  /// before their island was located. Call after finish().
+  flow::GraphCorrection search_again(flow::SubmapId first);
+
   /// True if finish() has work to do.
   bool has_unfinished_work() const { return !searches_.is_empty() || unsolved_ > 0; }
 
@@ -43,19 +48,19 @@ class LoopCloser {
   std::vector<flow::Constraint> constraints() const { return graph_.constraints(); }
   const LoopClosingCounters& counters() const { return counters_; }
 
- private:
+  /// All submaps so far with their graph; valid until the next change.
   SubmapView submaps() const { return {config_, places_, graph_}; }
+
+ private:
   void extend_graph(const flow::Submap& submap);
+  void begin_expected_searches(const Place& source);
   void begin_searches(const Place& source);
   void take(const SearchQueue::Finished& search);
-  bool are_rivals(const Hypothesis& a, const Hypothesis& b) const;
   void close_supported();
-  int support_of(const Hypothesis& hypothesis) const;
-  geometry::Matrix3 drift_between(flow::SubmapId a, flow::SubmapId b) const;
-  bool agree(const Hypothesis& a, const Hypothesis& b) const;
   int needed_support_for(const Hypothesis& hypothesis) const;
   bool close(const Hypothesis& hypothesis);
-  double error_with_graph_uncertainty(const flow::Constraint& closure) const;
+  bool holds_after_join(const Hypothesis& hypothesis,
+                        const std::vector<Hypothesis>& supporters) const;
   bool can_defer_solving(const flow::Constraint& closure) const;
   void solve_deferred();
   void propose(const Hypothesis& hypothesis);

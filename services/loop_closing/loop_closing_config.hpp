@@ -17,6 +17,8 @@ struct LoopClosingConfig {
   int needed_support = 2;         ///< Submaps that must agree otherwise.
   int needed_when_ambiguous = 3;  ///< Submaps that must agree where other places fit nearly as
                                   ///< well.
+  int most_targets_elsewhere = 40;  ///< Submaps of other islands that one new submap is searched
+                                    ///< for on.
   PlaceConfig place;
   RevisitConfig revisit;
   SearchBudget search;

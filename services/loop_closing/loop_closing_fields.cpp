@@ -56,6 +56,16 @@ FieldTable<RevisitConfig> revisit_fields() {
       "registration", &C::registration, registration_fields());
 }
 
+config::Field<LoopClosingConfig> estimator_field() {
+  return {"estimator",
+          [](LoopClosingConfig& config) -> config::Value {
+            return config::value_in(config.graph.estimator);
+          },
+          "What estimates the poses of the submaps: graph, least squares over all constraints, or "
+          "ekf, a Kalman filter over submaps as features (docs/decisions/loop-closing.md).",
+          {}};
+}
+
 FieldTable<LoopClosingConfig> all_fields() {
   using C = LoopClosingConfig;
   FieldTable<C> table = {
@@ -80,6 +90,7 @@ FieldTable<LoopClosingConfig> all_fields() {
   };
   table = with_nested(std::move(table), "place", &C::place, place_fields());
   table = with_nested(std::move(table), "revisit", &C::revisit, revisit_fields());
+  table.push_back(estimator_field());
   return config::in_group(config::Group::closing, std::move(table));
 }
 

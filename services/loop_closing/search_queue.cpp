@@ -19,8 +19,7 @@ std::vector<SearchQueue::Finished> SearchQueue::advance() {
 }
 
 double SearchQueue::everywhere_share() const {
-  constexpr int kPatience = 5;
-  return static_cast<double>(kPatience) / std::max(kPatience, failures_in_a_row_);
+  return static_cast<double>(budget_.patience) / std::max(budget_.patience, failures_in_a_row_);
 }
 
 std::vector<SearchQueue::Finished> SearchQueue::advance(double most_work, double most_everywhere) {

@@ -13,6 +13,8 @@ struct SearchBudget {
   double work_per_search = 160e6;  ///< A search is given up after so many cells.
   double work_at_end = 80e6;       ///< For pending searches when the drive ends.
   int most_waiting = 6;            ///< With more pending searches the oldest is given up.
+  int patience = 5;                ///< Unsuccessful searches everywhere in a row before each
+                                   ///< further one reduces the share of the next.
 };
 
 /// Schedules searches in pieces of counted work: first near expected poses, then in their full

@@ -90,6 +90,8 @@ FieldTable<TrafficConfig> traffic_fields() {
        kPositive},
       {"clearance_s", &TrafficConfig::clearance_s, "Duration of red for all after each green.",
        kNotNegative},
+      {"varied_sizes", &TrafficConfig::varied_sizes,
+       "Cars from 3.4 to 5.3 m, vans, trucks from 6 to 16.5 m and buses from 8 to 18 m."},
   };
 }
 

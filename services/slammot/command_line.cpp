@@ -18,6 +18,8 @@
 #include "services/slammot/collect_command.hpp"
 #include "services/slammot/config_command.hpp"
 #include "services/slammot/health_command.hpp"
+#include "services/slammot/live_command.hpp"
+#include "services/slammot/map_command.hpp"
 #include "services/slammot/run_command.hpp"
 
 namespace slammot {
@@ -37,21 +39,36 @@ std::vector<std::string> options_of(const CLI::App& command) {
   return names;
 }
 
+bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 /// Message about an unknown command, or an unknown option of a command.
 std::optional<std::string> unknown_word(CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty() || words.front().starts_with("-")) return std::nullopt;
   const std::vector<std::string> commands = commands_of(app);
-  if (std::find(commands.begin(), commands.end(), words.front()) == commands.end()) {
+  if (!is_one_of(words.front(), commands)) {
     return "unknown command '" + words.front() + "'" +
            config::hint_at_nearest(words.front(), commands) + "; slammot --help lists all";
   }
-  const std::vector<std::string> options = options_of(*app.get_subcommand(words.front()));
-  for (auto word = words.begin() + 1; word != words.end() && *word != "--"; ++word) {
+  CLI::App* command = app.get_subcommand(words.front());
+  std::string name_of_command = words.front();
+  auto word = words.begin() + 1;
+  for (; word != words.end() && is_one_of(*word, commands_of(*command)); ++word) {
+    command = command->get_subcommand(*word);
+    name_of_command += " " + *word;
+  }
+  const std::vector<std::string> parts = commands_of(*command);
+  if (!parts.empty() && word != words.end() && !word->starts_with("-"))
+    return "unknown command '" + name_of_command + " " + *word + "'" +
+           config::hint_at_nearest(*word, parts) + "; slammot " + name_of_command +
+           " --help lists all";
+  const std::vector<std::string> options = options_of(*command);
+  for (; word != words.end() && *word != "--"; ++word) {
     const std::string name = word->substr(0, word->find('='));
-    if (!name.starts_with("--") || std::find(options.begin(), options.end(), name) != options.end())
-      continue;
-    return "unknown option '" + name + "' of " + words.front() +
-           config::hint_at_nearest(name, options) + "; slammot " + words.front() +
+    if (!name.starts_with("--") || is_one_of(name, options)) continue;
+    return "unknown option '" + name + "' of " + name_of_command +
+           config::hint_at_nearest(name, options) + "; slammot " + name_of_command +
            " --help lists all";
   }
   return std::nullopt;
@@ -71,6 +88,8 @@ int run_command_line(int argc, char** argv) {
   add_collect_command(app, exit_code);
   add_config_command(app, exit_code);
   add_health_command(app, exit_code);
+  add_live_command(app, exit_code);
+  add_map_command(app, exit_code);
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);
   evaluator::add_report_command(app, exit_code);

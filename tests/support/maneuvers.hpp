@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <random>
 #include <vector>
 
@@ -10,17 +7,13 @@
 
 #include "common/filters/model_set.hpp"
 #include "common/filters/motion_models.hpp"
+#include "common/simulation/maneuvers.hpp"
 
-/// The simulations of Wang 2004, Section 4.3: a point, seen from a scanner at rest with a noise of
-/// 0.1 m. What the text does not say (the sampling period, the phases of the move-stop-move
-/// maneuver) is chosen here.
+/// The simulated motions of common/simulation/maneuvers.hpp, measured, and filters for them.
 namespace slammot::testing {
 
 using filters::Vector6;
-using Maneuver = std::function<Vector6(double time_s)>;
-
-inline constexpr double kManeuverSigmaM = 0.1;
-inline constexpr double kManeuverPeriodS = 0.1;
+using Maneuver = simulation::StateAt;
 
 /// The models that follow them.
 inline filters::ModelSet velocity_and_acceleration() {
@@ -32,52 +25,18 @@ inline filters::ModelSet velocity_and_acceleration() {
   return set;
 }
 
-inline Vector6 along_x(double x_m, double speed_mps, double acceleration_mps2) {
-  Vector6 state;
-  state << x_m, 0.0, speed_mps, 0.0, acceleration_mps2, 0.0;
-  return state;
-}
-
-/// Case 1, Figures 4.2 and 4.3.
-inline Vector6 accelerating(double t) {
-  return along_x(5.0 * t + 5.0 * t * t, 5.0 + 10.0 * t, 10.0);
-}
-
-/// Case 2, Figures 4.4 and 4.5.
-inline Vector6 cruising(double t) { return along_x(15.0 * t, 15.0, 0.0); }
-
-/// Case 3, Figures 4.6 and 4.7.
-inline Vector6 turning(double t) {
-  const double rate_radps = 18.0 * M_PI / 180.0;
-  const double angle = rate_radps * t;
-  Vector6 state;
-  state << 15.0 / rate_radps * std::sin(angle), 15.0 / rate_radps * (1.0 - std::cos(angle)),
-      15.0 * std::cos(angle), 15.0 * std::sin(angle), -15.0 * rate_radps * std::sin(angle),
-      15.0 * rate_radps * std::cos(angle);
-  return state;
-}
-
-inline Vector6 standing(double) { return Vector6::Zero(); }
-
-/// When the phases of the move-stop-move maneuver end.
-inline constexpr double kBrakesAtS = 2.0;
-inline constexpr double kStandsAtS = 4.0;
-inline constexpr double kStartsAtS = 9.0;
-inline constexpr double kCruisesAtS = 11.0;
-inline constexpr double kStopXM = 30.0;
-
-/// Case 4, Figures 4.8 and 4.9: 10 m/s, 5 m/s^2 down to a stop of 5 s, and the same back.
-inline Vector6 moving_stopping_moving(double t) {
-  if (t < kBrakesAtS) return along_x(10.0 * t, 10.0, 0.0);
-  if (t < kStandsAtS)
-    return along_x(kStopXM - 2.5 * (kStandsAtS - t) * (kStandsAtS - t), 5.0 * (kStandsAtS - t),
-                   -5.0);
-  if (t < kStartsAtS) return along_x(kStopXM, 0.0, 0.0);
-  if (t < kCruisesAtS)
-    return along_x(kStopXM + 2.5 * (t - kStartsAtS) * (t - kStartsAtS), 5.0 * (t - kStartsAtS),
-                   5.0);
-  return along_x(kStopXM + 10.0 + 10.0 * (t - kCruisesAtS), 10.0, 0.0);
-}
+using simulation::accelerating;
+using simulation::cruising;
+using simulation::kBrakesAtS;
+using simulation::kCruisesAtS;
+using simulation::kManeuverPeriodS;
+using simulation::kManeuverSigmaM;
+using simulation::kStandsAtS;
+using simulation::kStartsAtS;
+using simulation::kStopXM;
+using simulation::moving_stopping_moving;
+using simulation::standing;
+using simulation::turning;
 
 /// Positions measured at the periods 1, 2, ...
 inline std::vector<Eigen::Vector2d> measured(const Maneuver& truth_at, int scans, unsigned seed) {

@@ -108,6 +108,65 @@ TEST(Gpb, OfEitherOrderIsAKalmanFilterWhenThereIsOneModel) {
   EXPECT_THAT(second.covariance, MatrixNear(expected.covariance, 1e-12));
 }
 
+/// Both estimates after each of 60 noisy scans of a turn, the third and every further seventh
+/// missing.
+template <class Compare>
+void for_each_scan_of_a_turn(const ModelSet& set, const Compare& compare) {
+  const auto positions_m = measured(testing::turning, 60, 7);
+  ImmState mixture = imm_start(set, start_of(testing::turning));
+  double after_s = 0.0;
+  for (std::size_t scan = 0; scan < positions_m.size(); ++scan) {
+    after_s += kManeuverPeriodS;
+    if (scan % 7 == 2) continue;
+    mixture =
+        imm_update(set, imm_predict(set, mixture, after_s), positions_m[scan], maneuver_noise_m2())
+            .posterior;
+    compare(mixture, PositionFix{after_s, positions_m[scan], maneuver_noise_m2()});
+    after_s = 0.0;
+  }
+}
+
+TEST(Gpb, OfFirstOrderIsPredictionAndUpdateOfAMixtureThatIsOneEstimate) {
+  ModelSet set = velocity_and_acceleration();
+  set.mixture = Mixture::kGpb1;
+  Gpb1State whole = gpb1_start(set, start_of(testing::turning));
+  for_each_scan_of_a_turn(set, [&](const ImmState& mixture, const PositionFix& fix) {
+    whole = gpb1_step(set, whole, fix);
+    EXPECT_THAT(imm_combine(set, mixture).mean, MatrixNear(whole.estimate.mean, 1e-8));
+    EXPECT_THAT(imm_combine(set, mixture).covariance, MatrixNear(whole.estimate.covariance, 1e-8));
+    EXPECT_NEAR(mixture.probability[1], whole.probability[1], 1e-10);
+  });
+}
+
+TEST(Gpb, OfSecondOrderIsPredictionAndUpdateOfAMixtureOfPairs) {
+  ModelSet set = velocity_and_acceleration();
+  set.mixture = Mixture::kGpb2;
+  ImmState whole = imm_start(set, start_of(testing::turning));
+  for_each_scan_of_a_turn(set, [&](const ImmState& mixture, const PositionFix& fix) {
+    whole = gpb2_step(set, whole, fix);
+    EXPECT_THAT(mixture.modes[0].mean, MatrixNear(whole.modes[0].mean, 1e-8));
+    EXPECT_THAT(mixture.modes[1].covariance, MatrixNear(whole.modes[1].covariance, 1e-8));
+    EXPECT_NEAR(mixture.probability[1], whole.probability[1], 1e-10);
+    EXPECT_TRUE(mixture.pairs.empty());
+  });
+}
+
+TEST(Gpb, OfSecondOrderMovesAllPairsWithTheReferencePoint) {
+  ModelSet set = velocity_and_acceleration();
+  set.mixture = Mixture::kGpb2;
+  const Eigen::Vector2d shift_m{3.0, -2.0};
+  const Eigen::Vector2d measured_m{0.8, 0.1};
+  ImmState still = imm_predict(set, imm_start(set, start_of(testing::cruising)), kManeuverPeriodS);
+  ImmState shifted = still;
+  imm_shift(set, shifted, shift_m);
+  const ImmState there = imm_update(set, still, measured_m, maneuver_noise_m2()).posterior;
+  const ImmState here =
+      imm_update(set, shifted, measured_m + shift_m, maneuver_noise_m2()).posterior;
+  EXPECT_THAT((imm_combine(set, here).mean - imm_combine(set, there).mean).head<2>().eval(),
+              MatrixNear(shift_m, 1e-9));
+  EXPECT_NEAR(here.probability[0], there.probability[0], 1e-12);
+}
+
 TEST(Gpb, OfBothOrdersAreTheSameWhileAllModelsHaveTheSamePast) {
   const ModelSet set = velocity_and_acceleration();
   const MotionState start = start_of(testing::cruising);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -125,6 +127,27 @@ TEST_P(TrafficOfScenario, KeepsFlowing) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, TrafficOfScenario, ::testing::Values("block", "city", "quiet"),
                          [](const auto& info) { return std::string(info.param); });
+
+TEST(Traffic, HasVehiclesOfAllSizesIfTheScenarioSaysSo) {
+  const auto lengths_m = [](bool varied) {
+    ScenarioConfig scenario = *simulator::load_scenario("city");
+    scenario.traffic.varied_sizes = varied;
+    const StreetPlan plan(scenario.city, scenario.seed);
+    const Traffic traffic(plan, {scenario.traffic, scenario.route, scenario.seed});
+    std::map<ObjectClass, std::vector<double>> lengths;
+    for (const MovingObject& object : traffic.objects())
+      if (object.id > 0) lengths[object.kind].push_back(object.size.length_m);
+    for (auto& [kind, of_kind] : lengths) std::ranges::sort(of_kind);
+    return lengths;
+  };
+  auto alike = lengths_m(false);
+  auto varied = lengths_m(true);
+  EXPECT_EQ(alike[ObjectClass::bus].front(), alike[ObjectClass::bus].back());
+  EXPECT_GT(varied[ObjectClass::bus].back() - varied[ObjectClass::bus].front(), 3.0);
+  EXPECT_GT(varied[ObjectClass::truck].back() - varied[ObjectClass::truck].front(), 3.0);
+  EXPECT_LT(varied[ObjectClass::car].front(), 3.8);
+  EXPECT_GT(varied[ObjectClass::car].back(), 5.0);
+}
 
 }  // namespace
 }  // namespace slammot::simulation

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "common/metrics/clear_mot.hpp"
+#include "common/metrics/hota.hpp"
+#include "common/metrics/scene.hpp"
+#include "common/metrics/statistics.hpp"
+
+namespace slammot::metrics {
+
+/// Errors of the whole box of vehicles (cars, trucks, buses), in matched rows from 2 s after their
+/// first counted row on.
+struct BoxErrors {
+  std::size_t rows = 0;
+  double iou_median = 0.0;        ///< Intersection over union of the true and the reported box,
+  double iou_lowest_tenth = 0.0;  ///< and its quantile of a tenth.
+  ErrorSummary centre_m;
+  ErrorSummary heading_rad;
+  ErrorSummary velocity_mps;  ///< Length of the difference.
+};
+
+/// Scenes, what counts of each, and the matches of clear_mot, all of the same length and order.
+BoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
+                             const std::vector<CountedScene>& counted, const ClearMot& matched);
+
+/// HOTA of pairs that are the same thing beyond doubt: similarity is 1 from an intersection over
+/// union of 0.3 on, for people up to a distance of 0.5 m between the centres; otherwise 0.
+Hota strict_hota(const std::vector<Scene>& scenes, const std::vector<CountedScene>& counted,
+                 std::size_t object_count, std::size_t track_count);
+
+/// Objects in view with enough echoes, below the rule's speed, that were at or above it before.
+struct StoppedRows {
+  std::size_t rows = 0;
+  std::size_t covered_rows = 0;  ///< A track, occluded or not, is paired with the object.
+
+  double covered_share() const;
+};
+
+StoppedRows stopped_rows(const std::vector<Scene>& scenes, const CountingRule& rule);
+
+}  // namespace slammot::metrics

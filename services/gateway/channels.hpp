@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace slammot::gateway {
+
+/// What viewers can subscribe to, in the order of channels().
+enum class ChannelId : std::uint32_t {
+  kScan,
+  kPoints,
+  kTracks,
+  kPose,
+  kTrajectory,
+  kTransforms,
+  kStationaryMap,
+  kMovingMap,
+  kFix,
+  kLog,
+  kTrackDetails,
+  kPoseDetails,
+  kGraph,
+  kHealth,
+};
+
+/// Kept: the last message is sent to whoever subscribes later.
+enum class Retention { kNone, kLast };
+
+struct Channel {
+  ChannelId id{};
+  std::string topic;
+  std::string encoding;     ///< "protobuf" or "json".
+  std::string schema_name;  ///< "foxglove.LaserScan".
+  std::string schema;       ///< Serialized FileDescriptorSet in base64, or a JSON schema.
+  Retention retention = Retention::kNone;
+
+  std::string schema_encoding() const { return encoding == "json" ? "jsonschema" : encoding; }
+};
+
+/// All channels; the index is the id.
+const std::vector<Channel>& channels();
+inline constexpr std::size_t kChannelCount = 14;
+
+}  // namespace slammot::gateway

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/app/run_service.hpp"
+#include "services/gateway/map_publisher.hpp"
+#include "services/gateway/scan_pairing.hpp"
+#include "services/gateway/service_board.hpp"
+#include "services/gateway/web_server.hpp"
+
+namespace slammot::gateway {
+
+/// Shows what is on the bus to viewers: decodes, converts, and hands over to the server.
+class GatewayService {
+ public:
+  struct Settings {
+    WebServerSettings server;
+    std::string token;                  ///< Empty: a new one if remote addresses may connect.
+    std::filesystem::path page_folder;  ///< Empty: the built-in page.
+  };
+  static constexpr const char* kName = "gateway";
+  static constexpr const char* kPurpose =
+      "Shows map, tracks and health in the browser and in viewers that speak Foxglove's protocol.";
+  static std::vector<config::BoundStage> stages(Settings&) { return {}; }
+  static void add_options(CLI::App& command_line, Settings& settings);
+
+  /// Throws app::StartupFailure if the port cannot be served.
+  GatewayService(app::ServiceContext& context, const Settings& settings);
+
+  std::uint16_t port() const { return server_.port(); }
+
+ private:
+  void take(const slammot_LaserScan& sample);
+  void take(const slammot_LocalizedScan& sample);
+  void take(const slammot_ScanLabels& sample);
+  void take(const slammot_TrackedObjects& sample);
+  void take(const slammot_GnssFix& sample);
+  void read_map();
+  void read_services();
+  void report_health();
+  void log_warnings(const std::vector<std::string>& warnings);
+  GatewayFigures figures(app::SteadyTime now) const;
+  template <typename Value>
+  bool accept(const wire::Decoded<Value>& decoded, const char* counter);
+
+  app::ServiceContext& context_;
+  std::unique_ptr<WebServer> owned_server_;
+  WebServer& server_;
+  ScanPairing pairing_;
+  MapPublisher map_;
+  ServiceBoard board_;
+  std::set<flow::TrackId> shown_tracks_;
+  std::set<std::string> warnings_;
+  std::optional<app::SteadyTime> last_scan_;
+};
+
+}  // namespace slammot::gateway

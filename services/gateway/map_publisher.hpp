@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <future>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/wire/graph.hpp"
+#include "common/wire/submap.hpp"
+#include "services/gateway/map_messages.hpp"
+#include "services/gateway/map_view.hpp"
+#include "services/gateway/web_server.hpp"
+
+namespace slammot::gateway {
+
+/// Publishes the map in use: submaps under paths of their own, the graph and the way as messages,
+/// and the whole map as grids while somebody subscribes to them.
+class MapPublisher {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  explicit MapPublisher(WebServer& server) : server_(server) {}
+  ~MapPublisher() = default;  ///< Waits for the grids in work.
+
+  /// Each returns the reason of a rejection; empty if accepted.
+  std::string_view take(const slammot_SubmapTile& tile);
+  std::string_view take(const slammot_GraphCorrection& part);
+  void take(const flow::Constraint& constraint);
+  void follow(const flow::LocalizedScan& scan);
+
+  /// Publishes what changed. Call it a few times a second.
+  void publish(Time now);
+
+ private:
+  MapView& view_of(flow::MapId map_id);
+  void add(flow::Submap submap);
+  void publish_graph();
+  void publish_way(Time now);
+  void publish_grids(Time now);
+
+  WebServer& server_;
+  wire::SubmapAssembler submaps_;
+  wire::GraphCorrectionAssembler corrections_;
+  std::map<flow::MapId, MapView> views_;
+  std::map<std::string, std::string> served_;  ///< Path by map and submap.
+  std::optional<flow::MapId> in_use_;
+  std::int64_t stamp_ns_ = 0;
+  bool has_new_graph_ = false;
+  bool has_new_map_ = false;
+  Time way_due_{};
+  Time grids_due_{};
+  std::future<MapGrids> grids_;
+};
+
+}  // namespace slammot::gateway

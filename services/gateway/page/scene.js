@@ -1,0 +1,199 @@
+// Draws the world: ground, maps, scan, way, graph, tracks and vehicle.
+import { apply, compose, ellipse, multiply, placed, sigmas } from "./geometry.js";
+import { Vertices } from "./gl.js";
+import { MapLayer } from "./map_layer.js";
+import { Shapes } from "./shapes.js";
+import { CLASSES, THEMES } from "./theme.js";
+
+const VEHICLE = { length: 4.2, width: 1.8, height: 1.3 };
+const ELLIPSE_SIGMAS = sigmas(0.95);
+const PREDICTION_S = 1; // of the velocity's arrow
+
+export class Scene {
+  constructor(canvas, world, onError) {
+    this.gl = canvas.getContext("webgl2", { antialias: false, alpha: false, depth: false });
+    if (!this.gl) throw new Error("this browser has no WebGL 2");
+    this.world = world;
+    this.map = new MapLayer(this.gl, onError);
+    this.shapes = new Shapes(this.gl);
+    this.scanVertices = new Map(); // by scanner
+    world.onScan = (points, pose) => this.map.collect(points, pose);
+    world.onGraph = (graph) => this.map.take(graph);
+  }
+
+  /** options: {theme, layers: {name: opacity}, selected}. */
+  draw(camera, options, seconds) {
+    const gl = this.gl;
+    const colors = THEMES[options.theme];
+    this.camera = camera;
+    this.colors = colors;
+    this.layers = options.layers;
+    this.map.update(seconds);
+    gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
+    gl.clearColor(...colors.back, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    gl.disable(gl.DEPTH_TEST);
+    gl.enable(gl.CULL_FACE);
+    gl.frontFace(gl.CCW);
+    gl.disable(gl.CULL_FACE);
+    const matrix = camera.matrix();
+    const size = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+    this.scale = gl.drawingBufferHeight / camera.height;
+    const { layers } = options;
+    this.map.draw(matrix, camera, colors, { free: layers.free, so: layers.so, mo: layers.mo });
+    if (layers.grid > 0) this.shapes.drawGrid(matrix, camera, colors.grid);
+    if (layers.scan > 0) this.drawFans(matrix);
+    this.map.drawLive(this.shapes, matrix, camera, colors, { so: layers.so }, this.pointSize(0.16));
+    this.shapes.clear();
+    if (layers.graph > 0) this.addGraph(layers.graph);
+    if (layers.way > 0) this.addWay(layers.way);
+    if (layers.tracks > 0) this.addTracks(options.selected, layers.tracks);
+    this.addVehicle();
+    if (options.measured) this.addMeasured(options.measured);
+    if (layers.scan > 0) this.drawScans(matrix);
+    gl.enable(gl.CULL_FACE);
+    this.shapes.drawBoxes(matrix);
+    gl.disable(gl.CULL_FACE);
+    this.shapes.drawLines(matrix, size);
+  }
+
+  /** Diameter in pixels of something of this size in metres. */
+  pointSize(metres) {
+    return this.scale * Math.max(2.2, Math.min(9, metres / this.camera.metresPerPixel()));
+  }
+
+  relative([x, y, heading]) {
+    return [x - this.camera.x, y - this.camera.y, heading];
+  }
+
+  placeOf(pose) {
+    return this.relative(compose(pose.map_from_odom, pose.odom_from_base));
+  }
+
+  drawScans(matrix) {
+    const gl = this.gl;
+    for (const [scanner, scan] of this.world.scans) {
+      let vertices = this.scanVertices.get(scanner);
+      if (!vertices) {
+        vertices = new Vertices(gl, 16, [[0, 2, gl.FLOAT, false, 0, 0], [1, 1, gl.UNSIGNED_BYTE, false, 12, 0]]);
+        this.scanVertices.set(scanner, vertices);
+      }
+      if (scan.isChanged) vertices.fill(scan.points.data);
+      scan.isChanged = false;
+      const place = multiply(matrix, placed(this.placeOf(scan.pose)));
+      this.shapes.drawPoints(vertices, scan.points.count, place, this.colors, this.pointSize(0.22), 0.3, this.layers.scan);
+    }
+  }
+
+  /** What the scanner sees now: the area between it and its echoes. */
+  drawFans(matrix) {
+    for (const { points, pose } of this.world.scans.values()) {
+      if (points.count < 3) continue;
+      const floats = new Float32Array(points.data.buffer);
+      const rim = new Float32Array(2 + points.count * 2);
+      rim.set(pose.base_from_laser.slice(0, 2));
+      for (let i = 0; i < points.count; ++i) rim.set([floats[i * 4], floats[i * 4 + 1]], 2 + i * 2);
+      this.shapes.drawFan(rim, multiply(matrix, placed(this.placeOf(pose))), this.colors.scan, 0.07 * this.layers.scan);
+    }
+  }
+
+  addWay(alpha) {
+    const { way, vehicle } = this.world;
+    if (way.length < 2) return;
+    const points = way.map((value, i) => value - (i % 2 ? this.camera.y : this.camera.x));
+    if (vehicle) points.push(vehicle[0] - this.camera.x, vehicle[1] - this.camera.y);
+    this.shapes.strip(points, 0.05, this.colors.way, () => 0.85 * alpha, 2.2 * this.scale);
+  }
+
+  addGraph(alpha) {
+    const { submaps, constraints } = this.world.graph;
+    const places = new Map(submaps.map((submap) => [submap.id, this.relative(submap.pose)]));
+    for (const constraint of constraints) {
+      const from = places.get(constraint.from), to = places.get(constraint.to);
+      if (!from || !to) continue;
+      const color = constraint.loop ? this.colors[constraint.state] : this.colors.graph;
+      this.shapes.line(from, to, 0.1, color, alpha * (constraint.loop ? 0.9 : 0.5), (constraint.loop ? 2.2 : 1.2) * this.scale);
+    }
+    for (const [x, y] of places.values())
+      this.shapes.ellipse(x, y, { major: 1.2, minor: 1.2, heading: 0 }, 0.1, this.colors.graph, alpha, 1.5 * this.scale);
+  }
+
+  addVehicle() {
+    const { pose, vehicle } = this.world;
+    if (!vehicle) return;
+    const place = this.relative(vehicle);
+    const { length, width, height } = VEHICLE;
+    this.shapes.box(place, length, width, height, this.colors.vehicle, 0.28);
+    this.shapes.frame(place, length, width, height, this.colors.vehicle, 0.95, 1.6 * this.scale);
+    const nose = apply(place, [length * 0.32, 0]);
+    for (const side of [-0.36, 0.36])
+      this.shapes.line(apply(place, [-length * 0.08, side * width]), nose, height, this.colors.vehicle, 1, 2.2 * this.scale);
+    if (this.layers.uncertainty > 0) {
+      const [a, b, , , d] = pose.covariance;
+      const shape = ellipse(a, b, d, ELLIPSE_SIGMAS);
+      shape.heading += pose.map_from_odom[2];
+      this.shapes.ellipse(place[0], place[1], shape, 0.1, this.colors.way, this.layers.uncertainty, 1.8 * this.scale);
+    }
+  }
+
+  addTracks(selected, alpha) {
+    const { world } = this;
+    if (!world.map_from_odom) return;
+    const map = this.relative(world.map_from_odom);
+    for (const track of world.tracks.values()) {
+      if (!track.confirmed && this.layers.tentative <= 0) continue;
+      const color = this.colors[CLASSES[track.class] ?? "other"];
+      this.addTrack(track, map, color, track.confirmed ? alpha : 0.35 * alpha, track.id === selected);
+    }
+  }
+
+  addTrack(track, map, color, alpha, isSelected) {
+    const { shapes, layers, scale } = this;
+    const place = compose(map, [...track.position, track.heading]);
+    shapes.box(place, track.length, track.width, track.height, color, (isSelected ? 0.55 : 0.3) * alpha);
+    shapes.frame(place, track.length, track.width, track.height, color, alpha, (isSelected ? 3 : 1.5) * scale);
+    const trail = this.world.trails.get(track.id) ?? [];
+    if (layers.trails > 0) {
+      const points = trail.flatMap(([, x, y]) => apply(map, [x, y]));
+      shapes.strip(points, 0.08, color, (i) => (0.75 * alpha * layers.trails * i) / trail.length, 2 * scale);
+    }
+    if (track.speed > 0.3) {
+      const tip = apply(map, track.position.map((value, i) => value + track.velocity[i] * PREDICTION_S));
+      shapes.arrow(place, tip, track.height, this.colors.vehicle, alpha, 1.8 * scale);
+    }
+    if (layers.predictions > 0 && track.confirmed) this.addPrediction(track, map, color, alpha * layers.predictions);
+    if (layers.uncertainty > 0 && track.confirmed) {
+      const [a, b, , , , d] = track.covariance;
+      this.addEllipse(place, a, b, d, map[2], color, 0.9 * alpha * layers.uncertainty);
+    }
+  }
+
+  addEllipse([x, y], a, b, d, turned, color, alpha) {
+    const shape = ellipse(a, b, d, ELLIPSE_SIGMAS);
+    shape.heading += turned;
+    this.shapes.ellipse(x, y, shape, 0.06, color, alpha, 1.2 * this.scale);
+  }
+
+  addPrediction(track, map, color, alpha) {
+    if (track.speed < 0.5) return;
+    const path = [track.position, ...track.path.map((entry) => entry.position)];
+    const points = path.flatMap((at) => apply(map, at));
+    this.shapes.strip(points, 0.06, color, (i) => 0.7 * alpha * (1 - (0.6 * i) / path.length), 1.4 * this.scale);
+    const last = track.path.at(-1);
+    if (!last) return;
+    const [a, b, , d] = last.covariance;
+    this.addEllipse(apply(map, last.position), a, b, d, map[2], color, 0.16 * alpha);
+  }
+
+  addMeasured([from, to]) {
+    if (!from || !to) return;
+    const a = this.relative([...from, 0]), b = this.relative([...to, 0]);
+    this.shapes.line(a, b, 0.2, this.colors.unknown, 1, 2.5 * this.scale);
+    for (const end of [a, b]) {
+      const radius = 6 * this.camera.metresPerPixel();
+      this.shapes.ellipse(end[0], end[1], { major: radius, minor: radius, heading: 0 }, 0.2, this.colors.unknown, 1, 2 * this.scale);
+    }
+  }
+}

@@ -1,0 +1,102 @@
+#include "services/slammot/live_command.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "common/app/stop_signal.hpp"
+#include "common/dds/config.hpp"
+#include "services/simulator/scenario_files.hpp"
+#include "services/slammot/command_line.hpp"
+#include "services/slammot/service_processes.hpp"
+
+namespace slammot {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct LiveOptions {
+  std::string scenario = "demo";
+  std::string speed = "1";
+  std::uint16_t port = 8765;
+  std::uint32_t domain_id = 0;
+};
+
+int fail(const std::string& line) {
+  std::fprintf(stderr, "slammot: %s\n", line.c_str());
+  return kExitFault;
+}
+
+/// The simulator comes last, so that the others receive the first scans.
+std::vector<ServiceProcess> services_for(const LiveOptions& options, const std::string& profile,
+                                         const std::filesystem::path& state_folder) {
+  std::vector<ServiceProcess> services;
+  for (const std::string name : {"gateway", "map-store", "loop-closing", "localization",
+                                 "detection", "tracking", "simulator"}) {
+    std::vector<std::string> arguments = {folder_of_this_program() / ("slammot-" + name),
+                                          "--domain", std::to_string(options.domain_id),
+                                          "--state-dir", state_folder};
+    if (name == "gateway") {
+      arguments.insert(arguments.end(), {"--port", std::to_string(options.port)});
+    } else if (name == "simulator") {
+      arguments.insert(arguments.end(),
+                       {"--scenario", options.scenario, "--speed", options.speed, "--linger"});
+    } else if (!profile.empty()) {
+      arguments.insert(arguments.end(), {"--profile", profile});
+    }
+    services.push_back({name, std::move(arguments)});
+  }
+  return services;
+}
+
+int live(const LiveOptions& options) {
+  std::atomic<bool> is_interrupted = false;
+  const app::StopSignal stop_signal([&] { is_interrupted = true; });
+  const auto scenario = simulator::load_scenario(options.scenario, std::nullopt);
+  if (!scenario) return fail(scenario.error().message);
+  const TemporaryFolder folder("slammot-live-");
+  const std::string dds_config = dds::loopback_config("slammot-live-" + std::to_string(getpid()));
+  ServiceProcesses services(services_for(options, scenario->profile, folder.path()), folder.path(),
+                            {{"CYCLONEDDS_URI", dds_config}});
+  std::printf("live view: http://localhost:%d/  (Ctrl-C ends it)\n", int{options.port});
+  std::fflush(stdout);
+  while (!is_interrupted) {
+    if (const auto fault = services.restart_dead()) return fail(*fault);
+    std::this_thread::sleep_for(50ms);
+  }
+  return kExitDone;
+}
+
+int live_or_fail(const LiveOptions& options) {
+  try {
+    return live(options);
+  } catch (const std::runtime_error& fault) { return fail(fault.what()); }
+}
+
+}  // namespace
+
+void add_live_command(CLI::App& app, int& exit_code) {
+  CLI::App* const command = app.add_subcommand(
+      "live", "Show a simulated drive in the browser while the services process it");
+  const auto options = std::make_shared<LiveOptions>();
+  command->add_option("--scenario", options->scenario, "Name (slammot simulate --list) or file")
+      ->capture_default_str();
+  command->add_option("--speed", options->speed, "Multiple of the simulated clock")
+      ->capture_default_str();
+  command->add_option("--port", options->port, "Port of the live view")->capture_default_str();
+  command
+      ->add_option("--domain", options->domain_id,
+                   "DDS domain, on loopback and isolated from others")
+      ->check(CLI::Range(0, 230))
+      ->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = live_or_fail(*options); });
+}
+
+}  // namespace slammot
