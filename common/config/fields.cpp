@@ -13,7 +13,7 @@ struct GroupWords {
 };
 
 /// In the order of Group.
-constexpr std::array<GroupWords, 13> kGroups = {{
+constexpr std::array<GroupWords, 14> kGroups = {{
     {"sensor", "where a scanner is and what its ranges are worth"},
     {"odometry", "what wheels say of the motion from scan to scan"},
     {"map", "the local map and what it holds"},
@@ -24,6 +24,7 @@ constexpr std::array<GroupWords, 13> kGroups = {{
     {"extent", "which echoes are one body, and how large it is"},
     {"existence", "when a track begins, is confirmed and ends"},
     {"publication", "what is published, and how sure it is said to be"},
+    {"warning", "which predicted encounters are warned of"},
     {"operation", "the services at run time"},
     {"log", "set by what a recorded drive shows, to read a run's settings back"},
     {"", ""},

@@ -37,6 +37,7 @@ enum class Group {
   extent,
   existence,
   publication,
+  warning,
   operation,
   log,
   none

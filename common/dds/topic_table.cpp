@@ -7,7 +7,7 @@ namespace slammot::dds {
 
 std::span<const TopicInfo* const> topic_table() {
   using namespace topics;
-  static constexpr std::array<const TopicInfo*, 21> kTable = {&kLaserScan,
+  static constexpr std::array<const TopicInfo*, 22> kTable = {&kLaserScan,
                                                               &kOdometry,
                                                               &kGnssFix,
                                                               &kCompassReading,
@@ -19,6 +19,7 @@ std::span<const TopicInfo* const> topic_table() {
                                                               &kTrackedObjects,
                                                               &kStoredTrackedObjects,
                                                               &kScanLabels,
+                                                              &kCollisionWarnings,
                                                               &kSubmapTile,
                                                               &kStoredSubmapTile,
                                                               &kStoredMap,

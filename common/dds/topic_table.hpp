@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "common/dds/qos.hpp"
+#include "idl/collision.h"
 #include "idl/detection.h"
 #include "idl/localization.h"
 #include "idl/mapping.h"
@@ -56,6 +57,9 @@ inline constexpr Topic<slammot_TrackedObjects> kStoredTrackedObjects{
     {"slammot/stored_tracked_objects", &slammot_TrackedObjects_desc, Flow::kGraph, Recorded::kNo}};
 inline constexpr Topic<slammot_ScanLabels> kScanLabels{
     {"slammot/scan_labels", &slammot_ScanLabels_desc, Flow::kEstimate, Recorded::kNo}};
+inline constexpr Topic<slammot_CollisionWarnings> kCollisionWarnings{
+    {"slammot/collision_warnings", &slammot_CollisionWarnings_desc, Flow::kEstimate,
+     Recorded::kYes}};
 inline constexpr Topic<slammot_SubmapTile> kSubmapTile{
     {"slammot/submap_tile", &slammot_SubmapTile_desc, Flow::kTile, Recorded::kNo}};
 inline constexpr Topic<slammot_SubmapTile> kStoredSubmapTile{

@@ -21,6 +21,7 @@
 #include "services/slammot/live_command.hpp"
 #include "services/slammot/map_command.hpp"
 #include "services/slammot/run_command.hpp"
+#include "services/slammot/warn_command.hpp"
 
 namespace slammot {
 namespace {
@@ -93,6 +94,7 @@ int run_command_line(int argc, char** argv) {
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);
   evaluator::add_report_command(app, exit_code);
+  add_warn_command(app, exit_code);
   if (argc < 2) {
     std::fputs(app.help().c_str(), stdout);
     return kExitFault;

@@ -1,6 +1,7 @@
 #include "services/slammot/profile.hpp"
 
 #include "common/config/profiles.hpp"
+#include "services/collision_warning/collision_warning_fields.hpp"
 #include "services/detection/detection_fields.hpp"
 #include "services/ingest/ingest_fields.hpp"
 #include "services/localization/localization_fields.hpp"
@@ -32,6 +33,8 @@ std::vector<config::BoundStage> bind_stages(Profile& profile) {
       config::bind_stage("tracking", tracking::tracking_fields(), profile.tracking),
       config::bind_stage("loop_closing", loop_closing::loop_closing_fields(), profile.loop_closing),
       config::bind_stage("map_store", map_store::map_store_fields(), profile.map_store),
+      config::bind_stage("collision_warning", collision_warning::collision_warning_fields(),
+                         profile.collision_warning),
       config::bind_stage("implementations", implementation_fields(), profile.implementations),
   };
 }

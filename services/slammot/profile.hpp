@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/config/overlay.hpp"
+#include "services/collision_warning/collision_warning_config.hpp"
 #include "services/detection/detector.hpp"
 #include "services/ingest/ingest_config.hpp"
 #include "services/localization/localizer.hpp"
@@ -29,6 +30,7 @@ struct Profile {
   tracking::TrackingConfig tracking;
   loop_closing::LoopClosingConfig loop_closing;
   map_store::MapStoreConfig map_store;
+  collision_warning::CollisionWarningConfig collision_warning;
   ImplementationChoice implementations;
 };
 

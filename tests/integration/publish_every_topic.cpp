@@ -15,6 +15,7 @@
 #include "common/dds/config.hpp"
 #include "common/dds/wait_set.hpp"
 #include "common/dds/writer.hpp"
+#include "common/wire/collision_warnings.hpp"
 #include "common/wire/graph.hpp"
 #include "common/wire/localized_scan.hpp"
 #include "common/wire/scan_labels.hpp"
@@ -103,6 +104,10 @@ class EveryTopic {
     add_encoded<wire::ScanLabelsEncoder>(
         topics::kScanLabels,
         flow::ScanLabels{1, 2, "front", {flow::PointLabel::kMoving}, {{1, {2, 3}}}});
+    add_encoded<wire::CollisionWarningsEncoder>(
+        topics::kCollisionWarnings,
+        flow::CollisionWarnings{
+            .stamp_ns = 1, .objects = {{{7}, flow::WarningLevel::kCaution, 0.4, 2.5, 0.0, 2.4}}});
   }
 
   void add_maps() {

@@ -14,7 +14,7 @@ from pathlib import Path
 ALGORITHM_FOLDERS = {"geometry", "sensing", "flow", "memory", "work", "grids", "matching", "filters", "association", "graphs",
                      "simulation", "metrics", "stages"}
 # Their own code is pure; ingest and map_store do nothing but carry data, so they are shell throughout.
-ALGORITHM_SERVICES = {"localization", "detection", "tracking", "loop_closing"}
+ALGORITHM_SERVICES = {"localization", "detection", "tracking", "loop_closing", "collision_warning"}
 # Where a service joins the rings.
 JOINING_FILE = re.compile(r"(_service(_[a-z]+)?|_fields)\.(hpp|cpp)$|(^|/)main\.cpp$")
 COMPOSER = "services/slammot"
