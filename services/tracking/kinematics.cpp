@@ -21,8 +21,9 @@ filters::ModelSet motion_models(const TrackingConfig& config) {
                    kIdleAccelerationMps2};
   set.models[1] = {filters::MotionKind::kConstantAcceleration, config.motion.jerk_noise_density,
                    0.0};
-  set.size = 2;
+  set.size = config.motion.constant_acceleration ? 2 : 1;
   set.mean_stay_s = kMeanStayS;
+  set.mixture = config.motion.mixture;
   return set;
 }
 

@@ -48,6 +48,14 @@ FieldTable<MotionConfig> motion_fields() {
        "Process noise of constant acceleration, as white jerk [m^2/s^5].",
        kPositive,
        {"Hard braking is followed late.", "Velocities of turning objects are noisy."}},
+      {"mixture", &C::mixture,
+       "Which histories of modes are merged: IMM; GPB1, as cheap and worse in manoeuvres; GPB2, as "
+       "good for twice the filters."},
+      {"constant_acceleration", &C::constant_acceleration,
+       "Adds constant acceleration as a second mode; without it every object has constant "
+       "velocity."},
+      {"move_stop", &C::move_stop,
+       "Holds a stop hypothesis against the modes: standing objects have no velocity."},
       {"coordinated_turn", &C::coordinated_turn,
        "Adds the coordinated turn as a third mode of vehicles that surely move. For slow "
        "scanners."},
