@@ -88,7 +88,7 @@ void score_miss(Track& track, const Visibility& visibility, double time_s,
 }
 
 void score_unseen(Track& track, double time_s) {
-  constexpr double kIndependentAfterS = 0.25;  // neighbouring scans see the same beams pass
+  constexpr double kIndependentAfterS = 0.15;  // neighbouring scans see the same beams pass
   constexpr double kLeastLikelihood = 0.02;
   track.existence.score +=
       kHiddenScorePerS * time_s +

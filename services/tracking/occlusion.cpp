@@ -112,7 +112,10 @@ void follow_occlusion(Track& track, const ScanView& view, const TrackingConfig& 
     return;
   }
   const ExpectedView expected = expected_view(track, view, config);
-  if (expected.in_view < 0.5) return;  // not this scanner's to tell
+  if (expected.in_view < 0.5) {  // another scanner may see it
+    history.is_unseen = false;
+    return;
+  }
   history.is_unseen = expected.visible < kSurelyVisible || history.is_unseen;
   history.expected_passed = expected.passed;
   history.is_hidden =

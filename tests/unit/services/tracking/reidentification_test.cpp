@@ -18,6 +18,7 @@ constexpr std::int64_t kSecondNs = 1'000'000'000;
 struct LostAndFound {
   LostAndFound() {
     for (Track& track : tracks) {
+      track.existence.hits = 50;
       track.classification.probability = {0.0, 0.0, 1.0, 0.0};
       track.kinematics.estimate.mean.segment<2>(2) = Eigen::Vector2d(6.0, 0.0);
     }
