@@ -7,7 +7,7 @@
 namespace slammot::files {
 namespace {
 
-constexpr const char* kBegin = "slammot-journal-2";
+constexpr const char* kBegin = "slammot-journal-3";
 constexpr char kEnd = ';';  // marks a completely written line
 
 std::ostream& operator<<(std::ostream& to, const geometry::Pose2& pose) {
@@ -57,6 +57,7 @@ flow::TrackedObject object_of(std::istream& line) {
       object.heading_in_odom_rad >> object.length_m >> object.width_m >> object.existence;
   get_enumerator(line, object.motion);
   get_enumerator(line, object.object_class);
+  line >> object.occluded;
   return object;
 }
 
@@ -114,7 +115,8 @@ void RunJournal::add(const flow::TrackedObjects& tracked) {
     line << object.track_id.value << object.position_in_odom_m.x() << object.position_in_odom_m.y()
          << object.velocity_in_odom_mps.x() << object.velocity_in_odom_mps.y()
          << object.heading_in_odom_rad << object.length_m << object.width_m << object.existence
-         << static_cast<int>(object.motion) << static_cast<int>(object.object_class);
+         << static_cast<int>(object.motion) << static_cast<int>(object.object_class)
+         << object.occluded;
   }
   stream_ << line.str() << std::flush;
 }

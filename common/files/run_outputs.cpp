@@ -119,7 +119,8 @@ std::string to_tum(const std::vector<StampedPose>& trajectory) {
 }
 
 std::string to_tracks_csv(const std::vector<const TrackRow*>& rows) {
-  std::string text = "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class\n";
+  std::string text =
+      "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class,occluded\n";
   for (const TrackRow* row : rows) {
     const geometry::Pose2& pose = row->map_from_object;
     const geometry::Vector2& velocity_mps = row->velocity_in_map_mps;
@@ -131,6 +132,7 @@ std::string to_tracks_csv(const std::vector<const TrackRow*>& rows) {
     append_after_comma(text, name_of(row->motion));
     append_fixed_after_comma(text, row->existence, 4);
     append_after_comma(text, name_of(row->object_class));
+    append_after_comma(text, row->occluded ? "1" : "0");
     text += '\n';
   }
   return text;

@@ -15,7 +15,7 @@ namespace slammot::files {
 std::string to_tum(const std::vector<StampedPose>& trajectory);
 
 /// Header and one line a row:
-/// timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class.
+/// timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class,occluded.
 std::string to_tracks_csv(const std::vector<const TrackRow*>& rows);
 
 /// Columns that tracks.csv lacks, row by row:

@@ -44,6 +44,7 @@ TrackRow row_of(const flow::TrackedObject& object, const flow::TrackedObjects& t
   row.mode_probability.assign(object.mode_probability.begin(), object.mode_probability.end());
   row.class_probability = object.class_probability;
   row.predicted = at_whole_seconds(object, tracked.map_from_odom);
+  row.occluded = object.occluded;
   return row;
 }
 

@@ -47,6 +47,7 @@ struct TrackRow {
   std::vector<double> mode_probability;  ///< Of each motion model, as tracking orders them.
   flow::ClassProbabilities class_probability = {};  ///< Of pedestrian, bicycle, car, truck or bus.
   std::vector<PredictedPlace> predicted;  ///< Those of its path that are whole seconds ahead.
+  bool occluded = false;                  ///< Predicted, without an echo in this scan.
 };
 
 /// A pose as published live, with its covariance relative to the local map, and odom_from_base.

@@ -51,6 +51,8 @@ struct TrackedObject {
   std::vector<PredictedPosition> predicted_path;   ///< At most 16, ascending in time.
   ClassProbabilities class_probability = {};       ///< From size and motion; object_class is the
                                                    ///< likeliest.
+  bool occluded = false;  ///< Confirmed, but without an echo in this scan, or only with echoes that
+                          ///< may be another object's: the state is predicted.
 };
 
 struct TrackedObjects {

@@ -158,6 +158,7 @@ class ObjectJudge {
   /// Coverage and errors in the scans without an echo.
   void measure(const Occlusion& occlusion, OcclusionBand* band, HiddenErrors& errors) const {
     double next_sample_s = kFirstSampleS;
+    bool has_gone = false;
     const std::size_t end = occlusion.returns.value_or(timeline_.size());
     for (std::size_t i = occlusion.last_seen + 1; i < end; ++i) {
       const TrueObject& truth = *timeline_[i].truth;
@@ -168,7 +169,8 @@ class ObjectJudge {
       const bool is_covered = own && is_at(*own, truth, rule_);
       if (band) ++band->hidden_rows;
       if (band && is_covered) ++band->covered_rows;
-      if (!predicted && !is_covered) continue;  // the track has gone to another object
+      has_gone = has_gone || (own && !predicted && !is_covered);  // to another object
+      if (has_gone || !own) continue;
       const Vector2 error_m =
           own->world_from_object.translation_m() - truth.world_from_object.translation_m();
       errors.position_m.push_back(error_m.norm());

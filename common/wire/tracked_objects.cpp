@@ -48,6 +48,7 @@ slammot_TrackedObject encode_object(const flow::TrackedObject& object) {
             sample.class_probability);
   sample.first_seen_ns = object.first_seen_ns;
   sample.last_seen_ns = object.last_seen_ns;
+  sample.occluded = object.occluded;
   return sample;
 }
 
@@ -69,7 +70,8 @@ flow::TrackedObject decode_object(const slammot_TrackedObject& sample) {
                              .last_seen_ns = sample.last_seen_ns,
                              .contour_in_odom_m = {},
                              .predicted_path = {},
-                             .class_probability = {}};
+                             .class_probability = {},
+                             .occluded = sample.occluded};
   std::copy_n(sample.mode_probability, object.mode_probability.size(),
               object.mode_probability.begin());
   std::copy_n(sample.class_probability, object.class_probability.size(),

@@ -45,7 +45,8 @@ const std::vector<grids::Box>& ExpectedObjects::masks_at(std::int64_t stamp_ns) 
   const double after_s = static_cast<double>(stamp_ns - objects_.stamp_ns) * kNanosecond_s;
   if (after_s > kLongestExpectation_s || !config_.leave_out_moving) return masks_;
   for (const flow::TrackedObject& object : objects_.objects)
-    if (object.confirmed) masks_.push_back(box_of(object, after_s, kMaskMarginM));
+    if (object.confirmed && !object.occluded)
+      masks_.push_back(box_of(object, after_s, kMaskMarginM));
   return masks_;
 }
 

@@ -85,7 +85,7 @@ void Associator::assign_whole_segments(std::vector<Track>& tracks, const Compare
   const std::vector<Segment>& segments = context.scan().segments;
   costs_.assign(tracks.size(), segments.size(), kForbidden);
   for (std::size_t t = 0; t < tracks.size(); ++t)
-    for (std::size_t s = 0; s < segments.size(); ++s) {
+    for (std::size_t s = 0; s < segments.size() && !tracks[t].history.is_hidden; ++s) {
       const double cost = association_cost(tracks[t].extent.outline, tracks[t].kinematics.estimate,
                                            segments[s], context.config);
       if (cost != kForbidden &&

@@ -17,6 +17,7 @@ constexpr double kMostMappedShare = 0.6;    ///< above which a track without pro
 constexpr double kMappedScorePerS = -6.0;   ///< is mapped structure: IDF1 of `city` 0.83 / 0.86,
                                             ///< docs/decisions/existence-and-publication.md.
 constexpr double kOccludedScorePerS = -1.0;
+constexpr double kHiddenScorePerS = -0.3;  ///< May leave unseen.
 constexpr double kOutOfViewScorePerS = -30.0;
 constexpr double kPassedBeamScore = -0.6;  ///< Of each beam through the predicted extent,
 constexpr double kMostPassedScore = -2.0;  ///< and of all of them in one scan at most.
@@ -84,6 +85,15 @@ void score_miss(Track& track, const Visibility& visibility, double time_s,
                                                                                  // is missed less
                                                                                  // surely
   track.existence.score += std::max(kMostPassedScore, kPassedBeamScore * passed) * share;
+}
+
+void score_unseen(Track& track, double time_s) {
+  constexpr double kIndependentAfterS = 0.15;  // neighbouring scans see the same beams pass
+  constexpr double kLeastLikelihood = 0.02;
+  track.existence.score +=
+      kHiddenScorePerS * time_s +
+      time_s / kIndependentAfterS *
+          std::log(std::max(kLeastLikelihood, 1.0 - track.history.expected_passed));
 }
 
 void score_passed(Track& track, const Visibility& interior, std::size_t echoes) {

@@ -25,6 +25,10 @@ void score_hit(Track& track, const Hit& hit, const TrackingConfig& config);
 void score_miss(Track& track, const Visibility& visibility, double time_s,
                 const TrackingConfig& config);
 
+/// Adds what a scan says of a track that had no echo in the scans before either, and may be hidden:
+/// the likelihood that no beam ends on it, over its predicted position.
+void score_unseen(Track& track, double time_s);
+
 /// Lowers the score of a box through whose interior more beams pass than are echoed. Does not apply
 /// where the map contradicts the echoes: there the object exists and its box is too large.
 void score_passed(Track& track, const Visibility& interior, std::size_t echoes);

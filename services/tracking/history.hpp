@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -57,6 +58,11 @@ struct History {
   memory::RecyclingQueue<PastPoints> past_points;  ///< Newest last.
   std::size_t scanner = 0;       ///< The last scanner that had it in its field of view.
   double since_in_view_s = 0.0;  ///< Since the last scan that had it in its field of view.
+  std::optional<std::int64_t> first_published_ns;
+  int misses = 0;                ///< Scans in a row that had it in view, without an echo.
+  bool is_hidden = false;        ///< Nothing is expected to be seen of it: it takes no echoes.
+  bool is_unseen = false;        ///< Partly hidden or more, and without an echo since.
+  double expected_passed = 0.0;  ///< Expected share of the beams that pass it, where unseen.
 };
 
 /// An empty history in the memory of one that is no longer needed.

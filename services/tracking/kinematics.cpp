@@ -21,8 +21,9 @@ filters::ModelSet motion_models(const TrackingConfig& config) {
                    kIdleAccelerationMps2};
   set.models[1] = {filters::MotionKind::kConstantAcceleration, config.motion.jerk_noise_density,
                    0.0};
-  set.size = 2;
+  set.size = config.motion.constant_acceleration ? 2 : 1;
   set.mean_stay_s = kMeanStayS;
+  set.mixture = config.motion.mixture;
   return set;
 }
 
@@ -50,6 +51,15 @@ void predict(Kinematics& kinematics, double time_s, const TrackingConfig& config
   const filters::ModelSet models = models_of(kinematics, config);
   kinematics.mixture = filters::imm_predict(models, kinematics.mixture, time_s);
   kinematics.estimate = filters::imm_combine(models, kinematics.mixture);
+}
+
+void add_acceleration_noise(Kinematics& kinematics, const Matrix2d& density, double time_s) {
+  for (filters::MotionState& mode : kinematics.mixture.modes) {
+    mode.covariance.topLeftCorner<2, 2>() += density * std::pow(time_s, 3) / 3.0;
+    mode.covariance.block<2, 2>(0, 2) += density * time_s * time_s / 2.0;
+    mode.covariance.block<2, 2>(2, 0) += density * time_s * time_s / 2.0;
+    mode.covariance.block<2, 2>(2, 2) += density * time_s;
+  }
 }
 
 void combine(Kinematics& kinematics, const TrackingConfig& config) {

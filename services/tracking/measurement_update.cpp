@@ -82,6 +82,7 @@ void update_position(Track& track, const PositionUpdate& update, double time_s,
   filters::MotionState moving = kinematics.estimate;
   // Standing legs have no gait.
   moving.covariance *= update.noise_at_rest_m2.trace() / update.R.trace();
+  if (!config.motion.move_stop) return;
   kinematics.move_stop =
       filters::weigh(kinematics.move_stop, {moving, update.measurement.centre_m, time_s},
                      {kStandingMemoryS, kDetectionSigmas});

@@ -200,6 +200,7 @@ std::uint64_t merge_duplicates(std::vector<Track>& tracks, Associations& associa
   for (std::size_t a = 0; a < tracks.size(); ++a) {
     for (std::size_t b = 0; b < tracks.size(); ++b) {
       if (a == b || tracks[b].existence.hits == 0 || tracks[a].existence.hits == 0 ||
+          tracks[a].history.is_hidden || tracks[b].history.is_hidden ||
           !is_duplicate(tracks[b], tracks[a], config))
         continue;
       absorb(tracks, associations, a, b);

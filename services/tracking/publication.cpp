@@ -11,7 +11,8 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double kPublishScore = 0.0;  ///< As likely as not.
+constexpr double kPublishScore = 0.0;   ///< As likely as not.
+constexpr double kUnseenAfterS = 0.02;  ///< Since the last echo: less than a scan.
 
 /// True for a vehicle whose velocity was unknown a moment ago and that is elsewhere than predicted:
 /// it may be another one.
@@ -90,13 +91,31 @@ bool is_published(const Track& track, std::int64_t stamp_ns, const TrackingConfi
   return existence.confirmed && !existence.velocity_check.is_refuted &&
          !may_always_have_stood(track, config) && existence.score >= kPublishScore &&
          has_published_velocity(track, config) && !may_be_another(track) &&
-         unseen_s(track, stamp_ns) <= config.publication.longest_unseen_published_s;
+         unseen_s(track, stamp_ns) <= kUnseenAfterS;
+}
+
+bool is_published_as_occluded(const Track& track, std::int64_t stamp_ns,
+                              const TrackingConfig& config) {
+  constexpr double kLeastPublishedS = 0.1;
+  constexpr double kMostSigmaM = 3.0;
+  const Existence& existence = track.existence;
+  const History& history = track.history;
+  if (!history.first_published_ns || !existence.confirmed || existence.velocity_check.is_refuted)
+    return false;
+  const double published_s =
+      static_cast<double>(history.last_seen_ns - *history.first_published_ns) * 1e-9;
+  return published_s >= kLeastPublishedS &&
+         unseen_s(track, stamp_ns) <= config.publication.longest_unseen_published_s &&
+         existence.score >= kPublishScore &&
+         track.kinematics.position_covariance_m2().trace() < 2.0 * kMostSigmaM * kMostSigmaM;
 }
 
 void publish(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config,
              flow::TrackedObject& object) {
-  object.track_id = track.track_id;
-  object.confirmed = is_published(track, stamp_ns, config);
+  object.track_id = track.object_id;
+  const bool is_seen = is_published(track, stamp_ns, config);
+  object.occluded = !is_seen && is_published_as_occluded(track, stamp_ns, config);
+  object.confirmed = is_seen || object.occluded;
   object.existence = existence_of(track.existence.score);
   object.object_class = track.classification.likeliest;
   object.class_probability = track.classification.probability;

@@ -81,7 +81,7 @@ void assign_parts(const std::vector<Track>& tracks, const ComparedScan& context,
   for (std::size_t s = 0; s < segments.size(); ++s) {
     if (!associations.is_unassigned(s) || is_backdrop(segments[s], context.config)) continue;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
-      if (!is_part(segments[s], tracks[t], context) ||
+      if (tracks[t].history.is_hidden || !is_part(segments[s], tracks[t], context) ||
           has_other_past(segments[s], context.comparison.segment(s), tracks[t], context))
         continue;
       associations.track_of_segment[s] = t;
@@ -95,7 +95,8 @@ void divide_shared_segments(const std::vector<Track>& tracks, const ComparedScan
   const ScanView& view = context.view;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const Track& track = tracks[t];
-    if (associations.has_echoes(t) || !track.existence.confirmed) continue;
+    if (associations.has_echoes(t) || !track.existence.confirmed || track.history.is_hidden)
+      continue;
     const double margin_m = margin_of(track, context.config);
     const ScanView::Directions directions =
         view.directions_of(track.footprint(), track.position_m(), margin_m);

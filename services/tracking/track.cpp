@@ -6,6 +6,7 @@
 namespace slammot::tracking {
 namespace {
 
+using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 /// Random walk of the heading: at one speed, smaller objects turn faster.
@@ -31,6 +32,18 @@ bool has_known_speed(const Track& track) {
                         speed_sigma_mps(track.kinematics) < kKnownSpeedSigmaMps;
   return is_known && !track.kinematics.move_stop.stands &&
          track.kinematics.state == flow::Motion::kMoving;
+}
+
+/// White acceleration of an unseen object [m^2/s^3]: vehicles accelerate along their axis.
+Matrix2d unseen_acceleration_density(const Track& track) {
+  constexpr double kPedestrian = 0.2;
+  constexpr double kAlong = 2.0;
+  constexpr double kAcross = 0.05;
+  if (!is_vehicle(track)) return kPedestrian * Matrix2d::Identity();
+  const double heading_rad = track.footprint().heading_rad;
+  const Vector2d along(std::cos(heading_rad), std::sin(heading_rad));
+  const Vector2d across(-along.y(), along.x());
+  return kAlong * along * along.transpose() + kAcross * across * across.transpose();
 }
 
 }  // namespace
@@ -61,9 +74,13 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
   Kinematics& kinematics = track.kinematics;
   kinematics.measured.reset();
   kinematics.recentred_m.setZero();
-  kinematics.cruises_only = is_known_pedestrian(track);
+  kinematics.cruises_only = is_known_pedestrian(track) || track.history.is_unseen;
   kinematics.may_turn = config.motion.coordinated_turn && is_surely_driving(track, config);
   predict(kinematics, time_s, config);
+  if (track.history.is_unseen) {
+    add_acceleration_noise(kinematics, unseen_acceleration_density(track), time_s);
+    combine(kinematics, config);
+  }
   if (Box* box = track.extent.box()) {
     box->heading_variance_rad2 =
         std::min(10.0, box->heading_variance_rad2 + heading_drift_rad2_per_s(config) * time_s);

@@ -17,6 +17,8 @@ namespace slammot::tracking {
 /// One object that is followed, or a hypothesis of one.
 struct Track {
   flow::TrackId track_id;
+  flow::TrackId object_id;  ///< Published. That of an earlier track where the object was found
+                            ///< again.
   Kinematics kinematics;
   Extent extent;
   Existence existence;

@@ -75,7 +75,7 @@ double score_from(double existence, const TrackingConfig& config) {
 void initiate(Track& track, const FirstObservation& first, const TrackingConfig& config,
               const RoadUsers& road_users) {
   clear(track);
-  track.track_id = first.track_id;
+  track.track_id = track.object_id = first.track_id;
   track.history.first_seen_ns = first.stamp_ns;
   track.existence.score = kBirthScore;
   const OutlineMeasurement measurement = first_outline(first, config, road_users);
@@ -96,7 +96,7 @@ Track initiated(const FirstObservation& first, const TrackingConfig& config,
 
 Track track_from_message(const flow::TrackedObject& object, const TrackingConfig& config) {
   Track track;
-  track.track_id = object.track_id;
+  track.track_id = track.object_id = object.track_id;
   track.extent.outline = outline_from_message(object, config);
   track.extent.largest_span_m = object.length_m;
   track.existence.confirmed = object.confirmed;
@@ -109,6 +109,7 @@ Track track_from_message(const flow::TrackedObject& object, const TrackingConfig
   track.classification.probability = object.class_probability;
   track.history.first_seen_ns = object.first_seen_ns;
   track.history.last_seen_ns = object.last_seen_ns;
+  if (object.confirmed) track.history.first_published_ns = object.first_seen_ns;
   track.history.birth.centre_m = object.position_in_odom_m;
   filters::MotionState start;
   start.mean << object.position_in_odom_m, object.velocity_in_odom_mps,

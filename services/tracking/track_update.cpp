@@ -153,6 +153,11 @@ UpdateOutcome update_track(Track& track, TrackShare& share, const ComparedScan& 
   const double time_s = std::exchange(track.history.since_in_view_s, 0.0);
   keep_pedestrian_echoes(track, share.beams, time_s, context);
   count_echoes(track, share.beams.size(), time_s);
+  track.history.misses = share.beams.empty() ? track.history.misses + 1 : 0;
+  if (share.beams.empty() && track.history.is_unseen) {
+    score_unseen(track, time_s);
+    return UpdateOutcome::kContinues;
+  }
   if (share.beams.empty()) {
     score_miss(track, view.visibility_of(track.footprint(), track.position_m()), time_s, config);
     return UpdateOutcome::kContinues;

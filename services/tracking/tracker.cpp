@@ -6,7 +6,9 @@
 #include "services/tracking/labelling.hpp"
 #include "services/tracking/merging.hpp"
 #include "services/tracking/observing.hpp"
+#include "services/tracking/occlusion.hpp"
 #include "services/tracking/publication.hpp"
+#include "services/tracking/reidentification.hpp"
 #include "services/tracking/termination.hpp"
 #include "services/tracking/track_initiation.hpp"
 #include "services/tracking/track_update.hpp"
@@ -41,6 +43,7 @@ const TrackingResult& Tracker::step(const flow::SegmentedScan& scan) {
   const ComparedScan context{{current_.view, scanners_.current().history, config_},
                              current_.comparison};
   for (Track& track : tracks_) predict_to_beam(track, time_s, current_.view.polar(), config_);
+  for (Track& track : tracks_) follow_occlusion(track, current_.view, config_);
   estimation_.associator.predict(time_s);
   compare(context);
   associate(context);
@@ -48,6 +51,7 @@ const TrackingResult& Tracker::step(const flow::SegmentedScan& scan) {
   if (config_.motion.formations) estimation_.formations.follow(tracks_, time_s);
   initiate(context);
   merge(context);
+  identify(scan.stamp_ns);
   remember(context);
   terminate();
   publish(scan);
@@ -129,6 +133,17 @@ void Tracker::merge(const ComparedScan& context) {
   counters_.tracks_merged += merge_duplicates(tracks_, current_.associations, config_);
 }
 
+/// An object about to be published for the first time may be one that was hidden.
+void Tracker::identify(std::int64_t stamp_ns) {
+  for (Track& track : tracks_) {
+    if (track.history.first_published_ns || !is_published(track, stamp_ns, config_)) continue;
+    const std::optional<std::size_t> lost = track_of_same_object(track, tracks_, config_);
+    if (!lost) continue;
+    continue_track(tracks_[*lost], track);
+    ++counters_.tracks_found_again;
+  }
+}
+
 /// Keeps of this scan what later scans need, and labels its points.
 void Tracker::remember(const ComparedScan& context) {
   ScanHistory& history = scanners_.current().history;
@@ -188,7 +203,10 @@ void Tracker::publish(const flow::SegmentedScan& scan) {
   objects.odom_id = scan.odom_id;
   workspace_.resize(objects.objects, tracks_.size());
   workspace_.for_each(tracks_.size(), [&](std::size_t t) {
-    tracking::publish(tracks_[t], scan.stamp_ns, config_, objects.objects[t]);
+    flow::TrackedObject& object = objects.objects[t];
+    tracking::publish(tracks_[t], scan.stamp_ns, config_, object);
+    if (object.confirmed && !tracks_[t].history.first_published_ns)
+      tracks_[t].history.first_published_ns = scan.stamp_ns;
   });
 }
 

@@ -67,6 +67,7 @@ class Tracker final : public stages::TrackingStage {
   void confirm(Track& track);
   void initiate(const ComparedScan& context);
   void merge(const ComparedScan& context);
+  void identify(std::int64_t stamp_ns);
   void remember(const ComparedScan& context);
   void terminate();
   void give_back_points(const Track& track);

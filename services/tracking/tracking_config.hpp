@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/filters/model_set.hpp"
+
 namespace slammot::tracking {
 
 /// Errors of echoes.
@@ -12,10 +14,13 @@ struct SensorNoise {
 struct MotionConfig {
   double velocity_noise_density = 0.1;  ///< Of constant velocity: white acceleration [m^2/s^3].
   double jerk_noise_density = 3.0;      ///< Of constant acceleration: white jerk [m^2/s^5].
-  bool coordinated_turn = false;        ///< Third mode of vehicles that surely move.
-  bool formations = false;              ///< Tracks a queue of vehicles as one augmented state.
-  double fastest_mps = 20.0;            ///< Twice the sigma of a new track's speed.
-  double stopped_below_mps = 0.3;       ///< Speed below which an object stops.
+  filters::Mixture mixture = filters::Mixture::kImm;  ///< How the modes are merged.
+  bool constant_acceleration = true;                  ///< Second mode beside constant velocity.
+  bool move_stop = true;                              ///< Stop hypothesis beside the modes.
+  bool coordinated_turn = false;                      ///< Third mode of vehicles that surely move.
+  bool formations = false;         ///< Tracks a queue of vehicles as one augmented state.
+  double fastest_mps = 20.0;       ///< Twice the sigma of a new track's speed.
+  double stopped_below_mps = 0.3;  ///< Speed below which an object stops.
 };
 
 struct AssociationConfig {
@@ -39,11 +44,11 @@ struct ExistenceConfig {
   double least_travel_m = 0.3;           ///< Distance from birth for confirmation.
   double least_travel_to_stand_m = 1.5;  ///< Distance travelled that allows kLongestStandS more.
   double least_surprise_m = 0.6;         ///< Least distance of an outlier from the prediction.
-  double longest_unseen_s = 3.0;         ///< A confirmed track ends after this.
+  double longest_unseen_s = 6.0;         ///< A confirmed track ends after this.
 };
 
 struct PublicationConfig {
-  double longest_unseen_published_s = 0.02;     ///< Longer unseen: followed, not published.
+  double longest_unseen_published_s = 5.0;      ///< Published as occluded for this long.
   double most_speed_sigma_published_mps = 0.7;  ///< With a larger sigma of the velocity neither.
 };
 

@@ -48,6 +48,14 @@ FieldTable<MotionConfig> motion_fields() {
        "Process noise of constant acceleration, as white jerk [m^2/s^5].",
        kPositive,
        {"Hard braking is followed late.", "Velocities of turning objects are noisy."}},
+      {"mixture", &C::mixture,
+       "Which histories of modes are merged: IMM; GPB1, as cheap and worse in manoeuvres; GPB2, as "
+       "good for twice the filters."},
+      {"constant_acceleration", &C::constant_acceleration,
+       "Adds constant acceleration as a second mode; without it every object has constant "
+       "velocity."},
+      {"move_stop", &C::move_stop,
+       "Holds a stop hypothesis against the modes: standing objects have no velocity."},
       {"coordinated_turn", &C::coordinated_turn,
        "Adds the coordinated turn as a third mode of vehicles that surely move. For slow "
        "scanners."},
@@ -174,10 +182,10 @@ FieldTable<PublicationConfig> publication_fields() {
   return {
       {"longest_unseen_published_s",
        &C::longest_unseen_published_s,
-       "A confirmed track without echoes for longer is followed, but not published as confirmed.",
-       kPositive,
-       {"Tracks vanish between the scans of alternating scanners.",
-        "Predictions without echoes are published."}},
+       "A confirmed track without echoes is published as occluded, with its predicted state, for "
+       "this time.",
+       kNotNegative,
+       {"Objects behind others vanish.", "Predictions far from the objects are published."}},
       {"most_speed_sigma_published_mps",
        &C::most_speed_sigma_published_mps,
        "A track with a larger sigma of the velocity is not published as confirmed.",

@@ -43,8 +43,8 @@ TEST(ToTracksCsv, WritesOneRowATrackUnderTheAgreedHeader) {
   row.existence = 0.975;
   row.object_class = flow::ObjectClass::kCar;
   EXPECT_EQ(to_tracks_csv({&row}),
-            "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class\n"
-            "1.500000,42,1.000,2.000,0.50000,3.000,-0.250,4.500,1.800,stopped,0.9750,car\n");
+            "timestamp,track_id,x,y,heading,vx,vy,length,width,motion,existence,class,occluded\n"
+            "1.500000,42,1.000,2.000,0.50000,3.000,-0.250,4.500,1.800,stopped,0.9750,car,0\n");
 }
 
 TEST(ToTrackDetailsCsv, WritesCovariancesAndTheProbabilityOfEachMode) {

@@ -22,6 +22,7 @@ struct TrackedObjectsOnTheWire : ::testing::Test {
 void expect_same(const flow::TrackedObject& a, const flow::TrackedObject& b) {
   EXPECT_EQ(a.track_id, b.track_id);
   EXPECT_EQ(a.confirmed, b.confirmed);
+  EXPECT_EQ(a.occluded, b.occluded);
   EXPECT_EQ(a.existence, b.existence);
   EXPECT_EQ(a.position_in_odom_m, b.position_in_odom_m);
   EXPECT_EQ(a.velocity_in_odom_mps, b.velocity_in_odom_mps);

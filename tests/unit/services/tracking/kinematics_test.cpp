@@ -34,6 +34,17 @@ TEST(Kinematics, HasOneModeMoreWhereItMayTurnAndOneOnlyWhereItCruises) {
   EXPECT_EQ(models_of(kinematics, kConfig).size, 1U);
 }
 
+TEST(Kinematics, MixesAsTheSettingSays) {
+  TrackingConfig config;
+  EXPECT_EQ(motion_models(config).mixture, filters::Mixture::kImm);
+  config.motion.mixture = filters::Mixture::kGpb2;
+  Kinematics kinematics = moving_at({3.0, -1.0});
+  predict(kinematics, 0.1, config);
+  EXPECT_EQ(kinematics.mixture.pairs.size(), 4U);
+  config.motion.constant_acceleration = false;
+  EXPECT_EQ(motion_models(config).size, 1U);
+}
+
 TEST(Kinematics, GoesOnAtItsVelocityAndLessSurely) {
   Kinematics kinematics = moving_at({3.0, -1.0});
   const double before_m2 = kinematics.position_covariance_m2().trace();

@@ -32,5 +32,21 @@ TEST(Publication, WhoseVelocityWasUnknownIsNotPublishedWhileItComesFromElsewhere
   EXPECT_TRUE(published(track, 0, config).confirmed);
 }
 
+TEST(Publication, AsOccludedGoesOnForATrackThatWasPublishedWhileItMayExist) {
+  constexpr std::int64_t kSecondNs = 1'000'000'000;
+  const TrackingConfig config;
+  Track track = followed_car();
+  track.history.last_seen_ns = kSecondNs;
+  EXPECT_FALSE(published(track, 2 * kSecondNs, config).confirmed) << "it was never published";
+  track.history.first_published_ns = 0;
+  const flow::TrackedObject hidden = published(track, 2 * kSecondNs, config);
+  EXPECT_TRUE(hidden.confirmed);
+  EXPECT_TRUE(hidden.occluded);
+  EXPECT_FALSE(published(track, kSecondNs, config).occluded);
+  EXPECT_FALSE(published(track, 7 * kSecondNs, config).confirmed);
+  track.existence.score = -0.1;
+  EXPECT_FALSE(published(track, 2 * kSecondNs, config).confirmed);
+}
+
 }  // namespace
 }  // namespace slammot::tracking

@@ -74,7 +74,7 @@ TEST(TrackInitiation, LeavesNothingOfTheTrackWhoseMemoryItUses) {
 
 TEST(TrackInitiation, OfAPublishedTrackKeepsIdentityMotionAndExtent) {
   Track track = testing::followed_car();
-  track.track_id = {42};
+  track.object_id = {42};
   track.history.last_seen_ns = 900;
   const flow::TrackedObject object = published(track, 1000, kConfig);
   const Track again = track_from_message(object, kConfig);

@@ -50,18 +50,21 @@ class Play {
   double now_s() const { return sequence_ * period_s_; }
   Tracker& tracker() { return tracker_; }
 
-  std::vector<flow::TrackedObject> confirmed() const {
-    std::vector<flow::TrackedObject> objects;
-    for (const flow::TrackedObject& object : result.objects.objects)
-      if (object.confirmed) objects.push_back(object);
-    return objects;
-  }
+  std::vector<flow::TrackedObject> confirmed() const { return published(false); }
+  std::vector<flow::TrackedObject> occluded() const { return published(true); }
 
   Street street;
   TrackingResult result;
-  std::set<std::uint32_t> ids;  ///< Of all that were ever confirmed.
+  std::set<std::uint32_t> ids;  ///< Of all that were ever confirmed and seen.
 
  private:
+  std::vector<flow::TrackedObject> published(bool occluded) const {
+    std::vector<flow::TrackedObject> objects;
+    for (const flow::TrackedObject& object : result.objects.objects)
+      if (object.confirmed && object.occluded == occluded) objects.push_back(object);
+    return objects;
+  }
+
   double period_s_;
   Tracker tracker_;
   std::uint32_t sequence_ = 0;
@@ -657,6 +660,50 @@ TEST(Tracker, KeepsTwoCyclistsApartBetweenWhichItSeesTheWall) {
   EXPECT_EQ(play.confirmed().size(), 2U);
 }
 
+TEST(Tracker, KnowsACarAgainThatWasHiddenForThreeSeconds) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    street.known = {kWall};
+    street.unknown = {{{24.0, -17.0 + 6.0 * t, M_PI / 2.0}}};
+    if (t > 1.5) street.known.push_back({{10.0, 1.0, M_PI / 2.0}, 9.0, 1.0});
+  };
+  play.run(1.4, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackId car = play.confirmed().front().track_id;
+  int hidden = 0;
+  double sigma_m = 0.0;
+  while (play.now_s() < 6.5) {
+    play.step(scene);
+    hidden += play.confirmed().empty() ? 1 : 0;
+    if (!play.occluded().empty())
+      sigma_m = std::sqrt(play.occluded().front().covariance.topLeftCorner<2, 2>().trace());
+  }
+  EXPECT_GT(hidden, 100);
+  EXPECT_GT(sigma_m, 1.0) << "grows while it is hidden";
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_EQ(play.confirmed().front().track_id, car);
+  EXPECT_EQ(play.ids.size(), 1U);
+  EXPECT_EQ(play.tracker().counters().tracks_found_again, 1U);
+}
+
+TEST(Tracker, GivesAnotherIdentityToWhatComesOutElsewhereThanTheHiddenOneCanBe) {
+  Play play;
+  const auto scene = [](Street& street, double t) {
+    street.known = {kWall};
+    street.unknown = {{{24.0, -17.0 + 6.0 * t, M_PI / 2.0}}};
+    if (t > 1.5) street.known.push_back({{10.0, 1.0, M_PI / 2.0}, 9.0, 1.0});
+    if (t > 1.6) street.unknown = {};
+    if (t > 3.5) street.unknown = {{{24.0, 20.0 - 6.0 * (t - 3.5), -M_PI / 2.0}}};  // oncoming
+  };
+  play.run(1.4, scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  const flow::TrackId car = play.confirmed().front().track_id;
+  while (play.now_s() < 4.3) play.step(scene);
+  ASSERT_EQ(play.confirmed().size(), 1U);
+  EXPECT_NE(play.confirmed().front().track_id, car);
+  EXPECT_EQ(play.tracker().counters().tracks_found_again, 0U);
+}
+
 TEST(Tracker, KnowsACarAgainThatDroveBehindAVan) {
   Play play;
   const auto scene = [](Street& street, double t) {
@@ -670,11 +717,18 @@ TEST(Tracker, KnowsACarAgainThatDroveBehindAVan) {
   ASSERT_EQ(play.confirmed().size(), 1U);
   const flow::TrackId car = play.confirmed().front().track_id;
   int hidden = 0;
+  int expected = 0;
   for (int scans = 0; scans < 75; ++scans) {
     play.step(scene);
     hidden += play.confirmed().empty() ? 1 : 0;
+    for (const flow::TrackedObject& object : play.occluded()) {
+      expected += object.track_id == car ? 1 : 0;
+      EXPECT_NEAR(object.position_in_odom_m.x(), 20.0, 1.5);  // its width is not known
+      EXPECT_NEAR(object.position_in_odom_m.y(), -15.0 + 8.0 * (play.now_s() - kPeriodS), 1.0);
+    }
   }
   EXPECT_GT(hidden, 20);
+  EXPECT_EQ(expected, hidden);
   ASSERT_EQ(play.confirmed().size(), 1U);
   EXPECT_EQ(play.confirmed().front().track_id, car);
 }
