@@ -33,6 +33,7 @@ Json track_json(const flow::TrackedObject& object) {
   Json json;
   json["id"] = object.track_id.value;
   json["confirmed"] = object.confirmed;
+  json["occluded"] = object.occluded;
   json["existence"] = short_number(object.existence);
   json["position"] = short_json_of(object.position_in_odom_m);
   json["velocity"] = short_json_of(object.velocity_in_odom_mps);

@@ -46,7 +46,7 @@ export class Labels {
     const colors = THEMES[theme];
     const color = colors[CLASSES[track.class] ?? "other"];
     const speed = track.stopped ? "stopped" : `${Math.round(track.speed * 3.6)} km/h`;
-    const name = `${track.class} ${track.id}`;
+    const name = `${track.class} ${track.id}${track.occluded ? " (occluded)" : ""}`;
     const { context } = this;
     const width = context.measureText(`${name}  ${speed}`).width + 14;
     const left = at[0] + 8, top = at[1] - 24;

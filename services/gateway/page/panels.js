@@ -114,7 +114,7 @@ function rowsOf(track) {
   const age = (Number(BigInt(track.last_seen_ns) - BigInt(track.first_seen_ns)) * 1e-9).toFixed(1);
   return [
     ["class", track.class],
-    ["state", `${track.confirmed ? "confirmed" : "tentative"}, ${track.stopped ? "stopped" : "moving"}`],
+    ["state", `${track.occluded ? "occluded, predicted" : track.confirmed ? "confirmed" : "tentative"}, ${track.stopped ? "stopped" : "moving"}`],
     ["speed", `${number(track.speed * 3.6, 1, "km/h")} ± ${(sigma(10) * 3.6).toFixed(1)}`],
     ["acceleration", number(Math.hypot(...track.acceleration), 2, "m/s²")],
     ["heading", degrees(track.heading)],

@@ -145,7 +145,7 @@ export class Scene {
     for (const track of world.tracks.values()) {
       if (!track.confirmed && this.layers.tentative <= 0) continue;
       const color = this.colors[CLASSES[track.class] ?? "other"];
-      this.addTrack(track, map, color, track.confirmed ? alpha : 0.35 * alpha, track.id === selected);
+      this.addTrack(track, map, color, track.confirmed && !track.occluded ? alpha : 0.35 * alpha, track.id === selected);
     }
   }
 
