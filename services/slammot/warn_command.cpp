@@ -47,6 +47,7 @@ flow::TrackedObject object_of(const evaluator::ResultTrack& track, const Pose2& 
   flow::TrackedObject object;
   object.track_id = {track.track_id};
   object.confirmed = true;
+  object.occluded = track.is_occluded;
   object.existence = 1.0;
   object.position_in_odom_m = odom_from_object.translation_m();
   object.velocity_in_odom_mps = turn * track.velocity_in_map_mps;

@@ -79,6 +79,14 @@ TEST(CollisionMonitor, LeavesWhatIsBehindOut) {
     EXPECT_TRUE(monitor.step(tracked_at(t, 5.0, {{-60.0, 0.0}, {20.0, 0.0}})).objects.empty());
 }
 
+TEST(CollisionMonitor, LeavesOccludedTracksOut) {
+  CollisionMonitor monitor{CollisionWarningConfig{}};
+  flow::TrackedObjects tracked = tracked_at(0.0, 8.0, {{10.0, 0.0}, {0.0, 0.0}});
+  EXPECT_EQ(monitor.step(tracked).objects.size(), 1U);
+  tracked.objects.front().occluded = true;
+  EXPECT_TRUE(monitor.step(tracked).objects.empty());
+}
+
 TEST(CollisionMonitor, LeavesTentativeTracksOut) {
   CollisionMonitor monitor{CollisionWarningConfig{}};
   flow::TrackedObjects tracked = tracked_at(0.0, 8.0, {{10.0, 0.0}, {0.0, 0.0}});
