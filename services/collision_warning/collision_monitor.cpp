@@ -43,7 +43,8 @@ CollisionWarnings CollisionMonitor::step(const flow::TrackedObjects& tracked) {
   last_ = warnings;
   for (const TrackedObject& object : tracked.objects) {
     // Of an occluded object neither place nor velocity is certain enough to raise a level.
-    if (!object.confirmed || object.occluded || is_behind(object, tracked.odom_from_base, config_)) continue;
+    if (!object.confirmed || object.occluded || is_behind(object, tracked.odom_from_base, config_))
+      continue;
     warnings.objects.push_back(assess(object, vehicle, tracked.stamp_ns));
     warnings.highest_level = std::max(warnings.highest_level, warnings.objects.back().level);
   }
