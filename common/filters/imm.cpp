@@ -12,6 +12,14 @@ std::span<const MotionState> modes_of(const ModelSet& set, const ImmState& state
   return {state.modes.data(), set.size};
 }
 
+/// Applies a change to the estimates of all models, and of all pairs of models where GPB2 keeps
+/// them.
+template <typename Change>
+void for_each_estimate(const ModelSet& set, ImmState& state, const Change& change) {
+  for (std::size_t i = 0; i < set.size; ++i) change(state.modes[i]);
+  for (MotionState& pair : state.pairs) change(pair);
+}
+
 bool has_models_beyond(const ModelSet& set, const ImmState& state) {
   double beyond = 0.0;
   for (std::size_t i = set.size; i < kMaxModels; ++i) beyond += state.probability[i];
@@ -171,9 +179,9 @@ ImmUpdate imm_update(const ModelSet& set, const ImmState& predicted,
 ImmState imm_update_speed(const ModelSet& set, const ImmState& predicted,
                           const Eigen::Vector2d& direction, double speed_mps, double variance) {
   ImmState posterior = predicted;
-  for (std::size_t i = 0; i < set.size; ++i)
-    update_speed(posterior.modes[i], direction, speed_mps, variance);
-  for (MotionState& pair : posterior.pairs) update_speed(pair, direction, speed_mps, variance);
+  for_each_estimate(set, posterior, [&](MotionState& estimate) {
+    update_speed(estimate, direction, speed_mps, variance);
+  });
   return posterior;
 }
 
@@ -187,14 +195,23 @@ void imm_foretell(const ModelSet& set, const ImmState& state, double step_s,
 }
 
 void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shift_m) {
-  for (std::size_t i = 0; i < set.size; ++i) state.modes[i].mean.head<2>() += shift_m;
-  for (MotionState& pair : state.pairs) pair.mean.head<2>() += shift_m;
+  for_each_estimate(set, state, [&](MotionState& estimate) { estimate.mean.head<2>() += shift_m; });
 }
 
 void imm_loosen(const ModelSet& set, ImmState& state, const Eigen::Matrix2d& covariance_m2) {
-  for (std::size_t i = 0; i < set.size; ++i)
-    state.modes[i].covariance.topLeftCorner<2, 2>() += covariance_m2;
-  for (MotionState& pair : state.pairs) pair.covariance.topLeftCorner<2, 2>() += covariance_m2;
+  for_each_estimate(set, state, [&](MotionState& estimate) {
+    estimate.covariance.topLeftCorner<2, 2>() += covariance_m2;
+  });
+}
+
+void imm_add_acceleration_noise(const ModelSet& set, ImmState& state,
+                                const Eigen::Matrix2d& density, double time_s) {
+  for_each_estimate(set, state, [&](MotionState& estimate) {
+    estimate.covariance.topLeftCorner<2, 2>() += density * std::pow(time_s, 3) / 3.0;
+    estimate.covariance.block<2, 2>(0, 2) += density * time_s * time_s / 2.0;
+    estimate.covariance.block<2, 2>(2, 0) += density * time_s * time_s / 2.0;
+    estimate.covariance.block<2, 2>(2, 2) += density * time_s;
+  });
 }
 
 }  // namespace slammot::filters

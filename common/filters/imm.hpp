@@ -73,4 +73,9 @@ void imm_shift(const ModelSet& set, ImmState& state, const Eigen::Vector2d& shif
 /// change.
 void imm_loosen(const ModelSet& set, ImmState& state, const Eigen::Matrix2d& covariance_m2);
 
+/// Adds white acceleration over time_s >= 0, beside the process noise of the models. density: of
+/// its power spectrum, positive semidefinite [m^2/s^3].
+void imm_add_acceleration_noise(const ModelSet& set, ImmState& state,
+                                const Eigen::Matrix2d& density, double time_s);
+
 }  // namespace slammot::filters

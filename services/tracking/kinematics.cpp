@@ -53,15 +53,6 @@ void predict(Kinematics& kinematics, double time_s, const TrackingConfig& config
   kinematics.estimate = filters::imm_combine(models, kinematics.mixture);
 }
 
-void add_acceleration_noise(Kinematics& kinematics, const Matrix2d& density, double time_s) {
-  for (filters::MotionState& mode : kinematics.mixture.modes) {
-    mode.covariance.topLeftCorner<2, 2>() += density * std::pow(time_s, 3) / 3.0;
-    mode.covariance.block<2, 2>(0, 2) += density * time_s * time_s / 2.0;
-    mode.covariance.block<2, 2>(2, 0) += density * time_s * time_s / 2.0;
-    mode.covariance.block<2, 2>(2, 2) += density * time_s;
-  }
-}
-
 void combine(Kinematics& kinematics, const TrackingConfig& config) {
   kinematics.estimate = filters::imm_combine(models_of(kinematics, config), kinematics.mixture);
 }

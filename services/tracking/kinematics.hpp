@@ -72,10 +72,6 @@ Course course_of(const Kinematics& kinematics);
 /// Prediction over time_s (>= 0) by the modes that may_turn and cruises_only select.
 void predict(Kinematics& kinematics, double time_s, const TrackingConfig& config);
 
-/// Adds white acceleration of this density [m^2/s^3] over time_s to all modes. The estimate is the
-/// caller's to combine.
-void add_acceleration_noise(Kinematics& kinematics, const Eigen::Matrix2d& density, double time_s);
-
 /// Sets the estimate to the moment-matched mixture.
 void combine(Kinematics& kinematics, const TrackingConfig& config);
 

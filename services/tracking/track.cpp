@@ -78,7 +78,8 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
   kinematics.may_turn = config.motion.coordinated_turn && is_surely_driving(track, config);
   predict(kinematics, time_s, config);
   if (track.history.is_unseen) {
-    add_acceleration_noise(kinematics, unseen_acceleration_density(track), time_s);
+    filters::imm_add_acceleration_noise(models_of(kinematics, config), kinematics.mixture,
+                                        unseen_acceleration_density(track), time_s);
     combine(kinematics, config);
   }
   if (Box* box = track.extent.box()) {

@@ -77,6 +77,31 @@ TEST(Imm, TakesAStepOfThePlaceThatIsFollowedForNoMotionWhereItIsToldOfIt) {
   EXPECT_GT(std::abs(velocity_after_a_step_mps(Eigen::Matrix2d::Zero()) - 5.0), 0.5);
 }
 
+TEST(Imm, AddsAccelerationNoiseForEveryMixture) {
+  MotionState start;
+  start.mean << 0.0, 0.0, 5.0, 0.0, 0.0, 0.0;
+  start.covariance.setIdentity();
+  const Eigen::Matrix2d density = Eigen::Vector2d(3.0, 0.0).asDiagonal();
+  for (const Mixture mixture : {Mixture::kImm, Mixture::kGpb1, Mixture::kGpb2}) {
+    ModelSet set = velocity_and_acceleration();
+    set.mixture = mixture;
+    const ImmState predicted = imm_predict(set, imm_start(set, start), kManeuverPeriodS);
+    ImmState noisy = predicted;
+    imm_add_acceleration_noise(set, noisy, density, 2.0);
+    const Matrix6 added =
+        imm_combine(set, noisy).covariance - imm_combine(set, predicted).covariance;
+    EXPECT_NEAR(added(0, 0), 8.0, 1e-9);  // 3 t^3 / 3, 3 t^2 / 2, 3 t: Bar-Shalom 2001, 6.2.2
+    EXPECT_NEAR(added(0, 2), 6.0, 1e-9);
+    EXPECT_NEAR(added(2, 0), 6.0, 1e-9);
+    EXPECT_NEAR(added(2, 2), 6.0, 1e-9);
+    EXPECT_NEAR(added(1, 1) + added(3, 3), 0.0, 1e-9);
+    const Eigen::Matrix2d R = Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d far_m(4.0, 0.0);
+    EXPECT_GT(imm_combine(set, imm_update(set, noisy, far_m, R).posterior).mean.x(),
+              imm_combine(set, imm_update(set, predicted, far_m, R).posterior).mean.x() + 0.5);
+  }
+}
+
 TEST(Imm, TakesAMeasuredComponentOfTheVelocityAsAKalmanFilterDoes) {
   const ModelSet set = velocity_and_acceleration();
   MotionState start;
