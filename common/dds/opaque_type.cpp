@@ -13,6 +13,7 @@
 #include <dds/ddsi/q_radmin.h>
 
 #include "common/dds/cdr_walk.hpp"
+#include "common/dds/qos_pointer.hpp"
 
 namespace slammot::dds {
 namespace {
@@ -236,15 +237,19 @@ const ddsi_sertype_ops& type_calls() {
 }  // namespace
 
 OpaqueTopic create_opaque_topic(const Participant& participant,
-                                std::shared_ptr<const RawTopic> topic, Instances instances) {
+                                std::shared_ptr<const RawTopic> topic, const OfferedQos& offered,
+                                Instances instances) {
   const std::string name(topic->info().name);
   auto* const type = new OpaqueType{{}, topic, instances};
   ddsi_sertype_init(&type->base, topic->type().name.c_str(), &type_calls(), &sample_calls(),
                     !is_keyed(topic->model()));
   type->base.allowed_data_representation = DDS_DATA_REPRESENTATION_RESTRICT_DEFAULT;
+  const QosPointer qos(dds_create_qos(), dds_delete_qos);
+  const dds_data_representation_id_t representation = offered.representation;
+  dds_qset_data_representation(qos.get(), 1, &representation);
   ddsi_sertype* used = &type->base;
   const dds_entity_t made = dds_create_topic_sertype(participant.handle(), name.c_str(), &used,
-                                                     nullptr, nullptr, nullptr);
+                                                     qos.get(), nullptr, nullptr);
   if (made < 0) free_type(&type->base);
   return {Entity(made, "topic " + name), used};
 }

@@ -39,7 +39,7 @@ void hand_over(ddsi_serdata* sample, std::int64_t source_time_ns,
 RawReader::RawReader(const Participant& participant, std::shared_ptr<const RawTopic> topic,
                      const OfferedQos& offered)
     : ReaderBase(participant, topic->info(),
-                 create_opaque_topic(participant, topic, Instances::kOne).entity,
+                 create_opaque_topic(participant, topic, offered, Instances::kOne).entity,
                  qos_for(offered).get()),
       raw_topic_(std::move(topic)) {}
 

@@ -41,7 +41,7 @@ QosPointer qos_for(const OfferedQos& offered) {
 
 RawWriter::RawWriter(const Participant& participant, std::shared_ptr<const RawTopic> topic,
                      const OfferedQos& offered)
-    : RawWriter(participant, topic, create_opaque_topic(participant, topic, Instances::kByKey),
+    : RawWriter(participant, topic, create_opaque_topic(participant, topic, offered, Instances::kByKey),
                 offered) {}
 
 RawWriter::RawWriter(const Participant& participant, std::shared_ptr<const RawTopic> topic,
