@@ -17,8 +17,8 @@ enum class Instances : std::uint8_t {
 };
 
 /// A topic whose samples are bytes that the library neither reads nor makes, and which is announced
-/// with the type's own description, so that it matches what is compiled. Its QoS is that of a compiled
-/// topic of the same name: a participant has one QoS for all topics of one name.
+/// with the type's own description, so that it matches what is compiled. Its QoS is that of a
+/// compiled topic of the same name: a participant has one QoS for all topics of one name.
 struct OpaqueTopic {
   Entity entity;
   const ddsi_sertype* type = nullptr;  ///< Lives as long as the entity.

@@ -41,8 +41,8 @@ QosPointer qos_for(const OfferedQos& offered) {
 
 RawWriter::RawWriter(const Participant& participant, std::shared_ptr<const RawTopic> topic,
                      const OfferedQos& offered)
-    : RawWriter(participant, topic, create_opaque_topic(participant, topic, offered, Instances::kByKey),
-                offered) {}
+    : RawWriter(participant, topic,
+                create_opaque_topic(participant, topic, offered, Instances::kByKey), offered) {}
 
 RawWriter::RawWriter(const Participant& participant, std::shared_ptr<const RawTopic> topic,
                      OpaqueTopic opaque, const OfferedQos& offered)

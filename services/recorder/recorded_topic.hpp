@@ -9,9 +9,9 @@
 
 namespace slammot::recorder {
 
-/// A topic as a recording describes it. The schema is OMG IDL, for people and for other programs; the
-/// description that travels on the bus and the writer's QoS are metadata of the channel, so that the
-/// topic can be played without its type being compiled in.
+/// A topic as a recording describes it. The schema is OMG IDL, for people and for other programs;
+/// the description that travels on the bus and the writer's QoS are metadata of the channel, so
+/// that the topic can be played without its type being compiled in.
 struct RecordedTopic {
   mcap::Schema schema;    ///< Its id is not set.
   mcap::Channel channel;  ///< Neither.

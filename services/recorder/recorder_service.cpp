@@ -83,9 +83,10 @@ void RecorderService::add_options(CLI::App& command_line, Settings& settings) {
                   "File to write; by default VEHICLE-TIME.mcap in the state folder")
       ->type_name("FILE");
   command_line
-      .add_option("--topics", settings.topics,
-                  "Topics to record, comma-separated; all by default. A trailing '*' stands for all "
-                  "that begin like it")
+      .add_option(
+          "--topics", settings.topics,
+          "Topics to record, comma-separated; all by default. A trailing '*' stands for all "
+          "that begin like it")
       ->type_name("NAME,...")
       ->delimiter(',');
   command_line.add_option("--compression", settings.compression, "Of chunks: none, lz4 or zstd")
@@ -128,8 +129,9 @@ void RecorderService::look_for_topics() {
   std::erase_if(wanted_, [this](Wanted& wanted) {
     if (try_to_read(wanted.writer)) return true;
     if (++wanted.attempts < kMostAttempts) return false;
-    context_.warn("topics_without_type",
-                  wanted.writer.topic_name + ": its writer does not describe its type: not recorded");
+    context_.warn(
+        "topics_without_type",
+        wanted.writer.topic_name + ": its writer does not describe its type: not recorded");
     known_.erase({wanted.writer.topic_name, wanted.writer.type_name});
     return true;
   });
@@ -139,9 +141,8 @@ void RecorderService::look_for_topics() {
 bool RecorderService::try_to_read(const dds::FoundWriter& writer) {
   if (!writer.information) return false;
   try {
-    const auto topic =
-        dds::RawTopic::resolve(context_.participant(), writer.topic_name, writer.type_name,
-                               *writer.information, kTypePatience);
+    const auto topic = dds::RawTopic::resolve(context_.participant(), writer.topic_name,
+                                              writer.type_name, *writer.information, kTypePatience);
     if (!topic) return false;
     auto input = std::make_unique<Input>();
     input->channel = recording_->add(describe(*topic, writer.qos));
@@ -171,8 +172,7 @@ void RecorderService::report() {
   for (const auto& input : inputs_) {
     const dds::ReaderCounters counters = input->reader->counters();
     totals["lost_before_taken"] += counters.lost + counters.rejected;
-    totals["incompatible_writers"] +=
-        input->reader->mismatch().value_or(dds::QosMismatch{}).total;
+    totals["incompatible_writers"] += input->reader->mismatch().value_or(dds::QosMismatch{}).total;
   }
   context_.status().set_counters(totals);
   const std::string fault = recording_->fault();

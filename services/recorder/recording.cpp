@@ -29,8 +29,7 @@ mcap::ChannelId Recording::add(const RecordedTopic& topic) {
     return other.schema.name == known.schema.name && other.schema.data == known.schema.data;
   });
   const bool is_new = same == channels_.end();
-  known.schema.id =
-      is_new ? static_cast<mcap::SchemaId>(channels_.size() + 1) : same->schema.id;
+  known.schema.id = is_new ? static_cast<mcap::SchemaId>(channels_.size() + 1) : same->schema.id;
   known.channel.schema_id = known.schema.id;
   known.channel.id = static_cast<mcap::ChannelId>(channels_.size() + 1);
   channels_.push_back(std::move(known));

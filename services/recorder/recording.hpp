@@ -24,9 +24,9 @@ struct RecordingOptions {
   std::size_t most_chunks = 64;  ///< Memory for a disk that stalls: with the above 64 MB.
 };
 
-/// A recording under way. Messages are copied into chunks; a thread packs the chunks and writes them,
-/// so that a slow disk never holds up who adds messages. Without a free chunk messages are dropped and
-/// counted. Add messages from one thread.
+/// A recording under way. Messages are copied into chunks; a thread packs the chunks and writes
+/// them, so that a slow disk never holds up who adds messages. Without a free chunk messages are
+/// dropped and counted. Add messages from one thread.
 class Recording {
  public:
   /// Begins the file. fault() says whether that failed.
@@ -46,7 +46,7 @@ class Recording {
 
   std::uint64_t recorded() const { return recorded_; }  ///< Messages.
   std::uint64_t dropped() const { return dropped_; }
-  std::uint64_t bytes() const { return bytes_; }        ///< Of messages, unpacked.
+  std::uint64_t bytes() const { return bytes_; }  ///< Of messages, unpacked.
   /// What stopped the recording, such as a full disk; empty if nothing did.
   std::string fault() const;
 
