@@ -60,12 +60,6 @@ class ServiceContext {
     return *writer;
   }
 
-  /// Calls `handle` when the reader has samples, which it must take. The reader must outlive the
-  /// context's last run.
-  void on_data(const dds::ReaderBase& reader, std::function<void()> handle) {
-    wait_set_.on_data(reader, std::move(handle));
-  }
-
   /// Registers a periodic callback, first due one period from now. Missed calls are skipped.
   void every(std::chrono::nanoseconds period, std::function<void()> work);
   /// Registers a single callback after `delay`.

@@ -17,6 +17,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLookPeriod = 50ms;
+/// Far less than what the readers hold.
+constexpr auto kTakePeriod = 20ms;
 /// Time within which others describe a type: 1 ms where they are well.
 constexpr auto kTypePatience = 20ms;
 constexpr int kMostAttempts = 100;
@@ -102,7 +104,8 @@ RecorderService::RecorderService(app::ServiceContext& context, const Settings& s
     : context_(context),
       topics_(settings.topics),
       ends_on_fault_(settings.ends_on_fault),
-      discovery_(context.participant()) {
+      discovery_(context.participant()),
+      last_look_ns_(now_ns()) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file's size is a full disk, no reason to die
   const RecordingOptions options = options_of(settings, context.options());
   path_ = options.path;
@@ -112,6 +115,7 @@ RecorderService::RecorderService(app::ServiceContext& context, const Settings& s
   spdlog::info("recording into {}", path_.string());
   look_for_topics();
   context.every(kLookPeriod, [this] { look_for_topics(); });
+  context.every(kTakePeriod, [this] { take_all(); });
   context.every(kFlushPeriod, [this] { recording_->flush(); });
   context.before_report([this] { report(); });
   if (settings.duration_s > 0.0)
@@ -144,22 +148,33 @@ bool RecorderService::try_to_read(const dds::FoundWriter& writer) {
     const auto topic = dds::RawTopic::resolve(context_.participant(), writer.topic_name,
                                               writer.type_name, *writer.information, kTypePatience);
     if (!topic) return false;
-    auto input = std::make_unique<Input>();
-    input->channel = recording_->add(describe(*topic, writer.qos));
-    input->reader = std::make_unique<dds::RawReader>(context_.participant(), topic, writer.qos);
-    context_.on_data(*input->reader, [this, added = input.get()] { take(*added); });
-    inputs_.push_back(std::move(input));
+    auto reader = std::make_unique<dds::RawReader>(context_.participant(), topic, writer.qos);
+    inputs_.push_back({std::move(reader), recording_->add(describe(*topic, writer.qos))});
   } catch (const dds::Error& error) {
     context_.warn("topics_refused", writer.topic_name + " is not recorded: " + error.what());
   }
   return true;
 }
 
-void RecorderService::take(Input& input) {
-  const std::int64_t log_time_ns = now_ns();
-  input.reader->take_each([&](const dds::RawSample& sample) {
-    recording_->add(input.channel, log_time_ns, sample.source_time_ns, sample.cdr);
-  });
+void RecorderService::take_all() {
+  const std::int64_t this_look_ns = now_ns();
+  for (const Input& input : inputs_)
+    input.reader->take_each([&](const dds::RawSample& sample) {
+      batch_.add(input.channel, sample.source_time_ns, sample.cdr);
+    });
+  batch_.move_to(*recording_, last_look_ns_, this_look_ns);
+  last_look_ns_ = this_look_ns;
+}
+
+RecorderService::~RecorderService() {
+  try {
+    finish();
+  } catch (const dds::Error& error) { spdlog::error("{}", error.what()); }
+}
+
+bool RecorderService::finish() {
+  take_all();
+  return recording_->finish();
 }
 
 void RecorderService::report() {
@@ -169,10 +184,10 @@ void RecorderService::report() {
                                                  {"topics", inputs_.size()},
                                                  {"lost_before_taken", 0},
                                                  {"topics_undescribed", wanted_.size()}};
-  for (const auto& input : inputs_) {
-    const dds::ReaderCounters counters = input->reader->counters();
+  for (const Input& input : inputs_) {
+    const dds::ReaderCounters counters = input.reader->counters();
     totals["lost_before_taken"] += counters.lost + counters.rejected;
-    totals["incompatible_writers"] += input->reader->mismatch().value_or(dds::QosMismatch{}).total;
+    totals["incompatible_writers"] += input.reader->mismatch().value_or(dds::QosMismatch{}).total;
   }
   context_.status().set_counters(totals);
   const std::string fault = recording_->fault();

@@ -11,6 +11,7 @@
 #include "common/dds/raw_reader.hpp"
 #include "common/dds/topic_discovery.hpp"
 #include "services/recorder/recording.hpp"
+#include "services/recorder/sample_batch.hpp"
 #include "services/recorder/topic_selection.hpp"
 
 namespace slammot::recorder {
@@ -33,12 +34,15 @@ class RecorderService {
 
   /// Throws StartupFailure if the file cannot be made.
   RecorderService(app::ServiceContext& context, const Settings& settings);
+  ~RecorderService();
+  RecorderService(const RecorderService&) = delete;
+  RecorderService& operator=(const RecorderService&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   const Recording& recording() const { return *recording_; }
   std::size_t topic_count() const { return inputs_.size(); }
   /// Ends the file; called by the destructor, too. False if a part was lost.
-  bool finish() { return recording_->finish(); }
+  bool finish();
 
  private:
   struct Input {
@@ -53,7 +57,7 @@ class RecorderService {
 
   void look_for_topics();
   bool try_to_read(const dds::FoundWriter& writer);
-  void take(Input& input);
+  void take_all();
   void report();
 
   app::ServiceContext& context_;
@@ -64,7 +68,9 @@ class RecorderService {
   dds::TopicDiscovery discovery_;
   std::set<TopicKey> known_;
   std::vector<Wanted> wanted_;  ///< Found, but not described yet.
-  std::vector<std::unique_ptr<Input>> inputs_;
+  std::vector<Input> inputs_;
+  SampleBatch batch_;
+  std::int64_t last_look_ns_;
 };
 
 }  // namespace slammot::recorder

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What recording everything of one vehicle costs: `slammot record` beside the whole pipeline at the recorded rate.
 
-Usage: recorder_cost.py SLAMMOT [--seconds 30] [--scenario block]
+Usage: recorder_cost.py SLAMMOT [--seconds 30] [--scenario block] [--compression zstd]
 
 Prints the share of a core, messages, lost messages and the size."""
 
@@ -36,6 +36,7 @@ def main():
     parser.add_argument("slammot")
     parser.add_argument("--seconds", type=float, default=30.0)
     parser.add_argument("--scenario", default="block")
+    parser.add_argument("--compression", default="zstd")
     arguments = parser.parse_args()
     live = subprocess.Popen([arguments.slammot, "live", "--scenario", arguments.scenario, "--port", "0"], stdout=subprocess.DEVNULL)
     try:
@@ -43,7 +44,7 @@ def main():
         time.sleep(5)  # all services run
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "all.mcap"
-            recording = subprocess.Popen([arguments.slammot, "record", "--output", str(path), "--duration", str(arguments.seconds)],
+            recording = subprocess.Popen([arguments.slammot, "record", "--output", str(path), "--duration", str(arguments.seconds), "--compression", arguments.compression],
                                          env=environment, stdout=subprocess.PIPE, text=True)
             said = recording.stdout.read()
             _, _, usage = os.wait4(recording.pid, 0)
