@@ -92,7 +92,9 @@ files::Result<File> File::open(const std::filesystem::path& path) {
   if (bags::text_of(bytes->read(0, format::kMagic.size())) != format::kMagic)
     return files::Error{path.string() + ": is not an MCAP file"};
   auto summary = read_summary(*bytes);
-  const bool has_index = summary && !summary->chunks.empty();
+  const bool is_empty =
+      summary && summary->statistics != Statistics{} && summary->statistics.message_count == 0;
+  const bool has_index = summary && (!summary->chunks.empty() || is_empty);
   Contents contents = has_index ? *std::move(summary) : scan(*bytes);
   return File(std::move(bytes), std::move(contents));
 }

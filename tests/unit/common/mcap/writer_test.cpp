@@ -77,6 +77,14 @@ TEST_F(McapWriter, EveryChecksumAndIndexIsRight) {
   EXPECT_GT(file->contents().chunks.size(), 5U);
 }
 
+TEST_F(McapWriter, AFileWithoutMessagesIsSound) {
+  ASSERT_TRUE(write_example(path_, {}, Compression::kZstd));
+  const auto file = File::open_and_verify(path_);
+  ASSERT_TRUE(file);
+  EXPECT_TRUE(file->contents().is_whole);
+  EXPECT_EQ(file->contents().damage, std::vector<std::string>{});
+}
+
 TEST_F(McapWriter, EveryIndexEntryPointsToItsMessage) {
   ASSERT_TRUE(write_example(path_, example_messages(100), Compression::kLz4));
   const auto file = File::open(path_);
