@@ -12,6 +12,8 @@
 #include "common/config/nearest.hpp"
 #include "services/evaluator/eval_command.hpp"
 #include "services/evaluator/report_command.hpp"
+#include "services/recorder/bag_command.hpp"
+#include "services/recorder/record_command.hpp"
 #include "services/simulator/simulate_command.hpp"
 #include "services/slammot/bench_command.hpp"
 #include "services/slammot/check_command.hpp"
@@ -95,6 +97,9 @@ int run_command_line(int argc, char** argv) {
   evaluator::add_eval_command(app, exit_code);
   evaluator::add_report_command(app, exit_code);
   add_warn_command(app, exit_code);
+  recorder::add_record_command(app, exit_code);
+  recorder::add_play_command(app, exit_code);
+  recorder::add_bag_command(app, exit_code);
   if (argc < 2) {
     std::fputs(app.help().c_str(), stdout);
     return kExitFault;
