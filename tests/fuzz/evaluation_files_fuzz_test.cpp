@@ -61,7 +61,7 @@ void compare(const std::filesystem::path& folder) {
   if (!evaluation) return;
   EXPECT_FALSE(to_json_text(*evaluation, {}).empty());
   EXPECT_FALSE(to_text(*evaluation, {}).empty());
-  ReportSource source{"page", &*result, "", "", &*truth, &*evaluation, {}};
+  ReportSource source{"page", &*result, &*truth, &*evaluation, {}};
   EXPECT_FALSE(to_html(source).empty());
 }
 
