@@ -75,8 +75,8 @@ GroundView whole_view(const RunResult& result, double most_pixels) {
   const double metres_per_pixel = std::max(0.01, size_m.maxCoeff() / most_pixels);
   return {{low_m.x(), high_m.y()},
           metres_per_pixel,
-          std::ceil(size_m.x() / metres_per_pixel),
-          std::ceil(size_m.y() / metres_per_pixel)};
+          std::max(1.0, std::ceil(size_m.x() / metres_per_pixel)),
+          std::max(1.0, std::ceil(size_m.y() / metres_per_pixel))};
 }
 
 SceneDrawing::SceneDrawing(const RunResult& result, const PageTheme& theme, double metres_per_pixel)
