@@ -76,7 +76,7 @@ def slammot(program, *words):
 
 
 async def take_pictures(page, folder):
-    views = {"report_light": ("light", 0), "report_dark": ("dark", 0.95)}
+    views = {"report_dark": ("dark", 0.95)}
     for name, (theme, tilt) in views.items():
         await page.value(f"(() => {{ const p = slammotReport; p.options.theme = '{theme}'; p.applyTheme(); p.camera.wantedTilt = {tilt}; p.camera.distance = 60;"
                          f" p.seek({BUSIEST}); }})()")
