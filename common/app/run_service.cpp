@@ -3,11 +3,14 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
 #include "common/app/log.hpp"
+#include "common/app/standby.hpp"
+#include "common/app/state_lock.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/app/version.hpp"
 #include "common/config/explain.hpp"
@@ -22,15 +25,49 @@ int refuse(const std::string& program, const std::string& why) {
   return kExitUsage;
 }
 
+/// The state is in use by another process.
+class InUse : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+std::filesystem::path lock_path(const ServiceDescription& description,
+                                const ServiceOptions& options) {
+  return options.state_dir /
+         (description.name + "-" + options.vehicle_id + "-" + options.instance + ".lock");
+}
+
+void refuse_if_in_use(StateLock& lock) {
+  if (lock.try_lock() == StateLock::Outcome::kInUse) throw InUse(lock.reason());
+}
+
+/// Reports why there is no lock, and tries again: a full disk may be cleared.
+void watch(StateLock& lock, ServiceContext& context) {
+  context.status().set_trouble("state", lock.reason());
+  context.every(std::chrono::seconds(1), [&] {
+    if (lock.reason().empty()) return;
+    if (lock.try_lock() == StateLock::Outcome::kLocked) context.status().clear_trouble("state");
+    else context.status().set_trouble("state", lock.reason());
+  });
+}
+
 /// The service is destroyed before the context that it refers to, and both before the watchdog
 /// stops.
 int serve(const ServiceDescription& description, const ServiceOptions& options) {
   dds::ExitWatchdog watchdog;
+  StateLock lock(lock_path(description, options));
+  if (description.keeps_state && !description.is_one_per_vehicle) refuse_if_in_use(lock);
   ServiceContext context(description.name, options);
   const StopSignal stop_signal([&] {
     watchdog.arm();  // also guards against a handler that does not return
     context.stop();
   });
+  std::optional<Standby> standby;
+  if (description.is_one_per_vehicle) {
+    standby.emplace(context, description.keeps_state ? &lock : nullptr);
+    if (!standby->wait_until_it_leads()) return context.exit_code();
+  }
+  if (!lock.reason().empty()) watch(lock, context);
   const std::shared_ptr<void> service = description.make(context);
   spdlog::info("vehicle {} in DDS domain {}", options.vehicle_id, options.domain_id);
   context.run();
@@ -43,6 +80,9 @@ int serve_or_say_why_not(const std::string& program, const ServiceDescription& d
     return serve(description, options);
   } catch (const StartupFailure& failure) {
     return refuse(program, failure.what());
+  } catch (const InUse& in_use) {
+    refuse(program, in_use.what());
+    return kExitInUse;
   } catch (const dds::StartupError& error) {
     return refuse(program, error.what());
   } catch (const std::exception& error) {

@@ -29,6 +29,8 @@ struct ServiceDescription {
   std::vector<config::BoundStage> stages;
   std::function<void(CLI::App&)> add_options;
   std::function<std::shared_ptr<void>(ServiceContext&)> make;
+  bool is_one_per_vehicle = false;  ///< A second process of it stands by.
+  bool keeps_state = false;         ///< In the state directory, which is locked.
 };
 
 /// Runs a service: command line, configuration, log, signals, bus, loop, exit.
@@ -40,14 +42,22 @@ int run_service(int argc, char** argv, const ServiceDescription& description);
 ///   std::vector<config::BoundStage> stages(Settings&), static void add_options(CLI::App&,
 ///   Settings&), Service(ServiceContext&, const Settings&)                   which says what it
 ///   reads, writes and does periodically.
+/// and, where they are true, static constexpr bool kIsOnePerVehicle, kKeepsState.
 template <typename Service>
 int run_service(int argc, char** argv) {
   typename Service::Settings settings;
   return run_service(
       argc, argv,
       {Service::kName, Service::kPurpose, Service::stages(settings),
-       [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
-       [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); }});
+       [&](CLI::App& command_line) {
+    Service::add_options(command_line, settings); },
+       [&](ServiceContext& context) {
+    return std::make_shared<Service>(context, settings); },
+       requires { Service::kIsOnePerVehicle;
+}
+, requires { Service::kKeepsState; }
+}  // namespace slammot::app
+);
 }
 
 }  // namespace slammot::app

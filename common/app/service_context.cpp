@@ -1,11 +1,15 @@
 #include "common/app/service_context.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
 namespace slammot::app {
 namespace {
+
+/// A quarter of the time after which a leader that is not heard is replaced.
+constexpr std::chrono::milliseconds kRoleHeartbeatPeriod{50};
 
 slammot_Reply reply_to(const slammot_Command& command, const CommandResult& result) {
   return wire::encode(wire::Reply{.vehicle_id = command.vehicle_id,
@@ -44,8 +48,7 @@ ServiceContext::ServiceContext(const std::string& service, const ServiceOptions&
     });
   });
   keep(commands);
-  every(StatusPublisher::kHeartbeatPeriod,
-        [this] { publisher_.beat(board_.state(std::chrono::steady_clock::now())); });
+  every(StatusPublisher::kHeartbeatPeriod, [this] { beat(); });
   every(StatusPublisher::kStatusPeriod, [this] { report(); });
 }
 
@@ -130,10 +133,32 @@ void ServiceContext::run_for(std::chrono::nanoseconds duration) {
   }
 }
 
+void ServiceContext::set_role(const StatusPublisher::Role& role) {
+  publisher_.set_role(role);
+  beat();
+  if (!std::exchange(has_role_, true)) every(kRoleHeartbeatPeriod, [this] { beat(); });
+}
+
+bool ServiceContext::run_until(const std::function<bool()>& condition) {
+  constexpr std::chrono::nanoseconds kTurn = std::chrono::milliseconds(5);
+  while (!condition()) {
+    if (wait_set_.wait(std::min(until_next_timer(), kTurn)) == dds::WaitSet::Wake::kStopped) {
+      say_goodbye();
+      return false;
+    }
+    run_due_timers();
+  }
+  return true;
+}
+
 void ServiceContext::run() {
-  publisher_.beat(board_.state(std::chrono::steady_clock::now()));
+  beat();
   report();
   while (wait_set_.wait(until_next_timer()) != dds::WaitSet::Wake::kStopped) run_due_timers();
+  say_goodbye();
+}
+
+void ServiceContext::say_goodbye() {
   publisher_.beat(ServiceState::kStopping);
   report_as(ServiceState::kStopping);
   publisher_.wait_until_heard(std::chrono::milliseconds(500));

@@ -29,6 +29,7 @@ class ServiceContext {
   ServiceContext& operator=(const ServiceContext&) = delete;
 
   const ServiceOptions& options() const { return options_; }
+  const std::string& service() const { return service_; }
   const std::string& vehicle_id() const { return options_.vehicle_id; }
   const dds::Participant& participant() const { return participant_; }
   StatusBoard& status() { return board_; }
@@ -79,8 +80,16 @@ class ServiceContext {
   void stop(int exit_code);
   int exit_code() const { return exit_code_; }
 
+  /// Sends its place among the processes of this service and vehicle with each heartbeat, of which
+  /// more are sent from now on: others notice the end of this process by their absence.
+  void set_role(const StatusPublisher::Role& role);
+  std::int64_t started_ns() const { return publisher_.started_ns(); }
+
   /// Runs until stopped.
   void run();
+  /// Runs until the condition holds, which is asked every few milliseconds; false if stopped
+  /// before.
+  bool run_until(const std::function<bool()>& condition);
   /// Runs for about this time, for tests with several services in one thread.
   void run_for(std::chrono::nanoseconds duration);
 
@@ -98,6 +107,8 @@ class ServiceContext {
   }
   std::chrono::nanoseconds until_next_timer() const;
   void run_due_timers();
+  void beat() { publisher_.beat(board_.state(std::chrono::steady_clock::now())); }
+  void say_goodbye();
   void report();
   void report_as(ServiceState state);
   void report_changes(const std::string& explanation);
@@ -117,6 +128,7 @@ class ServiceContext {
   std::vector<Timer> timers_;
   std::vector<std::function<void()>> before_report_;
   std::string last_explanation_;
+  bool has_role_ = false;
   int exit_code_ = 0;
 };
 

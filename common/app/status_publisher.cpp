@@ -28,7 +28,8 @@ StatusPublisher::StatusPublisher(const dds::Participant& participant, wire::Serv
 
 void StatusPublisher::beat(ServiceState state) {
   heartbeats_.write(wire::encode(wire::Heartbeat{name_, system_clock_ns(), beats_++,
-                                                 static_cast<std::uint32_t>(::getpid()), state}));
+                                                 static_cast<std::uint32_t>(::getpid()), state,
+                                                 role_.stands_by, role_.term, started_ns_}));
 }
 
 void StatusPublisher::report(const StatusBoard& board, ServiceState state) {
@@ -45,6 +46,8 @@ void StatusPublisher::report(const StatusBoard& board, ServiceState state) {
   for (const auto& [name, total] : board.counters()) status.counters.push_back({name, total});
   for (const auto& [stage, histogram] : board.latencies())
     status.latencies.push_back(describe(stage, histogram));
+  status.process_number = static_cast<std::uint32_t>(::getpid());
+  status.stands_by = role_.stands_by;
   statuses_.write(encoder_.encode(status));
 }
 

@@ -17,6 +17,14 @@ class StatusPublisher {
 
   StatusPublisher(const dds::Participant& participant, wire::ServiceName name);
 
+  /// Place among the processes of one service and vehicle: sent with each heartbeat and status.
+  struct Role {
+    bool stands_by = false;
+    std::uint32_t term = 0;
+  };
+  void set_role(const Role& role) { role_ = role; }
+  std::int64_t started_ns() const { return started_ns_; }
+
   void beat(ServiceState state);
   /// With the current state and explanation, or `state` when stopping.
   void report(const StatusBoard& board, ServiceState state);
@@ -30,6 +38,7 @@ class StatusPublisher {
   wire::ServiceName name_;
   std::int64_t started_ns_;
   std::uint32_t beats_ = 0;
+  Role role_;
   dds::Writer<slammot_Heartbeat> heartbeats_;
   dds::Writer<slammot_ServiceStatus> statuses_;
   wire::StatusEncoder encoder_;

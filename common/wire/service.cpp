@@ -81,6 +81,9 @@ slammot_Heartbeat encode(const Heartbeat& heartbeat) {
   sample.sequence_number = heartbeat.sequence;
   sample.process_number = heartbeat.process_number;
   sample.state = static_cast<slammot_ServiceState>(heartbeat.state);
+  sample.stands_by = heartbeat.stands_by;
+  sample.term = heartbeat.term;
+  sample.started_ns = heartbeat.started_ns;
   return sample;
 }
 
@@ -108,8 +111,14 @@ slammot_Reply encode(const Reply& reply) {
 
 Decoded<Heartbeat> decode(const slammot_Heartbeat& sample) {
   if (!is_state(sample.state)) return Fault{"state is unknown"};
-  return Heartbeat{name_of(sample), sample.stamp_ns, sample.sequence_number, sample.process_number,
-                   static_cast<ServiceState>(sample.state)};
+  return Heartbeat{name_of(sample),
+                   sample.stamp_ns,
+                   sample.sequence_number,
+                   sample.process_number,
+                   static_cast<ServiceState>(sample.state),
+                   sample.stands_by,
+                   sample.term,
+                   sample.started_ns};
 }
 
 Decoded<Command> decode(const slammot_Command& sample) {
@@ -158,6 +167,8 @@ const slammot_ServiceStatus& StatusEncoder::encode(const ServiceStatus& status) 
   show(sample_.missing_inputs, missing_inputs_);
   show(sample_.counters, counters_);
   show(sample_.stage_latencies, latencies_);
+  sample_.process_number = status.process_number;
+  sample_.stands_by = status.stands_by;
   return sample_;
 }
 
@@ -171,7 +182,9 @@ Decoded<ServiceStatus> decode(const slammot_ServiceStatus& sample) {
                        .explanation = std::string(text(sample.explanation)),
                        .missing_inputs = {},
                        .counters = {},
-                       .latencies = {}};
+                       .latencies = {},
+                       .process_number = sample.process_number,
+                       .stands_by = sample.stands_by};
   for (const slammot_MissingInput& input : elements(sample.missing_inputs)) {
     status.missing_inputs.push_back({std::string(text(input.topic_name)), input.silent_s});
   }

@@ -27,6 +27,9 @@ struct Heartbeat {
   std::uint32_t sequence = 0;
   std::uint32_t process_number = 0;
   ServiceState state = ServiceState::kStarting;
+  bool stands_by = false;       ///< Another process of the service leads; this one would take over.
+  std::uint32_t term = 0;       ///< Grows with each takeover.
+  std::int64_t started_ns = 0;  ///< System clock.
 };
 
 struct Counter {
@@ -57,6 +60,8 @@ struct ServiceStatus {
   std::vector<MissingInput> missing_inputs;  ///< At most 32 travel,
   std::vector<Counter> counters;             ///< of these 128,
   std::vector<StageLatency> latencies;       ///< and of these 32.
+  std::uint32_t process_number = 0;
+  bool stands_by = false;  ///< As in Heartbeat.
 };
 
 struct Command {

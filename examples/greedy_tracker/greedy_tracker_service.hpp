@@ -23,6 +23,7 @@ class GreedyTrackerService {
                                                     ///< its heartbeat.
   static constexpr const char* kPurpose =
       "Example of a service that replaces slammot-tracking: nearest neighbour, one Kalman filter.";
+  static constexpr bool kIsOnePerVehicle = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

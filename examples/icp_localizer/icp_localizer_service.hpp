@@ -25,6 +25,7 @@ class IcpLocalizerService {
                                                         ///< for its heartbeat and send it commands.
   static constexpr const char* kPurpose =
       "Example of a service that replaces slammot-localization: ICP against the recent scans.";
+  static constexpr bool kIsOnePerVehicle = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

@@ -17,6 +17,7 @@ class DetectionService {
   static constexpr const char* kName = "detection";
   static constexpr const char* kPurpose =
       "Segments scans and labels the segments that contradict the map as moving.";
+  static constexpr bool kIsOnePerVehicle = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

@@ -48,6 +48,12 @@ std::unique_ptr<WebServer> start_server(const WebServerSettings& settings) {
   } catch (const std::runtime_error& fault) { throw app::StartupFailure(fault.what()); }
 }
 
+/// Tells a standby from its leader, which often has the same name.
+template <typename Message>
+void name_standby(Message& message) {
+  if (message.stands_by) message.name.instance += " (standby)";
+}
+
 /// Answer to the question whether there is anything to see.
 Content readiness(double scan_age_s) {
   const bool is_ready = scan_age_s >= 0.0 && scan_age_s < kStale_s;
@@ -192,12 +198,14 @@ void GatewayService::read_map() {
 
 void GatewayService::read_services() {
   context_.read(dds::topics::kHeartbeat, app::Input::kOccasional, [this](const auto& sample) {
-    const auto heartbeat = wire::decode(sample);
+    auto heartbeat = wire::decode(sample);
+    if (heartbeat) name_standby(*heartbeat);
     if (accept(heartbeat, "faulty_heartbeats"))
       board_.take(*heartbeat, std::chrono::steady_clock::now());
   });
   context_.read(dds::topics::kStatus, app::Input::kOccasional, [this](const auto& sample) {
-    const auto status = wire::decode(sample);
+    auto status = wire::decode(sample);
+    if (status) name_standby(*status);
     if (accept(status, "faulty_statuses")) board_.take(*status, std::chrono::steady_clock::now());
   });
   context_.every(500ms, [this] { report_health(); });

@@ -95,6 +95,7 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
   context.status().counter("log_scans") = source_.log().plan().figures.scans;
   context.read(
       dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
+        if (beat.stands_by) return;
         readiness_.heard(std::string(wire::text(beat.service_name)), is_operational(beat.state));
         // A starting service announces that it will be ready.
         if (beat.state == slammot_SERVICE_STATE_STARTING)

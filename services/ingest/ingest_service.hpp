@@ -35,6 +35,7 @@ class IngestService {
   static constexpr const char* kPurpose =
       "Plays a recorded drive (a CARMEN log or a ROS bag) on the bus.";
   static constexpr int kExitCut = 3;  ///< The log is truncated.
+  static constexpr bool kKeepsState = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 

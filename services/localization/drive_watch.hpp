@@ -35,6 +35,9 @@ class DriveWatch {
     return known != drive_by_scanner_.end() ? Scan::kOfNewDrive : Scan::kOfThisDrive;
   }
 
+  /// Lets a drive that ended begin again.
+  void readmit(std::uint64_t drive_id) { std::erase(earlier_, drive_id); }
+
   /// The drive that each scanner is on.
   const std::map<std::string, std::uint64_t>& drives() const { return drive_by_scanner_; }
 

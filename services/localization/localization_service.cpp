@@ -59,6 +59,7 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
   read_inputs(context);
   context.every(kTurn, [this] {
     waiting_.count_turn();
+    admit(drives_.gate.judge_held(monotonic_ns()));
     if (stored_map_ && !drive_.map_id) is_stored_map_known();
     localize_waiting();
   });
@@ -95,7 +96,7 @@ bool LocalizationService::is_good(const wire::Decoded<Value>& decoded, std::stri
 void LocalizationService::take(const slammot_LaserScan& sample) {
   auto scan = wire::decode(sample);
   if (!is_good(scan, "laser_scan")) return;
-  waiting_.add({std::move(*scan), sample.drive_id});
+  admit(drives_.gate.judge({std::move(*scan), sample.drive_id}, monotonic_ns()));
   localize_waiting();
 }
 

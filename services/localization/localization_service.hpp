@@ -9,6 +9,7 @@
 #include "common/app/run_service.hpp"
 #include "common/wire/graph.hpp"
 #include "common/wire/stored_map.hpp"
+#include "services/localization/drive_gate.hpp"
 #include "services/localization/drive_watch.hpp"
 #include "services/localization/localization_service_scans.hpp"
 #include "services/localization/localization_service_session.hpp"
@@ -33,6 +34,8 @@ class LocalizationService {
   static constexpr const char* kName = "localization";
   static constexpr const char* kPurpose =
       "Estimates the pose of the vehicle and the map around it, scan by scan.";
+  static constexpr bool kIsOnePerVehicle = true;
+  static constexpr bool kKeepsState = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 
@@ -51,6 +54,12 @@ class LocalizationService {
     wire::GraphCorrectionAssembler assembler;
     /// From before the first scan: the bus keeps those from before this process.
     std::map<flow::MapId, flow::GraphCorrection> early;
+  };
+
+  struct Drives {
+    DriveWatch watch;                           ///< Of the scans that were localized.
+    DriveGate gate;                             ///< Of those that arrive.
+    std::optional<std::int64_t> last_stray_ns;  ///< By the monotonic clock.
   };
 
   void read_inputs(app::ServiceContext& context);
@@ -72,10 +81,13 @@ class LocalizationService {
   app::CommandResult finish_submap();
 
   // Drives: localization_service_drives.cpp.
+  void admit(DriveGate::Verdict verdict);
+  void tell_of_strays(const std::vector<WaitingScan>& strays);
   bool knows_map_of(const WaitingScan& waiting);
   bool is_stored_map_known();
   bool is_of_this_drive(const WaitingScan& waiting);
   bool come_back(const WaitingScan& first);
+  bool return_to_saved_drive(const WaitingScan& first);
   void take_up(const SavedSession& session);
   void hand_over_earlier_drive();
   void end_drive();
@@ -95,7 +107,7 @@ class LocalizationService {
   Corrections corrections_;
   WaitingScans waiting_;
   RecentOdometry recent_odometry_;
-  DriveWatch drives_;
+  Drives drives_;
   Drive drive_;
   std::optional<StoredMapWatch> stored_map_;  ///< None where each drive begins its own map.
 };

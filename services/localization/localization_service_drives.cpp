@@ -23,7 +23,7 @@ bool LocalizationService::knows_map_of(const WaitingScan& waiting) {
   constexpr std::size_t kMostWaiting = 100;
   if (!drive_.map_id && come_back(waiting)) return true;
   const bool is_new =
-      !drive_.map_id || drives_.look_at(waiting.scan.scanner.scanner_id, waiting.drive_id) ==
+      !drive_.map_id || drives_.watch.look_at(waiting.scan.scanner.scanner_id, waiting.drive_id) ==
                             DriveWatch::Scan::kOfNewDrive;
   if (!stored_map_ || !is_new) return true;
   if (drive_.map_id) end_drive();
@@ -49,14 +49,39 @@ bool LocalizationService::is_stored_map_known() {
   return !waits;
 }
 
+void LocalizationService::admit(DriveGate::Verdict verdict) {
+  for (WaitingScan& scan : verdict.admitted) {
+    if (verdict.begins_drive) drives_.watch.readmit(scan.drive_id);
+    waiting_.add(std::move(scan));
+  }
+  tell_of_strays(verdict.strays);
+}
+
+void LocalizationService::tell_of_strays(const std::vector<WaitingScan>& strays) {
+  constexpr std::int64_t kToldForNs = 5'000'000'000;
+  for (const WaitingScan& stray : strays) {
+    const std::string& scanner_id = stray.scan.scanner.scanner_id;
+    const std::string words = "dropped scans of drive " + std::to_string(stray.drive_id) +
+                              " of scanner " + scanner_id + ": another drive goes on";
+    context_.warn("stray_scans", words);
+    context_.status().set_trouble("stray_scans", words);
+    drives_.last_stray_ns = monotonic_ns();
+  }
+  if (!drives_.last_stray_ns || monotonic_ns() - *drives_.last_stray_ns < kToldForNs) return;
+  drives_.last_stray_ns.reset();
+  context_.status().clear_trouble("stray_scans");
+}
+
 /// Begins a drive where the scan is of a new one.
 bool LocalizationService::is_of_this_drive(const WaitingScan& waiting) {
-  const DriveWatch::Scan scan = drives_.judge(waiting.scan.scanner.scanner_id, waiting.drive_id);
+  const DriveWatch::Scan scan =
+      drives_.watch.judge(waiting.scan.scanner.scanner_id, waiting.drive_id);
   if (scan == DriveWatch::Scan::kOfEarlierDrive) {
     context_.warn("scans_of_earlier_drives", "dropped a scan of an earlier drive");
     return false;
   }
-  if (!drive_.map_id || scan == DriveWatch::Scan::kOfNewDrive) begin_drive();
+  const bool is_new = !drive_.map_id || scan == DriveWatch::Scan::kOfNewDrive;
+  if (is_new && !return_to_saved_drive(waiting)) begin_drive();
   return true;
 }
 
@@ -81,11 +106,27 @@ bool LocalizationService::come_back(const WaitingScan& first) {
   return true;
 }
 
+/// A stray drive may begin while the source of the right one is silent. The checkpoint is of the
+/// right one until the other has saved its own.
+bool LocalizationService::return_to_saved_drive(const WaitingScan& first) {
+  if (!drive_.map_id) return false;  // come_back() has tried
+  const auto saved = checkpoint_.read();
+  if (!saved) return false;
+  const auto drive = saved->session.drive_by_scanner.find(first.scan.scanner.scanner_id);
+  if (drive == saved->session.drive_by_scanner.end() || drive->second != first.drive_id ||
+      !localizer_.restore(saved->session.localizer))
+    return false;
+  take_up(saved->session);
+  spdlog::info("goes on with the drive of the checkpoint");
+  return true;
+}
+
 void LocalizationService::take_up(const SavedSession& session) {
   drive_.map_id = session.map_id;
   drive_.odom_id = session.odom_id;
   drive_.first_submap = session.first_submap_id;
-  drives_.take_up(session.drive_by_scanner);
+  drives_.watch.take_up(session.drive_by_scanner);
+  drives_.gate.take_up(session.drive_by_scanner);
   scans_.take_up(session.last_answers);
   tell_whether_it_is_tied(drive_.first_submap.value == 0);
   if (const auto correction = corrections_.early.find(*drive_.map_id);
@@ -177,8 +218,8 @@ void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
   const app::Stopwatch stopwatch(context_.status().latency("checkpoint"));
   const std::string fault = checkpoint_.fault();
   if (!fault.empty()) context_.warn("failed_checkpoints", fault);
-  checkpoint_.save(stamp_ns, {*drive_.map_id, drive_.odom_id, drive_.first_submap, drives_.drives(),
-                              scans_.newest(), localizer_.checkpoint()});
+  checkpoint_.save(stamp_ns, {*drive_.map_id, drive_.odom_id, drive_.first_submap,
+                              drives_.watch.drives(), scans_.newest(), localizer_.checkpoint()});
 }
 
 }  // namespace slammot::localization

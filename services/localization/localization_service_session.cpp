@@ -5,12 +5,15 @@
 namespace slammot::localization {
 
 std::optional<StampedSession> SessionFile::look_back() {
-  if (std::exchange(has_looked_back_, true)) return std::nullopt;
+  return std::exchange(has_looked_back_, true) ? std::nullopt : read();
+}
+
+std::optional<StampedSession> SessionFile::read() const {
   const auto saved = file_.read();
   if (!saved) return std::nullopt;
   auto session = session_of(saved->bytes);
   if (!session) {
-    spdlog::warn("begins a new map: the checkpoint is of another version");
+    spdlog::warn("the checkpoint is of another version: it is not used");
     return std::nullopt;
   }
   return StampedSession{saved->stamp_ns, std::move(*session)};

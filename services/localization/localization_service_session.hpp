@@ -25,6 +25,9 @@ class SessionFile {
   /// every later call.
   std::optional<StampedSession> look_back();
 
+  /// The session that is in the file now; none if there is none or it is of another version.
+  std::optional<StampedSession> read() const;
+
   /// True if a session of this stamp is due and can be saved.
   bool is_due(std::int64_t stamp_ns) const;
   void save(std::int64_t stamp_ns, const SavedSession& session);

@@ -91,6 +91,7 @@ SimulatorService::SimulatorService(app::ServiceContext& context, const Settings&
   context.status().counter("log_scans") = drive_.scan_count();
   context.read(
       dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
+        if (beat.stands_by) return;
         readiness_.heard(std::string(wire::text(beat.service_name)), is_operational(beat.state));
         // A starting service announces that it will be ready.
         if (beat.state == slammot_SERVICE_STATE_STARTING)

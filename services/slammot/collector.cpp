@@ -30,6 +30,12 @@ std::string unique_name() {
 /// True for services that publish scans.
 bool is_source(std::string_view service) { return service == "ingest" || service == "simulator"; }
 
+std::int64_t monotonic_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
 bool is_set(const wire::ServiceStatus& status, std::string_view counter) {
   for (const wire::Counter& one : status.counters) {
     if (one.name == counter) return one.total > 0;
@@ -95,6 +101,7 @@ void Collector::read(dds::Reader<Sample>& reader, Handle handle) {
 }
 
 bool Collector::wait(std::chrono::milliseconds longest) {
+  admit(gate_.judge_held(monotonic_ns()));
   return wait_set_.wait(longest) != dds::WaitSet::Wake::kStopped;
 }
 
@@ -103,6 +110,7 @@ void Collector::restore(const files::RunJournal::Content& content) {
   map_id_ = content.map_id;
   odom_id_ = content.odom_id;
   for (const files::JournalScan& scan : content.scans) record_stamp(scan);
+  gate_.take_up(drives_.drives());
   for (const flow::LocalizedScan& scan : content.localized_scans) {
     records_[scan.map_id].add(scan);
     last_localized_ns_ = scan.stamp_ns;
@@ -126,13 +134,24 @@ void Collector::record_stamp(const files::JournalScan& scan) {
   stamps_by_sequence_[scan.scanner_id].emplace(scan.sequence, scan.stamp_ns);
 }
 
+void Collector::admit(const localization::DriveGate::Verdict& verdict) {
+  for (const localization::WaitingScan& admitted : verdict.admitted) {
+    if (verdict.begins_drive) drives_.readmit(admitted.drive_id);
+    const files::JournalScan scan{admitted.scan.scanner.scanner_id, admitted.drive_id,
+                                  admitted.scan.sequence, admitted.scan.stamp_ns};
+    record_stamp(scan);
+    if (journal_ && map_id_) journal_->add(scan);
+  }
+}
+
 void Collector::take(const slammot_LaserScan& sample) {
-  const files::JournalScan scan{std::string(wire::text(sample.scanner_id)), sample.drive_id,
-                                sample.sequence_number, sample.stamp_ns};
   last_progress_ = Clock::now();
-  record_stamp(scan);
-  seen_at_.emplace(scan.stamp_ns, Clock::now());
-  if (journal_ && map_id_) journal_->add(scan);
+  localization::WaitingScan scan{{}, sample.drive_id};
+  scan.scan.stamp_ns = sample.stamp_ns;
+  scan.scan.sequence = sample.sequence_number;
+  scan.scan.scanner.scanner_id = wire::text(sample.scanner_id);
+  seen_at_.emplace(sample.stamp_ns, Clock::now());
+  admit(gate_.judge(std::move(scan), monotonic_ns()));
 }
 
 /// Discards the results of the previous drive.

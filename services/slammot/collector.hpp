@@ -20,6 +20,7 @@
 #include "common/wire/graph.hpp"
 #include "common/wire/service.hpp"
 #include "common/wire/submap.hpp"
+#include "services/localization/drive_gate.hpp"
 #include "services/localization/drive_watch.hpp"
 
 namespace slammot {
@@ -80,6 +81,7 @@ class Collector {
   void restore(const files::RunJournal::Content& content);
   void begin_drive(flow::MapId map_id, flow::OdomId odom_id);
   void record_stamp(const files::JournalScan& scan);
+  void admit(const localization::DriveGate::Verdict& verdict);
   bool is_log_finished() const;
   bool is_last_scan_tracked() const;
   void request_finished_submap();
@@ -104,7 +106,8 @@ class Collector {
   wire::GraphCorrectionAssembler correction_assembler_;
 
   std::optional<files::RunJournal> journal_;
-  bool is_restored_ = false;  ///< From a journal.
+  bool is_restored_ = false;      ///< From a journal.
+  localization::DriveGate gate_;  ///< Keeps strays of other drives out.
   localization::DriveWatch drives_;
   /// Of the current drive, by scanner.
   std::map<std::string, std::map<std::uint32_t, std::int64_t>> stamps_by_sequence_;

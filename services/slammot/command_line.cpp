@@ -9,6 +9,8 @@
 #include "services/evaluator/eval_command.hpp"
 #include "services/evaluator/plot_command.hpp"
 #include "services/evaluator/report_command.hpp"
+#include "services/recorder/bag_command.hpp"
+#include "services/recorder/record_command.hpp"
 #include "services/simulator/simulate_command.hpp"
 #include "services/slammot/bench_command.hpp"
 #include "services/slammot/check_command.hpp"
@@ -75,6 +77,9 @@ int run_command_line(int argc, char** argv) {
   evaluator::add_plot_command(app, exit_code);
   evaluator::add_animate_command(app, exit_code);
   add_warn_command(app, exit_code);
+  recorder::add_record_command(app, exit_code);
+  recorder::add_play_command(app, exit_code);
+  recorder::add_bag_command(app, exit_code);
   add_completion_command(app, exit_code);
   set_groups(app);
   if (argc < 2) {

@@ -25,6 +25,7 @@ class TrackingService {
   static constexpr const char* kName = "tracking";
   static constexpr const char* kPurpose =
       "Follows moving objects, and tells what each point of a scan is.";
+  static constexpr bool kIsOnePerVehicle = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

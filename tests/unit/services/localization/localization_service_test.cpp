@@ -209,6 +209,31 @@ TEST_F(LocalizationOnTheBus, BeginsANewMapWhenTheSameLogIsPlayedAgain) {
   EXPECT_EQ(context_->status().counter("scans_of_earlier_drives"), 0U);
 }
 
+TEST_F(LocalizationOnTheBus, KeepsToItsDriveThroughAStrayScanOfAnother) {
+  begin();
+  localize(0, 10);
+  drive_id = 99;
+  send(3);
+  drive_id = 1;
+  localize(10, 30);
+  EXPECT_TRUE(comes_to([this] { return count("stray_scans") == 1; }));
+  EXPECT_THAT(explanation(), ::testing::HasSubstr("dropped scans of drive 99 of scanner front"));
+  localize(30, 40);
+  EXPECT_EQ(maps.size(), 1U);
+  EXPECT_EQ(sequences.size(), 40U);
+}
+
+TEST_F(LocalizationOnTheBus, ReturnsToItsMapAfterAStrayScanWhileItsSourceWasSilent) {
+  begin();
+  localize(0, 25);
+  drive_id = 99;
+  localize(3, 4);  // nobody else sends: a drive of its own
+  drive_id = 1;
+  localize(26, 30);
+  EXPECT_EQ(maps.size(), 2U);
+  EXPECT_EQ(count("restored_checkpoints"), 1U);
+}
+
 /// Scans that fit the map, do not fit it, and fit it again, to a service that trusts no wheels.
 struct LostOnTheBus : LocalizationOnTheBus {
   std::uint32_t next = 0;

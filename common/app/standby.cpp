@@ -1,0 +1,74 @@
+#include "common/app/standby.hpp"
+
+#include <unistd.h>
+
+#include <spdlog/spdlog.h>
+
+namespace slammot::app {
+namespace {
+
+constexpr const char* kTrouble = "standby";
+
+Leadership::Identity identity_of(const ServiceContext& context) {
+  return {context.started_ns(), static_cast<std::uint32_t>(::getpid()), context.options().instance};
+}
+
+}  // namespace
+
+Standby::Standby(ServiceContext& context, StateLock* lock)
+    : context_(context),
+      lock_(lock),
+      leadership_(identity_of(context), std::chrono::steady_clock::now()) {
+  context.status().set_starting(true);
+  context.set_role({.stands_by = true, .term = 0});
+  context.read(dds::topics::kHeartbeat, Input::kOccasional, [this](const slammot_Heartbeat& beat) {
+    const auto heartbeat = wire::decode(beat);
+    if (!heartbeat || heartbeat->name.service != context_.service()) return;
+    leadership_.heard(*heartbeat, std::chrono::steady_clock::now());
+    if (leadership_.term() > 0) look_around();
+  });
+}
+
+bool Standby::wait_until_it_leads() {
+  if (!context_.run_until([this] { return try_to_lead(); })) return false;
+  context_.status().clear_trouble(kTrouble);
+  context_.status().set_starting(false);
+  if (!told_.empty()) spdlog::warn("takes over");
+  return true;
+}
+
+bool Standby::try_to_lead() {
+  switch (leadership_.role(std::chrono::steady_clock::now())) {
+    case Leadership::Role::kStandsBy:
+      tell("stands by: " + name_of_leader() + " leads");
+      return false;
+    case Leadership::Role::kMayLead: break;
+    default: return false;
+  }
+  if (lock_ != nullptr && lock_->try_lock() == StateLock::Outcome::kInUse) {
+    tell("stands by: " + lock_->reason());
+    return false;
+  }
+  context_.set_role({.stands_by = false, .term = leadership_.lead()});
+  return true;
+}
+
+void Standby::tell(const std::string& why) {
+  context_.status().set_trouble(kTrouble, why);
+  if (std::exchange(told_, why) != why) spdlog::warn("{}", why);
+}
+
+std::string Standby::name_of_leader() const {
+  const auto leader = leadership_.leader();
+  return leader ? "process " + std::to_string(leader->process_number) + " (instance " +
+                      leader->instance + ")"
+                : "another standby";
+}
+
+void Standby::look_around() {
+  if (leadership_.role(std::chrono::steady_clock::now()) != Leadership::Role::kSteppedDown) return;
+  spdlog::error("stops: {} leads, too, and prevails", name_of_leader());
+  context_.stop(kExitInUse);
+}
+
+}  // namespace slammot::app
