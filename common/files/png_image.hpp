@@ -19,7 +19,15 @@ struct IndexedImage {
   std::vector<std::uint8_t> pixels;  ///< Row-major, each an index of the palette.
 };
 
+/// A picture of true colours; the first row of pixels is the top one.
+struct RgbImage {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<Rgb> pixels;  ///< Row-major.
+};
+
 /// A PNG file. `compression`: zlib's level, 1 (fast) to 9. Fails for sizes that PNG cannot hold.
 Result<std::string> to_png(const IndexedImage& image, int compression = 6);
+Result<std::string> to_png(const RgbImage& image, int compression = 6);
 
 }  // namespace slammot::files

@@ -111,17 +111,20 @@ std::string detection_figures(const ReportSource& source) {
   return html + "</section>";
 }
 
-std::string latency_figure(const ReportSource& source) {
-  const auto report =
-      nlohmann::ordered_json::parse(source.result->report_json, nullptr, false);  // Stages in the
-                                                                                  // order of
-                                                                                  // processing.
+std::vector<LogBar> latency_bars(const std::string& report_json) {
+  const auto report = nlohmann::ordered_json::parse(report_json, nullptr, false);
   const nlohmann::ordered_json::json_pointer place("/measured/stage_latency");
-  if (!report.is_object() || !report.contains(place) || !report[place].is_object()) return {};
   std::vector<LogBar> bars;
+  if (!report.is_object() || !report.contains(place) || !report[place].is_object()) return bars;
   for (const auto& [stage, latency] : report[place].items())
     bars.push_back({stage, latency.value("p50_ms", 0.0), latency.value("p99_ms", 0.0),
                     latency.value("max_ms", 0.0)});
+  return bars;
+}
+
+std::string latency_figure(const ReportSource& source) {
+  const std::vector<LogBar> bars = latency_bars(source.result->report_json);
+  if (bars.empty()) return {};
   const std::string svg = log_bars_svg(bars, "milliseconds a call");
   if (svg.empty()) return {};
   return "<section><h2>Latency of the stages</h2><figure>" + svg +

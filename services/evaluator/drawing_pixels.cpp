@@ -72,10 +72,10 @@ class Raster {
 
  private:
   std::int64_t column(double x) const {
-    return std::clamp<std::int64_t>(std::llround(x), 0, image_.width);
+    return std::llround(std::clamp(x, 0.0, static_cast<double>(image_.width)));
   }
   std::int64_t row(double y) const {
-    return std::clamp<std::int64_t>(std::llround(y), 0, image_.height);
+    return std::llround(std::clamp(y, 0.0, static_cast<double>(image_.height)));
   }
 
   void add_path(const std::vector<PlotPoint>& points, double width, bool is_dashed) {

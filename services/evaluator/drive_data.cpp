@@ -143,19 +143,11 @@ void add_frame(const RunResult& result, const metrics::StampedPose& pose, Frames
   for (const ResultTrack& track : tracks->tracks) add_track(track, corrected_from_online, rows);
 }
 
-/// Time between frames for which the drive is small enough.
-std::int64_t step_ns_of(const RunResult& result) {
+std::size_t rows_of(const RunResult& result) {
+  if (result.track_rows > 0) return result.track_rows;
   std::size_t rows = 0;
   for (const TracksAt& at : result.tracks) rows += at.tracks.size();
-  const double duration_s =
-      static_cast<double>(result.corrected.back().stamp_ns - result.corrected.front().stamp_ns) *
-      1e-9;
-  const double scans = static_cast<double>(result.corrected.size());
-  const double most = std::min(
-      static_cast<double>(kMostFrames),
-      static_cast<double>(kMostRows) * scans / static_cast<double>(std::max<std::size_t>(1, rows)));
-  // A little less than a multiple of the scan period, so that rounding skips no scan.
-  return to_ns(0.95 * std::max(kShortestStepS, duration_s / most));
+  return rows;
 }
 
 Json graph_json(const ResultGraph& graph) {
@@ -228,16 +220,29 @@ std::string without_tags(const std::string& json) {
 
 }  // namespace
 
+std::vector<std::size_t> shown_scans(const metrics::Trajectory& trajectory, std::size_t rows) {
+  std::vector<std::size_t> scans;
+  if (trajectory.empty()) return scans;
+  const double duration_s =
+      static_cast<double>(trajectory.back().stamp_ns - trajectory.front().stamp_ns) * 1e-9;
+  const double most =
+      std::min(static_cast<double>(kMostFrames),
+               static_cast<double>(kMostRows) * static_cast<double>(trajectory.size()) /
+                   static_cast<double>(std::max<std::size_t>(1, rows)));
+  // A little less than a multiple of the scan period, so that rounding skips no scan.
+  const std::int64_t step_ns = to_ns(0.95 * std::max(kShortestStepS, duration_s / most));
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    if (scans.empty() || trajectory[i].stamp_ns - trajectory[scans.back()].stamp_ns >= step_ns)
+      scans.push_back(i);
+  }
+  return scans;
+}
+
 DriveData encode_drive(const RunResult& result, const ReportPicture* picture) {
   Frames frames;
   Rows rows;
-  const std::int64_t step_ns = step_ns_of(result);
-  std::int64_t last_ns = std::numeric_limits<std::int64_t>::min() / 2;
-  for (const metrics::StampedPose& pose : result.corrected) {
-    if (pose.stamp_ns - last_ns < step_ns) continue;
-    last_ns = pose.stamp_ns;
-    add_frame(result, pose, frames, rows);
-  }
+  for (const std::size_t scan : shown_scans(result.corrected, rows_of(result)))
+    add_frame(result, result.corrected[scan], frames, rows);
   frames.first_row.push_back(static_cast<std::uint32_t>(rows.track.size()));
   Columns columns;
   add_columns(frames, rows, columns);

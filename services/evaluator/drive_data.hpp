@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "services/evaluator/report_picture.hpp"
 #include "services/evaluator/result_files.hpp"
@@ -12,6 +14,10 @@ struct DriveData {
   std::string header;  ///< JSON: columns, place of the map, graph, doubtful times.
   std::string bytes;   ///< The columns: little-endian, each at a multiple of four bytes.
 };
+
+/// The scans of a drive that are shown: their indices in the trajectory. `rows`: of all tracks in
+/// all scans.
+std::vector<std::size_t> shown_scans(const metrics::Trajectory& trajectory, std::size_t rows);
 
 /// Poses and tracks ten times a second or less often, so that a long drive stays below about 6 MB.
 /// Tracks are moved with the corrected poses of the vehicle, so that they fit the map.

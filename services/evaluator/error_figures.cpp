@@ -46,56 +46,58 @@ RelativeSeries relative(const char* name, const char* colour,
   return series;
 }
 
-std::string figure(const Plot& plot, const char* caption) {
-  return "<figure>" + to_svg(plot) + "<figcaption>" + caption + "</figcaption></figure>";
-}
-
 /// Published standard deviation of the pose relative to the local map.
-std::string sigma_figure(const RunResult& result, std::int64_t begin_ns) {
-  if (result.uncertain.empty()) return {};
-  Series along{"position", kCorrected, {}};
-  Series heading{"heading", kOnline, {}};
+CaptionedPlot sigma_plot(const RunResult& result, std::int64_t begin_ns) {
+  Series along{"position, worse of x and y [cm]", kCorrected, {}};
+  Series heading{"heading [deg]", kOnline, {}};
   for (const metrics::UncertainStampedPose& pose : result.uncertain) {
     const geometry::Matrix3& P = pose.odom_from_base.covariance;
     const double at_s = seconds_since(begin_ns, pose.stamp_ns);
     along.points.push_back({at_s, 100.0 * std::sqrt(std::max(P(0, 0), P(1, 1)))});
     heading.points.push_back({at_s, std::sqrt(P(2, 2)) * 180.0 / std::numbers::pi});
   }
-  along.name = "position, worse of x and y [cm]";
-  heading.name = "heading [deg]";
-  return figure({"time [s]", "one sigma", {along, heading}, {}, {}, 190.0},
-                "Published standard deviation of the pose relative to the local map.");
+  return {"Published standard deviation of the pose relative to the local map.",
+          {"time [s]", "one sigma", {along, heading}, {}, {}, 190.0}};
 }
 
-}  // namespace
-
-std::string error_figures(const ReportSource& source) {
-  const std::int64_t begin_ns = source.result->online.front().stamp_ns;
-  std::string html;
-  if (source.evaluation) {
-    const TrajectoryEvaluation& corrected = source.evaluation->corrected;
-    const TrajectoryEvaluation& online = source.evaluation->online;
-    html += figure({"time [s]",
+void add_true_errors(const Evaluation& evaluation, std::int64_t begin_ns,
+                     std::vector<CaptionedPlot>& plots) {
+  constexpr double kDeltaM = 10.0;
+  const TrajectoryEvaluation& corrected = evaluation.corrected;
+  const TrajectoryEvaluation& online = evaluation.online;
+  plots.push_back({"Distance to the true position after rigid alignment.",
+                   {"time [s]",
                     "position error [m]",
                     {absolute("as published live", kOnline, online, begin_ns),
                      absolute("after the last correction", kCorrected, corrected, begin_ns)},
                     {},
-                    {}},
-                   "Distance to the true position after rigid alignment.");
-    constexpr double kDeltaM = 10.0;
-    const RelativeSeries live = relative("as published live", kOnline, online, begin_ns, kDeltaM);
-    const RelativeSeries best =
-        relative("after the last correction", kCorrected, corrected, begin_ns, kDeltaM);
-    if (!best.translation_m.points.empty()) {
-      html +=
-          figure({"time [s]", "over 10 m [m]", {live.translation_m, best.translation_m}, {}, {}},
-                 "Position drift over ten metres of the true path.");
-      html += figure(
-          {"time [s]", "over 10 m [deg]", {live.rotation_deg, best.rotation_deg}, {}, {}, 190.0},
-          "Heading drift over ten metres of the true path.");
-    }
-  }
-  html += sigma_figure(*source.result, begin_ns);
+                    {}}});
+  const RelativeSeries live = relative("as published live", kOnline, online, begin_ns, kDeltaM);
+  const RelativeSeries best =
+      relative("after the last correction", kCorrected, corrected, begin_ns, kDeltaM);
+  if (best.translation_m.points.empty()) return;
+  plots.push_back(
+      {"Position drift over ten metres of the true path.",
+       {"time [s]", "over 10 m [m]", {live.translation_m, best.translation_m}, {}, {}}});
+  plots.push_back(
+      {"Heading drift over ten metres of the true path.",
+       {"time [s]", "over 10 m [deg]", {live.rotation_deg, best.rotation_deg}, {}, {}, 190.0}});
+}
+
+}  // namespace
+
+std::vector<CaptionedPlot> error_plots(const ReportSource& source) {
+  const std::int64_t begin_ns = source.result->online.front().stamp_ns;
+  std::vector<CaptionedPlot> plots;
+  if (source.evaluation) add_true_errors(*source.evaluation, begin_ns, plots);
+  if (!source.result->uncertain.empty()) plots.push_back(sigma_plot(*source.result, begin_ns));
+  return plots;
+}
+
+std::string error_figures(const ReportSource& source) {
+  std::string html;
+  for (const CaptionedPlot& one : error_plots(source))
+    html += "<figure>" + to_svg(one.plot) + "<figcaption>" + one.caption + "</figcaption></figure>";
   return html.empty() ? html : "<section><h2>Errors over time</h2>" + html + "</section>";
 }
 

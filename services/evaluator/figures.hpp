@@ -1,14 +1,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "services/evaluator/report_page.hpp"
+#include "services/evaluator/svg_plot.hpp"
 
 namespace slammot::evaluator {
 
 /// Each function returns the HTML of one section, or nothing if its data is missing.
 
-/// Pose errors over time, and drift over ten metres.
+/// Pose errors over time and drift over ten metres where there is truth, and the published standard
+/// deviations; empty if neither is known.
+std::vector<CaptionedPlot> error_plots(const ReportSource& source);
+
+/// Latency of the stages by report.json, in the order of processing; empty if it has none.
+std::vector<LogBar> latency_bars(const std::string& report_json);
+
+/// The plots of error_plots().
 std::string error_figures(const ReportSource& source);
 
 /// Time per scan of each stage.

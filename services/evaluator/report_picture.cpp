@@ -7,7 +7,7 @@ namespace slammot::evaluator {
 namespace {
 
 constexpr std::uint32_t kMostPixels = 4096;  // along a side
-constexpr int kCompression = 2;
+constexpr int kCompression = 1;
 
 /// What page/ground.js takes as certain, in 1/16 of log-odds.
 constexpr std::array<std::uint8_t, 3> kEvidence = {128, 128 - 16, 128 + 64};

@@ -58,6 +58,7 @@ struct RunResult {
   metrics::Trajectory corrected;  ///< After the last correction; never empty.
   std::vector<metrics::UncertainStampedPose> uncertain;  ///< Empty if not written.
   std::vector<TracksAt> tracks;  ///< Ascending stamps; without scans that have no tracks.
+  std::size_t track_rows = 0;    ///< Of the drive, where `tracks` holds only a part; else 0.
   std::vector<LabelsAt> labels;  ///< Ascending stamps; empty if not written.
   std::optional<files::MapImage> map;
   std::optional<files::MapImage> moving;  ///< MO-map; the same pixels as `map`.

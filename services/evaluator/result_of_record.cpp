@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "services/evaluator/drive_data.hpp"
+
 namespace slammot::evaluator {
 namespace {
 
@@ -31,6 +33,19 @@ ResultTrack track_of(const files::TrackRow& row) {
   return track;
 }
 
+void add_tracks(const std::vector<const files::TrackRow*>& rows, RunResult& result) {
+  result.track_rows = rows.size();
+  auto row = rows.begin();
+  for (const std::size_t scan : shown_scans(result.corrected, rows.size())) {
+    const std::int64_t stamp_ns = result.corrected[scan].stamp_ns;
+    while (row != rows.end() && (*row)->stamp_ns < stamp_ns) ++row;
+    if (row == rows.end() || (*row)->stamp_ns != stamp_ns) continue;
+    result.tracks.push_back({stamp_ns, {}});
+    for (; row != rows.end() && (*row)->stamp_ns == stamp_ns; ++row)
+      result.tracks.back().tracks.push_back(track_of(**row));
+  }
+}
+
 }  // namespace
 
 files::Result<RunResult> result_of(const files::RunRecord& record,
@@ -41,11 +56,7 @@ files::Result<RunResult> result_of(const files::RunRecord& record,
   if (result.online.empty()) return files::Error{"no scan was localized"};
   for (const files::UncertainStampedPose& pose : record.uncertain_poses())
     result.uncertain.push_back({pose.stamp_ns, pose.odom_from_base});
-  for (const files::TrackRow* row : record.track_rows()) {
-    if (result.tracks.empty() || result.tracks.back().stamp_ns != row->stamp_ns)
-      result.tracks.push_back({row->stamp_ns, {}});
-    result.tracks.back().tracks.push_back(track_of(*row));
-  }
+  add_tracks(record.track_rows(), result);
   if (auto fault = read_small_files(folder, result)) return *fault;
   return result;
 }

@@ -6,8 +6,9 @@
 namespace slammot::evaluator {
 
 /// What read_result() reads of the folder that a run has just written, without reading the tables
-/// again: trajectories and tracks from the record; graph, map and figures from the folder. Without
-/// labels and predictions. The record must hold a localized scan.
+/// again: trajectories and tracks from the record; graph, map and figures from the folder. Tracks
+/// only of the scans that a report shows; no labels, no predictions. The record must hold a
+/// localized scan.
 files::Result<RunResult> result_of(const files::RunRecord& record,
                                    const std::filesystem::path& folder);
 

@@ -4,16 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
+
+#include "services/evaluator/plot_axes.hpp"
 
 namespace slammot::evaluator {
 namespace {
-
-constexpr double kWidth = 760.0;
-constexpr double kLeft = 58.0;
-constexpr double kRight = 12.0;
-constexpr double kTop = 10.0;
-constexpr double kBottom = 38.0;
 
 std::string attribute(const char* name, double value) {
   return std::string(" ") + name + "=\"" + svg_number(value) + "\"";
@@ -31,116 +26,36 @@ std::string line(double x1, double y1, double x2, double y2, const char* kind) {
 }
 
 std::string begin_svg(double height) {
-  return "<svg viewBox=\"0 0 " + svg_number(kWidth) + " " + svg_number(height) + "\" role=\"img\">";
-}
-
-/// The smallest of 1, 2 or 5 times a power of ten that divides the range into at most about `steps`
-/// steps.
-double round_step(double range, int steps) {
-  const double raw = range / steps;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= raw * (1.0 - 1e-9)) return factor * power;
-  }
-  return 10.0 * power;
-}
-
-struct Axis {
-  double low = 0.0;
-  double high = 1.0;
-  double from = 0.0;  // position in the image
-  double to = 1.0;
-
-  double operator()(double value) const {
-    return from + (value - low) / (high - low) * (to - from);
-  }
-};
-
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void include(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
-
-Axis x_axis(const Plot& plot) {
-  Extent extent;
-  for (const Series& series : plot.series) {
-    for (const PlotPoint& point : series.points) extent.include(point.x);
-  }
-  if (!(extent.high > extent.low))
-    extent = {std::isfinite(extent.low) ? extent.low - 0.5 : 0.0,
-              std::isfinite(extent.low) ? extent.low + 0.5 : 1.0};
-  return {extent.low, extent.high, kLeft, kWidth - kRight};
-}
-
-Axis y_axis(const Plot& plot) {
-  Extent extent{0.0, 0.0};
-  for (const Series& series : plot.series) {
-    for (const PlotPoint& point : series.points) extent.include(point.y);
-  }
-  if (plot.y_max) extent.high = *plot.y_max;
-  if (!(extent.high > extent.low)) extent.high = extent.low + 1.0;
-  return {extent.low, extent.low + (extent.high - extent.low) * (plot.y_max ? 1.0 : 1.06),
-          plot.height - kBottom, kTop};
+  return "<svg viewBox=\"0 0 " + svg_number(kPlotWidth) + " " + svg_number(height) +
+         "\" role=\"img\">";
 }
 
 std::string grid(const Plot& plot, const Axis& x, const Axis& y) {
   std::string svg;
-  const double y_step = round_step(y.high - y.low, 5);
-  for (double value = std::ceil(y.low / y_step) * y_step; value <= y.high + 1e-9 * y_step;
-       value += y_step) {
-    svg += line(kLeft, y(value), kWidth - kRight, y(value),
-                std::abs(value) < 1e-9 * y_step ? "axis" : "grid");
-    svg += text_at(kLeft - 6.0, y(value) + 4.0, "end",
-                   svg_number(std::round(value / y_step) * y_step));
+  const double right = kPlotWidth - kPlotRight;
+  const double bottom = plot.height - kPlotBottom;
+  for (const double value : ticks(y, 5)) {
+    svg += line(kPlotLeft, y(value), right, y(value), value == 0.0 ? "axis" : "grid");
+    svg += text_at(kPlotLeft - 6.0, y(value) + 4.0, "end", svg_number(value));
   }
-  const double x_step = round_step(x.high - x.low, 8);
-  for (double value = std::ceil(x.low / x_step) * x_step; value <= x.high + 1e-9 * x_step;
-       value += x_step) {
-    svg += line(x(value), plot.height - kBottom, x(value), plot.height - kBottom + 4.0, "axis");
-    svg += text_at(x(value), plot.height - kBottom + 16.0, "middle",
-                   svg_number(std::round(value / x_step) * x_step));
+  for (const double value : ticks(x, 8)) {
+    svg += line(x(value), bottom, x(value), bottom + 4.0, "axis");
+    svg += text_at(x(value), bottom + 16.0, "middle", svg_number(value));
   }
-  svg += text_at(0.5 * (kLeft + kWidth - kRight), plot.height - 4.0, "middle", plot.x_label);
-  const double middle = 0.5 * (kTop + plot.height - kBottom);
+  svg += text_at(0.5 * (kPlotLeft + right), plot.height - 4.0, "middle", plot.x_label);
+  const double middle = 0.5 * (kPlotTop + bottom);
   const std::string turn = " transform=\"rotate(-90 14 " + svg_number(middle) + ")\"";
   return svg + text_at(14.0, middle, "middle", plot.y_label, turn);
 }
 
-/// Keeps the lowest and the highest point of each column of pixels, in their order.
-std::vector<PlotPoint> thinned(const std::vector<PlotPoint>& points, const Axis& x) {
-  std::vector<PlotPoint> kept;
-  for (std::size_t begin = 0; begin < points.size();) {
-    std::size_t end = begin;
-    const double column = std::floor(x(points[begin].x));
-    while (end < points.size() && std::floor(x(points[end].x)) == column) ++end;
-    const auto [lowest, highest] =
-        std::minmax_element(points.begin() + static_cast<std::ptrdiff_t>(begin),
-                            points.begin() + static_cast<std::ptrdiff_t>(end),
-                            [](const PlotPoint& a, const PlotPoint& b) { return a.y < b.y; });
-    kept.push_back(*std::min(lowest, highest));
-    if (lowest != highest) kept.push_back(*std::max(lowest, highest));
-    begin = end;
-  }
-  return kept;
-}
-
 std::string curve(const Series& series, const Axis& x, const Axis& y) {
   std::string path;
-  const std::vector<PlotPoint> points = thinned(series.points, x);
-  // Thinning leaves gaps of up to a pixel, which must not interrupt the line.
-  const double longest_gap = std::max(series.longest_gap, 3.0 * (x.high - x.low) / (x.to - x.from));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool begins =
-        i == 0 || (series.longest_gap > 0.0 && points[i].x - points[i - 1].x > longest_gap);
-    path.append(1, begins ? 'M' : 'L')
-        .append(svg_number(x(points[i].x)))
-        .append(1, ' ')
-        .append(svg_number(y(std::clamp(points[i].y, y.low, y.high))));
+  for (const std::vector<PlotPoint>& points : lines_of(series, x, y)) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      path.append(1, i == 0 ? 'M' : 'L')
+          .append(svg_number(points[i].x))
+          .append(1, ' ')
+          .append(svg_number(points[i].y));
   }
   if (path.empty()) return {};
   return "<path class=\"curve\" stroke=\"" + series.colour + "\"" +
@@ -189,9 +104,9 @@ std::string to_svg(const Plot& plot) {
   std::string svg = begin_svg(plot.height);
   for (const Span& span : plot.shaded) {
     const double from = x(std::max(span.from, x.low));
-    svg += "<rect class=\"shade\"" + attribute("x", from) + attribute("y", kTop) +
+    svg += "<rect class=\"shade\"" + attribute("x", from) + attribute("y", kPlotTop) +
            attribute("width", std::max(1.0, x(std::min(span.to, x.high)) - from)) +
-           attribute("height", plot.height - kBottom - kTop) + "/>";
+           attribute("height", plot.height - kPlotBottom - kPlotTop) + "/>";
   }
   svg += grid(plot, x, y);
   for (const Series& series : plot.series) svg += curve(series, x, y);
@@ -202,7 +117,7 @@ std::string share_bars_svg(const std::vector<Bar>& bars, std::string_view colour
   constexpr double kRow = 24.0;
   constexpr double kNames = 110.0;
   constexpr double kRemarks = 150.0;
-  const double full = kWidth - kNames - kRemarks;
+  const double full = kPlotWidth - kNames - kRemarks;
   std::string svg = begin_svg(kRow * static_cast<double>(bars.size()) + 4.0);
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const double top = 4.0 + kRow * static_cast<double>(i);
@@ -220,16 +135,8 @@ std::string share_bars_svg(const std::vector<Bar>& bars, std::string_view colour
 std::string log_bars_svg(const std::vector<LogBar>& bars, std::string_view unit) {
   constexpr double kRow = 26.0;
   constexpr double kNames = 110.0;
-  Extent extent;
-  for (const LogBar& bar : bars) {
-    for (const double value : {bar.low, bar.high}) {
-      if (value > 0.0) extent.include(std::log10(value));
-    }
-  }
-  if (!std::isfinite(extent.low)) return {};
-  const Axis x{std::floor(extent.low),
-               std::max(std::ceil(extent.high), std::floor(extent.low) + 1.0), kNames,
-               kWidth - 40.0};
+  const Axis x = log_axis(bars, kNames, kPlotWidth - 40.0);
+  if (!std::isfinite(x.low)) return {};
   const auto place = [&](double value) { return x(value > 0.0 ? std::log10(value) : x.low); };
   const double bottom = kRow * static_cast<double>(bars.size()) + 6.0;
   std::string svg = begin_svg(bottom + 36.0);
@@ -248,7 +155,7 @@ std::string log_bars_svg(const std::vector<LogBar>& bars, std::string_view unit)
     svg += "<circle class=\"high\" r=\"4\"" + attribute("cx", place(bars[i].high)) +
            attribute("cy", middle) + "/>";
   }
-  return svg + text_at(0.5 * (kNames + kWidth), bottom + 30.0, "middle", unit) + "</svg>";
+  return svg + text_at(0.5 * (kNames + kPlotWidth), bottom + 30.0, "middle", unit) + "</svg>";
 }
 
 }  // namespace slammot::evaluator

@@ -36,6 +36,11 @@ struct Plot {
   double height = 220.0;        ///< The width is 760.
 };
 
+struct CaptionedPlot {
+  std::string caption;
+  Plot plot;
+};
+
 struct Bar {
   std::string name;
   double value = 0.0;  ///< [0, 1]

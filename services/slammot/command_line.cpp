@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "services/evaluator/eval_command.hpp"
+#include "services/evaluator/plot_command.hpp"
 #include "services/evaluator/report_command.hpp"
 #include "services/recorder/bag_command.hpp"
 #include "services/recorder/record_command.hpp"
@@ -73,6 +74,8 @@ int run_command_line(int argc, char** argv) {
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);
   evaluator::add_report_command(app, exit_code);
+  evaluator::add_plot_command(app, exit_code);
+  evaluator::add_animate_command(app, exit_code);
   add_warn_command(app, exit_code);
   recorder::add_record_command(app, exit_code);
   recorder::add_play_command(app, exit_code);

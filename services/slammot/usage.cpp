@@ -53,7 +53,9 @@ std::string shown_name(const CLI::Option& option) {
 
 /// "DIR: folder for the results"
 std::string meaning_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
+  std::string type = option.get_type_name();
+  type = type.substr(0, type.find(':'));  // Limits follow.
+  if (type == "N") type = "a whole number";
   return (type.empty() ? "" : type + ": ") + option.get_description();
 }
 

@@ -7,6 +7,7 @@
 #include "services/evaluator/evaluation.hpp"
 #include "services/evaluator/evaluation_text.hpp"
 #include "services/evaluator/report_page.hpp"
+#include "services/evaluator/scene_drawing.hpp"
 #include "tests/fuzz/mutation.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/evaluator/files.hpp"
@@ -40,8 +41,13 @@ std::map<std::string, std::string> whole_files() {
       {"labels.csv", "timestamp,detection,tracking\n0.000000,sm?-,smm-\n"},
       {"map.pgm", files::to_pgm(kImage)},
       {"map.yaml", files::to_map_server_yaml(kImage, "map.pgm")},
+      {"moving.pgm", files::to_pgm(kImage)},
+      {"moving.yaml", files::to_map_server_yaml(kImage, "moving.pgm")},
+      {"graph.g2o",
+       "VERTEX_SE2 1 0 0 0\nVERTEX_SE2 2 5 0 0\n# closure 1 2 accepted pose 5 0 0 chi_square 1 "
+       "agreed 0.9 reason firm\nEDGE_SE2 1 2 5 0 0 1 0 0 1 0 1\n"},
       {"report.json",
-       R"({"input": {"sweep_s": 0.013}, "measured": {"stage_latency": {"tracking": {"p50_ms": 0.1, "p99_ms": 0.2, "max_ms": 1.0}}}})"},
+       R"({"losses": [{"begin_s": 1, "end_s": 2}], "closures": [{"state": "accepted", "reason": "x"}], "input": {"sweep_s": 0.013, "clock": "nominal", "findings": ["late"]}, "measured": {"stage_latency": {"tracking": {"p50_ms": 0.1, "p99_ms": 0.2, "max_ms": 1.0}}}})"},
       {"drive.tum", straight_tum(100.0)},
       {"drive.objects.csv", car_ahead_csv(100.0)},
       {"drive.hits.csv", "timestamp,scanner,hits\n0.0,front,0*2 1*3 -1*1 -2*1\n0.1,front,0*7\n"},
@@ -63,6 +69,12 @@ void compare(const std::filesystem::path& folder) {
   EXPECT_FALSE(to_text(*evaluation, {}).empty());
   ReportSource source{"page", &*result, &*truth, &*evaluation, {}};
   EXPECT_FALSE(to_html(source).empty());
+  const GroundView view = whole_view(*result, 64.0);
+  const SceneDrawing scene(*result, page_theme("dark"), view.metres_per_pixel);
+  Drawing drawing = scene.ground(view);
+  scene.add_paths(view, drawing);
+  scene.add_tracks(view, result->corrected.front().stamp_ns, drawing);
+  EXPECT_FALSE(to_pixels(drawing, 1.0).pixels.empty());
 }
 
 TEST(EvaluationFilesFuzz, SurviveDamageToAnyFile) {

@@ -13,6 +13,7 @@ const $ = (id) => document.getElementById(id);
 const SELECT_PX = 26;
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 20, 50];
 const STEP_S = 0.2;
+const START_M = 75; // distance of the camera
 
 class Player {
   constructor() {
@@ -31,7 +32,7 @@ class Player {
     this.leads = window === parent;
     this.input = new Input($("scene"), this.camera, this.actions(), stage);
     this.bindControls(stage);
-    this.showAll(true);
+    if (!location.hash.includes("d=")) this.camera.distance = START_M;
     const [, at] = location.hash.match(/\bat=([\d.]+)/) ?? [];
     this.seek(Number(at ?? 0));
     this.applyTheme();
@@ -59,7 +60,7 @@ class Player {
         this.applyTheme();
       },
       play: () => this.play(!this.isPlaying),
-      whole: () => this.showAll(false),
+      whole: () => this.showAll(),
       sigma: () => {
         this.replay.exaggeration = this.replay.exaggeration === 1 ? 10 : 1;
         this.seek(this.replay.time);
@@ -125,15 +126,14 @@ class Player {
     this.isPlaying = isPlaying;
   }
 
-  /** Shows the whole drive; at the start, only if it is small enough to see something. */
-  showAll(isStart) {
+  /** Shows the whole drive from above. */
+  showAll() {
     const { x, y } = this.recording.is;
     const range = (values) => [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
     const [x0, x1] = range(x), [y0, y1] = range(y);
     const aspect = $("player").clientWidth / $("player").clientHeight;
-    if (isStart) return (this.camera.distance = location.hash.includes("d=") ? this.camera.distance : 75);
     Object.assign(this.camera, { x: (x0 + x1) / 2, y: (y0 + y1) / 2, follows: false, wantedTilt: 0, heading: Math.PI / 2 });
-    this.camera.distance = Math.max(30, 1.6 * Math.max(y1 - y0, (x1 - x0) / aspect));
+    this.camera.distance = Math.max(30, 1.9 * Math.max(y1 - y0, (x1 - x0) / aspect));
   }
 
   select(px, py) {

@@ -61,8 +61,9 @@ export class Recording {
 
   speedAt([frame, next]) {
     const { x, y, time } = this.is;
-    const span = time[next] - time[frame];
-    return span > 0 ? Math.hypot(x[next] - x[frame], y[next] - y[frame]) / span : 0;
+    const from = next > frame ? frame : Math.max(0, frame - 1); // at the end of the drive
+    const span = time[next] - time[from];
+    return span > 0 ? Math.hypot(x[next] - x[from], y[next] - y[from]) / span : 0;
   }
 
   /** Everything known about a track at a row; `next`: its row in the next frame, if any. */

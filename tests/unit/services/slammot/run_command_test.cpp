@@ -58,7 +58,7 @@ TEST_F(RunCommand, WritesEveryOutputAndReportsItsChoices) {
   EXPECT_EQ(outcome.standard_error, "");
   for (const char* file : {"online.tum", "trajectory.tum", "tracks.csv", "map.pgm", "map.png",
                            "map.yaml", "moving.pgm", "moving.png", "moving.yaml", "graph.g2o",
-                           "report.json", "settings.textproto"}) {
+                           "report.json", "report.html", "settings.textproto"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / file)) << file;
   }
   const std::string online = read(folder_ / "out" / "online.tum");
@@ -223,11 +223,11 @@ TEST_F(RunCommand, IteratesScansWithMovingPointsAndCountsEachOnce) {
 
 TEST_F(RunCommand, RejectsZeroIterationsAndBenchHasNone) {
   write(room_log(5));
-  EXPECT_EQ(run({"--iterations", "0"}).exit_code, kExitFault);
-  EXPECT_EQ(run({"--iterations", "11"}).exit_code, kExitFault);
+  EXPECT_EQ(run({"--iterations", "0"}).exit_code, kExitUsage);
+  EXPECT_EQ(run({"--iterations", "11"}).exit_code, kExitUsage);
   const Outcome bench = call({"bench", "--input", log_.string(), "--output",
                               (folder_ / "out").string(), "--iterations", "2"});
-  EXPECT_EQ(bench.exit_code, kExitFault);
+  EXPECT_EQ(bench.exit_code, kExitUsage);
   EXPECT_THAT(bench.standard_error, HasSubstr("--iterations"));
 }
 
@@ -298,7 +298,7 @@ Refusal call_with(std::vector<std::string> words) {
 
 TEST(CommandLine, ListsItsCommandsWithoutArguments) {
   const Refusal refusal = call_with({});
-  EXPECT_EQ(refusal.exit_code, kExitFault);
+  EXPECT_EQ(refusal.exit_code, kExitUsage);
   EXPECT_THAT(refusal.standard_output, HasSubstr("check"));
   EXPECT_THAT(refusal.standard_output, HasSubstr("simulate"));
 }
@@ -307,7 +307,7 @@ TEST(CommandLine, NamesAnUnknownCommandAndTheNearestOne) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"chek", "--help"}, {"chek", "a.log"}}) {
     const Refusal refusal = call_with(words);
-    EXPECT_EQ(refusal.exit_code, kExitFault);
+    EXPECT_EQ(refusal.exit_code, kExitUsage);
     EXPECT_THAT(refusal.standard_error, HasSubstr("'chek'"));
     EXPECT_THAT(refusal.standard_error, HasSubstr("'check'"));
   }
@@ -315,7 +315,7 @@ TEST(CommandLine, NamesAnUnknownCommandAndTheNearestOne) {
 
 TEST(CommandLine, NamesAnUnknownOptionAndTheNearestOne) {
   const Refusal refusal = call_with({"run", "--inptu=a.log"});
-  EXPECT_EQ(refusal.exit_code, kExitFault);
+  EXPECT_EQ(refusal.exit_code, kExitUsage);
   EXPECT_THAT(refusal.standard_error, HasSubstr("'--inptu'"));
   EXPECT_THAT(refusal.standard_error, HasSubstr("'--input'"));
 }

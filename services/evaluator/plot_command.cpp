@@ -1,0 +1,140 @@
+#include "services/evaluator/plot_command.hpp"
+
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "common/files/atomic_file.hpp"
+#include "services/evaluator/comparison.hpp"
+#include "services/evaluator/doubts.hpp"
+#include "services/evaluator/figures.hpp"
+#include "services/evaluator/plot_drawing.hpp"
+#include "services/evaluator/scene_drawing.hpp"
+
+namespace slammot::evaluator {
+namespace {
+
+using std::filesystem::path;
+
+struct PlotOptions {
+  std::string what;
+  path result;
+  path truth;
+  path output;
+  std::string theme = "dark";
+  double size = 1600.0;  ///< Pixels along the longer side of a map.
+};
+
+int fail(const std::string& line) {
+  std::fprintf(stderr, "slammot: %s\n", line.c_str());
+  return 1;
+}
+
+Drawing draw_ground(const RunResult& result, const PlotOptions& options) {
+  const GroundView view = whole_view(result, options.size);
+  const SceneDrawing scene(result, page_theme(options.theme), view.metres_per_pixel);
+  Drawing drawing = scene.ground(view);
+  if (options.what == "tracks") scene.add_paths(view, drawing);
+  else scene.add_closures(view, drawing);
+  scene.add_way(view, std::numeric_limits<std::int64_t>::max(), drawing);
+  scene.add_scale(view, drawing);
+  return drawing;
+}
+
+std::vector<Span> doubtful_spans(const RunResult& result) {
+  std::vector<Span> spans;
+  const auto seconds = [&](std::int64_t stamp_ns) {
+    return static_cast<double>(stamp_ns - result.online.front().stamp_ns) * 1e-9;
+  };
+  for (const Doubt& doubt : find_doubts(result))
+    spans.push_back({seconds(doubt.begin_ns), seconds(doubt.end_ns)});
+  return spans;
+}
+
+/// Errors where there is truth; otherwise the published standard deviation.
+files::Result<Drawing> draw_errors(const RunResult& result, const PlotOptions& options) {
+  ReportSource source;
+  source.result = &result;
+  std::optional<files::Result<Truth>> truth;
+  std::optional<files::Result<Evaluation>> evaluation;
+  if (!options.truth.empty()) {
+    truth.emplace(read_truth(options.truth));
+    if (!*truth) return truth->error();
+    evaluation.emplace(evaluate(result, **truth, {}, {}));
+    if (!*evaluation) return evaluation->error();
+    source.evaluation = &**evaluation;
+  }
+  std::vector<CaptionedPlot> plots = error_plots(source);
+  if (plots.empty()) return files::Error{"the result has no covariances; --truth gives errors"};
+  for (CaptionedPlot& plot : plots) plot.plot.shaded = doubtful_spans(result);
+  return draw_plots(plots);
+}
+
+files::Result<Drawing> draw(const RunResult& result, const PlotOptions& options) {
+  if (options.what == "errors") return draw_errors(result, options);
+  if (options.what != "latency") return draw_ground(result, options);
+  const std::vector<LogBar> bars = latency_bars(result.report_json);
+  if (bars.empty()) return files::Error{"report.json has no latencies"};
+  return draw_log_bars(bars, "milliseconds a call");
+}
+
+int plot(const PlotOptions& options) {
+  constexpr double kSharp = 2.0;  // pixels a unit, of plots with text
+  const auto result = read_result(options.result);
+  if (!result) return fail(result.error().message);
+  const auto drawing = draw(*result, options);
+  if (!drawing) return fail(drawing.error().message);
+  const path output =
+      options.output.empty() ? options.result / (options.what + "_plot.png") : options.output;
+  std::string content;
+  if (output.extension() == ".svg") {
+    content = to_svg(*drawing);
+  } else if (output.extension() == ".png") {
+    const bool is_map = options.what == "map" || options.what == "tracks";
+    const auto png = files::to_png(to_pixels(*drawing, is_map ? 1.0 : kSharp));
+    if (!png) return fail(png.error().message);
+    content = *png;
+  } else {
+    return fail("--output " + output.string() + ": the name must end with .png or .svg");
+  }
+  if (const auto fault = files::write_file_atomically(output, content)) return fail(fault->message);
+  std::printf("%s\n", output.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_plot_command(CLI::App& app, int& exit_code) {
+  CLI::App* const command =
+      app.add_subcommand("plot", "Draw map, tracks, latencies or errors of a result");
+  const auto options = std::make_shared<PlotOptions>();
+  command->add_option("what", options->what, "What to draw")
+      ->required()
+      ->type_name("map|tracks|latency|errors")
+      ->check(CLI::IsMember({"map", "tracks", "latency", "errors"}));
+  command->add_option("result", options->result, "Folder that run or bench wrote")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--output", options->output,
+                   "Picture to write, .png or .svg [DIR/WHAT_plot.png]")
+      ->type_name("FILE");
+  command
+      ->add_option("--truth", options->truth,
+                   "Prefix of the true files: errors in place of standard deviations")
+      ->type_name("PREFIX");
+  command->add_option("--theme", options->theme, "Colours of map and tracks: dark or light")
+      ->type_name("dark|light")
+      ->check(CLI::IsMember({"dark", "light"}))
+      ->capture_default_str();
+  command->add_option("--size", options->size, "Pixels along the longer side of map and tracks")
+      ->type_name("N")
+      ->check(CLI::Range(64.0, 16384.0))
+      ->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = plot(*options); });
+}
+
+}  // namespace slammot::evaluator

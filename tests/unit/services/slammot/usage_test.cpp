@@ -1,0 +1,68 @@
+#include "services/slammot/usage.hpp"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
+
+#include "tests/support/command_line_call.hpp"
+
+namespace slammot {
+namespace {
+
+using testing::call;
+using ::testing::HasSubstr;
+using testing::Outcome;
+
+void expect_usage_fault(const std::vector<std::string>& words, const std::string& part) {
+  const Outcome outcome = call(words);
+  EXPECT_EQ(outcome.exit_code, kExitUsage) << part;
+  EXPECT_EQ(outcome.standard_output, "") << part;
+  EXPECT_THAT(outcome.standard_error, HasSubstr(part));
+  EXPECT_EQ(std::ranges::count(outcome.standard_error, '\n'), 1) << outcome.standard_error;
+}
+
+TEST(CommandLine, ListsItsCommandsInGroupsWithoutWords) {
+  const Outcome outcome = call({});
+  EXPECT_EQ(outcome.exit_code, kExitUsage);
+  for (const char* const part :
+       {"Process a drive:", "Look at a drive or a result:", "Settings and maps:", "\n  run ",
+        "\n  report ", "\n  completion "})
+    EXPECT_THAT(outcome.standard_output, HasSubstr(part));
+}
+
+TEST(CommandLine, NamesUnknownCommandsWithTheNearestOne) {
+  expect_usage_fault({"repotr", "--output", "x"},
+                     "unknown command 'repotr'; the nearest one is 'report'");
+  expect_usage_fault({"zzz", "--help"}, "unknown command 'zzz'");
+  expect_usage_fault({"map", "merg"}, "unknown command 'map merg'; the nearest one is 'merge'");
+}
+
+TEST(CommandLine, NamesUnknownOptionsWithTheNearestOne) {
+  expect_usage_fault({"run", "--inptu", "x"}, "unknown option '--inptu' of run");
+  expect_usage_fault({"run", "--inptu=x"}, "the nearest one is '--input'");
+  expect_usage_fault({"run", "-q"}, "unknown option '-q' of run");
+  expect_usage_fault({"--verison"}, "unknown option '--verison'; the nearest one is '--version'");
+}
+
+TEST(CommandLine, NamesMissingArgumentsWithTheirMeaning) {
+  expect_usage_fault({"map", "merge", "--output", "x"}, "slammot map merge: FIRST is missing");
+  expect_usage_fault({"map", "merge", "--output", "x"}, "Map that defines the frame");
+  expect_usage_fault({"run", "--scenario", "block"}, "--output is missing (DIR: ");
+  expect_usage_fault({"map"}, "a command is missing, one of: merge");
+}
+
+TEST(CommandLine, StatesWhatAnOptionExpects) {
+  expect_usage_fault({"run", "--scenario", "block", "--output", "x", "--seed", "zzz"},
+                     "--seed does not take 'zzz', but a whole number: Seed");
+  expect_usage_fault({"run", "--scenario", "block", "--output"}, "--output lacks its value");
+  expect_usage_fault({"run", "--iterations", "99", "--output", "x"}, "not in range");
+}
+
+TEST(CommandLine, TakesNegativeNumbersForValues) {
+  EXPECT_EQ(unknown_word(CLI::App{}, {"-", "-1", "-.5"}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace slammot
