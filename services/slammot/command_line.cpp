@@ -12,6 +12,11 @@
 #include "common/config/nearest.hpp"
 #include "services/evaluator/eval_command.hpp"
 #include "services/evaluator/report_command.hpp"
+#include "services/inspector/doctor_command.hpp"
+#include "services/inspector/graph_command.hpp"
+#include "services/inspector/qos_command.hpp"
+#include "services/inspector/top_command.hpp"
+#include "services/inspector/topic_commands.hpp"
 #include "services/simulator/simulate_command.hpp"
 #include "services/slammot/bench_command.hpp"
 #include "services/slammot/check_command.hpp"
@@ -94,6 +99,14 @@ int run_command_line(int argc, char** argv) {
   simulator::add_simulate_command(app, exit_code);
   evaluator::add_eval_command(app, exit_code);
   evaluator::add_report_command(app, exit_code);
+  inspector::add_top_command(app, exit_code);
+  inspector::add_list_command(app, exit_code);
+  inspector::add_echo_command(app, exit_code);
+  inspector::add_hz_command(app, exit_code);
+  inspector::add_delay_command(app, exit_code);
+  inspector::add_qos_command(app, exit_code);
+  inspector::add_graph_command(app, exit_code);
+  inspector::add_doctor_command(app, exit_code);
   add_warn_command(app, exit_code);
   if (argc < 2) {
     std::fputs(app.help().c_str(), stdout);
@@ -105,7 +118,10 @@ int run_command_line(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& fault) { return app.exit(fault) == 0 ? kExitDone : kExitFault; }
+  } catch (const CLI::ParseError& fault) {
+    const int usage = app.got_subcommand("health") ? int{kExitUsage} : int{kExitFault};
+    return app.exit(fault) == 0 ? int{kExitDone} : usage;
+  }
   return exit_code;
 }
 
