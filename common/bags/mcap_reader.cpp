@@ -3,29 +3,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/bags/mcap_chunk.hpp"
+#include "common/bags/mcap_format.hpp"
 #include "common/bags/unpack.hpp"
 
 namespace slammot::bags {
 namespace {
 
-constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
+using namespace mcap_format;
+
 constexpr std::size_t kMaxChannels = 65'536;
 
-enum Opcode : std::uint8_t {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kDataEnd = 0x0F,
-  kLastKnown = 0x0F,
-  kFirstPrivate = 0x80,
-};
-
-bool is_opcode(std::uint8_t opcode) {
-  return (opcode >= kHeader && opcode <= kLastKnown) || opcode >= kFirstPrivate;
-}
 bool is_of_use(std::uint8_t opcode) {
   return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk;
 }
@@ -66,8 +54,7 @@ std::optional<RawMessage> McapReader::next() {
 /// The next record outside of chunks. False at the end.
 bool McapReader::read_record() {
   record_begins_ = file_.position();
-  constexpr std::size_t kHeadBytes = 9;
-  file_.read(kHeadBytes, record_);
+  file_.read(kRecordHeadBytes, record_);
   ByteReader head(record_);
   const auto opcode = head.number<std::uint8_t>();
   const auto length = head.number<std::uint64_t>();
@@ -127,23 +114,10 @@ void McapReader::take_channel(Bytes content) {
 }
 
 void McapReader::take_chunk(Bytes content, bool is_whole) {
-  const std::string where = "the chunk at byte " + std::to_string(record_begins_);
-  ByteReader reader(content);
-  reader.take(16);  // first and last time
-  const auto unpacked_bytes = reader.number<std::uint64_t>();
-  const auto crc = reader.number<std::uint32_t>();
-  const std::string_view compression = reader.text();
-  const auto packed_bytes = reader.number<std::uint64_t>();
-  if (!reader.is_ok()) return note(where + " is too short");
-  if (!can_unpack(compression)) return note(where + " is packed in a way that is not known here");
-  if (is_whole && packed_bytes > reader.left()) return note(where + " is shorter than it says");
-  Unpacked unpacked =
-      unpack(compression, reader.take(std::min<std::uint64_t>(packed_bytes, reader.left())));
-  if (is_whole && (!unpacked.is_whole || unpacked.bytes.size() != unpacked_bytes))
-    note(where + " does not unpack to its end");
-  if (unpacked.bytes.size() == unpacked_bytes && crc != 0 && crc32_of(unpacked.bytes) != crc)
-    return note(where + " fails its checksum");
-  chunk_ = std::move(unpacked.bytes);
+  McapChunk chunk = unpack_mcap_chunk(content, is_whole ? McapContent::kWhole : McapContent::kCut);
+  if (!chunk.fault.empty())
+    note("the chunk at byte " + std::to_string(record_begins_) + " " + chunk.fault);
+  chunk_ = std::move(chunk.records);
   chunk_at_ = 0;
 }
 

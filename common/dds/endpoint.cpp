@@ -20,7 +20,11 @@ std::string QosMismatch::text() const {
 
 Endpoint::Endpoint(const Participant& participant, const TopicInfo& info, Side side,
                    const dds_qos* qos)
-    : info_(&info), topic_(create_topic(participant, info)) {
+    : Endpoint(participant, info, create_topic(participant, info), side, qos) {}
+
+Endpoint::Endpoint(const Participant& participant, const TopicInfo& info, Entity topic, Side side,
+                   const dds_qos* qos)
+    : info_(&info), topic_(std::move(topic)) {
   const std::string name(info.name);
   const bool reads = side == Side::kReader;
   entity_ = reads ? Entity(dds_create_reader(participant.handle(), topic_.handle(), qos, nullptr),

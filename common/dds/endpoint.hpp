@@ -35,6 +35,9 @@ class Endpoint {
   enum class Side { kReader, kWriter };
 
   Endpoint(const Participant& participant, const TopicInfo& info, Side side, const dds_qos* qos);
+  /// Of a topic that was made otherwise than from a compiled type.
+  Endpoint(const Participant& participant, const TopicInfo& info, Entity topic, Side side,
+           const dds_qos* qos);
 
   std::string describe(const char* call) const;
   /// Sleeps until `enough()`; tests it again whenever an endpoint matches, leaves or is

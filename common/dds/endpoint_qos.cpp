@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <dds/ddsi/ddsi_serdata.h>
-#include <dds/ddsi/ddsi_typewrap.h>
+#include <dds/ddsi/ddsi_serdata.h>  // before the next one, which needs it
+#include <dds/ddsi/ddsi_typelib.h>
 
 namespace slammot::dds {
 namespace {
@@ -104,7 +104,7 @@ EndpointQos endpoint_qos(const dds_qos_t* qos) {
 std::vector<unsigned char> type_hash(dds_builtintopic_endpoint_t& endpoint) {
   const dds_typeinfo_t* info = nullptr;
   if (dds_builtintopic_get_endpoint_type_info(&endpoint, &info) != DDS_RETCODE_OK ||
-      info == nullptr)
+      info == nullptr || !ddsi_typeinfo_present(info))
     return {};
   ddsi_typeid_t* const id = ddsi_typeinfo_typeid(info, DDSI_TYPEID_KIND_COMPLETE);
   if (id == nullptr) return {};

@@ -8,17 +8,25 @@ namespace {
 constexpr std::int32_t kRecorderDepth = 10'000;
 constexpr std::int32_t kRecorderMaxSamples = 100'000;  // over all keys; at 2 kB a sample 200 MB
 
+void set_recorder_history(dds_qos_t* qos) {
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, kRecorderDepth);
+  dds_qset_resource_limits(qos, kRecorderMaxSamples, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+}
+
 QosPointer reader_qos(const TopicInfo& info, History history) {
   QosPointer qos = make_reader_qos(qos_profile(info.flow));
-  if (history == History::kRecorder) {
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kRecorderDepth);
-    dds_qset_resource_limits(qos.get(), kRecorderMaxSamples, DDS_LENGTH_UNLIMITED,
-                             DDS_LENGTH_UNLIMITED);
-  }
+  if (history == History::kRecorder) set_recorder_history(qos.get());
   return qos;
 }
 
 }  // namespace
+
+QosPointer make_recorder_qos() {
+  QosPointer qos(dds_create_qos(), dds_delete_qos);
+  dds_qset_destination_order(qos.get(), DDS_DESTINATIONORDER_BY_RECEPTION_TIMESTAMP);
+  set_recorder_history(qos.get());
+  return qos;
+}
 
 LoanBase::LoanBase(ReaderBase& reader) : reader_(reader.handle()) {
   std::array<dds_sample_info_t, kMost> infos;
@@ -38,6 +46,12 @@ LoanBase::~LoanBase() {
 
 ReaderBase::ReaderBase(const Participant& participant, const TopicInfo& info, History history)
     : Endpoint(participant, info, Side::kReader, reader_qos(info, history).get()),
+      data_available_(dds_create_readcondition(handle(), DDS_ANY_STATE),
+                      describe("dds_create_readcondition")) {}
+
+ReaderBase::ReaderBase(const Participant& participant, const TopicInfo& info, Entity topic,
+                       const dds_qos* qos)
+    : Endpoint(participant, info, std::move(topic), Side::kReader, qos),
       data_available_(dds_create_readcondition(handle(), DDS_ANY_STATE),
                       describe("dds_create_readcondition")) {}
 

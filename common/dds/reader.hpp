@@ -80,6 +80,9 @@ class ReaderBase : public Endpoint {
 
  protected:
   ReaderBase(const Participant& participant, const TopicInfo& info, History history);
+  ReaderBase(const Participant& participant, const TopicInfo& info, Entity topic,
+             const dds_qos* qos);
+  void count_taken() { ++taken_; }
 
  private:
   friend class LoanBase;

@@ -7,8 +7,15 @@ namespace slammot::dds {
 WriterBase::WriterBase(const Participant& participant, const TopicInfo& info)
     : Endpoint(participant, info, Side::kWriter, make_writer_qos(qos_profile(info.flow)).get()) {}
 
+WriterBase::WriterBase(const Participant& participant, const TopicInfo& info, Entity topic,
+                       const dds_qos* qos)
+    : Endpoint(participant, info, std::move(topic), Side::kWriter, qos) {}
+
 WriteResult WriterBase::write_sample(const void* sample) {
-  const dds_return_t code = dds_write(handle(), sample);
+  return written(dds_write(handle(), sample));
+}
+
+WriteResult WriterBase::written(std::int32_t code) {
   if (code == DDS_RETCODE_TIMEOUT) {
     ++counters_.timed_out;
     return WriteResult::kTimedOut;

@@ -34,6 +34,10 @@ class WriterBase : public Endpoint {
 
  protected:
   WriterBase(const Participant& participant, const TopicInfo& info);
+  WriterBase(const Participant& participant, const TopicInfo& info, Entity topic,
+             const dds_qos* qos);
+  /// Counts the outcome of a write, by the library's return code.
+  WriteResult written(std::int32_t code);
   WriteResult write_sample(const void* sample);
   void end_sample(const void* sample);
 

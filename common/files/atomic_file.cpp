@@ -1,6 +1,7 @@
 #include "common/files/atomic_file.hpp"
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -8,6 +9,8 @@
 #include <system_error>
 
 #include <unistd.h>
+
+#include "common/files/text.hpp"
 
 namespace slammot::files {
 namespace {
@@ -50,6 +53,16 @@ std::optional<Error> prepare_output_folder(const std::filesystem::path& folder) 
     return Error{"cannot write in " + folder.string() + ": " + std::strerror(errno)};
   std::filesystem::remove(probe, fault);
   return std::nullopt;
+}
+
+std::optional<Error> find_lack_of_space(const std::filesystem::path& folder, std::uint64_t needed) {
+  constexpr double kMegabyte = 1e6;
+  std::error_code fault;
+  const std::filesystem::space_info space = std::filesystem::space(folder, fault);
+  if (fault || space.available >= needed) return std::nullopt;
+  return Error{text("%s: %.0f MB are free, about %.0f MB are needed", folder.c_str(),
+                    static_cast<double>(space.available) / kMegabyte,
+                    std::ceil(static_cast<double>(needed) / kMegabyte))};
 }
 
 }  // namespace slammot::files

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -16,5 +17,9 @@ std::optional<Error> write_file_atomically(const std::filesystem::path& path,
 /// Creates the folder if it is missing and tests whether a file can be written there, before the
 /// work begins.
 std::optional<Error> prepare_output_folder(const std::filesystem::path& folder);
+
+/// A message if the folder's file system has less space than is needed [bytes]. Nothing where the
+/// space is unknown.
+std::optional<Error> find_lack_of_space(const std::filesystem::path& folder, std::uint64_t needed);
 
 }  // namespace slammot::files

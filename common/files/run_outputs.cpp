@@ -18,17 +18,6 @@ const char* name_of(flow::Motion motion) {
   return motion == flow::Motion::kMoving ? "moving" : "stopped";
 }
 
-const char* name_of(flow::ObjectClass object_class) {
-  switch (object_class) {
-    case flow::ObjectClass::kUnknown: return "unknown";
-    case flow::ObjectClass::kPedestrian: return "pedestrian";
-    case flow::ObjectClass::kBicycle: return "bicycle";
-    case flow::ObjectClass::kCar: return "car";
-    case flow::ObjectClass::kTruckOrBus: return "truck_or_bus";
-  }
-  return "unknown";
-}
-
 geometry::Matrix3 information_at_end(const geometry::UncertainPose2& from_to) {
   geometry::Matrix3 turn = geometry::Matrix3::Identity();
   turn.topLeftCorner<2, 2>() = geometry::rotation(-from_to.pose.heading_rad);

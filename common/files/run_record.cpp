@@ -80,6 +80,17 @@ geometry::Pose2 pose_at(const std::map<std::int64_t, geometry::Pose2>& poses_by_
 
 }  // namespace
 
+const char* name_of(flow::ObjectClass object_class) {
+  switch (object_class) {
+    case flow::ObjectClass::kUnknown: return "unknown";
+    case flow::ObjectClass::kPedestrian: return "pedestrian";
+    case flow::ObjectClass::kBicycle: return "bicycle";
+    case flow::ObjectClass::kCar: return "car";
+    case flow::ObjectClass::kTruckOrBus: return "truck_or_bus";
+  }
+  return "unknown";
+}
+
 void RunRecord::add(const flow::LocalizedScan& scan) {
   LocalizedPose& pose = poses_[scan.stamp_ns];
   if (!pose.scanner_id.empty() && pose.scanner_id != scan.scanner_id)
@@ -161,6 +172,18 @@ std::vector<const LabelRow*> RunRecord::label_rows() const {
   std::vector<const LabelRow*> all;
   for (const auto& [scan, row] : labels_) all.push_back(&row);
   return all;
+}
+
+std::optional<geometry::Pose2> RunRecord::last_pose() const {
+  if (poses_.empty()) return std::nullopt;
+  return poses_.rbegin()->second.map_from_base;
+}
+
+std::uint64_t RunRecord::accepted_closures() const {
+  return static_cast<std::uint64_t>(std::ranges::count_if(constraints_, [](const auto& entry) {
+    return entry.second.kind == flow::ConstraintKind::kLoop &&
+           entry.second.verdict.state == flow::ClosureState::kAccepted;
+  }));
 }
 
 std::uint64_t RunRecord::confirmed_tracks() const {

@@ -25,6 +25,9 @@ struct StampedPose {
   geometry::Pose2 map_from_base;
 };
 
+/// "car", "truck_or_bus", ... as in tracks.csv.
+const char* name_of(flow::ObjectClass object_class);
+
 /// Predicted position of a track in map.
 struct PredictedPlace {
   double after_s = 0.0;
@@ -93,6 +96,12 @@ class RunRecord {
   std::vector<UncertainStampedPose> uncertain_poses() const;  ///< Of the scans that were localized.
   std::vector<const LabelRow*> label_rows() const;
   std::uint64_t confirmed_tracks() const;  ///< Number of distinct confirmed tracks.
+
+  /// For progress: pose of the newest scan as published live, nothing before the first one; number
+  /// of closures in the graph; number of confirmed tracks in the newest scan.
+  std::optional<geometry::Pose2> last_pose() const;
+  std::uint64_t accepted_closures() const;
+  std::size_t tracks_now() const { return tracks_.empty() ? 0 : tracks_.rbegin()->second.size(); }
 
   /// Submap pose after the last correction; by odometry if loop closing has not received the
   /// submap.

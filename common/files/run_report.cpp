@@ -156,6 +156,14 @@ Json odometry_of(const sensing::OdometryConclusions& odometry, bool time_is_know
   return json;
 }
 
+Json losses_of(const RunReport& report) {
+  Json losses = Json::array();
+  for (const LossOfPlace& loss : report.losses)
+    losses.push_back(
+        {{"begin_s", short_number(loss.begin_s)}, {"end_s", short_number(loss.end_s)}});
+  return losses;
+}
+
 Json measured_of(const MeasuredRun& measured) {
   Json latency = Json::object();
   for (const StageLatency& stage : measured.stages) {
@@ -200,6 +208,7 @@ std::string to_json_text(const RunRecord& record, const RunReport& report, doubl
                {"distance_m", short_number(travelled_m)},
                {"counters", report.counters},
                {"closures", closures_of(record)}};
+  if (!report.losses.empty()) json["losses"] = losses_of(report);
   if (!report.replaced_stages.empty()) json["replaced_stages"] = report.replaced_stages;
   if (report.odometry)
     json["odometry"] = odometry_of(*report.odometry, report.plan.figures.has_clock);

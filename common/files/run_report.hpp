@@ -30,6 +30,12 @@ struct MeasuredRun {
   double peak_memory_mb = 0.0;
 };
 
+/// A time in which scans did not match the map, since the first scan.
+struct LossOfPlace {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+};
+
 /// Properties of a run that are not in RunRecord.
 struct RunReport {
   std::string command;  ///< "run" or "bench".
@@ -44,7 +50,8 @@ struct RunReport {
   LogFaults faults;
   bool is_interrupted = false;  ///< The user interrupted it before the end of the drive.
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
-  std::optional<sensing::OdometryConclusions> odometry;                  ///< None if not recorded.
+  std::vector<LossOfPlace> losses;                       ///< Of localization, where known.
+  std::optional<sensing::OdometryConclusions> odometry;  ///< None if not recorded.
   MeasuredRun measured;
 };
 

@@ -20,7 +20,8 @@ struct TrueObject {
   double speed_mps = 0.0;             ///< Along its heading.
   double length_m = 0.0;
   double width_m = 0.0;
-  int points = 0;  ///< Number of its echoes in this scan; 0 if occluded.
+  int points = 0;             ///< Number of its echoes in this scan; 0 if occluded.
+  double outline_seen = 0.0;  ///< Share of its outline that had an echo so far; 0 if unknown.
 };
 
 /// Predicted position of a track, in the frame of its owner.

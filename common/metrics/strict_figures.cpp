@@ -43,6 +43,36 @@ double quantile(const std::vector<double>& ascending, double share) {
   return std::lerp(ascending[below], ascending[above], position - static_cast<double>(below));
 }
 
+/// Errors of rows, to be summarized.
+class BoxRows {
+ public:
+  void add(const TrueObject& object, const ReportedTrack& track) {
+    iou_.push_back(intersection_over_union(box_of(object), box_of(track)));
+    centre_m_.push_back(centre_distance_m(object, track));
+    heading_rad_.push_back(std::abs(geometry::wrap_angle(track.world_from_object.heading_rad -
+                                                         object.world_from_object.heading_rad)));
+    velocity_mps_.push_back(velocity_error_mps(object, track));
+  }
+
+  BoxErrors errors() && {
+    std::ranges::sort(iou_);
+    return {iou_.size(),
+            quantile(iou_, 0.5),
+            quantile(iou_, 0.1),
+            summarize(std::move(centre_m_)),
+            summarize(std::move(heading_rad_)),
+            summarize(std::move(velocity_mps_))};
+  }
+
+ private:
+  std::vector<double> iou_, centre_m_, heading_rad_, velocity_mps_;
+};
+
+std::size_t outline_band(const TrueObject& object) {
+  const auto* const above = std::ranges::upper_bound(kOutlineBands, object.outline_seen);
+  return static_cast<std::size_t>(above - kOutlineBands.begin()) - 1;
+}
+
 bool is_same(const TrueObject& object, const ReportedTrack& track) {
   return object.object_class == "pedestrian"
              ? centre_distance_m(object, track) <= kNearM
@@ -51,10 +81,12 @@ bool is_same(const TrueObject& object, const ReportedTrack& track) {
 
 }  // namespace
 
-BoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
-                             const std::vector<CountedScene>& counted, const ClearMot& matched) {
+VehicleBoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
+                                    const std::vector<CountedScene>& counted,
+                                    const ClearMot& matched) {
   std::unordered_map<std::size_t, std::int64_t> first_ns;
-  std::vector<double> iou, centre_m, heading_rad, velocity_mps;
+  BoxRows all;
+  std::array<BoxRows, kOutlineBands.size()> by_outline;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     for (const std::size_t row : counted[i].objects)
       first_ns.try_emplace(scenes[i].objects[row].object, scenes[i].stamp_ns);
@@ -63,20 +95,14 @@ BoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
       const ReportedTrack& track = scenes[i].tracks[counted[i].tracks[column]];
       if (!is_vehicle(object) || scenes[i].stamp_ns - first_ns.at(object.object) < kInViewNs)
         continue;
-      iou.push_back(intersection_over_union(box_of(object), box_of(track)));
-      centre_m.push_back(centre_distance_m(object, track));
-      heading_rad.push_back(std::abs(geometry::wrap_angle(track.world_from_object.heading_rad -
-                                                          object.world_from_object.heading_rad)));
-      velocity_mps.push_back(velocity_error_mps(object, track));
+      all.add(object, track);
+      by_outline[outline_band(object)].add(object, track);
     }
   }
-  std::ranges::sort(iou);
-  return {iou.size(),
-          quantile(iou, 0.5),
-          quantile(iou, 0.1),
-          summarize(std::move(centre_m)),
-          summarize(std::move(heading_rad)),
-          summarize(std::move(velocity_mps))};
+  VehicleBoxErrors errors{std::move(all).errors(), {}};
+  for (std::size_t band = 0; band < by_outline.size(); ++band)
+    errors.by_outline[band] = std::move(by_outline[band]).errors();
+  return errors;
 }
 
 Hota strict_hota(const std::vector<Scene>& scenes, const std::vector<CountedScene>& counted,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -10,8 +11,7 @@
 
 namespace slammot::metrics {
 
-/// Errors of the whole box of vehicles (cars, trucks, buses), in matched rows from 2 s after their
-/// first counted row on.
+/// Errors of whole boxes.
 struct BoxErrors {
   std::size_t rows = 0;
   double iou_median = 0.0;        ///< Intersection over union of the true and the reported box,
@@ -21,9 +21,19 @@ struct BoxErrors {
   ErrorSummary velocity_mps;  ///< Length of the difference.
 };
 
+/// Shares of the outline seen so far from which the rows of VehicleBoxErrors::by_outline begin.
+inline constexpr std::array<double, 4> kOutlineBands = {0.0, 0.2, 0.4, 0.6};
+
+/// Of vehicles (cars, trucks, buses), in matched rows from 2 s after their first counted row on.
+struct VehicleBoxErrors {
+  BoxErrors all;
+  std::array<BoxErrors, kOutlineBands.size()> by_outline;  ///< By TrueObject::outline_seen.
+};
+
 /// Scenes, what counts of each, and the matches of clear_mot, all of the same length and order.
-BoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
-                             const std::vector<CountedScene>& counted, const ClearMot& matched);
+VehicleBoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
+                                    const std::vector<CountedScene>& counted,
+                                    const ClearMot& matched);
 
 /// HOTA of pairs that are the same thing beyond doubt: similarity is 1 from an intersection over
 /// union of 0.3 on, for people up to a distance of 0.5 m between the centres; otherwise 0.

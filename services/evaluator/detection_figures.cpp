@@ -113,8 +113,9 @@ std::string detection_figures(const ReportSource& source) {
 
 std::string latency_figure(const ReportSource& source) {
   const auto report =
-      nlohmann::ordered_json::parse(source.report_json, nullptr, false);  // Stages in the order of
-                                                                          // processing.
+      nlohmann::ordered_json::parse(source.result->report_json, nullptr, false);  // Stages in the
+                                                                                  // order of
+                                                                                  // processing.
   const nlohmann::ordered_json::json_pointer place("/measured/stage_latency");
   if (!report.is_object() || !report.contains(place) || !report[place].is_object()) return {};
   std::vector<LogBar> bars;

@@ -1,10 +1,12 @@
 #include "services/evaluator/echo_survey.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_set>
 #include <utility>
 
+#include "common/metrics/outline_seen.hpp"
 #include "services/evaluator/stamps.hpp"
 
 namespace slammot::evaluator {
@@ -43,21 +45,36 @@ std::vector<metrics::BeamTruth> truth_of_beams(const EchoesInWorld& scan, const 
                                              : metrics::beam_truth(scan.points_m, scene, rule);
 }
 
+/// Adds the echoes of a scan to the outlines of its moving objects, and notes in the scene how much
+/// of each is seen by then.
+void note_outlines(const EchoesInWorld& scan, const std::vector<metrics::BeamTruth>& beams,
+                   metrics::OutlinesSeen& outlines, Scene& scene) {
+  for (std::size_t beam = 0; beam < beams.size(); ++beam) {
+    if (beams[beam].kind != metrics::BeamKind::kMoving) continue;
+    const auto object =
+        std::ranges::find(scene.objects, beams[beam].object, &metrics::TrueObject::object);
+    if (object != scene.objects.end()) outlines.add(*object, *scan.points_m[beam]);
+  }
+  for (metrics::TrueObject& object : scene.objects) object.outline_seen = outlines.share_of(object);
+}
+
 }  // namespace
 
 files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResult& result,
-                                        const std::vector<Scene>& scenes, const Truth& truth,
+                                        std::vector<Scene>& scenes, const Truth& truth,
                                         const EchoSurveyOptions& options) {
   EchoSurvey survey;
   if (!echoes) return survey;
   if (truth.objects && !result.labels.empty()) survey.detection.emplace();
   SubsampledPoints walls(options.spacing_m);
   SubsampledPoints objects(options.spacing_m);
+  metrics::OutlinesSeen outlines;
   const auto least_points = static_cast<std::size_t>(options.rule.least_points);
   const auto fault = echoes([&](const EchoesInWorld& scan) {
     const Scene* const scene = at_stamp(scenes, scan.stamp_ns, kSameStampNs);
     if (!scene) return;
     const auto beams = truth_of_beams(scan, truth, *scene, options.rule);
+    note_outlines(scan, beams, outlines, scenes[static_cast<std::size_t>(scene - scenes.data())]);
     for (std::size_t beam = 0; beam < beams.size(); ++beam) {
       if (beams[beam].kind == metrics::BeamKind::kStationary) walls.add(*scan.points_m[beam]);
       if (beams[beam].kind == metrics::BeamKind::kMoving ||

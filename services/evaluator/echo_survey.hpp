@@ -31,10 +31,10 @@ struct EchoSurveyOptions {
   double spacing_m = 0.0;  ///< Side of the squares.
 };
 
-/// Compares the labels of echoes with their true origin and collects the places of echoes. Empty
-/// without echoes.
+/// Compares the labels of echoes with their true origin, collects the places of echoes, and notes
+/// in the scenes how much of each object's outline is seen. Empty without echoes.
 files::Result<EchoSurvey> survey_echoes(const EchoSource& echoes, const RunResult& result,
-                                        const std::vector<metrics::Scene>& scenes,
-                                        const Truth& truth, const EchoSurveyOptions& options);
+                                        std::vector<metrics::Scene>& scenes, const Truth& truth,
+                                        const EchoSurveyOptions& options);
 
 }  // namespace slammot::evaluator

@@ -105,6 +105,18 @@ Json to_json(const metrics::BoxErrors& errors) {
           {"velocity_mps", to_json(errors.velocity_mps)}};
 }
 
+Json to_json(const metrics::VehicleBoxErrors& errors) {
+  Json figures = to_json(errors.all);
+  if (figures.is_null()) return figures;
+  for (std::size_t band = 0; band < errors.by_outline.size(); ++band) {
+    if (errors.by_outline[band].rows == 0) continue;
+    Json row = to_json(errors.by_outline[band]);
+    row["outline_seen_from"] = number(metrics::kOutlineBands[band]);
+    figures["by_outline_seen"].push_back(row);
+  }
+  return figures;
+}
+
 Json to_json(const TrackingEvaluation& tracking) {
   Json classes = Json::object();
   for (const auto& [name, errors] : tracking.errors.by_class) classes[name] = to_json(errors);

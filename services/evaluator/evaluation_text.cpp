@@ -74,15 +74,26 @@ std::string describe(const std::vector<metrics::PredictionErrors>& predictions) 
 }
 
 std::string describe_strictly(const TrackingEvaluation& tracking) {
-  const metrics::BoxErrors& boxes = tracking.vehicle_boxes;
-  return text("  strict: HOTA %.3f   stopped objects that had moved: covered in %zu of %zu rows\n",
-              tracking.strict_hota.hota, tracking.stopped.covered_rows, tracking.stopped.rows) +
-         text(
-             "  boxes of vehicles from 2 s on, %zu rows: IoU median %.3f, lowest tenth %.3f   95 "
-             "%% "
-             "within: centre %.2f m, heading %.1f deg   velocity rmse %.2f m/s\n",
-             boxes.rows, boxes.iou_median, boxes.iou_lowest_tenth, boxes.centre_m.p95,
-             boxes.heading_rad.p95 * kDegrees, boxes.velocity_mps.rmse);
+  const metrics::BoxErrors& boxes = tracking.vehicle_boxes.all;
+  std::string lines =
+      text("  strict: HOTA %.3f   stopped objects that had moved: covered in %zu of %zu rows\n",
+           tracking.strict_hota.hota, tracking.stopped.covered_rows, tracking.stopped.rows) +
+      text(
+          "  boxes of vehicles from 2 s on, %zu rows: IoU median %.3f, lowest tenth %.3f   95 "
+          "%% "
+          "within: centre %.2f m, heading %.1f deg   velocity rmse %.2f m/s\n",
+          boxes.rows, boxes.iou_median, boxes.iou_lowest_tenth, boxes.centre_m.p95,
+          boxes.heading_rad.p95 * kDegrees, boxes.velocity_mps.rmse);
+  for (std::size_t band = 0; band < metrics::kOutlineBands.size(); ++band) {
+    const metrics::BoxErrors& errors = tracking.vehicle_boxes.by_outline[band];
+    if (errors.rows == 0 || errors.rows == boxes.rows) continue;  // all: no echoes were given
+    lines += text(
+        "    outline seen from %3.0f %%: %6zu rows, IoU median %.3f, lowest tenth %.3f   95 %% "
+        "within: centre %.2f m, heading %.1f deg\n",
+        100.0 * metrics::kOutlineBands[band], errors.rows, errors.iou_median,
+        errors.iou_lowest_tenth, errors.centre_m.p95, errors.heading_rad.p95 * kDegrees);
+  }
+  return lines;
 }
 
 std::string describe(const TrackingEvaluation& tracking) {

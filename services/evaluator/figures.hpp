@@ -8,9 +8,6 @@ namespace slammot::evaluator {
 
 /// Each function returns the HTML of one section, or nothing if its data is missing.
 
-/// Map with trajectories and tracks.
-std::string map_figure(const ReportSource& source);
-
 /// Pose errors over time, and drift over ten metres.
 std::string error_figures(const ReportSource& source);
 

@@ -2,16 +2,17 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "common/files/atomic_file.hpp"
 #include "services/evaluator/comparison.hpp"
+#include "services/evaluator/comparison_page.hpp"
 #include "services/evaluator/report_page.hpp"
+#include "services/evaluator/result_of_record.hpp"
 
 namespace slammot::evaluator {
 namespace {
@@ -20,69 +21,110 @@ using std::filesystem::path;
 
 struct ReportOptions {
   ComparisonOptions comparison;
+  std::vector<path> results;  ///< Named without an option: one to show, or two to compare.
   path output;
   std::vector<std::uint32_t> tracks;
 };
 
-int fail(const files::Error& fault) {
-  std::fprintf(stderr, "slammot: %s\n", fault.message.c_str());
+int fail(const std::string& line) {
+  std::fprintf(stderr, "slammot: %s\n", line.c_str());
   return 1;
 }
 
-/// Empty if there is no such file.
-std::string content_of(const path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::string title_of(const path& folder) {
+std::string name_of(const path& folder) {
   const path whole = std::filesystem::absolute(folder).lexically_normal();  // Resolves "." to a
                                                                             // name.
-  return "slammot: " + (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+int write_page(const path& file, const std::string& html) {
+  if (const auto fault = files::write_file_atomically(file, html)) return fail(fault->message);
+  std::printf("%s\n", file.c_str());
+  return 0;
 }
 
 int write_report(const ReportOptions& options) {
   const ComparisonOptions& comparison = options.comparison;
   const auto result = read_result(comparison.result);
-  if (!result) return fail(result.error());
+  if (!result) return fail(result.error().message);
   ReportSource source;
-  source.title = title_of(comparison.result);
+  source.title = "slammot: " + name_of(comparison.result);
   source.result = &*result;
-  source.report_json = content_of(comparison.result / "report.json");
-  source.map_png = content_of(comparison.result / "map.png");
   source.track_ids = options.tracks;
   std::optional<files::Result<Truth>> truth;
   std::optional<files::Result<Evaluation>> evaluation;
   if (!comparison.truth.empty()) {
     truth.emplace(read_truth(comparison.truth));
-    if (!*truth) return fail(truth->error());
+    if (!*truth) return fail(truth->error().message);
     evaluation.emplace(evaluate(*result, **truth, echo_source(comparison, *result, **truth),
                                 comparison.evaluation));
-    if (!*evaluation) return fail(evaluation->error());
+    if (!*evaluation) return fail(evaluation->error().message);
     source.truth = &**truth;
     source.evaluation = &**evaluation;
   }
-  const path output = options.output.empty() ? comparison.result / "report.html" : options.output;
-  if (const auto fault = files::write_file_atomically(output, to_html(source))) return fail(*fault);
-  std::printf("%s\n", output.c_str());
-  return 0;
+  return write_page(options.output.empty() ? comparison.result / kReportFile : options.output,
+                    to_html(source));
+}
+
+/// "a" and "b", or "x/a" and "y/a" where the folders have the same name.
+std::pair<std::string, std::string> names_of(const path& a, const path& b) {
+  if (name_of(a) != name_of(b)) return {name_of(a), name_of(b)};
+  return {a.string(), b.string()};
+}
+
+int write_comparison(const ReportOptions& options) {
+  if (!options.comparison.truth.empty())
+    return fail("--truth belongs to the report of one result; slammot eval compares with truth");
+  const auto a = read_result(options.results[0]);
+  if (!a) return fail(a.error().message);
+  const auto b = read_result(options.results[1]);
+  if (!b) return fail(b.error().message);
+  const auto [name_of_a, name_of_b] = names_of(options.results[0], options.results[1]);
+  return write_page(options.output.empty() ? path("comparison.html") : options.output,
+                    comparison_page({name_of_a, &*a}, {name_of_b, &*b}));
+}
+
+int report(ReportOptions options) {
+  if (options.results.size() == 2 && options.comparison.result.empty())
+    return write_comparison(options);
+  if (options.results.empty() == options.comparison.result.empty())
+    return fail("a result is required: the folder that run or bench wrote, or two to compare");
+  if (!options.results.empty()) options.comparison.result = options.results.front();
+  return write_report(options);
 }
 
 }  // namespace
 
+std::optional<files::Error> write_report_of(const files::RunRecord& record, const path& folder) {
+  const auto result = result_of(record, folder);
+  if (!result) return result.error();
+  ReportSource source;
+  source.title = "slammot: " + name_of(folder);
+  source.result = &*result;
+  return files::write_file_atomically(folder / kReportFile, to_html(source));
+}
+
 void add_report_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
-      "report", "Write an HTML page about a run: map, tracks, errors, latencies");
+      "report", "Write a page in which a drive can be played, or two results compared");
   const auto options = std::make_shared<ReportOptions>();
+  command
+      ->add_option("RESULT", options->results,
+                   "Folder that run or bench wrote; two folders are compared")
+      ->type_name("DIR")
+      ->expected(0, 2);
   add_comparison_options(*command, options->comparison, TruthIs::kOptional);
-  command->add_option("--output", options->output, "Page to write [DIR/report.html]")
+  command->get_option("--result")->required(false);
+  command
+      ->add_option("--output", options->output,
+                   "Page to write [DIR/report.html; comparison.html for two results]")
       ->type_name("FILE");
   command
       ->add_option("--tracks", options->tracks,
                    "Ids of tracks to show in detail; default: selected by the program")
       ->delimiter(',')
       ->type_name("ID,ID");
-  command->callback([options, &exit_code] { exit_code = write_report(*options); });
+  command->callback([options, &exit_code] { exit_code = report(*options); });
 }
 
 }  // namespace slammot::evaluator

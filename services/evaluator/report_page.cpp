@@ -6,41 +6,14 @@
 
 #include "common/files/text.hpp"
 #include "services/evaluator/figures.hpp"
+#include "services/evaluator/report_assumptions.hpp"
+#include "services/evaluator/report_player.hpp"
 #include "services/evaluator/svg_plot.hpp"
 
 namespace slammot::evaluator {
 namespace {
 
 using files::text;
-
-constexpr const char* kStyle = R"(
-:root { color: #1b1f24; background: #fff; font: 15px/1.5 system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; }
-body { max-width: 62rem; margin: 0 auto; padding: 1.5rem 1rem 4rem; }
-h1 { font-size: 1.5rem; margin: 0 0 .2rem; }
-h2 { font-size: 1.15rem; margin: 2.4rem 0 .6rem; padding-bottom: .25rem; border-bottom: 1px solid #d8dde3; }
-p.about { color: #57606a; margin: 0 0 1rem; }
-figure { margin: 1rem 0 1.6rem; }
-figcaption, caption { color: #57606a; font-size: .9rem; text-align: left; }
-svg { display: block; width: 100%; height: auto; }
-svg text { font-size: 12px; fill: #57606a; }
-svg .grid { stroke: #e6e9ed; } svg .axis { stroke: #8c959f; }
-svg .curve { fill: none; stroke-width: 1.5; stroke-linejoin: round; }
-svg .shade { fill: #f1e4c3; } svg .trough { fill: #eef1f4; }
-svg .range { stroke: #b8c0c8; stroke-width: 3; }
-svg .low { fill: #1f5fa8; } svg .middle { fill: #e0a100; } svg .high { fill: #d9480f; }
-svg.map { max-height: 80vh; background: #cdcdcd; border: 1px solid #d8dde3; }
-svg.map image { image-rendering: pixelated; }
-svg.map path { fill: none; vector-effect: non-scaling-stroke; stroke-linejoin: round; }
-svg.map .way { stroke-width: 2.4; } svg.map .thin { stroke-width: 1.4; } svg.map .track { stroke-width: 1.3; stroke-opacity: .8; }
-svg.map .dotted { stroke-width: 1.4; stroke-dasharray: 1 5; stroke-linecap: round; }
-.legend { display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; margin: .3rem 0; font-size: .85rem; color: #57606a; }
-.legend i { display: inline-block; width: 1.1em; height: .35em; margin: 0 .4em .2em 0; }
-.legend svg.key { display: inline-block; width: 24px; height: 8px; margin-right: .4em; }
-table { border-collapse: collapse; margin: .6rem 0 1.2rem; font-size: .92rem; font-variant-numeric: tabular-nums; }
-caption { padding-bottom: .3rem; }
-th, td { padding: .25rem .8rem .25rem 0; text-align: right; border-bottom: 1px solid #e6e9ed; }
-th { font-weight: 600; } th:first-child, td:first-child { text-align: left; }
-)";
 
 std::string cell(const std::string& content) { return "<td>" + escaped(content) + "</td>"; }
 
@@ -145,17 +118,14 @@ std::string about(const std::string& report_json) {
 }  // namespace
 
 std::string to_html(const ReportSource& source) {
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\"><title>" +
-      escaped(source.title) + "</title><style>" + kStyle + "</style></head><body><h1>" +
-      escaped(source.title) + "</h1>";
-  html += about(source.report_json);
-  html += map_figure(source);
+  const std::string& report_json = source.result->report_json;
+  std::string html = page_head(source.title) + "<body>" + player_of(*source.result) + "<main><h1>" +
+                     escaped(source.title) + "</h1>" + about(report_json) +
+                     doubts_section(*source.result) + assumptions_section(report_json);
   if (source.evaluation) html += figures_section(*source.evaluation);
   html += error_figures(source) + detection_figures(source) + track_figures(source) +
-          latency_figure(source);
-  return html + "</body></html>\n";
+          closures_section(report_json) + latency_figure(source);
+  return html + "</main></body></html>\n";
 }
 
 std::string to_base64(const std::string& bytes) {

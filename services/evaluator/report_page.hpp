@@ -13,8 +13,6 @@ namespace slammot::evaluator {
 struct ReportSource {
   std::string title;
   const RunResult* result = nullptr;
-  std::string report_json;       ///< Text of report.json; may be empty.
-  std::string map_png;           ///< Bytes of map.png; may be empty.
   const Truth* truth = nullptr;  ///< May be null, like evaluation.
   const Evaluation* evaluation = nullptr;
   std::vector<std::uint32_t> track_ids;  ///< Tracks to show in detail; empty: chosen by

@@ -30,7 +30,9 @@ std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
                                            "heading",   "vx",       "vy",   "length",
                                            "width",     "motion",   "class"};
   const bool has_occluded = !columns_with_prefix(file, "occluded").empty();
+  const bool has_existence = !columns_with_prefix(file, "existence").empty();
   if (has_occluded) columns.emplace_back("occluded");
+  if (has_existence) columns.emplace_back("existence");
   return read_csv(file, columns, [&](auto fields) -> RowFault {
     const auto row = numbers(fields.first(9));
     if (!row) return "a field is not a number";
@@ -46,6 +48,11 @@ std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
     track.is_moving = fields[9] == "moving";
     track.object_class = fields[10];
     track.is_occluded = has_occluded && fields[11] == "1";
+    if (has_existence) {
+      const auto existence = numbers(fields.last(1));
+      if (!existence) return "existence is not a number";
+      track.existence = existence->front();
+    }
     tracks[track.stamp_ns].push_back(std::move(track));
     return std::nullopt;
   });
@@ -146,6 +153,20 @@ double number_of_input(const nlohmann::json& report, const std::string& name) {
              : 0.0;
 }
 
+std::vector<LostSpan> losses_of(const nlohmann::json& report, std::int64_t first_ns) {
+  std::vector<LostSpan> losses;
+  if (!report.is_object() || !report.contains("losses") || !report["losses"].is_array())
+    return losses;
+  for (const auto& loss : report["losses"]) {
+    if (!loss.is_object() || !loss.contains("begin_s") || !loss["begin_s"].is_number() ||
+        !loss.contains("end_s") || !loss["end_s"].is_number())
+      continue;
+    losses.push_back({first_ns + to_ns(loss["begin_s"].get<double>()),
+                      first_ns + to_ns(loss["end_s"].get<double>())});
+  }
+  return losses;
+}
+
 }  // namespace
 
 Result<files::MapImage> read_map(const path& yaml_file) {
@@ -177,6 +198,25 @@ Result<files::MapImage> read_map(const path& yaml_file) {
   return image;
 }
 
+std::optional<Error> read_small_files(const path& folder, RunResult& result) {
+  result.report_json = read_all(folder / "report.json");
+  const auto report = nlohmann::json::parse(result.report_json, nullptr, false);
+  result.sweep_s = number_of_input(report, "sweep_s");
+  result.base_from_laser = {number_of_input(report, "laser_ahead_m"),
+                            number_of_input(report, "laser_left_m"),
+                            number_of_input(report, "laser_heading_rad")};
+  result.losses = losses_of(report, result.online.front().stamp_ns);
+  result.graph = read_graph(folder / "graph.g2o");
+  for (const auto& [name, image] :
+       {std::pair("map.yaml", &result.map), std::pair("moving.yaml", &result.moving)}) {
+    if (!std::filesystem::exists(folder / name)) continue;
+    auto map = read_map(folder / name);
+    if (!map) return map.error();
+    *image = std::move(*map);
+  }
+  return std::nullopt;
+}
+
 Result<RunResult> read_result(const path& folder) {
   RunResult result;
   auto online = read_tum(folder / "online.tum");
@@ -202,16 +242,7 @@ Result<RunResult> read_result(const path& folder) {
   if (const auto file = plain_or_gz(folder / "labels.csv")) {
     if (auto fault = read_labels(*file, result.labels)) return *fault;
   }
-  const auto report = nlohmann::json::parse(read_all(folder / "report.json"), nullptr, false);
-  result.sweep_s = number_of_input(report, "sweep_s");
-  result.base_from_laser = {number_of_input(report, "laser_ahead_m"),
-                            number_of_input(report, "laser_left_m"),
-                            number_of_input(report, "laser_heading_rad")};
-  if (std::filesystem::exists(folder / "map.yaml")) {
-    auto map = read_map(folder / "map.yaml");
-    if (!map) return map.error();
-    result.map = std::move(*map);
-  }
+  if (auto fault = read_small_files(folder, result)) return *fault;
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "common/files/result.hpp"
 #include "common/metrics/scene.hpp"
 #include "common/metrics/trajectory.hpp"
+#include "services/evaluator/result_graph.hpp"
 
 namespace slammot::evaluator {
 
@@ -23,6 +24,7 @@ struct ResultTrack {
   geometry::Vector2 velocity_in_map_mps = geometry::Vector2::Zero();
   double length_m = 0.0;
   double width_m = 0.0;
+  double existence = 1.0;  ///< Column `existence`; 1 if it is absent.
   bool is_moving = true;
   bool is_occluded = false;  ///< Column `occluded`; false if it is absent.
   std::string object_class;
@@ -44,6 +46,12 @@ struct LabelsAt {
   std::string by_tracking;
 };
 
+/// Time in which scans did not match the map.
+struct LostSpan {
+  std::int64_t begin_ns = 0;
+  std::int64_t end_ns = 0;
+};
+
 /// Output of `slammot run` or `bench`.
 struct RunResult {
   metrics::Trajectory online;     ///< map_from_base as published live; never empty.
@@ -52,12 +60,20 @@ struct RunResult {
   std::vector<TracksAt> tracks;  ///< Ascending stamps; without scans that have no tracks.
   std::vector<LabelsAt> labels;  ///< Ascending stamps; empty if not written.
   std::optional<files::MapImage> map;
+  std::optional<files::MapImage> moving;  ///< MO-map; the same pixels as `map`.
+  ResultGraph graph;
+  std::vector<LostSpan> losses;
+  std::string report_json;          ///< Text of report.json; may be empty.
   geometry::Pose2 base_from_laser;  ///< As used by the run.
   double sweep_s = 0.0;  ///< Time from the first beam of a scan to its last, as used by the run; 0
                          ///< if unknown.
 };
 
 files::Result<RunResult> read_result(const std::filesystem::path& folder);
+
+/// Reads graph, maps and figures of a result, not its tables. `result` must have its trajectories.
+std::optional<files::Error> read_small_files(const std::filesystem::path& folder,
+                                             RunResult& result);
 
 /// An image written by map_image: NAME.pgm and NAME.yaml.
 files::Result<files::MapImage> read_map(const std::filesystem::path& yaml);

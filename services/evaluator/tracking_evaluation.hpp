@@ -30,7 +30,7 @@ struct TrackingEvaluation {
   MeanGospa gospa;
   metrics::ObjectErrorTables errors;
   std::vector<metrics::PredictionErrors> predictions;  ///< By horizon; empty if none were written.
-  metrics::BoxErrors vehicle_boxes;
+  metrics::VehicleBoxErrors vehicle_boxes;
   metrics::Hota strict_hota;
   metrics::StoppedRows stopped;
 };

@@ -10,7 +10,7 @@ struct EmbeddedFile {
   std::string_view bytes;
 };
 
-/// The files of page/, written by embed_page.cmake when the program is built.
+/// The files of page/, written by cmake/embed_files.cmake when the program is built.
 std::span<const EmbeddedFile> embedded_page();
 
 }  // namespace slammot::gateway

@@ -42,7 +42,6 @@ void add_doctor_command(CLI::App& app, int& exit_code) {
   };
   CLI::App* const command =
       app.add_subcommand("doctor", "Check this computer before a run, and say what to change");
-  command->group("Inspection");
   const auto options = std::make_shared<Options>();
   add_bus_options(*command, options->bus);
   command->add_option("--state-dir", options->state_folder, "Folder of the services' state")

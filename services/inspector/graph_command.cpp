@@ -18,7 +18,6 @@ void add_graph_command(CLI::App& app, int& exit_code) {
     bool with_status = false;
   };
   CLI::App* const command = app.add_subcommand("graph", "Show which process talks to which");
-  command->group("Inspection");
   const auto options = std::make_shared<Options>();
   add_bus_options(*command, options->bus);
   command->add_flag("--dot", options->is_dot,

@@ -43,7 +43,6 @@ void add_qos_command(CLI::App& app, int& exit_code) {
   };
   CLI::App* const command =
       app.add_subcommand("qos", "Show the QoS of topics, and why endpoints are not connected");
-  command->group("Inspection");
   const auto options = std::make_shared<Options>();
   add_bus_options(*command, options->bus);
   command->add_option("topic", options->topic, "Name, with or without slammot/; default: all");

@@ -81,7 +81,7 @@ std::vector<TopicLine> topic_lines(BusView& view, double interval_s) {
     if (watched != view.topics().end()) {
       line.figures = watched->second.meter.figures(interval_s);
       line.age_s = watched->second.meter.age_s(system_clock_ns());
-      line.lost = watched->second.reader.lost();
+      line.lost = static_cast<std::uint32_t>(watched->second.reader->counters().lost);
       watched->second.meter.reset();
     }
     if (line.writers > 0) result.push_back(line);
@@ -119,7 +119,6 @@ void add_top_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<TopOptions>();
   CLI::App* const command =
       app.add_subcommand("top", "Show services and topics: state, rate, age, size, drops, latency");
-  command->group("Inspection");
   add_bus_options(*command, options->bus);
   command->add_option("--period", options->period_s, "Time between two tables [s]")
       ->check(CLI::Range(0.1, 3600.0))

@@ -1,9 +1,13 @@
 #include "services/inspector/topic_commands.hpp"
 
 #include <atomic>
-#include <cinttypes>
+#include <cstdint>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +15,7 @@
 #include "services/inspector/bus_options.hpp"
 #include "services/inspector/bus_view.hpp"
 #include "services/inspector/calls.hpp"
+#include "services/inspector/sample_text.hpp"
 #include "services/inspector/table_text.hpp"
 #include "services/inspector/topic_choice.hpp"
 
@@ -19,14 +24,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kGroup = "Inspection";
-
 struct TopicOptions {
   BusOptions bus;
   std::string topic;
   std::uint64_t count = 0;  ///< 0: until Ctrl-C.
   double period_s = 1.0;
+  bool is_full = false;  ///< Prints all elements of lists.
 };
+
+constexpr std::size_t kMostElements = 10;  ///< Of a list, in a line of `echo`.
 
 /// Watches the topic of the options; an exit code if that cannot be.
 std::optional<int> watch(BusView& view, TopicOptions& options) {
@@ -37,7 +43,7 @@ std::optional<int> watch(BusView& view, TopicOptions& options) {
   }
   options.topic = *topic;
   if (view.watch(*topic)) return std::nullopt;
-  std::fprintf(stderr, "slammot: nobody tells the type of %s\n", topic->c_str());
+  std::fprintf(stderr, "slammot: no writer of %s tells its type\n", topic->c_str());
   return kExitFault;
 }
 
@@ -65,11 +71,12 @@ int echo(TopicOptions options) {
   const app::StopSignal stop_signal([&] { is_stopped = true; });
   BusView view(options.bus);
   if (const auto fault = watch(view, options)) return *fault;
+  const std::size_t most = options.is_full ? SIZE_MAX : kMostElements;
   std::uint64_t printed = 0;
-  view.on_sample([&](const std::string&, const dds::AnySample& sample) {
+  view.on_sample([&](const dds::RawTopic& topic, const dds::RawSample& sample) {
     if (options.count > 0 && printed >= options.count) return;
     ++printed;
-    std::printf("%s%s\n", sample.has_value ? "" : "ended: ", sample.text().c_str());
+    std::printf("%s---\n", sample_text(topic.model(), sample.cdr, most).c_str());
     std::fflush(stdout);
   });
   while (!is_stopped && (options.count == 0 || printed < options.count)) view.receive(50ms, false);
@@ -112,7 +119,6 @@ int measure(TopicOptions options, std::string (*line_of)(const TopicFigures&)) {
 
 CLI::App* add(CLI::App& app, const char* name, const char* purpose, TopicOptions& options) {
   CLI::App* const command = app.add_subcommand(name, purpose);
-  command->group(kGroup);
   add_bus_options(*command, options.bus);
   return command;
 }
@@ -147,6 +153,7 @@ void add_echo_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<TopicOptions>();
   CLI::App* const command = add(app, "echo", "Print the samples of a topic of any type", *options);
   add_topic(*command, *options, "End after so many samples; default: Ctrl-C ends it");
+  command->add_flag("--full", options->is_full, "All elements of lists, not only the first ten");
   command->callback([options, &exit_code] { exit_code = guarded([&] { return echo(*options); }); });
 }
 

@@ -17,6 +17,7 @@
 #include "common/dds/config.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/run_outputs.hpp"
+#include "common/files/text.hpp"
 #include "services/ingest/topic_arguments.hpp"
 #include "services/simulator/drive_files.hpp"
 #include "services/simulator/scenario_files.hpp"
@@ -105,24 +106,26 @@ std::optional<files::Error> provide_map(const Job& job, const BenchOptions& opti
   if (options.map.empty()) return std::nullopt;
   const auto stored = read_stored_map(options.map, job.profile.localization.map.cell_size_m);
   if (!stored) return stored.error();
-  std::printf("map:      %zu submaps of %s\n", stored->size(), options.map.c_str());
-  std::fflush(stdout);
+  print(options, files::text("map:      %zu submaps of %s\n", stored->size(), options.map.c_str()));
   return write_stored_map(state_folder, *stored, kVehicle);
 }
 
 /// Waits until the drive has ended or is interrupted. Returns a message if a service keeps failing.
 std::optional<std::string> await_drive(Collector& collector, ServiceProcesses& services,
                                        const std::vector<std::int64_t>& stamps_ns,
-                                       const std::atomic<bool>& is_interrupted) {
-  ProgressBar progress("slammot bench");
+                                       const std::atomic<bool>& is_interrupted,
+                                       Verbosity verbosity) {
+  ProgressBar progress("slammot bench", verbosity);
   const double duration_ns =
       static_cast<double>(std::max<std::int64_t>(1, stamps_ns.back() - stamps_ns.front()));
   auto check_services_at = Clock::now();
   while (!collector.has_drive_ended() && !is_interrupted) {
     collector.wait(100ms);
-    if (collector.last_localized_ns())
-      progress.show(static_cast<double>(*collector.last_localized_ns() - stamps_ns.front()) /
-                    duration_ns);
+    if (collector.last_localized_ns()) {
+      const auto driven_ns =
+          static_cast<double>(*collector.last_localized_ns() - stamps_ns.front());
+      progress.show(driven_ns / duration_ns, driven_ns * 1e-9);
+    }
     if (Clock::now() < check_services_at) continue;
     if (auto fault = services.restart_dead()) return fault;
     check_services_at = Clock::now() + 20ms;
@@ -155,12 +158,12 @@ int write(const Job& job, const BenchOptions& options, const files::RunRecord& r
     if (const auto fault = write_stored_map(options.output, record.submaps()))
       return fail(fault->message);
   }
-  if (!options.map.empty()) std::fputs(record.is_connected() ? kFound : kNotFound, stdout);
-  std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
+  write_report(options, record);
+  if (!options.map.empty()) print(options, record.is_connected() ? kFound : kNotFound);
+  print(options, describe_outcome(record, report, options.output));
   for (const auto& [name, count] : report.counters.at("bench")) {
-    if (count > 0) std::printf("%s: %llu\n", name.c_str(), static_cast<unsigned long long>(count));
+    if (count > 0) print(options, name + ": " + std::to_string(count) + "\n");
   }
-  std::fflush(stdout);
   if (report.is_interrupted) {
     std::fprintf(stderr,
                  "slammot: interrupted: only the first %.1f s of the drive were processed\n",
@@ -207,8 +210,7 @@ int bench(const BenchOptions& requested) {
   const auto start = Clock::now();
   auto job = prepare_job(options);
   if (!job) return fail(job.error().message);
-  std::fputs(describe_job(*job, options).c_str(), stdout);
-  std::fflush(stdout);
+  print(options, describe_job(*job, options));
   std::vector<std::int64_t> stamps_ns = stamps_of(job->log);
 
   const TemporaryFolder folder("slammot-bench-");
@@ -220,7 +222,8 @@ int bench(const BenchOptions& requested) {
   std::optional<ServiceProcesses> services;
   services.emplace(services_for(*job, options, *settings, folder.path()), folder.path(),
                    std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
-  if (const auto fault = await_drive(collector, *services, stamps_ns, is_interrupted))
+  if (const auto fault = await_drive(collector, *services, stamps_ns, is_interrupted,
+                                     options.is_quiet ? Verbosity::kQuiet : Verbosity::kNormal))
     return fail(*fault);
   const bool is_cut_short = is_interrupted && !collector.has_drive_ended();
   if (is_cut_short) services->end("ingest");

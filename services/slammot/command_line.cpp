@@ -1,15 +1,11 @@
 #include "services/slammot/command_line.hpp"
 
-#include <algorithm>
 #include <cstdio>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "common/config/nearest.hpp"
 #include "services/evaluator/eval_command.hpp"
 #include "services/evaluator/report_command.hpp"
 #include "services/inspector/doctor_command.hpp"
@@ -17,67 +13,51 @@
 #include "services/inspector/qos_command.hpp"
 #include "services/inspector/top_command.hpp"
 #include "services/inspector/topic_commands.hpp"
+#include "services/recorder/bag_command.hpp"
+#include "services/recorder/record_command.hpp"
 #include "services/simulator/simulate_command.hpp"
 #include "services/slammot/bench_command.hpp"
 #include "services/slammot/check_command.hpp"
 #include "services/slammot/collect_command.hpp"
+#include "services/slammot/completion_command.hpp"
 #include "services/slammot/config_command.hpp"
 #include "services/slammot/health_command.hpp"
 #include "services/slammot/live_command.hpp"
 #include "services/slammot/map_command.hpp"
 #include "services/slammot/run_command.hpp"
+#include "services/slammot/usage.hpp"
 #include "services/slammot/warn_command.hpp"
 
 namespace slammot {
 namespace {
 
-std::vector<std::string> commands_of(CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  return names;
+struct Group {
+  const char* title;
+  std::vector<const char*> commands;
+};
+
+/// What `slammot` alone lists. Commands that are in no group are listed as others.
+const std::vector<Group>& groups() {
+  static const std::vector<Group> kGroups = {
+      {"Process a drive", {"run", "bench", "live", "collect", "simulate"}},
+      {"Look at a drive or a result", {"check", "report", "plot", "animate", "eval", "warn"}},
+      {"Settings and maps", {"config", "map"}},
+      {"Services that run",
+       {"health", "top", "list", "echo", "hz", "delay", "qos", "graph", "doctor"}},
+      {"Shell", {"completion"}}};
+  return kGroups;
 }
 
-std::vector<std::string> options_of(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
-bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-/// Message about an unknown command, or an unknown option of a command.
-std::optional<std::string> unknown_word(CLI::App& app, const std::vector<std::string>& words) {
-  if (words.empty() || words.front().starts_with("-")) return std::nullopt;
-  const std::vector<std::string> commands = commands_of(app);
-  if (!is_one_of(words.front(), commands)) {
-    return "unknown command '" + words.front() + "'" +
-           config::hint_at_nearest(words.front(), commands) + "; slammot --help lists all";
-  }
-  CLI::App* command = app.get_subcommand(words.front());
-  std::string name_of_command = words.front();
-  auto word = words.begin() + 1;
-  for (; word != words.end() && is_one_of(*word, commands_of(*command)); ++word) {
-    command = command->get_subcommand(*word);
-    name_of_command += " " + *word;
-  }
-  const std::vector<std::string> parts = commands_of(*command);
-  if (!parts.empty() && word != words.end() && !word->starts_with("-"))
-    return "unknown command '" + name_of_command + " " + *word + "'" +
-           config::hint_at_nearest(*word, parts) + "; slammot " + name_of_command +
-           " --help lists all";
-  const std::vector<std::string> options = options_of(*command);
-  for (; word != words.end() && *word != "--"; ++word) {
-    const std::string name = word->substr(0, word->find('='));
-    if (!name.starts_with("--") || is_one_of(name, options)) continue;
-    return "unknown option '" + name + "' of " + name_of_command +
-           config::hint_at_nearest(name, options) + "; slammot " + name_of_command +
-           " --help lists all";
-  }
-  return std::nullopt;
+void set_groups(CLI::App& app) {
+  const auto group_of = [](const std::string& name) {
+    for (const Group& group : groups()) {
+      for (const char* const command : group.commands)
+        if (name == command) return group.title;
+    }
+    return "Others";
+  };
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    command->group(group_of(command->get_name()));
 }
 
 }  // namespace
@@ -108,19 +88,25 @@ int run_command_line(int argc, char** argv) {
   inspector::add_graph_command(app, exit_code);
   inspector::add_doctor_command(app, exit_code);
   add_warn_command(app, exit_code);
+  recorder::add_record_command(app, exit_code);
+  recorder::add_play_command(app, exit_code);
+  recorder::add_bag_command(app, exit_code);
+  add_completion_command(app, exit_code);
+  set_groups(app);
   if (argc < 2) {
     std::fputs(app.help().c_str(), stdout);
-    return kExitFault;
+    return kExitUsage;
   }
   if (const auto fault = unknown_word(app, {argv + 1, argv + argc})) {
     std::fprintf(stderr, "slammot: %s\n", fault->c_str());
-    return kExitFault;
+    return kExitUsage;
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& fault) {
-    const int usage = app.got_subcommand("health") ? int{kExitUsage} : int{kExitFault};
-    return app.exit(fault) == 0 ? int{kExitDone} : usage;
+    if (fault.get_exit_code() == 0) return app.exit(fault);  // --help, --version
+    std::fprintf(stderr, "%s\n", explain(app, fault).c_str());
+    return kExitUsage;
   }
   return exit_code;
 }

@@ -6,6 +6,7 @@ namespace slammot {
 enum ExitCode : int {
   kExitDone = 0,
   kExitFault = 1,      ///< Failed, or outputs are incomplete; one line on stderr gives the reason.
+  kExitUsage = 2,      ///< The command line is wrong; one line on stderr states what is expected.
   kExitDoubtful = 2,   ///< `check`: the log can be processed and has doubtful findings.
   kExitLogIsCut = 3,   ///< The log is truncated or damaged; the readable part was processed and
                        ///< written.

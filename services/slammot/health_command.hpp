@@ -6,10 +6,10 @@ class App;
 
 namespace slammot {
 
-/// Exit codes of `slammot health`, besides kExitDone.
+/// Exit codes of `slammot health`, besides kExitDone, and kExitUsage where the bus cannot be
+/// joined.
 enum HealthExitCode : int {
   kExitDown = 1,      ///< A service is not heard, has not started, or stops.
-  kExitUsage = 2,     ///< The command line is faulty, or the bus cannot be joined.
   kExitDegraded = 3,  ///< All work, and one lacks an input or has a fault.
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <sstream>
 
 #include <sys/resource.h>
 #include <CLI/CLI.hpp>
@@ -12,6 +14,7 @@
 #include "common/files/atomic_file.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/log_profile.hpp"
+#include "services/evaluator/report_command.hpp"
 #include "services/ingest/log_source.hpp"
 #include "services/ingest/topic_arguments.hpp"
 #include "services/simulator/live_drive.hpp"
@@ -95,6 +98,17 @@ files::CarmenLog begin(OpenedDrive& drive, const JobOptions& options,
   return std::move(*drive.log);
 }
 
+/// About as much as the results take [bytes]: tables by scan and beam, twenty tracks a scan, maps
+/// and report; of a simulated drive its log and truth, too.
+std::uint64_t bytes_of_results(const files::LogFigures& figures, bool is_simulated) {
+  constexpr std::uint64_t kOfTracks = 20 * 600;
+  constexpr std::uint64_t kOfPoses = 400;
+  constexpr std::uint64_t kOfMaps = 30'000'000;
+  const std::uint64_t a_scan =
+      kOfTracks + kOfPoses + 2 * figures.beams + (is_simulated ? 4 * figures.beams + 2000 : 0);
+  return kOfMaps + figures.scans * a_scan;
+}
+
 /// Sets the initial odometry scale from the log's scan pairs, which determine it to a few percent.
 /// A scale in the profile has priority.
 void set_initial_odometry_scale(double factor, localization::LocalizerConfig& config) {
@@ -141,6 +155,9 @@ void add_job_options(CLI::App& command, JobOptions& options) {
       ->type_name("DIR|FILE");
   command.add_flag("--store-map", options.stores_map,
                    "Write the submaps to map.sqlite in the results, for --map");
+  command.add_flag("--no-report", options.skips_report,
+                   "Do not write report.html, in which the drive can be played");
+  command.add_flag("--quiet", options.is_quiet, "Print warnings and faults only");
 }
 
 files::Result<Job> prepare_job(const JobOptions& options) {
@@ -165,6 +182,9 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   profile.localization.belief.enabled = files::scans_show_motion(drive->plan);
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
+  if (auto fault = files::find_lack_of_space(
+          options.output, bytes_of_results(drive->plan.figures, drive->scenario.has_value())))
+    return *fault;
   return Job{begin(*drive, options, ingest::log_options(profile.ingest)),
              std::move(profile),
              drive->profile.profile,
@@ -199,6 +219,28 @@ files::RunReport report_of(const Job& job, const JobOptions& options, const std:
   report.faults = job.log.faults();
   report.replaced_stages = replaced_stages(job.profile.implementations);
   return report;
+}
+
+void write_report(const JobOptions& options, const files::RunRecord& record) {
+  const std::filesystem::path page = options.output / evaluator::kReportFile;
+  if (options.skips_report) {
+    std::error_code ignored;
+    std::filesystem::remove(page, ignored);  // That of an earlier run would be mistaken for this.
+    return;
+  }
+  if (const auto fault = evaluator::write_report_of(record, options.output))
+    std::fprintf(stderr, "warning:  no report: %s\n", fault->message.c_str());
+}
+
+void print(const JobOptions& options, const std::string& text) {
+  if (!options.is_quiet) {
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+    return;
+  }
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("warning:")) std::fprintf(stderr, "%s\n", line.c_str());
 }
 
 double peak_memory_mb() {

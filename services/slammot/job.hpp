@@ -28,6 +28,8 @@ struct JobOptions {
   std::string speed = "max";     ///< Multiple of the recorded rate, or "max".
   std::filesystem::path map{};   ///< Stored map in which the drive begins; may be empty.
   bool stores_map = false;       ///< Writes the map into the output folder.
+  bool is_quiet = false;         ///< Prints warnings and faults only.
+  bool skips_report = false;     ///< Writes no report.html.
 };
 
 /// An opened drive and the settings to process it with.
@@ -58,6 +60,14 @@ std::vector<std::int64_t> stamps_of(files::CarmenLog& log);
 
 /// The part of the report that is known from the job.
 files::RunReport report_of(const Job& job, const JobOptions& options, const std::string& command);
+
+/// Writes report.html into the results, unless the options leave it out. A fault is a warning: the
+/// results are complete without it.
+void write_report(const JobOptions& options, const files::RunRecord& record);
+
+/// Prints on standard output; of a quiet job only the lines that begin with "warning:", on standard
+/// error.
+void print(const JobOptions& options, const std::string& text);
 
 /// Greatest resident memory of this process so far [MB].
 double peak_memory_mb();

@@ -7,6 +7,7 @@ namespace slammot {
 
 std::optional<std::string> LostWatch::update(double time_s, std::uint32_t scan, bool is_lost,
                                              std::uint64_t maps_begun) {
+  if (is_reported_lost_ && !losses_.empty()) losses_.back().end_s = time_s;
   if (maps_begun > maps_begun_) {
     maps_begun_ = maps_begun;
     scans_in_other_state_ = 0;
@@ -25,6 +26,7 @@ std::optional<std::string> LostWatch::update(double time_s, std::uint32_t scan, 
   is_reported_lost_ = is_lost;
   scans_in_other_state_ = 0;
   if (is_lost) return report_loss(since_s_, since_scan_, "scans do not match the map");
+  if (!losses_.empty()) losses_.back().end_s = since_s_;
   if (reports_ > kMaxReports) return std::nullopt;
   char line[96];
   std::snprintf(line, sizeof line, "          found again at %.1f s (scan %u)", since_s_,
@@ -34,6 +36,7 @@ std::optional<std::string> LostWatch::update(double time_s, std::uint32_t scan, 
 
 std::optional<std::string> LostWatch::report_loss(double time_s, std::uint32_t scan,
                                                   const char* what) {
+  losses_.push_back({time_s, time_s});
   if (reports_ > kMaxReports) return std::nullopt;
   if (++reports_ > kMaxReports) return "warning:  lost again; further losses are counted only";
   char line[128];

@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "common/files/run_report.hpp"
 
 namespace slammot {
 
@@ -17,6 +20,10 @@ class LostWatch {
   std::optional<std::string> update(double time_s, std::uint32_t scan, bool is_lost,
                                     std::uint64_t maps_begun = 0);
 
+  /// Losses so far, also those that were too many to report. The last one ends with the last scan
+  /// if localization is still lost.
+  const std::vector<files::LossOfPlace>& losses() const { return losses_; }
+
  private:
   std::optional<std::string> report_loss(double time_s, std::uint32_t scan, const char* what);
 
@@ -30,6 +37,7 @@ class LostWatch {
   std::uint32_t since_scan_ = 0;
   int reports_ = 0;
   std::uint64_t maps_begun_ = 0;
+  std::vector<files::LossOfPlace> losses_;
 };
 
 }  // namespace slammot

@@ -1,42 +1,57 @@
 #include "services/slammot/progress_bar.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include <unistd.h>
 
+#include "common/files/text.hpp"
+
 namespace slammot {
 namespace {
 
-constexpr int kWidth = 40;
+constexpr int kWidth = 24;
 constexpr std::chrono::milliseconds kBetweenUpdates{100};
+constexpr std::chrono::seconds kBetweenLines{10};
 constexpr const char* kClearLine = "\r\033[K";
+constexpr double kLeastFraction = 0.01;  // for an estimate of the time left
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string what)
+ProgressBar::ProgressBar(std::string what, Verbosity verbosity)
     : title_(std::move(what)),
       is_terminal_(isatty(STDERR_FILENO) == 1),
-      start_(std::chrono::steady_clock::now()),
-      next_(start_) {}
+      is_quiet_(verbosity == Verbosity::kQuiet),
+      start_(Clock::now()),
+      next_(is_terminal_ ? start_ : start_ + kBetweenLines) {}
 
 ProgressBar::~ProgressBar() {
-  if (is_terminal_) std::fputs(kClearLine, stderr);
+  if (is_terminal_ && !is_quiet_) std::fputs(kClearLine, stderr);
 }
 
-void ProgressBar::show(double fraction, const std::string& note) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!is_terminal_ || now < next_) return;
-  next_ = now + kBetweenUpdates;
-  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-  std::fprintf(stderr, "%s%s %s %.0f s %s", kClearLine, title_.c_str(),
-               bar_text(fraction, kWidth).c_str(), elapsed_s, note.c_str());
+bool ProgressBar::is_due() const { return !is_quiet_ && Clock::now() >= next_; }
+
+void ProgressBar::show(double fraction, double driven_s, const std::string& note) {
+  if (!is_due()) return;
+  const auto now = Clock::now();
+  next_ = is_terminal_ ? now + kBetweenUpdates : now + kBetweenLines;
+  const std::string rest =
+      pace_text(fraction, driven_s, std::chrono::duration<double>(now - start_).count()) +
+      (note.empty() ? "" : ", " + note);
+  if (is_terminal_) {
+    std::fprintf(stderr, "%s%s %s %s", kClearLine, title_.c_str(),
+                 bar_text(fraction, kWidth).c_str(), rest.c_str());
+  } else {
+    std::fprintf(stderr, "%s: %.0f %%, %s\n", title_.c_str(),
+                 100.0 * std::clamp(fraction, 0.0, 1.0), rest.c_str());
+  }
   std::fflush(stderr);
 }
 
 void ProgressBar::say(const std::string& line) {
-  std::fprintf(stderr, "%s%s\n", is_terminal_ ? kClearLine : "", line.c_str());
+  std::fprintf(stderr, "%s%s\n", is_terminal_ && !is_quiet_ ? kClearLine : "", line.c_str());
 }
 
 std::string bar_text(double fraction, int width) {
@@ -45,9 +60,15 @@ std::string bar_text(double fraction, int width) {
   std::string bar(filled, '=');
   bar.resize(static_cast<std::size_t>(width), ' ');
   if (filled < bar.size()) bar[filled] = '>';
-  char percent[16];
-  std::snprintf(percent, sizeof percent, "%3.0f %%", 100.0 * fraction);
-  return "[" + bar + "] " + percent;
+  return "[" + bar + "] " + files::text("%3.0f %%", 100.0 * fraction);
+}
+
+std::string pace_text(double fraction, double driven_s, double elapsed_s) {
+  std::string pace = files::text("%.1fx real time", driven_s / std::max(elapsed_s, 1e-3));
+  if (fraction >= kLeastFraction)
+    pace +=
+        files::text(", %.0f s left", std::ceil(elapsed_s * std::max(0.0, 1.0 / fraction - 1.0)));
+  return pace;
 }
 
 }  // namespace slammot

@@ -13,6 +13,7 @@
 #include "common/app/stop_signal.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/run_outputs.hpp"
+#include "common/files/text.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
 #include "services/slammot/job_text.hpp"
@@ -72,11 +73,42 @@ struct RunOptions {
 struct Driven {
   double duration_s = 0.0;
   bool is_interrupted = false;  ///< True if more of the drive remained.
+  std::vector<files::LossOfPlace> losses{};
+};
+
+/// What happened so far, for the progress line.
+class Progress {
+ public:
+  explicit Progress(const JobOptions& options)
+      : bar_("slammot run", options.is_quiet ? Verbosity::kQuiet : Verbosity::kNormal) {}
+
+  void update(const Pipeline& pipeline, double fraction, double driven_s) {
+    const files::RunRecord& record = pipeline.record();
+    if (const auto pose = record.last_pose()) {
+      const double step_m = last_ ? (pose->translation_m() - last_->translation_m()).norm() : 0.0;
+      if (!last_ || step_m > kCountedStepM) last_ = pose;
+      if (step_m > kCountedStepM) distance_m_ += step_m;
+    }
+    if (!bar_.is_due()) return;
+    bar_.show(fraction, driven_s,
+              files::text("%llu scans, %.2f km, %zu tracks, %llu closures",
+                          static_cast<unsigned long long>(record.scans()), 1e-3 * distance_m_,
+                          record.tracks_now(),
+                          static_cast<unsigned long long>(record.accepted_closures())));
+  }
+  void say(const std::string& line) { bar_.say(line); }
+
+ private:
+  static constexpr double kCountedStepM = 0.5;  ///< Less is noise of a standing vehicle.
+
+  ProgressBar bar_;
+  std::optional<geometry::Pose2> last_;
+  double distance_m_ = 0.0;
 };
 
 /// Processes the drive to its end or until a stop is requested.
-Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
-  ProgressBar progress("slammot run");
+Driven drive(Job& job, const JobOptions& options, Pipeline& pipeline, const std::stop_token& stop) {
+  Progress progress(options);
   std::optional<Pace> pace;
   std::int64_t first_stamp_ns = 0;
   std::int64_t last_stamp_ns = 0;
@@ -95,14 +127,16 @@ Driven drive(Job& job, Pipeline& pipeline, const std::stop_token& stop) {
       pace->wait_for(scan->stamp_ns, stop);
       pipeline.take(*scan);
       last_stamp_ns = std::max(last_stamp_ns, scan->stamp_ns);
-      if (const auto line = lost.update(static_cast<double>(scan->stamp_ns - first_stamp_ns) * 1e-9,
-                                        scan->sequence, pipeline.is_lost(), pipeline.maps_begun()))
+      const double driven_s = static_cast<double>(scan->stamp_ns - first_stamp_ns) * 1e-9;
+      if (const auto line =
+              lost.update(driven_s, scan->sequence, pipeline.is_lost(), pipeline.maps_begun()))
         progress.say(*line);
-      progress.show(read->fraction_read);
+      progress.update(pipeline, read->fraction_read, driven_s);
     }
   }
   pipeline.finish();
-  return {static_cast<double>(last_stamp_ns - first_stamp_ns) * 1e-9, read.has_value()};
+  return {static_cast<double>(last_stamp_ns - first_stamp_ns) * 1e-9, read.has_value(),
+          lost.losses()};
 }
 
 /// Prints the last line of an incomplete run and returns its exit code.
@@ -122,14 +156,13 @@ int report_end(const JobOptions& options, const files::RunReport& report, const 
 }
 
 /// Continues the stored map, if one is given.
-std::optional<files::Error> continue_stored_map(const std::filesystem::path& map,
-                                                const Profile& profile, Pipeline& pipeline) {
-  if (map.empty()) return std::nullopt;
-  const auto stored = read_stored_map(map, profile.localization.map.cell_size_m);
+std::optional<files::Error> continue_stored_map(const JobOptions& options, const Profile& profile,
+                                                Pipeline& pipeline) {
+  if (options.map.empty()) return std::nullopt;
+  const auto stored = read_stored_map(options.map, profile.localization.map.cell_size_m);
   if (!stored) return stored.error();
   pipeline.continue_map(*stored);
-  std::printf("map:      %zu submaps of %s\n", stored->size(), map.c_str());
-  std::fflush(stdout);
+  print(options, files::text("map:      %zu submaps of %s\n", stored->size(), options.map.c_str()));
   return std::nullopt;
 }
 
@@ -156,12 +189,10 @@ int run(const RunOptions& run_options) {
   const app::StopSignal stop_signal([&] { interruption.request_stop(); });
   auto job = prepare_job(options);
   if (!job) return fail(job.error());
-  std::fputs(describe_job(*job, options).c_str(), stdout);
-  std::fflush(stdout);
+  print(options, describe_job(*job, options));
   Pipeline pipeline(job->profile, run_options.iterations);
-  if (const auto fault = continue_stored_map(options.map, job->profile, pipeline))
-    return fail(*fault);
-  const Driven driven = drive(*job, pipeline, interruption.get_token());
+  if (const auto fault = continue_stored_map(options, job->profile, pipeline)) return fail(*fault);
+  const Driven driven = drive(*job, options, pipeline, interruption.get_token());
   if (driven.is_interrupted && pipeline.record().scans() == 0) {
     std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
     return kExitInterrupted;
@@ -169,6 +200,7 @@ int run(const RunOptions& run_options) {
   files::RunReport report = report_of(*job, options, "run");
   report.counters = pipeline.counters();
   report.odometry = pipeline.verdict_on_odometry();
+  report.losses = driven.losses;
   report.is_interrupted = driven.is_interrupted;
   const double wall_s = seconds_since(start);
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s,
@@ -180,8 +212,9 @@ int run(const RunOptions& run_options) {
     if (const auto fault = write_stored_map(options.output, pipeline.record().submaps()))
       return fail(*fault);
   }
-  std::fputs(describe_location(pipeline, run_options).c_str(), stdout);
-  std::fputs(describe_outcome(pipeline.record(), report, options.output).c_str(), stdout);
+  write_report(options, pipeline.record());
+  print(options, describe_location(pipeline, run_options));
+  print(options, describe_outcome(pipeline.record(), report, options.output));
   return report_end(options, report, driven);
 }
 

@@ -4,8 +4,11 @@ import { TILTED } from "./camera.js";
 const CLICK_PX = 5;
 
 export class Input {
-  /** actions: {select(x, y), toggle(name), deselect(), measure(point, isFirst), hover(point)} */
-  constructor(canvas, camera, actions) {
+  /**
+   * actions: {select(x, y), toggle(name), deselect(), measure(point, isFirst), hover(point)}
+   * keyboard: where keys are heard.
+   */
+  constructor(canvas, camera, actions, keyboard = window) {
     this.camera = camera;
     this.actions = actions;
     this.canvas = canvas;
@@ -16,25 +19,25 @@ export class Input {
     for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => this.up(event));
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-    addEventListener("keydown", (event) => this.key(event));
+    keyboard.addEventListener("keydown", (event) => this.key(event));
   }
 
   down(event) {
     this.canvas.setPointerCapture(event.pointerId);
     this.canvas.focus({ preventScroll: true });
-    this.pointers.set(event.pointerId, [event.clientX, event.clientY]);
+    this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
     this.moved = 0;
     this.turns = event.button === 2 || event.shiftKey;
     this.isMeasured = this.isMeasuring && event.button === 0;
-    if (this.isMeasured) this.actions.measure(this.camera.ground(event.clientX, event.clientY), true);
+    if (this.isMeasured) this.actions.measure(this.camera.ground(event.offsetX, event.offsetY), true);
     else this.canvas.classList.add("dragging");
   }
 
   move(event) {
-    this.actions.hover(this.camera.ground(event.clientX, event.clientY));
+    this.actions.hover(this.camera.ground(event.offsetX, event.offsetY));
     const before = this.pointers.get(event.pointerId);
     if (!before) return;
-    const now = [event.clientX, event.clientY];
+    const now = [event.offsetX, event.offsetY];
     const dx = now[0] - before[0], dy = now[1] - before[1];
     this.moved += Math.hypot(dx, dy);
     if (this.pointers.size === 2) this.pinch(event.pointerId, before, now);
@@ -66,15 +69,15 @@ export class Input {
     const isClick = this.pointers.size === 1 && this.moved <= CLICK_PX && !this.isMeasured && event.type === "pointerup";
     this.pointers.delete(event.pointerId);
     this.canvas.classList.remove("dragging");
-    if (isClick) this.actions.select(event.clientX, event.clientY);
+    if (isClick) this.actions.select(event.offsetX, event.offsetY);
   }
 
   wheel(event) {
     event.preventDefault();
     const { camera } = this;
-    const before = camera.ground(event.clientX, event.clientY);
+    const before = camera.ground(event.offsetX, event.offsetY);
     camera.zoom(Math.exp(event.deltaY * 0.0012));
-    const after = camera.ground(event.clientX, event.clientY);
+    const after = camera.ground(event.offsetX, event.offsetY);
     if (camera.follows || !before || !after) return;
     camera.x += before[0] - after[0];
     camera.y += before[1] - after[1];

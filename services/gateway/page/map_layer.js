@@ -1,34 +1,9 @@
 // Submaps as textures, each at its latest pose, so that a closed loop moves them. What the scanner saw since the last
 // finished submap is drawn as points until its submap comes.
 import { compose, inverse, multiply, placed } from "./geometry.js";
-import { Program, Vertices } from "./gl.js";
+import { Vertices } from "./gl.js";
+import { Ground } from "./ground.js";
 import { withToken } from "./connection.js";
-
-const VERTEX = `
-uniform mat4 matrix; uniform vec4 box; out vec2 at;
-void main() {
-  at = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = matrix * vec4(box.xy + at * box.zw, 0.0, 1.0);
-}`;
-// Red: evidence of stationary objects in 1/16 of log-odds, + 128; green: share of sightings in motion.
-const GROUND_FRAGMENT = `
-in vec2 at; uniform sampler2D cells; uniform vec3 free_color; uniform float alpha; out vec4 result;
-void main() {
-  float evidence = texture(cells, at).r * 255.0 - 128.0;
-  float seen = clamp(abs(evidence) / 10.0, 0.0, 1.0);
-  result = vec4(free_color, 1.0) * seen * alpha;
-}`;
-const WALL_FRAGMENT = `
-in vec2 at; uniform sampler2D cells; uniform vec3 wall; uniform vec3 motion; uniform float so; uniform float mo; out vec4 result;
-void main() {
-  vec2 cell = texture(cells, at).rg;
-  float log_odds = (cell.r * 255.0 - 128.0) / 16.0;
-  float occupied = 1.0 / (1.0 + exp(-log_odds));
-  float strength = smoothstep(0.5, 0.95, occupied) * so;
-  float moved = smoothstep(0.02, 0.6, cell.g) * mo;
-  vec4 below = vec4(motion, 1.0) * moved * 0.75;
-  result = vec4(wall, 1.0) * strength + below * (1.0 - strength);
-}`;
 
 const LIVE_CELL_M = 0.15; // one point is kept of each
 const MOST_LIVE_POINTS = 60000;
@@ -37,11 +12,9 @@ export class MapLayer {
   constructor(gl, onError) {
     this.gl = gl;
     this.onError = onError;
-    this.ground = new Program(gl, VERTEX, GROUND_FRAGMENT);
-    this.walls = new Program(gl, VERTEX, WALL_FRAGMENT);
+    this.ground = new Ground(gl);
     this.submaps = new Map(); // by id: {path, pose, shownPose, texture, box}
     this.live = new Map(); // by submap's id: {points, keys, count, vertices, isChanged}
-    this.array = gl.createVertexArray();
     this.map = null;
   }
 
@@ -85,17 +58,7 @@ export class MapLayer {
   }
 
   texture(cells, columns, rows) {
-    const gl = this.gl;
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RG8, columns, rows, 0, gl.RG, gl.UNSIGNED_BYTE, cells);
-    gl.generateMipmap(gl.TEXTURE_2D);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
-    return texture;
+    return this.ground.texture((gl) => gl.texImage2D(gl.TEXTURE_2D, 0, gl.RG8, columns, rows, 0, gl.RG, gl.UNSIGNED_BYTE, cells));
   }
 
   dropLive(id) {
@@ -141,19 +104,8 @@ export class MapLayer {
   }
 
   draw(matrix, camera, colors, opacity) {
-    const gl = this.gl;
-    gl.bindVertexArray(this.array);
     const shown = [...this.submaps.values()].filter((submap) => submap.texture);
-    const pass = (program, values) => {
-      for (const submap of shown) {
-        const [x, y, heading] = submap.shownPose;
-        gl.bindTexture(gl.TEXTURE_2D, submap.texture);
-        program.use({ matrix: multiply(matrix, placed([x - camera.x, y - camera.y, heading])), box: submap.box, ...values });
-        gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-      }
-    };
-    if (opacity.free > 0) pass(this.ground, { free_color: colors.free, alpha: opacity.free });
-    if (opacity.so > 0 || opacity.mo > 0) pass(this.walls, { wall: colors.wall, motion: colors.motion, so: opacity.so, mo: opacity.mo });
+    this.ground.draw(shown, matrix, camera, colors, opacity);
   }
 
   drawLive(shapes, matrix, camera, colors, opacity, diameter) {

@@ -84,10 +84,11 @@ export function showHealth(health) {
   $("health").replaceChildren(element("h2", {}, "Services"), ...services, foot);
 }
 
-const number = (value, digits, unit) => `${value.toFixed(digits)} ${unit}`;
-const degrees = (angle) => `${Math.round((angle * 180) / Math.PI)}°`;
+export const number = (value, digits, unit) => `${value.toFixed(digits)} ${unit}`;
+export const degrees = (angle) => `${Math.round((angle * 180) / Math.PI)}°`;
 
-function drawPlot(canvas, points, highest, color) {
+/** points: [[time, value]]; cursor: a time to mark, or nothing. */
+export function drawPlot(canvas, points, highest, color, cursor) {
   const ratio = devicePixelRatio || 1;
   const width = canvas.clientWidth || 260, height = canvas.clientHeight || 44;
   canvas.width = width * ratio;
@@ -107,6 +108,9 @@ function drawPlot(canvas, points, highest, color) {
   context.lineTo(at(points[0])[0], height);
   context.fillStyle = css(color, 0.14);
   context.fill();
+  if (cursor === undefined) return;
+  context.fillStyle = css(color);
+  context.fillRect(at([cursor, 0])[0] - 0.75, 0, 1.5, height);
 }
 
 function rowsOf(track) {
@@ -124,7 +128,7 @@ function rowsOf(track) {
   ];
 }
 
-const bars = (shares) =>
+export const bars = (shares) =>
   element("div", { class: "bars" }, ...shares.flatMap(([name, share]) => [
     element("span", {}, name), element("i", { "--share": `${Math.round(share * 100)}%` }), element("span", {}, `${Math.round(share * 100)} %`)]));
 

@@ -1,7 +1,6 @@
 // Draws the world: ground, maps, scan, way, graph, tracks and vehicle.
 import { apply, compose, ellipse, multiply, placed, sigmas } from "./geometry.js";
 import { Vertices } from "./gl.js";
-import { MapLayer } from "./map_layer.js";
 import { Shapes } from "./shapes.js";
 import { CLASSES, THEMES } from "./theme.js";
 
@@ -10,11 +9,12 @@ const ELLIPSE_SIGMAS = sigmas(0.95);
 const PREDICTION_S = 1; // of the velocity's arrow
 
 export class Scene {
-  constructor(canvas, world, onError) {
+  /** makeMap(gl): the layer below everything; it has update(), draw() and drawLive(), see map_layer.js. */
+  constructor(canvas, world, makeMap) {
     this.gl = canvas.getContext("webgl2", { antialias: false, alpha: false, depth: false });
     if (!this.gl) throw new Error("this browser has no WebGL 2");
     this.world = world;
-    this.map = new MapLayer(this.gl, onError);
+    this.map = makeMap(this.gl);
     this.shapes = new Shapes(this.gl);
     this.scanVertices = new Map(); // by scanner
     world.onScan = (points, pose) => this.map.collect(points, pose);

@@ -55,11 +55,28 @@ TEST(VehicleBoxErrors, BeginTwoSecondsAfterTheObjectWasSeen) {
         {i * kSecondNs, {}, {car_at(10.0, 0.0)}, {track_at(i < 2 ? 12.0 : 11.0, 0.0)}});
   const Judged all = judged(scenes);
   const BoxErrors errors =
-      vehicle_box_errors(all.scenes, all.counted, clear_mot(all.sequence, 0.5));
+      vehicle_box_errors(all.scenes, all.counted, clear_mot(all.sequence, 0.5)).all;
   EXPECT_EQ(errors.rows, 3U);
   EXPECT_NEAR(errors.iou_median, 3.0 / 5.0, 1e-12);
   EXPECT_NEAR(errors.centre_m.p95, 1.0, 1e-12);
   EXPECT_NEAR(errors.velocity_mps.rmse, 0.0, 1e-12);
+}
+
+TEST(VehicleBoxErrors, AreGroupedByTheShareOfTheOutlineSeen) {
+  std::vector<Scene> scenes;
+  for (int i = 0; i < 5; ++i) {
+    TrueObject car = car_at(10.0, 0.0);
+    car.outline_seen = i < 4 ? 0.19 : 0.6;
+    scenes.push_back({i * kSecondNs, {}, {car}, {track_at(i < 4 ? 12.0 : 10.0, 0.0)}});
+  }
+  const Judged all = judged(scenes);
+  const VehicleBoxErrors errors =
+      vehicle_box_errors(all.scenes, all.counted, clear_mot(all.sequence, 0.5));
+  EXPECT_EQ(errors.by_outline[0].rows, 2U);
+  EXPECT_NEAR(errors.by_outline[0].iou_median, 2.0 / 6.0, 1e-12);
+  EXPECT_EQ(errors.by_outline[1].rows, 0U);
+  EXPECT_EQ(errors.by_outline[3].rows, 1U);
+  EXPECT_NEAR(errors.by_outline[3].iou_median, 1.0, 1e-12);
 }
 
 TEST(StrictHota, IsOneWhereBoxesOverlapAndNothingWhereTheyHardlyDo) {

@@ -1,0 +1,17 @@
+# cmake -DPATHS=page/a.js;page/b.css -DHEADER=services/gateway/embedded_page.hpp -DNAMESPACE=slammot::gateway -DOUTPUT=page.cpp
+# -P embed_files.cmake: writes files as C++ arrays of bytes, for the header's embedded_page().
+set(source "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\nnamespace {\n\n")
+set(table "")
+set(number 0)
+foreach(path IN LISTS PATHS)
+  file(READ ${path} hex HEX)
+  get_filename_component(name ${path} NAME)
+  string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${hex}")
+  string(REGEX REPLACE "(('[^']*',){24})" "\\1\n" bytes "${bytes}")
+  string(APPEND source "constexpr char kFile${number}[] = {\n${bytes}'\\0'};\n")
+  string(APPEND table "    {\"${name}\", {kFile${number}, sizeof(kFile${number}) - 1}},\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+string(APPEND source "\nconstexpr EmbeddedFile kFiles[] = {\n${table}};\n\n}  // namespace\n\n")
+string(APPEND source "std::span<const EmbeddedFile> embedded_page() { return kFiles; }\n\n}  // namespace ${NAMESPACE}\n")
+file(WRITE ${OUTPUT} "${source}")

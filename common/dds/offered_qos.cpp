@@ -1,0 +1,111 @@
+#include "common/dds/offered_qos.hpp"
+
+#include <charconv>
+
+#include <dds/dds.h>
+
+namespace slammot::dds {
+namespace {
+
+std::optional<std::int64_t> number_in(const std::map<std::string, std::string>& texts,
+                                      const char* key) {
+  const auto text = texts.find(key);
+  std::int64_t number = 0;
+  if (text == texts.end()) return std::nullopt;
+  const char* const end = text->second.data() + text->second.size();
+  const auto [at, error] = std::from_chars(text->second.data(), end, number);
+  return error == std::errc() && at == end ? std::optional(number) : std::nullopt;
+}
+
+bool is(const std::map<std::string, std::string>& texts, const char* key, const char* word,
+        bool otherwise) {
+  const auto text = texts.find(key);
+  return text == texts.end() ? otherwise : text->second == word;
+}
+
+}  // namespace
+
+OfferedQos offered_qos_of(const dds_qos* qos) {
+  OfferedQos offered;
+  dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT;
+  dds_duration_t duration = 0;
+  if (dds_qget_reliability(qos, &reliability, &duration))
+    offered.is_reliable = reliability == DDS_RELIABILITY_RELIABLE;
+  dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE;
+  if (dds_qget_durability(qos, &durability))
+    offered.is_transient_local = durability != DDS_DURABILITY_VOLATILE;
+  dds_ownership_kind_t ownership = DDS_OWNERSHIP_SHARED;
+  if (dds_qget_ownership(qos, &ownership))
+    offered.is_exclusive = ownership == DDS_OWNERSHIP_EXCLUSIVE;
+  dds_qget_ownership_strength(qos, &offered.ownership_strength);
+  dds_history_kind_t history = DDS_HISTORY_KEEP_LAST;
+  if (dds_qget_history(qos, &history, &offered.depth) && history == DDS_HISTORY_KEEP_ALL)
+    offered.depth = 0;
+  if (dds_qget_lifespan(qos, &duration) && duration != DDS_INFINITY) offered.lifespan_ns = duration;
+  dds_liveliness_kind_t liveliness = DDS_LIVELINESS_AUTOMATIC;
+  if (dds_qget_liveliness(qos, &liveliness, &duration) &&
+      liveliness == DDS_LIVELINESS_MANUAL_BY_TOPIC)
+    offered.manual_liveliness_ns = duration;
+  std::uint32_t count = 0;
+  dds_data_representation_id_t* representations = nullptr;
+  if (dds_qget_data_representation(qos, &count, &representations)) {
+    if (count > 0) offered.representation = representations[0];
+    dds_free(representations);
+  }
+  char** names = nullptr;
+  if (dds_qget_partition(qos, &count, &names)) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      offered.partitions.emplace_back(names[i]);
+      dds_free(names[i]);
+    }
+    dds_free(names);
+  }
+  return offered;
+}
+
+void set_partitions(const OfferedQos& offered, dds_qos* qos) {
+  std::vector<const char*> names;
+  for (const std::string& partition : offered.partitions) names.push_back(partition.c_str());
+  if (!names.empty())
+    dds_qset_partition(qos, static_cast<std::uint32_t>(names.size()), names.data());
+}
+
+std::map<std::string, std::string> texts_of(const OfferedQos& qos) {
+  std::map<std::string, std::string> texts = {
+      {"qos.reliability", qos.is_reliable ? "reliable" : "best_effort"},
+      {"qos.durability", qos.is_transient_local ? "transient_local" : "volatile"},
+      {"qos.ownership", qos.is_exclusive ? "exclusive" : "shared"},
+      {"qos.depth", std::to_string(qos.depth)},
+      {"qos.representation", std::to_string(qos.representation)}};
+  if (qos.is_exclusive) texts["qos.ownership_strength"] = std::to_string(qos.ownership_strength);
+  if (qos.lifespan_ns) texts["qos.lifespan_ns"] = std::to_string(*qos.lifespan_ns);
+  if (qos.manual_liveliness_ns)
+    texts["qos.manual_liveliness_ns"] = std::to_string(*qos.manual_liveliness_ns);
+  for (const std::string& partition : qos.partitions) texts["qos.partition:" + partition] = "";
+  return texts;
+}
+
+OfferedQos offered_qos_of(const std::map<std::string, std::string>& texts) {
+  constexpr std::string_view kPartition = "qos.partition:";
+  constexpr std::int64_t kDeepest = 10'000;
+  OfferedQos qos;
+  qos.is_reliable = is(texts, "qos.reliability", "reliable", true);
+  qos.is_transient_local = is(texts, "qos.durability", "transient_local", false);
+  qos.is_exclusive = is(texts, "qos.ownership", "exclusive", false);
+  qos.ownership_strength =
+      static_cast<std::int32_t>(number_in(texts, "qos.ownership_strength").value_or(0));
+  const std::int64_t depth = number_in(texts, "qos.depth").value_or(1);
+  qos.depth = depth < 0 || depth > kDeepest ? 1 : static_cast<std::int32_t>(depth);
+  qos.lifespan_ns = number_in(texts, "qos.lifespan_ns");
+  if (qos.lifespan_ns && *qos.lifespan_ns <= 0) qos.lifespan_ns.reset();
+  qos.manual_liveliness_ns = number_in(texts, "qos.manual_liveliness_ns");
+  if (qos.manual_liveliness_ns && *qos.manual_liveliness_ns <= 0) qos.manual_liveliness_ns.reset();
+  const std::int64_t representation = number_in(texts, "qos.representation").value_or(0);
+  qos.representation = representation == 2 ? 2 : 0;
+  for (const auto& [key, value] : texts) {
+    if (key.starts_with(kPartition)) qos.partitions.push_back(key.substr(kPartition.size()));
+  }
+  return qos;
+}
+
+}  // namespace slammot::dds
