@@ -28,6 +28,23 @@ std::string without_digits(std::string text) {
 
 }  // namespace
 
+bool ForeignSamples::accepts(ServiceContext& context, const dds::SampleInfo& info) {
+  constexpr std::chrono::seconds kToldFor{5};
+  const SteadyTime now = std::chrono::steady_clock::now();
+  const auto is_gone = [this](std::uint64_t writer) { return !reader_.is_matched(writer); };
+  const bool is_accepted = owners_.accepts({info.key_handle, info.writer_handle}, now, is_gone);
+  if (!is_accepted) {
+    const std::string words = "drops " + topic_ + " of a second writer";
+    context.warn("foreign_" + topic_.substr(topic_.find('/') + 1), words);
+    context.status().set_trouble("foreign " + topic_, words);
+    told_ = now;
+  } else if (told_ && now - *told_ > kToldFor) {
+    told_.reset();
+    context.status().clear_trouble("foreign " + topic_);
+  }
+  return is_accepted;
+}
+
 ServiceContext::ServiceContext(const std::string& service, const ServiceOptions& options)
     : options_(options),
       service_(service),

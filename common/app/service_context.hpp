@@ -10,6 +10,7 @@
 
 #include "common/app/command.hpp"
 #include "common/app/log.hpp"
+#include "common/app/owner_watch.hpp"
 #include "common/app/service_options.hpp"
 #include "common/app/status_board.hpp"
 #include "common/app/status_publisher.hpp"
@@ -19,6 +20,22 @@
 #include "common/dds/writer.hpp"
 
 namespace slammot::app {
+
+class ServiceContext;
+
+/// Keeps to the writer that a key of a topic has, and counts and reports the samples of others.
+class ForeignSamples {
+ public:
+  ForeignSamples(const dds::TopicInfo& topic, const dds::ReaderBase& reader)
+      : topic_(topic.name), reader_(reader) {}
+  bool accepts(ServiceContext& context, const dds::SampleInfo& info);
+
+ private:
+  std::string topic_;
+  const dds::ReaderBase& reader_;
+  OwnerWatch owners_;
+  std::optional<SteadyTime> told_;
+};
 
 /// Environment of a service: bus, loop and status. A service registers its readers, writers and
 /// timers in its constructor; all callbacks run in the thread that calls run().
@@ -42,9 +59,12 @@ class ServiceContext {
     const auto reader = std::make_shared<dds::Reader<Sample>>(participant_, topic, history);
     InputWatch& input =
         board_.input(std::string(topic.name), kind, std::chrono::steady_clock::now());
-    wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle] {
-      reader->take_each([&](const Sample& sample) {
+    const auto owners =
+        dds::has_one_writer(topic) ? std::make_shared<ForeignSamples>(topic, *reader) : nullptr;
+    wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle, owners] {
+      reader->take_each([&](const Sample& sample, const dds::SampleInfo& info) {
         if (vehicle_id() != sample.vehicle_id) return;
+        if (owners && !owners->accepts(*this, info)) return;
         input.came(std::chrono::steady_clock::now());
         handle(sample);
       });

@@ -97,7 +97,11 @@ std::string StateFile::write(const SavedState& state) const {
   file.write(reinterpret_cast<const char*>(state.bytes.data()),
              static_cast<std::streamsize>(state.bytes.size()));
   file.close();
-  if (!file) return "cannot write " + unfinished.string() + ": " + std::strerror(errno);
+  if (!file) {
+    const std::string reason = std::strerror(errno);
+    std::filesystem::remove(unfinished, fault);  // a full disk needs the room
+    return "cannot write " + unfinished.string() + ": " + reason;
+  }
   std::filesystem::rename(unfinished, path_, fault);
   return fault ? "cannot write " + path_.string() + ": " + fault.message() : std::string();
 }

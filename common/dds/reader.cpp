@@ -34,7 +34,8 @@ LoanBase::LoanBase(ReaderBase& reader) : reader_(reader.handle()) {
                                    reader.describe("dds_take"));
   size_ = static_cast<std::size_t>(count);
   for (std::size_t i = 0; i < size_; ++i) {
-    infos_[i] = {infos[i].source_timestamp, infos[i].publication_handle, infos[i].valid_data};
+    infos_[i] = {infos[i].source_timestamp, infos[i].publication_handle, infos[i].instance_handle,
+                 infos[i].valid_data};
     reader.taken_ += infos[i].valid_data ? 1 : 0;
   }
 }
@@ -59,6 +60,14 @@ std::uint32_t ReaderBase::matched_writers() const {
   check(dds_get_subscription_matched_status(handle(), &status),
         describe("dds_get_subscription_matched_status"));
   return status.current_count;
+}
+
+bool ReaderBase::is_matched(std::uint64_t writer_handle) const {
+  dds_builtintopic_endpoint_t* const writer =
+      dds_get_matched_publication_data(handle(), writer_handle);
+  if (writer == nullptr) return false;
+  dds_builtintopic_free_endpoint(writer);
+  return true;
 }
 
 bool ReaderBase::wait_for_writers(std::uint32_t count, std::chrono::nanoseconds timeout) const {

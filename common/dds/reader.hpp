@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 
 #include "common/dds/endpoint.hpp"
 
@@ -24,6 +25,7 @@ struct ReaderCounters {
 struct SampleInfo {
   std::int64_t source_time_ns = 0;  ///< The writer's system clock when it wrote.
   std::uint64_t writer_handle = 0;  ///< Tells writers apart while they live.
+  std::uint64_t key_handle = 0;     ///< Tells keys apart.
   bool has_value = false;  ///< False: the key ended, or lost its last writer; only the key can be
                            ///< read.
 };
@@ -66,6 +68,8 @@ class Loan : public LoanBase {
 class ReaderBase : public Endpoint {
  public:
   std::uint32_t matched_writers() const;
+  /// True if the writer is known and alive, as far as discovery can tell.
+  bool is_matched(std::uint64_t writer_handle) const;
   /// Waits until at least `count` writers are connected; false at the timeout.
   bool wait_for_writers(std::uint32_t count, std::chrono::nanoseconds timeout) const;
   /// Writers met that could not be connected.
@@ -98,7 +102,8 @@ class Reader : public ReaderBase {
   /// The oldest unread samples, at most LoanBase::kMost; does not wait.
   Loan<Sample> take() { return Loan<Sample>(*this); }
 
-  /// Calls `handle(sample)` for every unread value, oldest first. Returns their number.
+  /// Calls `handle(sample)` or `handle(sample, info)` for every unread value, oldest first. Returns
+  /// their number.
   template <typename Handle>
   std::size_t take_each(Handle&& handle) {
     std::size_t count = 0;
@@ -107,7 +112,9 @@ class Reader : public ReaderBase {
       if (loan.empty()) return count;
       for (std::size_t i = 0; i < loan.size(); ++i) {
         if (!loan.info(i).has_value) continue;
-        handle(loan[i]);
+        if constexpr (std::is_invocable_v<Handle&, const Sample&, const SampleInfo&>)
+          handle(loan[i], loan.info(i));
+        else handle(loan[i]);
         ++count;
       }
     }

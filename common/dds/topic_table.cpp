@@ -32,6 +32,10 @@ std::span<const TopicInfo* const> topic_table() {
   return kTable;
 }
 
+bool has_one_writer(const TopicInfo& topic) {
+  return topic.flow == Flow::kEstimate || topic.name == topics::kLaserScan.name;
+}
+
 const TopicInfo* find_topic(std::string_view name) {
   const auto table = topic_table();
   const auto row = std::find_if(table.begin(), table.end(),

@@ -84,6 +84,10 @@ inline constexpr Topic<slammot_Reply> kReply{
 /// All topics; idl/README.md describes each.
 std::span<const TopicInfo* const> topic_table();
 
+/// True if each key of the topic has one writer at a time: a second one is another process that
+/// takes itself for the source, or somebody who lies.
+bool has_one_writer(const TopicInfo& topic);
+
 /// Row of that name; null if there is none.
 const TopicInfo* find_topic(std::string_view name);
 

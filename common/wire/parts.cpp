@@ -22,22 +22,20 @@ geometry::UncertainPose2 decode(const slammot_UncertainPose2& pose) {
 Eigen::Vector2d decode(const slammot_Vector2& vector) { return {vector.x, vector.y}; }
 Eigen::Vector2f decode(const slammot_Point2f& point) { return {point.x_m, point.y_m}; }
 
-bool is_sound(double number) { return std::isfinite(number); }
+bool is_sound(double number) { return std::abs(number) <= kLargest; }  // false for NaN
 
 bool is_sound(const slammot_Pose2& pose) {
-  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.heading_rad);
+  return is_sound(pose.x_m) && is_sound(pose.y_m) && is_sound(pose.heading_rad);
 }
 
 bool is_sound(const slammot_UncertainPose2& pose) {
   return is_sound(pose.mean) && is_covariance<3>(pose.covariance);
 }
-bool is_sound(const slammot_Vector2& vector) {
-  return std::isfinite(vector.x) && std::isfinite(vector.y);
-}
+bool is_sound(const slammot_Vector2& vector) { return is_sound(vector.x) && is_sound(vector.y); }
 bool is_sound(const slammot_Point2f& point) {
   return std::isfinite(point.x_m) && std::isfinite(point.y_m);
 }
-bool is_amount(double number) { return std::isfinite(number) && number >= 0.0; }
+bool is_amount(double number) { return number >= 0.0 && number <= kLargest; }
 bool is_sweep(double sweep_s) {
   constexpr double kLongestS = 10.0;
   return std::abs(sweep_s) <= kLongestS;  // false for NaN

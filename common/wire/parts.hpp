@@ -29,14 +29,20 @@ Eigen::Vector2f decode(const slammot_Point2f& point);
 /// Tolerance of probabilities outside [0, 1] and of negative variances: rounding errors of sums.
 inline constexpr double kRounding = 1e-6;
 
-/// True if every number is finite and, for a covariance, variances are not negative.
+/// Nothing that a vehicle measures in SI units is larger. Sums and squares of larger numbers of a
+/// faulty writer could become infinite in an estimator.
+inline constexpr double kLargest = 1e12;
+inline constexpr double kLargestCovariance = kLargest * kLargest;
+
+/// True if every number is finite, at most kLargest and, for a covariance, variances are not
+/// negative.
 bool is_sound(double number);
 bool is_sound(const slammot_Pose2& pose);
 bool is_sound(const slammot_UncertainPose2& pose);
 bool is_sound(const slammot_Vector2& vector);
 bool is_sound(const slammot_Point2f& point);
 
-/// True if the number is finite and not negative.
+/// True if the number is finite, at most kLargest and not negative.
 bool is_amount(double number);
 /// True if the sweep duration is plausible, with either sign; hours would make tracks diverge.
 bool is_sweep(double sweep_s);
@@ -59,7 +65,7 @@ Eigen::Matrix<double, kRows, kRows> decode_matrix(const double (&field)[kRows * 
 template <int kRows>
 bool is_covariance(const double (&field)[kRows * kRows]) {
   for (const double number : field) {
-    if (!std::isfinite(number)) return false;
+    if (!(std::abs(number) <= kLargestCovariance)) return false;  // NaN, too
   }
   for (int i = 0; i < kRows; ++i) {
     if (field[i * (kRows + 1)] < -kRounding) return false;

@@ -217,7 +217,12 @@ void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
   if (!checkpoint_.is_due(stamp_ns)) return;
   const app::Stopwatch stopwatch(context_.status().latency("checkpoint"));
   const std::string fault = checkpoint_.fault();
-  if (!fault.empty()) context_.warn("failed_checkpoints", fault);
+  if (fault.empty()) {
+    context_.status().clear_trouble("checkpoint");
+  } else {
+    context_.warn("failed_checkpoints", fault);
+    context_.status().set_trouble("checkpoint", "no checkpoint: " + fault);
+  }
   checkpoint_.save(stamp_ns, {*drive_.map_id, drive_.odom_id, drive_.first_submap,
                               drives_.watch.drives(), scans_.newest(), localizer_.checkpoint()});
 }

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <memory>
 
+#include "common/app/owner_watch.hpp"
 #include "common/wire/localized_scan.hpp"
 #include "common/wire/scan_labels.hpp"
 #include "common/wire/segmented_scan.hpp"
@@ -93,9 +95,14 @@ Collector::Collector(const CollectorOptions& options)
 
 template <typename Sample, typename Handle>
 void Collector::read(dds::Reader<Sample>& reader, Handle handle) {
-  wait_set_.on_data(reader, [this, &reader, handle] {
-    reader.take_each([&](const Sample& sample) {
-      if (wire::is_about(sample, vehicle_id_)) handle(sample);
+  const auto owners =
+      dds::has_one_writer(reader.topic()) ? std::make_shared<app::OwnerWatch>() : nullptr;
+  wait_set_.on_data(reader, [this, &reader, handle, owners] {
+    reader.take_each([&](const Sample& sample, const dds::SampleInfo& info) {
+      if (!wire::is_about(sample, vehicle_id_)) return;
+      const auto is_gone = [&](std::uint64_t writer) { return !reader.is_matched(writer); };
+      if (!owners || owners->accepts({info.key_handle, info.writer_handle}, Clock::now(), is_gone))
+        handle(sample);
     });
   });
 }

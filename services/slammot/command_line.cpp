@@ -9,6 +9,11 @@
 #include "services/evaluator/eval_command.hpp"
 #include "services/evaluator/plot_command.hpp"
 #include "services/evaluator/report_command.hpp"
+#include "services/inspector/doctor_command.hpp"
+#include "services/inspector/graph_command.hpp"
+#include "services/inspector/qos_command.hpp"
+#include "services/inspector/top_command.hpp"
+#include "services/inspector/topic_commands.hpp"
 #include "services/recorder/bag_command.hpp"
 #include "services/recorder/record_command.hpp"
 #include "services/simulator/simulate_command.hpp"
@@ -37,8 +42,10 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
       {"Process a drive", {"run", "bench", "live", "collect", "simulate"}},
       {"Look at a drive or a result", {"check", "report", "plot", "animate", "eval", "warn"}},
+      {"Recordings of the bus", {"record", "play", "bag"}},
       {"Settings and maps", {"config", "map"}},
-      {"Services that run", {"health"}},
+      {"Services that run",
+       {"health", "top", "list", "echo", "hz", "delay", "qos", "graph", "doctor"}},
       {"Shell", {"completion"}}};
   return kGroups;
 }
@@ -76,6 +83,14 @@ int run_command_line(int argc, char** argv) {
   evaluator::add_report_command(app, exit_code);
   evaluator::add_plot_command(app, exit_code);
   evaluator::add_animate_command(app, exit_code);
+  inspector::add_top_command(app, exit_code);
+  inspector::add_list_command(app, exit_code);
+  inspector::add_echo_command(app, exit_code);
+  inspector::add_hz_command(app, exit_code);
+  inspector::add_delay_command(app, exit_code);
+  inspector::add_qos_command(app, exit_code);
+  inspector::add_graph_command(app, exit_code);
+  inspector::add_doctor_command(app, exit_code);
   add_warn_command(app, exit_code);
   recorder::add_record_command(app, exit_code);
   recorder::add_play_command(app, exit_code);

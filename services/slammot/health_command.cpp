@@ -12,16 +12,43 @@
 namespace slammot {
 namespace {
 
-constexpr int kExitUnhealthy = 1;
+using namespace std::chrono_literals;
 
-int ask(const app::HealthQuestion& question) {
+/// Every service sends its heartbeat five times and its status once in this time.
+constexpr auto kTimeToLookForAll = 1200ms;
+
+struct HealthOptions {
+  app::HealthQuestion question;
+  bool is_alive_enough = false;
+};
+
+std::string name_of(const app::Health& health, bool with_vehicle) {
+  std::string name = with_vehicle ? health.name.vehicle_id + " " : "";
+  name += health.name.service;
+  if (!health.name.instance.empty() && health.name.instance != "main")
+    name += " " + health.name.instance;
+  if (health.process_number != 0)
+    name += " (process " + std::to_string(health.process_number) + ")";
+  return name;
+}
+
+int exit_code_of(app::Verdict verdict, bool is_alive_enough) {
+  if (verdict == app::Verdict::kDown) return kExitDown;
+  return verdict == app::Verdict::kDegraded && !is_alive_enough ? int{kExitDegraded}
+                                                                : int{kExitDone};
+}
+
+int ask(const HealthOptions& options) {
   try {
-    const app::Health health = app::check_health(question);
-    std::printf("%s: %s\n", question.service.c_str(), health.text.c_str());
-    return health.is_healthy ? kExitDone : kExitUnhealthy;
+    const auto healths = app::check_health(options.question);
+    for (const app::Health& health : healths)
+      std::printf("%s: %s\n", name_of(health, options.question.vehicle_id.empty()).c_str(),
+                  health.text.c_str());
+    if (healths.empty()) std::printf("no service on domain %u\n", options.question.domain_id);
+    return exit_code_of(app::verdict_of(healths), options.is_alive_enough);
   } catch (const std::runtime_error& fault) {
     std::fprintf(stderr, "slammot: %s\n", fault.what());
-    return kExitFault;
+    return kExitUsage;
   }
 }
 
@@ -29,21 +56,32 @@ int ask(const app::HealthQuestion& question) {
 
 void add_health_command(CLI::App& app, int& exit_code) {
   CLI::App* const command =
-      app.add_subcommand("health", "Report whether a service is alive and ready");
-  const auto question = std::make_shared<app::HealthQuestion>();
-  command
-      ->add_option("service", question->service,
-                   "Name of the service, such as localization or map_store")
-      ->required();
-  command->add_option("--vehicle", question->vehicle_id, "Vehicle of the service")
-      ->envname("SLAMMOT_VEHICLE")
-      ->capture_default_str();
-  command->add_option("--instance", question->instance, "Instance, if several run; default: any");
-  command->add_option("--domain", question->domain_id, "DDS domain")
+      app.add_subcommand("health", "Report whether services are alive and ready");
+  const auto options = std::make_shared<HealthOptions>();
+  app::HealthQuestion& question = options->question;
+  command->add_option("services", question.services,
+                      "Names, such as localization map_store; default: all on the bus");
+  CLI::Option* const vehicle =
+      command
+          ->add_option("--vehicle", question.vehicle_id,
+                       "Vehicle of the services; without names of services default: any")
+          ->envname("SLAMMOT_VEHICLE")
+          ->capture_default_str();
+  command->add_option("--instance", question.instance, "Instance, if several run; default: any");
+  command->add_flag("--alive", options->is_alive_enough,
+                    "Exit code 0 also when degraded, for a supervisor that would restart it");
+  command->add_option("--domain", question.domain_id, "DDS domain")
       ->envname("SLAMMOT_DOMAIN")
       ->check(CLI::Range(0, 230))
       ->capture_default_str();
-  command->callback([question, &exit_code] { exit_code = ask(*question); });
+  command->footer("Exit codes: 0 good, 1 down, 2 usage, 3 degraded.");
+  command->callback([options, vehicle, &exit_code] {
+    if (options->question.services.empty()) {
+      options->question.patience = kTimeToLookForAll;
+      if (vehicle->count() == 0) options->question.vehicle_id.clear();
+    }
+    exit_code = ask(*options);
+  });
 }
 
 }  // namespace slammot

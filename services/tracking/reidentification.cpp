@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "services/tracking/confirmation.hpp"
 #include "services/tracking/published_covariance.hpp"
 
 namespace slammot::tracking {
@@ -53,11 +52,12 @@ double log_odds_of_same_object(const Track& lost, const Track& found,
   return -0.5 * distance2 - log_volume - std::log(kNewObjectDensity) + std::log(classes);
 }
 
-std::optional<SameObject> track_of_same_object(const Track& found, std::span<const Track> tracks,
-                                               const TrackingConfig& config) {
+std::optional<std::size_t> track_of_same_object(const Track& found, std::span<const Track> tracks,
+                                                const TrackingConfig& config) {
   constexpr std::int64_t kMostOverlapNs = 200'000'000;  // the lost track had other echoes at its
                                                         // end
-  std::optional<SameObject> best;
+  std::optional<std::size_t> best;
+  double best_odds = 0.0;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     const Track& lost = tracks[t];
     const bool is_lost = lost.existence.confirmed && lost.existence.hits > 0 &&
@@ -66,23 +66,11 @@ std::optional<SameObject> track_of_same_object(const Track& found, std::span<con
                          lost.history.last_seen_ns < found.history.first_seen_ns + kMostOverlapNs;
     if (!is_lost || lost.track_id == found.track_id) continue;
     const double odds = log_odds_of_same_object(lost, found, config);
-    if (odds > (best ? best->log_odds : 0.0)) best = {t, odds};
+    if (odds <= best_odds) continue;
+    best = t;
+    best_odds = odds;
   }
   return best;
-}
-
-bool may_be_returning(const Track& track) {
-  constexpr int kLeastHits = 4;
-  constexpr double kMostSpeedSigmaMps = 1.5;
-  const Existence& existence = track.existence;
-  return !existence.confirmed && existence.hits >= kLeastHits && existence.score >= 0.0 &&
-         existence.motion.moved > existence.motion.stood && is_surely_fast(track) &&
-         speed_sigma_mps(track.kinematics) < kMostSpeedSigmaMps;
-}
-
-bool is_surely_vehicle(const SameObject& same, std::span<const Track> tracks) {
-  constexpr double kLeastLogOdds = 5.0;  // 150 to 1
-  return same.log_odds >= kLeastLogOdds && is_vehicle(tracks[same.track]);
 }
 
 void continue_track(Track& lost, Track& found) {

@@ -15,24 +15,10 @@ namespace slammot::tracking {
 /// -infinity where the two differ by more than their covariances allow.
 double log_odds_of_same_object(const Track& lost, const Track& found, const TrackingConfig& config);
 
-/// A track that lost its object, and how likely another one is of the same object.
-struct SameObject {
-  std::size_t track = 0;  ///< Index.
-  double log_odds = 0.0;  ///< As of log_odds_of_same_object().
-};
-
 /// The track that lost its object behind another, and whose object `found` is, about to be
 /// published for the first time; none where a new object is likelier.
-std::optional<SameObject> track_of_same_object(const Track& found, std::span<const Track> tracks,
-                                               const TrackingConfig& config);
-
-/// True for a tentative track that surely moves, and whose velocity is known well enough to be
-/// compared with that of a hidden one.
-bool may_be_returning(const Track& track);
-
-/// True if another object is so unlikely that the lost track's evidence counts for the new one. Not
-/// for pedestrians: another one is never far (HOTA of `crowd` 0.760 / 0.735 with them).
-bool is_surely_vehicle(const SameObject& same, std::span<const Track> tracks);
+std::optional<std::size_t> track_of_same_object(const Track& found, std::span<const Track> tracks,
+                                                const TrackingConfig& config);
 
 /// Gives `found` the identity and the history of the lost track, which is marked for removal.
 void continue_track(Track& lost, Track& found);

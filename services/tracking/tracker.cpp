@@ -133,17 +133,13 @@ void Tracker::merge(const ComparedScan& context) {
   counters_.tracks_merged += merge_duplicates(tracks_, current_.associations, config_);
 }
 
-/// An object about to be published for the first time may be one that was hidden. A tentative one
-/// that surely is a hidden vehicle needs no further evidence.
+/// An object about to be published for the first time may be one that was hidden.
 void Tracker::identify(std::int64_t stamp_ns) {
   for (Track& track : tracks_) {
-    const bool may_return = may_be_returning(track);
-    if (track.history.first_published_ns || !(may_return || is_published(track, stamp_ns, config_)))
-      continue;
-    const std::optional<SameObject> lost = track_of_same_object(track, tracks_, config_);
-    if (!lost || (may_return && !is_surely_vehicle(*lost, tracks_))) continue;
-    if (may_return) confirm(track);
-    continue_track(tracks_[lost->track], track);
+    if (track.history.first_published_ns || !is_published(track, stamp_ns, config_)) continue;
+    const std::optional<std::size_t> lost = track_of_same_object(track, tracks_, config_);
+    if (!lost) continue;
+    continue_track(tracks_[*lost], track);
     ++counters_.tracks_found_again;
   }
 }

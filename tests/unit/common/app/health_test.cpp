@@ -15,52 +15,89 @@ using namespace std::chrono_literals;
 
 struct HealthOnTheBus : ::testing::Test {
   slammot::testing::PrivateBus bus;
-  HealthQuestion question{"map-store", "car", "", bus.domain_id, slammot::testing::kForever,
+  HealthQuestion question{{"map-store"}, "car", "", bus.domain_id, slammot::testing::kForever,
                           bus.config};
 
-  std::unique_ptr<ServiceContext> start() const {
+  std::unique_ptr<ServiceContext> start(const std::string& service = "map_store") const {
     ServiceOptions options;
     options.vehicle_id = "car";
     options.domain_id = bus.domain_id;
     options.dds_config = bus.config;
-    return std::make_unique<ServiceContext>("map_store", options);
+    return std::make_unique<ServiceContext>(service, options);
   }
 
-  Health ask_while_it_runs(ServiceContext& context) const {
+  std::vector<Health> ask_while_it_runs(ServiceContext& context) const {
     std::thread running([&] { context.run(); });
-    const Health health = check_health(question);
+    auto healths = check_health(question);
     context.stop();
     running.join();
-    return health;
+    return healths;
   }
 };
 
 TEST_F(HealthOnTheBus, IsGoodWhileTheServiceRuns) {
   const auto context = start();
-  const Health health = ask_while_it_runs(*context);
-  EXPECT_TRUE(health.is_healthy);
-  EXPECT_EQ(health.text, "map_store: running");
+  const auto healths = ask_while_it_runs(*context);
+  ASSERT_EQ(healths.size(), 1U);
+  EXPECT_EQ(healths[0].verdict, Verdict::kGood);
+  EXPECT_EQ(healths[0].name.service, "map_store");
+  EXPECT_EQ(healths[0].text, "running");
 }
 
-TEST_F(HealthOnTheBus, SaysWhatARunningServiceMisses) {
+TEST_F(HealthOnTheBus, IsDegradedAndSaysWhatARunningServiceMisses) {
   const auto context = start();
   context->status().set_trouble("database", "database is locked");
-  const Health health = ask_while_it_runs(*context);
-  EXPECT_TRUE(health.is_healthy);
-  EXPECT_EQ(health.text, "map_store: degraded, database is locked");
+  const auto healths = ask_while_it_runs(*context);
+  ASSERT_EQ(healths.size(), 1U);
+  EXPECT_EQ(verdict_of(healths), Verdict::kDegraded);
+  EXPECT_EQ(healths[0].text, "degraded: database is locked");
 }
 
-TEST_F(HealthOnTheBus, IsBadWhereThereIsNoSuchService) {
+TEST_F(HealthOnTheBus, IsDownWhereThereIsNoSuchService) {
   question.patience = 300ms;
-  EXPECT_FALSE(check_health(question).is_healthy);
-  EXPECT_THAT(check_health(question).text, ::testing::StartsWith("map_store: no heartbeat within"));
+  const auto healths = check_health(question);
+  EXPECT_EQ(verdict_of(healths), Verdict::kDown);
+  EXPECT_THAT(healths.at(0).text, ::testing::StartsWith("no heartbeat within"));
 }
 
-TEST_F(HealthOnTheBus, IsBadForAnotherVehicle) {
+TEST_F(HealthOnTheBus, IsDownForAnotherVehicle) {
   const auto context = start();
   question.vehicle_id = "bus";
   question.patience = 500ms;
-  EXPECT_FALSE(ask_while_it_runs(*context).is_healthy);
+  EXPECT_EQ(verdict_of(ask_while_it_runs(*context)), Verdict::kDown);
+}
+
+TEST_F(HealthOnTheBus, IsDownIfOneOfSeveralIs) {
+  const auto context = start();
+  question.services.emplace_back("detection");
+  question.patience = 1500ms;
+  const auto healths = ask_while_it_runs(*context);
+  ASSERT_EQ(healths.size(), 2U);
+  EXPECT_EQ(verdict_of(healths), Verdict::kDown);
+}
+
+TEST_F(HealthOnTheBus, ListsAllThatItHearsWhereNothingIsAskedFor) {
+  const auto context = start(), other = start("detection");
+  question.services.clear();
+  question.patience = 1500ms;
+  std::thread running([&] { other->run(); });
+  const auto healths = ask_while_it_runs(*context);
+  other->stop();
+  running.join();
+  ASSERT_EQ(healths.size(), 2U);
+  EXPECT_EQ(healths[0].name.service, "detection");
+  EXPECT_EQ(healths[1].name.service, "map_store");
+}
+
+TEST_F(HealthOnTheBus, DoesNotTakeAStandbyForTheService) {
+  const auto context = start();
+  context->status().set_starting(true);
+  context->set_role({.stands_by = true, .term = 0});
+  question.patience = 1500ms;
+  const auto healths = ask_while_it_runs(*context);
+  ASSERT_EQ(healths.size(), 1U);
+  EXPECT_TRUE(healths[0].stands_by);
+  EXPECT_EQ(verdict_of(healths), Verdict::kDown);
 }
 
 }  // namespace

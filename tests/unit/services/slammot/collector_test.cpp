@@ -1,6 +1,8 @@
 #include "services/slammot/collector.hpp"
 
+#include <algorithm>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -115,7 +117,7 @@ TEST_F(CollectorOnTheBus, DiscardsThePreviousDriveWhenANewOneBegins) {
   ASSERT_TRUE(comes_to([this] { return localized_count() == 3; }));
   drive(0, 2, {8});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
-  EXPECT_EQ(collector->scan_stamps_ns().size(), 1U);
+  EXPECT_TRUE(comes_to([this] { return collector->scan_stamps_ns().size() == 1; }));
 }
 
 TEST_F(CollectorOnTheBus, KeepsTheMapButNotTheScansOfAPreviousDriveInIt) {
@@ -131,7 +133,9 @@ TEST_F(CollectorOnTheBus, KeepsTheMapButNotTheScansOfAPreviousDriveInIt) {
   drive(0, 2, {7}, {2});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
   EXPECT_EQ(collector->record({}).submaps().size(), 1U);
-  EXPECT_THAT(collector->scan_stamps_ns(), ::testing::ElementsAre(0));
+  EXPECT_TRUE(comes_to([this] {
+    return std::ranges::equal(collector->scan_stamps_ns(), std::vector<std::int64_t>{0});
+  })) << "a lone scan of another drive counts once nothing else came for 0.9 s";
 }
 
 TEST_F(CollectorOnTheBus, KeepsTheLabelsOfDetectionAndTracking) {
@@ -192,7 +196,9 @@ TEST_F(CollectorOnTheBus, DoesNotMixADriveFromBeforeItsCrashWithANewOne) {
   start();
   drive(0, 2, {8});
   ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
-  EXPECT_THAT(collector->scan_stamps_ns(), ::testing::ElementsAre(0));
+  EXPECT_TRUE(comes_to([this] {
+    return std::ranges::equal(collector->scan_stamps_ns(), std::vector<std::int64_t>{0});
+  })) << "a lone scan of another drive counts once nothing else came for 0.9 s";
 }
 
 TEST_F(CollectorOnTheBus, DoesNotMixADriveFromBeforeItsCrashWithANewOneInTheSameMap) {

@@ -39,11 +39,7 @@ struct LostAndFound {
 
 TEST(Reidentification, FindsTheTrackWhosePredictionAgrees) {
   LostAndFound scene;
-  const std::optional<SameObject> same =
-      track_of_same_object(scene.found(), scene.tracks, scene.config);
-  ASSERT_TRUE(same);
-  EXPECT_EQ(same->track, 0U);
-  EXPECT_EQ(same->log_odds, log_odds_of_same_object(scene.lost(), scene.found(), scene.config));
+  EXPECT_EQ(track_of_same_object(scene.found(), scene.tracks, scene.config), 0U);
   continue_track(scene.lost(), scene.found());
   EXPECT_EQ(scene.found().object_id.value, 3U);
   EXPECT_EQ(scene.found().track_id.value, 8U);
@@ -74,29 +70,6 @@ TEST(Reidentification, RefusesAnotherVelocityClassOrATrackSeenMeanwhile) {
   LostAndFound seen;
   seen.lost().history.last_seen_ns = 4 * kSecondNs + 500'000'000;
   EXPECT_FALSE(track_of_same_object(seen.found(), seen.tracks, seen.config));
-}
-
-TEST(Reidentification, TakesATentativeTrackThatSurelyMovesForAHiddenVehicleOnly) {
-  LostAndFound scene;
-  Track& found = scene.found();
-  found.existence.confirmed = false;
-  found.existence.hits = 4;
-  found.existence.score = 0.5;
-  found.existence.motion = {};
-  found.existence.motion.moved = 3.0;
-  found.kinematics.estimate.mean.segment<2>(2) = Eigen::Vector2d(6.0, 0.0);
-  found.kinematics.estimate.covariance.block<2, 2>(2, 2) = 0.25 * Eigen::Matrix2d::Identity();
-  EXPECT_TRUE(may_be_returning(found));
-  found.existence.motion.stood = 4.0;
-  EXPECT_FALSE(may_be_returning(found)) << "its echoes come from where something stood";
-  found.existence.motion.stood = 0.0;
-  found.kinematics.estimate.covariance.block<2, 2>(2, 2) = 9.0 * Eigen::Matrix2d::Identity();
-  EXPECT_FALSE(may_be_returning(found)) << "nothing tells its velocity";
-
-  EXPECT_TRUE(is_surely_vehicle({0, 8.0}, scene.tracks));
-  EXPECT_FALSE(is_surely_vehicle({0, 2.0}, scene.tracks)) << "another car may have come";
-  scene.lost().extent.outline = Blob{};
-  EXPECT_FALSE(is_surely_vehicle({0, 8.0}, scene.tracks)) << "a pedestrian";
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace slammot::inspector {
+
+/// Text in columns, with a line of titles. Columns that `right_from` or a later one are aligned to
+/// the right.
+std::string table_text(const std::vector<std::string>& titles,
+                       const std::vector<std::vector<std::string>>& rows, std::size_t right_from);
+
+/// The number with so many decimals.
+std::string fixed(double number, int decimals);
+
+}  // namespace slammot::inspector
