@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace slammot::joint_posterior {
+
+/// Markdown table of all methods against the number of movers, means over this many seeds.
+std::string table(int seeds);
+
+/// The page with the table between its two markers replaced; empty without markers.
+std::string with_table(const std::string& page, const std::string& table);
+
+}  // namespace slammot::joint_posterior
