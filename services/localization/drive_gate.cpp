@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <utility>
 
 namespace slammot::localization {
@@ -103,16 +104,17 @@ bool DriveGate::comes_along(const Candidate& candidate, const Candidate& beginni
 }
 
 void DriveGate::begin(const Candidate& beginning, Verdict& verdict, std::int64_t now_ns) {
-  const auto coming = std::ranges::stable_partition(
-      candidates_, [&](const Candidate& candidate) { return !comes_along(candidate, beginning); });
+  const auto coming = std::stable_partition(  // clang 14 cannot compile that of std::ranges
+      candidates_.begin(), candidates_.end(),
+      [&](const Candidate& candidate) { return !comes_along(candidate, beginning); });
   std::vector<std::pair<std::int64_t, WaitingScan>> released;
-  for (Candidate& candidate : coming) {
+  for (Candidate& candidate : std::span(coming, candidates_.end())) {
     watch_.readmit(candidate.drive_id);
     watch_.judge(candidate.scanner_id, candidate.drive_id);
     pulses_[candidate.scanner_id].last_ns = now_ns;
     std::ranges::move(candidate.held, std::back_inserter(released));
   }
-  candidates_.erase(coming.begin(), coming.end());
+  candidates_.erase(coming, candidates_.end());
   std::ranges::stable_sort(released, {}, [](const auto& held) { return held.first; });
   for (auto& held : released) verdict.admitted.push_back(std::move(held.second));
   verdict.begins_drive = true;
