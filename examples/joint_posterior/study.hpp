@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 
 namespace slammot::joint_posterior {
@@ -35,10 +36,13 @@ struct Score {
   double velocity_rmse_mps = 0.0;
   double mover_nees = 0.0;  ///< Of x and y in world.
   double numbers = 0.0;     ///< In the covariances at the end: of one filter its size squared.
-  double step_us = 0.0;     ///< Time of a period, by the machine's clock.
+  double step_us = 0.0;     ///< Time of a period.
 };
 
+/// Time of the machine [s]; only differences count.
+using Clock = std::function<double()>;
+
 /// Drives of one minute with seeds 1 to `seeds`.
-Score score_of(Method method, const Crowd& crowd, int seeds);
+Score score_of(Method method, const Crowd& crowd, int seeds, const Clock& now_s);
 
 }  // namespace slammot::joint_posterior

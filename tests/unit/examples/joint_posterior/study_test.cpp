@@ -12,17 +12,18 @@ namespace {
 
 constexpr Crowd kCrowd{12, 4};
 constexpr int kSeeds = 4;
+const Clock kNoClock = [] { return 0.0; };
 
 TEST(JointPosterior, DecompositionCostsLittleAndSavesMuch) {
-  const Score joint = score_of(Method::kJoint, kCrowd, kSeeds);
-  const Score decomposed = score_of(Method::kDecomposed, kCrowd, kSeeds);
+  const Score joint = score_of(Method::kJoint, kCrowd, kSeeds, kNoClock);
+  const Score decomposed = score_of(Method::kDecomposed, kCrowd, kSeeds, kNoClock);
   EXPECT_LT(decomposed.pose_rmse_m, 1.2 * joint.pose_rmse_m);
   EXPECT_LT(decomposed.mover_rmse_m, 1.2 * joint.mover_rmse_m);
   EXPECT_LT(decomposed.numbers, 0.5 * joint.numbers);
 }
 
 TEST(JointPosterior, IsConsistentInPoseAndMovers) {
-  const Score joint = score_of(Method::kJoint, kCrowd, kSeeds);
+  const Score joint = score_of(Method::kJoint, kCrowd, kSeeds, kNoClock);
   EXPECT_GT(joint.pose_nees, 0.5);
   EXPECT_LT(joint.pose_nees, 1.6);
   EXPECT_GT(joint.mover_nees, 0.5);
@@ -30,15 +31,15 @@ TEST(JointPosterior, IsConsistentInPoseAndMovers) {
 }
 
 TEST(JointPosterior, NeedsNotToldWhichObjectsAreLandmarksButIsLessAccurateThen) {
-  const Score generic = score_of(Method::kGeneric, kCrowd, kSeeds);
-  const Score joint = score_of(Method::kJoint, kCrowd, kSeeds);
+  const Score generic = score_of(Method::kGeneric, kCrowd, kSeeds, kNoClock);
+  const Score joint = score_of(Method::kJoint, kCrowd, kSeeds, kNoClock);
   EXPECT_LT(generic.pose_rmse_m, 2.0 * joint.pose_rmse_m);
   EXPECT_GT(generic.pose_rmse_m, joint.pose_rmse_m);
 }
 
 TEST(JointPosterior, MoversAreOverconfidentWithoutThePosesCovariance) {
-  const Score decomposed = score_of(Method::kDecomposed, kCrowd, kSeeds);
-  const Score taken_as_true = score_of(Method::kPoseTakenAsTrue, kCrowd, kSeeds);
+  const Score decomposed = score_of(Method::kDecomposed, kCrowd, kSeeds, kNoClock);
+  const Score taken_as_true = score_of(Method::kPoseTakenAsTrue, kCrowd, kSeeds, kNoClock);
   EXPECT_GT(taken_as_true.mover_nees, 1.5 * decomposed.mover_nees);
 }
 
