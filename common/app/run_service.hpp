@@ -36,28 +36,31 @@ struct ServiceDescription {
 /// Runs a service: command line, configuration, log, signals, bus, loop, exit.
 int run_service(int argc, char** argv, const ServiceDescription& description);
 
+template <typename Service>
+concept IsOnePerVehicle = Service::kIsOnePerVehicle;
+template <typename Service>
+concept KeepsState = Service::kKeepsState;
+
 /// The same for a class that has
-///   struct Settings                                             its configuration and options,
-///   with defaults, static constexpr const char* kName, *kPurpose, static
-///   std::vector<config::BoundStage> stages(Settings&), static void add_options(CLI::App&,
-///   Settings&), Service(ServiceContext&, const Settings&)                   which says what it
-///   reads, writes and does periodically.
-/// and, where they are true, static constexpr bool kIsOnePerVehicle, kKeepsState.
+///   struct Settings                      its configuration and options, with defaults,
+///   static constexpr const char* kName, *kPurpose,
+///   static std::vector<config::BoundStage> stages(Settings&),
+///   static void add_options(CLI::App&, Settings&),
+///   Service(ServiceContext&, const Settings&)
+///                                        which says what it reads, writes and does periodically,
+/// and, where it is true, static constexpr bool kIsOnePerVehicle, kKeepsState.
 template <typename Service>
 int run_service(int argc, char** argv) {
   typename Service::Settings settings;
-  return run_service(
-      argc, argv,
-      {Service::kName, Service::kPurpose, Service::stages(settings),
-       [&](CLI::App& command_line) {
-    Service::add_options(command_line, settings); },
-       [&](ServiceContext& context) {
-    return std::make_shared<Service>(context, settings); },
-       requires { Service::kIsOnePerVehicle;
-}
-, requires { Service::kKeepsState; }
-}  // namespace slammot::app
-);
+  const ServiceDescription description{
+      Service::kName,
+      Service::kPurpose,
+      Service::stages(settings),
+      [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
+      [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); },
+      IsOnePerVehicle<Service>,
+      KeepsState<Service>};
+  return run_service(argc, argv, description);
 }
 
 }  // namespace slammot::app
