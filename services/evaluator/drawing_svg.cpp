@@ -1,7 +1,8 @@
 #include "services/evaluator/drawing.hpp"
 
+#include "common/files/base64.hpp"
 #include "common/files/text.hpp"
-#include "services/evaluator/report_page.hpp"
+#include "services/evaluator/svg_plot.hpp"
 
 namespace slammot::evaluator {
 namespace {
@@ -54,7 +55,7 @@ struct SvgWriter {
     if (!png) return {};
     return "<image" + attribute("x", image.at.x) + attribute("y", image.at.y) +
            attribute("width", image.width) + attribute("height", image.height) +
-           " preserveAspectRatio=\"none\" href=\"data:image/png;base64," + to_base64(*png) +
+           " preserveAspectRatio=\"none\" href=\"data:image/png;base64," + files::to_base64(*png) +
            "\"/>\n";
   }
 };

@@ -1,16 +1,12 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "common/files/embedded_file.hpp"
 
 namespace slammot::evaluator {
 
-struct EmbeddedFile {
-  std::string_view name;
-  std::string_view bytes;
-};
-
 /// The script and styles of a report, written by cmake/embed_files.cmake when the program is built.
-std::span<const EmbeddedFile> embedded_page();
+std::span<const files::EmbeddedFile> embedded_page();
 
 }  // namespace slammot::evaluator

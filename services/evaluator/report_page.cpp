@@ -128,22 +128,4 @@ std::string to_html(const ReportSource& source) {
   return html + "</main></body></html>\n";
 }
 
-std::string to_base64(const std::string& bytes) {
-  constexpr const char* kLetters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t offset) {
-      return i + offset < bytes.size() ? static_cast<unsigned char>(bytes[i + offset]) : 0U;
-    };
-    const unsigned group = byte(0) << 16 | byte(1) << 8 | byte(2);
-    text += kLetters[group >> 18];
-    text += kLetters[group >> 12 & 63U];
-    text += i + 1 < bytes.size() ? kLetters[group >> 6 & 63U] : '=';
-    text += i + 2 < bytes.size() ? kLetters[group & 63U] : '=';
-  }
-  return text;
-}
-
 }  // namespace slammot::evaluator

@@ -26,7 +26,4 @@ std::string to_html(const ReportSource& source);
 /// the most stops.
 std::vector<std::uint32_t> choose_tracks(const RunResult& result);
 
-/// Base64, RFC 4648.
-std::string to_base64(const std::string& bytes);
-
 }  // namespace slammot::evaluator

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/files/base64.hpp"
 #include "common/files/text.hpp"
 #include "services/evaluator/doubts.hpp"
 #include "services/evaluator/drive_data.hpp"
 #include "services/evaluator/embedded_page.hpp"
-#include "services/evaluator/report_page.hpp"
 #include "services/evaluator/svg_plot.hpp"
 
 namespace slammot::evaluator {
@@ -27,7 +27,7 @@ std::string minutes(double seconds) {
 }  // namespace
 
 std::string_view page_file(std::string_view name) {
-  for (const EmbeddedFile& file : embedded_page()) {
+  for (const files::EmbeddedFile& file : embedded_page()) {
     if (file.name == name) return file.bytes;
   }
   return {};
@@ -45,8 +45,8 @@ std::string player_of(const RunResult& result) {
   const DriveData drive = encode_drive(result, picture ? &*picture : nullptr);
   return std::string(page_file("player.html")) +
          data_element("drive", "application/json", drive.header) +
-         data_element("drive-data", "text/plain", to_base64(drive.bytes)) +
-         data_element("drive-map", "text/plain", picture ? to_base64(picture->png) : "") +
+         data_element("drive-data", "text/plain", files::to_base64(drive.bytes)) +
+         data_element("drive-map", "text/plain", picture ? files::to_base64(picture->png) : "") +
          "<script>\n" + std::string(page_file("report.js")) + "</script>\n";
 }
 

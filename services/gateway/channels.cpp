@@ -2,8 +2,8 @@
 
 #include <google/protobuf/descriptor.pb.h>
 
+#include "common/files/base64.hpp"
 #include "foxglove.pb.h"
-#include "services/gateway/base64.hpp"
 
 namespace slammot::gateway {
 namespace {
@@ -22,7 +22,7 @@ void append_with_imports(const FileDescriptor& file, google::protobuf::FileDescr
 std::string schema_of_all_messages() {
   google::protobuf::FileDescriptorSet set;
   append_with_imports(*foxglove::LaserScan::descriptor()->file(), set);
-  return to_base64(set.SerializeAsString());
+  return files::to_base64(set.SerializeAsString());
 }
 
 template <typename Message>

@@ -26,10 +26,10 @@ PageFile page_file(const std::filesystem::path& name, std::string body) {
 }  // namespace
 
 std::vector<PageFile> built_in_page() {
-  std::vector<PageFile> files;
-  for (const EmbeddedFile& file : embedded_page())
-    files.push_back(page_file(file.name, std::string(file.bytes)));
-  return files;
+  std::vector<PageFile> page;
+  for (const files::EmbeddedFile& file : embedded_page())
+    page.push_back(page_file(file.name, std::string(file.bytes)));
+  return page;
 }
 
 std::vector<PageFile> page_in(const std::filesystem::path& folder) {

@@ -1,7 +1,7 @@
 #include "services/recorder/recorded_topic.hpp"
 
 #include "common/dds/idl_text.hpp"
-#include "services/recorder/base64.hpp"
+#include "common/files/base64.hpp"
 
 namespace slammot::recorder {
 namespace {
@@ -14,7 +14,7 @@ constexpr const char* kCdr = "cdr";
 std::vector<std::uint8_t> bytes_in(const mcap::Channel& channel, const char* key) {
   const auto text = channel.metadata.find(key);
   if (text == channel.metadata.end()) return {};
-  return from_base64(text->second).value_or(std::vector<std::uint8_t>());
+  return files::from_base64(text->second).value_or(std::vector<std::uint8_t>());
 }
 
 }  // namespace
@@ -28,8 +28,8 @@ RecordedTopic describe(const dds::RawTopic& topic, const dds::OfferedQos& qos) {
   recorded.channel.topic = topic.info().name;
   recorded.channel.message_encoding = kCdr;
   recorded.channel.metadata = dds::texts_of(qos);
-  recorded.channel.metadata[kInformation] = to_base64(topic.type().information);
-  recorded.channel.metadata[kMapping] = to_base64(topic.type().mapping);
+  recorded.channel.metadata[kInformation] = files::to_base64(topic.type().information);
+  recorded.channel.metadata[kMapping] = files::to_base64(topic.type().mapping);
   return recorded;
 }
 

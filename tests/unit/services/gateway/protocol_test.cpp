@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "services/gateway/base64.hpp"
-
 namespace slammot::gateway {
 namespace {
 
@@ -65,13 +63,6 @@ TEST(Protocol, AdvertisesEveryChannelWithItsSchema) {
     EXPECT_EQ(message["channels"][i]["id"], i);
     EXPECT_FALSE(message["channels"][i]["schema"].get<std::string>().empty());
   }
-}
-
-TEST(Protocol, EncodesBase64AsInRfc4648) {
-  EXPECT_EQ(to_base64(""), "");
-  EXPECT_EQ(to_base64("f"), "Zg==");
-  EXPECT_EQ(to_base64("fo"), "Zm8=");
-  EXPECT_EQ(to_base64("foobar"), "Zm9vYmFy");
 }
 
 }  // namespace

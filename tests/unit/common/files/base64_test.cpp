@@ -1,8 +1,8 @@
-#include "services/recorder/base64.hpp"
+#include "common/files/base64.hpp"
 
 #include <gtest/gtest.h>
 
-namespace slammot::recorder {
+namespace slammot::files {
 namespace {
 
 std::vector<std::uint8_t> bytes(std::string_view text) { return {text.begin(), text.end()}; }
@@ -11,6 +11,14 @@ TEST(Base64, IsThatOfTheStandardsExamples) {  // RFC 4648, section 10
   EXPECT_EQ(to_base64(bytes("f")), "Zg==");
   EXPECT_EQ(to_base64(bytes("fo")), "Zm8=");
   EXPECT_EQ(to_base64(bytes("foobar")), "Zm9vYmFy");
+}
+
+TEST(Base64, OfTextMatchesTheStandard) {
+  EXPECT_EQ(to_base64(""), "");
+  EXPECT_EQ(to_base64("f"), "Zg==");
+  EXPECT_EQ(to_base64("fo"), "Zm8=");
+  EXPECT_EQ(to_base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(to_base64("\xff\xfe"), "//4=");
 }
 
 TEST(Base64, ComesBack) {
@@ -27,4 +35,4 @@ TEST(Base64, OtherTextIsNone) {
 }
 
 }  // namespace
-}  // namespace slammot::recorder
+}  // namespace slammot::files

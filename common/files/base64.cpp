@@ -1,6 +1,8 @@
-#include "services/recorder/base64.hpp"
+#include "common/files/base64.hpp"
 
-namespace slammot::recorder {
+#include <algorithm>
+
+namespace slammot::files {
 namespace {
 
 constexpr std::string_view kDigits =
@@ -10,6 +12,7 @@ constexpr std::string_view kDigits =
 
 std::string to_base64(std::span<const std::uint8_t> bytes) {
   std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t bits = 0;
@@ -18,6 +21,10 @@ std::string to_base64(std::span<const std::uint8_t> bytes) {
       text.push_back(j <= count ? kDigits[bits >> (18 - 6 * j) & 63] : '=');
   }
   return text;
+}
+
+std::string to_base64(std::string_view bytes) {
+  return to_base64(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
 }
 
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
@@ -39,4 +46,4 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   return bytes;
 }
 
-}  // namespace slammot::recorder
+}  // namespace slammot::files
