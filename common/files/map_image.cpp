@@ -4,12 +4,10 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <csetjmp>
 #include <limits>
 
-#include <png.h>
-
 #include "common/files/decimal.hpp"
+#include "common/files/png_image.hpp"
 
 namespace slammot::files {
 namespace {
@@ -289,13 +287,6 @@ MapImage image_of(const Canvas& canvas, PixelOf pixel_of) {
   return image;
 }
 
-void append_to_string(png_structp png, png_bytep bytes, png_size_t count) {
-  static_cast<std::string*>(png_get_io_ptr(png))
-      ->append(reinterpret_cast<const char*>(bytes), count);
-}
-
-void flush_nothing(png_structp) {}
-
 }  // namespace
 
 MapImages draw_map(const std::vector<PlacedSubmap>& submaps, std::uint64_t max_pixels) {
@@ -328,26 +319,8 @@ std::string to_pgm(const MapImage& image) {
 }
 
 Result<std::string> to_png(const MapImage& image) {
-  std::string bytes;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
-  if (info == nullptr) return Error{"libpng cannot start"};
-  if (setjmp(png_jmpbuf(png)) != 0) {  // libpng's error handling
-    png_destroy_write_struct(&png, &info);
-    return Error{"libpng cannot draw a picture of " + std::to_string(image.width) + " x " +
-                 std::to_string(image.height)};
-  }
-  png_set_write_fn(png, &bytes, append_to_string, flush_nothing);
-  png_set_compression_level(png, 3);
-  png_set_filter(png, 0, PNG_FILTER_NONE);  // with few grey values filters increase the size
-  png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(png, info);
-  for (std::uint32_t row = 0; row < image.height; ++row)
-    png_write_row(png, image.pixels.data() + std::size_t{row} * image.width);
-  png_write_end(png, nullptr);
-  png_destroy_write_struct(&png, &info);
-  return bytes;
+  constexpr int kCompression = 3;
+  return to_png(GreyImage{image.width, image.height, image.pixels}, kCompression);
 }
 
 std::string to_map_server_yaml(const MapImage& image, const std::string& image_file) {

@@ -23,8 +23,8 @@ struct Kind {
 };
 
 template <typename Pixel>
-Result<std::string> write(std::uint32_t width, std::uint32_t height,
-                          const std::vector<Pixel>& pixels, const Kind& kind, int compression) {
+Result<std::string> write(std::uint32_t width, std::uint32_t height, std::span<const Pixel> pixels,
+                          const Kind& kind, int compression) {
   assert(pixels.size() == std::size_t{width} * height);
   std::string bytes;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -56,11 +56,16 @@ Result<std::string> to_png(const IndexedImage& image, int compression) {
   assert(!image.palette.empty() && image.palette.size() <= 256);
   Kind kind{PNG_COLOR_TYPE_PALETTE, PNG_FILTER_NONE, {}};  // Indices are no intensities.
   for (const Rgb& colour : image.palette) kind.palette.push_back({colour[0], colour[1], colour[2]});
-  return write(image.width, image.height, image.pixels, kind, compression);
+  return write<std::uint8_t>(image.width, image.height, image.pixels, kind, compression);
 }
 
 Result<std::string> to_png(const RgbImage& image, int compression) {
-  return write(image.width, image.height, image.pixels, {}, compression);
+  return write<Rgb>(image.width, image.height, image.pixels, {}, compression);
+}
+
+Result<std::string> to_png(const GreyImage& image, int compression) {
+  const Kind kind{PNG_COLOR_TYPE_GRAY, PNG_FILTER_NONE, {}};  // Filters would increase the size.
+  return write(image.width, image.height, image.pixels, kind, compression);
 }
 
 }  // namespace slammot::files
