@@ -1,18 +1,16 @@
 #include "common/dds/discovery.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <thread>
 
 #include <dds/dds.h>
 
+#include "common/dds/builtin_topic.hpp"
 #include "common/dds/endpoint_qos.hpp"
 
 namespace slammot::dds {
 namespace {
-
-constexpr std::uint32_t kMost = 32;
 
 RemoteEndpoint::Guid guid_of(const dds_guid_t& guid) {
   std::string text;
@@ -53,28 +51,6 @@ RemoteEndpoint endpoint_of(dds_builtintopic_endpoint_t& sample, bool is_writer) 
           sample.type_name,    endpoint_qos(sample.qos),        type_hash(sample)};
 }
 
-/// Calls handle(sample, is_alive) for each sample of a built-in topic.
-template <typename Sample, typename Handle>
-bool take_each(Entity::Handle reader, Handle handle) {
-  std::array<void*, kMost> samples{};
-  std::array<dds_sample_info_t, kMost> infos;
-  bool any = false;
-  for (;;) {
-    const dds_return_t count =
-        check(dds_take(reader, samples.data(), infos.data(), kMost, kMost), "dds_take");
-    if (count == 0) return any;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-      handle(*static_cast<Sample*>(samples[i]), infos[i].instance_state == DDS_IST_ALIVE);
-    any = true;
-    dds_return_loan(reader, samples.data(), count);
-  }
-}
-
-Entity builtin_reader(const Participant& participant, dds_entity_t topic) {
-  return {dds_create_reader(participant.handle(), topic, nullptr, nullptr),
-          "reader of a built-in topic"};
-}
-
 RemoteEndpoint::Guid guid_of(const Participant& participant) {
   dds_guid_t guid;
   check(dds_get_guid(participant.handle(), &guid), "dds_get_guid");
@@ -93,21 +69,23 @@ Discovery::~Discovery() = default;
 
 bool Discovery::take_participants() {
   return take_each<dds_builtintopic_participant_t>(
-      participants_.handle(), [this](const auto& sample, bool is_alive) {
-        if (is_alive) peers_[guid_of(sample.key)] = peer_of_sample(sample);
+      participants_.handle(), [this](const auto& sample, const dds_sample_info_t& info) {
+        if (info.instance_state == DDS_IST_ALIVE)
+          peers_[guid_of(sample.key)] = peer_of_sample(sample);
         else peers_.erase(guid_of(sample.key));
       });
 }
 
 bool Discovery::take_endpoints(Entity::Handle reader, bool are_writers) {
-  return take_each<dds_builtintopic_endpoint_t>(reader, [&](auto& sample, bool is_alive) {
-    if (!is_alive) {
-      endpoints_.erase(guid_of(sample.key));
-    } else if (guid_of(sample.participant_key) != own_) {
-      RemoteEndpoint endpoint = endpoint_of(sample, are_writers);
-      endpoints_.insert_or_assign(endpoint.guid, std::move(endpoint));
-    }
-  });
+  return take_each<dds_builtintopic_endpoint_t>(
+      reader, [&](auto& sample, const dds_sample_info_t& info) {
+        if (info.instance_state != DDS_IST_ALIVE) {
+          endpoints_.erase(guid_of(sample.key));
+        } else if (guid_of(sample.participant_key) != own_) {
+          RemoteEndpoint endpoint = endpoint_of(sample, are_writers);
+          endpoints_.insert_or_assign(endpoint.guid, std::move(endpoint));
+        }
+      });
 }
 
 bool Discovery::update() {

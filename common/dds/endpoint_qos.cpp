@@ -101,11 +101,17 @@ EndpointQos endpoint_qos(const dds_qos_t* qos) {
   return result;
 }
 
+const dds_typeinfo_t* type_information(dds_builtintopic_endpoint_t& endpoint) {
+  const dds_typeinfo_t* information = nullptr;
+  const bool is_told =
+      dds_builtintopic_get_endpoint_type_info(&endpoint, &information) == DDS_RETCODE_OK &&
+      information != nullptr && ddsi_typeinfo_present(information);
+  return is_told ? information : nullptr;
+}
+
 std::vector<unsigned char> type_hash(dds_builtintopic_endpoint_t& endpoint) {
-  const dds_typeinfo_t* info = nullptr;
-  if (dds_builtintopic_get_endpoint_type_info(&endpoint, &info) != DDS_RETCODE_OK ||
-      info == nullptr || !ddsi_typeinfo_present(info))
-    return {};
+  const dds_typeinfo_t* const info = type_information(endpoint);
+  if (info == nullptr) return {};
   ddsi_typeid_t* const id = ddsi_typeinfo_typeid(info, DDSI_TYPEID_KIND_COMPLETE);
   if (id == nullptr) return {};
   unsigned char* bytes = nullptr;

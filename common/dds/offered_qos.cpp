@@ -4,6 +4,8 @@
 
 #include <dds/dds.h>
 
+#include "common/dds/endpoint_qos.hpp"
+
 namespace slammot::dds {
 namespace {
 
@@ -26,39 +28,23 @@ bool is(const std::map<std::string, std::string>& texts, const char* key, const 
 }  // namespace
 
 OfferedQos offered_qos_of(const dds_qos* qos) {
+  const EndpointQos told = endpoint_qos(qos);
   OfferedQos offered;
-  dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT;
-  dds_duration_t duration = 0;
-  if (dds_qget_reliability(qos, &reliability, &duration))
-    offered.is_reliable = reliability == DDS_RELIABILITY_RELIABLE;
-  dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE;
-  if (dds_qget_durability(qos, &durability))
-    offered.is_transient_local = durability != DDS_DURABILITY_VOLATILE;
-  dds_ownership_kind_t ownership = DDS_OWNERSHIP_SHARED;
-  if (dds_qget_ownership(qos, &ownership))
-    offered.is_exclusive = ownership == DDS_OWNERSHIP_EXCLUSIVE;
+  offered.is_reliable = told.is_reliable;
+  offered.is_transient_local = told.durability != EndpointQos::Durability::kVolatile;
+  offered.is_exclusive = told.is_exclusive;
+  offered.depth = told.depth;
+  offered.partitions = told.partitions;
+  if (told.lifespan_ns != EndpointQos::kUnlimited) offered.lifespan_ns = told.lifespan_ns;
+  if (told.liveliness == EndpointQos::Liveliness::kManualByTopic)
+    offered.manual_liveliness_ns =
+        told.lease_ns == EndpointQos::kUnlimited ? DDS_INFINITY : told.lease_ns;
   dds_qget_ownership_strength(qos, &offered.ownership_strength);
-  dds_history_kind_t history = DDS_HISTORY_KEEP_LAST;
-  if (dds_qget_history(qos, &history, &offered.depth) && history == DDS_HISTORY_KEEP_ALL)
-    offered.depth = 0;
-  if (dds_qget_lifespan(qos, &duration) && duration != DDS_INFINITY) offered.lifespan_ns = duration;
-  dds_liveliness_kind_t liveliness = DDS_LIVELINESS_AUTOMATIC;
-  if (dds_qget_liveliness(qos, &liveliness, &duration) &&
-      liveliness == DDS_LIVELINESS_MANUAL_BY_TOPIC)
-    offered.manual_liveliness_ns = duration;
   std::uint32_t count = 0;
   dds_data_representation_id_t* representations = nullptr;
   if (dds_qget_data_representation(qos, &count, &representations)) {
     if (count > 0) offered.representation = representations[0];
     dds_free(representations);
-  }
-  char** names = nullptr;
-  if (dds_qget_partition(qos, &count, &names)) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      offered.partitions.emplace_back(names[i]);
-      dds_free(names[i]);
-    }
-    dds_free(names);
   }
   return offered;
 }
