@@ -6,11 +6,11 @@ namespace slammot::app {
 
 bool OwnerWatch::accepts(const Source& source, SteadyTime now,
                          const std::function<bool(std::uint64_t writer)>& is_gone) {
-  constexpr std::chrono::nanoseconds kLongestPeriod = std::chrono::seconds(1);
   const auto [found, is_new] = owners_.try_emplace(source.key, Owner{source.writer, now, {}});
   Owner& owner = found->second;
   if (owner.writer != source.writer) {
-    const auto patience = std::max<std::chrono::nanoseconds>(kSilence, 3 * owner.period);
+    const std::chrono::nanoseconds patience{
+        owner.period.end_after_ns(std::chrono::nanoseconds(kSilence).count())};
     if (now - owner.last < patience && !is_gone(owner.writer)) return false;
     owner = {source.writer, now, owner.period};
     return true;
@@ -19,8 +19,7 @@ bool OwnerWatch::accepts(const Source& source, SteadyTime now,
     forget_oldest();
     return true;
   }
-  const auto period = std::min<std::chrono::nanoseconds>(now - owner.last, kLongestPeriod);
-  owner.period = owner.period.count() == 0 ? period : owner.period + (period - owner.period) / 8;
+  owner.period.add(std::chrono::nanoseconds(now - owner.last).count());
   owner.last = now;
   return true;
 }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "common/app/input_watch.hpp"
+#include "common/flow/arrival_period.hpp"
 
 namespace slammot::app {
 
@@ -33,7 +34,7 @@ class OwnerWatch {
   struct Owner {
     std::uint64_t writer = 0;
     SteadyTime last;
-    std::chrono::nanoseconds period{0};  ///< Between samples, smoothed.
+    flow::ArrivalPeriod period;
   };
 
   void forget_oldest();

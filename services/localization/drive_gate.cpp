@@ -10,14 +10,6 @@ namespace {
 
 constexpr std::size_t kMostCandidates = 8;
 constexpr std::size_t kMostHeld = 200;  ///< Of one candidate.
-constexpr std::int64_t kLongestPeriodNs = 1'000'000'000;
-
-std::int64_t silence_ns(std::int64_t period_ns) {
-  return std::max(DriveGate::kSilenceNs, 3 * period_ns);
-}
-std::int64_t lone_scan_ns(std::int64_t period_ns) {
-  return std::max(DriveGate::kLoneScanNs, 3 * period_ns);
-}
 
 }  // namespace
 
@@ -44,11 +36,7 @@ DriveGate::Verdict DriveGate::judge_held(Verdict verdict, std::int64_t now_ns) {
 
 void DriveGate::note_arrival(const std::string& scanner_id, std::int64_t now_ns) {
   Pulse& pulse = pulses_[scanner_id];
-  if (pulse.last_ns != 0) {
-    const std::int64_t period_ns = std::min(now_ns - pulse.last_ns, kLongestPeriodNs);
-    pulse.period_ns =
-        pulse.period_ns == 0 ? period_ns : pulse.period_ns + (period_ns - pulse.period_ns) / 8;
-  }
+  if (pulse.last_ns != 0) pulse.period.add(now_ns - pulse.last_ns);
   pulse.last_ns = now_ns;
 }
 
@@ -91,9 +79,10 @@ DriveGate::Pulse DriveGate::pulse_of(const std::string& scanner_id) const {
 bool DriveGate::begins(const Candidate& candidate, std::int64_t now_ns) const {
   const Pulse pulse = pulse_of(candidate.scanner_id);
   if (candidate.last_ns < pulse.last_ns) return false;
-  if (candidate.has_several_stamps) return now_ns - pulse.last_ns >= silence_ns(pulse.period_ns);
+  if (candidate.has_several_stamps)
+    return now_ns - pulse.last_ns >= pulse.period.end_after_ns(kSilenceNs);
   return pulse.last_ns < candidate.first_ns &&
-         now_ns - candidate.first_ns >= lone_scan_ns(pulse.period_ns);
+         now_ns - candidate.first_ns >= pulse.period.end_after_ns(kLoneScanNs);
 }
 
 /// One source sends several scanners: what is released later would be out of order.
@@ -124,7 +113,7 @@ void DriveGate::drop_old(Verdict& verdict, std::int64_t now_ns) {
   constexpr std::int64_t kGraceNs = 300'000'000;
   for (Candidate& candidate : candidates_) {
     const std::int64_t longest_ns =
-        lone_scan_ns(pulse_of(candidate.scanner_id).period_ns) + kGraceNs;
+        pulse_of(candidate.scanner_id).period.end_after_ns(kLoneScanNs) + kGraceNs;
     while (!candidate.held.empty() && now_ns - candidate.held.front().first > longest_ns) {
       verdict.strays.push_back(std::move(candidate.held.front().second));
       candidate.held.pop_front();

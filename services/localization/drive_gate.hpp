@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/flow/arrival_period.hpp"
 #include "services/localization/drive_watch.hpp"
 #include "services/localization/waiting_scans.hpp"
 
@@ -57,7 +58,7 @@ class DriveGate {
   /// Scans of a scanner that belong to the drive at hand.
   struct Pulse {
     std::int64_t last_ns = 0;
-    std::int64_t period_ns = 0;  ///< Between arrivals, smoothed; 0 if unknown.
+    flow::ArrivalPeriod period;
   };
 
   Verdict judge_held(Verdict verdict, std::int64_t now_ns);

@@ -11,6 +11,7 @@
 #include "common/wire/segmented_scan.hpp"
 #include "common/wire/text.hpp"
 #include "common/wire/tracked_objects.hpp"
+#include "services/localization/localization_service_clock.hpp"
 
 namespace slammot {
 namespace {
@@ -31,12 +32,6 @@ std::string unique_name() {
 
 /// True for services that publish scans.
 bool is_source(std::string_view service) { return service == "ingest" || service == "simulator"; }
-
-std::int64_t monotonic_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 bool is_set(const wire::ServiceStatus& status, std::string_view counter) {
   for (const wire::Counter& one : status.counters) {
@@ -108,7 +103,7 @@ void Collector::read(dds::Reader<Sample>& reader, Handle handle) {
 }
 
 bool Collector::wait(std::chrono::milliseconds longest) {
-  admit(gate_.judge_held(monotonic_ns()));
+  admit(gate_.judge_held(localization::monotonic_ns()));
   return wait_set_.wait(longest) != dds::WaitSet::Wake::kStopped;
 }
 
@@ -158,7 +153,7 @@ void Collector::take(const slammot_LaserScan& sample) {
   scan.scan.sequence = sample.sequence_number;
   scan.scan.scanner.scanner_id = wire::text(sample.scanner_id);
   seen_at_.emplace(sample.stamp_ns, Clock::now());
-  admit(gate_.judge(std::move(scan), monotonic_ns()));
+  admit(gate_.judge(std::move(scan), localization::monotonic_ns()));
 }
 
 /// Discards the results of the previous drive.
