@@ -1,8 +1,17 @@
 #include "common/app/readiness.hpp"
 
 #include "common/app/service_context.hpp"
+#include "common/wire/text.hpp"
 
 namespace slammot::app {
+
+bool take(const slammot_Heartbeat& beat, Readiness& readiness) {
+  if (beat.stands_by) return false;
+  readiness.heard(
+      std::string(wire::text(beat.service_name)),
+      beat.state == slammot_SERVICE_STATE_RUNNING || beat.state == slammot_SERVICE_STATE_DEGRADED);
+  return beat.state == slammot_SERVICE_STATE_STARTING;
+}
 
 bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic,
                bool is_read, bool is_patient) {

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/wire/service.hpp"
+
 namespace slammot::app {
 
 class ServiceContext;
@@ -33,6 +35,10 @@ class Readiness {
  private:
   std::map<std::string, bool> at_work_;
 };
+
+/// Takes a heartbeat; that of a standby does not count. True if its service is starting, which
+/// announces that it will be ready.
+bool take(const slammot_Heartbeat& beat, Readiness& readiness);
 
 /// True if a source of scans may start: all services run and its topic has a reader, or its
 /// patience has ended. Its status reports what it waits for or lacks.

@@ -50,10 +50,6 @@ std::uint64_t new_drive_id() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
-bool is_operational(slammot_ServiceState state) {
-  return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
-}
-
 }  // namespace
 
 std::vector<config::BoundStage> IngestService::stages(Settings& settings) {
@@ -95,10 +91,7 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
   context.status().counter("log_scans") = source_.log().plan().figures.scans;
   context.read(
       dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
-        if (beat.stands_by) return;
-        readiness_.heard(std::string(wire::text(beat.service_name)), is_operational(beat.state));
-        // A starting service announces that it will be ready.
-        if (beat.state == slammot_SERVICE_STATE_STARTING)
+        if (app::take(beat, readiness_))
           give_up_waiting_at_ = steady_clock::now() + nanoseconds_of(config_.wait_for_services_s);
         if (wire::text(beat.service_name) == "loop_closing") graph_.heard(steady_clock::now());
       });

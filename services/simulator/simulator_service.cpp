@@ -42,10 +42,6 @@ std::uint64_t new_drive_id() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
-bool is_operational(slammot_ServiceState state) {
-  return state == slammot_SERVICE_STATE_RUNNING || state == slammot_SERVICE_STATE_DEGRADED;
-}
-
 }  // namespace
 
 void SimulatorService::add_options(CLI::App& command_line, Settings& settings) {
@@ -89,14 +85,11 @@ SimulatorService::SimulatorService(app::ServiceContext& context, const Settings&
   truth_ = wire::TruthEncoder(drive_id);
   context.status().counter("log_finished") = 0;
   context.status().counter("log_scans") = drive_.scan_count();
-  context.read(
-      dds::topics::kHeartbeat, app::Input::kOccasional, [this](const slammot_Heartbeat& beat) {
-        if (beat.stands_by) return;
-        readiness_.heard(std::string(wire::text(beat.service_name)), is_operational(beat.state));
-        // A starting service announces that it will be ready.
-        if (beat.state == slammot_SERVICE_STATE_STARTING)
-          give_up_waiting_at_ = steady_clock::now() + patience_;
-      });
+  context.read(dds::topics::kHeartbeat, app::Input::kOccasional,
+               [this](const slammot_Heartbeat& beat) {
+                 if (app::take(beat, readiness_))
+                   give_up_waiting_at_ = steady_clock::now() + patience_;
+               });
   context.read(dds::topics::kScanLabels, app::Input::kOccasional,
                [this](const auto& labels) { take_labels(labels); });
   context.every(std::chrono::milliseconds(50),
