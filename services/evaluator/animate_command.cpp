@@ -75,7 +75,7 @@ geometry::Vector2 place_at(const RunResult& result, std::int64_t stamp_ns) {
   const double part =
       static_cast<double>(stamp_ns - before->stamp_ns) /
       static_cast<double>(std::max<std::int64_t>(1, after->stamp_ns - before->stamp_ns));
-  return (1.0 - part) * before->pose.translation_m() + part * after->pose.translation_m();
+  return interpolate(before->pose, after->pose, part).translation_m();
 }
 
 Drawing frame_at(const RunResult& result, const SceneDrawing& scene, const AnimateOptions& options,
