@@ -19,19 +19,23 @@ std::string fault_of_name(const std::string& name) {
 
 }  // namespace
 
+void add_domain_option(CLI::App& command_line, std::uint32_t& domain_id) {
+  constexpr std::uint32_t kHighestDomain = 230;  // the highest whose ports exist
+  command_line.add_option("--domain", domain_id, "DDS domain")
+      ->envname("SLAMMOT_DOMAIN")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint32_t{0}, kHighestDomain));
+}
+
 void add_service_options(CLI::App& command_line, ServiceOptions& options) {
   const CLI::Validator is_name(fault_of_name, "NAME");
-  constexpr std::uint32_t kHighestDomain = 230;  // the highest whose ports exist
   command_line
       .add_option("--vehicle", options.vehicle_id,
                   "Vehicle whose data is processed; key of every sample")
       ->envname("SLAMMOT_VEHICLE")
       ->capture_default_str()
       ->check(is_name);
-  command_line.add_option("--domain", options.domain_id, "DDS domain")
-      ->envname("SLAMMOT_DOMAIN")
-      ->capture_default_str()
-      ->check(CLI::Range(std::uint32_t{0}, kHighestDomain));
+  add_domain_option(command_line, options.domain_id);
   command_line
       .add_option("--instance", options.instance,
                   "Name of this process, if several of the same service and vehicle run")

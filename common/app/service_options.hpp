@@ -32,6 +32,9 @@ struct ServiceOptions {
                                           ///< the command line.
 };
 
+/// Adds --domain, also of the environment; `domain_id` must outlive the parsing.
+void add_domain_option(CLI::App& command_line, std::uint32_t& domain_id);
+
 /// Adds the options to the command line. `options` must outlive the parsing.
 void add_service_options(CLI::App& command_line, ServiceOptions& options);
 

@@ -2,16 +2,11 @@
 
 #include <unistd.h>
 
+#include "common/app/system_clock.hpp"
 #include "common/app/version.hpp"
 
 namespace slammot::app {
 namespace {
-
-std::int64_t system_clock_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 wire::StageLatency describe(const std::string& stage, const LatencyHistogram& histogram) {
   return {stage, histogram.count(), histogram.percentile_ms(0.50), histogram.percentile_ms(0.99),

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/system_clock.hpp"
 #include "common/wire/localized_scan.hpp"
 #include "common/wire/scan_labels.hpp"
 #include "common/wire/sensor.hpp"
@@ -62,10 +63,6 @@ Content readiness(double scan_age_s) {
                                                                   : "no scan for a while\n"};
   content.status = is_ready ? 200 : 503;
   return content;
-}
-
-std::int64_t system_time_ns() {
-  return std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
@@ -222,7 +219,8 @@ void GatewayService::report_health() {
   const auto now = std::chrono::steady_clock::now();
   board_.forget(now);
   const HubCounters hub = server_.counters();
-  server_.publish(ChannelId::kHealth, system_time_ns(), health_json(board_, figures(now), now));
+  server_.publish(ChannelId::kHealth, app::system_clock_ns(),
+                  health_json(board_, figures(now), now));
   server_.put("/metrics", {"text/plain; version=0.0.4; charset=utf-8",
                            metrics_text(context_.vehicle_id(), board_, hub, figures(now), now)});
   server_.put("/readyz", readiness(figures(now).scan_age_s));
@@ -239,8 +237,8 @@ void GatewayService::log_warnings(const std::vector<std::string>& warnings) {
     const std::string kind = warning.substr(0, warning.find_first_of("0123456789"));
     kinds.insert(kind);
     if (!warnings_.contains(kind))
-      server_.publish(ChannelId::kLog, system_time_ns(),
-                      log_message(system_time_ns(), warning).SerializeAsString());
+      server_.publish(ChannelId::kLog, app::system_clock_ns(),
+                      log_message(app::system_clock_ns(), warning).SerializeAsString());
   }
   warnings_ = std::move(kinds);
 }

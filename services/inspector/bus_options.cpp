@@ -1,14 +1,11 @@
 #include "services/inspector/bus_options.hpp"
 
-#include <CLI/CLI.hpp>
+#include "common/app/service_options.hpp"
 
 namespace slammot::inspector {
 
 void add_bus_options(CLI::App& command, BusOptions& options) {
-  command.add_option("--domain", options.domain_id, "DDS domain")
-      ->envname("SLAMMOT_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
+  app::add_domain_option(command, options.domain_id);
 }
 
 }  // namespace slammot::inspector

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/app/system_clock.hpp"
+
 namespace slammot::inspector {
 namespace {
 
@@ -10,12 +12,6 @@ using namespace std::chrono_literals;
 
 constexpr auto kQuiet = 300ms;  ///< Without news everybody has been discovered.
 constexpr auto kTypePatience = 500ms;
-
-std::int64_t system_clock_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 }  // namespace
 
@@ -69,7 +65,7 @@ void BusView::watch_new_topics() {
 
 void BusView::take(WatchedTopic& watched) {
   watched.reader->take_each([&](const dds::RawSample& sample) {
-    watched.meter.add(sample.source_time_ns, system_clock_ns(), sample.cdr.size());
+    watched.meter.add(sample.source_time_ns, app::system_clock_ns(), sample.cdr.size());
     if (on_sample_) on_sample_(watched.reader->raw_topic(), sample);
   });
 }

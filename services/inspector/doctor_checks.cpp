@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/files/decimal.hpp"
 #include "services/inspector/table_text.hpp"
 
 namespace slammot::inspector {
@@ -54,7 +55,8 @@ Finding clock_finding(const Computer& computer) {
   Finding finding{"clock", true, "not told", ""};
   if (!computer.clock) return finding;
   finding.text = computer.clock->is_synchronised
-                     ? "synchronised within " + fixed(computer.clock->estimated_error_ms, 1) + " ms"
+                     ? "synchronised within " +
+                           files::fixed_text(computer.clock->estimated_error_ms, 1) + " ms"
                      : "not synchronised";
   finding.is_good = computer.clock->is_synchronised &&
                     computer.clock->estimated_error_ms <= kLargestClockError_ms;
@@ -71,7 +73,7 @@ Finding disk(const Computer& computer) {
     return {"disk", false, room.fault,
             "choose another --state-dir or make room: without it a crash loses map and pose"};
   const bool is_enough = room.free_gb >= kLeastFree_gb;
-  return {"disk", is_enough, fixed(room.free_gb, 1) + " GB free for state",
+  return {"disk", is_enough, files::fixed_text(room.free_gb, 1) + " GB free for state",
           is_enough ? "" : "make room: maps and recordings grow"};
 }
 

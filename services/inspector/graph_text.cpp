@@ -66,9 +66,7 @@ std::set<Link> links(const dds::Discovery& discovery, bool with_status) {
     for (const auto& [reader_guid, reader] : discovery.endpoints()) {
       if (reader.is_writer || reader.topic != writer.topic) continue;
       if (reader.participant == writer.participant) continue;
-      const bool is_connected =
-          writer.type == reader.type && dds::incompatibilities(writer.qos, reader.qos).empty();
-      found.insert({name(writer), name(reader), writer.topic, is_connected});
+      found.insert({name(writer), name(reader), writer.topic, obstacles(writer, reader).empty()});
     }
   }
   return found;

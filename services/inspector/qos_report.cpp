@@ -12,14 +12,6 @@ std::vector<dds::RemoteEndpoint> endpoints_of(const dds::Discovery& discovery,
   return found;
 }
 
-std::vector<std::string> reasons_of(const dds::RemoteEndpoint& writer,
-                                    const dds::RemoteEndpoint& reader) {
-  std::vector<std::string> reasons = dds::incompatibilities(writer.qos, reader.qos);
-  if (writer.type != reader.type)
-    reasons.push_back("type: the writer has " + writer.type + ", the reader " + reader.type);
-  return reasons;
-}
-
 /// Types of one name and different content: another version of the program.
 bool differ_in_version(const dds::RemoteEndpoint& a, const dds::RemoteEndpoint& b) {
   return a.type == b.type && !a.type_hash.empty() && !b.type_hash.empty() &&
@@ -27,6 +19,14 @@ bool differ_in_version(const dds::RemoteEndpoint& a, const dds::RemoteEndpoint& 
 }
 
 }  // namespace
+
+std::vector<std::string> obstacles(const dds::RemoteEndpoint& writer,
+                                   const dds::RemoteEndpoint& reader) {
+  std::vector<std::string> reasons = dds::incompatibilities(writer.qos, reader.qos);
+  if (writer.type != reader.type)
+    reasons.push_back("type: the writer has " + writer.type + ", the reader " + reader.type);
+  return reasons;
+}
 
 std::string name_of(const dds::Peer& peer) {
   const std::string place = peer.host +
@@ -39,7 +39,7 @@ std::vector<Mismatch> mismatches(const dds::Discovery& discovery, const std::str
   std::vector<Mismatch> found;
   for (const dds::RemoteEndpoint& writer : endpoints_of(discovery, topic, true)) {
     for (const dds::RemoteEndpoint& reader : endpoints_of(discovery, topic, false)) {
-      auto reasons = reasons_of(writer, reader);
+      auto reasons = obstacles(writer, reader);
       if (!reasons.empty()) found.push_back({writer, reader, std::move(reasons)});
     }
   }

@@ -13,6 +13,11 @@ struct Mismatch {
   std::vector<std::string> reasons;
 };
 
+/// Why DDS does not connect a writer and a reader of one topic, by their QoS and the names of their
+/// types; empty if it does.
+std::vector<std::string> obstacles(const dds::RemoteEndpoint& writer,
+                                   const dds::RemoteEndpoint& reader);
+
 /// All pairs of a writer and a reader of one topic that DDS does not connect. A different type is
 /// reported where nothing else explains it: one that only has members more is connected all the
 /// same.

@@ -1,7 +1,6 @@
 #include "services/inspector/table_text.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace slammot::inspector {
 namespace {
@@ -31,12 +30,6 @@ std::string table_text(const std::vector<std::string>& titles,
   };
   add(titles);
   for (const auto& row : rows) add(row);
-  return text;
-}
-
-std::string fixed(double number, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, number);
   return text;
 }
 

@@ -10,7 +10,4 @@ namespace slammot::inspector {
 std::string table_text(const std::vector<std::string>& titles,
                        const std::vector<std::vector<std::string>>& rows, std::size_t right_from);
 
-/// The number with so many decimals.
-std::string fixed(double number, int decimals);
-
 }  // namespace slammot::inspector

@@ -11,7 +11,9 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/stop_signal.hpp"
+#include "common/app/system_clock.hpp"
 #include "common/dds/reader.hpp"
+#include "common/files/decimal.hpp"
 #include "services/inspector/bus_view.hpp"
 #include "services/inspector/calls.hpp"
 #include "services/inspector/table_text.hpp"
@@ -27,12 +29,6 @@ struct TopOptions {
   double period_s = 1.0;
   bool is_once = false;
 };
-
-std::int64_t system_clock_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 /// The last status of each process that reported within a few seconds.
 class Services {
@@ -80,7 +76,7 @@ std::vector<TopicLine> topic_lines(BusView& view, double interval_s) {
     const auto watched = view.topics().find(name);
     if (watched != view.topics().end()) {
       line.figures = watched->second.meter.figures(interval_s);
-      line.age_s = watched->second.meter.age_s(system_clock_ns());
+      line.age_s = watched->second.meter.age_s(app::system_clock_ns());
       line.lost = static_cast<std::uint32_t>(watched->second.reader->counters().lost);
       watched->second.meter.reset();
     }
@@ -102,11 +98,12 @@ int top(const TopOptions& options) {
     while (!is_stopped && std::chrono::steady_clock::now() - start < period)
       view.receive(100ms, true);
     const std::chrono::duration<double> interval = std::chrono::steady_clock::now() - start;
-    const std::string text = services_text(services.update(), system_clock_ns()) + "\n" +
+    const std::string text = services_text(services.update(), app::system_clock_ns()) + "\n" +
                              topics_text(topic_lines(view, interval.count()));
     const bool clears = !options.is_once && ::isatty(STDOUT_FILENO) != 0;
     std::printf("%sdomain %u, figures of %s s\n\n%s", clears ? "\x1b[H\x1b[2J" : "",
-                options.bus.domain_id, fixed(interval.count(), 1).c_str(), text.c_str());
+                options.bus.domain_id, files::fixed_text(interval.count(), 1).c_str(),
+                text.c_str());
     std::fflush(stdout);
     if (options.is_once) break;
   }

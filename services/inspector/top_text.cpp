@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "common/files/decimal.hpp"
 #include "services/inspector/table_text.hpp"
 
 namespace slammot::inspector {
@@ -54,8 +55,9 @@ std::string services_text(const std::vector<wire::ServiceStatus>& services, std:
                                     std::to_string(service.process_number),
                                     duration_text(now_ns - service.started_ns)};
     for (const wire::StageLatency& stage : service.latencies) {
-      row.insert(row.end(), {stage.stage, std::to_string(stage.calls), fixed(stage.p50_ms, 2),
-                             fixed(stage.p99_ms, 2), fixed(stage.highest_ms, 2)});
+      row.insert(row.end(),
+                 {stage.stage, std::to_string(stage.calls), files::fixed_text(stage.p50_ms, 2),
+                  files::fixed_text(stage.p99_ms, 2), files::fixed_text(stage.highest_ms, 2)});
       rows.push_back(std::move(row));
       row = {"", "", "", ""};
     }
@@ -77,13 +79,14 @@ std::string topics_text(const std::vector<TopicLine>& topics) {
     const TopicFigures& figures = line.figures;
     const bool is_silent = figures.samples == 0;
     const auto shown = [&](double number, int decimals) {
-      return is_silent ? std::string("-") : fixed(number, decimals);
+      return is_silent ? std::string("-") : files::fixed_text(number, decimals);
     };
-    rows.push_back({line.topic, fixed(figures.rate_hz, 1), shown(figures.mean_bytes / 1000.0, 2),
-                    line.age_s < 0.0 ? "-" : fixed(line.age_s, 2), std::to_string(line.lost),
-                    shown(figures.delay_p50_ms, 2), shown(figures.delay_p99_ms, 2),
-                    shown(figures.longest_delay_ms, 2), std::to_string(line.writers),
-                    std::to_string(line.readers)});
+    rows.push_back({line.topic, files::fixed_text(figures.rate_hz, 1),
+                    shown(figures.mean_bytes / 1000.0, 2),
+                    line.age_s < 0.0 ? "-" : files::fixed_text(line.age_s, 2),
+                    std::to_string(line.lost), shown(figures.delay_p50_ms, 2),
+                    shown(figures.delay_p99_ms, 2), shown(figures.longest_delay_ms, 2),
+                    std::to_string(line.writers), std::to_string(line.readers)});
   }
   return table_text(
       {"topic", "Hz", "kB", "age s", "lost", "p50 ms", "p99 ms", "worst ms", "writers", "readers"},

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/stop_signal.hpp"
+#include "common/files/decimal.hpp"
 #include "services/inspector/bus_options.hpp"
 #include "services/inspector/bus_view.hpp"
 #include "services/inspector/calls.hpp"
@@ -84,15 +85,17 @@ int echo(TopicOptions options) {
 }
 
 std::string rate_line(const TopicFigures& figures) {
-  return fixed(figures.rate_hz, 2) + " Hz, gaps " + fixed(figures.shortest_gap_ms, 1) + " to " +
-         fixed(figures.longest_gap_ms, 1) + " ms, sigma " + fixed(figures.gap_sigma_ms, 2) +
-         " ms, " + fixed(figures.mean_bytes / 1000.0, 1) + " kB a sample";
+  return files::fixed_text(figures.rate_hz, 2) + " Hz, gaps " +
+         files::fixed_text(figures.shortest_gap_ms, 1) + " to " +
+         files::fixed_text(figures.longest_gap_ms, 1) + " ms, sigma " +
+         files::fixed_text(figures.gap_sigma_ms, 2) + " ms, " +
+         files::fixed_text(figures.mean_bytes / 1000.0, 1) + " kB a sample";
 }
 
 std::string delay_line(const TopicFigures& figures) {
-  return "delay p50 " + fixed(figures.delay_p50_ms, 2) + " ms, p99 " +
-         fixed(figures.delay_p99_ms, 2) + " ms, worst " + fixed(figures.longest_delay_ms, 2) +
-         " ms";
+  return "delay p50 " + files::fixed_text(figures.delay_p50_ms, 2) + " ms, p99 " +
+         files::fixed_text(figures.delay_p99_ms, 2) + " ms, worst " +
+         files::fixed_text(figures.longest_delay_ms, 2) + " ms";
 }
 
 /// Prints a line of figures a period.

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/run_service.hpp"
+#include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/dds/exit_watchdog.hpp"
 #include "services/recorder/player.hpp"
@@ -118,10 +119,7 @@ void add_play_command(CLI::App& app, int& exit_code) {
                    "Seconds before the first message, for readers to join")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--domain", options->domain_id, "DDS domain")
-      ->envname("SLAMMOT_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
+  app::add_domain_option(*command, options->domain_id);
   command->callback([options, &exit_code] { exit_code = play_or_fail(*options); });
 }
 

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/log.hpp"
+#include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/dds/exit_watchdog.hpp"
 #include "services/recorder/recorder_service.hpp"
@@ -58,10 +59,7 @@ void add_record_command(CLI::App& app, int& exit_code) {
   command->add_option("--vehicle", options->service.vehicle_id, "Name of the file without --output")
       ->envname("SLAMMOT_VEHICLE")
       ->capture_default_str();
-  command->add_option("--domain", options->service.domain_id, "DDS domain")
-      ->envname("SLAMMOT_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
+  app::add_domain_option(*command, options->service.domain_id);
   command
       ->add_option("--config", options->service.config_files,
                    "Files of settings to keep in the recording")

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/system_clock.hpp"
 #include "common/app/version.hpp"
 #include "common/config/profiles.hpp"
 
@@ -24,12 +25,6 @@ constexpr auto kTypePatience = 20ms;
 constexpr int kMostAttempts = 100;
 /// What was added is in the file after this time at the latest.
 constexpr auto kFlushPeriod = 1s;
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 /// "car-20250131T235959Z.mcap"
 std::string default_name(const std::string& vehicle_id) {
@@ -52,7 +47,7 @@ std::filesystem::path path_of(const RecorderService::Settings& settings,
 void attach(const std::filesystem::path& path, std::vector<mcap::Attachment>& attachments) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return;
-  mcap::Attachment attachment{now_ns(), 0, path.filename(), "text/plain", {}};
+  mcap::Attachment attachment{app::system_clock_ns(), 0, path.filename(), "text/plain", {}};
   attachment.data.assign(std::istreambuf_iterator<char>(file), {});
   attachments.push_back(std::move(attachment));
 }
@@ -105,7 +100,7 @@ RecorderService::RecorderService(app::ServiceContext& context, const Settings& s
       topics_(settings.topics),
       ends_on_fault_(settings.ends_on_fault),
       discovery_(context.participant()),
-      last_look_ns_(now_ns()) {
+      last_look_ns_(app::system_clock_ns()) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file's size is a full disk, no reason to die
   const RecordingOptions options = options_of(settings, context.options());
   path_ = options.path;
@@ -157,7 +152,7 @@ bool RecorderService::try_to_read(const dds::FoundWriter& writer) {
 }
 
 void RecorderService::take_all() {
-  const std::int64_t this_look_ns = now_ns();
+  const std::int64_t this_look_ns = app::system_clock_ns();
   for (const Input& input : inputs_)
     input.reader->take_each([&](const dds::RawSample& sample) {
       batch_.add(input.channel, sample.source_time_ns, sample.cdr);

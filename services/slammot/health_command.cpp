@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/health.hpp"
+#include "common/app/service_options.hpp"
 #include "services/slammot/command_line.hpp"
 
 namespace slammot {
@@ -70,10 +71,7 @@ void add_health_command(CLI::App& app, int& exit_code) {
   command->add_option("--instance", question.instance, "Instance, if several run; default: any");
   command->add_flag("--alive", options->is_alive_enough,
                     "Exit code 0 also when degraded, for a supervisor that would restart it");
-  command->add_option("--domain", question.domain_id, "DDS domain")
-      ->envname("SLAMMOT_DOMAIN")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
+  app::add_domain_option(*command, question.domain_id);
   command->footer("Exit codes: 0 good, 1 down, 2 usage, 3 degraded.");
   command->callback([options, vehicle, &exit_code] {
     if (options->question.services.empty()) {
