@@ -33,7 +33,7 @@ bool Standby::wait_until_it_leads() {
   if (!context_.run_until([this] { return try_to_lead(); })) return false;
   context_.status().clear_trouble(kTrouble);
   context_.status().set_starting(false);
-  if (!told_.empty()) spdlog::warn("takes over");
+  if (stood_by_) spdlog::warn("takes over");
   return true;
 }
 
@@ -54,8 +54,8 @@ bool Standby::try_to_lead() {
 }
 
 void Standby::tell(const std::string& why) {
-  context_.status().set_trouble(kTrouble, why);
-  if (std::exchange(told_, why) != why) spdlog::warn("{}", why);
+  context_.status().set_trouble(kTrouble, why);  // is logged with the next status
+  stood_by_ = true;
 }
 
 std::string Standby::name_of_leader() const {

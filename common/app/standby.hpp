@@ -34,7 +34,7 @@ class Standby {
   ServiceContext& context_;
   StateLock* lock_;
   Leadership leadership_;
-  std::string told_;
+  bool stood_by_ = false;
 };
 
 }  // namespace slammot::app
