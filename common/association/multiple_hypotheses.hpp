@@ -93,6 +93,12 @@ class MultipleHypotheses {
     return clusters_[cluster_of(key)].hypotheses.size();
   }
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) { visit(self.clusters_, self.next_name_); }
+  /// False for a state that no scans lead to: each hypothesis of a cluster has
+  /// one state and measurement a key, and as many ancestors as the others.
+  bool is_sound() const;
+
  private:
   struct Joint {
     double cost = 0.0;          ///< Above the cost of the cluster's best hypothesis.
@@ -100,12 +106,18 @@ class MultipleHypotheses {
     std::vector<std::size_t> measurements;
     std::vector<std::uint32_t> lineage;  ///< Identifiers of its ancestors in the last scans, oldest
                                          ///< first.
+    static void visit_state(auto& self, auto& visit) {
+      visit(self.cost, self.states, self.measurements, self.lineage);
+    }
   };
   struct Cluster {
     std::vector<TrackKey> keys;
     std::vector<Joint> hypotheses;  ///< Best first.
     bool is_revised = false;
     std::vector<char> gated;  ///< Measurements of this scan in the gate of any of its tracks.
+    static void visit_state(auto& self, auto& visit) {
+      visit(self.keys, self.hypotheses, self.is_revised);
+    }
   };
   struct Child {
     double cost = 0.0;
@@ -155,6 +167,18 @@ std::size_t MultipleHypotheses<State>::cluster_of(TrackKey key) const {
   for (std::size_t i = 0; i < clusters_.size(); ++i)
     if (place_in(clusters_[i], key) < clusters_[i].keys.size()) return i;
   return kUnassigned;
+}
+
+template <class State>
+bool MultipleHypotheses<State>::is_sound() const {
+  return std::all_of(clusters_.begin(), clusters_.end(), [](const Cluster& cluster) {
+    const std::size_t tracks = cluster.keys.size();
+    return tracks > 0 && !cluster.hypotheses.empty() &&
+           std::all_of(cluster.hypotheses.begin(), cluster.hypotheses.end(), [&](const Joint& one) {
+             return one.states.size() == tracks && one.measurements.size() == tracks &&
+                    one.lineage.size() == cluster.hypotheses.front().lineage.size();
+           });
+  });
 }
 
 template <class State>

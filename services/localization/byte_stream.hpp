@@ -1,115 +1,20 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <optional>
-#include <span>
-#include <type_traits>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "common/geometry/pose2.hpp"
+#include "common/memory/byte_stream.hpp"
 
 namespace slammot::localization {
 
-inline void put_bytes(std::vector<std::byte>& bytes, const void* first, std::size_t count) {
-  const std::size_t end = bytes.size();
-  bytes.resize(end + count);
-  if (count > 0) std::memcpy(bytes.data() + end, first, count);
-}
-
-/// Appends plain values to a checkpoint. Not for structs with padding: its bytes would be others
-/// every time.
-template <class T>
-void put(std::vector<std::byte>& bytes, const T& value) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  put_bytes(bytes, &value, sizeof(T));
-}
-
-template <int kRows, int kColumns>
-void put(std::vector<std::byte>& bytes, const Eigen::Matrix<double, kRows, kColumns>& matrix) {
-  for (const double coefficient : matrix.reshaped()) put(bytes, coefficient);
-}
-
-template <class T>
-void put(std::vector<std::byte>& bytes, const std::optional<T>& value) {
-  put(bytes, value.has_value());
-  put(bytes, value.value_or(T{}));
-}
-
-template <class T>
-void put_all(std::vector<std::byte>& bytes, const std::vector<T>& values) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  put(bytes, static_cast<std::uint64_t>(values.size()));
-  put_bytes(bytes, values.data(), values.size() * sizeof(T));
-}
-
-/// Reads them back; once it has run past the end, every further value is left as it was and ok() is
-/// false.
-class ByteReader {
- public:
-  explicit ByteReader(std::span<const std::byte> bytes)
-      : at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
-
-  bool ok() const { return ok_; }
-  bool at_end() const { return at_ == end_; }
-
-  template <class T>
-  void get(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    if (!has(sizeof(T))) return;
-    std::memcpy(&value, at_, sizeof(T));
-    at_ += sizeof(T);
-  }
-
-  /// Any byte but 0 is true: a bool made of other bytes would be undefined.
-  void get(bool& value) {
-    std::uint8_t byte = value ? 1 : 0;
-    get(byte);
-    value = byte != 0;
-  }
-
-  template <int kRows, int kColumns>
-  void get(Eigen::Matrix<double, kRows, kColumns>& matrix) {
-    for (double& coefficient : matrix.reshaped()) get(coefficient);
-  }
-
-  template <class T>
-  void get(std::optional<T>& value) {
-    bool has_value = value.has_value();
-    T read = value.value_or(T{});
-    get(has_value);
-    get(read);
-    value = has_value ? std::optional(read) : std::nullopt;
-  }
-
-  template <class T>
-  void get_all(std::vector<T>& values) {
-    std::uint64_t count = 0;
-    get(count);
-    if (!ok_ || count > static_cast<std::uint64_t>(end_ - at_) / sizeof(T)) {
-      ok_ = false;
-      return;
-    }
-    values.resize(count);
-    if (count > 0) std::memcpy(values.data(), at_, count * sizeof(T));
-    at_ += count * sizeof(T);
-  }
-
- private:
-  bool has(std::size_t size) {
-    ok_ = ok_ && static_cast<std::size_t>(end_ - at_) >= size;
-    return ok_;
-  }
-
-  const std::byte* at_;
-  const std::byte* end_;
-  bool ok_ = true;
-};
+using memory::ByteReader;
+using memory::checksum;
+using memory::put;
+using memory::put_all;
+using memory::put_bytes;
+using memory::unsealed;
 
 /// Whether a pose that was read can be worked with: finite, and near enough that cells of any size
 /// can be counted.
@@ -131,28 +36,6 @@ bool is_believable(const Eigen::Matrix<double, size, size>& covariance) {
     }
   }
   return true;
-}
-
-/// Checksum of bytes, eight at a time: FNV-1a over 64-bit words, Fowler, Noll and Vo 1991. Against
-/// damage, not against malice.
-inline std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325U;
-  for (std::size_t done = 0; done < bytes.size(); done += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + done, std::min(sizeof word, bytes.size() - done));
-    sum = (sum ^ word) * 0x100000001b3U;
-  }
-  return sum;
-}
-
-/// What stands before the checksum that ends the bytes; none when it does not fit.
-inline std::optional<std::span<const std::byte>> unsealed(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0;
-  if (bytes.size() < sizeof sum) return std::nullopt;
-  const auto content = bytes.first(bytes.size() - sizeof sum);
-  std::memcpy(&sum, bytes.data() + content.size(), sizeof sum);
-  if (sum != checksum(content)) return std::nullopt;
-  return content;
 }
 
 }  // namespace slammot::localization

@@ -27,6 +27,11 @@ class Associator {
   void associate(std::vector<Track>& tracks, const ComparedScan& context,
                  Associations& associations);
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) { visit(self.competing_tracks_); }
+  /// False for a state that no scans lead to.
+  bool is_sound() const { return competing_tracks_.is_sound(); }
+
  private:
   void assign_whole_segments(std::vector<Track>& tracks, const ComparedScan& context,
                              Associations& associations);

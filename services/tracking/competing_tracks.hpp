@@ -41,6 +41,11 @@ class CompetingTracks {
   /// True if the track competes.
   bool has(const Track& track) const { return hypotheses_.has(track.track_id.value); }
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) { visit(self.hypotheses_); }
+  /// False for a state that no scans lead to.
+  bool is_sound() const { return hypotheses_.is_sound(); }
+
  private:
   void synchronise(const std::vector<Track>& tracks);
 

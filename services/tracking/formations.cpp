@@ -113,6 +113,22 @@ void Formations::step(Formation& formation, std::vector<Track>& tracks, double t
   }
 }
 
+bool Formations::is_sound_with(const std::vector<Track>& tracks) const {
+  const auto is_known = [&](TrackId id) {
+    return std::ranges::find(tracks, id, &Track::track_id) != tracks.end();
+  };
+  const auto is_sound = [](const Formation& formation) {
+    const auto numbers = static_cast<Eigen::Index>(6 * formation.members.size());
+    const filters::FormationState& state = formation.state;
+    return state.mean.size() == numbers && state.covariance.rows() == numbers &&
+           state.covariance.cols() == numbers;
+  };
+  return std::ranges::all_of(formations_, is_sound) &&
+         std::ranges::all_of(alike_s_, [&](const auto& alike) {
+           return is_known(alike.first.first) && is_known(alike.first.second);
+         });
+}
+
 void Formations::follow(std::vector<Track>& tracks, double time_s) {
   note_pairs(tracks, time_s);
   std::vector<Formation> now;

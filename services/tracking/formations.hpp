@@ -20,10 +20,18 @@ class Formations {
   /// moves the members not observed in it.
   void follow(std::vector<Track>& tracks, double time_s);
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) { visit(self.alike_s_, self.formations_); }
+  /// False for a state that does not go with these tracks.
+  bool is_sound_with(const std::vector<Track>& tracks) const;
+
  private:
   struct Formation {
     std::vector<flow::TrackId> members;  ///< Ascending; in the order of the state's members.
     filters::FormationState state;
+    static void visit_state(auto& self, auto& visit) {
+      visit(self.members, self.state.mean, self.state.covariance);
+    }
   };
   using Pair = std::pair<flow::TrackId, flow::TrackId>;
 

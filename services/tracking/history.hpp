@@ -37,6 +37,9 @@ class ObservationHistory {
   /// 0: the oldest.
   const StoredObservation& operator[](std::size_t i) const { return stored_[i]; }
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) { visit(self.stored_); }
+
  private:
   memory::RecyclingQueue<StoredObservation> stored_;
 };

@@ -74,6 +74,14 @@ class PolarView {
   /// scan: steps_towards() rounded, mostly without its arctangent.
   long beam_towards(const Eigen::Vector2d& way) const;
 
+  /// Lists all but the depths, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) {
+    visit(self.points_in_odom_m_, self.range_m_, self.laser_in_odom_m_,
+          self.first_beam_in_odom_rad_, self.beam_step_rad_, self.beams_per_rad_, self.sweep_s_,
+          self.half_view_rad_, self.middle_of_view_rad_, self.is_clockwise_, self.goes_all_round_);
+  }
+  bool is_sound() const { return points_in_odom_m_.size() == range_m_.size(); }
+
  private:
   /// For each beam the interval of distances from the laser in which it and its neighbours met
   /// something; nearest > farthest where they met nothing. Empty where not measured.

@@ -29,6 +29,11 @@ class LocalRoadUsers {
   /// Updates what is known if a track has ended since the last call.
   void refresh();
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) {
+    visit(self.seen_, *self.known_, self.is_outdated_);
+  }
+
  private:
   RoadUsersSeen seen_;
   std::unique_ptr<RoadUsers> known_ = std::make_unique<RoadUsers>(seen_.known());

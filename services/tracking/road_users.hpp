@@ -79,6 +79,11 @@ class RoadUsersSeen {
   /// The priors so far; those anywhere if nothing was added.
   RoadUsers known() const;
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) {
+    visit(self.sizes_, self.corner_, self.off_sides_share_, self.swing_share_);
+  }
+
  private:
   /// Sizes of several road users, each with a measurement error.
   struct Sample {
@@ -90,10 +95,14 @@ class RoadUsersSeen {
     void add(const Size& seen);
     double degrees() const { return count > 1.0 ? count - 1.0 : 0.0; }
     double true_squares_m2() const;  ///< Without the errors.
+    static void visit_state(auto& self, auto& visit) {
+      visit(self.count, self.mean_m, self.squares_m2, self.error_m2);
+    }
   };
   struct Sizes {
     Sample length;
     Sample width;
+    static void visit_state(auto& self, auto& visit) { visit(self.length, self.width); }
   };
 
   static std::size_t index(Kind kind) { return static_cast<std::size_t>(kind); }

@@ -35,6 +35,17 @@ void ScanHistory::add(std::int64_t stamp_ns, const PolarView& view, std::span<co
   scan.owners.assign(owners.begin(), owners.end());
 }
 
+bool ScanHistory::is_sound() const {
+  for (const EarlierScan& scan : scans_.all()) {
+    if (!scan.view.is_sound() || scan.owners.size() != scan.view.beam_count()) return false;
+  }
+  return true;
+}
+
+void ScanHistory::measure_depths() {
+  for (EarlierScan& scan : scans_.all()) scan.view.measure_depths();
+}
+
 void ScanHistory::confirm(flow::TrackId track_id) {
   for (EarlierScan& scan : scans_.all())
     for (Owner& owner : scan.owners)

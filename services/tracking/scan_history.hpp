@@ -72,6 +72,13 @@ class ScanHistory {
 
   void clear() { scans_.clear(); }
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) { visit(self.scans_); }
+  /// False for a state that no scans lead to.
+  bool is_sound() const;
+  /// Completes a sound state that was loaded.
+  void measure_depths();
+
  private:
   memory::RecyclingQueue<EarlierScan> scans_;
 };

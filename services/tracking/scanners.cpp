@@ -25,6 +25,14 @@ double Scanners::begin(const flow::SegmentedScan& scan) {
   return time_s;
 }
 
+bool Scanners::is_sound() const {
+  const auto is_scanner = [this](std::size_t index) { return index < scanners_.size(); };
+  return (scanners_.empty() || is_scanner(current_)) &&
+         std::ranges::all_of(scanners_at_last_stamp_, is_scanner) &&
+         std::ranges::all_of(scanners_,
+                             [](const Scanner& scanner) { return scanner.history.is_sound(); });
+}
+
 void Scanners::reset(std::int64_t stamp_ns) {
   scanners_.clear();
   scanners_at_last_stamp_.clear();

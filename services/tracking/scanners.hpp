@@ -38,6 +38,14 @@ class Scanners {
   std::vector<Scanner>& all() { return scanners_; }
   std::int64_t last_stamp_ns() const { return last_stamp_ns_; }
 
+  /// Lists what lasts from scan to scan, to save and load it (memory::StateVisitor).
+  static void visit_state(auto& self, auto& visit) {
+    visit(self.scanners_, self.current_, self.scanners_at_last_stamp_, self.last_stamp_ns_,
+          self.has_scan_);
+  }
+  /// False for a state that no scans lead to.
+  bool is_sound() const;
+
  private:
   std::vector<Scanner> scanners_;
   std::size_t current_ = 0;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +44,17 @@ class Tracker final : public stages::TrackingStage {
   /// state is lost.
   void resume(const flow::TrackedObjects& objects);
 
+  /// Appends the complete state: a tracker that restores it gives the same results from then on.
+  void save(std::vector<std::byte>& bytes) const;
+  /// False, and nothing changes, for bytes that no tracker of this version saved.
+  bool restore(std::span<const std::byte> bytes);
+  static void visit_state(auto& self, auto& visit);
+  /// Leaves out ids that tracks begun after the restored state may have.
+  void begin_ids_at(std::uint32_t next_id) { next_id_ = std::max(next_id_, next_id); }
+  std::uint32_t next_id() const { return next_id_; }
+
+  std::int64_t last_stamp_ns() const { return scanners_.last_stamp_ns(); }
+
   const TrackerCounters& counters() const { return counters_; }
   std::map<std::string, std::uint64_t> named_counters() const override { return named(counters_); }
 
@@ -50,6 +64,9 @@ class Tracker final : public stages::TrackingStage {
     Associator associator;
     Formations formations;
     LocalRoadUsers road_users;
+    static void visit_state(auto& self, auto& visit) {
+      visit(self.associator, self.formations, self.road_users);
+    }
   };
   /// What is computed anew in each scan.
   struct CurrentScan {
@@ -59,6 +76,7 @@ class Tracker final : public stages::TrackingStage {
     std::vector<Owner> owners;
   };
 
+  bool is_sound() const;
   void begin_result(const flow::SegmentedScan& scan);
   void coast(double time_s);
   void compare(const ScanContext& context);

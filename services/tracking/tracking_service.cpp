@@ -1,5 +1,9 @@
 #include "services/tracking/tracking_service.hpp"
 
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
 #include <spdlog/spdlog.h>
 
 #include "common/wire/segmented_scan.hpp"
@@ -10,16 +14,30 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How long the first scans wait for the tracks of a process before this one.
+/// How long the first scans wait for tracks that map_store keeps, where there is no journal.
 constexpr auto kStoredTracksPatience = 1s;
 constexpr std::size_t kMostEarlyScans = 100;
 /// Tracks older than this, by the data's clock, are of objects that are elsewhere by now.
 constexpr std::int64_t kLongestAbsenceNs = 5'000'000'000;
+/// Of the journal, by the data's clock: a track is predicted over it without harm.
+constexpr std::int64_t kSavePeriodNs = 250'000'000;
+/// More than are begun in a save period and while a state is written.
+constexpr std::uint32_t kIdsOfUnsavedScans = 1000;
 
 /// What the positions of objects are said in.
 template <typename Sample>
-std::pair<flow::MapId, flow::OdomId> drive_of(const Sample& sample) {
+DriveFrame frame_of(const Sample& sample) {
   return {sample.map_id, sample.odom_id};
+}
+
+/// A scan that is sent again may be a little older.
+bool is_near(std::int64_t stamp_ns, std::int64_t saved_ns) {
+  return std::abs(stamp_ns - saved_ns) <= kLongestAbsenceNs;
+}
+
+std::filesystem::path journal_path(const app::ServiceOptions& options) {
+  return options.state_dir /
+         ("tracking-" + options.vehicle_id + "-" + options.instance + ".journal");
 }
 
 }  // namespace
@@ -33,7 +51,9 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
       config_(settings.config),
       tracker_(settings.config),
       objects_(context.write(dds::topics::kTrackedObjects)),
-      labels_(context.write(dds::topics::kScanLabels)) {
+      labels_(context.write(dds::topics::kScanLabels)),
+      journal_{app::StateFile(journal_path(context.options())), std::nullopt, false} {
+  take_up_journal();
   context.read(dds::topics::kStoredTrackedObjects, app::Input::kOccasional,
                [this](const auto& sample) { take_stored(sample); });
   context.read(dds::topics::kSegmentedScan, app::Input::kSteady,
@@ -69,36 +89,89 @@ void TrackingService::begin() {
   early_.clear();
 }
 
+/// Of the process before. Whether the drive goes on is seen at the first scan.
+void TrackingService::take_up_journal() {
+  const auto saved = journal_.file.read();
+  if (!saved) return;
+  session_ = restore(saved->bytes, tracker_);
+  if (!session_) return spdlog::warn("the journal is of another version: it is not used");
+  journal_.saved_ns = saved->stamp_ns;
+  journal_.is_unproven = true;
+  waits_for_stored_tracks_ = false;
+}
+
+/// Scans between the last saved state and this one may have begun tracks.
+void TrackingService::prove_journal(const flow::SegmentedScan& first) {
+  journal_.is_unproven = false;
+  if (frame_of(first) != session_->frame) return begin_drive(first);
+  const std::uint32_t next_id = tracker_.next_id() + kIdsOfUnsavedScans;
+  const bool goes_on = is_near(first.stamp_ns, *journal_.saved_ns);
+  if (!goes_on) begin_drive(first);
+  tracker_.begin_ids_at(next_id);
+  if (!goes_on) return;
+  ++context_.status().counter("taken_up");
+  spdlog::info("goes on from a journal {:.2f} s before this scan",
+               static_cast<double>(first.stamp_ns - *journal_.saved_ns) * 1e-9);
+}
+
 /// Nothing of another drive is known here, if its numbers, its stamps and its map are the same or
 /// not.
 void TrackingService::begin_drive(const flow::SegmentedScan& first) {
   tracker_ = Tracker(config_);
-  last_results_.clear();
-  drive_ = drive_of(first);
-  if (stored_ && drive_of(*stored_) == drive_) resume(first.stamp_ns);
+  session_ = Session{frame_of(first), {}};
+  journal_.saved_ns.reset();
+  if (stored_ && frame_of(*stored_) == session_->frame) take_up_stored(first);
   stored_.reset();
 }
 
-void TrackingService::resume(std::int64_t stamp_ns) {
-  const std::int64_t absence_ns = stamp_ns - stored_->stamp_ns;
-  if (absence_ns < 0 || absence_ns > kLongestAbsenceNs) return;
+void TrackingService::take_up_stored(const flow::SegmentedScan& first) {
+  if (!is_near(first.stamp_ns, stored_->stamp_ns)) return;
   tracker_.resume(*stored_);
   ++context_.status().counter("taken_up");
-  spdlog::info("takes up {} tracks", stored_->objects.size());
+  spdlog::info("takes up {} stored tracks", stored_->objects.size());
 }
 
 void TrackingService::track(const flow::SegmentedScan& scan) {
-  if (drive_ != drive_of(scan)) begin_drive(scan);
-  const auto last = last_results_.find(scan.scanner_id);
-  if (last != last_results_.end() && scan.stamp_ns <= last->second.labels.stamp_ns) {
+  if (journal_.is_unproven) prove_journal(scan);
+  if (!session_ || session_->frame != frame_of(scan)) begin_drive(scan);
+  const auto last = session_->last_results.find(scan.scanner_id);
+  if (last != session_->last_results.end() && scan.stamp_ns <= last->second.labels.stamp_ns) {
     // Sent again because somebody missed the answer.
     ++context_.status().counter("repeated_scans");
     return publish(last->second);
   }
-  const app::Stopwatch stopwatch(context_.status().latency("track"));
-  TrackingResult& result = last_results_[scan.scanner_id];
-  result = tracker_.step(scan);
-  publish(result);
+  {
+    const app::Stopwatch stopwatch(context_.status().latency("track"));
+    TrackingResult& result = session_->last_results[scan.scanner_id];
+    result = tracker_.step(scan);
+    publish(result);
+  }
+  save_if_due(scan.stamp_ns);
+}
+
+/// After the answer to the scan, so that nobody waits for it.
+void TrackingService::save_if_due(std::int64_t stamp_ns) {
+  const bool is_due = !journal_.saved_ns || stamp_ns - *journal_.saved_ns >= kSavePeriodNs;
+  if (!is_due || journal_.file.is_busy()) return;
+  const app::Stopwatch stopwatch(context_.status().latency("journal"));
+  const std::string fault = journal_.file.fault();
+  if (fault.empty()) {
+    context_.status().clear_trouble("journal");
+  } else {
+    context_.warn("failed_journals", fault);
+    context_.status().set_trouble("journal", "no journal: " + fault);
+  }
+  save(stamp_ns);
+}
+
+void TrackingService::save(std::int64_t stamp_ns) {
+  journal_.file.save({stamp_ns, to_bytes(*session_, tracker_)});
+  journal_.saved_ns = stamp_ns;
+}
+
+TrackingService::~TrackingService() {
+  if (session_ && !journal_.is_unproven && tracker_.last_stamp_ns() != journal_.saved_ns)
+    save(tracker_.last_stamp_ns());
 }
 
 /// Objects first: localization must know them when the labels let the next scan come.

@@ -2,21 +2,19 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "common/app/run_service.hpp"
+#include "common/app/state_file.hpp"
 #include "common/wire/scan_labels.hpp"
 #include "common/wire/tracked_objects.hpp"
-#include "services/tracking/tracker.hpp"
+#include "services/tracking/tracking_journal.hpp"
 
 namespace slammot::tracking {
 
-/// Follows moving objects from segmented scan to segmented scan, and takes up its last tracks when
-/// it starts again.
+/// Follows moving objects from segmented scan to segmented scan. Keeps a journal of its state, from
+/// which the next process goes on.
 class TrackingService {
  public:
   struct Settings {
@@ -26,18 +24,34 @@ class TrackingService {
   static constexpr const char* kPurpose =
       "Follows moving objects, and tells what each point of a scan is.";
   static constexpr bool kIsOnePerVehicle = true;
+  static constexpr bool kKeepsState = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
   TrackingService(app::ServiceContext& context, const Settings& settings);
+  /// Leaves the newest state in the journal.
+  ~TrackingService();
+  TrackingService(const TrackingService&) = delete;
+  TrackingService& operator=(const TrackingService&) = delete;
 
  private:
+  /// The file of the state, and how it is known.
+  struct Journal {
+    app::StateFile file;
+    std::optional<std::int64_t> saved_ns;  ///< Stamp of the last saved state.
+    bool is_unproven = false;  ///< The state was restored, and no scan has followed it yet.
+  };
+
   void take(const slammot_SegmentedScan& sample);
   void take_stored(const slammot_TrackedObjects& sample);
   void begin();
   void begin_drive(const flow::SegmentedScan& first);
-  void resume(std::int64_t stamp_ns);
+  void take_up_journal();
+  void take_up_stored(const flow::SegmentedScan& first);
+  void prove_journal(const flow::SegmentedScan& first);
   void track(const flow::SegmentedScan& scan);
+  void save(std::int64_t stamp_ns);
+  void save_if_due(std::int64_t stamp_ns);
   void publish(const TrackingResult& result);
 
   app::ServiceContext& context_;
@@ -47,11 +61,11 @@ class TrackingService {
   dds::Writer<slammot_ScanLabels>& labels_;
   wire::TrackedObjectsEncoder objects_encoder_;
   wire::ScanLabelsEncoder labels_encoder_;
+  Journal journal_;
+  std::optional<Session> session_;  ///< None before the first scan.
   bool waits_for_stored_tracks_ = true;
-  std::optional<std::pair<flow::MapId, flow::OdomId>> drive_;  ///< None before the first scan.
   std::optional<flow::TrackedObjects> stored_;
-  std::deque<flow::SegmentedScan> early_;               ///< Came while waiting for stored tracks.
-  std::map<std::string, TrackingResult> last_results_;  ///< By scanner.
+  std::deque<flow::SegmentedScan> early_;  ///< Came while waiting for stored tracks.
 };
 
 }  // namespace slammot::tracking

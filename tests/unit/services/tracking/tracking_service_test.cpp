@@ -1,5 +1,7 @@
 #include "services/tracking/tracking_service.hpp"
 
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,6 +57,7 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
   flow::OdomId odom_id{1};
   std::vector<flow::TrackedObjects> published;
   std::vector<std::uint32_t> labelled;
+  bool is_blank = false;  ///< Scans have no beams: tracks are predicted, and stay.
 
   void begin() {
     start<TrackingService>("tracking");
@@ -66,7 +69,28 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
     flow::SegmentedScan scan = empty_scan(sequence);
     scan.map_id = map_id;
     scan.odom_id = odom_id;
+    if (is_blank) scan.points_in_base_m.clear(), scan.range_m.clear(), scan.labels.clear();
     scans.write(wire::SegmentedScanEncoder().encode("car", scan));
+  }
+  std::filesystem::path journal() const { return folder_ / "tracking-car-main.journal"; }
+  /// Tracks a car with id 17, without a journal, and leaves the process's journal as it was once
+  /// saved: as a kill does.
+  void track_a_car_until_killed() {
+    stored.write(wire::TrackedObjectsEncoder().encode("car", one_car(kScanNs - 100'000'000)));
+    is_blank = true;
+    begin();
+    for (std::uint32_t sequence = 0; sequence < 8; ++sequence) {
+      send(sequence);
+      ASSERT_TRUE(comes_to([&] { return has_labelled(sequence + 1); }));
+    }
+    ASSERT_TRUE(comes_to([this] { return exists(journal()); }));
+    const std::filesystem::path kept = folder_ / "kept";
+    copy_file(journal(), kept);
+    stop();
+    rename(kept, journal());
+    stored.write(wire::TrackedObjectsEncoder().encode("car", {}));
+    published.clear();
+    labelled.clear();
   }
   bool has_labelled(std::size_t count) {
     objects.take_each([this](const auto& sample) { published.push_back(*wire::decode(sample)); });
@@ -100,6 +124,61 @@ TEST_F(TrackingOnTheBus, TakesUpTheTracksOfTheProcessBefore) {
   EXPECT_EQ(published.front().objects.front().track_id, flow::TrackId{17});
   EXPECT_NEAR(published.front().objects.front().position_in_odom_m.x(), 20.8, 0.3)
       << "predicted over the gap";
+}
+
+TEST_F(TrackingOnTheBus, GoesOnFromItsJournalAfterAKill) {
+  track_a_car_until_killed();
+  begin();
+  send(8);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
+  ASSERT_EQ(published.front().objects.size(), 1U);
+  EXPECT_EQ(published.front().objects.front().track_id, flow::TrackId{17});
+  EXPECT_EQ(context_->status().counter("taken_up"), 1U);
+}
+
+TEST_F(TrackingOnTheBus, GoesOnWithTheVeryLastScanAfterAStop) {
+  track_a_car_until_killed();
+  begin();
+  send(9);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
+  stop();
+  begin();
+  send(9);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(2); }));
+  EXPECT_EQ(context_->status().counter("repeated_scans"), 1U) << "the answer was kept, too";
+  ASSERT_EQ(published.front().objects.size(), 1U);
+  ASSERT_EQ(published.back().objects.size(), 1U);
+  EXPECT_EQ(published.front().objects.front().position_in_odom_m,
+            published.back().objects.front().position_in_odom_m);
+}
+
+TEST_F(TrackingOnTheBus, LeavesTheJournalOfAnotherDriveAlone) {
+  track_a_car_until_killed();
+  odom_id = {2};
+  begin();
+  send(8);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
+  EXPECT_THAT(published.front().objects, ::testing::IsEmpty());
+}
+
+TEST_F(TrackingOnTheBus, BeginsAnewWhereTheJournalIsDamaged) {
+  track_a_car_until_killed();
+  resize_file(journal(), file_size(journal()) / 2);
+  begin();
+  send(8);
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
+  EXPECT_THAT(published.front().objects, ::testing::IsEmpty());
+}
+
+TEST_F(TrackingOnTheBus, SaysThatItCannotWriteItsJournal) {
+  create_directories(journal());
+  begin();
+  std::uint32_t sequence = 0;
+  EXPECT_TRUE(comes_to([&] {
+    send(sequence++);
+    return context_->status().explanation(std::chrono::steady_clock::now()).find("no journal") !=
+           std::string::npos;
+  }));
 }
 
 TEST_F(TrackingOnTheBus, LeavesTracksOfAnotherDriveAlone) {
