@@ -1,8 +1,12 @@
 #include "common/app/state_file.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include <zlib.h>
 
@@ -58,10 +62,10 @@ bool StateFile::is_busy() const {
   return next_.has_value() || is_writing_;
 }
 
-void StateFile::save(SavedState state) {
+void StateFile::save(std::int64_t stamp_ns, MakeBytes make_bytes) {
   {
     const std::scoped_lock lock(mutex_);
-    next_ = std::move(state);
+    next_ = {stamp_ns, std::move(make_bytes)};
   }
   changed_.notify_all();
 }
@@ -72,15 +76,17 @@ std::string StateFile::fault() const {
 }
 
 void StateFile::write_states() {
+  constexpr int kGivesWay = 10;
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kGivesWay);
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return next_ || is_closing_; });
     if (!next_) return;
-    const SavedState state = std::move(*next_);
-    next_.reset();
+    NextState next = *std::exchange(next_, std::nullopt);
     is_writing_ = true;
     lock.unlock();
-    std::string fault = write(state);
+    std::string fault = write({next.stamp_ns, next.make_bytes()});
+    next = {};
     lock.lock();
     is_writing_ = false;
     fault_ = std::move(fault);

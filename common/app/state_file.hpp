@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -19,7 +20,7 @@ struct SavedState {
 };
 
 /// A file that always holds a complete state, the last one or the one before: a thread writes it
-/// under another name and renames it.
+/// under another name and renames it. The thread gives way to those that process data.
 class StateFile {
  public:
   explicit StateFile(std::filesystem::path path);
@@ -33,19 +34,26 @@ class StateFile {
 
   /// True while a state is being written: another save would be in vain.
   bool is_busy() const;
-  /// Returns at once. Of states saved during a write only the last one is kept.
-  void save(SavedState state);
+  /// Returns at once; the file's thread makes the bytes. Of states saved during a write only the
+  /// last one is kept.
+  using MakeBytes = std::function<std::vector<std::byte>()>;
+  void save(std::int64_t stamp_ns, MakeBytes make_bytes);
   /// Error of the last write; empty if it succeeded.
   std::string fault() const;
 
  private:
+  struct NextState {
+    std::int64_t stamp_ns = 0;
+    MakeBytes make_bytes;
+  };
+
   void write_states();
   std::string write(const SavedState& state) const;
 
   std::filesystem::path path_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<SavedState> next_;
+  std::optional<NextState> next_;
   bool is_writing_ = false;
   bool is_closing_ = false;
   std::string fault_;

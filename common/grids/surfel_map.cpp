@@ -272,6 +272,15 @@ std::vector<SurfelView> SurfelMap::all() const {
   return surfels;
 }
 
+std::vector<SurfelMoments> SurfelMap::all_moments(std::vector<SurfelMoments> memory) const {
+  memory.clear();
+  for (std::size_t place = 0; place < moments_.size(); ++place) {
+    if (!is_empty(static_cast<std::int32_t>(place)))
+      memory.push_back({cells_[place], moments_[place]});
+  }
+  return memory;
+}
+
 SurfelMap SurfelMap::moved_to(const GridWindow& window) const {
   assert(window.cell_size_m == window_.cell_size_m);
   SurfelMap moved(window, weight_limit_);

@@ -35,6 +35,12 @@ struct CellMoments {
   float first_seen_at_m = 0.0F, last_seen_at_m = 0.0F;  ///< Vehicle's odometer.
 };
 
+/// Moments of one cell of a map.
+struct SurfelMoments {
+  Cell cell;
+  CellMoments moments;
+};
+
 /// Moments of stationary echoes by cell: subcell accuracy for matching in constant memory. Normals
 /// come from the 3 x 3 neighbourhood, as in the normal distributions transform (Biber and Strasser
 /// 2003), with shared moments so that they are continuous across cell borders.
@@ -139,6 +145,8 @@ class SurfelMap {
 
   /// For checkpoints: null if the cell has no echo.
   const CellMoments* moments_at(Cell cell) const;
+  /// Of every surfel, ordered by first sighting. memory: any earlier result.
+  std::vector<SurfelMoments> all_moments(std::vector<SurfelMoments> memory = {}) const;
   void set_moments(Cell cell, const CellMoments& moments);
 
  private:

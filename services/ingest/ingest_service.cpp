@@ -17,6 +17,9 @@ using std::chrono::steady_clock;
 /// Time at the end for readers that have not received the last scan.
 constexpr std::chrono::seconds kAcknowledgementTime{1};
 
+/// Of each scanner, at a given speed: as many localized scans as a reader keeps.
+constexpr std::size_t kMostInFlight = 4;
+
 std::chrono::nanoseconds nanoseconds_of(double seconds) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
 }
@@ -80,6 +83,7 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
       drive_(mark_path(context.options()), describe(settings.input, source_.log().plan().figures),
              new_drive_id()),
       pace_(parse_pace(settings.speed)),
+      backlog_({.most_in_flight = kMostInFlight * scanner_ids_.size()}),
       window_(
           {static_cast<std::size_t>(config_.window_scans), nanoseconds_of(config_.resend_after_s)}),
       graph_(nanoseconds_of(config_.graph_patience_s)),
@@ -98,6 +102,7 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
   context.read(dds::topics::kScanLabels, app::Input::kOccasional,
                [this](const auto& labels) { take_labels(labels); });
   if (pace_.is_unlimited()) watch_graph();
+  context.on_command("set_speed", [this](std::string_view speed) { return set_speed(speed); });
   context.every(std::chrono::milliseconds(50),
                 [this] { has_begun_ ? check_progress() : wait_for_services(); });
 }
@@ -131,17 +136,37 @@ void IngestService::begin() {
 
 void IngestService::proceed() { pace_.is_unlimited() ? proceed_at_max_speed() : proceed_at_pace(); }
 
+/// Takes what is due, but not so much at once that answers would have to wait.
 void IngestService::proceed_at_pace() {
-  while (fetch()) {
+  constexpr int kMostInATurn = 16;
+  auto wait = steady_clock::duration::zero();
+  for (int i = 0; i < kMostInATurn && fetch(); ++i) {
     const auto now = steady_clock::now();
-    const auto due = fetched_->scan ? pace_.due(fetched_->scan->stamp_ns, now) : now;
-    if (due > now) {
-      context_.after(due - now, [this] { proceed_at_pace(); });
-      return;
-    }
-    send_fetched();
+    if (fetched_->scan) wait = pace_.due(fetched_->scan->stamp_ns, now) - now;
+    if (wait > wait.zero()) break;
+    backlog_.add(*std::exchange(fetched_, std::nullopt), now);
   }
-  finish();
+  send_backlog();
+  if (has_finished_ || !fetch() || std::exchange(is_timer_set_, true)) return;
+  context_.after(std::max(wait, wait.zero()), [this] {
+    is_timer_set_ = false;
+    proceed_at_pace();
+  });
+}
+
+void IngestService::send_backlog() {
+  const auto now = steady_clock::now();
+  context_.status().counter("dropped_scans") += backlog_.drop_late(now);
+  while (backlog_.may_send(now)) send_once(backlog_.take());
+  if (backlog_.empty() && !fetch()) finish();
+}
+
+app::CommandResult IngestService::set_speed(std::string_view speed) {
+  const auto pace = app::Pace::parse(std::string(speed));
+  if (!pace || pace->is_unlimited() || pace_.is_unlimited())
+    return {app::CommandOutcome::kRefused, "only from one multiple of the recorded speed to another"};
+  pace_ = *pace;
+  return {app::CommandOutcome::kDone, std::string(speed)};
 }
 
 void IngestService::proceed_at_max_speed() {
@@ -152,7 +177,7 @@ void IngestService::proceed_at_max_speed() {
       window_.sent(fetched_->scan->stamp_ns, steady_clock::now());
       in_flight_.push_back(*fetched_);
     }
-    send_fetched();
+    send_once(*std::exchange(fetched_, std::nullopt));
   }
   if (window_.is_empty()) finish();
 }
@@ -182,13 +207,11 @@ bool IngestService::fetch() {
   return true;
 }
 
-void IngestService::send_fetched() {
-  send(*fetched_);
-  if (fetched_->scan) {
-    ++context_.status().counter("scans");
-    has_sent_scan_ = true;
-  }
-  fetched_.reset();
+void IngestService::send_once(const Step& step) {
+  send(step);
+  if (!step.scan) return;
+  ++context_.status().counter("scans");
+  has_sent_scan_ = true;
 }
 
 void IngestService::send(const Step& step) {
@@ -210,19 +233,22 @@ void IngestService::take_labels(const slammot_ScanLabels& labels) {
     acknowledged_scanners_.clear();
   }
   if (labels.stamp_ns == *acknowledged_ns_) acknowledged_scanners_.insert(scanner_id);
+  backlog_.answered(labels.stamp_ns, steady_clock::now());
   const std::size_t done = window_.acknowledge(labels.stamp_ns, steady_clock::now());
   in_flight_.erase(in_flight_.begin(), in_flight_.begin() + static_cast<std::ptrdiff_t>(done));
   if (!has_begun_ || has_finished_) return;
   if (pace_.is_unlimited()) {
     if (done > 0) proceed_at_max_speed();
-  } else if (is_ahead) {
-    pace_.restart();  // the pending timer sends the next scan
+    return;
   }
+  if (is_ahead) pace_.restart();  // the pending timer sends the next scan
+  send_backlog();
 }
 
 void IngestService::check_progress() {
   const auto now = steady_clock::now();
-  if (has_finished_ || !pace_.is_unlimited()) return;
+  if (has_finished_) return;
+  if (!pace_.is_unlimited()) return send_backlog();
   if (window_.has_room()) proceed_at_max_speed();  // the wait for the graph may have timed out
   if (has_finished_ || !window_.is_overdue(now)) return;
   const std::size_t given_up = window_.resend(now);

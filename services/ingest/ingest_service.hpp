@@ -12,6 +12,7 @@
 #include "common/app/readiness.hpp"
 #include "common/app/run_service.hpp"
 #include "common/wire/sensor.hpp"
+#include "services/ingest/backlog.hpp"
 #include "services/ingest/drive_mark.hpp"
 #include "services/ingest/graph_watch.hpp"
 #include "services/ingest/ingest_config.hpp"
@@ -47,12 +48,14 @@ class IngestService {
   void begin();
   void proceed();
   void proceed_at_pace();
+  void send_backlog();
+  app::CommandResult set_speed(std::string_view speed);
   void proceed_at_max_speed();
   void take_labels(const slammot_ScanLabels& labels);
   void watch_graph();
   bool fetch();
   bool is_acknowledged(const sensing::LaserScan& scan) const;
-  void send_fetched();
+  void send_once(const Step& step);
   void send(const Step& step);
   void check_progress();
   void finish();
@@ -65,6 +68,7 @@ class IngestService {
   std::vector<std::string> scanner_ids_;
   DriveMark drive_;
   app::Pace pace_;
+  Backlog backlog_;
   ScanWindow window_;
   GraphWatch graph_;
   app::Readiness readiness_{{"localization", "detection", "tracking"}};
@@ -74,6 +78,7 @@ class IngestService {
   std::chrono::steady_clock::time_point give_up_waiting_at_;
   bool has_begun_ = false;
   bool has_finished_ = false;
+  bool is_timer_set_ = false;  ///< At a given speed: for the next step.
   bool has_sent_scan_ = false;
   std::optional<Step> fetched_;                  ///< Next step to send.
   std::deque<Step> in_flight_;                   ///< At speed max: sent, without labels.

@@ -237,7 +237,8 @@ std::optional<KeyframeOdometry::Keyframe> keyframe_of(ByteReader& from) {
 
 }  // namespace
 
-std::vector<std::byte> to_bytes(const Checkpoint& checkpoint, const LocalMap& map) {
+std::vector<std::byte> to_bytes(const LocalizerSnapshot& snapshot) {
+  const Checkpoint& checkpoint = snapshot.checkpoint;
   std::vector<std::byte> bytes;
   put(bytes, kMark);
   visit_parts(checkpoint, [&](const auto& part) { put(bytes, part); });
@@ -247,7 +248,7 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint, const LocalMap& ma
   put(bytes, checkpoint.keyframes.is_in_doubt);
   put(bytes, checkpoint.keyframes.rests);
   put(bytes, checkpoint.keyframes.way_ratio);
-  map.write(bytes);
+  snapshot.map.write(bytes);
   put(bytes, checksum(bytes));
   return bytes;
 }

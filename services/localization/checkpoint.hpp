@@ -31,8 +31,14 @@ struct Checkpoint {
   KeyframeOdometry::State keyframes;
 };
 
+/// A localizer as it was: a value, which another thread may write.
+struct LocalizerSnapshot {
+  Checkpoint checkpoint;
+  LocalMap::Snapshot map;
+};
+
 /// In a form of this build, with a checksum.
-std::vector<std::byte> to_bytes(const Checkpoint& checkpoint, const LocalMap& map);
+std::vector<std::byte> to_bytes(const LocalizerSnapshot& snapshot);
 
 struct RestoredCheckpoint {
   Checkpoint checkpoint;

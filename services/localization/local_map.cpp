@@ -45,9 +45,12 @@ LocalMap::LocalMap(const LocalMapConfig& config, const grids::GridWindow& window
       end_cell_tolerance_(end_cell_tolerance(config)),
       evidence_(grids::EvidenceGrid(window, config.evidence, config.lasting), help),
       surfels_(surfel_lattice, kSurfelWeightLimit),
-      inherited_{evidence().so_cells(), evidence().mo_cells(), evidence().lasting_cells(),
-                 surfels_},
+      inherited_(std::make_shared<const Inherited>(held())),
       odom_from_submap_(pose_of_window(window)) {}
+
+LocalMap::Inherited LocalMap::held() const {
+  return {evidence().so_cells(), evidence().mo_cells(), evidence().lasting_cells(), surfels_};
+}
 
 Vector2 LocalMap::window_centre_m() const { return odom_from_submap_.translation_m(); }
 
@@ -127,7 +130,7 @@ flow::Submap LocalMap::submap() const {
   const grids::EvidenceGrid& evidence = evidence_.grid();
   const grids::GridWindow& window = evidence.window();
   const grids::GridWindow bounds = bounds_of_seen(
-      window, {evidence.lasting_cells(), evidence.mo_cells()}, {inherited_.lasting, inherited_.mo});
+      window, {evidence.lasting_cells(), evidence.mo_cells()}, {inherited_->lasting, inherited_->mo});
   flow::Submap submap;
   submap.submap_id = submap_id_;
   submap.first_stamp_ns = progress_.first_stamp_ns;
@@ -158,9 +161,9 @@ void LocalMap::put_own_cells(const grids::GridWindow& bounds, flow::Submap& subm
   for (std::int32_t row = 0; row < bounds.rows; ++row) {
     const std::size_t from = evidence.window().index({bounds.first.column, bounds.first.row + row});
     const std::ptrdiff_t to = std::ptrdiff_t{row} * bounds.columns;
-    put_own_so(evidence.lasting_cells().data() + from, inherited_.lasting.data() + from,
+    put_own_so(evidence.lasting_cells().data() + from, inherited_->lasting.data() + from,
                bounds.columns, submap.so_log_odds.data() + to);
-    put_own_mo(evidence.mo_cells().data() + from, inherited_.mo.data() + from, bounds.columns,
+    put_own_mo(evidence.mo_cells().data() + from, inherited_->mo.data() + from, bounds.columns,
                submap.mo_evidence.data() + to);
   }
 }
@@ -168,7 +171,7 @@ void LocalMap::put_own_cells(const grids::GridWindow& bounds, flow::Submap& subm
 std::optional<flow::Surfel> LocalMap::own_surfel(const grids::SurfelView& surfel) const {
   if (surfel.own_echoes <= 0.0) return std::nullopt;
   const grids::CellMoments& all = *surfels_.moments_at(surfel.cell);
-  const grids::CellMoments* inherited = inherited_.surfels.moments_at(surfel.cell);
+  const grids::CellMoments* inherited = inherited_->surfels.moments_at(surfel.cell);
   Vector2 mean_m = surfel.mean_m;
   // A cell that was erased or became a running mean since can no longer be told apart.
   if (inherited != nullptr && std::abs(all.weight - inherited->weight - all.own_echoes) < 0.5F) {
@@ -187,10 +190,10 @@ void LocalMap::leave_behind_what_was_not_seen() {
   const int most_steps = std::min(
       127, grids::steps_of_log_odds(kInheritedShareOfLimit * config_.evidence.limit_log_odds));
   std::vector<std::int8_t> so = evidence().so_cells();
-  keep_changed(so.data(), inherited_.so.data(), so.size(), most_steps);
+  keep_changed(so.data(), inherited_->so.data(), so.size(), most_steps);
   std::vector<std::int8_t> lasting = evidence().lasting_cells();
   keep_changed_or_driven_over(
-      lasting.data(), inherited_.lasting.data(), lasting.size(),
+      lasting.data(), inherited_->lasting.data(), lasting.size(),
       grids::steps_of_log_odds(kInheritedShareOfLimit * config_.lasting.limit_log_odds));
   evidence_.grid().set_cells(std::move(so), evidence().mo_cells(), std::move(lasting));
   for (const grids::SurfelView& surfel : surfels_.all()) {
@@ -202,7 +205,7 @@ void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
   leave_behind_what_was_not_seen();
   evidence_.grid() = evidence().moved_to(evidence_window(config_, centre_in_odom_m));
   surfels_ = surfels_.moved_to(surfel_window(config_, centre_in_odom_m));
-  inherited_ = {evidence().so_cells(), evidence().mo_cells(), evidence().lasting_cells(), surfels_};
+  inherited_ = std::make_shared<const Inherited>(held());
   odom_from_submap_ = pose_of_window(evidence().window());
   ++submap_id_.value;
   progress_.scans = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,21 @@ struct LocalMapConfig {
 /// by the evidence that lasts in place of the SO-map's: docs/decisions/maps-and-submaps.md. Wang
 /// 2004, sections 3.4 and 6.3.
 class LocalMap {
+  struct Inherited;
+  /// Scans of the submap in progress.
+  struct Progress {
+    std::int64_t first_stamp_ns = 0;
+    std::int64_t last_stamp_ns = 0;
+    std::uint32_t scans = 0;
+  };
+  /// Way of the laser, in steps larger than jitter.
+  struct Odometer {
+    double way_m = 0.0;
+    std::optional<geometry::Vector2> counted_to_m;
+
+    void count(const geometry::Vector2& origin_m);
+  };
+
  public:
   LocalMap() = default;
   /// help, if any, takes over part of integrate(); it must outlive the map.
@@ -88,8 +104,30 @@ class LocalMap {
   /// that has seen nothing itself becomes it.
   void begin_astray(const geometry::Vector2& centre_in_odom_m);
 
-  /// State for a checkpoint; restore makes a map that goes on as if nothing had happened.
-  void write(std::vector<std::byte>& bytes) const;
+  /// Everything from which restored() makes a map that goes on as if nothing had happened. It does
+  /// not change with the map, so that another thread may write it.
+  class Snapshot {
+   public:
+    void write(std::vector<std::byte>& bytes) const;
+
+   private:
+    friend class LocalMap;
+    grids::GridWindow window_, surfel_window_;
+    std::vector<std::int8_t> so_;
+    std::vector<std::uint8_t> mo_;
+    std::vector<std::int8_t> lasting_;
+    std::vector<grids::SurfelMoments> surfels_;
+    std::shared_ptr<const Inherited> inherited_;
+    flow::SubmapId submap_id_;
+    geometry::Pose2 odom_from_submap_;
+    Progress progress_;
+    Odometer odometer_;
+  };
+
+  /// memory: any earlier snapshot that nobody needs any more. snapshot_a_localizer of the
+  /// benchmark.
+  Snapshot snapshot(Snapshot memory) const;
+  Snapshot snapshot() const { return snapshot(Snapshot()); }
   /// None when the bytes are not a map of this configuration.
   static std::optional<LocalMap> restored(const LocalMapConfig& config, ByteReader& from,
                                           work::SideWork* help = nullptr);
@@ -102,23 +140,11 @@ class LocalMap {
     std::vector<std::int8_t> lasting;
     grids::SurfelMap surfels;
   };
-  /// Scans of the submap in progress.
-  struct Progress {
-    std::int64_t first_stamp_ns = 0;
-    std::int64_t last_stamp_ns = 0;
-    std::uint32_t scans = 0;
-  };
-  /// Way of the laser, in steps larger than jitter.
-  struct Odometer {
-    double way_m = 0.0;
-    std::optional<geometry::Vector2> counted_to_m;
-
-    void count(const geometry::Vector2& origin_m);
-  };
 
   LocalMap(const LocalMapConfig& config, const grids::GridWindow& window,
            const grids::GridWindow& surfel_lattice, work::SideWork* help);
   void forget_surfels_in_free_space();
+  Inherited held() const;
   void leave_behind_what_was_not_seen();
   void put_own_cells(const grids::GridWindow& bounds, flow::Submap& submap) const;
   std::optional<flow::Surfel> own_surfel(const grids::SurfelView& surfel) const;
@@ -129,7 +155,7 @@ class LocalMap {
   int end_cell_tolerance_ = 0;  ///< end_cell_tolerance_m of the configuration, in cells.
   DeferredEvidence evidence_;
   grids::SurfelMap surfels_;
-  Inherited inherited_;
+  std::shared_ptr<const Inherited> inherited_;
   flow::SubmapId submap_id_;
   geometry::Pose2 odom_from_submap_;
   Progress progress_;

@@ -12,11 +12,6 @@ namespace {
 
 using geometry::Vector2;
 
-struct StoredSurfel {
-  grids::Cell cell;
-  grids::CellMoments moments;
-};
-
 struct StoredMap {
   grids::GridWindow window;
   std::vector<std::int8_t> so;
@@ -26,16 +21,9 @@ struct StoredMap {
   std::vector<std::uint8_t> inherited_mo;
   std::vector<std::int8_t> inherited_lasting;
   grids::GridWindow surfel_lattice;
-  std::vector<StoredSurfel> surfels;
-  std::vector<StoredSurfel> inherited_surfels;
+  std::vector<grids::SurfelMoments> surfels;
+  std::vector<grids::SurfelMoments> inherited_surfels;
 };
-
-void put_surfels(std::vector<std::byte>& bytes, const grids::SurfelMap& map) {
-  std::vector<StoredSurfel> surfels;
-  for (const grids::SurfelView& surfel : map.all())
-    surfels.push_back({surfel.cell, *map.moments_at(surfel.cell)});
-  put_all(bytes, surfels);
-}
 
 StoredMap stored_map_of(ByteReader& from) {
   StoredMap stored;
@@ -75,8 +63,8 @@ bool is_possible(const StoredMap& stored, const LocalMapConfig& config) {
   const auto is_of_map = [&](const auto& cells) {
     return cells.size() == stored.window.cell_count();
   };
-  const auto are_of_surfels = [&](const std::vector<StoredSurfel>& surfels) {
-    return std::ranges::all_of(surfels, [&](const StoredSurfel& one) {
+  const auto are_of_surfels = [&](const std::vector<grids::SurfelMoments>& surfels) {
+    return std::ranges::all_of(surfels, [&](const grids::SurfelMoments& one) {
       return is_possible(one.moments, config.surfel_size_m);
     });
   };
@@ -88,23 +76,38 @@ bool is_possible(const StoredMap& stored, const LocalMapConfig& config) {
          are_of_surfels(stored.inherited_surfels);
 }
 
-void set_surfels(grids::SurfelMap& map, const std::vector<StoredSurfel>& surfels) {
-  for (const StoredSurfel& surfel : surfels) map.set_moments(surfel.cell, surfel.moments);
+void set_surfels(grids::SurfelMap& map, const std::vector<grids::SurfelMoments>& surfels) {
+  for (const grids::SurfelMoments& surfel : surfels) map.set_moments(surfel.cell, surfel.moments);
 }
 
 }  // namespace
 
-void LocalMap::write(std::vector<std::byte>& bytes) const {
-  put(bytes, evidence().window());
-  put_all(bytes, evidence().so_cells());
-  put_all(bytes, evidence().mo_cells());
-  put_all(bytes, evidence().lasting_cells());
-  put_all(bytes, inherited_.so);
-  put_all(bytes, inherited_.mo);
-  put_all(bytes, inherited_.lasting);
-  put(bytes, surfels_.window());
-  put_surfels(bytes, surfels_);
-  put_surfels(bytes, inherited_.surfels);
+LocalMap::Snapshot LocalMap::snapshot(Snapshot memory) const {
+  memory.window_ = evidence().window();
+  memory.so_ = evidence().so_cells();
+  memory.mo_ = evidence().mo_cells();
+  memory.lasting_ = evidence().lasting_cells();
+  memory.surfel_window_ = surfels_.window();
+  memory.surfels_ = surfels_.all_moments(std::move(memory.surfels_));
+  memory.inherited_ = inherited_;
+  memory.submap_id_ = submap_id_;
+  memory.odom_from_submap_ = odom_from_submap_;
+  memory.progress_ = progress_;
+  memory.odometer_ = odometer_;
+  return memory;
+}
+
+void LocalMap::Snapshot::write(std::vector<std::byte>& bytes) const {
+  put(bytes, window_);
+  put_all(bytes, so_);
+  put_all(bytes, mo_);
+  put_all(bytes, lasting_);
+  put_all(bytes, inherited_->so);
+  put_all(bytes, inherited_->mo);
+  put_all(bytes, inherited_->lasting);
+  put(bytes, surfel_window_);
+  put_all(bytes, surfels_);
+  put_all(bytes, inherited_->surfels.all_moments());
   put(bytes, submap_id_);
   put(bytes, odom_from_submap_);
   put(bytes, progress_.first_stamp_ns);
@@ -138,12 +141,13 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
                     counted_to_m.allFinite();
   if (!fits) return std::nullopt;
   LocalMap map(config, stored.window, stored.surfel_lattice, help);
-  map.inherited_ = {std::move(stored.inherited_so), std::move(stored.inherited_mo),
-                    std::move(stored.inherited_lasting), map.surfels_};
+  Inherited inherited{std::move(stored.inherited_so), std::move(stored.inherited_mo),
+                      std::move(stored.inherited_lasting), map.surfels_};
   map.evidence_.grid().set_cells(std::move(stored.so), std::move(stored.mo),
                                  std::move(stored.lasting));
   set_surfels(map.surfels_, stored.surfels);
-  set_surfels(map.inherited_.surfels, stored.inherited_surfels);
+  set_surfels(inherited.surfels, stored.inherited_surfels);
+  map.inherited_ = std::make_shared<const Inherited>(std::move(inherited));
   map.submap_id_ = submap_id;
   map.odom_from_submap_ = odom_from_submap;
   map.progress_ = progress;

@@ -131,6 +131,7 @@ void LocalizationService::take(const slammot_ScanLabels& sample) {
   waiting_.note_labels(labels->stamp_ns, localizer_.awaits_labels());
   publish_finished_submaps();
   localize_waiting();
+  if (drive_.last_done_ns && !localizer_.awaits_labels()) save_checkpoint(*drive_.last_done_ns);
 }
 
 void LocalizationService::take(const slammot_GraphCorrection& sample) {

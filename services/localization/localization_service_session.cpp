@@ -21,11 +21,17 @@ std::optional<StampedSession> SessionFile::read() const {
 
 bool SessionFile::is_due(std::int64_t stamp_ns) const {
   constexpr std::int64_t kPeriodNs = 1'000'000'000;
-  return (!saved_ns_ || stamp_ns - *saved_ns_ >= kPeriodNs) && !file_.is_busy();
+  return !saved_ns_ || stamp_ns - *saved_ns_ >= kPeriodNs;
 }
 
-void SessionFile::save(std::int64_t stamp_ns, const SavedSession& session) {
-  file_.save({stamp_ns, to_bytes(session)});
+void SessionFile::save(std::int64_t stamp_ns, SavedSession session, const Localizer& localizer) {
+  LocalMap::Snapshot memory = last_ ? std::move(last_->localizer.map) : LocalMap::Snapshot();
+  last_ = std::make_shared<Unwritten>(
+      Unwritten{std::move(session), *localizer.snapshot(std::move(memory))});
+  file_.save(stamp_ns, [unwritten = last_] {
+    unwritten->session.localizer = to_bytes(unwritten->localizer);
+    return to_bytes(std::exchange(unwritten->session, {}));
+  });
   saved_ns_ = stamp_ns;
 }
 

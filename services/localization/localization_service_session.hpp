@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "common/app/state_file.hpp"
+#include "services/localization/localizer.hpp"
 #include "services/localization/saved_session.hpp"
 
 namespace slammot::localization {
@@ -28,9 +30,13 @@ class SessionFile {
   /// The session that is in the file now; none if there is none or it is of another version.
   std::optional<StampedSession> read() const;
 
-  /// True if a session of this stamp is due and can be saved.
+  /// True if a session of this stamp is due.
   bool is_due(std::int64_t stamp_ns) const;
-  void save(std::int64_t stamp_ns, const SavedSession& session);
+  /// True while a session is being written.
+  bool is_busy() const { return file_.is_busy(); }
+  /// Copies the localizer, of a drive that has begun, and returns; the file's thread makes the bytes
+  /// of it and of `session`, and writes them. Not while busy.
+  void save(std::int64_t stamp_ns, SavedSession session, const Localizer& localizer);
 
   /// Makes the next session due at once.
   void begin_drive() { saved_ns_.reset(); }
@@ -39,9 +45,15 @@ class SessionFile {
   std::string fault() const { return file_.fault(); }
 
  private:
+  struct Unwritten {
+    SavedSession session;
+    LocalizerSnapshot localizer;
+  };
+
   app::StateFile file_;
   bool has_looked_back_ = false;
   std::optional<std::int64_t> saved_ns_;
+  std::shared_ptr<Unwritten> last_;  ///< Kept for its memory.
 };
 
 }  // namespace slammot::localization

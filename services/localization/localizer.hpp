@@ -117,8 +117,10 @@ class Localizer final : public stages::LocalizationStage {
   std::uint64_t maps_begun_astray() const override { return counters_.astray; }
   const LocalMap& local_map() const { return submaps_.map(); }
 
-  /// Everything that is needed to go on after a crash, in a form of this build; empty before the
-  /// first scan. Scans that wait for their labels, and what tracking expects, are not in it.
+  /// Everything that is needed to go on after a crash; none before the first scan. Scans that wait
+  /// for their labels, and what tracking expects, are not in it. memory: of any earlier snapshot.
+  std::optional<LocalizerSnapshot> snapshot(LocalMap::Snapshot memory = {}) const;
+  /// The same as bytes in a form of this build; empty before the first scan.
   std::vector<std::byte> checkpoint() const;
   /// Odometry that came before the first scan is kept. False, and nothing changed, when the bytes
   /// are damaged or the map in them has another shape than this configuration's.

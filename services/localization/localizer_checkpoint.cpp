@@ -9,8 +9,14 @@ Checkpoint Localizer::checkpoint_now() const {
           submaps_.state(),    counters_,        prediction_.recent_odometry(), keyframes_.state()};
 }
 
+std::optional<LocalizerSnapshot> Localizer::snapshot(LocalMap::Snapshot memory) const {
+  if (!prediction_.last()) return std::nullopt;
+  return LocalizerSnapshot{checkpoint_now(), submaps_.map().snapshot(std::move(memory))};
+}
+
 std::vector<std::byte> Localizer::checkpoint() const {
-  return prediction_.last() ? to_bytes(checkpoint_now(), submaps_.map()) : std::vector<std::byte>{};
+  const auto now = snapshot();
+  return now ? to_bytes(*now) : std::vector<std::byte>{};
 }
 
 bool Localizer::restore(std::span<const std::byte> bytes) {

@@ -144,14 +144,27 @@ BENCHMARK(deskew_and_match_in_a_city)
     ->Iterations(2000)
     ->Unit(benchmark::kMicrosecond);
 
-/// What the service does once a second beside its scans.
-void make_a_checkpoint(benchmark::State& state) {
+Localizer localizer_after_50_scans() {
   const Recording& drive = recording();
   Localizer localizer{LocalizerConfig{}};
   for (std::uint32_t scan = 0; scan < 50; ++scan) {
     localizer.add_odometry(drive.odometry[scan]);
     localizer.integrate(all_stationary(*localizer.localize(drive.scans[scan])));
   }
+  return localizer;
+}
+
+/// What the service does once a second between two scans,
+void snapshot_a_localizer(benchmark::State& state) {
+  const Localizer localizer = localizer_after_50_scans();
+  LocalizerSnapshot snapshot = *localizer.snapshot();
+  for (auto _ : state) snapshot = *localizer.snapshot(std::move(snapshot.map));
+}
+BENCHMARK(snapshot_a_localizer)->Unit(benchmark::kMillisecond);
+
+/// and another thread of it makes of that.
+void make_a_checkpoint(benchmark::State& state) {
+  const Localizer localizer = localizer_after_50_scans();
   for (auto _ : state) benchmark::DoNotOptimize(localizer.checkpoint());
 }
 BENCHMARK(make_a_checkpoint)->Unit(benchmark::kMillisecond);

@@ -18,7 +18,7 @@ struct StateFileTest : ::testing::Test {
   std::filesystem::path path = folder / "new folder/service.state";
 
   void save(const SavedState& state) const {
-    StateFile(path).save(state);
+    StateFile(path).save(state.stamp_ns, [&] { return state.bytes; });
   }  // the destructor finishes writing
 };
 
@@ -37,7 +37,7 @@ TEST_F(StateFileTest, KeepsTheLastOfManySavedAtOnce) {
   {
     StateFile file(path);
     for (std::int64_t stamp_ns = 0; stamp_ns < 100; ++stamp_ns)
-      file.save(state_of(stamp_ns, 10'000));
+      file.save(stamp_ns, [stamp_ns] { return state_of(stamp_ns, 10'000).bytes; });
   }
   EXPECT_EQ(StateFile(path).read()->stamp_ns, 99);
 }
@@ -57,7 +57,7 @@ TEST_F(StateFileTest, DoesNotReadWhatIsCutOffOrDamaged) {
 
 TEST_F(StateFileTest, SaysWhyItCannotWrite) {
   StateFile file("/proc/no/service.state");
-  file.save(state_of(1, 10));
+  file.save(1, [] { return state_of(1, 10).bytes; });
   while (file.is_busy()) std::this_thread::yield();
   EXPECT_NE(file.fault(), "");
 }

@@ -127,7 +127,7 @@ TEST(Checkpoint, OfTheLocalMapIsNotTroubledBySurfelsThatHadGone) {
   for (int i = 0; i < 29; ++i) original.integrate(2 + i, {0.1, 0.1}, through, 0.0);
   ASSERT_EQ(original.surfels().all().size(), 1U);
   std::vector<std::byte> bytes;
-  original.write(bytes);
+  original.snapshot().write(bytes);
   ByteReader from(bytes);
   auto restored = LocalMap::restored(config, from);
   ASSERT_TRUE(restored);
