@@ -70,6 +70,10 @@ void StateFile::save(std::int64_t stamp_ns, MakeBytes make_bytes) {
   changed_.notify_all();
 }
 
+void StateFile::save(SavedState state) {
+  save(state.stamp_ns, [bytes = std::move(state.bytes)]() mutable { return std::move(bytes); });
+}
+
 std::string StateFile::fault() const {
   const std::scoped_lock lock(mutex_);
   return fault_;

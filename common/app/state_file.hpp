@@ -38,6 +38,7 @@ class StateFile {
   /// last one is kept.
   using MakeBytes = std::function<std::vector<std::byte>()>;
   void save(std::int64_t stamp_ns, MakeBytes make_bytes);
+  void save(SavedState state);
   /// Error of the last write; empty if it succeeded.
   std::string fault() const;
 

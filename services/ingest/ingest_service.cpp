@@ -164,7 +164,8 @@ void IngestService::send_backlog() {
 app::CommandResult IngestService::set_speed(std::string_view speed) {
   const auto pace = app::Pace::parse(std::string(speed));
   if (!pace || pace->is_unlimited() || pace_.is_unlimited())
-    return {app::CommandOutcome::kRefused, "only from one multiple of the recorded speed to another"};
+    return {app::CommandOutcome::kRefused,
+            "only from one multiple of the recorded speed to another"};
   pace_ = *pace;
   return {app::CommandOutcome::kDone, std::string(speed)};
 }
@@ -180,6 +181,7 @@ void IngestService::proceed_at_max_speed() {
     send_once(*std::exchange(fetched_, std::nullopt));
   }
   if (window_.is_empty()) finish();
+  else fetch();  // while the services are busy with the scans before
 }
 
 /// Several scanners may share a stamp.

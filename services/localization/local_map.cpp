@@ -129,8 +129,9 @@ bool LocalMap::is_outgrown(const Vector2& position_in_odom_m, double travelled_m
 flow::Submap LocalMap::submap() const {
   const grids::EvidenceGrid& evidence = evidence_.grid();
   const grids::GridWindow& window = evidence.window();
-  const grids::GridWindow bounds = bounds_of_seen(
-      window, {evidence.lasting_cells(), evidence.mo_cells()}, {inherited_->lasting, inherited_->mo});
+  const grids::GridWindow bounds =
+      bounds_of_seen(window, {evidence.lasting_cells(), evidence.mo_cells()},
+                     {inherited_->lasting, inherited_->mo});
   flow::Submap submap;
   submap.submap_id = submap_id_;
   submap.first_stamp_ns = progress_.first_stamp_ns;

@@ -214,7 +214,8 @@ void LocalizationService::tell_whether_it_is_tied(bool is_tied) {
 }
 
 void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
-  if (!checkpoint_.is_due(stamp_ns)) return;
+  const std::int64_t now_ns = monotonic_ns();
+  if (!checkpoint_.is_due(stamp_ns, now_ns)) return;
   if (checkpoint_.is_busy()) {
     ++context_.status().counter("scans_before_late_checkpoint");
     return;
@@ -227,9 +228,13 @@ void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
     context_.warn("failed_checkpoints", fault);
     context_.status().set_trouble("checkpoint", "no checkpoint: " + fault);
   }
-  checkpoint_.save(stamp_ns,
-                   {*drive_.map_id, drive_.odom_id, drive_.first_submap, drives_.watch.drives(),
-                    scans_.newest(), {}},
+  checkpoint_.save(stamp_ns, now_ns,
+                   {*drive_.map_id,
+                    drive_.odom_id,
+                    drive_.first_submap,
+                    drives_.watch.drives(),
+                    scans_.newest(),
+                    {}},
                    localizer_);
 }
 

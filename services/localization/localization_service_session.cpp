@@ -19,12 +19,15 @@ std::optional<StampedSession> SessionFile::read() const {
   return StampedSession{saved->stamp_ns, std::move(*session)};
 }
 
-bool SessionFile::is_due(std::int64_t stamp_ns) const {
+bool SessionFile::is_due(std::int64_t stamp_ns, std::int64_t now_ns) const {
   constexpr std::int64_t kPeriodNs = 1'000'000'000;
-  return !saved_ns_ || stamp_ns - *saved_ns_ >= kPeriodNs;
+  constexpr std::int64_t kShortestPauseNs = 250'000'000;
+  if (!saved_ns_) return true;
+  return stamp_ns - *saved_ns_ >= kPeriodNs && now_ns - last_time_ns_ >= kShortestPauseNs;
 }
 
-void SessionFile::save(std::int64_t stamp_ns, SavedSession session, const Localizer& localizer) {
+void SessionFile::save(std::int64_t stamp_ns, std::int64_t now_ns, SavedSession session,
+                       const Localizer& localizer) {
   LocalMap::Snapshot memory = last_ ? std::move(last_->localizer.map) : LocalMap::Snapshot();
   last_ = std::make_shared<Unwritten>(
       Unwritten{std::move(session), *localizer.snapshot(std::move(memory))});
@@ -33,6 +36,7 @@ void SessionFile::save(std::int64_t stamp_ns, SavedSession session, const Locali
     return to_bytes(std::exchange(unwritten->session, {}));
   });
   saved_ns_ = stamp_ns;
+  last_time_ns_ = now_ns;
 }
 
 }  // namespace slammot::localization

@@ -18,7 +18,8 @@ struct StampedSession {
   SavedSession session;
 };
 
-/// The checkpoint of a session as a file, written once a second by the clock of the data.
+/// The checkpoint of a session as a file, written once a second by the clock of the data, and at
+/// most four times a second.
 class SessionFile {
  public:
   explicit SessionFile(std::filesystem::path path) : file_(std::move(path)) {}
@@ -30,13 +31,14 @@ class SessionFile {
   /// The session that is in the file now; none if there is none or it is of another version.
   std::optional<StampedSession> read() const;
 
-  /// True if a session of this stamp is due.
-  bool is_due(std::int64_t stamp_ns) const;
+  /// True if a session of this stamp is due; now_ns by a clock that never goes back.
+  bool is_due(std::int64_t stamp_ns, std::int64_t now_ns) const;
   /// True while a session is being written.
   bool is_busy() const { return file_.is_busy(); }
-  /// Copies the localizer, of a drive that has begun, and returns; the file's thread makes the bytes
-  /// of it and of `session`, and writes them. Not while busy.
-  void save(std::int64_t stamp_ns, SavedSession session, const Localizer& localizer);
+  /// Copies the localizer, of a drive that has begun, and returns; the file's thread makes the
+  /// bytes of it and of `session`, and writes them. Not while busy.
+  void save(std::int64_t stamp_ns, std::int64_t now_ns, SavedSession session,
+            const Localizer& localizer);
 
   /// Makes the next session due at once.
   void begin_drive() { saved_ns_.reset(); }
@@ -53,6 +55,7 @@ class SessionFile {
   app::StateFile file_;
   bool has_looked_back_ = false;
   std::optional<std::int64_t> saved_ns_;
+  std::int64_t last_time_ns_ = 0;    ///< When that was.
   std::shared_ptr<Unwritten> last_;  ///< Kept for its memory.
 };
 

@@ -9,7 +9,8 @@ constexpr int kOdometryPatience = 5;  ///< In turns.
 /// The bus finds the writer of odometry in its own time, and after a crash nothing else bridges the
 /// gap.
 constexpr int kFirstOdometryPatience = 50;
-constexpr int kTrackingPatience = 3;
+/// The next scan of a live scanner ends the wait; a source that awaits its answer sends none.
+constexpr int kTrackingPatience = 20;
 /// After so many scans in a row that awaited something in vain, none awaits it any more.
 constexpr int kVainWaits = 3;
 

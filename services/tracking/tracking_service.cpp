@@ -58,6 +58,7 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
                [this](const auto& sample) { take_stored(sample); });
   context.read(dds::topics::kSegmentedScan, app::Input::kSteady,
                [this](const auto& sample) { take(sample); });
+  context.status().set_starting(waits_for_stored_tracks_);  // a source of scans waits for it
   context.after(kStoredTracksPatience, [this] { begin(); });
   context.before_report([this] { context_.status().set_counters(named(tracker_.counters())); });
 }
@@ -85,6 +86,7 @@ void TrackingService::take(const slammot_SegmentedScan& sample) {
 void TrackingService::begin() {
   if (!waits_for_stored_tracks_) return;
   waits_for_stored_tracks_ = false;
+  context_.status().set_starting(false);
   for (const flow::SegmentedScan& scan : early_) track(scan);
   early_.clear();
 }

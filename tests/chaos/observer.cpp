@@ -30,10 +30,10 @@ constexpr std::int64_t kGivenUpAfterNs = 2'000'000'000;
 
 /// Of one vehicle, since the last line.
 struct Vehicle {
-  std::map<std::int64_t, std::int64_t> published_ns;  ///< By stamp; until there are tracks.
+  std::map<std::int64_t, std::int64_t> published_ns;     ///< By stamp; until there are tracks.
   std::uint64_t scans = 0, tracked = 0, unanswered = 0;  ///< Since the start.
   std::map<std::string, std::vector<double>> latencies_ms;
-  json pose;   ///< The last one: stamp [ns], x [m], y [m], heading [rad] in odom, map_id.
+  json pose;  ///< The last one: stamp [ns], x [m], y [m], heading [rad] in odom, map_id.
   json tracks = json::array();  ///< The last confirmed ones: id, x [m], y [m] in odom.
 };
 
@@ -126,21 +126,28 @@ class Observer {
                               {"worst_ms", one.highest_ms}};
     services_[status->name.vehicle_id + "/" + status->name.service + "/" + status->name.instance +
               "/" + std::to_string(status->process_number)] = {
-        {"vehicle", status->name.vehicle_id}, {"service", status->name.service},
-        {"instance", status->name.instance},  {"process", status->process_number},
-        {"state", wire::to_string(status->state)}, {"stands_by", status->stands_by},
-        {"explanation", status->explanation}, {"counters", counters},
-        {"latencies", latencies},             {"stamp_ns", status->stamp_ns}};
+        {"vehicle", status->name.vehicle_id},
+        {"service", status->name.service},
+        {"instance", status->name.instance},
+        {"process", status->process_number},
+        {"state", wire::to_string(status->state)},
+        {"stands_by", status->stands_by},
+        {"explanation", status->explanation},
+        {"counters", counters},
+        {"latencies", latencies},
+        {"stamp_ns", status->stamp_ns}};
   }
 
   static json describe(Vehicle& vehicle, std::int64_t now_ns) {
-    vehicle.unanswered +=
-        std::erase_if(vehicle.published_ns, [now_ns](const auto& one) {
-          return now_ns - one.second > kGivenUpAfterNs;
-        });
-    json described = {{"scans", vehicle.scans},           {"tracked", vehicle.tracked},
-                      {"unanswered", vehicle.unanswered}, {"pending", vehicle.published_ns.size()},
-                      {"pose", vehicle.pose},             {"tracks", vehicle.tracks},
+    vehicle.unanswered += std::erase_if(vehicle.published_ns, [now_ns](const auto& one) {
+      return now_ns - one.second > kGivenUpAfterNs;
+    });
+    json described = {{"scans", vehicle.scans},
+                      {"tracked", vehicle.tracked},
+                      {"unanswered", vehicle.unanswered},
+                      {"pending", vehicle.published_ns.size()},
+                      {"pose", vehicle.pose},
+                      {"tracks", vehicle.tracks},
                       {"latencies_ms", vehicle.latencies_ms}};
     vehicle.latencies_ms.clear();
     return described;
@@ -201,8 +208,8 @@ int main(int argc, char** argv) {
   });
   Observer observer(domain_id, with_stages);
   running = &observer;
-  const auto period = std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double>(period_s));
+  const auto period =
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(period_s));
   for (auto due = std::chrono::steady_clock::now() + period;; due += period) {
     while (std::chrono::steady_clock::now() < due) {
       if (!observer.wait(std::max(due - std::chrono::steady_clock::now(), 0ns))) return 0;

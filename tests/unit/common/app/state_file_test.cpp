@@ -18,7 +18,7 @@ struct StateFileTest : ::testing::Test {
   std::filesystem::path path = folder / "new folder/service.state";
 
   void save(const SavedState& state) const {
-    StateFile(path).save(state.stamp_ns, [&] { return state.bytes; });
+    StateFile(path).save(state);
   }  // the destructor finishes writing
 };
 
@@ -57,7 +57,7 @@ TEST_F(StateFileTest, DoesNotReadWhatIsCutOffOrDamaged) {
 
 TEST_F(StateFileTest, SaysWhyItCannotWrite) {
   StateFile file("/proc/no/service.state");
-  file.save(1, [] { return state_of(1, 10).bytes; });
+  file.save(state_of(1, 10));
   while (file.is_busy()) std::this_thread::yield();
   EXPECT_NE(file.fault(), "");
 }

@@ -140,6 +140,19 @@ TEST(Checkpoint, IsTheSameBytesForTheSameDrive) {
   EXPECT_EQ(checkpoint_after(25), checkpoint_after(25));
 }
 
+TEST(Checkpoint, OfASnapshotIsThatOfItsMomentThoughTheLocalizerGoesOnToOtherSubmaps) {
+  SimulatedDrive drive(street_drive());
+  Localizer localizer(config_of_many_submaps());
+  drive_through(localizer, drive, 0, 25);
+  const auto then = localizer.checkpoint();
+  const auto snapshot = localizer.snapshot();
+  drive_through(localizer, drive, 25, 90);
+  ASSERT_TRUE(localizer.take_finished_submap());
+  EXPECT_EQ(to_bytes(*snapshot), then);
+  const auto now = localizer.snapshot(localizer.snapshot()->map);
+  EXPECT_EQ(to_bytes(*now), localizer.checkpoint()) << "in the memory of another snapshot";
+}
+
 TEST(Checkpoint, OfARestoredLocalizerIsTheSameBytesAgain) {
   const auto bytes = checkpoint_after(25);
   Localizer restored(config_of_many_submaps());
