@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,17 +34,26 @@ class Readiness {
     return names;
   }
 
+  /// True a moment after the first call: services that run may not have found each other on the bus
+  /// yet, and what they send until then is lost.
+  bool have_met(std::chrono::steady_clock::time_point now) {
+    constexpr std::chrono::milliseconds kTimeToMeet{300};
+    if (!all_run_since_) all_run_since_ = now;
+    return now - *all_run_since_ >= kTimeToMeet;
+  }
+
  private:
   std::map<std::string, bool> at_work_;
+  std::optional<std::chrono::steady_clock::time_point> all_run_since_;
 };
 
 /// Takes a heartbeat; that of a standby does not count. True if its service is starting, which
 /// announces that it will be ready.
 bool take(const slammot_Heartbeat& beat, Readiness& readiness);
 
-/// True if a source of scans may start: all services run and its topic has a reader, or its
-/// patience has ended. Its status reports what it waits for or lacks.
-bool may_begin(ServiceContext& context, const Readiness& readiness, std::string_view topic,
-               bool is_read, bool is_patient);
+/// True if a source of scans may start: all services run and have met, and its topic has a reader,
+/// or its patience has ended. Its status reports what it waits for or lacks.
+bool may_begin(ServiceContext& context, Readiness& readiness, std::string_view topic, bool is_read,
+               bool is_patient);
 
 }  // namespace slammot::app

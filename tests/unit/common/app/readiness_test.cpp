@@ -17,5 +17,14 @@ TEST(Readiness, NamesWhatIsNotAtWork) {
   EXPECT_EQ(readiness.missing(), "localization");
 }
 
+TEST(Readiness, GivesServicesThatRunAMomentToMeet) {
+  using namespace std::chrono_literals;
+  const std::chrono::steady_clock::time_point now{100s};
+  Readiness readiness({"localization"});
+  EXPECT_FALSE(readiness.have_met(now));
+  EXPECT_FALSE(readiness.have_met(now + 100ms));
+  EXPECT_TRUE(readiness.have_met(now + 1s));
+}
+
 }  // namespace
 }  // namespace slammot::app
