@@ -29,6 +29,9 @@ class OwnerWatch {
   bool accepts(const Source& source, SteadyTime now,
                const std::function<bool(std::uint64_t writer)>& is_gone);
 
+  /// The key has no writer any more: it is the next one's.
+  void release(std::uint64_t key) { owners_.erase(key); }
+
  private:
   static constexpr std::size_t kMostKeys = 1000;
   struct Owner {

@@ -33,8 +33,8 @@ class InUse : public std::runtime_error {
 
 std::filesystem::path lock_path(const ServiceDescription& description,
                                 const ServiceOptions& options) {
-  return options.state_dir /
-         (description.name + "-" + options.vehicle_id + "-" + options.instance + ".lock");
+  const StateOf of = description.is_one_per_vehicle ? StateOf::kVehicle : StateOf::kInstance;
+  return state_path(options, description.name, of, ".lock");
 }
 
 void refuse_if_in_use(StateLock& lock) {
@@ -68,9 +68,12 @@ int serve(const ServiceDescription& description, const ServiceOptions& options) 
     if (!standby->wait_until_it_leads()) return context.exit_code();
   }
   if (!lock.reason().empty()) watch(lock, context);
-  const std::shared_ptr<void> service = description.make(context);
+  std::shared_ptr<void> service = description.make(context);
   spdlog::info("vehicle {} in DDS domain {}", options.vehicle_id, options.domain_id);
-  context.run();
+  context.run([&] {
+    service.reset();
+    lock.release();
+  });
   return context.exit_code();
 }
 

@@ -160,6 +160,7 @@ bool ServiceContext::run_until(const std::function<bool()>& condition) {
   constexpr std::chrono::nanoseconds kTurn = std::chrono::milliseconds(5);
   while (!condition()) {
     if (wait_set_.wait(std::min(until_next_timer(), kTurn)) == dds::WaitSet::Wake::kStopped) {
+      report_as(ServiceState::kStopping);
       say_goodbye();
       return false;
     }
@@ -168,16 +169,19 @@ bool ServiceContext::run_until(const std::function<bool()>& condition) {
   return true;
 }
 
-void ServiceContext::run() {
+void ServiceContext::run(const std::function<void()>& end) {
   beat();
   report();
   while (wait_set_.wait(until_next_timer()) != dds::WaitSet::Wake::kStopped) run_due_timers();
+  report_as(ServiceState::kStopping);
+  end();
   say_goodbye();
 }
 
+/// After the last work of the service, which may be gone.
 void ServiceContext::say_goodbye() {
+  for (const auto& hand_over : hand_over_) hand_over();
   publisher_.beat(ServiceState::kStopping);
-  report_as(ServiceState::kStopping);
   publisher_.wait_until_heard(std::chrono::milliseconds(500));
 }
 

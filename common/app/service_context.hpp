@@ -29,6 +29,8 @@ class ForeignSamples {
   ForeignSamples(const dds::TopicInfo& topic, const dds::ReaderBase& reader)
       : topic_(topic.name), reader_(reader) {}
   bool accepts(ServiceContext& context, const dds::SampleInfo& info);
+  /// The key lost its last writer.
+  void lost(const dds::SampleInfo& info) { owners_.release(info.key_handle); }
 
  private:
   std::string topic_;
@@ -62,11 +64,14 @@ class ServiceContext {
     const auto owners =
         dds::has_one_writer(topic) ? std::make_shared<ForeignSamples>(topic, *reader) : nullptr;
     wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle, owners] {
-      reader->take_each([&](const Sample& sample, const dds::SampleInfo& info) {
+      const auto take = [&](const Sample& sample, const dds::SampleInfo& info) {
         if (vehicle_id() != sample.vehicle_id) return;
         if (owners && !owners->accepts(*this, info)) return;
         input.came(std::chrono::steady_clock::now());
         handle(sample);
+      };
+      reader->take_each(take, [&](const dds::SampleInfo& info) {
+        if (owners) owners->lost(info);
       });
     });
     keep(reader);
@@ -78,6 +83,7 @@ class ServiceContext {
   dds::Writer<Sample>& write(const dds::Topic<Sample>& topic) {
     const auto writer = std::make_shared<dds::Writer<Sample>>(participant_, topic);
     keep(writer);
+    hand_over_.push_back([writer = writer.get()] { writer->hand_over(); });
     return *writer;
   }
 
@@ -105,8 +111,9 @@ class ServiceContext {
   void set_role(const StatusPublisher::Role& role);
   std::int64_t started_ns() const { return publisher_.started_ns(); }
 
-  /// Runs until stopped.
-  void run();
+  /// Runs until stopped. Then calls `end`, which ends the service and gives its state free, before
+  /// others hear that this process stops: a standby takes over at once.
+  void run(const std::function<void()>& end = [] {});
   /// Runs until the condition holds, which is asked every few milliseconds; false if stopped
   /// before.
   bool run_until(const std::function<bool()>& condition);
@@ -144,6 +151,7 @@ class ServiceContext {
   RateLimit rate_limit_;
   std::vector<std::shared_ptr<void>> endpoints_;
   std::vector<std::function<std::optional<dds::QosMismatch>()>> mismatches_;
+  std::vector<std::function<void()>> hand_over_;
   std::uint32_t mismatches_reported_ = 0;
   std::vector<Timer> timers_;
   std::vector<std::function<void()>> before_report_;

@@ -19,6 +19,12 @@ std::string fault_of_name(const std::string& name) {
 
 }  // namespace
 
+std::filesystem::path state_path(const ServiceOptions& options, const std::string& service,
+                                 StateOf of, const std::string& ending) {
+  const std::string instance = of == StateOf::kInstance ? "-" + options.instance : "";
+  return options.state_dir / (service + "-" + options.vehicle_id + instance + ending);
+}
+
 void add_domain_option(CLI::App& command_line, std::uint32_t& domain_id) {
   constexpr std::uint32_t kHighestDomain = 230;  // the highest whose ports exist
   command_line.add_option("--domain", domain_id, "DDS domain")

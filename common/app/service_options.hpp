@@ -32,6 +32,17 @@ struct ServiceOptions {
                                           ///< the command line.
 };
 
+/// Whose a service's state is.
+enum class StateOf {
+  kVehicle,   ///< Of the instance that leads; a standby of any name takes it over.
+  kInstance,  ///< Each instance has its own.
+};
+
+/// Path of a file in the state directory, such as localization-vehicle.checkpoint. `ending` begins
+/// with a dot.
+std::filesystem::path state_path(const ServiceOptions& options, const std::string& service,
+                                 StateOf of, const std::string& ending);
+
 /// Adds --domain, also of the environment; `domain_id` must outlive the parsing.
 void add_domain_option(CLI::App& command_line, std::uint32_t& domain_id);
 

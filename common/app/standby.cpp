@@ -1,5 +1,6 @@
 #include "common/app/standby.hpp"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <spdlog/spdlog.h>
@@ -47,10 +48,23 @@ bool Standby::try_to_lead() {
   }
   if (lock_ != nullptr && lock_->try_lock() == StateLock::Outcome::kInUse) {
     tell("stands by: " + lock_->reason());
+    end_hung_leader();
     return false;
   }
   context_.set_role({.stands_by = false, .term = leadership_.lead()});
   return true;
+}
+
+/// Only a process that was heard to lead, and only if the system says that it holds the lock: the
+/// number alone may be that of a process in another container.
+void Standby::end_hung_leader() const {
+  const auto leader = leadership_.leader();
+  const auto holder = lock_->holder();
+  if (!leader || !holder || *holder != static_cast<pid_t>(leader->process_number) ||
+      *holder == ::getpid())
+    return;
+  spdlog::error("kills process {}: it holds the state and hangs", *holder);
+  ::kill(*holder, SIGKILL);
 }
 
 void Standby::tell(const std::string& why) {

@@ -14,6 +14,8 @@ inline constexpr int kExitInUse = 4;
 
 /// Lets one process of a service and vehicle work and the others wait until it ends. The others
 /// hold nothing but the bus, and start as after a crash of the leader: from the state that it left.
+/// A leader on this machine that holds the state and is silent hangs: the standby kills it, so that
+/// the state never has two owners.
 class Standby {
  public:
   /// `lock` is taken before this process leads; null for a service without state.
@@ -27,6 +29,7 @@ class Standby {
 
  private:
   bool try_to_lead();
+  void end_hung_leader() const;
   void tell(const std::string& why);
   std::string name_of_leader() const;
   void look_around();

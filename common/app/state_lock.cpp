@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 namespace slammot::app {
 namespace {
@@ -19,8 +21,27 @@ std::string owner_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-StateLock::~StateLock() {
+void StateLock::release() {
   if (file_ >= 0) ::close(file_);
+  file_ = -1;
+}
+
+/// A line of /proc/locks: "1: FLOCK  ADVISORY  WRITE 1903 00:2e:1234 0 EOF", with the process and
+/// the inode.
+std::optional<pid_t> StateLock::holder() const {
+  struct stat own {};
+  if (::stat(path_.c_str(), &own) != 0) return std::nullopt;
+  const std::string inode = std::to_string(own.st_ino);
+  std::ifstream locks("/proc/locks");
+  std::string number, kind, mode, access, file;
+  pid_t process = 0;
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    if (words >> number >> kind >> mode >> access >> process >> file && kind == "FLOCK" &&
+        file.substr(file.rfind(':') + 1) == inode && process > 0)
+      return process;
+  }
+  return std::nullopt;
 }
 
 StateLock::Outcome StateLock::try_lock() {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace slammot::app {
@@ -17,12 +20,19 @@ class StateLock {
   };
 
   explicit StateLock(std::filesystem::path path) : path_(std::move(path)) {}
-  ~StateLock();
+  ~StateLock() { release(); }
   StateLock(const StateLock&) = delete;
   StateLock& operator=(const StateLock&) = delete;
 
   /// Does not wait. Makes missing folders.
   Outcome try_lock();
+
+  /// Gives the state to the next process.
+  void release();
+
+  /// The process that has the lock, by this process's numbering; none if there is none or it is of
+  /// another container.
+  std::optional<pid_t> holder() const;
 
   /// Why the last try failed, in one line: it names the process that has the lock.
   const std::string& reason() const { return reason_; }

@@ -106,12 +106,21 @@ class Reader : public ReaderBase {
   /// their number.
   template <typename Handle>
   std::size_t take_each(Handle&& handle) {
+    return take_each(handle, [](const SampleInfo&) {});
+  }
+
+  /// The same; calls `ended(info)` where a key ended or lost its last writer.
+  template <typename Handle, typename Ended>
+  std::size_t take_each(Handle&& handle, Ended&& ended) {
     std::size_t count = 0;
     for (;;) {
       const Loan<Sample> loan = take();
       if (loan.empty()) return count;
       for (std::size_t i = 0; i < loan.size(); ++i) {
-        if (!loan.info(i).has_value) continue;
+        if (!loan.info(i).has_value) {
+          ended(loan.info(i));
+          continue;
+        }
         if constexpr (std::is_invocable_v<Handle&, const Sample&, const SampleInfo&>)
           handle(loan[i], loan.info(i));
         else handle(loan[i]);

@@ -1,18 +1,34 @@
 #include "common/dds/writer.hpp"
 
+#include <algorithm>
+
 #include "common/dds/qos_pointer.hpp"
 
 namespace slammot::dds {
 
 WriterBase::WriterBase(const Participant& participant, const TopicInfo& info)
-    : Endpoint(participant, info, Side::kWriter, make_writer_qos(qos_profile(info.flow)).get()) {}
+    : Endpoint(participant, info, Side::kWriter, make_writer_qos(qos_profile(info.flow)).get()),
+      notes_keys_(has_one_writer(info)) {}
 
 WriterBase::WriterBase(const Participant& participant, const TopicInfo& info, Entity topic,
                        const dds_qos* qos)
-    : Endpoint(participant, info, std::move(topic), Side::kWriter, qos) {}
+    : Endpoint(participant, info, std::move(topic), Side::kWriter, qos), notes_keys_(false) {}
 
 WriteResult WriterBase::write_sample(const void* sample) {
-  return written(dds_write(handle(), sample));
+  const WriteResult result = written(dds_write(handle(), sample));
+  if (notes_keys_) note_key(sample);
+  return result;
+}
+
+void WriterBase::note_key(const void* sample) {
+  const dds_instance_handle_t key = dds_lookup_instance(handle(), sample);
+  if (key != DDS_HANDLE_NIL && std::ranges::find(keys_, key) == keys_.end()) keys_.push_back(key);
+}
+
+void WriterBase::hand_over() {
+  for (const dds_instance_handle_t key : keys_)
+    check(dds_unregister_instance_ih(handle(), key), describe("dds_unregister_instance_ih"));
+  keys_.clear();
 }
 
 WriteResult WriterBase::written(std::int32_t code) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/dds/endpoint.hpp"
 
@@ -32,6 +33,10 @@ class WriterBase : public Endpoint {
   bool wait_for_mismatch(std::chrono::nanoseconds timeout) const;
   const WriterCounters& counters() const { return counters_; }
 
+  /// Says that this writer ends, where its topic has one writer a key: readers accept another one
+  /// at once. Nothing is to be written afterwards.
+  void hand_over();
+
  protected:
   WriterBase(const Participant& participant, const TopicInfo& info);
   WriterBase(const Participant& participant, const TopicInfo& info, Entity topic,
@@ -42,7 +47,11 @@ class WriterBase : public Endpoint {
   void end_sample(const void* sample);
 
  private:
+  void note_key(const void* sample);
+
   WriterCounters counters_;
+  bool notes_keys_;
+  std::vector<std::uint64_t> keys_;  ///< Of what was written, where they are noted.
 };
 
 /// Writes samples of one topic with the topic's own QoS. Not thread-safe.

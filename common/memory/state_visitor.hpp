@@ -185,7 +185,7 @@ class StateVisitor {
       if (is_second) value.template emplace<1>();
       else value.template emplace<0>();
     }
-    std::visit([this](auto& held) { visit(held); }, value);
+    std::visit([this](auto& held) { this->visit(held); }, value);
   }
 
   template <typename Vector>

@@ -40,7 +40,7 @@ app::Pace parse_pace(const std::string& speed) {
 }
 
 std::filesystem::path mark_path(const app::ServiceOptions& options) {
-  return options.state_dir / ("ingest-" + options.vehicle_id + "-" + options.instance + ".drive");
+  return app::state_path(options, "ingest", app::StateOf::kInstance, ".drive");
 }
 
 /// One line that identifies a log.

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "common/app/drive_mark.hpp"
 #include "common/app/pace.hpp"
 #include "common/app/readiness.hpp"
 #include "common/app/run_service.hpp"
 #include "common/wire/sensor.hpp"
 #include "services/ingest/backlog.hpp"
-#include "services/ingest/drive_mark.hpp"
 #include "services/ingest/graph_watch.hpp"
 #include "services/ingest/ingest_config.hpp"
 #include "services/ingest/log_source.hpp"
@@ -66,7 +66,7 @@ class IngestService {
   bool forgive_cut_;
   LogSource source_;
   std::vector<std::string> scanner_ids_;
-  DriveMark drive_;
+  app::DriveMark drive_;
   app::Pace pace_;
   Backlog backlog_;
   ScanWindow window_;

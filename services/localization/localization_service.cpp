@@ -20,9 +20,9 @@ using namespace std::chrono_literals;
 
 /// Turn of the loop, at least.
 constexpr auto kTurn = 10ms;
+
 std::filesystem::path checkpoint_path(const app::ServiceOptions& options) {
-  return options.state_dir /
-         ("localization-" + options.vehicle_id + "-" + options.instance + ".checkpoint");
+  return app::state_path(options, "localization", app::StateOf::kVehicle, ".checkpoint");
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ constexpr std::chrono::seconds kAcknowledgementTime{1};  ///< Time at the end fo
                                                          ///< not received everything.
 constexpr std::chrono::seconds kAnswerTimeout{1};        ///< At speed max.
 
+constexpr std::uint64_t kScansOfANote = 20;  ///< After so many the progress is noted.
+
 simulation::ScenarioConfig scenario_of(const SimulatorService::Settings& settings) {
   if (settings.scenario.empty()) throw app::StartupFailure("--scenario NAME is required");
   auto scenario = load_scenario(settings.scenario, settings.seed);
@@ -36,6 +38,12 @@ app::Pace parse_pace(const std::string& speed) {
     throw app::StartupFailure("--speed " + speed +
                               ": neither 'max' nor a number from 0.01 to 1000");
   return *pace;
+}
+
+/// One line that identifies a drive: the same settings simulate the same one.
+std::string describe(const SimulatorService::Settings& settings) {
+  return settings.scenario + " seed " + (settings.seed ? std::to_string(*settings.seed) : "own") +
+         " ride " + std::to_string(settings.ride);
 }
 
 std::uint64_t new_drive_id() {
@@ -73,6 +81,8 @@ SimulatorService::SimulatorService(app::ServiceContext& context, const Settings&
       patience_(std::llround(1e3 * settings.wait_for_services_s)),
       give_up_waiting_at_(steady_clock::now() + patience_),
       drive_(scenario_of(settings)),
+      mark_(app::state_path(context.options(), "simulator", app::StateOf::kInstance, ".drive"),
+            describe(settings), new_drive_id()),
       scans_(context.write(dds::topics::kLaserScan)),
       odometry_(context.write(dds::topics::kOdometry)),
       fixes_(context.write(dds::topics::kGnssFix)),
@@ -80,9 +90,8 @@ SimulatorService::SimulatorService(app::ServiceContext& context, const Settings&
       true_poses_(context.write(dds::topics::kTruePose)),
       true_objects_(context.write(dds::topics::kTrueObjects)),
       true_hits_(context.write(dds::topics::kTrueHits)) {
-  const std::uint64_t drive_id = new_drive_id();
-  encoder_ = wire::LaserScanEncoder(drive_id);
-  truth_ = wire::TruthEncoder(drive_id);
+  encoder_ = wire::LaserScanEncoder(mark_.drive_id());
+  truth_ = wire::TruthEncoder(mark_.drive_id());
   context.status().counter("log_finished") = 0;
   context.status().counter("log_scans") = drive_.scan_count();
   context.read(dds::topics::kHeartbeat, app::Input::kOccasional,
@@ -107,7 +116,19 @@ void SimulatorService::begin() {
   has_begun_ = true;
   spdlog::info("begins a drive of {} scans", drive_.scan_count());
   next_ = drive_.next();
+  skip_what_was_sent();
   schedule();
+}
+
+/// By the process before, if it was killed: the drive goes on. The last second may be sent again.
+void SimulatorService::skip_what_was_sent() {
+  if (!mark_.noted_ns()) return;
+  while (next_ && next_->scan.stamp_ns <= *mark_.noted_ns()) {
+    if (next_->scanner == 0) ++context_.status().counter("scans");
+    next_ = drive_.next();
+  }
+  ++context_.status().counter("continued_drives");
+  spdlog::info("continues the drive after {} scans", context_.status().counter("scans"));
 }
 
 /// Sends the next scan when it is due, after pending events of the service.
@@ -144,7 +165,8 @@ void SimulatorService::send(const simulation::SimulatedScan& drive) {
   if (drive.scanner == 0) count_timeout(true_poses_.write(truth_.encode_pose(vehicle, drive)));
   count_timeout(true_objects_.write(truth_.encode_objects(vehicle, drive)));
   count_timeout(true_hits_.write(truth_.encode_hits(vehicle, drive)));
-  if (drive.scanner == 0) ++context_.status().counter("scans");
+  if (drive.scanner == 0 && ++context_.status().counter("scans") % kScansOfANote == 0)
+    mark_.note(drive.scan.stamp_ns);
 }
 
 void SimulatorService::take_labels(const slammot_ScanLabels& labels) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/app/drive_mark.hpp"
 #include "common/app/pace.hpp"
 #include "common/app/readiness.hpp"
 #include "common/app/run_service.hpp"
@@ -41,6 +42,7 @@ class SimulatorService {
 
   void wait_for_services();
   void begin();
+  void skip_what_was_sent();
   void schedule();
   void send_next();
   void send(const simulation::SimulatedScan& drive);
@@ -54,6 +56,7 @@ class SimulatorService {
   std::chrono::milliseconds patience_;  ///< Time to wait for absent services.
   Time give_up_waiting_at_;
   simulation::Drive drive_;
+  app::DriveMark mark_;
   app::Readiness readiness_{{"localization", "detection", "tracking"}};
   dds::Writer<slammot_LaserScan>& scans_;
   dds::Writer<slammot_Odometry>& odometry_;

@@ -64,7 +64,7 @@ ServiceProcesses::ServiceProcesses(std::vector<ServiceProcess> services,
                                std::strerror(errno));
     }
     restarts_[service.name] = 0;
-    all_.push_back({std::move(service), 0, std::nullopt, {}, 0});
+    all_.push_back({std::move(service), 0, std::nullopt, {}, 0, {}});
   }
   for (Running& running : all_) start(running);
 }
@@ -96,17 +96,25 @@ std::optional<std::string> ServiceProcesses::restart_dead() {
       running.exit_code = exit_code;
       continue;
     }
-    const bool has_failed_start =
-        exit_code > 0 && std::chrono::steady_clock::now() - running.started < kStartupTime;
-    running.failed_starts = has_failed_start ? running.failed_starts + 1 : 0;
-    if (running.failed_starts >= kMaxFailedStarts ||
-        ++restarts_[running.service.name] > kMaxRestarts) {
+    if (is_broken(running, exit_code)) {
       return running.service.name + " does not keep running (" +
              last_log_line(running.service.name) + ")";
     }
+    ++restarts_[running.service.name];
     start(running);
   }
   return std::nullopt;
+}
+
+/// One that has just ended.
+bool ServiceProcesses::is_broken(Running& running, int exit_code) const {
+  const auto now = std::chrono::steady_clock::now();
+  const bool has_failed_start = exit_code > 0 && now - running.started < kStartupTime;
+  running.failed_starts = has_failed_start ? running.failed_starts + 1 : 0;
+  while (!running.restarts.empty() && now - running.restarts.front() > 1min)
+    running.restarts.pop_front();
+  running.restarts.push_back(now);
+  return running.failed_starts >= kMaxFailedStarts || running.restarts.size() > kMaxRestarts;
 }
 
 std::optional<int> ServiceProcesses::ended(const std::string& name) const {

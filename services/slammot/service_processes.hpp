@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -25,7 +26,8 @@ struct ServiceProcess {
 /// NAME.log in the log folder.
 class ServiceProcesses {
  public:
-  static constexpr int kMaxRestarts = 20;  ///< Of one service; it is then considered broken.
+  /// Of one service within a minute; with more it is considered broken.
+  static constexpr std::size_t kMaxRestarts = 20;
 
   /// Throws std::runtime_error with one line if a program cannot be started.
   ServiceProcesses(std::vector<ServiceProcess> services, std::filesystem::path log_folder,
@@ -53,9 +55,11 @@ class ServiceProcesses {
     std::optional<int> exit_code;
     std::chrono::steady_clock::time_point started;
     int failed_starts = 0;
+    std::deque<std::chrono::steady_clock::time_point> restarts;  ///< In the last minute.
   };
 
   void start(Running& running);
+  bool is_broken(Running& running, int exit_code) const;
   void end(const std::function<bool(const Running&)>& is_selected);
   std::string last_log_line(const std::string& name) const;
 

@@ -8,8 +8,8 @@ namespace slammot::tracking {
 namespace {
 
 struct SessionParts : StateParts {
-  using StateParts::largest;
-  using StateParts::visit;
+  /// All others.
+  static void visit(auto& to, auto& value) { StateParts::visit(to, value); }
 
   static void visit(auto& to, memory::Like<DriveFrame> auto& frame) {
     auto& [map_id, odom_id] = frame;

@@ -36,8 +36,7 @@ bool is_near(std::int64_t stamp_ns, std::int64_t saved_ns) {
 }
 
 std::filesystem::path journal_path(const app::ServiceOptions& options) {
-  return options.state_dir /
-         ("tracking-" + options.vehicle_id + "-" + options.instance + ".journal");
+  return app::state_path(options, "tracking", app::StateOf::kVehicle, ".journal");
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ class StoredMap(unittest.TestCase):
             time.sleep(0.02)
 
     def checkpoint_time(self):
-        return (self.state / "localization-car-main.checkpoint").stat().st_mtime_ns
+        return (self.state / "localization-car.checkpoint").stat().st_mtime_ns
 
     def stored_submaps(self):
         """{(map, number): hash} of what is in the database."""

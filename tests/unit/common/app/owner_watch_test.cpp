@@ -49,6 +49,13 @@ TEST_F(OwnerWatchTest, IsPatientWithARareWriter) {
   EXPECT_TRUE(accepts(2));
 }
 
+TEST_F(OwnerWatchTest, AcceptsTheNextOneAtOnceWhenTheFirstHandsOver) {
+  write(1, 10);
+  watch.release(1);
+  EXPECT_TRUE(accepts(2));
+  EXPECT_FALSE(accepts(1));
+}
+
 TEST_F(OwnerWatchTest, LetsEveryKeyHaveItsOwnWriter) {
   EXPECT_TRUE(accepts(1, 1));
   EXPECT_TRUE(accepts(2, 2));

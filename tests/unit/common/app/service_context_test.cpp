@@ -126,6 +126,46 @@ TEST_F(ContextOnTheBus, DoesOnceWhatIsToBeDoneOnceAndAgainWhatIsToBeDoneAgain) {
   EXPECT_EQ(again, 4);
 }
 
+slammot_TrackedObjects objects(std::uint32_t sequence) {
+  slammot_TrackedObjects sample{};
+  assign(sample.vehicle_id, "car");
+  sample.sequence_number = sequence;
+  return sample;
+}
+
+TEST_F(ContextOnTheBus, TakesTheNextWriterAtOnceWhereTheFirstHandsOver) {
+  std::vector<std::uint32_t> sequences;
+  context.read(dds::topics::kTrackedObjects, Input::kSteady, [&](const auto& sample) {
+    sequences.push_back(sample.sequence_number);
+    if (sample.sequence_number == 3) context.stop();
+  });
+  dds::Writer<slammot_TrackedObjects> first(neighbour, dds::topics::kTrackedObjects);
+  dds::Participant other = bus.join();
+  dds::Writer<slammot_TrackedObjects> second(other, dds::topics::kTrackedObjects);
+  ASSERT_TRUE(first.wait_for_readers(1, kForever));
+  ASSERT_TRUE(second.wait_for_readers(1, kForever));
+  first.write(objects(1));
+  context.after(20ms, [&] { second.write(objects(2)); });
+  context.after(40ms, [&] { first.hand_over(); });
+  context.after(60ms, [&] { second.write(objects(3)); });
+  run();
+  EXPECT_THAT(sequences, ::testing::ElementsAre(1, 3)) << "the second is a stray before";
+}
+
+TEST_F(ContextOnTheBus, EndsTheServiceBeforeItSaysThatItStops) {
+  dds::Reader<slammot_Heartbeat> beats(neighbour, dds::topics::kHeartbeat);
+  ASSERT_TRUE(beats.wait_for_writers(1, kForever));
+  context.after(1ms, [&] { context.stop(); });
+  slammot_ServiceState at_the_end = slammot_SERVICE_STATE_STOPPING;
+  const auto newest = [&](const slammot_Heartbeat& beat) { at_the_end = beat.state; };
+  context.run([&] { beats.take_each(newest); });
+  EXPECT_NE(at_the_end, slammot_SERVICE_STATE_STOPPING);
+  const auto end = std::chrono::steady_clock::now() + kForever;
+  while (at_the_end != slammot_SERVICE_STATE_STOPPING && std::chrono::steady_clock::now() < end)
+    beats.take_each(newest);
+  EXPECT_EQ(at_the_end, slammot_SERVICE_STATE_STOPPING);
+}
+
 TEST_F(ContextOnTheBus, StopsWithTheExitCodeItWasGiven) {
   context.after(1ms, [&] { context.stop(3); });
   run();

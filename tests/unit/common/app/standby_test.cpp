@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <set>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,8 +30,12 @@ class Process {
       Standby standby(context_, &lock_);
       if (!standby.wait_until_it_leads()) return;
       leads_ = true;
-      context_.run();
-      leads_ = false;
+      most_leading = std::max<int>(most_leading, ++leading);
+      context_.run([this] {
+        --leading;
+        leads_ = false;
+        lock_.release();
+      });
     });
   }
   ~Process() { stop(); }
@@ -38,6 +44,9 @@ class Process {
     if (thread_.joinable()) thread_.join();
   }
   bool leads() const { return leads_; }
+
+  static inline std::atomic<int> leading = 0;  ///< Of all.
+  static inline std::atomic<int> most_leading = 0;
 
  private:
   static ServiceOptions options(const slammot::testing::PrivateBus& bus,
@@ -99,6 +108,23 @@ TEST_F(StandbyOnTheBus, WaitsForStateThatASilentProcessHolds) {
   Process process(bus, "main", folder / "state.lock");
   EXPECT_TRUE(comes_to(is_told("state.lock is in use by process")));
   EXPECT_FALSE(process.leads());
+}
+
+TEST_F(StandbyOnTheBus, NeverHasTwoLeadersOfOneState) {
+  Process::most_leading = 0;
+  std::vector<std::unique_ptr<Process>> all;
+  const auto start = [&](int number) {
+    return std::make_unique<Process>(bus, "copy" + std::to_string(number), folder / "state.lock");
+  };
+  for (int number = 0; number < 4; ++number) all.push_back(start(number));
+  for (int number = 4; number < 9; ++number) {
+    const auto leads = [](const auto& process) { return process->leads(); };
+    ASSERT_TRUE(comes_to([&] { return std::ranges::any_of(all, leads); })) << number;
+    const auto leader = std::ranges::find_if(all, leads);
+    *leader = nullptr;  // ends it first
+    *leader = start(number);
+  }
+  EXPECT_EQ(Process::most_leading, 1);
 }
 
 TEST_F(StandbyOnTheBus, EndsWhenItIsStopped) {

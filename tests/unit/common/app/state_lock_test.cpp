@@ -3,6 +3,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,6 +30,24 @@ TEST_F(StateLockTest, IsGivenBackAtTheEnd) {
   StateLock next(path);
   EXPECT_EQ(next.try_lock(), StateLock::Outcome::kLocked);
   EXPECT_EQ(next.reason(), "");
+}
+
+TEST_F(StateLockTest, IsReleasedToTheNextOneWhileItLives) {
+  StateLock first(path), next(path);
+  ASSERT_EQ(first.try_lock(), StateLock::Outcome::kLocked);
+  first.release();
+  EXPECT_EQ(next.try_lock(), StateLock::Outcome::kLocked);
+  EXPECT_EQ(first.try_lock(), StateLock::Outcome::kInUse);
+}
+
+TEST_F(StateLockTest, NamesItsHolderAsTheSystemKnowsIt) {
+  StateLock lock(path), other(path);
+  EXPECT_EQ(other.holder(), std::nullopt);
+  ASSERT_EQ(lock.try_lock(), StateLock::Outcome::kLocked);
+  std::ofstream(path) << 1;  // what the file says does not count
+  EXPECT_EQ(other.holder(), ::getpid());
+  lock.release();
+  EXPECT_EQ(other.holder(), std::nullopt);
 }
 
 TEST_F(StateLockTest, IsGivenBackByAProcessThatIsKilled) {

@@ -72,7 +72,7 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
     if (is_blank) scan.points_in_base_m.clear(), scan.range_m.clear(), scan.labels.clear();
     scans.write(wire::SegmentedScanEncoder().encode("car", scan));
   }
-  std::filesystem::path journal() const { return folder_ / "tracking-car-main.journal"; }
+  std::filesystem::path journal() const { return folder_ / "tracking-car.journal"; }
   /// Tracks a car with id 17, without a journal, and leaves the process's journal as it was once
   /// saved: as a kill does.
   void track_a_car_until_killed() {

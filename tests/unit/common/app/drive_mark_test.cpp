@@ -1,4 +1,4 @@
-#include "services/ingest/drive_mark.hpp"
+#include "common/app/drive_mark.hpp"
 
 #include <fstream>
 
@@ -6,7 +6,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace slammot::ingest {
+namespace slammot::app {
 namespace {
 
 /// Writes the file that a killed process leaves.
@@ -27,6 +27,18 @@ TEST_F(DriveMarkTest, ContinuesTheDriveOfAKilledProcess) {
   std::filesystem::create_directories(file.parent_path());
   leave_mark(file, "a.log", 7);
   EXPECT_EQ(DriveMark(file, "a.log", 8).drive_id(), 7U);
+}
+
+TEST_F(DriveMarkTest, TellsHowFarTheKilledProcessWas) {
+  DriveMark killed(file, "a.log", 7);
+  EXPECT_EQ(killed.noted_ns(), std::nullopt);
+  killed.note(17);
+  killed.note(18);
+  const DriveMark next(file, "a.log", 8);
+  EXPECT_EQ(next.drive_id(), 7U);
+  EXPECT_EQ(next.noted_ns(), 18);
+  EXPECT_EQ(DriveMark(file, "a.log", 9).noted_ns(), 18) << "it was killed before it went on";
+  EXPECT_EQ(DriveMark(file, "b.log", 9).noted_ns(), std::nullopt);
 }
 
 TEST_F(DriveMarkTest, BeginsANewDriveForAnotherLog) {
@@ -51,4 +63,4 @@ TEST_F(DriveMarkTest, WorksWithoutAWritableFolder) {
 }
 
 }  // namespace
-}  // namespace slammot::ingest
+}  // namespace slammot::app
