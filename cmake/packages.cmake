@@ -11,7 +11,7 @@ install(FILES deploy/etc/slammot.env deploy/etc/settings.textproto DESTINATION /
 install(FILES docs/operations.md DESTINATION share/doc/slammot-common COMPONENT common EXCLUDE_FROM_ALL)
 install(FILES deploy/etc/ingest.env DESTINATION /etc/slammot COMPONENT sensors EXCLUDE_FROM_ALL)
 install(DIRECTORY deploy/systemd/slammot@ingest.service.d DESTINATION ${units_folder} COMPONENT sensors EXCLUDE_FROM_ALL)
-install(FILES LICENSE DESTINATION share/doc/slammot COMPONENT all EXCLUDE_FROM_ALL)
+install(FILES LICENSE DESTINATION share/doc/slammot COMPONENT everything EXCLUDE_FROM_ALL)
 
 # What slammot.target starts. Ingest and recorder first need to be told what to play and where to write: systemctl enable.
 foreach(role IN LISTS SLAMMOT_ROLES)
@@ -68,13 +68,13 @@ slammot_package(view NAME slammot-view DEPENDS slammot-common
 slammot_package(tools NAME slammot-tools DEPENDS slammot-common
   RECOMMENDS "slammot-sensors, slammot-estimation, slammot-closing"
   DESCRIPTION "The command slammot: batch runs, inspection of the bus, simulator")
-slammot_package(all NAME slammot DEPENDS "slammot-sensors, slammot-estimation, slammot-closing, slammot-view, slammot-tools"
+slammot_package(everything NAME slammot DEPENDS "slammot-sensors, slammot-estimation, slammot-closing, slammot-view, slammot-tools"
   DESCRIPTION "All of slammot: SLAM with detection and tracking of moving objects")
 slammot_package(development NAME slammot-dev DEPENDS "libeigen3-dev, libceres-dev"
   DESCRIPTION "Estimation of slammot as libraries for other projects")
 
 set(CPACK_GENERATOR DEB)
-set(CPACK_COMPONENTS_ALL common sensors estimation closing view tools all development)
+set(CPACK_COMPONENTS_ALL common sensors estimation closing view tools everything development)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

@@ -27,6 +27,7 @@ for program in "$build"/bin/slammot-*; do
   name=$(basename "$program")
   [[ -x $root/usr/bin/$name ]] || [[ $name == *_test ]] || fail "no package has $name"
 done
+! dpkg-deb -c "$folder"/debs/slammot_*.deb | grep -q /usr/bin || fail "the package that needs all others holds programs itself"
 dpkg-deb -f "$folder"/debs/slammot-estimation_*.deb Depends | grep -q libddsc0debian || fail "a package does not name its libraries"
 dpkg-deb -I "$folder"/debs/slammot-common_*.deb conffiles | grep -q /etc/slammot/slammot.env || fail "slammot.env is no configuration file"
 
