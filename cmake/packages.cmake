@@ -11,7 +11,7 @@ install(FILES deploy/etc/slammot.env deploy/etc/settings.textproto DESTINATION /
 install(FILES docs/operations.md DESTINATION share/doc/slammot-common COMPONENT common EXCLUDE_FROM_ALL)
 install(FILES deploy/etc/ingest.env DESTINATION /etc/slammot COMPONENT sensors EXCLUDE_FROM_ALL)
 install(DIRECTORY deploy/systemd/slammot@ingest.service.d DESTINATION ${units_folder} COMPONENT sensors EXCLUDE_FROM_ALL)
-install(FILES LICENSE DESTINATION share/doc/slammot COMPONENT everything EXCLUDE_FROM_ALL)
+install(FILES LICENSE DESTINATION share/doc/slammot RENAME copyright COMPONENT everything EXCLUDE_FROM_ALL)
 
 # What slammot.target starts. Ingest and recorder first need to be told what to play and where to write: systemctl enable.
 foreach(role IN LISTS SLAMMOT_ROLES)
