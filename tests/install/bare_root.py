@@ -140,7 +140,7 @@ def start(container, drive):
 def restart(container):
     for name, sign, limit_s in (("kill -9", "KILL", 2), ("kill -STOP (watchdog 5 s)", "STOP", 10)):
         before = container.main_process("tracking")
-        container.call("kill", f"-{sign}", before)
+        container.call("systemctl", "kill", "--kill-whom=main", f"--signal={sign}", "slammot@tracking.service")
         back_s = seconds_until(lambda: container.is_active("tracking") and container.main_process("tracking") not in ("0", before),
                                f"tracking back after {name}", limit_s)
         say(f"tracking ready again after {name}", f"{back_s:.2f} s")
