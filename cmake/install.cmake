@@ -1,5 +1,6 @@
-# cmake --install: programs with their profiles and scenarios (component runtime), and the algorithm ring as libraries for other
-# projects (component development), by find_package(slammot CONFIG) or pkg-config. Tried by tests/install.
+# cmake --install: programs with their profiles and scenarios, and the algorithm ring as libraries for other projects (component
+# development), by find_package(slammot CONFIG) or pkg-config. Each component is a Debian package (cmake/packages.cmake). Tried by
+# tests/install.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -21,10 +22,24 @@ function(slammot_install_library folder)
   endif()
 endfunction()
 
+# The role of a computer that runs a service; other programs are tools.
+set(SLAMMOT_SERVICES_sensors ingest)
+set(SLAMMOT_SERVICES_estimation localization detection tracking collision-warning)
+set(SLAMMOT_SERVICES_closing loop-closing map-store)
+set(SLAMMOT_SERVICES_view gateway recorder)
+set(SLAMMOT_ROLES sensors estimation closing view)
+
 # slammot_install_program(slammot): also part of `ninja executables`.
 function(slammot_install_program target)
   add_dependencies(executables ${target})
-  install(TARGETS ${target} RUNTIME COMPONENT runtime)
+  set(component tools)
+  foreach(role IN LISTS SLAMMOT_ROLES)
+    list(TRANSFORM SLAMMOT_SERVICES_${role} PREPEND slammot- OUTPUT_VARIABLE programs)
+    if(target IN_LIST programs)
+      set(component ${role})
+    endif()
+  endforeach()
+  install(TARGETS ${target} RUNTIME COMPONENT ${component})
 endfunction()
 
 # The files by which other projects find the libraries. Called once all libraries are known.
@@ -48,5 +63,6 @@ function(slammot_install_package)
 endfunction()
 
 # Where the programs look for them: common/config/profiles.hpp.
-install(DIRECTORY deploy/profiles deploy/scenarios deploy/dds DESTINATION ${CMAKE_INSTALL_DATADIR}/slammot COMPONENT runtime)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(DIRECTORY deploy/profiles deploy/dds DESTINATION ${CMAKE_INSTALL_DATADIR}/slammot COMPONENT common)
+install(DIRECTORY deploy/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/slammot COMPONENT tools)
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT common)

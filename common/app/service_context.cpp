@@ -5,6 +5,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "common/app/supervisor.hpp"
+
 namespace slammot::app {
 namespace {
 
@@ -26,6 +28,9 @@ std::string without_digits(std::string text) {
   return text;
 }
 
+/// "laser_scan" of "slammot/laser_scan".
+std::string short_name(const std::string& topic) { return topic.substr(topic.find('/') + 1); }
+
 }  // namespace
 
 bool ForeignSamples::accepts(ServiceContext& context, const dds::SampleInfo& info) {
@@ -35,7 +40,7 @@ bool ForeignSamples::accepts(ServiceContext& context, const dds::SampleInfo& inf
   const bool is_accepted = owners_.accepts({info.key_handle, info.writer_handle}, now, is_gone);
   if (!is_accepted) {
     const std::string words = "drops " + topic_ + " of a second writer";
-    context.warn("foreign_" + topic_.substr(topic_.find('/') + 1), words);
+    context.warn("foreign_" + short_name(topic_), words);
     context.status().set_trouble("foreign " + topic_, words);
     told_ = now;
   } else if (told_ && now - *told_ > kToldFor) {
@@ -88,6 +93,19 @@ void ServiceContext::stop(int exit_code) {
   stop();
 }
 
+void ServiceContext::count_missed(const InputWatch& input, std::uint32_t samples) {
+  if (samples == 0) return;
+  const std::string counter = "missed_" + short_name(input.topic_name());
+  warn(counter, "missed " + std::to_string(samples) + " of " + input.topic_name());
+  board_.counter(counter) += samples - 1;  // warn() counted one
+}
+
+void ServiceContext::refuse_unless_publisher(const dds::TopicInfo& topic) const {
+  if (dds::may_publish(service_, topic)) return;
+  throw std::logic_error(service_ + " is no publisher of " + std::string(topic.name) +
+                         " in common/dds/topic_table.hpp");
+}
+
 std::chrono::nanoseconds ServiceContext::until_next_timer() const {
   const auto next = std::ranges::min_element(timers_, {}, &Timer::due);
   return std::max(next->due - std::chrono::steady_clock::now(), std::chrono::nanoseconds(0));
@@ -115,6 +133,7 @@ void ServiceContext::report() {
 void ServiceContext::report_as(ServiceState state) {
   for (const auto& work : before_report_) work();
   publisher_.report(board_, state);
+  tell_supervisor(state, board_.explanation(std::chrono::steady_clock::now()));
 }
 
 void ServiceContext::report_changes(const std::string& explanation) {
@@ -148,6 +167,11 @@ void ServiceContext::run_for(std::chrono::nanoseconds duration) {
     wait_set_.wait(std::min<std::chrono::nanoseconds>(until_next_timer(), end - now));
     run_due_timers();
   }
+}
+
+void ServiceContext::beat() {
+  publisher_.beat(board_.state(std::chrono::steady_clock::now()));
+  tell_supervisor_alive();
 }
 
 void ServiceContext::set_role(const StatusPublisher::Role& role) {

@@ -11,6 +11,7 @@
 #include "common/app/command.hpp"
 #include "common/app/log.hpp"
 #include "common/app/owner_watch.hpp"
+#include "common/app/sequence_watch.hpp"
 #include "common/app/service_options.hpp"
 #include "common/app/status_board.hpp"
 #include "common/app/status_publisher.hpp"
@@ -63,10 +64,13 @@ class ServiceContext {
         board_.input(std::string(topic.name), kind, std::chrono::steady_clock::now());
     const auto owners =
         dds::has_one_writer(topic) ? std::make_shared<ForeignSamples>(topic, *reader) : nullptr;
-    wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle, owners] {
+    wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle, owners,
+                                sequence = SequenceWatch()]() mutable {
       const auto take = [&](const Sample& sample, const dds::SampleInfo& info) {
         if (vehicle_id() != sample.vehicle_id) return;
         if (owners && !owners->accepts(*this, info)) return;
+        if constexpr (IsNumberedScan<Sample>)
+          count_missed(input, sequence.missed_before(sample.scanner_id, sample.sequence_number));
         input.came(std::chrono::steady_clock::now());
         handle(sample);
       };
@@ -78,9 +82,11 @@ class ServiceContext {
     return *reader;
   }
 
-  /// The writer lives as long as the context.
+  /// The writer lives as long as the context. Throws std::logic_error if the topic table does not
+  /// name this service as a publisher: the permissions of identities are made from it.
   template <typename Sample>
   dds::Writer<Sample>& write(const dds::Topic<Sample>& topic) {
+    refuse_unless_publisher(topic);
     const auto writer = std::make_shared<dds::Writer<Sample>>(participant_, topic);
     keep(writer);
     hand_over_.push_back([writer = writer.get()] { writer->hand_over(); });
@@ -132,9 +138,11 @@ class ServiceContext {
     mismatches_.push_back([side = endpoint.get()] { return side->mismatch(); });
     endpoints_.push_back(endpoint);
   }
+  void count_missed(const InputWatch& input, std::uint32_t samples);
+  void refuse_unless_publisher(const dds::TopicInfo& topic) const;
   std::chrono::nanoseconds until_next_timer() const;
   void run_due_timers();
-  void beat() { publisher_.beat(board_.state(std::chrono::steady_clock::now())); }
+  void beat();
   void say_goodbye();
   void report();
   void report_as(ServiceState state);

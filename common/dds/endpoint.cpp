@@ -14,8 +14,11 @@ Entity create_topic(const Participant& participant, const TopicInfo& info) {
 }  // namespace
 
 std::string QosMismatch::text() const {
+  const std::string count = " (" + std::to_string(total) + " so far)";
+  if (policy == "type")
+    return topic_name + ": another participant's version of the type is incompatible" + count;
   return topic_name + ": cannot be connected with another participant's endpoint because of " +
-         policy + " (" + std::to_string(total) + " so far)";
+         policy + count;
 }
 
 Endpoint::Endpoint(const Participant& participant, const TopicInfo& info, Side side,

@@ -10,10 +10,10 @@
 namespace slammot::inspector {
 namespace {
 
-constexpr std::array<std::string_view, 14> kLosses = {
-    "faulty",    "stray",   "duplicate",    "out_of_order",           "lost",
-    "dropped",   "failed",  "far_ahead",    "incompatible",           "skipped",
-    "malformed", "foreign", "slow_readers", "scans_of_earlier_drives"};
+constexpr std::array<std::string_view, 15> kLosses = {
+    "faulty",    "stray",   "duplicate", "out_of_order", "lost",
+    "dropped",   "failed",  "far_ahead", "incompatible", "skipped",
+    "malformed", "foreign", "missed",    "slow_readers", "scans_of_earlier_drives"};
 
 std::string state_of(const wire::ServiceStatus& service) {
   return service.stands_by ? "standby" : std::string(wire::to_string(service.state));

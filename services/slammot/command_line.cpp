@@ -14,6 +14,7 @@
 #include "services/inspector/qos_command.hpp"
 #include "services/inspector/top_command.hpp"
 #include "services/inspector/topic_commands.hpp"
+#include "services/keys/keys_command.hpp"
 #include "services/recorder/bag_command.hpp"
 #include "services/recorder/record_command.hpp"
 #include "services/simulator/simulate_command.hpp"
@@ -43,7 +44,7 @@ const std::vector<Group>& groups() {
       {"Process a drive", {"run", "bench", "live", "collect", "simulate"}},
       {"Look at a drive or a result", {"check", "report", "plot", "animate", "eval", "warn"}},
       {"Recordings of the bus", {"record", "play", "bag"}},
-      {"Settings and maps", {"config", "map"}},
+      {"Settings, maps and keys", {"config", "map", "keys"}},
       {"Services that run",
        {"health", "top", "list", "echo", "hz", "delay", "qos", "graph", "doctor"}},
       {"Shell", {"completion"}}};
@@ -95,6 +96,7 @@ int run_command_line(int argc, char** argv) {
   recorder::add_record_command(app, exit_code);
   recorder::add_play_command(app, exit_code);
   recorder::add_bag_command(app, exit_code);
+  keys::add_keys_command(app, exit_code);
   add_completion_command(app, exit_code);
   set_groups(app);
   if (argc < 2) {

@@ -21,7 +21,7 @@ COMPOSER = "services/slammot"
 PROGRAMS = ("services/", "examples/")
 
 BUS_FOLDERS = {"common/dds", "common/wire"}
-BUS_TESTS = ("tests/unit/common/dds/", "tests/unit/common/wire/", "tests/integration/")
+BUS_TESTS = ("tests/unit/common/dds/", "tests/unit/common/wire/", "tests/integration/", "tests/fuzz/")
 BUS_HEADER = re.compile(r"^(dds/|ddsc/|idl/).*\.h$|^dds/")
 
 PURE_STANDARD_HEADERS = {

@@ -55,6 +55,31 @@ TEST_F(ContextOnTheBus, HandlesSamplesOfItsOwnVehicleOnly) {
   EXPECT_THAT(stamps, ::testing::ElementsAre(1, 3));
 }
 
+slammot_LaserScan scan_of(const char* scanner, std::uint32_t number) {
+  slammot_LaserScan sample{};
+  assign(sample.vehicle_id, "car");
+  assign(sample.scanner_id, scanner);
+  sample.sequence_number = number;
+  return sample;
+}
+
+TEST_F(ContextOnTheBus, CountsScansThatNeverCame) {
+  context.read(dds::topics::kLaserScan, Input::kSteady, [&](const slammot_LaserScan& scan) {
+    if (scan.sequence_number == 110) context.stop();
+  });
+  dds::Writer<slammot_LaserScan> writer(neighbour, dds::topics::kLaserScan);
+  ASSERT_TRUE(writer.wait_for_readers(1, kForever));
+  for (const std::uint32_t number : {7U, 8U, 10U}) writer.write(scan_of("front", number));
+  for (const std::uint32_t number : {3U, 110U}) writer.write(scan_of("rear", number));
+  run();
+  EXPECT_EQ(context.status().counter("missed_laser_scan"), 1U + 106U);
+}
+
+TEST_F(ContextOnTheBus, RefusesToPublishATopicOfAnotherService) {
+  EXPECT_THROW(context.write(dds::topics::kLaserScan), std::logic_error);
+  EXPECT_NO_THROW(context.write(dds::topics::kStatus));
+}
+
 TEST_F(ContextOnTheBus, BeatsAndReportsCountersLatenciesAndWhatIsMissing) {
   context.read(dds::topics::kOdometry, Input::kSteady, [](const slammot_Odometry&) {});
   context.status().counter("scans") = 12;

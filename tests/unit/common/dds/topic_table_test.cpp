@@ -35,6 +35,20 @@ TEST(TopicTable, CarriesTypeInformationForTheStockTools) {
     EXPECT_GT(topic->type->type_information.sz, 0U) << topic->name;
 }
 
+TEST(TopicTable, NamesAPublisherOfEachTopic) {
+  for (const TopicInfo* topic : topic_table())
+    EXPECT_FALSE(topic->publishers.empty()) << topic->name;
+}
+
+TEST(TopicTable, TakesNamesOfPublishersAsWholeWords) {
+  EXPECT_TRUE(may_publish("ingest", topics::kLaserScan));
+  EXPECT_TRUE(may_publish("simulator", topics::kLaserScan));
+  EXPECT_FALSE(may_publish("sim", topics::kLaserScan));
+  EXPECT_FALSE(may_publish("", topics::kLaserScan));
+  EXPECT_FALSE(may_publish("ingest simulator", topics::kLaserScan));
+  EXPECT_TRUE(may_publish("anything", topics::kHeartbeat));
+}
+
 TEST(TopicTable, FindsItsRowsByName) {
   for (const TopicInfo* topic : topic_table()) EXPECT_EQ(find_topic(topic->name), topic);
   EXPECT_EQ(find_topic("slammot/nothing"), nullptr);
