@@ -158,6 +158,8 @@ std::optional<LogEvent> CarmenLog::next() {
                           // The survey processes these two.
                           [](const ParamRecord&) {}, [](const ImuRecord&) {},
                           [this](const OdometryRecord& known) { take(known); },
+                          [this](const GnssRecord& known) { take(known); },
+                          [this](const CompassRecord& known) { take(known); },
                           [this](LaserRecord& known) { take(std::move(known)); }},
                now_.record);
     faults_.overlong_lines = now_.overlong_lines;
@@ -272,6 +274,24 @@ void CarmenLog::take(const OdometryRecord& record) {
   }
   if (plan_.odometry == OdometrySource::kOdomLines || plan_.odometry_late_s != 0.0)
     put_waiting_scans(kMaxWaitingScans);
+}
+
+void CarmenLog::take(const GnssRecord& record) {
+  const auto stamp = recorded_stamp_ns(record.stamps);
+  if (has_replaced_stamps()) return void(++faults_.ignored_lines);
+  if (!stamp) return note_malformed();
+  sensing::GnssFix fix = record.fix;
+  fix.stamp_ns = *stamp;
+  ready_.emplace_back(std::move(fix));
+}
+
+void CarmenLog::take(const CompassRecord& record) {
+  const auto stamp = recorded_stamp_ns(record.stamps);
+  if (has_replaced_stamps()) return void(++faults_.ignored_lines);
+  if (!stamp) return note_malformed();
+  sensing::CompassReading reading = record.reading;
+  reading.stamp_ns = *stamp;
+  ready_.emplace_back(std::move(reading));
 }
 
 std::int64_t CarmenLog::lateness_ns() const { return std::llround(plan_.odometry_late_s * 1e9); }

@@ -48,7 +48,8 @@ struct LogFaults {
   std::string damage;                                ///< Kind and place of the damage, if known.
 };
 
-using LogEvent = std::variant<sensing::Odometry, sensing::LaserScan>;
+using LogEvent =
+    std::variant<sensing::Odometry, sensing::LaserScan, sensing::GnssFix, sensing::CompassReading>;
 
 /// A log as a stream of sensor events in the order of the log: CARMEN text and the formats of
 /// open_records().
@@ -69,6 +70,8 @@ using LogEvent = std::variant<sensing::Odometry, sensing::LaserScan>;
 ///   its own mounting and a scanner_id of its own: the topic or the message's name.
 /// - A scan's range_m is as in the log, NaN for what was no number; sensing::is_echo() tells echoes
 /// from the rest.
+/// - Fixes and compass readings come in the order of the log, stamped by its clock; without a clock
+/// they are ignored.
 /// - sweep_s is left 0: a log does not say it. See sweep_s_for() in log_profile.hpp.
 class CarmenLog {
  public:
@@ -117,6 +120,8 @@ class CarmenLog {
   }
   std::optional<std::size_t> scanner_of(const LaserRecord& record) const;
   void take(const OdometryRecord& record);
+  void take(const GnssRecord& record);
+  void take(const CompassRecord& record);
   void note_malformed();
   void finish_reading();
   bool has_replaced_stamps() const { return !plan_.times.stamps_ns.empty(); }

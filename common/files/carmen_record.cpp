@@ -249,6 +249,82 @@ CarmenRecord parse_imu(Words words) {
   return ImuRecord{*yaw_rate_radps, next_stamps(words)};
 }
 
+/// Degrees from NMEA's ddmm.mmmm and its letter; nullopt if it is none.
+std::optional<double> next_degrees(Words& words, std::string_view letters, double most_deg) {
+  const auto degrees_minutes = next_finite(words);
+  const std::string_view letter = words.next();
+  if (!degrees_minutes || *degrees_minutes < 0.0 || letter.size() != 1) return std::nullopt;
+  const std::size_t side = letters.find(letter.front());
+  const double whole = std::floor(*degrees_minutes / 100.0);
+  const double degrees = whole + (*degrees_minutes - 100.0 * whole) / 60.0;
+  if (side == std::string_view::npos || degrees > most_deg) return std::nullopt;
+  return side == 0 ? degrees : -degrees;
+}
+
+sensing::GnssQuality quality_of(int indicator) {
+  constexpr int kRtk = 4;
+  switch (indicator) {
+    case 0: return sensing::GnssQuality::no_fix;
+    case 2:
+    case 5: return sensing::GnssQuality::differential;  // 5: RTK without fixed ambiguities
+    case kRtk: return sensing::GnssQuality::rtk;
+    default: return sensing::GnssQuality::single;
+  }
+}
+
+/// GGA has the dilution of precision only: standard deviation of a range, one satellite.
+double range_sigma_m(sensing::GnssQuality quality) {
+  switch (quality) {
+    case sensing::GnssQuality::rtk: return 0.05;
+    case sensing::GnssQuality::differential: return 0.7;
+    default: return 1.5;
+  }
+}
+
+/// Receiver, UTC, latitude, longitude, quality, satellites, hdop, 2 heights with 2 references, age.
+CarmenRecord parse_nmea_gga(Words words) {
+  GnssRecord record;
+  record.fix.receiver_id = words.next();
+  words.next();  // UTC; the record has a stamp of the logging computer
+  const auto latitude_deg = next_degrees(words, "NS", 90.0);
+  const auto longitude_deg = next_degrees(words, "EW", 180.0);
+  const auto quality = parse_number<int>(words.next());
+  const auto satellites = parse_number<int>(words.next());
+  const auto hdop = next_finite(words);
+  words.next();
+  const auto altitude_m = next_finite(words);
+  for (int i = 0; i < 3; ++i) words.next();
+  if (!latitude_deg || !longitude_deg || !quality || !satellites || !hdop || !altitude_m ||
+      words.count_left() == 0)
+    return MalformedLine{};
+  record.fix.quality = quality_of(*quality);
+  record.fix.position = {*latitude_deg, *longitude_deg};
+  record.fix.altitude_m = *altitude_m;
+  record.fix.hdop = std::clamp(*hdop, 0.0, 100.0);
+  record.fix.satellites = *satellites;
+  const double sigma_m = range_sigma_m(record.fix.quality) * std::max(0.7, record.fix.hdop);
+  record.fix.covariance_m2 = 0.5 * sigma_m * sigma_m * geometry::Matrix2::Identity();
+  record.stamps = next_stamps(words);
+  return record;
+}
+
+/// Compass, heading clockwise from true north [deg], validity.
+CarmenRecord parse_nmea_hdt(Words words) {
+  constexpr double kSigma_rad = 0.05;  // the sentence has none; of a magnetic compass on a vehicle
+  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+  CompassRecord record;
+  record.reading.compass_id = words.next();
+  const auto heading_deg = next_finite(words);
+  const auto valid = parse_number<int>(words.next());
+  if (!heading_deg || std::abs(*heading_deg) > 360.0 || !valid || words.count_left() == 0)
+    return MalformedLine{};
+  if (*valid == 0) return IgnoredLine{};
+  record.reading.heading_from_east_rad = geometry::wrap_angle((90.0 - *heading_deg) * kRadPerDeg);
+  record.reading.sigma_rad = kSigma_rad;
+  record.stamps = next_stamps(words);
+  return record;
+}
+
 CarmenRecord parse_odom(Words words) {
   const auto wheel_from_base = next_pose(words);
   for (int i = 0; i < 3; ++i) words.next();  // speeds and acceleration
@@ -340,6 +416,8 @@ CarmenRecord parse_carmen_line(std::string_view line) {
   if (keyword == "PARAM") return parse_param(words);
   if (keyword == "TRUEPOS") return parse_truepos(words);
   if (keyword == "IMU") return parse_imu(words);
+  if (keyword == "NMEAGGA") return parse_nmea_gga(words);
+  if (keyword == "NMEAHDT") return parse_nmea_hdt(words);
   if (keyword == "Laser") return parse_dp_slam_laser(words);
   if (keyword == "Odometry") return parse_dp_slam_odometry(words);
   if (const auto slot = numbered(keyword, "ROBOTLASER"))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/geometry/pose2.hpp"
+#include "common/sensing/aids.hpp"
 
 namespace slammot::files {
 
@@ -71,6 +72,18 @@ struct ImuRecord {
   CarmenStamps stamps;
 };
 
+/// One line NMEAGGA: the receiver's sentence GGA. stamp_ns of the fix is not set.
+struct GnssRecord {
+  sensing::GnssFix fix;
+  CarmenStamps stamps;
+};
+
+/// One line NMEAHDT: a heading against true north. stamp_ns of the reading is not set.
+struct CompassRecord {
+  sensing::CompassReading reading;
+  CarmenStamps stamps;
+};
+
 /// One line PARAM.
 struct ParamRecord {
   std::string_view name;  ///< Points into the line.
@@ -83,8 +96,8 @@ struct IgnoredLine {};
 /// An invalid record: too few numbers, letters for numbers, or a pose that is not finite.
 struct MalformedLine {};
 
-using CarmenRecord =
-    std::variant<IgnoredLine, MalformedLine, ParamRecord, ImuRecord, OdometryRecord, LaserRecord>;
+using CarmenRecord = std::variant<IgnoredLine, MalformedLine, ParamRecord, ImuRecord,
+                                  OdometryRecord, LaserRecord, GnssRecord, CompassRecord>;
 
 /// Scans with one beam or more than this are malformed: beam indices have 16 bits, samples on the
 /// bus at most 128 kB.

@@ -27,13 +27,23 @@ geometry::Matrix3 information_at_end(const geometry::UncertainPose2& from_to) {
   return covariance.ldlt().solve(geometry::Matrix3::Identity());
 }
 
+/// Latitude, longitude and direction of the x axis from east [rad] of the frame map. map_server
+/// ignores the line.
+std::string geo_origin_yaml(const std::optional<flow::Georeference>& georeference) {
+  if (!georeference || !georeference->has_position) return {};
+  return "geo_origin: [" + fixed_text(georeference->origin.latitude_deg, 9) + ", " +
+         fixed_text(georeference->origin.longitude_deg, 9) + ", " +
+         fixed_text(georeference->x_from_east_rad, 6) + "]\n";
+}
+
 std::optional<Error> write_map_files(const std::filesystem::path& folder, const std::string& name,
-                                     const MapImage& image) {
+                                     const MapImage& image, const std::string& more_yaml) {
   const Result<std::string> png = to_png(image);
   if (!png) return png.error();
   if (auto fault = write_file_atomically(folder / (name + ".pgm"), to_pgm(image))) return fault;
   if (auto fault = write_file_atomically(folder / (name + ".png"), *png)) return fault;
-  return write_file_atomically(folder / (name + ".yaml"), to_map_server_yaml(image, name + ".pgm"));
+  return write_file_atomically(folder / (name + ".yaml"),
+                               to_map_server_yaml(image, name + ".pgm") + more_yaml);
 }
 
 /// Removes files of an earlier run, which would be mistaken for this one's.
@@ -87,8 +97,9 @@ std::optional<Error> write_maps(const std::filesystem::path& folder, const RunRe
   for (const auto& [id, submap] : record.submaps())
     placed.push_back({&submap, record.map_from_submap(submap)});
   const MapImages images = draw_map(placed);
-  if (auto fault = write_map_files(folder, "map", images.stationary)) return fault;
-  return write_map_files(folder, "moving", images.moving);
+  const std::string geo_origin = geo_origin_yaml(record.georeference());
+  if (auto fault = write_map_files(folder, "map", images.stationary, geo_origin)) return fault;
+  return write_map_files(folder, "moving", images.moving, geo_origin);
 }
 
 }  // namespace

@@ -110,6 +110,9 @@ class RunRecord {
   /// True if constraints connect the newest submap to the first one after the last correction.
   bool is_connected() const { return !correction_.is_untied; }
 
+  /// Place of the map on the earth after the last correction; none without GNSS and compass.
+  const std::optional<flow::Georeference>& georeference() const { return correction_.georeference; }
+
   /// One pose for every scan of the log, as published live; scans of several scanners that share a
   /// stamp share the pose. A scan that was dropped or lost is given the pose between its neighbours
   /// in time.

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/files/georeference_findings.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/odometry_findings.hpp"
 
@@ -156,6 +157,28 @@ Json odometry_of(const sensing::OdometryConclusions& odometry, bool time_is_know
   return json;
 }
 
+/// Latitude and longitude with nine decimals: a tenth of a millimetre.
+Json georeference_of(const flow::Georeference& found) {
+  Json json = {{"conclusion", describe_georeference(found)},
+               {"fixes", found.fixes},
+               {"rejected_fixes", found.rejected_fixes},
+               {"fix_sigma_m", short_number(found.fix_sigma_m)},
+               {"headings", found.headings},
+               {"rejected_headings", found.rejected_headings},
+               {"compass_bias_rad", short_number(found.compass_bias_rad)},
+               {"corrects_map", found.corrects_map}};
+  if (found.has_position) {
+    json["origin_latitude_deg"] = std::round(found.origin.latitude_deg * 1e9) / 1e9;
+    json["origin_longitude_deg"] = std::round(found.origin.longitude_deg * 1e9) / 1e9;
+    json["origin_sigma_m"] = short_number(found.position_sigma_m);
+  }
+  if (found.has_direction) {
+    json["x_from_east_rad"] = short_number(found.x_from_east_rad);
+    json["x_from_east_sigma_rad"] = short_number(found.direction_sigma_rad);
+  }
+  return json;
+}
+
 Json losses_of(const RunReport& report) {
   Json losses = Json::array();
   for (const LossOfPlace& loss : report.losses)
@@ -212,6 +235,8 @@ std::string to_json_text(const RunRecord& record, const RunReport& report, doubl
   if (!report.replaced_stages.empty()) json["replaced_stages"] = report.replaced_stages;
   if (report.odometry)
     json["odometry"] = odometry_of(*report.odometry, report.plan.figures.has_clock);
+  if (record.georeference()) json["georeference"] = georeference_of(*record.georeference());
+  if (report.streets) json["streets"] = Json::parse(to_json_text(*report.streets));
   json["measured"] = measured_of(report.measured);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -9,6 +9,7 @@
 #include "common/files/carmen_log.hpp"
 #include "common/files/carmen_survey.hpp"
 #include "common/files/run_record.hpp"
+#include "common/files/street_findings.hpp"
 #include "common/sensing/odometry_episodes.hpp"
 
 namespace slammot::files {
@@ -52,6 +53,7 @@ struct RunReport {
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
   std::vector<LossOfPlace> losses;                       ///< Of localization, where known.
   std::optional<sensing::OdometryConclusions> odometry;  ///< None if not recorded.
+  std::optional<StreetFindings> streets;                 ///< None without a street graph.
   MeasuredRun measured;
 };
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/flow/absolute_measurements.hpp"
 #include "common/flow/ids.hpp"
 #include "common/geometry/uncertain_pose2.hpp"
 
@@ -57,6 +59,7 @@ struct GraphCorrection {
   MapId map_id{};
   bool is_untied = false;  ///< The newest submap is not tied to the first one yet: map_from_odom is
                            ///< invalid.
+  std::optional<Georeference> georeference{};  ///< None without GNSS and compass.
 };
 
 }  // namespace slammot::flow

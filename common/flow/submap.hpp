@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/flow/absolute_measurements.hpp"
 #include "common/flow/ids.hpp"
 #include "common/geometry/uncertain_pose2.hpp"
 
@@ -39,6 +40,8 @@ struct Submap {
   std::vector<std::uint8_t> mo_evidence;  ///< Evidence of motion: 0 never, 255 always seen moving.
   std::vector<Surfel> surfels;
   double saliency = 0.0;  ///< Object saliency score, Wang 2004, Eq. (3.11); 0 if not computed.
+  std::vector<SubmapFix> fixes{};         ///< At most kMostFixesOfSubmap.
+  std::vector<SubmapHeading> headings{};  ///< At most kMostHeadingsOfSubmap.
 };
 
 }  // namespace slammot::flow

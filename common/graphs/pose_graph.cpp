@@ -8,49 +8,14 @@
 
 #include <ceres/ceres.h>
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 
-#include "common/graphs/relative_pose.hpp"
+#include "common/graphs/relative_pose_cost.hpp"
 
 namespace slammot::graphs {
 namespace {
 
-using geometry::Matrix3;
 using geometry::Pose2;
 using geometry::Vector2;
-
-/// Upper triangular square root W of the information: W' W = covariance^-1.
-Matrix3 whitening_of(const Matrix3& covariance) {
-  return Matrix3(covariance.inverse()).llt().matrixU();
-}
-
-/// Whitened error of a relative pose in the frame of `from`; blocks are (x [m], y [m], heading
-/// [rad]) in map.
-class RelativePoseCost final : public ceres::SizedCostFunction<3, 3, 3> {
- public:
-  /// weight: factor on the squared error; read at each evaluation.
-  RelativePoseCost(const Pose2& measured_from_to, const Matrix3& whitening, const double& weight)
-      : measured_(measured_from_to), unweighted_(whitening), weight_(weight) {}
-
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    const Pose2 map_from_from{blocks[0][0], blocks[0][1], blocks[0][2]};
-    const Pose2 map_from_to{blocks[1][0], blocks[1][1], blocks[1][2]};
-    const RelativePose relative = relative_pose(map_from_from, map_from_to);
-    const Matrix3 whitening = std::sqrt(weight_) * unweighted_;
-    Eigen::Map<Eigen::Vector3d>{residuals} =
-        whitening * geometry::difference(relative.from_to, measured_);
-    if (jacobians == nullptr) return true;
-    using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-    if (jacobians[0] != nullptr) Eigen::Map<RowMajor>{jacobians[0]} = whitening * relative.by_from;
-    if (jacobians[1] != nullptr) Eigen::Map<RowMajor>{jacobians[1]} = whitening * relative.by_to;
-    return true;
-  }
-
- private:
-  Pose2 measured_;
-  Matrix3 unweighted_;
-  const double& weight_;
-};
 
 ceres::Solver::Options solver_options(int max_iterations) {
   ceres::Solver::Options options;

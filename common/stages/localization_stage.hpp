@@ -11,6 +11,7 @@
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/submap.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "common/sensing/aids.hpp"
 #include "common/sensing/odometry_episodes.hpp"
 #include "common/sensing/scan.hpp"
 
@@ -55,6 +56,10 @@ class LocalizationStage {
                                                             const std::vector<flow::PointLabel>&) {
     return std::nullopt;
   }
+
+  /// Optional: absolute measurements, which the finished submaps carry to loop closing.
+  virtual void add_fix(const sensing::GnssFix&) {}
+  virtual void add_heading(const sensing::CompassReading&) {}
 
   /// Optional: tracks, as predictions of where moving objects are in the next scan.
   virtual void expect(const flow::TrackedObjects&) {}

@@ -20,6 +20,48 @@ static_assert(static_cast<int>(flow::ClosureState::kAccepted) == slammot_CLOSURE
 static_assert(static_cast<int>(flow::ClosureState::kRejected) == slammot_CLOSURE_STATE_REJECTED);
 static_assert(static_cast<int>(flow::ClosureState::kWithdrawn) == slammot_CLOSURE_STATE_WITHDRAWN);
 
+slammot_Georeference encoded(const flow::Georeference& georeference) {
+  slammot_Georeference sample{};
+  sample.has_position = georeference.has_position;
+  sample.has_direction = georeference.has_direction;
+  sample.latitude_deg = georeference.origin.latitude_deg;
+  sample.longitude_deg = georeference.origin.longitude_deg;
+  sample.x_from_east_rad = georeference.x_from_east_rad;
+  sample.position_sigma_m = georeference.position_sigma_m;
+  sample.direction_sigma_rad = georeference.direction_sigma_rad;
+  sample.compass_bias_rad = georeference.compass_bias_rad;
+  sample.fix_sigma_m = georeference.fix_sigma_m;
+  sample.corrects_map = georeference.corrects_map;
+  sample.fix_count = georeference.fixes;
+  sample.rejected_fix_count = georeference.rejected_fixes;
+  sample.heading_count = georeference.headings;
+  sample.rejected_heading_count = georeference.rejected_headings;
+  return sample;
+}
+
+flow::Georeference decoded(const slammot_Georeference& sample) {
+  return {.has_position = sample.has_position,
+          .has_direction = sample.has_direction,
+          .origin = {sample.latitude_deg, sample.longitude_deg},
+          .x_from_east_rad = sample.x_from_east_rad,
+          .position_sigma_m = sample.position_sigma_m,
+          .direction_sigma_rad = sample.direction_sigma_rad,
+          .compass_bias_rad = sample.compass_bias_rad,
+          .fix_sigma_m = sample.fix_sigma_m,
+          .corrects_map = sample.corrects_map,
+          .fixes = sample.fix_count,
+          .rejected_fixes = sample.rejected_fix_count,
+          .headings = sample.heading_count,
+          .rejected_headings = sample.rejected_heading_count};
+}
+
+bool is_sound_reference(const slammot_Georeference& sample) {
+  return std::abs(sample.latitude_deg) <= 90.0 && std::abs(sample.longitude_deg) <= 360.0 &&
+         is_sound(sample.x_from_east_rad) && is_amount(sample.position_sigma_m) &&
+         is_amount(sample.direction_sigma_rad) && is_sound(sample.compass_bias_rad) &&
+         is_amount(sample.fix_sigma_m);
+}
+
 std::string_view fault_of(const slammot_GraphCorrection& part) {
   if (part.part_count == 0 || part.part_count > kMostParts)
     return "part_count is not within 1 and 64";
@@ -28,6 +70,8 @@ std::string_view fault_of(const slammot_GraphCorrection& part) {
   for (const slammot_CorrectedSubmap& submap : elements(part.submaps)) {
     if (!is_sound(submap.map_from_submap)) return "map_from_submap is not finite";
   }
+  if (part.has_georeference && !is_sound_reference(part.georeference))
+    return "georeference is not finite";
   return "";
 }
 
@@ -88,6 +132,8 @@ void GraphCorrectionEncoder::encode(
   sample_.map_id = correction.map_id.value;
   sample_.map_from_odom = wire::encode(correction.map_from_odom);
   sample_.is_untied = correction.is_untied;
+  sample_.has_georeference = correction.georeference.has_value();
+  sample_.georeference = encoded(correction.georeference.value_or(flow::Georeference{}));
   for (std::size_t part = 0; part < parts; ++part) {
     submaps_.clear();
     const std::size_t end = std::min(submaps, (part + 1) * kMostSubmapsOfPart);
@@ -132,8 +178,9 @@ GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_Grap
   const auto has_come = [](const auto& one) { return one.has_value(); };
   if (!std::all_of(partial.parts.begin(), partial.parts.end(), has_come)) return {};
 
-  flow::GraphCorrection correction{
-      part.sequence_number, partial.map_from_odom, {}, partial.map_id, partial.is_untied};
+  flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {},
+                                   partial.map_id,       partial.is_untied,     {}};
+  if (part.has_georeference) correction.georeference = decoded(part.georeference);
   for (const auto& one : partial.parts)
     correction.submaps.insert(correction.submaps.end(), one->begin(), one->end());
   partial_.erase(part.sequence_number);

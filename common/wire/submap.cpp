@@ -1,6 +1,7 @@
 #include "common/wire/submap.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <span>
 #include <stdexcept>
@@ -120,6 +121,23 @@ bool is_inside(std::uint32_t first, std::uint32_t count, std::uint32_t size) {
   return std::uint64_t{first} + count <= size;
 }
 
+std::string_view fault_of_measurements(const slammot_SubmapTile& tile) {
+  for (const slammot_SubmapFix& fix : elements(tile.fixes)) {
+    const bool is_on_earth =
+        std::abs(fix.latitude_deg) <= 90.0 && std::abs(fix.longitude_deg) <= 360.0;
+    if (!is_on_earth || !is_sound(fix.x_m) || !is_sound(fix.y_m) ||
+        !is_amount(fix.east_variance_m2) || !is_amount(fix.north_variance_m2) ||
+        !is_sound(fix.covariance_m2))
+      return "a fix is not finite";
+  }
+  for (const slammot_SubmapHeading& heading : elements(tile.headings)) {
+    if (!is_sound(heading.in_submap_rad) || !is_sound(heading.from_east_rad) ||
+        !is_amount(heading.sigma_rad))
+      return "a heading is not finite";
+  }
+  return "";
+}
+
 std::string_view fault_of(const slammot_SubmapTile& tile) {
   const slammot_SubmapHeader& header = tile.header;
   if (const std::string_view fault = fault_of(header); !fault.empty()) return fault;
@@ -140,7 +158,20 @@ std::string_view fault_of(const slammot_SubmapTile& tile) {
       return "a surfel is not finite";
     }
   }
-  return "";
+  return fault_of_measurements(tile);
+}
+
+void copy_measurements_into(flow::Submap& submap, const slammot_SubmapTile& tile) {
+  for (const slammot_SubmapFix& fix : elements(tile.fixes)) {
+    submap.fixes.push_back({fix.x_m,
+                            fix.y_m,
+                            {fix.latitude_deg, fix.longitude_deg},
+                            fix.east_variance_m2,
+                            fix.north_variance_m2,
+                            fix.covariance_m2});
+  }
+  for (const slammot_SubmapHeading& heading : elements(tile.headings))
+    submap.headings.push_back({heading.in_submap_rad, heading.from_east_rad, heading.sigma_rad});
 }
 
 /// Copies the tile's rectangle and its stretch of surfels to where they belong.
@@ -159,6 +190,7 @@ void copy_into(flow::Submap& submap, const slammot_SubmapTile& tile) {
   for (const slammot_Surfel& surfel : elements(tile.surfels)) {
     *next++ = {surfel.x_m, surfel.y_m, surfel.normal_x, surfel.normal_y, surfel.weight};
   }
+  if (tile.tile_index == 0) copy_measurements_into(submap, tile);
 }
 
 }  // namespace
@@ -187,6 +219,17 @@ std::uint64_t content_hash(const flow::Submap& submap) {
     hash.add(surfel.normal_x);
     hash.add(surfel.normal_y);
     hash.add(surfel.weight);
+  }
+  for (const flow::SubmapFix& fix : submap.fixes) {
+    for (const double number : {fix.position.latitude_deg, fix.position.longitude_deg})
+      hash.add(number);
+    for (const float number :
+         {fix.x_m, fix.y_m, fix.east_variance_m2, fix.north_variance_m2, fix.covariance_m2})
+      hash.add(number);
+  }
+  for (const flow::SubmapHeading& heading : submap.headings) {
+    for (const float number : {heading.in_submap_rad, heading.from_east_rad, heading.sigma_rad})
+      hash.add(number);
   }
   return hash.hash();
 }
@@ -246,10 +289,26 @@ void SubmapEncoder::fill_surfels(const flow::Submap& submap, std::uint32_t first
   show(sample_.surfels, surfels_);
 }
 
+void SubmapEncoder::fill_measurements(const flow::Submap& submap, std::uint32_t tile) {
+  fixes_.clear();
+  headings_.clear();
+  if (tile == 0) {
+    for (const flow::SubmapFix& fix : submap.fixes)
+      fixes_.push_back({fix.position.latitude_deg, fix.position.longitude_deg, fix.x_m, fix.y_m,
+                        fix.east_variance_m2, fix.north_variance_m2, fix.covariance_m2});
+    for (const flow::SubmapHeading& heading : submap.headings)
+      headings_.push_back({heading.in_submap_rad, heading.from_east_rad, heading.sigma_rad});
+  }
+  show(sample_.fixes, fixes_);
+  show(sample_.headings, headings_);
+}
+
 void SubmapEncoder::encode(std::string_view vehicle_id, const flow::Submap& submap,
                            const std::function<void(const slammot_SubmapTile&)>& write) {
   const std::uint64_t cells = std::uint64_t{submap.columns} * submap.rows;
-  if (cells > kMostCells || submap.surfels.size() > kMostSurfels) {
+  if (cells > kMostCells || submap.surfels.size() > kMostSurfels ||
+      submap.fixes.size() > flow::kMostFixesOfSubmap ||
+      submap.headings.size() > flow::kMostHeadingsOfSubmap) {
     throw std::length_error("submap " + std::to_string(submap.submap_id.value) +
                             " is too large for the bus");
   }
@@ -270,6 +329,7 @@ void SubmapEncoder::encode(std::string_view vehicle_id, const flow::Submap& subm
     fill_rectangle(submap, tile < rectangles_.size() ? rectangles_[tile] : Rectangle{});
     fill_surfels(submap, std::min(surfels, tile * surfels_of_tile),
                  std::min(surfels, (tile + 1) * surfels_of_tile));
+    fill_measurements(submap, tile);
     write(sample_);
   }
 }

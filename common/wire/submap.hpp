@@ -37,12 +37,15 @@ class SubmapEncoder {
   void find_rectangles(const flow::Submap& submap);
   void fill_rectangle(const flow::Submap& submap, const Rectangle& rectangle);
   void fill_surfels(const flow::Submap& submap, std::uint32_t first, std::uint32_t end);
+  void fill_measurements(const flow::Submap& submap, std::uint32_t tile);
 
   slammot_SubmapTile sample_{};
   std::vector<Rectangle> rectangles_;
   std::vector<std::uint8_t> so_log_odds_plus_128_;
   std::vector<std::uint8_t> mo_evidence_;
   std::vector<slammot_Surfel> surfels_;
+  std::vector<slammot_SubmapFix> fixes_;
+  std::vector<slammot_SubmapHeading> headings_;
 };
 
 /// Reassembles submaps from tiles in any order, repeated, and of several submaps at a time, as late

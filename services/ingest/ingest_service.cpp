@@ -89,6 +89,8 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
       graph_(nanoseconds_of(config_.graph_patience_s)),
       scans_(context.write(dds::topics::kLaserScan)),
       odometry_(context.write(dds::topics::kOdometry)),
+      fixes_(context.write(dds::topics::kGnssFix)),
+      headings_(context.write(dds::topics::kCompassReading)),
       encoder_(drive_.drive_id()),
       give_up_waiting_at_(steady_clock::now() + nanoseconds_of(config_.wait_for_services_s)) {
   context.status().counter("log_finished") = 0;
@@ -223,6 +225,10 @@ void IngestService::send(const Step& step) {
   };
   for (const sensing::Odometry& odometry : step.odometry)
     count_timeout(odometry_.write(wire::encode(context_.vehicle_id(), odometry)));
+  for (const sensing::GnssFix& fix : step.fixes)
+    count_timeout(fixes_.write(wire::encode(context_.vehicle_id(), fix)));
+  for (const sensing::CompassReading& reading : step.headings)
+    count_timeout(headings_.write(wire::encode(context_.vehicle_id(), reading)));
   if (step.scan) count_timeout(scans_.write(encoder_.encode(context_.vehicle_id(), *step.scan)));
 }
 

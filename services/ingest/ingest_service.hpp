@@ -74,6 +74,8 @@ class IngestService {
   app::Readiness readiness_{{"localization", "detection", "tracking"}};
   dds::Writer<slammot_LaserScan>& scans_;
   dds::Writer<slammot_Odometry>& odometry_;
+  dds::Writer<slammot_GnssFix>& fixes_;
+  dds::Writer<slammot_CompassReading>& headings_;
   wire::LaserScanEncoder encoder_;
   std::chrono::steady_clock::time_point give_up_waiting_at_;
   bool has_begun_ = false;

@@ -32,6 +32,14 @@ std::optional<Step> LogSource::next() {
       step.odometry.push_back(*odometry);
       continue;
     }
+    if (const auto* fix = std::get_if<sensing::GnssFix>(&*event)) {
+      step.fixes.push_back(*fix);
+      continue;
+    }
+    if (const auto* reading = std::get_if<sensing::CompassReading>(&*event)) {
+      step.headings.push_back(*reading);
+      continue;
+    }
     step.scan = std::get<sensing::LaserScan>(std::move(*event));
     step.scan->scanner.sweep_s = sweep_s_;
     return step;

@@ -13,10 +13,12 @@ namespace slammot::ingest {
 /// Options for reading a log.
 files::CarmenLogOptions log_options(const IngestConfig& config);
 
-/// A scan and the odometry since the previous scan.
+/// A scan and what was measured since the previous scan.
 struct Step {
   std::vector<sensing::Odometry> odometry;
-  std::optional<sensing::LaserScan> scan;  ///< Empty for odometry after the last scan.
+  std::vector<sensing::GnssFix> fixes;
+  std::vector<sensing::CompassReading> headings;
+  std::optional<sensing::LaserScan> scan;  ///< Empty after the last scan.
 };
 
 /// Reads a recorded drive scan by scan.

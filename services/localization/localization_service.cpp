@@ -81,6 +81,10 @@ void LocalizationService::read_inputs(app::ServiceContext& context) {
                [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kOdometry, Input::kSteady,
                [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kGnssFix, Input::kOccasional,
+               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kCompassReading, Input::kOccasional,
+               [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kLaserScan, Input::kSteady,
                [this](const auto& sample) { take(sample); });
 }
@@ -108,6 +112,16 @@ void LocalizationService::take(const slammot_Odometry& sample) {
   localizer_.add_odometry(*odometry);
   recent_odometry_.add(*odometry);
   localize_waiting();
+}
+
+void LocalizationService::take(const slammot_GnssFix& sample) {
+  const auto fix = wire::decode(sample);
+  if (is_good(fix, "gnss_fix")) localizer_.add_fix(*fix);
+}
+
+void LocalizationService::take(const slammot_CompassReading& sample) {
+  const auto reading = wire::decode(sample);
+  if (is_good(reading, "compass_reading")) localizer_.add_heading(*reading);
 }
 
 void LocalizationService::take(const slammot_SegmentedScan& sample) {

@@ -65,6 +65,8 @@ class LocalizationService {
   void read_inputs(app::ServiceContext& context);
   void take(const slammot_LaserScan& sample);
   void take(const slammot_Odometry& sample);
+  void take(const slammot_GnssFix& sample);
+  void take(const slammot_CompassReading& sample);
   void take(const slammot_SegmentedScan& sample);
   void take(const slammot_TrackedObjects& sample);
   void take(const slammot_ScanLabels& sample);

@@ -82,6 +82,8 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   points_.begin_scan();
   if (prediction_.last()) place_next(scan);
   else begin(scan);
+  if (monitor_.is_lost()) submaps_.measurements().lose_place();
+  else submaps_.measurements().place(scan.stamp_ns, odom_from_base());
   return describe_and_remember(scan, estimate_at_last_scan(), monitor_.admission(),
                                std::move(workspace));
 }

@@ -47,6 +47,11 @@ class Localizer final : public stages::LocalizationStage {
 
   void add_odometry(const sensing::Odometry& sample) override { prediction_.add(sample); }
 
+  void add_fix(const sensing::GnssFix& fix) override { submaps_.measurements().add(fix); }
+  void add_heading(const sensing::CompassReading& reading) override {
+    submaps_.measurements().add(reading);
+  }
+
   /// Whether waiting for more odometry could still improve the prediction at the stamp.
   bool has_odometry_for(std::int64_t stamp_ns) const { return prediction_.reaches(stamp_ns); }
 

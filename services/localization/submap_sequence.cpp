@@ -76,6 +76,7 @@ void SubmapSequence::end(const Pose2& odom_from_base) {
   submap.previous_from_submap = state_.previous_from_submap;
   submap.submap_from_base_at_end = geometry::inverse(map_.odom_from_submap()) * odom_from_base;
   submap.travelled_m = state_.travel.travelled_m;
+  measurements_.move_into(submap);
   finished_.push_back(std::move(submap));
   state_.is_ended = true;
 }

@@ -10,6 +10,7 @@
 #include "common/work/side_work.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/localizer_config.hpp"
+#include "services/localization/submap_measurements.hpp"
 
 namespace slammot::localization {
 
@@ -64,6 +65,9 @@ class SubmapSequence {
   /// Older corrections than the newest are ignored.
   void correct(const flow::GraphCorrection& correction);
 
+  /// Fixes and compass readings that the submap in progress will carry.
+  SubmapMeasurements& measurements() { return measurements_; }
+
   LocalMap& map() { return map_; }
   const LocalMap& map() const { return map_; }
   work::SideWork* help() const { return help_; }
@@ -87,6 +91,7 @@ class SubmapSequence {
   LocalMap map_;
   flow::SubmapId first_submap_;
   State state_;
+  SubmapMeasurements measurements_;
   std::vector<flow::Submap> finished_;
 };
 

@@ -14,8 +14,10 @@ using geometry::Pose2;
 using geometry::UncertainPose2;
 using geometry::Vector2;
 
-constexpr double kGateSigmas = 3.0;  // Gate of the graph's uncertainty, in addition to
-                                     // max_distance_m.
+constexpr double kGateSigmas = 3.0;     // Gate of the graph's uncertainty, in addition to
+                                        // max_distance_m.
+constexpr double kGnssReach_m = 100.0;  // Errors of two submaps' fixes together: multipath in a
+                                        // street canyon may last for both.
 constexpr int kNeighbours = 1;     // Submaps before and after the earlier one that join its target.
 constexpr int kMaxCandidates = 3;  // Targets on the same island for one new submap.
 
@@ -38,6 +40,12 @@ UncertainPose2 unknown_pose_on(const Place& target, const Place& source, double 
   return {{shift_m.x(), shift_m.y(), 0.0},
           Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, std::numbers::pi * std::numbers::pi)
               .asDiagonal()};
+}
+
+/// True if GNSS says that two submaps do not overlap.
+bool are_apart_by_gnss(const Place& a, const Place& b, double max_distance_m) {
+  return a.by_gnss && b.by_gnss &&
+         geometry::east_north_m(*a.by_gnss, *b.by_gnss).norm() > max_distance_m + kGnssReach_m;
 }
 
 /// The nearest candidates. Neighbours of a chosen candidate are part of its target.
@@ -92,7 +100,8 @@ std::vector<RevisitCandidate> expected_candidates(const SubmapView& submaps, con
       continue;
     const double distance_m = (source_from_target.pose * target.centre_m - source.centre_m).norm();
     if (distance_m >
-        config.max_distance_m + kGateSigmas * widest_sigma_m(source_from_target.covariance))
+            config.max_distance_m + kGateSigmas * widest_sigma_m(source_from_target.covariance) ||
+        are_apart_by_gnss(target, source, config.max_distance_m))
       continue;
     all.push_back({id, geometry::inverse(source_from_target), distance_m});
   }
@@ -104,7 +113,9 @@ std::vector<RevisitCandidate> candidates_elsewhere(const SubmapView& submaps, co
   const Vector2 source_in_map_m = graph.map_from_node(source.id) * source.centre_m;
   std::vector<Candidate> all;
   for (const auto& [id, target] : submaps.places) {
-    if (graph.are_on_one_island(id, source.id)) continue;
+    if (graph.are_on_one_island(id, source.id) ||
+        are_apart_by_gnss(target, source, submaps.config.max_distance_m))
+      continue;
     all.push_back({id, unknown_pose_on(target, source, submaps.config.max_distance_m),
                    (graph.map_from_node(id) * target.centre_m - source_in_map_m).norm()});
   }

@@ -69,6 +69,9 @@ class ClosureGraph {
   /// closure and its verdict.
   std::vector<flow::Constraint> constraints() const;
 
+  /// Constraints that hold now: odometric ones and closures that are not excluded.
+  std::vector<flow::Constraint> active_constraints() const;
+
   Snapshot snapshot() const { return {graph_, island_of_, closures_.size()}; }
   void restore(const Snapshot& snapshot);
 
@@ -122,7 +125,6 @@ class ClosureGraph {
   };
 
   bool is_active(const Closure& closure) const { return graph_.weight(closure.edge) >= 0.5; }
-  std::vector<flow::Constraint> active_constraints() const;
   int group_for(const flow::Constraint& closure) const;
   std::vector<int> groups_between(flow::SubmapId a, flow::SubmapId b) const;
   void optimise();

@@ -34,6 +34,7 @@ flow::GraphCorrection LoopCloser::add(const flow::Submap& submap) {
   // The distance of the gap is unknown: the submap may show any earlier place.
   if (begins_island(submap)) travelled_m_ += config_.min_travel_between_m;
   extend_graph(submap);
+  georeferencing_.add(submap);
   const Place& source =
       places_.emplace(submap.submap_id, make_place(submap, travelled_m_, config_.place))
           .first->second;
@@ -259,12 +260,37 @@ flow::GraphCorrection LoopCloser::correction() {
   counters_.came_back = graph_.counters().came_back;
   correction.sequence = ++sequence_;
   if (places_.empty()) return correction;
+  correction.submaps = graph_.nodes();
+  georeference(correction);
   const Place& newest = places_.rbegin()->second;
   correction.map_from_odom =
-      graph_.map_from_node(newest.id) * geometry::inverse(newest.odom_from_submap);
-  correction.submaps = graph_.nodes();
+      correction.submaps.back().map_from_submap * geometry::inverse(newest.odom_from_submap);
   correction.is_untied = !is_connected();
   return correction;
+}
+
+/// Corrects the poses of the submaps that are connected to the first one, where GNSS and compass
+/// say so.
+void LoopCloser::georeference(flow::GraphCorrection& correction) const {
+  const auto is_connected = [&](SubmapId id) {
+    return graph_.island_of(id) == places_.begin()->first;
+  };
+  std::vector<flow::CorrectedSubmap> connected;
+  std::ranges::copy_if(correction.submaps, std::back_inserter(connected), is_connected,
+                       &flow::CorrectedSubmap::submap_id);
+  const auto found = georeferencing_.compare(connected, [&] {
+    std::vector<flow::Constraint> constraints = graph_.active_constraints();
+    std::erase_if(constraints,
+                  [&](const flow::Constraint& one) { return !is_connected(one.from); });
+    return constraints;
+  });
+  if (!found) return;
+  correction.georeference = found->georeference;
+  auto corrected = found->submaps.begin();
+  for (flow::CorrectedSubmap& submap : correction.submaps) {
+    if (corrected == found->submaps.end()) break;
+    if (submap.submap_id == corrected->submap_id) submap = *corrected++;
+  }
 }
 
 }  // namespace slammot::loop_closing

@@ -7,6 +7,7 @@
 #include "common/flow/submap.hpp"
 #include "services/loop_closing/candidates.hpp"
 #include "services/loop_closing/closure_graph.hpp"
+#include "services/loop_closing/georeferencing.hpp"
 #include "services/loop_closing/loop_closing_config.hpp"
 #include "services/loop_closing/loop_closing_counters.hpp"
 #include "services/loop_closing/place.hpp"
@@ -66,12 +67,14 @@ class LoopCloser {
   void propose(const Hypothesis& hypothesis);
   void check_contradiction(const SearchQueue::Finished& search);
   flow::GraphCorrection correction();
+  void georeference(flow::GraphCorrection& correction) const;
 
   LoopClosingConfig config_;
   LoopClosingCounters counters_;
   Places places_;
   double travelled_m_ = 0.0;
   ClosureGraph graph_;
+  Georeferencing georeferencing_;
   SearchQueue searches_;
   std::vector<Hypothesis> waiting_;
   int unsolved_ = 0;  ///< Closures since the last solve.

@@ -59,6 +59,23 @@ CellState state_in(const Target& target, const Vector2& point_in_target_m) {
   return state;
 }
 
+/// Median of latitude and longitude: an error that lasts for less than half of the submap does not
+/// move it.
+std::optional<geometry::Geodetic> median_fix(const std::vector<flow::SubmapFix>& fixes) {
+  constexpr std::size_t kFewest = 5;
+  if (fixes.size() < kFewest) return std::nullopt;
+  std::vector<double> latitudes_deg;
+  std::vector<double> longitudes_deg;
+  for (const flow::SubmapFix& fix : fixes) {
+    latitudes_deg.push_back(fix.position.latitude_deg);
+    longitudes_deg.push_back(fix.position.longitude_deg);
+  }
+  const auto middle = static_cast<std::ptrdiff_t>(fixes.size() / 2);
+  std::ranges::nth_element(latitudes_deg, latitudes_deg.begin() + middle);
+  std::ranges::nth_element(longitudes_deg, longitudes_deg.begin() + middle);
+  return geometry::Geodetic{latitudes_deg[fixes.size() / 2], longitudes_deg[fixes.size() / 2]};
+}
+
 void count(CellState state, Agreement& agreement) {
   if (state == CellState::kOccupied) ++agreement.occupied_in_both;
   if (state == CellState::kFree) ++agreement.contradicted;
@@ -80,6 +97,7 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
   place.travelled_before_m = travelled_before_m;
   place.travelled_after_m = travelled_before_m + submap.travelled_m;
   place.odom_from_submap = submap.odom_from_submap;
+  place.by_gnss = median_fix(submap.fixes);
   place.centre_m = 0.5 * submap.submap_from_base_at_end.translation_m();
   place.cell_size_m = submap.cell_size_m;
   place.min_x_m = submap.min_x_m;

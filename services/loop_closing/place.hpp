@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "common/flow/submap.hpp"
+#include "common/geometry/geodetic.hpp"
 #include "common/geometry/pose2.hpp"
 
 namespace slammot::loop_closing {
@@ -20,6 +22,7 @@ struct Place {
   double travelled_before_m = 0.0;  ///< Distance driven until the submap begins.
   double travelled_after_m = 0.0;   ///< Distance driven until the submap ends.
   geometry::Pose2 odom_from_submap;
+  std::optional<geometry::Geodetic> by_gnss{};  ///< Median of the fixes; none with few of them.
   geometry::Vector2 centre_m;  ///< Midpoint of the trajectory, in the submap's frame.
   std::vector<flow::Surfel> surfels;
   double cell_size_m = 0.0;

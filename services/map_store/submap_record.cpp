@@ -24,6 +24,35 @@ geometry::Pose2 pose_of(const PoseRecord& record) {
   return {record.x_m(), record.y_m(), record.heading_rad()};
 }
 
+constexpr int kNumbersOfFix = 7;
+constexpr int kNumbersOfHeading = 3;
+
+void set_measurements(const flow::Submap& submap, SubmapRecord& record) {
+  for (const flow::SubmapFix& fix : submap.fixes) {
+    for (const double number :
+         {double{fix.x_m}, double{fix.y_m}, fix.position.latitude_deg, fix.position.longitude_deg,
+          double{fix.east_variance_m2}, double{fix.north_variance_m2}, double{fix.covariance_m2}})
+      record.add_fix(number);
+  }
+  for (const flow::SubmapHeading& heading : submap.headings) {
+    for (const float number : {heading.in_submap_rad, heading.from_east_rad, heading.sigma_rad})
+      record.add_heading(number);
+  }
+}
+
+void read_measurements(const SubmapRecord& record, flow::Submap& submap) {
+  const auto number = [&](int i) { return static_cast<float>(record.fix(i)); };
+  for (int i = 0; i + kNumbersOfFix <= record.fix_size(); i += kNumbersOfFix)
+    submap.fixes.push_back({number(i),
+                            number(i + 1),
+                            {record.fix(i + 2), record.fix(i + 3)},
+                            number(i + 4),
+                            number(i + 5),
+                            number(i + 6)});
+  for (int i = 0; i + kNumbersOfHeading <= record.heading_size(); i += kNumbersOfHeading)
+    submap.headings.push_back({record.heading(i), record.heading(i + 1), record.heading(i + 2)});
+}
+
 SubmapRecord to_record(const flow::Submap& submap) {
   SubmapRecord record;
   record.set_map_id(submap.map_id.value);
@@ -52,6 +81,7 @@ SubmapRecord to_record(const flow::Submap& submap) {
     record.add_surfel_weight(surfel.weight);
   }
   record.set_saliency(submap.saliency);
+  set_measurements(submap, record);
   return record;
 }
 
@@ -60,6 +90,9 @@ bool is_consistent(const SubmapRecord& record) {
   const int surfels = record.surfel_x_m_size();
   return record.so_log_odds().size() == cells && record.mo_evidence().size() == cells &&
          record.previous_from_submap_covariance_size() == 9 &&
+         record.fix_size() <= kNumbersOfFix * static_cast<int>(flow::kMostFixesOfSubmap) &&
+         record.heading_size() <=
+             kNumbersOfHeading * static_cast<int>(flow::kMostHeadingsOfSubmap) &&
          record.surfel_y_m_size() == surfels && record.surfel_normal_x_size() == surfels &&
          record.surfel_normal_y_size() == surfels && record.surfel_weight_size() == surfels;
 }
@@ -94,6 +127,7 @@ flow::Submap from_record(const SubmapRecord& record) {
         record.surfel_normal_y(i), record.surfel_weight(i)};
   }
   submap.saliency = record.saliency();
+  read_measurements(record, submap);
   return submap;
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numbers>
+#include <string_view>
 
 #include "common/simulation/city_world.hpp"
 
@@ -45,10 +47,11 @@ void append_ranges(std::string& text, const SimulatedScan& drive) {
   for (const float range_m : drive.scan.range_m) append_all(text, {range_m}, 2, ' ');
 }
 
-void append_clocks(std::string& text, const SimulatedScan& drive) {
-  append(text, seconds(drive.scan.stamp_ns), 6);
+/// IPC and logger's stamp.
+void append_clocks(std::string& text, std::int64_t stamp_ns) {
+  append(text, seconds(stamp_ns), 6);
   text += " sim ";
-  append(text, seconds(drive.scan.stamp_ns), 6);
+  append(text, seconds(stamp_ns), 6);
   text += '\n';
 }
 
@@ -72,7 +75,7 @@ std::string robotlaser_line(const SimulatedScan& drive, const simulation::Scanne
   append_all(text, {drive.odometry_speed_mps}, 3, ' ');
   append_all(text, {drive.odometry_yaw_rate_radps}, 4, ' ');
   text += "1.0 0.5 0.0 ";
-  append_clocks(text, drive);
+  append_clocks(text, drive.scan.stamp_ns);
   return text;
 }
 
@@ -86,7 +89,44 @@ std::string flaser_line(const SimulatedScan& drive) {
   const Pose2 laser = base * drive.scan.scanner.base_from_laser;
   append_all(text, {laser.x_m, laser.y_m, laser.heading_rad, base.x_m, base.y_m, base.heading_rad},
              6, ' ');
-  append_clocks(text, drive);
+  append_clocks(text, drive.scan.stamp_ns);
+  return text;
+}
+
+/// Degrees as NMEA's ddmm.mmmmmm and the letter of the side.
+void append_degrees(std::string& text, double degrees, std::string_view letters) {
+  const double whole = std::floor(std::abs(degrees));
+  append(text, 100.0 * whole + 60.0 * (std::abs(degrees) - whole), 6);
+  text += ' ';
+  text += letters[degrees < 0.0 ? 1 : 0];
+  text += ' ';
+}
+
+/// NMEAGGA receiver utc latitude N longitude W quality satellites hdop sea_level altitude
+/// geo_sea_level geo_sep age ipc_timestamp host logger_timestamp.
+std::string gga_line(const sensing::GnssFix& fix) {
+  std::string text = "NMEAGGA 1 ";
+  append_all(text, {seconds(fix.stamp_ns)}, 3, ' ');
+  append_degrees(text, fix.position.latitude_deg, "NS");
+  append_degrees(text, fix.position.longitude_deg, "EW");
+  text += fix.quality == sensing::GnssQuality::no_fix ? "0 " : "1 ";
+  text += std::to_string(fix.satellites) + ' ';
+  append_all(text, {fix.hdop < 99.0 ? fix.hdop : 99.0}, 2, ' ');  // NaN without enough satellites
+  text += "0 ";
+  append_all(text, {fix.altitude_m}, 2, ' ');
+  text += "0 0 0 ";
+  append_clocks(text, fix.stamp_ns);
+  return text;
+}
+
+/// NMEAHDT compass heading valid ipc_timestamp host logger_timestamp.
+std::string hdt_line(const sensing::CompassReading& reading) {
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+  const double from_north_deg = 90.0 - reading.heading_from_east_rad * kDegPerRad;
+  std::string text = "NMEAHDT 1 ";
+  append_all(text, {from_north_deg < 0.0 ? from_north_deg + 360.0 : from_north_deg}, 3, ' ');
+  text += "1 ";
+  append_clocks(text, reading.stamp_ns);
   return text;
 }
 
@@ -118,7 +158,11 @@ std::string header_of_log_of(const simulation::ScenarioConfig& scenario, std::si
 }
 
 std::string log_line(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
-  return scenario.more_scanners.empty()
+  std::string text;
+  for (const sensing::GnssFix& fix : drive.gnss) text += gga_line(fix);
+  for (const sensing::CompassReading& reading : drive.compass) text += hdt_line(reading);
+  return text +=
+         scenario.more_scanners.empty()
              ? line_of_log_of_its_scanner(drive, scenario)
              : robotlaser_line(drive, scenario.scanner_at(drive.scanner), drive.scanner + 1);
 }

@@ -68,25 +68,26 @@ LiveDrive::LiveDrive(const simulation::ScenarioConfig& scenario,
       thread_([this](const std::stop_token& stop) { simulate(stop); }) {}
 
 void LiveDrive::simulate(const std::stop_token& stop) {
-  const std::string header = log_header(scenario_);
-  log_.write(header);
-  for (std::size_t begin = 0; begin < header.size();) {
-    const std::size_t end = header.find('\n', begin);
-    put(header.substr(begin, end - begin), stop);
-    begin = end + 1;
-  }
+  put_lines(log_header(scenario_), stop);
   while (const auto scan = drive_.next()) {
     truth_.add(*scan);
-    std::string line = log_line(*scan, scenario_);
-    log_.write(line);
-    line.pop_back();
-    if (!put(std::move(line), stop)) break;
+    if (!put_lines(log_line(*scan, scenario_), stop)) break;
   }
   truth_.close();
   log_.close();
   const std::lock_guard lock(mutex_);
   has_ended_ = true;
   changed_.notify_all();
+}
+
+bool LiveDrive::put_lines(const std::string& lines, const std::stop_token& stop) {
+  log_.write(lines);
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = lines.find('\n', begin);
+    if (!put(lines.substr(begin, end - begin), stop)) return false;
+    begin = end + 1;
+  }
+  return true;
 }
 
 /// False if the reader has stopped.

@@ -30,6 +30,7 @@ class LiveDrive : public files::LineSource {
 
  private:
   void simulate(const std::stop_token& stop);
+  bool put_lines(const std::string& lines, const std::stop_token& stop);
   bool put(std::string text, const std::stop_token& stop);
 
   simulation::ScenarioConfig scenario_;

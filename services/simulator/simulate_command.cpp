@@ -1,5 +1,6 @@
 #include "services/simulator/simulate_command.hpp"
 
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -8,6 +9,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/atomic_file.hpp"
+#include "common/files/street_file.hpp"
+#include "common/simulation/path.hpp"
+#include "common/simulation/street_plan.hpp"
 #include "services/simulator/drive_files.hpp"
 #include "services/simulator/scenario_files.hpp"
 
@@ -46,6 +51,45 @@ std::string describe(const simulation::ScenarioConfig& scenario, const DriveFile
   return text.str();
 }
 
+/// The city's streets, a street for each side of a block, named by the junctions at its ends:
+/// "1,1-2,1" (column, row).
+files::Result<streets::StreetGraph> streets_of(const simulation::ScenarioConfig& scenario,
+                                               const std::string& left_out) {
+  constexpr double kSpacing_m = 10.0;
+  if (scenario.place != simulation::Place::city)
+    return files::Error{"--streets: the scenario is no city"};
+  const simulation::StreetPlan plan(scenario.city, scenario.seed);
+  streets::StreetGraph graph{{scenario.gnss.latitude_deg, scenario.gnss.longitude_deg}, {}};
+  bool is_known = left_out.empty();
+  for (int i = 0; i < plan.junction_count(); ++i) {
+    const simulation::JunctionId from = plan.junction(i);
+    for (const auto direction : {simulation::Direction::east, simulation::Direction::north}) {
+      const auto to = plan.neighbour(from, direction);
+      if (!to) continue;
+      const std::string name = std::to_string(from.column) + "," + std::to_string(from.row) + "-" +
+                               std::to_string(to->column) + "," + std::to_string(to->row);
+      is_known = is_known || name == left_out;
+      if (name == left_out) continue;
+      graph.streets.push_back(
+          {name, plan.world_from_plan(simulation::line(plan.junction_in_plan(from),
+                                                       plan.junction_in_plan(*to), kSpacing_m))});
+    }
+  }
+  if (!is_known) return files::Error{"--without-street " + left_out + ": no such street"};
+  return graph;
+}
+
+/// Writes NAME.streets.geojson. Returns the reason if it cannot.
+std::optional<files::Error> write_streets(const simulation::ScenarioConfig& scenario,
+                                          const SimulateOptions& options) {
+  const auto graph = streets_of(scenario, options.without_street);
+  if (!graph) return graph.error();
+  if (auto fault = files::prepare_output_folder(options.output)) return fault;
+  return files::write_file_atomically(
+      std::filesystem::path(options.output) / (scenario.name + ".streets.geojson"),
+      files::to_geojson(*graph));
+}
+
 }  // namespace
 
 int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& err) {
@@ -61,6 +105,13 @@ int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& er
   if (options.output.empty()) {
     err << "slammot simulate: --output DIR is required\n";
     return 1;
+  }
+  if (options.streets) {
+    if (const auto fault = write_streets(*scenario, options)) {
+      err << "slammot simulate: " << fault->message << '\n';
+      return 1;
+    }
+    return 0;
   }
   for (const simulation::ScenarioConfig& drive : drives_of(*scenario)) {
     const DriveFilesOrFault written =
@@ -86,6 +137,11 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
                       "Folder for NAME.log, .tum, .objects.csv and .walls.csv");
   command->add_flag("--hits", options->hits,
                     "Also write NAME.hits.csv: the object that each beam hit");
+  command->add_flag(
+      "--streets", options->streets,
+      "Write only NAME.streets.geojson: the street graph of a city, for run --streets");
+  command->add_option("--without-street", options->without_street,
+                      "Leave a street out of it, by its name in that file, for example 1,1-2,1");
   command->callback(
       [options, &exit_code] { exit_code = simulate(*options, std::cout, std::cerr); });
 }

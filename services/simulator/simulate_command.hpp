@@ -17,6 +17,8 @@ struct SimulateOptions {
   std::optional<std::uint64_t> seed;
   std::string output;
   bool hits = false;
+  bool streets = false;        ///< Writes the city's street graph and no drive,
+  std::string without_street;  ///< without this street; empty: all.
 };
 
 /// Runs `slammot simulate`: lists scenarios, or simulates one and writes its files. Returns the

@@ -27,6 +27,7 @@
 #include "services/slammot/live_command.hpp"
 #include "services/slammot/map_command.hpp"
 #include "services/slammot/run_command.hpp"
+#include "services/slammot/streets_command.hpp"
 #include "services/slammot/usage.hpp"
 #include "services/slammot/warn_command.hpp"
 
@@ -42,7 +43,8 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
       {"Process a drive", {"run", "bench", "live", "collect", "simulate"}},
-      {"Look at a drive or a result", {"check", "report", "plot", "animate", "eval", "warn"}},
+      {"Look at a drive or a result",
+       {"check", "report", "plot", "animate", "eval", "warn", "streets"}},
       {"Recordings of the bus", {"record", "play", "bag"}},
       {"Settings, maps and keys", {"config", "map", "keys"}},
       {"Services that run",
@@ -93,6 +95,7 @@ int run_command_line(int argc, char** argv) {
   inspector::add_graph_command(app, exit_code);
   inspector::add_doctor_command(app, exit_code);
   add_warn_command(app, exit_code);
+  add_streets_command(app, exit_code);
   recorder::add_record_command(app, exit_code);
   recorder::add_play_command(app, exit_code);
   recorder::add_bag_command(app, exit_code);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/files/georeference_findings.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/odometry_findings.hpp"
 #include "common/files/text.hpp"
@@ -90,6 +91,9 @@ std::string describe_outcome(const files::RunRecord& record, const files::RunRep
           ? "odometry: " +
                 files::describe_odometry(*report.odometry, report.plan.figures.has_clock) + "\n"
           : std::string();
+  if (record.georeference())
+    lines += "position: " + files::describe_georeference(*record.georeference()) + "\n";
+  if (report.streets) lines += "streets:  " + files::describe_streets(*report.streets) + "\n";
   lines += text("%-14s %10s %10s %10s\n", "stage", "p50 [ms]", "p99 [ms]", "max [ms]");
   for (const files::StageLatency& stage : report.measured.stages) {
     lines += text("%-14s %10.3f %10.3f %10.3f\n", stage.stage.c_str(), stage.p50_ms, stage.p99_ms,

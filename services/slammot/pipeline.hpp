@@ -33,6 +33,8 @@ class Pipeline {
   void continue_map(const std::vector<flow::Submap>& stored);
 
   void take(const sensing::Odometry& odometry);
+  void take(const sensing::GnssFix& fix) { localizer_->add_fix(fix); }
+  void take(const sensing::CompassReading& reading) { localizer_->add_heading(reading); }
 
   /// Localizes, segments, tracks and maps one scan, and closes loops if it finished a submap.
   void take(const sensing::LaserScan& scan);

@@ -22,6 +22,7 @@
 #include "services/slammot/progress_bar.hpp"
 #include "services/slammot/read_ahead.hpp"
 #include "services/slammot/stored_map.hpp"
+#include "services/slammot/street_search.hpp"
 
 namespace slammot {
 namespace {
@@ -67,6 +68,7 @@ class Pace {
 struct RunOptions {
   JobOptions job;
   int iterations = 1;  ///< Greatest number of matches of a scan.
+  StreetOptions streets;
 };
 
 /// The processed part of a drive.
@@ -118,6 +120,9 @@ Driven drive(Job& job, const JobOptions& options, Pipeline& pipeline, const std:
   for (; read && !stop.stop_requested(); read = log.next()) {
     if (const auto* odometry = std::get_if<sensing::Odometry>(&read->event))
       pipeline.take(*odometry);
+    if (const auto* fix = std::get_if<sensing::GnssFix>(&read->event)) pipeline.take(*fix);
+    if (const auto* reading = std::get_if<sensing::CompassReading>(&read->event))
+      pipeline.take(*reading);
     if (auto* scan = std::get_if<sensing::LaserScan>(&read->event)) {
       scan->scanner.sweep_s = job.sweep_s;
       if (!pace) {
@@ -187,6 +192,8 @@ int run(const RunOptions& run_options) {
   const auto start = Clock::now();
   std::stop_source interruption;
   const app::StopSignal stop_signal([&] { interruption.request_stop(); });
+  const auto streets = prepare_streets(run_options.streets);
+  if (!streets) return fail(streets.error());
   auto job = prepare_job(options);
   if (!job) return fail(job.error());
   print(options, describe_job(*job, options));
@@ -202,6 +209,9 @@ int run(const RunOptions& run_options) {
   report.odometry = pipeline.verdict_on_odometry();
   report.losses = driven.losses;
   report.is_interrupted = driven.is_interrupted;
+  if (*streets)
+    report.streets = find_on_streets(**streets, pipeline.record().corrected_trajectory(),
+                                     pipeline.record().georeference());
   const double wall_s = seconds_since(start);
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s,
                      peak_memory_mb()};
@@ -232,6 +242,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->type_name("N")
       ->check(CLI::Range(1, kMaxIterations))
       ->capture_default_str();
+  add_street_options(*command, options->streets);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -38,7 +38,22 @@ inline flow::Submap example_submap(std::uint32_t id, std::int64_t drive_start_ns
     submap.surfels.push_back({shift, -shift, 0.6F, 0.8F, shift + 1.0F});
   }
   submap.saliency = 0.375;
+  submap.fixes = {{1.5F, -2.5F, {40.25, -79.5}, 2.0F, 3.0F, 0.5F},
+                  {4.5F, -2.5F, {40.25, -79.25}, 2.0F, 3.0F, -0.5F}};
+  submap.headings = {{0.25F, -0.5F, 0.125F}};
   return submap;
+}
+
+inline bool same_fix(const flow::SubmapFix& a, const flow::SubmapFix& b) {
+  return a.x_m == b.x_m && a.y_m == b.y_m && a.position.latitude_deg == b.position.latitude_deg &&
+         a.position.longitude_deg == b.position.longitude_deg &&
+         a.east_variance_m2 == b.east_variance_m2 && a.north_variance_m2 == b.north_variance_m2 &&
+         a.covariance_m2 == b.covariance_m2;
+}
+
+inline bool same_heading(const flow::SubmapHeading& a, const flow::SubmapHeading& b) {
+  return a.in_submap_rad == b.in_submap_rad && a.from_east_rad == b.from_east_rad &&
+         a.sigma_rad == b.sigma_rad;
 }
 
 inline bool same_surfel(const flow::Surfel& a, const flow::Surfel& b) {
@@ -57,6 +72,9 @@ inline bool same_submap(const flow::Submap& a, const flow::Submap& b) {
          a.cell_size_m == b.cell_size_m && a.min_x_m == b.min_x_m && a.min_y_m == b.min_y_m &&
          a.columns == b.columns && a.rows == b.rows && a.so_log_odds == b.so_log_odds &&
          a.mo_evidence == b.mo_evidence &&
+         std::equal(a.fixes.begin(), a.fixes.end(), b.fixes.begin(), b.fixes.end(), same_fix) &&
+         std::equal(a.headings.begin(), a.headings.end(), b.headings.begin(), b.headings.end(),
+                    same_heading) &&
          std::equal(a.surfels.begin(), a.surfels.end(), b.surfels.begin(), b.surfels.end(),
                     same_surfel) &&
          a.saliency == b.saliency;

@@ -197,6 +197,15 @@ inline flow::Submap submap(Random& random, std::uint32_t submap_id, std::uint32_
     map.surfels.push_back(
         {number_f(random), number_f(random), number_f(random), number_f(random), number_f(random)});
   }
+  for (std::size_t i = 0; i < flow::kMostFixesOfSubmap; ++i)
+    map.fixes.push_back({number_f(random),
+                         number_f(random),
+                         {40.0 + 1e-5 * number(random), -80.0},
+                         2.0F,
+                         3.0F,
+                         0.5F});
+  for (std::size_t i = 0; i < flow::kMostHeadingsOfSubmap; ++i)
+    map.headings.push_back({number_f(random), number_f(random), 0.05F});
   return map;
 }
 

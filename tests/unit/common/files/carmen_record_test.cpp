@@ -196,6 +196,35 @@ TEST(ParseCarmenLine, TakesTheYawRateOfAnImu) {
   EXPECT_EQ(record.stamps.ipc_ns, 12'500'000'000);
 }
 
+TEST(ParseCarmenLine, ReadsAFixOfASatelliteReceiver) {
+  const auto record = std::get<GnssRecord>(parse_carmen_line(
+      "NMEAGGA 1 120000.0 4026.436000 N 7959.754000 W 1 9 1.20 0 231.5 0 0 0 12.5 host 7.5"));
+  EXPECT_EQ(record.fix.quality, sensing::GnssQuality::single);
+  EXPECT_NEAR(record.fix.position.latitude_deg, 40.4406, 1e-9);
+  EXPECT_NEAR(record.fix.position.longitude_deg, -79.9959, 1e-9);
+  EXPECT_EQ(record.fix.satellites, 9);
+  EXPECT_EQ(record.fix.altitude_m, 231.5);
+  EXPECT_GT(record.fix.covariance_m2(0, 0), 0.5);
+  EXPECT_EQ(record.stamps.ipc_ns, 12'500'000'000);
+}
+
+TEST(ParseCarmenLine, ReadsAHeadingAgainstTrueNorthAsOneFromEast) {
+  const auto record = std::get<CompassRecord>(parse_carmen_line("NMEAHDT 1 30.0 1 12.5 host 7.5"));
+  EXPECT_NEAR(record.reading.heading_from_east_rad, pi / 3.0, 1e-9);
+  EXPECT_GT(record.reading.sigma_rad, 0.0);
+  EXPECT_TRUE(
+      std::holds_alternative<IgnoredLine>(parse_carmen_line("NMEAHDT 1 30.0 0 12.5 host 7.5")));
+}
+
+TEST(ParseCarmenLine, RefusesFixesAndHeadingsThatCannotBe) {
+  EXPECT_TRUE(is_malformed("NMEAGGA 1 0 9126.4 N 7959.7 W 1 9 1.2 0 231.5 0 0 0 12.5 host 7.5"));
+  EXPECT_TRUE(is_malformed("NMEAGGA 1 0 4026.4 X 7959.7 W 1 9 1.2 0 231.5 0 0 0 12.5 host 7.5"));
+  EXPECT_TRUE(is_malformed("NMEAGGA 1 0 nan N 7959.7 W 1 9 1.2 0 231.5 0 0 0 12.5 host 7.5"));
+  EXPECT_TRUE(is_malformed("NMEAGGA 1 0 4026.4 N"));
+  EXPECT_TRUE(is_malformed("NMEAHDT 1 720 1 12.5 host 7.5"));
+  EXPECT_TRUE(is_malformed("NMEAHDT 1"));
+}
+
 TEST(ParseCarmenLine, ReadsLinesOfDpSlamWithoutStamps) {
   const LaserRecord record = laser("Laser 3 1.5 2.5 3.5");
   EXPECT_EQ(record.kind, LaserRecordKind::kDpSlam);

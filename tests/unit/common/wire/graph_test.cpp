@@ -69,10 +69,21 @@ struct GraphCorrectionInParts : ::testing::Test {
   GraphCorrectionAssembler assembler;
 
   flow::GraphCorrection correction(std::uint32_t sequence, std::uint32_t submaps) {
-    flow::GraphCorrection made{sequence, testing::pose(random), {}, {17}, true};
+    flow::GraphCorrection made{sequence, testing::pose(random), {}, {17}, true, georeference()};
     for (std::uint32_t id = 0; id < submaps; ++id)
       made.submaps.push_back({{id}, testing::pose(random)});
     return made;
+  }
+
+  static flow::Georeference georeference() {
+    flow::Georeference place;
+    place.has_position = place.has_direction = true;
+    place.origin = {40.5, -79.5};
+    place.x_from_east_rad = 0.75;
+    place.position_sigma_m = 1.5;
+    place.fixes = 812;
+    place.rejected_fixes = 73;
+    return place;
   }
 
   static std::vector<KeptPart> parts_of(const flow::GraphCorrection& whole) {
@@ -97,6 +108,14 @@ struct GraphCorrectionInParts : ::testing::Test {
     EXPECT_EQ(a.map_id, b.map_id);
     EXPECT_EQ(a.map_from_odom, b.map_from_odom);
     EXPECT_EQ(a.is_untied, b.is_untied);
+    ASSERT_TRUE(a.georeference && b.georeference);
+    EXPECT_EQ(a.georeference->has_position, b.georeference->has_position);
+    EXPECT_EQ(a.georeference->origin.latitude_deg, b.georeference->origin.latitude_deg);
+    EXPECT_EQ(a.georeference->origin.longitude_deg, b.georeference->origin.longitude_deg);
+    EXPECT_EQ(a.georeference->x_from_east_rad, b.georeference->x_from_east_rad);
+    EXPECT_EQ(a.georeference->position_sigma_m, b.georeference->position_sigma_m);
+    EXPECT_EQ(a.georeference->fixes, b.georeference->fixes);
+    EXPECT_EQ(a.georeference->rejected_fixes, b.georeference->rejected_fixes);
     ASSERT_EQ(a.submaps.size(), b.submaps.size());
     for (std::size_t i = 0; i < a.submaps.size(); ++i) {
       EXPECT_EQ(a.submaps[i].submap_id, b.submaps[i].submap_id);
@@ -147,6 +166,8 @@ TEST_F(GraphCorrectionInParts, AreRefusedWhereTheyAreUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.part_count = kMostParts + 1; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.part_index = 1; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.map_from_odom.x_m = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.georeference.latitude_deg = 91.0; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.georeference.position_sigma_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.submaps._buffer[1].map_from_submap.x_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.submaps._buffer[1].submap_id = 0; }), "");
 }

@@ -23,18 +23,24 @@ struct KeptTile {
            tile.so_log_odds_plus_128._buffer + tile.so_log_odds_plus_128._length),
         mo(tile.mo_evidence._buffer, tile.mo_evidence._buffer + tile.mo_evidence._length),
         surfels(tile.surfels._buffer, tile.surfels._buffer + tile.surfels._length),
+        fixes(tile.fixes._buffer, tile.fixes._buffer + tile.fixes._length),
+        headings(tile.headings._buffer, tile.headings._buffer + tile.headings._length),
         sample(tile) {}
 
   slammot_SubmapTile& shown() {
     sample.so_log_odds_plus_128._buffer = so.data();
     sample.mo_evidence._buffer = mo.data();
     sample.surfels._buffer = surfels.data();
+    sample.fixes._buffer = fixes.data();
+    sample.headings._buffer = headings.data();
     return sample;
   }
 
   std::vector<std::uint8_t> so;
   std::vector<std::uint8_t> mo;
   std::vector<slammot_Surfel> surfels;
+  std::vector<slammot_SubmapFix> fixes;
+  std::vector<slammot_SubmapHeading> headings;
   slammot_SubmapTile sample;
 };
 
@@ -69,6 +75,19 @@ void expect_same(const flow::Submap& a, const flow::Submap& b) {
     EXPECT_EQ(a.surfels[i].normal_x, b.surfels[i].normal_x);
     EXPECT_EQ(a.surfels[i].normal_y, b.surfels[i].normal_y);
     EXPECT_EQ(a.surfels[i].weight, b.surfels[i].weight);
+  }
+  ASSERT_EQ(a.fixes.size(), b.fixes.size());
+  for (std::size_t i = 0; i < a.fixes.size(); ++i) {
+    EXPECT_EQ(a.fixes[i].x_m, b.fixes[i].x_m);
+    EXPECT_EQ(a.fixes[i].position.latitude_deg, b.fixes[i].position.latitude_deg);
+    EXPECT_EQ(a.fixes[i].position.longitude_deg, b.fixes[i].position.longitude_deg);
+    EXPECT_EQ(a.fixes[i].covariance_m2, b.fixes[i].covariance_m2);
+  }
+  ASSERT_EQ(a.headings.size(), b.headings.size());
+  for (std::size_t i = 0; i < a.headings.size(); ++i) {
+    EXPECT_EQ(a.headings[i].in_submap_rad, b.headings[i].in_submap_rad);
+    EXPECT_EQ(a.headings[i].from_east_rad, b.headings[i].from_east_rad);
+    EXPECT_EQ(a.headings[i].sigma_rad, b.headings[i].sigma_rad);
   }
 }
 

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/geometry/pose2.hpp"
+#include "common/streets/street_graph.hpp"
+
+namespace slammot::streets {
+
+struct StreetLocalizationConfig {
+  double sigma_m = 1.8;             ///< Of a street's line across, one sigma: digitization, lanes.
+  double sigma_rad = 0.08;          ///< Of the heading against the street's direction.
+  double lane_sigma_m = 2.0;        ///< Of the lane's distance from the line: estimated.
+  double least_way_m = 100.0;       ///< Less tells nothing.
+  double clear_probability = 0.95;  ///< Of the best place, for it to count as located.
+};
+
+/// What is known of where the way begins.
+struct StartArea {
+  geometry::Vector2 centre_m = geometry::Vector2::Zero();  ///< In streets.
+  double radius_m = 100.0;
+};
+
+enum class StreetVerdict {
+  kTooShort,      ///< The way is shorter than least_way_m.
+  kNotOnStreets,  ///< No place fits: the vehicle drives where the graph has no streets.
+  kAmbiguous,     ///< Several places fit.
+  kLocated,
+};
+
+/// A place where the way fits.
+struct StreetFit {
+  geometry::Pose2 streets_from_map;
+  double cost = 0.0;         ///< Negative logarithm of the likelihood.
+  double share = 0.0;        ///< Of the way on streets.
+  double probability = 0.0;  ///< Among all places that were found.
+};
+
+struct StreetLocation {
+  StreetVerdict verdict = StreetVerdict::kTooShort;
+  double way_m = 0.0;
+  std::vector<StreetFit> fits;  ///< Best first; at most 20, none for a way that is too short.
+};
+
+/// Finds where in a street graph a way was driven: topological global localization with a digital
+/// map (Wang, Thorpe and Thrun 2003, section III). The way comes from the scans and is accurate in
+/// shape, so that it is compared with the streets as a whole: places and directions are proposed by
+/// laying some of its points onto streets, and the best are refined by least squares. Parts beside
+/// all streets cost a bounded amount, so that a street may be missing in the graph.
+///
+/// way: poses map_from_base in the order of the drive, of any spacing. start: none if nothing is
+/// known. Deterministic.
+StreetLocation locate(const StreetGraph& graph, std::span<const geometry::Pose2> way,
+                      const std::optional<StartArea>& start,
+                      const StreetLocalizationConfig& config = {});
+
+/// What was found on the way, as it was driven.
+struct StreetSearch {
+  std::optional<double> located_after_m;  ///< Of the way; none if it never was.
+  StreetLocation location;                ///< After that way; if it never was located, at the end.
+};
+
+/// Searches with the first 100 m of the way, then with 50 m more each time, up to `most_m`, until
+/// two searches in a row find one and the same place.
+StreetSearch search_along(const StreetGraph& graph, std::span<const geometry::Pose2> way,
+                          const std::optional<StartArea>& start, double most_m,
+                          const StreetLocalizationConfig& config = {});
+
+}  // namespace slammot::streets

@@ -1,0 +1,91 @@
+#include "services/slammot/street_search.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+
+#include "common/files/street_file.hpp"
+
+namespace slammot {
+namespace {
+
+using files::Error;
+using geometry::Geodetic;
+
+std::optional<double> number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, fault] = std::from_chars(text.begin(), text.end(), value);
+  return fault == std::errc() && end == text.end() && std::isfinite(value) ? std::optional(value)
+                                                                           : std::nullopt;
+}
+
+std::optional<Geodetic> parse_place(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto latitude_deg = number(text.substr(0, comma));
+  const auto longitude_deg = number(text.substr(comma + 1));
+  if (!latitude_deg || !longitude_deg || std::abs(*latitude_deg) > 89.0 ||
+      std::abs(*longitude_deg) > 180.0)
+    return std::nullopt;
+  return Geodetic{*latitude_deg, *longitude_deg};
+}
+
+/// Around the first pose, as far as the georeference is uncertain.
+std::optional<streets::StartArea> start_of(const StreetJob& job, const geometry::Pose2& first,
+                                           const std::optional<flow::Georeference>& georeference) {
+  constexpr double kLeast_m = 30.0;
+  constexpr double kSigmas = 3.0;
+  if (job.start || !georeference || !georeference->has_position) return job.start;
+  const geometry::Vector2 origin_m = geometry::east_north_m(job.graph.origin, georeference->origin);
+  const geometry::Pose2 streets_from_map{origin_m.x(), origin_m.y(), georeference->x_from_east_rad};
+  return streets::StartArea{streets_from_map * first.translation_m(),
+                            kLeast_m + kSigmas * georeference->position_sigma_m};
+}
+
+}  // namespace
+
+void add_street_options(CLI::App& command, StreetOptions& options) {
+  command
+      .add_option("--streets", options.file,
+                  "Street graph to find the drive in: OpenStreetMap extract (XML) or GeoJSON")
+      ->type_name("FILE");
+  command
+      .add_option("--near", options.near,
+                  "Where the drive begins, for --streets; default: by GNSS, or anywhere")
+      ->type_name("LATITUDE,LONGITUDE");
+  command.add_option("--near-within", options.within_m, "Error of --near [m]")
+      ->check(CLI::Range(1.0, 1e5))
+      ->capture_default_str();
+}
+
+files::Result<std::optional<StreetJob>> prepare_streets(const StreetOptions& options) {
+  if (options.file.empty()) {
+    if (!options.near.empty()) return Error{"--near belongs to --streets"};
+    return std::optional<StreetJob>();
+  }
+  auto graph = files::read_streets(options.file);
+  if (!graph) return graph.error();
+  StreetJob job{std::move(*graph), std::nullopt};
+  if (!options.near.empty()) {
+    const auto place = parse_place(options.near);
+    if (!place) return Error{"--near " + options.near + ": not a latitude and a longitude"};
+    job.start = {geometry::east_north_m(job.graph.origin, *place), options.within_m};
+  }
+  return std::optional(std::move(job));
+}
+
+files::StreetFindings find_on_streets(const StreetJob& job,
+                                      const std::vector<files::StampedPose>& trajectory,
+                                      const std::optional<flow::Georeference>& georeference) {
+  if (trajectory.empty()) return {};
+  std::vector<geometry::Pose2> way;
+  way.reserve(trajectory.size());
+  for (const files::StampedPose& pose : trajectory) way.push_back(pose.map_from_base);
+  return files::findings_of(
+      streets::search_along(job.graph, way, start_of(job, way.front(), georeference),
+                            kMostStreetWay_m),
+      job.graph.origin);
+}
+
+}  // namespace slammot

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/files/result.hpp"
+#include "common/files/run_record.hpp"
+#include "common/files/street_findings.hpp"
+#include "common/streets/street_graph.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace slammot {
+
+/// Options of the search for a drive in a street graph.
+struct StreetOptions {
+  std::filesystem::path file;  ///< OpenStreetMap XML or GeoJSON; empty: no search.
+  std::string near;            ///< "LATITUDE,LONGITUDE" of the start; empty: from GNSS, or unknown.
+  double within_m = 100.0;     ///< Of the start.
+};
+
+/// A street graph with what is known of the start.
+struct StreetJob {
+  streets::StreetGraph graph;
+  std::optional<streets::StartArea> start;
+};
+
+/// Longest way that is compared with the streets.
+inline constexpr double kMostStreetWay_m = 1000.0;
+
+void add_street_options(CLI::App& command, StreetOptions& options);
+
+/// Reads the street graph; none without a file.
+files::Result<std::optional<StreetJob>> prepare_streets(const StreetOptions& options);
+
+/// Searches for the trajectory. Without a known start, it is taken from the georeference.
+files::StreetFindings find_on_streets(const StreetJob& job,
+                                      const std::vector<files::StampedPose>& trajectory,
+                                      const std::optional<flow::Georeference>& georeference);
+
+}  // namespace slammot

@@ -1,0 +1,119 @@
+#include "common/streets/street_localization.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace slammot::streets {
+namespace {
+
+using geometry::Pose2;
+using geometry::Vector2;
+
+/// Streets of an irregular grid: no two blocks are alike.
+StreetGraph irregular_town() {
+  const std::vector<double> columns_m{0.0, 90.0, 210.0, 310.0, 450.0};
+  const std::vector<double> rows_m{0.0, 120.0, 200.0, 330.0, 420.0};
+  StreetGraph graph;
+  for (const double x_m : columns_m)
+    for (std::size_t i = 1; i < rows_m.size(); ++i)
+      graph.streets.push_back({"", {{x_m, rows_m[i - 1]}, {x_m, rows_m[i]}}});
+  for (const double y_m : rows_m)
+    for (std::size_t i = 1; i < columns_m.size(); ++i)
+      graph.streets.push_back({"", {{columns_m[i - 1], y_m}, {columns_m[i], y_m}}});
+  return graph;
+}
+
+/// Way along corners, 1.75 m to the right of the streets, in streets.
+std::vector<Pose2> way_along(const std::vector<Vector2>& corners_m) {
+  std::vector<Pose2> way;
+  for (std::size_t i = 1; i < corners_m.size(); ++i) {
+    const Vector2 along_m = corners_m[i] - corners_m[i - 1];
+    const Vector2 unit = along_m.normalized();
+    const Vector2 right_m{1.75 * unit.y(), -1.75 * unit.x()};
+    for (double at_m = 5.0; at_m < along_m.norm() - 5.0; at_m += 1.0) {
+      const Vector2 place_m = corners_m[i - 1] + at_m * unit + right_m;
+      way.push_back({place_m.x(), place_m.y(), std::atan2(unit.y(), unit.x())});
+    }
+  }
+  return way;
+}
+
+/// The same in a map whose frame lies anywhere.
+std::vector<Pose2> in_map(std::vector<Pose2> way, const Pose2& streets_from_map) {
+  const Pose2 map_from_streets = geometry::inverse(streets_from_map);
+  for (Pose2& pose : way) pose = map_from_streets * pose;
+  return way;
+}
+
+const Pose2 kStreetsFromMap{35.0, 80.0, 2.0};
+const std::vector<Vector2> kCorners_m{{90.0, 20.0},   {90.0, 200.0},  {310.0, 200.0},
+                                      {310.0, 330.0}, {450.0, 330.0}, {450.0, 400.0}};
+
+void expect_found(const StreetLocation& location, double within_m = 4.0) {
+  ASSERT_EQ(location.verdict, StreetVerdict::kLocated);
+  const Pose2& found = location.fits.front().streets_from_map;
+  EXPECT_NEAR(found.x_m, kStreetsFromMap.x_m, within_m);
+  EXPECT_NEAR(found.y_m, kStreetsFromMap.y_m, within_m);
+  EXPECT_NEAR(found.heading_rad, kStreetsFromMap.heading_rad, 0.02);
+}
+
+TEST(StreetLocalization, FindsAWayWithTurnsFromARoughStart) {
+  const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
+  expect_found(locate(irregular_town(), way, StartArea{{150.0, 60.0}, 100.0}));
+}
+
+TEST(StreetLocalization, FindsItWithoutAnyStart) {
+  const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
+  expect_found(locate(irregular_town(), way, std::nullopt));
+}
+
+TEST(StreetLocalization, FindsItThoughAStreetOfTheWayIsMissing) {
+  StreetGraph graph = irregular_town();
+  std::erase_if(graph.streets, [](const Street& street) {
+    return street.line_m[0] == Vector2(90.0, 200.0) && street.line_m[1] == Vector2(210.0, 200.0);
+  });
+  const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
+  expect_found(locate(graph, way, StartArea{{150.0, 60.0}, 100.0}));
+}
+
+TEST(StreetLocalization, SearchesAlongTheWayUntilTwoSearchesAgree) {
+  const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
+  const StreetSearch search =
+      search_along(irregular_town(), way, StartArea{{150.0, 60.0}, 100.0}, 1000.0);
+  ASSERT_TRUE(search.located_after_m);
+  EXPECT_LT(*search.located_after_m, 600.0);
+  expect_found(search.location);
+}
+
+TEST(StreetLocalization, SaysThatAStraightWayIsAmbiguous) {
+  const auto way = in_map(way_along({{90.0, 20.0}, {90.0, 190.0}}), kStreetsFromMap);
+  const StreetLocation location = locate(irregular_town(), way, StartArea{{100.0, 60.0}, 100.0});
+  EXPECT_EQ(location.verdict, StreetVerdict::kAmbiguous);
+  EXPECT_GT(location.fits.size(), 1U);
+}
+
+TEST(StreetLocalization, SaysThatAWayBesideAllStreetsIsNotOnThem) {
+  std::vector<Pose2> spiral;
+  for (int i = 0; i < 400; ++i) {
+    const double angle_rad = 0.02 * i;
+    const double radius_m = 20.0 + 0.1 * i;
+    spiral.push_back({radius_m * std::cos(angle_rad), radius_m * std::sin(angle_rad),
+                      geometry::wrap_angle(angle_rad + 1.6)});
+  }
+  const StreetLocation location = locate(irregular_town(), spiral, StartArea{{150.0, 150.0}, 50.0});
+  EXPECT_EQ(location.verdict, StreetVerdict::kNotOnStreets);
+}
+
+TEST(StreetLocalization, SaysThatAShortWayTellsNothing) {
+  const auto way = way_along({{90.0, 20.0}, {90.0, 90.0}});
+  EXPECT_EQ(locate(irregular_town(), way, std::nullopt).verdict, StreetVerdict::kTooShort);
+}
+
+TEST(StreetLocalization, FindsNothingInAnEmptyGraph) {
+  const auto way = way_along(kCorners_m);
+  EXPECT_EQ(locate({}, way, std::nullopt).verdict, StreetVerdict::kNotOnStreets);
+}
+
+}  // namespace
+}  // namespace slammot::streets
