@@ -44,10 +44,11 @@ inline constexpr Topic<slammot_Odometry> kOdometry{{"slammot/odometry", &slammot
                                                     Flow::kSensor, Recorded::kYes,
                                                     "ingest simulator"}};
 inline constexpr Topic<slammot_GnssFix> kGnssFix{
-    {"slammot/gnss_fix", &slammot_GnssFix_desc, Flow::kSensor, Recorded::kYes, "simulator"}};
+    {"slammot/gnss_fix", &slammot_GnssFix_desc, Flow::kSensor, Recorded::kYes,
+     "ingest simulator"}};
 inline constexpr Topic<slammot_CompassReading> kCompassReading{
     {"slammot/compass_reading", &slammot_CompassReading_desc, Flow::kSensor, Recorded::kYes,
-     "simulator"}};
+     "ingest simulator"}};
 inline constexpr Topic<slammot_TruePose> kTruePose{
     {"slammot/true_pose", &slammot_TruePose_desc, Flow::kSensor, Recorded::kYes, "simulator"}};
 inline constexpr Topic<slammot_TrueObjects> kTrueObjects{{"slammot/true_objects",

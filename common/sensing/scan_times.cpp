@@ -379,6 +379,13 @@ bool jumps_all_the_time(const Repair& repair) {
          0.02 * static_cast<double>(repair.stamps.size()) + 1.0;
 }
 
+Stamps evenly_spaced(std::size_t scans, double period_s) {
+  Stamps stamps_ns(scans);
+  for (std::size_t i = 0; i < scans; ++i)
+    stamps_ns[i] = std::llround(1e9 * period_s * static_cast<double>(i));
+  return stamps_ns;
+}
+
 }  // namespace
 
 ScanTimes judge_scan_stamps(std::span<const ScanMark> scans) {
@@ -417,16 +424,16 @@ bool comes_by_time(std::span<const ScanMark> scans) {
 
 std::vector<std::int64_t> stamps_from_way(std::span<const ScanMark> scans, const WayPace& pace) {
   constexpr double kTopSpeedPerPace = 4.0;
+  constexpr double kShortestSteadyPeriodS = 1.0 / 75.0;  // of the planar scanners in use
   constexpr double kLongestSteadyPeriodS = 1.0;
   std::vector<double> periods_s;
   for (const ScanMark& scan : scans)
     periods_s.push_back(
         std::max(scan.way_m / pace.speed_mps, scan.turn_rad / pace.turn_rate_radps));
   if (comes_by_time(scans)) {
-    const double longest_s = std::max(pace.least_period_s, kLongestSteadyPeriodS);
-    const double period_s =
-        std::clamp(percentile(periods_s, 0.9) / kTopSpeedPerPace, pace.least_period_s, longest_s);
-    std::fill(periods_s.begin(), periods_s.end(), period_s);
+    const double period_s = std::clamp(percentile(periods_s, 0.9) / kTopSpeedPerPace,
+                                       kShortestSteadyPeriodS, kLongestSteadyPeriodS);
+    return evenly_spaced(scans.size(), period_s);
   }
   std::vector<std::int64_t> stamps_ns;
   double stamp_s = 0.0;

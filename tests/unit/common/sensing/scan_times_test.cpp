@@ -192,6 +192,19 @@ TEST(StampsFromWay, HaveAConstantPeriodWhereTheVehicleStandsNowAndThen) {
     EXPECT_EQ(stamps_ns[i] - stamps_ns[i - 1], 150'000'000);
 }
 
+TEST(StampsFromWay, AreThoseOfAFastScannerWhereWaysAreShort) {
+  std::vector<ScanMark> scans(100);
+  for (std::size_t i = 20; i < scans.size(); ++i) scans[i].way_m = 0.06;
+  const auto stamps_ns =
+      stamps_from_way(scans, {.least_period_s = 0.1, .speed_mps = 0.5, .turn_rate_radps = 0.5});
+  for (std::size_t i = 1; i < scans.size(); ++i)
+    EXPECT_EQ(stamps_ns[i] - stamps_ns[i - 1], 30'000'000);
+  for (ScanMark& scan : scans) scan.way_m *= 0.01;
+  const auto fastest_ns =
+      stamps_from_way(scans, {.least_period_s = 0.1, .speed_mps = 0.5, .turn_rate_radps = 0.5});
+  EXPECT_NEAR(1e-9 * static_cast<double>(fastest_ns.back()), 99.0 / 75.0, 1e-6);
+}
+
 TEST(ComesByTime, IsFalseWhereScansWereLeftOutUntilTheVehicleHadMoved) {
   EXPECT_FALSE(comes_by_time(marks(uneven_times_ns(300), [](std::int64_t t) { return t; })));
   EXPECT_FALSE(comes_by_time(std::vector<ScanMark>(100)));
