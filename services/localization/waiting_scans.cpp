@@ -21,12 +21,12 @@ void WaitingScans::count_turn() {
 }
 
 void WaitingScans::note_objects(std::int64_t stamp_ns, bool awaits_labels) {
-  newest_objects_ns_ = stamp_ns;
+  newest_objects_.note(stamp_ns);
   if (!is_tracking_late(awaits_labels)) without_tracking_ = 0;
 }
 
 void WaitingScans::note_labels(std::int64_t stamp_ns, bool awaits_labels) {
-  newest_labels_ns_ = stamp_ns;
+  newest_labels_.note(stamp_ns);
   if (!is_tracking_late(awaits_labels)) without_tracking_ = 0;
 }
 
@@ -37,7 +37,7 @@ bool WaitingScans::awaits_odometry(const Awaited& awaited) const {
 
 /// Labels and objects come on different topics; tracking publishes the objects first.
 bool WaitingScans::is_tracking_late(bool awaits_labels) const {
-  return awaits_labels || newest_objects_ns_ < newest_labels_ns_;
+  return awaits_labels || newest_objects_ < newest_labels_;
 }
 
 /// Not where scans queue up.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -45,6 +46,18 @@ class WaitingScans {
   WaitingScan take(const Awaited& awaited);
 
  private:
+  /// Scans of several scanners may share a stamp.
+  struct Newest {
+    std::int64_t stamp_ns = 0;
+    int arrivals = 0;  ///< Of this stamp.
+
+    void note(std::int64_t of_stamp_ns) {
+      arrivals = of_stamp_ns == stamp_ns ? arrivals + 1 : 1;
+      stamp_ns = of_stamp_ns;
+    }
+    auto operator<=>(const Newest&) const = default;
+  };
+
   bool awaits_odometry(const Awaited& awaited) const;
   bool awaits_tracking(const Awaited& awaited) const;
   bool is_tracking_late(bool awaits_labels) const;
@@ -52,8 +65,7 @@ class WaitingScans {
   std::deque<WaitingScan> scans_;
   int without_odometry_ = 0;  ///< Scans in a row that awaited it in vain,
   int without_tracking_ = 0;  ///< and those that awaited tracking in vain.
-  std::int64_t newest_objects_ns_ = 0;
-  std::int64_t newest_labels_ns_ = 0;
+  Newest newest_objects_, newest_labels_;
 };
 
 }  // namespace slammot::localization

@@ -27,7 +27,7 @@ def cases(options):
     figure = f"run {run_s:.1f} s, bench {bench_s:.1f} s: {bench_s / run_s:.1f} x; of {len(results)} files {len(other)} differ, {len(missing)} are missing " \
              f"({chaos.load()})"
     yield chaos.row(f"bench --speed max beside run, {drive.name}", f"{MOST_TIMES:.0f} x the time, same bytes", figure,
-                    bench_s <= MOST_TIMES * run_s and not other and not missing, run_s=run_s, bench_s=bench_s,
+                    bench_s <= MOST_TIMES * run_s and not other and not missing, sound=not missing, run_s=run_s, bench_s=bench_s,
                     differing=[str(path) for path in other + missing])
 
 

@@ -50,7 +50,7 @@ def cases(options):
     passed = latencies["p50"] <= min(P50_MS, OF_HOPS * budget) and latencies["p99"] <= P99_MS and latencies["worst"] <= WORST_MS and unanswered == 0
     yield chaos.row(f"one vehicle at 37.5 Hz, {seconds} s, everything on, scan published to tracks received",
                     f"p50 {P50_MS} ms, p99 {P99_MS} ms, worst {WORST_MS} ms; p50 at most {OF_HOPS} x stages and hops", figure, passed,
-                    latencies=latencies, stages=stages, hop_ms=hop, budget_ms=budget, unanswered=unanswered)
+                    sound=latencies["count"] > 0.9 * 37.5 * (seconds - 10), latencies=latencies, stages=stages, hop_ms=hop, budget_ms=budget, unanswered=unanswered)
 
 
 def start_source(options, services):

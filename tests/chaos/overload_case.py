@@ -44,7 +44,7 @@ def overload(options, seconds):
              f"memory {', '.join(f'{name} {memory_before[name]:.0f} to {memory_after[name]:.0f}' for name in memory_after)} MB ({chaos.load()})"
     passed = during["worst"] <= LONGEST_MS and dropped > 0 and offered_hz >= OVERLOAD * served_hz and after["p99"] <= max(NORMAL_MS, 2 * before["p99"])
     return chaos.row(f"overload for {seconds} s", f"{OVERLOAD:.0f} x: latency bounded ({LONGEST_MS:.0f} ms), drops counted, normal within {NORMAL_WITHIN_S:.0f} s", figure,
-                     passed, during=during, after=after, before=before, dropped=dropped, unanswered=unanswered, served_hz=served_hz,
+                     passed, sound=dropped > 0 and after["count"] > 0, during=during, after=after, before=before, dropped=dropped, unanswered=unanswered, served_hz=served_hz,
                      offered_hz=offered_hz)
 
 
@@ -114,7 +114,7 @@ def stopped_tracking(options, seconds):
     passed = localized["count"] >= 0.97 * expected and explanation and after["count"] > 30 and \
         after["p99"] <= max(NORMAL_MS, 2 * before["p99"])
     return chaos.row(f"tracking stopped (SIGSTOP) for {seconds} s", "localization goes on and is degraded; normal 2 s after", figure, passed,
-                     localized=localized, after=after, dropped=dropped)
+                     sound=explanation and after["count"] > 0, localized=localized, after=after, dropped=dropped)
 
 
 def cases(options):

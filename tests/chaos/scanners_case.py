@@ -41,7 +41,7 @@ def cases(options):
         yield chaos.row("three scanners on one vehicle, over the services", "fused; run = bench",
                         f"HOTA {fused['hota']:.3f}, ATE {fused['ate_m']:.3f} m (best single scanner {best['hota']:.3f}, {best['ate_m']:.3f} m); "
                         f"same bytes as run: {', '.join(same) or 'none'}",
-                        len(same) == len(RESULTS) and fused["hota"] > best["hota"], hota=fused["hota"], ate_m=fused["ate_m"], run_hota=run["hota"])
+                        len(same) == len(RESULTS) and fused["hota"] > best["hota"], sound=fused["hota"] > best["hota"], hota=fused["hota"], ate_m=fused["ate_m"], run_hota=run["hota"])
         silent = SCANNERS if options.full else SCANNERS[:1]
         rest = {scanner: take(services, "bench", without_second_half_of(scanner, drive), f"without_{scanner}", *bench) for scanner in silent}
         worst_m = max(one["ate_m"] for one in rest.values())

@@ -70,6 +70,18 @@ TEST(WaitingScans, AwaitTheObjectsOfTheNewestLabels) {
   EXPECT_TRUE(waiting.may_begin(kNothing));
 }
 
+TEST(WaitingScans, AwaitTheObjectsOfEachOfTwoScansWithOneStamp) {
+  WaitingScans waiting;
+  for (int scanner = 0; scanner < 2; ++scanner) {
+    waiting.add(scan_of(1));
+    waiting.note_labels(100, false);
+    EXPECT_FALSE(waiting.may_begin(kNothing)) << scanner;
+    waiting.note_objects(100, false);
+    EXPECT_TRUE(waiting.may_begin(kNothing)) << scanner;
+    waiting.take(kNothing);
+  }
+}
+
 TEST(WaitingScans, AwaitTrackingNoMoreWhileItIsLate) {
   WaitingScans waiting;
   for (int i = 0; i < 3; ++i) {
