@@ -1,6 +1,7 @@
 #include "common/app/run_service.hpp"
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/interface_watch.hpp"
 #include "common/app/log.hpp"
 #include "common/app/standby.hpp"
 #include "common/app/state_lock.hpp"
@@ -51,6 +53,20 @@ void watch(StateLock& lock, ServiceContext& context) {
   });
 }
 
+/// Ends the process, which its supervisor starts again, when the interface of a bus between
+/// computers was replaced. Without SLAMMOT_INTERFACE does nothing.
+void watch_interface(ServiceContext& context) {
+  const char* const name = std::getenv("SLAMMOT_INTERFACE");
+  if (name == nullptr || *name == '\0') return;
+  const auto watch =
+      std::make_shared<InterfaceWatch>([name] { return identity_of_interface(name); });
+  context.every(std::chrono::milliseconds(200), [&context, watch, name] {
+    if (!watch->was_replaced()) return;
+    spdlog::error("ends: interface {} is back, and has to be joined anew", name);
+    context.stop(kExitFailure);
+  });
+}
+
 /// The service is destroyed before the context that it refers to, and both before the watchdog
 /// stops.
 int serve(const ServiceDescription& description, const ServiceOptions& options) {
@@ -62,6 +78,7 @@ int serve(const ServiceDescription& description, const ServiceOptions& options) 
     watchdog.arm();  // also guards against a handler that does not return
     context.stop();
   });
+  watch_interface(context);
   std::optional<Standby> standby;
   if (description.is_one_per_vehicle) {
     standby.emplace(context, description.keeps_state ? &lock : nullptr);

@@ -42,7 +42,7 @@ class Conditions:
 
 
 class Computer:
-    """A network namespace with an address on the link. `offset_s` sets its system clock apart, by libfaketime."""
+    """A network namespace with an address on the link."""
 
     def __init__(self, name, address):
         self.name, self.address = name, address
