@@ -22,9 +22,11 @@
 #include "services/slammot/collect_command.hpp"
 #include "services/slammot/completion_command.hpp"
 #include "services/slammot/config_command.hpp"
+#include "services/slammot/convert_command.hpp"
 #include "services/slammot/health_command.hpp"
 #include "services/slammot/live_command.hpp"
 #include "services/slammot/map_command.hpp"
+#include "services/slammot/replay_command.hpp"
 #include "services/slammot/run_command.hpp"
 #include "services/slammot/usage.hpp"
 #include "services/slammot/warn_command.hpp"
@@ -42,7 +44,7 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
       {"Process a drive", {"run", "bench", "live", "collect", "simulate"}},
       {"Look at a drive or a result", {"check", "report", "plot", "animate", "eval", "warn"}},
-      {"Recordings of the bus", {"record", "play", "bag"}},
+      {"Recordings of the bus", {"record", "play", "replay", "bag"}},
       {"Settings and maps", {"config", "map"}},
       {"Services that run",
        {"health", "top", "list", "echo", "hz", "delay", "qos", "graph", "doctor"}},
@@ -94,7 +96,9 @@ int run_command_line(int argc, char** argv) {
   add_warn_command(app, exit_code);
   recorder::add_record_command(app, exit_code);
   recorder::add_play_command(app, exit_code);
+  add_replay_command(app, exit_code);
   recorder::add_bag_command(app, exit_code);
+  add_convert_command(app, exit_code);
   add_completion_command(app, exit_code);
   set_groups(app);
   if (argc < 2) {
