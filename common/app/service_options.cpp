@@ -1,8 +1,12 @@
 #include "common/app/service_options.hpp"
 
+#include <cstdlib>
+
 #include <CLI/CLI.hpp>
 
+#include "common/app/bus_option.hpp"
 #include "common/config/profiles.hpp"
+#include "common/dds/config.hpp"
 
 namespace slammot::app {
 namespace {
@@ -17,6 +21,9 @@ std::string fault_of_name(const std::string& name) {
   return {};
 }
 
+constexpr const char* kBusHelp =
+    "Name of a closed bus on this machine: loopback only, apart from all others";
+
 }  // namespace
 
 std::filesystem::path state_path(const ServiceOptions& options, const std::string& service,
@@ -25,12 +32,27 @@ std::filesystem::path state_path(const ServiceOptions& options, const std::strin
   return options.state_dir / (service + "-" + options.vehicle_id + instance + ending);
 }
 
+void add_bus_option(CLI::App& command_line, std::string& bus) {
+  command_line.add_option("--bus", bus, kBusHelp)
+      ->envname("SLAMMOT_BUS")
+      ->check(CLI::Validator(fault_of_name, "NAME"));
+}
+
 void add_domain_option(CLI::App& command_line, std::uint32_t& domain_id) {
   constexpr std::uint32_t kHighestDomain = 230;  // the highest whose ports exist
   command_line.add_option("--domain", domain_id, "DDS domain")
       ->envname("SLAMMOT_DOMAIN")
       ->capture_default_str()
       ->check(CLI::Range(std::uint32_t{0}, kHighestDomain));
+  command_line
+      .add_option_function<std::string>(
+          "--bus",
+          [](const std::string& name) {
+            ::setenv("CYCLONEDDS_URI", dds::loopback_config(name).c_str(), 1);
+          },
+          kBusHelp)
+      ->envname("SLAMMOT_BUS")
+      ->check(CLI::Validator(fault_of_name, "NAME"));
 }
 
 void add_service_options(CLI::App& command_line, ServiceOptions& options) {

@@ -94,13 +94,17 @@ std::vector<std::uint8_t> fetch_mapping(const Participant& participant,
   return serialized(&mapping, DDS_XTypes_TypeMapping_desc);
 }
 
+RawType type_of(const TopicInfo& topic) {
+  return {std::string(topic.type_name()), bytes_of(topic.type->type_information),
+          bytes_of(topic.type->type_mapping)};
+}
+
 /// The type as compiled, if it is the same one: its identifier is a hash of all that it consists
 /// of.
 std::optional<RawType> compiled_type(const std::string& name, const ddsi_typeinfo& information) {
   for (const TopicInfo* topic : topic_table()) {
     if (topic->type_name() != name) continue;
-    RawType type{name, bytes_of(topic->type->type_information),
-                 bytes_of(topic->type->type_mapping)};
+    RawType type = type_of(*topic);
     const ddsi_sertype_cdr_data bytes = {static_cast<std::uint32_t>(type.information.size()),
                                          type.information.data()};
     ddsi_typeinfo_t* const compiled = ddsi_typeinfo_deser(&bytes);
@@ -129,6 +133,10 @@ std::shared_ptr<const RawTopic> RawTopic::resolve(const Participant& participant
   if (const auto compiled = compiled_type(type_name, information)) return of_type(name, *compiled);
   return of_type(name, {type_name, serialized(&information.x, DDS_XTypes_TypeInformation_desc),
                         fetch_mapping(participant, information.x, patience)});
+}
+
+std::shared_ptr<const RawTopic> RawTopic::of_table(const TopicInfo& topic) {
+  return of_type(std::string(topic.name), type_of(topic));
 }
 
 std::shared_ptr<const RawTopic> RawTopic::of_type(const std::string& name, const RawType& type) {

@@ -23,6 +23,8 @@ class RawTopic {
                                                  const std::string& type_name,
                                                  const ddsi_typeinfo& information,
                                                  std::chrono::nanoseconds patience);
+  /// Of a topic whose type is compiled in.
+  static std::shared_ptr<const RawTopic> of_table(const TopicInfo& topic);
   /// Of a type as type() gave it. Null: the description is damaged.
   static std::shared_ptr<const RawTopic> of_type(const std::string& name, const RawType& type);
 

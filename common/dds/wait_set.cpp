@@ -1,11 +1,15 @@
 #include "common/dds/wait_set.hpp"
 
+#include <algorithm>
+#include <bitset>
 #include <utility>
 
 #include <dds/dds.h>
 
 namespace slammot::dds {
 namespace {
+
+constexpr std::size_t kMostInOrder = 64;
 
 bool is_triggered(Entity::Handle condition) {
   return check(dds_triggered(condition), "dds_triggered") != 0;
@@ -30,8 +34,14 @@ WaitSet::Wake WaitSet::wait(std::chrono::nanoseconds timeout) {
       check(dds_waitset_wait(wait_set_.handle(), nullptr, 0, timeout.count()), "dds_waitset_wait");
   if (is_triggered(stop_.handle())) return Wake::kStopped;
   if (triggered == 0) return Wake::kTimedOut;
-  for (const Attached& attached : attached_) {
-    if (is_triggered(attached.condition)) attached.handler();
+  // Looks at the last one first: where it has samples, those that were written before them for
+  // earlier handlers are seen, too, even if all arrive meanwhile.
+  std::bitset<kMostInOrder> has_data;
+  for (std::size_t i = std::min(attached_.size(), kMostInOrder); i-- > 0;)
+    has_data[i] = is_triggered(attached_[i].condition);
+  for (std::size_t i = 0; i < attached_.size(); ++i) {
+    if (i < kMostInOrder ? has_data[i] : is_triggered(attached_[i].condition))
+      attached_[i].handler();
   }
   return Wake::kHandled;
 }

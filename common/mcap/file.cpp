@@ -90,7 +90,7 @@ files::Result<File> File::open(const std::filesystem::path& path) {
   auto bytes = std::make_unique<FileBytes>(path);
   if (!bytes->is_open()) return files::Error{path.string() + ": " + std::strerror(errno)};
   if (bags::text_of(bytes->read(0, format::kMagic.size())) != format::kMagic)
-    return files::Error{path.string() + ": is not an MCAP file"};
+    return files::Error{path.string() + " is not an MCAP file"};
   auto summary = read_summary(*bytes);
   const bool is_empty =
       summary && summary->statistics != Statistics{} && summary->statistics.message_count == 0;

@@ -6,16 +6,9 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/system_clock.hpp"
-#include "common/wire/localized_scan.hpp"
-#include "common/wire/scan_labels.hpp"
-#include "common/wire/sensor.hpp"
-#include "common/wire/tracked_objects.hpp"
 #include "services/gateway/metrics.hpp"
 #include "services/gateway/other_messages.hpp"
 #include "services/gateway/page_files.hpp"
-#include "services/gateway/pose_messages.hpp"
-#include "services/gateway/scan_messages.hpp"
-#include "services/gateway/track_messages.hpp"
 
 namespace slammot::gateway {
 namespace {
@@ -29,13 +22,14 @@ bool is_loopback_address(const std::string& address) {
   return address.starts_with("127.") || address == "::1";
 }
 
-WebServerSettings server_settings(const GatewayService::Settings& settings) {
+WebServerSettings server_settings(const GatewayService::Settings& settings, BusCalls& calls) {
   WebServerSettings server = settings.server;
   server.access.token = settings.token;
   if (server.access.token.empty() && !is_loopback_address(server.address))
     server.access.token = new_token();
   const std::vector<std::string> viewers = origins_of_viewers();
   server.access.origins.insert(server.access.origins.end(), viewers.begin(), viewers.end());
+  server.on_call = [&calls](ViewerCall call) { calls.take(std::move(call)); };
   return server;
 }
 
@@ -96,26 +90,15 @@ void GatewayService::add_options(CLI::App& command_line, Settings& settings) {
 
 GatewayService::GatewayService(app::ServiceContext& context, const Settings& settings)
     : context_(context),
-      owned_server_(start_server(server_settings(settings))),
+      calls_(context),
+      owned_server_(start_server(server_settings(settings, calls_))),
       server_(*owned_server_),
-      pairing_([this](const flow::LocalizedScan& scan, const auto& labels) {
-        if (server_.is_wanted(ChannelId::kPoints))
-          server_.publish(ChannelId::kPoints, scan.stamp_ns,
-                          labelled_points_message(scan, labels).SerializeAsString());
-      }),
-      map_(server_) {
+      drive_(server_,
+             [this](const char* counter, std::string_view line) { context_.warn(counter, line); }) {
   for (PageFile& file :
        settings.page_folder.empty() ? built_in_page() : page_in(settings.page_folder))
     server_.put(file.path, std::move(file.content));
-  const auto read = [&](const auto& topic, app::Input kind) {
-    context.read(topic, kind, [this](const auto& sample) { this->take(sample); });
-  };
-  read(dds::topics::kLaserScan, app::Input::kOccasional);
-  read(dds::topics::kLocalizedScan, app::Input::kSteady);
-  read(dds::topics::kScanLabels, app::Input::kOccasional);
-  read(dds::topics::kTrackedObjects, app::Input::kOccasional);
-  read(dds::topics::kGnssFix, app::Input::kOccasional);
-  read_map();
+  read_drive();
   read_services();
   Content alive{"text/plain; charset=utf-8", "alive\n"};
   alive.is_public = true;
@@ -123,74 +106,29 @@ GatewayService::GatewayService(app::ServiceContext& context, const Settings& set
   report_health();
 }
 
+void GatewayService::read_drive() {
+  const auto read = [&](const auto& topic) {
+    context_.read(topic, app::Input::kOccasional,
+                  [this](const auto& sample) { drive_.take(sample); });
+  };
+  read(dds::topics::kLaserScan);
+  context_.read(dds::topics::kLocalizedScan, app::Input::kSteady, [this](const auto& sample) {
+    if (drive_.take(sample)) last_scan_ = std::chrono::steady_clock::now();
+  });
+  read(dds::topics::kScanLabels);
+  read(dds::topics::kTrackedObjects);
+  read(dds::topics::kGnssFix);
+  read(dds::topics::kStoredSubmapTile);
+  read(dds::topics::kGraphCorrection);
+  read(dds::topics::kConstraint);
+  context_.every(250ms, [this] { drive_.publish_map(std::chrono::steady_clock::now()); });
+}
+
+/// False, counted and logged, if the sample is malformed.
 template <typename Value>
 bool GatewayService::accept(const wire::Decoded<Value>& decoded, const char* counter) {
   if (!decoded) context_.warn(counter, "dropped a sample: " + std::string(decoded.fault()));
   return static_cast<bool>(decoded);
-}
-
-void GatewayService::take(const slammot_LaserScan& sample) {
-  if (!server_.is_wanted(ChannelId::kScan)) return;
-  const auto scan = wire::decode(sample);
-  if (accept(scan, "faulty_scans"))
-    server_.publish(ChannelId::kScan, scan->stamp_ns,
-                    laser_scan_message(*scan).SerializeAsString());
-}
-
-void GatewayService::take(const slammot_LocalizedScan& sample) {
-  auto scan = wire::decode(sample);
-  if (!accept(scan, "faulty_localized_scans")) return;
-  last_scan_ = std::chrono::steady_clock::now();
-  map_.follow(*scan);
-  const auto publish = [&](ChannelId channel, const auto& message_of) {
-    if (server_.is_wanted(channel)) server_.publish(channel, scan->stamp_ns, message_of());
-  };
-  publish(ChannelId::kPose, [&] { return pose_message(*scan).SerializeAsString(); });
-  publish(ChannelId::kTransforms, [&] { return transforms_message(*scan).SerializeAsString(); });
-  publish(ChannelId::kPoseDetails, [&] { return pose_json(*scan); });
-  pairing_.take(std::move(*scan));
-}
-
-void GatewayService::take(const slammot_ScanLabels& sample) {
-  const auto labels = wire::decode(sample);
-  if (accept(labels, "faulty_scan_labels")) pairing_.take(*labels);
-}
-
-void GatewayService::take(const slammot_TrackedObjects& sample) {
-  const bool wants_scene = server_.is_wanted(ChannelId::kTracks);
-  const bool wants_details = server_.is_wanted(ChannelId::kTrackDetails);
-  if (!wants_scene && !wants_details) return;
-  const auto objects = wire::decode(sample);
-  if (!accept(objects, "faulty_tracks")) return;
-  if (wants_scene)
-    server_.publish(ChannelId::kTracks, objects->stamp_ns,
-                    scene_message(*objects, shown_tracks_).SerializeAsString());
-  shown_tracks_ = drawn_tracks(*objects);
-  if (wants_details)
-    server_.publish(ChannelId::kTrackDetails, objects->stamp_ns, tracks_json(*objects));
-}
-
-void GatewayService::take(const slammot_GnssFix& sample) {
-  if (!server_.is_wanted(ChannelId::kFix)) return;
-  const auto fix = wire::decode(sample);
-  if (accept(fix, "faulty_fixes"))
-    server_.publish(ChannelId::kFix, fix->stamp_ns, fix_message(*fix).SerializeAsString());
-}
-
-void GatewayService::read_map() {
-  const auto report = [this](const char* counter, std::string_view fault) {
-    if (!fault.empty()) context_.warn(counter, "dropped a part of the map: " + std::string(fault));
-  };
-  context_.read(dds::topics::kStoredSubmapTile, app::Input::kOccasional,
-                [this, report](const auto& tile) { report("faulty_tiles", map_.take(tile)); });
-  context_.read(
-      dds::topics::kGraphCorrection, app::Input::kOccasional,
-      [this, report](const auto& part) { report("faulty_corrections", map_.take(part)); });
-  context_.read(dds::topics::kConstraint, app::Input::kOccasional, [this](const auto& sample) {
-    const auto constraint = wire::decode(sample);
-    if (accept(constraint, "faulty_constraints")) map_.take(*constraint);
-  });
-  context_.every(250ms, [this] { map_.publish(std::chrono::steady_clock::now()); });
 }
 
 void GatewayService::read_services() {

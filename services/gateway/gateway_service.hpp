@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/app/run_service.hpp"
-#include "services/gateway/map_publisher.hpp"
-#include "services/gateway/scan_pairing.hpp"
+#include "services/gateway/bus_calls.hpp"
+#include "services/gateway/drive_messages.hpp"
 #include "services/gateway/service_board.hpp"
 #include "services/gateway/web_server.hpp"
 
@@ -36,12 +36,7 @@ class GatewayService {
   std::uint16_t port() const { return server_.port(); }
 
  private:
-  void take(const slammot_LaserScan& sample);
-  void take(const slammot_LocalizedScan& sample);
-  void take(const slammot_ScanLabels& sample);
-  void take(const slammot_TrackedObjects& sample);
-  void take(const slammot_GnssFix& sample);
-  void read_map();
+  void read_drive();
   void read_services();
   void report_health();
   void log_warnings(const std::vector<std::string>& warnings);
@@ -50,12 +45,11 @@ class GatewayService {
   bool accept(const wire::Decoded<Value>& decoded, const char* counter);
 
   app::ServiceContext& context_;
+  BusCalls calls_;  ///< Outlives the server, whose thread hands calls over.
   std::unique_ptr<WebServer> owned_server_;
   WebServer& server_;
-  ScanPairing pairing_;
-  MapPublisher map_;
+  DriveMessages drive_;
   ServiceBoard board_;
-  std::set<flow::TrackId> shown_tracks_;
   std::set<std::string> warnings_;
   std::optional<app::SteadyTime> last_scan_;
 };

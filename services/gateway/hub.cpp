@@ -17,7 +17,8 @@ bool is_retained(ChannelId channel) {
 
 Hub::Hub(AccessRules access, const SendQueue::Limits& limits, std::string session)
     : access_(std::move(access)), limits_(limits) {
-  for (std::string& text : std::vector{server_info("slammot", session), advertisement(channels())})
+  for (std::string& text : std::vector{server_info("slammot", session), advertisement(channels()),
+                                       services_advertisement()})
     greeting_.push_back(std::make_shared<const std::string>(std::move(text)));
 }
 
@@ -28,6 +29,11 @@ void Hub::put(const std::string& path, Content content) {
 std::shared_ptr<const Content> Hub::content(const std::string& path) const {
   const auto found = contents_.find(path);
   return found == contents_.end() ? nullptr : found->second;
+}
+
+void Hub::call(ViewerCall call) const {
+  if (take_call_) take_call_(std::move(call));
+  else call.answer("this server takes no calls");
 }
 
 void Hub::count_subscribers(ChannelId channel, int change) {

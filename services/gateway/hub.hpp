@@ -3,29 +3,23 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "services/gateway/access.hpp"
+#include "services/gateway/audience.hpp"
+#include "services/gateway/calls.hpp"
 #include "services/gateway/channels.hpp"
 #include "services/gateway/send_queue.hpp"
 
 namespace slammot::gateway {
-
-/// What the server answers under one path.
-struct Content {
-  std::string type;  ///< Media type.
-  std::string body;
-  std::string encoding{};  ///< Of the body, "gzip"; empty: as it is.
-  unsigned status = 200;
-  bool is_public = false;     ///< Holds no data of the vehicle: needs no token.
-  bool is_immutable = false;  ///< The path changes with the content.
-};
 
 struct Message {
   ChannelId channel{};
@@ -77,6 +71,10 @@ class Hub {
   bool is_wanted(ChannelId channel) const;
   HubCounters counters() const;
 
+  /// What happens to calls of viewers, in the server's thread. Before the first connection.
+  void on_call(std::function<void(ViewerCall)> take) { take_call_ = std::move(take); }
+  void call(ViewerCall call) const;
+
   struct Counts {
     std::atomic<std::uint64_t> connections{0}, viewers{0}, refused_connections{0},
         refused_messages{0}, dropped_messages{0}, sent_messages{0}, sent_bytes{0};
@@ -90,6 +88,7 @@ class Hub {
   std::map<std::string, std::shared_ptr<const Content>> contents_;
   std::set<Viewer*> viewers_;
   std::array<std::optional<Message>, kChannelCount> last_;
+  std::function<void(ViewerCall)> take_call_;
   std::array<std::atomic<int>, kChannelCount> subscribers_{};
 };
 

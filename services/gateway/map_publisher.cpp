@@ -30,11 +30,11 @@ void MapPublisher::add(flow::Submap submap) {
   const auto view = std::make_shared<const flow::Submap>(reduced(submap));
   const std::string path = view_of(submap.map_id).add(view, version);
   std::string& served = served_[path.substr(0, path.rfind('/'))];
-  if (!served.empty() && served != path) server_.remove(served);
+  if (!served.empty() && served != path) audience_.remove(served);
   served = path;
   Content content{"application/octet-stream", compressed_cells(*view), "gzip"};
   content.is_immutable = true;
-  server_.put(path, std::move(content));
+  audience_.put(path, std::move(content));
   if (!in_use_) in_use_ = submap.map_id;
   has_new_graph_ = has_new_map_ = true;
 }
@@ -62,7 +62,7 @@ void MapPublisher::follow(const flow::LocalizedScan& scan) {
     const std::string kept = "/submaps/" + std::to_string(scan.map_id.value) + "/";
     std::erase_if(served_, [&](const auto& item) {
       if (item.second.starts_with(kept)) return false;
-      server_.remove(item.second);
+      audience_.remove(item.second);
       return true;
     });
     has_new_graph_ = has_new_map_ = true;
@@ -78,25 +78,25 @@ void MapPublisher::publish(Time now) {
 }
 
 void MapPublisher::publish_graph() {
-  server_.publish(ChannelId::kGraph, stamp_ns_, view_of(*in_use_).graph_json());
+  audience_.publish(ChannelId::kGraph, stamp_ns_, view_of(*in_use_).graph_json());
 }
 
 void MapPublisher::publish_way(Time now) {
   if (now < way_due_) return;
   way_due_ = now + kWayPeriod;
-  server_.publish(ChannelId::kTrajectory, stamp_ns_,
-                  poses_message(stamp_ns_, view_of(*in_use_).way()).SerializeAsString());
+  audience_.publish(ChannelId::kTrajectory, stamp_ns_,
+                    poses_message(stamp_ns_, view_of(*in_use_).way()).SerializeAsString());
 }
 
 void MapPublisher::publish_grids(Time now) {
   if (grids_.valid()) {
     if (grids_.wait_for(0s) != std::future_status::ready) return;
     MapGrids grids = grids_.get();
-    server_.publish(ChannelId::kStationaryMap, stamp_ns_, std::move(grids.stationary));
-    server_.publish(ChannelId::kMovingMap, stamp_ns_, std::move(grids.moving));
+    audience_.publish(ChannelId::kStationaryMap, stamp_ns_, std::move(grids.stationary));
+    audience_.publish(ChannelId::kMovingMap, stamp_ns_, std::move(grids.moving));
   }
   const bool is_wanted =
-      server_.is_wanted(ChannelId::kStationaryMap) || server_.is_wanted(ChannelId::kMovingMap);
+      audience_.is_wanted(ChannelId::kStationaryMap) || audience_.is_wanted(ChannelId::kMovingMap);
   if (!is_wanted || now < grids_due_ || !std::exchange(has_new_map_, false)) return;
   grids_due_ = now + kGridPeriod;
   grids_ =

@@ -10,9 +10,9 @@
 
 #include "common/wire/graph.hpp"
 #include "common/wire/submap.hpp"
+#include "services/gateway/audience.hpp"
 #include "services/gateway/map_messages.hpp"
 #include "services/gateway/map_view.hpp"
-#include "services/gateway/web_server.hpp"
 
 namespace slammot::gateway {
 
@@ -22,7 +22,7 @@ class MapPublisher {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  explicit MapPublisher(WebServer& server) : server_(server) {}
+  explicit MapPublisher(Audience& audience) : audience_(audience) {}
   ~MapPublisher() = default;  ///< Waits for the grids in work.
 
   /// Each returns the reason of a rejection; empty if accepted.
@@ -33,6 +33,10 @@ class MapPublisher {
 
   /// Publishes what changed. Call it a few times a second.
   void publish(Time now);
+  /// Waits for grids in work: the next publish() has them.
+  void finish_grids() const {
+    if (grids_.valid()) grids_.wait();
+  }
 
  private:
   MapView& view_of(flow::MapId map_id);
@@ -41,7 +45,7 @@ class MapPublisher {
   void publish_way(Time now);
   void publish_grids(Time now);
 
-  WebServer& server_;
+  Audience& audience_;
   wire::SubmapAssembler submaps_;
   wire::GraphCorrectionAssembler corrections_;
   std::map<flow::MapId, MapView> views_;

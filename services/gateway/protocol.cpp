@@ -85,11 +85,9 @@ std::string_view choose_subprotocol(std::string_view requested) {
 }
 
 std::string server_info(const std::string& name, const std::string& session) {
-  const Json info = {{"op", "serverInfo"},
-                     {"name", name},
-                     {"capabilities", Json::array()},
-                     {"metadata", Json::object()},
-                     {"sessionId", session}};
+  const Json info = {{"op", "serverInfo"},           {"name", name},
+                     {"capabilities", {"services"}}, {"supportedEncodings", {"json"}},
+                     {"metadata", Json::object()},   {"sessionId", session}};
   return info.dump();
 }
 

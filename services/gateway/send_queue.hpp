@@ -13,8 +13,9 @@ namespace slammot::gateway {
 
 /// A message for one client. Data messages share their payload with the other clients.
 struct Outgoing {
-  std::optional<DataHeader> header;  ///< Of a data message; others are text.
+  std::optional<DataHeader> header;  ///< Of a data message.
   std::shared_ptr<const std::string> payload;
+  bool is_binary = false;  ///< Without header.
 
   std::size_t size() const { return payload->size() + (header ? header->size() : 0); }
 };

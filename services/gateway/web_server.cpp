@@ -37,6 +37,7 @@ class WebServer::Implementation {
         hub_(settings.access, settings.limits, new_session()),
         acceptor_(io_),
         pause_(io_) {
+    hub_.on_call(settings.on_call);
     listen(endpoint_of(settings));
     accept();
     thread_ = std::thread([this] { io_.run(); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -15,26 +16,24 @@ struct WebServerSettings {
   AccessRules access;
   SendQueue::Limits limits;
   std::uint64_t most_connections = 64;
+  std::function<void(ViewerCall)> on_call = {};  ///< In the server's thread; empty: refused.
 };
 
 /// HTTP and WebSocket on one port, in a thread of its own. No member function waits for a client.
-class WebServer {
+class WebServer : public Audience {
  public:
   /// Throws std::runtime_error with one line if the port cannot be opened.
   explicit WebServer(const WebServerSettings& settings);
-  ~WebServer();
+  ~WebServer() override;
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
   std::uint16_t port() const;
 
-  /// Answers requests for `path` with the content, which replaces what was there.
-  void put(const std::string& path, Content content);
-  void remove(const std::string& path);
-
-  /// False if a message of the channel would reach nobody.
-  bool is_wanted(ChannelId channel) const;
-  void publish(ChannelId channel, std::int64_t time_ns, std::string payload);
+  bool is_wanted(ChannelId channel) const override;
+  void publish(ChannelId channel, std::int64_t time_ns, std::string payload) override;
+  void put(const std::string& path, Content content) override;
+  void remove(const std::string& path) override;
 
   HubCounters counters() const;
 

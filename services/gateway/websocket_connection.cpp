@@ -7,6 +7,7 @@
 
 #include "services/gateway/connection.hpp"
 
+#include <boost/asio/post.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/http/field.hpp>
 #include <boost/beast/websocket.hpp>
@@ -85,11 +86,31 @@ class WebsocketConnection : public std::enable_shared_from_this<WebsocketConnect
   void handle() {
     const std::string text = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
-    if (!socket_.got_text()) return refuse("binary messages are not served");
+    if (!socket_.got_text()) return call(text);
     const ClientMessage message = parse_client_message(text);
     if (const auto* subscribe = std::get_if<Subscribe>(&message)) take(*subscribe);
     if (const auto* unsubscribe = std::get_if<Unsubscribe>(&message)) take(*unsubscribe);
     if (const auto* refused = std::get_if<Refused>(&message)) refuse(refused->reason);
+  }
+
+  void call(const std::string& bytes) {
+    const auto request = parse_service_call(bytes);
+    if (!request) return refuse("a call of no service");
+    auto answer = [self = weak_from_this(), executor = socket_.get_executor(),
+                   request = *request](const std::string& explanation) {
+      boost::asio::post(executor, [self, request, explanation] {
+        if (const auto connection = self.lock()) connection->answer(request, explanation);
+      });
+    };
+    hub_.call({&callable_services()[request->service], request->argument, std::move(answer)});
+  }
+
+  void answer(const ServiceCall& request, const std::string& explanation) {
+    const bool is_done = explanation.empty();
+    push({std::nullopt,
+          std::make_shared<const std::string>(is_done ? service_response(request)
+                                                      : call_failure(request, explanation)),
+          is_done});
   }
 
   void take(const Subscribe& subscribe) {
@@ -135,7 +156,7 @@ class WebsocketConnection : public std::enable_shared_from_this<WebsocketConnect
     if (queue_.empty() || !is_open_) return;
     is_writing_ = true;
     sending_ = queue_.pop();
-    socket_.binary(sending_.header.has_value());
+    socket_.binary(sending_.header.has_value() || sending_.is_binary);
     const auto done = [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
       self->is_writing_ = false;
       if (error) return self->close();

@@ -40,6 +40,10 @@ void LocalizationService::add_options(CLI::App& command_line, Settings& settings
           "With --continue-map: without news of that map for so long [s], a drive begins its own")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
+  command_line
+      .add_option("--drive-id", settings.drive_ids,
+                  "Ids of its drives, in their order, in place of the clock's: to repeat a drive")
+      ->type_name("ID");
 }
 
 LocalizationService::LocalizationService(app::ServiceContext& context, const Settings& settings)
@@ -54,6 +58,7 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
                         monotonic_ns());
     is_stored_map_known();  // so that nobody takes it for ready before the first turn
   }
+  drives_.ids.assign(settings.drive_ids.begin(), settings.drive_ids.end());
   read_inputs(context);
   context.every(kTurn, [this] {
     waiting_.count_turn();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -30,6 +31,7 @@ class LocalizationService {
                                    ///< begins its own.
     double map_patience_s = 30.0;  ///< Without news of that map, before a drive begins its own all
                                    ///< the same.
+    std::vector<std::uint64_t> drive_ids;  ///< Of its drives, in their order; then the clock's.
   };
   static constexpr const char* kName = "localization";
   static constexpr const char* kPurpose =
@@ -60,6 +62,7 @@ class LocalizationService {
     DriveWatch watch;                           ///< Of the scans that were localized.
     DriveGate gate;                             ///< Of those that arrive.
     std::optional<std::int64_t> last_stray_ns;  ///< By the monotonic clock.
+    std::deque<std::uint64_t> ids;              ///< Of the drives to come.
   };
 
   void read_inputs(app::ServiceContext& context);
@@ -94,6 +97,7 @@ class LocalizationService {
   void hand_over_earlier_drive();
   void end_drive();
   void begin_drive();
+  flow::OdomId new_id();
   void begin_map();
   void go_on_in_stored_map();
   void correct(const flow::GraphCorrection& correction);

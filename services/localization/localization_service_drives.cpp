@@ -8,15 +8,6 @@
 #include "services/localization/localization_service_clock.hpp"
 
 namespace slammot::localization {
-namespace {
-
-/// Unlike any before, unless the clock was set back to the very nanosecond.
-std::uint64_t new_id() {
-  return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
-}
-
-}  // namespace
-
 /// Where drives continue in the stored map, the first scan of a drive waits until that is known.
 /// Older ones than a live sensor needs are dropped: a vehicle wants to know where it is now.
 bool LocalizationService::knows_map_of(const WaitingScan& waiting) {
@@ -168,13 +159,23 @@ void LocalizationService::begin_drive() {
   scans_.clear();
   drive_.last_done_ns.reset();
   checkpoint_.begin_drive();
-  drive_.odom_id = {new_id()};
+  drive_.odom_id = new_id();
   const auto verdict = stored_map_ ? stored_map_->answer(monotonic_ns()).verdict
                                    : StoredMapWatch::Verdict::kNothingStored;
   if (verdict == StoredMapWatch::Verdict::kGoOn) return go_on_in_stored_map();
   if (verdict == StoredMapWatch::Verdict::kCannot)
     ++context_.status().counter("begun_without_stored_map");
   begin_map();
+}
+
+/// Unlike any before, unless the clock was set back to the very nanosecond.
+flow::OdomId LocalizationService::new_id() {
+  if (drives_.ids.empty())
+    return {
+        static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count())};
+  const flow::OdomId id{drives_.ids.front()};
+  drives_.ids.pop_front();
+  return id;
 }
 
 void LocalizationService::begin_map() {

@@ -1,15 +1,20 @@
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/log.hpp"
 #include "common/app/run_service.hpp"
 #include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/dds/exit_watchdog.hpp"
+#include "common/recordings/recorded_topic.hpp"
 #include "services/recorder/player.hpp"
 #include "services/recorder/record_command.hpp"
 
@@ -21,6 +26,8 @@ using namespace std::chrono_literals;
 /// Others find the writers within this time: 1 s of discovery (common/dds/config.hpp) and a margin.
 constexpr double kDiscovery_s = 1.5;
 constexpr auto kPatience = 2s;
+constexpr double kLongest_s = 1e9;
+constexpr double kAsFastAsPossible = std::numeric_limits<double>::infinity();
 
 struct PlayOptions {
   std::string file;
@@ -29,6 +36,8 @@ struct PlayOptions {
   double duration_s = 0.0;
   double wait_s = kDiscovery_s;
   bool loops = false;
+  bool lingers = false;
+  std::string vehicle_id;
   std::vector<std::string> topics;
   std::uint32_t domain_id = 0;
 };
@@ -39,11 +48,6 @@ int fail(const std::string& line) {
 }
 
 std::int64_t ns_of(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
-
-void wait(double seconds, const std::atomic<bool>& is_stopped) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(ns_of(seconds));
-  while (!is_stopped && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(10ms);
-}
 
 int report(const Player& player, const mcap::File& file) {
   const PlayCounters& counters = player.counters();
@@ -60,25 +64,126 @@ int report(const Player& player, const mcap::File& file) {
   return 0;
 }
 
+PlayRange range_of(const PlayOptions& options, const mcap::File& file) {
+  const std::int64_t from_ns = file.contents().statistics.start_ns + ns_of(options.from_s);
+  return {from_ns, options.duration_s > 0.0 ? from_ns + ns_of(options.duration_s)
+                                            : std::numeric_limits<std::int64_t>::max()};
+}
+
+std::optional<double> number_in(std::string_view text) {
+  double value = 0.0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = fault == std::errc{} && end == text.data() + text.size();
+  return is_number && std::isfinite(value) && std::abs(value) < kLongest_s ? std::optional(value)
+                                                                           : std::nullopt;
+}
+
+double speed_of(const std::string& text) { return number_in(text).value_or(kAsFastAsPossible); }
+
+app::CommandResult refused(const char* expected) {
+  return {app::CommandOutcome::kRefused, expected};
+}
+
+/// Commands of others on the bus, such as the page of the gateway.
+void answer_commands(app::ServiceContext& context, PlayControl& control, std::int64_t start_ns) {
+  context.on_command("pause", [&control](std::string_view) {
+    control.pause();
+    return app::CommandResult{};
+  });
+  context.on_command("go_on", [&control](std::string_view) {
+    control.go_on();
+    return app::CommandResult{};
+  });
+  context.on_command("step", [&control](std::string_view argument) {
+    const auto seconds = number_in(argument);
+    if (!seconds || *seconds <= 0.0) return refused("step takes seconds");
+    control.step(ns_of(*seconds));
+    return app::CommandResult{};
+  });
+  context.on_command("seek", [&control, start_ns](std::string_view argument) {
+    const auto seconds = number_in(argument);
+    if (!seconds || *seconds < 0.0) return refused("seek takes seconds since the start");
+    control.seek(start_ns + ns_of(*seconds));
+    return app::CommandResult{};
+  });
+  context.on_command("speed", [&control](std::string_view argument) {
+    const std::string text(argument);
+    const auto pace = app::Pace::parse(text);
+    if (!pace) return refused("speed takes max or a number from 0.01 to 1000");
+    control.set_speed(*pace, speed_of(text));
+    return app::CommandResult{};
+  });
+}
+
+/// Where playing is, in the player's status.
+void report_position(app::ServiceContext& context, const PlayControl& control,
+                     const mcap::Statistics& statistics) {
+  const auto ms = [](std::int64_t ns) {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(ns / 1'000'000, 0));
+  };
+  context.before_report([&context, &control, statistics, ms] {
+    const PlayState state = control.state();
+    context.status().set_counters(
+        {{"position_ms", ms(state.position_ns - statistics.start_ns)},
+         {"duration_ms", ms(statistics.end_ns - statistics.start_ns)},
+         {"is_paused", state.is_paused ? 1U : 0U},
+         {"speed_percent", std::isfinite(state.speed)
+                               ? static_cast<std::uint64_t>(std::lround(100.0 * state.speed))
+                               : 0U}});
+  });
+}
+
+/// Plays until the end or a signal.
+void play_all(const PlayOptions& options, const mcap::File& file, Player& player,
+              PlayControl& control) {
+  PlayRange range = range_of(options, file);
+  while (player.play(range, control)) {
+    if (options.loops) continue;
+    if (!options.lingers || control.await_command() != PlayControl::Turn::kSeek) return;
+    range.from_ns = control.take_seek();
+  }
+}
+
+app::ServiceOptions service_options(const PlayOptions& options, const mcap::File& file) {
+  app::ServiceOptions service;
+  service.domain_id = options.domain_id;
+  const std::string vehicle_id =
+      options.vehicle_id.empty() ? recordings::first_vehicle(file) : options.vehicle_id;
+  if (!vehicle_id.empty()) service.vehicle_id = vehicle_id;
+  return service;
+}
+
 int play(const PlayOptions& options) {
   const auto file = mcap::File::open(options.file);
   if (!file) return fail(file.error().message);
   const auto pace = app::Pace::parse(options.speed);
   if (!pace) return fail("--speed is max or a number from 0.01 to 1000, not " + options.speed);
-  std::atomic<bool> is_stopped = false;
+  PlayControl control(*pace, speed_of(options.speed));
   dds::ExitWatchdog watchdog;
-  const app::StopSignal stop_signal([&] { is_stopped = true; });
-  const dds::Participant participant(
-      {.domain_id = options.domain_id, .name = "slammot-player", .config = std::nullopt});
-  Player player(participant, *file, TopicSelection(options.topics));
+  app::set_up_log("player");
+  app::ServiceContext context("player", service_options(options, *file));
+  const app::StopSignal stop_signal([&] {
+    control.stop();
+    context.stop();
+  });
+  Player player(context.participant(), *file, TopicSelection(options.topics));
   for (const std::string& topic : player.unplayable())
     std::fprintf(stderr, "slammot: %s was not recorded from this bus: left out\n", topic.c_str());
   if (player.topic_count() == 0) return fail(options.file + ": no topic that can be played");
-  wait(options.wait_s, is_stopped);
-  const std::int64_t from_ns = file->contents().statistics.start_ns + ns_of(options.from_s);
-  const std::int64_t to_ns = options.duration_s > 0.0 ? from_ns + ns_of(options.duration_s)
-                                                      : std::numeric_limits<std::int64_t>::max();
-  do { player.play(from_ns, to_ns, *pace, is_stopped); } while (options.loops && !is_stopped);
+  answer_commands(context, control, file->contents().statistics.start_ns);
+  report_position(context, control, file->contents().statistics);
+  context.run_for(std::chrono::nanoseconds(ns_of(options.wait_s)));
+  std::string fault;
+  std::jthread playing([&] {
+    try {
+      play_all(options, *file, player, control);
+    } catch (const std::runtime_error& error) { fault = error.what(); }
+    context.stop();
+  });
+  context.run();
+  control.stop();
+  playing.join();
+  if (!fault.empty()) return fail(fault);
   player.wait_for_acknowledgements(kPatience);
   watchdog.arm();
   return report(player, *file);
@@ -108,6 +213,10 @@ void add_play_command(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_flag("--loop", options->loops, "Begin again at the end, until Ctrl-C");
+  command->add_flag("--linger", options->lingers,
+                    "Stay at the end, for a seek from the page of the gateway");
+  command->add_option("--vehicle", options->vehicle_id,
+                      "Vehicle whose viewers may pause and seek; default: the first in it");
   command
       ->add_option("--topics", options->topics,
                    "Topics to play, comma-separated; all by default. A trailing '*' stands for all "

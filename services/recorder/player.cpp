@@ -1,20 +1,15 @@
 #include "services/recorder/player.hpp"
 
-#include <thread>
+#include <utility>
 
-#include "services/recorder/recorded_topic.hpp"
+#include "common/dds/cdr_walk.hpp"
+#include "common/recordings/recorded_topic.hpp"
 
 namespace slammot::recorder {
 namespace {
 
-/// Longest sleep, so that a signal ends the player soon.
-constexpr std::chrono::milliseconds kNap{50};
-
-void sleep_until(app::Pace::Time due, const std::atomic<bool>& is_stopped) {
-  for (auto now = app::Pace::Time::clock::now(); now < due && !is_stopped;
-       now = app::Pace::Time::clock::now())
-    std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(due - now, kNap));
-}
+/// Said so often that the next one comes at once.
+constexpr const char* kStatus = "slammot/status";
 
 }  // namespace
 
@@ -23,36 +18,69 @@ Player::Player(const dds::Participant& participant, const mcap::File& file,
     : file_(file) {
   for (const auto& [id, channel] : file.contents().channels) {
     if (!selection.contains(channel.topic)) continue;
-    const auto schema = file.contents().schemas.find(channel.schema_id);
-    const bool has_schema = schema != file.contents().schemas.end();
-    auto topic = playable(channel, has_schema ? &schema->second : nullptr);
+    auto topic = recordings::playable(file.contents(), channel);
     if (!topic) {
       unplayable_.push_back(channel.topic);
       continue;
     }
-    writers_[id] = std::make_unique<dds::RawWriter>(participant, topic->topic, topic->qos);
+    writers_[id] = {topic->topic,
+                    std::make_unique<dds::RawWriter>(participant, topic->topic, topic->qos),
+                    topic->qos.is_transient_local && channel.topic != kStatus};
   }
 }
 
-void Player::play(std::int64_t from_ns, std::int64_t to_ns, app::Pace pace,
-                  const std::atomic<bool>& is_stopped) {
-  mcap::Selection selection{{}, from_ns, to_ns};
-  for (const auto& [id, writer] : writers_)
-    selection.topics.insert(file_.contents().channels.at(id).topic);
-  if (selection.topics.empty()) return;
-  mcap::MessageCursor cursor(file_, selection);
+std::set<std::string> Player::topics(bool only_kept) const {
+  std::set<std::string> topics;
+  for (const auto& [id, output] : writers_) {
+    if (output.keeps || !only_kept) topics.insert(file_.contents().channels.at(id).topic);
+  }
+  return topics;
+}
+
+bool Player::play(const PlayRange& range, PlayControl& control) {
+  if (writers_.empty()) return true;
+  PlayRange rest = range;
+  for (;;) {
+    if (rest.from_ns > file_.contents().statistics.start_ns) restore(rest.from_ns - 1);
+    const auto turn = play_from(rest, control);
+    if (turn != PlayControl::Turn::kSeek) return turn == PlayControl::Turn::kPlay;
+    rest.from_ns = control.take_seek();
+  }
+}
+
+PlayControl::Turn Player::play_from(const PlayRange& range, PlayControl& control) {
+  mcap::MessageCursor cursor(file_, {topics(false), range.from_ns, range.to_ns});
   while (const auto message = cursor.next()) {
-    if (!pace.is_unlimited())
-      sleep_until(pace.due(message->head.log_time_ns, app::Pace::Time::clock::now()), is_stopped);
-    if (is_stopped) return;
-    write(*message);
+    const auto turn = control.await(message->head.log_time_ns);
+    if (turn != PlayControl::Turn::kPlay) return turn;
+    write(message->head.channel_id, {message->data, message->head.publish_time_ns});
   }
+  return PlayControl::Turn::kPlay;
 }
 
-void Player::write(const mcap::Message& message) {
-  const auto writer = writers_.find(message.head.channel_id);
-  if (writer == writers_.end()) return;
-  switch (writer->second->write({message.data, message.head.publish_time_ns})) {
+void Player::restore(std::int64_t log_time_ns) {
+  const std::set<std::string> kept = topics(true);
+  if (kept.empty()) return;
+  struct Kept {
+    std::vector<std::uint8_t> cdr;
+    std::int64_t source_time_ns;
+  };
+  std::map<std::pair<mcap::ChannelId, std::vector<std::uint8_t>>, Kept> last;
+  mcap::MessageCursor cursor(file_, {kept, file_.contents().statistics.start_ns, log_time_ns});
+  std::vector<std::uint8_t> key;
+  while (const auto message = cursor.next()) {
+    const mcap::ChannelId id = message->head.channel_id;
+    if (!dds::copy_key(writers_.at(id).topic->model(), message->data, key)) continue;
+    last[{id, key}] = {{message->data.begin(), message->data.end()}, message->head.publish_time_ns};
+  }
+  for (const auto& [channel_and_key, kept_sample] : last)
+    write(channel_and_key.first, {kept_sample.cdr, kept_sample.source_time_ns});
+}
+
+void Player::write(mcap::ChannelId channel, const dds::RawSample& sample) {
+  const auto output = writers_.find(channel);
+  if (output == writers_.end()) return;
+  switch (output->second.writer->write(sample)) {
     case dds::RawWriteResult::kWritten: ++counters_.played; break;
     case dds::RawWriteResult::kTimedOut: ++counters_.timed_out; break;
     case dds::RawWriteResult::kMalformed: ++counters_.malformed; break;
@@ -62,10 +90,10 @@ void Player::write(const mcap::Message& message) {
 bool Player::wait_for_acknowledgements(std::chrono::nanoseconds timeout) const {
   const auto end = std::chrono::steady_clock::now() + timeout;
   bool is_complete = true;
-  for (const auto& [id, writer] : writers_) {
+  for (const auto& [id, output] : writers_) {
     const auto left = std::max<std::chrono::nanoseconds>(end - std::chrono::steady_clock::now(),
                                                          std::chrono::nanoseconds(0));
-    is_complete = writer->wait_for_acknowledgements(left) && is_complete;
+    is_complete = output.writer->wait_for_acknowledgements(left) && is_complete;
   }
   return is_complete;
 }

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "common/app/pace.hpp"
 #include "common/dds/raw_writer.hpp"
 #include "common/mcap/message_cursor.hpp"
+#include "services/recorder/play_control.hpp"
 #include "services/recorder/topic_selection.hpp"
 
 namespace slammot::recorder {
@@ -18,6 +18,12 @@ struct PlayCounters {
   std::uint64_t played = 0;
   std::uint64_t malformed = 0;  ///< Not sent: no samples of their type.
   std::uint64_t timed_out = 0;  ///< Not sent: a reader blocked for too long.
+};
+
+/// Part of a recording, by log time.
+struct PlayRange {
+  std::int64_t from_ns = 0;
+  std::int64_t to_ns = 0;  ///< Inclusive.
 };
 
 /// Writes the messages of a recording to the bus as they were: the same bytes, source times and
@@ -31,19 +37,30 @@ class Player {
   std::size_t topic_count() const { return writers_.size(); }
   const std::vector<std::string>& unplayable() const { return unplayable_; }
 
-  /// Plays once, by the log times. Returns early when `is_stopped`.
-  void play(std::int64_t from_ns, std::int64_t to_ns, app::Pace pace,
-            const std::atomic<bool>& is_stopped);
+  /// Plays once, by the log times, as `control` says. What the bus kept for late joiners when the
+  /// played part begins, such as the map, is written first; so it is after a seek. False when
+  /// stopped.
+  bool play(const PlayRange& range, PlayControl& control);
+  /// Writes what the bus kept at that time, of topics that keep a value for late joiners.
+  void restore(std::int64_t log_time_ns);
 
   /// Waits until all connected readers have everything; false at the time-out.
   bool wait_for_acknowledgements(std::chrono::nanoseconds timeout) const;
   const PlayCounters& counters() const { return counters_; }
 
  private:
-  void write(const mcap::Message& message);
+  struct Output {
+    std::shared_ptr<const dds::RawTopic> topic;
+    std::unique_ptr<dds::RawWriter> writer;
+    bool keeps = false;  ///< Values for late joiners.
+  };
+
+  std::set<std::string> topics(bool only_kept) const;
+  PlayControl::Turn play_from(const PlayRange& range, PlayControl& control);
+  void write(mcap::ChannelId channel, const dds::RawSample& sample);
 
   const mcap::File& file_;
-  std::map<mcap::ChannelId, std::unique_ptr<dds::RawWriter>> writers_;
+  std::map<mcap::ChannelId, Output> writers_;
   std::vector<std::string> unplayable_;
   PlayCounters counters_;
 };

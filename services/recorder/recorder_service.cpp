@@ -23,6 +23,7 @@ constexpr auto kTakePeriod = 20ms;
 /// Time within which others describe a type: 1 ms where they are well.
 constexpr auto kTypePatience = 20ms;
 constexpr int kMostAttempts = 100;
+constexpr std::int16_t kCdrVersion2 = 2;  ///< Of all types that are compiled in: appendable.
 /// What was added is in the file after this time at the latest.
 constexpr auto kFlushPeriod = 1s;
 
@@ -108,6 +109,7 @@ RecorderService::RecorderService(app::ServiceContext& context, const Settings& s
   if (const std::string fault = recording_->fault(); !fault.empty())
     throw app::StartupFailure("cannot record into " + fault);
   spdlog::info("recording into {}", path_.string());
+  read_known_topics();
   look_for_topics();
   context.every(kLookPeriod, [this] { look_for_topics(); });
   context.every(kTakePeriod, [this] { take_all(); });
@@ -117,6 +119,30 @@ RecorderService::RecorderService(app::ServiceContext& context, const Settings& s
     context.after(std::chrono::duration_cast<std::chrono::nanoseconds>(
                       std::chrono::duration<double>(settings.duration_s)),
                   [this] { context_.stop(); });
+}
+
+/// The first samples of a topic may come before its writer has been looked at.
+void RecorderService::read_known_topics() {
+  for (const dds::TopicInfo* info : dds::topic_table()) {
+    if (!topics_.contains(info->name)) continue;
+    const bool is_kept =
+        dds::qos_profile(info->flow).durability == dds::Durability::kTransientLocal;
+    early_[std::string(info->name)] = std::make_unique<dds::RawReader>(
+        context_.participant(), dds::RawTopic::of_table(*info),
+        dds::OfferedQos{.is_transient_local = is_kept, .representation = kCdrVersion2});
+  }
+}
+
+/// The reader that has been there, unless the writer is of another type or offers less.
+std::unique_ptr<dds::RawReader> RecorderService::reader_of(
+    const dds::FoundWriter& writer, std::shared_ptr<const dds::RawTopic> topic) {
+  const auto early = early_.find(writer.topic_name);
+  if (early != early_.end()) {
+    std::unique_ptr<dds::RawReader> reader = std::move(early->second);
+    early_.erase(early);
+    if (reader->raw_topic().type() == topic->type() && reader->matched_writers() > 0) return reader;
+  }
+  return std::make_unique<dds::RawReader>(context_.participant(), std::move(topic), writer.qos);
 }
 
 void RecorderService::look_for_topics() {
@@ -143,8 +169,9 @@ bool RecorderService::try_to_read(const dds::FoundWriter& writer) {
     const auto topic = dds::RawTopic::resolve(context_.participant(), writer.topic_name,
                                               writer.type_name, *writer.information, kTypePatience);
     if (!topic) return false;
-    auto reader = std::make_unique<dds::RawReader>(context_.participant(), topic, writer.qos);
-    inputs_.push_back({std::move(reader), recording_->add(describe(*topic, writer.qos))});
+    auto reader = reader_of(writer, topic);
+    inputs_.push_back(
+        {std::move(reader), recording_->add(recordings::describe(*topic, writer.qos))});
   } catch (const dds::Error& error) {
     context_.warn("topics_refused", writer.topic_name + " is not recorded: " + error.what());
   }

@@ -55,6 +55,9 @@ class RecorderService {
   };
   using TopicKey = std::pair<std::string, std::string>;  ///< Topic and type.
 
+  void read_known_topics();
+  std::unique_ptr<dds::RawReader> reader_of(const dds::FoundWriter& writer,
+                                            std::shared_ptr<const dds::RawTopic> topic);
   void look_for_topics();
   bool try_to_read(const dds::FoundWriter& writer);
   void take_all();
@@ -68,6 +71,8 @@ class RecorderService {
   dds::TopicDiscovery discovery_;
   std::set<TopicKey> known_;
   std::vector<Wanted> wanted_;  ///< Found, but not described yet.
+  /// By topic: readers of topics whose writers have not been found. What they have is kept.
+  std::map<std::string, std::unique_ptr<dds::RawReader>> early_;
   std::vector<Input> inputs_;
   SampleBatch batch_;
   std::int64_t last_look_ns_;

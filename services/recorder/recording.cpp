@@ -23,7 +23,7 @@ Recording::Recording(const RecordingOptions& options)
 
 Recording::~Recording() { finish(); }
 
-mcap::ChannelId Recording::add(const RecordedTopic& topic) {
+mcap::ChannelId Recording::add(const recordings::RecordedTopic& topic) {
   KnownChannel known{topic.schema, topic.channel};
   const auto same = std::ranges::find_if(channels_, [&](const KnownChannel& other) {
     return other.schema.name == known.schema.name && other.schema.data == known.schema.data;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/mcap/writer.hpp"
-#include "services/recorder/recorded_topic.hpp"
+#include "common/recordings/recorded_topic.hpp"
 
 namespace slammot::recorder {
 
@@ -36,7 +36,7 @@ class Recording {
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  mcap::ChannelId add(const RecordedTopic& topic);
+  mcap::ChannelId add(const recordings::RecordedTopic& topic);
   void add(mcap::ChannelId channel, std::int64_t log_time_ns, std::int64_t publish_time_ns,
            mcap::Bytes data);
   /// Hands the present chunk to the writing thread: what was added is in the file soon.

@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/bus_option.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/dds/config.hpp"
 #include "common/files/atomic_file.hpp"
@@ -46,6 +47,7 @@ constexpr const char* kNotFound =
 
 struct BenchOptions : JobOptions {
   std::uint32_t domain_id = 0;
+  std::string bus = "slammot-bench-" + std::to_string(getpid());
 };
 
 int fail(const std::string& line) {
@@ -217,11 +219,10 @@ int bench(const BenchOptions& requested) {
   if (const auto fault = provide_map(*job, options, folder.path())) return fail(fault->message);
   const auto settings = settings_file(*job, options, folder.path());
   if (!settings) return fail(settings.error().message);
-  const std::string dds_config = dds::loopback_config("slammot-bench-" + std::to_string(getpid()));
-  Collector collector({kVehicle, options.domain_id, dds_config});
+  Collector collector({kVehicle, options.domain_id, dds::loopback_config(options.bus)});
   std::optional<ServiceProcesses> services;
   services.emplace(services_for(*job, options, *settings, folder.path()), folder.path(),
-                   std::map<std::string, std::string>{{"CYCLONEDDS_URI", dds_config}});
+                   environment_of_bus(options.bus));
   if (const auto fault = await_drive(collector, *services, stamps_ns, is_interrupted,
                                      options.is_quiet ? Verbosity::kQuiet : Verbosity::kNormal))
     return fail(*fault);
@@ -266,8 +267,10 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--domain", options->domain_id,
                    "DDS domain, on loopback and isolated from others")
+      ->envname("SLAMMOT_DOMAIN")
       ->check(CLI::Range(0, 230))
       ->capture_default_str();
+  app::add_bus_option(*command, options->bus);
   command->callback([options, &exit_code] { exit_code = bench_or_fail(*options); });
 }
 

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/run_outputs.hpp"
@@ -115,9 +116,7 @@ void add_collect_command(CLI::App& app, int& exit_code) {
   ingest::add_topic_options(*command, options->topics);
   command->add_option("--vehicle", options->vehicle_id, "Vehicle whose drive is collected")
       ->capture_default_str();
-  command->add_option("--domain", options->domain_id, "DDS domain")
-      ->check(CLI::Range(0, 230))
-      ->capture_default_str();
+  app::add_domain_option(*command, options->domain_id);
   command->callback([options, &exit_code] {
     try {
       exit_code = collect(*options);

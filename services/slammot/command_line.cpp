@@ -23,9 +23,11 @@
 #include "services/slammot/collect_command.hpp"
 #include "services/slammot/completion_command.hpp"
 #include "services/slammot/config_command.hpp"
+#include "services/slammot/convert_command.hpp"
 #include "services/slammot/health_command.hpp"
 #include "services/slammot/live_command.hpp"
 #include "services/slammot/map_command.hpp"
+#include "services/slammot/replay_command.hpp"
 #include "services/slammot/run_command.hpp"
 #include "services/slammot/streets_command.hpp"
 #include "services/slammot/usage.hpp"
@@ -45,7 +47,7 @@ const std::vector<Group>& groups() {
       {"Process a drive", {"run", "bench", "live", "collect", "simulate"}},
       {"Look at a drive or a result",
        {"check", "report", "plot", "animate", "eval", "warn", "streets"}},
-      {"Recordings of the bus", {"record", "play", "bag"}},
+      {"Recordings of the bus", {"record", "play", "replay", "bag"}},
       {"Settings, maps and keys", {"config", "map", "keys"}},
       {"Services that run",
        {"health", "top", "list", "echo", "hz", "delay", "qos", "graph", "doctor"}},
@@ -98,8 +100,10 @@ int run_command_line(int argc, char** argv) {
   add_streets_command(app, exit_code);
   recorder::add_record_command(app, exit_code);
   recorder::add_play_command(app, exit_code);
+  add_replay_command(app, exit_code);
   recorder::add_bag_command(app, exit_code);
   keys::add_keys_command(app, exit_code);
+  add_convert_command(app, exit_code);
   add_completion_command(app, exit_code);
   set_groups(app);
   if (argc < 2) {

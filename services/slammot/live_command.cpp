@@ -11,8 +11,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/bus_option.hpp"
 #include "common/app/stop_signal.hpp"
-#include "common/dds/config.hpp"
 #include "services/simulator/scenario_files.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/service_processes.hpp"
@@ -27,6 +27,7 @@ struct LiveOptions {
   std::string speed = "1";
   std::uint16_t port = 8765;
   std::uint32_t domain_id = 0;
+  std::string bus = "slammot-live-" + std::to_string(getpid());
 };
 
 int fail(const std::string& line) {
@@ -62,10 +63,10 @@ int live(const LiveOptions& options) {
   const auto scenario = simulator::load_scenario(options.scenario, std::nullopt);
   if (!scenario) return fail(scenario.error().message);
   const TemporaryFolder folder("slammot-live-");
-  const std::string dds_config = dds::loopback_config("slammot-live-" + std::to_string(getpid()));
   ServiceProcesses services(services_for(options, scenario->profile, folder.path()), folder.path(),
-                            {{"CYCLONEDDS_URI", dds_config}});
+                            environment_of_bus(options.bus));
   std::printf("live view: http://localhost:%d/  (Ctrl-C ends it)\n", int{options.port});
+  std::printf("its services: slammot top --bus %s\n", options.bus.c_str());
   std::fflush(stdout);
   while (!is_interrupted) {
     if (const auto fault = services.restart_dead()) return fail(*fault);
@@ -94,8 +95,10 @@ void add_live_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--domain", options->domain_id,
                    "DDS domain, on loopback and isolated from others")
+      ->envname("SLAMMOT_DOMAIN")
       ->check(CLI::Range(0, 230))
       ->capture_default_str();
+  app::add_bus_option(*command, options->bus);
   command->callback([options, &exit_code] { exit_code = live_or_fail(*options); });
 }
 

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "common/dds/config.hpp"
+
 extern char** environ;
 
 namespace slammot {
@@ -124,6 +126,16 @@ std::optional<int> ServiceProcesses::ended(const std::string& name) const {
   return std::nullopt;
 }
 
+std::optional<std::string> ServiceProcesses::find_end(const std::string& name) {
+  for (Running& running : all_) {
+    if (running.service.name != name) continue;
+    if (running.process != 0 && waitpid(running.process, nullptr, WNOHANG) == running.process)
+      running.process = 0;
+    if (running.process == 0) return name + " has ended (" + last_log_line(name) + ")";
+  }
+  return std::nullopt;
+}
+
 std::string ServiceProcesses::last_log_line(const std::string& name) const {
   std::ifstream file(log_folder_ / (name + ".log"));
   std::string last = "no output";
@@ -160,6 +172,10 @@ void ServiceProcesses::end(const std::string& name) {
 
 ServiceProcesses::~ServiceProcesses() {
   end([](const Running&) { return true; });
+}
+
+std::map<std::string, std::string> environment_of_bus(const std::string& name) {
+  return {{"CYCLONEDDS_URI", dds::loopback_config(name)}, {"SLAMMOT_BUS", ""}};
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& prefix) {

@@ -46,6 +46,9 @@ class ServiceProcesses {
   /// Exit code of a service that may end and has ended.
   std::optional<int> ended(const std::string& name) const;
 
+  /// A message, with the last line of its log, if the service has ended; it is not restarted.
+  std::optional<std::string> find_end(const std::string& name);
+
   const std::map<std::string, std::uint64_t>& restarts() const { return restarts_; }
 
  private:
@@ -68,6 +71,9 @@ class ServiceProcesses {
   std::vector<std::string> environment_;
   std::map<std::string, std::uint64_t> restarts_;
 };
+
+/// Environment of processes on a closed bus of this name on this machine.
+std::map<std::string, std::string> environment_of_bus(const std::string& name);
 
 /// A folder under the system's temporary folder, removed with its content by the destructor.
 class TemporaryFolder {

@@ -15,22 +15,6 @@ import tempfile
 import time
 
 
-def children_of(process):
-    return pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()
-
-
-def bus_of(live):
-    """The private bus of `slammot live`, from the environment of its services."""
-    end = time.monotonic() + 20
-    while time.monotonic() < end:
-        for child in children_of(live.pid):
-            for variable in pathlib.Path(f"/proc/{child}/environ").read_bytes().split(b"\0"):
-                if variable.startswith(b"CYCLONEDDS_URI="):
-                    return variable.split(b"=", 1)[1].decode()
-        time.sleep(0.1)
-    raise TimeoutError("no service was started")
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("slammot")
@@ -38,14 +22,14 @@ def main():
     parser.add_argument("--scenario", default="block")
     parser.add_argument("--compression", default="zstd")
     arguments = parser.parse_args()
-    live = subprocess.Popen([arguments.slammot, "live", "--scenario", arguments.scenario, "--port", "0"], stdout=subprocess.DEVNULL)
+    bus = f"recorder-cost-{os.getpid()}"
+    live = subprocess.Popen([arguments.slammot, "live", "--scenario", arguments.scenario, "--port", "0", "--bus", bus], stdout=subprocess.DEVNULL)
     try:
-        environment = {**os.environ, "CYCLONEDDS_URI": bus_of(live)}
         time.sleep(5)  # all services run
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "all.mcap"
-            recording = subprocess.Popen([arguments.slammot, "record", "--output", str(path), "--duration", str(arguments.seconds), "--compression", arguments.compression],
-                                         env=environment, stdout=subprocess.PIPE, text=True)
+            recording = subprocess.Popen([arguments.slammot, "record", "--output", str(path), "--duration", str(arguments.seconds), "--compression", arguments.compression, "--bus", bus],
+                                         stdout=subprocess.PIPE, text=True)
             said = recording.stdout.read()
             _, _, usage = os.wait4(recording.pid, 0)
             share = (usage.ru_utime + usage.ru_stime) / arguments.seconds

@@ -6,6 +6,7 @@ import { Labels } from "./labels.js";
 import { MapLayer } from "./map_layer.js";
 import { readOptions, writeOptions } from "./options.js";
 import { buildLayers, showDetails, showHealth, showLegend, showScale, showStatus } from "./panels.js";
+import { Playback } from "./playback.js";
 import { Scene } from "./scene.js";
 import { World } from "./world.js";
 
@@ -27,6 +28,7 @@ let frames = 0;
 let measuredText = "";
 
 const connection = new Connection(world.handlers(), (state) => (link = state));
+const playback = new Playback($("playback"), (name, request) => connection.call(name, request));
 
 function state(now) {
   if (link === "closed") return "lost";
@@ -117,6 +119,8 @@ function refresh() {
   });
   showScale(camera);
   showButtons();
+  playback.take(world.health, performance.now());
+  playback.show(performance.now());
 }
 
 function resize() {
@@ -154,6 +158,11 @@ function frame(now) {
   requestAnimationFrame(frame);
 }
 
+addEventListener("keydown", (event) => {
+  if (["INPUT", "SELECT", "BUTTON"].includes(event.target.tagName)) return;
+  if (event.key === " ") playback.toggle();
+  if (event.key === ".") playback.step();
+});
 addEventListener("resize", resize);
 resize();
 applyTheme();
@@ -164,4 +173,4 @@ setInterval(() => writeOptions(camera, options), ADDRESS_PERIOD_MS);
 requestAnimationFrame(frame);
 
 // For the tests of the page, and for the curious.
-window.slammot = { world, camera, options, connection, state: () => state(performance.now()), frames: () => frames };
+window.slammot = { world, camera, options, connection, playback, map: scene.map, state: () => state(performance.now()), frames: () => frames };

@@ -18,8 +18,9 @@ def free_port():
 class Live:
     def __init__(self, slammot, scenario="block", speed="1"):
         self.port = free_port()
+        self.bus, self.domain = f"live-test-{os.getpid()}", str(os.getpid() % 200)
         self.process = subprocess.Popen(
-            [slammot, "live", "--scenario", scenario, "--speed", speed, "--port", str(self.port), "--domain", str(os.getpid() % 200)],
+            [slammot, "live", "--scenario", scenario, "--speed", speed, "--port", str(self.port), "--domain", self.domain, "--bus", self.bus],
             stdout=subprocess.DEVNULL)
 
     def __enter__(self):

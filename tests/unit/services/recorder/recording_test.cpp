@@ -11,7 +11,7 @@ namespace {
 
 class RecordingToFile : public ::testing::Test {
  protected:
-  static RecordedTopic topic(const std::string& name) {
+  static recordings::RecordedTopic topic(const std::string& name) {
     return {{0, "Type", "omgidl", {'x'}}, {0, 0, name, "cdr", {}}};
   }
 

@@ -2,12 +2,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "common/dds/offered_qos.hpp"
 #include "common/dds/raw_topic.hpp"
-#include "common/mcap/records.hpp"
+#include "common/mcap/file.hpp"
 
-namespace slammot::recorder {
+namespace slammot::recordings {
 
 /// A topic as a recording describes it. The schema is OMG IDL, for people and for other programs;
 /// the description that travels on the bus and the writer's QoS are metadata of the channel, so
@@ -25,6 +27,12 @@ struct PlayableTopic {
 };
 
 /// None for a channel that was recorded otherwise, or is damaged.
-std::optional<PlayableTopic> playable(const mcap::Channel& channel, const mcap::Schema* schema);
+std::optional<PlayableTopic> playable(const mcap::Contents& contents, const mcap::Channel& channel);
 
-}  // namespace slammot::recorder
+/// The vehicle of a sample: its id is the first key of every topic. Empty if there is none.
+std::string vehicle_of(const dds::TypeModel& model, std::span<const std::uint8_t> cdr);
+
+/// The vehicle of the first sample that has one; empty if none has.
+std::string first_vehicle(const mcap::File& file);
+
+}  // namespace slammot::recordings
