@@ -90,7 +90,7 @@ inline constexpr Topic<slammot_Heartbeat> kHeartbeat{
 inline constexpr Topic<slammot_ServiceStatus> kStatus{
     {"slammot/status", &slammot_ServiceStatus_desc, Flow::kStatus, Recorded::kYes, "*"}};
 inline constexpr Topic<slammot_Command> kCommand{
-    {"slammot/command", &slammot_Command_desc, Flow::kCommand, Recorded::kYes, "tools"}};
+    {"slammot/command", &slammot_Command_desc, Flow::kCommand, Recorded::kYes, "gateway tools"}};
 inline constexpr Topic<slammot_Reply> kReply{
     {"slammot/reply", &slammot_Reply_desc, Flow::kCommand, Recorded::kYes, "*"}};
 
