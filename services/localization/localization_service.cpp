@@ -52,8 +52,6 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
   if (settings.continues_map) {
     stored_map_.emplace(std::llround(settings.map_patience_s * 1e9), config_.map.cell_size_m,
                         monotonic_ns());
-    context.read(dds::topics::kStoredMap, app::Input::kOccasional,
-                 [this](const auto& sample) { take(sample); });
     is_stored_map_known();  // so that nobody takes it for ready before the first turn
   }
   read_inputs(context);
@@ -71,6 +69,8 @@ void LocalizationService::read_inputs(app::ServiceContext& context) {
   using app::Input;
   // In this order also when several wait: what is known about earlier scans goes into the map
   // before the next is matched.
+  context.read(dds::topics::kStoredMap, Input::kOccasional,
+               [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kGraphCorrection, Input::kOccasional,
                [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kSegmentedScan, Input::kSteady,
@@ -148,6 +148,8 @@ void LocalizationService::take(const slammot_GraphCorrection& sample) {
 void LocalizationService::take(const slammot_StoredMap& sample) {
   const auto stored = wire::decode(sample);
   if (!is_good(stored, "stored_map")) return;
+  if (stored->map_id == drive_.map_id) submaps_.release(*stored);
+  if (!stored_map_) return;
   stored_map_->is_stored(*stored, monotonic_ns());
   localize_waiting();
 }

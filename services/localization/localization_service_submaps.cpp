@@ -1,5 +1,7 @@
 #include "services/localization/localization_service_submaps.hpp"
 
+#include <algorithm>
+
 #include "common/wire/text.hpp"
 
 namespace slammot::localization {
@@ -17,21 +19,32 @@ void SubmapPublisher::publish(const flow::Submap& submap) {
       context_.warn("lost_tiles", "a reader is slow: a submap tile was not sent");
     ++tiles;
   });
+  newest_ = std::max(submap.submap_id, newest_.value_or(submap.submap_id));
   ++context_.status().counter("published_submaps");
 }
 
-void SubmapPublisher::withdraw() {
+void SubmapPublisher::end_tiles(flow::SubmapId submap_id, std::uint32_t tiles) {
   slammot_SubmapTile key{};
   wire::set_text(key.vehicle_id, context_.vehicle_id());
-  for (const auto& [submap_id, tiles] : tiles_of_) {
-    key.submap_id = submap_id.value;
-    for (key.tile_index = 0; key.tile_index < tiles; ++key.tile_index) tiles_.end(key);
-  }
-  tiles_of_.clear();
+  key.submap_id = submap_id.value;
+  for (key.tile_index = 0; key.tile_index < tiles; ++key.tile_index) tiles_.end(key);
 }
 
-std::optional<flow::SubmapId> SubmapPublisher::newest() const {
-  return tiles_of_.empty() ? std::nullopt : std::optional(tiles_of_.rbegin()->first);
+void SubmapPublisher::withdraw() {
+  for (const auto& [submap_id, tiles] : tiles_of_) end_tiles(submap_id, tiles);
+  tiles_of_.clear();
+  newest_.reset();
 }
+
+void SubmapPublisher::release(const flow::StoredMap& stored) {
+  if (stored.submaps != stored.last_submap_id.value + 1) return;
+  std::erase_if(tiles_of_, [&](const auto& of_submap) {
+    if (of_submap.first > stored.last_submap_id) return false;
+    end_tiles(of_submap.first, of_submap.second);
+    return true;
+  });
+}
+
+std::optional<flow::SubmapId> SubmapPublisher::newest() const { return newest_; }
 
 }  // namespace slammot::localization

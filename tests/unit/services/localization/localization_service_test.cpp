@@ -281,18 +281,45 @@ TEST_F(LostOnTheBus, BeginsASubmapTiedToNothingWhereItDoesNotFindItself) {
   EXPECT_TRUE(comes_to([this] { return count("astray") > 0; }));
 }
 
-TEST_F(LocalizationOnTheBus, PublishesTheSubmapInUseWhenToldToFinishIt) {
+struct SubmapsOnTheBus : LocalizationOnTheBus {
+  dds::Reader<slammot_SubmapTile> tiles{neighbour_, dds::topics::kSubmapTile};
+  dds::Writer<slammot_Command> commands{neighbour_, dds::topics::kCommand};
+  dds::Writer<slammot_StoredMap> stored_map{neighbour_, dds::topics::kStoredMap};
+
+  void finish_submap() {
+    ASSERT_TRUE(commands.wait_for_readers(1, kForever));
+    slammot_Command command{};
+    slammot::testing::assign(command.vehicle_id, "car");
+    slammot::testing::assign(command.service_name, "localization");
+    slammot::testing::assign(command.verb, "finish_submap");
+    commands.write(command);
+    ASSERT_TRUE(comes_to([this] { return tiles.take_each([](const auto&) {}) > 0; }));
+  }
+  bool has_a_tile_ended() {
+    const dds::Loan<slammot_SubmapTile> loan = tiles.take();
+    for (std::size_t i = 0; i < loan.size(); ++i) {
+      if (!loan.info(i).has_value) return true;
+    }
+    return false;
+  }
+};
+
+TEST_F(SubmapsOnTheBus, PublishesTheOneInUseWhenToldToFinishIt) {
   begin();
   localize(0, 5);
-  dds::Reader<slammot_SubmapTile> tiles(neighbour_, dds::topics::kSubmapTile);
-  dds::Writer<slammot_Command> commands(neighbour_, dds::topics::kCommand);
-  ASSERT_TRUE(commands.wait_for_readers(1, kForever));
-  slammot_Command command{};
-  slammot::testing::assign(command.vehicle_id, "car");
-  slammot::testing::assign(command.service_name, "localization");
-  slammot::testing::assign(command.verb, "finish_submap");
-  commands.write(command);
-  EXPECT_TRUE(comes_to([&] { return tiles.take_each([](const auto&) {}) > 0; }));
+  finish_submap();
+}
+
+TEST_F(SubmapsOnTheBus, EndsTheTilesOfWhatMapStoreHas) {
+  begin();
+  localize(0, 5);
+  finish_submap();
+  const auto stored = [&](std::uint32_t submaps, std::uint32_t last_id) {
+    const flow::StoredMap map{{*maps.begin()}, submaps, 0, {last_id}, 0.2};
+    stored_map.write(wire::encode("car", map));
+  };
+  stored(1, 0);
+  EXPECT_TRUE(comes_to([this] { return has_a_tile_ended(); }));
 }
 
 /// With a neighbour that stands for map_store and loop_closing.
