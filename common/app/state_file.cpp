@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include <spdlog/spdlog.h>
 #include <zlib.h>
 
 namespace slammot::app {
@@ -27,33 +28,45 @@ std::uint64_t checksum_of(const std::vector<std::byte>& bytes) {
   return ::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
 }
 
-}  // namespace
-
-StateFile::StateFile(std::filesystem::path path)
-    : path_(std::move(path)), thread_([this] { write_states(); }) {}
-
-StateFile::~StateFile() {
-  {
-    const std::scoped_lock lock(mutex_);
-    is_closing_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
-
-std::optional<SavedState> StateFile::read() const {
-  std::ifstream file(path_, std::ios::binary);
+/// None if the file is damaged.
+std::optional<SavedState> read_state(std::istream& file, const std::filesystem::path& path) {
   Header header;
   if (!file.read(reinterpret_cast<char*>(&header), sizeof header) || header.magic != kMagic)
     return std::nullopt;
   std::error_code unreadable;
-  if (std::filesystem::file_size(path_, unreadable) != sizeof header + header.size)
+  if (std::filesystem::file_size(path, unreadable) != sizeof header + header.size)
     return std::nullopt;
   SavedState state{header.stamp_ns, std::vector<std::byte>(header.size)};
   if (!file.read(reinterpret_cast<char*>(state.bytes.data()),
                  static_cast<std::streamsize>(header.size)))
     return std::nullopt;
   if (checksum_of(state.bytes) != header.checksum) return std::nullopt;
+  return state;
+}
+
+}  // namespace
+
+StateFile::StateFile(std::filesystem::path path)
+    : path_(std::move(path)), thread_([this] { write_states(); }) {}
+
+/// Writes the last state in this thread: nobody has to give way any more, and a standby waits.
+StateFile::~StateFile() {
+  std::optional<NextState> last;
+  {
+    const std::scoped_lock lock(mutex_);
+    is_closing_ = true;
+    last = std::exchange(next_, std::nullopt);
+  }
+  changed_.notify_all();
+  thread_.join();
+  if (last) write({last->stamp_ns, last->make_bytes()});
+}
+
+std::optional<SavedState> StateFile::read() const {
+  std::ifstream file(path_, std::ios::binary);
+  if (!file) return std::nullopt;
+  auto state = read_state(file, path_);
+  if (!state) spdlog::warn("{} is damaged or of another version: it is not used", path_.string());
   return state;
 }
 

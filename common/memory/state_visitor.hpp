@@ -102,6 +102,8 @@ class StateVisitor {
   }
 
  private:
+  static constexpr double kLargestNumber = 1e9;
+
   template <typename Value>
   void visit(Value& value) {
     using T = std::remove_const_t<Value>;
@@ -155,13 +157,13 @@ class StateVisitor {
     visit_block(matrix.data(), static_cast<std::size_t>(matrix.size()));
   }
 
-  /// Of numbers, all finite.
+  /// Of numbers; larger ones than these are no state's, and overflow where they are rounded.
   template <typename Number>
   void visit_block(Number* numbers, std::size_t count) {
     stream_.block(numbers, count * sizeof(Number));
     if constexpr (Stream::kLoads && std::is_floating_point_v<Number>) {
       for (std::size_t i = 0; i < count; ++i) {
-        if (!std::isfinite(numbers[i])) return stream_.refuse();
+        if (!(std::abs(numbers[i]) < kLargestNumber)) return stream_.refuse();
       }
     }
   }

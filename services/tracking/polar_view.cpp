@@ -107,6 +107,13 @@ void PolarView::measure_depths() {
                        [](double a, double b) { return std::max(a, b); });
 }
 
+bool PolarView::is_sound() const {
+  constexpr double kNarrowestRad = 1e-5;
+  return points_in_odom_m_.size() == range_m_.size() && beam_step_rad_ > kNarrowestRad &&
+         beams_per_rad_ == 1.0 / beam_step_rad_ &&
+         half_view_rad_ == 0.5 * beam_step_rad_ * static_cast<double>(range_m_.size());
+}
+
 std::optional<std::size_t> PolarView::neighbour_of(std::size_t beam, long steps) const {
   const auto count = static_cast<long>(range_m_.size());
   long neighbour = static_cast<long>(beam) + steps;

@@ -80,7 +80,8 @@ class PolarView {
           self.first_beam_in_odom_rad_, self.beam_step_rad_, self.beams_per_rad_, self.sweep_s_,
           self.half_view_rad_, self.middle_of_view_rad_, self.is_clockwise_, self.goes_all_round_);
   }
-  bool is_sound() const { return points_in_odom_m_.size() == range_m_.size(); }
+  /// False for a state that no scan leads to.
+  bool is_sound() const;
 
  private:
   /// For each beam the interval of distances from the laser in which it and its neighbours met

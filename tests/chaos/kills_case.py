@@ -43,15 +43,20 @@ def scenario_of(folder, name, duration_s):
 
 
 def kill_at_random(bench, rng, count):
-    """Kills count services at random times; ends with the bench. Names of the killed and times [ns]."""
-    killed = []
+    """Kills count services at random times, each service as often as the others, in random order; ends with the bench. Names of the killed and
+    times [ns]."""
+    killed, due = [], []
     time.sleep(FIRST_KILL_S)
     while len(killed) < count and bench.poll() is None:
         time.sleep(rng.expovariate(KILLS_PER_S))
         alive = {pid: name for pid, name in children_of(bench.pid).items() if name.startswith("slammot-")}
         if not alive or bench.poll() is not None:
             continue
-        pid = rng.choice(sorted(alive))
+        due = due or rng.sample(SERVICES, len(SERVICES))
+        name = f"slammot-{due.pop()}"
+        pid = next((pid for pid, other in alive.items() if other == name), None)
+        if pid is None:
+            continue  # it is being restarted
         try:
             subprocess.run(["kill", "-9", str(pid)], check=True, stderr=subprocess.DEVNULL)
         except subprocess.CalledProcessError:

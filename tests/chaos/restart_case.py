@@ -79,6 +79,7 @@ def everything_at_once(options):
     with chaos.Services(options) as services:
         drive = Drive(services, options)
         drive.begin()
+        chaos.wait_until(lambda: len(drive.watch.lines["tracks"][-1][2]) > 1, "confirmed tracks", 40)
         tracks_before = set(list(drive.watch.tracks().values())[-1])
         stamp_us, at_ns = drive.stamp_us(), time.time_ns()
         for service in [*ALL, "ingest"]:

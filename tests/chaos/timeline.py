@@ -23,9 +23,9 @@ class Timeline:
 
     def _read(self):
         for line in self.process.stdout:
-            kind, received_ns, stamp_ns, *rest = line.rstrip("\n").split(",")
-            if kind in self.lines:
-                self.lines[kind].append((int(received_ns), int(stamp_ns), rest))
+            kind, *values = line.rstrip("\n").split(",")
+            if kind in self.lines:  # others are of the log
+                self.lines[kind].append((int(values[0]), int(values[1]), values[2:]))
 
     def count(self, kind):
         return len(self.lines[kind])

@@ -170,11 +170,10 @@ TEST_F(ContextOnTheBus, TakesTheNextWriterAtOnceWhereTheFirstHandsOver) {
   ASSERT_TRUE(first.wait_for_readers(1, kForever));
   ASSERT_TRUE(second.wait_for_readers(1, kForever));
   first.write(objects(1));
-  context.after(20ms, [&] { second.write(objects(2)); });
-  context.after(40ms, [&] { first.hand_over(); });
-  context.after(60ms, [&] { second.write(objects(3)); });
+  context.after(20ms, [&] { first.hand_over(); });
+  context.after(40ms, [&] { second.write(objects(3)); });
   run();
-  EXPECT_THAT(sequences, ::testing::ElementsAre(1, 3)) << "the second is a stray before";
+  EXPECT_THAT(sequences, ::testing::ElementsAre(1, 3));
 }
 
 TEST_F(ContextOnTheBus, EndsTheServiceBeforeItSaysThatItStops) {
