@@ -13,6 +13,8 @@ namespace {
 constexpr int kDeflateLevel = 6;
 /// Greater than any record; limits the allocation for a damaged blob.
 constexpr std::size_t kMaxRecordBytes = std::size_t{256} << 20;
+/// No zlib stream holds more than 1032 times its own length.
+constexpr std::size_t kMaxDeflateRatio = 1032;
 
 void set_pose(const geometry::Pose2& pose, PoseRecord& record) {
   record.set_x_m(pose.x_m);
@@ -137,7 +139,7 @@ std::optional<std::string> inflated(std::string_view blob) {
   std::size_t length = 0;
   for (int i = 3; i >= 0; --i)
     length = length << 8 | static_cast<std::uint8_t>(blob[static_cast<std::size_t>(i)]);
-  if (length > kMaxRecordBytes) return std::nullopt;
+  if (length > std::min(kMaxRecordBytes, kMaxDeflateRatio * blob.size())) return std::nullopt;
   std::string bytes(length, '\0');
   uLongf written = length;
   const int result = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &written,
