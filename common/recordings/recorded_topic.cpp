@@ -63,6 +63,8 @@ std::string vehicle_of(const dds::TypeModel& model, std::span<const std::uint8_t
 std::string first_vehicle(const mcap::File& file) {
   std::map<mcap::ChannelId, std::shared_ptr<const dds::RawTopic>> topics;
   for (const auto& [id, channel] : file.contents().channels) {
+    if (channel.topic == dds::topics::kHeartbeat.name || channel.topic == dds::topics::kStatus.name)
+      continue;
     if (auto topic = playable(file.contents(), channel)) topics[id] = std::move(topic->topic);
   }
   mcap::MessageCursor cursor(file, {});

@@ -32,7 +32,8 @@ std::optional<PlayableTopic> playable(const mcap::Contents& contents, const mcap
 /// The vehicle of a sample: its id is the first key of every topic. Empty if there is none.
 std::string vehicle_of(const dds::TypeModel& model, std::span<const std::uint8_t> cdr);
 
-/// The vehicle of the first sample that has one; empty if none has.
+/// The vehicle of the first sample that has one, heartbeats and status (of the recorder, too)
+/// apart; empty if none has.
 std::string first_vehicle(const mcap::File& file);
 
 }  // namespace slammot::recordings

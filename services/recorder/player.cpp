@@ -8,8 +8,9 @@
 namespace slammot::recorder {
 namespace {
 
-/// Said so often that the next one comes at once.
-constexpr const char* kStatus = "slammot/status";
+/// Of a topic with more messages a second the kept ones are found within the time below.
+constexpr double kRare_hz = 20.0;  // more than the tiles of a map, fewer than scans
+constexpr std::int64_t kLookBackNs = 3'000'000'000;
 
 }  // namespace
 
@@ -25,14 +26,25 @@ Player::Player(const dds::Participant& participant, const mcap::File& file,
     }
     writers_[id] = {topic->topic,
                     std::make_unique<dds::RawWriter>(participant, topic->topic, topic->qos),
-                    topic->qos.is_transient_local && channel.topic != kStatus};
+                    kept_by(id, topic->qos)};
   }
 }
 
-std::set<std::string> Player::topics(bool only_kept) const {
+Player::Keeps Player::kept_by(mcap::ChannelId channel, const dds::OfferedQos& qos) const {
+  const bool is_status = file_.contents().channels.at(channel).topic == dds::topics::kStatus.name;
+  if (!qos.is_transient_local || is_status) return Keeps::kNothing;  // the next one comes at once
+  const mcap::Statistics& statistics = file_.contents().statistics;
+  const auto count = statistics.messages_of.find(channel);
+  const double duration_s = static_cast<double>(statistics.end_ns - statistics.start_ns) * 1e-9;
+  const bool is_frequent = count != statistics.messages_of.end() &&
+                           static_cast<double>(count->second) > kRare_hz * duration_s;
+  return is_frequent ? Keeps::kFrequentValues : Keeps::kRareValues;
+}
+
+std::set<std::string> Player::topics_that_keep(Keeps what) const {
   std::set<std::string> topics;
   for (const auto& [id, output] : writers_) {
-    if (output.keeps || !only_kept) topics.insert(file_.contents().channels.at(id).topic);
+    if (output.keeps == what) topics.insert(file_.contents().channels.at(id).topic);
   }
   return topics;
 }
@@ -49,7 +61,9 @@ bool Player::play(const PlayRange& range, PlayControl& control) {
 }
 
 PlayControl::Turn Player::play_from(const PlayRange& range, PlayControl& control) {
-  mcap::MessageCursor cursor(file_, {topics(false), range.from_ns, range.to_ns});
+  std::set<std::string> topics;
+  for (const auto& [id, output] : writers_) topics.insert(file_.contents().channels.at(id).topic);
+  mcap::MessageCursor cursor(file_, {std::move(topics), range.from_ns, range.to_ns});
   while (const auto message = cursor.next()) {
     const auto turn = control.await(message->head.log_time_ns);
     if (turn != PlayControl::Turn::kPlay) return turn;
@@ -59,14 +73,19 @@ PlayControl::Turn Player::play_from(const PlayRange& range, PlayControl& control
 }
 
 void Player::restore(std::int64_t log_time_ns) {
-  const std::set<std::string> kept = topics(true);
-  if (kept.empty()) return;
+  restore(topics_that_keep(Keeps::kRareValues),
+          {file_.contents().statistics.start_ns, log_time_ns});
+  restore(topics_that_keep(Keeps::kFrequentValues), {log_time_ns - kLookBackNs, log_time_ns});
+}
+
+void Player::restore(std::set<std::string> topics, const PlayRange& range) {
+  if (topics.empty()) return;
   struct Kept {
     std::vector<std::uint8_t> cdr;
     std::int64_t source_time_ns;
   };
   std::map<std::pair<mcap::ChannelId, std::vector<std::uint8_t>>, Kept> last;
-  mcap::MessageCursor cursor(file_, {kept, file_.contents().statistics.start_ns, log_time_ns});
+  mcap::MessageCursor cursor(file_, {std::move(topics), range.from_ns, range.to_ns});
   std::vector<std::uint8_t> key;
   while (const auto message = cursor.next()) {
     const mcap::ChannelId id = message->head.channel_id;

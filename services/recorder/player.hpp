@@ -49,13 +49,16 @@ class Player {
   const PlayCounters& counters() const { return counters_; }
 
  private:
+  enum class Keeps { kNothing, kRareValues, kFrequentValues };  ///< For late joiners.
   struct Output {
     std::shared_ptr<const dds::RawTopic> topic;
     std::unique_ptr<dds::RawWriter> writer;
-    bool keeps = false;  ///< Values for late joiners.
+    Keeps keeps = Keeps::kNothing;
   };
 
-  std::set<std::string> topics(bool only_kept) const;
+  Keeps kept_by(mcap::ChannelId channel, const dds::OfferedQos& qos) const;
+  std::set<std::string> topics_that_keep(Keeps what) const;
+  void restore(std::set<std::string> topics, const PlayRange& range);
   PlayControl::Turn play_from(const PlayRange& range, PlayControl& control);
   void write(mcap::ChannelId channel, const dds::RawSample& sample);
 

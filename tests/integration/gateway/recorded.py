@@ -21,7 +21,7 @@ class Recorded(Live):
         self.slammot, self.port = pathlib.Path(slammot), free_port()
         self.bus, self.domain = f"playback-test-{os.getpid()}", str(os.getpid() % 200)
         self.start_gateway()
-        self.process = subprocess.Popen([slammot, "play", recording, "--linger", *arguments, *self.on_bus()], stdout=subprocess.DEVNULL)
+        self.process = subprocess.Popen([slammot, "play", recording, "--linger", "--vehicle", "bench", *arguments, *self.on_bus()], stdout=subprocess.DEVNULL)
 
     def on_bus(self):
         return ["--bus", self.bus, "--domain", self.domain]
