@@ -213,11 +213,15 @@ class Shortlist {
   double most_ = std::numeric_limits<double>::infinity();
 };
 
-bool begins_inside(const Pose2& streets_from_map, const std::vector<Pose2>& points,
-                   const std::optional<StartArea>& start) {
+bool agrees_with_start(const Pose2& streets_from_map, const std::vector<Pose2>& points,
+                       const std::optional<StartArea>& start) {
   constexpr double kSlack = 1.05;
   if (!start) return true;
   const Vector2 begin_m = streets_from_map * points.front().translation_m();
+  if (start->x_from_east_rad &&
+      std::abs(geometry::wrap_angle(streets_from_map.heading_rad - *start->x_from_east_rad)) >
+          start->direction_within_rad)
+    return false;
   return (begin_m - start->centre_m).norm() <= kSlack * start->radius_m;
 }
 
@@ -240,7 +244,7 @@ std::vector<Proposal> proposals(const StreetField& field, const Matcher& matcher
                 at_m.x(), at_m.y(),
                 geometry::wrap_angle(segment.direction_rad() + sense_rad + turn_rad)};
             const Pose2 streets_from_map = streets_from_base * base_from_map;
-            if (!begins_inside(streets_from_map, points, start)) continue;
+            if (!agrees_with_start(streets_from_map, points, start)) continue;
             const double cost = matcher.coarse_cost(streets_from_map, shortlist.most());
             if (cost < shortlist.most()) shortlist.add({streets_from_map, cost});
           }
@@ -303,7 +307,7 @@ StreetLocation locate(const StreetGraph& graph, std::span<const Pose2> way,
   std::vector<StreetFit> fits;
   for (const Proposal& proposal : proposals(field, matcher, points, start)) {
     const StreetFit fit = matcher.refined(proposal.streets_from_map);
-    if (begins_inside(fit.streets_from_map, points, start)) fits.push_back(fit);
+    if (agrees_with_start(fit.streets_from_map, points, start)) fits.push_back(fit);
   }
   location.fits = distinct(std::move(fits), points);
   if (location.fits.empty() || location.fits.front().share < kLeastShare) return location;

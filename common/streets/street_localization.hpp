@@ -21,6 +21,8 @@ struct StreetLocalizationConfig {
 struct StartArea {
   geometry::Vector2 centre_m = geometry::Vector2::Zero();  ///< In streets.
   double radius_m = 100.0;
+  std::optional<double> x_from_east_rad{};  ///< Direction of the map's x axis, if a compass or GNSS
+  double direction_within_rad = 0.4;        ///< gives it, and its greatest error.
 };
 
 enum class StreetVerdict {

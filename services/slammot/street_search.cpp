@@ -35,12 +35,22 @@ std::optional<Geodetic> parse_place(std::string_view text) {
 std::optional<streets::StartArea> start_of(const StreetJob& job, const geometry::Pose2& first,
                                            const std::optional<flow::Georeference>& georeference) {
   constexpr double kLeast_m = 30.0;
+  constexpr double kLeast_rad = 0.2;
   constexpr double kSigmas = 3.0;
-  if (job.start || !georeference || !georeference->has_position) return job.start;
-  const geometry::Vector2 origin_m = geometry::east_north_m(job.graph.origin, georeference->origin);
-  const geometry::Pose2 streets_from_map{origin_m.x(), origin_m.y(), georeference->x_from_east_rad};
-  return streets::StartArea{streets_from_map * first.translation_m(),
-                            kLeast_m + kSigmas * georeference->position_sigma_m};
+  std::optional<streets::StartArea> start = job.start;
+  if (!georeference || !georeference->has_direction) return start;
+  if (!start && georeference->has_position) {
+    const geometry::Vector2 origin_m =
+        geometry::east_north_m(job.graph.origin, georeference->origin);
+    const geometry::Pose2 streets_from_map{origin_m.x(), origin_m.y(),
+                                           georeference->x_from_east_rad};
+    start = {.centre_m = streets_from_map * first.translation_m(),
+             .radius_m = kLeast_m + kSigmas * georeference->position_sigma_m};
+  }
+  if (!start || start->x_from_east_rad) return start;
+  start->x_from_east_rad = georeference->x_from_east_rad;
+  start->direction_within_rad = kLeast_rad + kSigmas * georeference->direction_sigma_rad;
+  return start;
 }
 
 }  // namespace
@@ -57,6 +67,11 @@ void add_street_options(CLI::App& command, StreetOptions& options) {
   command.add_option("--near-within", options.within_m, "Error of --near [m]")
       ->check(CLI::Range(1.0, 1e5))
       ->capture_default_str();
+  command
+      .add_option("--x-from-east", options.x_from_east_rad,
+                  "Direction of the map's x axis from east, counter-clockwise, with --near; "
+                  "default: by compass or GNSS of the drive, or any")
+      ->type_name("RAD");
 }
 
 files::Result<std::optional<StreetJob>> prepare_streets(const StreetOptions& options) {
@@ -70,7 +85,9 @@ files::Result<std::optional<StreetJob>> prepare_streets(const StreetOptions& opt
   if (!options.near.empty()) {
     const auto place = parse_place(options.near);
     if (!place) return Error{"--near " + options.near + ": not a latitude and a longitude"};
-    job.start = {geometry::east_north_m(job.graph.origin, *place), options.within_m};
+    job.start = {.centre_m = geometry::east_north_m(job.graph.origin, *place),
+                 .radius_m = options.within_m,
+                 .x_from_east_rad = options.x_from_east_rad};
   }
   return std::optional(std::move(job));
 }

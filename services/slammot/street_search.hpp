@@ -21,6 +21,7 @@ struct StreetOptions {
   std::filesystem::path file;  ///< OpenStreetMap XML or GeoJSON; empty: no search.
   std::string near;            ///< "LATITUDE,LONGITUDE" of the start; empty: from GNSS, or unknown.
   double within_m = 100.0;     ///< Of the start.
+  std::optional<double> x_from_east_rad{};  ///< Direction of the map, with `near`.
 };
 
 /// A street graph with what is known of the start.

@@ -230,14 +230,22 @@ def street_driven(drive, graph, pose):
     return min(graph["features"], key=distance)["properties"]["name"]
 
 
-def find(slammot, drive, output, start, end, graph, near, within_m):
-    """Verdict and error in m at the pose where a piece of the trajectory was found."""
+def direction_of(drive, output):
+    """True direction of a result's x axis from east."""
+    true = {round(pose[0] * 1e6): pose[1:3] for pose in drive.truth}
+    pairs = [(pose[1:3], true[stamp]) for pose in poses_of(output / "trajectory.tum")[::8] if (stamp := round(pose[0] * 1e6)) in true]
+    cosine, sine, _, _ = aligned([a for a, _ in pairs], [b for _, b in pairs])
+    return math.atan2(sine, cosine)
+
+
+def find(slammot, drive, output, start, end, graph, near, within_m, direction=None):
+    """Verdict, way needed in m, and error in m of a piece of the trajectory. direction: of its x axis from east, if it is known."""
     trajectory = (output / "trajectory.tum").read_text(encoding="utf-8").splitlines()
     piece = drive.folder / "piece.tum"
     piece.write_text("\n".join(trajectory[start:end]) + "\n", encoding="utf-8")
     latitude, longitude = degrees_of(*near)
     text = subprocess.run([slammot, "streets", "--trajectory", piece, "--streets", graph, f"--near={latitude:.9f},{longitude:.9f}",
-                           "--near-within", str(within_m)], check=True, stdout=subprocess.PIPE, text=True).stdout
+                           "--near-within", str(within_m)] + ([] if direction is None else [f"--x-from-east={direction:.4f}"]), check=True, stdout=subprocess.PIPE, text=True).stdout
     found = json.loads(text)
     if found["verdict"] != "located":
         return found["verdict"], math.inf, math.inf

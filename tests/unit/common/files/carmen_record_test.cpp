@@ -149,7 +149,7 @@ TEST(ParseCarmenLine, ReadsOdomAndParam) {
 }
 
 TEST(ParseCarmenLine, IgnoresCommentsAndOtherMessages) {
-  for (const char* line : {"", "   ", "# CARMEN Logfile", "SYNC begin 1 h 1", "NMEAGGA 1 2 3",
+  for (const char* line : {"", "   ", "# CARMEN Logfile", "SYNC begin 1 h 1", "NMEARMC 1 2 3",
                            "ROBOTLASER 2 1 1", "ROBOTLASER0 2 1 1", "\x01\x02\xff"}) {
     EXPECT_TRUE(std::holds_alternative<IgnoredLine>(parse_carmen_line(line))) << line;
   }
