@@ -93,7 +93,7 @@ std::string StateFile::fault() const {
 }
 
 void StateFile::write_states() {
-  constexpr int kGivesWay = 10;
+  constexpr int kGivesWay = 4;  // more, and a busy machine keeps old states only
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kGivesWay);
   std::unique_lock lock(mutex_);
   for (;;) {

@@ -185,7 +185,8 @@ class Observed:
 
 def result(drive, case, wanted, figure, fault):
     restarts = sum(drive.restarts.values())
-    return chaos.row(case, wanted, figure + (f"; {restarts} restarts so far" if restarts else "") + (f"; {fault}" if fault else ""), not fault)
+    return chaos.row(case, wanted, figure + (f"; {restarts} restarts so far" if restarts else "") + (f"; {fault}" if fault else ""), not fault,
+                     sound=not fault or (fault.startswith("late") and "None" not in fault))
 
 
 def judge_meeting(times):

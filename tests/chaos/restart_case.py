@@ -72,7 +72,7 @@ def killed_and_restarted(options, count):
         f"; poses at most {max(off_m):.3f} m from the undisturbed run; {len(maps)} map ({count} kills each, {chaos.load()})"
     passed = max(worst.values()) <= LONGEST_S and max(off_m) <= FARTHEST_M and len(maps) == 1
     return chaos.row("killed (-9) and restarted at once", f"back at work within {LONGEST_S:.0f} s; pose within {FARTHEST_M} m", figure, passed,
-                     silences_s=silences, off_m=off_m)
+                     sound=len(maps) == 1, silences_s=silences, off_m=off_m)
 
 
 def everything_at_once(options):
@@ -94,7 +94,8 @@ def everything_at_once(options):
     figure = f"goes on after {silence_s:.1f} s in {len(maps)} map; poses at most {off_m:.3f} m from the undisturbed run; " \
              f"{len(tracks_before & tracks_after)} of {len(tracks_before)} tracks under their ids ({chaos.load()})"
     return chaos.row("all services and ingest killed (-9) and restarted at once", "continues the drive", figure,
-                     len(maps) == 1 and off_m <= FARTHEST_M and len(tracks_before & tracks_after) >= 0.8 * len(tracks_before))
+                     len(maps) == 1 and off_m <= FARTHEST_M and len(tracks_before & tracks_after) >= 0.8 * len(tracks_before),
+                     sound=len(maps) == 1)
 
 
 def without(options, victims, expected_trouble):
@@ -117,7 +118,7 @@ def without(options, victims, expected_trouble):
         ("; ".join(f'{service}: "{words}"' for service, words in troubles.items() if words and service not in victims) or "nobody degraded")
     wanted = "SLAM goes on, degraded" if expected_trouble else "nobody else notices"
     return chaos.row(f"without {' and '.join(victims)} for 5 s", wanted, f"{figure} ({chaos.load()})",
-                     rate > 35 and silence_ms < 1000 and off_m < 0.5 and told and quiet, troubles=troubles)
+                     rate > 35 and silence_ms < 1000 and off_m < 0.5 and told and quiet, sound=told and quiet, troubles=troubles)
 
 
 def spoiled(options, name, spoil, words):
@@ -138,7 +139,7 @@ def spoiled(options, name, spoil, words):
         drive.watch.end()
     told = all(any(one in log for one in words) for log in logs)
     return chaos.row(f"state file {name}", "begins anew, says why", f"{'both work' if alive else 'a service ended'}, {poses} poses in a second; "
-                     f"{'both say why' if told else 'not both say why'} ({chaos.load()})", alive and poses > 30 and told)
+                     f"{'both say why' if told else 'not both say why'} ({chaos.load()})", alive and poses > 30 and told, sound=alive and told)
 
 
 def cut(file):
@@ -168,7 +169,8 @@ def stopped(options):
         maps, off_m = drive.maps(), drive.off_m(stamp_us, 4.0)
         drive.watch.end()
     figure = f"exit codes {codes}, ended within {max(took_s):.2f} s, {len(maps)} map, poses at most {off_m:.3f} m from the undisturbed run ({chaos.load()})"
-    return chaos.row("SIGTERM and started again", "exit code 0, the drive goes on", figure, codes == [0, 0, 0] and len(maps) == 1 and off_m <= FARTHEST_M)
+    return chaos.row("SIGTERM and started again", "exit code 0, the drive goes on", figure, codes == [0, 0, 0] and len(maps) == 1 and off_m <= FARTHEST_M,
+                     sound=codes == [0, 0, 0] and len(maps) == 1)
 
 
 def cases(options):

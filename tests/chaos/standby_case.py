@@ -94,7 +94,7 @@ def rows_of(options, victim, count):
         passed = in_time == len(takeovers) and kept >= KEPT * total and off_m <= LARGEST_JUMP_M and maps == 1 and overlaps == 0
         yield chaos.row(f"standby of {victim}: leader {'killed (-9)' if kind == 'kill' else 'stopped (SIGTERM)' if kind == 'stop' else 'hangs (SIGSTOP)'}",
                         f"gap at most {LONGEST_MS[kind]} ms, {len(takeovers)} of {len(takeovers)}; ids kept, pose within {LARGEST_JUMP_M} m, never two leaders",
-                        figure, passed, gaps_ms=[gap for gap, _ in takeovers], kept=kept, total=total, off_m=off_m)
+                        figure, passed, sound=overlaps == 0 and maps == 1, gaps_ms=[gap for gap, _ in takeovers], kept=kept, total=total, off_m=off_m)
 
 
 def cases(options):

@@ -52,7 +52,8 @@ def stray_source(options):
     causes = [line for line in words.splitlines() if "second writer" in line or "another drive" in line]
     figure = f"longest silence {silence_s:.2f} s, {len(maps | before)} map; health exits {code}: \"{causes[0] if causes else words.strip()}\" ({chaos.load()})"
     return chaos.row("a second source sends another drive", f"the drive that goes on wins within {LONGEST_S:.0f} s; cause in health, exit code {DEGRADED}",
-                     figure, silence_s <= LONGEST_S and maps == before and code == DEGRADED and causes)
+                     figure, silence_s <= LONGEST_S and maps == before and code == DEGRADED and causes,
+                     sound=maps == before and code == DEGRADED and causes)
 
 
 def second_instances(options, shares_state):
@@ -73,7 +74,8 @@ def second_instances(options, shares_state):
     figure = f"{standing} of {len(others)} stand by, health exits {code}; longest silence of poses {silence_s:.2f} s, {len(maps | before)} map; " \
              f"{overlaps} times two leaders ({chaos.load()})"
     return chaos.row(f"second instances, {'shared' if shares_state else 'own'} state directory", "they stand by; one leader", figure,
-                     still and standing == len(others) and code == 0 and silence_s <= LONGEST_S and maps == before and overlaps == 0)
+                     still and standing == len(others) and code == 0 and silence_s <= LONGEST_S and maps == before and overlaps == 0,
+                     sound=standing == len(others) and maps == before and overlaps == 0)
 
 
 def second_without_bus(options):
