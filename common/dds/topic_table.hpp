@@ -44,8 +44,7 @@ inline constexpr Topic<slammot_Odometry> kOdometry{{"slammot/odometry", &slammot
                                                     Flow::kSensor, Recorded::kYes,
                                                     "ingest simulator"}};
 inline constexpr Topic<slammot_GnssFix> kGnssFix{
-    {"slammot/gnss_fix", &slammot_GnssFix_desc, Flow::kSensor, Recorded::kYes,
-     "ingest simulator"}};
+    {"slammot/gnss_fix", &slammot_GnssFix_desc, Flow::kSensor, Recorded::kYes, "ingest simulator"}};
 inline constexpr Topic<slammot_CompassReading> kCompassReading{
     {"slammot/compass_reading", &slammot_CompassReading_desc, Flow::kSensor, Recorded::kYes,
      "ingest simulator"}};

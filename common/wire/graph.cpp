@@ -70,8 +70,9 @@ std::string_view fault_of(const slammot_GraphCorrection& part) {
   for (const slammot_CorrectedSubmap& submap : elements(part.submaps)) {
     if (!is_sound(submap.map_from_submap)) return "map_from_submap is not finite";
   }
-  if (part.has_georeference && !is_sound_reference(part.georeference))
-    return "georeference is not finite";
+  for (const slammot_Georeference& georeference : elements(part.georeference)) {
+    if (!is_sound_reference(georeference)) return "georeference is not finite";
+  }
   return "";
 }
 
@@ -132,8 +133,9 @@ void GraphCorrectionEncoder::encode(
   sample_.map_id = correction.map_id.value;
   sample_.map_from_odom = wire::encode(correction.map_from_odom);
   sample_.is_untied = correction.is_untied;
-  sample_.has_georeference = correction.georeference.has_value();
-  sample_.georeference = encoded(correction.georeference.value_or(flow::Georeference{}));
+  georeferences_.clear();
+  if (correction.georeference) georeferences_.push_back(encoded(*correction.georeference));
+  show(sample_.georeference, georeferences_);
   for (std::size_t part = 0; part < parts; ++part) {
     submaps_.clear();
     const std::size_t end = std::min(submaps, (part + 1) * kMostSubmapsOfPart);
@@ -180,7 +182,8 @@ GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_Grap
 
   flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {},
                                    partial.map_id,       partial.is_untied,     {}};
-  if (part.has_georeference) correction.georeference = decoded(part.georeference);
+  for (const slammot_Georeference& georeference : elements(part.georeference))
+    correction.georeference = decoded(georeference);
   for (const auto& one : partial.parts)
     correction.submaps.insert(correction.submaps.end(), one->begin(), one->end());
   partial_.erase(part.sequence_number);

@@ -32,6 +32,7 @@ class GraphCorrectionEncoder {
  private:
   slammot_GraphCorrection sample_{};
   std::vector<slammot_CorrectedSubmap> submaps_;
+  std::vector<slammot_Georeference> georeferences_;  ///< At most one.
 };
 
 /// Reassembles corrections from parts in any order. Use one a vehicle.

@@ -41,7 +41,7 @@ std::string service_of(std::string identity) {
 
 std::vector<std::string> project_identities() {
   // these two publish nothing but what every service publishes
-  std::vector<std::string> identities = {"gateway", "recorder"};
+  std::vector<std::string> identities = {"recorder"};
   for (const std::string_view service : dds::publishing_services()) {
     std::ranges::replace_copy(service, std::back_inserter(identities.emplace_back()), '_', '-');
   }

@@ -53,14 +53,19 @@ TEST(ConstraintOnTheWire, IsRefusedWhereItIsUnsound) {
 
 struct KeptPart {
   explicit KeptPart(const slammot_GraphCorrection& part)
-      : submaps(part.submaps._buffer, part.submaps._buffer + part.submaps._length), sample(part) {}
+      : submaps(part.submaps._buffer, part.submaps._buffer + part.submaps._length),
+        georeferences(part.georeference._buffer,
+                      part.georeference._buffer + part.georeference._length),
+        sample(part) {}
 
   slammot_GraphCorrection& shown() {
     sample.submaps._buffer = submaps.data();
+    sample.georeference._buffer = georeferences.data();
     return sample;
   }
 
   std::vector<slammot_CorrectedSubmap> submaps;
+  std::vector<slammot_Georeference> georeferences;
   slammot_GraphCorrection sample;
 };
 
@@ -166,8 +171,8 @@ TEST_F(GraphCorrectionInParts, AreRefusedWhereTheyAreUnsound) {
   EXPECT_NE(fault_after([](auto& s) { s.part_count = kMostParts + 1; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.part_index = 1; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.map_from_odom.x_m = kNan; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.georeference.latitude_deg = 91.0; }), "");
-  EXPECT_NE(fault_after([](auto& s) { s.georeference.position_sigma_m = kNan; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.georeference._buffer[0].latitude_deg = 91.0; }), "");
+  EXPECT_NE(fault_after([](auto& s) { s.georeference._buffer[0].position_sigma_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.submaps._buffer[1].map_from_submap.x_m = kNan; }), "");
   EXPECT_NE(fault_after([](auto& s) { s.submaps._buffer[1].submap_id = 0; }), "");
 }

@@ -27,7 +27,7 @@ TEST(CommandLine, ListsItsCommandsInGroupsWithoutWords) {
   const Outcome outcome = call({});
   EXPECT_EQ(outcome.exit_code, kExitUsage);
   for (const char* const part :
-       {"Process a drive:", "Look at a drive or a result:", "Settings and maps:", "\n  run ",
+       {"Process a drive:", "Look at a drive or a result:", "Settings, maps and keys:", "\n  run ",
         "\n  report ", "\n  completion "})
     EXPECT_THAT(outcome.standard_output, HasSubstr(part));
 }
