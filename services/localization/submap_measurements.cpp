@@ -22,6 +22,8 @@ void keep_waiting(Measurement measurement, std::deque<Measurement>& waiting) {
 
 }  // namespace
 
+SubmapMeasurements::SubmapMeasurements() { poses_.reserve(2 * kMostPoses); }
+
 void SubmapMeasurements::add(const sensing::GnssFix& fix) {
   const bool is_sound = std::isfinite(fix.position.latitude_deg) &&
                         std::isfinite(fix.position.longitude_deg) && fix.covariance_m2.allFinite();
@@ -51,8 +53,8 @@ std::optional<Pose2> SubmapMeasurements::pose_at(std::int64_t stamp_ns) const {
 
 void SubmapMeasurements::place(std::int64_t stamp_ns, const Pose2& odom_from_base) {
   if (!is_waited_for(stamp_ns)) return;
+  if (poses_.size() == 2 * kMostPoses) poses_.erase(poses_.begin(), poses_.begin() + kMostPoses);
   poses_.push_back({stamp_ns, odom_from_base});
-  if (poses_.size() > kMostPoses) poses_.pop_front();
   for (; !waiting_fixes_.empty() && !is_waited_for(waiting_fixes_.front().stamp_ns);
        waiting_fixes_.pop_front())
     place(waiting_fixes_.front());

@@ -16,6 +16,8 @@ namespace slammot::localization {
 /// a standing vehicle adds none. Not in checkpoints: a crash loses those of the submap in progress.
 class SubmapMeasurements {
  public:
+  SubmapMeasurements();
+
   /// Waits for the scan at or after its stamp. Dropped without a fix, or if not finite.
   void add(const sensing::GnssFix& fix);
   void add(const sensing::CompassReading& reading);
@@ -50,7 +52,7 @@ class SubmapMeasurements {
 
   std::deque<sensing::GnssFix> waiting_fixes_;
   std::deque<sensing::CompassReading> waiting_readings_;
-  std::deque<StampedPose> poses_;  ///< The latest ones, ascending.
+  std::vector<StampedPose> poses_;  ///< The latest ones, ascending; never grows.
   std::vector<PlacedFix> fixes_;
   std::vector<PlacedReading> readings_;
 };

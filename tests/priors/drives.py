@@ -118,7 +118,8 @@ def altered(drive, case):
                 continue
             if is_gga or is_hdt:
                 where_m = way.get(round(float(line.split()[-3]) * 1e6), 0.0)
-                if is_gga and case in ("multipath", "both") and (offset := offset_at(where_m, multipath)):
+                has_fix = is_gga and line.split()[7] != "0"
+                if has_fix and case in ("multipath", "both") and (offset := offset_at(where_m, multipath)):
                     line = shifted_gga(line, *offset)
                 if is_hdt and case in ("iron", "both") and (offset := offset_at(where_m, iron)):
                     line = turned_hdt(line, math.copysign(offset[0], offset[1]))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A recorded drive is converted to Foxglove's schemas, and PyPI's `mcap` and protobuf read every message by the schemas in the file
-alone; PyPI's `rosbags` finds the messages of recording and conversion. Exit code 77 where the packages cannot be installed.
+alone. Exit code 77 where the packages cannot be installed.
 
 Usage: conversion_test.py --slammot SLAMMOT --venv FOLDER"""
 
@@ -57,7 +57,7 @@ class Conversion(unittest.TestCase):
                 times.append(message.log_time)
         self.assertLessEqual(ALWAYS, messages.keys())
         self.assertEqual(sorted(times), times)
-        scans = sum(1 for _ in open(self.work / "result" / "online.tum", encoding="utf-8"))
+        scans = len((self.work / "result" / "online.tum").read_text(encoding="utf-8").splitlines())
         for topic in ("/pose", "/tf", "/tracks", "/scan/points"):
             self.assertAlmostEqual(scans, len(messages[topic]), delta=0.02 * scans, msg=topic)
         points = messages["/scan/points"][-1]
@@ -66,15 +66,6 @@ class Conversion(unittest.TestCase):
         self.assertEqual(0, len(grid.data) % grid.row_stride)
         self.assertGreater(max(len(scene.entities) for scene in messages["/tracks"]), 0)
         print({topic: len(values) for topic, values in sorted(messages.items())}, self.recording.stat().st_size, self.converted.stat().st_size)
-
-    def test_rosbags_finds_the_messages(self):
-        for path in (self.recording, self.converted):
-            with open(path, "rb") as file:
-                expected = make_reader(file).get_summary().statistics.message_count
-            reader = McapReader(path)
-            reader.open()
-            found = sum(1 for _ in reader.messages(reader.connections))
-            self.assertEqual(expected, found, path)
 
     def test_an_existing_file_and_a_file_without_drive_are_refused_in_one_line(self):
         for path, words in [(self.recording, "File exists"), (self.work / "nothing.mcap", "no topic that viewers know")]:
@@ -93,5 +84,4 @@ if __name__ == "__main__":
     python_environment.enter(ARGUMENTS.venv)
     from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
     from mcap.reader import make_reader
-    from rosbags.rosbag2.storage_mcap import McapReader
     unittest.main(argv=sys.argv[:1])
