@@ -101,10 +101,11 @@ def cases(options):
         subprocess.run([slammot, "simulate", scenario_of(folder, "demo", seconds), "--output", folder], **quiet)
         log, truth = folder / "drive.log", folder / "drive"
         subprocess.run([slammot, "run", "--input", log, "--output", folder / "run", "--profile", "urban"], **quiet)
-        bench = subprocess.Popen([slammot, "bench", "--input", log, "--output", folder / "killed", "--profile", "urban", "--domain",
-                                  str(options.domain)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        bench = subprocess.Popen([slammot, "bench", "--input", log, "--output", folder / "killed", "--profile", "urban", "--speed", "1",
+                                  "--domain", str(options.domain)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         watch = watch_of(options, bench)
-        killed = kill_at_random(bench, random.Random(7), int(KILLS_PER_S * seconds))
+        count = int(KILLS_PER_S * seconds)
+        killed = kill_at_random(bench, random.Random(7), count)
         words, _ = bench.communicate(timeout=seconds + 240)
         watch.end()
         if bench.returncode != 0:
@@ -116,11 +117,12 @@ def cases(options):
     figure = f"completes; {disturbed['scans']} of {undisturbed['scans']} scans, {disturbed['submaps']} of {undisturbed['submaps']} submaps; " \
              f"ATE {disturbed['ate_m']:.3f} m (undisturbed {undisturbed['ate_m']:.3f}); HOTA {disturbed['hota']:.3f} ({undisturbed['hota']:.3f}), " \
              f"IDF1 {disturbed['idf1']:.3f} ({undisturbed['idf1']:.3f}); ids alive through a kill: {kept} of {total} kept; {names} ({chaos.load()})"
-    passed = disturbed["ate_m"] <= MOST_ATE_SHARE * undisturbed["ate_m"] and disturbed["hota"] >= LEAST_HOTA_SHARE * undisturbed["hota"] and \
+    was_disturbed = len(killed) >= 0.5 * count
+    passed = was_disturbed and disturbed["ate_m"] <= MOST_ATE_SHARE * undisturbed["ate_m"] and disturbed["hota"] >= LEAST_HOTA_SHARE * undisturbed["hota"] and \
         disturbed["submaps"] >= undisturbed["submaps"] and kept >= KEPT * total
     yield chaos.row(f"{len(killed)} random kills (-9) in {seconds} s of driving",
                     "run completes, ATE within 10 %, no submap lost, ids kept 95 %, HOTA 98 % of undisturbed", figure, passed,
-                    sound=disturbed["scans"] == undisturbed["scans"] and disturbed["submaps"] >= undisturbed["submaps"],
+                    sound=was_disturbed and disturbed["scans"] == undisturbed["scans"] and disturbed["submaps"] >= undisturbed["submaps"],
                     undisturbed=undisturbed, disturbed=disturbed, kept=kept, total=total, killed=killed)
 
 
