@@ -128,7 +128,7 @@ def without_room(options, services, state):
     time.sleep(3.0)
     code_after, words_after = health(services, "localization", "tracking")
     watch.end()
-    causes = [line for line in words.splitlines() if "No space left" in line]
+    causes = [line.replace(str(state), "DIR") for line in words.splitlines() if "No space left" in line]
     remains = "" if code_after == 0 else f", {words_after.strip()}"
     figure = f"poses and tracks go on; health exits {code}: \"{causes[0] if causes else words.strip()}\"; with room again: {code_after}{remains} ({chaos.load()})"
     return chaos.row("no room to checkpoint", f"degraded, cause in health, exit code {DEGRADED}; recovers", figure,
