@@ -122,7 +122,7 @@ def cases(options):
         disturbed["submaps"] >= undisturbed["submaps"] and kept >= KEPT * total
     yield chaos.row(f"{len(killed)} random kills (-9) in {seconds} s of driving",
                     "run completes, ATE within 10 %, no submap lost, ids kept 95 %, HOTA 98 % of undisturbed", figure, passed,
-                    sound=was_disturbed and disturbed["scans"] == undisturbed["scans"] and disturbed["submaps"] >= undisturbed["submaps"],
+                    sound=was_disturbed and disturbed["scans"] >= 0.95 * undisturbed["scans"] and disturbed["submaps"] >= undisturbed["submaps"],
                     undisturbed=undisturbed, disturbed=disturbed, kept=kept, total=total, killed=killed)
 
 
