@@ -1,11 +1,10 @@
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "services/localization/localizer.hpp"
+#include "tests/fuzz/saved_state.hpp"
 #include "tests/support/localizer_drive.hpp"
 
 namespace slammot::localization {
@@ -14,6 +13,8 @@ namespace {
 using slammot::testing::arc;
 using slammot::testing::drive_one;
 using slammot::testing::drive_through;
+using slammot::testing::put_strange_number;
+using slammot::testing::sealed_again;
 using slammot::testing::SimulatedDrive;
 
 LocalizerConfig config() {
@@ -32,28 +33,6 @@ std::vector<std::byte> example() {
   Localizer localizer(config());
   drive_through(localizer, drive, 0, 10);
   return localizer.checkpoint();
-}
-
-/// With the checksum that fits, as a checkpoint would have that was written by a fault rather than
-/// damaged on disk.
-std::vector<std::byte> sealed_again(std::vector<std::byte> bytes) {
-  bytes.resize(bytes.size() - sizeof(std::uint64_t));
-  put(bytes, checksum(bytes));
-  return bytes;
-}
-
-/// A number that stands out, of eight bytes, at any place: most of the state are such numbers.
-void put_strange_number(std::vector<std::byte>& bytes, std::size_t place, std::mt19937& random) {
-  const double strange[] = {std::numeric_limits<double>::quiet_NaN(),
-                            std::numeric_limits<double>::infinity(),
-                            -1e300,
-                            1e300,
-                            0.0,
-                            1e-320,
-                            -1.0};
-  std::uint64_t number = (std::uint64_t{random()} << 32) | random();
-  if (random() % 2 == 0) std::memcpy(&number, &strange[random() % 7], sizeof number);
-  std::memcpy(bytes.data() + place, &number, std::min(sizeof number, bytes.size() - place));
 }
 
 TEST(CheckpointFuzz, RefusesAnyBytes) {

@@ -1,18 +1,18 @@
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "common/memory/byte_stream.hpp"
 #include "services/detection/detector.hpp"
 #include "services/tracking/tracking_journal.hpp"
+#include "tests/fuzz/saved_state.hpp"
 #include "tests/support/street.hpp"
 
 namespace slammot::tracking {
 namespace {
 
+using slammot::testing::put_strange_number;
+using slammot::testing::sealed_again;
 using slammot::testing::Street;
 
 flow::SegmentedScan scan(std::uint32_t sequence) {
@@ -32,28 +32,6 @@ std::vector<std::byte> example() {
   for (std::uint32_t sequence = 0; sequence < kScans; ++sequence)
     session.last_results["front"] = tracker.step(scan(sequence));
   return to_bytes(session, tracker);
-}
-
-/// With the checksum that fits, as a journal would have that was written by a fault rather than
-/// damaged on disk.
-std::vector<std::byte> sealed_again(std::vector<std::byte> bytes) {
-  bytes.resize(bytes.size() - sizeof(std::uint64_t));
-  memory::put(bytes, memory::checksum(bytes));
-  return bytes;
-}
-
-/// A number that stands out, of eight bytes, at any place: most of the state are such numbers.
-void put_strange_number(std::vector<std::byte>& bytes, std::size_t place, std::mt19937& random) {
-  const double strange[] = {std::numeric_limits<double>::quiet_NaN(),
-                            std::numeric_limits<double>::infinity(),
-                            -1e300,
-                            1e300,
-                            0.0,
-                            1e-320,
-                            -1.0};
-  std::uint64_t number = (std::uint64_t{random()} << 32) | random();
-  if (random() % 2 == 0) std::memcpy(&number, &strange[random() % 7], sizeof number);
-  std::memcpy(bytes.data() + place, &number, std::min(sizeof number, bytes.size() - place));
 }
 
 TEST(TrackingJournalFuzz, RefusesAnyBytes) {
