@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -14,6 +13,8 @@
 
 #include <expat.h>
 #include <nlohmann/json.hpp>
+
+#include "common/files/finite_number.hpp"
 
 namespace slammot::files {
 namespace {
@@ -54,13 +55,6 @@ Result<streets::StreetGraph> graph_of(const std::vector<GeodeticLine>& lines,
   }
   if (graph.streets.empty()) return Error{name + ": no street that cars may use"};
   return graph;
-}
-
-std::optional<double> number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, fault] = std::from_chars(text.begin(), text.end(), value);
-  return fault == std::errc() && end == text.end() && std::isfinite(value) ? std::optional(value)
-                                                                           : std::nullopt;
 }
 
 /// Elements of an OpenStreetMap file: nodes come before the ways that refer to them.
@@ -111,8 +105,8 @@ class OsmReader {
   }
 
   void add_node(const XML_Char** attributes) {
-    const auto latitude_deg = number(value(attributes, "lat"));
-    const auto longitude_deg = number(value(attributes, "lon"));
+    const auto latitude_deg = finite_number(value(attributes, "lat"));
+    const auto longitude_deg = finite_number(value(attributes, "lon"));
     if (!latitude_deg || !longitude_deg || !is_on_earth({*latitude_deg, *longitude_deg})) return;
     nodes_[std::string(value(attributes, "id"))] = {*latitude_deg, *longitude_deg};
   }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/dds/exit_watchdog.hpp"
+#include "common/files/finite_number.hpp"
 #include "common/recordings/recorded_topic.hpp"
 #include "services/recorder/player.hpp"
 #include "services/recorder/record_command.hpp"
@@ -71,11 +71,8 @@ PlayRange range_of(const PlayOptions& options, const mcap::File& file) {
 }
 
 std::optional<double> number_in(std::string_view text) {
-  double value = 0.0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = fault == std::errc{} && end == text.data() + text.size();
-  return is_number && std::isfinite(value) && std::abs(value) < kLongest_s ? std::optional(value)
-                                                                           : std::nullopt;
+  const std::optional<double> value = files::finite_number(text);
+  return value && std::abs(*value) < kLongest_s ? value : std::nullopt;
 }
 
 double speed_of(const std::string& text) { return number_in(text).value_or(kAsFastAsPossible); }

@@ -1,10 +1,10 @@
 #include "services/slammot/street_search.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/finite_number.hpp"
 #include "common/files/street_file.hpp"
 
 namespace slammot {
@@ -13,18 +13,11 @@ namespace {
 using files::Error;
 using geometry::Geodetic;
 
-std::optional<double> number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, fault] = std::from_chars(text.begin(), text.end(), value);
-  return fault == std::errc() && end == text.end() && std::isfinite(value) ? std::optional(value)
-                                                                           : std::nullopt;
-}
-
 std::optional<Geodetic> parse_place(std::string_view text) {
   const std::size_t comma = text.find(',');
   if (comma == std::string_view::npos) return std::nullopt;
-  const auto latitude_deg = number(text.substr(0, comma));
-  const auto longitude_deg = number(text.substr(comma + 1));
+  const auto latitude_deg = files::finite_number(text.substr(0, comma));
+  const auto longitude_deg = files::finite_number(text.substr(comma + 1));
   if (!latitude_deg || !longitude_deg || std::abs(*latitude_deg) > 89.0 ||
       std::abs(*longitude_deg) > 180.0)
     return std::nullopt;
