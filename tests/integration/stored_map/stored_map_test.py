@@ -109,9 +109,9 @@ class StoredMap(unittest.TestCase):
         for service in services:
             self.running.pop(service).wait(timeout=10 * PATIENCE)
 
-    def ingest_of(self, name):
+    def ingest_of(self, name, speed="max"):
         return [f"{self.slammot}-ingest", "--vehicle", "car", "--profile", "urban", "--state-dir", self.state, "--input", self.work / f"{name}.log",
-                "--speed", "max", "--config", self.work / "patient.textproto"]
+                "--speed", speed, "--config", self.work / "patient.textproto"]
 
     def drive(self, name, output):
         """Plays the drive into the services as fast as they are done, and waits for what they make of it."""
@@ -193,7 +193,8 @@ class StoredMap(unittest.TestCase):
 
     def test_a_drive_goes_on_in_the_map_of_one_that_was_killed(self):
         self.start(*SERVICES)
-        ingest = subprocess.Popen(self.ingest_of("first"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        # Slow enough that several checkpoints are written, a second apart, between the fifth submap and the end.
+        ingest = subprocess.Popen(self.ingest_of("first", speed="4"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.wait_until(lambda: len(self.stored_submaps()) >= 5, "five submaps")
         for _ in range(2):  # the second checkpoint from now on is of a later submap for sure
             before = self.checkpoint_time()
