@@ -93,12 +93,6 @@ FieldTable<matching::PointToLineConfig> match_fields() {
        "Residual at which the weight of a point is a quarter.",
        kPositive,
        {"Good points of rough walls lose their weight.", "Movers and bushes pull the pose."}},
-      {"information_share",
-       &C::information_share,
-       "Weight of the points of one scan, which share the map's error.",
-       Range{1e-6, 1.0},
-       {"The pose follows the wheels.",
-        "The pose follows each scan's errors, and wheels do not help."}},
   };
 }
 

@@ -18,25 +18,40 @@ constexpr sensing::PoseErrors kOfModelCars{
     .heading = {.of_scan = 0.019, .of_surprises = 3.0, .of_map = 0.0, .view_m = 0.001}};
 
 void set_robot(LocalizerConfig& config) {
+  config.longest_step_s = 30.0;             // subsampled logs have a scan only every metre
+  config.map.lasting.echo_log_odds = 0.65;  // and see a wall once: one echo suffices
   config.motion.position_noise_m = 0.004;
+  config.motion.position_noise_per_m = 0.08;
+  config.motion.sideways_noise_per_m = 0.08;  // skid steering
   config.motion.heading_noise_rad = 0.004;
+  config.motion.heading_noise_per_m = 0.05;
+  config.motion.heading_noise_per_rad = 0.1;
   config.motion.askew_prior_rad = 0.0;  // a sweep changes a scan much as a scanner mounted askew
   config.motion.pivot_prior_m = 0.2;    // logs take the scanner for the middle, and it swings round
                                         // it
   config.motion.pivot_walk_m = 0.03;    // the wheels are not metres behind the middle
   config.motion.speed_prior_mps = 1.5;
-  config.match.proven_after_m = 0.0;  // a slow robot does not pitch
+  config.match.proven_after_m = 0.0;     // a slow robot does not pitch
+  config.match.information_share = 0.8;  // errors of scans half a metre apart are nearly
+                                         // independent
 }
 
 void set_car(LocalizerConfig& config) {
   const LocalizerConfig defaults;
+  config.longest_step_s = defaults.longest_step_s;
+  config.map.lasting.echo_log_odds = defaults.map.lasting.echo_log_odds;
   config.motion.position_noise_m = defaults.motion.position_noise_m;
+  config.motion.position_noise_per_m = defaults.motion.position_noise_per_m;
+  config.motion.sideways_noise_per_m = defaults.motion.sideways_noise_per_m;
   config.motion.heading_noise_rad = defaults.motion.heading_noise_rad;
+  config.motion.heading_noise_per_m = defaults.motion.heading_noise_per_m;
+  config.motion.heading_noise_per_rad = defaults.motion.heading_noise_per_rad;
   config.motion.askew_prior_rad = defaults.motion.askew_prior_rad;
   config.motion.pivot_prior_m = defaults.motion.pivot_prior_m;
   config.motion.pivot_walk_m = defaults.motion.pivot_walk_m;
   config.motion.speed_prior_mps = defaults.motion.speed_prior_mps;
   config.match.proven_after_m = defaults.match.proven_after_m;
+  config.match.information_share = defaults.match.information_share;
 }
 
 }  // namespace

@@ -6,16 +6,6 @@ namespace {
 using config::FieldTable;
 using config::Range;
 
-FieldTable<grids::LastingModel> lasting_fields() {
-  using C = grids::LastingModel;
-  return {{"echo_log_odds",
-           &C::echo_log_odds,
-           "Log-odds that a stationary echo adds to a cell of a submap, and that a beam past it "
-           "subtracts; from 0.6 on one echo is a wall.",
-           Range{0.04, 7.8},
-           {"Walls seen once are missing from the map.", "Single false echoes stay in the map."}}};
-}
-
 FieldTable<LocalMapConfig> size_fields() {
   using C = LocalMapConfig;
   return {
@@ -52,22 +42,20 @@ FieldTable<LocalMapConfig> size_fields() {
 
 FieldTable<LocalMapConfig> evidence_fields() {
   using C = LocalMapConfig;
-  return config::with_nested<C>(
-      {
-          {"no_echo_free_m",
-           &C::no_echo_free_m,
-           "Length of a beam without echo that is free.",
-           Range{0.0, 200.0},
-           {"Movers in open space are detected late.",
-            "Dark bodies and glass are erased from the map."}},
-          {"end_cell_tolerance_m",
-           &C::end_cell_tolerance_m,
-           "An occupied cell this near explains an echo.",
-           Range{0.0, 5.0},
-           {"Walls seem to move where the pose is a little off.",
-            "Pedestrians beside walls are taken for the wall."}},
-      },
-      "lasting", &C::lasting, lasting_fields());
+  return {
+      {"no_echo_free_m",
+       &C::no_echo_free_m,
+       "Length of a beam without echo that is free.",
+       Range{0.0, 200.0},
+       {"Movers in open space are detected late.",
+        "Dark bodies and glass are erased from the map."}},
+      {"end_cell_tolerance_m",
+       &C::end_cell_tolerance_m,
+       "An occupied cell this near explains an echo.",
+       Range{0.0, 5.0},
+       {"Walls seem to move where the pose is a little off.",
+        "Pedestrians beside walls are taken for the wall."}},
+  };
 }
 
 }  // namespace

@@ -10,7 +10,6 @@ namespace {
 using config::FieldTable;
 using config::Group;
 using config::in_group;
-using config::kNotNegative;
 using config::kPositive;
 
 config::Field<LocalizerConfig> vehicle_field() {
@@ -20,51 +19,9 @@ config::Field<LocalizerConfig> vehicle_field() {
                 [&config] { return static_cast<int>(config.vehicle); },
                 [&config](int number) { set_vehicle(config, static_cast<Vehicle>(number)); }};
           },
-          "Kind of the vehicle. car: steered, fast, its scanner pitches. robot: slow, turns about "
-          "its middle.",
+          "Kind of the vehicle. car: steered, fast, many scans per metre, its scanner pitches. "
+          "robot: slow, few scans per metre, turns about its middle, its wheels slip.",
           {}};
-}
-
-FieldTable<sensing::MotionModelConfig> wheel_noise_fields() {
-  using C = sensing::MotionModelConfig;
-  return {
-      {"position_noise_per_m",
-       &C::position_noise_per_m,
-       "One sigma of the length of a step by wheels, for each metre.",
-       kNotNegative,
-       {"Slip is believed.", "Corridors are shortened or stretched."}},
-      {"sideways_noise_per_m",
-       &C::sideways_noise_per_m,
-       "One sigma of its direction across the vehicle, for each metre.",
-       kNotNegative,
-       {"A robot that skids is believed not to.",
-        "Wheels do not hold a road vehicle in its lane where scans say little."}},
-      {"heading_noise_per_m",
-       &C::heading_noise_per_m,
-       "One sigma of its turn, for each metre [rad/m].",
-       kNotNegative,
-       {"Scans cannot correct the heading on straight ways.",
-        "The heading wanders where scans say little."}},
-      {"heading_noise_per_rad",
-       &C::heading_noise_per_rad,
-       "One sigma of its turn, for each radian.",
-       kNotNegative,
-       {"Wheels that slip in turns are believed.", "Turns in the open are lost."}},
-      {"speed_walk_mps",
-       &C::speed_walk_mps,
-       "Without odometry: random walk of the speed [m/s per sqrt(s)].",
-       kPositive,
-       {"Braking is not followed.", "Corridors are shortened."}},
-  };
-}
-
-FieldTable<sensing::MotionModelConfig> motion_from_log_fields() {
-  using C = sensing::MotionModelConfig;
-  return {{"scale_prior",
-           &C::scale_prior,
-           "One sigma of the factor on wheel distance. Raised where the log sets way_at_start.",
-           kNotNegative,
-           {"A wrong wheel radius stretches the map along the way.", "The factor follows noise."}}};
 }
 
 }  // namespace
@@ -80,12 +37,6 @@ FieldTable<LocalizerConfig> odometry_fields() {
        "A faster step by odometry is a jump.",
        kPositive,
        {"Fast driving is taken for a jump.", "Jumps are believed."}},
-      {"longest_step_s",
-       &C::longest_step_s,
-       "Without odometry the longest extrapolation; longer gaps are counted.",
-       kPositive,
-       {"The vehicle seems to stop in a gap between scans.",
-        "A wrong velocity carries it far in a gap."}},
       {"may_be_picked_up", &C::may_be_picked_up,
        "The vehicle may be set down elsewhere without a sign of its wheels."},
   };
@@ -93,8 +44,12 @@ FieldTable<LocalizerConfig> odometry_fields() {
 
 FieldTable<sensing::MotionModelConfig> motion_fields() {
   using C = sensing::MotionModelConfig;
-  return config::joined<C>({in_group(Group::odometry, wheel_noise_fields()),
-                            in_group(Group::log, motion_from_log_fields())});
+  return in_group<C>(Group::odometry,
+                     {{"speed_walk_mps",
+                       &C::speed_walk_mps,
+                       "Without odometry: random walk of the speed [m/s per sqrt(s)].",
+                       kPositive,
+                       {"Braking is not followed.", "Corridors are shortened."}}});
 }
 
 FieldTable<sensing::OdometryBeliefConfig> belief_fields() {

@@ -7,8 +7,12 @@
 
 namespace slammot::loop_closing {
 
+/// What submaps show, numbered as in slammot.proto.
+enum class Surroundings { streets, building };
+
 /// Defaults are for road vehicles.
 struct LoopClosingConfig {
+  Surroundings surroundings = Surroundings::streets;  ///< Set by set_surroundings().
   double min_travel_between_m = 200.0;  ///< Least distance driven since the earlier submap.
   double max_distance_m = 60.0;   ///< Greatest distance between the centres of two submaps that may
                                   ///< show the same place.

@@ -1,59 +1,25 @@
 #include "services/loop_closing/loop_closing_fields.hpp"
 
+#include "services/loop_closing/surroundings.hpp"
+
 namespace slammot::loop_closing {
 namespace {
 
 using config::FieldTable;
 using config::kNotNegative;
 using config::kPositive;
-using config::Range;
-using config::with_nested;
 
-FieldTable<PlaceConfig> place_fields() {
-  return {{"tolerance_m",
-           &PlaceConfig::tolerance_m,
-           "Walls of two submaps within this distance agree.",
-           Range{0.0, 5.0},
-           {"True revisits seem to contradict the map and are rejected.",
-            "Different places seem to agree."}}};
-}
-
-FieldTable<RegistrationConfig> registration_fields() {
-  using C = RegistrationConfig;
-  return {
-      {"fine_gate_m",
-       &C::fine_gate_m,
-       "Greatest distance of paired surfels in the last steps of a registration; 2.5 times as "
-       "much in the first ones.",
-       Range{0.01, 10.0},
-       {"Few pairs are left, and the closure is weak.",
-        "Surfels of other walls bias the closure."}},
-      {"surfel_sigma_m",
-       &C::surfel_sigma_m,
-       "One sigma of the distance between two surfels of one wall, across the wall.",
-       kPositive,
-       {"Closures are overconfident and distort the graph.",
-        "Closures weigh too little to correct the drift."}},
-  };
-}
-
-FieldTable<RevisitConfig> revisit_fields() {
-  using C = RevisitConfig;
-  return with_nested<C>(
-      {
-          {"max_window_m",
-           &C::max_window_m,
-           "Greatest half width of the search window around the expected pose.",
-           Range{0.1, 200.0},
-           {"A drive that has drifted farther finds no revisit.",
-            "Searches take long, and look-alikes are found."}},
-          {"astray_window_m",
-           &C::astray_window_m,
-           "Half width of the search window with unknown heading.",
-           kPositive,
-           {"A lost vehicle is not located.", "Searches take long."}},
-      },
-      "registration", &C::registration, registration_fields());
+config::Field<LoopClosingConfig> surroundings_field() {
+  return {"surroundings",
+          [](LoopClosingConfig& config) -> config::Value {
+            return config::Choice{[&config] { return static_cast<int>(config.surroundings); },
+                                  [&config](int number) {
+                                    set_surroundings(config, static_cast<Surroundings>(number));
+                                  }};
+          },
+          "What submaps show: streets or the rooms of a building. Sets the width of searches for "
+          "revisits and how exactly walls of two submaps agree.",
+          {}};
 }
 
 config::Field<LoopClosingConfig> estimator_field() {
@@ -88,8 +54,7 @@ FieldTable<LoopClosingConfig> all_fields() {
        {"Loops close late, after several submaps agree.",
         "A single look-alike closes a wrong loop."}},
   };
-  table = with_nested(std::move(table), "place", &C::place, place_fields());
-  table = with_nested(std::move(table), "revisit", &C::revisit, revisit_fields());
+  table.push_back(surroundings_field());
   table.push_back(estimator_field());
   return config::in_group(config::Group::closing, std::move(table));
 }

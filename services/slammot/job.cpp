@@ -109,13 +109,10 @@ std::uint64_t bytes_of_results(const files::LogFigures& figures, bool is_simulat
   return kOfMaps + figures.scans * a_scan;
 }
 
-/// Sets the initial odometry scale from the log's scan pairs, which determine it to a few percent.
-/// A scale in the profile has priority.
+/// Sets the initial odometry scale from the log's scan pairs. A scale in the profile has priority.
 void set_initial_odometry_scale(double factor, localization::LocalizerConfig& config) {
-  constexpr double kSigma = 0.08;
   if (factor == 1.0 || config.belief.way_at_start != 1.0) return;
   config.belief.way_at_start = factor;
-  config.motion.scale_prior = std::max(config.motion.scale_prior, kSigma);
 }
 
 }  // namespace

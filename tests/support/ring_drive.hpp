@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/loop_closing/loop_closer.hpp"
+#include "services/loop_closing/surroundings.hpp"
 #include "tests/support/floor_plan.hpp"
 
 namespace slammot::testing {
@@ -14,9 +15,8 @@ inline loop_closing::LoopClosingConfig indoor_loop_closing() {
   config.min_travel_between_m = 15.0;
   config.max_distance_m = 10.0;
   config.sure_within_m = 1.0;
-  config.place.tolerance_m = 0.15;
+  loop_closing::set_surroundings(config, loop_closing::Surroundings::building);
   config.revisit.astray_window_m = 12.0;
-  config.revisit.registration = {.fine_gate_m = 0.2, .surfel_sigma_m = 0.04};
   return config;
 }
 

@@ -13,7 +13,14 @@ TEST(LocalizerPresets, OfACarAndTheRoadAreTheDefaults) {
   set_vehicle(config, Vehicle::car);
   set_pose_error_model(config, PoseErrorModel::road);
   EXPECT_EQ(config.vehicle, Vehicle::car);
+  EXPECT_EQ(config.longest_step_s, defaults.longest_step_s);
+  EXPECT_EQ(config.map.lasting.echo_log_odds, defaults.map.lasting.echo_log_odds);
+  EXPECT_EQ(config.match.information_share, defaults.match.information_share);
   EXPECT_EQ(config.motion.position_noise_m, defaults.motion.position_noise_m);
+  EXPECT_EQ(config.motion.position_noise_per_m, defaults.motion.position_noise_per_m);
+  EXPECT_EQ(config.motion.sideways_noise_per_m, defaults.motion.sideways_noise_per_m);
+  EXPECT_EQ(config.motion.heading_noise_per_m, defaults.motion.heading_noise_per_m);
+  EXPECT_EQ(config.motion.heading_noise_per_rad, defaults.motion.heading_noise_per_rad);
   EXPECT_EQ(config.motion.heading_noise_rad, defaults.motion.heading_noise_rad);
   EXPECT_EQ(config.motion.askew_prior_rad, defaults.motion.askew_prior_rad);
   EXPECT_EQ(config.motion.pivot_prior_m, defaults.motion.pivot_prior_m);
@@ -31,6 +38,16 @@ TEST(LocalizerPresets, OfARobotTurnAboutItsMiddleAndHaveNoPitchingScanner) {
   EXPECT_LT(config.motion.pivot_walk_m, LocalizerConfig().motion.pivot_walk_m);
   EXPECT_LT(config.motion.speed_prior_mps, LocalizerConfig().motion.speed_prior_mps);
   EXPECT_EQ(config.match.proven_after_m, 0.0);
+}
+
+TEST(LocalizerPresets, OfARobotBelieveASlippingStepLessAndAWallSeenOnce) {
+  LocalizerConfig config;
+  set_vehicle(config, Vehicle::robot);
+  EXPECT_GT(config.motion.sideways_noise_per_m, LocalizerConfig().motion.sideways_noise_per_m);
+  EXPECT_GT(config.motion.heading_noise_per_rad, LocalizerConfig().motion.heading_noise_per_rad);
+  EXPECT_GT(config.longest_step_s, LocalizerConfig().longest_step_s);
+  EXPECT_GT(config.match.information_share, LocalizerConfig().match.information_share);
+  EXPECT_GT(config.map.lasting.echo_log_odds, 0.6) << "from which on one echo is a wall";
 }
 
 TEST(LocalizerPresets, OfABuildingReplacesAllPoseErrorsAndOfModelCarsThemAlone) {
