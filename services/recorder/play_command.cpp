@@ -167,6 +167,7 @@ int play(const PlayOptions& options) {
   for (const std::string& topic : player.unplayable())
     std::fprintf(stderr, "slammot: %s was not recorded from this bus: left out\n", topic.c_str());
   if (player.topic_count() == 0) return fail(options.file + ": no topic that can be played");
+  if (options.lingers) player.prepare_seeks();
   answer_commands(context, control, file->contents().statistics.start_ns);
   report_position(context, control, file->contents().statistics);
   context.run_for(std::chrono::nanoseconds(ns_of(options.wait_s)));

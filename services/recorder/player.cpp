@@ -72,28 +72,29 @@ PlayControl::Turn Player::play_from(const PlayRange& range, PlayControl& control
   return PlayControl::Turn::kPlay;
 }
 
-void Player::restore(std::int64_t log_time_ns) {
-  restore(topics_that_keep(Keeps::kRareValues),
-          {file_.contents().statistics.start_ns, log_time_ns});
-  restore(topics_that_keep(Keeps::kFrequentValues), {log_time_ns - kLookBackNs, log_time_ns});
+KeyOf Player::key_of() const {
+  return [this](mcap::ChannelId channel, mcap::Bytes cdr, std::vector<std::uint8_t>& key) {
+    return dds::copy_key(writers_.at(channel).topic->model(), cdr, key);
+  };
 }
 
-void Player::restore(std::set<std::string> topics, const PlayRange& range) {
-  if (topics.empty()) return;
-  struct Kept {
-    std::vector<std::uint8_t> cdr;
-    std::int64_t source_time_ns;
+void Player::prepare_seeks() {
+  if (rare_values_) return;
+  rare_values_ =
+      std::make_unique<KeptSamples>(file_, topics_that_keep(Keeps::kRareValues), key_of());
+}
+
+void Player::restore(std::int64_t log_time_ns) {
+  const auto write_it = [this](mcap::ChannelId channel, const KeptSample& sample) {
+    write(channel, {sample.cdr, sample.source_ns});
   };
-  std::map<std::pair<mcap::ChannelId, std::vector<std::uint8_t>>, Kept> last;
-  mcap::MessageCursor cursor(file_, {std::move(topics), range.from_ns, range.to_ns});
-  std::vector<std::uint8_t> key;
-  while (const auto message = cursor.next()) {
-    const mcap::ChannelId id = message->head.channel_id;
-    if (!dds::copy_key(writers_.at(id).topic->model(), message->data, key)) continue;
-    last[{id, key}] = {{message->data.begin(), message->data.end()}, message->head.publish_time_ns};
-  }
-  for (const auto& [channel_and_key, kept_sample] : last)
-    write(channel_and_key.first, {kept_sample.cdr, kept_sample.source_time_ns});
+  prepare_seeks();
+  rare_values_->visit(log_time_ns, write_it);
+  const std::set<std::string> frequent = topics_that_keep(Keeps::kFrequentValues);
+  if (frequent.empty()) return;
+  for (const auto& [key, sample] :
+       last_samples(file_, {frequent, log_time_ns - kLookBackNs, log_time_ns}, key_of()))
+    write_it(key.first, sample);
 }
 
 void Player::write(mcap::ChannelId channel, const dds::RawSample& sample) {

@@ -9,6 +9,7 @@
 
 #include "common/dds/raw_writer.hpp"
 #include "common/mcap/message_cursor.hpp"
+#include "services/recorder/kept_samples.hpp"
 #include "services/recorder/play_control.hpp"
 #include "services/recorder/topic_selection.hpp"
 
@@ -41,6 +42,8 @@ class Player {
   /// played part begins, such as the map, is written first; so it is after a seek. False when
   /// stopped.
   bool play(const PlayRange& range, PlayControl& control);
+  /// Begins to read what seeks need, so that the first one is as quick as the others.
+  void prepare_seeks();
   /// Writes what the bus kept at that time, of topics that keep a value for late joiners.
   void restore(std::int64_t log_time_ns);
 
@@ -58,12 +61,13 @@ class Player {
 
   Keeps kept_by(mcap::ChannelId channel, const dds::OfferedQos& qos) const;
   std::set<std::string> topics_that_keep(Keeps what) const;
-  void restore(std::set<std::string> topics, const PlayRange& range);
+  KeyOf key_of() const;
   PlayControl::Turn play_from(const PlayRange& range, PlayControl& control);
   void write(mcap::ChannelId channel, const dds::RawSample& sample);
 
   const mcap::File& file_;
   std::map<mcap::ChannelId, Output> writers_;
+  std::unique_ptr<KeptSamples> rare_values_;  ///< Its thread reads the models of the writers.
   std::vector<std::string> unplayable_;
   PlayCounters counters_;
 };
