@@ -71,6 +71,32 @@ export class Vertices {
   }
 }
 
+/** Numbers for texelFetch() of a shader, four a texel, from left to right and row by row. */
+export class FloatTexture {
+  constructor(gl, width) {
+    this.gl = gl;
+    this.width = width;
+    this.rows = 0;
+    this.texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+  }
+
+  /** Binds it, too. The storage of the numbers is at least as long as the rows that they fill. */
+  fill(floats) {
+    const gl = this.gl;
+    const perRow = 4 * this.width;
+    const rows = Math.ceil((floats.count * floats.perInstance) / perRow);
+    floats.reserve(rows * perRow);
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
+    if (rows > this.rows) {
+      this.rows = 2 ** Math.ceil(Math.log2(rows));
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, this.width, this.rows, 0, gl.RGBA, gl.FLOAT, null);
+    }
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, this.width, rows, gl.RGBA, gl.FLOAT, floats.data.subarray(0, rows * perRow));
+  }
+}
+
 /** Numbers that are added one instance after another. */
 export class Floats {
   constructor(perInstance) {
@@ -83,12 +109,15 @@ export class Floats {
     this.count = 0;
   }
 
+  reserve(length) {
+    if (length <= this.data.length) return;
+    const larger = new Float32Array(Math.max(length, this.data.length * 2));
+    larger.set(this.data);
+    this.data = larger;
+  }
+
   add(...numbers) {
-    if ((this.count + 1) * this.perInstance > this.data.length) {
-      const larger = new Float32Array(this.data.length * 2);
-      larger.set(this.data);
-      this.data = larger;
-    }
+    this.reserve((this.count + 1) * this.perInstance);
     this.data.set(numbers, this.count++ * this.perInstance);
   }
 

@@ -1,19 +1,24 @@
 // Submaps as textures, each at its latest pose, so that a closed loop moves them. What the scanner saw since the last
 // finished submap is drawn as points until its submap comes.
-import { compose, inverse, multiply, placed } from "./geometry.js";
+import { compose, inverse, multiply, placed, turn } from "./geometry.js";
 import { Vertices } from "./gl.js";
 import { Ground } from "./ground.js";
+import { Tiles, boundsOf } from "./tiles.js";
 import { withToken } from "./connection.js";
 
 const LIVE_CELL_M = 0.15; // one point is kept of each
 const MOST_LIVE_POINTS = 60000;
+const LEAST_STEP = [0.02, 0.0002]; // m and rad: smaller corrections of a pose are not shown
+const LEAST_GLIDE = [0.5, 0.01]; // m and rad: larger corrections are shown as a motion
 
 export class MapLayer {
   constructor(gl, onError) {
     this.gl = gl;
     this.onError = onError;
     this.ground = new Ground(gl);
-    this.submaps = new Map(); // by id: {path, pose, shownPose, texture, box}
+    this.tiles = new Tiles(gl, this.ground);
+    this.submaps = new Map(); // by id: {path, pose, shownPose, glides, texture, box, bounds, version}
+    this.version = 0;
     this.live = new Map(); // by submap's id: {points, keys, count, vertices, isChanged}
     this.map = null;
   }
@@ -21,6 +26,7 @@ export class MapLayer {
   clear() {
     for (const submap of this.submaps.values()) if (submap.texture) this.gl.deleteTexture(submap.texture);
     for (const live of this.live.values()) live.vertices.remove();
+    this.tiles.clear();
     this.submaps.clear();
     this.live.clear();
   }
@@ -39,7 +45,7 @@ export class MapLayer {
   }
 
   async load(submap, before) {
-    const entry = { path: submap.path, pose: submap.pose, shownPose: before?.shownPose ?? submap.pose, texture: before?.texture, box: before?.box };
+    const entry = { ...before, path: submap.path, pose: submap.pose, shownPose: before?.shownPose ?? submap.pose };
     this.submaps.set(submap.id, entry);
     if (submap.columns === 0) return;
     try {
@@ -50,11 +56,17 @@ export class MapLayer {
       if (entry.texture) this.gl.deleteTexture(entry.texture);
       entry.texture = this.texture(cells, submap.columns, submap.rows);
       entry.box = [...submap.min, submap.columns * submap.cell_size_m, submap.rows * submap.cell_size_m];
+      this.changed(entry);
       this.dropLive(submap.id);
     } catch (error) {
       this.submaps.delete(submap.id); // the next graph tries again
       this.onError(error);
     }
+  }
+
+  changed(submap) {
+    submap.bounds = boundsOf(submap);
+    submap.version = ++this.version;
   }
 
   texture(cells, columns, rows) {
@@ -96,16 +108,26 @@ export class MapLayer {
   /** Moves shown poses towards the latest ones: a closed loop snaps within half a second, visibly. */
   update(seconds) {
     const part = 1 - Math.exp(-seconds * 8);
-    for (const submap of this.submaps.values())
-      submap.shownPose = submap.shownPose.map((value, i) => {
-        const step = i === 2 ? Math.atan2(Math.sin(submap.pose[2] - value), Math.cos(submap.pose[2] - value)) : submap.pose[i] - value;
-        return value + step * part;
-      });
+    for (const submap of this.submaps.values()) {
+      const [x, y, heading] = submap.shownPose;
+      const steps = [submap.pose[0] - x, submap.pose[1] - y, turn(heading, submap.pose[2])];
+      const exceeds = ([metres, radians]) => Math.hypot(steps[0], steps[1]) > metres || Math.abs(steps[2]) > radians;
+      if (!exceeds(LEAST_STEP)) {
+        submap.glides = false;
+        continue;
+      }
+      submap.glides ||= exceeds(LEAST_GLIDE);
+      const share = submap.glides ? part : 1;
+      submap.shownPose = submap.shownPose.map((value, i) => value + steps[i] * share);
+      if (submap.texture) this.changed(submap);
+    }
   }
 
+  /** While submaps glide each picture is drawn anew, otherwise from tiles. */
   draw(matrix, camera, colors, opacity) {
     const shown = [...this.submaps.values()].filter((submap) => submap.texture);
-    this.ground.draw(shown, matrix, camera, colors, opacity);
+    const drawer = shown.some((submap) => submap.glides) ? this.ground : this.tiles;
+    drawer.draw(shown, matrix, camera, colors, opacity);
   }
 
   drawLive(shapes, matrix, camera, colors, opacity, diameter) {

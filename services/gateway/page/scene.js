@@ -46,7 +46,7 @@ export class Scene {
     if (layers.grid > 0) this.shapes.drawGrid(matrix, camera, colors.grid);
     if (layers.scan > 0) this.drawFans(matrix);
     this.map.drawLive(this.shapes, matrix, camera, colors, { so: layers.so }, this.pointSize(0.16));
-    this.shapes.clear();
+    this.shapes.begin(camera.metresPerPixel());
     if (layers.graph > 0) this.addGraph(layers.graph);
     if (layers.way > 0) this.addWay(layers.way);
     if (layers.tracks > 0) this.addTracks(options.selected, layers.tracks);

@@ -1,12 +1,19 @@
 // Lines of constant width in pixels, boxes, points and the ground's grid: what is drawn anew with each picture.
 // All coordinates are relative to the camera's target.
-import { Floats, Program, Vertices } from "./gl.js";
+import { FloatTexture, Floats, Program, Vertices } from "./gl.js";
 
+// Not instanced: without a graphics processor each instance costs as much as a draw call.
+const LINES_A_ROW = 256;
 const LINE_VERTEX = `
-layout(location=0) in vec3 from; layout(location=1) in vec3 to; layout(location=2) in vec4 color; layout(location=3) in float width;
-uniform mat4 matrix; uniform vec2 size; out vec4 tint; out float side; out float half_width;
+uniform highp sampler2D lines; uniform mat4 matrix; uniform vec2 size; out vec4 tint; out float side; out float half_width;
+const int corners[6] = int[6](0, 1, 2, 2, 1, 3);
 void main() {
-  vec4 a = matrix * vec4(from, 1.0), b = matrix * vec4(to, 1.0);
+  int line = gl_VertexID / 6, corner = corners[gl_VertexID % 6];
+  ivec2 texel = ivec2(line % ${LINES_A_ROW} * 3, line / ${LINES_A_ROW});
+  vec4 from = texelFetch(lines, texel, 0), to = texelFetch(lines, texel + ivec2(1, 0), 0);
+  vec4 color = texelFetch(lines, texel + ivec2(2, 0), 0);
+  float width = from.w;
+  vec4 a = matrix * vec4(from.xyz, 1.0), b = matrix * vec4(to.xyz, 1.0);
   const float near = 0.01;
   if (a.w < near && b.w < near) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
   if (a.w < near) a = mix(a, b, (near - a.w) / (b.w - a.w));
@@ -14,7 +21,7 @@ void main() {
   vec2 along = (b.xy / b.w - a.xy / a.w) * size;
   float length_px = length(along);
   vec2 dir = length_px > 0.001 ? along / length_px : vec2(1.0, 0.0);
-  float end = float(gl_VertexID & 1); side = float(gl_VertexID >> 1) * 2.0 - 1.0;
+  float end = float(corner & 1); side = float(corner >> 1) * 2.0 - 1.0;
   half_width = width * 0.5 + 1.0;
   vec4 at = end < 0.5 ? a : b;
   vec2 offset = vec2(-dir.y, dir.x) * side * half_width * 2.0;
@@ -93,10 +100,10 @@ export class Shapes {
   constructor(gl) {
     this.gl = gl;
     const F = gl.FLOAT;
-    this.lines = new Floats(11);
+    this.lines = new Floats(12); // from and width, to and nothing, color
     this.boxes = new Floats(11);
     this.lineProgram = new Program(gl, LINE_VERTEX, LINE_FRAGMENT);
-    this.lineVertices = new Vertices(gl, 44, [[0, 3, F, false, 0, 1], [1, 3, F, false, 12, 1], [2, 4, F, false, 24, 1], [3, 1, F, false, 40, 1]]);
+    this.lineTexture = new FloatTexture(gl, 3 * LINES_A_ROW);
     this.boxProgram = new Program(gl, BOX_VERTEX, FLAT_FRAGMENT);
     this.boxVertices = new Vertices(gl, 44, [[0, 3, F, false, 0, 1], [1, 1, F, false, 12, 1], [2, 3, F, false, 16, 1], [3, 4, F, false, 28, 1]]);
     this.pointProgram = new Program(gl, POINT_VERTEX, POINT_FRAGMENT);
@@ -106,23 +113,26 @@ export class Shapes {
     this.noVertices = gl.createVertexArray();
   }
 
-  clear() {
+  /** For a picture of this resolution, on which the number of an ellipse's sides depends. */
+  begin(metresPerPixel) {
+    this.metresPerPixel = metresPerPixel;
     this.lines.clear();
     this.boxes.clear();
   }
 
   line(a, b, z, [r, g, blue], alpha, width) {
-    this.lines.add(a[0], a[1], z, b[0], b[1], z, r, g, blue, alpha, width);
+    this.lines.add(a[0], a[1], z, width, b[0], b[1], z, 0, r, g, blue, alpha);
   }
 
   /** points: flat list of x, y. alphaOf: of the segment that ends at the point's index. */
   strip(points, z, color, alphaOf, width) {
     for (let i = 2; i < points.length; i += 2)
-      this.lines.add(points[i - 2], points[i - 1], z, points[i], points[i + 1], z, ...color, alphaOf(i / 2), width);
+      this.lines.add(points[i - 2], points[i - 1], z, width, points[i], points[i + 1], z, 0, color[0], color[1], color[2], alphaOf(i / 2));
   }
 
   ellipse(x, y, { major, minor, heading }, z, color, alpha, width) {
-    const count = 40, c = Math.cos(heading), s = Math.sin(heading);
+    const count = Math.min(40, Math.max(10, Math.round(6 * Math.sqrt(major / this.metresPerPixel))));
+    const c = Math.cos(heading), s = Math.sin(heading);
     const points = [];
     for (let i = 0; i <= count; ++i) {
       const u = major * Math.cos((2 * Math.PI * i) / count), v = minor * Math.sin((2 * Math.PI * i) / count);
@@ -146,7 +156,7 @@ export class Shapes {
       const next = corners[(i + 1) % 4];
       this.line(corner, next, 0.05, color, alpha, thickness);
       this.line(corner, next, height, color, alpha, thickness);
-      this.lines.add(...corner, 0.05, ...corner, height, ...color, alpha * 0.7, thickness);
+      this.lines.add(...corner, 0.05, thickness, ...corner, height, 0, ...color, alpha * 0.7);
     });
   }
 
@@ -171,10 +181,10 @@ export class Shapes {
   drawLines(matrix, size) {
     const gl = this.gl;
     if (this.lines.count === 0) return;
-    this.lineVertices.fill(this.lines.view(), gl.STREAM_DRAW);
+    this.lineTexture.fill(this.lines);
     this.lineProgram.use({ matrix, size });
-    this.lineVertices.bind();
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.lines.count);
+    gl.bindVertexArray(this.noVertices);
+    gl.drawArrays(gl.TRIANGLES, 0, 6 * this.lines.count);
   }
 
   drawBoxes(matrix) {
