@@ -43,7 +43,7 @@ void ExpectedObjects::expect(const flow::TrackedObjects& objects) {
 const std::vector<grids::Box>& ExpectedObjects::masks_at(std::int64_t stamp_ns) {
   masks_.clear();
   const double after_s = static_cast<double>(stamp_ns - objects_.stamp_ns) * kNanosecond_s;
-  if (after_s > kLongestExpectation_s || !config_.leave_out_moving) return masks_;
+  if (after_s > kLongestExpectation_s || !config_.echoes.leave_out_moving) return masks_;
   for (const flow::TrackedObject& object : objects_.objects)
     if (object.confirmed && !object.occluded)
       masks_.push_back(box_of(object, after_s, kMaskMarginM));
@@ -52,7 +52,7 @@ const std::vector<grids::Box>& ExpectedObjects::masks_at(std::int64_t stamp_ns) 
 
 void ExpectedObjects::drive_over(const flow::ScanLabels& labels, LocalMap& map) const {
   if (objects_.sequence != labels.sequence || objects_.stamp_ns != labels.stamp_ns ||
-      !config_.leave_out_moving)
+      !config_.echoes.leave_out_moving)
     return;
   for (const flow::TrackedObject& object : objects_.objects)
     if (is_surely_moving_vehicle(object, labels.stamp_ns))

@@ -73,7 +73,7 @@ KeyframeOdometry::KeyframeOdometry(const LocalizerConfig& config)
   match_.proven_after_m = 0.0;
   match_.new_below_m = 0.0;
   match_.information_share = kInformationShare;
-  match_.body_sigma_m = config.body_sigma_without_wheels_m;
+  match_.body_sigma_m = config.trust.body_sigma_without_wheels_m;
 }
 
 void KeyframeOdometry::resume(State state) {

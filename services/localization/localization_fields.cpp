@@ -15,10 +15,11 @@ using config::in_group;
 using config::kNotNegative;
 using config::kPositive;
 using config::Range;
+using config::with_members_of;
 using config::with_nested;
 
-FieldTable<LocalizerConfig> sensor_fields() {
-  using C = LocalizerConfig;
+FieldTable<EchoConfig> sensor_fields() {
+  using C = EchoConfig;
   return {
       {"match_range_m",
        &C::match_range_m,
@@ -44,8 +45,8 @@ FieldTable<LocalizerConfig> sensor_fields() {
   };
 }
 
-FieldTable<LocalizerConfig> map_use_fields() {
-  using C = LocalizerConfig;
+FieldTable<EchoConfig> map_use_fields() {
+  using C = EchoConfig;
   return {
       {"map_range_m",
        &C::map_range_m,
@@ -57,22 +58,24 @@ FieldTable<LocalizerConfig> map_use_fields() {
   };
 }
 
-FieldTable<LocalizerConfig> matching_fields() {
-  using C = LocalizerConfig;
-  return {
-      {"body_sigma_without_wheels_m",
-       &C::body_sigma_without_wheels_m,
-       "Without odometry: one sigma of the error that all points of one body share; 0: none.",
-       kNotNegative,
-       {"One large mover carries the pose along.",
-        "One wall beside the vehicle counts for little."}},
-      {"lost_after_s",
-       &C::lost_after_s,
-       "Time without a match that odometry bridges; then the pose is searched for.",
-       kNotNegative,
-       {"Traffic around the vehicle starts a search.",
-        "Poses are wrong for as long after the vehicle was set down elsewhere."}},
-  };
+FieldTable<MatchTrustConfig> trust_fields() {
+  using C = MatchTrustConfig;
+  return {{"body_sigma_without_wheels_m",
+           &C::body_sigma_without_wheels_m,
+           "Without odometry: one sigma of the error that all points of one body share; 0: none.",
+           kNotNegative,
+           {"One large mover carries the pose along.",
+            "One wall beside the vehicle counts for little."}}};
+}
+
+FieldTable<RecoveryConfig> lost_fields() {
+  using C = RecoveryConfig;
+  return {{"lost_after_s",
+           &C::lost_after_s,
+           "Time without a match that odometry bridges; then the pose is searched for.",
+           kNotNegative,
+           {"Traffic around the vehicle starts a search.",
+            "Poses are wrong for as long after the vehicle was set down elsewhere."}}};
 }
 
 FieldTable<matching::PointToLineConfig> match_fields() {
@@ -96,8 +99,8 @@ FieldTable<matching::PointToLineConfig> match_fields() {
   };
 }
 
-FieldTable<LocalizerConfig> closing_fields() {
-  using C = LocalizerConfig;
+FieldTable<PoseErrorConfig> drift_fields() {
+  using C = PoseErrorConfig;
   constexpr config::Consequences kDrift{
       "Revisits are looked for too near, and closures are refused.",
       "Searches take long, and look-alikes are found."};
@@ -108,12 +111,16 @@ FieldTable<LocalizerConfig> closing_fields() {
        kPositive, kDrift},
       {"drift_rad_per_sqrt_m", &C::drift_rad_per_sqrt_m, "The same for the heading.", kPositive,
        kDrift},
-      {"astray_sigma_m",
-       &C::astray_sigma_m,
-       "One sigma of the tie between two maps where the vehicle lost its way.",
-       Range{1.0, 900.0},
-       {"The place where it was set down lies outside of the search.", "Searches take long."}},
   };
+}
+
+FieldTable<RecoveryConfig> astray_fields() {
+  using C = RecoveryConfig;
+  return {{"astray_sigma_m",
+           &C::astray_sigma_m,
+           "One sigma of the tie between two maps where the vehicle lost its way.",
+           Range{1.0, 900.0},
+           {"The place where it was set down lies outside of the search.", "Searches take long."}}};
 }
 
 config::Field<LocalizerConfig> pose_error_model_field() {
@@ -130,31 +137,38 @@ config::Field<LocalizerConfig> pose_error_model_field() {
           {}};
 }
 
-FieldTable<LocalizerConfig> publication_fields() {
-  using C = LocalizerConfig;
-  return {
-      {"expects_all_ranges", &C::expects_all_ranges,
-       "Publishes the expected range of every beam, for another detection; ours needs those of "
-       "near echoes that contradict the map."},
-      pose_error_model_field(),
-  };
+FieldTable<EchoConfig> expectation_fields() {
+  return {{"expects_all_ranges", &EchoConfig::expects_all_ranges,
+           "Publishes the expected range of every beam, for another detection; ours needs those of "
+           "near echoes that contradict the map."}};
 }
 
-FieldTable<LocalizerConfig> log_fields() {
-  using C = LocalizerConfig;
-  return {{"time_is_known", &C::time_is_known,
-           "Off where stamps are made up, so that no speed has a meaning."}};
+FieldTable<EchoConfig> echo_fields() {
+  using C = EchoConfig;
+  return config::joined<C>({in_group<C>(Group::sensor, sensor_fields()),
+                            in_group<C>(Group::map, map_use_fields()),
+                            in_group<C>(Group::publication, expectation_fields())});
 }
 
-/// Members of the struct itself, group by group.
+FieldTable<RecoveryConfig> recovery_fields() {
+  using C = RecoveryConfig;
+  return config::joined<C>(
+      {in_group<C>(Group::matching, lost_fields()), in_group<C>(Group::closing, astray_fields())});
+}
+
+/// Settings that text writes as fields of the stage itself.
 FieldTable<LocalizerConfig> own_fields() {
   using C = LocalizerConfig;
-  return config::joined<C>(
-      {in_group<C>(Group::sensor, sensor_fields()), in_group<C>(Group::odometry, odometry_fields()),
-       in_group<C>(Group::map, map_use_fields()), in_group<C>(Group::matching, matching_fields()),
-       in_group<C>(Group::closing, closing_fields()),
-       in_group<C>(Group::publication, publication_fields()),
-       in_group<C>(Group::log, log_fields())});
+  FieldTable<C> fields =
+      config::joined<C>({in_group<C>(Group::odometry, {vehicle_field()}),
+                         in_group<C>(Group::publication, {pose_error_model_field()})});
+  fields = with_members_of<C>(std::move(fields), &C::echoes, echo_fields());
+  fields = with_members_of<C>(std::move(fields), &C::odometry, odometry_fields());
+  fields =
+      with_members_of<C>(std::move(fields), &C::trust, in_group(Group::matching, trust_fields()));
+  fields = with_members_of<C>(std::move(fields), &C::recovery, recovery_fields());
+  return with_members_of<C>(std::move(fields), &C::errors,
+                            in_group(Group::closing, drift_fields()));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
   state_.contradicts_map = false;
   const bool is_contradicting = is_contradicted(judged);
   if (!is_contradicting && !judged.match.is_lost) return Verdict::kFits;
-  if (!config_.recovers) return Verdict::kDoesNotFit;
+  if (!config_.recovery.recovers) return Verdict::kDoesNotFit;
   if (!state_.lost_since_ns) {
     state_.lost_since_ns = judged.step.stamp_ns;
     state_.unmatched_scans = 0;
@@ -48,8 +48,9 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
 /// moved trusts its wheels.
 bool LocalizationMonitor::trusts_prediction(const Step& step) const {
   if (!step.has_wheels()) return false;
-  return (!state_.everything_changed && !config_.may_be_picked_up) ||
-         lost_s(step.stamp_ns) < config_.lost_after_s || state_.unmatched_scans < kPatientScans;
+  return (!state_.everything_changed && !config_.odometry.may_be_picked_up) ||
+         lost_s(step.stamp_ns) < config_.recovery.lost_after_s ||
+         state_.unmatched_scans < kPatientScans;
 }
 
 bool LocalizationMonitor::confirm() {
@@ -118,7 +119,7 @@ bool LocalizationMonitor::contradicts_too_much(const MatchToJudge& judged, doubl
 
 bool LocalizationMonitor::has_gone_astray(std::int64_t stamp_ns) const {
   return state_.lost_since_ns && state_.lost_scans > 0 && state_.unmatched_scans > kAstrayScans &&
-         lost_s(stamp_ns) > config_.lost_after_s + kAstrayAfterS;
+         lost_s(stamp_ns) > config_.recovery.lost_after_s + kAstrayAfterS;
 }
 
 void LocalizationMonitor::begin_map() {

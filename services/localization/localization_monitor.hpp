@@ -78,7 +78,7 @@ class LocalizationMonitor {
   bool contradicts_too_much(const MatchToJudge& judged, double explained) const;
   bool trusts_prediction(const Step& step) const;
   bool may_be_elsewhere(const Step& step) const {
-    return !step.has_wheels() || config_.may_be_picked_up;
+    return !step.has_wheels() || config_.odometry.may_be_picked_up;
   }
   double lost_s(std::int64_t stamp_ns) const {
     return static_cast<double>(stamp_ns - *state_.lost_since_ns) * 1e-9;

@@ -110,7 +110,7 @@ void LocalizationService::take(const slammot_LaserScan& sample) {
 }
 
 void LocalizationService::take(const slammot_Odometry& sample) {
-  if (!config_.use_odometry) return;  // nor is it waited for
+  if (!config_.odometry.use_odometry) return;  // nor is it waited for
   const auto odometry = wire::decode(sample);
   if (!is_good(odometry, "odometry")) return;
   waiting_.note_odometry();

@@ -41,7 +41,7 @@ void count(const IntegrationCounts& integrated, LocalizerCounters& counters) {
 
 Localizer::Localizer(const LocalizerConfig& config, work::SideWork* help)
     : config_(config),
-      order_(config.far_ahead_s),
+      order_(config.odometry.far_ahead_s),
       prediction_(config),
       sweep_(config),
       expected_(config),
@@ -255,7 +255,7 @@ void Localizer::return_to(const Progress& progress) {
 
 bool Localizer::can_be_placed_again(const sensing::LaserScan& scan,
                                     const std::vector<flow::PointLabel>& labels) const {
-  if (!before_scan_ || !config_.leave_out_moving ||
+  if (!before_scan_ || !config_.echoes.leave_out_moving ||
       before_scan_->integrated_scans != integration_.integrated_scans())
     return false;
   return integration_.awaits_last(scan) && labels.size() == scan.range_m.size();

@@ -18,7 +18,7 @@ constexpr sensing::PoseErrors kOfModelCars{
     .heading = {.of_scan = 0.019, .of_surprises = 3.0, .of_map = 0.0, .view_m = 0.001}};
 
 void set_robot(LocalizerConfig& config) {
-  config.longest_step_s = 30.0;             // subsampled logs have a scan only every metre
+  config.odometry.longest_step_s = 30.0;    // subsampled logs have a scan only every metre
   config.map.lasting.echo_log_odds = 0.65;  // and see a wall once: one echo suffices
   config.motion.position_noise_m = 0.004;
   config.motion.position_noise_per_m = 0.08;
@@ -38,7 +38,7 @@ void set_robot(LocalizerConfig& config) {
 
 void set_car(LocalizerConfig& config) {
   const LocalizerConfig defaults;
-  config.longest_step_s = defaults.longest_step_s;
+  config.odometry.longest_step_s = defaults.odometry.longest_step_s;
   config.map.lasting.echo_log_odds = defaults.map.lasting.echo_log_odds;
   config.motion.position_noise_m = defaults.motion.position_noise_m;
   config.motion.position_noise_per_m = defaults.motion.position_noise_per_m;
@@ -67,15 +67,15 @@ void set_vehicle(LocalizerConfig& config, Vehicle vehicle) {
 void set_pose_error_model(LocalizerConfig& config, PoseErrorModel model) {
   const LocalizerConfig defaults;
   config.pose_error_model = model;
-  config.pose_errors = defaults.pose_errors;
-  config.variance_by_scans_alone = defaults.variance_by_scans_alone;
+  config.errors.pose_errors = defaults.errors.pose_errors;
+  config.errors.variance_by_scans_alone = defaults.errors.variance_by_scans_alone;
   switch (model) {
     case PoseErrorModel::road: break;
     case PoseErrorModel::building:
-      config.pose_errors = kInBuildings;
-      config.variance_by_scans_alone = kVarianceByScansAloneInBuildings;
+      config.errors.pose_errors = kInBuildings;
+      config.errors.variance_by_scans_alone = kVarianceByScansAloneInBuildings;
       break;
-    case PoseErrorModel::model_cars: config.pose_errors = kOfModelCars; break;
+    case PoseErrorModel::model_cars: config.errors.pose_errors = kOfModelCars; break;
   }
 }
 

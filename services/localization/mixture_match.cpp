@@ -259,9 +259,9 @@ ExplainedStep MixtureMatch::concluded(const StepToExplain& scan, const Best& bes
                                       const sensing::ExplanationWeights& weights,
                                       ScanMatcher& matcher) const {
   const bool contradicts_wheels = scan.steps.front().is_by_wheels() && best.step != kWheels;
-  const double least_share = contradicts_wheels ? std::max(config_.least_matched_share,
+  const double least_share = contradicts_wheels ? std::max(config_.trust.least_matched_share,
                                                            kLeastOfUsualShare * scan.usual_share)
-                                                : config_.least_matched_share;
+                                                : config_.trust.least_matched_share;
   const auto register_under = [&](const Step& step, const geometry::Pose2& start) {
     scan.take_points(step);
     return matcher.register_from(start, step.prior(),

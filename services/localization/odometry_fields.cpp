@@ -12,6 +12,28 @@ using config::Group;
 using config::in_group;
 using config::kPositive;
 
+FieldTable<OdometryConfig> trust_fields() {
+  using C = OdometryConfig;
+  return {
+      {"use_odometry", &C::use_odometry,
+       "Off for wheels that are worse than none: constant velocity predicts."},
+      {"fastest_mps",
+       &C::fastest_mps,
+       "A faster step by odometry is a jump.",
+       kPositive,
+       {"Fast driving is taken for a jump.", "Jumps are believed."}},
+      {"may_be_picked_up", &C::may_be_picked_up,
+       "The vehicle may be set down elsewhere without a sign of its wheels."},
+  };
+}
+
+FieldTable<OdometryConfig> clock_fields() {
+  return {{"time_is_known", &OdometryConfig::time_is_known,
+           "Off where stamps are made up, so that no speed has a meaning."}};
+}
+
+}  // namespace
+
 config::Field<LocalizerConfig> vehicle_field() {
   return {"vehicle",
           [](LocalizerConfig& config) -> config::Value {
@@ -24,22 +46,10 @@ config::Field<LocalizerConfig> vehicle_field() {
           {}};
 }
 
-}  // namespace
-
-FieldTable<LocalizerConfig> odometry_fields() {
-  using C = LocalizerConfig;
-  return {
-      vehicle_field(),
-      {"use_odometry", &C::use_odometry,
-       "Off for wheels that are worse than none: constant velocity predicts."},
-      {"fastest_mps",
-       &C::fastest_mps,
-       "A faster step by odometry is a jump.",
-       kPositive,
-       {"Fast driving is taken for a jump.", "Jumps are believed."}},
-      {"may_be_picked_up", &C::may_be_picked_up,
-       "The vehicle may be set down elsewhere without a sign of its wheels."},
-  };
+FieldTable<OdometryConfig> odometry_fields() {
+  using C = OdometryConfig;
+  return config::joined<C>(
+      {in_group<C>(Group::odometry, trust_fields()), in_group<C>(Group::log, clock_fields())});
 }
 
 FieldTable<sensing::MotionModelConfig> motion_fields() {

@@ -5,8 +5,10 @@
 
 namespace slammot::localization {
 
-/// Settings of odometry that are members of LocalizerConfig itself.
-config::FieldTable<LocalizerConfig> odometry_fields();
+/// Kind of the vehicle; sets what depends on it.
+config::Field<LocalizerConfig> vehicle_field();
+
+config::FieldTable<OdometryConfig> odometry_fields();
 
 config::FieldTable<sensing::MotionModelConfig> motion_fields();
 

@@ -59,7 +59,7 @@ LocalizerConfig with_learned_scale(LocalizerConfig config) {
 OdometryPrediction::OdometryPrediction(const LocalizerConfig& config)
     : config_(with_learned_scale(config)),
       motion_of_one_clock_(config_.motion),
-      stamps_(config.far_ahead_s) {
+      stamps_(config.odometry.far_ahead_s) {
   motion_of_one_clock_.stamp_offset_prior_s = 0.0;
   state_.estimate = sensing::at_start(motion_of_one_clock_);
   state_.with_stamp_offset = sensing::at_start(config_.motion);
@@ -68,7 +68,7 @@ OdometryPrediction::OdometryPrediction(const LocalizerConfig& config)
 }
 
 void OdometryPrediction::add(const sensing::Odometry& sample) {
-  if (config_.use_odometry && stamps_.believes(sample.stamp_ns)) odometry_.add(sample);
+  if (config_.odometry.use_odometry && stamps_.believes(sample.stamp_ns)) odometry_.add(sample);
 }
 
 void OdometryPrediction::begin(std::int64_t stamp_ns) {
@@ -80,8 +80,8 @@ void OdometryPrediction::begin(std::int64_t stamp_ns) {
 
 /// Where time is not known, by the way of a usual step.
 bool OdometryPrediction::is_impossible(const Pose2& by_wheels, double duration_s) const {
-  const double farthest_m = config_.time_is_known
-                                ? config_.fastest_mps * duration_s
+  const double farthest_m = config_.odometry.time_is_known
+                                ? config_.odometry.fastest_mps * duration_s
                                 : kFarStep_m + kFarStepShare * state_.belief.usual_drive_m;
   return std::hypot(by_wheels.x_m, by_wheels.y_m) > farthest_m;
 }
@@ -214,7 +214,7 @@ void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before
     step.usual_duration_s = usual_duration_so_far_s(step, state_.belief, config_.belief);
   if (has_velocity(step, config_)) {
     step.after = sensing::moved_at_velocity(
-        before, std::min(step.duration_s, config_.longest_step_s), config_.motion);
+        before, std::min(step.duration_s, config_.odometry.longest_step_s), config_.motion);
     return;
   }
   step.source = StepSource::kReach;
@@ -235,7 +235,7 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   Step step;
   step.stamp_ns = stamp_ns;
   step.duration_s = static_cast<double>(stamp_ns - state_.last->stamp_ns) * kNanosecond_s;
-  step.is_gap = step.duration_s > config_.longest_step_s;
+  step.is_gap = step.duration_s > config_.odometry.longest_step_s;
   step.wheel_from_base = wheel_from_base_at(stamp_ns);
   step.odom_from_base_before = state_.estimate.uncertain_pose();
   step.last_was_sampled = state_.last->was_sampled;
@@ -248,13 +248,13 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   const bool was_disbelieved =
       state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;
   step.wheels_changed =
-      config_.time_is_known && by_wheels &&
+      config_.odometry.time_is_known && by_wheels &&
       sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s);
   step.wheels_in_doubt =
-      step.wheels_changed || (config_.time_is_known && by_wheels && was_disbelieved);
+      step.wheels_changed || (config_.odometry.time_is_known && by_wheels && was_disbelieved);
   const bool cannot_be = by_wheels && is_impossible(*by_wheels, step.duration_s);
-  const bool is_jump =
-      config_.time_is_known && by_wheels && !cannot_be && is_doubtful(*by_wheels, step.duration_s);
+  const bool is_jump = config_.odometry.time_is_known && by_wheels && !cannot_be &&
+                       is_doubtful(*by_wheels, step.duration_s);
   step.has_doubted_wheels = cannot_be || is_jump;
   if (state_.belief.is_disbelieved && by_wheels) go_on_without_wheels(step);
   else if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);

@@ -24,9 +24,9 @@ constexpr double kSurfelsPerSmear = 0.5;
 
 bool is_vague(const UncertainPose2& prior, const LocalizerConfig& config) {
   const double position_m2 = std::max(prior.covariance(0, 0), prior.covariance(1, 1));
-  return position_m2 > config.search_when_sigma_m * config.search_when_sigma_m ||
+  return position_m2 > config.search.when_sigma_m * config.search.when_sigma_m ||
          prior.covariance(2, 2) >
-             config.search_when_heading_sigma_rad * config.search_when_heading_sigma_rad;
+             config.search.when_heading_sigma_rad * config.search.when_heading_sigma_rad;
 }
 
 PoseSearch::PoseSearch(const LocalizerConfig& config, std::size_t max_peaks)
@@ -34,20 +34,20 @@ PoseSearch::PoseSearch(const LocalizerConfig& config, std::size_t max_peaks)
 
 matching::SearchWindow search_window(const UncertainPose2& prior, const LocalizerConfig& config) {
   const auto reach = [&](int axis) {
-    return config.search_sigmas * std::sqrt(prior.covariance(axis, axis));
+    return config.search.sigmas * std::sqrt(prior.covariance(axis, axis));
   };
-  const double farthest_m = config.search_reach_m;  // beyond it there is no target, however unsure
+  const double farthest_m = config.search.reach_m;  // beyond it there is no target, however unsure
                                                     // the prediction is
   return {std::min(reach(0), farthest_m), std::min(reach(1), farthest_m),
           std::min(reach(2), std::numbers::pi)};
 }
 
 double PoseSearch::cell_m_for(const matching::SearchWindow& window) const {
-  const double finest_m =
-      std::max(config_.search.resolution_m, kSurfelsPerCell * config_.map.surfel_size_m);
+  const double finest_m = std::max(config_.search.correlative.resolution_m,
+                                   kSurfelsPerCell * config_.map.surfel_size_m);
   const double volume_m3 = 8.0 * std::max(window.half_x_m, finest_m) *
                            std::max(window.half_y_m, finest_m) *
-                           std::max(window.half_heading_rad * config_.search_reach_m, finest_m);
+                           std::max(window.half_heading_rad * config_.search.reach_m, finest_m);
   return std::max(finest_m, std::cbrt(volume_m3 / kMostPoses));
 }
 
@@ -56,7 +56,7 @@ std::vector<Eigen::Vector2f> PoseSearch::thinned(
   std::vector<Eigen::Vector2f> thinned;
   const std::size_t step = points.size() / kMostPoints + 1;
   for (std::size_t i = 0; i < points.size(); i += step) {
-    if (points[i].in_base_m.norm() < config_.search_reach_m)
+    if (points[i].in_base_m.norm() < config_.search.reach_m)
       thinned.push_back(points[i].in_base_m.cast<float>());
   }
   return thinned;
@@ -66,7 +66,7 @@ std::vector<matching::TargetPoint> PoseSearch::targets_about(
     const Vector2& centre_m, const grids::SurfelMap& surfels) const {
   std::vector<matching::TargetPoint> targets;
   for (const grids::SurfelView& surfel : surfels.all()) {
-    if ((surfel.mean_m - centre_m).lpNorm<Eigen::Infinity>() > config_.search_reach_m) continue;
+    if ((surfel.mean_m - centre_m).lpNorm<Eigen::Infinity>() > config_.search.reach_m) continue;
     targets.push_back(
         {static_cast<float>(surfel.mean_m.x()), static_cast<float>(surfel.mean_m.y()), 1.0F});
   }
@@ -81,15 +81,16 @@ std::vector<geometry::Pose2> PoseSearch::poses_around(
   const std::vector<matching::TargetPoint> targets =
       targets_about(prior.pose.translation_m(), surfels);
   if (targets.empty()) return {};
-  const double smear_m = std::max(
-      {config_.search.smear_sigma_m, kSurfelsPerSmear * config_.map.surfel_size_m, cell_m});
+  const double smear_m = std::max({config_.search.correlative.smear_sigma_m,
+                                   kSurfelsPerSmear * config_.map.surfel_size_m, cell_m});
   const int level = matching::WideSearch::useful_level(window, cell_m);
-  matching::WideSearch search(thinned(points), cell_m,
-                              {.min_score = config_.search.min_score,
-                               .max_peaks = max_peaks_,
-                               .min_peak_ratio = kLeastPeakRatio,
-                               .peak_separation_m = config_.search.peak_separation_m,
-                               .peak_separation_rad = config_.search.peak_separation_rad});
+  matching::WideSearch search(
+      thinned(points), cell_m,
+      {.min_score = config_.search.correlative.min_score,
+       .max_peaks = max_peaks_,
+       .min_peak_ratio = kLeastPeakRatio,
+       .peak_separation_m = config_.search.correlative.peak_separation_m,
+       .peak_separation_rad = config_.search.correlative.peak_separation_rad});
   search.add_target({std::make_shared<matching::ScorePyramid>(targets, cell_m, smear_m, level),
                      prior.pose, window, geometry::Pose2::identity()});
   search.advance(kMostWork);

@@ -19,7 +19,8 @@ void PublishedCovariance::observe(const Step& step, const ScanMatch& match) {
     const double apart_s = step.duration_s > 0.0 ? step.duration_s : step.usual_duration_s;
     const double share = 1.0 - std::exp(-apart_s / kVarianceMemory_s);
     state_.factors = sensing::learned(state_.factors, step.prior(), match.odom_from_base, share);
-    state_.map_change.squared_residuals = std::pow(match.rms_residual_m / config_.range_noise_m, 2);
+    state_.map_change.squared_residuals =
+        std::pow(match.rms_residual_m / config_.echoes.range_noise_m, 2);
   }
   state_.factors = sensing::carried(state_.factors, step.odom_from_base_before, step.prior(),
                                     match.odom_from_base);
@@ -35,7 +36,7 @@ void PublishedCovariance::observe(const Step& step, const ScanMatch& match) {
 geometry::UncertainPose2 PublishedCovariance::published(
     const sensing::MotionEstimate& estimate) const {
   const sensing::VarianceFactors factors =
-      sensing::published(state_.factors, config_.pose_errors, state_.map_change);
+      sensing::published(state_.factors, config_.errors.pose_errors, state_.map_change);
   geometry::UncertainPose2 pose{estimate.odom_from_base,
                                 sensing::scaled(estimate.uncertain_pose(), factors)};
   pose.covariance /= local_variance_share();
@@ -43,7 +44,7 @@ geometry::UncertainPose2 PublishedCovariance::published(
 }
 
 double PublishedCovariance::local_variance_share() const {
-  return 1.0 / (1.0 + (config_.variance_by_scans_alone - 1.0) * state_.by_scans_alone);
+  return 1.0 / (1.0 + (config_.errors.variance_by_scans_alone - 1.0) * state_.by_scans_alone);
 }
 
 }  // namespace slammot::localization

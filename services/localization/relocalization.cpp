@@ -41,7 +41,7 @@ Relocalization::Relocalization(const LocalizerConfig& config)
 /// answers together tell.
 UncertainPose2 Relocalization::anywhere_about(const UncertainPose2& prior, int lost_scans) const {
   const double sigma_m =
-      std::min(kWindowPerScan_m * lost_scans, config_.search_reach_m) / config_.search_sigmas;
+      std::min(kWindowPerScan_m * lost_scans, config_.search.reach_m) / config_.search.sigmas;
   UncertainPose2 anywhere = prior;
   anywhere.covariance.diagonal() += Eigen::Vector3d(sigma_m, sigma_m, std::numbers::pi).cwiseAbs2();
   return anywhere;

@@ -82,7 +82,7 @@ void ScanDescription::look_up_ends(const ScanToDescribe& described,
         for (std::size_t i = first; i < end; ++i) {
           flow::LocalizedBeam& beam = localized.beams[i] = {};
           const bool has_echo = sensing::is_echo(scan.range_m[i], scan.scanner.max_range_m) &&
-                                scan.range_m[i] >= config_.min_range_m;
+                                scan.range_m[i] >= config_.echoes.min_range_m;
           beam.point_in_base_m = described.points.all_in_base_m()[i].cast<float>();
           beam.range_m = has_echo ? scan.range_m[i] : 0.0F;
           if (has_echo) described.map.look_up_end(end_of(i), beam);
@@ -114,7 +114,7 @@ void ScanDescription::list_asked_beams(const flow::LocalizedScan& localized) {
   asked_beams_.clear();
   const std::size_t count = localized.beams.size();
   for (std::size_t i = 0, next = 0; i < count; ++i) {
-    if (!config_.expects_all_ranges && localized.beams[i].end_cell != flow::EndCell::kFree)
+    if (!config_.echoes.expects_all_ranges && localized.beams[i].end_cell != flow::EndCell::kFree)
       continue;
     const std::size_t end = std::min(i + flow::kExpectedAside + 1, count);
     for (next = std::max(next, i < flow::kExpectedAside ? 0 : i - flow::kExpectedAside); next < end;

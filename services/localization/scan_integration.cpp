@@ -33,8 +33,8 @@ grids::Ray ScanIntegration::ray_of(const ScanToMap& to_map, std::size_t beam,
   if (to_map.localized.beams[beam].end_cell != EndCell::kNoEcho) {
     const Vector2 end_m =
         to_map.localized.odom_from_base.pose.translation_m() + turn * to_map.points_in_base_m[beam];
-    const bool is_far =
-        (end_m - origin_in_odom_m).squaredNorm() > config_.map_range_m * config_.map_range_m;
+    const bool is_far = (end_m - origin_in_odom_m).squaredNorm() >
+                        config_.echoes.map_range_m * config_.echoes.map_range_m;
     return {end_m, is_far ? grids::Echo::kTooFar : grids::Echo::kStationary};
   }
   // Nearer echoes than the least range tell nothing, not even that there is free space.
@@ -101,7 +101,7 @@ void ScanIntegration::integrate_first(const std::vector<PointLabel>* labels, Pos
     return;
   }
   for (std::size_t i = 0; i < scan.rays.size(); ++i) {
-    if (scan.rays[i].echo != grids::Echo::kStationary || !config_.leave_out_moving) continue;
+    if (scan.rays[i].echo != grids::Echo::kStationary || !config_.echoes.leave_out_moving) continue;
     scan.rays[i].echo = labels ? echo_of((*labels)[i]) : unexplained_out(scan.end_cells[i]);
   }
   if (scan.admission == MapAdmission::kDoubted && trust == PoseTrust::kDoubted)

@@ -30,12 +30,12 @@ ScanMatcher::ScanMatcher(const LocalizerConfig& config, work::SideWork* help)
     : config_(config),
       without_wheels_(config.match),
       by_scans_alone_(config.match),
-      search_(config.search),
+      search_(config.search.correlative),
       matcher_(help) {
   without_wheels_.unproven_share = 1.0;
   without_wheels_.information_share = 1.0;
   by_scans_alone_.information_share = 1.0;
-  by_scans_alone_.body_sigma_m = config.body_sigma_without_wheels_m;
+  by_scans_alone_.body_sigma_m = config.trust.body_sigma_without_wheels_m;
   by_scans_alone_.coarse_prior_sigmas = kCoarsePriorSigmas;
 }
 
@@ -67,8 +67,8 @@ Pose2 ScanMatcher::found_around(const UncertainPose2& prior, const ScanToMatch& 
   for (const grids::SurfelView& surfel : scan.surfels.all())
     targets.push_back(
         {static_cast<float>(surfel.mean_m.x()), static_cast<float>(surfel.mean_m.y()), 1.0F});
-  search_.set_target(targets, {prior.pose.translation_m(), config_.search_reach_m,
-                               config_.search_reach_m, std::max(window.half_x_m, window.half_y_m)});
+  search_.set_target(targets, {prior.pose.translation_m(), config_.search.reach_m,
+                               config_.search.reach_m, std::max(window.half_x_m, window.half_y_m)});
   std::vector<Eigen::Vector2f> sources;
   for (const matching::MatchPoint& point : scan.points)
     sources.push_back(point.in_base_m.cast<float>());
@@ -95,21 +95,21 @@ ScanMatch ScanMatcher::match(const ScanToMatch& scan) {
     result = *scan.registered;
   } else if (!searches) {
     result = register_from(prior.pose, prior, scan);
-    searches = is_unsure && !says_little(result.scan_information, config_.ambiguous);
+    searches = is_unsure && !says_little(result.scan_information, config_.trust.ambiguous);
   }
   if (searches) result = match_from_search(scan);
-  if (result.matched_share < config_.least_matched_share)
+  if (result.matched_share < config_.trust.least_matched_share)
     return {.odom_from_base = prior, .is_lost = true, .was_searched = searches};
   ScanMatch found{.odom_from_base = result.map_from_base,
                   .is_believed = true,
                   .was_searched = searches,
                   .rms_residual_m = result.rms_residual_m,
                   .matched_share = result.matched_share};
-  found.was_sampled = says_little(result.scan_information, config_.ambiguous);
+  found.was_sampled = says_little(result.scan_information, config_.trust.ambiguous);
   if (found.was_sampled) {
     found.odom_from_base =
-        ambiguous_matcher_.match({scan.points, scan.surfels, prior, result}, config_.ambiguous,
-                                 config_for(scan.step), scan.sequence);
+        ambiguous_matcher_.match({scan.points, scan.surfels, prior, result},
+                                 config_.trust.ambiguous, config_for(scan.step), scan.sequence);
   } else {
     found.new_share = result.new_share;
   }

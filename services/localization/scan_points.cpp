@@ -27,8 +27,9 @@ void ScanPoints::deskew(const sensing::LaserScan& scan, double speed_mps, double
 
 bool ScanPoints::is_candidate(const sensing::LaserScan& scan, std::size_t beam) const {
   const float range_m = scan.range_m[beam];
-  return sensing::is_echo(range_m, std::min(config_.match_range_m, scan.scanner.max_range_m)) &&
-         range_m >= config_.min_range_m;
+  return sensing::is_echo(range_m,
+                          std::min(config_.echoes.match_range_m, scan.scanner.max_range_m)) &&
+         range_m >= config_.echoes.min_range_m;
 }
 
 void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base,
@@ -48,7 +49,7 @@ void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& o
     if (std::ranges::binary_search(left_out_beams_, beam)) continue;
     matched_.push_back(
         {points_in_base_m_[beam],
-         config_.range_noise_m + kRangeNoisePerM * static_cast<double>(scan.range_m[beam])});
+         config_.echoes.range_noise_m + kRangeNoisePerM * static_cast<double>(scan.range_m[beam])});
     matched_beams_.push_back(beam);
   }
 }

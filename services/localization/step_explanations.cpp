@@ -23,7 +23,7 @@ constexpr double kLongestVelocity_s = 0.6;  // a robot starts, stops and turns w
 }  // namespace
 
 bool has_velocity(const Step& step, const LocalizerConfig& config) {
-  return config.time_is_known && step.usual_duration_s < kLongestVelocity_s;
+  return config.odometry.time_is_known && step.usual_duration_s < kLongestVelocity_s;
 }
 
 double usual_duration_so_far_s(const Step& step, const sensing::OdometryBelief& belief,
@@ -96,8 +96,8 @@ Step StepExplanations::at_constant_velocity(Step step) const {
     before.covariance.bottomRows<2>().setZero();
     before.covariance.bottomRightCorner<2, 2>().diagonal() = belief_.matched_velocity_variance;
   }
-  step.after = sensing::moved_at_velocity(before, std::min(step.duration_s, config_.longest_step_s),
-                                          config_.motion);
+  step.after = sensing::moved_at_velocity(
+      before, std::min(step.duration_s, config_.odometry.longest_step_s), config_.motion);
   step.source = StepSource::kVelocityAlone;
   return step;
 }

@@ -17,7 +17,7 @@ constexpr std::int32_t kShortSubmaps = 4;  // loop closing needs two or three th
 }  // namespace
 
 UncertainPose2 SubmapSequence::anywhere_about(const Pose2& pose) const {
-  const double sigma_m2 = config_.astray_sigma_m * config_.astray_sigma_m;
+  const double sigma_m2 = config_.recovery.astray_sigma_m * config_.recovery.astray_sigma_m;
   return {pose,
           Eigen::Vector3d(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi).asDiagonal()};
 }
@@ -36,8 +36,10 @@ void SubmapSequence::begin() {
 void SubmapSequence::travel(const Pose2& before_from_base) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
   state_.travel.travelled_m += moved_m;
-  const double position_m2 = config_.drift_m_per_sqrt_m * config_.drift_m_per_sqrt_m * moved_m;
-  const double heading_rad2 = config_.drift_rad_per_sqrt_m * config_.drift_rad_per_sqrt_m * moved_m;
+  const double position_m2 =
+      config_.errors.drift_m_per_sqrt_m * config_.errors.drift_m_per_sqrt_m * moved_m;
+  const double heading_rad2 =
+      config_.errors.drift_rad_per_sqrt_m * config_.errors.drift_rad_per_sqrt_m * moved_m;
   state_.travel.drift.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
 }
 

@@ -5,7 +5,7 @@
 namespace slammot::localization {
 
 SweepCorrection::SweepCorrection(const LocalizerConfig& config)
-    : variance_at_start_(config.sweep_factor_sigma * config.sweep_factor_sigma),
+    : variance_at_start_(config.echoes.sweep_factor_sigma * config.echoes.sweep_factor_sigma),
       match_(config.match) {
   factor_.variance = variance_at_start_;
 }

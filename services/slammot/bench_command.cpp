@@ -59,7 +59,7 @@ int fail(const std::string& line) {
 /// changed some of them.
 files::Result<std::filesystem::path> settings_file(const Job& job, const BenchOptions& options,
                                                    const std::filesystem::path& folder) {
-  const bool is_changed = !job.profile.localization.time_is_known ||
+  const bool is_changed = !job.profile.localization.odometry.time_is_known ||
                           job.log.plan().evidence.correction.reverses_beams ||
                           job.profile.localization.belief.way_at_start != 1.0;
   if (!is_changed) return options.config;

@@ -169,12 +169,12 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   if (auto fault = load_settings(drive->profile.profile, options.config, profile))
     return Error{std::move(*fault)};
   if (auto fault = find_fault_of_implementations(options, profile.implementations)) return *fault;
-  profile.localization.time_is_known =
-      profile.localization.time_is_known && drive->plan.figures.has_clock;
+  profile.localization.odometry.time_is_known =
+      profile.localization.odometry.time_is_known && drive->plan.figures.has_clock;
   // The sweep of a reversed scanner may run either way: the scale of the sweep is estimated.
   if (drive->plan.evidence.correction.reverses_beams)
-    profile.localization.sweep_factor_sigma =
-        std::max(profile.localization.sweep_factor_sigma, 1.0);
+    profile.localization.echoes.sweep_factor_sigma =
+        std::max(profile.localization.echoes.sweep_factor_sigma, 1.0);
   set_initial_odometry_scale(files::way_factor_of(drive->plan), profile.localization);
   profile.localization.belief.enabled = files::scans_show_motion(drive->plan);
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);

@@ -31,8 +31,8 @@ OutlineError with_outline(const OutlineError& before, double off_sides_m, std::s
                           double range_m, const TrackingConfig& config) {
   constexpr std::size_t kFewest = 6;  // the box passes through each of fewer echoes
   constexpr double kMostShare = 2.0;  // echoes farther off are not on a side
-  const double share = std::max(0.0, off_sides_m - config.sensor.range_noise_per_m * range_m) /
-                       config.sensor.range_noise_m;
+  const double share =
+      std::max(0.0, off_sides_m - kRangeNoisePerM * range_m) / config.sensor.range_noise_m;
   if (echoes < kFewest || share > kMostShare) return before;
   const double weight = static_cast<double>(echoes);
   return {before.shares + weight * share, before.echoes + weight, before.scans + 1};

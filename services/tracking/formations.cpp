@@ -35,9 +35,8 @@ Track& track_of(TrackId id, std::vector<Track>& tracks) {
                        [id](const Track& track) { return track.track_id == id; });
 }
 
-filters::FormationMotion queue_motion(const TrackingConfig& config) {
-  return {{filters::MotionKind::kConstantAcceleration, config.motion.jerk_noise_density, 0.0},
-          kSharedShare};
+filters::FormationMotion queue_motion() {
+  return {{filters::MotionKind::kConstantAcceleration, kJerkNoiseDensity, 0.0}, kSharedShare};
 }
 
 }  // namespace
@@ -97,7 +96,7 @@ Formations::Formation Formations::initiated(const std::vector<TrackId>& members,
 }
 
 void Formations::step(Formation& formation, std::vector<Track>& tracks, double time_s) const {
-  formation.state = filters::predict(queue_motion(config_), formation.state, time_s);
+  formation.state = filters::predict(queue_motion(), formation.state, time_s);
   std::vector<filters::MemberFix> fixes;
   for (std::size_t i = 0; i < formation.members.size(); ++i) {
     const Track& track = track_of(formation.members[i], tracks);

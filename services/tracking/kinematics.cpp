@@ -19,9 +19,8 @@ filters::ModelSet motion_models(const TrackingConfig& config) {
   filters::ModelSet set;
   set.models[0] = {filters::MotionKind::kConstantVelocity, config.motion.velocity_noise_density,
                    kIdleAccelerationMps2};
-  set.models[1] = {filters::MotionKind::kConstantAcceleration, config.motion.jerk_noise_density,
-                   0.0};
-  set.size = config.motion.constant_acceleration ? 2 : 1;
+  set.models[1] = {filters::MotionKind::kConstantAcceleration, kJerkNoiseDensity, 0.0};
+  set.size = 2;
   set.mean_stay_s = kMeanStayS;
   set.mixture = config.motion.mixture;
   return set;

@@ -4,18 +4,19 @@
 
 namespace slammot::tracking {
 
+inline constexpr double kRangeNoisePerM = 0.001;  ///< Increase of the sigma of a range with range.
+inline constexpr double kJerkNoiseDensity = 3.0;  ///< Of constant acceleration: white jerk
+                                                  ///< [m^2/s^5].
+
 /// Errors of echoes.
 struct SensorNoise {
-  double range_noise_m = 0.03;       ///< One sigma of a range at the scanner.
-  double range_noise_per_m = 0.001;  ///< Increase of that sigma with range [m/m].
-  double shape_noise_m = 0.03;       ///< One sigma of the distance of an edge from its box.
+  double range_noise_m = 0.03;  ///< One sigma of a range at the scanner.
+  double shape_noise_m = 0.03;  ///< One sigma of the distance of an edge from its box.
 };
 
 struct MotionConfig {
   double velocity_noise_density = 0.1;  ///< Of constant velocity: white acceleration [m^2/s^3].
-  double jerk_noise_density = 3.0;      ///< Of constant acceleration: white jerk [m^2/s^5].
   filters::Mixture mixture = filters::Mixture::kImm;  ///< How the modes are merged.
-  bool constant_acceleration = true;                  ///< Second mode beside constant velocity.
   bool move_stop = true;                              ///< Stop hypothesis beside the modes.
   bool coordinated_turn = false;                      ///< Third mode of vehicles that surely move.
   bool formations = false;         ///< Tracks a queue of vehicles as one augmented state.
@@ -63,7 +64,7 @@ struct TrackingConfig {
 
 /// One sigma of a range at this distance.
 inline double echo_sigma_m(double range_m, const TrackingConfig& config) {
-  return config.sensor.range_noise_m + config.sensor.range_noise_per_m * range_m;
+  return config.sensor.range_noise_m + kRangeNoisePerM * range_m;
 }
 
 /// Speed above which a stopped object moves again; the gap to stopped_below_mps is a hysteresis.

@@ -103,9 +103,10 @@ void deskew_and_match_in_a_city(benchmark::State& state) {
     points.clear();
     for (std::size_t beam = 0; beam < now.scan.range_m.size(); ++beam) {
       const float range_m = now.scan.range_m[beam];
-      if (sensing::is_echo(range_m, std::min(config.match_range_m, now.scan.scanner.max_range_m)))
-        points.push_back(
-            {points_in_base_m[beam], config.range_noise_m + 0.001 * static_cast<double>(range_m)});
+      if (sensing::is_echo(range_m,
+                           std::min(config.echoes.match_range_m, now.scan.scanner.max_range_m)))
+        points.push_back({points_in_base_m[beam],
+                          config.echoes.range_noise_m + 0.001 * static_cast<double>(range_m)});
     }
     benchmark::DoNotOptimize(
         matcher.match(points, localizer.local_map().surfels(), prior, prior.pose, config.match));

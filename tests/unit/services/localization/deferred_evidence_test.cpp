@@ -99,7 +99,7 @@ TEST(DeferredEvidence, ChangesNothingThatLeavesTheLocalizer) {
       .world_from_base_at = slammot::testing::arc({2.0, -1.0, 0.02}, 8.0, 0.0)};
   street.scan_period_s = 0.05;
   LocalizerConfig config = slammot::testing::small_map_config();
-  config.expects_all_ranges = true;
+  config.echoes.expects_all_ranges = true;
   config.map.side_m = 60.0;
   config.map.new_map_after_m = 15.0;
   slammot::testing::SimulatedDrive drive(street);

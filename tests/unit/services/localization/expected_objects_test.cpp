@@ -47,7 +47,7 @@ TEST(ExpectedObjects, AreNotMaskedWhileTentativeOrTooOldOrMapped) {
   EXPECT_TRUE(expecting(tentative).masks_at(4 * kSecond_ns).empty());
   EXPECT_TRUE(expecting(a_car()).masks_at(6 * kSecond_ns).empty());
   LocalizerConfig everything_stands;
-  everything_stands.leave_out_moving = false;
+  everything_stands.echoes.leave_out_moving = false;
   EXPECT_TRUE(expecting(a_car(), everything_stands).masks_at(4 * kSecond_ns).empty());
 }
 

@@ -86,7 +86,7 @@ TEST_F(LocalizationMonitorTest, ConfirmsOnlyAfterSeveralScansInARow) {
 
 TEST_F(LocalizationMonitorTest, GivesTheMapUpAfterASearchInVain) {
   const LocalizerConfig config;
-  const double given_up_s = config.lost_after_s + LocalizationMonitor::kAstrayAfterS;
+  const double given_up_s = config.recovery.lost_after_s + LocalizationMonitor::kAstrayAfterS;
   for (int scan = 0; scan < 20; ++scan) see(lost_match(), StepSource::kVelocityAlone);
   const std::int64_t lost_since_ns = *monitor_.state().lost_since_ns;
   EXPECT_FALSE(
@@ -117,14 +117,14 @@ class LocalizationMonitorOfARobot : public LocalizationMonitorTest {
  protected:
   static LocalizerConfig config() {
     LocalizerConfig config = MappedWorld::config_of_small_map();
-    config.may_be_picked_up = true;
+    config.odometry.may_be_picked_up = true;
     return config;
   }
   LocalizationMonitorOfARobot() : LocalizationMonitorTest(config()) {}
 };
 
 TEST_F(LocalizationMonitorOfARobot, TrustsOdometryForAWhileAndIsLostThen) {
-  const int patient_scans = static_cast<int>(config().lost_after_s * 10.0);
+  const int patient_scans = static_cast<int>(config().recovery.lost_after_s * 10.0);
   for (int scan = 0; scan < patient_scans; ++scan)
     ASSERT_EQ(see(lost_match(), StepSource::kOdometry), Verdict::kDoesNotFit) << scan;
   EXPECT_EQ(see(lost_match(), StepSource::kOdometry), Verdict::kLost);
@@ -141,7 +141,7 @@ class LocalizationMonitorOff : public LocalizationMonitorTest {
  protected:
   static LocalizerConfig config() {
     LocalizerConfig config = MappedWorld::config_of_small_map();
-    config.recovers = false;
+    config.recovery.recovers = false;
     return config;
   }
   LocalizationMonitorOff() : LocalizationMonitorTest(config()) {}

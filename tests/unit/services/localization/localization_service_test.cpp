@@ -240,8 +240,8 @@ struct LostOnTheBus : LocalizationOnTheBus {
 
   void SetUp() override {
     LocalizationService::Settings settings;
-    settings.config.lost_after_s = 0.0;
-    settings.config.may_be_picked_up = true;
+    settings.config.recovery.lost_after_s = 0.0;
+    settings.config.odometry.may_be_picked_up = true;
     begin(settings);
   }
   void localize_next(sensing::LaserScan (*scan_of)(std::uint32_t)) {

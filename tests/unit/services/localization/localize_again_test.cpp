@@ -42,9 +42,9 @@ class LocalizeAgain : public ::testing::Test {
 
   static LocalizerConfig config() {
     LocalizerConfig config = small_map_config();
-    config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from
-                                        // pulling anyway,
-    config.use_odometry = false;        // and so do wheels, most of all where they stand
+    config.trust.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from
+                                              // pulling anyway,
+    config.odometry.use_odometry = false;     // and so do wheels, most of all where they stand
     return config;
   }
 
@@ -190,7 +190,7 @@ TEST_F(LocalizeAgain, IsNotForAVehicleThatDoesNotKnowWhereItIs) {
 
 TEST_F(LocalizeAgain, IsOffWhereMovingThingsAreMatchedOnPurpose) {
   LocalizerConfig all = config();
-  all.leave_out_moving = false;
+  all.echoes.leave_out_moving = false;
   Localizer believes_all(all);
   reach_the_scan(believes_all);
   const auto first = believes_all.localize(scan());

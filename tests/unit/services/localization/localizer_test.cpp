@@ -88,7 +88,7 @@ TEST(Localizer, FindsOutThatAScannerTurnsTheOtherWayRound) {
   for (const double truth : {-1.0, 1.0}) {
     SimulatedDrive drive(with_a_scanner_that_turns_the_other_way(truth * kSaidS));
     LocalizerConfig config = small_map_config();
-    config.sweep_factor_sigma = 1.0;
+    config.echoes.sweep_factor_sigma = 1.0;
     config.map.surfel_size_m = 0.1;
     config.match.coarse_gate_m = 0.5;
     config.match.fine_gate_m = 0.15;
@@ -263,7 +263,7 @@ double led_astray_m(const LocalizerConfig& config) {
 TEST(Localizer, StandsWhereItsWheelsStandThoughTheMapSeemsToCreep) {
   constexpr double kCrept_m = 0.027;
   LocalizerConfig may_be_picked_up = small_map_config();
-  may_be_picked_up.may_be_picked_up = true;
+  may_be_picked_up.odometry.may_be_picked_up = true;
   for (const LocalizerConfig& config : {small_map_config(), may_be_picked_up})
     EXPECT_LT(led_astray_m(config), 0.3 * kCrept_m);
 }
@@ -271,7 +271,7 @@ TEST(Localizer, StandsWhereItsWheelsStandThoughTheMapSeemsToCreep) {
 TEST(Localizer, TellsHowFarTheMapLetsBeamsGoWhereAnEchoContradictsIt) {
   SimulatedDrive drive(along_a_street());
   LocalizerConfig of_all = small_map_config();
-  of_all.expects_all_ranges = true;
+  of_all.echoes.expects_all_ranges = true;
   Localizer asked(small_map_config());
   Localizer told(of_all);
   constexpr std::uint32_t kScans = 40;
@@ -555,7 +555,7 @@ TEST(Localizer, BelievesWheelsThatKeepSayingThatTheVelocityHasChanged) {
 
 TEST(Localizer, TakesNoOdometryWhereItIsToldNotTo) {
   LocalizerConfig config = small_map_config();
-  config.use_odometry = false;
+  config.odometry.use_odometry = false;
   SimulatedDrive drive(round_in_a_room());
   Localizer localizer(config);
   drive_through(localizer, drive, 0, 20);
@@ -587,7 +587,7 @@ DriveSetup through_a_hall() {
 
 TEST(Localizer, FollowsABendWithoutOdometryThatBeginsAndEndsAtOnce) {
   LocalizerConfig config = small_map_config();
-  config.use_odometry = false;
+  config.odometry.use_odometry = false;
   SimulatedDrive drive(through_a_hall());
   Localizer localizer(config);
   EXPECT_LT(drive_through(localizer, drive, 0, 300).worst_rad, 0.01);
@@ -640,14 +640,14 @@ class BehindACarThatDrivesOff : public ::testing::Test {
 
 TEST_F(BehindACarThatDrivesOff, StandsWithoutOdometryWhereAllElseStands) {
   LocalizerConfig config = small_map_config();
-  config.use_odometry = false;
+  config.odometry.use_odometry = false;
   EXPECT_LT(worst_m(config), 0.1);
 }
 
 TEST_F(BehindACarThatDrivesOff, WouldFollowItIfEachPointCountedForItself) {
   LocalizerConfig config = small_map_config();
-  config.use_odometry = false;
-  config.body_sigma_without_wheels_m = 0.0;
+  config.odometry.use_odometry = false;
+  config.trust.body_sigma_without_wheels_m = 0.0;
   EXPECT_GT(worst_m(config), 1.0);
 }
 
@@ -903,7 +903,7 @@ TEST_F(WithAMover, ComesBackIntoTheMapWhenTrackingFindsItStands) {
 
 TEST_F(WithAMover, IsNotGivenBackFromFartherThanIsMapped) {
   LocalizerConfig config = small_map_config();
-  config.map_range_m = 1.0;
+  config.echoes.map_range_m = 1.0;
   Localizer localizer(config);
   const auto [range, on_mover] = scan_with_mover(20);
   localizer.integrate(labels(*localizer.localize(range), on_mover));
@@ -961,9 +961,9 @@ TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
   DriveSetup setup = drive_.setup();
   setup.world = joined(setup.world, slammot::testing::box({0.0, 0.0, 0.0}, 0.5, 8.0));
   LocalizerConfig config = small_map_config();
-  config.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from pulling
-                                      // anyway,
-  config.use_odometry = false;        // and so do wheels, most of all where they stand
+  config.trust.ambiguous.weak_share = 0.0;  // samples disagree about such a scan and keep it from
+                                            // pulling anyway,
+  config.odometry.use_odometry = false;     // and so do wheels, most of all where they stand
   const auto pulled_m = [&](bool with_track) {
     SimulatedDrive blocked(setup);
     Localizer localizer(config);
@@ -990,7 +990,7 @@ TEST_F(WithAMover, IsLeftOutOfTheMatchWhereATrackExpectsIt) {
 
 TEST_F(WithAMover, MapsItAsIfItStoodWhenToldTo) {
   LocalizerConfig config = small_map_config();
-  config.leave_out_moving = false;
+  config.echoes.leave_out_moving = false;
   Localizer believes_all(config);
   drive_through(believes_all, drive_, 0, 20);
   for (Localizer* localizer : {&localizer_, &believes_all}) {
@@ -1090,7 +1090,7 @@ TEST_F(OverSeveralSubmaps, TheUncertaintyOfATieGrowsWithTheWayOfThatTieOnly) {
   const auto submaps = submaps_of_drive(localizer);
   ASSERT_GE(submaps.size(), 4U);
   const auto drift = [&](double travelled_m) {
-    return std::pow(config().drift_m_per_sqrt_m, 2) * travelled_m;
+    return std::pow(config().errors.drift_m_per_sqrt_m, 2) * travelled_m;
   };
   for (std::size_t i = 1; i < submaps.size(); ++i) {
     const auto& covariance = submaps[i].previous_from_submap.covariance;

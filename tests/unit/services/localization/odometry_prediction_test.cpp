@@ -137,7 +137,7 @@ void disbelieve(OdometryPrediction& prediction) {
 
 TEST_F(OdometryPredictionTest, GoesOnFromTheLastPoseWhereOdometryIsNotBelievedAndTimeIsNotKnown) {
   LocalizerConfig config;
-  config.time_is_known = false;
+  config.odometry.time_is_known = false;
   prediction_ = OdometryPrediction(config);
   drive(0, 30);
   disbelieve(prediction_);
@@ -150,7 +150,7 @@ TEST_F(OdometryPredictionTest, GoesOnFromTheLastPoseWhereOdometryIsNotBelievedAn
 
 TEST_F(OdometryPredictionTest, TakesAStepFarBeyondTheUsualOnesForAJumpWhereTimeIsNotKnown) {
   LocalizerConfig config;
-  config.time_is_known = false;
+  config.odometry.time_is_known = false;
   prediction_ = OdometryPrediction(config);
   drive(0, 30);
   wheel_from_odom_ = Pose2{40.0, 0.0, 0.0} * wheel_from_odom_;
@@ -179,7 +179,7 @@ TEST_F(OdometryPredictionTest, MarksAGapAndExtrapolatesNoFartherThanThat) {
   const Step step = prediction_.predict(stamp_ns(29) + 10 * 1'000'000'000LL);
   EXPECT_TRUE(step.is_gap);
   EXPECT_NEAR(step.after.odom_from_base.x_m - pose_at(29).x_m,
-              kSpeed_mps * LocalizerConfig{}.longest_step_s, 1.0);
+              kSpeed_mps * LocalizerConfig{}.odometry.longest_step_s, 1.0);
 }
 
 TEST_F(OdometryPredictionTest, GoesOnFromAStateAsBefore) {

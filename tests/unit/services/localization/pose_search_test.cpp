@@ -22,10 +22,10 @@ UncertainPose2 prior_at(const Pose2& pose, double sigma_m, double sigma_rad) {
 TEST(IsVague, WherePositionOrHeadingIsUnsure) {
   const LocalizerConfig config;
   EXPECT_FALSE(is_vague(
-      prior_at({}, 0.9 * config.search_when_sigma_m, 0.9 * config.search_when_heading_sigma_rad),
+      prior_at({}, 0.9 * config.search.when_sigma_m, 0.9 * config.search.when_heading_sigma_rad),
       config));
-  EXPECT_TRUE(is_vague(prior_at({}, 1.1 * config.search_when_sigma_m, 0.0), config));
-  EXPECT_TRUE(is_vague(prior_at({}, 0.0, 1.1 * config.search_when_heading_sigma_rad), config));
+  EXPECT_TRUE(is_vague(prior_at({}, 1.1 * config.search.when_sigma_m, 0.0), config));
+  EXPECT_TRUE(is_vague(prior_at({}, 0.0, 1.1 * config.search.when_heading_sigma_rad), config));
 }
 
 TEST(PoseSearch, FindsThePoseWithinItsWindow) {
@@ -50,7 +50,7 @@ TEST(PoseSearch, LooksNoFartherThanThePriorAllows) {
       search.poses_around(prior_at({0.0, 0.0, 0.0}, 0.1, 0.01), points, room.map().surfels());
   for (const auto& pose : poses)
     EXPECT_LT(pose.translation_m().norm(),
-              0.1 * room.config().search_sigmas * std::sqrt(2.0) + 0.3);
+              0.1 * room.config().search.sigmas * std::sqrt(2.0) + 0.3);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(PublishedCovariance, IsLargerThanThatWithinTheLocalMapWhereScansAloneTell) 
     without.observe(by_scans, match_at(0.0, 0.005));
   }
   EXPECT_EQ(with_wheels.local_variance_share(), 1.0);
-  EXPECT_NEAR(without.local_variance_share(), 1.0 / config.variance_by_scans_alone, 1e-3);
+  EXPECT_NEAR(without.local_variance_share(), 1.0 / config.errors.variance_by_scans_alone, 1e-3);
   EXPECT_NEAR(without.published(by_scans.after).covariance(0, 0) * without.local_variance_share(),
               with_wheels.published(by_wheels.after).covariance(0, 0), 1e-9);
 }

@@ -46,8 +46,8 @@ sensing::Odometry odometry(SimulatedDrive& not_carried, std::uint32_t scan) {
 /// Wheels are not trusted for a moment, as those of a robot that is carried about.
 LocalizerConfig without_patience() {
   LocalizerConfig config = small_map_config();
-  config.lost_after_s = 0.0;
-  config.may_be_picked_up = true;
+  config.recovery.lost_after_s = 0.0;
+  config.odometry.may_be_picked_up = true;
   return config;
 }
 

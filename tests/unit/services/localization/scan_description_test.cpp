@@ -58,7 +58,7 @@ TEST_F(ScanDescriptionTest, AsksForTheRangesOfBeamsBesideSuchAnEchoOnlyUnlessAll
   };
   EXPECT_EQ(asked(describe()), 2 * static_cast<std::ptrdiff_t>(flow::kExpectedAside) + 1);
   LocalizerConfig of_all = MappedWorld::config_of_small_map();
-  of_all.expects_all_ranges = true;
+  of_all.echoes.expects_all_ranges = true;
   EXPECT_EQ(asked(describe(of_all)), static_cast<std::ptrdiff_t>(MappedWorld::kBeams));
 }
 

@@ -124,7 +124,7 @@ TEST_F(StepExplanationsTest, WithoutOdometryStepsLikeThoseBeforeAreNarrowerThanR
 }
 
 TEST_F(StepExplanationsTest, ReachGrowsWithTheWayWhereNoTimeIsKnown) {
-  config_.time_is_known = false;
+  config_.odometry.time_is_known = false;
   const Step near = explanations().other(by_wheels({0.1, 0.0, 0.0}));
   const Step far = explanations().other(by_wheels({2.0, 0.0, 0.0}));
   EXPECT_THAT(far.after.odom_from_base, PoseNear(kBefore * Pose2{2.0, 0.0, 0.0}, 1e-9));

@@ -70,7 +70,7 @@ TEST_F(SubmapSequenceTest, TiesASubmapToTheOneBeforeByTheDriftOfTheWay) {
       second->previous_from_submap.pose,
       PoseNear(geometry::inverse(first->odom_from_submap) * second->odom_from_submap, 1e-9));
   EXPECT_NEAR(std::sqrt(second->previous_from_submap.covariance(0, 0)),
-              LocalizerConfig{}.drift_m_per_sqrt_m * 4.0, 1e-9);
+              LocalizerConfig{}.errors.drift_m_per_sqrt_m * 4.0, 1e-9);
 }
 
 TEST_F(SubmapSequenceTest, TiesAnAstraySubmapByNextToNothingAndMakesTheNextOnesShort) {
@@ -82,7 +82,7 @@ TEST_F(SubmapSequenceTest, TiesAnAstraySubmapByNextToNothingAndMakesTheNextOnesS
   EXPECT_TRUE(submaps_.begin_next_if_due(odom_from_base_)) << "10 m in submaps of known place";
   submaps_.take_finished();
   EXPECT_NEAR(std::sqrt(submaps_.take_finished()->previous_from_submap.covariance(0, 0)),
-              LocalizerConfig{}.astray_sigma_m, 1e-9);
+              LocalizerConfig{}.recovery.astray_sigma_m, 1e-9);
 }
 
 TEST_F(SubmapSequenceTest, FinishesNothingThatIsEmptyOrFinished) {

@@ -14,7 +14,7 @@ sensing::LaserScan sweeping_scan() {
 
 SweepCorrection correction(double sigma, double value = 1.0) {
   LocalizerConfig config;
-  config.sweep_factor_sigma = sigma;
+  config.echoes.sweep_factor_sigma = sigma;
   SweepCorrection correction(config);
   SweepFactor factor = correction.factor();
   factor.value = value;

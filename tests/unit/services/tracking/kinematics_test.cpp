@@ -41,8 +41,6 @@ TEST(Kinematics, MixesAsTheSettingSays) {
   Kinematics kinematics = moving_at({3.0, -1.0});
   predict(kinematics, 0.1, config);
   EXPECT_EQ(kinematics.mixture.pairs.size(), 4U);
-  config.motion.constant_acceleration = false;
-  EXPECT_EQ(motion_models(config).size, 1U);
 }
 
 TEST(Kinematics, GoesOnAtItsVelocityAndLessSurely) {
