@@ -11,6 +11,7 @@
 #include "common/app/command.hpp"
 #include "common/app/log.hpp"
 #include "common/app/owner_watch.hpp"
+#include "common/app/queue_watch.hpp"
 #include "common/app/sequence_watch.hpp"
 #include "common/app/service_options.hpp"
 #include "common/app/status_board.hpp"
@@ -64,8 +65,10 @@ class ServiceContext {
         board_.input(std::string(topic.name), kind, std::chrono::steady_clock::now());
     const auto owners =
         dds::has_one_writer(topic) ? std::make_shared<ForeignSamples>(topic, *reader) : nullptr;
+    const bool has_deep_history = history == dds::History::kRestart;
     wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle, owners,
-                                sequence = SequenceWatch()]() mutable {
+                                has_deep_history, sequence = SequenceWatch(),
+                                queue = QueueWatch()]() mutable {
       const auto take = [&](const Sample& sample, const dds::SampleInfo& info) {
         if (vehicle_id() != sample.vehicle_id) return;
         if (owners && !owners->accepts(*this, info)) return;
@@ -74,9 +77,14 @@ class ServiceContext {
         input.came(std::chrono::steady_clock::now());
         handle(sample);
       };
-      reader->take_each(take, [&](const dds::SampleInfo& info) {
+      const auto lose = [&](const dds::SampleInfo& info) {
         if (owners) owners->lost(info);
-      });
+      };
+      if (!has_deep_history) reader->take_each(take, lose);
+      else  // not all at once: heartbeats are sent meanwhile
+        reader->take_batch(take, lose, [&](bool is_long) {
+          return queue.leaves_out(is_long, std::chrono::steady_clock::now());
+        });
     });
     keep(reader);
     return *reader;

@@ -24,8 +24,10 @@ enum class Durability { kVolatile, kTransientLocal };
 /// keep-last: with keep-all one stopped reader starves the others.
 struct QosProfile {
   Durability durability = Durability::kVolatile;
-  std::int32_t reader_depth = 1;                ///< Samples kept per key for a slow reader.
-  std::int32_t writer_depth = 1;                ///< Samples kept per key for retransmission.
+  std::int32_t reader_depth = 1;   ///< Samples kept per key for a slow reader.
+  std::int32_t writer_depth = 1;   ///< Samples kept per key for retransmission.
+  std::int32_t restart_depth = 0;  ///< Samples kept per key for readers with History::kRestart,
+                                   ///< also by these.
   std::chrono::milliseconds max_blocking{100};  ///< Longest time for which a write waits for slow
                                                 ///< readers.
   std::optional<std::chrono::milliseconds> lifespan = std::nullopt;  ///< Older samples are dropped.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 4;
 
-QosPointer qos_for(const OfferedQos& offered) {
+QosPointer qos_for(const TopicInfo& info, const OfferedQos& offered) {
   QosPointer qos(dds_create_qos(), dds_delete_qos);
   dds_qset_reliability(qos.get(),
                        offered.is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
@@ -20,7 +20,8 @@ QosPointer qos_for(const OfferedQos& offered) {
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
   dds_qset_destination_order(qos.get(), DDS_DESTINATIONORDER_BY_RECEPTION_TIMESTAMP);
   dds_qset_writer_data_lifecycle(qos.get(), false);
-  if (offered.is_transient_local) {
+  // also what an earlier version recorded as volatile: services ask for it
+  if (offered.is_transient_local || is_kept_for_restarts_only(info.name)) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
     dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
@@ -46,7 +47,8 @@ RawWriter::RawWriter(const Participant& participant, std::shared_ptr<const RawTo
 
 RawWriter::RawWriter(const Participant& participant, std::shared_ptr<const RawTopic> topic,
                      OpaqueTopic opaque, const OfferedQos& offered)
-    : WriterBase(participant, topic->info(), std::move(opaque.entity), qos_for(offered).get()),
+    : WriterBase(participant, topic->info(), std::move(opaque.entity),
+                 qos_for(topic->info(), offered).get()),
       raw_topic_(std::move(topic)),
       type_(opaque.type) {}
 

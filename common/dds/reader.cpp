@@ -14,6 +14,7 @@ void set_recorder_history(dds_qos_t* qos) {
 }
 
 QosPointer reader_qos(const TopicInfo& info, History history) {
+  if (history == History::kRestart) return make_restart_reader_qos(qos_profile(info.flow));
   QosPointer qos = make_reader_qos(qos_profile(info.flow));
   if (history == History::kRecorder) set_recorder_history(qos.get());
   return qos;
@@ -35,7 +36,7 @@ LoanBase::LoanBase(ReaderBase& reader) : reader_(reader.handle()) {
   size_ = static_cast<std::size_t>(count);
   for (std::size_t i = 0; i < size_; ++i) {
     infos_[i] = {infos[i].source_timestamp, infos[i].publication_handle, infos[i].instance_handle,
-                 infos[i].valid_data};
+                 infos[i].valid_data, infos[i].instance_state != DDS_IST_ALIVE};
     reader.taken_ += infos[i].valid_data ? 1 : 0;
   }
 }

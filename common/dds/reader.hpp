@@ -14,6 +14,8 @@ namespace slammot::dds {
 enum class History {
   kProfile,   ///< Depth of the topic's profile.
   kRecorder,  ///< The last 10,000 samples a key, for a reader that needs all.
+  kRestart,   ///< As many as the writer keeps for restarts, also from before this reader: a service
+              ///< that was restarted does what the process before has left.
 };
 
 struct ReaderCounters {
@@ -28,6 +30,7 @@ struct SampleInfo {
   std::uint64_t key_handle = 0;     ///< Tells keys apart.
   bool has_value = false;  ///< False: the key ended, or lost its last writer; only the key can be
                            ///< read.
+  bool has_ended = false;  ///< The same, told together with a value.
 };
 
 class ReaderBase;
@@ -113,20 +116,38 @@ class Reader : public ReaderBase {
   template <typename Handle, typename Ended>
   std::size_t take_each(Handle&& handle, Ended&& ended) {
     std::size_t count = 0;
+    while (const auto batch = take_batch(handle, ended, [](bool) { return false; }))
+      count += *batch;
+    return count;
+  }
+
+  /// The same for at most LoanBase::kMost values, so that a long queue does not keep the caller.
+  /// Leaves the oldest out where `leaves_out(is_long)` says so; `is_long`: there are as many or
+  /// more. None if there was nothing.
+  template <typename Handle, typename Ended, typename LeavesOut>
+  std::optional<std::size_t> take_batch(Handle&& handle, Ended&& ended, LeavesOut&& leaves_out) {
     for (;;) {
       const Loan<Sample> loan = take();
-      if (loan.empty()) return count;
-      for (std::size_t i = 0; i < loan.size(); ++i) {
-        if (!loan.info(i).has_value) {
-          ended(loan.info(i));
-          continue;
-        }
+      if (loan.empty()) return std::nullopt;
+      if (!leaves_out(loan.size() == LoanBase::kMost)) return hand_on(loan, handle, ended);
+    }
+  }
+
+ private:
+  template <typename Handle, typename Ended>
+  static std::size_t hand_on(const Loan<Sample>& loan, Handle& handle, Ended& ended) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < loan.size(); ++i) {
+      const SampleInfo& info = loan.info(i);
+      if (info.has_value) {
         if constexpr (std::is_invocable_v<Handle&, const Sample&, const SampleInfo&>)
-          handle(loan[i], loan.info(i));
+          handle(loan[i], info);
         else handle(loan[i]);
         ++count;
       }
+      if (!info.has_value || info.has_ended) ended(info);
     }
+    return count;
   }
 };
 

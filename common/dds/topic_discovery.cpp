@@ -5,6 +5,7 @@
 
 #include "common/dds/builtin_topic.hpp"
 #include "common/dds/endpoint_qos.hpp"
+#include "common/dds/topic_table.hpp"
 
 namespace slammot::dds {
 namespace {
@@ -15,6 +16,12 @@ std::shared_ptr<const ddsi_typeinfo> copy_of(const dds_typeinfo_t* information) 
             ddsi_typeinfo_fini(copy);
             dds_free(copy);
           }};
+}
+
+OfferedQos qos_offered_by(const dds_builtintopic_endpoint_t& writer) {
+  OfferedQos offered = offered_qos_of(writer.qos);
+  if (is_kept_for_restarts_only(writer.topic_name)) offered.is_transient_local = false;
+  return offered;
 }
 
 }  // namespace
@@ -34,7 +41,7 @@ std::vector<FoundWriter> TopicDiscovery::take() {
                             endpoint.qos != nullptr &&
                             endpoint.participant_instance_handle != own_participant_;
         if (!joined) return;
-        found.push_back({endpoint.topic_name, endpoint.type_name, offered_qos_of(endpoint.qos),
+        found.push_back({endpoint.topic_name, endpoint.type_name, qos_offered_by(endpoint),
                          copy_of(type_information(endpoint))});
       });
   return found;

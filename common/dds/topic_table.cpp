@@ -68,4 +68,9 @@ const TopicInfo* find_topic(std::string_view name) {
   return row == table.end() ? nullptr : *row;
 }
 
+bool is_kept_for_restarts_only(std::string_view name) {
+  const TopicInfo* const topic = find_topic(name);
+  return topic != nullptr && qos_profile(topic->flow).restart_depth > 0;
+}
+
 }  // namespace slammot::dds

@@ -111,4 +111,8 @@ std::vector<std::string_view> publishing_services();
 /// Row of that name; null if there is none.
 const TopicInfo* find_topic(std::string_view name);
 
+/// True if its writers keep samples for restarts of their readers, and for nobody else: to others
+/// it is volatile.
+bool is_kept_for_restarts_only(std::string_view name);
+
 }  // namespace slammot::dds

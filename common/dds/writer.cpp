@@ -26,8 +26,12 @@ void WriterBase::note_key(const void* sample) {
 }
 
 void WriterBase::hand_over() {
-  for (const dds_instance_handle_t key : keys_)
+  for (const dds_instance_handle_t key : keys_) {
+    // Unregistering alone says nothing while a dead process is not missed yet that had the key,
+    // too.
+    check(dds_dispose_ih(handle(), key), describe("dds_dispose_ih"));
     check(dds_unregister_instance_ih(handle(), key), describe("dds_unregister_instance_ih"));
+  }
   keys_.clear();
 }
 

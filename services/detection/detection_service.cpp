@@ -16,8 +16,9 @@ DetectionService::DetectionService(app::ServiceContext& context, const Settings&
     : context_(context),
       detector_(settings.config),
       segmented_scans_(context.write(dds::topics::kSegmentedScan)) {
-  context.read(dds::topics::kLocalizedScan, app::Input::kSteady,
-               [this](const auto& sample) { take(sample); });
+  context.read(
+      dds::topics::kLocalizedScan, app::Input::kSteady,
+      [this](const auto& sample) { take(sample); }, dds::History::kRestart);
 }
 
 void DetectionService::take(const slammot_LocalizedScan& sample) {

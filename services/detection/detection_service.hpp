@@ -18,6 +18,7 @@ class DetectionService {
   static constexpr const char* kPurpose =
       "Segments scans and labels the segments that contradict the map as moving.";
   static constexpr bool kIsOnePerVehicle = true;
+  static constexpr bool kKeepsState = true;  ///< None but the lock: a leader that hangs is ended.
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

@@ -103,17 +103,27 @@ IngestService::IngestService(app::ServiceContext& context, const Settings& setti
       });
   context.read(dds::topics::kScanLabels, app::Input::kOccasional,
                [this](const auto& labels) { take_labels(labels); });
+  context.read(dds::topics::kLocalizedScan, app::Input::kOccasional,
+               [this](const auto& scan) { take_localized(scan); });
   if (pace_.is_unlimited()) watch_graph();
   context.on_command("set_speed", [this](std::string_view speed) { return set_speed(speed); });
   context.every(std::chrono::milliseconds(50),
                 [this] { has_begun_ ? check_progress() : wait_for_services(); });
 }
 
+bool IngestService::is_own(std::string_view scanner_id) const {
+  return std::ranges::find(scanner_ids_, scanner_id) != scanner_ids_.end();
+}
+
+void IngestService::take_localized(const slammot_LocalizedScan& scan) {
+  const auto now = steady_clock::now();
+  if (pace_.is_unlimited()) return graph_.set_current({scan.map_id}, scan.submap_id, now);
+  if (!is_own(wire::text(scan.scanner_id))) return;
+  backlog_.answered(Backlog::Answer::kLocalized, scan.stamp_ns, now);
+  if (has_begun_ && !has_finished_) send_backlog();
+}
+
 void IngestService::watch_graph() {
-  context_.read(dds::topics::kLocalizedScan, app::Input::kOccasional,
-                [this](const slammot_LocalizedScan& scan) {
-                  graph_.set_current({scan.map_id}, scan.submap_id, steady_clock::now());
-                });
   context_.read(dds::topics::kGraphCorrection, app::Input::kOccasional,
                 [this](const slammot_GraphCorrection& part) {
                   if (part.part_index + 1 != part.part_count || part.submaps._length == 0) return;
@@ -158,7 +168,7 @@ void IngestService::proceed_at_pace() {
 
 void IngestService::send_backlog() {
   const auto now = steady_clock::now();
-  context_.status().counter("dropped_scans") += backlog_.drop_late(now);
+  context_.status().counter("dropped_scans") += backlog_.drop_late();
   while (backlog_.may_send(now)) send_once(backlog_.take());
   if (backlog_.empty() && !fetch()) finish();
 }
@@ -234,14 +244,14 @@ void IngestService::send(const Step& step) {
 
 void IngestService::take_labels(const slammot_ScanLabels& labels) {
   const std::string scanner_id(wire::text(labels.scanner_id));
-  if (std::ranges::find(scanner_ids_, scanner_id) == scanner_ids_.end()) return;
+  if (!is_own(scanner_id)) return;
   const bool is_ahead = fetched_ && fetched_->scan && labels.stamp_ns >= fetched_->scan->stamp_ns;
   if (!acknowledged_ns_ || labels.stamp_ns > *acknowledged_ns_) {
     acknowledged_ns_ = labels.stamp_ns;
     acknowledged_scanners_.clear();
   }
   if (labels.stamp_ns == *acknowledged_ns_) acknowledged_scanners_.insert(scanner_id);
-  backlog_.answered(labels.stamp_ns, steady_clock::now());
+  backlog_.answered(Backlog::Answer::kLabelled, labels.stamp_ns, steady_clock::now());
   const std::size_t done = window_.acknowledge(labels.stamp_ns, steady_clock::now());
   in_flight_.erase(in_flight_.begin(), in_flight_.begin() + static_cast<std::ptrdiff_t>(done));
   if (!has_begun_ || has_finished_) return;

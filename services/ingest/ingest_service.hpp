@@ -53,6 +53,8 @@ class IngestService {
   void proceed_at_max_speed();
   void take_labels(const slammot_ScanLabels& labels);
   void watch_graph();
+  void take_localized(const slammot_LocalizedScan& scan);
+  bool is_own(std::string_view scanner_id) const;
   bool fetch();
   bool is_acknowledged(const sensing::LaserScan& scan) const;
   void send_once(const Step& step);

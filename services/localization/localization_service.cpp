@@ -78,20 +78,18 @@ void LocalizationService::read_inputs(app::ServiceContext& context) {
                [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kGraphCorrection, Input::kOccasional,
                [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kSegmentedScan, Input::kSteady,
-               [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kTrackedObjects, Input::kSteady,
-               [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kScanLabels, Input::kSteady,
-               [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kOdometry, Input::kSteady,
-               [this](const auto& sample) { take(sample); });
+  // All answers to scans, also where several are localized in a turn.
+  const auto take_sample = [this](const auto& sample) { take(sample); };
+  using dds::History;
+  context.read(dds::topics::kSegmentedScan, Input::kSteady, take_sample, History::kRecorder);
+  context.read(dds::topics::kTrackedObjects, Input::kSteady, take_sample, History::kRestart);
+  context.read(dds::topics::kScanLabels, Input::kSteady, take_sample, History::kRestart);
+  context.read(dds::topics::kOdometry, Input::kSteady, take_sample, History::kRestart);
   context.read(dds::topics::kGnssFix, Input::kOccasional,
                [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kCompassReading, Input::kOccasional,
                [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kLaserScan, Input::kSteady,
-               [this](const auto& sample) { take(sample); });
+  context.read(dds::topics::kLaserScan, Input::kSteady, take_sample, History::kRestart);
 }
 
 template <typename Value>
@@ -137,20 +135,45 @@ void LocalizationService::take(const slammot_SegmentedScan& sample) {
 void LocalizationService::take(const slammot_TrackedObjects& sample) {
   const auto objects = wire::decode(sample);
   if (!is_good(objects, "tracked_objects")) return;
-  localizer_.expect(*objects);
-  waiting_.note_objects(objects->stamp_ns, localizer_.awaits_labels());
+  if (is_early(objects->stamp_ns)) return drive_.answers.add(std::move(*objects));
+  expect(*objects);
   localize_waiting();
 }
 
 void LocalizationService::take(const slammot_ScanLabels& sample) {
   const auto labels = wire::decode(sample);
   if (!is_good(labels, "scan_labels")) return;
-  const app::Stopwatch stopwatch(context_.status().latency("integrate"));
-  localizer_.integrate(*labels);
-  waiting_.note_labels(labels->stamp_ns, localizer_.awaits_labels());
-  publish_finished_submaps();
+  if (is_early(labels->stamp_ns)) {
+    drive_.answers.add(std::move(*labels));
+    return localize_waiting();
+  }
+  integrate(*labels);
   localize_waiting();
   if (drive_.last_done_ns && !localizer_.awaits_labels()) save_checkpoint(*drive_.last_done_ns);
+}
+
+bool LocalizationService::is_early(std::int64_t stamp_ns) const {
+  return !drive_.last_done_ns || stamp_ns > *drive_.last_done_ns;
+}
+
+void LocalizationService::expect(const flow::TrackedObjects& objects) {
+  localizer_.expect(objects);
+  waiting_.note_objects(objects.stamp_ns, localizer_.awaits_labels());
+}
+
+void LocalizationService::integrate(const flow::ScanLabels& labels) {
+  const app::Stopwatch stopwatch(context_.status().latency("integrate"));
+  localizer_.integrate(labels);
+  waiting_.note_labels(labels.stamp_ns, localizer_.awaits_labels());
+  publish_finished_submaps();
+}
+
+/// In the order in which tracking publishes them.
+void LocalizationService::use_early_answers(const sensing::LaserScan& scan) {
+  if (const auto objects = drive_.answers.take_objects(scan.stamp_ns)) expect(*objects);
+  const auto labels = drive_.answers.take_labels(scan.stamp_ns, scan.scanner.scanner_id);
+  if (labels) integrate(*labels);
+  else if (waiting_.empty()) drive_.is_back = false;
 }
 
 void LocalizationService::take(const slammot_GraphCorrection& sample) {
@@ -175,8 +198,10 @@ void LocalizationService::take(const slammot_StoredMap& sample) {
 
 /// Of the oldest waiting scan.
 Awaited LocalizationService::awaited() const {
-  return {localizer_.has_odometry_for(waiting_.oldest().scan.stamp_ns), localizer_.awaits_labels(),
-          !drive_.map_id.has_value()};
+  const std::int64_t stamp_ns = waiting_.oldest().scan.stamp_ns;
+  return {localizer_.has_odometry_for(stamp_ns), localizer_.awaits_labels(),
+          !drive_.map_id.has_value(), drive_.is_back,
+          drive_.is_back && !drive_.answers.reach(stamp_ns)};
 }
 
 void LocalizationService::localize_waiting() {
@@ -198,8 +223,9 @@ void LocalizationService::localize(const sensing::LaserScan& scan) {
     localized->odom_id = drive_.odom_id;
     drive_.last_done_ns = scan.stamp_ns;
     scans_.publish(std::move(*localized));
+    use_early_answers(scan);
   } else {
-    scans_.repeat(scan.scanner.scanner_id);
+    scans_.answer_again(scan.scanner.scanner_id, scan.stamp_ns);
   }
   publish_finished_submaps();
 }

@@ -12,6 +12,7 @@
 #include "common/wire/stored_map.hpp"
 #include "services/localization/drive_gate.hpp"
 #include "services/localization/drive_watch.hpp"
+#include "services/localization/early_answers.hpp"
 #include "services/localization/localization_service_scans.hpp"
 #include "services/localization/localization_service_session.hpp"
 #include "services/localization/localization_service_submaps.hpp"
@@ -49,6 +50,8 @@ class LocalizationService {
     flow::OdomId odom_id;
     flow::SubmapId first_submap;
     std::optional<std::int64_t> last_done_ns;  ///< Stamp of the newest published scan.
+    EarlyAnswers answers;
+    bool is_back = false;  ///< From a checkpoint: the scans since then are localized again.
     /// The drive before, of the checkpoint: its last submap may not be stored.
     std::optional<SavedSession> before;
   };
@@ -78,6 +81,10 @@ class LocalizationService {
   template <typename Value>
   bool is_good(const wire::Decoded<Value>& decoded, std::string_view topic);
 
+  void expect(const flow::TrackedObjects& objects);
+  void integrate(const flow::ScanLabels& labels);
+  bool is_early(std::int64_t stamp_ns) const;
+  void use_early_answers(const sensing::LaserScan& scan);
   void localize_waiting();
   Awaited awaited() const;
   void localize(const sensing::LaserScan& scan);

@@ -92,8 +92,9 @@ bool LocalizationService::come_back(const WaitingScan& first) {
     return false;
   }
   take_up(session);
-  spdlog::info("goes on from a checkpoint {:.1f} s before this scan",
-               static_cast<double>(first.scan.stamp_ns - saved->stamp_ns) * 1e-9);
+  const double since_s = static_cast<double>(first.scan.stamp_ns - saved->stamp_ns) * 1e-9;
+  if (since_s > 0.0) spdlog::info("goes on from a checkpoint {:.1f} s before this scan", since_s);
+  else spdlog::info("goes on from a checkpoint with the scans since then");
   return true;
 }
 
@@ -113,6 +114,7 @@ bool LocalizationService::return_to_saved_drive(const WaitingScan& first) {
 }
 
 void LocalizationService::take_up(const SavedSession& session) {
+  drive_.is_back = true;
   drive_.map_id = session.map_id;
   drive_.odom_id = session.odom_id;
   drive_.first_submap = session.first_submap_id;
@@ -158,6 +160,8 @@ void LocalizationService::begin_drive() {
     localizer_.add_odometry(odometry);
   scans_.clear();
   drive_.last_done_ns.reset();
+  drive_.answers = {};
+  drive_.is_back = false;
   checkpoint_.begin_drive();
   drive_.odom_id = new_id();
   const auto verdict = stored_map_ ? stored_map_->answer(monotonic_ns()).verdict

@@ -10,9 +10,12 @@ void ScanPublisher::publish(flow::LocalizedScan scan) {
   newest_[scanner_id] = std::move(scan);
 }
 
-void ScanPublisher::repeat(const std::string& scanner_id) {
-  if (const auto newest = newest_.find(scanner_id); newest != newest_.end())
-    scans_.write(encoder_.encode(context_.vehicle_id(), newest->second));
+void ScanPublisher::answer_again(const std::string& scanner_id, std::int64_t stamp_ns) {
+  const auto newest = newest_.find(scanner_id);
+  if (newest == newest_.end() ||
+      !repeats_.asks_for_answer(scanner_id, stamp_ns, newest->second.stamp_ns))
+    return;
+  scans_.write(encoder_.encode(context_.vehicle_id(), newest->second));
 }
 
 void ScanPublisher::take_up(const std::vector<flow::LocalizedScan>& newest) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/app/repeat_watch.hpp"
 #include "common/app/service_context.hpp"
 #include "common/wire/localized_scan.hpp"
 
@@ -18,8 +19,9 @@ class ScanPublisher {
   void publish(flow::LocalizedScan scan);
 
   /// Publishes the newest scan of the scanner once more, if there is one: the answer to a scan that
-  /// is done, or to a sender that begins its drive again. It tells both how far the drive is.
-  void repeat(const std::string& scanner_id);
+  /// is done, or to a sender that begins its drive again. It tells both how far the drive is. Of a
+  /// series of scans that are done not all are answered.
+  void answer_again(const std::string& scanner_id, std::int64_t stamp_ns);
 
   /// Continues after the scans of an earlier process.
   void take_up(const std::vector<flow::LocalizedScan>& newest);
@@ -33,6 +35,7 @@ class ScanPublisher {
   app::ServiceContext& context_;
   dds::Writer<slammot_LocalizedScan>& scans_;
   wire::LocalizedScanEncoder encoder_;
+  app::RepeatWatch repeats_;
   std::map<std::string, flow::LocalizedScan> newest_;
 };
 

@@ -12,9 +12,15 @@ using flow::EndCell;
 using flow::PointLabel;
 using geometry::Vector2;
 
-constexpr int kMaxPending = 4;  // Scans that wait for labels before the map goes on without.
-constexpr double kLongestLabelWait_s = 0.15;  // The map does not wait longer for labels than this,
-                                              // by the scans' stamps.
+/// How long the map waits for labels, by the scans' stamps, before it goes on without.
+struct Patience {
+  std::size_t scans;
+  double time_s;
+};
+/// Labels came until now: tracking or detection may be being restarted. A car that stops meanwhile
+/// does not get into the map for good.
+constexpr Patience kPatience{30, 0.6};
+constexpr Patience kWithoutTracking{4, 0.15};
 
 constexpr double kNanosecond_s = 1e-9;
 
@@ -129,10 +135,14 @@ IntegrationCounts ScanIntegration::integrate_overdue(std::int64_t now_ns, PoseTr
                                                      LocalMap& map) {
   const auto is_overdue = [&] {
     const double waited_s = static_cast<double>(now_ns - pending_.front().stamp_ns) * kNanosecond_s;
-    return static_cast<int>(pending_.size()) >= kMaxPending || waited_s > kLongestLabelWait_s;
+    const Patience& patience = labels_come_ ? kPatience : kWithoutTracking;
+    return pending_.size() >= patience.scans || waited_s > patience.time_s;
   };
   IntegrationCounts counts;
-  while (!pending_.empty() && is_overdue()) integrate_first_without_tracking(trust, map, counts);
+  while (!pending_.empty() && is_overdue()) {
+    labels_come_ = false;
+    integrate_first_without_tracking(trust, map, counts);
+  }
   return counts;
 }
 
@@ -148,6 +158,7 @@ IntegrationCounts ScanIntegration::integrate(const flow::ScanLabels& labels, Pos
   if (awaits(labels)) {
     while (!is_of(pending_.front(), labels)) integrate_first_without_tracking(trust, map, counts);
     integrate_first(&labels.labels, trust, map, counts);
+    labels_come_ = true;
   }
   counts.restored_points = restore_points(labels, map);
   return counts;

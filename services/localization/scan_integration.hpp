@@ -105,6 +105,7 @@ class ScanIntegration {
                                                                             ///< tracking gives
                                                                             ///< back.
   std::uint64_t integrated_scans_ = 0;
+  bool labels_come_ = false;  ///< Of the scans that wait, in time.
 };
 
 }  // namespace slammot::localization

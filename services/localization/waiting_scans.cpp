@@ -11,6 +11,9 @@ constexpr int kOdometryPatience = 5;  ///< In turns.
 constexpr int kFirstOdometryPatience = 50;
 /// The next scan of a live scanner ends the wait; a source that awaits its answer sends none.
 constexpr int kTrackingPatience = 20;
+/// Where scans queue up after a restart; otherwise these wait for nobody.
+constexpr int kTrackingPatienceInQueue = 3;
+constexpr int kHistoryPatience = 5;
 /// After so many scans in a row that awaited something in vain, none awaits it any more.
 constexpr int kVainWaits = 3;
 
@@ -40,14 +43,19 @@ bool WaitingScans::is_tracking_late(bool awaits_labels) const {
   return awaits_labels || newest_objects_ < newest_labels_;
 }
 
-/// Not where scans queue up.
 bool WaitingScans::awaits_tracking(const Awaited& awaited) const {
-  return is_tracking_late(awaited.awaits_labels) && scans_.size() == 1 &&
-         oldest().turns < kTrackingPatience && without_tracking_ < kVainWaits;
+  const int patience_in_queue = awaited.is_back ? kTrackingPatienceInQueue : 0;
+  const int patience = scans_.size() == 1 ? kTrackingPatience : patience_in_queue;
+  return is_tracking_late(awaited.awaits_labels) && oldest().turns < patience &&
+         without_tracking_ < kVainWaits;
+}
+
+bool WaitingScans::awaits_history(const Awaited& awaited) const {
+  return awaited.awaits_history && oldest().turns < kHistoryPatience;
 }
 
 bool WaitingScans::may_begin(const Awaited& awaited) const {
-  return !awaits_odometry(awaited) && !awaits_tracking(awaited);
+  return !awaits_odometry(awaited) && !awaits_tracking(awaited) && !awaits_history(awaited);
 }
 
 WaitingScan WaitingScans::take(const Awaited& awaited) {

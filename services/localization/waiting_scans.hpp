@@ -17,9 +17,11 @@ struct WaitingScan {
 
 /// State of the localizer on which the oldest waiting scan depends.
 struct Awaited {
-  bool has_odometry = false;   ///< Of the time of the scan.
-  bool awaits_labels = false;  ///< Of an earlier scan.
-  bool is_first = false;       ///< No scan has been localized.
+  bool has_odometry = false;    ///< Of the time of the scan.
+  bool awaits_labels = false;   ///< Of an earlier scan.
+  bool is_first = false;        ///< No scan has been localized.
+  bool is_back = false;         ///< Scans since a checkpoint are localized again.
+  bool awaits_history = false;  ///< What tracking said about this scan before the restart.
 };
 
 /// Scans in the order of arrival. Each waits some turns of the service's loop for odometry of its
@@ -60,6 +62,7 @@ class WaitingScans {
 
   bool awaits_odometry(const Awaited& awaited) const;
   bool awaits_tracking(const Awaited& awaited) const;
+  bool awaits_history(const Awaited& awaited) const;
   bool is_tracking_late(bool awaits_labels) const;
 
   std::deque<WaitingScan> scans_;

@@ -23,6 +23,8 @@ constexpr std::int64_t kLongestAbsenceNs = 5'000'000'000;
 constexpr std::int64_t kSavePeriodNs = 250'000'000;
 /// More than are begun in a save period and while a state is written.
 constexpr std::uint32_t kIdsOfUnsavedScans = 1000;
+/// As many as detection keeps for a restart.
+const std::int64_t kMostRepeated = dds::qos_profile(dds::topics::kSegmentedScan.flow).restart_depth;
 
 /// What the positions of objects are said in.
 template <typename Sample>
@@ -55,8 +57,9 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
   take_up_journal();
   context.read(dds::topics::kStoredTrackedObjects, app::Input::kOccasional,
                [this](const auto& sample) { take_stored(sample); });
-  context.read(dds::topics::kSegmentedScan, app::Input::kSteady,
-               [this](const auto& sample) { take(sample); });
+  context.read(
+      dds::topics::kSegmentedScan, app::Input::kSteady,
+      [this](const auto& sample) { take(sample); }, dds::History::kRestart);
   context.status().set_starting(waits_for_stored_tracks_);  // a source of scans waits for it
   context.after(kStoredTracksPatience, [this] { begin(); });
   context.before_report([this] { context_.status().set_counters(named(tracker_.counters())); });
@@ -101,16 +104,28 @@ void TrackingService::take_up_journal() {
   waits_for_stored_tracks_ = false;
 }
 
-/// Scans between the last saved state and this one may have begun tracks.
+/// True if no scan is missing between the saved state and this one: tracks that were begun
+/// meanwhile begin again with the same ids.
+bool TrackingService::follows_journal(const flow::SegmentedScan& first) const {
+  const auto last = session_->last_results.find(first.scanner_id);
+  if (last == session_->last_results.end()) return false;
+  const std::int64_t missed = static_cast<std::int64_t>(first.sequence) -
+                              static_cast<std::int64_t>(last->second.labels.sequence) - 1;
+  return missed <= 0 && missed >= -kMostRepeated;
+}
+
+/// Scans that are missing between the last saved state and this one may have begun tracks.
 void TrackingService::prove_journal(const flow::SegmentedScan& first) {
   journal_.is_unproven = false;
   if (frame_of(first) != session_->frame) return begin_drive(first);
-  const std::uint32_t next_id = tracker_.next_id() + kIdsOfUnsavedScans;
-  const bool goes_on = is_near(first.stamp_ns, *journal_.saved_ns);
+  const bool is_whole = follows_journal(first);
+  const std::uint32_t next_id = tracker_.next_id() + (is_whole ? 0 : kIdsOfUnsavedScans);
+  const bool goes_on = is_whole || is_near(first.stamp_ns, *journal_.saved_ns);
   if (!goes_on) begin_drive(first);
   tracker_.begin_ids_at(next_id);
   if (!goes_on) return;
   ++context_.status().counter("taken_up");
+  if (is_whole) return spdlog::info("goes on from a journal with the scans since then");
   spdlog::info("goes on from a journal {:.2f} s before this scan",
                static_cast<double>(first.stamp_ns - *journal_.saved_ns) * 1e-9);
 }
@@ -136,11 +151,8 @@ void TrackingService::track(const flow::SegmentedScan& scan) {
   if (journal_.is_unproven) prove_journal(scan);
   if (!session_ || session_->frame != frame_of(scan)) begin_drive(scan);
   const auto last = session_->last_results.find(scan.scanner_id);
-  if (last != session_->last_results.end() && scan.stamp_ns <= last->second.labels.stamp_ns) {
-    // Sent again because somebody missed the answer.
-    ++context_.status().counter("repeated_scans");
-    return publish(last->second);
-  }
+  if (last != session_->last_results.end() && scan.stamp_ns <= last->second.labels.stamp_ns)
+    return answer_again(scan, last->second);
   {
     const app::Stopwatch stopwatch(context_.status().latency("track"));
     TrackingResult& result = session_->last_results[scan.scanner_id];
@@ -148,6 +160,12 @@ void TrackingService::track(const flow::SegmentedScan& scan) {
     publish(result);
   }
   save_if_due(scan.stamp_ns);
+}
+
+/// To a scan that is sent again because somebody missed the answer.
+void TrackingService::answer_again(const flow::SegmentedScan& scan, const TrackingResult& last) {
+  ++context_.status().counter("repeated_scans");
+  if (repeats_.asks_for_answer(scan.scanner_id, scan.stamp_ns, last.labels.stamp_ns)) publish(last);
 }
 
 /// After the answer to the scan, so that nobody waits for it.

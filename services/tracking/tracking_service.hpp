@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/app/repeat_watch.hpp"
 #include "common/app/run_service.hpp"
 #include "common/app/state_file.hpp"
 #include "common/wire/scan_labels.hpp"
@@ -49,6 +50,8 @@ class TrackingService {
   void take_up_journal();
   void take_up_stored(const flow::SegmentedScan& first);
   void prove_journal(const flow::SegmentedScan& first);
+  bool follows_journal(const flow::SegmentedScan& first) const;
+  void answer_again(const flow::SegmentedScan& scan, const TrackingResult& last);
   void track(const flow::SegmentedScan& scan);
   void save(std::int64_t stamp_ns);
   void save_if_due(std::int64_t stamp_ns);
@@ -61,6 +64,7 @@ class TrackingService {
   dds::Writer<slammot_ScanLabels>& labels_;
   wire::TrackedObjectsEncoder objects_encoder_;
   wire::ScanLabelsEncoder labels_encoder_;
+  app::RepeatWatch repeats_;
   Journal journal_;
   std::optional<Session> session_;  ///< None before the first scan.
   bool waits_for_stored_tracks_ = true;

@@ -14,6 +14,13 @@ TEST(QosProfile, KeepsForLateJoinersWhatIsAState) {
   }
 }
 
+TEST(QosProfile, KeepsForRestartsWhatAScanPasses) {
+  for (const Flow flow : {Flow::kSensor, Flow::kEstimate})
+    EXPECT_GE(qos_profile(flow).restart_depth, 100);
+  for (const Flow flow : {Flow::kStatus, Flow::kHeartbeat, Flow::kCommand})
+    EXPECT_EQ(qos_profile(flow).restart_depth, 0);
+}
+
 TEST(QosProfile, LetsWritersRepairALossyLink) {
   for (const Flow flow : {Flow::kSensor, Flow::kEstimate, Flow::kCommand})
     EXPECT_GE(qos_profile(flow).writer_depth, 8);

@@ -72,6 +72,20 @@ TEST_F(OdometryOverTheBus, IsVolatileForALateJoiner) {
   EXPECT_THAT(take_stamps(reader), ElementsAre(4));
 }
 
+TEST_F(OdometryOverTheBus, IsKeptForAServiceThatIsRestarted) {
+  write(1, 500);
+  Reader<slammot_Odometry> reader(reading, topics::kOdometry, History::kRestart);
+  std::vector<std::int64_t> stamps;
+  WaitSet wait_set(reading);
+  wait_set.on_data(reader, [&] {
+    reader.take_each([&](const slammot_Odometry& sample) { stamps.push_back(sample.stamp_ns); });
+  });
+  while ((stamps.empty() || stamps.back() < 500) &&
+         wait_set.wait(kForever) == WaitSet::Wake::kHandled) {}
+  ASSERT_EQ(stamps.size(), 400U);
+  EXPECT_EQ(stamps.front(), 101);
+}
+
 TEST_F(OdometryOverTheBus, KeepsTheNewestForAReaderThatSleeps) {
   Reader<slammot_Odometry> reader(reading, topics::kOdometry);
   ASSERT_TRUE(writer.wait_for_readers(1, kForever));
@@ -169,7 +183,7 @@ TEST(Reader, NamesThePolicyThatKeepsItFromAWriter) {
   const Participant reading = bus.join("reading");
   // The same topic, but its writer takes it for something that late joiners do not get.
   const Topic<slammot_Constraint> as_estimate{
-      {topics::kConstraint.name, topics::kConstraint.type, Flow::kEstimate, Recorded::kNo}};
+      {topics::kConstraint.name, topics::kConstraint.type, Flow::kCommand, Recorded::kNo}};
   const Writer<slammot_Constraint> writer(writing, as_estimate);
   const Reader<slammot_Constraint> reader(reading, topics::kConstraint);
   ASSERT_TRUE(reader.wait_for_mismatch(kForever));

@@ -6,9 +6,11 @@ namespace slammot::ingest {
 namespace {
 
 using namespace std::chrono_literals;
+using Answer = Backlog::Answer;
 
 const Backlog::Time kStart{100s};
-constexpr Backlog::Limits kLimits{.most_in_flight = 2, .longest_wait = 200ms, .silence = 100ms};
+constexpr Backlog::Limits kLimits{
+    .most_in_flight = 2, .longest_wait = 150ms, .label_silence = 150ms, .absence = 500ms};
 
 Step step_of(std::int64_t stamp_ns) {
   Step step;
@@ -24,7 +26,12 @@ struct BusyBacklog : ::testing::Test {
       backlog.add(step_of(stamp_ns), kStart);
       backlog.take();
     }
-    backlog.answered(1, kStart);
+    backlog.answered(Answer::kLocalized, 1, kStart);
+    backlog.answered(Answer::kLabelled, 1, kStart);
+  }
+  /// Answers to nothing that is in flight, every 10 ms.
+  void keep_answering(std::chrono::milliseconds from, std::chrono::milliseconds to) {
+    for (auto at = from; at <= to; at += 10ms) backlog.answered(Answer::kLabelled, 1, kStart + at);
   }
   Backlog backlog{kLimits};
 };
@@ -41,38 +48,72 @@ TEST(Backlog, SendsAtOnceWhereNobodyHasAnsweredYet) {
 TEST_F(BusyBacklog, WaitsForAnAnswerWhileTooManyAreInFlight) {
   backlog.add(step_of(4), kStart + 1ms);
   EXPECT_FALSE(backlog.may_send(kStart + 1ms));
-  backlog.answered(2, kStart + 2ms);
+  backlog.answered(Answer::kLabelled, 2, kStart + 2ms);
   EXPECT_TRUE(backlog.may_send(kStart + 2ms));
+}
+
+TEST_F(BusyBacklog, WaitsForLabelsAsLongAsTheyCome) {
+  backlog.add(step_of(4), kStart + 1ms);
+  backlog.answered(Answer::kLocalized, 3, kStart + 2ms);
+  EXPECT_FALSE(backlog.may_send(kStart + 2ms));
+}
+
+TEST_F(BusyBacklog, LetsLocalizationGoOnWithoutLabels) {
+  backlog.add(step_of(4), kStart + 1ms);
+  backlog.answered(Answer::kLocalized, 3, kStart + 2ms);
+  EXPECT_FALSE(backlog.may_send(kStart + 150ms));
+  EXPECT_TRUE(backlog.may_send(kStart + 151ms));
+}
+
+TEST_F(BusyBacklog, HoldsWhatLocalizationHasNotAnsweredAlsoWithoutLabels) {
+  for (const std::int64_t stamp_ns : {4, 5, 6}) backlog.add(step_of(stamp_ns), kStart + 1ms);
+  backlog.answered(Answer::kLocalized, 3, kStart + 151ms);
+  backlog.take();
+  backlog.take();
+  EXPECT_FALSE(backlog.may_send(kStart + 200ms));
 }
 
 TEST_F(BusyBacklog, DropsTheOldestThatWaitTooLong) {
   for (std::int64_t i = 0; i < 5; ++i) backlog.add(step_of(10 + i), kStart + i * 50ms);
-  EXPECT_EQ(backlog.drop_late(kStart + 200ms), 0U);
-  EXPECT_EQ(backlog.drop_late(kStart + 251ms), 2U);
-  backlog.answered(3, kStart + 251ms);
+  keep_answering(10ms, 150ms);
+  EXPECT_EQ(backlog.drop_late(), 0U);
+  keep_answering(160ms, 210ms);
+  EXPECT_EQ(backlog.drop_late(), 2U);
+  backlog.answered(Answer::kLabelled, 3, kStart + 211ms);
   EXPECT_EQ(backlog.take().scan->stamp_ns, 12);
 }
 
 TEST_F(BusyBacklog, DoesNotCountOdometryAsADroppedScan) {
   backlog.add({}, kStart);
-  EXPECT_EQ(backlog.drop_late(kStart + 1s), 0U);
+  keep_answering(10ms, 300ms);
+  EXPECT_EQ(backlog.drop_late(), 0U);
   EXPECT_TRUE(backlog.empty());
 }
 
-TEST_F(BusyBacklog, DoesNotWaitForServicesThatAreSilent) {
-  backlog.add(step_of(4), kStart + 50ms);
-  EXPECT_FALSE(backlog.may_send(kStart + 100ms));
-  EXPECT_TRUE(backlog.may_send(kStart + 101ms));
+TEST_F(BusyBacklog, KeepsScansThroughASilenceOfTheServices) {
+  for (std::int64_t i = 0; i < 10; ++i) backlog.add(step_of(10 + i), kStart + i * 40ms);
+  EXPECT_EQ(backlog.drop_late(), 0U);
+  backlog.answered(Answer::kLabelled, 3, kStart + 400ms);
+  EXPECT_EQ(backlog.drop_late(), 0U) << "the services have had no time for them";
+  keep_answering(410ms, 560ms);
+  EXPECT_EQ(backlog.drop_late(), 10U);
+}
+
+TEST_F(BusyBacklog, SendsOnWhereTheServicesAreGone) {
+  for (std::int64_t i = 0; i < 10; ++i) backlog.add(step_of(10 + i), kStart + 10ms);
+  EXPECT_FALSE(backlog.may_send(kStart + 500ms));
+  while (backlog.may_send(kStart + 501ms)) backlog.take();
+  EXPECT_TRUE(backlog.empty());
 }
 
 TEST_F(BusyBacklog, HoldsBackAgainOnceTheyAnswer) {
-  for (std::int64_t i = 0; i < 5; ++i) backlog.add(step_of(10 + i), kStart + 150ms);
+  for (std::int64_t i = 0; i < 5; ++i) backlog.add(step_of(10 + i), kStart + 550ms);
   for (int i = 0; i < 3; ++i) backlog.take();
-  EXPECT_TRUE(backlog.may_send(kStart + 150ms));
-  backlog.answered(3, kStart + 150ms);
-  EXPECT_FALSE(backlog.may_send(kStart + 150ms));
-  backlog.answered(12, kStart + 160ms);
-  EXPECT_TRUE(backlog.may_send(kStart + 160ms));
+  EXPECT_TRUE(backlog.may_send(kStart + 550ms));
+  backlog.answered(Answer::kLabelled, 3, kStart + 550ms);
+  EXPECT_FALSE(backlog.may_send(kStart + 550ms));
+  backlog.answered(Answer::kLabelled, 12, kStart + 560ms);
+  EXPECT_TRUE(backlog.may_send(kStart + 560ms));
 }
 
 }  // namespace

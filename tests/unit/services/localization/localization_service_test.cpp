@@ -49,9 +49,11 @@ sensing::LaserScan scan_among_posts(std::uint32_t sequence) {
 }
 
 struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
-  dds::Writer<slammot_LaserScan> scans{neighbour_, dds::topics::kLaserScan};
-  dds::Writer<slammot_Odometry> odometry{neighbour_, dds::topics::kOdometry};
-  dds::Reader<slammot_LocalizedScan> localized{neighbour_, dds::topics::kLocalizedScan};
+  /// Of a source; another one has nothing of the scans before it.
+  std::optional<dds::Writer<slammot_LaserScan>> scans;
+  std::optional<dds::Writer<slammot_Odometry>> odometry;
+  dds::Reader<slammot_LocalizedScan> localized{neighbour_, dds::topics::kLocalizedScan,
+                                               dds::History::kRecorder};
   std::uint64_t drive_id = 1;
   std::vector<std::uint32_t> sequences;
   std::set<std::uint64_t> maps;
@@ -59,15 +61,20 @@ struct LocalizationOnTheBus : slammot::testing::ServiceOnTheBus {
   flow::SubmapId submap_in_use;
   geometry::Pose2 map_from_odom;
 
+  LocalizationOnTheBus() { restart_source(); }
+  void restart_source() {
+    scans.emplace(neighbour_, dds::topics::kLaserScan);
+    odometry.emplace(neighbour_, dds::topics::kOdometry);
+  }
   void begin(const LocalizationService::Settings& settings = {}) {
     start<LocalizationService>("localization", settings);
-    ASSERT_TRUE(scans.wait_for_readers(1, kForever));
-    ASSERT_TRUE(odometry.wait_for_readers(1, kForever));
+    ASSERT_TRUE(scans->wait_for_readers(1, kForever));
+    ASSERT_TRUE(odometry->wait_for_readers(1, kForever));
     ASSERT_TRUE(localized.wait_for_writers(1, kForever));
   }
   void send(std::uint32_t sequence) {
-    odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(sequence), {}}));
-    scans.write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(sequence)));
+    odometry->write(wire::encode("car", sensing::Odometry{stamp_ns_of(sequence), {}}));
+    scans->write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(sequence)));
   }
   app::ServiceState state() { return context_->status().state(std::chrono::steady_clock::now()); }
   std::string explanation() {
@@ -124,15 +131,15 @@ TEST_F(LocalizationOnTheBus, CountsBadInputInItsStatusAndGoesOn) {
     sensing::LaserScan scan = room_scan(sequence);
     for (std::size_t beam = valid_beams; beam < scan.range_m.size(); ++beam)
       scan.range_m[beam] = static_cast<float>(scan.scanner.max_range_m);
-    odometry.write(wire::encode("car", sensing::Odometry{scan.stamp_ns, {}}));
-    scans.write(wire::LaserScanEncoder(drive_id).encode("car", scan));
+    odometry->write(wire::encode("car", sensing::Odometry{scan.stamp_ns, {}}));
+    scans->write(wire::LaserScanEncoder(drive_id).encode("car", scan));
     ASSERT_TRUE(comes_to([&] { return has_localized(so_far + 1); }));
   };
   send_blind(10, 3);
   send_blind(11, 0);
   localize(40, 41);  // after 2.9 s
-  odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(41), {400.0, 0.0, 0.0}}));
-  scans.write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(41)));
+  odometry->write(wire::encode("car", sensing::Odometry{stamp_ns_of(41), {400.0, 0.0, 0.0}}));
+  scans->write(wire::LaserScanEncoder(drive_id).encode("car", room_scan(41)));
   ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
   const std::map<std::string, std::uint64_t> expected = {{"duplicate_scans", 2},
                                                          {"out_of_order_scans", 2},
@@ -155,7 +162,7 @@ TEST_F(LocalizationOnTheBus, CountsBadInputInItsStatusAndGoesOn) {
 
 TEST_F(LocalizationOnTheBus, DoesWithoutOdometry) {
   begin();
-  scans.write(wire::LaserScanEncoder().encode("car", room_scan(0)));
+  scans->write(wire::LaserScanEncoder().encode("car", room_scan(0)));
   EXPECT_TRUE(comes_to([this] { return has_localized(1); }));
 }
 
@@ -166,6 +173,18 @@ TEST_F(LocalizationOnTheBus, ComesBackFromItsCheckpointInTheSameDrive) {
   begin();
   localize(26, 27);
   EXPECT_EQ(count("restored_checkpoints"), 1U);
+}
+
+TEST_F(LocalizationOnTheBus, WorksThroughTheScansThatCameWhileItWasAway) {
+  begin();
+  localize(0, 25);
+  stop();
+  sequences.clear();
+  for (std::uint32_t sequence = 25; sequence < 30; ++sequence) send(sequence);
+  begin();
+  ASSERT_TRUE(comes_to([this] { return has_localized(1) && sequences.back() == 29; }));
+  EXPECT_THAT(sequences, ::testing::IsSupersetOf({25U, 26U, 27U, 28U, 29U}));
+  EXPECT_EQ(maps.size(), 1U);
 }
 
 TEST_F(LocalizationOnTheBus, ComesBackHoweverLongItWasAway) {
@@ -182,6 +201,7 @@ TEST_F(LocalizationOnTheBus, TellsASourceThatBeginsItsDriveAgainHowFarItIsAlsoAf
   begin();
   localize(0, 25);
   stop();
+  restart_source();
   begin();
   localize(0, 1);
   EXPECT_EQ(count("restored_checkpoints"), 1U);
@@ -192,6 +212,7 @@ TEST_F(LocalizationOnTheBus, BeginsANewMapAfterACrashInAnotherDrive) {
   begin();
   localize(0, 25);
   stop();
+  restart_source();
   begin();
   drive_id = 2;
   localize(0, 1);
@@ -245,8 +266,8 @@ struct LostOnTheBus : LocalizationOnTheBus {
     begin(settings);
   }
   void localize_next(sensing::LaserScan (*scan_of)(std::uint32_t)) {
-    odometry.write(wire::encode("car", sensing::Odometry{stamp_ns_of(next), {}}));
-    scans.write(wire::LaserScanEncoder(drive_id).encode("car", scan_of(next)));
+    odometry->write(wire::encode("car", sensing::Odometry{stamp_ns_of(next), {}}));
+    scans->write(wire::LaserScanEncoder(drive_id).encode("car", scan_of(next)));
     ++next;
     ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
   }
@@ -474,6 +495,7 @@ TEST_F(LocalizationInAStoredMap, HandsOverTheSubmapInWhichTheVehicleWasSwitchedO
   begin(continuing());
   localize(0, 25);
   stop();
+  restart_source();
   begin(continuing());
   drive_id = 2;
   send(0);
@@ -487,6 +509,7 @@ TEST_F(LocalizationInAStoredMap, KeepsTheCheckpointOfAnotherMapOutOfIt) {
   begin();
   localize(0, 25);
   stop();
+  restart_source();
   store(3);
   place(3);
   begin(continuing());

@@ -101,6 +101,24 @@ TEST_F(ScanIntegrationTest, TakesLabelsOfDetectionWhereThoseOfTrackingAreOverdue
   EXPECT_TRUE(saw_moving());
 }
 
+TEST_F(ScanIntegrationTest, WaitsLongerForLabelsThatCameUntilNow) {
+  remember(1);
+  integrate(labels(1));
+  for (std::uint32_t sequence = 2; sequence < 8; ++sequence) remember(sequence);
+  EXPECT_EQ(integration_.integrate_overdue(8 * kPeriod_ns, PoseTrust::kConfirmed, map_)
+                .fallback_integrations,
+            0U)
+      << "tracking may be being restarted";
+  EXPECT_EQ(integrate(labels(2)).fallback_integrations, 0U);
+  integration_.integrate_overdue(100 * kPeriod_ns, PoseTrust::kConfirmed, map_);
+  EXPECT_FALSE(integration_.awaits_labels());
+  for (std::uint32_t sequence = 101; sequence < 105; ++sequence) remember(sequence);
+  EXPECT_EQ(integration_.integrate_overdue(105 * kPeriod_ns, PoseTrust::kConfirmed, map_)
+                .fallback_integrations,
+            2U)
+      << "it does not come back: what waits for 0.15 s";
+}
+
 TEST_F(ScanIntegrationTest, LeavesOutWhatContradictsTheMapWhereThereAreNoLabels) {
   end_cell_ = flow::EndCell::kFree;
   remember(1);

@@ -51,14 +51,26 @@ TEST(WaitingScans, AwaitOdometryNoMoreAfterSeveralDidInVainUntilItComesAgain) {
   EXPECT_FALSE(waiting.may_begin(kOdometry));
 }
 
-TEST(WaitingScans, AwaitTrackingForAFewTurnsUnlessTheyQueueUp) {
+TEST(WaitingScans, AwaitTrackingForSomeTurnsUnlessTheyQueueUpAndAfterARestartAlsoThen) {
   WaitingScans waiting;
   waiting.add(scan_of(1));
-  EXPECT_GT(turns_until_it_begins(waiting, kLabels), 1);
+  const int turns = turns_until_it_begins(waiting, kLabels);
   WaitingScans queue;
   queue.add(scan_of(1));
   queue.add(scan_of(1));
   EXPECT_TRUE(queue.may_begin(kLabels));
+  const int turns_in_queue = turns_until_it_begins(
+      queue, {.has_odometry = true, .awaits_labels = true, .is_back = true});
+  EXPECT_GT(turns_in_queue, 1);
+  EXPECT_GT(turns, 3 * turns_in_queue);
+}
+
+TEST(WaitingScans, AwaitForAFewTurnsWhatTrackingSaidBeforeARestart) {
+  WaitingScans waiting;
+  waiting.add(scan_of(1));
+  const int turns = turns_until_it_begins(waiting, {.has_odometry = true, .awaits_history = true});
+  EXPECT_GT(turns, 1);
+  EXPECT_LE(turns, 5);
 }
 
 TEST(WaitingScans, AwaitTheObjectsOfTheNewestLabels) {

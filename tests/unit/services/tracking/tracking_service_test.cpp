@@ -1,6 +1,7 @@
 #include "services/tracking/tracking_service.hpp"
 
 #include <filesystem>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,7 +50,8 @@ flow::TrackedObjects one_car(std::int64_t stamp_ns) {
 }
 
 struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
-  dds::Writer<slammot_SegmentedScan> scans{neighbour_, dds::topics::kSegmentedScan};
+  /// Of detection; another one has nothing of the scans before it.
+  std::optional<dds::Writer<slammot_SegmentedScan>> scans;
   dds::Writer<slammot_TrackedObjects> stored{neighbour_, dds::topics::kStoredTrackedObjects};
   dds::Reader<slammot_TrackedObjects> objects{neighbour_, dds::topics::kTrackedObjects};
   dds::Reader<slammot_ScanLabels> labels{neighbour_, dds::topics::kScanLabels};
@@ -59,9 +61,11 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
   std::vector<std::uint32_t> labelled;
   bool is_blank = false;  ///< Scans have no beams: tracks are predicted, and stay.
 
+  void SetUp() override { restart_detection(); }
+  void restart_detection() { scans.emplace(neighbour_, dds::topics::kSegmentedScan); }
   void begin() {
     start<TrackingService>("tracking");
-    ASSERT_TRUE(scans.wait_for_readers(1, kForever));
+    ASSERT_TRUE(scans->wait_for_readers(1, kForever));
     ASSERT_TRUE(objects.wait_for_writers(1, kForever));
     ASSERT_TRUE(labels.wait_for_writers(1, kForever));
   }
@@ -70,7 +74,7 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
     scan.map_id = map_id;
     scan.odom_id = odom_id;
     if (is_blank) scan.points_in_base_m.clear(), scan.range_m.clear(), scan.labels.clear();
-    scans.write(wire::SegmentedScanEncoder().encode("car", scan));
+    scans->write(wire::SegmentedScanEncoder().encode("car", scan));
   }
   std::filesystem::path journal() const { return folder_ / "tracking-car.journal"; }
   /// Tracks a car with id 17, without a journal, and leaves the process's journal as it was once
@@ -128,6 +132,7 @@ TEST_F(TrackingOnTheBus, TakesUpTheTracksOfTheProcessBefore) {
 
 TEST_F(TrackingOnTheBus, GoesOnFromItsJournalAfterAKill) {
   track_a_car_until_killed();
+  restart_detection();
   begin();
   send(8);
   ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
@@ -136,12 +141,27 @@ TEST_F(TrackingOnTheBus, GoesOnFromItsJournalAfterAKill) {
   EXPECT_EQ(context_->status().counter("taken_up"), 1U);
 }
 
+TEST_F(TrackingOnTheBus, WorksThroughWhatDetectionKeptSinceTheJournal) {
+  track_a_car_until_killed();
+  send(8);  // while tracking is away
+  begin();
+  ASSERT_TRUE(comes_to([this] { return has_labelled(1) && labelled.back() == 8; }));
+  labelled.erase(labelled.begin());  // the answer to the first scan that is repeated
+  EXPECT_THAT(labelled, ::testing::IsSupersetOf({6U, 7U, 8U}));
+  for (const flow::TrackedObjects& objects : published) {
+    ASSERT_EQ(objects.objects.size(), 1U);
+    EXPECT_EQ(objects.objects.front().track_id, flow::TrackId{17});
+  }
+}
+
 TEST_F(TrackingOnTheBus, GoesOnWithTheVeryLastScanAfterAStop) {
   track_a_car_until_killed();
+  restart_detection();
   begin();
   send(9);
   ASSERT_TRUE(comes_to([this] { return has_labelled(1); }));
   stop();
+  restart_detection();
   begin();
   send(9);
   ASSERT_TRUE(comes_to([this] { return has_labelled(2); }));
@@ -154,6 +174,7 @@ TEST_F(TrackingOnTheBus, GoesOnWithTheVeryLastScanAfterAStop) {
 
 TEST_F(TrackingOnTheBus, LeavesTheJournalOfAnotherDriveAlone) {
   track_a_car_until_killed();
+  restart_detection();
   odom_id = {2};
   begin();
   send(8);
@@ -163,6 +184,7 @@ TEST_F(TrackingOnTheBus, LeavesTheJournalOfAnotherDriveAlone) {
 
 TEST_F(TrackingOnTheBus, BeginsAnewWhereTheJournalIsDamaged) {
   track_a_car_until_killed();
+  restart_detection();
   resize_file(journal(), file_size(journal()) / 2);
   begin();
   send(8);

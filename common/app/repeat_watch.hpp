@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace slammot::app {
+
+/// Decides which scans that were done before are answered again. A neighbour that was restarted
+/// repeats a series of scans in their order: answering each would flood the bus. The newest scan is
+/// always answered, of a series one in a quarter of a second of data.
+class RepeatWatch {
+ public:
+  /// `newest_ns`: stamp of the newest scan of this scanner that is done.
+  bool asks_for_answer(const std::string& scanner_id, std::int64_t stamp_ns,
+                       std::int64_t newest_ns) {
+    constexpr std::int64_t kPeriodNs = 250'000'000;
+    if (stamp_ns == newest_ns) return true;
+    const auto answered = answered_ns_.find(scanner_id);
+    const bool is_in_series = answered != answered_ns_.end() && stamp_ns > answered->second &&
+                              stamp_ns - answered->second < kPeriodNs;
+    if (is_in_series) return false;
+    if (answered_ns_.size() >= kMostScanners) answered_ns_.clear();
+    answered_ns_[scanner_id] = stamp_ns;
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kMostScanners = 100;
+  std::map<std::string, std::int64_t> answered_ns_;  ///< Of the last repeated scan of a scanner.
+};
+
+}  // namespace slammot::app
