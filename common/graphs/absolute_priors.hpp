@@ -54,10 +54,12 @@ struct AbsoluteFit {
   PriorAgreement headings;
 };
 
-/// Rigid alignment of the nodes to the priors: least median of squares over pairs of positions
-/// (Rousseeuw 1984), then least squares over the inliers, with the scale of the errors estimated by
-/// their median. More than half of the measurements of a kind must be good. Headings count against
-/// a bias of unknown size: with positions it is estimated, without it is assumed to be small.
+/// Rigid alignment of the nodes to the priors. Positions: the likeliest of the places that
+/// `place_of_map` finds; multipath that lasts is part of the model, and the sigmas contain what
+/// other places are likely. Inliers are the fixes within 3 sigmas of the scale of their errors.
+/// Headings: least median of squares (Rousseeuw 1984), then the mean of the inliers, of which there
+/// must be more than half; they count against a bias of unknown size: with positions it is
+/// estimated, without it is assumed to be small.
 AbsoluteFit align(const std::vector<flow::CorrectedSubmap>& nodes, const AbsolutePriors& priors);
 
 /// Poses of the nodes by constraints and priors together.

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include "common/graphs/absolute_priors.hpp"
+#include "common/graphs/place_of_map.hpp"
 
 namespace slammot::graphs {
 namespace {
@@ -28,13 +29,6 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// A position with its point in map.
-struct Pair {
-  Vector2 in_map_m;
-  Vector2 in_enu_m;
-  Matrix2 information;
-};
-
 std::map<flow::SubmapId, Pose2> by_id(const std::vector<flow::CorrectedSubmap>& nodes) {
   std::map<flow::SubmapId, Pose2> poses;
   for (const flow::CorrectedSubmap& node : nodes)
@@ -42,98 +36,25 @@ std::map<flow::SubmapId, Pose2> by_id(const std::vector<flow::CorrectedSubmap>& 
   return poses;
 }
 
-std::vector<Pair> pairs_of(const std::map<flow::SubmapId, Pose2>& nodes,
-                           const std::vector<PositionPrior>& priors) {
-  std::vector<Pair> pairs;
-  for (const PositionPrior& prior : priors)
-    pairs.push_back(
-        {nodes.at(prior.node) * prior.in_node_m, prior.in_enu_m, prior.covariance_m2.inverse()});
-  return pairs;
-}
-
-std::vector<double> squared_errors(const std::vector<Pair>& pairs, const Pose2& enu_from_map) {
-  std::vector<double> errors;
-  errors.reserve(pairs.size());
-  for (const Pair& pair : pairs) {
-    const Vector2 error_m = enu_from_map * pair.in_map_m - pair.in_enu_m;
-    errors.push_back(error_m.dot(pair.information * error_m));
+std::vector<Fix> fixes_of(const std::map<flow::SubmapId, Pose2>& nodes,
+                          const std::vector<PositionPrior>& priors) {
+  std::vector<Fix> fixes;
+  for (const PositionPrior& prior : priors) {
+    const Vector2 in_map_m = nodes.at(prior.node) * prior.in_node_m;
+    const double way_m = fixes.empty() ? 0.0 : (in_map_m - fixes.back().in_map_m).norm();
+    fixes.push_back({in_map_m, prior.in_enu_m, prior.covariance_m2, way_m});
   }
-  return errors;
+  return fixes;
 }
 
-double extent_m(const std::vector<Pair>& pairs) {
-  Vector2 low = pairs.front().in_map_m;
+double extent_m(const std::vector<Fix>& fixes) {
+  Vector2 low = fixes.front().in_map_m;
   Vector2 high = low;
-  for (const Pair& pair : pairs) {
-    low = low.cwiseMin(pair.in_map_m);
-    high = high.cwiseMax(pair.in_map_m);
+  for (const Fix& fix : fixes) {
+    low = low.cwiseMin(fix.in_map_m);
+    high = high.cwiseMax(fix.in_map_m);
   }
   return (high - low).norm();
-}
-
-/// The pose that two positions give.
-Pose2 pose_of(const Pair& a, const Pair& b) {
-  const Vector2 in_map_m = b.in_map_m - a.in_map_m;
-  const Vector2 in_enu_m = b.in_enu_m - a.in_enu_m;
-  const double turn_rad = geometry::wrap_angle(std::atan2(in_enu_m.y(), in_enu_m.x()) -
-                                               std::atan2(in_map_m.y(), in_map_m.x()));
-  const Vector2 middle_m = 0.5 * (a.in_enu_m + b.in_enu_m) -
-                           geometry::rotation(turn_rad) * (0.5 * (a.in_map_m + b.in_map_m));
-  return {middle_m.x(), middle_m.y(), turn_rad};
-}
-
-/// Pose of the least median of squared errors over pairs that lie far apart.
-Pose2 least_median_pose(const std::vector<Pair>& pairs, double extent) {
-  constexpr int kSamples = 300;
-  constexpr double kFarShare = 0.3;
-  std::uint64_t state = 1;  // the generator of Knuth's MMIX
-  const auto draw = [&] {
-    state = state * 6364136223846793005U + 1442695040888963407U;
-    return static_cast<std::size_t>(state >> 33) % pairs.size();
-  };
-  Pose2 best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int sample = 0; sample < kSamples; ++sample) {
-    const Pair& a = pairs[draw()];
-    const Pair& b = pairs[draw()];
-    if ((a.in_map_m - b.in_map_m).norm() < kFarShare * extent) continue;
-    const Pose2 pose = pose_of(a, b);
-    const double median = median_of(squared_errors(pairs, pose));
-    if (median >= least) continue;
-    least = median;
-    best = pose;
-  }
-  return best;
-}
-
-/// Least squares over the inliers in closed form, all with the weight of their mean variance
-/// (Umeyama 1991).
-Pose2 least_squares_pose(const std::vector<Pair>& pairs, const std::vector<bool>& is_inlier) {
-  double sum = 0.0;
-  Vector2 mean_map_m = Vector2::Zero();
-  Vector2 mean_enu_m = Vector2::Zero();
-  const auto weight_of = [](const Pair& pair) { return 0.5 * pair.information.trace(); };
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!is_inlier[i]) continue;
-    const double weight = weight_of(pairs[i]);
-    sum += weight;
-    mean_map_m += weight * pairs[i].in_map_m;
-    mean_enu_m += weight * pairs[i].in_enu_m;
-  }
-  mean_map_m /= sum;
-  mean_enu_m /= sum;
-  double along = 0.0;
-  double across = 0.0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!is_inlier[i]) continue;
-    const Vector2 a = pairs[i].in_map_m - mean_map_m;
-    const Vector2 b = pairs[i].in_enu_m - mean_enu_m;
-    along += weight_of(pairs[i]) * a.dot(b);
-    across += weight_of(pairs[i]) * (a.x() * b.y() - a.y() * b.x());
-  }
-  const double turn_rad = std::atan2(across, along);
-  const Vector2 shift_m = mean_enu_m - geometry::rotation(turn_rad) * mean_map_m;
-  return {shift_m.x(), shift_m.y(), turn_rad};
 }
 
 /// Outliers and scale of squared normalized errors, whose median is known if the claimed sigmas are
@@ -164,44 +85,40 @@ double correlated(const std::vector<Vector2>& errors) {
   return sum;
 }
 
-/// Covariance of the alignment: origin's position per axis and direction.
-void set_uncertainty(const std::vector<Pair>& pairs, AbsoluteFit& fit) {
-  geometry::Matrix3 information = geometry::Matrix3::Zero();
-  const double factor =
-      1.0 / (fit.positions.correlated * fit.positions.scale * fit.positions.scale);
-  const Matrix2 turn = geometry::rotation(fit.enu_from_map.heading_rad);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!fit.positions.is_inlier[i]) continue;
-    const Vector2 arm_m = turn * pairs[i].in_map_m;
-    Eigen::Matrix<double, 2, 3> jacobian;
-    jacobian << 1.0, 0.0, -arm_m.y(), 0.0, 1.0, arm_m.x();
-    information += factor * jacobian.transpose() * pairs[i].information * jacobian;
-  }
-  const geometry::Matrix3 covariance = information.inverse();
-  const double direction_by_common_rad = kCommonError_m / extent_m(pairs);
-  fit.position_sigma_m =
-      std::hypot(std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1))), kCommonError_m);
-  fit.direction_sigma_rad = std::hypot(std::sqrt(covariance(2, 2)), direction_by_common_rad);
+std::vector<Vector2> errors_of(const std::vector<Fix>& fixes, const Pose2& enu_from_map) {
+  std::vector<Vector2> errors_m;
+  for (const Fix& fix : fixes) errors_m.push_back(enu_from_map * fix.in_map_m - fix.in_enu_m);
+  return errors_m;
 }
 
-void align_positions(const std::vector<Pair>& pairs, AbsoluteFit& fit) {
-  fit.positions.is_inlier.assign(pairs.size(), false);
-  if (pairs.size() < kFewest) return;
-  const double extent = extent_m(pairs);
+/// Outliers, scale and correlation of the errors of all fixes.
+PriorAgreement agreement_of(const std::vector<Fix>& fixes, const Pose2& enu_from_map) {
+  const std::vector<Vector2> errors_m = errors_of(fixes, enu_from_map);
+  std::vector<double> squared;
+  for (std::size_t i = 0; i < fixes.size(); ++i)
+    squared.push_back(errors_m[i].dot(fixes[i].covariance_m2.ldlt().solve(errors_m[i])));
+  PriorAgreement agreement = agreement_of(squared, kMedianOfChi2);
+  std::vector<Vector2> of_inliers;
+  for (std::size_t i = 0; i < fixes.size(); ++i)
+    if (agreement.is_inlier[i]) of_inliers.push_back(errors_m[i]);
+  agreement.correlated = correlated(of_inliers);
+  return agreement;
+}
+
+void align_positions(const std::vector<Fix>& fixes, AbsoluteFit& fit) {
+  fit.positions.is_inlier.assign(fixes.size(), false);
+  if (fixes.size() < kFewest) return;
+  const double extent = extent_m(fixes);
   if (extent < kLeastExtent_m) return;
-  fit.enu_from_map = least_median_pose(pairs, extent);
-  for (int iteration = 0; iteration < 10; ++iteration) {
-    fit.positions = agreement_of(squared_errors(pairs, fit.enu_from_map), kMedianOfChi2);
-    fit.enu_from_map = least_squares_pose(pairs, fit.positions.is_inlier);
-  }
-  std::vector<Vector2> errors_m;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (fit.positions.is_inlier[i])
-      errors_m.emplace_back(fit.enu_from_map * pairs[i].in_map_m - pairs[i].in_enu_m);
-  }
-  fit.positions.correlated = correlated(errors_m);
+  const std::vector<PlaceMode> modes = place_of_map(fixes);
+  if (modes.empty()) return;
+  fit.enu_from_map = modes.front().enu_from_map;
+  fit.positions = agreement_of(fixes, fit.enu_from_map);
   fit.has_position = fit.has_direction = true;
-  set_uncertainty(pairs, fit);
+  const geometry::Matrix3 covariance = spread_about(fit.enu_from_map, modes);
+  fit.position_sigma_m =
+      std::hypot(std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1))), kCommonError_m);
+  fit.direction_sigma_rad = std::hypot(std::sqrt(covariance(2, 2)), kCommonError_m / extent);
 }
 
 /// Of all readings: the direction of the map's x axis that each implies, with the bias.
@@ -295,7 +212,7 @@ std::size_t PriorAgreement::inliers() const {
 AbsoluteFit align(const std::vector<flow::CorrectedSubmap>& nodes, const AbsolutePriors& priors) {
   AbsoluteFit fit;
   const std::map<flow::SubmapId, Pose2> poses = by_id(nodes);
-  align_positions(pairs_of(poses, priors.positions), fit);
+  align_positions(fixes_of(poses, priors.positions), fit);
   align_headings(poses, priors.headings, fit);
   return fit;
 }

@@ -1,6 +1,7 @@
 #include "services/collision_warning/collision_monitor.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "services/collision_warning/encounter.hpp"
 #include "services/collision_warning/predicted_motion.hpp"
@@ -11,6 +12,9 @@ namespace {
 using flow::CollisionWarning;
 using flow::CollisionWarnings;
 using flow::TrackedObject;
+
+/// Slower, the vehicle stands: its driver cannot avoid a contact, to keep clear is up to others.
+constexpr double kStandsBelowMps = 0.5;
 
 /// True if the whole object is behind the vehicle's rear: to keep clear is up to it.
 bool is_behind(const TrackedObject& object, const geometry::Pose2& odom_from_base,
@@ -48,8 +52,9 @@ CollisionWarnings CollisionMonitor::step(const flow::TrackedObjects& tracked) {
     warnings.objects.push_back(assess(object, vehicle, tracked.stamp_ns));
     warnings.highest_level = std::max(warnings.highest_level, warnings.objects.back().level);
   }
-  std::erase_if(levels_,
-                [&](const auto& level) { return level.second.is_over(tracked.stamp_ns, config_); });
+  std::erase_if(followed_, [&](const auto& followed) {
+    return followed.second.level.is_over(tracked.stamp_ns, config_);
+  });
   return warnings;
 }
 
@@ -58,16 +63,19 @@ void CollisionMonitor::begin_anew_if_needed(const flow::TrackedObjects& tracked)
       last_->stamp_ns <= tracked.stamp_ns)
     return;
   motion_ = {};
-  levels_.clear();
+  followed_.clear();
 }
 
 CollisionWarning CollisionMonitor::assess(const TrackedObject& object,
                                           const PredictedBoxes& vehicle, std::int64_t stamp_ns) {
-  const PredictedBoxes boxes = predict(object, config_);
+  Followed& followed = followed_[object.track_id];
+  const CourseState motion = followed.motion.update(stamp_ns, object);
+  const PredictedBoxes boxes = predict(object, motion, road_of(vehicle_), config_);
   const std::optional<Contact> contact = collision_warning::contact(vehicle, boxes);
+  const bool stands = std::abs(vehicle_.speed_mps) < kStandsBelowMps;
   const ClosestApproach closest = closest_approach(vehicle, boxes);
   return {.track_id = object.track_id,
-          .level = levels_[object.track_id].update(stamp_ns, contact, config_),
+          .level = followed.level.update(stamp_ns, stands ? std::nullopt : contact, config_),
           .probability = contact ? contact->probability : 0.0,
           .time_to_collision_s = contact ? contact->after_s : -1.0,
           .closest_distance_m = closest.distance_m,

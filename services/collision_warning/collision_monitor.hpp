@@ -6,6 +6,8 @@
 #include "common/flow/collision_warnings.hpp"
 #include "common/flow/tracked_objects.hpp"
 #include "services/collision_warning/collision_warning_config.hpp"
+#include "services/collision_warning/object_motion.hpp"
+#include "services/collision_warning/predicted_motion.hpp"
 #include "services/collision_warning/vehicle_motion.hpp"
 #include "services/collision_warning/warning_level.hpp"
 
@@ -23,6 +25,12 @@ class CollisionMonitor {
   const VehicleState& vehicle() const { return vehicle_; }
 
  private:
+  /// An object over time.
+  struct Followed {
+    ObjectMotion motion;
+    LevelOverTime level;
+  };
+
   void begin_anew_if_needed(const flow::TrackedObjects& tracked);
   flow::CollisionWarning assess(const flow::TrackedObject& object, const PredictedBoxes& vehicle,
                                 std::int64_t stamp_ns);
@@ -30,7 +38,7 @@ class CollisionMonitor {
   CollisionWarningConfig config_;
   VehicleMotion motion_;
   VehicleState vehicle_;
-  std::map<flow::TrackId, LevelOverTime> levels_;
+  std::map<flow::TrackId, Followed> followed_;
   std::optional<flow::CollisionWarnings> last_;  ///< Without its objects; none before the first.
 };
 

@@ -14,7 +14,8 @@ struct CollisionWarningConfig {
   double hold_s = 0.5;                   ///< and ends after they did not hold for so long.
   double acceleration_sigma_mps2 = 0.5;  ///< What the driver may do against the prediction; one
                                          ///< sigma along the path,
-  double yaw_rate_sigma_radps = 0.03;    ///< and of the turn.
+  double yaw_rate_sigma_radps = 0.03;    ///< and of the turn; also of other drivers.
+  double pedestrian_acceleration_sigma_mps2 = 0.3;  ///< The same of a pedestrian, each axis.
 };
 
 }  // namespace slammot::collision_warning

@@ -58,15 +58,20 @@ const config::FieldTable<CollisionWarningConfig>& collision_warning_fields() {
            {"Levels flicker.", "Levels outlast the danger."}},
           {"acceleration_sigma_mps2",
            &C::acceleration_sigma_mps2,
-           "What the driver may do along the path against the prediction, one sigma of a constant "
-           "acceleration.",
+           "What a driver, of the vehicle or of another one, may do along the path against the "
+           "prediction, one sigma of a constant acceleration.",
            kNotNegative,
            {"The probability jumps between 0 and 1.", "No contact ever becomes likely."}},
           {"yaw_rate_sigma_radps",
            &C::yaw_rate_sigma_radps,
-           "The same of the turn, one sigma of a constant yaw rate.",
+           "The same of the turn, one sigma of a constant yaw rate; also of other drivers.",
            kNotNegative,
            {"The end of a bend causes warnings.", "No contact ever becomes likely."}},
+          {"pedestrian_acceleration_sigma_mps2",
+           &C::pedestrian_acceleration_sigma_mps2,
+           "What a pedestrian may do, one sigma of a constant acceleration along each axis.",
+           kNotNegative,
+           {"Pedestrians who stop at the kerb cause warnings.", "Warnings are late."}},
       });
   return table;
 }

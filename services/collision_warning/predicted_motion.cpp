@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace slammot::collision_warning {
 namespace {
@@ -10,23 +12,39 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using geometry::Pose2;
 
-/// Density of white acceleration of an object whose path is not given [m^2/s^3].
-constexpr double kAccelerationDensity = 0.3;
-/// Below it a vehicle's curvature is that of noise.
+/// Below it a curvature is that of noise.
 constexpr double kLeastTurningSpeedMps = 1.0;
+/// A turn straightens out with this time constant: bends and lane changes end.
+constexpr double kTurnS = 3.0;
 
-/// Way of a vehicle that keeps its speed, or brakes until it stands; signed.
-double way_m(const VehicleState& vehicle, double after_s) {
-  const bool brakes = vehicle.speed_mps * vehicle.acceleration_mps2 < 0.0;
-  if (!brakes) return vehicle.speed_mps * after_s;
-  const double until_stop_s = -vehicle.speed_mps / vehicle.acceleration_mps2;
+/// A course turns into the direction of the road with this time constant, that of a lane change,
+constexpr double kRoadS = 1.2;
+/// from up to this angle, in either sense of the road;
+constexpr double kRoadRad = 0.5;
+/// a vehicle that turns faster is on no road.
+constexpr double kTurnsRadps = 0.12;
+
+/// Motion along a course, as of the vehicle and of objects.
+struct Motion {
+  double speed_mps = 0.0;  ///< Signed.
+  double acceleration_mps2 = 0.0;
+  double yaw_rate_radps = 0.0;
+  std::optional<double> road_rad{};  ///< Direction that the course turns into; in place of the
+                                     ///< turn.
+};
+
+/// Way of one that keeps its speed, or brakes until it stands; signed.
+double way_m(const Motion& motion, double after_s) {
+  const bool brakes = motion.speed_mps * motion.acceleration_mps2 < 0.0;
+  if (!brakes) return motion.speed_mps * after_s;
+  const double until_stop_s = -motion.speed_mps / motion.acceleration_mps2;
   const double t = std::min(after_s, until_stop_s);
-  return vehicle.speed_mps * t + 0.5 * vehicle.acceleration_mps2 * t * t;
+  return motion.speed_mps * t + 0.5 * motion.acceleration_mps2 * t * t;
 }
 
-double curvature_of(const VehicleState& vehicle) {
-  const double v = vehicle.speed_mps;
-  return vehicle.yaw_rate_radps * v / std::max(v * v, kLeastTurningSpeedMps);
+double curvature_of(const Motion& motion) {
+  const double v = motion.speed_mps;
+  return motion.yaw_rate_radps * v / std::max(v * v, kLeastTurningSpeedMps);
 }
 
 /// End of an arc that begins at the origin along x.
@@ -37,81 +55,87 @@ Pose2 end_of_arc(double length_m, double curvature_per_m) {
           geometry::wrap_angle(turn_rad)};
 }
 
-/// Covariance of the position in the axes of the predicted pose, rotated to odom.
-Matrix2d driver_covariance_m2(const VehicleState& vehicle, double after_s, double heading_rad,
-                              const CollisionWarningConfig& config) {
-  const double half_t2 = 0.5 * after_s * after_s;
-  const double along_m = half_t2 * config.acceleration_sigma_mps2;
-  const double across_m = half_t2 * config.yaw_rate_sigma_radps * std::abs(vehicle.speed_mps);
-  const Matrix2d turn = geometry::rotation(heading_rad);
-  return turn * Vector2d(along_m * along_m, across_m * across_m).asDiagonal() * turn.transpose();
+/// Course on a road after some time.
+double towards(double road_rad, const Pose2& start, double after_s) {
+  const double left_rad = geometry::wrap_angle(start.heading_rad - road_rad);
+  return geometry::wrap_angle(road_rad + std::exp(-after_s / kRoadS) * left_rad);
 }
 
-/// The path's positions with the present one before them.
-std::vector<flow::PredictedPosition> nodes_of(const flow::TrackedObject& object) {
-  std::vector<flow::PredictedPosition> nodes = {
-      {0.0, object.position_in_odom_m, object.covariance.topLeftCorner<2, 2>()}};
-  for (const flow::PredictedPosition& place : object.predicted_path) {
-    if (place.after_s > nodes.back().after_s) nodes.push_back(place);
+/// The road's direction in the sense of the course, if the object is on the road.
+std::optional<double> road_along(const std::optional<double>& road_rad, double course_rad) {
+  if (!road_rad) return std::nullopt;
+  const bool is_oncoming = std::cos(course_rad - *road_rad) < 0.0;
+  const double along_rad =
+      geometry::wrap_angle(is_oncoming ? *road_rad + std::numbers::pi : *road_rad);
+  if (std::abs(geometry::wrap_angle(course_rad - along_rad)) > kRoadRad) return std::nullopt;
+  return along_rad;
+}
+
+/// Poses at all steps, from `start` on, whose x axis is the course.
+std::vector<Pose2> path_of(const Pose2& start, const Motion& motion, std::size_t steps) {
+  std::vector<Pose2> path{start};
+  path.reserve(steps);
+  const double curvature_per_m = curvature_of(motion);
+  double travelled_m = 0.0;
+  for (std::size_t i = 1; i < steps; ++i) {
+    const double after_s = kPredictionStepS * static_cast<double>(i);
+    const double next_m = way_m(motion, after_s);
+    const double left = std::exp(-(after_s - 0.5 * kPredictionStepS) / kTurnS);
+    path.push_back(path.back() * end_of_arc(next_m - travelled_m, left * curvature_per_m));
+    if (motion.road_rad) path.back().heading_rad = towards(*motion.road_rad, start, after_s);
+    travelled_m = next_m;
   }
-  return nodes;
+  return path;
 }
 
-/// Velocity at a node: the object's at the first, central differences at the others (Catmull and
-/// Rom 1974).
-Vector2d tangent_at(const std::vector<flow::PredictedPosition>& nodes, std::size_t i,
-                    const Vector2d& velocity_mps) {
-  if (i == 0) return velocity_mps;
-  const flow::PredictedPosition& before = nodes[i - 1];
-  const flow::PredictedPosition& next = nodes[std::min(i + 1, nodes.size() - 1)];
-  return (next.position_in_odom_m - before.position_in_odom_m) / (next.after_s - before.after_s);
+/// Sigmas of a constant acceleration along the course and across it, and what they come to.
+Matrix2d drift_m2(double along_mps2, double across_mps2, double after_s, double course_rad) {
+  const double half_t2 = 0.5 * after_s * after_s;
+  const Vector2d sigma_m{half_t2 * along_mps2, half_t2 * across_mps2};
+  const Matrix2d turn = geometry::rotation(course_rad);
+  return turn * sigma_m.cwiseAbs2().asDiagonal() * turn.transpose();
 }
 
-/// Cubic between two nodes (Hermite), and linear covariance.
-flow::PredictedPosition between(const flow::PredictedPosition& a, const Vector2d& a_mps,
-                                const flow::PredictedPosition& b, const Vector2d& b_mps,
-                                double after_s) {
-  const double h = b.after_s - a.after_s;
-  const double u = (after_s - a.after_s) / h;
-  const double u2 = u * u;
-  const double u3 = u2 * u;
-  return {after_s,
-          (2.0 * u3 - 3.0 * u2 + 1.0) * a.position_in_odom_m + h * (u3 - 2.0 * u2 + u) * a_mps +
-              (3.0 * u2 - 2.0 * u3) * b.position_in_odom_m + h * (u3 - u2) * b_mps,
-          (1.0 - u) * a.covariance_m2 + u * b.covariance_m2};
+/// Covariance of the place of a pedestrian at constant velocity.
+Matrix2d carried_m2(const Eigen::Matrix4d& covariance, double after_s) {
+  const Matrix2d C = covariance.topRightCorner<2, 2>();
+  return covariance.topLeftCorner<2, 2>() + after_s * (C + C.transpose()) +
+         after_s * after_s * covariance.bottomRightCorner<2, 2>();
 }
 
-/// Straight on, with sigmas that grow with time.
-flow::PredictedPosition beyond(const flow::PredictedPosition& last, const Vector2d& velocity_mps,
-                               double after_s) {
-  const double growth = after_s / last.after_s;
-  return {after_s, last.position_in_odom_m + (after_s - last.after_s) * velocity_mps,
-          growth * growth * last.covariance_m2};
+/// The same of a vehicle: along the course by the velocity, across it by course and turn.
+Matrix2d carried_m2(const Eigen::Matrix4d& covariance, const CourseState& motion, bool is_on_road,
+                    double after_s) {
+  const Matrix2d turn = geometry::rotation(motion.course_rad);
+  const double speed_m2ps2 = turn.col(0).dot(covariance.bottomRightCorner<2, 2>() * turn.col(0));
+  const Vector2d by_turn =
+      is_on_road ? Vector2d(motion.speed_mps * kRoadS * -std::expm1(-after_s / kRoadS), 0.0)
+                 : motion.speed_mps * after_s * Vector2d(1.0, 0.5 * std::min(after_s, kTurnS));
+  const Vector2d variance_m2{after_s * after_s * speed_m2ps2,
+                             by_turn.dot(motion.turn_covariance * by_turn)};
+  return covariance.topLeftCorner<2, 2>() + turn * variance_m2.asDiagonal() * turn.transpose();
 }
 
-flow::PredictedPosition position_after(const std::vector<flow::PredictedPosition>& nodes,
-                                       const Vector2d& velocity_mps, double after_s) {
-  const auto later = std::ranges::find_if(
-      nodes, [&](const flow::PredictedPosition& node) { return node.after_s > after_s; });
-  const auto i = static_cast<std::size_t>(later - nodes.begin());
-  if (later == nodes.end())
-    return beyond(nodes.back(), tangent_at(nodes, i - 1, velocity_mps), after_s);
-  return between(nodes[i - 1], tangent_at(nodes, i - 1, velocity_mps), nodes[i],
-                 tangent_at(nodes, i, velocity_mps), after_s);
+/// Sigma of an object's acceleration across its course: vehicles steer, pedestrians step aside.
+double across_mps2(const flow::TrackedObject& object, double speed_mps,
+                   const CollisionWarningConfig& config) {
+  if (object.object_class == flow::ObjectClass::kPedestrian)
+    return config.pedestrian_acceleration_sigma_mps2;
+  return speed_mps * config.yaw_rate_sigma_radps;
 }
 
-/// Constant velocity with white acceleration.
-flow::PredictedPosition position_without_path(const flow::TrackedObject& object, double after_s) {
-  const Matrix2d P = object.covariance.topLeftCorner<2, 2>();
-  const Matrix2d C = object.covariance.topRightCorner<2, 2>();
-  const Matrix2d V = object.covariance.bottomRightCorner<2, 2>();
-  const double t = after_s;
-  return {t, object.position_in_odom_m + t * object.velocity_in_odom_mps,
-          P + t * (C + C.transpose()) + t * t * V +
-              kAccelerationDensity * t * t * t / 3.0 * Matrix2d::Identity()};
+double along_mps2(const flow::TrackedObject& object, const CollisionWarningConfig& config) {
+  return object.object_class == flow::ObjectClass::kPedestrian
+             ? config.pedestrian_acceleration_sigma_mps2
+             : config.acceleration_sigma_mps2;
 }
 
 }  // namespace
+
+std::optional<double> road_of(const VehicleState& vehicle) {
+  if (std::abs(vehicle.yaw_rate_radps) > kTurnsRadps) return std::nullopt;
+  return vehicle.odom_from_base.heading_rad;
+}
 
 std::size_t steps_of(const CollisionWarningConfig& config) {
   return static_cast<std::size_t>(std::lround(config.horizon_s / kPredictionStepS)) + 1;
@@ -119,31 +143,41 @@ std::size_t steps_of(const CollisionWarningConfig& config) {
 
 PredictedBoxes predict(const VehicleState& vehicle, const CollisionWarningConfig& config) {
   const Pose2 base_from_centre{config.vehicle_centre_ahead_m, 0.0, 0.0};
-  PredictedBoxes boxes(steps_of(config));
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double after_s = kPredictionStepS * static_cast<double>(i);
-    const Pose2 odom_from_base =
-        vehicle.odom_from_base * end_of_arc(way_m(vehicle, after_s), curvature_of(vehicle));
-    boxes[i] = {
-        {odom_from_base * base_from_centre, config.vehicle_length_m, config.vehicle_width_m},
-        driver_covariance_m2(vehicle, after_s, odom_from_base.heading_rad, config)};
+  const Motion motion{vehicle.speed_mps, vehicle.acceleration_mps2, vehicle.yaw_rate_radps};
+  PredictedBoxes boxes;
+  for (const Pose2& odom_from_base : path_of(vehicle.odom_from_base, motion, steps_of(config))) {
+    const double after_s = kPredictionStepS * static_cast<double>(boxes.size());
+    boxes.push_back(
+        {{odom_from_base * base_from_centre, config.vehicle_length_m, config.vehicle_width_m},
+         drift_m2(config.acceleration_sigma_mps2,
+                  std::abs(vehicle.speed_mps) * config.yaw_rate_sigma_radps, after_s,
+                  odom_from_base.heading_rad)});
   }
   return boxes;
 }
 
-PredictedBoxes predict(const flow::TrackedObject& object, const CollisionWarningConfig& config) {
-  const std::vector<flow::PredictedPosition> nodes = nodes_of(object);
-  PredictedBoxes boxes(steps_of(config));
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double after_s = kPredictionStepS * static_cast<double>(i);
-    const flow::PredictedPosition there =
-        nodes.size() > 1 ? position_after(nodes, object.velocity_in_odom_mps, after_s)
-                         : position_without_path(object, after_s);
-    boxes[i] = {
-        {{there.position_in_odom_m.x(), there.position_in_odom_m.y(), object.heading_in_odom_rad},
-         object.length_m,
-         object.width_m},
-        there.covariance_m2};
+PredictedBoxes predict(const flow::TrackedObject& object, const CourseState& motion,
+                       const std::optional<double>& road_rad,
+                       const CollisionWarningConfig& config) {
+  const bool is_pedestrian = object.object_class == flow::ObjectClass::kPedestrian;
+  const Vector2d& place_m = object.position_in_odom_m;
+  const Pose2 start{place_m.x(), place_m.y(), motion.course_rad};
+  Motion along{motion.speed_mps, motion.acceleration_mps2, motion.yaw_rate_radps};
+  if (!is_pedestrian) along.road_rad = road_along(road_rad, motion.course_rad);
+  if (along.road_rad) along.yaw_rate_radps = 0.0;
+  PredictedBoxes boxes;
+  for (const Pose2& there : path_of(start, along, steps_of(config))) {
+    const double after_s = kPredictionStepS * static_cast<double>(boxes.size());
+    const double heading_rad =
+        geometry::wrap_angle(object.heading_in_odom_rad + there.heading_rad - motion.course_rad);
+    const Matrix2d known_m2 =
+        is_pedestrian ? carried_m2(object.covariance, after_s)
+                      : carried_m2(object.covariance, motion, along.road_rad.has_value(), after_s);
+    const Matrix2d unknown_m2 =
+        drift_m2(along_mps2(object, config), across_mps2(object, motion.speed_mps, config), after_s,
+                 there.heading_rad);
+    boxes.push_back({{{there.x_m, there.y_m, heading_rad}, object.length_m, object.width_m},
+                     known_m2 + unknown_m2});
   }
   return boxes;
 }

@@ -60,7 +60,8 @@ std::optional<Error> read_tracks(const path& file, TracksByStamp& tracks) {
 
 std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks) {
   const std::vector<std::string> modes = columns_with_prefix(file, "mode_");
-  std::vector<std::string_view> columns = {"timestamp", "track_id", "var_x", "cov_xy", "var_y"};
+  std::vector<std::string_view> columns = {"timestamp", "track_id", "var_x",   "cov_xy",
+                                           "var_y",     "var_vx",   "cov_vxy", "var_vy"};
   const auto first_mode = static_cast<std::ptrdiff_t>(columns.size());
   columns.insert(columns.end(), modes.begin(), modes.end());
   return read_csv(file, columns, [&](auto fields) -> RowFault {
@@ -73,6 +74,7 @@ std::optional<Error> read_track_details(const path& file, TracksByStamp& tracks)
     for (ResultTrack& track : at->second) {
       if (track.track_id != static_cast<std::uint32_t>(v[1])) continue;
       track.position_covariance_m2 = (geometry::Matrix2() << v[2], v[3], v[3], v[4]).finished();
+      track.velocity_covariance_m2ps2 = (geometry::Matrix2() << v[5], v[6], v[6], v[7]).finished();
       track.mode_probability.assign(v.begin() + first_mode, v.end());
     }
     return std::nullopt;

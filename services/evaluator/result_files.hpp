@@ -29,6 +29,7 @@ struct ResultTrack {
   bool is_occluded = false;  ///< Column `occluded`; false if it is absent.
   std::string object_class;
   std::optional<geometry::Matrix2> position_covariance_m2;
+  std::optional<geometry::Matrix2> velocity_covariance_m2ps2;
   std::vector<double> mode_probability;  ///< Of each motion model; empty if not written.
   std::vector<metrics::PredictedPlace> predicted_in_map;  ///< From predictions.csv, if there is
                                                           ///< one.

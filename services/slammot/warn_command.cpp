@@ -54,13 +54,15 @@ flow::TrackedObject object_of(const evaluator::ResultTrack& track, const Pose2& 
   if (track.position_covariance_m2)
     object.covariance.topLeftCorner<2, 2>() =
         turn * *track.position_covariance_m2 * turn.transpose();
+  if (track.velocity_covariance_m2ps2)
+    object.covariance.bottomRightCorner<2, 2>() =
+        turn * *track.velocity_covariance_m2ps2 * turn.transpose();
   object.heading_in_odom_rad = odom_from_object.heading_rad;
   object.length_m = track.length_m;
   object.width_m = track.width_m;
+  object.object_class = track.object_class == "pedestrian" ? flow::ObjectClass::kPedestrian
+                                                           : flow::ObjectClass::kUnknown;
   object.motion = track.is_moving ? flow::Motion::kMoving : flow::Motion::kStopped;
-  for (const metrics::PredictedPlace& place : track.predicted_in_map)
-    object.predicted_path.push_back({place.after_s, odom_from_map * place.position_m,
-                                     turn * place.covariance_m2 * turn.transpose()});
   return object;
 }
 

@@ -4,8 +4,9 @@
 usage: collision_warnings.py [--seeds 1-20] [--scenario NAME ...] [--output DIR] [--binary FILE] [--config FILE] [--again] [--write] [--check]
 
 A danger is an object whose true footprint comes within 0.3 m of the vehicle's. It counts as warned if a track of that object has the level
-`warning` at least 2 s before. A warning of an object that does not come so near within 5 s is false, also where the driver or the other one
-reacted; of these, `on course` counts those that would have come so near within 4 s if both had gone on as they truly did at that moment.
+`warning` at least 2 s before. A warning of an object that does not come so near within 5 s is without contact. It is averted if both were truly
+on course for one at the warning or up to 0.5 s before: they would have come so near within 4 s if both had gone on as they did, braking until
+they stand, so that a contact was kept away by the driver or the other one. Otherwise the warning is false.
 """
 
 import argparse
@@ -31,6 +32,7 @@ LONGEST_BEFORE_S = 5.0  # an earlier warning is of something else
 PAUSE_S = 1.0         # a level that returns later is another warning
 MATCH_M = 4.0         # of a track's centre to that of its true object
 COURSE_S = 4.0
+COURSE_BEFORE_S = 0.5  # filters follow later, and a level is confirmed
 WANTED_SHARE, WANTED_PER_HOUR = 0.95, 1.0
 CITY_CAR, SCRIPT_CAR = (5.0, 2.0), (4.4, 1.8)  # length and width: RouteConfig and usual_size() of common/simulation
 
@@ -172,6 +174,12 @@ class Drive:
         now, before = self.objects[stamp].get(name), self.objects.get(earlier, {}).get(name)
         return rates(now, before or now, float(stamp) - float(earlier)), rates(self.vehicle(stamp), self.vehicle(earlier), float(stamp) - float(earlier))
 
+    def was_on_course(self, stamp, name):
+        """At a stamp or shortly before."""
+        last = bisect.bisect_right(self.times, float(stamp))
+        first = bisect.bisect_left(self.times, float(stamp) - COURSE_BEFORE_S)
+        return any(self.is_on_course(self.stamps[i], name) for i in range(first, last))
+
     def is_on_course(self, stamp, name):
         if name not in self.objects.get(stamp, {}):
             return False
@@ -192,8 +200,8 @@ class Verdict:
     dangers: int = 0
     warned: int = 0       # in time
     leads: list = dataclasses.field(default_factory=list)  # of each danger, seconds; 0 where there was no warning
+    averted: int = 0
     false: int = 0
-    on_course: int = 0
     details: list = dataclasses.field(default_factory=list)
 
     def add(self, other):
@@ -201,8 +209,8 @@ class Verdict:
         self.dangers += other.dangers
         self.warned += other.warned
         self.leads += other.leads
+        self.averted += other.averted
         self.false += other.false
-        self.on_course += other.on_course
         self.details += other.details
         return self
 
@@ -216,10 +224,10 @@ def judge(drive):
         if name in contacts and now - 1.0 <= contacts[name] <= now + LONGEST_BEFORE_S:
             begins[name].append(now)
             continue
-        on_course = drive.is_on_course(stamp, name)
-        verdict.false += 1
-        verdict.on_course += on_course
-        verdict.details.append(f"false warning at {stamp} of track {track}, object {name}{', on course' if on_course else ''}")
+        is_averted = drive.was_on_course(stamp, name)
+        verdict.averted += is_averted
+        verdict.false += not is_averted
+        verdict.details.append(f"{'averted' if is_averted else 'false'} warning at {stamp} of track {track}, object {name}")
     for name, contact in contacts.items():
         lead = max([contact - begin for begin in begins[name]], default=0.0)
         verdict.dangers += 1
@@ -247,11 +255,11 @@ def row(name, verdict):
     leads = sorted(verdict.leads)
     warned = f"{verdict.warned} of {verdict.dangers}" if verdict.dangers else ""
     middle = f"{leads[len(leads) // 2]:.1f} / {leads[0]:.1f}" if leads else ""
-    return f"| {name} | {60.0 * hours:.1f} | {warned} | {middle} | {verdict.false} | {verdict.on_course} | {verdict.false / hours:.1f} |"
+    return f"| {name} | {60.0 * hours:.1f} | {warned} | {middle} | {verdict.averted} | {verdict.false} | {verdict.false / hours:.1f} |"
 
 
 def table(verdicts):
-    lines = ["| scenario | driven (min) | dangers warned of ≥ 2 s before | lead, median / least (s) | false warnings | of these on course | false an hour |",
+    lines = ["| scenario | driven (min) | dangers warned of ≥ 2 s before | lead, median / least (s) | averted | false warnings | false an hour |",
              "|---|---|---|---|---|---|---|"]
     return "\n".join(lines + [row(name, verdict) for name, verdict in verdicts] + [row("**all**", total(verdicts))])
 

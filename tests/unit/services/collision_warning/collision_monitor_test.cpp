@@ -73,6 +73,17 @@ TEST(CollisionMonitor, DoesNotWarnOfACarThatHasCrossed) {
   EXPECT_LT(highest_level(8.0, {{48.0, 4.0}, {0.0, 8.0}}, 5.5), WarningLevel::kWarning);
 }
 
+TEST(CollisionMonitor, DoesNotWarnWhileTheVehicleStands) {
+  EXPECT_EQ(highest_level(0.0, {{20.0, 0.0}, {-6.0, 0.0}}, 3.0), WarningLevel::kNone);
+}
+
+TEST(CollisionMonitor, WarnsOfACarThatChangesIntoTheLane) {
+  const double contact_s = (19.0 - 0.5 * (5.0 + 4.4)) / 4.5;
+  const auto warned_s = first_warning_s(10.5, {{19.0, 2.5}, {6.0, -1.0}}, contact_s);
+  ASSERT_TRUE(warned_s);
+  EXPECT_LE(*warned_s, contact_s - 2.0);
+}
+
 TEST(CollisionMonitor, LeavesWhatIsBehindOut) {
   CollisionMonitor monitor{CollisionWarningConfig{}};
   for (double t = 0.0; t < 2.0; t += kPeriodS)

@@ -17,14 +17,15 @@ std::size_t step_at(double after_s) {
   return static_cast<std::size_t>(std::lround(after_s / kPredictionStepS));
 }
 
-TEST(PredictedVehicle, GoesRoundACircle) {
-  const double yaw_rate_radps = 0.5 * std::numbers::pi / 4.0;  // a quarter in 4 s
+TEST(PredictedVehicle, TurnsAndStraightensOut) {
+  const double yaw_rate_radps = 0.2;
   const PredictedBoxes boxes = predict({{10.0, 5.0, 0.0}, 8.0, 0.0, yaw_rate_radps}, kConfig);
   ASSERT_EQ(boxes.size(), 41U);
   const double radius_m = 8.0 / yaw_rate_radps;
-  EXPECT_NEAR(boxes.back().box.centre.x_m, 10.0 + radius_m, 1e-6);
-  EXPECT_NEAR(boxes.back().box.centre.y_m, 5.0 + radius_m, 1e-6);
-  EXPECT_NEAR(boxes.back().box.centre.heading_rad, 0.5 * std::numbers::pi, 1e-9);
+  const OrientedBox& soon = boxes[step_at(0.3)].box;  // nearly on the arc of the present turn
+  EXPECT_NEAR(soon.centre.x_m, 10.0 + radius_m * std::sin(0.06), 1e-2);
+  EXPECT_NEAR(soon.centre.y_m, 5.0 + radius_m * (1.0 - std::cos(0.06)), 1e-2);
+  EXPECT_LT(boxes.back().box.centre.heading_rad, 0.7 * 4.0 * yaw_rate_radps);
 }
 
 TEST(PredictedVehicle, StandsWhereItsBrakingEnds) {
@@ -59,45 +60,90 @@ TEST(PredictedVehicle, SigmaFollowsFromWhatTheDriverMayDo) {
   EXPECT_TRUE(boxes.front().covariance_m2.isZero());
 }
 
-/// Brakes at 2 m/s^2; its path as tracking publishes it, in steps of `step_s`.
-flow::TrackedObject braking_car(double step_s) {
+/// Drives along x at 10 m/s.
+flow::TrackedObject car() {
   flow::TrackedObject car;
   car.position_in_odom_m = {20.0, 1.0};
   car.velocity_in_odom_mps = {10.0, 0.0};
   car.covariance.topLeftCorner<2, 2>() = 0.04 * Matrix2d::Identity();
+  car.covariance.bottomRightCorner<2, 2>() = 0.09 * Matrix2d::Identity();
+  car.object_class = flow::ObjectClass::kCar;
   car.length_m = 4.5;
   car.width_m = 1.8;
-  for (double t = step_s; t < 3.01; t += step_s)
-    car.predicted_path.push_back(
-        {t, {20.0 + 10.0 * t - t * t, 1.0}, (0.04 + 0.25 * t) * Matrix2d::Identity()});
   return car;
 }
 
-TEST(PredictedObject, FollowsItsPublishedPath) {
-  for (const double step_s : {0.5, 1.0}) {
-    const PredictedBoxes boxes = predict(braking_car(step_s), kConfig);
-    for (const double t : {0.0, 0.3, 0.7, 1.2, 1.5, 2.0}) {
-      const PredictedBox& there = boxes[step_at(t)];
-      EXPECT_NEAR(there.box.centre.x_m, 20.0 + 10.0 * t - t * t, 0.02) << t;
-      EXPECT_NEAR(there.box.centre.y_m, 1.0, 1e-9);
-      EXPECT_NEAR(there.covariance_m2(0, 0), 0.04 + 0.25 * t, 1e-9) << t;
-    }
-  }
+TEST(PredictedObject, BrakesUntilItStands) {
+  const PredictedBoxes boxes = predict(car(), {0.0, 10.0, -5.0, 0.0}, std::nullopt, kConfig);
+  EXPECT_NEAR(boxes[step_at(1.0)].box.centre.x_m, 27.5, 1e-6);
+  EXPECT_NEAR(boxes[step_at(2.0)].box.centre.x_m, 30.0, 1e-6);
+  EXPECT_NEAR(boxes.back().box.centre.x_m, 30.0, 1e-6);
 }
 
-TEST(PredictedObject, GoesStraightOnBeyondItsPath) {
-  const PredictedBoxes boxes = predict(braking_car(0.5), kConfig);
-  EXPECT_NEAR(boxes.back().box.centre.x_m, 41.0 + 4.5, 0.1);
-  EXPECT_NEAR(boxes.back().covariance_m2(0, 0), 0.79 * 16.0 / 9.0, 1e-9);
+TEST(PredictedObject, HoldsASpeedThatIncreases) {
+  EXPECT_NEAR(predict(car(), {0.0, 10.0, 2.0, 0.0}, std::nullopt, kConfig).back().box.centre.x_m,
+              60.0, 1e-6);
 }
 
-TEST(PredictedObject, KeepsItsVelocityWithoutAPath) {
-  flow::TrackedObject car = braking_car(0.5);
-  car.predicted_path.clear();
-  car.covariance.bottomRightCorner<2, 2>() = 0.25 * Matrix2d::Identity();
-  const PredictedBoxes boxes = predict(car, kConfig);
-  EXPECT_NEAR(boxes[step_at(2.0)].box.centre.x_m, 40.0, 1e-9);
-  EXPECT_GE(boxes[step_at(2.0)].covariance_m2(1, 1), 0.04 + 4.0 * 0.25);
+TEST(PredictedObject, TurnsAndStraightensOut) {
+  const PredictedBoxes boxes = predict(car(), {0.0, 10.0, 0.0, 0.2}, std::nullopt, kConfig);
+  EXPECT_NEAR(boxes[step_at(0.5)].box.centre.heading_rad, 0.092, 0.01);
+  EXPECT_GT(boxes.back().box.centre.heading_rad, 0.35);
+  EXPECT_LT(boxes.back().box.centre.heading_rad, 0.5);  // 0.8 without an end
+  EXPECT_GT(boxes.back().box.centre.y_m, 5.0);
+}
+
+TEST(PredictedObject, KeepsTheHeadingOfItsBoxAgainstItsCourse) {
+  flow::TrackedObject object = car();
+  object.heading_in_odom_rad = 0.1;
+  for (const PredictedBox& there : predict(object, {0.0, 10.0, 0.0, 0.0}, std::nullopt, kConfig))
+    EXPECT_NEAR(there.box.centre.heading_rad, 0.1, 1e-9);
+}
+
+TEST(PredictedObject, SigmaGrowsByThatOfItsVelocityAndByWhatItsDriverMayDo) {
+  CourseState motion{0.0, 10.0, 0.0, 0.0};
+  motion.turn_covariance(0, 0) = 0.02 * 0.02;
+  const PredictedBoxes boxes = predict(car(), motion, std::nullopt, kConfig);
+  const Matrix2d& covariance_m2 = boxes[step_at(2.0)].covariance_m2;
+  EXPECT_NEAR(covariance_m2(0, 0),
+              0.04 + 4.0 * 0.09 + std::pow(2.0 * kConfig.acceleration_sigma_mps2, 2), 1e-9);
+  EXPECT_NEAR(covariance_m2(1, 1),
+              0.04 + std::pow(20.0 * 0.02, 2) + std::pow(20.0 * kConfig.yaw_rate_sigma_radps, 2),
+              1e-9);
+  EXPECT_NEAR(boxes.front().covariance_m2(0, 0), 0.04, 1e-9);
+}
+
+TEST(PredictedObject, EndsALaneChangeInALane) {
+  const PredictedBoxes boxes = predict(car(), {-0.2, 10.0, 0.0, 0.0}, 0.0, kConfig);
+  EXPECT_NEAR(boxes.back().box.centre.heading_rad, 0.2, 0.02);  // 0.2 more than the box has now
+  EXPECT_NEAR(boxes.back().box.centre.y_m, 1.0 - 10.0 * 0.2 * 1.2, 0.3);  // -7 without a road
+}
+
+TEST(PredictedObject, KeepsToItsSideIfItComesAgainst) {
+  const PredictedBoxes boxes = predict(car(), {3.0, 10.0, 0.0, 0.0}, 0.0, kConfig);
+  EXPECT_NEAR(boxes.back().box.centre.y_m, 1.0 + 10.0 * (std::numbers::pi - 3.0) * 1.2, 0.3);
+}
+
+TEST(PredictedObject, CrossesTheRoadIfItsCourseIsAcross) {
+  const PredictedBoxes boxes = predict(car(), {1.2, 10.0, 0.0, 0.0}, 0.0, kConfig);
+  EXPECT_NEAR(boxes.back().box.centre.y_m, 1.0 + 40.0 * std::sin(1.2), 1e-6);
+}
+
+TEST(Road, IsUnknownWhileTheVehicleTurns) {
+  EXPECT_EQ(road_of({{0.0, 0.0, 0.4}, 8.0, 0.0, 0.05}), 0.4);
+  EXPECT_FALSE(road_of({{0.0, 0.0, 0.4}, 8.0, 0.0, 0.3}));
+}
+
+TEST(PredictedObject, IsAsUncertainToAllSidesIfItIsAPedestrian) {
+  flow::TrackedObject pedestrian = car();
+  pedestrian.object_class = flow::ObjectClass::kPedestrian;
+  const Matrix2d covariance_m2 =
+      predict(pedestrian, {0.7, 1.5, 0.0, 0.0}, 0.5, kConfig)[step_at(2.0)].covariance_m2;
+  const double expected_m2 =
+      0.04 + 4.0 * 0.09 + std::pow(2.0 * kConfig.pedestrian_acceleration_sigma_mps2, 2);
+  EXPECT_NEAR(covariance_m2(0, 0), expected_m2, 1e-9);
+  EXPECT_NEAR(covariance_m2(1, 1), expected_m2, 1e-9);
+  EXPECT_NEAR(covariance_m2(0, 1), 0.0, 1e-9);
 }
 
 }  // namespace

@@ -36,6 +36,9 @@ TEST_F(ResultFiles, JoinTracksWithTheirCovariances) {
   ASSERT_TRUE(result);
   EXPECT_FALSE(result->tracks[0].tracks[0].position_covariance_m2);
   ASSERT_TRUE(result->tracks[1].tracks[0].position_covariance_m2);
+  ASSERT_TRUE(result->tracks[1].tracks[0].velocity_covariance_m2ps2);
+  EXPECT_EQ((*result->tracks[1].tracks[0].velocity_covariance_m2ps2)(0, 0), 1.0);
+  EXPECT_EQ((*result->tracks[1].tracks[0].velocity_covariance_m2ps2)(1, 1), 1.0);
   EXPECT_EQ((*result->tracks[1].tracks[0].position_covariance_m2)(0, 1), 0.01);
 }
 
