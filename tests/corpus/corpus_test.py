@@ -179,6 +179,34 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(["HOTA under 0.540", "2 pairs of places falsely joined"],
                          verdict.faults("simulated-ways", row, base, outcome(figures={"hota": 0.5}, joined=2)))
 
+    def simulated_row(self, way, ate_m, **others):
+        nees = others.pop("nees", 3.0)
+        return rows.Row(DRIVE, way), outcome(ate_m, figures={"hota": 0.6, "nees": nees}, **others)
+
+    def test_accept_what_the_covariance_says_where_information_is_gone(self):
+        base = outcome(figures={"hota": 0.6})
+        faults = lambda row, altered: verdict.faults("simulated-ways", row, base, altered)
+        self.assertEqual([], faults(*self.simulated_row("range-8m", 1.5, nees=5.9)))
+        self.assertEqual(["ATE over 0.100 m"], faults(*self.simulated_row("range-8m", 1.5, nees=6.1)))
+        self.assertEqual(["ATE over 0.100 m"], faults(*self.simulated_row("range-8m", 1.5, nees=1.9)))
+        self.assertEqual(["ATE over 0.100 m"], faults(*self.simulated_row("range-8m", 1.5, nees=None)))
+        self.assertEqual(["ATE over 0.100 m"], faults(*self.simulated_row("range-8m", math.nan)))
+
+    def test_accept_no_covariance_where_the_scans_say_all_or_places_are_joined(self):
+        base = outcome(figures={"hota": 0.6})
+        faults = lambda row, altered: verdict.faults("simulated-ways", row, base, altered)
+        self.assertEqual(["ATE over 0.100 m"], faults(*self.simulated_row("turns-1.15", 1.5)))
+        self.assertEqual(["ATE over 0.100 m"], faults(*self.simulated_row("beams-reversed", 1.5)))
+        self.assertEqual(["ATE over 0.100 m", "3 pairs of places falsely joined"], faults(*self.simulated_row("range-8m", 1.5, joined=3)))
+        row, altered = self.simulated_row("range-8m", 1.5)
+        self.assertEqual(["ATE over 0.100 m"], verdict.faults("indoor-ways", row, base, altered))
+
+    def test_count_the_rows_that_pass_by_their_covariance(self):
+        base = rows.Row(DRIVE, is_base=True), outcome(figures={"hota": 0.6}), None
+        altered = [(*self.simulated_row("range-8m", 1.5), None), (*self.simulated_row("third", 0.06), None)]
+        sentences, _ = verdict.summary("simulated-ways", [base, *altered], {row.name(): [] for row, _, _ in [base, *altered]})
+        self.assertEqual("2 of 2 rows as wanted, 1 of them by their covariance", sentences[0])
+
     def test_compare_two_binaries_in_pairs(self):
         results = [(rows.Row(rows.simulated("city", seed)), outcome(0.050 + 0.001 * seed, figures={"nees": 3.0}),
                     outcome(0.040 + 0.001 * seed)) for seed in range(5)]
@@ -194,6 +222,12 @@ class Tables(unittest.TestCase):
         lines = table.text("indoor-ways", results, faults).splitlines()
         self.assertEqual(1, len({line.count("|") for line in lines}))
         self.assertIn("first off at scan 30 (1.20 m, 0.10 rad), 50 % of the scans off by a metre", lines[3])
+
+    def test_say_which_row_passes_by_its_covariance(self):
+        results = [(rows.Row(DRIVE, is_base=True), outcome(figures={"nees": 3.0}), None),
+                   (rows.Row(DRIVE, "fov-90"), outcome(0.3, figures={"nees": 3.0}), None)]
+        lines = table.text("simulated-ways", results, {"hall": [], "hall-fov-90": []}).splitlines()
+        self.assertIn("| yes | ATE over 0.100 m, as its covariance says |", lines[3])
 
     def test_replace_what_stood_between_their_markers(self):
         page = "# Results\n\n## The corpus\n\ntext\n\n## Other\n\nmore\n"

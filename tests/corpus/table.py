@@ -35,9 +35,12 @@ def where(outcome):
     return f"first off at scan {scan} ({off_m:.2f} m, {off_rad:.2f} rad){share}"
 
 
-def found(outcome, row, faults):
+def found(set_name, outcome, row, base, faults):
     parts = list(faults)
-    if faults and where(outcome):
+    within_covariance = verdict.is_within_covariance(set_name, row, base, outcome)
+    if within_covariance:
+        parts.append(f"ATE over {verdict.ate_limit(set_name, row, base):.3f} m, as its covariance says")
+    if (faults or within_covariance) and where(outcome):
         parts.append(where(outcome))
     if outcome.says_lost:
         parts.append("says lost")
@@ -75,7 +78,7 @@ def columns(set_name, has_figures, has_other):
         chosen.append(("look alike", lambda r, o, b, base, f: str(o.look_alike or 0)))
         chosen.append(("falsely joined", lambda r, o, b, base, f: "" if o.joined is None else str(o.joined)))
     chosen.append(("as wanted", lambda r, o, b, base, f: "no" if f else "" if r.is_base and set_name != "quick" else "yes"))
-    chosen.append(("what was found", lambda r, o, b, base, f: found(o, r, f)))
+    chosen.append(("what was found", lambda r, o, b, base, f: found(set_name, o, r, base, f)))
     return chosen
 
 

@@ -17,6 +17,7 @@ class Way:
     apply: Callable  # (drive, seed) -> drive
     said: str = ""  # pattern of what a run says of it; "": nothing need be said
     seen: tuple = ()  # options of slammot eval: of objects, those that the scanner can still see
+    takes_information: bool = False  # about the pose: no estimator can have it back
 
 
 def in_window(alteration, *strength):
@@ -27,13 +28,13 @@ STANDARD = (
     Way("stamps-zero", "all stamps 0", lambda drive, seed: alter.stamps_zero(drive), OF_STAMPS),
     Way("stamps-index", "stamps count scans", lambda drive, seed: alter.stamps_index(drive), OF_STAMPS),
     Way("stamps-seconds", "stamps in whole seconds", lambda drive, seed: alter.stamps_seconds(drive), OF_STAMPS),
-    Way("third", "every third scan only", lambda drive, seed: alter.every_nth(drive, 3)),
-    Way("fifth", "every fifth scan only", lambda drive, seed: alter.every_nth(drive, 5)),
-    Way("fov-90", "90 degrees in view", lambda drive, seed: alter.field_of_view(drive, 90.0), seen=("--bearings", "-45", "45")),
-    Way("range-8m", "ranges to 8 m", lambda drive, seed: alter.no_farther(drive, 8.0), seen=("--range", "8")),
-    Way("range-5m", "ranges to 5 m", lambda drive, seed: alter.no_farther(drive, 5.0), seen=("--range", "5")),
-    Way("dropouts-30", "30 % drop-outs", lambda drive, seed: alter.dropouts(drive, 0.30, seed)),
-    Way("noise-5cm", "5 cm noise", lambda drive, seed: alter.noise(drive, 0.05, seed)),
+    Way("third", "every third scan only", lambda drive, seed: alter.every_nth(drive, 3), takes_information=True),
+    Way("fifth", "every fifth scan only", lambda drive, seed: alter.every_nth(drive, 5), takes_information=True),
+    Way("fov-90", "90 degrees in view", lambda drive, seed: alter.field_of_view(drive, 90.0), seen=("--bearings", "-45", "45"), takes_information=True),
+    Way("range-8m", "ranges to 8 m", lambda drive, seed: alter.no_farther(drive, 8.0), seen=("--range", "8"), takes_information=True),
+    Way("range-5m", "ranges to 5 m", lambda drive, seed: alter.no_farther(drive, 5.0), seen=("--range", "5"), takes_information=True),
+    Way("dropouts-30", "30 % drop-outs", lambda drive, seed: alter.dropouts(drive, 0.30, seed), takes_information=True),
+    Way("noise-5cm", "5 cm noise", lambda drive, seed: alter.noise(drive, 0.05, seed), takes_information=True),
     Way("false-5", "5 % false echoes", lambda drive, seed: alter.false_echoes(drive, 0.05, seed)),
     Way("beams-reversed", "beams in reverse order, unsaid", lambda drive, seed: alter.beams_reversed(drive), r"revers|clockwise|mirror|upside"),
     Way("nan-seventh", "NaN in every seventh scan", lambda drive, seed: alter.nan_in_every_nth(drive, 7), r"\bnan\b|not? (a )?number|invalid"),
@@ -42,30 +43,30 @@ STANDARD = (
     Way("way-1.3", "way by the wheels 1.3x", lambda drive, seed: alter.way_scaled(drive, 1.3), OF_ODOMETRY),
     Way("turns-1.15", "turns by the wheels 1.15x", lambda drive, seed: alter.turns_scaled(drive, 1.15), OF_ODOMETRY),
     Way("turns-mirrored", "turns with the wrong sign", lambda drive, seed: alter.turns_scaled(drive, -1.0), OF_ODOMETRY),
-    Way("none", "odometry all zero", lambda drive, seed: alter.no_odometry(drive), OF_ODOMETRY),
+    Way("none", "odometry all zero", lambda drive, seed: alter.no_odometry(drive), OF_ODOMETRY, takes_information=True),
     Way("swapped-axes", "x and y of the odometry swapped", lambda drive, seed: alter.axes_swapped(drive), OF_ODOMETRY),
     Way("yaw-bias", "0.01 rad/s too much turn", lambda drive, seed: alter.yaw_bias(drive, 0.01), OF_ODOMETRY),
-    Way("frozen-6s", "wheels stand for 6 s of driving", in_window(alter.frozen), OF_ODOMETRY),
+    Way("frozen-6s", "wheels stand for 6 s of driving", in_window(alter.frozen), OF_ODOMETRY, takes_information=True),
     Way("slip-6s", "1 m/s too much for 6 s", in_window(alter.slipped, 1.0), OF_ODOMETRY),
     Way("jumps-40m", "odometry jumps by 40 m", lambda drive, seed: alter.jumped(drive, 40.0, alter.moving_window(drive, WINDOW_S)[0]), OF_ODOMETRY),
     Way("late-0.3s", "odometry 0.3 s late", lambda drive, seed: alter.late(drive, 0.3), OF_ODOMETRY),
-    Way("missing-6s", "no odometry for 6 s", in_window(alter.missing), OF_ODOMETRY),
+    Way("missing-6s", "no odometry for 6 s", in_window(alter.missing), OF_ODOMETRY, takes_information=True),
 )
 FURTHER = (
     Way("stamps-milliseconds", "stamps in milliseconds", lambda drive, seed: alter.stamps_milliseconds(drive), OF_STAMPS),
     Way("stamps-hour", "stamps jump by an hour in the middle", lambda drive, seed: alter.stamps_jump(drive), OF_STAMPS),
     Way("stamps-backwards", "stamps run backwards", lambda drive, seed: alter.stamps_backwards(drive), OF_STAMPS),
-    Way("fov-60", "60 degrees in view", lambda drive, seed: alter.field_of_view(drive, 60.0), seen=("--bearings", "-30", "30")),
+    Way("fov-60", "60 degrees in view", lambda drive, seed: alter.field_of_view(drive, 60.0), seen=("--bearings", "-30", "30"), takes_information=True),
     Way("rain", "drops on 5 % of the beams", lambda drive, seed: alter.rain(drive, 0.05, seed)),
     Way("no-echo-zero", "no echo written as 0", lambda drive, seed: alter.no_echo_as(drive, "0.000")),
     Way("no-echo-inf", "no echo written as inf", lambda drive, seed: alter.no_echo_as(drive, "inf")),
     Way("no-echo-nan", "no echo written as nan", lambda drive, seed: alter.no_echo_as(drive, "nan")),
     Way("upside-down", "scanner upside down, unsaid", lambda drive, seed: alter.upside_down(drive), r"revers|clockwise|mirror|upside"),
     Way("backwards", "scanner mounted backwards", lambda drive, seed: alter.mounted_backwards(drive)),
-    Way("beams-half", "every second beam", lambda drive, seed: alter.every_nth_beam(drive, 2)),
-    Way("beams-quarter", "every fourth beam", lambda drive, seed: alter.every_nth_beam(drive, 4)),
+    Way("beams-half", "every second beam", lambda drive, seed: alter.every_nth_beam(drive, 2), takes_information=True),
+    Way("beams-quarter", "every fourth beam", lambda drive, seed: alter.every_nth_beam(drive, 4), takes_information=True),
     Way("odometry-millimetres", "odometry in millimetres", lambda drive, seed: alter.odometry_scaled(drive, 1000.0), r"millimet"),
-    Way("standing-wheels", "wheels stand for 1 s every 20 s", lambda drive, seed: alter.standing(drive, 1.0, 20.0), OF_ODOMETRY),
+    Way("standing-wheels", "wheels stand for 1 s every 20 s", lambda drive, seed: alter.standing(drive, 1.0, 20.0), OF_ODOMETRY, takes_information=True),
     Way("second-source", "ODOM lines count 1.1x the way", lambda drive, seed: alter.second_source(drive, 1.1), OF_ODOMETRY),
 )
 BY_NAME = {way.name: way for way in STANDARD + FURTHER}
