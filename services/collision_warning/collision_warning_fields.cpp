@@ -4,7 +4,6 @@ namespace slammot::collision_warning {
 
 const config::FieldTable<CollisionWarningConfig>& collision_warning_fields() {
   using C = CollisionWarningConfig;
-  using config::kNotNegative;
   using config::kPositive;
   using config::kShare;
   using config::Range;
@@ -41,37 +40,6 @@ const config::FieldTable<CollisionWarningConfig>& collision_warning_fields() {
            "Least probability of contact of a warning.",
            kShare,
            {"More false warnings.", "More warnings that are late or missing."}},
-          {"caution_probability",
-           &C::caution_probability,
-           "Least probability of contact within the horizon of a caution.",
-           kShare,
-           {"Cautions are frequent.", "Cautions come no earlier than warnings."}},
-          {"confirm_s",
-           &C::confirm_s,
-           "A level begins once its conditions held for so long.",
-           kNotNegative,
-           {"Single wrong velocities cause warnings.", "Warnings are late."}},
-          {"hold_s",
-           &C::hold_s,
-           "A level ends once weaker conditions did not hold for so long.",
-           kNotNegative,
-           {"Levels flicker.", "Levels outlast the danger."}},
-          {"acceleration_sigma_mps2",
-           &C::acceleration_sigma_mps2,
-           "What a driver, of the vehicle or of another one, may do along the path against the "
-           "prediction, one sigma of a constant acceleration.",
-           kNotNegative,
-           {"The probability jumps between 0 and 1.", "No contact ever becomes likely."}},
-          {"yaw_rate_sigma_radps",
-           &C::yaw_rate_sigma_radps,
-           "The same of the turn, one sigma of a constant yaw rate; also of other drivers.",
-           kNotNegative,
-           {"The end of a bend causes warnings.", "No contact ever becomes likely."}},
-          {"pedestrian_acceleration_sigma_mps2",
-           &C::pedestrian_acceleration_sigma_mps2,
-           "What a pedestrian may do, one sigma of a constant acceleration along each axis.",
-           kNotNegative,
-           {"Pedestrians who stop at the kerb cause warnings.", "Warnings are late."}},
       });
   return table;
 }
