@@ -33,10 +33,14 @@ std::size_t widest(const StepToExplain& scan, std::size_t wanted) {
   return std::min(wanted, scan.steps.size() - 1);
 }
 
-constexpr double kUsualDrop = 0.07;      // of the matched share, from scan to scan
-constexpr std::size_t kLikelySteps = 2;  // the last ones of a mixture without odometry: like the
-                                         // last step, and straight on
-constexpr std::size_t kPoses = 4;        // that a search tells apart
+constexpr double kUsualDrop = 0.07;         // of the matched share, from scan to scan
+constexpr std::size_t kLikelySteps = 2;     // the last ones of a mixture without odometry: like the
+                                            // last step, and straight on
+constexpr std::size_t kPoses = 4;           // that a search tells apart,
+constexpr std::size_t kPosesAnywhere = 12;  // and where any step is looked for: the search counts
+                                            // points on surfels, so that poses into a known room
+                                            // come before the one that looks into an unseen one
+constexpr std::size_t kStepsToKnow = 10;    // before it is known how well scans usually fit
 
 /// Share of a scan's points that say on their own whether they match: those of scans shortly after
 /// each other meet the same moving things.
@@ -82,7 +86,7 @@ double dynamics(const Step& step, const Step& by_velocity) {
 }
 
 MixtureMatch::MixtureMatch(const LocalizerConfig& config)
-    : config_(config), search_(config, kPoses) {}
+    : config_(config), search_(config, kPoses), search_anywhere_(config, kPosesAnywhere) {}
 
 /// Every explanation at the pose that odometry leads to: what a pose close by would say of them
 /// differs little.
@@ -151,9 +155,10 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
   const geometry::Pose2& pose = registered.map_from_base.pose;
   const geometry::Pose2 optimum =
       sensing::scan_optimum(prediction.prior(), pose, registered.scan_information);
-  const double fits_share =
-      matching::fit_of(registered, config_.match.robust_scale_m) -
+  const double contradicted_share =
       agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
+  const double fits_share =
+      matching::fit_of(registered, config_.match.robust_scale_m) - contradicted_share;
   const double fit = config_.belief.share_nats * scan.points.evidence_share() *
                      independent_share(scan.steps.front()) *
                      weight_of_evidence(scan.steps.front()) * fits_share;
@@ -165,6 +170,7 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
     if (log_posterior <= best.log_posterior) continue;
     best.step = likeliest_step(scan, explanation, optimum, registered);
     best.registered = registered;
+    best.contradicted_share = contradicted_share;
     best.log_posterior = log_posterior;
   }
 }
@@ -184,8 +190,10 @@ void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, Sc
   compare(scan, explanation, prior.pose, matcher, best);
   if (!is_vague(prior, config_)) return;
   ++searches_;
+  const bool is_anywhere = explanation == kWheels && prediction.source == StepSource::kReach;
+  PoseSearch& search = is_anywhere ? search_anywhere_ : search_;
   for (const geometry::Pose2& pose :
-       search_.poses_around(prior, scan.points.matched(), scan.map.surfels()))
+       search.poses_around(prior, scan.points.matched(), scan.map.surfels()))
     compare(scan, explanation, pose, matcher, best);
 }
 
@@ -240,15 +248,17 @@ ExplainedStep MixtureMatch::explain_as_weighed(const StepToExplain& scan, ScanMa
 }
 
 /// Steps that are like the ones before are likely; where the scan does not fit under them as it
-/// usually does, any step is looked for.
+/// usually does, or the map contradicts a part of it, any step is looked for.
 ExplainedStep MixtureMatch::explain_without_odometry(const StepToExplain& scan,
                                                      ScanMatcher& matcher) {
   Best best = nothing_yet();
   const std::size_t likely = scan.steps.size() - kLikelySteps;
-  for (std::size_t i = scan.steps.size(); i-- > 0;) {
-    const bool fits_as_usual = best.registered.matched_share > scan.usual_share - kUsualDrop;
-    if (i >= likely || !fits_as_usual) around(scan, i, matcher, best);
-  }
+  const auto fits_as_usual = [&] {
+    return scan.history.size() >= kStepsToKnow &&
+           best.registered.matched_share - best.contradicted_share > scan.usual_share - kUsualDrop;
+  };
+  for (std::size_t i = scan.steps.size(); i-- > likely;) around(scan, i, matcher, best);
+  for (std::size_t i = 0; i < likely && !fits_as_usual(); ++i) around(scan, i, matcher, best);
   return concluded(scan, best, sensing::updated(scan.weights, best.log_likelihoods), matcher);
 }
 

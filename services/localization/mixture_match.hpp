@@ -51,6 +51,7 @@ class MixtureMatch {
   struct Best {
     std::size_t step = 0;  ///< Index into StepToExplain::steps.
     matching::PointToLineResult registered;
+    double contradicted_share = 0.0;  ///< Of its points, by the map.
     double log_posterior = 0.0;
     LogLikelihoods log_likelihoods{};  ///< Of each explanation at its best pose.
   };
@@ -70,6 +71,7 @@ class MixtureMatch {
 
   LocalizerConfig config_;
   PoseSearch search_;
+  PoseSearch search_anywhere_;
   std::uint64_t searches_ = 0;
 };
 

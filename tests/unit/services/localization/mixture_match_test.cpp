@@ -165,15 +165,43 @@ StepMixture steps_without_odometry(const Pose2& usual) {
   return steps;
 }
 
+MappedWorld corridor_with_stubs() {
+  return MappedWorld{{{{-20.0, 1.5}, {20.0, 1.5}},
+                      {{-20.0, -1.5}, {20.0, -1.5}},
+                      {{3.0, 1.5}, {3.0, 0.75}},
+                      {{-2.5, -1.5}, {-2.5, -1.2}}}};
+}
+
 TEST_F(MixtureMatchTest, WithoutOdometryAFewPointsOutweighAUsualStepAlongACorridor) {
-  const MappedWorld corridor{{{{-20.0, 1.5}, {20.0, 1.5}},
-                              {{-20.0, -1.5}, {20.0, -1.5}},
-                              {{3.0, 1.5}, {3.0, 0.75}},
-                              {{-2.5, -1.5}, {-2.5, -1.2}}}};
+  const MappedWorld corridor = corridor_with_stubs();
   const Pose2 usual{1.2, 0.0, 0.0};
   const Pose2 truth{0.2, 0.0, 0.0};
   for (std::size_t i = 0; i < sensing::StepHistory::kKept; ++i) history_.add(usual);
   usual_share_ = 1.0;
+  weights_ = {0.0, 0.0, 0.0, 1.0};
+  const ExplainedStep explained = explain(truth, steps_without_odometry(usual), corridor);
+  EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.1));
+}
+
+TEST_F(MixtureMatchTest, WithoutOdometryLooksFartherWhereTheMapContradictsAUsualStep) {
+  const MappedWorld corridor = corridor_with_stubs();
+  const Pose2 usual{1.2, 0.0, 0.0};
+  const Pose2 truth{0.2, 0.0, 0.0};
+  for (std::size_t i = 0; i < sensing::StepHistory::kKept; ++i) history_.add(usual);
+  weights_ = {0.0, 0.0, 0.0, 1.0};
+  StepMixture only_usual{steps_without_odometry(usual)[1], steps_without_odometry(usual)[2]};
+  const double share_there = explain(truth, only_usual, corridor).registered.matched_share;
+  usual_share_ = share_there + 0.06;  // less than a scan's usual scatter
+  const ExplainedStep explained = explain(truth, steps_without_odometry(usual), corridor);
+  EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.1));
+}
+
+TEST_F(MixtureMatchTest, WithoutOdometryLooksForAnyStepUntilTheUsualShareIsKnown) {
+  const MappedWorld corridor = corridor_with_stubs();
+  const Pose2 usual{1.2, 0.0, 0.0};
+  const Pose2 truth{0.2, 0.0, 0.0};
+  history_.add(usual);
+  usual_share_ = 0.5;  // as at the start of a drive
   weights_ = {0.0, 0.0, 0.0, 1.0};
   const ExplainedStep explained = explain(truth, steps_without_odometry(usual), corridor);
   EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.1));
