@@ -25,6 +25,9 @@ class Backlog {
 
   struct Limits {
     std::size_t most_in_flight = 4;
+    /// From sending to the answer. After a slower answer one scan is in flight at a time, and after
+    /// each quicker one another: latency is that of the services, not of a queue in them.
+    std::chrono::nanoseconds quick_answer{100'000'000};
     /// While the services answer: a scan is then dropped.
     std::chrono::nanoseconds longest_wait{150'000'000};
     /// Without labels, the answers of localization count.
@@ -51,15 +54,15 @@ class Backlog {
 
   bool may_send(Time now) const {
     const bool are_absent = !last_answer_ || now - *last_answer_ > limits_.absence;
-    return !empty() && (are_absent || in_flight(now) < limits_.most_in_flight);
+    return !empty() && (are_absent || in_flight(now) < window_);
   }
 
   /// The oldest step, to be sent now. Precondition: may_send().
-  Step take() {
+  Step take(Time now) {
     Step step = std::move(waiting_.front().step);
     waiting_.pop_front();
-    if (step.scan) sent_ns_.push_back(step.scan->stamp_ns);
-    if (sent_ns_.size() > kMostRemembered) sent_ns_.pop_front();
+    if (step.scan) sent_.push_back({step.scan->stamp_ns, now});
+    if (sent_.size() > kMostRemembered) sent_.pop_front();
     return step;
   }
 
@@ -67,18 +70,22 @@ class Backlog {
   void answered(Answer answer, std::int64_t stamp_ns, Time now) {
     if (!last_answer_ || now - *last_answer_ > limits_.longest_wait) resumed_ = now;
     last_answer_ = now;
-    if (answer == Answer::kLocalized) {
+    if (answer == Answer::kLabelled) last_labels_ = now;
+    if (answer == Answer::kLabelled || !has_labels(now)) adapt_window(stamp_ns, now);
+    if (answer == Answer::kLocalized)
       localized_ns_ = std::max(stamp_ns, localized_ns_.value_or(stamp_ns));
-      return;
-    }
-    last_labels_ = now;
-    while (!sent_ns_.empty() && sent_ns_.front() <= stamp_ns) sent_ns_.pop_front();
+    else
+      while (!sent_.empty() && sent_.front().stamp_ns <= stamp_ns) sent_.pop_front();
   }
 
  private:
   struct Waiting {
     Step step;
     Time since;
+  };
+  struct Sent {
+    std::int64_t stamp_ns;
+    Time at;
   };
   static constexpr std::size_t kMostRemembered = 100;
 
@@ -87,16 +94,27 @@ class Backlog {
     return last_answer_ && *last_answer_ - std::max(waiting.since, resumed_) > limits_.longest_wait;
   }
 
+  bool has_labels(Time now) const {
+    return last_labels_ && now - *last_labels_ <= limits_.label_silence;
+  }
+
+  void adapt_window(std::int64_t stamp_ns, Time now) {
+    const auto sent = std::ranges::find(sent_, stamp_ns, &Sent::stamp_ns);
+    if (sent == sent_.end()) return;
+    const bool is_quick = now - sent->at <= limits_.quick_answer;
+    window_ = is_quick ? std::min(window_ + 1, limits_.most_in_flight) : 1;
+  }
+
   std::size_t in_flight(Time now) const {
-    const bool has_labels = last_labels_ && now - *last_labels_ <= limits_.label_silence;
-    if (has_labels || !localized_ns_) return sent_ns_.size();
+    if (has_labels(now) || !localized_ns_) return sent_.size();
     return static_cast<std::size_t>(std::ranges::count_if(
-        sent_ns_, [this](std::int64_t stamp) { return stamp > *localized_ns_; }));
+        sent_, [this](const Sent& sent) { return sent.stamp_ns > *localized_ns_; }));
   }
 
   Limits limits_;
   std::deque<Waiting> waiting_;
-  std::deque<std::int64_t> sent_ns_;  ///< Stamps of the last scans sent without labels.
+  std::deque<Sent> sent_;  ///< The last scans sent without labels.
+  std::size_t window_ = limits_.most_in_flight;
   std::optional<std::int64_t> localized_ns_;
   std::optional<Time> last_answer_, last_labels_;
   Time resumed_{};  ///< First answer after a silence.

@@ -169,7 +169,7 @@ void IngestService::proceed_at_pace() {
 void IngestService::send_backlog() {
   const auto now = steady_clock::now();
   context_.status().counter("dropped_scans") += backlog_.drop_late();
-  while (backlog_.may_send(now)) send_once(backlog_.take());
+  while (backlog_.may_send(now)) send_once(backlog_.take(now));
   if (backlog_.empty() && !fetch()) finish();
 }
 

@@ -24,7 +24,7 @@ struct BusyBacklog : ::testing::Test {
   BusyBacklog() {
     for (const std::int64_t stamp_ns : {1, 2, 3}) {
       backlog.add(step_of(stamp_ns), kStart);
-      backlog.take();
+      backlog.take(kStart);
     }
     backlog.answered(Answer::kLocalized, 1, kStart);
     backlog.answered(Answer::kLabelled, 1, kStart);
@@ -41,7 +41,7 @@ TEST(Backlog, SendsAtOnceWhereNobodyHasAnsweredYet) {
   for (std::int64_t stamp_ns = 0; stamp_ns < 10; ++stamp_ns) {
     backlog.add(step_of(stamp_ns), kStart);
     ASSERT_TRUE(backlog.may_send(kStart));
-    EXPECT_EQ(backlog.take().scan->stamp_ns, stamp_ns);
+    EXPECT_EQ(backlog.take(kStart).scan->stamp_ns, stamp_ns);
   }
 }
 
@@ -68,9 +68,18 @@ TEST_F(BusyBacklog, LetsLocalizationGoOnWithoutLabels) {
 TEST_F(BusyBacklog, HoldsWhatLocalizationHasNotAnsweredAlsoWithoutLabels) {
   for (const std::int64_t stamp_ns : {4, 5, 6}) backlog.add(step_of(stamp_ns), kStart + 1ms);
   backlog.answered(Answer::kLocalized, 3, kStart + 151ms);
-  backlog.take();
-  backlog.take();
-  EXPECT_FALSE(backlog.may_send(kStart + 200ms));
+  while (backlog.may_send(kStart + 160ms)) backlog.take(kStart + 160ms);
+  EXPECT_FALSE(backlog.empty());
+}
+
+TEST_F(BusyBacklog, HasOneScanInFlightAfterASlowAnswerUntilAnswersAreQuickAgain) {
+  for (std::int64_t stamp_ns = 4; stamp_ns < 10; ++stamp_ns) backlog.add(step_of(stamp_ns), kStart);
+  backlog.answered(Answer::kLabelled, 3, kStart + 110ms);
+  backlog.take(kStart + 110ms);
+  EXPECT_FALSE(backlog.may_send(kStart + 110ms));
+  backlog.answered(Answer::kLabelled, 4, kStart + 120ms);
+  backlog.take(kStart + 120ms);
+  EXPECT_TRUE(backlog.may_send(kStart + 120ms));
 }
 
 TEST_F(BusyBacklog, DropsTheOldestThatWaitTooLong) {
@@ -80,7 +89,7 @@ TEST_F(BusyBacklog, DropsTheOldestThatWaitTooLong) {
   keep_answering(160ms, 210ms);
   EXPECT_EQ(backlog.drop_late(), 2U);
   backlog.answered(Answer::kLabelled, 3, kStart + 211ms);
-  EXPECT_EQ(backlog.take().scan->stamp_ns, 12);
+  EXPECT_EQ(backlog.take(kStart + 211ms).scan->stamp_ns, 12);
 }
 
 TEST_F(BusyBacklog, DoesNotCountOdometryAsADroppedScan) {
@@ -102,13 +111,13 @@ TEST_F(BusyBacklog, KeepsScansThroughASilenceOfTheServices) {
 TEST_F(BusyBacklog, SendsOnWhereTheServicesAreGone) {
   for (std::int64_t i = 0; i < 10; ++i) backlog.add(step_of(10 + i), kStart + 10ms);
   EXPECT_FALSE(backlog.may_send(kStart + 500ms));
-  while (backlog.may_send(kStart + 501ms)) backlog.take();
+  while (backlog.may_send(kStart + 501ms)) backlog.take(kStart + 501ms);
   EXPECT_TRUE(backlog.empty());
 }
 
 TEST_F(BusyBacklog, HoldsBackAgainOnceTheyAnswer) {
   for (std::int64_t i = 0; i < 5; ++i) backlog.add(step_of(10 + i), kStart + 550ms);
-  for (int i = 0; i < 3; ++i) backlog.take();
+  for (int i = 0; i < 3; ++i) backlog.take(kStart + 550ms);
   EXPECT_TRUE(backlog.may_send(kStart + 550ms));
   backlog.answered(Answer::kLabelled, 3, kStart + 550ms);
   EXPECT_FALSE(backlog.may_send(kStart + 550ms));

@@ -59,8 +59,8 @@ TEST(WaitingScans, AwaitTrackingForSomeTurnsUnlessTheyQueueUpAndAfterARestartAls
   queue.add(scan_of(1));
   queue.add(scan_of(1));
   EXPECT_TRUE(queue.may_begin(kLabels));
-  const int turns_in_queue = turns_until_it_begins(
-      queue, {.has_odometry = true, .awaits_labels = true, .is_back = true});
+  const int turns_in_queue =
+      turns_until_it_begins(queue, {.has_odometry = true, .awaits_labels = true, .is_back = true});
   EXPECT_GT(turns_in_queue, 1);
   EXPECT_GT(turns, 3 * turns_in_queue);
 }
