@@ -68,13 +68,13 @@ std::string qos_policy_name(std::uint32_t policy_id) {
   return policy_id < kNames.size() ? kNames[policy_id] : "policy " + std::to_string(policy_id);
 }
 
-namespace {
-
 void keep_for_late_joiners(dds_qos_t* qos, std::int32_t depth) {
   dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
                               DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
 }
+
+namespace {
 
 QosPointer make_qos(const QosProfile& profile, std::int32_t depth) {
   const auto nanoseconds = [](std::chrono::milliseconds time) {

@@ -21,11 +21,8 @@ QosPointer qos_for(const TopicInfo& info, const OfferedQos& offered) {
   dds_qset_destination_order(qos.get(), DDS_DESTINATIONORDER_BY_RECEPTION_TIMESTAMP);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   // also what an earlier version recorded as volatile: services ask for it
-  if (offered.is_transient_local || is_kept_for_restarts_only(info.name)) {
-    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
-                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
-  }
+  if (offered.is_transient_local || is_kept_for_restarts_only(info.name))
+    keep_for_late_joiners(qos.get(), depth);
   if (offered.is_exclusive) {
     dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
     dds_qset_ownership_strength(qos.get(), offered.ownership_strength);
