@@ -11,7 +11,6 @@
 namespace slammot::graphs {
 namespace {
 
-using geometry::Matrix2;
 using geometry::Pose2;
 using geometry::Vector2;
 
@@ -45,16 +44,6 @@ std::vector<Fix> fixes_of(const std::map<flow::SubmapId, Pose2>& nodes,
     fixes.push_back({in_map_m, prior.in_enu_m, prior.covariance_m2, way_m});
   }
   return fixes;
-}
-
-double extent_m(const std::vector<Fix>& fixes) {
-  Vector2 low = fixes.front().in_map_m;
-  Vector2 high = low;
-  for (const Fix& fix : fixes) {
-    low = low.cwiseMin(fix.in_map_m);
-    high = high.cwiseMax(fix.in_map_m);
-  }
-  return (high - low).norm();
 }
 
 /// Outliers and scale of squared normalized errors, whose median is known if the claimed sigmas are
@@ -108,7 +97,7 @@ PriorAgreement agreement_of(const std::vector<Fix>& fixes, const Pose2& enu_from
 void align_positions(const std::vector<Fix>& fixes, AbsoluteFit& fit) {
   fit.positions.is_inlier.assign(fixes.size(), false);
   if (fixes.size() < kFewest) return;
-  const double extent = extent_m(fixes);
+  const double extent = extent_of(fixes).size_m;
   if (extent < kLeastExtent_m) return;
   const std::vector<PlaceMode> modes = place_of_map(fixes);
   if (modes.empty()) return;

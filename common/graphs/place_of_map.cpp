@@ -23,22 +23,6 @@ constexpr double kFarShare = 0.3;  // of the extent: pairs of a proposal lie far
 /// Usual errors of receivers: with corrections, under an open sky, between houses.
 constexpr std::array<double, 3> kUsualSigmas_m{0.4, 1.5, 4.0};
 
-/// Extent of the fixes in map.
-struct Extent {
-  Vector2 middle_m;
-  double size_m = 0.0;
-};
-
-Extent extent_of(std::span<const Fix> fixes) {
-  Vector2 low = fixes.front().in_map_m;
-  Vector2 high = low;
-  for (const Fix& fix : fixes) {
-    low = low.cwiseMin(fix.in_map_m);
-    high = high.cwiseMax(fix.in_map_m);
-  }
-  return {0.5 * (low + high), (high - low).norm()};
-}
-
 std::vector<Fix> thinned(std::span<const Fix> fixes) {
   const std::size_t stride = (fixes.size() + kMostFixes - 1) / kMostFixes;
   std::vector<Fix> kept;
@@ -174,6 +158,16 @@ void normalize(std::vector<PlaceMode>& modes) {
 }
 
 }  // namespace
+
+Extent extent_of(std::span<const Fix> fixes) {
+  Vector2 low = fixes.front().in_map_m;
+  Vector2 high = low;
+  for (const Fix& fix : fixes) {
+    low = low.cwiseMin(fix.in_map_m);
+    high = high.cwiseMax(fix.in_map_m);
+  }
+  return {0.5 * (low + high), (high - low).norm()};
+}
 
 std::vector<PlaceMode> place_of_map(std::span<const Fix> fixes) {
   std::vector<PlaceMode> modes;

@@ -7,6 +7,15 @@
 
 namespace slammot::graphs {
 
+/// Of the box in map that holds all fixes.
+struct Extent {
+  geometry::Vector2 middle_m;
+  double size_m = 0.0;  ///< Diagonal.
+};
+
+/// Precondition: there is a fix.
+Extent extent_of(std::span<const Fix> fixes);
+
 /// A maximum of the density of enu_from_map.
 struct PlaceMode {
   geometry::Pose2 enu_from_map;
