@@ -70,6 +70,10 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
   context.on_command("finish_submap", [this](std::string_view) { return finish_submap(); });
 }
 
+LocalizationService::~LocalizationService() {
+  if (drive_.last_done_ns) checkpoint_.save_last(*drive_.last_done_ns, session(), localizer_);
+}
+
 void LocalizationService::read_inputs(app::ServiceContext& context) {
   using app::Input;
   // In this order also when several wait: what is known about earlier scans goes into the map

@@ -43,6 +43,10 @@ class LocalizationService {
   static void add_options(CLI::App& command_line, Settings& settings);
 
   LocalizationService(app::ServiceContext& context, const Settings& settings);
+  /// Leaves a checkpoint of the newest scan: a standby has nothing to localize again.
+  ~LocalizationService();
+  LocalizationService(const LocalizationService&) = delete;
+  LocalizationService& operator=(const LocalizationService&) = delete;
 
  private:
   struct Drive {
@@ -109,6 +113,7 @@ class LocalizationService {
   void go_on_in_stored_map();
   void correct(const flow::GraphCorrection& correction);
   void tell_whether_it_is_tied(bool is_tied);
+  SavedSession session() const;
   void save_checkpoint(std::int64_t stamp_ns);
 
   app::ServiceContext& context_;

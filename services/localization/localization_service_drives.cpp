@@ -233,14 +233,12 @@ void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
     context_.warn("failed_checkpoints", fault);
     context_.status().set_trouble("checkpoint", "no checkpoint: " + fault);
   }
-  checkpoint_.save(stamp_ns, now_ns,
-                   {*drive_.map_id,
-                    drive_.odom_id,
-                    drive_.first_submap,
-                    drives_.watch.drives(),
-                    scans_.newest(),
-                    {}},
-                   localizer_);
+  checkpoint_.save(stamp_ns, now_ns, session(), localizer_);
+}
+
+SavedSession LocalizationService::session() const {
+  return {*drive_.map_id,          drive_.odom_id,  drive_.first_submap,
+          drives_.watch.drives(), scans_.newest(), {}};
 }
 
 }  // namespace slammot::localization

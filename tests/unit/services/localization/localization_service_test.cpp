@@ -187,6 +187,18 @@ TEST_F(LocalizationOnTheBus, WorksThroughTheScansThatCameWhileItWasAway) {
   EXPECT_EQ(maps.size(), 1U);
 }
 
+TEST_F(LocalizationOnTheBus, LeavesACheckpointOfTheNewestScanWhenItIsStopped) {
+  begin();
+  localize(0, 25);
+  stop();
+  sequences.clear();
+  begin();
+  send(25);
+  ASSERT_TRUE(comes_to([this] { return has_localized(1) && sequences.back() == 25; }));
+  EXPECT_EQ(count("restored_checkpoints"), 1U);
+  EXPECT_THAT(sequences, ::testing::Each(::testing::Ge(24U)));
+}
+
 TEST_F(LocalizationOnTheBus, ComesBackHoweverLongItWasAway) {
   begin();
   localize(0, 25);
