@@ -5,7 +5,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include "common/app/scan_latency.hpp"
 #include "common/app/supervisor.hpp"
+#include "common/app/system_clock.hpp"
 
 namespace slammot::app {
 namespace {
@@ -86,6 +88,10 @@ void ServiceContext::warn(const std::string& counter, std::string_view line) {
   ++board_.counter(counter);
   const std::string text = rate_limit_.pass(counter, line, std::chrono::steady_clock::now());
   if (!text.empty()) spdlog::warn(text);
+}
+
+void ServiceContext::note_since_scan(const std::string& stage, std::int64_t scan_published_ns) {
+  add_since_scan(board_.latency(stage), scan_published_ns, system_clock_ns());
 }
 
 void ServiceContext::stop(int exit_code) {

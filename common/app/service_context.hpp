@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "common/app/command.hpp"
@@ -55,8 +56,8 @@ class ServiceContext {
   const dds::Participant& participant() const { return participant_; }
   StatusBoard& status() { return board_; }
 
-  /// Calls handle(sample) for every sample of this vehicle. The reader lives as long as the
-  /// context.
+  /// Calls handle(sample), or handle(sample, info), for every sample of this vehicle. The reader
+  /// lives as long as the context.
   template <typename Sample, typename Handle>
   dds::Reader<Sample>& read(const dds::Topic<Sample>& topic, Input kind, Handle handle,
                             dds::History history = dds::History::kProfile) {
@@ -75,7 +76,9 @@ class ServiceContext {
         if constexpr (IsNumberedScan<Sample>)
           count_missed(input, sequence.missed_before(sample.scanner_id, sample.sequence_number));
         input.came(std::chrono::steady_clock::now());
-        handle(sample);
+        if constexpr (std::is_invocable_v<Handle&, const Sample&, const dds::SampleInfo&>)
+          handle(sample, info);
+        else handle(sample);
       };
       const auto lose = [&](const dds::SampleInfo& info) {
         if (owners) owners->lost(info);
@@ -113,6 +116,9 @@ class ServiceContext {
 
   /// Counts under `counter` and warns at a limited rate.
   void warn(const std::string& counter, std::string_view line);
+
+  /// Adds the time since the scan was published to the latencies of a stage (scan_latency.hpp).
+  void note_since_scan(const std::string& stage, std::int64_t scan_published_ns);
 
   /// Ends run(), from any thread.
   void stop() { wait_set_.stop(); }

@@ -55,7 +55,8 @@ std::string_view fault_of(const slammot_LocalizedScan& sample) {
 }  // namespace
 
 const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehicle_id,
-                                                          const flow::LocalizedScan& scan) {
+                                                          const flow::LocalizedScan& scan,
+                                                          std::int64_t scan_published_ns) {
   if (scan.beams.size() > kMostBeams)
     throw std::length_error("a localized scan has more beams than fit on the bus");
   beams_.clear();
@@ -65,6 +66,7 @@ const slammot_LocalizedScan& LocalizedScanEncoder::encode(std::string_view vehic
     end_cells_.push_back(static_cast<slammot_EndCell>(beam.end_cell));
   }
   encode_scan_header(vehicle_id, scan, sample_);
+  sample_.scan_published_ns = scan_published_ns;
   sample_.speed_mps = scan.speed_mps;
   sample_.yaw_rate_radps = scan.yaw_rate_radps;
   sample_.submap_id = scan.submap_id.value;

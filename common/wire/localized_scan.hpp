@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -12,8 +13,10 @@ namespace slammot::wire {
 /// Puts localized scans on the wire; keeps its buffers.
 class LocalizedScanEncoder {
  public:
-  /// The result is good until the next call. Throws std::length_error for more than kMostBeams.
-  const slammot_LocalizedScan& encode(std::string_view vehicle_id, const flow::LocalizedScan& scan);
+  /// scan_published_ns: system clock of the source, 0 where it is unknown. The result is good until
+  /// the next call. Throws std::length_error for more than kMostBeams.
+  const slammot_LocalizedScan& encode(std::string_view vehicle_id, const flow::LocalizedScan& scan,
+                                      std::int64_t scan_published_ns = 0);
 
  private:
   slammot_LocalizedScan sample_{};

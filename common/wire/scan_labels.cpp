@@ -37,12 +37,14 @@ void ScanLabelsEncoder::encode_restored(const std::vector<flow::RestoredPoints>&
 }
 
 const slammot_ScanLabels& ScanLabelsEncoder::encode(std::string_view vehicle_id,
-                                                    const flow::ScanLabels& labels) {
+                                                    const flow::ScanLabels& labels,
+                                                    std::int64_t scan_published_ns) {
   if (labels.labels.size() > kMostBeams) throw std::length_error("more labels than fit on the bus");
   encode_labels(labels.labels, labels_);
   encode_restored(labels.restored);
   set_text(sample_.vehicle_id, vehicle_id);
   set_text(sample_.scanner_id, labels.scanner_id);
+  sample_.scan_published_ns = scan_published_ns;
   sample_.stamp_ns = labels.stamp_ns;
   sample_.sequence_number = labels.sequence;
   show(sample_.labels, labels_);

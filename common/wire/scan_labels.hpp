@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -17,10 +18,11 @@ inline constexpr std::size_t kMostRestoredPoints = 32768;
 /// Puts scan labels on the wire; keeps its buffers.
 class ScanLabelsEncoder {
  public:
-  /// The result is valid until the next call. Restored scans beyond the limits are dropped, the
-  /// last ones first: they stay out of the SO-map like moving points. Throws std::length_error for
-  /// more than kMostBeams.
-  const slammot_ScanLabels& encode(std::string_view vehicle_id, const flow::ScanLabels& labels);
+  /// scan_published_ns: system clock of the source, 0 where it is unknown. The result is valid
+  /// until the next call. Restored scans beyond the limits are dropped, the last ones first: they
+  /// stay out of the SO-map like moving points. Throws std::length_error for more than kMostBeams.
+  const slammot_ScanLabels& encode(std::string_view vehicle_id, const flow::ScanLabels& labels,
+                                   std::int64_t scan_published_ns = 0);
 
  private:
   void encode_restored(const std::vector<flow::RestoredPoints>& restored);

@@ -144,7 +144,8 @@ void SegmentedScanEncoder::encode_segments(const std::vector<flow::Segment>& seg
 }
 
 const slammot_SegmentedScan& SegmentedScanEncoder::encode(std::string_view vehicle_id,
-                                                          const flow::SegmentedScan& scan) {
+                                                          const flow::SegmentedScan& scan,
+                                                          std::int64_t scan_published_ns) {
   if (scan.range_m.size() > kMostBeams)
     throw std::length_error("a segmented scan has more beams than fit on the bus");
   points_in_base_.clear();
@@ -154,6 +155,7 @@ const slammot_SegmentedScan& SegmentedScanEncoder::encode(std::string_view vehic
   encode_labels(scan.labels, labels_);
   encode_segments(scan.segments);
   encode_scan_header(vehicle_id, scan, sample_);
+  sample_.scan_published_ns = scan_published_ns;
   show(sample_.points_in_base, points_in_base_);
   show(sample_.ranges_m, ranges_m_);
   show(sample_.labels, labels_);

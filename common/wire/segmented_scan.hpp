@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -16,10 +17,11 @@ inline constexpr std::size_t kMostSegments = 448;
 /// Puts segmented scans on the wire; keeps its buffers.
 class SegmentedScanEncoder {
  public:
-  /// The result is good until the next call. Of more than kMostSegments the largest travel. Throws
-  /// std::length_error for more than kMostBeams, or where segments share beams so often that they
-  /// do not fit.
-  const slammot_SegmentedScan& encode(std::string_view vehicle_id, const flow::SegmentedScan& scan);
+  /// scan_published_ns: system clock of the source, 0 where it is unknown. The result is good until
+  /// the next call. Of more than kMostSegments the largest travel. Throws std::length_error for
+  /// more than kMostBeams, or where segments share beams so often that they do not fit.
+  const slammot_SegmentedScan& encode(std::string_view vehicle_id, const flow::SegmentedScan& scan,
+                                      std::int64_t scan_published_ns = 0);
 
  private:
   void encode_segments(const std::vector<flow::Segment>& segments);

@@ -165,7 +165,8 @@ void TrackedObjectsEncoder::encode_path(const flow::TrackedObject& object,
 }
 
 const slammot_TrackedObjects& TrackedObjectsEncoder::encode(std::string_view vehicle_id,
-                                                            const flow::TrackedObjects& objects) {
+                                                            const flow::TrackedObjects& objects,
+                                                            std::int64_t scan_published_ns) {
   choose(objects.objects);
   objects_.clear();
   contour_points_.clear();
@@ -176,6 +177,7 @@ const slammot_TrackedObjects& TrackedObjectsEncoder::encode(std::string_view veh
     encode_path(*object, sample);
   }
   set_text(sample_.vehicle_id, vehicle_id);
+  sample_.scan_published_ns = scan_published_ns;
   sample_.stamp_ns = objects.stamp_ns;
   sample_.sequence_number = objects.sequence;
   sample_.map_from_odom = wire::encode(objects.map_from_odom);

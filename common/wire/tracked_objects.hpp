@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -17,11 +18,13 @@ inline constexpr std::size_t kMostPredictedPositions = 16;  ///< Of one object.
 /// Puts tracks on the wire; keeps its buffers.
 class TrackedObjectsEncoder {
  public:
-  /// The result is valid until the next call. If there are too many objects, contours are
-  /// subsampled and paths shortened for all alike. Of more than kMostObjects, confirmed and then
-  /// more probable objects are kept.
+  /// scan_published_ns: system clock of the source, 0 where it is unknown. The result is valid
+  /// until the next call. If there are too many objects, contours are subsampled and paths
+  /// shortened for all alike. Of more than kMostObjects, confirmed and then more probable objects
+  /// are kept.
   const slammot_TrackedObjects& encode(std::string_view vehicle_id,
-                                       const flow::TrackedObjects& objects);
+                                       const flow::TrackedObjects& objects,
+                                       std::int64_t scan_published_ns = 0);
 
  private:
   void choose(const std::vector<flow::TrackedObject>& objects);

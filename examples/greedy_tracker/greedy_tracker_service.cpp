@@ -29,9 +29,10 @@ void GreedyTrackerService::take(const slammot_SegmentedScan& sample) {
   const auto last = last_results_.find(scan->scanner_id);
   // A scan that was sent again: repeats the lost answer.
   if (last != last_results_.end() && scan->stamp_ns <= last->second.labels.stamp_ns)
-    return publish(last->second);
+    return publish(last->second, sample.scan_published_ns);
   const app::Stopwatch stopwatch(context_.status().latency("track"));
-  publish(last_results_[scan->scanner_id] = tracker_.step(*scan));
+  publish(last_results_[scan->scanner_id] = tracker_.step(*scan), sample.scan_published_ns);
+  context_.note_since_scan("scan_to_tracks", sample.scan_published_ns);
 }
 
 /// Discards the tracks of another map or another frame odom.
@@ -45,9 +46,10 @@ void GreedyTrackerService::begin_drive_of(const flow::SegmentedScan& scan) {
 
 /// Publishes objects before labels: the labels trigger the next scan, for which localization needs
 /// the objects.
-void GreedyTrackerService::publish(const stages::TrackingResult& result) {
-  objects_.write(objects_encoder_.encode(context_.vehicle_id(), result.objects));
-  labels_.write(labels_encoder_.encode(context_.vehicle_id(), result.labels));
+void GreedyTrackerService::publish(const stages::TrackingResult& result,
+                                   std::int64_t scan_published_ns) {
+  objects_.write(objects_encoder_.encode(context_.vehicle_id(), result.objects, scan_published_ns));
+  labels_.write(labels_encoder_.encode(context_.vehicle_id(), result.labels, scan_published_ns));
 }
 
 }  // namespace slammot::greedy_tracker

@@ -32,7 +32,7 @@ class GreedyTrackerService {
  private:
   void take(const slammot_SegmentedScan& sample);
   void begin_drive_of(const flow::SegmentedScan& scan);
-  void publish(const stages::TrackingResult& result);
+  void publish(const stages::TrackingResult& result, std::int64_t scan_published_ns);
 
   app::ServiceContext& context_;
   GreedyTrackerConfig config_;

@@ -25,6 +25,7 @@ void CollisionWarningService::take(const slammot_TrackedObjects& sample) {
   const app::Stopwatch stopwatch(context_.status().latency("assess"));
   const flow::CollisionWarnings warnings = monitor_.step(*tracked);
   warnings_.write(encoder_.encode(context_.vehicle_id(), warnings));
+  context_.note_since_scan("scan_to_warnings", sample.scan_published_ns);
   count(warnings.highest_level);
 }
 

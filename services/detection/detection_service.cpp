@@ -28,7 +28,9 @@ void DetectionService::take(const slammot_LocalizedScan& sample) {
                          "dropped a localized scan: " + std::string(scan.fault()));
   const app::Stopwatch stopwatch(context_.status().latency("detect"));
   segmented_scan_ = detector_.detect(*scan, std::move(segmented_scan_));
-  segmented_scans_.write(encoder_.encode(context_.vehicle_id(), segmented_scan_));
+  segmented_scans_.write(
+      encoder_.encode(context_.vehicle_id(), segmented_scan_, sample.scan_published_ns));
+  context_.note_since_scan("scan_to_segments", sample.scan_published_ns);
   ++context_.status().counter("scans");
 }
 

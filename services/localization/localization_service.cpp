@@ -93,7 +93,10 @@ void LocalizationService::read_inputs(app::ServiceContext& context) {
                [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kCompassReading, Input::kOccasional,
                [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kLaserScan, Input::kSteady, take_sample, History::kRestart);
+  context.read(
+      dds::topics::kLaserScan, Input::kSteady,
+      [this](const slammot_LaserScan& sample, const dds::SampleInfo& info) { take(sample, info); },
+      History::kRestart);
 }
 
 template <typename Value>
@@ -104,10 +107,11 @@ bool LocalizationService::is_good(const wire::Decoded<Value>& decoded, std::stri
   return static_cast<bool>(decoded);
 }
 
-void LocalizationService::take(const slammot_LaserScan& sample) {
+void LocalizationService::take(const slammot_LaserScan& sample, const dds::SampleInfo& info) {
   auto scan = wire::decode(sample);
   if (!is_good(scan, "laser_scan")) return;
-  admit(drives_.gate.judge({std::move(*scan), sample.drive_id}, monotonic_ns()));
+  admit(
+      drives_.gate.judge({std::move(*scan), sample.drive_id, info.source_time_ns}, monotonic_ns()));
   localize_waiting();
 }
 
@@ -152,6 +156,7 @@ void LocalizationService::take(const slammot_ScanLabels& sample) {
     return localize_waiting();
   }
   integrate(*labels);
+  context_.note_since_scan("scan_to_map", sample.scan_published_ns);
   localize_waiting();
   if (drive_.last_done_ns && !localizer_.awaits_labels()) save_checkpoint(*drive_.last_done_ns);
 }
@@ -211,11 +216,12 @@ Awaited LocalizationService::awaited() const {
 void LocalizationService::localize_waiting() {
   while (!waiting_.empty() && waiting_.may_begin(awaited()) && knows_map_of(waiting_.oldest())) {
     const WaitingScan waiting = waiting_.take(awaited());
-    if (is_of_this_drive(waiting)) localize(waiting.scan);
+    if (is_of_this_drive(waiting)) localize(waiting);
   }
 }
 
-void LocalizationService::localize(const sensing::LaserScan& scan) {
+void LocalizationService::localize(const WaitingScan& waiting) {
+  const sensing::LaserScan& scan = waiting.scan;
   if (drive_.last_done_ns) save_checkpoint(*drive_.last_done_ns);
   const app::Stopwatch stopwatch(context_.status().latency("localize"));
   const bool was_lost = localizer_.is_lost();
@@ -226,7 +232,8 @@ void LocalizationService::localize(const sensing::LaserScan& scan) {
     localized->map_id = *drive_.map_id;
     localized->odom_id = drive_.odom_id;
     drive_.last_done_ns = scan.stamp_ns;
-    scans_.publish(std::move(*localized));
+    scans_.publish(std::move(*localized), waiting.published_ns);
+    context_.note_since_scan("scan_to_pose", waiting.published_ns);
     use_early_answers(scan);
   } else {
     scans_.answer_again(scan.scanner.scanner_id, scan.stamp_ns);

@@ -73,7 +73,7 @@ class LocalizationService {
   };
 
   void read_inputs(app::ServiceContext& context);
-  void take(const slammot_LaserScan& sample);
+  void take(const slammot_LaserScan& sample, const dds::SampleInfo& info);
   void take(const slammot_Odometry& sample);
   void take(const slammot_GnssFix& sample);
   void take(const slammot_CompassReading& sample);
@@ -91,7 +91,7 @@ class LocalizationService {
   void use_early_answers(const sensing::LaserScan& scan);
   void localize_waiting();
   Awaited awaited() const;
-  void localize(const sensing::LaserScan& scan);
+  void localize(const WaitingScan& waiting);
   void tell_whereabouts(bool was_lost, std::uint64_t astray_before);
   void publish_finished_submaps();
   app::CommandResult finish_submap();

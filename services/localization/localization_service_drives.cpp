@@ -237,7 +237,7 @@ void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
 }
 
 SavedSession LocalizationService::session() const {
-  return {*drive_.map_id,          drive_.odom_id,  drive_.first_submap,
+  return {*drive_.map_id,         drive_.odom_id,  drive_.first_submap,
           drives_.watch.drives(), scans_.newest(), {}};
 }
 

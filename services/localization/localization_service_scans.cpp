@@ -4,8 +4,8 @@
 
 namespace slammot::localization {
 
-void ScanPublisher::publish(flow::LocalizedScan scan) {
-  scans_.write(encoder_.encode(context_.vehicle_id(), scan));
+void ScanPublisher::publish(flow::LocalizedScan scan, std::int64_t scan_published_ns) {
+  scans_.write(encoder_.encode(context_.vehicle_id(), scan, scan_published_ns));
   const std::string scanner_id = scan.scanner_id;
   newest_[scanner_id] = std::move(scan);
 }

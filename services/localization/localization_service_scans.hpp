@@ -16,7 +16,8 @@ class ScanPublisher {
   explicit ScanPublisher(app::ServiceContext& context)
       : context_(context), scans_(context.write(dds::topics::kLocalizedScan)) {}
 
-  void publish(flow::LocalizedScan scan);
+  /// scan_published_ns: by the system clock of the source of the scan.
+  void publish(flow::LocalizedScan scan, std::int64_t scan_published_ns);
 
   /// Publishes the newest scan of the scanner once more, if there is one: the answer to a scan that
   /// is done, or to a sender that begins its drive again. It tells both how far the drive is. Of a

@@ -12,7 +12,8 @@ namespace slammot::localization {
 struct WaitingScan {
   sensing::LaserScan scan;
   std::uint64_t drive_id = 0;
-  int turns = 0;  ///< Of the service's loop since it came.
+  std::int64_t published_ns = 0;  ///< By the system clock of its source.
+  int turns = 0;                  ///< Of the service's loop since it came.
 };
 
 /// State of the localizer on which the oldest waiting scan depends.

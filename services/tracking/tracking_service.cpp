@@ -80,8 +80,9 @@ void TrackingService::take(const slammot_SegmentedScan& sample) {
   if (!scan)
     return context_.warn("faulty_segmented_scan",
                          "dropped a segmented scan: " + std::string(scan.fault()));
-  if (!waits_for_stored_tracks_) return track(*scan);
-  early_.push_back(std::move(*scan));
+  ScanOnTheBus on_the_bus{std::move(*scan), sample.scan_published_ns};
+  if (!waits_for_stored_tracks_) return track(on_the_bus);
+  early_.push_back(std::move(on_the_bus));
   if (early_.size() > kMostEarlyScans) early_.pop_front();
 }
 
@@ -89,7 +90,7 @@ void TrackingService::begin() {
   if (!waits_for_stored_tracks_) return;
   waits_for_stored_tracks_ = false;
   context_.status().set_starting(false);
-  for (const flow::SegmentedScan& scan : early_) track(scan);
+  for (const ScanOnTheBus& scan : early_) track(scan);
   early_.clear();
 }
 
@@ -147,25 +148,29 @@ void TrackingService::take_up_stored(const flow::SegmentedScan& first) {
   spdlog::info("takes up {} stored tracks", stored_->objects.size());
 }
 
-void TrackingService::track(const flow::SegmentedScan& scan) {
+void TrackingService::track(const ScanOnTheBus& on_the_bus) {
+  const flow::SegmentedScan& scan = on_the_bus.scan;
   if (journal_.is_unproven) prove_journal(scan);
   if (!session_ || session_->frame != frame_of(scan)) begin_drive(scan);
   const auto last = session_->last_results.find(scan.scanner_id);
   if (last != session_->last_results.end() && scan.stamp_ns <= last->second.labels.stamp_ns)
-    return answer_again(scan, last->second);
+    return answer_again(on_the_bus, last->second);
   {
     const app::Stopwatch stopwatch(context_.status().latency("track"));
     TrackingResult& result = session_->last_results[scan.scanner_id];
     result = tracker_.step(scan);
-    publish(result);
+    publish(result, on_the_bus.published_ns);
   }
+  context_.note_since_scan("scan_to_tracks", on_the_bus.published_ns);
   save_if_due(scan.stamp_ns);
 }
 
 /// To a scan that is sent again because somebody missed the answer.
-void TrackingService::answer_again(const flow::SegmentedScan& scan, const TrackingResult& last) {
+void TrackingService::answer_again(const ScanOnTheBus& repeated, const TrackingResult& last) {
+  const auto& [scan, published_ns] = repeated;
   ++context_.status().counter("repeated_scans");
-  if (repeats_.asks_for_answer(scan.scanner_id, scan.stamp_ns, last.labels.stamp_ns)) publish(last);
+  if (repeats_.asks_for_answer(scan.scanner_id, scan.stamp_ns, last.labels.stamp_ns))
+    publish(last, published_ns);
 }
 
 /// After the answer to the scan, so that nobody waits for it.
@@ -194,9 +199,9 @@ TrackingService::~TrackingService() {
 }
 
 /// Objects first: localization must know them when the labels let the next scan come.
-void TrackingService::publish(const TrackingResult& result) {
-  objects_.write(objects_encoder_.encode(context_.vehicle_id(), result.objects));
-  labels_.write(labels_encoder_.encode(context_.vehicle_id(), result.labels));
+void TrackingService::publish(const TrackingResult& result, std::int64_t scan_published_ns) {
+  objects_.write(objects_encoder_.encode(context_.vehicle_id(), result.objects, scan_published_ns));
+  labels_.write(labels_encoder_.encode(context_.vehicle_id(), result.labels, scan_published_ns));
 }
 
 }  // namespace slammot::tracking

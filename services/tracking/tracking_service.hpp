@@ -43,6 +43,11 @@ class TrackingService {
     bool is_unproven = false;  ///< The state was restored, and no scan has followed it yet.
   };
 
+  struct ScanOnTheBus {
+    flow::SegmentedScan scan;
+    std::int64_t published_ns = 0;  ///< The laser scan, by the system clock of its source.
+  };
+
   void take(const slammot_SegmentedScan& sample);
   void take_stored(const slammot_TrackedObjects& sample);
   void begin();
@@ -51,11 +56,11 @@ class TrackingService {
   void take_up_stored(const flow::SegmentedScan& first);
   void prove_journal(const flow::SegmentedScan& first);
   bool follows_journal(const flow::SegmentedScan& first) const;
-  void answer_again(const flow::SegmentedScan& scan, const TrackingResult& last);
-  void track(const flow::SegmentedScan& scan);
+  void answer_again(const ScanOnTheBus& repeated, const TrackingResult& last);
+  void track(const ScanOnTheBus& on_the_bus);
   void save(std::int64_t stamp_ns);
   void save_if_due(std::int64_t stamp_ns);
-  void publish(const TrackingResult& result);
+  void publish(const TrackingResult& result, std::int64_t scan_published_ns);
 
   app::ServiceContext& context_;
   TrackingConfig config_;
@@ -69,7 +74,7 @@ class TrackingService {
   std::optional<Session> session_;  ///< None before the first scan.
   bool waits_for_stored_tracks_ = true;
   std::optional<flow::TrackedObjects> stored_;
-  std::deque<flow::SegmentedScan> early_;  ///< Came while waiting for stored tracks.
+  std::deque<ScanOnTheBus> early_;  ///< Came while waiting for stored tracks.
 };
 
 }  // namespace slammot::tracking

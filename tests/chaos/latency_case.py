@@ -24,6 +24,11 @@ def hop_ms(services, seconds):
     return chaos.percentile(medians_us, 0.5) * 1e-3 if medians_us else float("nan")
 
 
+def agrees(own_ms, observed_ms):
+    """What tracking says of its own latency: the last hop is missing, and a percentile may be 10 % too high."""
+    return 0.5 * observed_ms - 0.5 <= own_ms <= 1.2 * observed_ms
+
+
 def stage_compute_ms(observer):
     stages = [("localization", "localize"), ("detection", "detect"), ("tracking", "track")]
     return sum(observer.status(service)["latencies"][stage]["p50_ms"] for service, stage in stages)
@@ -45,12 +50,13 @@ def cases(options):
         stages = {stage: chaos.summary(observer.latencies_ms("vehicle", stage)) for stage in ["localized", "segmented"]}
         budget = stage_compute_ms(observer) + HOPS * hop
         unanswered = observer.vehicle("vehicle")["unanswered"]
+        own = observer.status("tracking")["latencies"]["scan_to_tracks"]
     figure = f"p50 {latencies['p50']:.2f}, p99 {latencies['p99']:.2f}, worst {latencies['worst']:.1f} ms of {latencies['count']} scans, " \
-             f"{unanswered} without tracks; stages and hops {budget:.2f} ms ({chaos.load()})"
+             f"{unanswered} without tracks; by tracking itself p50 {own['p50_ms']:.2f} ms; stages and hops {budget:.2f} ms ({chaos.load()})"
     passed = latencies["p50"] <= min(P50_MS, OF_HOPS * budget) and latencies["p99"] <= P99_MS and latencies["worst"] <= WORST_MS and unanswered == 0
     yield chaos.row(f"one vehicle at 37.5 Hz, {seconds} s, everything on, scan published to tracks received",
                     f"p50 {P50_MS} ms, p99 {P99_MS} ms, worst {WORST_MS} ms; p50 at most {OF_HOPS} x stages and hops", figure, passed,
-                    sound=latencies["count"] > 0.9 * 37.5 * (seconds - 10), latencies=latencies, stages=stages, hop_ms=hop, budget_ms=budget, unanswered=unanswered)
+                    sound=latencies["count"] > 0.9 * 37.5 * (seconds - 10) and agrees(own["p50_ms"], latencies["p50"]), latencies=latencies, stages=stages, hop_ms=hop, budget_ms=budget, unanswered=unanswered)
 
 
 def start_source(options, services):
