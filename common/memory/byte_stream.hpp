@@ -45,6 +45,27 @@ void put_all(std::vector<std::byte>& bytes, const std::vector<T>& values) {
   put_bytes(bytes, values.data(), values.size() * sizeof(T));
 }
 
+/// Appends the cells of a grid, of which most are zero: in turn the number of zeros, and a number
+/// of other cells with these. Short gaps of zeros count as others.
+template <class T>
+void put_cells(std::vector<std::byte>& bytes, const std::vector<T>& cells) {
+  static_assert(std::is_integral_v<T> && sizeof(T) == 1);
+  constexpr std::ptrdiff_t kShortestGap = 16;
+  put(bytes, static_cast<std::uint64_t>(cells.size()));
+  const auto is_set = [](T cell) { return cell != 0; };
+  for (auto at = cells.begin(); at != cells.end();) {
+    const auto first = std::find_if(at, cells.end(), is_set);
+    auto end = first;
+    for (auto next = first; next != cells.end() && next - end < kShortestGap; ++next) {
+      if (is_set(*next)) end = next + 1;
+    }
+    put(bytes, static_cast<std::uint64_t>(first - at));
+    put(bytes, static_cast<std::uint64_t>(end - first));
+    if (first != end) put_bytes(bytes, &*first, static_cast<std::size_t>(end - first));
+    at = end;
+  }
+}
+
 /// Reads them back; once it has run past the end, every further value is left as it was and ok() is
 /// false.
 class ByteReader {
@@ -102,6 +123,26 @@ class ByteReader {
     values.resize(count);
     if (count > 0) std::memcpy(values.data(), at_, count * sizeof(T));
     at_ += count * sizeof(T);
+  }
+
+  /// Of put_cells(). More than `most` cells cannot be right.
+  template <class T>
+  void get_cells(std::vector<T>& cells, std::size_t most) {
+    std::uint64_t count = 0;
+    get(count);
+    if (count > most) refuse();
+    if (!ok_) return;
+    cells.assign(count, T{0});
+    for (std::uint64_t done = 0; ok_ && done < count;) {
+      std::uint64_t zeros = 0;
+      std::uint64_t others = 0;
+      get(zeros);
+      get(others);
+      const bool fits = zeros <= count - done && others <= count - done - zeros;
+      if (!fits || zeros + others == 0) return refuse();
+      get_bytes(cells.data() + done + zeros, others);
+      done += zeros + others;
+    }
   }
 
  private:

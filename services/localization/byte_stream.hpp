@@ -14,6 +14,7 @@ using memory::checksum;
 using memory::put;
 using memory::put_all;
 using memory::put_bytes;
+using memory::put_cells;
 using memory::unsealed;
 
 /// Whether a pose that was read can be worked with: finite, and near enough that cells of any size

@@ -25,15 +25,15 @@ struct StoredMap {
   std::vector<grids::SurfelMoments> inherited_surfels;
 };
 
-StoredMap stored_map_of(ByteReader& from) {
+StoredMap stored_map_of(ByteReader& from, std::size_t most_cells) {
   StoredMap stored;
   from.get(stored.window);
-  from.get_all(stored.so);
-  from.get_all(stored.mo);
-  from.get_all(stored.lasting);
-  from.get_all(stored.inherited_so);
-  from.get_all(stored.inherited_mo);
-  from.get_all(stored.inherited_lasting);
+  from.get_cells(stored.so, most_cells);
+  from.get_cells(stored.mo, most_cells);
+  from.get_cells(stored.lasting, most_cells);
+  from.get_cells(stored.inherited_so, most_cells);
+  from.get_cells(stored.inherited_mo, most_cells);
+  from.get_cells(stored.inherited_lasting, most_cells);
   from.get(stored.surfel_lattice);
   from.get_all(stored.surfels);
   from.get_all(stored.inherited_surfels);
@@ -99,12 +99,12 @@ LocalMap::Snapshot LocalMap::snapshot(Snapshot memory) const {
 
 void LocalMap::Snapshot::write(std::vector<std::byte>& bytes) const {
   put(bytes, window_);
-  put_all(bytes, so_);
-  put_all(bytes, mo_);
-  put_all(bytes, lasting_);
-  put_all(bytes, inherited_->so);
-  put_all(bytes, inherited_->mo);
-  put_all(bytes, inherited_->lasting);
+  put_cells(bytes, so_);
+  put_cells(bytes, mo_);
+  put_cells(bytes, lasting_);
+  put_cells(bytes, inherited_->so);
+  put_cells(bytes, inherited_->mo);
+  put_cells(bytes, inherited_->lasting);
   put(bytes, surfel_window_);
   put_all(bytes, surfels_);
   put_all(bytes, inherited_->surfels.all_moments());
@@ -120,7 +120,7 @@ void LocalMap::Snapshot::write(std::vector<std::byte>& bytes) const {
 
 std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteReader& from,
                                            work::SideWork* help) {
-  StoredMap stored = stored_map_of(from);
+  StoredMap stored = stored_map_of(from, evidence_window(config, {0.0, 0.0}).cell_count());
   flow::SubmapId submap_id;
   geometry::Pose2 odom_from_submap;
   Progress progress;

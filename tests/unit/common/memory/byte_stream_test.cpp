@@ -78,6 +78,55 @@ TEST(ByteStream, RefusesACountThatTheBytesCannotHold) {
   EXPECT_EQ(values, std::vector<double>{2.0});
 }
 
+std::vector<std::int8_t> read_cells(std::span<const std::byte> bytes, std::size_t most, bool& ok) {
+  ByteReader from(bytes);
+  std::vector<std::int8_t> cells;
+  from.get_cells(cells, most);
+  ok = from.ok() && from.at_end();
+  return cells;
+}
+
+TEST(ByteStream, GivesBackCells) {
+  std::vector<std::int8_t> sparse(10'000, 0);
+  for (const std::size_t i : {3U, 5U, 21U, 22U, 5000U, 9999U})
+    sparse[i] = static_cast<std::int8_t>(-7);
+  for (const auto& cells :
+       {sparse, std::vector<std::int8_t>(1000, 1), std::vector<std::int8_t>(1000, 0),
+        std::vector<std::int8_t>{}, std::vector<std::int8_t>{0}}) {
+    std::vector<std::byte> bytes;
+    put_cells(bytes, cells);
+    bool ok = false;
+    EXPECT_EQ(read_cells(bytes, cells.size(), ok), cells);
+    EXPECT_TRUE(ok);
+  }
+  std::vector<std::byte> bytes;
+  put_cells(bytes, sparse);
+  EXPECT_LT(bytes.size(), 200U);
+}
+
+TEST(ByteStream, RefusesCellsThatCannotBeRight) {
+  bool ok = true;
+  std::vector<std::byte> bytes;
+  put_cells(bytes, std::vector<std::int8_t>(100, 1));
+  read_cells(bytes, 99, ok);
+  EXPECT_FALSE(ok) << "more than there can be";
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    read_cells(std::span<const std::byte>(bytes).first(size), 100, ok);
+    EXPECT_FALSE(ok) << "cut after " << size;
+  }
+  const std::uint64_t huge = ~std::uint64_t{0};
+  for (const auto& [zeros, others] :
+       {std::pair<std::uint64_t, std::uint64_t>{0, 0}, {0, 101}, {101, 0}, {huge, 1}, {1, huge}}) {
+    std::vector<std::byte> made;
+    put(made, std::uint64_t{100});
+    put(made, zeros);
+    put(made, others);
+    made.resize(made.size() + 200);
+    read_cells(made, 100, ok);
+    EXPECT_FALSE(ok) << zeros << " zeros, " << others << " others";
+  }
+}
+
 TEST(ByteStream, ReadsNothingMoreOnceItHasFailed) {
   std::vector<std::byte> bytes;
   put(bytes, std::uint8_t{9});
