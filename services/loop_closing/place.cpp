@@ -19,34 +19,40 @@ std::int8_t steps_of(double log_odds) {
   return static_cast<std::int8_t>(std::clamp(std::lround(kStepsPerLogOdds * log_odds), 1L, 127L));
 }
 
-void mark_around(Place& place, std::int32_t column, std::int32_t row, std::int32_t radius) {
-  for (std::int32_t y = std::max(row - radius, 0); y <= std::min(row + radius, place.rows - 1);
+void mark_around(CellStates& cells, std::int32_t column, std::int32_t row, std::int32_t radius) {
+  for (std::int32_t y = std::max(row - radius, 0); y <= std::min(row + radius, cells.rows() - 1);
        ++y) {
     for (std::int32_t x = std::max(column - radius, 0);
-         x <= std::min(column + radius, place.columns - 1); ++x) {
-      place.cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(place.columns) +
-                  static_cast<std::size_t>(x)] = CellState::kOccupied;
+         x <= std::min(column + radius, cells.columns() - 1); ++x)
+      cells.set(x, y, CellState::kOccupied);
+  }
+}
+
+/// Calls take(column, row) for the cells of which holds(log-odds) is true.
+template <typename Holds, typename Take>
+void for_each_cell(const flow::Submap& submap, Holds holds, Take take) {
+  std::size_t i = 0;
+  for (std::int32_t row = 0; row < static_cast<std::int32_t>(submap.rows); ++row) {
+    for (std::int32_t column = 0; column < static_cast<std::int32_t>(submap.columns); ++column) {
+      if (holds(submap.so_log_odds[i++])) take(column, row);
     }
   }
 }
 
-void set_cells(const flow::Submap& submap, const PlaceConfig& config, Place& place) {
+CellStates cells_of(const flow::Submap& submap, const PlaceConfig& config) {
   const std::int8_t occupied = steps_of(kOccupiedLogOdds);
   const std::int8_t free = steps_of(kFreeLogOdds);
   const auto radius =
       static_cast<std::int32_t>(std::lround(config.tolerance_m / submap.cell_size_m));
-  place.cells.assign(submap.so_log_odds.size(), CellState::kUnknown);
-  for (std::size_t i = 0; i < place.cells.size(); ++i) {
-    if (submap.so_log_odds[i] <= -free) place.cells[i] = CellState::kFree;
-  }
-  for (std::int32_t row = 0; row < place.rows; ++row) {
-    for (std::int32_t column = 0; column < place.columns; ++column) {
-      const std::size_t i =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(place.columns) +
-          static_cast<std::size_t>(column);
-      if (submap.so_log_odds[i] >= occupied) mark_around(place, column, row, radius);
-    }
-  }
+  CellStates cells(static_cast<std::int32_t>(submap.columns),
+                   static_cast<std::int32_t>(submap.rows));
+  for_each_cell(
+      submap, [free](std::int8_t log_odds) { return log_odds <= -free; },
+      [&](std::int32_t column, std::int32_t row) { cells.set(column, row, CellState::kFree); });
+  for_each_cell(
+      submap, [occupied](std::int8_t log_odds) { return log_odds >= occupied; },
+      [&](std::int32_t column, std::int32_t row) { mark_around(cells, column, row, radius); });
+  return cells;
 }
 
 /// State over all members; occupied outweighs free, free outweighs unknown.
@@ -86,9 +92,9 @@ void count(CellState state, Agreement& agreement) {
 CellState Place::state_at(const Vector2& point_in_submap_m) const {
   const double column = std::floor((point_in_submap_m.x() - min_x_m) / cell_size_m);
   const double row = std::floor((point_in_submap_m.y() - min_y_m) / cell_size_m);
-  if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows)) return CellState::kUnknown;
-  return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-               static_cast<std::size_t>(column)];
+  if (!(column >= 0.0 && column < cells.columns() && row >= 0.0 && row < cells.rows()))
+    return CellState::kUnknown;
+  return cells.at(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
 }
 
 Place make_place(const flow::Submap& submap, double travelled_before_m, const PlaceConfig& config) {
@@ -102,9 +108,7 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
   place.cell_size_m = submap.cell_size_m;
   place.min_x_m = submap.min_x_m;
   place.min_y_m = submap.min_y_m;
-  place.columns = static_cast<std::int32_t>(submap.columns);
-  place.rows = static_cast<std::int32_t>(submap.rows);
-  set_cells(submap, config, place);
+  place.cells = cells_of(submap, config);
   for (const flow::Surfel& surfel : submap.surfels) {
     // A surfel in free space was seen through later: it is no wall.
     if (surfel.weight < kLeastEchoes ||
@@ -112,6 +116,7 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
       continue;
     place.surfels.push_back(surfel);
   }
+  place.surfels.shrink_to_fit();  // kept as long as the map
   return place;
 }
 

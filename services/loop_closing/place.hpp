@@ -9,11 +9,9 @@
 #include "common/flow/submap.hpp"
 #include "common/geometry/geodetic.hpp"
 #include "common/geometry/pose2.hpp"
+#include "services/loop_closing/cell_states.hpp"
 
 namespace slammot::loop_closing {
-
-/// State of a cell. In a union of submaps the greater value wins.
-enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
 
 /// The part of a submap that loop closing keeps: surfels of walls, and a grid of free and occupied
 /// cells.
@@ -28,9 +26,7 @@ struct Place {
   double cell_size_m = 0.0;
   double min_x_m = 0.0;
   double min_y_m = 0.0;
-  std::int32_t columns = 0;
-  std::int32_t rows = 0;
-  std::vector<CellState> cells;  ///< Row-major; occupied cells are dilated by the tolerance.
+  CellStates cells;  ///< Occupied cells are dilated by the tolerance.
 
   CellState state_at(const geometry::Vector2& point_in_submap_m) const;
 };
