@@ -22,13 +22,15 @@ std::string with_underscores(std::string name) {
 struct Heard {
   wire::ServiceName name;
   std::uint32_t process_number = 0;
-  std::optional<ServiceState> state;       ///< By its heartbeat.
-  std::optional<std::string> explanation;  ///< By its status, once it has started.
+  std::optional<ServiceState> state;      ///< By its heartbeat.
+  std::optional<ServiceState> explained;  ///< The state that its status explains.
+  std::string explanation;
   bool stands_by = false;
 
-  /// A standby starts when it takes over.
+  /// The status may still be of the state before. A standby starts when it takes over.
   bool is_settled() const {
-    return state && explanation && (stands_by || *state != ServiceState::kStarting);
+    if (!state || !explained) return false;
+    return stands_by || (*state != ServiceState::kStarting && *state == *explained);
   }
 };
 
@@ -39,7 +41,7 @@ Verdict verdict_of(const Heard& heard) {
 
 Health health_of(const Heard& heard) {
   std::string text(to_string(heard.state.value_or(ServiceState::kStarting)));
-  const std::string reason = heard.explanation.value_or("");
+  const std::string& reason = heard.explanation;
   if (heard.stands_by) text = reason.empty() ? "stands by" : reason;
   else if (!reason.empty()) text += ": " + reason;
   return {heard.name, heard.process_number, heard.stands_by, verdict_of(heard), text};
@@ -93,7 +95,9 @@ class Listener {
   void take(const slammot_ServiceStatus& sample) {
     const auto status = wire::decode(sample);
     Heard* const heard = status ? heard_of(status->name, status->process_number) : nullptr;
-    if (heard != nullptr) heard->explanation = status->explanation;
+    if (heard == nullptr) return;
+    heard->explained = status->state;
+    heard->explanation = status->explanation;
   }
   bool is_settled() const {
     return !question_.services.empty() &&
