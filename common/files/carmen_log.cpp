@@ -300,7 +300,7 @@ void CarmenLog::take(const ImuRecord& record) {
   const auto stamp = recorded_stamp_ns(record.stamps);
   if (has_replaced_stamps()) return void(++faults_.ignored_lines);
   if (!stamp) return note_malformed();
-  gyro_.add({*stamp, record.yaw_rate_radps});
+  if (gyro_stamps_.believes(*stamp)) gyro_.add({*stamp, record.yaw_rate_radps});
 }
 
 std::int64_t CarmenLog::lateness_ns() const { return std::llround(plan_.odometry_late_s * 1e9); }

@@ -172,6 +172,7 @@ class CarmenLog {
   sensing::StampGuard scan_stamps_{60.0};   // one from the future must not keep back all odometry
                                             // after it
   sensing::StampGuard odometry_stamps_{60.0};
+  sensing::StampGuard gyro_stamps_{60.0};
   std::optional<sensing::Odometry> newest_odometry_;  // handed out
   matching::PoseCorrection pose_correction_;          // of poses in the order of the log
   sensing::GyroOdometry gyro_;

@@ -111,9 +111,10 @@ TEST_F(CarmenLogTest, GivesEachScanRightAfterTheOdometryOfItsStamp) {
 }
 
 TEST_F(CarmenLogTest, TakesTheTurnsOfOdometryFromAnImu) {
-  // On the spot: the wheels count 0.6 rad/s, the gyro 0.5.
+  // On the spot: the wheels count 0.6 rad/s, the gyro 0.5. One of its stamps is an hour ahead.
   std::string log;
   for (int i = 0; i < 50; ++i) {
+    if (i == 20) log += "IMU 0 0 9.81 1 0 0 0 0 0 0 0 0 0.5 4600 host 2\n";
     const std::string s = std::to_string(i / 10) + "." + std::to_string(i % 10);
     log +=
         "IMU 0 0 9.81 1 0 0 0 0 0 0 0 0 0.5 100" + s + " host " + s + "\n" +
