@@ -13,10 +13,14 @@ constexpr std::int64_t kKept_ns = 5'000'000'000;      // odometry may come later
 constexpr double kStandsWithin_m = 1e-4;              // a step: wheels that stand count nothing
 constexpr double kStandsWithin_rad = 1e-4;
 constexpr double kStandsAfter_s = 0.5;                  // odometry may come less often than scans
-constexpr double kBiasNoise_radps_per_sqrt_hz = 0.002;  // of a mean over a second, engine running
-constexpr double kBiasWalk_radps_per_sqrt_s = 5e-5;     // as heading_rate_bias_walk
-constexpr double kGateSigmas = 3.0;                     // beyond it the vehicle turns
+constexpr double kGyroNoise_radps_per_sqrt_hz = 0.002;  // of a mean over a second, engine running
+constexpr double kWheelNoise_radpm = 0.004;             // of a step, as heading_noise_per_m
+constexpr double kWheelSlip = 0.3;  // share of a turn by which wheels err for about a second
+constexpr double kBiasWalk_radps_per_sqrt_s = 1e-4;
+constexpr double kGateSigmas = 3.0;         // beyond it the vehicle turns, or the wheels slip
+constexpr double kKnownBias_radps = 0.002;  // one sigma
 
+double squared(double value) { return value * value; }
 double seconds(std::int64_t duration_ns) { return 1e-9 * static_cast<double>(duration_ns); }
 
 /// The step with another turn: half of what it turns more belongs to the first half of the way.
@@ -34,7 +38,8 @@ double GyroOdometry::bias_sigma_radps() const { return std::sqrt(bias_variance_)
 bool GyroOdometry::is_believed() const {
   constexpr double kEnough_rad2ps = 0.1;  // 0.1 rad/s for 10 s
   constexpr double kMostTimes = 2.0;      // wheels that slip are within it
-  return wheels_by_wheels_ > kEnough_rad2ps && gyro_by_wheels_ * kMostTimes > wheels_by_wheels_ &&
+  return bias_sigma_radps() < kKnownBias_radps && wheels_by_wheels_ > kEnough_rad2ps &&
+         gyro_by_wheels_ * kMostTimes > wheels_by_wheels_ &&
          gyro_by_wheels_ < kMostTimes * wheels_by_wheels_;
 }
 
@@ -71,21 +76,30 @@ std::optional<double> GyroOdometry::turned_until(std::int64_t stamp_ns) const {
   return before.turned_rad + fraction * (after->turned_rad - before.turned_rad);
 }
 
-void GyroOdometry::learn_bias(double rate_radps, double duration_s) {
-  const double noise = kBiasNoise_radps_per_sqrt_hz * kBiasNoise_radps_per_sqrt_hz / duration_s;
-  const double innovation_radps = rate_radps - bias_radps_;
+/// By the turn of the wheels, which is exact while they stand, good on a straight and poor in a
+/// turn.
+void GyroOdometry::learn_bias(const Pose2& by_wheels, double by_gyro_rad, double duration_s) {
+  bias_variance_ += squared(kBiasWalk_radps_per_sqrt_s) * duration_s;
+  const double way_m = std::hypot(by_wheels.x_m, by_wheels.y_m);
+  const bool is_still =
+      way_m < kStandsWithin_m && std::abs(by_wheels.heading_rad) < kStandsWithin_rad;
+  stood_s_ = is_still ? stood_s_ + duration_s : 0.0;
+  if (is_still && stood_s_ < kStandsAfter_s) return;
+  const double rate_radps = by_gyro_rad / duration_s;
+  const double turning_radps =
+      std::max(std::abs(by_wheels.heading_rad / duration_s), std::abs(rate_radps - bias_radps_));
+  const double slip_radps = is_still ? 0.0 : kWheelSlip * turning_radps;
+  const double noise = (squared(kGyroNoise_radps_per_sqrt_hz) + squared(slip_radps)) / duration_s +
+                       squared(kWheelNoise_radpm * way_m / duration_s);
+  const double innovation_radps = rate_radps - by_wheels.heading_rad / duration_s - bias_radps_;
   const double variance = bias_variance_ + noise;
-  if (innovation_radps * innovation_radps > kGateSigmas * kGateSigmas * variance) return;
+  if (squared(innovation_radps) > squared(kGateSigmas) * variance) return;
   bias_radps_ += bias_variance_ / variance * innovation_radps;
   bias_variance_ *= noise / variance;
 }
 
 double GyroOdometry::turn_of(const Pose2& by_wheels, double by_gyro_rad, double duration_s) {
-  bias_variance_ += kBiasWalk_radps_per_sqrt_s * kBiasWalk_radps_per_sqrt_s * duration_s;
-  const bool is_still = std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m &&
-                        std::abs(by_wheels.heading_rad) < kStandsWithin_rad;
-  stood_s_ = is_still ? stood_s_ + duration_s : 0.0;
-  if (stood_s_ > kStandsAfter_s) learn_bias(by_gyro_rad / duration_s, duration_s);
+  learn_bias(by_wheels, by_gyro_rad, duration_s);
   const double turn_rad = by_gyro_rad - bias_radps_ * duration_s;
   compare(by_wheels.heading_rad, turn_rad, duration_s);
   return is_believed() ? turn_rad : by_wheels.heading_rad;

@@ -12,10 +12,11 @@ namespace slammot::sensing {
 /// Odometry whose way is that of the wheels and whose turns are those of a gyro, less its bias.
 /// Wheels that slip in turns err by tenths of the turn, a gyro by thousandths of it and its bias.
 ///
-/// The bias is measured while the wheels stand: random walk, scalar Kalman filter. What is left of
-/// it localization estimates from the scans, as the rate bias of any odometry (motion_model.hpp).
-/// Steps without readings of the gyro keep the turn of the wheels, and all do until the gyro has
-/// been seen to turn with the wheels: one that is mounted otherwise or counts degrees does not.
+/// The bias is measured against the wheels (random walk, scalar Kalman filter): while they stand
+/// and on straights. What is left of it localization estimates from the scans, as the rate bias of
+/// any odometry (motion_model.hpp). Steps without readings of the gyro keep the turn of the wheels,
+/// and all do until the gyro has been seen to turn with the wheels: one that is mounted otherwise
+/// or counts degrees does not.
 class GyroOdometry {
  public:
   /// Readings in the order of their stamps; others are ignored.
@@ -30,7 +31,7 @@ class GyroOdometry {
   double bias_radps() const { return bias_radps_; }
   double bias_sigma_radps() const;
 
-  /// Whether turns by gyro and wheels agree in sign and size.
+  /// Whether the bias is known, and turns by gyro and wheels agree in sign and size.
   bool is_believed() const;
 
  private:
@@ -48,7 +49,7 @@ class GyroOdometry {
   std::optional<double> turned_until(std::int64_t stamp_ns) const;
   double turn_of(const geometry::Pose2& by_wheels, double by_gyro_rad, double duration_s);
   void compare(double by_wheels_rad, double by_gyro_rad, double duration_s);
-  void learn_bias(double rate_radps, double duration_s);
+  void learn_bias(const geometry::Pose2& by_wheels, double by_gyro_rad, double duration_s);
 
   std::deque<Turned> turned_;
   std::optional<TurnRate> last_;

@@ -56,7 +56,8 @@ class Vehicle {
 TEST(GyroOdometry, TurnsByTheGyroWhereTheWheelsSlip) {
   GyroOdometry odometry;
   Vehicle vehicle(1.15, 0.0);
-  vehicle.drive(odometry, 6.0, 5.0, std::numbers::pi / 6);  // until the gyro is believed, and on
+  vehicle.drive(odometry, 10.0, 5.0, 0.0);                  // until its bias is known,
+  vehicle.drive(odometry, 6.0, 5.0, std::numbers::pi / 6);  // and turns have been compared
   const Pose2 truth_before = vehicle.truth();
   const Pose2 before = vehicle.drive(odometry, 0.02, 5.0, std::numbers::pi / 6);
   const Pose2 wheels_before = vehicle.wheels();
@@ -69,6 +70,7 @@ TEST(GyroOdometry, BelievesNoGyroThatIsMountedUpsideDownOrCountsDegrees) {
   for (const double factor : {-1.0, 1.0 / 57.3}) {  // of the wheels, against that of the gyro
     GyroOdometry odometry;
     Vehicle vehicle(factor, 0.0);
+    vehicle.drive(odometry, 10.0, 5.0, 0.0);
     const Pose2 fused = vehicle.drive(odometry, 20.0, 5.0, 0.5);
     EXPECT_THAT(fused, PoseNear(vehicle.wheels(), 1e-6));
     EXPECT_FALSE(odometry.is_believed());
@@ -85,6 +87,24 @@ TEST(GyroOdometry, MeasuresTheBiasWhileTheWheelsStand) {
   const Pose2 before = vehicle.drive(odometry, 0.02, 0.0, 0.0);
   const Pose2 after = vehicle.drive(odometry, 20.0, 5.0, 0.0);
   EXPECT_NEAR(geometry::wrap_angle(after.heading_rad - before.heading_rad), 0.0, 0.003);
+}
+
+TEST(GyroOdometry, MeasuresTheBiasOnAStraight) {
+  GyroOdometry odometry;
+  Vehicle vehicle(1.15, 0.02);
+  vehicle.drive(odometry, 20.0, 5.0, 0.0);
+  vehicle.drive(odometry, 5.0, 5.0, 0.3);
+  vehicle.drive(odometry, 5.0, 5.0, -0.5);
+  EXPECT_TRUE(odometry.is_believed());
+  EXPECT_NEAR(odometry.bias_radps(), 0.02, 0.002);
+}
+
+TEST(GyroOdometry, IsNotBelievedBeforeItsBiasIsKnown) {
+  GyroOdometry odometry;
+  Vehicle vehicle(1.0, 0.02);
+  const Pose2 fused = vehicle.drive(odometry, 4.0, 5.0, 0.5);
+  EXPECT_FALSE(odometry.is_believed());
+  EXPECT_THAT(fused, PoseNear(vehicle.truth(), 0.1));
 }
 
 TEST(GyroOdometry, TakesNoTurnForABias) {
@@ -107,6 +127,7 @@ TEST(GyroOdometry, IsThatOfTheWheelsWithoutReadings) {
 TEST(GyroOdometry, GoesOnByTheWheelsWhereReadingsStop) {
   GyroOdometry odometry;
   Vehicle vehicle(1.1, 0.0);
+  vehicle.drive(odometry, 10.0, 5.0, 0.0);
   vehicle.drive(odometry, 4.0, 5.0, 0.3);
   ASSERT_TRUE(odometry.is_believed());
   vehicle.has_gyro = false;
@@ -120,8 +141,9 @@ TEST(GyroOdometry, MakesUpForReadingsThatComeLate) {
   GyroOdometry late;
   Pose2 with_late, with_all;
   double turned_rad = 0.0;
-  for (std::int64_t i = 1; i <= 400; ++i) {
-    const TurnRate reading{i * kPeriod_ns, 0.5 + 0.3 * std::sin(0.1 * static_cast<double>(i))};
+  for (std::int64_t i = 1; i <= 600; ++i) {
+    const double rate_radps = i < 200 ? 0.0 : 0.5 + 0.3 * std::sin(0.1 * static_cast<double>(i));
+    const TurnRate reading{i * kPeriod_ns, rate_radps};
     turned_rad += 1.1 * kPeriod_s * reading.yaw_rate_radps;
     const Odometry wheels{i * kPeriod_ns, {0.0, 0.0, geometry::wrap_angle(turned_rad)}};
     in_time.add(reading);
