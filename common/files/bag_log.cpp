@@ -95,8 +95,26 @@ void BagLog::look_through(bags::MessageSource& messages) {
   kept_at_first_ = kept_.size();
   if (malformed_ > 0)
     note(std::to_string(malformed_) + " messages could not be understood and were left out");
-  for (const auto& [topic, count] : imu_messages_)
-    note("imu:      " + topic + ", " + std::to_string(count) + " messages, not used");
+  choose_gyro();
+}
+
+void BagLog::look_at_imu(const bags::RawMessage& message) {
+  const auto imu = bags::parse_imu(message);
+  if (!imu) return void(++malformed_);
+  turn_rates_[message.channel->topic].push_back(
+      {message.log_time_ns, imu->header.stamp_ns, imu->yaw_rate_radps});
+}
+
+void BagLog::choose_gyro() {
+  if (turn_rates_.empty()) return;
+  const auto most = std::ranges::max_element(turn_rates_, {},
+                                             [](const auto& topic) { return topic.second.size(); });
+  for (const auto& [topic, rates] : turn_rates_)
+    note("imu:      " + topic + ", " + std::to_string(rates.size()) + " messages, " +
+         (topic == most->first ? "turns of the odometry if they agree" : "not used"));
+  gyro_ = std::move(most->second);
+  turn_rates_.clear();
+  std::ranges::stable_sort(gyro_, {}, &StampedRate::log_time_ns);
 }
 
 /// Recorders write in order of arrival, converters also topic by topic. Scans of one topic stay in
@@ -114,11 +132,7 @@ void BagLog::look_at(const bags::RawMessage& message, MessageKind kind) {
     case MessageKind::kMultiEcho:
     case MessageKind::kPointCloud: return look_at_scan(message, kind);
     case MessageKind::kOdometry: return look_at_odometry(message);
-    case MessageKind::kImu: {
-      if (bags::parse_imu(message)) ++imu_messages_[message.channel->topic];
-      else ++malformed_;
-      return;
-    }
+    case MessageKind::kImu: return look_at_imu(message);
     case MessageKind::kTransforms: {
       const auto transforms = bags::parse_transforms(message);
       if (!transforms) ++malformed_;
@@ -538,9 +552,23 @@ CarmenRecord BagLog::finished(Scan scan) {
   return record;
 }
 
+/// The next reading of the gyro, if it was recorded before odometry and scan that are next.
+std::optional<CarmenRecord> BagLog::next_turn_rate() {
+  if (gyro_at_ == gyro_.size()) return std::nullopt;
+  const StampedRate& rate = gyro_[gyro_at_];
+  const bool is_before_scan = !waiting_ || rate.log_time_ns <= waiting_->log_time_ns;
+  const bool is_before_odometry =
+      odometry_at_ == odometry_.size() || rate.log_time_ns <= odometry_[odometry_at_].log_time_ns;
+  if (!is_before_scan || !is_before_odometry) return std::nullopt;
+  ++gyro_at_;
+  ++records_;
+  return ImuRecord{rate.yaw_rate_radps, {rate.stamp_ns, rate.log_time_ns}};
+}
+
 std::optional<CarmenRecord> BagLog::next() {
   while (true) {
     if (!waiting_) waiting_ = next_scan();
+    if (auto rate = next_turn_rate()) return rate;
     const bool odometry_is_first = odometry_at_ < odometry_.size() &&
                                    (!waiting_ || comes_before(odometry_[odometry_at_], *waiting_));
     if (!odometry_is_first && !waiting_) return std::nullopt;

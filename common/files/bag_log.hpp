@@ -58,6 +58,11 @@ class BagLog : public RecordSource {
     std::int64_t index = 0;  ///< Of the message in the bag.
     geometry::Pose2 wheel_from_base;
   };
+  struct StampedRate {
+    std::int64_t log_time_ns = 0;
+    std::int64_t stamp_ns = 0;
+    double yaw_rate_radps = 0.0;
+  };
   /// Clock that relates odometry and scans.
   enum class CommonClock : std::uint8_t { kHeaders, kRecording, kOrder };
   struct OdometryTopic {
@@ -81,6 +86,9 @@ class BagLog : public RecordSource {
   void look_at(const bags::RawMessage& message, bags::MessageKind kind);
   void look_at_scan(const bags::RawMessage& message, bags::MessageKind kind);
   void look_at_odometry(const bags::RawMessage& message);
+  void look_at_imu(const bags::RawMessage& message);
+  void choose_gyro();
+  std::optional<CarmenRecord> next_turn_rate();
   std::size_t scan_topic(const bags::RawMessage& message, const std::string& frame);
 
   std::optional<Error> choose(const std::filesystem::path& path);
@@ -111,7 +119,9 @@ class BagLog : public RecordSource {
   std::vector<OdometryTopic> odometry_topics_;
   bags::FrameTree frames_;
   std::map<std::string, std::string> types_;  ///< Of all topics, for messages about missing scans.
-  std::map<std::string, std::uint64_t> imu_messages_;
+  std::map<std::string, std::vector<StampedRate>> turn_rates_;  ///< By topic.
+  std::vector<StampedRate> gyro_;                               ///< Of the topic with most of them.
+  std::size_t gyro_at_ = 0;
   std::int64_t index_ = 0;  ///< Index of the current message.
   std::uint64_t malformed_ = 0;
   std::size_t kept_bytes_ = 0;

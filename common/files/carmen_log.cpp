@@ -155,8 +155,8 @@ std::optional<LogEvent> CarmenLog::next() {
     if (survey_) survey_->add(now_.record);
     std::visit(Overloaded{[this](const IgnoredLine&) { ++faults_.ignored_lines; },
                           [this](const MalformedLine&) { note_malformed(); },
-                          // The survey processes these two.
-                          [](const ParamRecord&) {}, [](const ImuRecord&) {},
+                          [](const ParamRecord&) {},  // The survey processes it.
+                          [this](const ImuRecord& known) { take(known); },
                           [this](const OdometryRecord& known) { take(known); },
                           [this](const GnssRecord& known) { take(known); },
                           [this](const CompassRecord& known) { take(known); },
@@ -167,6 +167,8 @@ std::optional<LogEvent> CarmenLog::next() {
   if (ready_.empty()) return std::nullopt;
   LogEvent event = std::move(ready_.front());
   ready_.pop_front();
+  if (auto* odometry = std::get_if<sensing::Odometry>(&event); odometry && gyro_.has_readings())
+    *odometry = gyro_.fused(*odometry);
   return event;
 }
 
@@ -292,6 +294,13 @@ void CarmenLog::take(const CompassRecord& record) {
   sensing::CompassReading reading = record.reading;
   reading.stamp_ns = *stamp;
   ready_.emplace_back(std::move(reading));
+}
+
+void CarmenLog::take(const ImuRecord& record) {
+  const auto stamp = recorded_stamp_ns(record.stamps);
+  if (has_replaced_stamps()) return void(++faults_.ignored_lines);
+  if (!stamp) return note_malformed();
+  if (gyro_stamps_.believes(*stamp)) gyro_.add({*stamp, record.yaw_rate_radps});
 }
 
 std::int64_t CarmenLog::lateness_ns() const { return std::llround(plan_.odometry_late_s * 1e9); }

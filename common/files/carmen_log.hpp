@@ -18,6 +18,7 @@
 #include "common/files/record_source.hpp"
 #include "common/files/result.hpp"
 #include "common/files/topic_choice.hpp"
+#include "common/sensing/gyro_odometry.hpp"
 #include "common/sensing/scan.hpp"
 #include "common/sensing/stamp_guard.hpp"
 
@@ -72,6 +73,8 @@ using LogEvent =
 /// from the rest.
 /// - Fixes and compass readings come in the order of the log, stamped by its clock; without a clock
 /// they are ignored.
+/// - Where the log has an IMU and a clock, the turns of the odometry are those of its gyro
+/// (sensing::GyroOdometry).
 /// - sweep_s is left 0: a log does not say it. See sweep_s_for() in log_profile.hpp.
 class CarmenLog {
  public:
@@ -122,6 +125,7 @@ class CarmenLog {
   void take(const OdometryRecord& record);
   void take(const GnssRecord& record);
   void take(const CompassRecord& record);
+  void take(const ImuRecord& record);
   void note_malformed();
   void finish_reading();
   bool has_replaced_stamps() const { return !plan_.times.stamps_ns.empty(); }
@@ -168,8 +172,10 @@ class CarmenLog {
   sensing::StampGuard scan_stamps_{60.0};   // one from the future must not keep back all odometry
                                             // after it
   sensing::StampGuard odometry_stamps_{60.0};
+  sensing::StampGuard gyro_stamps_{60.0};
   std::optional<sensing::Odometry> newest_odometry_;  // handed out
   matching::PoseCorrection pose_correction_;          // of poses in the order of the log
+  sensing::GyroOdometry gyro_;
 };
 
 }  // namespace slammot::files

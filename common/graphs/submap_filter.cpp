@@ -1,10 +1,11 @@
 #include "common/graphs/submap_filter.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 #include <Eigen/Cholesky>
 
-#include "common/graphs/relative_pose.hpp"
+#include "common/geometry/twist.hpp"
 
 namespace slammot::graphs {
 namespace {
@@ -13,32 +14,48 @@ using geometry::Matrix3;
 using geometry::Pose2;
 using geometry::UncertainPose2;
 
-using Gain = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-
 Eigen::Index first_of(std::size_t node) { return 3 * static_cast<Eigen::Index>(node); }
 
-Pose2 displaced(const Pose2& pose, const Eigen::Vector3d& change) {
-  return {pose.x_m + change.x(), pose.y_m + change.y(),
-          geometry::wrap_angle(pose.heading_rad + change.z())};
+/// Covariance of a measured relative pose as a twist of the map in which `from` lies.
+Matrix3 noise_in_map(const Pose2& map_from_from, const UncertainPose2& from_to) {
+  const Matrix3 by_measurement =
+      geometry::adjoint(map_from_from) * geometry::twist_by_change(from_to.pose);
+  return by_measurement * from_to.covariance * by_measurement.transpose();
 }
 
 }  // namespace
 
-Pose2 SubmapFilter::pose(std::size_t node) const {
-  const Eigen::Vector3d mean = mean_.segment<3>(first_of(node));
-  return {mean.x(), mean.y(), mean.z()};
+/// Twist from the predicted to the measured pose of `to`, and its covariance.
+struct SubmapFilter::Innovation {
+  Eigen::Vector3d twist;
+  Matrix3 S;
+};
+
+Matrix3 SubmapFilter::twist_covariance(std::size_t a, std::size_t b) const {
+  const auto block = covariance_.block<3, 3>(first_of(std::max(a, b)), first_of(std::min(a, b)));
+  if (a == b) return block.selfadjointView<Eigen::Lower>();
+  return a > b ? Matrix3(block) : Matrix3(block.transpose());
 }
 
 Matrix3 SubmapFilter::covariance(std::size_t a, std::size_t b) const {
-  return covariance_.block<3, 3>(first_of(a), first_of(b));
+  return geometry::change_by_twist(pose(a)) * twist_covariance(a, b) *
+         geometry::change_by_twist(pose(b)).transpose();
+}
+
+SubmapFilter::Columns SubmapFilter::columns(std::size_t node) const {
+  const Eigen::Index first = first_of(node);
+  const Eigen::Index below = covariance_.rows() - first - 3;
+  Columns columns(covariance_.rows(), 3);
+  columns.topRows(first) = covariance_.block(first, 0, 3, first).transpose();
+  columns.middleRows<3>(first) = twist_covariance(node, node);
+  columns.bottomRows(below) = covariance_.block(first + 3, first, below, 3);
+  return columns;
 }
 
 std::size_t SubmapFilter::append(const Pose2& pose) {
-  const Eigen::Index size = mean_.size() + 3;
-  mean_.conservativeResize(size);
-  mean_.tail<3>() << pose.x_m, pose.y_m, pose.heading_rad;
+  map_from_node_.push_back(pose);
+  const Eigen::Index size = covariance_.rows() + 3;
   covariance_.conservativeResize(size, size);
-  covariance_.rightCols<3>().setZero();
   covariance_.bottomRows<3>().setZero();
   return this->size() - 1;
 }
@@ -48,59 +65,42 @@ std::size_t SubmapFilter::add_known(const Pose2& map_from_node) { return append(
 std::size_t SubmapFilter::predict(std::size_t from, const UncertainPose2& from_to) {
   assert(from < size());
   const Pose2 map_from_from = pose(from);
-  const Matrix3 by_from = geometry::compound_jacobian_first(map_from_from, from_to.pose);
-  const Matrix3 by_step = geometry::compound_jacobian_second(map_from_from);
-  const Matrix3 covariance_of_from = covariance(from, from);
+  const Matrix3 covariance_of_from = twist_covariance(from, from);
+  const Columns with_from = columns(from);
   const std::size_t to = append(map_from_from * from_to.pose);
-  const Eigen::Index before = first_of(to);
-  const Eigen::Matrix<double, 3, Eigen::Dynamic> cross =
-      by_from * covariance_.block(first_of(from), 0, 3, before);
-  covariance_.block(before, 0, 3, before) = cross;
-  covariance_.block(0, before, before, 3) = cross.transpose();
-  covariance_.block<3, 3>(before, before) = by_from * covariance_of_from * by_from.transpose() +
-                                            by_step * from_to.covariance * by_step.transpose();
+  covariance_.block(first_of(to), 0, 3, first_of(to)) = with_from.transpose();
+  covariance_.block<3, 3>(first_of(to), first_of(to)) =
+      covariance_of_from + noise_in_map(map_from_from, from_to);
   return to;
+}
+
+SubmapFilter::Innovation SubmapFilter::innovation(std::size_t from, std::size_t to,
+                                                  const UncertainPose2& from_to) const {
+  const Matrix3 cross = twist_covariance(from, to);
+  return {geometry::logarithm(pose(from) * from_to.pose * geometry::inverse(pose(to))),
+          twist_covariance(from, from) + twist_covariance(to, to) - cross - cross.transpose() +
+              noise_in_map(pose(from), from_to)};
 }
 
 double SubmapFilter::squared_innovation(std::size_t from, std::size_t to,
                                         const UncertainPose2& from_to) const {
-  const RelativePose expected = relative_pose(pose(from), pose(to));
-  const Matrix3 cross = expected.by_from * covariance(from, to) * expected.by_to.transpose();
-  const Matrix3 S = expected.by_from * covariance(from, from) * expected.by_from.transpose() +
-                    expected.by_to * covariance(to, to) * expected.by_to.transpose() + cross +
-                    cross.transpose() + from_to.covariance;
-  const Eigen::Vector3d innovation = geometry::difference(from_to.pose, expected.from_to);
-  return innovation.dot(S.ldlt().solve(innovation));
+  const auto [twist, S] = innovation(from, to, from_to);
+  return twist.dot(S.ldlt().solve(twist));
 }
 
 void SubmapFilter::update(std::size_t from, std::size_t to, const UncertainPose2& from_to) {
-  constexpr int kLinearizations = 3;
-  const Pose2 predicted_from = pose(from);
-  const Pose2 predicted_to = pose(to);
-  Pose2 at_from = predicted_from;
-  Pose2 at_to = predicted_to;
-  Gain K;
-  Matrix3 S;
-  Eigen::Vector3d innovation;
-  for (int i = 0; i < kLinearizations; ++i) {
-    const auto [expected, by_from, by_to] = relative_pose(at_from, at_to);
-    const Gain P_Ht = covariance_.middleCols<3>(first_of(from)) * by_from.transpose() +
-                      covariance_.middleCols<3>(first_of(to)) * by_to.transpose();
-    S = by_from * P_Ht.middleRows<3>(first_of(from)) + by_to * P_Ht.middleRows<3>(first_of(to)) +
-        from_to.covariance;
-    K = S.ldlt().solve(P_Ht.transpose()).transpose();
-    innovation = geometry::difference(from_to.pose, expected) -
-                 by_from * geometry::difference(predicted_from, at_from) -
-                 by_to * geometry::difference(predicted_to, at_to);
-    at_from = displaced(predicted_from, K.middleRows<3>(first_of(from)) * innovation);
-    at_to = displaced(predicted_to, K.middleRows<3>(first_of(to)) * innovation);
+  const auto [twist, S] = innovation(from, to, from_to);
+  // The measurement is the twist of `to` less that of `from`.
+  const Columns P_Ht = columns(to) - columns(from);
+  const Columns K = S.ldlt().solve(P_Ht.transpose()).transpose();
+  // Joseph: (I - K H) P (I - K H)^T + K R K^T = P - K M^T - M K^T with this M.
+  const Columns M = P_Ht - 0.5 * K * S;
+  covariance_.triangularView<Eigen::Lower>() -= K * M.transpose();
+  covariance_.triangularView<Eigen::Lower>() -= M * K.transpose();
+  for (std::size_t node = 0; node < size(); ++node) {
+    map_from_node_[node] =
+        geometry::exponential(K.middleRows<3>(first_of(node)) * twist) * map_from_node_[node];
   }
-  mean_ += K * innovation;
-  for (Eigen::Index heading = 2; heading < mean_.size(); heading += 3)
-    mean_[heading] = geometry::wrap_angle(mean_[heading]);
-  const Gain K_S = K * S;
-  covariance_.noalias() -= K_S * K.transpose();
-  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
 }
 
 }  // namespace slammot::graphs

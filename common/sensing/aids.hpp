@@ -30,4 +30,10 @@ struct CompassReading {
   double sigma_rad = 0.0;
 };
 
+/// What a gyro says of how fast the vehicle turns: mean since the reading before.
+struct TurnRate {
+  std::int64_t stamp_ns = 0;
+  double yaw_rate_radps = 0.0;  ///< Counter-clockwise.
+};
+
 }  // namespace slammot::sensing

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <utility>
 
 #include "common/simulation/scene.hpp"
 
@@ -109,6 +110,8 @@ struct Drive::World {
         compass(config.compass, seed()),
         gnss_beat(config.gnss.rate_hz, 0.0),
         compass_beat(config.compass.rate_hz, 0.0),
+        gyro(config.imu, seed()),
+        imu_beat(config.imu.rate_hz, 0.0),
         step_s(1.0 / config.scanner.rate_hz),
         last_speed_mps(scene->vehicle().speed_mps) {
     for (std::size_t i = 0; i < config.more_scanners.size(); ++i) {
@@ -150,6 +153,8 @@ struct Drive::World {
     first.odometry_speed_mps = odometer.speed_mps();
     first.odometry_yaw_rate_radps = odometer.yaw_rate_radps();
     add_aids(now_s, first);
+    first.turn_rates = std::exchange(turn_rates, {});
+    measure_turns(now_s, inverse(before.world_from_base) * after.world_from_base);
     odometer.advance(inverse(before.world_from_base) * after.world_from_base, step_s);
     for (std::size_t i = 0; i < more_scanners.size(); ++i) record_others(i, now_s, after, first);
     ready.push_front(std::move(first));
@@ -219,6 +224,15 @@ struct Drive::World {
     while (compass_beat.due_s() <= now_s) compass_beat.went();
   }
 
+  /// Readings after this scan up to the next one, for that one.
+  void measure_turns(double now_s, const Pose2& moved) {
+    const double yaw_rate_radps = moved.heading_rad / step_s;
+    for (; imu_beat.due_s() <= now_s + step_s; imu_beat.went()) {
+      turn_rates.push_back(gyro.reading(yaw_rate_radps, 1.0 / scenario.imu.rate_hz));
+      turn_rates.back().stamp_ns = nanoseconds(scenario.start_stamp_s + imu_beat.due_s());
+    }
+  }
+
   ScenarioConfig scenario;
   std::unique_ptr<Scene> scene;
   RayCaster ray_caster;
@@ -230,6 +244,9 @@ struct Drive::World {
   GnssReceiver gnss;
   Compass compass;
   Beat gnss_beat, compass_beat;
+  Gyro gyro;
+  Beat imu_beat;
+  std::vector<sensing::TurnRate> turn_rates;
   std::optional<Pose2> last_fix_at, last_reading_at;
   double step_s;
   double dive_rad = 0.0;  ///< Pitch by the springs alone, nose down.

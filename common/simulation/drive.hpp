@@ -44,6 +44,7 @@ struct SimulatedScan {
   std::vector<sensing::GnssFix> gnss;  ///< New fixes up to this scan; with the first scanner's
                                        ///< scans only.
   std::vector<sensing::CompassReading> compass;
+  std::vector<sensing::TurnRate> turn_rates;  ///< Of the gyro, since the first scanner's last scan.
 };
 
 /// A simulated drive, scan by scan; scans of several scanners in order of their stamps.

@@ -17,7 +17,8 @@ enum class Purpose : std::uint64_t {
   scanner,
   route,
   gnss,
-  compass
+  compass,
+  imu
 };
 
 /// Random numbers that are equal on every platform: std::mt19937_64, whose sequence the C++

@@ -6,6 +6,7 @@
 
 #include "common/simulation/compass.hpp"
 #include "common/simulation/gnss_receiver.hpp"
+#include "common/simulation/gyro.hpp"
 #include "common/simulation/office_plan.hpp"
 #include "common/simulation/robot.hpp"
 #include "common/simulation/scanner_model.hpp"
@@ -51,6 +52,7 @@ struct ScenarioConfig {
   std::vector<ScannerConfig> more_scanners;
   GnssConfig gnss;
   CompassConfig compass;
+  ImuConfig imu;
   std::string profile = "urban";  ///< Settings that suit the drive.
   LogRecord log_record = LogRecord::robotlaser1;
 

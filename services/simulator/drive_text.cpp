@@ -119,6 +119,15 @@ std::string gga_line(const sensing::GnssFix& fix) {
   return text;
 }
 
+/// IMU accelerations quaternion magnetic_field turn_rates ipc_timestamp host logger_timestamp; only
+/// the turn rate about z is simulated.
+std::string imu_line(const sensing::TurnRate& reading) {
+  std::string text = "IMU 0 0 9.81 1 0 0 0 0 0 0 0 0 ";
+  append_all(text, {reading.yaw_rate_radps}, 6, ' ');
+  append_clocks(text, reading.stamp_ns);
+  return text;
+}
+
 /// NMEAHDT compass heading valid ipc_timestamp host logger_timestamp.
 std::string hdt_line(const sensing::CompassReading& reading) {
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
@@ -159,6 +168,7 @@ std::string header_of_log_of(const simulation::ScenarioConfig& scenario, std::si
 
 std::string log_line(const SimulatedScan& drive, const simulation::ScenarioConfig& scenario) {
   std::string text;
+  for (const sensing::TurnRate& reading : drive.turn_rates) text += imu_line(reading);
   for (const sensing::GnssFix& fix : drive.gnss) text += gga_line(fix);
   for (const sensing::CompassReading& reading : drive.compass) text += hdt_line(reading);
   return text +=

@@ -11,7 +11,7 @@ namespace slammot::simulator {
 /// First lines of a CARMEN log of all scanners: mountings as PARAM robot_frontlaser_*, and
 /// robot_laserN_* of scanner N from 2 on.
 std::string log_header(const simulation::ScenarioConfig& scenario);
-/// Lines NMEAGGA and NMEAHDT of the fixes and compass readings up to the scan, then
+/// Lines IMU, NMEAGGA and NMEAHDT of the readings up to the scan, then
 /// ROBOTLASER1 or FLASER, as the scenario selects; ROBOTLASERn with several scanners. The pose is
 /// odometry.
 std::string log_line(const simulation::SimulatedScan& drive,

@@ -364,6 +364,20 @@ FieldTable<CompassConfig> compass_fields() {
   };
 }
 
+FieldTable<ImuConfig> imu_fields() {
+  return {
+      {"rate_hz", &ImuConfig::rate_hz, "Readings per second; 0: no IMU.", {0, 2000}},
+      {"noise_radps", &ImuConfig::noise_radps, "One sigma of the white noise of a reading.",
+       kNotNegative},
+      {"bias_sigma_radps", &ImuConfig::bias_sigma_radps,
+       "One sigma of the bias at the start of a drive.", kNotNegative},
+      {"bias_walk_radps", &ImuConfig::bias_walk_radps,
+       "One sigma of the bias's random walk over a second.", kNotNegative},
+      {"scale_sigma", &ImuConfig::scale_sigma,
+       "One sigma of the relative scale error, constant during a drive.", kNotNegative},
+  };
+}
+
 }  // namespace
 
 FieldTable<ScenarioConfig> scenario_fields() {
@@ -404,6 +418,7 @@ FieldTable<ScenarioConfig> scenario_fields() {
   table = with_nested(std::move(table), "odometry", &ScenarioConfig::odometry, odometry_fields());
   table = with_nested(std::move(table), "gnss", &ScenarioConfig::gnss, gnss_fields());
   table = with_nested(std::move(table), "compass", &ScenarioConfig::compass, compass_fields());
+  table = with_nested(std::move(table), "imu", &ScenarioConfig::imu, imu_fields());
   return with_nested(std::move(table), "scanner", &ScenarioConfig::scanner, scanner_fields());
 }
 

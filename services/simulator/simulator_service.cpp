@@ -112,10 +112,19 @@ void SimulatorService::wait_for_services() {
     begin();
 }
 
+/// With the turns of the gyro, if the vehicle has one.
+std::optional<simulation::SimulatedScan> SimulatorService::next_scan() {
+  auto scan = drive_.next();
+  if (!scan) return scan;
+  for (const sensing::TurnRate& reading : scan->turn_rates) gyro_.add(reading);
+  if (gyro_.has_readings()) scan->odometry = gyro_.fused(scan->odometry);
+  return scan;
+}
+
 void SimulatorService::begin() {
   has_begun_ = true;
   spdlog::info("begins a drive of {} scans", drive_.scan_count());
-  next_ = drive_.next();
+  next_ = next_scan();
   skip_what_was_sent();
   schedule();
 }
@@ -125,7 +134,7 @@ void SimulatorService::skip_what_was_sent() {
   if (!mark_.noted_ns()) return;
   while (next_ && next_->scan.stamp_ns <= *mark_.noted_ns()) {
     if (next_->scanner == 0) ++context_.status().counter("scans");
-    next_ = drive_.next();
+    next_ = next_scan();
   }
   ++context_.status().counter("continued_drives");
   spdlog::info("continues the drive after {} scans", context_.status().counter("scans"));
@@ -146,7 +155,7 @@ void SimulatorService::send_next() {
     unanswered_ns_ = next_->scan.stamp_ns;
     unanswered_since_ = steady_clock::now();
   }
-  next_ = drive_.next();
+  next_ = next_scan();
   if (!waits_for_answer) schedule();
 }
 

@@ -9,6 +9,7 @@
 #include "common/app/pace.hpp"
 #include "common/app/readiness.hpp"
 #include "common/app/run_service.hpp"
+#include "common/sensing/gyro_odometry.hpp"
 #include "common/simulation/drive.hpp"
 #include "common/wire/sensor.hpp"
 #include "common/wire/truth.hpp"
@@ -44,6 +45,7 @@ class SimulatorService {
   void begin();
   void skip_what_was_sent();
   void schedule();
+  std::optional<simulation::SimulatedScan> next_scan();
   void send_next();
   void send(const simulation::SimulatedScan& drive);
   void take_labels(const slammot_ScanLabels& labels);
@@ -56,6 +58,7 @@ class SimulatorService {
   std::chrono::milliseconds patience_;  ///< Time to wait for absent services.
   Time give_up_waiting_at_;
   simulation::Drive drive_;
+  sensing::GyroOdometry gyro_;
   app::DriveMark mark_;
   app::Readiness readiness_{{"localization", "detection", "tracking"}};
   dds::Writer<slammot_LaserScan>& scans_;

@@ -1,12 +1,13 @@
 // Least squares and the Kalman filter over the same pose graphs: error, consistency and cost
 // against the number of submaps.
 //
-//   estimators                        simulated drives through a grid of streets, with truth
+//   estimators sizes                  simulated drives through a grid of streets, with truth
+//   estimators headings               the same with more and more uncertain headings
 //   estimators GRAPH.g2o[.gz] ...     the first submaps of recorded pose graphs, against least
 //   squares over all constraints
 //
 // Closures arrive in the order of the drive, and each is followed by a solve, as in loop closing.
-// The rows are those of docs/performance.md.
+// tests/estimators/compare puts the tables into docs/thesis.md.
 
 #include <chrono>
 #include <cmath>
@@ -20,6 +21,7 @@
 #include <Eigen/Cholesky>
 
 #include "common/graphs/pose_graph.hpp"
+#include "tests/estimators/thesis_filter.hpp"
 #include "tests/support/g2o_graph.hpp"
 
 namespace slammot {
@@ -39,12 +41,19 @@ struct Drive {
 };
 
 struct Score {
-  double ate_m = 0.0;    ///< Root mean square of the position error, first node held.
-  double nees = 0.0;     ///< Mean over nodes, 3 degrees of freedom; NaN without a covariance.
-  double cost_ms = 0.0;  ///< Processor time of one solve at full size.
+  double ate_m = 0.0;          ///< Root mean square of the position error, first node held.
+  double nees = 0.0;           ///< Mean over nodes, 3 degrees of freedom.
+  double cost_ms = 0.0;        ///< Processor time of the last solve.
+  double withdrawal_ms = 0.0;  ///< Processor time of a solve without the last closure.
 };
 
 double processor_time_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double optimisation_ms(PoseGraph& graph) {
+  const double begin_ms = processor_time_ms();
+  graph.optimise();
+  return processor_time_ms() - begin_ms;
+}
 
 PoseGraph solved(const Drive& drive, Estimator estimator, double& last_solve_ms) {
   PoseGraph graph({.estimator = estimator});
@@ -56,28 +65,57 @@ PoseGraph solved(const Drive& drive, Estimator estimator, double& last_solve_ms)
     graph.add_constraint(constraint);
     const bool is_last_of_node =
         i + 1 == drive.constraints.size() || drive.constraints[i + 1].to != constraint.to;
-    if (constraint.kind != ConstraintKind::kLoop || !is_last_of_node) continue;
-    const double begin_ms = processor_time_ms();
-    graph.optimise();
-    last_solve_ms = processor_time_ms() - begin_ms;
+    if (constraint.kind == ConstraintKind::kLoop && is_last_of_node)
+      last_solve_ms = optimisation_ms(graph);
   }
   graph.optimise();
   return graph;
 }
 
-Score score(const Drive& drive, Estimator estimator) {
+double withdrawal_ms(PoseGraph graph) {
+  std::size_t last = graph.constraints().size();
+  while (last > 0 && graph.constraints()[last - 1].kind != ConstraintKind::kLoop) --last;
+  if (last == 0) return 0.0;
+  graph.set_enabled(last - 1, false);
+  return optimisation_ms(graph);
+}
+
+template <typename PoseOf, typename CovarianceOf>
+Score errors(const std::vector<Pose2>& truth, PoseOf pose_of, CovarianceOf covariance_of) {
   Score score;
-  const PoseGraph graph = solved(drive, estimator, score.cost_ms);
-  const auto covariances = graph.covariances();
-  const auto nodes = static_cast<double>(drive.truth.size() - 1);
-  for (std::uint32_t i = 1; i < drive.truth.size(); ++i) {
-    const Eigen::Vector3d error =
-        geometry::difference(graph.map_from_node(SubmapId{i}), drive.truth[i]);
+  const auto nodes = static_cast<double>(truth.size() - 1);
+  for (std::uint32_t i = 1; i < truth.size(); ++i) {
+    const Eigen::Vector3d error = geometry::difference(pose_of(i), truth[i]);
     score.ate_m += error.head<2>().squaredNorm() / nodes;
-    score.nees += error.dot(covariances.at(SubmapId{i}).ldlt().solve(error)) / nodes;
+    score.nees += error.dot(covariance_of(i).ldlt().solve(error)) / nodes;
   }
   score.ate_m = std::sqrt(score.ate_m);
   return score;
+}
+
+Score score(const Drive& drive, Estimator estimator) {
+  double cost_ms = 0.0;
+  const PoseGraph graph = solved(drive, estimator, cost_ms);
+  const auto covariances = graph.covariances();
+  Score score = errors(
+      drive.truth, [&](std::uint32_t i) { return graph.map_from_node(SubmapId{i}); },
+      [&](std::uint32_t i) { return covariances.at(SubmapId{i}); });
+  score.cost_ms = cost_ms;
+  score.withdrawal_ms = withdrawal_ms(graph);
+  return score;
+}
+
+Score score_of_thesis(const Drive& drive) {
+  estimators::ThesisFilter filter;
+  filter.add_known(drive.truth.front());
+  for (const Constraint& constraint : drive.constraints) {
+    if (constraint.to.value == filter.size())
+      filter.predict(constraint.from.value, constraint.from_to);
+    else filter.update(constraint.from.value, constraint.to.value, constraint.from_to);
+  }
+  return errors(
+      drive.truth, [&](std::uint32_t i) { return filter.pose(i); },
+      [&](std::uint32_t i) { return filter.covariance(i); });
 }
 
 Pose2 drawn(const Pose2& truth, const Matrix3& covariance, std::mt19937_64& random) {
@@ -92,15 +130,16 @@ Pose2 drawn(const Pose2& truth, const Matrix3& covariance, std::mt19937_64& rand
 
 /// A drive of submaps of 40 m through a town of 6 x 6 junctions, 80 m apart, with random turns. A
 /// submap is closed on the latest one at its place in the same direction, at least 5 submaps ago.
-Drive simulated(std::size_t submaps, std::uint64_t seed) {
+Drive simulated(std::size_t submaps, std::uint64_t seed, double heading_sigma_rad = 0.003) {
   constexpr int kJunctions = 6;
   constexpr double kSubmap_m = 40.0;
-  const Matrix3 step_covariance = Eigen::Vector3d(0.01, 0.01, 9e-6).asDiagonal();
+  const Matrix3 step_covariance =
+      Eigen::Vector3d(0.01, 0.01, heading_sigma_rad * heading_sigma_rad).asDiagonal();
   const Matrix3 closure_covariance = Eigen::Vector3d(0.0025, 0.0025, 4e-6).asDiagonal();
   std::mt19937_64 random(seed);
   Drive drive{{}, {Pose2::identity()}};
   while (drive.truth.size() < submaps) {
-    const Pose2& last = drive.truth.back();
+    const Pose2 last = drive.truth.back();
     const bool is_at_junction = drive.truth.size() % 2 == 1;
     Pose2 next;
     do {
@@ -155,29 +194,52 @@ Drive recorded(const std::string& path, std::size_t submaps) {
   return drive;
 }
 
-void print_simulated() {
+void add(const Score& one, int drives, Score& sum) {
+  sum.ate_m += one.ate_m / drives;
+  sum.nees += one.nees / drives;
+  sum.cost_ms += one.cost_ms / drives;
+  sum.withdrawal_ms += one.withdrawal_ms / drives;
+}
+
+void print_sizes() {
   std::printf(
-      "| submaps | closures | ATE (m), graph / ekf | NEES, graph / ekf | one solve (ms), graph / "
-      "ekf |\n");
-  std::printf("|---|---|---|---|---|\n");
-  for (const std::size_t submaps : {21U, 50U, 100U, 200U, 400U}) {
+      "| submaps | closures | ATE (m), graph / ekf | NEES, graph / ekf | one closure (ms), graph / "
+      "ekf | one withdrawal (ms), graph / ekf |\n|---|---|---|---|---|---|\n");
+  for (const std::size_t submaps : {14U, 21U, 50U, 100U, 200U, 400U, 800U}) {
     Score graph;
     Score ekf;
     double closures = 0.0;
-    const int drives = submaps > 100 ? 5 : 20;
+    const int drives = submaps > 400 ? 2 : submaps > 100 ? 5 : 40;
     for (int seed = 1; seed <= drives; ++seed) {
       const Drive drive = simulated(submaps, static_cast<std::uint64_t>(seed));
       closures += static_cast<double>(drive.constraints.size() + 1 - submaps) / drives;
-      for (const auto& [estimator, sum] :
-           {std::pair{Estimator::kGraph, &graph}, {Estimator::kEkf, &ekf}}) {
-        const Score one = score(drive, estimator);
-        sum->ate_m += one.ate_m / drives;
-        sum->nees += one.nees / drives;
-        sum->cost_ms += one.cost_ms / drives;
-      }
+      add(score(drive, Estimator::kGraph), drives, graph);
+      add(score(drive, Estimator::kEkf), drives, ekf);
     }
-    std::printf("| %zu | %.0f | %.3f / %.3f | %.2f / %.2f | %.2f / %.2f |\n", submaps, closures,
-                graph.ate_m, ekf.ate_m, graph.nees, ekf.nees, graph.cost_ms, ekf.cost_ms);
+    std::printf("| %zu | %.0f | %.3f / %.3f | %.2f / %.2f | %.3f / %.3f | %.3f / %.3f |\n", submaps,
+                closures, graph.ate_m, ekf.ate_m, graph.nees, ekf.nees, graph.cost_ms, ekf.cost_ms,
+                graph.withdrawal_ms, ekf.withdrawal_ms);
+  }
+}
+
+void print_headings() {
+  constexpr std::size_t kSubmaps = 100;
+  constexpr int kDrives = 40;
+  std::printf(
+      "| heading sigma a submap (mrad) | ATE (m), graph / ekf / ekf of the thesis | NEES, graph / "
+      "ekf / ekf of the thesis |\n|---|---|---|\n");
+  for (const double sigma_rad : {0.001, 0.003, 0.01, 0.03, 0.06}) {
+    Score graph;
+    Score ekf;
+    Score thesis;
+    for (int seed = 1; seed <= kDrives; ++seed) {
+      const Drive drive = simulated(kSubmaps, static_cast<std::uint64_t>(seed), sigma_rad);
+      add(score(drive, Estimator::kGraph), kDrives, graph);
+      add(score(drive, Estimator::kEkf), kDrives, ekf);
+      add(score_of_thesis(drive), kDrives, thesis);
+    }
+    std::printf("| %.0f | %.3f / %.3f / %.3f | %.2f / %.2f / %.2f |\n", 1e3 * sigma_rad,
+                graph.ate_m, ekf.ate_m, thesis.ate_m, graph.nees, ekf.nees, thesis.nees);
   }
 }
 
@@ -186,8 +248,9 @@ void print_recorded(const std::string& path) {
     const Drive drive = recorded(path, submaps);
     const Score graph = score(drive, Estimator::kGraph);
     const Score ekf = score(drive, Estimator::kEkf);
-    std::printf("| %s, first %zu | %zu | %.3f | %.2f / %.2f |\n",
-                path.substr(path.rfind('/') + 1).c_str(), submaps,
+    const std::string name = path.substr(path.rfind('/') + 1);
+    std::printf("| `%s`, first %zu | %zu | %.3f | %.2f / %.2f |\n",
+                name.substr(0, name.find('.')).c_str(), submaps,
                 drive.constraints.size() + 1 - submaps, ekf.ate_m, graph.cost_ms, ekf.cost_ms);
   }
 }
@@ -196,13 +259,16 @@ void print_recorded(const std::string& path) {
 }  // namespace slammot
 
 int main(int argc, char** argv) {
-  if (argc == 1) {
-    slammot::print_simulated();
-    return 0;
+  const std::string what = argc == 2 ? argv[1] : "";
+  if (what == "sizes") {
+    slammot::print_sizes();
+  } else if (what == "headings") {
+    slammot::print_headings();
+  } else {
+    std::printf(
+        "| graph | closures | ekf away from graph, RMS (m) | one closure (ms), graph / ekf "
+        "|\n|---|---|---|---|\n");
+    for (int i = 1; i < argc; ++i) slammot::print_recorded(argv[i]);
   }
-  std::printf(
-      "| graph | closures | ekf away from graph, RMS (m) | one solve (ms), graph / ekf "
-      "|\n|---|---|---|---|\n");
-  for (int i = 1; i < argc; ++i) slammot::print_recorded(argv[i]);
   return 0;
 }

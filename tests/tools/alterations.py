@@ -296,6 +296,20 @@ def turns_scaled(drive, factor):
     return with_motions(drive, lambda motion, before_s, now_s: (motion[0], motion[1], factor * motion[2]))
 
 
+def turns_slipping(drive, spread, seed):
+    """Wheels that slip in turns: another factor on the turn every two seconds, within 1 - spread and 1 + spread."""
+    drawn = random.Random(seed)
+    factors = {}
+
+    def factor(now_s):
+        stretch = now_s // 2.0
+        if stretch not in factors:
+            factors[stretch] = drawn.uniform(1.0 - spread, 1.0 + spread)
+        return factors[stretch]
+
+    return with_motions(drive, lambda motion, before_s, now_s: (*motion[:2], factor(now_s) * motion[2]))
+
+
 def yaw_bias(drive, radps):
     return with_motions(drive, lambda motion, before_s, now_s: (*motion[:2], motion[2] + radps * (now_s - before_s)))
 

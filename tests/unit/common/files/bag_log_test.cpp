@@ -1,5 +1,6 @@
 #include "common/files/bag_log.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -90,6 +91,36 @@ TEST_F(BagLogTest, GivesEachScanRightAfterTheOdometryOfItsStamp) {
   EXPECT_EQ(reading.faults.stale_odometry, 0U);
   EXPECT_FALSE(reading.faults.is_cut);
   EXPECT_NEAR(reading.plan.figures.distance_m, 0.9, 1e-9);
+}
+
+TEST_F(BagLogTest, TakesTheTurnsOfOdometryFromTheImuWithMostMessages) {
+  // Standing, then on the spot: the wheels count 0.6 rad/s, the gyro 0.5; another IMU turns the
+  // other way.
+  std::vector<MessageSpec> messages = {fixed("laser", {0.3, 0.0, 0.2, 0.0, 0.0, 0.0, 1.0})};
+  const auto add_imu = [&](const std::string& topic, double stamp_s, double yaw_rate_radps) {
+    std::vector<double> numbers(4 + 9 + 3 + 9 + 3 + 9);
+    numbers[4 + 9 + 2] = yaw_rate_radps;
+    testing::MessageBytes bytes(kWire);
+    messages.push_back(
+        {topic, "sensor_msgs/Imu", stamp_s, bytes.header(stamp_s, "imu").numbers(numbers).bytes()});
+  };
+  for (int i = 0; i < 100; ++i) {
+    const double stamp_s = 100.0 + 0.1 * i;
+    const double yaw_rate_radps = i < 50 ? 0.0 : 0.5;
+    add_imu("/imu/data", stamp_s, yaw_rate_radps);
+    add_imu("/imu/data", stamp_s + 0.05, yaw_rate_radps);
+    add_imu("/imu/another", stamp_s, -yaw_rate_radps);
+    messages.push_back(
+        {"/odom", "nav_msgs/Odometry", stamp_s,
+         testing::odometry_message(kWire, stamp_s, 0.0, 0.06 * std::max(0, i - 50))});
+    messages.push_back(scan("/scan", {.stamp_s = stamp_s}));
+  }
+  const Reading reading = read(messages);
+  ASSERT_EQ(reading.odometry.size(), 100U);
+  EXPECT_NEAR(reading.odometry[99].wheel_from_base.heading_rad -
+                  reading.odometry[79].wheel_from_base.heading_rad,
+              1.0, 0.02);
+  EXPECT_THAT(describe(reading.topics), HasSubstr("/imu/another, 100 messages, not used"));
 }
 
 TEST_F(BagLogTest, IsTheSameWhereScansAreTooManyToBeKept) {

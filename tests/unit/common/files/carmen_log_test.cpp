@@ -1,6 +1,7 @@
 #include "common/files/carmen_log.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
@@ -107,6 +108,25 @@ TEST_F(CarmenLogTest, GivesEachScanRightAfterTheOdometryOfItsStamp) {
   EXPECT_EQ(reading.scans[2].sequence, 2u);
   EXPECT_NEAR(reading.scans[0].scanner.first_beam_rad, -std::numbers::pi / 2.0, 1e-12);
   EXPECT_THAT(reading.scans[0].range_m, ElementsAre(1.0F, 2.0F, 3.0F, 4.0F));
+}
+
+TEST_F(CarmenLogTest, TakesTheTurnsOfOdometryFromAnImu) {
+  // Standing, then on the spot: the wheels count 0.6 rad/s, the gyro 0.5. One of its stamps is an
+  // hour ahead.
+  std::string log;
+  for (int i = 0; i < 100; ++i) {
+    if (i == 20) log += "IMU 0 0 9.81 1 0 0 0 0 0 0 0 0 0.5 4600 host 2\n";
+    const std::string s = std::to_string(i / 10) + "." + std::to_string(i % 10);
+    const std::string rate = i < 50 ? "0 " : "0.5 ";
+    const std::string heading = std::to_string(0.06 * std::max(0, i - 50));
+    log += "IMU 0 0 9.81 1 0 0 0 0 0 0 0 0 " + rate + "100" + s + " host " + s + "\n";
+    log += FlaserLine{.pose = "0 0 " + heading, .ipc = "100" + s, .logger = s}.text();
+  }
+  const Reading reading = read(log);
+  ASSERT_EQ(reading.odometry.size(), 100U);
+  const double turned_rad = reading.odometry[99].wheel_from_base.heading_rad -
+                            reading.odometry[79].wheel_from_base.heading_rad;
+  EXPECT_NEAR(turned_rad, 1.0, 0.02);
 }
 
 TEST_F(CarmenLogTest, ReadsCompressedLogsAlike) {

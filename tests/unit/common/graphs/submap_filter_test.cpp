@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include "tests/support/matchers.hpp"
 
@@ -12,6 +13,7 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 using geometry::UncertainPose2;
+using slammot::testing::MatrixNear;
 using slammot::testing::PoseNear;
 
 UncertainPose2 measured(const Pose2& pose) {
@@ -76,6 +78,43 @@ TEST(SubmapFilter, KeepsAMeasurementThatTheStatePredictsWithoutMovingASubmap) {
   filter.update(1, 3, measured(geometry::inverse(before.pose(1)) * before.pose(3)));
   for (std::size_t node = 0; node < filter.size(); ++node)
     EXPECT_THAT(filter.pose(node), PoseNear(before.pose(node), 1e-9));
+}
+
+TEST(SubmapFilter, MovesWithTheFirstSubmap) {
+  // The same drive, begun elsewhere: the covariances turn with it.
+  const Pose2 moved_from_map{300.0, -200.0, 2.0};
+  SubmapFilter here;
+  SubmapFilter there;
+  here.add_known({1.0, 2.0, 0.3});
+  there.add_known(moved_from_map * Pose2{1.0, 2.0, 0.3});
+  for (SubmapFilter* const filter : {&here, &there}) {
+    for (std::size_t side = 0; side < 4; ++side)
+      filter->predict(side, measured({10.0, 0.2, std::numbers::pi / 2}));
+    filter->update(0, 4, measured({0.3, 0.1, 0.02}));
+  }
+  Matrix3 turn = Matrix3::Identity();
+  turn.topLeftCorner<2, 2>() = geometry::rotation(moved_from_map.heading_rad);
+  for (std::size_t node = 0; node < here.size(); ++node) {
+    EXPECT_THAT(there.pose(node), PoseNear(moved_from_map * here.pose(node), 1e-9));
+    EXPECT_THAT(there.covariance(node, 2),
+                MatrixNear(Matrix3(turn * here.covariance(node, 2) * turn.transpose()), 1e-9));
+  }
+}
+
+TEST(SubmapFilter, KeepsAPositiveCovarianceAfterMeasurementsFarMoreCertainThanThePrediction) {
+  SubmapFilter filter;
+  filter.add_known({});
+  for (std::size_t node = 0; node < 20; ++node) {
+    filter.predict(node, {{40.0, 3.0, 0.2}, Eigen::Vector3d(1e6, 1e6, 1.0).asDiagonal()});
+    const Pose2 expected = geometry::inverse(filter.pose(0)) * filter.pose(node + 1);
+    for (int again = 0; again < 3; ++again)
+      filter.update(0, node + 1, {expected, Eigen::Vector3d(1e-6, 1e-6, 1e-8).asDiagonal()});
+  }
+  for (std::size_t node = 1; node < filter.size(); ++node) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3> axes(filter.covariance(node, node));
+    EXPECT_GT(axes.eigenvalues().minCoeff(), 1e-9) << "submap " << node;
+    EXPECT_LT(filter.covariance(node, node).diagonal().maxCoeff(), 1e-5) << "submap " << node;
+  }
 }
 
 }  // namespace

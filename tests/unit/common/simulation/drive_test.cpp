@@ -204,5 +204,31 @@ TEST(Drive, HasReceiverAndCompassAtTheirOwnRates) {
   EXPECT_EQ(readings, 40U);
 }
 
+TEST(Drive, HasAGyroThatTurnsAsTheVehicleDoes) {
+  ScenarioConfig scenario = short_drive(1);
+  const auto without = all_scans(scenario);
+  scenario.imu = {.rate_hz = 100.0,
+                  .noise_radps = 0.0,
+                  .bias_sigma_radps = 0.0,
+                  .bias_walk_radps = 0.0,
+                  .scale_sigma = 0.0};
+  const auto scans = all_scans(scenario);
+  double turned_rad = 0.0;
+  std::size_t readings = 0;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    EXPECT_EQ(scans[i].scan.range_m, without[i].scan.range_m);
+    for (const auto& reading : scans[i].turn_rates) {
+      EXPECT_LE(reading.stamp_ns, scans[i].scan.stamp_ns);
+      if (i > 0) EXPECT_GE(reading.stamp_ns, scans[i - 1].scan.stamp_ns);
+      turned_rad += 0.01 * reading.yaw_rate_radps;
+    }
+    readings += scans[i].turn_rates.size();
+  }
+  EXPECT_NEAR(static_cast<double>(readings), 400.0, 5.0);
+  EXPECT_NEAR(geometry::wrap_angle(turned_rad - scans.back().world_from_base.heading_rad +
+                                   scans.front().world_from_base.heading_rad),
+              0.0, 0.01);
+}
+
 }  // namespace
 }  // namespace slammot::simulation

@@ -47,6 +47,22 @@ TEST(LoopCloser, ClosesALoopWithDriftingOdometry) {
   EXPECT_LT(largest_error_m(correction, way), 0.3);
 }
 
+TEST(LoopCloser, ClosesTheSameLoopsWithTheKalmanFilter) {
+  const auto way = way_around_the_ring(1.3);
+  LoopClosingConfig config = indoor_loop_closing();
+  LoopCloser by_graph(config);
+  config.graph.estimator = graphs::Estimator::kEkf;
+  LoopCloser by_filter(config);
+  GraphCorrection graph;
+  GraphCorrection filter;
+  for (const Submap& submap : drive(ring(), way, 0.002)) {
+    graph = by_graph.add(submap);
+    filter = by_filter.add(submap);
+  }
+  EXPECT_EQ(by_filter.counters().closures, by_graph.counters().closures);
+  EXPECT_LT(largest_error_m(filter, way), 1.1 * largest_error_m(graph, way) + 0.01);
+}
+
 TEST(LoopCloser, ReturnsThePosesOfAllSubmapsAfterEachOne) {
   const auto submaps = drive(ring(), way_around_the_ring(0.4), 0.0);
   LoopCloser closer(indoor_loop_closing());

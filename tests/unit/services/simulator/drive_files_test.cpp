@@ -181,6 +181,18 @@ TEST_F(WriteDrive, WritesGnssAndCompass) {
   EXPECT_EQ(lines_of(folder_ / "block.compass.csv").size(), 1U + 20U);
 }
 
+TEST_F(WriteDrive, WritesTheTurnRatesOfAnImuIntoTheLog) {
+  const auto without = write_drive(scenario_, folder_.path()).files;
+  const std::size_t lines = lines_of(folder_ / "block.log").size();
+  scenario_.imu.rate_hz = 100.0;
+  ASSERT_TRUE(write_drive(scenario_, folder_.path()).files.has_value());
+  const auto with_imu = lines_of(folder_ / "block.log");
+  const auto imu = std::ranges::count_if(
+      with_imu, [](const std::string& line) { return line.starts_with("IMU "); });
+  EXPECT_EQ(with_imu.size(), lines + static_cast<std::size_t>(imu));
+  EXPECT_GT(imu, 150);
+}
+
 TEST_F(WriteDrive, ReportsWhyItCannotWrite) {
   std::ofstream(folder_ / "file") << "in the way";
   const auto result = write_drive(scenario_, folder_ / "file");
