@@ -61,11 +61,13 @@ bool may_be_replaced(const Track& lost, const Track& tentative, const TrackingCo
          variance_m2(tentative) < variance_m2(lost);
 }
 
-/// What the log-odds must exceed. Those of a tentative track replace the prior of its existence.
+/// What the log-odds must exceed. Those of a tentative track replace the prior of its existence,
+/// and it is waited for until it is surely the same object: a wrong one ends the right track.
 double least_odds(const Track& found) {
-  return found.existence.confirmed
-             ? 0.0
-             : std::log(kStationaryOverNew) + std::max(0.0, kConfirmScore - found.existence.score);
+  constexpr double kSure = 0.95;
+  return found.existence.confirmed ? 0.0
+                                   : std::log(kStationaryOverNew * kSure / (1.0 - kSure)) +
+                                         std::max(0.0, kConfirmScore - found.existence.score);
 }
 
 }  // namespace
