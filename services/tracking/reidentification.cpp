@@ -75,6 +75,8 @@ double least_odds(const Track& found) {
 bool may_have_returned(const Track& track, const TrackingConfig& config) {
   constexpr double kMostNis = 2.0;  // the mean of a consistent filter
   const Existence& existence = track.existence;
+  const MotionEvidence& motion = existence.motion;
+  if (motion.stood > motion.moved + motion.undecided) return false;
   return track.history.misses == 0 && existence.hits >= evidence_limits(config).least_hits &&
          is_surely_fast(track) && existence.consistency.nis < kMostNis &&
          !echoes_lie_off_sides(track, config) && !existence.velocity_check.is_refuted;

@@ -113,6 +113,9 @@ TEST(Reidentification, IsNotOfATentativeTrackThatMayStandOrWhoseExtentIsWrong) {
   LostAndFound standing = with_tentative();
   standing.found().kinematics.estimate.mean.segment<2>(2).setZero();
   EXPECT_FALSE(may_have_returned(standing.found(), standing.config));
+  LostAndFound stationary = with_tentative();
+  stationary.found().existence.motion = {1.0, 10.0, 8.0};
+  EXPECT_FALSE(may_have_returned(stationary.found(), stationary.config));
   LostAndFound misfit = with_tentative();
   misfit.found().existence.consistency.off_sides_m = 0.3;
   EXPECT_FALSE(may_have_returned(misfit.found(), misfit.config));
