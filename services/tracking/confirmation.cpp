@@ -14,6 +14,12 @@ constexpr double kLeastMovedShare = 0.3;  ///< Of all votes.
 constexpr double kSureMovedShare = 0.7;
 constexpr double kLeastTravelSigmas = 3.0;  ///< Of the distance from birth.
 
+bool echoes_lie_off_sides(const Track& track, const TrackingConfig& config) {
+  constexpr double kMostM = 0.2;
+  return track.extent.box() != nullptr &&
+         track.existence.consistency.off_sides_m > kMostM * config.extent.size_scale;
+}
+
 /// Place of the first observation. The extent at that time may have been wrong: the oldest stored
 /// observation is measured by the present extent, if that is more certain.
 MeasuredCentre birth_of(const Track& track, const TrackingConfig& config) {
@@ -71,12 +77,6 @@ bool moves_by_all_signs(const Track& track, const TrackingConfig& config) {
 
 bool is_confirmable(const Track& track, const TrackingConfig& config) {
   return !echoes_lie_off_sides(track, config) && moves_by_all_signs(track, config);
-}
-
-bool echoes_lie_off_sides(const Track& track, const TrackingConfig& config) {
-  constexpr double kMostM = 0.2;
-  return track.extent.box() != nullptr &&
-         track.existence.consistency.off_sides_m > kMostM * config.extent.size_scale;
 }
 
 bool misfits_only(const Track& track, const TrackingConfig& config) {

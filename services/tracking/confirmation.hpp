@@ -15,9 +15,6 @@ inline constexpr double kSureMovedVotes = 30.0;
 /// True if the evidence suffices to publish the track as an object that moves.
 bool is_confirmable(const Track& track, const TrackingConfig& config);
 
-/// True for a box whose echoes are too far from its sides on average.
-bool echoes_lie_off_sides(const Track& track, const TrackingConfig& config);
-
 /// True if only the distance of its echoes from its sides keeps the track from being confirmable;
 /// docs/decisions/existence-and-publication.md.
 bool misfits_only(const Track& track, const TrackingConfig& config);

@@ -133,15 +133,13 @@ void Tracker::merge(const ComparedScan& context) {
   counters_.tracks_merged += merge_duplicates(tracks_, current_.associations, config_);
 }
 
-/// An object that was not published yet may be one that was hidden.
+/// An object about to be published for the first time may be one that was hidden.
 void Tracker::identify(std::int64_t stamp_ns) {
   for (Track& track : tracks_) {
-    if (track.history.first_published_ns || track.existence.hits == 0) continue;
-    if (!is_published(track, stamp_ns, config_) && !may_have_returned(track, config_)) continue;
+    if (track.history.first_published_ns || !is_published(track, stamp_ns, config_)) continue;
     const std::optional<std::size_t> lost = track_of_same_object(track, tracks_, config_);
     if (!lost) continue;
-    continue_track(tracks_[*lost], track, config_);
-    if (!track.existence.confirmed) confirm(track);
+    continue_track(tracks_[*lost], track);
     ++counters_.tracks_found_again;
   }
 }
