@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
-#include "common/association/gating.hpp"
 #include "common/sensing/box_fit.hpp"
 #include "services/tracking/association_cost.hpp"
 #include "services/tracking/beam_run.hpp"
 #include "services/tracking/observing.hpp"
-#include "services/tracking/published_covariance.hpp"
 #include "services/tracking/track_initiation.hpp"
 
 namespace slammot::tracking {
@@ -50,23 +48,6 @@ bool has_changed(const Segment& segment, const SegmentComparison& comparison,
          segment.box_length_m < config.extent.longest_body_m;
 }
 
-/// True where a hidden object may come into view: in the predicted density of its track.
-bool is_where_one_may_return(const Segment& segment, const std::vector<Track>& tracks,
-                             const TrackingConfig& config) {
-  constexpr double kGateShare = 0.99;
-  return std::ranges::any_of(tracks, [&](const Track& track) {
-    const double longest_m = track.footprint().length.value_m + config.association.gate_margin_m;
-    if (!track.history.is_hidden || segment.box_length_m > longest_m) return false;
-    const Vector2d offset_m =
-        offset_from(track.footprint(), track.position_m(), 0.0, segment.centroid_in_odom_m);
-    const Matrix2d covariance_m2 =
-        track.kinematics.position_covariance_m2() +
-        common_error_covariance(track, track.footprint().heading_rad, config);
-    return association::mahalanobis_squared<2>(offset_m, covariance_m2) <
-           association::planar_gate(kGateShare);
-  });
-}
-
 }  // namespace
 
 bool may_initiate(std::size_t index, const std::vector<Track>& tracks,
@@ -78,9 +59,7 @@ bool may_initiate(std::size_t index, const std::vector<Track>& tracks,
   if (is_in_confirmed_vehicle(segment, tracks, associations, context.config)) return false;
   if (!of_segment.face_shift_m.isZero()) return true;
   if (segment.label == PointLabel::kMoving) return !of_segment.stood_before;
-  return has_changed(segment, of_segment, context.config) ||
-         (segment.label == PointLabel::kUnknown && !of_segment.stood_before &&
-          is_where_one_may_return(segment, tracks, context.config));
+  return has_changed(segment, of_segment, context.config);
 }
 
 void initiate_from_segment(Track& track, TrackShare& share, const Initiation& initiation,

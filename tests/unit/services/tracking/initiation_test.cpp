@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "services/detection/detector.hpp"
-#include "tests/support/example_tracks.hpp"
 #include "tests/support/street.hpp"
 
 namespace slammot::tracking {
@@ -30,7 +29,8 @@ class Scene {
     street.unknown = {kCar};
     scan_ = detection::detect(street.scan(20 * kPeriodNs, 20), {});
     view_.look_at(scan_);
-    compare();
+    comparison_.begin(context());
+    for (std::size_t s = 0; s < scan_.segments.size(); ++s) comparison_.compare(s, context());
     clear(associations, scan_.segments.size());
   }
 
@@ -45,11 +45,6 @@ class Scene {
     return may_initiate(car_segment(), tracks, associations, context());
   }
 
-  void label_car(PointLabel label) { scan_.segments[car_segment()].label = label; }
-  void forget_earlier_scans() {
-    history_ = {};
-    compare();
-  }
   void keep_echoes_of_car(std::size_t count) { scan_.segments[car_segment()].beams.resize(count); }
 
   TrackingConfig config;
@@ -57,11 +52,6 @@ class Scene {
   Associations associations;
 
  private:
-  void compare() {
-    comparison_.begin(context());
-    for (std::size_t s = 0; s < scan_.segments.size(); ++s) comparison_.compare(s, context());
-  }
-
   static constexpr std::int64_t kPeriodNs = 100'000'000;
   flow::SegmentedScan scan_;
   ScanView view_;
@@ -72,26 +62,6 @@ class Scene {
 TEST(Initiation, IsOfWhatContradictsTheMapUnlessItStoodThereBefore) {
   EXPECT_TRUE(Scene(false).may_initiate_car());
   EXPECT_FALSE(Scene(true).may_initiate_car()) << "the map is wrong";
-}
-
-TEST(Initiation, IsOfWhatComesIntoViewWhereAHiddenObjectIsExpected) {
-  Scene scene(false);
-  scene.label_car(PointLabel::kUnknown);
-  scene.forget_earlier_scans();  // nothing tells that it has come
-  EXPECT_FALSE(scene.may_initiate_car());
-  scene.tracks.push_back(testing::followed_car());
-  scene.associations.shares.resize(1);
-  Track& track = scene.tracks.front();
-  track.kinematics.estimate.mean.head<2>() = Eigen::Vector2d(20.0, 6.0);
-  track.kinematics.estimate.covariance.diagonal().head<2>().setConstant(4.0);
-  EXPECT_FALSE(scene.may_initiate_car()) << "it is in view";
-  track.history.is_hidden = true;
-  EXPECT_TRUE(scene.may_initiate_car());
-  scene.label_car(PointLabel::kStationary);
-  EXPECT_FALSE(scene.may_initiate_car());
-  scene.label_car(PointLabel::kUnknown);
-  track.kinematics.estimate.mean.head<2>() = Eigen::Vector2d(20.0, 20.0);
-  EXPECT_FALSE(scene.may_initiate_car()) << "it is expected elsewhere";
 }
 
 TEST(Initiation, IsNotOfWhatIsAssigned) {
