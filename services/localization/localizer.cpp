@@ -129,7 +129,9 @@ void Localizer::compare_odometry(const sensing::LaserScan& scan, const Step& ste
   if (!config_.belief.enabled) return;
   const auto comparison = keyframes_.observe(
       {step, found.odom_from_base.pose, points_, scan.scanner.scanner_id, prediction_});
-  if (comparison) prediction_.compare(*comparison);
+  if (!comparison) return;
+  submaps_.doubt(geometry::rotation(found.odom_from_base.pose.heading_rad) *
+                 prediction_.compare(*comparison));
 }
 
 /// The points of the scan, without the motion of the step.
