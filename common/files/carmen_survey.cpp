@@ -535,8 +535,14 @@ void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
   if (lasers.scans == 0) return;
   const std::array clocks{LogClock::kIpc, LogClock::kLogger};
   std::array<sensing::ScanTimes, 2> times;
-  for (std::size_t i = 0; i < clocks.size(); ++i)
-    times[i] = sensing::judge_scan_stamps(scan_marks(lasers, plan.evidence.correction, clocks[i]));
+  const sensing::WayPace pace = sensing::pace_among(
+      range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.5));
+  for (std::size_t i = 0; i < clocks.size(); ++i) {
+    const auto marks = scan_marks(lasers, plan.evidence.correction, clocks[i]);
+    times[i] = sensing::judge_scan_stamps(marks);
+    if (times[i].fault == sensing::ClockFault::kIndex && sensing::may_count_seconds(marks, pace))
+      times[i] = {};
+  }
   const auto take = [&](std::size_t i) {
     plan.clock = clocks[i];
     plan.times = std::move(times[i]);
@@ -554,11 +560,8 @@ void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
     if (times[i].is_clock) return take(i);
   }
   plan.times = std::move(times[times[0].fault == sensing::ClockFault::kAbsent ? 1 : 0]);
-  const double median_range_m =
-      range_percentile_m(lasers.readings_by_cm, echo_bins(plan.max_range_m), 0.5);
-  plan.times.stamps_ns =
-      sensing::stamps_from_way(scan_marks(lasers, plan.evidence.correction, LogClock::kNominal),
-                               sensing::pace_among(median_range_m));
+  plan.times.stamps_ns = sensing::stamps_from_way(
+      scan_marks(lasers, plan.evidence.correction, LogClock::kNominal), pace);
 }
 
 /// "No echo" is a reading that repeats at the far end of the range. Some scanners have several such

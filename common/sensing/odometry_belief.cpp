@@ -196,6 +196,20 @@ OdometryBelief compared(OdometryBelief belief, const OdometryComparison& compari
   return belief;
 }
 
+bool confirms(const OdometryComparison& comparison) {
+  constexpr double kTells_m = 0.03;  // one sigma of the way; along a bare wall nothing is told
+  return comparison.by_scans && comparison.by_scans->covariance(0, 0) < squared(kTells_m) &&
+         log_odds_of(comparison.as_believed, *comparison.by_scans) > 0.0;
+}
+
+Eigen::Vector2d unnoticed_error_m(const OdometryComparison& comparison, double unconfirmed_s) {
+  if (!comparison.by_scans || comparison.duration_s <= 0.0) return Eigen::Vector2d::Zero();
+  const geometry::Vector2 missed_m =
+      comparison.by_scans->pose.translation_m() - comparison.as_believed.translation_m();
+  return geometry::rotation(-comparison.by_scans->pose.heading_rad) * missed_m *
+         (unconfirmed_s / comparison.duration_s);
+}
+
 bool has_changed(const OdometryBelief& belief, const Pose2& by_wheels, double duration_s) {
   constexpr double kJitter_m = 0.012;  // encoder resolution and read-out times
   constexpr double kJitter_rad = 0.008;

@@ -135,9 +135,11 @@ struct OdometryBelief {
   double log_odds_of_factors = 0.0;  ///< The same for odometry with the estimator's factors.
   int disbeliefs = 0;  ///< Number of rejections; each raises the threshold for accepting odometry
                        ///< again.
-  double disbelieved_s = 0.0;   ///< Duration of the current rejection.
-  bool is_disbelieved = false;  ///< Odometry is not used for predictions until comparisons agree
-                                ///< with it again.
+  std::int64_t confirmed_ns = 0;  ///< Last scan whose comparison told the way and confirmed
+                                  ///< odometry; 0: none yet.
+  double disbelieved_s = 0.0;     ///< Duration of the current rejection.
+  bool is_disbelieved = false;    ///< Odometry is not used for predictions until comparisons agree
+                                  ///< with it again.
   int recalibrated_scans = 0;  ///< Number of successive scans with kRecalibrated as by far the best
                                ///< explanation.
   std::uint64_t recalibrations = 0;
@@ -158,6 +160,14 @@ struct OdometryComparison {
 };
 
 OdometryBelief compared(OdometryBelief belief, const OdometryComparison& comparison);
+
+/// True if the scans tell how far the vehicle came, and odometry says the same.
+bool confirms(const OdometryComparison& comparison);
+
+/// Distance, in the base, by which the pose may be off by odometry that is found wrong now and was
+/// believed for this long since a comparison confirmed it: as the rate of the error found is
+/// constant at most. Zero if the scans did not match.
+Eigen::Vector2d unnoticed_error_m(const OdometryComparison& comparison, double unconfirmed_s);
 
 /// True if odometry's velocity (uncorrected) changed from one of the last two steps to this one
 /// more than a vehicle's can.

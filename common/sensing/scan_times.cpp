@@ -422,6 +422,14 @@ bool comes_by_time(std::span<const ScanMark> scans) {
          share_of(ways, [&](double way) { return way < kShort * long_way; }) >= kShortShare;
 }
 
+bool may_count_seconds(std::span<const ScanMark> scans, const WayPace& pace) {
+  if (!comes_by_time(scans) || !scans.front().stamp_ns || !scans.back().stamp_ns) return false;
+  const double period_s = 1e-9 *
+                          static_cast<double>(*scans.back().stamp_ns - *scans.front().stamp_ns) /
+                          static_cast<double>(scans.size() - 1);
+  return period_s >= 1.0 && percentile(ways_of(scans.subspan(1)), 0.9) >= pace.speed_mps * period_s;
+}
+
 std::vector<std::int64_t> stamps_from_way(std::span<const ScanMark> scans, const WayPace& pace) {
   constexpr double kTopSpeedPerPace = 4.0;
   constexpr double kShortestSteadyPeriodS = 1.0 / 75.0;  // of the planar scanners in use

@@ -56,6 +56,11 @@ ScanTimes judge_scan_stamps(std::span<const ScanMark> scans);
 /// vehicle slows down and stops. Otherwise scans were triggered by motion. False if nothing moves.
 bool comes_by_time(std::span<const ScanMark> scans);
 
+/// True if stamps that count scans (ClockFault::kIndex) may be seconds of a clock: scans were taken
+/// at a constant rate, and by these seconds the vehicle drives at the pace at least. By the count
+/// of a faster scanner it would creep.
+bool may_count_seconds(std::span<const ScanMark> scans, const WayPace& pace);
+
 /// Synthetic stamps from 0 on: a constant period for scans at a constant rate, otherwise way
 /// divided by pace.
 std::vector<std::int64_t> stamps_from_way(std::span<const ScanMark> scans, const WayPace& pace);

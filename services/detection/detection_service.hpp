@@ -8,7 +8,8 @@
 
 namespace slammot::detection {
 
-/// Segments localized scans. Stateless except for reused memory.
+/// Segments localized scans. Of earlier scans it knows the echoes of the last one, for false
+/// echoes.
 class DetectionService {
  public:
   struct Settings {

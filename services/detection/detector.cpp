@@ -47,6 +47,7 @@ SegmentedScan Detector::detect(const LocalizedScan& localized, SegmentedScan rec
   directions_.compute(localized);
   label_points(localized, directions_, scan);
   remove_ground(scan);
+  remove_clutter(scan);
   create_segments(localized, scan);
   describe_segments(localized, scan);
   return scan;
@@ -59,6 +60,16 @@ void Detector::remove_ground(SegmentedScan& scan) {
     if (!is_ground_[i]) continue;
     scan.labels[i] = PointLabel::kNoEcho;
     range_without_ground_m_[i] = 0.0F;
+  }
+}
+
+/// A false echo is the same as none: nothing is known of what lies behind it.
+void Detector::remove_clutter(SegmentedScan& scan) {
+  clutter_.find(scan, range_without_ground_m_, is_clutter_);
+  for (std::size_t i = 0; i < is_clutter_.size(); ++i) {
+    if (!is_clutter_[i]) continue;
+    scan.labels[i] = PointLabel::kNoEcho;
+    scan.range_m[i] = range_without_ground_m_[i] = 0.0F;
   }
 }
 

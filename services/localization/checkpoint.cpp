@@ -61,6 +61,7 @@ void visit_belief(Belief& belief, Visitor visit) {
   visit(belief.log_odds);
   visit(belief.log_odds_of_factors);
   visit(belief.disbeliefs);
+  visit(belief.confirmed_ns);
   visit(belief.disbelieved_s);
   visit(belief.is_disbelieved);
   visit(belief.recalibrated_scans);

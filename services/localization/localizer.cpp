@@ -73,8 +73,7 @@ bool Localizer::is_in_order(const sensing::LaserScan& scan) {
 std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan,
                                                        flow::LocalizedScan workspace) {
   if (!is_in_order(scan)) return std::nullopt;
-  if (sensing::is_blank(scan, prediction_.state().belief.usual_step_s))
-    return predict_blank(scan, std::move(workspace));
+  if (measures_nothing(scan)) return predict_blank(scan, std::move(workspace));
   ++counters_.scans;
   count(integration_.integrate_overdue(scan.stamp_ns, monitor_.trust(), submaps_.map()), counters_);
   if (prediction_.last()) counters_.submaps += submaps_.begin_next_if_due(odom_from_base());
@@ -86,19 +85,6 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
   else submaps_.measurements().place(scan.stamp_ns, odom_from_base());
   return describe_and_remember(scan, estimate_at_last_scan(), monitor_.admission(),
                                std::move(workspace));
-}
-
-/// A blank scan measures nothing: its pose is the prediction, the estimate stays as it is, and
-/// nothing goes into the map. Its labels are awaited like those of any scan.
-std::optional<flow::LocalizedScan> Localizer::predict_blank(const sensing::LaserScan& scan,
-                                                            flow::LocalizedScan workspace) {
-  ++counters_.blank_scans;
-  if (scan.range_m.empty() || !prediction_.last() || !order_.accept_blank(scan))
-    return std::nullopt;
-  const Step step = prediction_.predict(scan.stamp_ns);
-  const sensing::LaserScan without_beams{scan.stamp_ns, scan.sequence, scan.scanner, {}};
-  return describe_and_remember(without_beams, {step.after, step.speed_mps, step.yaw_rate_radps},
-                               MapAdmission::kWithheld, std::move(workspace));
 }
 
 /// The first scan: the map begins where it is.
@@ -143,7 +129,9 @@ void Localizer::compare_odometry(const sensing::LaserScan& scan, const Step& ste
   if (!config_.belief.enabled) return;
   const auto comparison = keyframes_.observe(
       {step, found.odom_from_base.pose, points_, scan.scanner.scanner_id, prediction_});
-  if (comparison) prediction_.compare(*comparison);
+  if (!comparison) return;
+  submaps_.doubt(geometry::rotation(found.odom_from_base.pose.heading_rad) *
+                 prediction_.compare(*comparison));
 }
 
 /// The points of the scan, without the motion of the step.

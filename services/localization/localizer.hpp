@@ -152,6 +152,7 @@ class Localizer final : public stages::LocalizationStage {
   Progress progress() const;
   void return_to(const Progress& progress);
   bool is_in_order(const sensing::LaserScan& scan);
+  bool measures_nothing(const sensing::LaserScan& scan) const;
   std::optional<flow::LocalizedScan> predict_blank(const sensing::LaserScan& scan,
                                                    flow::LocalizedScan workspace);
   std::optional<std::int64_t> last_stamp_ns() const;

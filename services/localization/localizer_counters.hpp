@@ -13,7 +13,7 @@ struct LocalizerCounters {
   std::uint64_t out_of_order_scans = 0;  ///< Older than one before: dropped.
   std::uint64_t far_ahead_scans = 0;     ///< Stamped far ahead of those before, and no second one
                                          ///< agreed: dropped.
-  std::uint64_t blank_scans = 0;         ///< Without a valid reading: pose predicted.
+  std::uint64_t blank_scans = 0;         ///< Nothing was measured: pose predicted.
   std::uint64_t too_few_echoes = 0;      ///< Dead reckoning instead of a match.
   std::uint64_t lost_matches = 0;        ///< Too few points matched: dead reckoning.
   std::uint64_t searches = 0;            ///< Correlative searches.

@@ -1,5 +1,6 @@
 #include "services/localization/odometry_prediction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,16 +27,32 @@ void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
   state_.last = last_after(step, match);
 }
 
-void OdometryPrediction::compare(const sensing::OdometryComparison& comparison) {
+geometry::Vector2 OdometryPrediction::compare(const sensing::OdometryComparison& comparison) {
   constexpr double kAdoptAbove = 2.0;
   constexpr double kAdoptAfter_s = 8.0;  // wheels slip for seconds
   sensing::OdometryBelief& belief = state_.belief;
+  const bool was_disbelieved = belief.is_disbelieved;
   belief = sensing::compared(belief, comparison);
+  const geometry::Vector2 unnoticed_m =
+      was_disbelieved || !belief.is_disbelieved
+          ? geometry::Vector2::Zero()
+          : sensing::unnoticed_error_m(comparison, unconfirmed_s(comparison));
+  if (sensing::confirms(comparison)) belief.confirmed_ns = state_.last->stamp_ns;
   belief.disbelieved_s = belief.is_disbelieved ? belief.disbelieved_s + comparison.duration_s : 0.0;
-  if (belief.disbelieved_s < kAdoptAfter_s || belief.log_odds_of_factors < kAdoptAbove) return;
+  if (belief.disbelieved_s < kAdoptAfter_s || belief.log_odds_of_factors < kAdoptAbove)
+    return unnoticed_m;
   adopt_wheel_factors();
   belief.log_odds = belief.log_odds_of_factors;
   belief.is_disbelieved = false;
+  return unnoticed_m;
+}
+
+/// How long odometry has not been confirmed, at the scan of a comparison.
+double OdometryPrediction::unconfirmed_s(const sensing::OdometryComparison& comparison) const {
+  constexpr double kLongest_s = 10.0;
+  if (state_.belief.confirmed_ns == 0) return comparison.duration_s;
+  return std::min(kLongest_s,
+                  1e-9 * static_cast<double>(state_.last->stamp_ns - state_.belief.confirmed_ns));
 }
 
 void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) {

@@ -145,7 +145,7 @@ class OdometryPrediction {
   geometry::Pose2 as_believed(const geometry::Pose2& by_wheels, double duration_s) const;
 
   /// Feedback: odometry beside what two scans some way apart tell.
-  void compare(const sensing::OdometryComparison& comparison);
+  geometry::Vector2 compare(const sensing::OdometryComparison& comparison);
 
   /// Feedback: how likely the scan is under each explanation, before observe().
   void weigh(const sensing::ExplanationWeights& weights) { state_.belief.weights = weights; }
@@ -204,6 +204,7 @@ class OdometryPrediction {
   void learn_wheels(const Step& step, const ScanMatch& match);
   void learn_stamp_offset(const Step& step, const ScanMatch& match);
   void renew_map(const geometry::Pose2& before_from_base, const ScanMatch& match);
+  double unconfirmed_s(const sensing::OdometryComparison& comparison) const;
   LastScan last_after(const Step& step, const ScanMatch& match) const;
 
   LocalizerConfig config_;

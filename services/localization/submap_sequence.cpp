@@ -43,6 +43,10 @@ void SubmapSequence::travel(const Pose2& before_from_base) {
   state_.travel.drift.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
 }
 
+void SubmapSequence::doubt(const geometry::Vector2& up_to_m) {
+  state_.travel.drift.topLeftCorner<2, 2>() += up_to_m * up_to_m.transpose() / 3.0;
+}
+
 bool SubmapSequence::begin_next_if_due(const Pose2& odom_from_base) {
   const double counted_m = state_.short_submaps_left > 0 ? kShorterBy * state_.travel.travelled_m
                                                          : state_.travel.travelled_m;

@@ -48,6 +48,9 @@ class SubmapSequence {
 
   void travel(const geometry::Pose2& before_from_base);
 
+  /// The motion within the submap may be off by up to this much, in odom: evenly distributed.
+  void doubt(const geometry::Vector2& up_to_m);
+
   /// Ends the submap in progress where the vehicle has outgrown it, and begins the next one.
   /// Whether one was ended.
   bool begin_next_if_due(const geometry::Pose2& odom_from_base);

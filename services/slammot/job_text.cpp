@@ -36,8 +36,10 @@ std::string describe_left_out(const files::RunRecord& record, const files::RunRe
   if (record.localized_scans() < record.scans() && !reasons.empty())
     lines += "not localized: " + reasons + "\n";
   if (const auto blank = count_of("blank_scans"); blank > 0)
-    lines += text("warning:  %llu scans have no valid reading (NaN): poses and tracks predicted\n",
-                  blank);
+    lines += text(
+        "warning:  %llu scans have no valid reading (NaN), or hardly an echo where the map expects "
+        "many: poses and tracks predicted\n",
+        blank);
   if (const auto few = count_of("too_few_echoes"); few > 0)
     lines += text("warning:  %llu scans had too few echoes to be matched: dead reckoning\n", few);
   return lines;

@@ -308,5 +308,37 @@ TEST(OdometryBelief, KnowsHowFarScansAreApartAndWhatExplainedTheLastOne) {
   EXPECT_EQ(belief.last, StepExplanation::kRoughWheels);
 }
 
+TEST(OdometryComparison, ConfirmsOnlyWhereScansTellTheWay) {
+  const OdometryComparison agrees{
+      .by_wheels = {1.0, 0.0, 0.0},
+      .as_believed = {1.0, 0.0, 0.0},
+      .by_scans = UncertainPose2{{1.0, 0.0, 0.0}, diagonal(1e-4, 1e-4, 1e-6)},
+      .duration_s = 1.0};
+  EXPECT_TRUE(confirms(agrees));
+  OdometryComparison along_a_wall = agrees;
+  along_a_wall.by_scans->covariance(0, 0) = 1.0;
+  EXPECT_FALSE(confirms(along_a_wall));
+  OdometryComparison slips = agrees;
+  slips.as_believed.x_m = 1.5;
+  EXPECT_FALSE(confirms(slips));
+  OdometryComparison unmatched = agrees;
+  unmatched.by_scans.reset();
+  EXPECT_FALSE(confirms(unmatched));
+}
+
+TEST(OdometryComparison, SaysHowFarOffFrozenWheelsMayHaveLeftThePose) {
+  const OdometryComparison frozen{
+      .by_wheels = {},
+      .as_believed = {},
+      .by_scans = UncertainPose2{{0.5, 0.0, 0.0}, diagonal(1e-4, 1e-4, 1e-6)},
+      .duration_s = 1.0};
+  const Eigen::Vector2d off_m = unnoticed_error_m(frozen, 4.0);
+  EXPECT_NEAR(off_m.x(), 2.0, 1e-9);
+  EXPECT_NEAR(off_m.y(), 0.0, 1e-9);
+  OdometryComparison unmatched = frozen;
+  unmatched.by_scans.reset();
+  EXPECT_EQ(unnoticed_error_m(unmatched, 4.0), Eigen::Vector2d(0.0, 0.0));
+}
+
 }  // namespace
 }  // namespace slammot::sensing

@@ -205,6 +205,22 @@ TEST(StampsFromWay, AreThoseOfAFastScannerWhereWaysAreShort) {
   EXPECT_NEAR(1e-9 * static_cast<double>(fastest_ns.back()), 99.0 / 75.0, 1e-6);
 }
 
+TEST(MayCountSeconds, OnlyWhereAScanASecondIsADriveAtTheUsualPace) {
+  const auto counted = [](double way_m, bool stands) {
+    std::vector<ScanMark> scans(100);
+    for (std::size_t i = 0; i < scans.size(); ++i)
+      scans[i] = {static_cast<std::int64_t>(i + 1) * kSecond, stands && i < 20 ? 0.0 : way_m, 0.0};
+    return scans;
+  };
+  const WayPace walk{.speed_mps = 0.5};
+  EXPECT_TRUE(may_count_seconds(counted(0.6, true), walk));
+  EXPECT_FALSE(may_count_seconds(counted(0.1, true), walk)) << "five scans a second";
+  EXPECT_FALSE(may_count_seconds(counted(0.6, false), walk)) << "a scan every 0.6 m";
+  std::vector<ScanMark> nanoseconds = counted(0.6, true);
+  for (ScanMark& scan : nanoseconds) *scan.stamp_ns /= kSecond;
+  EXPECT_FALSE(may_count_seconds(nanoseconds, walk));
+}
+
 TEST(ComesByTime, IsFalseWhereScansWereLeftOutUntilTheVehicleHadMoved) {
   EXPECT_FALSE(comes_by_time(marks(uneven_times_ns(300), [](std::int64_t t) { return t; })));
   EXPECT_FALSE(comes_by_time(std::vector<ScanMark>(100)));

@@ -143,7 +143,7 @@ TEST_F(LocalizationOnTheBus, CountsBadInputInItsStatusAndGoesOn) {
   ASSERT_TRUE(comes_to([&, so_far = sequences.size()] { return has_localized(so_far + 1); }));
   const std::map<std::string, std::uint64_t> expected = {{"duplicate_scans", 2},
                                                          {"out_of_order_scans", 2},
-                                                         {"too_few_echoes", 2},
+                                                         {"blank_scans", 2},
                                                          {"gaps", 1},
                                                          {"odometry_jumps", 1}};
   std::map<std::string, std::uint64_t> counted;

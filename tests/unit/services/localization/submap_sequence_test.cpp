@@ -73,6 +73,21 @@ TEST_F(SubmapSequenceTest, TiesASubmapToTheOneBeforeByTheDriftOfTheWay) {
               LocalizerConfig{}.errors.drift_m_per_sqrt_m * 4.0, 1e-9);
 }
 
+TEST_F(SubmapSequenceTest, TiesASubmapLooselyAlongAMotionThatIsInDoubt) {
+  see_something();
+  go(11.0);
+  submaps_.doubt({3.0, 0.0});
+  ASSERT_TRUE(submaps_.begin_next_if_due(odom_from_base_));
+  see_something();
+  ASSERT_TRUE(submaps_.finish(odom_from_base_));
+  ASSERT_TRUE(submaps_.take_finished());
+  const auto next = submaps_.take_finished();
+  ASSERT_TRUE(next);
+  const geometry::Matrix3& covariance = next->previous_from_submap.covariance;
+  EXPECT_NEAR(covariance(0, 0), 3.0, 0.01) << "evenly distributed up to 3 m";
+  EXPECT_LT(covariance(1, 1), 0.01);
+}
+
 TEST_F(SubmapSequenceTest, TiesAnAstraySubmapByNextToNothingAndMakesTheNextOnesShort) {
   see_something();
   EXPECT_TRUE(submaps_.begin_astray(odom_from_base_));
