@@ -23,8 +23,6 @@ bool claims_motion_without_travel(const Track& track, const TrackingConfig& conf
 }
 
 bool has_stood_too_long(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {
-  // What is hidden may move: nothing tells since it was seen.
-  const std::int64_t until_ns = track.history.is_unseen ? track.history.last_seen_ns : stamp_ns;
   const Travel& travel = track.existence.travel;
   const double least_share = only_people_move(config) ? 1.0 : 0.25;
   const double may_stand_s =
@@ -35,7 +33,7 @@ bool has_stood_too_long(const Track& track, std::int64_t stamp_ns, const Trackin
   const std::int64_t idle_since_ns =
       is_vehicle_that_came ? std::max(travel.last_moving_ns, track.history.last_seen_ns)
                            : travel.last_moving_ns;
-  return static_cast<double>(until_ns - idle_since_ns) * 1e-9 > may_stand_s;
+  return static_cast<double>(stamp_ns - idle_since_ns) * 1e-9 > may_stand_s;
 }
 
 bool has_ended(const Track& track, std::int64_t stamp_ns, const TrackingConfig& config) {

@@ -44,6 +44,7 @@ TEST(CdrWalk, FindsEveryValueWithItsPath) {
   assign(sample.scanner_id, "front");
   sample.stamp_ns = -5;
   sample.sequence_number = 7;
+  sample.scan_published_ns = 9;
   std::vector<slammot_PointLabel> labels = {static_cast<slammot_PointLabel>(1),
                                             static_cast<slammot_PointLabel>(2)};
   sample.labels._buffer = labels.data();
@@ -70,7 +71,8 @@ TEST(CdrWalk, FindsEveryValueWithItsPath) {
                                                         {"restored_scans[0].beam_count", "2"},
                                                         {"restored_beams.length", "2"},
                                                         {"restored_beams[0]", "11"},
-                                                        {"restored_beams[1]", "12"}}));
+                                                        {"restored_beams[1]", "12"},
+                                                        {"scan_published_ns", "9"}}));
 }
 
 TEST(CdrWalk, KeysTellInstancesApartAndNothingElseDoes) {

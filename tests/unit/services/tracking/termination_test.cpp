@@ -32,19 +32,6 @@ TEST(Termination, OfAVehicleThatHasComeMayStandForAsLongAsItIsSeen) {
   EXPECT_TRUE(has_stood_too_long(track, kMinuteNs, config));
 }
 
-TEST(Termination, DoesNotTakeTimeInHidingForTimeOfStanding) {
-  const TrackingConfig config;
-  Track track = followed_car();
-  track.extent.outline = Blob();
-  track.existence.travel.travelled_m = 0.0;
-  track.history.last_seen_ns = track.existence.travel.last_moving_ns = 1'000'000'000;
-  EXPECT_TRUE(has_stood_too_long(track, 3'000'000'000, config));
-  track.history.is_unseen = true;
-  EXPECT_FALSE(has_stood_too_long(track, 3'000'000'000, config));
-  track.history.last_seen_ns = 3'000'000'000;
-  EXPECT_TRUE(has_stood_too_long(track, 3'000'000'000, config));
-}
-
 TEST(Termination, ThatSeemsToMoveIsWaitedForTwiceAsLong) {
   const TrackingConfig config;
   const Track moving = out_from_behind_others(config);

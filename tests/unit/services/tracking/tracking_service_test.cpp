@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/app/system_clock.hpp"
 #include "common/wire/segmented_scan.hpp"
 #include "tests/support/service_on_the_bus.hpp"
 
@@ -103,6 +104,19 @@ struct TrackingOnTheBus : slammot::testing::ServiceOnTheBus {
     return labelled.size() >= count;
   }
 };
+
+TEST_F(TrackingOnTheBus, TellsHowLongAgoTheScanWasPublished) {
+  begin();
+  const std::int64_t published_ns = app::system_clock_ns() - 5'000'000;
+  scans->write(wire::SegmentedScanEncoder().encode("car", empty_scan(0), published_ns));
+  std::optional<std::int64_t> carried_ns;
+  ASSERT_TRUE(comes_to([&] {
+    objects.take_each([&](const auto& sample) { carried_ns = sample.scan_published_ns; });
+    return carried_ns && context_->status().latency("scan_to_tracks").count() > 0;
+  }));
+  EXPECT_EQ(carried_ns, published_ns);
+  EXPECT_GE(context_->status().latency("scan_to_tracks").highest_ms(), 5.0);
+}
 
 TEST_F(TrackingOnTheBus, LabelsEveryScan) {
   begin();
