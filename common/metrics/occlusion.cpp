@@ -155,6 +155,19 @@ class ObjectJudge {
     return true;
   }
 
+  /// True if an object that has echoes is nearer to the track than the one of this timeline, which
+  /// has none: the track follows that one.
+  bool is_at_another(const ReportedTrack& track, std::size_t index) const {
+    const auto distance_m = [&](const TrueObject& object) {
+      return (object.world_from_object.translation_m() - track.world_from_object.translation_m())
+          .norm();
+    };
+    const double to_own_m = distance_m(*timeline_[index].truth);
+    return std::ranges::any_of(scene(index).objects, [&](const TrueObject& other) {
+      return other.points > 0 && distance_m(other) < to_own_m;
+    });
+  }
+
   /// Coverage and errors in the scans without an echo.
   void measure(const Occlusion& occlusion, OcclusionBand* band, HiddenErrors& errors) const {
     double next_sample_s = kFirstSampleS;
@@ -169,7 +182,7 @@ class ObjectJudge {
       const bool is_covered = own && is_at(*own, truth, rule_);
       if (band) ++band->hidden_rows;
       if (band && is_covered) ++band->covered_rows;
-      has_gone = has_gone || (own && !predicted && !is_covered);  // to another object
+      has_gone = has_gone || (own && !predicted && (!is_covered || is_at_another(*own, i)));
       if (has_gone || !own) continue;
       const Vector2 error_m =
           own->world_from_object.translation_m() - truth.world_from_object.translation_m();

@@ -129,6 +129,22 @@ TEST(OcclusionFigures, IncludeAFarPredictionInTheErrorButNotInTheCoverage) {
   EXPECT_EQ(figures.published.occluded.at_nothing, 20U);
 }
 
+TEST(OcclusionFigures, LeaveOutATrackThatFollowsAnotherObjectWithinTheGate) {
+  const auto figures_with_another = [](bool is_occluded) {
+    auto scenes = scenes_of({}, [is_occluded](int i) {
+      return Report{3, is_occluded && is_hidden(i), is_hidden(i) ? 1.5 : 0.0};
+    });
+    for (int i = 20; i < 40; ++i) {
+      TrueObject other = car_at(x_m(i) - 1.4, 5.0);
+      other.object = 7;
+      scenes[static_cast<std::size_t>(i)].objects.push_back(other);
+    }
+    return figures_of(scenes);
+  };
+  EXPECT_EQ(figures_with_another(false).position_m.count, 0U);  // an error of identity
+  EXPECT_EQ(figures_with_another(true).position_m.count, 20U);
+}
+
 TEST(OcclusionFigures, MeasureAnObjectThatDoesNotReturn) {
   CarDrive drive;
   drive.seen_from = drive.scans;
