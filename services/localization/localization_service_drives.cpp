@@ -114,7 +114,7 @@ bool LocalizationService::return_to_saved_drive(const WaitingScan& first) {
 }
 
 void LocalizationService::take_up(const SavedSession& session) {
-  drive_.is_back = true;
+  drive_.is_back = !session.has_ended;
   drive_.map_id = session.map_id;
   drive_.odom_id = session.odom_id;
   drive_.first_submap = session.first_submap_id;
@@ -237,8 +237,13 @@ void LocalizationService::save_checkpoint(std::int64_t stamp_ns) {
 }
 
 SavedSession LocalizationService::session() const {
-  return {*drive_.map_id,         drive_.odom_id,  drive_.first_submap,
-          drives_.watch.drives(), scans_.newest(), {}};
+  return {*drive_.map_id,
+          drive_.odom_id,
+          drive_.first_submap,
+          drives_.watch.drives(),
+          scans_.newest(),
+          false,
+          {}};
 }
 
 }  // namespace slammot::localization

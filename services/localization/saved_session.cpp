@@ -5,7 +5,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x7365'7373'696f'6e33;  // "session3": the digit counts the forms of
+constexpr std::uint64_t kMark = 0x7365'7373'696f'6e34;  // "session4": the digit counts the forms of
                                                         // a session
 constexpr std::uint64_t kMostScanners = 64;
 
@@ -70,6 +70,7 @@ std::vector<std::byte> to_bytes(const SavedSession& session) {
     put_text(bytes, answer.scanner_id);
     visit_members(answer, [&](const auto& member) { put(bytes, member); });
   }
+  put(bytes, session.has_ended);
   put_all(bytes, session.localizer);
   return bytes;
 }
@@ -94,6 +95,7 @@ std::optional<SavedSession> session_of(std::span<const std::byte> bytes) {
     session.last_answers.push_back(get_answer(from));
     if (!is_believable(session.last_answers.back())) return std::nullopt;
   }
+  from.get(session.has_ended);
   from.get_all(session.localizer);
   if (!from.ok() || !from.at_end()) return std::nullopt;
   return session;

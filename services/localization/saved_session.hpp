@@ -20,7 +20,8 @@ struct SavedSession {
   std::map<std::string, std::uint64_t> drive_by_scanner;
   std::vector<flow::LocalizedScan> last_answers;  ///< The newest scan of each scanner, without its
                                                   ///< beams.
-  std::vector<std::byte> localizer;               ///< Localizer::checkpoint().
+  bool has_ended = false;  ///< The process ended in order: no scan was localized afterwards.
+  std::vector<std::byte> localizer;  ///< Localizer::checkpoint().
 };
 
 std::vector<std::byte> to_bytes(const SavedSession& session);

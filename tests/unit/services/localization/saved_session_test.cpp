@@ -16,6 +16,7 @@ SavedSession example_session() {
                        {5},
                        {{"front", 7}, {"rear", 8}},
                        {slammot::testing::localized_scan(random, 0)},
+                       true,
                        {std::byte{1}, std::byte{2}}};
   session.last_answers.front().scanner_id = "front";
   return session;
@@ -29,6 +30,7 @@ TEST(SavedSession, ComesBackFromItsBytes) {
   EXPECT_EQ(back->odom_id, session.odom_id);
   EXPECT_EQ(back->first_submap_id, session.first_submap_id);
   EXPECT_EQ(back->drive_by_scanner, session.drive_by_scanner);
+  EXPECT_TRUE(back->has_ended);
   EXPECT_EQ(back->localizer, session.localizer);
   ASSERT_EQ(back->last_answers.size(), 1U);
   EXPECT_EQ(to_bytes(*back), to_bytes(session)) << "every member of the answers too";
