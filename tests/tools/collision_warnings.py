@@ -19,6 +19,8 @@ import pathlib
 import subprocess
 import sys
 
+from tables import seeds_in
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESULTS_PAGE = ROOT / "docs" / "results.md"
 HEADING, BEGIN, END = "## Collision warnings", "<!-- collision warnings: begin -->", "<!-- collision warnings: end -->"
@@ -280,14 +282,9 @@ def page_with(page, text):
     return head + section + rest.split(END, 1)[1]
 
 
-def seeds_of(text):
-    first, _, last = text.partition("-")
-    return range(int(first), int(last or first) + 1)
-
-
 def parse_options(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seeds", type=seeds_of, default=range(1, 21), metavar="N-M")
+    parser.add_argument("--seeds", type=seeds_in, default=seeds_in("1-20"), metavar="1-20,33")
     parser.add_argument("--scenario", nargs="+", default=DANGERS + HARMLESS + ORDINARY, metavar="NAME")
     parser.add_argument("--output", default="out/collision", metavar="DIR", help="runs stay here")
     parser.add_argument("--binary", default=str(ROOT / "build/release/bin/slammot"), metavar="FILE")

@@ -12,11 +12,12 @@ Exit code: 0 done, 1 the mean over all drives is worse with the IMU, 2 the progr
 import argparse
 import json
 import pathlib
-import re
 import shutil
 import statistics
 import subprocess
 import sys
+
+from tables import replaced_between, seeds_in
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TOOLS = ROOT / "tests/tools"
@@ -69,12 +70,11 @@ def ate_m(copy, has_imu, options):
 
 def table(options):
     """Rows of the table, and the mean ATE of all drives without and with the IMU."""
-    first, _, last = options.seeds.partition("-")
     rows = ["| drive | odometry | ATE without IMU (m) | ATE with IMU (m) |", "|---|---|---|---|"]
     everything = ([], [])
     for scenario in options.scenario:
         by_way = {way: ([], []) for way in options.ways}
-        for seed in range(int(first), int(last or first) + 1):
+        for seed in options.seeds:
             drive = simulated(scenario, seed, options)
             for way in options.ways:
                 copy = altered(drive, way)
@@ -94,7 +94,7 @@ def table(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenario", nargs="*", default=["city", "office"])
-    parser.add_argument("--seeds", default="1-3", metavar="A-B")
+    parser.add_argument("--seeds", type=seeds_in, default=seeds_in("1-3"), metavar="1-3,7")
     parser.add_argument("--ways", nargs="*", default=WAYS)
     parser.add_argument("--write", action="store_true", help="into docs/results.md")
     parser.add_argument("--binary", type=pathlib.Path, default=ROOT / "build/release/bin/slammot")
@@ -107,8 +107,7 @@ def main():
     print("\n".join(rows))
     if options.write:
         page = ROOT / "docs/results.md"
-        inside = "\n".join([BEGIN, *rows, END])
-        page.write_text(re.sub(re.escape(BEGIN) + ".*?" + re.escape(END), lambda _: inside, page.read_text(), flags=re.DOTALL))
+        page.write_text(replaced_between(BEGIN, END, page.read_text(), "\n".join(rows)))
     return 0 if with_imu <= without else 1
 
 

@@ -14,10 +14,11 @@ import concurrent.futures
 import json
 import math
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
+
+from tables import replaced_between, seeds_in
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = ("occluded_car", "bus_stop", "far_crossing", "crowd")
@@ -26,15 +27,6 @@ UP_TO_S = 5.0
 RANGE_M = 100.0  # an object that was tracked before is near enough; crossing cars are hidden 57 m away
 BEGIN = "<!-- occlusions: written by tests/tools/occlusion_table.py --write -->"
 END = "<!-- end of occlusions -->"
-
-
-def seeds_in(text):
-    """The numbers of "1-3,7"."""
-    seeds = []
-    for part in text.split(","):
-        first, _, last = part.partition("-")
-        seeds.extend(range(int(first), int(last or first) + 1))
-    return seeds
 
 
 def evaluated(scenario, seed, options):
@@ -108,9 +100,7 @@ def table(results):
 
 def page_with(page, text):
     """The page with the text between its markers."""
-    if BEGIN not in page or END not in page:
-        raise SystemExit(f"occlusion_table: the page lacks the lines {BEGIN} and {END}")
-    return re.sub(re.escape(BEGIN) + r".*?" + re.escape(END), lambda match: f"{BEGIN}\n{text}\n{END}", page, count=1, flags=re.DOTALL)
+    return replaced_between(BEGIN, END, page, text)
 
 
 def options_of(arguments):
