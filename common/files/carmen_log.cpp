@@ -167,8 +167,7 @@ std::optional<LogEvent> CarmenLog::next() {
   if (ready_.empty()) return std::nullopt;
   LogEvent event = std::move(ready_.front());
   ready_.pop_front();
-  if (auto* odometry = std::get_if<sensing::Odometry>(&event); odometry && gyro_.has_readings())
-    *odometry = gyro_.fused(*odometry);
+  if (auto* odometry = std::get_if<sensing::Odometry>(&event)) *odometry = gyro_.fused(*odometry);
   return event;
 }
 

@@ -106,6 +106,7 @@ double GyroOdometry::turn_of(const Pose2& by_wheels, double by_gyro_rad, double 
 }
 
 Odometry GyroOdometry::fused(const Odometry& by_wheels) {
+  if (!has_readings()) return by_wheels;
   const std::optional<double> turned_rad = turned_until(by_wheels.stamp_ns);
   if (!before_) {
     before_ = Sample{by_wheels, by_wheels, turned_rad};

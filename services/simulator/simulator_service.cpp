@@ -117,7 +117,7 @@ std::optional<simulation::SimulatedScan> SimulatorService::next_scan() {
   auto scan = drive_.next();
   if (!scan) return scan;
   for (const sensing::TurnRate& reading : scan->turn_rates) gyro_.add(reading);
-  if (gyro_.has_readings()) scan->odometry = gyro_.fused(scan->odometry);
+  scan->odometry = gyro_.fused(scan->odometry);
   return scan;
 }
 
