@@ -41,7 +41,6 @@ void SessionFile::save(std::int64_t stamp_ns, std::int64_t now_ns, SavedSession 
 
 void SessionFile::save_last(std::int64_t stamp_ns, SavedSession session,
                             const Localizer& localizer) {
-  if (saved_ns_ == stamp_ns) return;
   last_.reset();  // its memory may be in use
   session.has_ended = true;
   save(stamp_ns, last_time_ns_, std::move(session), localizer);

@@ -40,8 +40,8 @@ class SessionFile {
   void save(std::int64_t stamp_ns, std::int64_t now_ns, SavedSession session,
             const Localizer& localizer);
 
-  /// Also while busy. The file writes it before it is destroyed. Nothing to do if this stamp is
-  /// saved.
+  /// The same with the mark that the process ended in order, also while busy. The file writes it
+  /// before it is destroyed.
   void save_last(std::int64_t stamp_ns, SavedSession session, const Localizer& localizer);
 
   /// Makes the next session due at once.

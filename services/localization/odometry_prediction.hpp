@@ -144,7 +144,9 @@ class OdometryPrediction {
   /// Motion by odometry, not corrected, with all that is known of it applied.
   geometry::Pose2 as_believed(const geometry::Pose2& by_wheels, double duration_s) const;
 
-  /// Feedback: odometry beside what two scans some way apart tell.
+  /// Feedback: odometry beside what two scans some way apart tell. Returns by how much the pose may
+  /// be off, in the base, where odometry is found wrong now (sensing::unnoticed_error_m); else
+  /// zero.
   geometry::Vector2 compare(const sensing::OdometryComparison& comparison);
 
   /// Feedback: how likely the scan is under each explanation, before observe().
