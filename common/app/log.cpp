@@ -14,7 +14,19 @@ spdlog::level::level_enum level_of(dds::LogLevel level) {
   return level == dds::LogLevel::kWarning ? spdlog::level::warn : spdlog::level::info;
 }
 
+spdlog::level::level_enum level_of(LogLevel level) {
+  switch (level) {
+    case LogLevel::kInfo: return spdlog::level::info;
+    case LogLevel::kWarning: return spdlog::level::warn;
+    case LogLevel::kError: return spdlog::level::err;
+    case LogLevel::kCritical: return spdlog::level::critical;
+  }
+  return spdlog::level::info;
+}
+
 }  // namespace
+
+void log_line(LogLevel level, std::string_view line) { spdlog::default_logger_raw()->log(level_of(level), line); }
 
 void set_up_log(std::string_view service_name) {
   const std::string name(service_name);

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <optional>
 
-#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
 #include "common/app/interface_watch.hpp"
@@ -62,7 +61,7 @@ void watch_interface(ServiceContext& context) {
       std::make_shared<InterfaceWatch>([name] { return identity_of_interface(name); });
   context.every(std::chrono::milliseconds(200), [&context, watch, name] {
     if (!watch->was_replaced()) return;
-    spdlog::error("ends: interface {} is back, and has to be joined anew", name);
+    log_error("ends: interface {} is back, and has to be joined anew", name);
     context.stop(kExitFailure);
   });
 }
@@ -86,7 +85,7 @@ int serve(const ServiceDescription& description, const ServiceOptions& options) 
   }
   if (!lock.reason().empty()) watch(lock, context);
   std::shared_ptr<void> service = description.make(context);
-  spdlog::info("vehicle {} in DDS domain {}", options.vehicle_id, options.domain_id);
+  log_info("vehicle {} in DDS domain {}", options.vehicle_id, options.domain_id);
   context.run([&] {
     service.reset();
     lock.release();
@@ -106,7 +105,7 @@ int serve_or_say_why_not(const std::string& program, const ServiceDescription& d
   } catch (const dds::StartupError& error) {
     return refuse(program, error.what());
   } catch (const std::exception& error) {
-    spdlog::critical("{}", error.what());
+    log_critical("{}", error.what());
     return kExitFailure;
   }
 }

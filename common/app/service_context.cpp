@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include <spdlog/spdlog.h>
 
+#include "common/app/log.hpp"
 #include "common/app/scan_latency.hpp"
 #include "common/app/supervisor.hpp"
 #include "common/app/system_clock.hpp"
@@ -87,7 +87,7 @@ void ServiceContext::after(std::chrono::nanoseconds delay, std::function<void()>
 void ServiceContext::warn(const std::string& counter, std::string_view line) {
   ++board_.counter(counter);
   const std::string text = rate_limit_.pass(counter, line, std::chrono::steady_clock::now());
-  if (!text.empty()) spdlog::warn(text);
+  if (!text.empty()) log_warn("{}", text);
 }
 
 void ServiceContext::note_since_scan(const std::string& stage, std::int64_t scan_published_ns) {
@@ -145,9 +145,9 @@ void ServiceContext::report_as(ServiceState state) {
 void ServiceContext::report_changes(const std::string& explanation) {
   if (without_digits(explanation) == without_digits(last_explanation_)) return;
   if (explanation.empty()) {
-    spdlog::info("works again ({})", last_explanation_);
+    log_info("works again ({})", last_explanation_);
   } else {
-    spdlog::warn("{}", explanation);
+    log_warn("{}", explanation);
   }
   last_explanation_ = explanation;
 }
@@ -161,7 +161,7 @@ void ServiceContext::report_mismatches() {
     total += mismatch->total;
     last = mismatch->text();
   }
-  if (total > mismatches_reported_) spdlog::warn("{}", last);
+  if (total > mismatches_reported_) log_warn("{}", last);
   mismatches_reported_ = total;
   board_.counter("incompatible_endpoints") = total;
 }

@@ -3,7 +3,8 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <spdlog/spdlog.h>
+#include "common/app/log.hpp"
+
 
 namespace slammot::app {
 namespace {
@@ -34,7 +35,7 @@ bool Standby::wait_until_it_leads() {
   if (!context_.run_until([this] { return try_to_lead(); })) return false;
   context_.status().clear_trouble(kTrouble);
   context_.status().set_starting(false);
-  if (stood_by_) spdlog::warn("takes over");
+  if (stood_by_) log_warn("takes over");
   return true;
 }
 
@@ -63,7 +64,7 @@ void Standby::end_hung_leader() const {
   if (!leader || !holder || *holder != static_cast<pid_t>(leader->process_number) ||
       *holder == ::getpid())
     return;
-  spdlog::error("kills process {}: it holds the state and hangs", *holder);
+  log_error("kills process {}: it holds the state and hangs", *holder);
   ::kill(*holder, SIGKILL);
 }
 
@@ -81,7 +82,7 @@ std::string Standby::name_of_leader() const {
 
 void Standby::look_around() {
   if (leadership_.role(std::chrono::steady_clock::now()) != Leadership::Role::kSteppedDown) return;
-  spdlog::error("stops: {} leads, too, and prevails", name_of_leader());
+  log_error("stops: {} leads, too, and prevails", name_of_leader());
   context_.stop(kExitInUse);
 }
 

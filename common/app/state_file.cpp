@@ -8,8 +8,9 @@
 #include <fstream>
 #include <utility>
 
-#include <spdlog/spdlog.h>
 #include <zlib.h>
+
+#include "common/app/log.hpp"
 
 namespace slammot::app {
 namespace {
@@ -66,7 +67,7 @@ std::optional<SavedState> StateFile::read() const {
   std::ifstream file(path_, std::ios::binary);
   if (!file) return std::nullopt;
   auto state = read_state(file, path_);
-  if (!state) spdlog::warn("{} is damaged or of another version: it is not used", path_.string());
+  if (!state) log_warn("{} is damaged or of another version: it is not used", path_.string());
   return state;
 }
 

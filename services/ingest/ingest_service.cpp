@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/log.hpp"
 #include "common/wire/text.hpp"
 #include "services/ingest/ingest_fields.hpp"
 #include "services/ingest/topic_arguments.hpp"
@@ -142,7 +142,7 @@ void IngestService::wait_for_services() {
 
 void IngestService::begin() {
   has_begun_ = true;
-  spdlog::info("plays {} scans", source_.log().plan().figures.scans);
+  app::log_info("plays {} scans", source_.log().plan().figures.scans);
   proceed();
 }
 
@@ -289,8 +289,8 @@ void IngestService::finish() {
   status.counter("malformed_lines") = faults.malformed_lines;
   status.counter("log_is_cut") = faults.is_cut ? 1 : 0;
   status.counter("log_finished") = 1;
-  if (faults.is_cut) spdlog::warn("the log is truncated; the readable part was played");
-  spdlog::info("finished {} scans", status.counter("scans"));
+  if (faults.is_cut) app::log_warn("the log is truncated; the readable part was played");
+  app::log_info("finished {} scans", status.counter("scans"));
   if (linger_) return;
   scans_.wait_for_acknowledgements(kAcknowledgementTime);
   context_.stop(faults.is_cut && !forgive_cut_ ? kExitCut : 0);

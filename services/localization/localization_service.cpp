@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/log.hpp"
 #include "common/wire/scan_labels.hpp"
 #include "common/wire/segmented_scan.hpp"
 #include "common/wire/sensor.hpp"
@@ -243,15 +243,15 @@ void LocalizationService::localize(const WaitingScan& waiting) {
 
 void LocalizationService::tell_whereabouts(bool was_lost, std::uint64_t astray_before) {
   if (localizer_.counters().astray > astray_before) {
-    spdlog::warn(
+    app::log_warn(
         "did not find itself: submap {} is tied to nothing until loop closing finds its place",
         localizer_.local_map().submap_id().value);
   } else if (localizer_.is_lost() && !was_lost) {
-    spdlog::warn(
+    app::log_warn(
         "lost: scans do not fit the map where the vehicle should be; looks for it in the local "
         "map");
   } else if (was_lost && !localizer_.is_lost()) {
-    spdlog::info("found itself again in the local map");
+    app::log_info("found itself again in the local map");
   }
   if (localizer_.is_lost())
     context_.status().set_trouble("lost", "looks for itself in the local map");

@@ -2,9 +2,9 @@
 #include <chrono>
 #include <utility>
 
-#include <spdlog/spdlog.h>
 
 #include "services/localization/localization_service.hpp"
+#include "common/app/log.hpp"
 #include "services/localization/localization_service_clock.hpp"
 
 namespace slammot::localization {
@@ -83,18 +83,18 @@ bool LocalizationService::come_back(const WaitingScan& first) {
   SavedSession& session = saved->session;
   const auto drive = session.drive_by_scanner.find(first.scan.scanner.scanner_id);
   if (drive == session.drive_by_scanner.end() || drive->second != first.drive_id) {
-    spdlog::info("the checkpoint is of another drive");
+    app::log_info("the checkpoint is of another drive");
     drive_.before = std::move(session);
     return false;
   }
   if (!localizer_.restore(session.localizer)) {
-    spdlog::warn("begins a new map: the checkpoint is of another version or configuration");
+    app::log_warn("begins a new map: the checkpoint is of another version or configuration");
     return false;
   }
   take_up(session);
   const double since_s = static_cast<double>(first.scan.stamp_ns - saved->stamp_ns) * 1e-9;
-  if (since_s > 0.0) spdlog::info("goes on from a checkpoint {:.1f} s before this scan", since_s);
-  else spdlog::info("goes on from a checkpoint with the scans since then");
+  if (since_s > 0.0) app::log_info("goes on from a checkpoint {:.1f} s before this scan", since_s);
+  else app::log_info("goes on from a checkpoint with the scans since then");
   return true;
 }
 
@@ -109,7 +109,7 @@ bool LocalizationService::return_to_saved_drive(const WaitingScan& first) {
       !localizer_.restore(saved->session.localizer))
     return false;
   take_up(saved->session);
-  spdlog::info("goes on with the drive of the checkpoint");
+  app::log_info("goes on with the drive of the checkpoint");
   return true;
 }
 
@@ -143,7 +143,7 @@ void LocalizationService::hand_over_earlier_drive() {
   submap->map_id = session.map_id;
   submaps_.publish(*submap);
   stored_map_->is_on_its_way(session.map_id, submap->submap_id, monotonic_ns());
-  spdlog::info("hands over submap {}, with which the drive before ended", submap->submap_id.value);
+  app::log_info("hands over submap {}, with which the drive before ended", submap->submap_id.value);
 }
 
 /// The last submap is on its way into the map in which the next drive continues.
@@ -188,7 +188,7 @@ void LocalizationService::begin_map() {
   drive_.first_submap = {};
   tell_whether_it_is_tied(true);
   ++context_.status().counter("maps");
-  spdlog::info("begins map {}", drive_.map_id->value);
+  app::log_info("begins map {}", drive_.map_id->value);
 }
 
 /// The graph is corrected as for the drive before, so that only later corrections are new.
@@ -201,7 +201,7 @@ void LocalizationService::go_on_in_stored_map() {
   localizer_.go_on_after(stored_map_->graph().submaps.back());
   tell_whether_it_is_tied(false);
   ++context_.status().counter("continued_maps");
-  spdlog::info("goes on in map {} after its {} submaps", drive_.map_id->value, stored.submaps);
+  app::log_info("goes on in map {} after its {} submaps", drive_.map_id->value, stored.submaps);
 }
 
 /// A correction without a submap of this drive is about the frame odom of an earlier drive.

@@ -1,6 +1,7 @@
 #include "services/localization/localization_service_session.hpp"
 
-#include <spdlog/spdlog.h>
+#include "common/app/log.hpp"
+
 
 namespace slammot::localization {
 
@@ -13,7 +14,7 @@ std::optional<StampedSession> SessionFile::read() const {
   if (!saved) return std::nullopt;
   auto session = session_of(saved->bytes);
   if (!session) {
-    spdlog::warn("the checkpoint is of another version: it is not used");
+    app::log_warn("the checkpoint is of another version: it is not used");
     return std::nullopt;
   }
   return StampedSession{saved->stamp_ns, std::move(*session)};

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include <spdlog/spdlog.h>
 
+#include "common/app/log.hpp"
 #include "services/loop_closing/loop_closing_fields.hpp"
 
 namespace slammot::loop_closing {
@@ -37,7 +37,7 @@ void LoopClosingService::take(const slammot_SubmapTile& tile) {
 }
 
 void LoopClosingService::begin_map(flow::MapId map_id) {
-  if (map_id_) spdlog::info("new map: discards {} submaps", added_);
+  if (map_id_) app::log_info("new map: discards {} submaps", added_);
   for (const flow::Constraint& constraint : closer_.constraints())
     constraints_.end(wire::encode(context_.vehicle_id(), constraint));
   closer_ = LoopCloser(config_);
@@ -88,9 +88,9 @@ void LoopClosingService::finish_when_idle() {
 void LoopClosingService::report_connection(flow::SubmapId newest, bool was_connected) {
   const bool knows = closer_.is_connected();
   if (!knows && was_connected)
-    spdlog::warn("submap {} is not connected to the first one: searches for it on all islands",
+    app::log_warn("submap {} is not connected to the first one: searches for it on all islands",
                  newest.value);
-  if (knows && !was_connected) spdlog::info("located submap {}", newest.value);
+  if (knows && !was_connected) app::log_info("located submap {}", newest.value);
   if (knows) context_.status().clear_trouble("astray");
   else
     context_.status().set_trouble(

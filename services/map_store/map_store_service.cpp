@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/log.hpp"
 #include "common/wire/text.hpp"
 #include "services/map_store/map_store_fields.hpp"
 
@@ -129,7 +129,7 @@ void MapStoreService::publish_stored() {
   }
   const std::vector<Store::StoredMap> maps = store_.maps(context_.vehicle_id());
   if (!published_.empty())
-    spdlog::info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value,
+    app::log_info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value,
                  maps.size() > 1 ? names_of(maps) : "");
   else report_other_vehicles();
   publish_stored_map();
@@ -142,7 +142,7 @@ void MapStoreService::report_other_vehicles() {
   for (const std::string& vehicle : vehicles) names += (names.empty() ? "" : ", ") + vehicle;
   context_.status().counter("other_vehicles") = vehicles.size();
   if (!vehicles.empty())
-    spdlog::warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(), names);
+    app::log_warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(), names);
 }
 
 /// Publishes the description of the stored map after each change.

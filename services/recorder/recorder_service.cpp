@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iterator>
 
-#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/log.hpp"
 #include "common/app/system_clock.hpp"
 #include "common/app/version.hpp"
 #include "common/config/profiles.hpp"
@@ -108,7 +108,7 @@ RecorderService::RecorderService(app::ServiceContext& context, const Settings& s
   recording_ = std::make_unique<Recording>(options);
   if (const std::string fault = recording_->fault(); !fault.empty())
     throw app::StartupFailure("cannot record into " + fault);
-  spdlog::info("recording into {}", path_.string());
+  app::log_info("recording into {}", path_.string());
   read_known_topics();
   look_for_topics();
   context.every(kLookPeriod, [this] { look_for_topics(); });
@@ -191,7 +191,7 @@ void RecorderService::take_all() {
 RecorderService::~RecorderService() {
   try {
     finish();
-  } catch (const dds::Error& error) { spdlog::error("{}", error.what()); }
+  } catch (const dds::Error& error) { app::log_error("{}", error.what()); }
 }
 
 bool RecorderService::finish() {

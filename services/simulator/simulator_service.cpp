@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/log.hpp"
 #include "common/wire/text.hpp"
 #include "services/simulator/scenario_files.hpp"
 
@@ -123,7 +123,7 @@ std::optional<simulation::SimulatedScan> SimulatorService::next_scan() {
 
 void SimulatorService::begin() {
   has_begun_ = true;
-  spdlog::info("begins a drive of {} scans", drive_.scan_count());
+  app::log_info("begins a drive of {} scans", drive_.scan_count());
   next_ = next_scan();
   skip_what_was_sent();
   schedule();
@@ -137,7 +137,7 @@ void SimulatorService::skip_what_was_sent() {
     next_ = next_scan();
   }
   ++context_.status().counter("continued_drives");
-  spdlog::info("continues the drive after {} scans", context_.status().counter("scans"));
+  app::log_info("continues the drive after {} scans", context_.status().counter("scans"));
 }
 
 /// Sends the next scan when it is due, after pending events of the service.
@@ -195,7 +195,7 @@ void SimulatorService::finish() {
   if (has_finished_) return;
   has_finished_ = true;
   context_.status().counter("log_finished") = 1;
-  spdlog::info("finished {} scans", context_.status().counter("scans"));
+  app::log_info("finished {} scans", context_.status().counter("scans"));
   if (linger_) return;
   scans_.wait_for_acknowledgements(kAcknowledgementTime);
   true_hits_.wait_for_acknowledgements(kAcknowledgementTime);

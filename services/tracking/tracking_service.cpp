@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include <spdlog/spdlog.h>
 
+#include "common/app/log.hpp"
 #include "common/wire/segmented_scan.hpp"
 #include "services/tracking/tracking_fields.hpp"
 
@@ -99,7 +99,7 @@ void TrackingService::take_up_journal() {
   const auto saved = journal_.file.read();
   if (!saved) return;
   session_ = restore(saved->bytes, tracker_);
-  if (!session_) return spdlog::warn("the journal is of another version: it is not used");
+  if (!session_) return app::log_warn("the journal is of another version: it is not used");
   journal_.saved_ns = saved->stamp_ns;
   journal_.is_unproven = true;
   waits_for_stored_tracks_ = false;
@@ -126,8 +126,8 @@ void TrackingService::prove_journal(const flow::SegmentedScan& first) {
   tracker_.begin_ids_at(next_id);
   if (!goes_on) return;
   ++context_.status().counter("taken_up");
-  if (is_whole) return spdlog::info("goes on from a journal with the scans since then");
-  spdlog::info("goes on from a journal {:.2f} s before this scan",
+  if (is_whole) return app::log_info("goes on from a journal with the scans since then");
+  app::log_info("goes on from a journal {:.2f} s before this scan",
                static_cast<double>(first.stamp_ns - *journal_.saved_ns) * 1e-9);
 }
 
@@ -145,7 +145,7 @@ void TrackingService::take_up_stored(const flow::SegmentedScan& first) {
   if (!is_near(first.stamp_ns, stored_->stamp_ns)) return;
   tracker_.resume(*stored_);
   ++context_.status().counter("taken_up");
-  spdlog::info("takes up {} stored tracks", stored_->objects.size());
+  app::log_info("takes up {} stored tracks", stored_->objects.size());
 }
 
 void TrackingService::track(const ScanOnTheBus& on_the_bus) {
