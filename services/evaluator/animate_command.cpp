@@ -9,6 +9,7 @@
 
 #include "common/files/animated_png.hpp"
 #include "common/files/atomic_file.hpp"
+#include "common/files/failure.hpp"
 #include "common/files/text.hpp"
 #include "services/evaluator/figures.hpp"
 #include "services/evaluator/plot_command.hpp"
@@ -31,11 +32,6 @@ struct AnimateOptions {
   double across_m = 90.0;  ///< Along the width.
   std::string theme = "dark";
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return 1;
-}
 
 double seconds_of(const RunResult& result, std::int64_t stamp_ns) {
   return static_cast<double>(stamp_ns - result.corrected.front().stamp_ns) * 1e-9;
@@ -107,7 +103,7 @@ Drawing frame_at(const RunResult& result, const SceneDrawing& scene, const Anima
 int animate(const AnimateOptions& options) {
   constexpr std::size_t kMostFrames = 2000;
   const auto result = read_result(options.result);
-  if (!result) return fail(result.error().message);
+  if (!result) return files::fail(result.error().message);
   const double end_s = seconds_of(*result, result->corrected.back().stamp_ns);
   const double length_s = std::min(options.length_s, end_s);
   const double from_s = std::clamp(options.from_s.value_or(liveliest_s(*result, length_s)), 0.0,
@@ -115,8 +111,8 @@ int animate(const AnimateOptions& options) {
   const double step_s = options.speed / options.rate_hz;
   const auto count = static_cast<std::size_t>(length_s / step_s) + 1;
   if (count > kMostFrames)
-    return fail("more than " + std::to_string(kMostFrames) +
-                " pictures: reduce --length or --rate, or increase --speed");
+    return files::fail("more than " + std::to_string(kMostFrames) +
+                       " pictures: reduce --length or --rate, or increase --speed");
   const SceneDrawing scene(*result, page_theme(options.theme), options.across_m / options.width);
   files::Animation animation;
   animation.frame_ms = static_cast<std::uint16_t>(std::lround(1000.0 / options.rate_hz));
@@ -125,7 +121,7 @@ int animate(const AnimateOptions& options) {
         frame_at(*result, scene, options, from_s + static_cast<double>(i) * step_s), 1.0));
   const path output = options.output.empty() ? options.result / "drive.png" : options.output;
   if (const auto fault = files::write_file_atomically(output, files::to_animated_png(animation)))
-    return fail(fault->message);
+    return files::fail(fault->message);
   std::printf("%s\n", output.c_str());
   return 0;
 }

@@ -8,16 +8,12 @@
 #include <CLI/CLI.hpp>
 
 #include "common/files/atomic_file.hpp"
+#include "common/files/failure.hpp"
 #include "services/evaluator/comparison.hpp"
 #include "services/evaluator/evaluation_text.hpp"
 
 namespace slammot::evaluator {
 namespace {
-
-int fail(const files::Error& fault) {
-  std::fprintf(stderr, "slammot: %s\n", fault.message.c_str());
-  return 1;
-}
 
 /// Does nothing unless requested.
 std::optional<files::Error> evaluate_walls(const ComparisonOptions& options,
@@ -34,18 +30,18 @@ std::optional<files::Error> evaluate_walls(const ComparisonOptions& options,
 
 int evaluate_run(const ComparisonOptions& options) {
   const auto truth = read_truth(options.truth);
-  if (!truth) return fail(truth.error());
+  if (!truth) return files::fail(truth.error());
   const auto result = read_result(options.result);
-  if (!result) return fail(result.error());
+  if (!result) return files::fail(result.error());
   auto evaluation =
       evaluate(*result, *truth, echo_source(options, *result, *truth), options.evaluation);
-  if (!evaluation) return fail(evaluation.error());
-  if (const auto fault = evaluate_walls(options, *result, *evaluation)) return fail(*fault);
+  if (!evaluation) return files::fail(evaluation.error());
+  if (const auto fault = evaluate_walls(options, *result, *evaluation)) return files::fail(*fault);
   std::fputs(to_text(*evaluation, options.evaluation).c_str(), stdout);
   const std::filesystem::path json = options.result / "evaluation.json";
   if (const auto fault =
           files::write_file_atomically(json, to_json_text(*evaluation, options.evaluation)))
-    return fail(*fault);
+    return files::fail(*fault);
   std::printf("all figures are in %s\n", json.c_str());
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/files/atomic_file.hpp"
+#include "common/files/failure.hpp"
 #include "services/evaluator/comparison.hpp"
 #include "services/evaluator/doubts.hpp"
 #include "services/evaluator/figures.hpp"
@@ -27,11 +28,6 @@ struct PlotOptions {
   std::string theme = "dark";
   double size = 1600.0;  ///< Pixels along the longer side of a map.
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return 1;
-}
 
 Drawing draw_ground(const RunResult& result, const PlotOptions& options) {
   const GroundView view = whole_view(result, options.size);
@@ -84,9 +80,9 @@ files::Result<Drawing> draw(const RunResult& result, const PlotOptions& options)
 int plot(const PlotOptions& options) {
   constexpr double kSharp = 2.0;  // pixels a unit, of plots with text
   const auto result = read_result(options.result);
-  if (!result) return fail(result.error().message);
+  if (!result) return files::fail(result.error().message);
   const auto drawing = draw(*result, options);
-  if (!drawing) return fail(drawing.error().message);
+  if (!drawing) return files::fail(drawing.error().message);
   const path output =
       options.output.empty() ? options.result / (options.what + "_plot.png") : options.output;
   std::string content;
@@ -95,12 +91,13 @@ int plot(const PlotOptions& options) {
   } else if (output.extension() == ".png") {
     const bool is_map = options.what == "map" || options.what == "tracks";
     const auto png = files::to_png(to_pixels(*drawing, is_map ? 1.0 : kSharp));
-    if (!png) return fail(png.error().message);
+    if (!png) return files::fail(png.error().message);
     content = *png;
   } else {
-    return fail("--output " + output.string() + ": the name must end with .png or .svg");
+    return files::fail("--output " + output.string() + ": the name must end with .png or .svg");
   }
-  if (const auto fault = files::write_file_atomically(output, content)) return fail(fault->message);
+  if (const auto fault = files::write_file_atomically(output, content))
+    return files::fail(fault->message);
   std::printf("%s\n", output.c_str());
   return 0;
 }

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/files/atomic_file.hpp"
+#include "common/files/failure.hpp"
 #include "services/evaluator/comparison.hpp"
 #include "services/evaluator/comparison_page.hpp"
 #include "services/evaluator/report_page.hpp"
@@ -26,11 +27,6 @@ struct ReportOptions {
   std::vector<std::uint32_t> tracks;
 };
 
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return 1;
-}
-
 std::string name_of(const path& folder) {
   const path whole = std::filesystem::absolute(folder).lexically_normal();  // Resolves "." to a
                                                                             // name.
@@ -38,7 +34,8 @@ std::string name_of(const path& folder) {
 }
 
 int write_page(const path& file, const std::string& html) {
-  if (const auto fault = files::write_file_atomically(file, html)) return fail(fault->message);
+  if (const auto fault = files::write_file_atomically(file, html))
+    return files::fail(fault->message);
   std::printf("%s\n", file.c_str());
   return 0;
 }
@@ -46,7 +43,7 @@ int write_page(const path& file, const std::string& html) {
 int write_report(const ReportOptions& options) {
   const ComparisonOptions& comparison = options.comparison;
   const auto result = read_result(comparison.result);
-  if (!result) return fail(result.error().message);
+  if (!result) return files::fail(result.error().message);
   ReportSource source;
   source.title = "slammot: " + name_of(comparison.result);
   source.result = &*result;
@@ -55,10 +52,10 @@ int write_report(const ReportOptions& options) {
   std::optional<files::Result<Evaluation>> evaluation;
   if (!comparison.truth.empty()) {
     truth.emplace(read_truth(comparison.truth));
-    if (!*truth) return fail(truth->error().message);
+    if (!*truth) return files::fail(truth->error().message);
     evaluation.emplace(evaluate(*result, **truth, echo_source(comparison, *result, **truth),
                                 comparison.evaluation));
-    if (!*evaluation) return fail(evaluation->error().message);
+    if (!*evaluation) return files::fail(evaluation->error().message);
     source.truth = &**truth;
     source.evaluation = &**evaluation;
   }
@@ -74,11 +71,12 @@ std::pair<std::string, std::string> names_of(const path& a, const path& b) {
 
 int write_comparison(const ReportOptions& options) {
   if (!options.comparison.truth.empty())
-    return fail("--truth belongs to the report of one result; slammot eval compares with truth");
+    return files::fail(
+        "--truth belongs to the report of one result; slammot eval compares with truth");
   const auto a = read_result(options.results[0]);
-  if (!a) return fail(a.error().message);
+  if (!a) return files::fail(a.error().message);
   const auto b = read_result(options.results[1]);
-  if (!b) return fail(b.error().message);
+  if (!b) return files::fail(b.error().message);
   const auto [name_of_a, name_of_b] = names_of(options.results[0], options.results[1]);
   return write_page(options.output.empty() ? path("comparison.html") : options.output,
                     comparison_page({name_of_a, &*a}, {name_of_b, &*b}));
@@ -88,7 +86,8 @@ int report(ReportOptions options) {
   if (options.results.size() == 2 && options.comparison.result.empty())
     return write_comparison(options);
   if (options.results.empty() == options.comparison.result.empty())
-    return fail("a result is required: the folder that run or bench wrote, or two to compare");
+    return files::fail(
+        "a result is required: the folder that run or bench wrote, or two to compare");
   if (!options.results.empty()) options.comparison.result = options.results.front();
   return write_report(options);
 }

@@ -6,13 +6,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/failure.hpp"
 #include "services/recorder/bag_files.hpp"
 
 namespace slammot::recorder {
 namespace {
 
 constexpr int kDone = 0;
-constexpr int kFault = 1;
 constexpr int kMostFiles = 1000;
 constexpr int kDamaged = 3;  ///< As `run` reports a log that is cut.
 
@@ -25,11 +25,6 @@ struct BagOptions {
   std::string compression = "zstd";
 };
 
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return kFault;
-}
-
 int say_damage(const mcap::File& file) {
   for (const std::string& damage : file.contents().damage)
     std::fprintf(stderr, "slammot: %s\n", damage.c_str());
@@ -38,7 +33,7 @@ int say_damage(const mcap::File& file) {
 
 int info(const BagOptions& options) {
   const auto file = mcap::File::open(options.files.front());
-  if (!file) return fail(file.error().message);
+  if (!file) return files::fail(file.error().message);
   const mcap::Contents& contents = file->contents();
   const mcap::Statistics& statistics = contents.statistics;
   std::printf("written by %s\n", contents.header.library.c_str());
@@ -63,7 +58,7 @@ int info(const BagOptions& options) {
 
 int verify(const BagOptions& options) {
   const auto file = mcap::File::open_and_verify(options.files.front());
-  if (!file) return fail(file.error().message);
+  if (!file) return files::fail(file.error().message);
   const int exit_code = say_damage(*file);
   if (exit_code == kDone)
     std::printf("sound: %llu messages\n",
@@ -72,7 +67,7 @@ int verify(const BagOptions& options) {
 }
 
 int say(const WrittenBag& written, const std::string& output) {
-  if (!written.fault.empty()) return fail(written.fault);
+  if (!written.fault.empty()) return files::fail(written.fault);
   std::printf("%s: %llu messages\n", output.c_str(),
               static_cast<unsigned long long>(written.messages));
   return kDone;
@@ -80,7 +75,7 @@ int say(const WrittenBag& written, const std::string& output) {
 
 int recover(const BagOptions& options) {
   const auto file = mcap::File::open_and_verify(options.files.front());
-  if (!file) return fail(file.error().message);
+  if (!file) return files::fail(file.error().message);
   say_damage(*file);
   return say(recover_bag(*file, options.output), options.output);
 }
@@ -91,7 +86,7 @@ int cut_or_merge(const BagOptions& options) {
   std::int64_t start_ns = std::numeric_limits<std::int64_t>::max();
   for (const std::string& path : options.files) {
     auto file = mcap::File::open(path);
-    if (!file) return fail(file.error().message);
+    if (!file) return files::fail(file.error().message);
     say_damage(*file);
     start_ns = std::min(start_ns, file->contents().statistics.start_ns);
     files.push_back(std::move(*file));

@@ -13,6 +13,7 @@
 #include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/dds/exit_watchdog.hpp"
+#include "common/files/failure.hpp"
 #include "common/files/finite_number.hpp"
 #include "common/recordings/recorded_topic.hpp"
 #include "services/recorder/player.hpp"
@@ -41,11 +42,6 @@ struct PlayOptions {
   std::vector<std::string> topics;
   std::uint32_t domain_id = 0;
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return app::kExitFailure;
-}
 
 std::int64_t ns_of(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
@@ -152,9 +148,10 @@ app::ServiceOptions service_options(const PlayOptions& options, const mcap::File
 
 int play(const PlayOptions& options) {
   const auto file = mcap::File::open(options.file);
-  if (!file) return fail(file.error().message);
+  if (!file) return files::fail(file.error().message);
   const auto pace = app::Pace::parse(options.speed);
-  if (!pace) return fail("--speed is max or a number from 0.01 to 1000, not " + options.speed);
+  if (!pace)
+    return files::fail("--speed is max or a number from 0.01 to 1000, not " + options.speed);
   PlayControl control(*pace, speed_of(options.speed));
   dds::ExitWatchdog watchdog;
   app::set_up_log("player");
@@ -166,7 +163,7 @@ int play(const PlayOptions& options) {
   Player player(context.participant(), *file, TopicSelection(options.topics));
   for (const std::string& topic : player.unplayable())
     std::fprintf(stderr, "slammot: %s was not recorded from this bus: left out\n", topic.c_str());
-  if (player.topic_count() == 0) return fail(options.file + ": no topic that can be played");
+  if (player.topic_count() == 0) return files::fail(options.file + ": no topic that can be played");
   if (options.lingers) player.prepare_seeks();
   answer_commands(context, control, file->contents().statistics.start_ns);
   report_position(context, control, file->contents().statistics);
@@ -181,7 +178,7 @@ int play(const PlayOptions& options) {
   context.run();
   control.stop();
   playing.join();
-  if (!fault.empty()) return fail(fault);
+  if (!fault.empty()) return files::fail(fault);
   player.wait_for_acknowledgements(kPatience);
   watchdog.arm();
   return report(player, *file);
@@ -190,7 +187,7 @@ int play(const PlayOptions& options) {
 int play_or_fail(const PlayOptions& options) {
   try {
     return play(options);
-  } catch (const std::runtime_error& fault) { return fail(fault.what()); }
+  } catch (const std::runtime_error& fault) { return files::fail(fault.what()); }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/dds/exit_watchdog.hpp"
+#include "common/files/failure.hpp"
 #include "services/recorder/recorder_service.hpp"
 
 namespace slammot::recorder {
@@ -18,11 +19,6 @@ struct RecordOptions {
   app::ServiceOptions service;
   RecorderService::Settings recorder;
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return app::kExitFailure;
-}
 
 int record(const RecordOptions& options) {
   dds::ExitWatchdog watchdog;
@@ -37,7 +33,7 @@ int record(const RecordOptions& options) {
               static_cast<unsigned long long>(recording.dropped()));
   std::fflush(stdout);
   watchdog.arm();
-  return is_complete ? 0 : fail("recording has stopped: " + recording.fault());
+  return is_complete ? 0 : files::fail("recording has stopped: " + recording.fault());
 }
 
 int record_or_fail(RecordOptions options) {
@@ -46,7 +42,7 @@ int record_or_fail(RecordOptions options) {
   app::set_up_log(RecorderService::kName);
   try {
     return record(options);
-  } catch (const std::runtime_error& fault) { return fail(fault.what()); }
+  } catch (const std::runtime_error& fault) { return files::fail(fault.what()); }
 }
 
 }  // namespace

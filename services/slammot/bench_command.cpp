@@ -17,6 +17,7 @@
 #include "common/app/stop_signal.hpp"
 #include "common/dds/config.hpp"
 #include "common/files/atomic_file.hpp"
+#include "common/files/failure.hpp"
 #include "common/files/run_outputs.hpp"
 #include "common/files/text.hpp"
 #include "services/ingest/topic_arguments.hpp"
@@ -49,11 +50,6 @@ struct BenchOptions : JobOptions {
   std::uint32_t domain_id = 0;
   std::string bus = "slammot-bench-" + std::to_string(getpid());
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return kExitFault;
-}
 
 /// Settings file for the services: the user's, or the complete settings of the job if the log
 /// changed some of them.
@@ -154,11 +150,12 @@ files::RunReport make_report(const Job& job, const BenchOptions& options,
 int write(const Job& job, const BenchOptions& options, const files::RunRecord& record,
           const files::RunReport& report, double duration_s) {
   if (const auto fault = files::write_outputs(options.output, record, report))
-    return fail(fault->message);
-  if (const auto fault = write_settings(job.profile, options.output)) return fail(fault->message);
+    return files::fail(fault->message);
+  if (const auto fault = write_settings(job.profile, options.output))
+    return files::fail(fault->message);
   if (options.stores_map) {
     if (const auto fault = write_stored_map(options.output, record.submaps()))
-      return fail(fault->message);
+      return files::fail(fault->message);
   }
   write_report(options, record);
   if (!options.map.empty()) print(options, record.is_connected() ? kFound : kNotFound);
@@ -207,25 +204,26 @@ int bench(const BenchOptions& requested) {
   std::atomic<bool> is_interrupted = false;
   const app::StopSignal stop_signal([&] { is_interrupted = true; });
   const auto recorded = with_recorded_drive(requested);
-  if (!recorded) return fail(recorded.error().message);
+  if (!recorded) return files::fail(recorded.error().message);
   const BenchOptions& options = *recorded;
   const auto start = Clock::now();
   auto job = prepare_job(options);
-  if (!job) return fail(job.error().message);
+  if (!job) return files::fail(job.error().message);
   print(options, describe_job(*job, options));
   std::vector<std::int64_t> stamps_ns = stamps_of(job->log);
 
   const TemporaryFolder folder("slammot-bench-");
-  if (const auto fault = provide_map(*job, options, folder.path())) return fail(fault->message);
+  if (const auto fault = provide_map(*job, options, folder.path()))
+    return files::fail(fault->message);
   const auto settings = settings_file(*job, options, folder.path());
-  if (!settings) return fail(settings.error().message);
+  if (!settings) return files::fail(settings.error().message);
   Collector collector({kVehicle, options.domain_id, dds::loopback_config(options.bus)});
   std::optional<ServiceProcesses> services;
   services.emplace(services_for(*job, options, *settings, folder.path()), folder.path(),
                    environment_of_bus(options.bus));
   if (const auto fault = await_drive(collector, *services, stamps_ns, is_interrupted,
                                      options.is_quiet ? Verbosity::kQuiet : Verbosity::kNormal))
-    return fail(*fault);
+    return files::fail(*fault);
   const bool is_cut_short = is_interrupted && !collector.has_drive_ended();
   if (is_cut_short) services->end("ingest");
   if (is_cut_short && !collector.last_localized_ns()) {
@@ -246,14 +244,14 @@ int bench(const BenchOptions& requested) {
                      std::max(peak_memory_mb(), peak_memory_of_services_mb())};
   const int exit_code = write(*job, options, collector.record(stamps_ns), report, duration_s);
   if (!is_complete && !is_cut_short)
-    return fail("the last submap did not arrive: the map lacks the end of the drive");
+    return files::fail("the last submap did not arrive: the map lacks the end of the drive");
   return exit_code;
 }
 
 int bench_or_fail(const BenchOptions& options) {
   try {
     return bench(options);
-  } catch (const std::runtime_error& fault) { return fail(fault.what()); }
+  } catch (const std::runtime_error& fault) { return files::fail(fault.what()); }
 }
 
 }  // namespace

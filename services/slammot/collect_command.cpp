@@ -11,6 +11,7 @@
 #include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/files/atomic_file.hpp"
+#include "common/files/failure.hpp"
 #include "common/files/run_outputs.hpp"
 #include "services/ingest/topic_arguments.hpp"
 #include "services/slammot/collector.hpp"
@@ -28,11 +29,6 @@ struct CollectOptions : CollectorOptions {
   std::filesystem::path input;  ///< The log that is played; may be empty.
   files::TopicOptions topics;   ///< Must equal those of the player.
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return kExitFault;
-}
 
 /// Stamps of all scans, from the log if it is available, otherwise of the received scans. Also
 /// fills the report's description of the log.
@@ -61,10 +57,10 @@ int write(const CollectOptions& options, Collector& collector, double wall_s) {
   report.measured.wall_s = wall_s;
   report.measured.peak_memory_mb = peak_memory_mb();
   const auto stamps_ns = scans_of_drive(options, collector, report);
-  if (!stamps_ns) return fail(stamps_ns.error().message);
+  if (!stamps_ns) return files::fail(stamps_ns.error().message);
   const files::RunRecord record = collector.record(*stamps_ns);
   if (const auto fault = files::write_outputs(options.output, record, report))
-    return fail(fault->message);
+    return files::fail(fault->message);
   collector.remove_journal();
   std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
   if (report.faults.is_cut)
@@ -80,7 +76,8 @@ int collect(const CollectOptions& options) {
   const app::StopSignal stop_signal([&] {
     if (Collector* collector = to_stop) collector->stop();
   });
-  if (const auto fault = files::prepare_output_folder(options.output)) return fail(fault->message);
+  if (const auto fault = files::prepare_output_folder(options.output))
+    return files::fail(fault->message);
   CollectorOptions with_journal = options;
   with_journal.journal = options.output / "collected.journal";
   Collector collector(with_journal);
@@ -95,8 +92,9 @@ int collect(const CollectOptions& options) {
       write(options, collector,
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   if (exit_code != kExitDone) return exit_code;
-  return is_complete ? kExitDone
-                     : fail("the last submap did not arrive: the map lacks the end of the drive");
+  return is_complete
+             ? kExitDone
+             : files::fail("the last submap did not arrive: the map lacks the end of the drive");
 }
 
 }  // namespace
@@ -120,7 +118,7 @@ void add_collect_command(CLI::App& app, int& exit_code) {
   command->callback([options, &exit_code] {
     try {
       exit_code = collect(*options);
-    } catch (const std::runtime_error& fault) { exit_code = fail(fault.what()); }
+    } catch (const std::runtime_error& fault) { exit_code = files::fail(fault.what()); }
   });
 }
 

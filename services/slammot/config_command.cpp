@@ -11,6 +11,7 @@
 #include "common/config/explain.hpp"
 #include "common/config/nearest.hpp"
 #include "common/config/print.hpp"
+#include "common/files/failure.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/profile.hpp"
 
@@ -36,11 +37,6 @@ struct ConfigOptions {
   std::filesystem::path config;
 };
 
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return kExitFault;
-}
-
 std::vector<config::Explanation> default_settings() {
   Profile defaults;
   return config::explain(bind_stages(defaults));
@@ -60,9 +56,9 @@ int explain(const std::string& word) {
   const std::vector<config::Explanation> all = default_settings();
   const std::vector<config::Explanation> requested = word.empty() ? all : config::named(word, all);
   if (requested.empty())
-    return fail("no setting or group is called '" + word + "'" +
-                config::hint_at_nearest(word, names_like(word, all)) +
-                "; slammot config --explain lists all");
+    return files::fail("no setting or group is called '" + word + "'" +
+                       config::hint_at_nearest(word, names_like(word, all)) +
+                       "; slammot config --explain lists all");
   std::fputs(config::explanation_text(requested).c_str(), stdout);
   return kExitDone;
 }
@@ -70,7 +66,7 @@ int explain(const std::string& word) {
 int print_effective(const ConfigOptions& options) {
   Profile profile;
   if (const auto fault = load_settings(options.profile, options.config, profile))
-    return fail(*fault);
+    return files::fail(*fault);
   std::fputs(config::print(bind_stages(profile)).c_str(), stdout);
   return kExitDone;
 }
@@ -82,9 +78,9 @@ int print_page() {
 
 int show(const ConfigOptions& options) {
   if (int(options.explains) + int(options.is_effective) + int(options.is_page) != 1)
-    return fail("config requires one of --explain, --effective and --page");
+    return files::fail("config requires one of --explain, --effective and --page");
   if (!options.is_effective && (!options.profile.empty() || !options.config.empty()))
-    return fail("--profile and --config belong to --effective");
+    return files::fail("--profile and --config belong to --effective");
   if (options.is_effective) return print_effective(options);
   return options.is_page ? print_page() : explain(options.word);
 }

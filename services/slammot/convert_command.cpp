@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/failure.hpp"
 #include "services/gateway/recording_conversion.hpp"
 #include "services/slammot/command_line.hpp"
 
@@ -18,19 +19,14 @@ struct ConvertOptions {
   std::string vehicle_id;
 };
 
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return kExitFault;
-}
-
 int convert(const ConvertOptions& options) {
   const auto recording = mcap::File::open(options.file);
-  if (!recording) return fail(recording.error().message);
+  if (!recording) return files::fail(recording.error().message);
   for (const std::string& damage : recording->contents().damage)
     std::fprintf(stderr, "slammot: %s\n", damage.c_str());
   const gateway::ConvertedRecording converted =
       gateway::convert_recording(*recording, options.output, options.vehicle_id);
-  if (!converted.fault.empty()) return fail(converted.fault);
+  if (!converted.fault.empty()) return files::fail(converted.fault);
   std::printf("%s: %llu messages of vehicle %s\n", options.output.c_str(),
               static_cast<unsigned long long>(converted.messages), converted.vehicle_id.c_str());
   if (converted.dropped > 0)
@@ -42,7 +38,7 @@ int convert(const ConvertOptions& options) {
 int convert_or_fail(const ConvertOptions& options) {
   try {
     return convert(options);
-  } catch (const std::runtime_error& fault) { return fail(fault.what()); }
+  } catch (const std::runtime_error& fault) { return files::fail(fault.what()); }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "common/app/bus_option.hpp"
 #include "common/app/stop_signal.hpp"
+#include "common/files/failure.hpp"
 #include "services/simulator/scenario_files.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/service_processes.hpp"
@@ -29,11 +30,6 @@ struct LiveOptions {
   std::uint32_t domain_id = 0;
   std::string bus = "slammot-live-" + std::to_string(getpid());
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return kExitFault;
-}
 
 /// The simulator comes last, so that the others receive the first scans.
 std::vector<ServiceProcess> services_for(const LiveOptions& options, const std::string& profile,
@@ -61,7 +57,7 @@ int live(const LiveOptions& options) {
   std::atomic<bool> is_interrupted = false;
   const app::StopSignal stop_signal([&] { is_interrupted = true; });
   const auto scenario = simulator::load_scenario(options.scenario, std::nullopt);
-  if (!scenario) return fail(scenario.error().message);
+  if (!scenario) return files::fail(scenario.error().message);
   const TemporaryFolder folder("slammot-live-");
   ServiceProcesses services(services_for(options, scenario->profile, folder.path()), folder.path(),
                             environment_of_bus(options.bus));
@@ -69,7 +65,7 @@ int live(const LiveOptions& options) {
   std::printf("its services: slammot top --bus %s\n", options.bus.c_str());
   std::fflush(stdout);
   while (!is_interrupted) {
-    if (const auto fault = services.restart_dead()) return fail(*fault);
+    if (const auto fault = services.restart_dead()) return files::fail(*fault);
     std::this_thread::sleep_for(50ms);
   }
   return kExitDone;
@@ -78,7 +74,7 @@ int live(const LiveOptions& options) {
 int live_or_fail(const LiveOptions& options) {
   try {
     return live(options);
-  } catch (const std::runtime_error& fault) { return fail(fault.what()); }
+  } catch (const std::runtime_error& fault) { return files::fail(fault.what()); }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "common/app/service_options.hpp"
 #include "common/files/atomic_file.hpp"
+#include "common/files/failure.hpp"
 #include "common/files/run_outputs.hpp"
 #include "services/loop_closing/map_merge.hpp"
 #include "services/slammot/command_line.hpp"
@@ -32,11 +33,6 @@ struct MergeOptions {
   std::string profile;
   std::filesystem::path config;
 };
-
-int fail(const files::Error& fault) {
-  std::fprintf(stderr, "slammot: %s\n", fault.message.c_str());
-  return kExitFault;
-}
 
 /// Settings of the first map's run, if no others are given and its folder holds them.
 std::filesystem::path settings_of(const MergeOptions& options) {
@@ -108,11 +104,11 @@ int merge_maps(const MergeOptions& options) {
   const auto start = Clock::now();
   Profile profile;
   if (auto fault = load_settings(options.profile, settings_of(options), profile))
-    return fail(files::Error{std::move(*fault)});
+    return files::fail(files::Error{std::move(*fault)});
   const auto first = read_map(options.first, profile);
-  if (!first) return fail(first.error());
+  if (!first) return files::fail(first.error());
   const auto second = read_map(options.second, profile);
-  if (!second) return fail(second.error());
+  if (!second) return files::fail(second.error());
   std::fflush(stdout);
   const Merge merge = loop_closing::merge_maps(profile.loop_closing, *first, *second);
   if (merge.outcome != MergeOutcome::kJoined) {
@@ -120,7 +116,7 @@ int merge_maps(const MergeOptions& options) {
     return kExitNotJoined;
   }
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
-  if (const auto fault = write(merge, options, profile, wall_s)) return fail(*fault);
+  if (const auto fault = write(merge, options, profile, wall_s)) return files::fail(*fault);
   const geometry::Pose2& origin = merge.correction.submaps[first->size()].map_from_submap;
   std::printf("map:      %s\n", describe(merge).c_str());
   std::printf("map:      the second map begins at x %.2f m, y %.2f m, heading %.4f rad\n",

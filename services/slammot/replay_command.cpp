@@ -14,6 +14,7 @@
 #include "common/app/stop_signal.hpp"
 #include "common/dds/config.hpp"
 #include "common/dds/exit_watchdog.hpp"
+#include "common/files/failure.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/replay_recording.hpp"
 #include "services/slammot/replay_text.hpp"
@@ -42,8 +43,8 @@ struct ReplayOptions {
   std::uint32_t domain_id = 0;
 };
 
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
+int cannot_replay(std::string_view why) {
+  files::fail(why);
   return kNotReplayed;
 }
 
@@ -96,7 +97,8 @@ int outcome(const ServiceReplay& replay, const ReplayComparison& comparison,
               describe(comparison).c_str());
   if (end == ServiceReplay::End::kSilent)
     std::printf("ended early: the service does not answer any more\n");
-  if (comparison.topics().empty()) return fail("the recording has no output of the service");
+  if (comparison.topics().empty())
+    return cannot_replay("the recording has no output of the service");
   return comparison.has_difference() ? kDifferent : kSame;
 }
 
@@ -120,10 +122,10 @@ int replay(const ReplayOptions& options, const ReplaySource& source, app::Pace p
   };
   if (!replay.wait_for_service(kStartTime)) {
     is_stopped();
-    return fail(fault.value_or(source.plan.service + " does not read its inputs"));
+    return cannot_replay(fault.value_or(source.plan.service + " does not read its inputs"));
   }
   const auto end = replay.run(pace, is_stopped);
-  if (fault) return fail(*fault);
+  if (fault) return cannot_replay(*fault);
   if (end == ServiceReplay::End::kStopped) return kExitInterrupted;
   watchdog.arm();
   return outcome(replay, comparison, end);
@@ -131,17 +133,19 @@ int replay(const ReplayOptions& options, const ReplaySource& source, app::Pace p
 
 int replay(ReplayOptions options) {
   const auto plan = replay_plan(options.service);
-  if (!plan) return fail("--service is one of " + replayed_services() + ", not " + options.service);
+  if (!plan)
+    return cannot_replay("--service is one of " + replayed_services() + ", not " + options.service);
   const auto pace = app::Pace::parse(options.speed);
-  if (!pace) return fail("--speed is max or a number from 0.01 to 1000, not " + options.speed);
+  if (!pace)
+    return cannot_replay("--speed is max or a number from 0.01 to 1000, not " + options.speed);
   const auto tolerances = tolerances_of(options.tolerances);
-  if (!tolerances) return fail("--tolerance is a number, or FIELD=NUMBER");
+  if (!tolerances) return cannot_replay("--tolerance is a number, or FIELD=NUMBER");
   const auto file = mcap::File::open(options.file);
-  if (!file) return fail(file.error().message);
+  if (!file) return cannot_replay(file.error().message);
   const std::set<std::string> vehicles = vehicles_in(*file, *plan);
-  if (vehicles.empty()) return fail(options.file + ": no " + plan->trigger + " in it");
+  if (vehicles.empty()) return cannot_replay(options.file + ": no " + plan->trigger + " in it");
   if (options.vehicle_id.empty() && vehicles.size() > 1)
-    return fail(options.file + ": several vehicles: choose one by --vehicle");
+    return cannot_replay(options.file + ": several vehicles: choose one by --vehicle");
   if (options.vehicle_id.empty()) options.vehicle_id = *vehicles.begin();
   return replay(options, {*file, *plan, options.vehicle_id}, *pace, *tolerances);
 }
@@ -149,7 +153,7 @@ int replay(ReplayOptions options) {
 int replay_or_fail(const ReplayOptions& options) {
   try {
     return replay(options);
-  } catch (const std::runtime_error& fault) { return fail(fault.what()); }
+  } catch (const std::runtime_error& fault) { return cannot_replay(fault.what()); }
 }
 
 void add_settings(CLI::App& command, ReplayOptions& options) {

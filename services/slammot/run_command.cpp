@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/stop_signal.hpp"
+#include "common/files/failure.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/run_outputs.hpp"
 #include "common/files/text.hpp"
@@ -30,11 +31,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMaxIterations = 10;  // Matching converges long before.
-
-int fail(const files::Error& fault) {
-  std::fprintf(stderr, "slammot: %s\n", fault.message.c_str());
-  return kExitFault;
-}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -193,12 +189,13 @@ int run(const RunOptions& run_options) {
   std::stop_source interruption;
   const app::StopSignal stop_signal([&] { interruption.request_stop(); });
   const auto streets = prepare_streets(run_options.streets);
-  if (!streets) return fail(streets.error());
+  if (!streets) return files::fail(streets.error());
   auto job = prepare_job(options);
-  if (!job) return fail(job.error());
+  if (!job) return files::fail(job.error());
   print(options, describe_job(*job, options));
   Pipeline pipeline(job->profile, run_options.iterations);
-  if (const auto fault = continue_stored_map(options, job->profile, pipeline)) return fail(*fault);
+  if (const auto fault = continue_stored_map(options, job->profile, pipeline))
+    return files::fail(*fault);
   const Driven driven = drive(*job, options, pipeline, interruption.get_token());
   if (driven.is_interrupted && pipeline.record().scans() == 0) {
     std::fprintf(stderr, "slammot: interrupted before the first scan: nothing was written\n");
@@ -216,11 +213,11 @@ int run(const RunOptions& run_options) {
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s,
                      peak_memory_mb()};
   if (const auto fault = files::write_outputs(options.output, pipeline.record(), report))
-    return fail(*fault);
-  if (const auto fault = write_settings(job->profile, options.output)) return fail(*fault);
+    return files::fail(*fault);
+  if (const auto fault = write_settings(job->profile, options.output)) return files::fail(*fault);
   if (options.stores_map) {
     if (const auto fault = write_stored_map(options.output, pipeline.record().submaps()))
-      return fail(*fault);
+      return files::fail(*fault);
   }
   write_report(options, pipeline.record());
   print(options, describe_location(pipeline, run_options));

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/failure.hpp"
 #include "services/evaluator/truth_files.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/street_search.hpp"
@@ -17,16 +18,11 @@ struct StreetsOptions {
   std::filesystem::path trajectory;
 };
 
-int fail(const files::Error& fault) {
-  std::fprintf(stderr, "slammot: %s\n", fault.message.c_str());
-  return kExitFault;
-}
-
 int find(const StreetsOptions& options) {
   const auto job = prepare_streets(options.streets);
-  if (!job) return fail(job.error());
+  if (!job) return files::fail(job.error());
   const auto read = evaluator::read_tum(options.trajectory);
-  if (!read) return fail(read.error());
+  if (!read) return files::fail(read.error());
   std::vector<files::StampedPose> trajectory;
   for (const metrics::StampedPose& pose : *read) trajectory.push_back({pose.stamp_ns, pose.pose});
   std::printf("%s\n",

@@ -10,6 +10,7 @@
 
 #include "common/files/atomic_file.hpp"
 #include "common/files/decimal.hpp"
+#include "common/files/failure.hpp"
 #include "services/collision_warning/collision_monitor.hpp"
 #include "services/evaluator/result_files.hpp"
 #include "services/slammot/command_line.hpp"
@@ -29,11 +30,6 @@ struct WarnOptions {
   std::filesystem::path result;
   std::filesystem::path config;  ///< Empty: the settings of the run, if they are in its folder.
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return kExitFault;
-}
 
 /// Pose as published live at this very stamp; null if there is none.
 const metrics::StampedPose* pose_at(const metrics::Trajectory& online, std::int64_t stamp_ns) {
@@ -124,11 +120,11 @@ std::optional<std::string> load(const WarnOptions& options, Profile& profile) {
 
 int warn(const WarnOptions& options) {
   Profile profile;
-  if (const auto fault = load(options, profile)) return fail(*fault);
+  if (const auto fault = load(options, profile)) return files::fail(*fault);
   const auto result = evaluator::read_result(options.result);
-  if (!result) return fail(result.error().message);
+  if (!result) return files::fail(result.error().message);
   if (result->uncertain.empty())
-    return fail((options.result / "online_covariance.csv").string() + ": no poses");
+    return files::fail((options.result / "online_covariance.csv").string() + ": no poses");
   collision_warning::CollisionMonitor monitor(profile.collision_warning);
   TracksOfResult tracks(*result);
   std::string text =
@@ -146,7 +142,8 @@ int warn(const WarnOptions& options) {
     last_level = step.highest_level;
   }
   const std::filesystem::path output = options.result / kOutput;
-  if (const auto fault = files::write_file_atomically(output, text)) return fail(fault->message);
+  if (const auto fault = files::write_file_atomically(output, text))
+    return files::fail(fault->message);
   std::printf("%d warnings; all encounters are in %s\n", warnings, output.c_str());
   return kExitDone;
 }
