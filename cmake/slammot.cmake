@@ -7,12 +7,33 @@ include(GoogleTest)
 # does not include itself fails where precompiled headers are off, as with sanitizers (CMakePresets.json).
 set(SLAMMOT_LIBRARY_OPTIONS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # the latter is what ccache needs
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/core_headers.cpp CONTENT "")
-add_library(core_headers OBJECT ${CMAKE_BINARY_DIR}/core_headers.cpp)
-target_link_libraries(core_headers PRIVATE Eigen3::Eigen)
-target_compile_options(core_headers PRIVATE ${SLAMMOT_LIBRARY_OPTIONS})
-set_target_properties(core_headers PROPERTIES COMPILE_WARNING_AS_ERROR OFF)  # else ccache misses all after a change of SLAMMOT_WERROR
-target_precompile_headers(core_headers PRIVATE
+# slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS -Wall HEADERS <vector> <string>): other targets take these headers by REUSE_FROM.
+# ccache would hash a precompiled header, of 140 MB, for each source that uses it: half a second each. It takes the sum beside it
+# instead, of what the header is made from.
+function(slammot_precompile name)
+  cmake_parse_arguments(ARG "" "" "LINK;OPTIONS;HEADERS" ${ARGN})
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
+  set_target_properties(${name} PROPERTIES COMPILE_WARNING_AS_ERROR OFF)  # else ccache misses all after a change of SLAMMOT_WERROR
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+
+  set(all ${CMAKE_CURRENT_BINARY_DIR}/${name}_all.cpp)
+  list(TRANSFORM ARG_HEADERS REPLACE "(.+)" "#include \\1\n" OUTPUT_VARIABLE lines)
+  list(JOIN lines "" content)
+  file(CONFIGURE OUTPUT ${all} CONTENT "${content}")
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
+  separate_arguments(flags NATIVE_COMMAND "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}}")
+  get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${flags} -std=c++20 -isystem ${eigen} -E -P ${all} OUTPUT_FILE ${all}.i COMMAND_ERROR_IS_FATAL ANY)
+  file(SHA256 ${all}.i sum)
+  file(REMOVE ${all}.i)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${name}.dir/cmake_pch.hxx.gch.sum
+       CONTENT "${sum} ${CMAKE_CXX_COMPILER_VERSION} ${flags} ${ARG_OPTIONS}")
+endfunction()
+
+slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS ${SLAMMOT_LIBRARY_OPTIONS} HEADERS
   <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky> <Eigen/LU>
   <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <functional> <map> <memory> <numbers> <numeric>
   <optional> <random> <set> <span> <sstream> <string> <string_view> <utility> <variant> <vector>)
