@@ -46,8 +46,9 @@ IcpLocalizerService::IcpLocalizerService(app::ServiceContext& context, const Set
                [this](const auto& sample) { take(sample); });
   context.read(dds::topics::kOdometry, Input::kSteady,
                [this](const auto& sample) { take(sample); });
-  context.read(dds::topics::kLaserScan, Input::kSteady,
-               [this](const auto& sample) { take(sample); });
+  context.read(
+      dds::topics::kLaserScan, Input::kSteady,
+      [this](const slammot_LaserScan& sample, const dds::SampleInfo& info) { take(sample, info); });
   context.every(kCycle, [this] {
     for (Waiting& waiting : waiting_) ++waiting.cycles;
     localize_waiting();
@@ -56,11 +57,11 @@ IcpLocalizerService::IcpLocalizerService(app::ServiceContext& context, const Set
   context.on_command("finish_submap", [this](std::string_view) { return finish_submap(); });
 }
 
-void IcpLocalizerService::take(const slammot_LaserScan& sample) {
+void IcpLocalizerService::take(const slammot_LaserScan& sample, const dds::SampleInfo& info) {
   auto scan = wire::decode(sample);
   if (!scan)
     return context_.warn("faulty_laser_scan", "dropped a laser scan: " + std::string(scan.fault()));
-  waiting_.push_back({std::move(*scan), sample.drive_id});
+  waiting_.push_back({std::move(*scan), sample.drive_id, info.source_time_ns});
   localize_waiting();
 }
 
@@ -105,7 +106,7 @@ void IcpLocalizerService::localize_waiting() {
     waiting_.pop_front();
     if (!localizer_.has_odometry_for(waiting.scan.stamp_ns)) ++scans_without_odometry_;
     begin_drive_of(waiting);
-    localize(waiting.scan);
+    localize(waiting);
   }
 }
 
@@ -126,17 +127,19 @@ void IcpLocalizerService::begin_drive_of(const Waiting& waiting) {
   drive_by_scanner_[scanner_id] = waiting.drive_id;
 }
 
-void IcpLocalizerService::localize(const sensing::LaserScan& scan) {
+void IcpLocalizerService::localize(const Waiting& waiting) {
   const app::Stopwatch stopwatch(context_.status().latency("localize"));
-  const std::string& scanner_id = scan.scanner.scanner_id;
-  if (auto localized = localizer_.localize(scan)) {
+  const std::string& scanner_id = waiting.scan.scanner.scanner_id;
+  if (auto localized = localizer_.localize(waiting.scan)) {
     localized->map_id = map_id_;
     localized->odom_id = {map_id_.value};
     last_published_[scanner_id] = std::move(*localized);
   }
   // A scan that was sent again: repeats the lost answer.
   if (const auto last = last_published_.find(scanner_id); last != last_published_.end())
-    localized_scans_.write(scan_encoder_.encode(context_.vehicle_id(), last->second));
+    localized_scans_.write(
+        scan_encoder_.encode(context_.vehicle_id(), last->second, waiting.published_ns));
+  context_.note_since_scan("scan_to_pose", waiting.published_ns);
   publish_finished_submaps();
 }
 

@@ -35,17 +35,18 @@ class IcpLocalizerService {
   struct Waiting {
     sensing::LaserScan scan;
     std::uint64_t drive_id = 0;
-    int cycles = 0;  ///< Cycles of the service since the scan arrived.
+    std::int64_t published_ns = 0;  ///< By the system clock of its source.
+    int cycles = 0;                 ///< Cycles of the service since the scan arrived.
   };
 
-  void take(const slammot_LaserScan& sample);
+  void take(const slammot_LaserScan& sample, const dds::SampleInfo& info);
   void take(const slammot_Odometry& sample);
   void take(const slammot_ScanLabels& sample);
   void take(const slammot_GraphCorrection& sample);
   void localize_waiting();
   bool awaits_odometry(const Waiting& waiting) const;
   void begin_drive_of(const Waiting& waiting);
-  void localize(const sensing::LaserScan& scan);
+  void localize(const Waiting& waiting);
   void publish_finished_submaps();
   app::CommandResult finish_submap();
 
