@@ -20,7 +20,8 @@ struct SpeedAt {
   double mps = 0.0;
 };
 
-/// An object with a scripted motion, which ignores obstacles.
+/// An object with a scripted motion. Vehicles ignore obstacles, pedestrians give way to each other
+/// and to what stands.
 struct ScriptedObject {
   ObjectClass kind = ObjectClass::car;
   double length_m = 0.0;  ///< 0: usual for its class.

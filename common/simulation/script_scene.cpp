@@ -2,12 +2,13 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 
-#include "common/simulation/path.hpp"
-#include "common/simulation/piecewise_linear.hpp"
+#include "common/simulation/giving_way.hpp"
 #include "common/simulation/random.hpp"
 #include "common/simulation/scenario.hpp"
 #include "common/simulation/scene.hpp"
+#include "common/simulation/script_actor.hpp"
 
 namespace slammot::simulation {
 namespace {
@@ -17,72 +18,6 @@ using geometry::Vector2;
 
 constexpr double kStride_m = 1.45;
 constexpr double kStep_m = 0.55;
-
-double speed_at(const std::vector<SpeedAt>& profile, double time_s) {
-  return piecewise_linear(profile, &SpeedAt::at_s, &SpeedAt::mps, time_s);
-}
-
-/// One of the script's objects, or a copy of it.
-class Actor {
- public:
-  Actor(const ScriptedObject& script, int id, double start_s, Random& random)
-      : script_(script),
-        ahead_m_(random.uniform(0.0, script.ahead_variation_m)),
-        sideways_m_(random.uniform(-script.sideways_variation_m, script.sideways_variation_m)),
-        speed_factor_(1.0 + random.uniform(-script.speed_variation, script.speed_variation)),
-        phase_rad_(random.uniform(0.0, 2.0 * std::numbers::pi)) {
-    std::vector<Vector2> corners;
-    for (const PlaceInWorld& place : script.way) corners.push_back({place.x_m, place.y_m});
-    if (corners.size() == 1) stays_at_ = Pose2{corners[0].x(), corners[0].y(), script.heading_rad};
-    if (corners.size() > 1) path_in_world_ = Path(rounded_way(corners, script.bend_m));
-    object_.id = id;
-    object_.kind = script.kind;
-    object_.size = usual_size(script.kind);
-    if (script.length_m > 0.0) object_.size.length_m = script.length_m;
-    if (script.width_m > 0.0) object_.size.width_m = script.width_m;
-    outline_in_object_ = vehicle_outline(script.kind, object_.size);
-    if (path_in_world_.length_m() > 0.0)
-      speed_mps_ = speed_factor_ * speed_at(script.speed, start_s);
-  }
-
-  bool carries_scanner() const { return script_.carries_scanner; }
-
-  void advance(double time_s, double dt_s) {
-    if (path_in_world_.length_m() <= 0.0) return;
-    speed_mps_ = speed_factor_ * speed_at(script_.speed, time_s);
-    const double left_m = path_in_world_.length_m() - ahead_m_;
-    if (speed_mps_ * dt_s > left_m) speed_mps_ = 0.0;
-    ahead_m_ += speed_mps_ * dt_s;
-    phase_rad_ += 2.0 * std::numbers::pi * speed_mps_ * dt_s / kStride_m;
-  }
-
-  MovingObject object(double time_s) const {
-    MovingObject now = object_;
-    now.world_from_object =
-        stays_at_ ? *stays_at_ : path_in_world_.pose_at(ahead_m_) * Pose2{0.0, sideways_m_, 0.0};
-    now.speed_mps = speed_mps_;
-    const bool is_there = time_s >= script_.from_s && time_s < script_.until_s;
-    if (is_there && now.kind == ObjectClass::pedestrian) {
-      now.outline_in_object =
-          pedestrian_outline(phase_rad_, kStep_m * std::min(1.5, speed_mps_ / 1.35));
-    } else if (is_there) {
-      now.outline_in_object = outline_in_object_;
-    }
-    return now;
-  }
-
- private:
-  ScriptedObject script_;
-  double ahead_m_;
-  double sideways_m_;
-  double speed_factor_;
-  double phase_rad_;
-  double speed_mps_ = 0.0;
-  std::optional<Pose2> stays_at_;
-  Path path_in_world_;
-  MovingObject object_;
-  Outline outline_in_object_;
-};
 
 /// An object that moves uniformly between recorded places.
 MovingObject object_at(const RecordedObject& recorded, int id, double time_s) {
@@ -123,7 +58,7 @@ class ScriptScene final : public Scene {
     const auto add = [&](const ScriptedObject& script) {
       if (script.carries_scanner || &script == &config.script.vehicle)
         vehicles.push_back(actors_.size());
-      actors_.emplace_back(script, static_cast<int>(actors_.size()), time_s_, random);
+      actors_.push_back(placed(script, random));
     };
     if (!rides_recorded()) add(config.script.vehicle);
     for (const ScriptedObject& script : config.script.objects) {
@@ -136,7 +71,14 @@ class ScriptScene final : public Scene {
   const Outline& stationary_in_world() const override { return stationary_in_world_; }
 
   void advance(double dt_s) override {
-    for (Actor& actor : actors_) actor.advance(time_s_, dt_s);
+    const std::vector<Walker> walkers = walkers_now(dt_s);
+    for (ScriptActor& actor : actors_) {
+      if (actor.is_pedestrian() && actor.is_there(time_s_)) {
+        actor.walk(time_s_, dt_s, others_than(actor, walkers), stationary_in_world_);
+      } else {
+        actor.advance(time_s_, dt_s);
+      }
+    }
     time_s_ += dt_s;
   }
 
@@ -160,6 +102,51 @@ class ScriptScene final : public Scene {
   }
 
  private:
+  struct Walker {
+    const ScriptActor* actor;
+    Disc disc;
+  };
+
+  /// All pedestrians before the step.
+  std::vector<Walker> walkers_now(double dt_s) const {
+    std::vector<Walker> walkers;
+    for (const ScriptActor& actor : actors_) {
+      if (actor.is_pedestrian() && actor.is_there(time_s_))
+        walkers.push_back({&actor, actor.disc(time_s_, dt_s)});
+    }
+    return walkers;
+  }
+
+  /// What a pedestrian gives way to, but for walls.
+  std::vector<Disc> others_than(const ScriptActor& actor,
+                                const std::vector<Walker>& walkers) const {
+    std::vector<Disc> others;
+    for (const Walker& walker : walkers) {
+      if (walker.actor != &actor) others.push_back(walker.disc);
+    }
+    for (const Circle& circle : stationary_in_world_.circles)
+      others.push_back({circle.centre, Vector2::Zero(), circle.radius_m, false});
+    return others;
+  }
+
+  /// A copy of a pedestrian is placed again where it would stand in another.
+  ScriptActor placed(const ScriptedObject& script, Random& random) const {
+    constexpr int kMostTries = 100;
+    for (int i = 0;; ++i) {
+      ScriptActor actor(script, static_cast<int>(actors_.size()), time_s_, random);
+      if (i == kMostTries || script.copies == 1 || !stands_in_another(actor)) return actor;
+    }
+  }
+  bool stands_in_another(const ScriptActor& actor) const {
+    return actor.is_pedestrian() &&
+           std::any_of(actors_.begin(), actors_.end(), [&](const ScriptActor& other) {
+             return other.is_pedestrian() && distance_m(actor, other) < 2.0 * kPedestrianRadius_m;
+           });
+  }
+  static double distance_m(const ScriptActor& a, const ScriptActor& b) {
+    return (a.disc(0.0, 0.0).centre_in_world - b.disc(0.0, 0.0).centre_in_world).norm();
+  }
+
   bool rides_recorded() const { return recorded_vehicle_ >= 0; }
   MovingObject recorded(int index) const {
     return object_at(recorded_[static_cast<std::size_t>(index)],
@@ -170,7 +157,7 @@ class ScriptScene final : public Scene {
   double time_s_;
   std::vector<RecordedObject> recorded_;
   int recorded_vehicle_;
-  std::vector<Actor> actors_;  ///< The first vehicle first.
+  std::vector<ScriptActor> actors_;  ///< The first vehicle first.
   std::size_t ridden_ = 0;
 };
 

@@ -11,6 +11,17 @@ constexpr double kEndTimeFactor = 1.25;
 
 std::int64_t to_ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
+/// Time for which the conditions of a level must hold: a near contact leaves no time to wait; a far
+/// one does, and is more often of a speed that is wrong for some tenths of a second.
+double confirmed_after_s(const std::optional<Contact>& contact,
+                         const CollisionWarningConfig& config) {
+  constexpr double kNearS = 2.2;
+  constexpr double kShareIfNear = 0.6;
+  constexpr double kTimesIfFar = 2.4;
+  const bool is_near = contact && contact->after_s <= kNearS;
+  return (is_near ? kShareIfNear : kTimesIfFar) * config.confirm_s;
+}
+
 struct Limits {
   double least_probability = 0.0;
   double longest_time_s = 0.0;
@@ -45,7 +56,8 @@ void LevelOverTime::update(Condition& condition, WarningLevel level, std::int64_
   if (!is_within(contact, begin)) condition.since_ns.reset();
   else if (!condition.since_ns) condition.since_ns = stamp_ns;
   if (is_within(contact, end)) condition.last_held_ns = stamp_ns;
-  if (condition.since_ns && stamp_ns - *condition.since_ns >= to_ns(config.confirm_s))
+  if (condition.since_ns &&
+      stamp_ns - *condition.since_ns >= to_ns(confirmed_after_s(contact, config)))
     condition.is_active = true;
   if (stamp_ns - condition.last_held_ns > to_ns(config.hold_s)) condition.is_active = false;
 }

@@ -71,6 +71,15 @@ BeamCounts count_beams(const Footprint& footprint, const Vector2d& centre_m, dou
   return counts;
 }
 
+/// True if echoes at the predicted place may as well be another object's: of a pedestrian, beside
+/// whom others are, and of a vehicle whose position has a sigma of more than a car's length.
+bool is_place_forgotten(const Track& track) {
+  constexpr double kMostSigmaM = 4.2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(
+      track.kinematics.position_covariance_m2(), Eigen::EigenvaluesOnly);
+  return !is_vehicle(track) || axes.eigenvalues()(1) > kMostSigmaM * kMostSigmaM;
+}
+
 }  // namespace
 
 ExpectedView expected_view(const Track& track, const ScanView& view, const TrackingConfig& config) {
@@ -118,8 +127,8 @@ void follow_occlusion(Track& track, const ScanView& view, const TrackingConfig& 
   }
   history.is_unseen = expected.visible < kSurelyVisible || history.is_unseen;
   history.expected_passed = expected.passed;
-  history.is_hidden =
-      expected.visible < kMostVisible || (history.is_hidden && unseen_s > kLongHiddenS);
+  history.is_hidden = expected.visible < kMostVisible ||
+                      (history.is_hidden && unseen_s > kLongHiddenS && is_place_forgotten(track));
 }
 
 }  // namespace slammot::tracking

@@ -17,8 +17,8 @@ struct ExpectedView {
 ExpectedView expected_view(const Track& track, const ScanView& view, const TrackingConfig& config);
 
 /// Updates `track.history.is_hidden` by the scan: hidden while nothing is expected to be seen of
-/// it. A track hidden for long stays so until another track is found to be its object, since its
-/// prediction is too uncertain to be updated by single segments.
+/// it. A track hidden for long whose prediction is too uncertain to be updated by single segments
+/// stays so until another track is found to be its object.
 void follow_occlusion(Track& track, const ScanView& view, const TrackingConfig& config);
 
 }  // namespace slammot::tracking

@@ -86,6 +86,52 @@ TEST(ScriptScene, MakesCopiesThatDifferWithinBounds) {
   EXPECT_GT(*last - *first, 1.0);
 }
 
+ScriptedObject pedestrian(const std::vector<PlaceInWorld>& way, double mps) {
+  ScriptedObject object = car(way, {{0.0, mps}});
+  object.kind = ObjectClass::pedestrian;
+  return object;
+}
+
+TEST(ScriptScene, LetsPedestriansGiveWayToEachOtherAndReturnToTheirWays) {
+  const auto scene = make_script_scene(scene_of(
+      {pedestrian({{10.0, 5.0}, {30.0, 5.0}}, 1.0), pedestrian({{20.0, 5.1}, {0.0, 5.1}}, 1.5)}));
+  double least_m = 1e9;
+  for (int i = 0; i < 600; ++i) {
+    scene->advance(kStep_s);
+    const std::vector<MovingObject> people = scene->others();
+    least_m = std::min(least_m, (people[0].world_from_object.translation_m() -
+                                 people[1].world_from_object.translation_m())
+                                    .norm());
+  }
+  EXPECT_GT(least_m, 0.5);
+  EXPECT_NEAR(scene->others()[0].world_from_object.y_m, 5.0, 0.05);
+  EXPECT_NEAR(scene->others()[1].world_from_object.y_m, 5.1, 0.05);
+  EXPECT_NEAR(scene->others()[0].world_from_object.x_m, 22.0, 1.0);
+}
+
+TEST(ScriptScene, LeavesPedestriansWhoMeetNobodyToTheScript) {
+  const auto alone = make_script_scene(scene_of({pedestrian({{10.0, 5.0}, {30.0, 8.0}}, 1.3)}));
+  const auto beside = make_script_scene(scene_of(
+      {pedestrian({{10.0, 5.0}, {30.0, 8.0}}, 1.3), pedestrian({{10.0, 9.0}, {30.0, 9.0}}, 1.0)}));
+  for (const auto& scene : {&alone, &beside}) advance(**scene, 8.0);
+  EXPECT_EQ(alone->others()[0].world_from_object, beside->others()[0].world_from_object);
+}
+
+TEST(ScriptScene, LeadsPedestriansRoundPosts) {
+  ScenarioConfig scenario = scene_of({pedestrian({{10.0, 5.0}, {40.0, 5.0}}, 1.3)});
+  ScriptedRow post;
+  post.from = {16.0, 5.05};
+  scenario.script.rows.push_back(post);
+  const auto scene = make_script_scene(scenario);
+  for (int i = 0; i < 600; ++i) {
+    scene->advance(kStep_s);
+    EXPECT_GT((scene->others()[0].world_from_object.translation_m() - geometry::Vector2(16.0, 5.05))
+                  .norm(),
+              0.4);
+  }
+  EXPECT_GT(scene->others()[0].world_from_object.x_m, 22.0);
+}
+
 TEST(ScriptScene, LetsEachVehicleWithAScannerSeeTheOther) {
   ScriptedObject other = car({{100.0, 4.0}, {0.0, 4.0}}, {{0.0, 7.0}});
   other.carries_scanner = true;

@@ -28,6 +28,16 @@ TEST_F(LevelOfAnObject, IsAWarningOnceALikelyContactIsConfirmed) {
   EXPECT_EQ(after(kConfig.confirm_s, Contact{0.9, 2.0}), WarningLevel::kWarning);
 }
 
+TEST_F(LevelOfAnObject, IsConfirmedLaterWhileTheContactIsFar) {
+  EXPECT_NE(after(1.5 * kConfig.confirm_s, Contact{0.9, 2.8}), WarningLevel::kWarning);
+  EXPECT_EQ(after(kConfig.confirm_s, Contact{0.9, 2.8}), WarningLevel::kWarning);
+}
+
+TEST_F(LevelOfAnObject, IsAWarningSoonerOnceTheContactIsNear) {
+  after(0.7 * kConfig.confirm_s, Contact{0.9, 2.3});
+  EXPECT_EQ(after(0.0, Contact{0.9, 2.1}), WarningLevel::kWarning);
+}
+
 TEST_F(LevelOfAnObject, IsNoneForOneWrongPrediction) {
   EXPECT_EQ(after(0.0, Contact{1.0, 1.0}), WarningLevel::kNone);
   EXPECT_EQ(after(1.0, std::nullopt), WarningLevel::kNone);
