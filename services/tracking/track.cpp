@@ -80,8 +80,9 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
     combine(kinematics, config);
   }
   if (Box* box = track.extent.box()) {
-    // Until it is known which way it drives, a changing heading is an error of the heading.
-    if (!track.existence.confirmed || !box->is_oriented) box->turn = {};
+    // Until it is known which way it drives, a changing heading is an error of the heading; what is
+    // hidden is expected to go straight on.
+    if (!track.existence.confirmed || !box->is_oriented || track.history.is_unseen) box->turn = {};
     predict_heading(*box, track.velocity_mps().norm(), time_s, config);
   }
 }
