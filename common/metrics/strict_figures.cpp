@@ -34,6 +34,19 @@ double velocity_error_mps(const TrueObject& object, const ReportedTrack& track) 
   return (track.velocity_in_world_mps - velocity_mps).norm();
 }
 
+/// Indices in the scene.
+VehicleBoxRow box_row(std::size_t scan, const Scene& scene, std::size_t of_object,
+                      std::size_t of_track) {
+  const TrueObject& object = scene.objects[of_object];
+  const ReportedTrack& track = scene.tracks[of_track];
+  return {scan,
+          of_object,
+          of_track,
+          intersection_over_union(box_of(object), box_of(track)),
+          geometry::inverse(object.world_from_object) * track.world_from_object,
+          velocity_error_mps(object, track)};
+}
+
 /// Of ascending values; 0 without any.
 double quantile(const std::vector<double>& ascending, double share) {
   if (ascending.empty()) return 0.0;
@@ -46,12 +59,11 @@ double quantile(const std::vector<double>& ascending, double share) {
 /// Errors of rows, to be summarized.
 class BoxRows {
  public:
-  void add(const TrueObject& object, const ReportedTrack& track) {
-    iou_.push_back(intersection_over_union(box_of(object), box_of(track)));
-    centre_m_.push_back(centre_distance_m(object, track));
-    heading_rad_.push_back(std::abs(geometry::wrap_angle(track.world_from_object.heading_rad -
-                                                         object.world_from_object.heading_rad)));
-    velocity_mps_.push_back(velocity_error_mps(object, track));
+  void add(const VehicleBoxRow& row) {
+    iou_.push_back(row.iou);
+    centre_m_.push_back(row.object_from_track.translation_m().norm());
+    heading_rad_.push_back(std::abs(row.object_from_track.heading_rad));
+    velocity_mps_.push_back(row.velocity_mps);
   }
 
   BoxErrors errors() && {
@@ -81,23 +93,34 @@ bool is_same(const TrueObject& object, const ReportedTrack& track) {
 
 }  // namespace
 
-VehicleBoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
-                                    const std::vector<CountedScene>& counted,
-                                    const ClearMot& matched) {
+std::vector<VehicleBoxRow> vehicle_box_rows(const std::vector<Scene>& scenes,
+                                            const std::vector<CountedScene>& counted,
+                                            const ClearMot& matched) {
   std::unordered_map<std::size_t, std::int64_t> first_ns;
-  BoxRows all;
-  std::array<BoxRows, kOutlineBands.size()> by_outline;
+  std::vector<VehicleBoxRow> rows;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     for (const std::size_t row : counted[i].objects)
       first_ns.try_emplace(scenes[i].objects[row].object, scenes[i].stamp_ns);
     for (const auto& [row, column] : matched.matches[i]) {
-      const TrueObject& object = scenes[i].objects[counted[i].objects[row]];
-      const ReportedTrack& track = scenes[i].tracks[counted[i].tracks[column]];
+      const std::size_t of_object = counted[i].objects[row];
+      const std::size_t of_track = counted[i].tracks[column];
+      const TrueObject& object = scenes[i].objects[of_object];
       if (!is_vehicle(object) || scenes[i].stamp_ns - first_ns.at(object.object) < kInViewNs)
         continue;
-      all.add(object, track);
-      by_outline[outline_band(object)].add(object, track);
+      rows.push_back(box_row(i, scenes[i], of_object, of_track));
     }
+  }
+  return rows;
+}
+
+VehicleBoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
+                                    const std::vector<CountedScene>& counted,
+                                    const ClearMot& matched) {
+  BoxRows all;
+  std::array<BoxRows, kOutlineBands.size()> by_outline;
+  for (const VehicleBoxRow& row : vehicle_box_rows(scenes, counted, matched)) {
+    all.add(row);
+    by_outline[outline_band(scenes[row.scan].objects[row.object])].add(row);
   }
   VehicleBoxErrors errors{std::move(all).errors(), {}};
   for (std::size_t band = 0; band < by_outline.size(); ++band)

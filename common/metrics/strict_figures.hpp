@@ -30,7 +30,22 @@ struct VehicleBoxErrors {
   std::array<BoxErrors, kOutlineBands.size()> by_outline;  ///< By TrueObject::outline_seen.
 };
 
-/// Scenes, what counts of each, and the matches of clear_mot, all of the same length and order.
+/// A matched row of a vehicle.
+struct VehicleBoxRow {
+  std::size_t scan = 0;               ///< Index of the scene,
+  std::size_t object = 0;             ///< in it of the true object
+  std::size_t track = 0;              ///< and of the track.
+  double iou = 0.0;                   ///< Intersection over union.
+  geometry::Pose2 object_from_track;  ///< Of the boxes.
+  double velocity_mps = 0.0;          ///< Length of the difference.
+};
+
+/// The rows that VehicleBoxErrors sums up. Scenes, what counts of each, and the matches of
+/// clear_mot, all of the same length and order.
+std::vector<VehicleBoxRow> vehicle_box_rows(const std::vector<Scene>& scenes,
+                                            const std::vector<CountedScene>& counted,
+                                            const ClearMot& matched);
+
 VehicleBoxErrors vehicle_box_errors(const std::vector<Scene>& scenes,
                                     const std::vector<CountedScene>& counted,
                                     const ClearMot& matched);

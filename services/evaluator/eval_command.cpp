@@ -11,6 +11,7 @@
 #include "common/files/failure.hpp"
 #include "services/evaluator/comparison.hpp"
 #include "services/evaluator/evaluation_text.hpp"
+#include "services/evaluator/vehicle_boxes_csv.hpp"
 
 namespace slammot::evaluator {
 namespace {
@@ -28,21 +29,35 @@ std::optional<files::Error> evaluate_walls(const ComparisonOptions& options,
   return std::nullopt;
 }
 
-int evaluate_run(const ComparisonOptions& options) {
-  const auto truth = read_truth(options.truth);
+struct EvalOptions {
+  ComparisonOptions comparison;
+  bool writes_boxes = false;
+};
+
+std::optional<files::Error> write_files(const EvalOptions& options, const Evaluation& evaluation) {
+  const std::filesystem::path& folder = options.comparison.result;
+  if (options.writes_boxes) {
+    if (auto fault = files::write_file_atomically(folder / "vehicle_boxes.csv",
+                                                  vehicle_boxes_csv(evaluation)))
+      return fault;
+  }
+  return files::write_file_atomically(folder / "evaluation.json",
+                                      to_json_text(evaluation, options.comparison.evaluation));
+}
+
+int evaluate_run(const EvalOptions& options) {
+  const ComparisonOptions& comparison = options.comparison;
+  const auto truth = read_truth(comparison.truth);
   if (!truth) return files::fail(truth.error());
-  const auto result = read_result(options.result);
+  const auto result = read_result(comparison.result);
   if (!result) return files::fail(result.error());
   auto evaluation =
-      evaluate(*result, *truth, echo_source(options, *result, *truth), options.evaluation);
+      evaluate(*result, *truth, echo_source(comparison, *result, *truth), comparison.evaluation);
   if (!evaluation) return files::fail(evaluation.error());
-  if (const auto fault = evaluate_walls(options, *result, *evaluation)) return files::fail(*fault);
-  std::fputs(to_text(*evaluation, options.evaluation).c_str(), stdout);
-  const std::filesystem::path json = options.result / "evaluation.json";
-  if (const auto fault =
-          files::write_file_atomically(json, to_json_text(*evaluation, options.evaluation)))
-    return files::fail(*fault);
-  std::printf("all figures are in %s\n", json.c_str());
+  if (const auto fault = evaluate_walls(comparison, *result, *evaluation)) return files::fail(*fault);
+  std::fputs(to_text(*evaluation, comparison.evaluation).c_str(), stdout);
+  if (const auto fault = write_files(options, *evaluation)) return files::fail(*fault);
+  std::printf("all figures are in %s\n", (comparison.result / "evaluation.json").c_str());
   return 0;
 }
 
@@ -52,16 +67,19 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
       "eval",
       "Compare the outputs of a run with ground truth; prints a table, writes evaluation.json");
-  const auto options = std::make_shared<ComparisonOptions>();
-  add_comparison_options(*command, *options, TruthIs::kRequired);
+  const auto options = std::make_shared<EvalOptions>();
+  add_comparison_options(*command, options->comparison, TruthIs::kRequired);
+  command->add_flag("--boxes", options->writes_boxes,
+                    "Also write vehicle_boxes.csv, a row for each box that the errors of vehicles "
+                    "are made of");
   command
-      ->add_option("--wall-cell", options->evaluation.walls.cell_size_m,
+      ->add_option("--wall-cell", options->comparison.evaluation.walls.cell_size_m,
                    "Compare the sharpness of maps with such cells, by the result's poses and by "
                    "the true ones [m]")
       ->check(CLI::PositiveNumber)
       ->type_name("M");
   command
-      ->add_option("--wall-range", options->evaluation.walls.longest_range_m,
+      ->add_option("--wall-range", options->comparison.evaluation.walls.longest_range_m,
                    "Longest range of echoes in those maps [m]")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

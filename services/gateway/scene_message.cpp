@@ -1,5 +1,6 @@
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "services/gateway/message_parts.hpp"
 #include "services/gateway/track_messages.hpp"
@@ -71,6 +72,27 @@ void add_path(const flow::TrackedObject& object, foxglove::SceneEntity& entity) 
     add(predicted.position_in_odom_m);
 }
 
+/// Lines between neighbouring points.
+void add_contour(const flow::TrackedObject& object, foxglove::SceneEntity& entity) {
+  constexpr float kNeighboursM = 1.2F;  // farther apart nothing was seen between them
+  const std::vector<Eigen::Vector2f>& contour = object.contour_in_odom_m;
+  foxglove::LinePrimitive& line = *entity.add_lines();
+  line.set_type(foxglove::LinePrimitive::LINE_LIST);
+  set_pose({}, 0.2, *line.mutable_pose());
+  line.set_thickness(3.0);
+  line.set_scale_invariant(true);
+  set_color(color_of(object.object_class), *line.mutable_color());
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Eigen::Vector2f& next = contour[(i + 1) % contour.size()];
+    if ((next - contour[i]).norm() > kNeighboursM) continue;
+    for (const Eigen::Vector2f& at : {contour[i], next}) {
+      foxglove::Point3& point = *line.add_points();
+      point.set_x(static_cast<double>(at.x()));
+      point.set_y(static_cast<double>(at.y()));
+    }
+  }
+}
+
 void add_label(const flow::TrackedObject& object, foxglove::SceneEntity& entity) {
   foxglove::TextPrimitive& text = *entity.add_texts();
   set_pose({object.position_in_odom_m.x(), object.position_in_odom_m.y(), 0.0},
@@ -93,6 +115,7 @@ void add_entity(const flow::TrackedObjects& objects, const flow::TrackedObject& 
   add_box(object, entity);
   add_arrow(object, entity);
   add_path(object, entity);
+  add_contour(object, entity);
   add_label(object, entity);
 }
 

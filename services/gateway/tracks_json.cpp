@@ -29,6 +29,16 @@ Json path_json(const flow::TrackedObject& object) {
   return path;
 }
 
+/// x and y in turn.
+Json contour_json(const flow::TrackedObject& object) {
+  Json contour = Json::array();
+  for (const Eigen::Vector2f& point : object.contour_in_odom_m) {
+    contour.push_back(std::round(static_cast<double>(point.x()) * 1e2) * 1e-2);
+    contour.push_back(std::round(static_cast<double>(point.y()) * 1e2) * 1e-2);
+  }
+  return contour;
+}
+
 Json track_json(const flow::TrackedObject& object) {
   Json json;
   json["id"] = object.track_id.value;
@@ -50,6 +60,7 @@ Json track_json(const flow::TrackedObject& object) {
   json["first_seen_ns"] = std::to_string(object.first_seen_ns);
   json["last_seen_ns"] = std::to_string(object.last_seen_ns);
   json["path"] = path_json(object);
+  if (object.confirmed) json["contour"] = contour_json(object);
   return json;
 }
 

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "services/localization/submap_saliency.hpp"
+
 namespace slammot::localization {
 namespace {
 
@@ -97,6 +99,7 @@ std::optional<flow::Submap> SubmapSequence::take_finished() {
   if (finished_.empty()) return std::nullopt;
   flow::Submap submap = std::move(finished_.front());
   finished_.erase(finished_.begin());
+  submap.saliency = saliency_of(submap);
   return submap;
 }
 

@@ -7,6 +7,7 @@ import { CLASSES, THEMES } from "./theme.js";
 const VEHICLE = { length: 4.2, width: 1.8, height: 1.3 };
 const ELLIPSE_SIGMAS = sigmas(0.95);
 const PREDICTION_S = 1; // of the velocity's arrow
+const CONTOUR_GAP_M = 1.2; // between its points nothing was seen
 
 export class Scene {
   /** makeMap(gl): the layer below everything; it has update(), draw() and drawLive(), see map_layer.js. */
@@ -154,6 +155,7 @@ export class Scene {
     const place = compose(map, [...track.position, track.heading]);
     shapes.box(place, track.length, track.width, track.height, color, (isSelected ? 0.55 : 0.3) * alpha);
     shapes.frame(place, track.length, track.width, track.height, color, alpha, (isSelected ? 3 : 1.5) * scale);
+    this.addContour(track, map, color, alpha);
     const trail = this.world.trails.get(track.id) ?? [];
     if (layers.trails > 0) {
       const points = trail.flatMap(([, x, y]) => apply(map, [x, y]));
@@ -168,6 +170,16 @@ export class Scene {
       const [a, b, , , , d] = track.covariance;
       this.addEllipse(place, a, b, d, map[2], color, 0.9 * alpha * layers.uncertainty);
     }
+  }
+
+  /** What was seen of its sides. */
+  addContour({ contour = [] }, map, color, alpha) {
+    const points = [];
+    for (let i = 0; i < contour.length; i += 2) points.push(apply(map, [contour[i], contour[i + 1]]));
+    points.forEach((a, i) => {
+      const b = points[(i + 1) % points.length];
+      if (Math.hypot(b[0] - a[0], b[1] - a[1]) < CONTOUR_GAP_M) this.shapes.line(a, b, 0.5, color, alpha, 3 * this.scale);
+    });
   }
 
   addEllipse([x, y], a, b, d, turned, color, alpha) {

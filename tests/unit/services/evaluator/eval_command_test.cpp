@@ -1,7 +1,9 @@
 #include "services/evaluator/eval_command.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,12 +26,12 @@ class EvalCommand : public ::testing::Test {
     write(folder_ / "drive.tum", straight_tum(100.0));
   }
 
-  int run() {
+  int run(const std::string& more = "") {
     CLI::App app;
     int exit_code = 0;
     add_eval_command(app, exit_code);
     app.parse("eval --result " + folder_.path().string() + " --truth " +
-              (folder_ / "drive").string());
+              (folder_ / "drive").string() + more);
     return exit_code;
   }
 
@@ -44,6 +46,25 @@ TEST_F(EvalCommand, PrintsATableAndWritesEveryFigure) {
   const auto json = nlohmann::json::parse(file);
   EXPECT_EQ(json["trajectory"]["ate_m"]["count"], 301);
   EXPECT_EQ(json["trajectory"]["over"]["10_m"]["rpe_m"]["rmse"], 0.0);
+}
+
+TEST_F(EvalCommand, WritesTheRowsOfBoxesWhereAsked) {
+  write(folder_ / "drive.objects.csv", car_ahead_csv(100.0));
+  write(folder_ / "tracks.csv", tracks_csv(0.0, 0.5));
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(run(), 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "vehicle_boxes.csv"));
+  EXPECT_EQ(run(" --boxes"), 0);
+  ::testing::internal::GetCapturedStdout();
+  std::ifstream file(folder_ / "vehicle_boxes.csv");
+  std::string header;
+  std::string row;
+  std::getline(file, header);
+  std::getline(file, row);
+  EXPECT_THAT(header, HasSubstr("stamp_s,object,class,track,distance_m"));
+  EXPECT_THAT(row, HasSubstr(",car,7,"));
+  EXPECT_THAT(row,
+              HasSubstr(",10.00,20,0.000,10.000,4.500,1.800,4.500,1.800,0.5652,0.0000,0.5000,"));
 }
 
 TEST_F(EvalCommand, FailsWithOneLine) {

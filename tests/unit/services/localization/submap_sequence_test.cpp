@@ -51,6 +51,7 @@ TEST_F(SubmapSequenceTest, EndsASubmapAfterTheConfiguredWay) {
   const auto ended = submaps_.take_finished();
   ASSERT_TRUE(ended);
   EXPECT_DOUBLE_EQ(ended->travelled_m, 11.0);
+  EXPECT_GT(ended->saliency, 0.0);
   EXPECT_THAT(ended->submap_from_base_at_end,
               PoseNear(geometry::inverse(ended->odom_from_submap) * odom_from_base_, 1e-9));
   EXPECT_FALSE(submaps_.take_finished());
